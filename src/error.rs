@@ -131,6 +131,14 @@ impl Error {
         self
     }
 
+    /// Replaces the path.
+    pub fn at(mut self, path: impl Into<String>) -> Self {
+        if let Error::Input(input) = &mut self {
+            input.path = path.into();
+        }
+        self
+    }
+
     /// Adds line and column in the file.
     pub fn placed(mut self, place: (usize, usize)) -> Self {
         if let Error::Input(input) = &mut self {

@@ -39,6 +39,7 @@
 //! | [`body`] | rigid bodies and point masses, their frames at markers | a file and a line in [`body::registry`], or from outside |
 //! | [`joint`], [`force`] | constraints and wrenches over frames | a file and a line in the registry, or from outside |
 //! | [`scene`] | the JSON format, its checks and its schema; scenes built in code | |
+//! | `import` | scenes from URDF (feature `urdf`) | |
 //! | [`system`] | [`system::MechanicalSystem`], which solvers see; own equations by [`system::Equations`] | implement it |
 //! | [`formulation`] | what is integrated: index 1, Baumgarte, invariant manifold, penalty, null space ... | a file and a line |
 //! | [`projection`] | what is done after a step: post-stabilization, coordinate projection | a file and a line |
@@ -54,7 +55,7 @@
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
 //!
 //! Features, both on by default: `cli`, the module of that name and the program; `figures`, PNG and GIF beside SVG. `cli`
-//! includes `npz`, NumPy's archives.
+//! includes `npz`, NumPy's archives, and `urdf`, the module `import`.
 //!
 //! # Own parts
 //!
@@ -110,6 +111,8 @@ pub mod error;
 pub mod files;
 pub mod force;
 pub mod formulation;
+#[cfg(feature = "urdf")]
+pub mod import;
 pub mod initial;
 pub mod integrator;
 pub mod joint;

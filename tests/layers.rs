@@ -12,6 +12,7 @@ const LAYERS: &[&[&str]] = &[
     &["body"],
     &["joint", "force"],
     &["scene"],
+    &["import"],
     &["system"],
     &["formulation", "projection", "initial"],
     &["integrator"],

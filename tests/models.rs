@@ -106,6 +106,7 @@ fn degrees_of_freedom_are_those_of_the_mechanisms() {
         ("spatial_slider_crank", 1),
         ("spin_up_beam", 24),
         ("spinning_top", 3),
+        ("stewart_platform", 0),
         ("two_mass", 1),
         ("universal_shaft", 0),
     ];

@@ -10,6 +10,7 @@ mod examples;
 mod flexible;
 mod floating;
 mod flyball_governor;
+mod language;
 mod measures;
 mod mechanisms;
 mod modal_body;

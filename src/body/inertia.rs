@@ -39,13 +39,18 @@ pub fn about<const D: usize>(given: &Option<Inertia>, axis: &[f64; 3], build: &B
         return build.not_negative("inertia", moment);
     }
     let tensor = entries(given, build)?;
-    let moment = dot(axis, &from_fn(|i| dot(&tensor[i], axis)));
+    let moment = moment(&tensor, axis);
     match moment >= 0.0 {
         true => Ok(moment),
         false => Err(Error::input(format!("the moment about the axis of rotation is {}", short(moment)))
             .under("inertia")
             .hint("it cannot be negative")),
     }
+}
+
+/// Moment about an axis through the centre of mass.
+pub fn moment(tensor: &Matrix3, axis: &[f64; 3]) -> f64 {
+    dot(axis, &from_fn(|i| dot(&tensor[i], axis)))
 }
 
 /// Inertia tensor of a body that turns about all axes.
@@ -76,7 +81,7 @@ fn entries<const D: usize>(given: &Option<Inertia>, build: &Build<D>) -> Result<
 
 /// Refuses an inertia tensor that no mass distribution has: principal moments must be >= 0 and each at most the sum of
 /// the other two.
-fn physical(tensor: &Matrix3) -> Result<()> {
+pub fn physical(tensor: &Matrix3) -> Result<()> {
     let mut moments: Vec<f64> =
         SymmetricEigen::new(Tensor::from_fn(|i, j| tensor[i][j])).eigenvalues.iter().copied().collect();
     moments.sort_by(f64::total_cmp);

@@ -17,6 +17,7 @@ mod guided;
 mod inertia;
 mod kernel;
 mod kind;
+mod orientation;
 mod parse;
 mod point_mass;
 mod pose;
@@ -24,6 +25,7 @@ mod probe;
 mod rigid;
 mod rigid_planar;
 mod rigid_spatial;
+mod shapes;
 mod state;
 mod turning;
 
@@ -37,7 +39,11 @@ pub use frame::{in_space, twist_len, unit_axes};
 #[doc(hidden)]
 pub use kernel::MOST_COORDINATES;
 pub use kind::ElementKind;
+#[doc(hidden)]
+pub use kind::Repeat;
 pub(crate) use kind::mistaken;
+#[doc(hidden)]
+pub use orientation::{Orientation, aim};
 #[doc(hidden)]
 pub use parse::{parse, parse_among, show};
 #[doc(hidden)]
@@ -46,9 +52,10 @@ pub use probe::{Probe, Quantity};
 #[doc(hidden)]
 pub use probe::{small_rotation, small_rotation_torque};
 pub use rigid::Initial;
-pub(crate) use rigid::quaternion;
 pub(crate) use rigid_planar::RigidPlanar;
 pub(crate) use rigid_spatial::RigidSpatial;
+#[doc(hidden)]
+pub use shapes::MassProperties;
 pub(crate) use state::State;
 #[doc(hidden)]
 pub use turning::{TurnAxes, Turned, Turning};
@@ -318,7 +325,7 @@ pub fn kind<T: BodySpec, const D: usize>() -> BodyKind<D> {
 
 /// The keys that all kinds of bodies share.
 #[doc(hidden)]
-pub const SHARED_KEYS: [&str; 5] = ["name", "type", "markers", "initial", "origin"];
+pub const SHARED_KEYS: [&str; 6] = ["name", "type", "markers", "initial", "origin", "repeat"];
 
 /// Every built-in kind of body, in the order of the documentation.
 pub fn registry<const D: usize>() -> Vec<BodyKind<D>> {

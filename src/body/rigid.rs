@@ -2,33 +2,48 @@
 
 use super::guided::Guided;
 use super::inertia::{self, Inertia};
+use super::orientation::{Orientation, quaternion};
 use super::rigid_planar::RigidPlanar;
 use super::rigid_spatial::RigidSpatial;
-use super::{BodySpec, Build, Built, Marker, cross, norm};
+use super::shapes::{MassProperties, Shape};
+use super::{BodySpec, Build, Built, Marker, cross};
 use crate::error::{Error, Result, suggest};
 use crate::math::expression::Number;
-use crate::math::rotation::{matrix_from_quaternion, quaternion_from_vector};
+use crate::math::rotation::{Matrix3, matrix_from_quaternion, quaternion_from_axes};
 use crate::tolerances::body as tolerances;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 use std::array::from_fn;
 use std::collections::BTreeMap;
 
 /// A rigid body: x, y and angle in the plane; position and unit quaternion in space. Its coordinates are those of its
-/// centre of mass.
+/// centre of mass. It has `mass` and `inertia`, or `shapes` from which they and its centre of mass follow.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("anyOf" = [{ "required": ["mass"] }, { "required": ["shapes"] }]))]
 pub struct Rigid {
     /// kg; zero for a massless link whose motion the joints determine.
-    pub mass: Number,
+    #[serde(default, deserialize_with = "present")]
+    #[schemars(with = "Number")]
+    pub mass: Option<Number>,
     /// About the centre of mass, kg m^2: one number in the plane; in space 3 numbers (Ixx, Iyy, Izz) or 6 (Ixx, Iyy,
     /// Izz, Ixy, Ixz, Iyz), which are the entries of the inertia tensor in the body's axes, or, for a body that turns
     /// about one axis alone, the moment about that. A body that does not turn needs none.
+    #[serde(default, deserialize_with = "present")]
+    #[schemars(with = "Inertia")]
     pub inertia: Option<Inertia>,
+    /// In the place of `mass`, `inertia` and `origin`: parts, given in the body's axes from its origin, wherever that is;
+    /// mass, centre of mass and inertia are those of their sum.
+    pub shapes: Option<Vec<Shape>>,
     /// Only these coordinates of the centre of mass move: of x, y, angle in the plane; in space of x, y, z and one of
     /// rx, ry, rz (rotation about that world axis through the centre of mass: `["rz"]` is a flywheel). For a body that
     /// turns about another point take a revolute joint. Default: all.
     pub free: Option<Vec<String>>,
+}
+
+/// A value that is there, which `null` is not.
+fn present<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(deserializer).map(Some)
 }
 
 /// Where a body starts: a guess, which assembly makes consistent with the joints.
@@ -41,6 +56,10 @@ pub struct Initial {
     pub angle: Option<Number>,
     /// In space: a unit quaternion [w, x, y, z] or a rotation vector of 3 numbers, rad.
     pub rotation: Option<Vec<Number>>,
+    /// In space, instead of a rotation: direction of the body's z axis in the world.
+    pub z_axis: Option<Vec<Number>>,
+    /// In space, with or without `z_axis`: direction of its x axis, made square to z.
+    pub x_axis: Option<Vec<Number>>,
     /// Of the body's origin in the world, m/s.
     pub velocity: Option<Vec<Number>>,
     /// rad/s: one number in the plane; 3 numbers in the body's axes in space, or one about the only axis that is `free`.
@@ -49,14 +68,14 @@ pub struct Initial {
     pub elastic: Option<BTreeMap<String, Number>>,
     /// Their rates. Default: zero.
     pub elastic_velocity: Option<BTreeMap<String, Number>>,
-    /// Position of the body's origin from its centre of mass, which the body itself states.
+    /// Position of the body's origin from its centre of mass, which the body itself states; empty if it does not.
     #[serde(skip)]
     pub origin: Vec<f64>,
 }
 
 impl Initial {
-    fn origin_component(&self, i: usize) -> f64 {
-        self.origin.get(i).copied().unwrap_or(0.0)
+    fn orientation(&self) -> Orientation<'_> {
+        Orientation { rotation: &self.rotation, z_axis: &self.z_axis, x_axis: &self.x_axis }
     }
 
     /// Refuses initial elastic coordinates, for bodies that have none.
@@ -72,9 +91,9 @@ impl Initial {
 
     /// Angle and its rate in the plane, rad and rad/s.
     pub fn planar<const D: usize>(&self, build: &Build<D>) -> Result<(f64, f64)> {
-        if self.rotation.is_some() {
+        if let Some(key) = self.orientation().given() {
             return Err(Error::input("a planar body turns by an angle")
-                .under("initial.rotation")
+                .under(format!("initial.{key}"))
                 .hint("give \"angle\" in radians"));
         }
         let angle = self.angle.as_ref().map_or(Ok(0.0), |angle| build.angle("initial.angle", angle))?;
@@ -94,11 +113,15 @@ impl Initial {
     /// The same; `axis` is the only one of the world about which the body turns, if there is one only.
     fn spatial_about<const D: usize>(&self, axis: Option<usize>, build: &Build<D>) -> Result<([f64; 4], [f64; 3])> {
         if self.angle.is_some() {
-            return Err(Error::input("a spatial body needs more than one angle")
-                .under("initial.angle")
-                .hint("give \"rotation\" as a quaternion [w, x, y, z] or a rotation vector"));
+            return Err(Error::input("a spatial body needs more than one angle").under("initial.angle").hint(
+                "give \"rotation\" as a quaternion [w, x, y, z] or a rotation vector, or \"z_axis\" and \"x_axis\"",
+            ));
         }
-        let quaternion = quaternion("initial.rotation", self.rotation.as_deref(), build)?;
+        let aimed = self.orientation().aimed(build).map_err(|error| error.under("initial"))?;
+        let quaternion = match aimed {
+            Some(axes) => quaternion_from_axes(&axes),
+            None => quaternion("initial.rotation", self.rotation.as_deref(), build)?,
+        };
         let spin = match &self.angular_velocity {
             None => [0.0; 3],
             Some(Inertia::Moment(rate)) if let Some(axis) = axis => {
@@ -123,7 +146,8 @@ impl Initial {
 
     /// Refuses an initial rotation, for point masses.
     pub fn refuse_rotation(&self) -> Result<()> {
-        match self.angle.is_some() || self.rotation.is_some() || self.angular_velocity.is_some() {
+        let is_turned = self.angle.is_some() || self.orientation().given().is_some();
+        match is_turned || self.angular_velocity.is_some() {
             true => Err(Error::input("a point mass has no rotation")
                 .under("initial")
                 .hint("remove angle, rotation and angular_velocity, or use a body of type \"rigid\"")),
@@ -143,37 +167,89 @@ pub(super) fn start_vector<const D: usize>(
 impl BodySpec for Rigid {
     const TYPE: &'static str = "rigid";
 
-    fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(
+        &self,
+        mut markers: Vec<Marker<D>>,
+        initial: &Initial,
+        build: &Build<D>,
+    ) -> Result<Built<D>> {
         initial.refuse_elastic()?;
-        let mass = build.not_negative("mass", &self.mass)?;
-        let (position, velocity) = initial.translation(build)?;
+        let (mass, made_of) = self.mass_properties(initial, build)?;
+        let place = initial.translation(build)?;
+        // From the centre of mass to the origin that markers and `initial` refer to.
+        let mut origin: [f64; 3] = from_fn(|i| initial.origin.get(i).copied().unwrap_or(0.0));
+        if let Some(made_of) = &made_of {
+            origin = made_of.centre.map(|x| -x);
+            markers.iter_mut().for_each(|marker| marker.offset = from_fn(|i| marker.offset[i] + origin[i]));
+        }
+        let tensor = made_of.map(|made_of| made_of.inertia);
         match D {
-            2 => self.planar(mass, position, velocity, markers, initial, build),
-            _ => self.spatial(mass, position, velocity, markers, initial, build),
+            2 => self.planar((mass, tensor), origin, place, markers, initial, build),
+            _ => self.spatial((mass, tensor), origin, place, markers, initial, build),
         }
     }
 }
 
+/// Position and velocity of a body's origin in the world.
+type Place<const D: usize> = ([f64; D], [f64; D]);
+
 impl Rigid {
+    /// Mass, and what follows from shapes.
+    fn mass_properties<const D: usize>(
+        &self,
+        initial: &Initial,
+        build: &Build<D>,
+    ) -> Result<(f64, Option<MassProperties>)> {
+        let missing = |key: &str| {
+            Error::input(format!("the key `{key}` is missing"))
+                .hint(format!("add \"{key}\": ...; `holonom schema` says what it means"))
+        };
+        let Some(shapes) = &self.shapes else {
+            let mass = build.not_negative("mass", self.mass.as_ref().ok_or_else(|| missing("mass"))?)?;
+            return Ok((mass, None));
+        };
+        let given = [
+            ("mass", self.mass.is_some()),
+            ("inertia", self.inertia.is_some()),
+            ("origin", !initial.origin.is_empty()),
+        ];
+        if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
+            return Err(Error::input(format!("`{key}` is given, and `shapes` from which it follows"))
+                .under(key)
+                .hint("keep one of them"));
+        }
+        let made_of = MassProperties::of(shapes, build)?;
+        inertia::physical(&made_of.inertia).map_err(|error| match error {
+            Error::Input(input) => {
+                Error::input(input.message).under("shapes").hint("put holes within what they are cut from")
+            }
+            other => other,
+        })?;
+        Ok((made_of.mass, Some(made_of)))
+    }
+
     fn planar<const D: usize>(
         &self,
-        mass: f64,
-        position: [f64; D],
-        velocity: [f64; D],
+        (mass, tensor): (f64, Option<Matrix3>),
+        [x, y, _]: [f64; 3],
+        (position, velocity): Place<D>,
         markers: Vec<Marker<D>>,
         initial: &Initial,
         build: &Build<D>,
     ) -> Result<Built<D>> {
         let (angle, spin) = initial.planar(build)?;
-        // From the body's origin to its centre of mass.
+        // From the centre of mass to the body's origin, in the world.
         let (s, c) = angle.sin_cos();
-        let [x, y] = [initial.origin_component(0), initial.origin_component(1)];
         let arm = [c * x - s * y, s * x + c * y];
         let start = [position[0] - arm[0], position[1] - arm[1], angle];
         let rates = [velocity[0] + spin * arm[1], velocity[1] - spin * arm[0], spin];
         let free = self.free_slots(&["x", "y", "angle"])?;
         let turns = free.contains(&2) || self.inertia.is_some();
-        let inertia = if turns { inertia::planar(&self.inertia, build)? } else { 0.0 };
+        let inertia = match tensor {
+            Some(tensor) => tensor[2][2],
+            None if turns => inertia::planar(&self.inertia, build)?,
+            None => 0.0,
+        };
         let kept = |i: usize| if free.contains(&i) { rates[i] } else { 0.0 };
         let moves = [kept(0) - kept(2) * arm[1], kept(1) + kept(2) * arm[0]];
         refuse_locked("velocity", &velocity, &moves)?;
@@ -185,9 +261,9 @@ impl Rigid {
 
     fn spatial<const D: usize>(
         &self,
-        mass: f64,
-        position: [f64; D],
-        velocity: [f64; D],
+        (mass, tensor): (f64, Option<Matrix3>),
+        origin: [f64; 3],
+        (position, velocity): Place<D>,
         markers: Vec<Marker<D>>,
         initial: &Initial,
         build: &Build<D>,
@@ -195,17 +271,17 @@ impl Rigid {
         let free = self.free_slots(&["x", "y", "z", "rx", "ry", "rz"])?;
         let axes: Vec<usize> = free.iter().filter_map(|i| i.checked_sub(3)).collect();
         let (quaternion, spin) = initial.spatial_about(axes.first().copied().filter(|_| axes.len() == 1), build)?;
-        // From the body's origin to its centre of mass.
+        // From the centre of mass to the body's origin, in the world.
         let rotation = matrix_from_quaternion(&quaternion);
         let turned = |v: [f64; 3]| -> [f64; 3] { from_fn(|i| (0..3).map(|j| rotation[i][j] * v[j]).sum()) };
-        let arm = turned(from_fn(|i| initial.origin_component(i)));
+        let arm = turned(origin);
         let world_spin = turned(spin);
         let lever = cross(&world_spin, &arm);
         let start: [f64; 3] = from_fn(|i| position[i] - arm[i]);
         let given = velocity;
         let velocity: [f64; 3] = from_fn(|i| velocity[i] - lever[i]);
         if free.len() == 6 {
-            let inertia = inertia::tensor(&self.inertia, build)?;
+            let inertia = tensor.map_or_else(|| inertia::tensor(&self.inertia, build), Ok)?;
             let q = [&start[..], &quaternion].concat();
             let v = [&velocity[..], &spin].concat();
             return Ok(Built { body: Box::new(RigidSpatial { mass, inertia, markers }), q, v });
@@ -214,7 +290,10 @@ impl Rigid {
         let swept = cross(&turns, &arm);
         let moves: [f64; 3] = from_fn(|i| swept[i] + if free.contains(&i) { velocity[i] } else { 0.0 });
         let axis = axes.first().copied().or(self.inertia.as_ref().map(|_| 2));
-        let moment = axis.map_or(Ok(0.0), |axis| inertia::about(&self.inertia, &rotation[axis], build))?;
+        let moment = axis.map_or(Ok(0.0), |axis| match &tensor {
+            Some(tensor) => Ok(inertia::moment(tensor, &rotation[axis])),
+            None => inertia::about(&self.inertia, &rotation[axis], build),
+        })?;
         let body = Guided::new(mass, moment, start, rotation, &free, markers)?;
         refuse_locked("velocity", &given, &moves)?;
         refuse_locked("angular_velocity", &world_spin, &turns)?;
@@ -252,32 +331,5 @@ fn refuse_locked(field: &str, given: &[f64], moves: &[f64]) -> Result<()> {
         true => Err(Error::input("the body cannot move like that: only the coordinates in `free` move")
             .under(format!("initial.{field}"))
             .hint("remove what is along other directions, or add them to \"free\"")),
-    }
-}
-
-/// Unit quaternion [w, x, y, z] from 4 numbers, or from a rotation vector of 3.
-pub(crate) fn quaternion<const D: usize>(
-    field: &str,
-    numbers: Option<&[Number]>,
-    build: &Build<D>,
-) -> Result<[f64; 4]> {
-    match numbers {
-        None => Ok([1.0, 0.0, 0.0, 0.0]),
-        Some(numbers) if numbers.len() == 3 => {
-            let turn = build.vector::<3>(field, numbers)?;
-            build.doubt_turns(field, norm(&turn));
-            Ok(quaternion_from_vector(&turn))
-        }
-        Some(numbers) if numbers.len() == 4 => {
-            let q = build.vector::<4>(field, numbers)?;
-            let norm = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if norm < 1e-9 {
-                return Err(Error::input("the quaternion is zero").under(field).hint("[1, 0, 0, 0] is no rotation"));
-            }
-            Ok(q.map(|x| x / norm))
-        }
-        Some(numbers) => Err(Error::input(format!("expected 4 or 3 numbers, found {}", numbers.len()))
-            .under(field)
-            .hint("give a quaternion [w, x, y, z] or a rotation vector [x, y, z] in radians")),
     }
 }

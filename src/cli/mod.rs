@@ -5,6 +5,7 @@ mod check;
 mod common;
 mod drift;
 mod generate;
+mod import;
 mod interrupt;
 mod linear;
 mod linearize;
@@ -77,6 +78,11 @@ enum Command {
     Stress(stress::Args),
     /// Print a scalable scene
     Generate(generate::Args),
+    /// A scene from a robot in URDF, loops closed by joints named here
+    ///
+    /// Links become rigid bodies, what fixed joints hold together one; joints stand at zero. What the scene leaves out, such as
+    /// limits and meshes, is said on standard error.
+    Import(import::Args),
     /// Formulations, integrators and projections: what goes with what, proven orders, what each is for
     Methods(methods::Args),
     /// Print the JSON Schema of a scene
@@ -101,6 +107,7 @@ pub fn run() -> ExitCode {
         Command::Transition(args) => transition::run(args),
         Command::Stress(args) => stress::run(args),
         Command::Generate(args) => generate::run(args),
+        Command::Import(args) => import::run(args),
         Command::Methods(args) => methods::run(args),
         Command::Schema => schema::run(),
     };

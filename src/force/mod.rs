@@ -237,7 +237,9 @@ pub type ForceKind<const D: usize> = ElementKind<fn(serde_json::Value, &Build<D>
 /// The kind of force that `T` describes.
 #[doc(hidden)]
 pub fn kind<T: ForceSpec, const D: usize>() -> ForceKind<D> {
-    ElementKind::of::<T>(T::TYPE, |json, build| parse_among::<T>(json, &["name", "type"])?.build(build)?.checked())
+    ElementKind::of::<T>(T::TYPE, |json, build| {
+        parse_among::<T>(json, &["name", "type", "repeat"])?.build(build)?.checked()
+    })
 }
 
 /// Every built-in kind of force, in the order of the documentation. Gravity belongs to the scene.

@@ -17,6 +17,7 @@ use crate::formulation::{Dynamics, StepError};
 use crate::math::expression::Switch;
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::math::{Rate, largest_in};
+use crate::scene::INITIAL;
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Structure, Terms};
 use crate::tolerances::initial as tolerances;
 use std::sync::Arc;
@@ -27,8 +28,23 @@ use std::sync::Arc;
 /// # Errors
 /// Bad input: a name in `hold` that does not exist, joints that cannot all be closed, velocities that contradict the
 /// joints or each other; a start at which the accelerations are not determined, or beyond the range of a signal.
-pub fn assemble(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]), hold: &[String]) -> Result<Assembly> {
-    consistent(system, t, (q, v), hold).map_err(|error| beyond_signal(system, t, (q, v)).unwrap_or(error))
+pub fn assemble(system: &dyn MechanicalSystem, t: f64, guess: (&[f64], &[f64]), hold: &[String]) -> Result<Assembly> {
+    assemble_held(system, None, t, guess, hold)
+}
+
+/// As [`assemble`]; the coordinates satisfy the constraints of the first of `held`, the velocities those of the second:
+/// both are the system with further constraints.
+///
+/// # Errors
+/// As [`assemble`].
+pub fn assemble_held(
+    system: &dyn MechanicalSystem,
+    held: Option<[&dyn MechanicalSystem; 2]>,
+    t: f64,
+    guess: (&[f64], &[f64]),
+    hold: &[String],
+) -> Result<Assembly> {
+    consistent(system, held, t, guess, hold).map_err(|error| beyond_signal(system, t, guess).unwrap_or(error))
 }
 
 /// The error for a state at which the argument of a signal is where it has no value.
@@ -47,13 +63,28 @@ fn beyond_signal(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])
     Some(error.hint("start within it, or give the signal \"beyond\": \"hold\" or \"repeat\""))
 }
 
-fn consistent(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]), hold: &[String]) -> Result<Assembly> {
-    let mut metric = Metric::new(system, holds::directions(system, hold)?);
+fn consistent(
+    system: &dyn MechanicalSystem,
+    held: Option<[&dyn MechanicalSystem; 2]>,
+    t: f64,
+    (q, v): (&[f64], &[f64]),
+    hold: &[String],
+) -> Result<Assembly> {
+    let directions = holds::directions(system, hold)?;
+    let mut metric = Metric::new(system, directions.clone());
     let (mut assembled, mut rates) = (q.to_vec(), v.to_vec());
     system.normalize(&mut assembled);
     let before = metric.level(t, &assembled, &rates);
-    position::close(&mut metric, t, &mut assembled)?;
-    velocity::fit(&mut metric, t, &assembled, &mut rates)?;
+    match held {
+        None => {
+            position::close(&mut metric, t, &mut assembled)?;
+            velocity::fit(&mut metric, t, &assembled, &mut rates)?;
+        }
+        Some([coordinates, velocities]) => {
+            position::close(&mut Metric::new(coordinates, directions.clone()), t, &mut assembled)?;
+            velocity::fit(&mut Metric::new(velocities, directions), t, &assembled, &mut rates)?;
+        }
+    }
     let after = metric.level(t, &assembled, &rates);
     let mut dynamics = Dynamics::new(system);
     dynamics.solve(t, &assembled, &rates, |_, _| 0.0).map_err(|halt| stuck(&halt))?;
@@ -166,6 +197,11 @@ impl<'a> Metric<'a> {
 
     fn worst(&self, rows: &[f64]) -> f64 {
         largest_in(&self.scales, rows)
+    }
+
+    /// True if some rows give joint coordinates their values at the start.
+    fn has_initial(&self) -> bool {
+        self.system.groups().iter().any(|group| group.kind == INITIAL)
     }
 
     /// The joints with the largest residuals, for a message.

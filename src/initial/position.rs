@@ -91,6 +91,13 @@ fn advance(metric: &mut Metric, t: f64, q: &mut [f64], step: &[f64], residual: f
 
 fn open(metric: &Metric) -> Error {
     let culprits = metric.culprits(&metric.terms.phi);
+    if metric.has_initial() {
+        return Error::input(format!(
+            "the joints cannot be closed with the coordinates in `initial`; gaps that remain (m, rad): {culprits}"
+        ))
+        .under("initial")
+        .hint("give values that the joints allow together, or fewer of them; or let the bodies start nearer");
+    }
     let error = Error::input(format!("the joints cannot all be closed; gaps that remain (m, rad): {culprits}"));
     error.under("joints").hint(match metric.held.is_empty() {
         true => {

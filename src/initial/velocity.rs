@@ -19,6 +19,11 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
     if metric.worst(&metric.terms.phi_dot) > tolerances::SAME * largest.max(f64::MIN_POSITIVE) {
         let culprits = metric.culprits(&metric.terms.phi_dot);
         return Err(match metric.held.is_empty() {
+            _ if metric.has_initial() => Error::input(format!(
+                "the rates in `initial` contradict the joints or each other; rates that remain (m/s, rad/s): {culprits}"
+            ))
+            .under("initial")
+            .hint("give rates that the joints allow together, or fewer of them"),
             true => Error::input(format!(
                 "the joints ask for different velocities; rates that remain (m/s, rad/s): {culprits}"
             ))

@@ -110,14 +110,15 @@ impl<const D: usize> JointKernel<D> for Drive<D> {
             Coordinate::Z => dot(&a.axes[D - 1], &gap) - value,
             Coordinate::Distance => dot(&gap, &gap).sqrt() - value,
             Coordinate::Angle if D == 2 => b.turn - a.turn - value,
-            Coordinate::Angle => {
-                // The difference of the angles, not the difference of two atan2: no jump at half a turn.
-                let (c, s) = relative_turn(&self.axes, a, b);
-                let (sine, cosine) = value.sin_cos();
-                S::atan2(s * cosine - c * sine, c * cosine + s * sine)
-            }
+            Coordinate::Angle => angle_beyond(relative_turn(&self.axes, a, b), value),
         };
     }
+}
+
+/// The angle of this cosine and sine less `value`, within half a turn: no difference of two atan2, which jumps.
+pub fn angle_beyond<S: Scalar>((c, s): (S, S), value: S) -> S {
+    let (sine, cosine) = value.sin_cos();
+    S::atan2(s * cosine - c * sine, c * cosine + s * sine)
 }
 
 /// Cosine and sine of the angle of B relative to A about A's joint axis.

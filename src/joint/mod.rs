@@ -9,6 +9,7 @@
 //! the same two and [`Elements::with_joint`](crate::scene::Elements::with_joint), as in `tests/examples/own_joint.rs`.
 
 mod added;
+mod coordinates;
 mod cylindrical;
 mod distance;
 mod driver;
@@ -32,6 +33,7 @@ use std::array::from_fn;
 
 #[doc(hidden)]
 pub use added::Added;
+pub use coordinates::given;
 #[doc(hidden)]
 pub use lock::Lock;
 
@@ -218,7 +220,9 @@ pub type JointKind<const D: usize> = ElementKind<fn(serde_json::Value, &Build<D>
 /// The kind of joint that `T` describes.
 #[doc(hidden)]
 pub fn kind<T: JointSpec, const D: usize>() -> JointKind<D> {
-    ElementKind::of::<T>(T::TYPE, |json, build| parse_among::<T>(json, &["name", "type"])?.build(build)?.checked())
+    ElementKind::of::<T>(T::TYPE, |json, build| {
+        parse_among::<T>(json, &["name", "type", "repeat"])?.build(build)?.checked()
+    })
 }
 
 /// Every built-in kind of joint, in the order of the documentation.

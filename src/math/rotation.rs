@@ -1,6 +1,7 @@
 //! Rotations in space: unit quaternions p = [w, x, y, z] and their matrices.
 
 use super::Scalar;
+use super::screw::quaternion;
 
 /// Row-major 3 x 3 matrix.
 pub type Matrix3 = [[f64; 3]; 3];
@@ -40,6 +41,12 @@ pub fn quaternion_from_vector(a: &[f64; 3]) -> [f64; 4] {
     // sin(x/2)/x tends to 1/2.
     let factor = if angle < 1e-8 { 0.5 } else { (0.5 * angle).sin() / angle };
     [(0.5 * angle).cos(), factor * a[0], factor * a[1], factor * a[2]]
+}
+
+/// Unit quaternion of the rotation with these axes, `axes[i]` being the i-th.
+pub fn quaternion_from_axes(axes: &Matrix3) -> [f64; 4] {
+    let (w, [x, y, z]) = quaternion(&std::array::from_fn(|i| axes.map(|axis| axis[i])));
+    [w, x, y, z]
 }
 
 /// Product p r: the rotation r about axes that are rotated by p.

@@ -42,7 +42,7 @@ pub fn rotation_vector<S: Scalar>(r: &[[S; 3]; 3]) -> Vector<S> {
 
 /// Scalar and vector part of the unit quaternion, the scalar part not negative. Shepperd's choice of the divisor: with
 /// the largest of the four there is no cancellation.
-fn quaternion<S: Scalar>(r: &[[S; 3]; 3]) -> (S, Vector<S>) {
+pub fn quaternion<S: Scalar>(r: &[[S; 3]; 3]) -> (S, Vector<S>) {
     let trace = r[0][0] + r[1][1] + r[2][2];
     let skew = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]];
     if trace.value() > 0.0 {

@@ -37,6 +37,11 @@ impl AnyMechanism {
         }
     }
 
+    /// Mechanisms of the models that hold joint coordinates of the start, and their rates.
+    pub(crate) fn held(models: Option<Box<[AnyModel; 2]>>) -> Option<[AnyMechanism; 2]> {
+        models.map(|models| models.map(AnyMechanism::new))
+    }
+
     /// The mechanism as the solvers see it.
     pub fn system(&self) -> &dyn MechanicalSystem {
         match self {
@@ -132,7 +137,9 @@ impl PreparedScene {
         let length = mechanism.system().length();
         let method = settings.method(is_automatic, length).map_err(|error| settings.place(error))?;
         method.check_options(mechanism.system()).map_err(|error| settings.place(error))?;
-        let assembly = initial::assemble(mechanism.system(), start, (&scene.q, &scene.v), &scene.hold);
+        let held = AnyMechanism::held(scene.held);
+        let held = held.as_ref().map(|held| held.each_ref().map(AnyMechanism::system));
+        let assembly = initial::assemble_held(mechanism.system(), held, start, (&scene.q, &scene.v), &scene.hold);
         let mut assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
         check_switches(mechanism.system(), start, (&assembly.q, &assembly.v))?;
         let mut doubts = doubts(&mechanism, &scene.q, &assembly);

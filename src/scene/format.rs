@@ -1,5 +1,6 @@
 //! The scene file as it is typed: what a user may write, before anything is resolved.
 
+use crate::body::Repeat;
 use crate::math::expression::Number;
 use crate::math::signal::{Beyond, Interpolation};
 use crate::method_spec::MethodSpec;
@@ -7,6 +8,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// A scene: a mechanism with its start, what to watch and how to simulate it. Every number may be an expression over
 /// `parameters`, as a string. SI units; angles in radians.
@@ -34,6 +36,9 @@ pub struct SceneFile {
     /// Uniform: a vector, m/s^2; or towards a point of the ground. Default: none.
     #[schemars(with = "Option<Gravity>")]
     pub gravity: Option<Value>,
+    /// Other scenes, whose elements are added under names of their own.
+    #[serde(rename = "include", default)]
+    pub _include: Vec<Include>,
     #[serde(default)]
     pub ground: Ground,
     /// See the types of bodies.
@@ -51,6 +56,11 @@ pub struct SceneFile {
     pub inputs: Vec<InputSpec>,
     #[serde(default)]
     pub outputs: Vec<OutputSpec>,
+    /// Coordinates of joints at the start, as JOINT.COORDINATE, and with ' their rates: `angle` (rad) of hinges,
+    /// `position` (m) of sliders, both of cylindrical joints and of points on a line in the plane, `x`, `y` and `angle` of
+    /// planar joints, `angle1` and `angle2` of universal ones. Assembly reaches them exactly.
+    #[serde(default)]
+    pub initial: BTreeMap<String, Number>,
     #[serde(default)]
     pub assembly: Assembly,
     #[serde(default)]
@@ -75,6 +85,23 @@ pub struct CentralGravity {
     pub towards: String,
     /// Gravitational constant times attracting mass, m^3/s^2.
     pub mu: Number,
+}
+
+/// Another scene: its bodies, joints, forces, inputs, outputs, markers of the ground, parameters and start are added, with
+/// names that begin with `as` and an underscore, as in `left_crank.tip`, `ground.left_A` and `left_l`. Its gravity and
+/// simulation do not count.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Include {
+    /// File, from the folder of this one.
+    pub file: String,
+    /// Beginning of its names.
+    #[serde(rename = "as")]
+    pub prefix: String,
+    /// Values of its parameters, in terms of those of this scene.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Number>")]
+    pub parameters: Map<String, Value>,
 }
 
 /// In how many dimensions the scene moves.
@@ -135,6 +162,9 @@ pub struct OrientedMarker {
     pub z_axis: Option<Vec<Number>>,
     /// In space, with or without `z_axis`: direction of the x axis, made square to z.
     pub x_axis: Option<Vec<Number>>,
+    /// Copies of this element.
+    #[serde(rename = "repeat")]
+    pub _repeat: Option<Repeat>,
 }
 
 /// A state xi of a controller, filter or actuator, xi' = rate: a number that applied forces and torques, other rates
@@ -147,6 +177,9 @@ pub struct StateSpec {
     pub initial: Option<Number>,
     /// Its rate per second: an expression of t, marker quantities (`arm.angle`, `arm.tip.x'`), named outputs and states.
     pub rate: Number,
+    /// Copies of this element.
+    #[serde(rename = "repeat")]
+    pub _repeat: Option<Repeat>,
 }
 
 /// Measured data, which expressions use as a function of one argument: `road(t)`, `road(car.x)`. In `parameters` it is
@@ -187,6 +220,9 @@ pub struct InputSpec {
     /// u in simulations, in N, N m, m or rad: an expression of t, for a force also of marker quantities and named
     /// outputs; linear models are taken about it. Default: zero.
     pub value: Option<Number>,
+    /// Copies of this element.
+    #[serde(rename = "repeat")]
+    pub _repeat: Option<Repeat>,
 }
 
 /// What a user watches: a column of the trajectory and a row of C.
@@ -221,6 +257,9 @@ pub struct OutputSpec {
     /// reference table too. In expressions an output by its name is in SI units. Of an expression: any word, for axes
     /// alone. Default: that of the SI.
     pub unit: Option<String>,
+    /// Copies of this element.
+    #[serde(rename = "repeat")]
+    pub _repeat: Option<Repeat>,
 }
 
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq, Debug)]
@@ -340,6 +379,8 @@ pub struct BodyPlace {
     /// Position of the body's origin, which its markers and `initial` refer to, from its centre of mass, m.
     pub origin: Option<Vec<Number>>,
     pub initial: Option<crate::body::Initial>,
+    /// Copies of this element.
+    pub repeat: Option<Repeat>,
 }
 
 /// The keys that all joints share.
@@ -349,6 +390,8 @@ pub struct JointPlace {
     pub name: String,
     /// The kind of joint.
     pub r#type: String,
+    /// Copies of this element.
+    pub repeat: Option<Repeat>,
 }
 
 /// The keys that all forces share.
@@ -358,4 +401,6 @@ pub struct ForcePlace {
     pub name: String,
     /// The kind of force.
     pub r#type: String,
+    /// Copies of this element.
+    pub repeat: Option<Repeat>,
 }

@@ -26,7 +26,7 @@ pub fn inputs<const D: usize>(
             let taken = Error::input(format!("the name `{}` is taken", spec.name)).hint("give each input its own");
             return Err(named(taken));
         }
-        super::resolve::check_name(&spec.name).map_err(named)?;
+        super::names::check_name(&spec.name).map_err(named)?;
         let mut input = input::<D>(spec, (joints, forces)).map_err(place)?;
         if let Some(value) = &spec.value {
             input.value = Some(add(&input.target, value, (joints, forces), build).map_err(place)?);

@@ -1,10 +1,9 @@
 //! Markers of bodies and of the ground.
 
 use super::format::OrientedMarker;
-use crate::body::{Build, Marker, cross, parse, show};
+use crate::body::{Build, Marker, Orientation, parse, show};
 use crate::error::{Error, Result};
 use crate::math::expression::{Number, Parameters};
-use crate::math::rotation::axes_from_quaternion;
 use serde_json::{Map, Value};
 use std::array::from_fn;
 
@@ -15,7 +14,7 @@ pub fn markers<const D: usize>(
     build: &Build<D>,
 ) -> Result<Vec<(String, Marker<D>)>> {
     let one = |(name, value): (&String, &Value)| {
-        super::resolve::check_name(name).map_err(|error| error.under("markers"))?;
+        super::names::check_name(name).map_err(|error| error.under("markers"))?;
         let mut marker = marker(value, build).map_err(|error| error.under(name).under("markers"))?;
         marker.offset = from_fn(|i| marker.offset[i] + origin[i]);
         Ok((name.clone(), marker))
@@ -34,8 +33,9 @@ fn marker<const D: usize>(value: &Value, build: &Build<D>) -> Result<Marker<D>> 
     }
     let given: OrientedMarker = parse(value)?;
     let mut marker = Marker::point(vector(&given.position, build).map_err(|error| error.under("position"))?);
-    let spatial = given.rotation.is_some() || given.z_axis.is_some() || given.x_axis.is_some();
-    if D == 2 && spatial {
+    let OrientedMarker { rotation, z_axis, x_axis, .. } = &given;
+    let orientation = Orientation { rotation, z_axis, x_axis };
+    if D == 2 && orientation.given().is_some() {
         return Err(Error::input("a planar marker is turned by an angle").hint("give \"angle\" in radians"));
     }
     if D == 3 && given.angle.is_some() {
@@ -46,18 +46,8 @@ fn marker<const D: usize>(value: &Value, build: &Build<D>) -> Result<Marker<D>> 
     if let Some(angle) = &given.angle {
         turn(&mut marker, build.angle("angle", angle)?);
     }
-    if let Some(rotation) = &given.rotation {
-        let axes = axes_from_quaternion(&crate::body::quaternion("rotation", Some(rotation), build)?);
-        marker.axes = from_fn(|i| from_fn(|j| axes[i][j]));
-    }
-    if given.z_axis.is_some() || given.x_axis.is_some() {
-        if given.rotation.is_some() {
-            return Err(Error::input("both a rotation and axes are given").hint("keep one of them"));
-        }
-        let axis = |field: &str, numbers: &Option<Vec<Number>>| {
-            numbers.as_ref().map(|numbers| build.vector::<3>(field, numbers)).transpose()
-        };
-        let axes = triad(axis("z_axis", &given.z_axis)?, axis("x_axis", &given.x_axis)?)?;
+    if orientation.given().is_some() {
+        let axes = orientation.axes(build)?;
         marker.axes = from_fn(|i| from_fn(|j| axes[i][j]));
     }
     Ok(marker)
@@ -78,37 +68,6 @@ fn turn<const D: usize>(marker: &mut Marker<D>, angle: f64) {
     marker.turn = angle;
     (marker.axes[0][0], marker.axes[0][1]) = (c, s);
     (marker.axes[1][0], marker.axes[1][1]) = (-s, c);
-}
-
-/// Right-handed unit axes [x, y, z] with the given z, and x the given one made orthogonal to z.
-fn triad(z: Option<[f64; 3]>, x: Option<[f64; 3]>) -> Result<[[f64; 3]; 3]> {
-    let unit = |v: [f64; 3], name: &str| -> Result<[f64; 3]> {
-        let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-        match length > 1e-12 {
-            true => Ok(v.map(|c| c / length)),
-            false => Err(Error::input("the axis has no direction of its own")
-                .under(name)
-                .hint("give vectors that are not zero and not parallel")),
-        }
-    };
-    let z = match (z, x) {
-        (Some(z), _) => unit(z, "z_axis")?,
-        // Only x given: z is the world axis least along it, made square to it.
-        (None, x) => {
-            let x = unit(x.unwrap_or([1.0, 0.0, 0.0]), "x_axis")?;
-            let helper = if x[2].abs() < 0.9 { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
-            unit(without(helper, x), "x_axis")?
-        }
-    };
-    let helper = x.unwrap_or(if z[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] });
-    let x = unit(without(helper, z), "x_axis")?;
-    Ok([x, cross(&z, &x), z])
-}
-
-/// The part of `v` orthogonal to the unit vector `along`.
-fn without(v: [f64; 3], along: [f64; 3]) -> [f64; 3] {
-    let part = v[0] * along[0] + v[1] * along[1] + v[2] * along[2];
-    from_fn(|i| v[i] - part * along[i])
 }
 
 /// Names and values of the parameters, in the order of the scene.

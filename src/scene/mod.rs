@@ -14,18 +14,22 @@ mod format;
 #[doc(hidden)]
 pub mod generate;
 mod gravity;
+mod include;
 mod inputs;
 mod json;
 mod kinematics;
 mod locate;
 mod markers;
 mod model;
+mod names;
 mod outputs;
 mod place;
 mod refine;
+mod repeat;
 mod resolve;
 mod schema;
 mod signals;
+mod start;
 mod states;
 #[doc(hidden)]
 pub mod units;
@@ -44,6 +48,8 @@ pub use model::{FORCE_SIZE, TORQUE_SIZE};
 pub use place::{Cut, Place};
 #[doc(hidden)]
 pub use refine::refined;
+#[doc(hidden)]
+pub use start::KIND as INITIAL;
 
 #[doc(hidden)]
 pub use serde_json::json;
@@ -68,6 +74,9 @@ pub struct Scene {
     pub parameters: Parameters,
     /// Bodies, joints, forces, outputs and inputs.
     pub model: AnyModel,
+    /// The model with further joints that hold the joint coordinates of `initial`, and with joints that hold their rates;
+    /// `None` where the scene gives none.
+    pub held: Option<Box<[AnyModel; 2]>>,
     /// Initial guess of q for assembly, in the order of the bodies.
     pub q: Vec<f64>,
     /// Initial guess of v, in the order of the bodies.
@@ -151,11 +160,13 @@ impl Elements {
             return Err(Error::input(format!("a scene is a JSON object, found {}", crate::body::show(&json)))
                 .hint("begin with {\"name\": ..., \"dimension\": 2, ...}"));
         }
+        let origins = include::complete(&mut json, folder, overrides)?;
         // The long lists are moved, not copied.
         let mut taken = |key: &str| json.get_mut(key).and_then(Value::as_array_mut).map(std::mem::take);
         let [bodies, joints, forces] = ["bodies", "joints", "forces"].map(|key| taken(key).unwrap_or_default());
         let file = crate::body::parse::<SceneFile>(&json).map(|file| SceneFile { bodies, joints, forces, ..file });
-        file.and_then(|file| resolve::build(file, self, overrides, folder)).map_err(|error| name_element(error, &json))
+        let scene = file.and_then(|file| resolve::build(file, self, overrides, folder));
+        scene.map_err(|error| origins.place(name_element(error, &json)))
     }
 }
 
@@ -184,7 +195,9 @@ fn name_element(error: Error, json: &Value) -> Error {
 pub(crate) fn place(error: Error, path: &Path, text: &str) -> Error {
     let error = error.in_file(path);
     let place = match &error {
-        Error::Input(input) if input.file.is_some() && !input.path.is_empty() => locate::locate(text, &input.path),
+        Error::Input(input) if input.file.as_deref() == Some(path) && !input.path.is_empty() => {
+            locate::locate(text, &input.path)
+        }
         _ => None,
     };
     match place {

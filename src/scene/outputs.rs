@@ -21,7 +21,7 @@ pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
         let checked = match name.as_str() {
             "t" => Err(taken(" by time")),
             _ if specs[..i].iter().any(|known| known.name == *name) => Err(taken("")),
-            _ => super::resolve::check_name(name),
+            _ => super::names::check_name(name),
         };
         checked.map_err(|error| error.under("name").under(format!("outputs[{i}]")))?;
     }

@@ -5,13 +5,14 @@ use super::elements::{Elements, Kinds};
 use super::format::{Dimension, SceneFile};
 use super::kinematics::Named;
 use super::model::{BeamLine, Connection, Input, Model, Part, Watched};
+use super::names::{check_name, check_scene_name};
 use super::outputs;
 use super::place::Cut;
-use super::{AnyModel, Scene, connections, gravity, inputs, markers, signals, states};
+use super::{AnyModel, Scene, connections, gravity, inputs, markers, signals, start, states};
 use crate::body::{
     BodyKind, Build, Built, ElementKind, Initial, Marker, MarkerId, MarkerTable, Switches, Turning, parse, show,
 };
-use crate::error::{Error, Result, excerpt, suggest};
+use crate::error::{Error, Result, suggest};
 use crate::force::Force;
 use crate::joint::Joint;
 use crate::math::expression::{Number, Parameters};
@@ -23,15 +24,9 @@ pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)
     check_scene_name(&file.name)?;
     let mut parameters = markers::resolve(&file.parameters, overrides)?;
     signals::add(&file, folder, &mut parameters)?;
-    let (dimension, (model, q, v)) = match file.dimension {
-        Dimension::Two => {
-            let (model, q, v) = model(&file, &elements.planar, &parameters, folder)?;
-            (2, (AnyModel::Planar(model), q, v))
-        }
-        Dimension::Three => {
-            let (model, q, v) = model(&file, &elements.spatial, &parameters, folder)?;
-            (3, (AnyModel::Spatial(model), q, v))
-        }
+    let (dimension, (model, held, q, v)) = match file.dimension {
+        Dimension::Two => (2, models(&file, &elements.planar, &parameters, folder, AnyModel::Planar)?),
+        Dimension::Three => (3, models(&file, &elements.spatial, &parameters, folder, AnyModel::Spatial)?),
     };
     Ok(Scene {
         name: file.name,
@@ -40,6 +35,7 @@ pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)
         dimension,
         parameters,
         model,
+        held,
         q,
         v,
         hold: file.assembly.hold,
@@ -47,14 +43,41 @@ pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)
     })
 }
 
-/// The model with its initial q and v. Bodies are read first, so that joints, forces and outputs can name their
+/// The model, what [`Scene::held`] is, and the initial q and v.
+type Models = (AnyModel, Option<Box<[AnyModel; 2]>>, Vec<f64>, Vec<f64>);
+
+fn models<const D: usize>(
+    file: &SceneFile,
+    kinds: &Kinds<D>,
+    parameters: &Parameters,
+    folder: &Path,
+    any: fn(Model<D>) -> AnyModel,
+) -> Result<Models> {
+    let (own, q, v, rows) = model(file, kinds, parameters, folder)?;
+    let with = |rows| {
+        model(file, kinds, parameters, folder).map(|(mut model, ..)| {
+            model.joints.extend(rows);
+            any(model)
+        })
+    };
+    let held = match rows {
+        _ if file.initial.is_empty() => None,
+        [coordinates, rates] => Some(Box::new([with(coordinates)?, with(rates)?])),
+    };
+    Ok((any(own), held, q, v))
+}
+
+/// Rows that hold the coordinates of joints, and rows that hold their rates.
+type Held<const D: usize> = [Vec<Connection<Box<dyn Joint<D>>>>; 2];
+
+/// The model with its initial q and v, and the rows of `initial`. Bodies are read first, so that joints, forces and outputs can name their
 /// markers.
 fn model<const D: usize>(
     file: &SceneFile,
     kinds: &Kinds<D>,
     parameters: &Parameters,
     folder: &Path,
-) -> Result<(Model<D>, Vec<f64>, Vec<f64>)> {
+) -> Result<(Model<D>, Vec<f64>, Vec<f64>, Held<D>)> {
     let (markers, switches, turnings) = Default::default();
     let gravity = [0.0; D];
     let mut build = Build {
@@ -71,8 +94,11 @@ fn model<const D: usize>(
     outputs::check_names(&file.outputs)?;
     states::place(&file.states, &file.outputs, &mut parts, &build)?;
     let named = Named { file, elements: Default::default() };
-    let links = Links::read(&named, kinds, &parts, &Build { markers: &parts.table, outputs: &named, ..build })?;
-    Ok(parts.joined(links, gravity, switches.into_inner(), turnings.into_inner()))
+    let build = Build { markers: &parts.table, outputs: &named, ..build };
+    let links = Links::read(&named, kinds, &parts, &build)?;
+    let held = start::rows(&file.initial, &links.joints, &build)?;
+    let (model, q, v) = parts.joined(links, gravity, switches.into_inner(), turnings.into_inner());
+    Ok((model, q, v, held))
 }
 
 /// Joints, forces, outputs and inputs: all that names markers.
@@ -206,12 +232,11 @@ impl<const D: usize> Parts<D> {
             self.beams.push(line);
             return Ok(());
         }
-        let origin = match json.remove("origin") {
-            Some(origin) => build.vector::<D>("origin", &parse::<Vec<Number>>(origin)?)?,
-            None => [0.0; D],
-        };
+        let origin = json.remove("origin").map(|origin| build.vector::<D>("origin", &parse::<Vec<Number>>(origin)?));
+        let origin = origin.transpose()?;
         let (mut initial, given) = start_and_markers(&mut json)?;
-        initial.origin = origin.to_vec();
+        initial.origin = origin.map_or(Vec::new(), |origin| origin.to_vec());
+        let origin = origin.unwrap_or([0.0; D]);
         let mut all = vec![Marker::point(origin)];
         let named = markers::markers(&given, &origin, build)?;
         all.extend(named.iter().map(|(_, marker)| *marker));
@@ -325,26 +350,4 @@ pub(super) fn take_name(json: &mut Map<String, Value>) -> Result<String> {
     let name = take_text(json, "name")?;
     check_name(&name).map_err(|error| error.under("name"))?;
     Ok(name)
-}
-
-/// The name of a scene is that of its folder of results.
-fn check_scene_name(name: &str) -> Result<()> {
-    let fits = |c: char| c.is_alphanumeric() || "_-+ ()".contains(c) || c == '.';
-    match !name.trim().is_empty() && !name.starts_with('.') && name.len() <= 200 && name.chars().all(fits) {
-        true => Ok(()),
-        false => Err(Error::input(format!("`{}` cannot name a scene", excerpt(name)))
-            .under("name")
-            .hint("its results go to a folder of this name: use letters, digits, `_` and `-`")),
-    }
-}
-
-/// Names appear in expressions and columns: a letter, then letters, digits and underscores.
-pub(super) fn check_name(name: &str) -> Result<()> {
-    let mut characters = name.chars();
-    let starts = characters.next().is_some_and(|c| c.is_alphabetic() || c == '_');
-    match starts && characters.all(|c| c.is_alphabetic() || c.is_ascii_digit() || c == '_') {
-        true => Ok(()),
-        false => Err(Error::input(format!("`{}` cannot be a name", excerpt(name)))
-            .hint("use a letter, then letters, digits and underscores")),
-    }
 }

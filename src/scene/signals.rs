@@ -21,7 +21,7 @@ fn under_name(error: Error) -> Error {
 }
 
 fn read(spec: &SignalSpec, file: &SceneFile, folder: &Path, parameters: &Parameters) -> Result<Signal> {
-    super::resolve::check_name(&spec.name).map_err(under_name)?;
+    super::names::check_name(&spec.name).map_err(under_name)?;
     let outputs = file.outputs.iter().map(|output| (&output.name, "an output"));
     let mut others = outputs.chain(file.states.iter().map(|state| (&state.name, "a state")));
     if let Some((name, what)) = others.find(|(name, _)| **name == spec.name) {

@@ -2,7 +2,8 @@
 
 use super::format::{OutputSpec, StateSpec};
 use super::model::Connection;
-use super::resolve::{Parts, check_name};
+use super::names::check_name;
+use super::resolve::Parts;
 use crate::body::{Build, Built, State};
 use crate::error::{Error, Result};
 use crate::force::{Force, StateRate};

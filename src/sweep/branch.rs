@@ -22,6 +22,7 @@ pub struct State {
 /// A scene at a value of its parameter.
 struct Ready {
     mechanism: AnyMechanism,
+    held: Option<[AnyMechanism; 2]>,
     t: f64,
     scene: (Vec<f64>, Vec<f64>, Vec<String>),
 }
@@ -30,27 +31,34 @@ impl Ready {
     fn at(family: &Family, parameter: &str, value: f64) -> Result<Ready> {
         let scene = family.scene_at(parameter, value)?;
         let t = scene.start_time()?;
-        let Scene { model, q, v, hold, .. } = scene;
-        Ok(Ready { mechanism: AnyMechanism::new(model), t, scene: (q, v, hold) })
+        let Scene { model, held, q, v, hold, .. } = scene;
+        Ok(Ready { mechanism: AnyMechanism::new(model), held: AnyMechanism::held(held), t, scene: (q, v, hold) })
+    }
+
+    /// The state assembled from a guess with the velocities of the scene.
+    fn assemble(&self, q: &[f64]) -> Result<Assembly> {
+        let (_, v, hold) = &self.scene;
+        let held = self.held.as_ref().map(|held| held.each_ref().map(AnyMechanism::system));
+        initial::assemble_held(self.mechanism.system(), held, self.t, (q, v), hold)
     }
 
     /// Newton's method from a nearby guess.
     fn follow(&self, guess: &[f64], dependent: &[usize]) -> Result<Option<Followed>> {
-        initial::follow(self.mechanism.system(), self.t, guess, &self.scene.2, dependent)
+        let system = self.held.as_ref().map_or(&self.mechanism, |[coordinates, _]| coordinates).system();
+        initial::follow(system, self.t, guess, &self.scene.2, dependent)
     }
 
     /// The state with velocities, accelerations, multipliers and outputs.
     fn complete(self, value: f64, followed: Followed) -> Result<State> {
-        let (guess, v, hold) = self.scene;
+        let assembly = self.assemble(&followed.q)?;
         let system = self.mechanism.system();
-        let assembly = initial::assemble(system, self.t, (&followed.q, &v), &hold)?;
         let mut outputs = vec![0.0; system.columns().len()];
         let Followed { dependent, rank_indicator, .. } = followed;
         let Assembly { q, v, vdot, lambda, .. } = assembly;
         let at = OperatingPoint { t: self.t, q: &q, v: &v, vdot: &vdot, lambda: &lambda };
         system.outputs(at, &mut outputs, &mut Scratch::default());
         let point = Point { value, q, v, lambda, outputs, rank_indicator };
-        Ok(State { mechanism: Arc::new(self.mechanism), guess, dependent, point })
+        Ok(State { mechanism: Arc::new(self.mechanism), guess: self.scene.0, dependent, point })
     }
 }
 
@@ -58,8 +66,7 @@ impl State {
     /// The state assembled from the scene's own guess.
     pub fn assembled(family: &Family, parameter: &str, value: f64) -> Result<State> {
         let ready = Ready::at(family, parameter, value)?;
-        let (q, v, hold) = &ready.scene;
-        let q = initial::assemble(ready.mechanism.system(), ready.t, (q, v), hold)?.q;
+        let q = ready.assemble(&ready.scene.0)?.q;
         // Following a state on the constraints gives the same state, except where it is singular.
         let followed = ready.follow(&q, &[])?.unwrap_or(Followed { q, rank_indicator: 0.0, dependent: Vec::new() });
         ready.complete(value, followed)
@@ -189,8 +196,8 @@ impl<'a> Branch<'a> {
     /// assembly finds it.
     fn at_the_end(&self, target: f64) -> Option<State> {
         let ready = Ready::at(self.family, self.parameter, target).ok()?;
-        let (last, (_, v, hold)) = (&self.last.point.q, &ready.scene);
-        let q = initial::assemble(ready.mechanism.system(), ready.t, (last, v), hold).ok()?.q;
+        let last = &self.last.point.q;
+        let q = ready.assemble(last).ok()?.q;
         let size = last.iter().fold(1.0f64, |size, q| size.max(q.abs()));
         let is_beside = q.iter().zip(last).all(|(q, last)| (q - last).abs() < tolerances::BRANCH_BESIDE * size);
         let followed = Followed { q, rank_indicator: 0.0, dependent: Vec::new() };
@@ -210,9 +217,7 @@ impl<'a> Branch<'a> {
 
     /// The error of an assembly beyond the end.
     fn obstacle(&self, target: f64) -> Result<()> {
-        let ready = Ready::at(self.family, self.parameter, target)?;
-        let (_, v, hold) = &ready.scene;
-        initial::assemble(ready.mechanism.system(), ready.t, (&self.last.point.q, v), hold).map(|_| ())
+        Ready::at(self.family, self.parameter, target)?.assemble(&self.last.point.q).map(|_| ())
     }
 }
 

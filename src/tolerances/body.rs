@@ -48,3 +48,8 @@ pub const STRAIGHT: f64 = 0.5;
 /// Positions in files are rounded to this.
 /// Unit: `[1]` of the largest. Why: a choice. Test: none: not tried with other values.
 pub const ROUNDED_PLACES: f64 = 1e-5;
+
+/// A vector as short as this gives an axis no direction.
+/// Unit: `[1]`. Why: a choice: of unit vectors it leaves four digits of a direction. Test: none: not tried with other
+/// values.
+pub const NO_AXIS: f64 = 1e-12;

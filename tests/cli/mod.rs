@@ -6,6 +6,7 @@ mod check_error;
 mod drift;
 mod equilibrium;
 mod generate;
+mod import;
 #[cfg(unix)]
 mod interrupted;
 mod limits;

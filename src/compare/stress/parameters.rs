@@ -268,11 +268,19 @@ fn moves(scene: &Value) -> bool {
     let joints = scene.get("joints").and_then(Value::as_array).into_iter().flatten();
     let mut kinds = joints.filter_map(|joint| joint.get("type")?.as_str());
     starts.into_iter().any(|start| VELOCITIES.iter().any(|key| start.get(key).is_some()))
+        || scene.get("initial").and_then(Value::as_object).is_some_and(|given| given.keys().any(|key| is_rate(key)))
         || has(scene, "bodies", &["motion"])
         || kinds.any(|kind| DRIVEN.contains(&kind))
 }
 
+/// True for the rate of a joint coordinate at the start.
+fn is_rate(key: &str) -> bool {
+    key.ends_with('\'')
+}
+
 fn quicken(scene: &mut Value, factor: f64) {
+    let given = scene.get_mut("initial").and_then(Value::as_object_mut);
+    given.into_iter().flatten().filter(|(key, _)| is_rate(key)).for_each(|(_, value)| multiply(value, factor));
     for start in elements(scene, "bodies").filter_map(|body| body.get_mut("initial")) {
         for key in VELOCITIES {
             match start.get_mut(key) {

@@ -1,0 +1,52 @@
+//! `holonom import ROBOT.urdf`
+
+use super::common::{print, tell, to_json};
+use crate::error::{Error, Result};
+use crate::import::urdf::{Closure, Options, import};
+use crate::prepared::{Overrides, PreparedScene};
+use crate::report::write_whole;
+use crate::scene::Scene;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// Robot in URDF
+    #[arg(value_name = "FILE")]
+    path: PathBuf,
+    /// Scene file to write (default: standard output)
+    #[arg(short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Link that is the ground (default: the root of the tree)
+    #[arg(long, value_name = "LINK")]
+    base: Option<String>,
+    /// The base moves freely, and is not the ground
+    #[arg(long)]
+    free: bool,
+    /// Joint that closes a loop: [NAME=]revolute|spherical|weld:LINK@X,Y,Z:LINK@X,Y,Z[:axis=X,Y,Z], points and axis in the
+    /// links' own frames
+    #[arg(long, value_name = "JOINT", allow_hyphen_values = true)]
+    close: Vec<Closure>,
+    /// Print nothing but errors and the scene
+    #[arg(long)]
+    quiet: bool,
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let text = crate::files::read_text(&args.path).map_err(|error| Error::file(&args.path, error))?;
+    let options = Options { base: args.base, is_free: args.free, closures: args.close };
+    let imported = import(&text, &options).map_err(|error| error.in_file(&args.path))?;
+    let text = to_json(&imported.scene)? + "\n";
+    match &args.output {
+        None => print(&text)?,
+        Some(path) => write_whole(path, text.as_bytes())?,
+    }
+    if !args.quiet {
+        imported.left_out.iter().for_each(|what| tell(format!("left out: {what}")));
+    }
+    let ready = Scene::parse(&text, &[]).and_then(|scene| PreparedScene::new(scene, &Overrides::default()));
+    if let Err(error) = ready {
+        tell(format!("warning: the scene does not start as it is: {error}"));
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,3 @@
+//! Scenes from other formats.
+
+pub mod urdf;
