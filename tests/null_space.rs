@@ -4,6 +4,8 @@ use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::equations::pendulum::Pendulum;
 use crate::common::{adaptive, distance, fixed, run, until};
 use crate::scenes::shipped;
+use holonom::prepared::PreparedScene;
+use holonom::scene::Scene;
 use holonom::simulate::{Observation, Sink, Span, simulate};
 use holonom::system::MechanicalSystem;
 
@@ -124,4 +126,29 @@ fn a_step_too_long_for_its_chart_is_refused() {
     assert!(failure.reason.contains("converge") && failure.hint.contains("smaller"), "{failure:?}");
     // A tolerance that would let it pass makes it smaller.
     run(&Pendulum, &adaptive("null_space", "dopri5", "none", 1e-1), until(1.0), (&q, &v)).completed();
+}
+
+/// Before the run, with what it costs and what to take instead; small systems are for it.
+#[test]
+fn dense_formulations_of_large_systems_are_warned_of() {
+    let method = |formulation: &str| fixed(formulation, "rk4", "none", 1e-3);
+    for formulation in ["null_space", "udwadia_kalaba", "index1"] {
+        let doubts = |links: usize| {
+            let scene =
+                holonom::scene::generate::registry().iter().find(|(name, _)| *name == "chain").unwrap().1(links);
+            let prepared =
+                PreparedScene::new(Scene::parse(&scene.to_string(), &[]).unwrap(), &Default::default()).unwrap();
+            method(formulation).doubts(prepared.system())
+        };
+        assert_eq!(doubts(30), []);
+        let Some(warning) = doubts(40).pop() else {
+            assert_eq!(formulation, "index1");
+            continue;
+        };
+        let text = format!(
+            "{formulation} is dense: an evaluation takes 5e6 operations with 120 velocities and 80 constraints"
+        );
+        assert!(warning.text.starts_with(&text), "{warning}");
+        assert_eq!(warning.hint, "choose a sparse formulation, such as index1 with the projection manifold");
+    }
 }

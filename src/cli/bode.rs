@@ -6,11 +6,14 @@ use crate::error::{Error, Result, short, suggest};
 use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_response};
 use crate::prepared::PreparedScene;
 use crate::report::linear::{FrequencyResponse, Response, ResponseFile, bode_figure};
-use crate::report::{Folder, cell};
+use crate::report::{Folder, Repeatable, Sealed, cell};
 use crate::system::Column;
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom bode models/quarter_car.json --equilibrium
+  holonom bode models/quarter_car.json --equilibrium --from 0.1 --to 100 --points 200")]
 pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
@@ -61,18 +64,17 @@ pub fn run(args: Args) -> Result<ExitCode> {
     };
     let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
     let mut folder = args.files.folder(&prepared.name)?;
-    let mut files: Vec<ResponseFile> = Vec::new();
+    let mut files = Vec::new();
     for state in &places {
         let model = linearize::linearize(&mut state.variation().map_err(in_file)?, &request).map_err(in_file)?;
         let frequencies = frequencies(&args, &model)?;
         let response = respond(&prepared, &model, &chosen, frequencies);
-        write(&args, &response, &mut folder)?;
+        files.push(write(&args, &prepared, &response, &mut folder)?);
         if !args.talk.json && !args.talk.quiet {
             print(&response.text())?;
         }
-        files.push(response.file());
     }
-    let written = folder.finish()?;
+    let written = args.talk.finish(folder)?;
     match (args.talk.json, files.as_slice()) {
         (true, [one]) => args.talk.print(one, String::new)?,
         (true, all) => args.talk.print(&all, String::new)?,
@@ -141,10 +143,15 @@ fn respond(prepared: &PreparedScene, model: &LinearModel, chosen: &Chosen, frequ
     }
 }
 
-fn write(args: &Args, response: &FrequencyResponse, folder: &mut Folder) -> Result<()> {
+fn write(
+    args: &Args,
+    prepared: &PreparedScene,
+    response: &FrequencyResponse,
+    folder: &mut Folder,
+) -> Result<Sealed<Repeatable<ResponseFile>>> {
     let stem = format!("bode-{}", cell(response.t));
     folder.write(&format!("{stem}.csv"), &response.table()?)?;
-    folder.write_json(&format!("{stem}.json"), &response.file())?;
     let title = format!("{} at t = {} s", response.scene, short(response.t));
-    args.files.figure(folder, &stem, bode_figure(&title, &response.frequencies, &response.responses))
+    args.files.figure(folder, &stem, bode_figure(&title, &response.frequencies, &response.responses))?;
+    folder.seal(&format!("{stem}.json"), args.talk.repeatable(prepared, response.file()))
 }

@@ -7,6 +7,9 @@ use crate::report;
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom check models/parallelogram_redundant.json
+  holonom check models/four_bar_spring.json --static")]
 pub struct Args {
     #[command(flatten)]
     common: Common,

@@ -4,17 +4,19 @@ pub use super::terminal::{print, tell};
 
 use super::terminal::visible;
 use crate::error::{Error, Result, Warning, suggest};
-use crate::math::expression::{Number, constant};
+use crate::math::expression::{Number, Parameters, constant};
 use crate::math::memory::refuse_rows;
-use crate::method_spec::MethodSpec;
+use crate::method_spec::{Listed, MethodSpec};
 use crate::plot::Figure;
 use crate::prepared::{Overrides, PreparedScene};
-use crate::report::{Folder, Written};
+use crate::report::{Folder, Origin, Repeatable, Written};
 use crate::scene::Automatic;
 use crate::simulate::Span;
 use crate::system::Dimensions;
+use crate::{formulation, integrator, projection};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -61,13 +63,15 @@ pub struct AutoOption {
 #[derive(Args)]
 pub struct MethodOptions {
     /// Formulation, such as index1 or baumgarte:alpha=5,beta=5
-    #[arg(long, help_heading = OWN, value_parser = spec)]
+    #[arg(long, help_heading = OWN, value_parser = spec, long_help = names("Formulation, with options as in \
+          baumgarte:alpha=5,beta=5", formulation::registry()))]
     pub formulation: Option<MethodSpec>,
     /// Integrator, such as dop853
-    #[arg(long, help_heading = OWN, value_parser = spec)]
+    #[arg(long, help_heading = OWN, value_parser = spec, long_help = names("Integrator", integrator::registry()))]
     pub integrator: Option<MethodSpec>,
     /// Projection after each step, such as manifold:sweeps=2
-    #[arg(long, help_heading = OWN, value_parser = spec)]
+    #[arg(long, help_heading = OWN, value_parser = spec, long_help = names("Projection after each step, with options as \
+          in manifold:sweeps=2", projection::registry()))]
     pub projection: Option<MethodSpec>,
     /// Relative tolerance, asked of the motion: steps are controlled by tighter ones
     #[arg(long, help_heading = OWN, value_parser = positive, allow_negative_numbers = true)]
@@ -95,6 +99,9 @@ pub struct Talk {
     /// Print nothing but errors, and JSON where that is asked for
     #[arg(long)]
     pub quiet: bool,
+    /// Warnings so far.
+    #[arg(skip)]
+    said: RefCell<Vec<Warning>>,
 }
 
 /// Where results go.
@@ -128,6 +135,12 @@ impl Format {
 
 pub fn spec(text: &str) -> Result<MethodSpec, String> {
     MethodSpec::parse(text).map_err(|error| error.to_string())
+}
+
+/// Returns the help on an option with all that it can name.
+fn names<E: Listed>(what: &str, registry: &[E]) -> String {
+    let names: Vec<&str> = registry.iter().map(E::name).collect();
+    format!("{what}: {}; `holonom methods` says what goes with what", names.join(", "))
 }
 
 fn automatic(text: &str) -> Result<Automatic, String> {
@@ -169,6 +182,15 @@ pub fn assignment(text: &str) -> Result<(String, Number), String> {
         }
         _ => Err("write NAME=VALUE, as in --set k1=200".to_string()),
     }
+}
+
+/// Attributes an error in a parameter to the option that set it, in the place of `--set`.
+pub fn set_by(error: Error, option: &str) -> Error {
+    let Error::Input(mut input) = error else { return error };
+    if input.path == "--set" {
+        input.path = option.to_string();
+    }
+    Error::Input(input)
 }
 
 impl Common {
@@ -225,6 +247,25 @@ impl Talk {
         }
     }
 
+    /// Returns a result with its origin: the command line, the scene's parameters and the warnings so far.
+    pub fn repeatable<T>(&self, prepared: &PreparedScene, result: T) -> Repeatable<T> {
+        let origin = self.origin(&prepared.parameters);
+        Repeatable { origin, simulation: Some(prepared.method.clone()), result }
+    }
+
+    /// Returns the origin of a result: the command line, the scene's parameters and the warnings so far.
+    pub fn origin(&self, parameters: &Parameters) -> Origin {
+        let warnings = self.said.borrow().clone();
+        Origin { command: std::env::args().collect(), ..Origin::new(parameters, warnings) }
+    }
+
+    /// Moves results into place and tells what they replace.
+    pub fn finish(&self, folder: Folder) -> Result<Written> {
+        let written = folder.finish()?;
+        written.note().filter(|_| !self.quiet).iter().for_each(tell);
+        Ok(written)
+    }
+
     /// Prints the folder and the names of the files, if text is printed.
     pub fn tell_files(&self, written: &Written) -> Result<()> {
         if self.json || self.quiet { Ok(()) } else { print(&format!("\nwritten to {}\n", written.listing())) }
@@ -232,7 +273,12 @@ impl Talk {
 
     /// Prints warnings on standard error.
     pub fn warn<'w>(&self, warnings: impl IntoIterator<Item = &'w Warning>) {
-        warnings.into_iter().filter(|_| !self.quiet).for_each(|warning| tell(warning.to_string()));
+        for warning in warnings {
+            self.said.borrow_mut().push(warning.clone());
+            if !self.quiet {
+                tell(warning.to_string());
+            }
+        }
     }
 
     /// Returns a progress bar of `length` steps on a terminal; a hidden one in a pipe.

@@ -12,11 +12,21 @@ use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(mut_arg("formulation", |arg| arg.hide(true)), mut_arg("projection", |arg| arg.hide(true)))]
+#[command(after_help = "Examples:
+  holonom drift models/pendulum.json --until 2
+  holonom drift models/pendulum.json --integrator rk4 --step 0.01 --until 1")]
 pub struct Args {
     #[command(flatten)]
     common: Common,
     #[command(flatten)]
     output: Output,
+}
+
+/// Contents of `stabilizations.json`.
+#[derive(serde::Serialize)]
+struct DriftFile<'a> {
+    scene: &'a str,
+    runs: &'a [StabilizedRun],
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
@@ -28,11 +38,12 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let bar = args.common.talk.progress(count as u64, "drift");
     let rows = drift_under_stabilizations(&prepared, || interrupt::stop(&folder), || bar.inc(1))?;
     bar.finish_and_clear();
-    folder.write("drift.csv", &stabilizations_table(&rows)?)?;
-    args.output.figure(&mut folder, "drift", stabilizations_figure(&prepared.name, &rows))?;
-    folder.write_json("drift.json", &rows)?;
-    let written = folder.finish()?;
-    args.common.talk.print(&rows, || drift_text(&prepared, &rows))?;
+    folder.write("stabilizations.csv", &stabilizations_table(&rows)?)?;
+    args.output.figure(&mut folder, "stabilizations", stabilizations_figure(&prepared.name, &rows))?;
+    let result = args.common.talk.repeatable(&prepared, DriftFile { scene: &prepared.name, runs: &rows });
+    let sealed = folder.seal("stabilizations.json", result)?;
+    let written = args.common.talk.finish(folder)?;
+    args.common.talk.print(&sealed, || drift_text(&prepared, &rows))?;
     args.common.talk.tell_files(&written)?;
     match fatal(&rows) {
         Some(failure) => Err(failure.clone().into()),

@@ -8,6 +8,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom generate chain --n 20 -o chain.json
+  holonom generate n_four_bar")]
 pub struct Args {
     /// Kind of scene: n_four_bar, chain or flexible_chain
     name: String,

@@ -8,11 +8,14 @@ use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
 use crate::report::linear::{Linear, comparison_text, linear_stem};
 use crate::report::mechanism::{Look, mode_figure};
-use crate::report::{self, Folder};
+use crate::report::{self, Folder, Repeatable, Sealed};
 use serde::Serialize;
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom linearize models/four_bar_spring.json --at 0.3
+  holonom linearize models/quarter_car.json --equilibrium --method all")]
 pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
@@ -45,15 +48,17 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let requests = requests(&args).map_err(|error| error.under("--method"))?;
     let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
     let mut folder = args.output.folder(&prepared.name)?;
-    let (mut results, mut uncertain) = (Vec::new(), Vec::new());
+    let (mut results, mut told) = (Vec::new(), Vec::new());
     for state in &places {
         let mut variation = state.variation().map_err(in_file)?;
         let models = models(&args, &requests, &mut variation).map_err(in_file)?;
-        uncertain.extend(models.iter().filter(|model| model.has_uncertain_kinds()).map(|model| model.method.clone()));
+        let uncertain = models.iter().filter(|model| model.has_uncertain_kinds()).map(|model| model.method.clone());
+        let new: Vec<String> = uncertain.filter(|method| !told.contains(method)).collect();
+        args.talk.warn(&report::uncertain_kinds(new.iter().map(String::as_str)));
+        told.extend(new);
         results.push(report(&args, &prepared, &models, &mut folder)?);
     }
-    let written = folder.finish()?;
-    args.talk.warn(&report::uncertain_kinds(uncertain.iter().map(String::as_str)));
+    let written = args.talk.finish(folder)?;
     match (args.talk.json, results.as_slice()) {
         (true, [one]) => args.talk.print(one, String::new)?,
         (true, all) => args.talk.print(&all, String::new)?,
@@ -92,36 +97,42 @@ fn requests(args: &Args) -> Result<Vec<Request>> {
     first.chain(charts).chain(names.map(|name| MethodSpec::parse(name).map(request))).collect()
 }
 
+/// Comparison of all methods at one state.
+#[derive(Serialize)]
+struct Methods {
+    t: f64,
+    methods: Vec<Comparison>,
+}
+
 /// JSON output for one state.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Result_ {
-    One(Box<report::linear::LinearFile>),
-    All { t: f64, methods: Vec<Comparison> },
+enum Printed {
+    One(Box<Sealed<Repeatable<report::linear::LinearFile>>>),
+    All(Box<Sealed<Repeatable<Methods>>>),
 }
 
-fn report(args: &Args, prepared: &PreparedScene, models: &[LinearModel], folder: &mut Folder) -> Result<Result_> {
+fn report(args: &Args, prepared: &PreparedScene, models: &[LinearModel], folder: &mut Folder) -> Result<Printed> {
     let names = prepared.system().names();
-    let linear = |model| Linear { scene: &prepared.name, names: &names, model };
-    let is_alone = models.len() == 1;
     let first = &models[0];
+    let linear = Linear { scene: &prepared.name, names: &names, model: first };
     let stem = linear_stem(first.point.t, None);
-    linear(first).write(folder, &stem)?;
+    linear.write(folder, &stem)?;
     let figure = mode_figure(prepared, &Look::plain(&prepared.mechanism), first);
     args.output.figure(folder, &stem.replace("linear", "modes"), figure)?;
+    let one = folder.seal(&format!("{stem}.json"), args.talk.repeatable(prepared, linear.file()))?;
     let is_silent = args.talk.json || args.talk.quiet;
     if !is_silent {
-        print(&linear(first).text())?;
+        print(&linear.text())?;
     }
-    if is_alone {
-        return Ok(Result_::One(Box::new(linear(first).file())));
+    if models.len() == 1 {
+        return Ok(Printed::One(Box::new(one)));
     }
     let exact = first.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.value);
     let rows = compare(models, &exact.collect::<Vec<_>>());
     if !is_silent {
         print(&format!("\n{}", comparison_text(&rows, first.point.is_equilibrium)))?;
     }
-    let all = Result_::All { t: first.point.t, methods: rows };
-    folder.write_json(&format!("{}.json", stem.replace("linear", "methods")), &all)?;
-    Ok(all)
+    let all = args.talk.repeatable(prepared, Methods { t: first.point.t, methods: rows });
+    folder.seal(&format!("{}.json", stem.replace("linear", "methods")), all).map(|all| Printed::All(Box::new(all)))
 }

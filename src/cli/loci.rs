@@ -11,6 +11,9 @@ use crate::sweep::{Family, Range};
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom loci models/pendulum.json --until 1 --every 0.1
+  holonom loci models/four_bar_spring.json --sweep k1=10..1000:10:log --equilibrium")]
 pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
@@ -71,11 +74,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
     };
     args.output.figure(&mut folder, "loci", loci_figure(&title, summary.axis(), &loci.branches))?;
     args.output.figure(&mut folder, "loci_modes", frequency_figure(&title, summary.axis(), &loci.branches))?;
-    folder.write_json("loci.json", &LociFile::new(summary.clone(), &loci))?;
-    let written = folder.finish()?;
     let uncertain = loci.branches.iter().filter(|branch| branch.kind == Kind::Uncertain);
     args.talk.warn(&uncertain_kinds(uncertain.map(|_| loci.method.as_str())));
-    args.talk.print(&summary, || summary.text())?;
+    folder.seal("loci.json", args.talk.repeatable(&prepared, LociFile::new(summary.clone(), &loci)))?;
+    let written = args.talk.finish(folder)?;
+    args.talk.print(&args.talk.repeatable(&prepared, &summary), || summary.text())?;
     args.talk.tell_files(&written)?;
     match loci.gaps.last().filter(|_| args.sweep.is_none()).map(|gap| &gap.error) {
         Some(error @ Error::Run(_)) => {

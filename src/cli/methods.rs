@@ -12,6 +12,9 @@ use serde::Serialize;
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom methods
+  holonom methods --integrator radau_iia")]
 pub struct Args {
     /// Only what goes with this formulation
     #[arg(long, value_name = "NAME")]

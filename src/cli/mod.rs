@@ -3,6 +3,7 @@
 mod bode;
 mod check;
 mod common;
+mod completions;
 mod drift;
 mod generate;
 mod import;
@@ -12,6 +13,7 @@ mod linearize;
 mod loci;
 mod methods;
 mod plot;
+mod reference;
 mod restart;
 mod schema;
 mod simulate;
@@ -28,7 +30,14 @@ use std::process::ExitCode;
 /// Simulates mechanisms as differential-algebraic equations and measures how far every method drifts off the
 /// constraints.
 #[derive(Parser)]
-#[command(name = "holonom", version, about, max_term_width = 110, arg_required_else_help = true)]
+#[command(
+    name = "holonom",
+    version,
+    about,
+    max_term_width = 110,
+    arg_required_else_help = true,
+    after_help = "What a scene may say: holonom reference. Methods: holonom methods. Examples: holonom COMMAND --help"
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -85,8 +94,17 @@ enum Command {
     Import(import::Args),
     /// Formulations, integrators and projections: what goes with what, proven orders, what each is for
     Methods(methods::Args),
+    /// What a scene may say: its keys, types of elements, measures, units and expressions
+    Reference(reference::Args),
     /// Print the JSON Schema of a scene
+    #[command(after_help = "Examples:
+  holonom schema
+  holonom schema > scene.schema.json")]
     Schema,
+    /// Print what completes commands and options in a shell
+    Completions(completions::Completions),
+    /// Manual pages
+    Man(completions::Man),
 }
 
 /// Runs the command line and returns the exit code: 0 done, 1 the run failed, 2 bad input.
@@ -109,7 +127,10 @@ pub fn run() -> ExitCode {
         Command::Generate(args) => generate::run(args),
         Command::Import(args) => import::run(args),
         Command::Methods(args) => methods::run(args),
+        Command::Reference(args) => reference::run(args),
         Command::Schema => schema::run(),
+        Command::Completions(args) => completions::completions(args),
+        Command::Man(args) => completions::man(args),
     };
     match result {
         Ok(code) => code,

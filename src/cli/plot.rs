@@ -1,21 +1,24 @@
 //! `holonom plot SCENE`
 
-use super::common::{Common, Format, Output, number, positive, tell};
+use super::common::{Common, Format, Output, number, positive, set_by, tell};
 use super::interrupt;
 use crate::analysis::Recorder;
-use crate::error::significant;
-use crate::error::{Error, Failure, Result};
-use crate::prepared::{AnyMechanism, PreparedScene};
+use crate::error::{Error, Failure, Result, Warning, clock, significant};
+use crate::prepared::{AnyMechanism, Overrides, PreparedScene};
 use crate::report::mechanism::{
     Look, Motion, State, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
-use crate::report::{Folder, Written};
+use crate::report::{FinishedRun, Folder, Repeatable, Written, outputs_figure};
 use crate::simulate::Span;
 use crate::trajectory::Trajectory;
 use serde::Serialize;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom plot models/four_bar_spring.json --stroboscope --until 0.5
+  holonom plot models/pendulum.json --until 2 --animate svg --view xy")]
 pub struct Args {
     #[command(flatten)]
     common: Common,
@@ -42,6 +45,13 @@ pub struct Args {
     /// 10 s)
     #[arg(long, value_name = "FACTOR", requires = "animate", value_parser = positive, allow_negative_numbers = true)]
     speed: Option<f64>,
+    /// Outputs over time, or coordinates where the scene has none
+    #[arg(long)]
+    outputs: bool,
+    /// Draw a finished run in the place of a new one: its folder, such as out/NAME, whose parameters it takes
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["set", "equilibrium", "method", "formulation", "integrator",
+          "projection", "rtol", "atol", "step", "until", "output_step"])]
+    from: Option<PathBuf>,
     /// Markers whose paths are drawn, or none (default: those whose positions are outputs)
     #[arg(long, value_name = "BODY.MARKER[,...]", value_delimiter = ',')]
     trace: Vec<String>,
@@ -80,6 +90,7 @@ struct Drawn {
     /// Times of the figure, s.
     times: Vec<f64>,
     animation: Option<Film>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
 }
 
@@ -94,30 +105,34 @@ struct Film {
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let prepared = args.common.load()?;
+    let finished = args.from.as_deref().map(FinishedRun::read).transpose()?;
+    let prepared = args.load(finished.as_ref())?;
     let look = args.look(&prepared)?;
-    let is_moving = args.stroboscope || args.animate.is_some() || !args.at.is_empty();
-    // The start alone needs no run, and no end time.
-    let span = if is_moving { Some(args.common.span(&prepared)?) } else { None };
+    let failed = finished.as_ref().and_then(|run| run.failure.clone());
+    let finished = finished.map(|run| run.trajectory(prepared.system())).transpose()?;
+    let span = args.span(&prepared, finished.as_ref())?;
     args.check(&prepared, span)?;
     let mut folder = args.output.folder(&prepared.name)?;
-    let (trajectory, failure) = match span {
-        Some(span) => args.simulate(&prepared, span, &folder)?,
-        None => (Trajectory::new(prepared.system()), None),
+    let (trajectory, failure) = match (finished, span) {
+        (Some(trajectory), _) => (trajectory, None),
+        (None, Some(span)) => args.simulate(&prepared, span, &folder)?,
+        (None, None) => (Trajectory::new(prepared.system()), None),
     };
     let mut drawn = Drawn {
         scene: prepared.name.clone(),
-        status: if failure.is_some() { "failed" } else { "completed" },
-        failure,
+        status: if failure.is_some() || failed.is_some() { "failed" } else { "completed" },
+        failure: failure.clone().or(failed),
         times: Vec::new(),
         animation: None,
         files: Vec::new(),
     };
-    args.draw(&Motion::new(&prepared, &trajectory), &look, &mut folder, &mut drawn)?;
-    let written = folder.finish()?;
+    let motion = Motion::new(&prepared, &trajectory);
+    args.common.talk.warn(&motion.sparse().filter(|_| args.from.is_some() && args.is_in_motion()));
+    args.draw(&motion, &look, &mut folder, &mut drawn)?;
+    let written = args.common.talk.finish(folder)?;
     drawn.files = written.paths();
     args.common.talk.print(&drawn, || drawn.text(&written))?;
-    Ok(match drawn.failure {
+    Ok(match failure {
         None => ExitCode::SUCCESS,
         Some(failure) => {
             tell(format!("error: {}", Error::from(failure)));
@@ -127,6 +142,40 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 impl Args {
+    /// Returns the scene, with the parameters of the finished run if there is one.
+    fn load(&self, finished: Option<&FinishedRun>) -> Result<PreparedScene> {
+        let Some(run) = finished else { return self.common.load() };
+        let overrides = Overrides { set: run.parameters.clone(), ..Overrides::default() };
+        let prepared = self.common.talk.load(&self.common.scene.path, &overrides);
+        let prepared = prepared.map_err(|error| set_by(error, "--from"))?;
+        self.common.talk.warn(&run.failure.as_ref().map(|failure| {
+            Warning::new(format!("this run stopped at t = {} s: {}", clock(failure.t), failure.reason), &failure.hint)
+        }));
+        Ok(prepared)
+    }
+
+    /// True if the mechanism is drawn at other times than its start.
+    fn is_in_motion(&self) -> bool {
+        self.stroboscope || self.animate.is_some() || !self.at.is_empty()
+    }
+
+    /// Returns the time span of the motion. The start alone needs no run, and no end time.
+    fn span(&self, prepared: &PreparedScene, finished: Option<&Trajectory>) -> Result<Option<Span>> {
+        match finished {
+            _ if !self.is_in_motion() && !self.outputs => Ok(None),
+            None => self.common.span(prepared).map(Some),
+            Some(trajectory) if self.is_in_motion() && trajectory.names.q.is_empty() => {
+                Err(Error::input("the coordinates were left out of this run, so that only --outputs can be drawn")
+                    .under("--from")
+                    .hint("simulate without --outputs-only, or leave out --from"))
+            }
+            Some(trajectory) => {
+                let (start, end) = Motion::new(prepared, trajectory).reach();
+                Ok(Some(Span { start, end, output_step: prepared.span().map_or(end - start, |span| span.output_step) }))
+            }
+        }
+    }
+
     /// Returns the options of the figures.
     fn look(&self, prepared: &PreparedScene) -> Result<Look> {
         let is_planar = matches!(prepared.mechanism, AnyMechanism::Planar(_));
@@ -155,7 +204,7 @@ impl Args {
 
     /// Refuses what cannot be drawn, before anything is computed.
     fn check(&self, prepared: &PreparedScene, span: Option<Span>) -> Result<()> {
-        if self.output.figures == Format::None && (self.stroboscope || self.animate.is_none()) {
+        if self.output.figures == Format::None && (self.stroboscope || self.outputs || self.animate.is_none()) {
             return Err(Error::input("there is nothing to draw").under("--figures").hint("choose svg or png"));
         }
         if self.at.len() > 1 && !self.stroboscope {
@@ -197,12 +246,18 @@ impl Args {
             drawn.times = self.times(motion);
             let figure = stroboscope_figure(motion, look, &drawn.times);
             self.output.figure(folder, "stroboscope", Some(figure))?;
-        } else if self.animate.is_none() || !self.at.is_empty() {
+            self.seal(folder, "stroboscope", prepared, drawn)?;
+        } else if self.animate.is_none() && !self.outputs || !self.at.is_empty() {
             let t = self.at.first().map_or(prepared.start_time(), |t| t.min(motion.reach().1));
             let (q, v) = prepared.start();
             let state = if self.at.is_empty() { State { t, q: q.to_vec(), v: v.to_vec() } } else { motion.state(t) };
             drawn.times = vec![t];
             self.output.figure(folder, "mechanism", Some(mechanism_figure(prepared, look, &state)))?;
+            self.seal(folder, "mechanism", prepared, drawn)?;
+        }
+        if self.outputs {
+            self.output.figure(folder, "outputs", outputs_figure(&prepared.name, motion.trajectory()))?;
+            self.seal(folder, "outputs", prepared, drawn)?;
         }
         match self.animate {
             Some(format) => self.animation(format, motion, look, folder, drawn),
@@ -262,7 +317,14 @@ impl Args {
             }
         }
         drawn.animation = Some(film);
-        Ok(())
+        self.seal(folder, "animation", motion.prepared, drawn)
+    }
+
+    /// Writes what it takes to draw the figure again.
+    fn seal(&self, folder: &mut Folder, name: &str, prepared: &PreparedScene, drawn: &Drawn) -> Result<()> {
+        let result = self.common.talk.repeatable(prepared, drawn);
+        let simulation = result.simulation.filter(|_| self.from.is_none());
+        folder.seal(&format!("{name}.json"), Repeatable { simulation, ..result }).map(|_| ())
     }
 }
 
@@ -297,6 +359,9 @@ impl Drawn {
             let pace = if speed.is_empty() { "in real time".to_string() } else { speed };
             let span = format!("from {} to {} s", significant(film.start, 4), significant(film.end, 4));
             lines.push(format!("{} {span}: {} frames, {} a second, {pace}", self.scene, film.frames, film.fps));
+        }
+        if lines.is_empty() {
+            lines.push(format!("{}: outputs over time", self.scene));
         }
         format!("{}\n\nwritten to {}\n", lines.join("\n"), written.listing())
     }

@@ -5,6 +5,6 @@ use crate::error::Result;
 use std::process::ExitCode;
 
 pub fn run() -> Result<ExitCode> {
-    print(&(to_json(&crate::scene::Elements::default().schema())? + "\n"))?;
+    print(&(to_json(&crate::prepared::schema(&crate::scene::Elements::default()))? + "\n"))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -5,22 +5,26 @@ use super::{interrupt, restart};
 use crate::analysis::{Record, Recorder};
 use crate::compare::check_error;
 use crate::error::{Error, Result, Warning};
+use crate::files::{mat, npz};
 use crate::prepared::PreparedScene;
-use crate::report::{self, Folder, Summary, summarize};
+use crate::report::{self, Folder, Sealed, Summary, summarize};
 use crate::simulate::{Span, Start};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom simulate models/andrews.json
+  holonom simulate models/pendulum.json --set l=2 --until 3 --rtol 1e-10 --format csv,mat")]
 pub struct Args {
     #[command(flatten)]
     common: Common,
     #[command(flatten)]
     output: Output,
-    /// Format of the trajectory: text, arrays of NumPy, or both
-    #[arg(long, value_enum, default_value_t = Format::Csv)]
-    format: Format,
+    /// Formats of the trajectory: text, arrays of NumPy, arrays of MATLAB
+    #[arg(long, value_enum, value_name = "FORMAT[,FORMAT...]", value_delimiter = ',', default_value = "csv")]
+    format: Vec<Format>,
     /// Leave coordinates, velocities and multipliers out of the trajectory
     #[arg(long)]
     outputs_only: bool,
@@ -36,7 +40,7 @@ pub struct Args {
 enum Format {
     Csv,
     Npz,
-    Both,
+    Mat,
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
@@ -47,8 +51,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut folder = args.output.folder(&prepared.name)?;
     let stiffness = prepared.stiffness(span);
     // Printed before a run that may take long, and not again.
-    let of_method =
-        stiffness.as_ref().map(Warning::from).into_iter().chain(prepared.method.beyond_reach(prepared.system()));
+    let of_method = stiffness.as_ref().map(Warning::from).into_iter().chain(prepared.method.doubts(prepared.system()));
     let early: Vec<Warning> = prepared.doubts.iter().cloned().chain(of_method).chain(doubt).collect();
     args.common.talk.warn(&early[prepared.doubts.len()..]);
     let bar = args.common.talk.progress(1000, &prepared.name);
@@ -66,11 +69,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let seconds = clock.elapsed().as_secs_f64();
     let record = recorder.finish();
     bar.finish_and_clear();
-    let summary = Summary {
-        command: std::env::args().collect(),
-        restart: saved,
-        ..summarize((&prepared, stiffness, &early), (&outcome, &legs), &record, seconds)
-    };
+    let mut summary = summarize((&prepared, stiffness, &early), (&outcome, &legs), &record, seconds);
+    (summary.origin.command, summary.restart) = (std::env::args().collect(), saved);
     let summary = match args.check_error && summary.failure.is_none() {
         true => {
             let bar = args.common.talk.progress(1000, &format!("{}: the error", prepared.name));
@@ -81,11 +81,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
         }
         false => summary,
     };
-    write((&prepared, &record, &summary), &mut folder, &args)?;
-    let written = folder.finish()?;
-    args.common.talk.print(&summary, || summary.text(&units(&record)))?;
+    let sealed = write((&prepared, &record, &summary), &mut folder, &args)?;
+    let written = args.common.talk.finish(folder)?;
+    args.common.talk.print(&sealed, || summary.text(&units(&record)))?;
     args.common.talk.tell_files(&written)?;
-    args.common.talk.warn(&summary.warnings[early.len()..]);
+    args.common.talk.warn(&summary.origin.warnings[early.len()..]);
     Ok(match &summary.failure {
         None => ExitCode::SUCCESS,
         Some(failure) => {
@@ -109,25 +109,27 @@ impl Args {
     }
 }
 
-fn write(
-    (prepared, record, summary): (&PreparedScene, &Record, &Summary),
+fn write<'s>(
+    (prepared, record, summary): (&PreparedScene, &Record, &'s Summary),
     folder: &mut Folder,
     Args { output, format, .. }: &Args,
-) -> Result<()> {
-    if *format != Format::Npz {
-        folder.write("trajectory.csv", &report::trajectory_table(&record.trajectory)?)?;
-    }
-    if *format != Format::Csv {
-        folder.write("trajectory.npz", &report::trajectory_arrays(&record.trajectory)?)?;
+) -> Result<Sealed<&'s Summary>> {
+    let arrays = || report::trajectory_arrays(&record.trajectory);
+    for format in format {
+        match format {
+            Format::Csv => folder.write("trajectory.csv", &report::trajectory_table(&record.trajectory)?)?,
+            Format::Npz => folder.write("trajectory.npz", &npz::write(&arrays())?)?,
+            Format::Mat => folder.write("trajectory.mat", &mat::write(&arrays())?)?,
+        }
     }
     folder.write("drift.csv", &report::drift_table(record)?)?;
     if record.energy.is_some() {
         folder.write("energy.csv", &report::energy_table(record)?)?;
     }
-    output.figure(folder, "outputs", report::outputs_figure(&prepared.name, record))?;
+    output.figure(folder, "outputs", report::outputs_figure(&prepared.name, &record.trajectory))?;
     output.figure(folder, "drift", report::drift_figure(&format!("{}: drift", prepared.name), record))?;
     output.figure(folder, "energy", report::energy_figure(&format!("{}: energy", prepared.name), record))?;
-    folder.write_json("summary.json", summary)
+    folder.seal("summary.json", summary)
 }
 
 fn units(record: &Record) -> Vec<(String, String)> {

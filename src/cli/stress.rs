@@ -3,14 +3,17 @@
 use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, duration, pick, print};
 use crate::compare::stress::{Axis, Limits, Map, Quantity, Stressed, Subject, known, maps, pair, registry, stress};
 use crate::error::{Error, Result};
-use crate::math::expression::Number;
+use crate::math::expression::{Number, Parameters};
 use crate::report::stress::{MapFile, StressFile, gain_table, sentences, stress_figure, stress_page, stress_table};
-use crate::report::{Folder, Table};
+use crate::report::{Folder, Repeatable, Table};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom stress --list
+  holonom stress models/pendulum.json --map time --limit 100ms --budget 2s")]
 pub struct Args {
     /// Scene file (JSON); with --all a folder of them (default: models)
     #[arg(value_name = "SCENE", required_unless_present_any = ["all", "list"])]
@@ -66,8 +69,11 @@ fn run_one(args: &Args, path: &Path) -> Result<ExitCode> {
     let mut folder = args.output.folder(&subject.name)?;
     let (file, stressed) = simulate(args, &subject, maps, begin);
     write(args, &mut folder, std::slice::from_ref(&file), &[], |_, map| format!("stress-{map}"), &stressed)?;
-    args.talk.print(&file, || text(&file, &stressed))?;
-    tell_folder(args, folder)?;
+    let origin = args.talk.origin(&subject.values);
+    let sealed = folder.seal("stress.json", Repeatable { origin, simulation: None, result: &file })?;
+    let written = args.talk.finish(folder)?;
+    args.talk.print(&sealed, || text(&file, &stressed))?;
+    args.talk.tell_files(&written)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -90,9 +96,13 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
         }
     }
     write(args, &mut folder, &files, &unread, |scene, map| format!("{scene}-{map}"), &all)?;
-    args.talk.print(&files, String::new)?;
-    tell_folder(args, folder)?;
-    Ok(ExitCode::from(u8::from(files.is_empty())))
+    let (is_empty, origin) = (files.is_empty(), args.talk.origin(&Parameters::default()));
+    let all = Repeatable { origin, simulation: None, result: All { scenes: files } };
+    let sealed = folder.seal("stress.json", all)?;
+    let written = args.talk.finish(folder)?;
+    args.talk.print(&sealed, String::new)?;
+    args.talk.tell_files(&written)?;
+    Ok(ExitCode::from(u8::from(is_empty)))
 }
 
 /// Returns the scenes of a folder, by name.
@@ -179,15 +189,13 @@ fn write(
     let figure = |scene: &str, map: &str| Some(format!("{}.{}", stem(scene, map), args.output.figures.extension()?));
     folder.write("stress.md", stress_page(files, unread, figure).as_bytes())?;
     folder.write("stress.csv", &stress_table(files)?)?;
-    match (args.all, files) {
-        (false, [one]) => folder.write_json("stress.json", one),
-        _ => folder.write_json("stress.json", &files),
-    }
+    Ok(())
 }
 
-fn tell_folder(args: &Args, folder: Folder) -> Result<()> {
-    let folder = folder.finish()?;
-    args.talk.tell_files(&folder)
+/// Scenes and their maps in one file.
+#[derive(serde::Serialize)]
+struct All {
+    scenes: Vec<StressFile>,
 }
 
 /// Returns the verdicts, and the table of the gains.

@@ -3,12 +3,15 @@
 use super::common::{Output, SceneOptions, Talk, tell};
 use crate::error::{Error, Result, suggest};
 use crate::prepared::Overrides;
-use crate::report::{SweepLook, SweepSummary, sweep_figure, sweep_table};
+use crate::report::{Repeatable, SweepLook, SweepSummary, sweep_figure, sweep_table};
 use crate::sweep::{Family, Range, Sweep};
 use crate::system::Column;
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom sweep models/five_link_kinematics.json travel=-0.08..0.08:21 --outputs camber,toe --against wheel_travel
+  holonom sweep models/four_bar_spring.json l0=1.2..1.5:7 --json")]
 pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
@@ -45,7 +48,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let sweep = family.sweep(&args.range, |done| bar.set_position(done as u64))?;
     bar.finish_and_clear();
     let summary = SweepSummary::new(&sweep);
-    write(&args, &sweep, &summary)?;
+    write(&args, &family, &sweep, &summary)?;
     let Some(failure) = &summary.failure else { return Ok(ExitCode::SUCCESS) };
     let ends = summary.ends().join("\n       ");
     tell(format!("error: the branch ends {ends}\n  help: {}", failure.hint));
@@ -60,13 +63,14 @@ fn known_output(known: &[Column], names: &[String]) -> Result<()> {
     }
 }
 
-fn write(args: &Args, sweep: &Sweep, summary: &SweepSummary) -> Result<()> {
+fn write(args: &Args, family: &Family, sweep: &Sweep, summary: &SweepSummary) -> Result<()> {
     let mut folder = args.output.folder(&sweep.scene)?;
     folder.write("sweep.csv", &sweep_table(sweep)?)?;
     let look = SweepLook { outputs: &args.outputs, against: args.against.as_deref(), separate: args.separate };
     args.output.figure(&mut folder, "sweep", sweep_figure(sweep, look))?;
-    folder.write_json("sweep.json", summary)?;
-    let written = folder.finish()?;
-    args.talk.print(summary, || summary.text())?;
+    let origin = args.talk.origin(&family.scene()?.parameters);
+    let sealed = folder.seal("sweep.json", Repeatable { origin, simulation: None, result: summary })?;
+    let written = args.talk.finish(folder)?;
+    args.talk.print(&sealed, || summary.text())?;
     args.talk.tell_files(&written)
 }

@@ -7,13 +7,16 @@ use crate::error::{Error, Result};
 use crate::linearize::{Defect, Floquet, Lyapunov, Operating, State, floquet, lyapunov};
 use crate::plot::{Figure, Panel, Series};
 use crate::prepared::PreparedScene;
-use crate::report::{Table, Written, cell};
+use crate::report::{Repeatable, Sealed, Table, Written, cell};
 use crate::tolerances::report as tolerances;
 use serde_json::{Value, json};
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("what").required(true).multiple(true))]
+#[command(after_help = "Examples:
+  holonom transition models/double_pendulum.json --lyapunov 1
+  holonom transition models/pendulum.json --lyapunov 1 --json")]
 pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
@@ -57,10 +60,10 @@ pub fn run(args: Args) -> Result<ExitCode> {
             args.output.figure(&mut folder, &format!("lyapunov-{}", cell(state.t)), figure(&prepared, &found))?;
             result["lyapunov"] = json!({ "times": found.times, "exponents": found.exponents });
         }
-        folder.write_json(&format!("transition-{}.json", cell(state.t)), &result)?;
-        results.push(result);
+        let result = args.talk.repeatable(&prepared, result);
+        results.push(folder.seal(&format!("transition-{}.json", cell(state.t)), result)?);
     }
-    finish(&args, &results, &folder.finish()?)
+    finish(&args, &results, &args.talk.finish(folder)?)
 }
 
 fn exponents(args: &Args, name: &str, place: &Operating, duration: f64) -> Result<Lyapunov> {
@@ -71,7 +74,7 @@ fn exponents(args: &Args, name: &str, place: &Operating, duration: f64) -> Resul
     found
 }
 
-fn finish(args: &Args, results: &[Value], written: &Written) -> Result<ExitCode> {
+fn finish(args: &Args, results: &[Sealed<Repeatable<Value>>], written: &Written) -> Result<ExitCode> {
     match (args.talk.json, results) {
         (true, [one]) => args.talk.print(one, String::new)?,
         (true, all) => args.talk.print(&all, String::new)?,

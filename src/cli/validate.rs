@@ -9,6 +9,9 @@ use crate::validate::{Direction, Settings, validate};
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom validate models/four_bar_spring.json --at 0.3
+  holonom validate models/pendulum.json --along random:7 --horizon 0.1")]
 pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
@@ -44,12 +47,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let settings = Settings { chart: args.chart.chart(), directions, horizon: args.horizon, inputs: !args.no_inputs };
     let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
     let mut folder = args.output.folder(&prepared.name)?;
-    let (names, mut files) = (prepared.system().names(), Vec::new());
+    let (names, mut files, mut complaints) = (prepared.system().names(), Vec::new(), Vec::new());
     for place in &places {
         let found = validate(place.system(), &place.state, &settings).map_err(in_file)?;
         let file = ValidationFile::new(&prepared.name, &names, &found);
         let stem = format!("validation-{}", cell(place.state.t));
-        folder.write_json(&format!("{stem}.json"), &file)?;
         for (i, sequence) in found.sequences.iter().enumerate() {
             let title = format!(
                 "{}, perturbed at t = {} s ({})",
@@ -63,17 +65,19 @@ pub fn run(args: Args) -> Result<ExitCode> {
         if !args.talk.json && !args.talk.quiet {
             print(&file.text(&found))?;
         }
-        files.push(file);
+        if !file.is_right() {
+            complaints.push(file.complaint());
+        }
+        files.push(folder.seal(&format!("{stem}.json"), args.talk.repeatable(&prepared, file))?);
     }
-    let written = folder.finish()?;
+    let written = args.talk.finish(folder)?;
     match (args.talk.json, files.as_slice()) {
         (true, [one]) => args.talk.print(one, String::new)?,
         (true, all) => args.talk.print(&all, String::new)?,
         (false, _) => args.talk.tell_files(&written)?,
     }
-    let wrong: Vec<&ValidationFile> = files.iter().filter(|file| !file.is_right()).collect();
-    for file in &wrong {
-        tell(format!("error: {}", file.complaint()));
+    for complaint in &complaints {
+        tell(format!("error: {complaint}"));
     }
-    Ok(if wrong.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    Ok(if complaints.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }

@@ -32,5 +32,5 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> io::Result<()> {
     let name = path.file_name().and_then(|name| name.to_str()).ok_or(io::ErrorKind::InvalidFilename)?;
     let mut staging = Staging::create(folder)?;
     staging.write(name, contents)?;
-    staging.publish().map_err(|(_, error)| error)
+    staging.publish(&[]).map_err(|(_, error)| error)
 }

@@ -3,8 +3,38 @@
 use super::Array;
 use crate::error::{Error, Result};
 use std::io::{Cursor, Write};
+use std::path::Path;
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipWriter};
+use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
+
+/// An archive that is read.
+pub type Archive = ZipArchive<Cursor<Vec<u8>>>;
+
+/// Opens a file.
+///
+/// # Errors
+/// A file that cannot be read or is no archive.
+pub fn open(path: &Path) -> Result<Archive> {
+    let file = super::read(path).map_err(|problem| Error::input(problem.to_string()))?;
+    ZipArchive::new(Cursor::new(file))
+        .map_err(|problem| Error::input(problem.to_string()).hint("write it by numpy.savez"))
+}
+
+/// Contents of the `.npy` file of one array, if there is one.
+///
+/// # Errors
+/// An archive that is damaged, and an array of more than 256 MB.
+pub fn member(archive: &mut Archive, key: &str) -> Result<Option<Vec<u8>>> {
+    let problem = match archive.by_name(&format!("{key}.npy")) {
+        Ok(file) => match super::read_limited(file) {
+            Ok(bytes) => return Ok(Some(bytes)),
+            Err(problem) => problem.to_string(),
+        },
+        Err(zip::result::ZipError::FileNotFound) => return Ok(None),
+        Err(problem) => problem.to_string(),
+    };
+    Err(Error::input(problem).under(key))
+}
 
 /// The file with these arrays under their names, the same bytes each time.
 ///

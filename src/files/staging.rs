@@ -59,13 +59,14 @@ impl Staging {
         Ok(())
     }
 
-    /// Renames the files to their places, in the order in which they were first written.
+    /// Renames the files to their places, in the order in which they were first written, and removes the `obsolete`.
     ///
     /// # Errors
     /// Errors of the file system, with the name of the file.
-    pub fn publish(self) -> Result<(), (String, io::Error)> {
-        if let [_, .., last] = self.names.as_slice() {
-            removed(&self.target.join(last)).map_err(|error| (last.clone(), error))?;
+    pub fn publish(self, obsolete: &[String]) -> Result<(), (String, io::Error)> {
+        let vouching = if let [_, .., last] = self.names.as_slice() { Some(last) } else { None };
+        for name in vouching.into_iter().chain(obsolete) {
+            removed(&self.target.join(name)).map_err(|error| (name.clone(), error))?;
         }
         self.names.iter().try_for_each(|name| {
             std::fs::rename(self.hidden.path().join(name), self.target.join(name))
@@ -139,7 +140,8 @@ mod tests {
         let mut staging = Staging::create(place.path()).unwrap();
         ["a", "b", "a"].iter().for_each(|name| staging.write(name, b"new").unwrap());
         assert_eq!(contents(place.path())[1..], pairs([("a", "old"), ("b", "old")]));
-        staging.publish().unwrap();
+        std::fs::write(place.path().join("c"), "old").unwrap();
+        staging.publish(&["c".to_string()]).unwrap();
         assert_eq!(contents(place.path()), pairs([("a", "new"), ("b", "new")]));
     }
 
@@ -160,7 +162,7 @@ mod tests {
         assert!(!abandoned.exists());
         living.write("a", b"living").unwrap();
         drop(Staging::create(place.path()).unwrap());
-        living.publish().unwrap();
+        living.publish(&[]).unwrap();
         assert_eq!(contents(place.path()), pairs([("a", "living"), ("b", "old")]));
     }
 
@@ -171,7 +173,7 @@ mod tests {
         let mut staging = Staging::create(place.path()).unwrap();
         ["a", "b"].iter().for_each(|name| staging.write(name, b"new").unwrap());
         std::fs::remove_file(staging.hidden.path().join("a")).unwrap();
-        assert_eq!(staging.publish().unwrap_err().0, "a");
+        assert_eq!(staging.publish(&[]).unwrap_err().0, "a");
         assert_eq!(contents(place.path()), pairs([("a", "old")]));
     }
 }

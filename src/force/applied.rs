@@ -29,7 +29,7 @@ pub struct AppliedForce {
 pub struct AppliedTorque {
     /// Marker `body.marker` that it acts on.
     pub at: String,
-    /// N m: one expression in the plane, three in space.
+    /// N m: one expression in the plane, three in space, of t, marker quantities (`crank.angle'`) and named outputs.
     pub torque: OneOrMany,
     /// Axes of the components. Default: the world's.
     #[serde(default)]

@@ -7,6 +7,10 @@ use crate::math::kkt::Reduced;
 pub(super) struct Dense(pub Reduced);
 
 impl Formulation for Dense {
+    fn is_dense(&self) -> bool {
+        true
+    }
+
     fn derivative(
         &mut self,
         t: f64,

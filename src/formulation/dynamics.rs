@@ -40,7 +40,8 @@ impl StepError {
         match self {
             StepError::Term(_) => Some(
                 "the motion diverged (try a smaller step or a projection such as `manifold`), an expression left its \
-                 domain, or two points met: look at the motion just before the end",
+                 domain (a division by zero, `sqrt`, `ln` or a power of what is negative, `mod` by zero, `floor` or \
+                 `mod` beyond 2^29), or two points met: look at the motion just before the end",
             ),
             StepError::Unsuitable { hint, .. } => Some(hint),
             _ => None,

@@ -81,6 +81,11 @@ pub trait Formulation: Send {
         Ok(())
     }
 
+    /// True if an evaluation factors dense matrices, so that its work grows with the cube of the velocities.
+    fn is_dense(&self) -> bool {
+        false
+    }
+
     /// True if the end of a step satisfies the constraints without a projection.
     fn keeps_constraints(&self) -> bool {
         false
@@ -94,7 +99,7 @@ pub trait Formulation: Send {
 }
 
 /// Hint for systems that are too large for a dense formulation.
-const SPARSE: &str = "choose a sparse formulation, such as index1 with the projection manifold";
+pub(crate) const SPARSE: &str = "choose a sparse formulation, such as index1 with the projection manifold";
 
 /// One formulation as the command line, the scene format and the table of methods know it.
 pub struct Entry {

@@ -138,6 +138,10 @@ fn change(step: &[f64], x: &[f64]) -> Result<f64, StepError> {
 }
 
 impl Formulation for TangentSpace {
+    fn is_dense(&self) -> bool {
+        true
+    }
+
     fn derivative(
         &mut self,
         t: f64,

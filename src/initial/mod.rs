@@ -98,7 +98,7 @@ fn stuck(halt: &StepError) -> Error {
     match halt {
         StepError::Term(term) => error
             .under(if term.starts_with("the force") { "forces" } else { "joints" })
-            .hint("look for roots and quotients in expressions, and for springs of length zero"),
+            .hint("look for roots and quotients in expressions, for `floor` and `mod` beyond 2^29, and for springs of length zero"),
         StepError::Undetermined(_) => {
             error.under("bodies").hint("give the body mass and inertia, or hold it by joints")
         }
@@ -152,7 +152,7 @@ impl<'a> Metric<'a> {
             let name = group.map_or(String::new(), |group| group.name);
             return Err(Error::input(format!("at the start, joint `{name}` or its rate is infinite or not a number"))
                 .under("joints")
-                .hint("begin where its expressions are defined and smooth, and no distance is zero"));
+                .hint("begin where its expressions are defined and smooth (no division by zero, `floor` and `mod` up to 2^29), and no distance is zero"));
         }
         let largest = self.terms.mass.iter().fold(0.0f64, |largest, mass| largest.max(mass.abs()));
         let unit = if largest > 0.0 { largest } else { 1.0 };

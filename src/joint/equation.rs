@@ -14,6 +14,7 @@ use serde::Deserialize;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Equation {
+    /// What is zero, such as `arm.tip.y - 0.1*sin(t)`.
     pub expression: Number,
 }
 

@@ -34,7 +34,7 @@ pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Reque
     let parts =
         |i: usize| solved.participation.as_ref().map_or(Vec::new(), |all| all.column(i).iter().copied().collect());
     // States xi have no energy.
-    let moving = |i: usize| shapes.column(i).into_iter().zip(weighed.column(i).into_iter()).take(n.moving());
+    let moving = |i: usize| shapes.column(i).into_iter().zip(weighed.column(i)).take(n.moving());
     let mut modes: Vec<Mode> = (0..solved.values.len())
         .map(|i| Mode {
             value: solved.values[i],

@@ -2,6 +2,9 @@
 
 mod doubts;
 mod rest;
+mod schema;
+
+pub use schema::schema;
 
 use doubts::{doubts, explained, of_scene};
 use rest::at_rest;

@@ -3,10 +3,10 @@
 use crate::analysis::Record;
 use crate::plot::{Figure, Panel, Series};
 use crate::scene::units::{Dimension, dimension_of};
+use crate::trajectory::Trajectory;
 
 /// Draws outputs over time, one panel for each unit; coordinates where the scene names no outputs. `None` without rows.
-pub fn outputs_figure(title: &str, record: &Record) -> Option<Figure> {
-    let trajectory = &record.trajectory;
+pub fn outputs_figure(title: &str, trajectory: &Trajectory) -> Option<Figure> {
     if trajectory.rows.len() < 2 {
         return None;
     }

@@ -1,7 +1,9 @@
 //! The folder of the results.
 
+use super::origin::{Sealed, Settings};
 use crate::error::{Error, Result};
 use crate::files::{self, Staging};
+use serde::Serialize;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -49,6 +51,10 @@ fn reason(error: &io::Error) -> String {
 pub struct Folder {
     path: PathBuf,
     written: Vec<String>,
+    /// Number of the files that belong to a result.
+    sealed: usize,
+    notes: Vec<String>,
+    obsolete: Vec<String>,
     staging: Option<Staging>,
 }
 
@@ -57,7 +63,8 @@ impl Folder {
     pub fn create(path: &Path) -> Result<Folder> {
         std::fs::create_dir_all(path).map_err(|error| failed(path, "cannot make this folder", &error))?;
         Staging::create(path).map_err(|error| failed(path, "cannot write here", &error))?;
-        Ok(Folder { path: path.to_path_buf(), written: Vec::new(), staging: None })
+        let path = path.to_path_buf();
+        Ok(Folder { path, written: Vec::new(), sealed: 0, notes: Vec::new(), obsolete: Vec::new(), staging: None })
     }
 
     /// Returns the path of the folder.
@@ -80,10 +87,20 @@ impl Folder {
         Ok(())
     }
 
-    /// Writes a value as indented JSON.
-    pub fn write_json(&mut self, name: &str, value: &impl serde::Serialize) -> Result<()> {
-        let text = serde_json::to_string_pretty(value).map_err(|error| Error::file(self.path.join(name), error))?;
-        self.write(name, format!("{text}\n").as_bytes())
+    /// Writes a result as indented JSON, with the names of the files that were written since the last one and belong
+    /// to it. Those that an earlier result of this name has beyond them go.
+    pub fn seal<T: Serialize>(&mut self, name: &str, result: T) -> Result<Sealed<T>> {
+        let own = self.written[self.sealed..].iter().cloned();
+        let sealed = Sealed { result, files: own.chain([name.to_string()]).collect() };
+        let text = serde_json::to_string_pretty(&sealed).map_err(|error| Error::file(self.path.join(name), error))?;
+        let text = format!("{text}\n").into_bytes();
+        self.write(name, &text)?;
+        self.sealed = self.written.len();
+        if let Some((earlier, new)) = Settings::read(&self.path.join(name)).zip(Settings::parse(&text)) {
+            self.notes.extend(earlier.replaced_by(&new));
+            self.obsolete.extend(earlier.files);
+        }
+        Ok(sealed)
     }
 
     /// Moves all files into place.
@@ -91,24 +108,48 @@ impl Folder {
     /// # Errors
     /// A file cannot be moved. Then the last file is missing, which shows that the results are incomplete.
     pub fn finish(self) -> Result<Written> {
-        let Folder { path, written, staging } = self;
+        let Folder { path, written, staging, notes, mut obsolete, .. } = self;
+        obsolete.retain(|name| !written.contains(name) && is_plain(name) && path.join(name).is_file());
         staging
-            .map_or(Ok(()), Staging::publish)
+            .map_or(Ok(()), |staging| staging.publish(&obsolete))
             .map_err(|(name, error)| failed(&path.join(name), "not all results are in place", &error))?;
-        Ok(Written { folder: path, names: written })
+        Ok(Written { folder: path, names: written, notes, removed: obsolete })
     }
+}
+
+/// True for the name of a file without a path.
+fn is_plain(name: &str) -> bool {
+    Path::new(name).file_name().is_some_and(|plain| plain == name)
 }
 
 /// The files in place.
 pub struct Written {
     folder: PathBuf,
     names: Vec<String>,
+    notes: Vec<String>,
+    removed: Vec<String>,
 }
 
 impl Written {
     /// Returns their paths.
     pub fn paths(&self) -> Vec<String> {
         self.names.iter().map(|name| self.folder.join(name).display().to_string()).collect()
+    }
+
+    /// Returns what became of earlier results that were not the same; none where there were none.
+    pub fn note(&self) -> Option<String> {
+        let (folder, removed) = (self.folder.display(), self.removed.join(", "));
+        let gone = if removed.is_empty() { String::new() } else { format!("removed {removed} of an earlier run") };
+        match (self.notes.first(), removed.is_empty()) {
+            (None, true) => None,
+            (None, false) => Some(format!("note: in {folder}: {gone}")),
+            (Some(first), _) => {
+                let more =
+                    if self.notes.len() > 1 { format!(" and {} more", self.notes.len() - 1) } else { String::new() };
+                let gone = if gone.is_empty() { gone } else { format!("; {gone}") };
+                Some(format!("note: replaced in {folder} {first}{more}{gone}; -o DIR keeps both"))
+            }
+        }
     }
 
     /// Returns the folder with the names of the files.

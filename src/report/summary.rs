@@ -1,7 +1,7 @@
 //! `summary.json`.
 
 use super::warnings::warnings;
-use super::{Table, check_error};
+use super::{Origin, Table, check_error};
 use crate::analysis::{Drift, EnergyBalance, Passing, Record, Singularity};
 use crate::compare::CheckError;
 use crate::error::{Failure, Warning, clock, short_list, significant};
@@ -15,14 +15,9 @@ use serde_json::{Map, Value};
 /// Summary of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// Version of the program.
-    pub holonom: &'static str,
-    /// Command line; empty from the library.
-    pub command: Vec<String>,
-    /// Parameters of the scene.
-    pub parameters: Map<String, Value>,
-    /// Reasons to doubt the result; empty where none is known.
-    pub warnings: Vec<Warning>,
+    /// What it takes to repeat it, and reasons to doubt it.
+    #[serde(flatten)]
+    pub origin: Origin,
     /// Name of the scene.
     pub scene: String,
     /// Method.
@@ -130,12 +125,8 @@ pub fn summarize(
 ) -> Summary {
     // The error that ended a run may be a consequence of leaving the branch, which is reported first.
     let failure = record.singularity.failure().or(outcome.failure.clone());
-    let parameters = prepared.parameters.iter().map(|(name, value)| (name.to_string(), Value::from(value))).collect();
     Summary {
-        holonom: env!("CARGO_PKG_VERSION"),
-        command: Vec::new(),
-        parameters,
-        warnings: early.iter().cloned().chain(warnings(record)).collect(),
+        origin: Origin::new(&prepared.parameters, early.iter().cloned().chain(warnings(record)).collect()),
         scene: prepared.name.clone(),
         method: Chosen::of(prepared, legs, outcome.t),
         status: if failure.is_some() { "failed" } else { "completed" },
@@ -233,7 +224,7 @@ impl Summary {
 
     /// Returns the summary with the error by a second run.
     pub fn checked(mut self, check: CheckError) -> Self {
-        self.warnings.extend(check_error::cut_short(&check));
+        self.origin.warnings.extend(check_error::cut_short(&check));
         self.check_error = Some(check);
         self
     }

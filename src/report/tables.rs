@@ -2,6 +2,7 @@
 
 use crate::analysis::Record;
 use crate::error::{Error, Result};
+use crate::files::Array;
 use crate::sweep::Sweep;
 use crate::system::Names;
 use crate::trajectory::Trajectory;
@@ -12,15 +13,13 @@ pub fn trajectory_table(trajectory: &Trajectory) -> Result<Vec<u8>> {
     write(trajectory.headings(), trajectory.rows.iter().map(Vec::as_slice))
 }
 
-/// Returns the same as a file of NumPy: `rows`, a matrix, and the names of its `columns`; NaN where there is no value.
-#[cfg(feature = "npz")]
-pub fn trajectory_arrays(trajectory: &Trajectory) -> Result<Vec<u8>> {
-    use crate::files::{Array, npz};
+/// Returns the same as arrays for Python and MATLAB: `rows`, a matrix, and the names of its `columns`; NaN where there
+/// is no value.
+pub fn trajectory_arrays(trajectory: &Trajectory) -> [(&'static str, Array); 2] {
     let headings = trajectory.headings();
     let values = trajectory.rows.iter().flatten().map(|value| if value.is_finite() { *value } else { f64::NAN });
     let rows = Array::Real { shape: vec![trajectory.rows.len(), headings.len()], values: values.collect() };
-    let columns = Array::Texts(headings.into_iter().map(String::from).collect());
-    npz::write(&[("columns", columns), ("rows", rows)])
+    [("columns", Array::Texts(headings.into_iter().map(String::from).collect())), ("rows", rows)]
 }
 
 /// Returns the parameter by its name, coordinates, multipliers, outputs: one row per value that was reached.
@@ -59,7 +58,7 @@ pub fn energy_table(record: &Record) -> Result<Vec<u8>> {
     write(vec!["t", "kinetic", "potential", "work", "error"], rows.iter().map(<[f64; 5]>::as_slice))
 }
 
-/// Returns a number as [`push`] writes it.
+/// Returns a number as tables have it.
 pub fn cell(value: f64) -> String {
     let mut text = Vec::new();
     push(&mut text, value);
@@ -120,27 +119,16 @@ mod tests {
     }
 
     #[test]
-    #[cfg(feature = "npz")]
     fn arrays_are_those_of_the_table() {
-        use crate::files::npy::Npy;
         use crate::system::Column;
-        use std::io::Read;
         let names = Names { q: vec!["x".into()], v: vec!["x'".into()], lambda: Vec::new() };
         let outputs = vec![Column { name: "φ".into(), unit: "rad".into() }];
         let rows = vec![vec![0.0, 1.0, 2.0, f64::INFINITY], vec![0.5, 0.1, -1e-9, 3.0]];
-        let file = trajectory_arrays(&Trajectory { names, outputs, rows }).unwrap();
-        let mut archive = zip::ZipArchive::new(std::io::Cursor::new(file)).unwrap();
-        let mut member = |name: &str| {
-            let mut bytes = Vec::new();
-            archive.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
-            bytes
-        };
-        assert_eq!(Npy::parse(&member("columns.npy")).unwrap().texts().unwrap(), ["t", "x", "x'", "φ"]);
-        let bytes = member("rows.npy");
-        let rows = Npy::parse(&bytes).unwrap();
-        let values = rows.numbers().unwrap();
+        let [columns, rows] = trajectory_arrays(&Trajectory { names, outputs, rows });
+        assert_eq!(columns, ("columns", Array::Texts(["t", "x", "x'", "φ"].map(String::from).to_vec())));
+        let ("rows", Array::Real { shape, values }) = rows else { panic!("{rows:?}") };
         assert_eq!(
-            (rows.shape, &values[..3], &values[4..]),
+            (shape, &values[..3], &values[4..]),
             (vec![2, 4], &[0.0, 1.0, 2.0][..], &[0.5, 0.1, -1e-9, 3.0][..])
         );
         assert!(values[3].is_nan());

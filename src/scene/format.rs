@@ -5,7 +5,7 @@ use crate::math::expression::Number;
 use crate::math::signal::{Beyond, Interpolation};
 use crate::method_spec::MethodSpec;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -134,6 +134,7 @@ impl JsonSchema for Dimension {
 #[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
 pub struct Ground {
+    /// Points by name, as those of bodies.
     #[serde(default)]
     #[schemars(with = "std::collections::BTreeMap<String, MarkerSpec>")]
     pub markers: Map<String, Value>,
@@ -262,11 +263,12 @@ pub struct OutputSpec {
     pub _repeat: Option<Repeat>,
 }
 
-#[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq, Debug)]
+/// What is measured.
+#[derive(Deserialize, Serialize, JsonSchema, Clone, Copy, PartialEq, Eq, Debug)]
 #[serde(rename_all = "snake_case")]
 pub enum MeasureKind {
-    /// rad, of a body or marker against `relative_to`, in space about the z axis of that; counted through full turns. Of
-    /// a joint that turns about one axis, or a torsion spring: of its second marker against its first; of a universal
+    /// rad, of a body or marker against `relative_to`, in space about the z axis of that (for another axis name a marker
+    /// with that `z_axis`); counted through full turns. Of a joint that turns about one axis, or a torsion spring: of its second marker against its first; of a universal
     /// joint: `component` x, of its cross about x of the first marker, or y, of its second marker about its own y
     /// against the cross.
     Angle,
@@ -374,7 +376,8 @@ pub struct BodyPlace {
     pub name: String,
     /// The kind of body.
     pub r#type: String,
-    /// Points of the body by name; frames for joints and forces.
+    /// Points of the body by name, for joints and forces: [x, y], in space [x, y, z], in its own axes, or an object with
+    /// `position` and an orientation: `angle`, in space `rotation`, `z_axis`, `x_axis`.
     pub markers: Option<std::collections::BTreeMap<String, MarkerSpec>>,
     /// Position of the body's origin, which its markers and `initial` refer to, from its centre of mass, m.
     pub origin: Option<Vec<Number>>,

@@ -37,7 +37,7 @@ pub mod units;
 pub use builder::SceneBuilder;
 pub use elements::Elements;
 #[doc(hidden)]
-pub use format::Assembly;
+pub use format::{Assembly, MeasureKind};
 pub use format::{Automatic, Simulation};
 pub use model::Model;
 #[doc(hidden)]

@@ -28,9 +28,49 @@ pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
     Ok(())
 }
 
+impl MeasureKind {
+    /// The keys of an output that go with it.
+    pub fn keys(self) -> &'static [&'static str] {
+        use MeasureKind::*;
+        match self {
+            Angle | AngularVelocity | AngularAcceleration | Position | Velocity | Acceleration => {
+                &["of", "relative_to", "component"]
+            }
+            Distance | DistanceRate => &["between", "of"],
+            Reaction | Force => &["of", "relative_to", "component", "on"],
+            Power => &["of"],
+            Energy => &["component"],
+            Deflection | ShearForce | BendingMoment => &["of", "at", "component"],
+            Strain => &["of", "at", "offset"],
+            AxialForce | Torque => &["of", "at"],
+            Expression => &["value"],
+        }
+    }
+
+    /// Physical dimensions of its values: one, or what it is of decides; none for an expression, whose unit its author
+    /// gives.
+    pub fn dimensions(self) -> &'static [Dimension] {
+        use MeasureKind::*;
+        match self {
+            Angle => &[Dimension::Angle],
+            AngularVelocity => &[Dimension::AngularVelocity],
+            AngularAcceleration => &[Dimension::AngularAcceleration],
+            Position | Distance | Deflection => &[Dimension::Length],
+            Velocity | DistanceRate => &[Dimension::Velocity],
+            Acceleration => &[Dimension::Acceleration],
+            Power => &[Dimension::Power],
+            Torque | BendingMoment => &[Dimension::Torque],
+            Energy => &[Dimension::Energy],
+            Strain => &[Dimension::Strain],
+            AxialForce | ShearForce => &[Dimension::Force],
+            Reaction | Force => &[Dimension::Force, Dimension::Torque],
+            Expression => &[],
+        }
+    }
+}
+
 /// Refuses keys that a measure would silently ignore.
 fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
-    use MeasureKind::*;
     let OutputSpec { of, between, relative_to, component, at, offset, value, on, .. } = spec;
     let given = [
         ("of", of.is_some()),
@@ -42,22 +82,11 @@ fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
         ("value", value.is_some()),
         ("on", on.is_some()),
     ];
-    let used: &[&str] = match spec.measure {
-        Angle => &["of", "relative_to", "component"],
-        AngularVelocity | AngularAcceleration | Position | Velocity | Acceleration => {
-            &["of", "relative_to", "component"]
-        }
-        Distance | DistanceRate => &["between", "of"],
-        // A size and the force along a rod are the same in all axes.
-        Reaction | Force if matches!(component.as_deref(), None | Some("axial")) => &["of", "component"],
-        Reaction | Force => &["of", "relative_to", "component", "on"],
-        Power => &["of"],
-        Energy => &["component"],
-        Deflection | ShearForce | BendingMoment => &["of", "at", "component"],
-        Strain => &["of", "at", "offset"],
-        AxialForce | Torque => &["of", "at"],
-        Expression => &["value"],
-    };
+    // A size and the force along a rod are the same in all axes.
+    let is_size = matches!(spec.measure, MeasureKind::Reaction | MeasureKind::Force)
+        && matches!(component.as_deref(), None | Some("axial"));
+    let used = spec.measure.keys().iter().filter(|key| !(is_size && ["relative_to", "on"].contains(key)));
+    let used: Vec<&str> = used.copied().collect();
     match given.iter().find(|(key, given)| *given && !used.contains(key)) {
         None => Ok(()),
         Some((key, _)) => Err(Error::input(format!("this measure has no `{key}`"))
@@ -132,22 +161,10 @@ impl<const D: usize> Reader<'_, D> {
 
 /// Physical dimension of an output; none for an expression, whose unit its author gives.
 fn dimension<const D: usize>(kind: MeasureKind, measure: &Measure, elements: Elements<D>) -> Option<Dimension> {
-    Some(match kind {
-        MeasureKind::Angle => Dimension::Angle,
-        MeasureKind::AngularVelocity => Dimension::AngularVelocity,
-        MeasureKind::AngularAcceleration => Dimension::AngularAcceleration,
-        MeasureKind::Acceleration => Dimension::Acceleration,
-        MeasureKind::Power => Dimension::Power,
-        MeasureKind::Position | MeasureKind::Distance | MeasureKind::Deflection => Dimension::Length,
-        MeasureKind::Velocity | MeasureKind::DistanceRate => Dimension::Velocity,
-        MeasureKind::Torque | MeasureKind::BendingMoment => Dimension::Torque,
-        MeasureKind::Energy => Dimension::Energy,
-        MeasureKind::Strain => Dimension::Strain,
-        MeasureKind::Expression => return None,
-        MeasureKind::Reaction | MeasureKind::Force | MeasureKind::AxialForce | MeasureKind::ShearForce => {
-            if is_torque(measure, elements) { Dimension::Torque } else { Dimension::Force }
-        }
-    })
+    match kind.dimensions() {
+        [force, torque] => Some(if is_torque(measure, elements) { *torque } else { *force }),
+        others => others.first().copied(),
+    }
 }
 
 fn is_torque<const D: usize>(measure: &Measure, Elements { joints, forces, .. }: Elements<D>) -> bool {

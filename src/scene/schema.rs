@@ -1,7 +1,8 @@
 //! The JSON Schema of the format, generated from the types and the registries.
 
 use super::elements::Elements;
-use super::format::{BodyPlace, ForcePlace, JointPlace, SceneFile};
+use super::format::{BodyPlace, ForcePlace, JointPlace, MeasureKind, SceneFile};
+use super::units::{Dimension, spellings};
 use crate::body::ElementKind;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -18,8 +19,35 @@ impl Elements {
         for (key, items) in [("bodies", bodies), ("joints", joints), ("forces", forces)] {
             root["properties"][key]["items"] = items;
         }
+        root["$defs"]["OutputSpec"]["allOf"] = units_of_measures(&root["$defs"]["MeasureKind"]);
         root
     }
+}
+
+/// For the measures of each dimension its units.
+fn units_of_measures(kinds: &Value) -> Value {
+    let kinds: Vec<MeasureKind> = kinds["oneOf"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(|kind| serde_json::from_value(kind["const"].clone()).ok())
+        .collect();
+    let mut groups: Vec<(&[Dimension], Vec<MeasureKind>)> = Vec::new();
+    for kind in kinds.into_iter().filter(|kind| !kind.dimensions().is_empty()) {
+        match groups.iter_mut().find(|(known, _)| *known == kind.dimensions()) {
+            Some((_, kinds)) => kinds.push(kind),
+            None => groups.push((kind.dimensions(), vec![kind])),
+        }
+    }
+    let rules = groups.into_iter().map(|(dimensions, kinds)| {
+        let units: Vec<&str> = dimensions.iter().flat_map(|dimension| dimension.units()).collect();
+        // An editor offers the names themselves first.
+        let others = units.iter().flat_map(|name| spellings(name).into_iter().skip(1));
+        let all: Vec<Value> = units.iter().map(|name| json!(name)).chain(others.map(Value::from)).collect();
+        json!({ "if": { "properties": { "measure": { "enum": kinds } } },
+                "then": { "properties": { "unit": { "enum": all } } } })
+    });
+    rules.collect()
 }
 
 /// The definition that a reference points to.

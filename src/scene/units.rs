@@ -124,6 +124,16 @@ impl Dimension {
         Unit { name: self.entry().2[0].0.to_string(), per_si: 1.0 }
     }
 
+    /// All dimensions.
+    pub fn all() -> impl Iterator<Item = Dimension> {
+        DIMENSIONS.iter().map(|(dimension, ..)| *dimension)
+    }
+
+    /// Names of its units, the SI unit first.
+    pub fn units(self) -> impl Iterator<Item = &'static str> + Clone {
+        self.entry().2.iter().map(|(name, _)| *name).filter(|name| !name.is_empty())
+    }
+
     /// The unit of this name; `N*m`, `Nm` and `N·m` are `N m`.
     ///
     /// # Errors
@@ -137,7 +147,7 @@ impl Dimension {
             Some(other) => format!("`{name}` is a unit of {}, not of {word}", other.word()),
             None => format!("there is no unit `{name}` of {word}"),
         };
-        let names = sizes.iter().map(|(name, _)| *name).filter(|name| !name.is_empty());
+        let names = self.units();
         let meant = nearest(name, names.clone()).map_or(String::new(), |near| format!("did you mean `{near}`? "));
         Err(Error::input(message)
             .under("unit")
@@ -156,6 +166,16 @@ pub fn dimension_of(unit: &str) -> Option<Dimension> {
     DIMENSIONS.iter().find(|(_, _, sizes)| has(sizes)).map(|(dimension, ..)| *dimension)
 }
 
+/// Ways to write the name of a unit, the name itself first.
+pub fn spellings(name: &str) -> Vec<String> {
+    let mut all = vec![name.to_string()];
+    let ways: [(&str, &[&str]); 3] = [(" ", &["", "*", "·", "⋅", "."]), ("deg", &["°"]), ("um", &["µm", "μm"])];
+    for (part, others) in ways.into_iter().filter(|(part, _)| name.contains(part)) {
+        all.extend(others.iter().map(|other| name.replace(part, other)));
+    }
+    all
+}
+
 /// The name in ASCII (`deg`, `u`) and without signs of products (space, `*`, dots).
 fn plain(name: &str) -> String {
     let name = name.replace('°', "deg").replace(['µ', 'μ'], "u");
@@ -172,7 +192,8 @@ mod tests {
             assert_eq!((*dimension as usize, dimension.word(), dimension.si().per_si), (i, *word, 1.0));
             assert_eq!(sizes[0].1, 1.0);
             let named = sizes.iter().filter(|(name, _)| !name.is_empty());
-            named.for_each(|(name, _)| assert_eq!(dimension_of(name), Some(*dimension), "{name}"));
+            let spelled = named.flat_map(|(name, _)| spellings(name));
+            spelled.for_each(|name| assert_eq!(dimension_of(&name), Some(*dimension), "{name}"));
         }
     }
 

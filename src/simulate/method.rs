@@ -5,7 +5,7 @@ use crate::formulation;
 use crate::integrator::{self, Integrator, Setup, Steps, Tolerance};
 use crate::method_spec::MethodSpec;
 use crate::projection;
-use crate::system::MechanicalSystem;
+use crate::system::{Dimensions, MechanicalSystem};
 use crate::tolerances::simulate as tolerances;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
@@ -88,9 +88,26 @@ impl Method {
         }
     }
 
+    /// Warnings about the method before a run of the system.
+    pub fn doubts(&self, system: &dyn MechanicalSystem) -> Vec<Warning> {
+        self.beyond_reach(system).into_iter().chain(self.dense(system)).collect()
+    }
+
+    /// Warning that a formulation is dense, for a large system.
+    fn dense(&self, system: &dyn MechanicalSystem) -> Option<Warning> {
+        let Dimensions { v: n, lambda: m, .. } = system.dimensions();
+        let is_dense = formulation::make(&self.formulation, system).is_ok_and(|made| made.is_dense());
+        (is_dense && n >= tolerances::LARGE_FOR_DENSE).then(|| {
+            let (name, [n, m]) = (&self.formulation.name, [n, m].map(|count| count as f64));
+            let operations = 3.0 * n * m * m + 4.0 * n * n * (n - m).max(0.0);
+            let text = format!("{name} is dense: an evaluation takes {operations:.0e} operations with {n} velocities and {m} constraints, growing with n^3");
+            Warning::new(text, formulation::SPARSE)
+        })
+    }
+
     /// Warning that the steps cannot be controlled tightly enough for rtol: with methods of low order at rtol 1e-9,
     /// say.
-    pub fn beyond_reach(&self, system: &dyn MechanicalSystem) -> Option<Warning> {
+    fn beyond_reach(&self, system: &dyn MechanicalSystem) -> Option<Warning> {
         let (entry, asked) = (integrator::find(&self.integrator).ok()?, Tolerance::new(self.rtol, self.atol, system));
         let reached = entry.tightening.reached(&asked);
         let is_beyond = self.step.is_none() && reached > tolerances::ERROR_OF_MOTION * self.rtol;

@@ -27,6 +27,10 @@ pub const ENERGY_BEYOND: f64 = 10.0;
 /// Unit: `[m, rad]`. Why: a choice. Test: none: not tried with other values.
 pub const STATE_BESIDE: f64 = 1e-3;
 
+/// Error of the cubic between two rows of a finished run above which drawings between them are doubtful.
+/// Unit: `[1]` of the scene's length, or rad. Why: it is seen in a figure. Test: `a_finished_run_is_drawn`.
+pub const BETWEEN_ROWS: f64 = 0.01;
+
 /// Newton's steps to bring it to the constraints.
 /// Unit: `[steps]`. Why: a choice. Test: none: a count of work, not tried.
 pub const STATE_BESIDE_SWEEPS: usize = 8;

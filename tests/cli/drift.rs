@@ -13,6 +13,10 @@ const METHODS: [&str; 10] = [
     "exact",
 ];
 
+fn runs(json: &str) -> Vec<Value> {
+    serde_json::from_str::<Value>(json).unwrap()["runs"].as_array().unwrap().clone()
+}
+
 #[test]
 fn every_stabilization_has_a_row() {
     let place = Place::new(PENDULUM);
@@ -21,16 +25,16 @@ fn every_stabilization_has_a_row() {
     let rows: Vec<&str> = text.lines().skip(3).take_while(|line| !line.is_empty()).map(str::trim).collect();
     assert_eq!(rows.len(), METHODS.len(), "{text}");
     rows.iter().zip(METHODS).for_each(|(row, method)| assert!(row.starts_with(method), "{row}"));
-    assert_eq!(place.files("here"), ["drift.csv", "drift.json", "drift.svg"]);
+    assert_eq!(place.files("here"), ["stabilizations.csv", "stabilizations.json", "stabilizations.svg"]);
 }
 
 #[test]
 fn json_and_table_agree() {
     let place = Place::new(PENDULUM);
     let printed = place.done(&["drift", "scene.json", "-o", "here", "--json", "--figures", "png"]);
-    assert_eq!(printed, place.text("here/drift.json"));
-    let rows: Vec<Value> = serde_json::from_str(&printed).unwrap();
-    let header = place.text("here/drift.csv").lines().next().unwrap().to_string();
+    assert_eq!(printed, place.text("here/stabilizations.json"));
+    let rows = runs(&printed);
+    let header = place.text("here/stabilizations.csv").lines().next().unwrap().to_string();
     assert!(header.starts_with("t,position index1,velocity index1,position baumgarte,"), "{header}");
     assert_eq!(rows.len(), METHODS.len());
     for row in &rows {
@@ -39,7 +43,7 @@ fn json_and_table_agree() {
     }
     let drift = |i: usize| rows[i]["drift"]["position"]["max"].as_f64().unwrap();
     assert!(drift(0) > 1e-10 && drift(9) < 1e-14, "index1 {} exact {}", drift(0), drift(9));
-    assert!(fs::read(place.path("here/drift.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(fs::read(place.path("here/stabilizations.png")).unwrap().starts_with(b"\x89PNG"));
 }
 
 #[test]
@@ -48,8 +52,8 @@ fn runs_that_all_fail_are_a_failure() {
     let output = place.run(&["drift", "scene.json", "-o", "here", "--figures", "none"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(out(&output).contains("index1 FAILED at t = ") && err(&output).starts_with("error: stopped at t = "));
-    assert_eq!(place.files("here"), ["drift.csv", "drift.json"]);
-    let rows: Vec<Value> = serde_json::from_str(&place.text("here/drift.json")).unwrap();
+    assert_eq!(place.files("here"), ["stabilizations.csv", "stabilizations.json"]);
+    let rows = runs(&place.text("here/stabilizations.json"));
     assert!(rows.iter().all(|row| row["status"] == "failed"));
 }
 
@@ -60,7 +64,7 @@ fn every_integrator_is_compared_on_what_it_goes_with() {
     let rows = |more: &[&str]| -> Vec<String> {
         let args =
             [&["drift", "scene.json", "--until", "0.1", "--json", "--figures", "none", "-o", "here"], more].concat();
-        let rows: Vec<Value> = serde_json::from_str(&place.done(&args)).unwrap();
+        let rows = runs(&place.done(&args));
         rows.iter().map(|row| row["method"].as_str().unwrap().to_string()).collect()
     };
     let implicit = rows(&["--integrator", "radau_iia"]);

@@ -5,6 +5,7 @@ mod check;
 mod check_error;
 mod drift;
 mod equilibrium;
+mod examples;
 mod generate;
 mod import;
 #[cfg(unix)]
@@ -13,7 +14,9 @@ mod limits;
 mod linear;
 mod loci;
 mod methods;
+mod origin;
 mod plot;
+mod reference;
 mod restart;
 mod schema;
 mod simulate;

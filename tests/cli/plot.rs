@@ -69,9 +69,10 @@ const BOB: &str = r#"{
 fn a_scene_is_drawn_at_its_start_without_a_run() {
     let place = Place::new(PENDULUM.replace("\"t_end\": 1, ", ""));
     let text = place.done(&["plot", "scene.json", "--labels"]);
-    assert_eq!(place.files("out/pendulum"), ["mechanism.svg"]);
+    assert_eq!(place.files("out/pendulum"), ["mechanism.json", "mechanism.svg"]);
     assert!(
-        text.starts_with("pendulum at t = 0 s\n") && text.contains("written to out/pendulum: mechanism.svg"),
+        text.starts_with("pendulum at t = 0 s\n")
+            && text.contains("written to out/pendulum: mechanism.svg, mechanism.json"),
         "{text}"
     );
     let svg = place.text("out/pendulum/mechanism.svg");
@@ -103,7 +104,7 @@ fn figures_are_png_where_asked_for_and_paths_are_drawn() {
     let place = Place::new(PENDULUM);
     let args = ["plot", "scene.json", "--stroboscope", "--frames", "4", "--trace", "rod.A,rod", "--figures", "png"];
     place.done(&args);
-    assert_eq!(place.files("out/pendulum"), ["stroboscope.png"]);
+    assert_eq!(place.files("out/pendulum"), ["stroboscope.json", "stroboscope.png"]);
     assert_eq!(png_size(&place.path("out/pendulum/stroboscope.png")).0, 1280);
     place.done(&["plot", "scene.json", "--stroboscope", "--trace", "rod", "-o", "here"]);
     assert!(place.text("here/stroboscope.svg").contains(">path of rod</text>"));
@@ -114,7 +115,7 @@ fn an_animation_is_a_gif_whose_frames_differ() {
     let place = Place::new(PENDULUM);
     let args = ["plot", "scene.json", "--animate", "gif", "--fps", "10", "--speed", "0.5", "--labels", "--json"];
     let drawn: Value = serde_json::from_str(&place.done(&args)).unwrap();
-    assert_eq!(place.files("out/pendulum"), ["animation.gif"]);
+    assert_eq!(place.files("out/pendulum"), ["animation.gif", "animation.json"]);
     assert_eq!(drawn["animation"]["frames"], 21);
     assert_eq!(drawn["files"][0], "out/pendulum/animation.gif");
     let frames = gif_frames(&place.path("out/pendulum/animation.gif"));
@@ -129,7 +130,7 @@ fn an_animation_is_a_gif_whose_frames_differ() {
 fn an_animation_can_be_an_svg() {
     let place = Place::new(BOB);
     place.done(&["plot", "scene.json", "--animate", "svg", "--fps", "5", "--stroboscope", "--quiet"]);
-    assert_eq!(place.files("out/bob"), ["animation.svg", "stroboscope.svg"]);
+    assert_eq!(place.files("out/bob"), ["animation.json", "animation.svg", "stroboscope.json", "stroboscope.svg"]);
     let svg = place.text("out/bob/animation.svg");
     assert_eq!(svg.matches("<animate ").count(), 11);
     assert_eq!((svg.matches("<g ").count(), svg.matches("</g>").count()), (11, 11));
@@ -165,7 +166,7 @@ fn a_run_that_fails_is_drawn_as_far_as_it_came() {
     let drawn: Value = serde_json::from_str(&out(&output)).unwrap();
     assert_eq!(drawn["status"], "failed");
     assert!(drawn["times"][5].as_f64().unwrap() <= 1.0 && err(&output).contains("error: stopped at t ="));
-    assert_eq!(place.files("out/bob"), ["stroboscope.svg"]);
+    assert_eq!(place.files("out/bob"), ["stroboscope.json", "stroboscope.svg"]);
 }
 
 #[test]

@@ -166,6 +166,11 @@ fn json_is_the_file_and_nothing_else() {
     assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), place.json("out/four_bar/sweep.json"));
     let json = place.json("out/four_bar/sweep.json");
     let promised = [
+        "holonom",
+        "command",
+        "parameters",
+        "warnings",
+        "files",
         "scene",
         "parameter",
         "range",

@@ -39,6 +39,12 @@ impl Schema<'_> {
             "type" => rule.as_array().map_or_else(|| is(rule, value), |types| types.iter().any(|one| is(one, value))),
             "enum" => rule.as_array().is_some_and(|values| values.contains(value)),
             "const" => rule == value,
+            "pattern" => value.as_str().is_none_or(|text| matches(rule.as_str().unwrap(), text)),
+            "allOf" => {
+                return rule.as_array().unwrap().iter().flat_map(|rule| self.faults(rule, value, place)).collect();
+            }
+            "if" if valid(rule) => return self.faults(&schema["then"], value, place),
+            "if" | "then" => true,
             "anyOf" => rule.as_array().is_some_and(|schemas| schemas.iter().any(valid)),
             "oneOf" => {
                 rule.as_array().is_some_and(|schemas| schemas.iter().filter(|schema| valid(schema)).count() == 1)
@@ -76,6 +82,14 @@ impl Schema<'_> {
         let others = object.iter().filter(|(name, _)| !named(name));
         others.flat_map(|(name, value)| self.faults(rule, value, &format!("{place}/{name}"))).collect()
     }
+}
+
+/// Patterns of the form `^(one|[-_]|other)(:.*)?$`, as those of methods are.
+fn matches(pattern: &str, text: &str) -> bool {
+    let names = pattern.strip_prefix("^(").and_then(|rest| rest.strip_suffix(")(:.*)?$"));
+    let names = names.unwrap_or_else(|| panic!("the schema uses the pattern `{pattern}`"));
+    let name = text.split(':').next().unwrap_or_default().replace('-', "_");
+    names.replace("[-_]", "_").split('|').any(|known| known == name)
 }
 
 fn is(kind: &Value, value: &Value) -> bool {

@@ -55,18 +55,18 @@ cases! {
         pendulum()
             .joint("{ 'name': 'p', 'type': 'driver', 'between': ['ground.O', 'rod.A'], 'coordinate': 'x', 'value': 'sqrt(t-1)' }") => [
             "scene.json:12:13: at joints: at the start, joint `p` or its rate is infinite or not a number",
-            "begin where its expressions are defined and smooth, and no distance is zero",
+            "begin where its expressions are defined and smooth (no division by zero, `floor` and `mod` up to 2^29), and no distance is zero",
         ];
     driver_infinite_rate:
         pendulum()
             .joint("{ 'name': 'p', 'type': 'driver', 'between': ['ground.O', 'rod.A'], 'coordinate': 'x', 'value': 'sqrt(t)' }") => [
             "scene.json:12:13: at joints: at the start, joint `p` or its rate is infinite or not a number",
-            "begin where its expressions are defined and smooth, and no distance is zero",
+            "begin where its expressions are defined and smooth (no division by zero, `floor` and `mod` up to 2^29), and no distance is zero",
         ];
     huge_mass:
         pendulum().with("'mass': 'm'", "'mass': 1e308").with("'m*l^2/12'", "1e308") => [
             "scene.json:15:13: at forces: at the start, the force on `rod.y` is infinite or not a number",
-            "look for roots and quotients in expressions, and for springs of length zero",
+            "look for roots and quotients in expressions, for `floor` and `mod` beyond 2^29, and for springs of length zero",
         ];
     tiny_mass:
         pendulum().with("'mass': 'm'", "'mass': 1e-320").with("'m*l^2/12'", "1e-320") => [
@@ -77,7 +77,7 @@ cases! {
         pendulum()
             .force("{ 'name': 'spring', 'type': 'applied_force', 'at': 'rod.B', 'force': [0, 'sqrt(t-1)'] }") => [
             "scene.json:15:13: at forces: at the start, the force on `rod.y` is infinite or not a number",
-            "look for roots and quotients in expressions, and for springs of length zero",
+            "look for roots and quotients in expressions, for `floor` and `mod` beyond 2^29, and for springs of length zero",
         ];
 }
 

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::files;
 use crate::prepared::PreparedScene;
 use crate::report::tradeoff::{Summary, tradeoff_figure, tradeoff_table};
-use crate::report::{Folder, write_whole};
+use crate::report::{Folder, Repeatable, write_whole};
 use crate::scene;
 use crate::system::MechanicalSystem;
 use crate::{formulation, projection};
@@ -26,7 +26,7 @@ pub fn run(args: &Args, prepared: &PreparedScene) -> Result<ExitCode> {
     let place = args.output.path(&prepared.name).join("tradeoff.json");
     let mut measured = question.begin(args, prepared, &place)?;
     question.measure(args, prepared, &place, &mut measured)?;
-    report(args, &measured, folder)
+    report(args, prepared, &measured, folder)
 }
 
 /// The measurement: quantities, methods and times.
@@ -97,13 +97,15 @@ impl Question {
     }
 }
 
-fn report(args: &Args, measured: &WorkPrecision, mut folder: Folder) -> Result<ExitCode> {
+fn report(args: &Args, prepared: &PreparedScene, measured: &WorkPrecision, mut folder: Folder) -> Result<ExitCode> {
     let summary = Summary::new(measured, &args.named());
-    folder.write_json("tradeoff.json", &summary)?;
     folder.write("tradeoff.csv", &tradeoff_table(measured)?)?;
     args.output.figure(&mut folder, "tradeoff", tradeoff_figure(measured, args.digits))?;
-    let written = folder.finish()?;
-    args.talk.print(&summary, || summary.text(args.digits))?;
+    // Methods and tolerances are those of the cells.
+    let origin = args.talk.origin(&prepared.parameters);
+    let sealed = folder.seal("tradeoff.json", Repeatable { origin, simulation: None, result: &summary })?;
+    let written = args.talk.finish(folder)?;
+    args.talk.print(&sealed, || summary.text(args.digits))?;
     args.talk.tell_files(&written)?;
     match (interrupt::is_asked(), measured.lacks(args.digits)) {
         (true, _) => tell("error: interrupted\n  help: go on with --resume"),

@@ -12,6 +12,9 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom tradeoff models/pendulum.json --until 1 --digits 4 --budget 3s
+  holonom tradeoff models/pendulum.json --until 1 --integrator dopri5 --integrator rk4 --digits 3 --json")]
 pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,

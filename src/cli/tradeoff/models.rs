@@ -1,7 +1,7 @@
 //! Cost and accuracy of richer models.
 
 use super::Args;
-use crate::cli::common::assignment;
+use crate::cli::common::{assignment, set_by};
 use crate::compare::work_precision::models::{Variant, compare};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
@@ -31,11 +31,11 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
     bar.finish_and_clear();
     let costs = costs?;
     let summary = ModelsSummary::new(&costs);
-    folder.write_json("models.json", &summary)?;
     folder.write("models.csv", &models_table(&costs)?)?;
     args.output.figure(&mut folder, "models", models_figure(&title, &costs))?;
-    let written = folder.finish()?;
-    args.talk.print(&summary, || summary.text())?;
+    let sealed = folder.seal("models.json", args.talk.repeatable(&variants[0].prepared, &summary))?;
+    let written = args.talk.finish(folder)?;
+    args.talk.print(&sealed, || summary.text())?;
     args.talk.tell_files(&written)?;
     Ok(ExitCode::SUCCESS)
 }
@@ -54,18 +54,13 @@ fn variant(text: &str, args: &Args, like: &PreparedScene) -> Result<Variant> {
     let own: Vec<(String, Number)> = own.collect::<Result<_>>().map_err(|error| error.under("--variants"))?;
     let span = like.span()?;
     let overrides = Overrides { set: own, until: Some(span.end), ..args.overrides() };
-    let prepared = args.talk.load(Path::new(path), &overrides).and_then(PreparedScene::settled).map_err(of_variants)?;
+    let prepared = args
+        .talk
+        .load(Path::new(path), &overrides)
+        .and_then(PreparedScene::settled)
+        .map_err(|error| set_by(error, "--variants"))?;
     let source = Some((PathBuf::from(path), overrides));
     Ok(Variant { name: named(Path::new(path), set), prepared, source })
-}
-
-/// Attributes an error in a parameter to `--variants` instead of `--set`.
-fn of_variants(error: Error) -> Error {
-    let Error::Input(mut input) = error else { return error };
-    if input.path == "--set" {
-        input.path = "--variants".to_string();
-    }
-    Error::Input(input)
 }
 
 /// Returns the file's name and the parameters.

@@ -2,7 +2,7 @@
 
 use crate::analysis::Recorder;
 use crate::error::{Result, Warning};
-use crate::math::expression::Number;
+use crate::math::expression::{Number, Parameters};
 use crate::prepared::{Overrides, PreparedScene};
 use crate::scene::{self, Elements};
 use crate::simulate::{Method, Span, Stop, simulate};
@@ -46,6 +46,8 @@ pub struct Subject<'a> {
     pub name: String,
     /// Warnings about the scene's start.
     pub doubts: Vec<Warning>,
+    /// Values of the scene's parameters.
+    pub values: Parameters,
     /// The case without changes.
     pub base: Case,
     /// Numbers of coordinates, velocities and constraints.
@@ -95,6 +97,7 @@ impl Subject<'static> {
         Ok(Subject {
             doubts: prepared.doubts.clone(),
             name: prepared.name.clone(),
+            values: prepared.parameters.clone(),
             base,
             dimensions: prepared.system().dimensions(),
             folder: scene::folder(Some(path)).to_path_buf(),
@@ -119,6 +122,7 @@ impl<'a> Subject<'a> {
         Ok(Subject {
             doubts: Vec::new(),
             name: name.to_string(),
+            values: Parameters::default(),
             dimensions: system.dimensions(),
             base: Case {
                 scene: Arc::new(Value::Null),

@@ -1,56 +1,7 @@
 //! The expression language of scenes: a formula is parsed once and evaluated over any [`Scalar`], so that its
 //! derivatives are exact.
 //!
-//! # Grammar
-//!
-//! From the weakest to the tightest binding; operators of one line associate to the left unless it says otherwise:
-//!
-//! | operator                      | meaning                                                                     |
-//! |-------------------------------|-----------------------------------------------------------------------------|
-//! | `a or b`, `a \|\| b`          | true where one is                                                           |
-//! | `a and b`, `a && b`           | true where both are                                                         |
-//! | `not a`                       | true where `a` is not                                                       |
-//! | `<` `<=` `>` `>=` `==` `!=`   | comparisons, which do not chain                                             |
-//! | `a + b`, `a - b`              |                                                                             |
-//! | `a * b`, `a / b`              |                                                                             |
-//! | `-a`, `+a`, `!a`              |                                                                             |
-//! | `a ^ b`                       | power, associates to the right: `2^3^2` is 512, `-2^2` is -4, `2^-1` is 0.5 |
-//! | `(a)`, `f(a, b)`, name, number|                                                                             |
-//!
-//! Truth values are the numbers 1 and 0, and every number but 0 is true.
-//!
-//! A number is `1`, `.5`, `1e-3`, `2.5E+4`. A name is letters (of any alphabet), digits and `_`, not beginning with a
-//! digit; parts are joined by dots and rates end in primes: `l0`, `crank.C.x`, `theta'`. The constant `pi` (or `π`) is
-//! always there; angles are in radians.
-//!
-//! # Functions
-//!
-//! | function                                | value                                                             |
-//! |-----------------------------------------|-------------------------------------------------------------------|
-//! | `sin cos tan asin acos atan`            | in radians                                                        |
-//! | `atan2(y, x)`                           | angle of (x, y) in (-pi, pi]                                      |
-//! | `sinh cosh tanh exp sqrt abs`           | `abs` has slope 1 at 0                                            |
-//! | `ln(x)`, `log(x)`                       | natural logarithm, both                                           |
-//! | `log10(x)`                              | decimal logarithm                                                 |
-//! | `pow(x, y)`                             | `x^y`                                                             |
-//! | `min(a, b, ...)`, `max(a, b, ...)`      | the first where both are equal                                    |
-//! | `hypot(a, b)`                           | sqrt(a^2 + b^2), with zero derivatives at the origin              |
-//! | `sign(x)`                               | -1, 0, 1                                                          |
-//! | `step(x)`                               | 0 for x < 0, 1 for x >= 0                                         |
-//! | `floor(x)`                              | largest whole number <= x; no value beyond 2^29                   |
-//! | `mod(a, b)`                             | a - b floor(a/b), from 0 to b: a cycle                            |
-//! | `smoothstep(x)`                         | 0 for x <= 0, 1 for x >= 1, 6 x^5 - 15 x^4 + 10 x^3 between: C2   |
-//! | `if(c, a, b)`                           | `a` where `c` is true, otherwise `b`                              |
-//! | `table(x, x0, y0, x1, y1, ...)`         | straight lines through two or more points, `y` constant outside   |
-//!
-//! The points of a table are constants with increasing `x`: it is a linear [`Signal`] that holds. At a point the slope
-//! is that of the line to its right. A signal of the scene is a function of one argument by its name.
-//!
-//! `abs`, `min`, `max`, `sign`, `step`, `smoothstep`, `floor`, `mod`, comparisons, tables and signals change their form where an
-//! argument passes a threshold: see [`Switch`].
-//!
-//! `x^n` with a constant whole n takes any x, and `0^0` is 1. Every other power wants x >= 0 and is not a number for
-//! x < 0. Only the chosen one of `if`'s two values counts: the other may be infinite or not a number.
+#![doc = include_str!("language.md")]
 
 mod builder;
 mod error;
@@ -80,6 +31,10 @@ pub use scope::Scope;
 pub use switch::{Switch, TimeFunction};
 
 use super::signal::Signal;
+/// Grammar, functions and names as text.
+#[doc(hidden)]
+pub const LANGUAGE: &str = include_str!("language.md");
+
 use super::{Regime, Scalar};
 use error::excerpt;
 use program::{Op, Program};

@@ -113,12 +113,11 @@ pub fn linear_stem(t: f64, method: Option<&str>) -> String {
 }
 
 impl Linear<'_> {
-    /// Writes the model as JSON, for NumPy and for MATLAB; `stem` is the name of the files without extension.
+    /// Writes the arrays for NumPy and for MATLAB; `stem` is the name of the files without extension.
     ///
     /// # Errors
     /// Files that cannot be written.
     pub fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
-        folder.write_json(&format!("{stem}.json"), &self.file())?;
         let arrays = self.arrays();
         #[cfg(feature = "npz")]
         folder.write(&format!("{stem}.npz"), &crate::files::npz::write(&arrays)?)?;

@@ -1,6 +1,6 @@
 //! `loci.csv`, `loci.json`, and text on eigenvalues at many states.
 
-use crate::error::{Error, Failure, Result, Warning, significant};
+use crate::error::{Error, Failure, Result, significant};
 use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, damping, frequency};
 use crate::plot::AxisSpec;
 use crate::report::{Table, cell, table};
@@ -27,8 +27,6 @@ pub struct LociSummary {
     pub failures: Vec<FailureFile>,
     /// Ranges of the modes.
     pub modes: Vec<ModeSummary>,
-    /// Warnings about the states and the method.
-    pub warnings: Vec<Warning>,
 }
 
 /// Variable that the eigenvalues are functions of: time in s, or a parameter of the scene.
@@ -124,7 +122,6 @@ impl LociSummary {
             equilibria: loci.reached.iter().filter(|state| state.equilibrium).count(),
             failures: loci.gaps.iter().map(|gap| failure(gap.at, &gap.error)).collect(),
             modes: upper(loci).map(|(mode, branch)| mode_summary(mode, branch, least)).collect(),
-            warnings: loci.doubts.clone(),
         }
     }
 

@@ -1,7 +1,9 @@
 //! Interpolation between the rows of a trajectory.
 
+use crate::error::{Warning, clock};
 use crate::prepared::PreparedScene;
 use crate::system::MechanicalSystem;
+use crate::tolerances::report as tolerances;
 use crate::trajectory::Trajectory;
 
 /// Coordinates and velocities at a time.
@@ -26,6 +28,27 @@ impl<'a> Motion<'a> {
     /// The motion of a trajectory with at least one row.
     pub fn new(prepared: &'a PreparedScene, trajectory: &'a Trajectory) -> Self {
         Motion { prepared, trajectory }
+    }
+
+    /// The rows.
+    pub fn trajectory(&self) -> &'a Trajectory {
+        self.trajectory
+    }
+
+    /// Returns a warning if rows are too far apart to draw the mechanism between them.
+    pub fn sparse(&self) -> Option<Warning> {
+        let (names, length) = (&self.trajectory.names.q, self.prepared.system().length());
+        let scale = |name: &String| if name.ends_with(['x', 'y', 'z']) && !name.contains(".q") { length } else { 1.0 };
+        // On half the distance the cubic is 2^4 times as accurate.
+        let is_far = |row: &[Vec<f64>]| {
+            let ((q, ..), found) = (self.trajectory.row_state(&row[1]), self.between(&row[0], &row[2], row[1][0]).q);
+            let errors =
+                names.iter().zip(q.iter().zip(found)).map(|(name, (q, found))| (q - found).abs() / scale(name));
+            errors.fold(0.0, f64::max) / 16.0 > tolerances::BETWEEN_ROWS
+        };
+        let row = self.trajectory.rows.windows(3).find(|row| !names.is_empty() && is_far(row))?;
+        let text = format!("rows at t = {} s are too far apart to draw the mechanism between them", clock(row[1][0]));
+        Some(Warning::new(text, "draw it at times of rows with --at, or simulate with a smaller --output-step"))
     }
 
     /// Returns its start and end time, s.

@@ -3,10 +3,9 @@
 use super::array::Array;
 use super::spec::{Lumped, ModalData, Node, Nodes};
 use crate::error::{Error, Result, suggest};
-use crate::files::{self, npy::Npy};
-use std::io::Cursor;
+use crate::files::npy::Npy;
+use crate::files::npz::{self, Archive, member as bytes};
 use std::path::Path;
-use zip::ZipArchive;
 
 /// Keys of arrays that have the same meaning as in JSON.
 const PLAIN: [&str; 8] = [
@@ -25,9 +24,7 @@ const LUMPED: [&str; 3] = ["lumped_masses", "lumped_positions", "lumped_translat
 /// # Errors
 /// Bad input: a file that is no archive of arrays, unknown or missing keys, arrays that do not fit.
 pub fn read(path: &Path) -> Result<ModalData<Array>> {
-    let file = files::read(path).map_err(|problem| Error::input(problem.to_string()))?;
-    let mut archive = ZipArchive::new(Cursor::new(file))
-        .map_err(|problem| Error::input(problem.to_string()).hint("write it by numpy.savez"))?;
+    let mut archive = npz::open(path)?;
     let names = archive.file_names().filter_map(|name| name.ok().map(|name| name.into_owned()));
     let keys: Vec<String> = names.map(|name| name.trim_end_matches(".npy").to_string()).collect();
     let known = || PLAIN.into_iter().chain(NODES).chain(LUMPED);
@@ -52,21 +49,6 @@ pub fn read(path: &Path) -> Result<ModalData<Array>> {
         lumped: lumped(&mut archive)?,
         nodes: nodes(&mut archive)?,
     })
-}
-
-type Archive = ZipArchive<Cursor<Vec<u8>>>;
-
-/// Contents of the `.npy` file of one array, if there is one.
-fn bytes(archive: &mut Archive, key: &str) -> Result<Option<Vec<u8>>> {
-    let problem = match archive.by_name(&format!("{key}.npy")) {
-        Ok(file) => match files::read_limited(file) {
-            Ok(bytes) => return Ok(Some(bytes)),
-            Err(problem) => problem.to_string(),
-        },
-        Err(zip::result::ZipError::FileNotFound) => return Ok(None),
-        Err(problem) => problem.to_string(),
-    };
-    Err(Error::input(problem).under(key))
 }
 
 fn array(archive: &mut Archive, key: &str) -> Result<Option<Array>> {

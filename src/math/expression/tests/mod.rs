@@ -212,3 +212,18 @@ fn positions_count_characters() {
     let error = Expression::parse("π*π + lenght", &Fixture).unwrap_err();
     assert_eq!((error.position, error.text.as_str()), (Some(7), "π*π + lenght"));
 }
+
+/// The page of the language has each function once, with its arguments, and no other.
+#[test]
+fn the_page_names_every_function() {
+    let table = super::LANGUAGE.split("# Functions").nth(1).unwrap().split("\nThe points").next().unwrap();
+    let cells = table.lines().filter_map(|line| line.strip_prefix("| `")?.split('|').next());
+    let spans = cells.flat_map(|cell| cell.split('`').step_by(2).collect::<Vec<_>>());
+    let calls = spans.flat_map(|span| if span.contains('(') { vec![span] } else { span.split(' ').collect() });
+    let mut named: Vec<&str> =
+        calls.filter_map(|call| call.split('(').next()).filter(|name| !name.is_empty()).collect();
+    let mut known: Vec<&str> = super::function::FUNCTIONS.iter().map(|(name, _)| *name).collect();
+    named.sort_unstable();
+    known.sort_unstable();
+    assert_eq!(named.iter().filter(|name| **name != ",").copied().collect::<Vec<_>>(), known);
+}

@@ -1,0 +1,214 @@
+//! `holonom reference`
+
+use super::common::{pick, print};
+use crate::error::Result;
+use crate::math::expression::LANGUAGE;
+use crate::prepared;
+use crate::report::Table;
+use crate::scene::units::Dimension;
+use crate::scene::{Elements, MeasureKind};
+use serde_json::Value;
+use std::process::ExitCode;
+
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom reference expressions
+  holonom reference spring_damper")]
+pub struct Args {
+    /// A key of a scene, such as bodies, outputs or simulation; a type, such as revolute; expressions or units
+    /// (default: a list of all)
+    #[arg(value_name = "TOPIC")]
+    topic: Option<String>,
+}
+
+/// Lists of elements in a scene, which have types.
+const ELEMENTS: [&str; 3] = ["bodies", "joints", "forces"];
+
+/// Width of a line, characters.
+const WIDTH: usize = 110;
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let reference = Reference { schema: prepared::schema(&Elements::default()) };
+    let text = match &args.topic {
+        None => reference.all(),
+        Some(topic) => reference.topic(topic)?,
+    };
+    print(&text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What the schema of scenes says.
+struct Reference {
+    schema: Value,
+}
+
+impl Reference {
+    fn all(&self) -> String {
+        let mut text = format!("{}\n\n{}", wrapped(&plain(&self.schema), 0), self.keys(&self.schema));
+        for key in ELEMENTS {
+            text += &format!("\n{key}, each with a \"type\"\n{}", self.types(key));
+        }
+        text += &format!("\noutputs, each with a \"measure\"\n{}", self.measures());
+        text + "\nMore: holonom reference TOPIC, a key or a type of these, expressions, or units; holonom methods\n"
+    }
+
+    fn topic(&self, topic: &str) -> Result<String> {
+        let types = || ELEMENTS.iter().flat_map(|key| self.elements(key)).map(|kind| (name(kind), kind));
+        let names: Vec<&str> =
+            ["expressions", "units"].into_iter().chain(self.own_keys()).chain(types().map(|kind| kind.0)).collect();
+        Ok(match pick("topic", topic, &names)? {
+            "expressions" => language(),
+            "units" => units(),
+            key if ELEMENTS.contains(&key) => self.types(key),
+            "outputs" => {
+                let output = self.resolved(&self.schema["properties"]["outputs"]["items"]);
+                format!("{}\n\n{}\n{}", plain(output), self.keys(output), self.measures())
+            }
+            name => {
+                let kind = types().find(|kind| kind.0 == name).map(|kind| kind.1);
+                let place = kind.unwrap_or(&self.schema["properties"][name]);
+                let object = self.resolved(place.get("items").unwrap_or(place));
+                let is_object = object.get("properties").is_some();
+                let own = if is_object { plain(object) } else { plain(place) };
+                let about = if own.is_empty() { plain(place) } else { own };
+                let gap = if is_object { "\n\n" } else { "\n" };
+                format!("{name}: {}{gap}{}", wrapped(&about, 0), self.nested_keys(object))
+            }
+        })
+    }
+
+    /// Returns the keys of a scene.
+    fn own_keys(&self) -> impl Iterator<Item = &str> {
+        properties(&self.schema).map(|(name, _)| name).filter(|name| !name.starts_with('$'))
+    }
+
+    fn elements(&self, key: &str) -> impl Iterator<Item = &Value> {
+        self.schema["properties"][key]["items"]["oneOf"].as_array().into_iter().flatten()
+    }
+
+    /// Returns the types of an element with the first sentence on each.
+    fn types(&self, key: &str) -> String {
+        let mut table = Table::left(&["type", ""]);
+        for kind in self.elements(key) {
+            let about = plain(kind);
+            let first = about.split_once(": ").filter(|(head, _)| !head.contains('.')).map_or(about.as_str(), |x| x.0);
+            let first = first.split_once(". ").map_or(first, |x| x.0).trim_end_matches('.');
+            table.row([name(kind).to_string(), first.to_string()]);
+        }
+        table.to_string()
+    }
+
+    /// Returns the measures with their keys and units.
+    fn measures(&self) -> String {
+        let mut table = Table::left(&["measure", "keys", "unit, and what it is"]);
+        for kind in self.schema["$defs"]["MeasureKind"]["oneOf"].as_array().into_iter().flatten() {
+            let keys = serde_json::from_value(kind["const"].clone()).map_or(&[][..], MeasureKind::keys);
+            table.row([kind["const"].as_str().unwrap_or_default().to_string(), keys.join(", "), plain(kind)]);
+        }
+        table.to_string()
+    }
+
+    /// Returns the keys of an object, and of objects in it, with what they mean.
+    fn nested_keys(&self, object: &Value) -> String {
+        let mut text = self.keys(object);
+        for (name, value) in properties(object) {
+            let inner = self.keys(self.resolved(value));
+            if !inner.is_empty() {
+                text += &format!("\n{name}\n{inner}");
+            }
+        }
+        text
+    }
+
+    /// Returns the keys of an object with what they mean.
+    fn keys(&self, object: &Value) -> String {
+        let required = |name: &str| object["required"].as_array().is_some_and(|all| all.iter().any(|one| one == name));
+        let keys = properties(object).filter(|(name, _)| !name.starts_with('$'));
+        let line = |(name, value): (&str, &Value)| {
+            let own = plain(value);
+            let about = if own.is_empty() { plain(self.resolved(value)) } else { own };
+            let needed = if required(name) { " (required)" } else { "" };
+            let about = if about.is_empty() { about } else { format!("\n      {}", wrapped(&about, 6)) };
+            format!("  {name}{needed}{about}{}\n", self.choices(value))
+        };
+        keys.map(line).collect()
+    }
+
+    /// Returns the words that a value can be.
+    fn choices(&self, value: &Value) -> String {
+        let alternatives = value["anyOf"].as_array().map_or(vec![value], |all| all.iter().collect());
+        let words = alternatives.into_iter().map(|one| self.resolved(one)).flat_map(|one| {
+            let named = one["oneOf"].as_array().into_iter().flatten().filter_map(|each| each.get("const"));
+            one["enum"].as_array().into_iter().flatten().chain(named).map(Value::to_string)
+        });
+        let words: Vec<String> = words.map(|word| word.trim_matches('"').to_string()).collect();
+        if words.is_empty() { String::new() } else { format!("\n      {}", wrapped(&words.join(", "), 6)) }
+    }
+
+    /// Returns the definition that a value refers to, or the value.
+    fn resolved<'v>(&'v self, value: &'v Value) -> &'v Value {
+        let choices = value["anyOf"].as_array().into_iter().flatten();
+        let reference = [value].into_iter().chain(choices).find_map(|one| one["$ref"].as_str());
+        reference.and_then(|path| self.schema.pointer(path.trim_start_matches('#'))).unwrap_or(value)
+    }
+}
+
+fn properties(object: &Value) -> impl Iterator<Item = (&str, &Value)> {
+    object["properties"].as_object().into_iter().flatten().map(|(name, value)| (name.as_str(), value))
+}
+
+fn name(kind: &Value) -> &str {
+    kind["properties"]["type"]["const"].as_str().unwrap_or_default()
+}
+
+/// Returns the description on one line.
+fn plain(value: &Value) -> String {
+    value["description"].as_str().unwrap_or_default().replace('\n', " ")
+}
+
+/// Returns the text in lines of at most 110 characters, all but the first with this indentation.
+fn wrapped(text: &str, indentation: usize) -> String {
+    let (mut wrapped, mut width) = (String::new(), indentation);
+    for word in text.split_whitespace() {
+        let length = word.chars().count() + 1;
+        if width + length > WIDTH {
+            wrapped += &format!("\n{}", " ".repeat(indentation));
+            width = indentation;
+        } else if !wrapped.is_empty() {
+            wrapped.push(' ');
+        }
+        wrapped += word;
+        width += length;
+    }
+    wrapped
+}
+
+/// Returns grammar, functions and names of expressions.
+fn language() -> String {
+    let mut text = String::new();
+    let mut table: Option<Table> = None;
+    for line in LANGUAGE.lines().chain([""]) {
+        let cells = line.strip_prefix('|').and_then(|line| line.strip_suffix('|'));
+        let Some(cells) = cells.map(|cells| cells.replace("\\|", "\u{0}").replace('`', "")) else {
+            text.extend(table.take().map(|table| table.to_string()));
+            text += &format!("{}\n", line.trim_start_matches("# ").replace('`', ""));
+            continue;
+        };
+        let cells: Vec<String> = cells.split('|').map(|cell| cell.trim().replace('\u{0}', "|")).collect();
+        match &mut table {
+            _ if cells[0].starts_with("--") => {}
+            Some(table) => table.row(cells),
+            none => *none = Some(Table::left(&cells.iter().map(String::as_str).collect::<Vec<_>>())),
+        }
+    }
+    text.trim_end().to_string() + "\n"
+}
+
+/// Returns the units of each dimension.
+fn units() -> String {
+    let mut table = Table::left(&["quantity", "units, that of the SI first"]);
+    for dimension in Dimension::all() {
+        table.row([dimension.word().to_string(), dimension.units().collect::<Vec<_>>().join(", ")]);
+    }
+    format!("{table}\nAn expression takes any word as its \"unit\", for axes alone.\n")
+}

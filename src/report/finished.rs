@@ -1,0 +1,124 @@
+//! A finished run, read back from its folder.
+
+use crate::error::{Error, Failure, Result, suggest};
+use crate::files;
+use crate::math::expression::Number;
+use crate::system::MechanicalSystem;
+use crate::trajectory::Trajectory;
+use serde::Deserialize;
+use serde_json::{Map, Value};
+use std::path::{Path, PathBuf};
+
+/// A run of `simulate` as its files have it.
+pub struct FinishedRun {
+    /// Parameters of the scene in that run.
+    pub parameters: Vec<(String, Number)>,
+    /// Reason of a failed run.
+    pub failure: Option<Failure>,
+    path: PathBuf,
+    headings: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+/// The part of a `summary.json` that is read.
+#[derive(Deserialize)]
+struct Saved {
+    parameters: Map<String, Value>,
+    failure: Option<Failure>,
+    files: Vec<String>,
+}
+
+type Rows = (Vec<String>, Vec<Vec<f64>>);
+
+impl FinishedRun {
+    /// Reads the run of a folder, or of its `summary.json`.
+    ///
+    /// # Errors
+    /// A folder without a run, and files that are not as `simulate` writes them.
+    pub fn read(path: &Path) -> Result<FinishedRun> {
+        let summary = if path.is_dir() { path.join("summary.json") } else { path.to_path_buf() };
+        let written = "name the folder that `holonom simulate` has written";
+        let text = files::read_text(&summary)
+            .map_err(|error| Error::input(error.to_string()).hint(written).in_file(&summary))?;
+        let saved: Saved = serde_json::from_str(&text).map_err(|error| {
+            Error::input(format!("it is no summary of a run: {error}")).hint(written).in_file(&summary)
+        })?;
+        let known = ["trajectory.csv", "trajectory.npz"];
+        let name = known.iter().find(|name| saved.files.iter().any(|file| file == *name)).ok_or_else(|| {
+            Error::input("this run has no trajectory that is read")
+                .hint("simulate again with --format csv or npz")
+                .in_file(&summary)
+        })?;
+        let path = summary.with_file_name(name);
+        let read = if *name == known[0] { read_table(&path) } else { read_arrays(&path) };
+        let (headings, rows) = read.map_err(|error| error.in_file(&path))?;
+        let number = |(name, value): (String, Value)| Some((name, Number::Value(value.as_f64()?)));
+        let parameters = saved.parameters.into_iter().filter_map(number).collect();
+        Ok(FinishedRun { parameters, failure: saved.failure, path, headings, rows })
+    }
+
+    /// Returns the motion of the system; with time and outputs alone where that is all that was written.
+    ///
+    /// # Errors
+    /// A run of another system.
+    pub fn trajectory(self, system: &dyn MechanicalSystem) -> Result<Trajectory> {
+        let all = [Trajectory::new(system), Trajectory::of_outputs(system)];
+        let known = all[0].headings();
+        let other = |heading: &&String| !known.contains(&heading.as_str());
+        let unknown = self.headings.iter().find(other).cloned();
+        let missing =
+            || known.iter().find(|known| self.headings.iter().all(|found| found != *known)).map(|x| x.to_string());
+        let found = all.iter().find(|trajectory| trajectory.headings() == self.headings).cloned();
+        match found {
+            Some(trajectory) => Ok(Trajectory { rows: self.rows, ..trajectory }),
+            None => {
+                let hint = unknown.as_ref().map(|name| suggest(name, known.iter().copied()));
+                let name = unknown.or_else(missing).unwrap_or_default();
+                let error = format!("it is of another scene: they do not share the column `{name}`");
+                let hint = hint.unwrap_or("draw the scene as it was when it was simulated".to_string());
+                Err(Error::input(error).hint(hint).in_file(self.path))
+            }
+        }
+    }
+}
+
+/// Reads a table; an empty cell is no value.
+fn read_table(path: &Path) -> Result<Rows> {
+    let wrong = |error: &dyn std::fmt::Display| Error::input(format!("this is no trajectory: {error}"));
+    let text = files::read_text(path).map_err(|error| wrong(&error))?;
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let headings = reader.headers().map_err(|error| wrong(&error))?.iter().map(String::from).collect();
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| wrong(&error))?;
+        let value = |cell: &str| match cell {
+            "" => Ok(f64::NAN),
+            cell => cell.parse::<f64>().map_err(|_| wrong(&format!("`{}` is no number", crate::error::excerpt(cell)))),
+        };
+        rows.push(record.iter().map(value).collect::<Result<Vec<f64>>>()?);
+    }
+    Ok((headings, rows))
+}
+
+#[cfg(feature = "npz")]
+fn read_arrays(path: &Path) -> Result<Rows> {
+    use files::{npy::Npy, npz};
+    let mut archive = npz::open(path)?;
+    let mut member =
+        |key: &str| npz::member(&mut archive, key)?.ok_or_else(|| Error::input(format!("there is no array `{key}`")));
+    let headings = Npy::parse(&member("columns")?)?.texts()?;
+    let bytes = member("rows")?;
+    let rows = Npy::parse(&bytes)?;
+    let values = rows.numbers()?;
+    match rows.shape[..] {
+        [_, columns] if columns == headings.len() && columns > 0 => {
+            Ok((headings, values.chunks(columns).map(<[f64]>::to_vec).collect()))
+        }
+        _ => Err(Error::input("`rows` and `columns` do not fit together")),
+    }
+}
+
+#[cfg(not(feature = "npz"))]
+fn read_arrays(_: &Path) -> Result<Rows> {
+    Err(Error::input("files of NumPy are not read without the feature `npz`"))
+}

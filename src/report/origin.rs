@@ -1,0 +1,162 @@
+//! Where results come from: what it takes to repeat them, and what they replace.
+
+use crate::error::Warning;
+use crate::math::expression::Parameters;
+use crate::simulate::Method;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use std::path::Path;
+
+/// What it takes to repeat a run, and reasons to doubt it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Origin {
+    /// Version of the program.
+    pub holonom: &'static str,
+    /// Command line; empty from the library.
+    pub command: Vec<String>,
+    /// Parameters of the scene.
+    pub parameters: Map<String, Value>,
+    /// Reasons to doubt the result; empty where none is known.
+    pub warnings: Vec<Warning>,
+}
+
+impl Origin {
+    /// The origin of a result of the library: no command.
+    pub fn new(parameters: &Parameters, warnings: Vec<Warning>) -> Self {
+        let parameters = parameters.iter().map(|(name, value)| (name.to_string(), Value::from(value))).collect();
+        Origin { holonom: env!("CARGO_PKG_VERSION"), command: Vec::new(), parameters, warnings }
+    }
+}
+
+/// A result with its origin.
+#[derive(Clone, Debug, Serialize)]
+pub struct Repeatable<T> {
+    /// What it takes to repeat it.
+    #[serde(flatten)]
+    pub origin: Origin,
+    /// Method by which the motion is simulated; none where nothing is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub simulation: Option<Method>,
+    /// The result.
+    #[serde(flatten)]
+    pub result: T,
+}
+
+/// A result with the names of the files that were written with it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Sealed<T> {
+    #[serde(flatten)]
+    pub(super) result: T,
+    pub(super) files: Vec<String>,
+}
+
+/// The settings of a result as its file has them.
+#[derive(Deserialize, Default)]
+#[serde(default)]
+pub(super) struct Settings {
+    command: Vec<String>,
+    parameters: Map<String, Value>,
+    simulation: Option<Value>,
+    method: Option<Value>,
+    pub files: Vec<String>,
+}
+
+/// Options that change no result; those that take a value.
+const SILENT: [&str; 3] = ["--json", "--quiet", "--resume"];
+const SILENT_WITH_VALUE: [&str; 3] = ["--figures", "--format", "-o"];
+/// Keys of a method that are settings.
+const METHOD: [&str; 6] = ["formulation", "integrator", "projection", "rtol", "atol", "step"];
+/// Largest number of settings that are named.
+const NAMED: usize = 4;
+
+impl Settings {
+    /// Reads those of earlier results; `None` if there are none, or nobody knows by which command they came.
+    pub fn read(path: &Path) -> Option<Settings> {
+        let settings = Settings::parse(&crate::files::read(path).ok()?)?;
+        (!settings.command.is_empty()).then_some(settings)
+    }
+
+    pub fn parse(json: &[u8]) -> Option<Settings> {
+        serde_json::from_slice(json).ok()
+    }
+
+    /// Returns what became of earlier results with other settings; `None` if these are the same.
+    pub fn replaced_by(&self, new: &Settings) -> Option<String> {
+        let changes = self.changes(new);
+        let is_same = changes.is_empty() && self.telling() == new.telling();
+        (!is_same).then(|| {
+            let command = ["holonom"].into_iter().chain(self.telling()).collect::<Vec<_>>().join(" ");
+            let changes = if changes.is_empty() { String::new() } else { format!(" ({})", changes.join(", ")) };
+            format!("the results of `{command}`{changes}")
+        })
+    }
+
+    /// Returns the words of the command on which results depend.
+    fn telling(&self) -> Vec<&str> {
+        let mut words = self.command.iter().skip(1).map(String::as_str);
+        let mut telling = Vec::new();
+        while let Some(word) = words.next() {
+            if SILENT_WITH_VALUE.contains(&word) {
+                words.next();
+            } else if !SILENT.contains(&word) && !SILENT_WITH_VALUE.iter().any(|option| is_assigned(word, option)) {
+                telling.push(word);
+            }
+        }
+        telling
+    }
+
+    /// Returns the settings that differ, with their earlier values.
+    fn changes(&self, new: &Settings) -> Vec<String> {
+        let (old, new) = (self.values(), new.values());
+        let differs =
+            |(name, value): &(&str, &Value)| new.iter().find(|(known, _)| known == name).map(|x| x.1) != Some(value);
+        let mut changes: Vec<String> =
+            old.into_iter().filter(differs).map(|(name, value)| format!("{name} was {}", plain(value))).collect();
+        if changes.len() > NAMED {
+            changes.truncate(NAMED);
+            changes.push("...".to_string());
+        }
+        changes
+    }
+
+    fn values(&self) -> Vec<(&str, &Value)> {
+        let method = self.simulation.as_ref().or(self.method.as_ref());
+        let of_method = METHOD.into_iter().filter_map(|key| Some((key, method?.get(key)?)));
+        self.parameters.iter().map(|(name, value)| (name.as_str(), value)).chain(of_method).collect()
+    }
+}
+
+fn is_assigned(word: &str, option: &str) -> bool {
+    word.strip_prefix(option).is_some_and(|rest| rest.starts_with('='))
+}
+
+fn plain(value: &Value) -> String {
+    match value {
+        Value::Number(number) => number.as_f64().map_or(number.to_string(), crate::error::short),
+        Value::Null => "not given".to_string(),
+        other => other.as_str().map_or(other.to_string(), str::to_string),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Settings;
+    use serde_json::json;
+
+    fn settings(command: &[&str], l: f64, rtol: f64) -> Settings {
+        let file = json!({ "command": command, "parameters": { "l": l }, "method": { "rtol": rtol }, "files": [] });
+        Settings::parse(file.to_string().as_bytes()).unwrap()
+    }
+
+    #[test]
+    fn what_differs_is_told_and_what_changes_nothing_is_not() {
+        let old = settings(&["holonom", "simulate", "a.json", "--rtol", "1e-6", "--json"], 1.0, 1e-6);
+        let same = settings(&["x", "simulate", "a.json", "--figures", "png", "--rtol", "1e-6", "-o=b"], 1.0, 1e-6);
+        assert_eq!(old.replaced_by(&same), None);
+        let told = "the results of `holonom simulate a.json --rtol 1e-6`";
+        let other = settings(&["holonom", "simulate", "a.json"], 2.0, 1e-8);
+        assert_eq!(old.replaced_by(&other), Some(format!("{told} (l was 1, rtol was 1e-6)")));
+        let later = settings(&["holonom", "simulate", "a.json", "--rtol", "1e-6", "--until", "2"], 1.0, 1e-6);
+        assert_eq!(old.replaced_by(&later), Some(told.to_string()));
+    }
+}
