@@ -102,7 +102,7 @@ fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Poi
     let (mut points, mut places) = (Vec::new(), Vec::new());
     for record in reader.records() {
         let record = record.map_err(broken)?;
-        let place = format!("{file}, line {}", record.position().map_or(0, csv::Position::line));
+        let place = format!("{file}, line {}", record.position().map_or(0, |at| line(text, at)));
         let number = |k: usize| {
             let cell = record.get(chosen[k]).unwrap_or_default();
             cell.parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(|| {
@@ -118,6 +118,13 @@ fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Poi
         places.push(place);
     }
     Ok(Points { points, places, field: "file" })
+}
+
+/// Line of a record, whose position is before the empty lines that it follows.
+fn line(text: &str, at: &csv::Position) -> u64 {
+    let rest = text.as_bytes().iter().skip(at.byte() as usize);
+    let empty = rest.take_while(|c| matches!(c, b'\r' | b'\n')).filter(|c| **c == b'\n');
+    at.line() + empty.count() as u64
 }
 
 /// Indices of the two columns by name, or those of the first two.

@@ -47,7 +47,7 @@ cases! {
         with_signal("{ 'name': 'gas', 'points': [[0, 1], [1, 2]], 'interpolation': 'cubc' }", "1") =>
             ["at signals[0].interpolation", "cubc"];
     a_start_beyond:
-        with_signal(GAS, "1").force(
+        pendulum().with("'gravity'", &format!("'signals': [{GAS}],\n  'gravity'")).force(
             "{ 'name': 'push', 'type': 'applied_torque', 'at': 'rod', 'torque': 'gas(rod.angle - 1)' }") =>
             ["at signals: at the start, the force `push` leaves the range of the signal `gas`, which goes from 0 to 3"];
 }
