@@ -456,13 +456,14 @@ cases! {
             "give one of `force`, an applied force or torque, `driver`, a joint, and `tyre`, a force",
         ];
     input_no_driver:
-        pendulum().with("'inputs': []", "'inputs': [{'name':'u','driver':'O'}]") => [
-            "scene.json:18:35: at inputs[0].driver (`u`): `O` is a revolute, which an input cannot drive",
+        pendulum().with("'inputs': []", "'inputs': [{'name':'u','driver':'pin'}]") => [
+            "scene.json:18:35: at inputs[0].driver (`u`): `pin` is a revolute, which an input cannot drive",
             "name a joint of type driver",
         ];
     input_unknown_driver:
         pendulum().with("'inputs': []", "'inputs': [{'name':'u','driver':'P'}]") => [
             "scene.json:18:35: at inputs[0].driver (`u`): there is no driver `P`",
+            "there is only `pin`",
         ];
     input_no_tyre:
         pendulum().with("'inputs': []", "'inputs': [{'name':'u','tyre':'spring'}]") => [
@@ -485,6 +486,7 @@ cases! {
         pendulum().with("'inputs': []", "'inputs': [{'name':'u','tyre':'w','value':'rod.x'}]")
             .force("{ 'name': 'w', 'type': 'tyre', 'at': 'rod.B', 'stiffness': 1, 'radius': 1 }") => [
             "scene.json:18:45: at inputs[0].value (`u`): this may depend on t and parameters only, but uses a marker",
+            "markers may stand in an `equation` joint, an applied force or torque, and outputs",
         ];
     input_dup:
         pendulum()
