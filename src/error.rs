@@ -284,6 +284,16 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// A part in per cent with two significant digits: 0.12 %, 3e-5 %.
+pub fn percent(part: f64) -> String {
+    match 100.0 * part {
+        0.0 => "0".to_string(),
+        most if most >= 100.0 => format!("{most:.0} %"),
+        much if much >= 0.01 => format!("{} %", significant(format!("{much:.1e}").parse().unwrap_or(much), 2)),
+        little => format!("{little:.0e} %"),
+    }
+}
+
 /// A time with at most nine significant digits: 0.6 for 0.6000000000000001.
 pub fn clock(t: f64) -> String {
     shown(format!("{t:.8e}").parse().unwrap_or(t))

@@ -51,6 +51,7 @@
 //! | [`linearize`] | linear models at a state, by every method; state-transition matrix, loci | a file and a line in [`linearize::registry`] |
 //! | [`validate`] | linear models against perturbed simulations | |
 //! | [`compare`] | many simulations of one scene: drift under stabilizations, speed for accuracy ([`compare::work_precision`]), maps over stress parameters ([`compare::stress`]) | a stress parameter: an entry in [`compare::stress::registry`] |
+//! | [`simplify`] | the least model of a scene that keeps a promise | a file and a line in [`simplify::registry`], or from outside |
 //! | [`tolerances`] | every threshold, with what it decides, its unit, reason and test | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
 //!
@@ -70,6 +71,7 @@
 //! | integrator | [`integrator::Entry`] and its [`spec`](method_spec::Listed::spec) in a [`simulate::Method`] | `own_integrator.rs`, `own_tableau.rs` |
 //! | formulation | [`formulation::Entry`] likewise | `own_formulation.rs` |
 //! | projection | [`projection::Entry`] likewise | `own_projection.rs` |
+//! | simplification | [`simplify::Candidate`] in the list that [`simplify::simplify`](fn@simplify::simplify) takes | `own_simplification.rs` |
 //!
 //! Beside them: a scene built in code by [`scene::SceneBuilder`] (`scene_in_code.rs`), and a linear model (`linear_model.rs`).
 //!
@@ -126,6 +128,7 @@ pub mod projection;
 #[doc(hidden)]
 pub mod report;
 pub mod scene;
+pub mod simplify;
 pub mod simulate;
 pub mod sweep;
 pub mod system;

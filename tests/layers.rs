@@ -20,6 +20,7 @@ const LAYERS: &[&[&str]] = &[
     &["analysis"],
     &["linearize", "validate"],
     &["compare"],
+    &["simplify"],
     &["plot"],
     &["report"],
     &["cli"],

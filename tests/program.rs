@@ -7,6 +7,7 @@ mod errors;
 mod layers;
 mod robustness;
 mod scenes;
+mod simplify;
 mod stress;
 mod stress_budget;
 mod stress_truth;

@@ -10,6 +10,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom import models/data/two_link.urdf -o two_link.json
+  holonom import models/data/two_link.urdf --free")]
 pub struct Args {
     /// Robot in URDF
     #[arg(value_name = "FILE")]

@@ -16,6 +16,7 @@ mod plot;
 mod reference;
 mod restart;
 mod schema;
+mod simplify;
 mod simulate;
 mod stress;
 mod sweep;
@@ -85,6 +86,12 @@ enum Command {
     Transition(transition::Args),
     /// Maps over extremes: steps, gains, masses, stiffness, tolerances, speeds, sizes, times, start errors
     Stress(stress::Args),
+    /// The least model and the cheapest method that keep the watched outputs within a bound, as a scene
+    ///
+    /// The scene is the richest model. What a change does is estimated from one run of it, then measured: the model with all
+    /// that was left out is run whole on the same motion. Beams with fewer elements or modes or rigid, links and branches
+    /// without mass, bodies at rest, stiff springs and bushings, redundant joints, forces that hardly do any work.
+    Simplify(simplify::Args),
     /// Print a scalable scene
     Generate(generate::Args),
     /// A scene from a robot in URDF, loops closed by joints named here
@@ -124,6 +131,7 @@ pub fn run() -> ExitCode {
         Command::Validate(args) => validate::run(args),
         Command::Transition(args) => transition::run(args),
         Command::Stress(args) => stress::run(args),
+        Command::Simplify(args) => simplify::run(args),
         Command::Generate(args) => generate::run(args),
         Command::Import(args) => import::run(args),
         Command::Methods(args) => methods::run(args),

@@ -14,7 +14,9 @@ fn every_example_of_every_help_runs() {
     let place = Place::new("");
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
     fs::create_dir(place.path("models")).unwrap();
-    for name in files(&models) {
+    fs::create_dir(place.path("models/data")).unwrap();
+    let data = files(&models.join("data")).into_iter().map(|name| format!("data/{name}"));
+    for name in files(&models).into_iter().filter(|name| name != "data").chain(data) {
         fs::copy(models.join(&name), place.path("models").join(&name)).unwrap();
     }
     let names = commands(&place);

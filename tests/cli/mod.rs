@@ -19,6 +19,7 @@ mod plot;
 mod reference;
 mod restart;
 mod schema;
+mod simplify;
 mod simulate;
 mod singular;
 mod stress;

@@ -8,6 +8,7 @@ pub mod own_formulation;
 pub mod own_integrator;
 pub mod own_joint;
 mod own_projection;
+mod own_simplification;
 mod own_tableau;
 mod scene_in_code;
 

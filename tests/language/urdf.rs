@@ -6,29 +6,7 @@ use holonom::report::check;
 use serde_json::Value;
 
 /// An arm of two links about y, its second link bent by a quarter turn and with a tool fixed to it.
-const ARM: &str = r#"<?xml version="1.0"?>
-<robot name="two-link arm">
-  <link name="base-link"><visual><geometry><mesh filename="package://arm/base.stl"/></geometry></visual></link>
-  <link name="upper">
-    <inertial><origin xyz="0.5 0 0.1" rpy="0 0 0"/><mass value="3"/>
-      <inertia ixx="0.02" ixy="0" ixz="0" iyy="0.3" iyz="0" izz="0.31"/></inertial>
-  </link>
-  <link name="lower">
-    <inertial><origin xyz="0 0 0.4" rpy="0 1.5707963267948966 0"/><mass value="2"/>
-      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.2" iyz="0" izz="0.21"/></inertial>
-  </link>
-  <link name="tool">
-    <inertial><mass value="1"/><inertia ixx="0.004" iyy="0.004" izz="0.004"/></inertial>
-  </link>
-  <joint name="shoulder" type="revolute">
-    <origin xyz="0 0 1"/><parent link="base-link"/><child link="upper"/><axis xyz="0 1 0"/>
-    <limit lower="-2" upper="2" effort="30" velocity="2"/><dynamics damping="0.3"/>
-  </joint>
-  <joint name="elbow" type="continuous">
-    <origin xyz="1 0 0" rpy="0 1.5707963267948966 0"/><parent link="upper"/><child link="lower"/><axis xyz="0 1 0"/>
-  </joint>
-  <joint name="flange" type="fixed"><origin xyz="0 0 0.9"/><parent link="lower"/><child link="tool"/></joint>
-</robot>"#;
+const ARM: &str = include_str!("../../models/data/two_link.urdf");
 
 fn imported(text: &str, base: Option<&str>, closures: &[&str]) -> Imported {
     let closures = closures.iter().map(|closure| closure.parse().unwrap()).collect();

@@ -38,6 +38,8 @@ pub use error_metric::Watched;
 pub use given::Given;
 pub use grid::{Filter, Triple, grid};
 #[doc(hidden)]
+pub use models::tighter;
+#[doc(hidden)]
 pub use reference::{Pace, Reference};
 pub use runner::{Plan, Runner};
 pub use sample::Motion;

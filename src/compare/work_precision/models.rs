@@ -199,11 +199,7 @@ impl<'a> Run<'a> {
     /// Runs once with a tighter tolerance, then for the time.
     fn repeat(&mut self, span: Span, round: usize, allowed: Duration) -> Result<()> {
         let prepared = &self.variant.prepared;
-        let method = match (round, prepared.method.step) {
-            (0, None) => tighter(&prepared.method),
-            (0, Some(step)) => Method { step: Some(0.1 * step), ..prepared.method.clone() },
-            _ => prepared.method.clone(),
-        };
+        let method = if round == 0 { tighter(&prepared.method) } else { prepared.method.clone() };
         let failed = [&self.usual, &self.tight].into_iter().flatten().any(|sample| sample.failure.is_some());
         if failed {
             return Ok(());
@@ -260,7 +256,11 @@ impl<'a> Run<'a> {
     }
 }
 
-fn tighter(method: &Method) -> Method {
+/// The method at the tolerance against which models are compared: a hundredth, or a tenth of the step.
+pub fn tighter(method: &Method) -> Method {
+    if let Some(step) = method.step {
+        return Method { step: Some(0.1 * step), ..method.clone() };
+    }
     // Below this, only round-off remains.
     let rtol = (tolerances::MODEL_TIGHTER * method.rtol).max(1e-13).min(method.rtol);
     Method { rtol, atol: method.atol * rtol / method.rtol, ..method.clone() }

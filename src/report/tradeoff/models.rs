@@ -2,7 +2,7 @@
 
 use super::milliseconds;
 use crate::compare::work_precision::models::{Finer, ModelCost, ModelCosts};
-use crate::error::Result;
+use crate::error::{Result, percent};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::report::{Table, cell, table};
 use serde::Serialize;
@@ -90,16 +90,6 @@ fn convergence(costs: &ModelCosts) -> String {
         (None, None) => "whether the richest is converged is not known".to_string(),
     };
     format!("  {text}\n\n")
-}
-
-fn percent(part: f64) -> String {
-    match 100.0 * part {
-        0.0 => "0".to_string(),
-        much if much >= 0.01 => {
-            format!("{} %", crate::error::significant(format!("{much:.1e}").parse().unwrap_or(much), 2))
-        }
-        little => format!("{little:.0e} %"),
-    }
 }
 
 fn cost(model: &ModelCost) -> Vec<String> {

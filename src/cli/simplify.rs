@@ -1,0 +1,112 @@
+//! `holonom simplify SCENE --within P%`
+
+use super::common::{Output, SceneOptions, Talk, number, tell};
+use super::interrupt;
+use crate::error::{Error, Result};
+use crate::prepared::{Overrides, PreparedScene};
+use crate::report::{simplify_figure, simplify_table, simplify_text};
+use crate::simplify::{Nearby, Norm, Settings, Simplification, Source, registry, simplify};
+use clap::ValueEnum;
+use std::process::ExitCode;
+
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom simplify models/flexible_slider_crank_fe.json --within 10%
+  holonom simplify models/pendulum.json --within 1% --until 2 --outputs x,y --json")]
+pub struct Args {
+    #[command(flatten)]
+    scene: SceneOptions,
+    /// Allowed difference of every watched output from the scene as it is, such as 5%
+    #[arg(long, value_name = "P%", value_parser = percentage, allow_hyphen_values = true)]
+    within: f64,
+    /// Outputs that the promise is about (default: all)
+    #[arg(long, value_name = "NAME[,NAME...]", value_delimiter = ',')]
+    outputs: Vec<String>,
+    /// What differences are relative to
+    #[arg(long, value_enum, default_value_t = NormOption::Range)]
+    norm: NormOption,
+    /// Runs in all, two of them of the scene as it is
+    #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u16).range(3..))]
+    at_most: u16,
+    /// Try the promise on motions nearby, too: parameters, and velocities at the start, moved by up to so much
+    #[arg(long, value_name = "P%", value_parser = percentage, allow_hyphen_values = true)]
+    robust: Option<f64>,
+    /// Number of motions nearby
+    #[arg(long, value_name = "N", default_value_t = 8, requires = "robust", value_parser = clap::value_parser!(u16).range(1..))]
+    samples: u16,
+    /// End time, s
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    until: Option<f64>,
+    #[command(flatten)]
+    output: Output,
+    #[command(flatten)]
+    talk: Talk,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum NormOption {
+    /// Largest difference over the range of the output
+    Range,
+    /// Root mean square of the difference over that of the output about its mean
+    Rms,
+}
+
+/// Reads a part in per cent, above 0 and below 100.
+fn percentage(text: &str) -> Result<f64, String> {
+    let wrong = || "write a part in per cent, such as 5% or 0.1%".to_string();
+    let value = number(text.trim().strip_suffix('%').ok_or_else(wrong)?)?;
+    (value > 0.0 && value < 100.0).then_some(0.01 * value).ok_or("it must be above 0 % and below 100 %".to_string())
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let overrides = Overrides { set: args.scene.set.clone(), until: args.until, ..Overrides::default() };
+    let prepared = args.talk.load(&args.scene.path, &overrides)?;
+    let name = prepared.name.clone();
+    let source = Source::load(&args.scene.path, &overrides)?;
+    let folder = args.output.folder(&name)?;
+    let bar = args.talk.progress(args.at_most.into(), &name);
+    let mut watch = |what: &str, done: usize| {
+        bar.set_message(what.to_string());
+        bar.set_position(done as u64);
+    };
+    let found = simplify(&source, &args.settings(), registry(), &interrupt::is_asked, &mut watch);
+    bar.finish_and_clear();
+    report(&args, (&prepared, &found?), folder)
+}
+
+fn report(
+    args: &Args,
+    (prepared, found): (&PreparedScene, &Simplification),
+    mut folder: crate::report::Folder,
+) -> Result<ExitCode> {
+    args.talk.warn(&found.warnings);
+    folder.write("simplify.csv", &simplify_table(found)?)?;
+    args.output.figure(&mut folder, "simplify", simplify_figure(found))?;
+    let scene = serde_json::to_string_pretty(&found.simplified).map_err(|error| Error::input(error.to_string()))?;
+    folder.write("simplified.json", format!("{scene}\n").as_bytes())?;
+    let sealed = folder.seal("simplify.json", args.talk.repeatable(prepared, found))?;
+    let written = args.talk.finish(folder)?;
+    args.talk.print(&sealed, || simplify_text(found))?;
+    args.talk.tell_files(&written)?;
+    if interrupt::is_asked() {
+        tell("error: interrupted\n  help: the model is the least one until then");
+        return Ok(ExitCode::from(1));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+impl Args {
+    fn settings(&self) -> Settings {
+        let samples = usize::from(self.samples);
+        Settings {
+            within: self.within,
+            norm: match self.norm {
+                NormOption::Range => Norm::Range,
+                NormOption::Rms => Norm::Rms,
+            },
+            outputs: self.outputs.clone(),
+            at_most: self.at_most.into(),
+            nearby: self.robust.map(|by| Nearby { by, samples }),
+        }
+    }
+}

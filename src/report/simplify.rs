@@ -1,0 +1,164 @@
+//! The least model that keeps a promise: text, table and figure.
+
+use super::tradeoff::milliseconds;
+use super::{Table, cell, table};
+use crate::error::{Result, percent, short_list};
+use crate::plot::{AxisSpec, Figure, Panel, Series};
+use crate::simplify::{NearbyMotion, Norm, Robustness, Run, Simplification, Trial, Which};
+
+/// Returns the result as text.
+pub fn simplify_text(result: &Simplification) -> String {
+    let Simplification { scene, within, norm, outputs, trials, robustness, .. } = result;
+    let size = match norm {
+        Norm::Range => "range",
+        Norm::Rms => "rms swing",
+    };
+    let mut text = format!("{scene}: within {} of the {size} of {}\n\n", percent(*within), short_list(outputs));
+    text += &format!("{}\n", outcome(result));
+    let mut changes = Table::new(&["tried", "estimated", "measured", "CPU", "result"]).words(4);
+    trials.iter().filter(|trial| trial.run.is_some()).for_each(|trial| changes.row(row(trial)));
+    text += &format!("{changes}");
+    let left = trials.iter().filter(|trial| trial.run.is_none());
+    for trial in left.clone().take(LISTED) {
+        text += &format!("  not tried: {}: {}\n", name(trial), first_line(&trial.reason));
+    }
+    match left.count().saturating_sub(LISTED) {
+        0 => {}
+        more => text += &format!("  not tried: {more} more, in simplify.csv\n"),
+    }
+    robustness.iter().for_each(|robustness| text += &near(robustness, *within));
+    text
+}
+
+/// Number of changes that were not tried in the text.
+const LISTED: usize = 5;
+
+fn outcome(result: &Simplification) -> String {
+    let Simplification { richest, chosen, runs, within, .. } = result;
+    let mut text = match result.is_simpler() {
+        true => String::new(),
+        false => format!("  nothing can be left out: no simpler model keeps within {}\n", percent(*within)),
+    };
+    for trial in result.left_out() {
+        trial.what.iter().for_each(|what| text += &format!("  {what}\n"));
+    }
+    text += &match chosen.method.step {
+        Some(step) => format!("  by {}, step {step:e} s\n", chosen.method.triple()),
+        None => format!("  by {}, rtol {:e}\n", chosen.method.triple(), chosen.method.rtol),
+    };
+    let size = |run: &Run| format!("{} velocities and {} constraints", run.velocities, run.constraints);
+    let farthest =
+        chosen.worst().map_or(String::new(), |worst| format!("{} is off by {}", worst.name, percent(worst.error)));
+    let [before, after] = [richest, chosen].map(|run| format!("{} in {}", size(run), milliseconds(run.seconds)));
+    text + &format!("  {after}, the richest {before}\n  {farthest}, all others by less; found by {runs} runs\n")
+}
+
+/// One change by what it does, several by what they are about.
+fn name(trial: &Trial) -> String {
+    match &trial.what[..] {
+        [one] => one.clone(),
+        _ => format!("{} of {}", trial.candidate, short_list(&trial.subjects)),
+    }
+}
+
+fn first_line(text: &str) -> &str {
+    text.lines().next().unwrap_or("")
+}
+
+fn row(trial: &Trial) -> Vec<String> {
+    let measured = trial.run.as_ref().and_then(Run::worst).map_or("-".to_string(), |worst| percent(worst.error));
+    let time = trial.run.as_ref().map_or("-".to_string(), |run| milliseconds(run.seconds));
+    let result = if trial.is_kept { "kept" } else { first_line(&trial.reason) };
+    vec![name(trial), percent(trial.estimated), measured, time, result.to_string()]
+}
+
+fn near(robustness: &Robustness, within: f64) -> String {
+    let Robustness { nearby, motions, counted, kept, .. } = robustness;
+    let worst = motions.iter().filter_map(|motion| motion.error).fold(0.0, f64::max);
+    let failed = |motion: &&NearbyMotion, which| motion.failure.as_ref().is_some_and(|(own, _)| *own == which);
+    let left = |which, name: &str| match motions.iter().filter(|motion| failed(motion, which)).count() {
+        0 => String::new(),
+        count => format!("; on {count} the {name} model does not complete"),
+    };
+    let velocities = robustness.velocities.then(|| "the velocities at the start".to_string());
+    let parameters = (!robustness.parameters.is_empty()).then(|| short_list(&robustness.parameters));
+    format!(
+        "\n  within {} on {kept} of {counted} motions nearby, off by {} at most{}{}\n  moved by up to {}: {}\n",
+        percent(within),
+        percent(worst),
+        left(Which::Simplified, "simplified"),
+        left(Which::Richest, "richest"),
+        percent(nearby.by),
+        parameters.into_iter().chain(velocities).collect::<Vec<_>>().join(" and "),
+    )
+}
+
+/// Returns a row for each change: estimate, measurement, cost and result.
+///
+/// # Errors
+/// Only those of the table's writer.
+pub fn simplify_table(result: &Simplification) -> Result<Vec<u8>> {
+    let own = ["candidate", "change", "estimated", "measured", "worst", "cpu_seconds", "velocities", "constraints"];
+    let headings = own.iter().chain(&["method", "kept", "reason"]).map(|name| name.to_string());
+    let row = |trial: &Trial| {
+        let run = trial.run.as_ref();
+        let of = |value: &dyn Fn(&Run) -> String| run.map_or(String::new(), value);
+        let worst = run.and_then(Run::worst);
+        vec![
+            trial.candidate.clone(),
+            trial.what.join("; "),
+            cell(trial.estimated),
+            worst.map_or(String::new(), |worst| cell(worst.error)),
+            worst.map_or(String::new(), |worst| worst.name.clone()),
+            of(&|run| cell(run.seconds)),
+            of(&|run| run.velocities.to_string()),
+            of(&|run| run.constraints.to_string()),
+            of(&|run| run.method.triple()),
+            trial.is_kept.to_string(),
+            trial.reason.clone(),
+        ]
+    };
+    table(headings, result.trials.iter().map(row))
+}
+
+/// Factor of the axes around the points.
+const MARGIN: f64 = 2.0;
+
+/// Draws the error of every model that was run against its CPU time; the front is marked, and the chosen one named.
+pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
+    let runs = result.trials.iter().filter_map(|trial| trial.run.as_ref());
+    let point = |run: &Run| run.worst().map(|worst| (run.seconds, worst.error)).filter(|(_, error)| *error > 0.0);
+    let points: Vec<(f64, f64)> = runs.chain([&result.richest]).filter_map(point).collect();
+    let bounds = |of: fn(&(f64, f64)) -> f64| {
+        points.iter().map(of).fold((f64::INFINITY, 0.0f64), |(least, most), x| (least.min(x), most.max(x)))
+    };
+    let ((left, right), (low, high)) = (bounds(|point| point.0), bounds(|point| point.1));
+    let x = AxisSpec::from("CPU time (s)").log().range(left / MARGIN, MARGIN * right);
+    let top = MARGIN * high.max(result.within);
+    let y = AxisSpec::from("largest difference (relative)").log().range(low / MARGIN, top);
+    let promise = vec![(left / MARGIN, result.within), (MARGIN * right, result.within)];
+    let mut panel = Panel::new(x, y)
+        .series(Series::dots("models that were run", points.clone()))
+        .series(Series::line("front", front(&points)))
+        .series(Series::line("promise", promise));
+    for (run, name) in [(&result.richest, "richest"), (&result.chosen, "chosen")] {
+        if let Some((seconds, error)) = point(run) {
+            panel = panel.annotate(seconds, error, name);
+        }
+    }
+    let title = format!("{}: within {}", result.scene, percent(result.within));
+    (points.len() > 1).then(|| Figure::new().title(title).panel(panel.height(360.0)))
+}
+
+/// The points than which none is both cheaper and nearer, from cheap to dear.
+fn front(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut least = f64::INFINITY;
+    sorted.retain(|(_, error)| {
+        let is_nearer = *error < least;
+        least = least.min(*error);
+        is_nearer
+    });
+    sorted
+}

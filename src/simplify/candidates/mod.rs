@@ -1,0 +1,30 @@
+//! The built-in kinds of simplification, a file each.
+
+mod branch;
+mod flexible_body;
+mod geometric_stiffening;
+mod merged_bodies;
+mod negligible_force;
+mod planar;
+mod redundant_joint;
+mod resting_body;
+mod stiff_connection;
+mod two_force_link;
+
+use super::candidate::Candidate;
+
+/// Every built-in kind, in the order of the documentation.
+pub fn registry() -> &'static [&'static dyn Candidate] {
+    &[
+        &planar::Planar,
+        &flexible_body::FlexibleBody,
+        &two_force_link::TwoForceLink,
+        &branch::Branch,
+        &resting_body::RestingBody,
+        &merged_bodies::MergedBodies,
+        &stiff_connection::StiffConnection,
+        &redundant_joint::RedundantJoint,
+        &geometric_stiffening::GeometricStiffening,
+        &negligible_force::NegligibleForce,
+    ]
+}

@@ -1,0 +1,170 @@
+//! A link between two pins, without mass.
+
+use crate::error::percent;
+use crate::simplify::edit::{carrier, drop_references, elements, mentions, pair, remove, text};
+use crate::simplify::facts::product;
+use crate::simplify::{Candidate, Facts, Proposal};
+use serde_json::{Value, json};
+use std::array::from_fn;
+
+/// A rigid body that only two pins hold (`revolute` in the plane; in space `spherical`, or one of them `universal`), on
+/// which nothing else acts, becomes a `distance` without mass, by its share of the kinetic energy. Reactions of its pins
+/// that are watched become those of the distance.
+pub struct TwoForceLink;
+
+impl Candidate for TwoForceLink {
+    fn name(&self) -> &'static str {
+        "two_force_link"
+    }
+
+    fn propose(&self, facts: &Facts) -> Vec<Proposal> {
+        elements(facts.scene(), "bodies").iter().filter_map(|body| proposal(facts, body)).collect()
+    }
+}
+
+fn proposal(facts: &Facts, body: &Value) -> Option<Proposal> {
+    let link = Link::new(facts, body)?;
+    let effect = facts.kinetic_share(&link.name);
+    Some(Proposal {
+        subject: link.name.clone(),
+        what: format!("{} becomes a distance without mass", link.name),
+        why: format!("it has {} of the kinetic energy", percent(effect)),
+        effect,
+        edit: Box::new(move |scene| link.replace(scene)),
+    })
+}
+
+/// A link with its two pins.
+struct Link {
+    name: String,
+    pins: [Pin; 2],
+    length: String,
+    /// Markers of the link, with the components of their axes along the line from the first pin to the second.
+    axes: Vec<(String, [f64; 3])>,
+}
+
+/// An end of a link.
+struct Pin {
+    /// Name of the joint.
+    joint: String,
+    /// Marker of the link.
+    own: String,
+    /// Marker of the other body.
+    other: String,
+    /// True if the link is the second body of the joint.
+    is_second: bool,
+}
+
+impl Link {
+    fn new(facts: &Facts, body: &Value) -> Option<Link> {
+        let (scene, name) = (facts.scene(), text(body, "name"));
+        let is_free = text(body, "type") == "rigid" && body.get("free").is_none();
+        let is_loaded = elements(scene, "forces").iter().any(|force| mentions(force, name));
+        let joints: Vec<&Value> = elements(scene, "joints").iter().filter(|joint| mentions(joint, name)).collect();
+        let kinds: Vec<&str> = joints.iter().map(|joint| text(joint, "type")).collect();
+        let are_pins = match facts.dimension() {
+            2 => kinds == ["revolute", "revolute"],
+            _ => matches!(kinds[..], ["spherical", "spherical" | "universal"] | ["universal", "spherical"]),
+        };
+        if !is_free || is_loaded || !are_pins {
+            return None;
+        }
+        let pins = [Pin::new(joints[0], name)?, Pin::new(joints[1], name)?];
+        let ends = [end(facts, &pins[0].own)?, end(facts, &pins[1].own)?];
+        let gap: [f64; 3] = from_fn(|i| ends[1].0[i] - ends[0].0[i]);
+        let size = product(&gap, &gap).sqrt();
+        let along = |axes: [[f64; 3]; 3]| axes.map(|axis| product(&axis, &gap) / size);
+        let markers = body["markers"].as_object()?.keys().map(|marker| format!("{name}.{marker}"));
+        let axes =
+            markers.map(|marker| Some((marker.clone(), along(end(facts, &marker)?.1)))).collect::<Option<_>>()?;
+        let length = length(body, [&pins[0].own, &pins[1].own])?;
+        (size > 0.0 && carrier(&pins[0].other) != carrier(&pins[1].other)).then(|| Link {
+            name: name.to_string(),
+            pins,
+            length,
+            axes,
+        })
+    }
+
+    fn replace(&self, scene: &mut Value) -> Result<(), String> {
+        let [first, second] = &self.pins;
+        let there = elements(scene, "joints").iter().filter(|joint| self.owns(text(joint, "name"))).count();
+        if there != 2 {
+            return Err(format!("`{}` no longer has its pins", self.name));
+        }
+        let outputs: Vec<Value> =
+            elements(scene, "outputs").iter().filter_map(|output| self.translated(output)).collect();
+        scene["outputs"] = json!([]);
+        remove(scene, "bodies", |body| text(body, "name") == self.name);
+        drop_references(scene, &self.name);
+        scene["outputs"] = json!(outputs);
+        if let Some(joints) = scene["joints"].as_array_mut() {
+            joints.retain(|joint| text(joint, "name") != second.joint);
+            for joint in joints.iter_mut().filter(|joint| text(joint, "name") == first.joint) {
+                *joint = json!({ "name": self.name, "type": "distance", "between": [first.other, second.other],
+                                 "length": self.length });
+            }
+        }
+        Ok(())
+    }
+
+    fn owns(&self, joint: &str) -> bool {
+        self.pins.iter().any(|pin| pin.joint == joint)
+    }
+
+    /// The output without the link; `None` where that has none.
+    fn translated(&self, output: &Value) -> Option<Value> {
+        let (of, axes) = (text(output, "of"), text(output, "relative_to"));
+        let is_reaction = text(output, "measure") == "reaction" && self.owns(of);
+        if !is_reaction {
+            return (!mentions(output, &self.name)).then(|| output.clone());
+        }
+        let mut output = output.clone();
+        output["of"] = json!(self.name);
+        let Some(component) = output.get("component").and_then(Value::as_str) else { return Some(output) };
+        let index = ["x", "y", "z"].iter().position(|axis| *axis == component)?;
+        let is_at_second = of == self.pins[1].joint;
+        let pin = &self.pins[usize::from(is_at_second)];
+        if carrier(axes) != self.name {
+            // The reaction of the distance is on the body at the second pin: minus that on the link there, and equal to
+            // that on the link at the first pin.
+            return (is_at_second != pin.is_second).then_some(output);
+        }
+        // Tension pulls the link outwards at both pins.
+        let along = self.axes.iter().find(|(marker, _)| marker == axes)?.1[index];
+        let sign = if is_at_second == pin.is_second { along } else { -along };
+        output["component"] = json!("axial");
+        output.as_object_mut()?.shift_remove("relative_to");
+        ((sign - 1.0).abs() < ALIGNED).then_some(output)
+    }
+}
+
+/// Cosine to 1 of the angle between the line of the link and the axis of a force along it.
+const ALIGNED: f64 = crate::tolerances::SAME;
+
+impl Pin {
+    fn new(joint: &Value, link: &str) -> Option<Pin> {
+        let [a, b] = pair(joint)?;
+        let is_second = carrier(b) == link;
+        let (own, other) = if is_second { (b, a) } else { (a, b) };
+        let name = text(joint, "name").to_string();
+        Some(Pin { joint: name, own: own.to_string(), other: other.to_string(), is_second })
+    }
+}
+
+/// Position and axes of a marker at the start.
+fn end(facts: &Facts, marker: &str) -> Option<([f64; 3], [[f64; 3]; 3])> {
+    facts.path(marker)?.first().map(|place| (place.r, place.axes))
+}
+
+/// Distance of two markers of a body as an expression in the numbers of the scene.
+fn length(body: &Value, markers: [&str; 2]) -> Option<String> {
+    let position = |marker: &str| -> Option<&Vec<Value>> {
+        let given = &body["markers"][marker.split_once('.')?.1];
+        given.as_array().or_else(|| given["position"].as_array())
+    };
+    let number = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_string);
+    let [a, b] = [position(markers[0])?, position(markers[1])?];
+    let squares = a.iter().zip(b).map(|(a, b)| format!("({} - ({}))^2", number(b), number(a)));
+    Some(format!("sqrt({})", squares.collect::<Vec<_>>().join(" + ")))
+}

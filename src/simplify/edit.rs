@@ -1,0 +1,117 @@
+//! Changes of a scene as JSON.
+
+use serde_json::Value;
+
+/// The elements of a list of the scene, such as `bodies`; none where it is missing.
+pub fn elements<'a>(scene: &'a Value, list: &str) -> &'a [Value] {
+    scene[list].as_array().map_or(&[], Vec::as_slice)
+}
+
+/// Text at a key of an element; empty where there is none.
+pub fn text<'a>(element: &'a Value, key: &str) -> &'a str {
+    element[key].as_str().unwrap_or("")
+}
+
+/// The element of this name in a list of the scene.
+///
+/// # Errors
+/// There is none, as after an earlier change.
+pub fn find_mut<'a>(scene: &'a mut Value, list: &str, name: &str) -> Result<&'a mut Value, String> {
+    let all = scene.get_mut(list).and_then(Value::as_array_mut);
+    let found = all.and_then(|all| all.iter_mut().find(|element| text(element, "name") == name));
+    found.ok_or_else(|| format!("`{name}` is no longer there"))
+}
+
+/// Removes the elements of a list for which `is_gone` is true.
+pub fn remove(scene: &mut Value, list: &str, is_gone: impl Fn(&Value) -> bool) {
+    if let Some(all) = scene.get_mut(list).and_then(Value::as_array_mut) {
+        all.retain(|element| !is_gone(element));
+    }
+}
+
+/// Removes outputs, inputs and entries of `hold` that refer to an element that is gone.
+pub fn drop_references(scene: &mut Value, name: &str) {
+    remove(scene, "outputs", |output| mentions(output, name));
+    remove(scene, "inputs", |input| text(input, "force") == name);
+    let hold = scene.get_mut("assembly").and_then(|assembly| assembly.get_mut("hold"));
+    if let Some(names) = hold.and_then(Value::as_array_mut) {
+        names.retain(|held| !mentions(held, name));
+    }
+}
+
+/// The two markers of a joint or force, if it has two.
+pub fn pair(element: &Value) -> Option<[&str; 2]> {
+    let between = element["between"].as_array().filter(|between| between.len() == 2)?;
+    Some([between[0].as_str()?, between[1].as_str()?])
+}
+
+/// Name of the body that carries a marker.
+pub fn carrier(marker: &str) -> &str {
+    marker.split('.').next().unwrap_or(marker)
+}
+
+/// True if a text of `value` refers to the element `name`, or to a marker or coordinate of it; its own name and type
+/// do not count.
+pub fn mentions(value: &Value, name: &str) -> bool {
+    match value {
+        Value::String(text) => words(text).any(|word| carrier(word) == name),
+        Value::Array(all) => all.iter().any(|value| mentions(value, name)),
+        Value::Object(keys) => keys
+            .iter()
+            .any(|(key, value)| !["name", "type", "measure"].contains(&key.as_str()) && mentions(value, name)),
+        _ => false,
+    }
+}
+
+/// Replaces the marker or body `from`, also where a quantity of it follows, by `to` in all texts of `value`.
+pub fn rename(value: &mut Value, from: &str, to: &str) {
+    match value {
+        Value::String(text) => *text = renamed(text, from, to),
+        Value::Array(all) => all.iter_mut().for_each(|value| rename(value, from, to)),
+        Value::Object(keys) => {
+            let values = keys.iter_mut().filter(|(key, _)| !["name", "type", "measure"].contains(&key.as_str()));
+            values.for_each(|(_, value)| rename(value, from, to));
+        }
+        _ => {}
+    }
+}
+
+fn renamed(text: &str, from: &str, to: &str) -> String {
+    let (mut result, mut rest) = (String::new(), text);
+    while let Some(word) = words(rest).next() {
+        let at = word.as_ptr() as usize - rest.as_ptr() as usize;
+        result += &rest[..at];
+        match word.strip_prefix(from) {
+            Some(tail) if tail.is_empty() || tail.starts_with('.') => result += &format!("{to}{tail}"),
+            _ => result += word,
+        }
+        rest = &rest[at + word.len()..];
+    }
+    result + rest
+}
+
+/// Names in a text, such as `rod.A.x` and `sin`.
+pub fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.')).filter(|word| !word.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn names_are_told_from_parts_of_names() {
+        let force = json!({ "name": "rod", "type": "rod", "value": "2*rod1.A.x' + sin(arm.rod)" });
+        assert!(mentions(&force, "rod1") && mentions(&force, "arm") && !mentions(&force, "rod"));
+    }
+
+    #[test]
+    fn markers_are_renamed_with_their_quantities() {
+        let mut output = json!({ "name": "rod.A", "value": "rod.A.x - rod.AB.x + rod.angle" });
+        rename(&mut output, "rod.A", "ground.rod_A");
+        assert_eq!(output, json!({ "name": "rod.A", "value": "ground.rod_A.x - rod.AB.x + rod.angle" }));
+        rename(&mut output, "rod", "ground");
+        assert_eq!(output["value"], "ground.rod_A.x - ground.AB.x + ground.angle");
+    }
+}

@@ -1,0 +1,349 @@
+//! What one run of the richest model tells about its parts.
+
+use super::edit::{carrier, text};
+use super::source::Source;
+use crate::analysis::Sizes;
+use crate::body::{Frame, in_space};
+use crate::compare::work_precision::Watched;
+use crate::error::{Failure, Result};
+use crate::math::expression::Number;
+use crate::math::{Taylor, largest};
+use crate::prepared::{AnyMechanism, PreparedScene};
+use crate::simulate::{Method, Observation, Sink, simulate};
+use crate::system::{MechanicalSystem, Mechanism, Need, Scratch, Terms, Theory};
+use serde_json::{Value, json};
+use std::array::from_fn;
+
+/// The largest number of states that the estimates look at.
+const STATES: usize = 200;
+
+/// The richest model and states along its motion.
+pub struct Facts {
+    /// The scene.
+    pub source: Source,
+    /// The scene ready to run.
+    pub prepared: PreparedScene,
+    /// Names of the outputs that the promise is about.
+    pub watched: Vec<String>,
+    states: Vec<State>,
+    /// Placements of all markers, a row for each state.
+    placed: Vec<Vec<Placed>>,
+    /// Kinetic energy of each body of the model at each state, J.
+    kinetic: Vec<Vec<f64>>,
+    /// Rows of G that were found redundant.
+    pub redundant: Vec<usize>,
+}
+
+struct State {
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+}
+
+/// Position and axes of a marker in the world.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed {
+    /// Origin, m.
+    pub r: [f64; 3],
+    /// Unit axes.
+    pub axes: [[f64; 3]; 3],
+    /// Angle in the plane, rad.
+    pub turn: f64,
+    /// Velocity of the origin, m/s.
+    pub velocity: [f64; 3],
+    /// Angular velocity in the world, rad/s.
+    pub spin: [f64; 3],
+}
+
+impl Placed {
+    /// A marker of a scene at this place.
+    pub fn marker(&self, dimension: usize) -> Value {
+        match dimension {
+            2 => json!({ "position": self.r[..2], "angle": self.turn }),
+            _ => json!({ "position": self.r, "z_axis": self.axes[2], "x_axis": self.axes[0] }),
+        }
+    }
+}
+
+/// Watched rows, states and sizes of a run.
+pub struct Recorded {
+    /// Values of the watched outputs at each time after the start.
+    pub rows: Vec<Vec<f64>>,
+    /// Sizes of the motion.
+    pub sizes: Sizes,
+    states: Vec<State>,
+    redundant: Vec<usize>,
+}
+
+/// Runs a model by `method` over its own span and records it.
+///
+/// # Errors
+/// Bad input, and the failure of a run that does not complete.
+pub fn record(prepared: &PreparedScene, watched: &Watched, method: &Method) -> Result<Recorded> {
+    let system = prepared.system();
+    let recorded = Recorded { rows: Vec::new(), sizes: Sizes::default(), states: Vec::new(), redundant: Vec::new() };
+    let scales = system.scales();
+    let span = prepared.span()?;
+    let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, start: span.start, recorded };
+    let outcome = simulate(system, method, span, prepared.start(), &mut memory)?;
+    match outcome.failure {
+        None => Ok(memory.recorded),
+        Some(failure) => {
+            Err(Failure { reason: format!("the richest model does not complete: {}", failure.reason), ..failure }
+                .into())
+        }
+    }
+}
+
+struct Memory<'a> {
+    system: &'a dyn MechanicalSystem,
+    watched: &'a Watched,
+    scratch: Scratch,
+    scales: Vec<f64>,
+    start: f64,
+    recorded: Recorded,
+}
+
+impl Sink for Memory<'_> {
+    fn accepted(&mut self, _: &Observation) {}
+
+    fn row(&mut self, state: &Observation) {
+        let Recorded { rows, sizes, states, redundant } = &mut self.recorded;
+        sizes.add(self.system, state, &self.scales, &mut self.scratch);
+        states.push(State { t: state.t, q: state.q.to_vec(), v: state.v.to_vec() });
+        if state.dropped.len() > redundant.len() {
+            *redundant = state.dropped.to_vec();
+        }
+        if state.t > self.start {
+            rows.push(self.watched.read(self.system, state, &mut self.scratch));
+        }
+    }
+}
+
+impl Facts {
+    /// Facts from a recorded run of the model.
+    pub fn new(source: Source, prepared: PreparedScene, watched: Vec<String>, recorded: Recorded) -> Facts {
+        let Recorded { states, redundant, .. } = recorded;
+        let stride = states.len().div_ceil(STATES).max(1);
+        let states: Vec<State> = states.into_iter().step_by(stride).collect();
+        let (placed, kinetic) = match &prepared.mechanism {
+            AnyMechanism::Planar(mechanism) => seen(mechanism, &states),
+            AnyMechanism::Spatial(mechanism) => seen(mechanism, &states),
+        };
+        Facts { source, prepared, watched, states, placed, kinetic, redundant }
+    }
+
+    /// The scene as JSON.
+    pub fn scene(&self) -> &Value {
+        &self.source.scene
+    }
+
+    /// 2 in the plane, 3 in space.
+    pub fn dimension(&self) -> usize {
+        if matches!(self.prepared.mechanism, AnyMechanism::Planar(_)) { 2 } else { 3 }
+    }
+
+    /// Value of a number of the scene.
+    pub fn number(&self, value: &Value) -> Option<f64> {
+        serde_json::from_value::<Number>(value.clone()).ok()?.evaluate(&self.prepared.parameters).ok()
+    }
+
+    /// Largest kinetic energy of a body, nodes of an absolute beam taken together, relative to that of all.
+    pub fn kinetic_share(&self, body: &str) -> f64 {
+        let names = self.body_names();
+        let own: Vec<bool> = names.iter().map(|name| carrier(name) == body).collect();
+        let largest = |is_own: &dyn Fn(usize) -> bool| {
+            let sums = self.kinetic.iter().map(|row| (0..row.len()).filter(|i| is_own(*i)).map(|i| row[i]).sum());
+            sums.fold(0.0, f64::max)
+        };
+        let all = largest(&|_| true);
+        if all > 0.0 { largest(&|i| own[i]) / all } else { 1.0 }
+    }
+
+    fn body_names(&self) -> Vec<String> {
+        match &self.prepared.mechanism {
+            AnyMechanism::Planar(mechanism) => mechanism.model().markers.body_names.clone(),
+            AnyMechanism::Spatial(mechanism) => mechanism.model().markers.body_names.clone(),
+        }
+    }
+
+    /// Placements of a marker along the motion.
+    pub fn path(&self, marker: &str) -> Option<Vec<Placed>> {
+        let names = match &self.prepared.mechanism {
+            AnyMechanism::Planar(mechanism) => &mechanism.model().markers,
+            AnyMechanism::Spatial(mechanism) => &mechanism.model().markers,
+        };
+        let marker = names.find(marker).ok()?;
+        Some(self.placed.iter().map(|row| row[marker]).collect())
+    }
+
+    /// Largest displacement, m, and largest rotation, rad, of the bodies of the scene against the start.
+    pub fn travel(&self) -> Relative {
+        let bodies = super::edit::elements(self.scene(), "bodies").iter();
+        let motions = bodies.filter_map(|body| self.relative(["ground", text(body, "name")]));
+        motions.fold(Relative::default(), |most, next| Relative {
+            shift: most.shift.max(next.shift),
+            tilt: most.tilt.max(next.tilt),
+            turn: most.turn.max(next.turn),
+        })
+    }
+
+    /// Start of a rigid body as assembled: the keys of its `initial`.
+    pub fn initial(&self, body: &str) -> Option<Value> {
+        let place = *self.path(body)?.first()?;
+        if self.dimension() == 2 {
+            let Placed { r, turn, velocity, spin, .. } = place;
+            let start =
+                json!({ "position": r[..2], "angle": turn, "velocity": velocity[..2], "angular_velocity": spin[2] });
+            return Some(start);
+        }
+        let names = self.prepared.system().names().q;
+        let first = names.iter().position(|name| *name == format!("{body}.qw"))?;
+        let quaternion = self.states.first()?.q.get(first..first + 4)?;
+        let spin = place.axes.map(|axis| product(&axis, &place.spin));
+        Some(
+            json!({ "position": place.r, "rotation": quaternion, "velocity": place.velocity, "angular_velocity": spin }),
+        )
+    }
+
+    /// Largest displacement of a beam in a floating frame relative to its length.
+    pub fn deformation(&self, beam: &str) -> Option<f64> {
+        let system = self.prepared.system();
+        let limited = system.limited();
+        let is_own = |part: &crate::system::Limited| part.part == beam && part.theory == Theory::SmallDisplacements;
+        let place = limited.iter().position(is_own)?;
+        let mut now = vec![0.0; limited.len()];
+        let at = |state: &State| {
+            system.deformations(&state.q, &mut now);
+            now[place]
+        };
+        Some(self.states.iter().map(at).fold(0.0, f64::max))
+    }
+
+    /// Work on the recorded motion of the forces that a change adds or takes away, at most over time, relative to the
+    /// energy that the motion turns over; `None` where the change alters the coordinates.
+    pub fn work_share(&self, edited: &Value) -> Option<f64> {
+        let edited = self.source.prepare(edited).ok()?;
+        let systems = [self.prepared.system(), edited.system()];
+        let [own, other] = systems.map(MechanicalSystem::names);
+        if own.q != other.q || own.v != other.v {
+            return None;
+        }
+        let mut scratch = [Scratch::default(), Scratch::default()];
+        let mut terms = systems.map(Terms::new);
+        let (mut work, mut most, mut before) = (0.0, 0.0f64, None);
+        for state in &self.states {
+            for ((system, terms), scratch) in systems.iter().zip(&mut terms).zip(&mut scratch) {
+                system.evaluate(state.t, &state.q, &state.v, Need::FORCE, terms, scratch);
+            }
+            let [own, other] = [&terms[0].f, &terms[1].f];
+            let power: f64 = own.iter().zip(other).zip(&state.v).map(|((own, other), v)| (own - other) * v).sum();
+            if let Some((t, last)) = before.replace((state.t, power)) {
+                work += 0.5 * (state.t - t) * (power + last);
+                most = most.max(work.abs());
+            }
+        }
+        Some(most / self.turnover()).filter(|share| share.is_finite())
+    }
+
+    /// Largest kinetic energy and largest change of the potential, J.
+    fn turnover(&self) -> f64 {
+        let (system, mut scratch) = (self.prepared.system(), Scratch::default());
+        let energy = |state: &State| system.energy(state.t, &state.q, &state.v, &mut scratch);
+        let all: Vec<_> = self.states.iter().filter_map(energy).collect();
+        let first = all.first().map_or(0.0, |energy| energy.potential);
+        all.iter().fold(0.0, |most: f64, energy| most.max(energy.kinetic).max((energy.potential - first).abs()))
+    }
+}
+
+type Seen = (Vec<Vec<Placed>>, Vec<Vec<f64>>);
+
+/// Placements of the markers and kinetic energies of the bodies at each state.
+fn seen<const D: usize>(mechanism: &Mechanism<D>, states: &[State]) -> Seen {
+    let mut scratch = Scratch::default();
+    let model = mechanism.model();
+    let placed = |state: &State, scratch: &mut Scratch| -> Vec<Placed> {
+        let frames = mechanism.frames(&state.q, &state.v, scratch);
+        let axis = |axes: &[[f64; D]; D], i: usize| if i < D { in_space(&axes[i]) } else { [0.0, 0.0, 1.0] };
+        let place = |moving: &Frame<Taylor<f64>, D>| {
+            let frame = moving.map(|x| x.x);
+            let (velocity, spin) = (in_space(&moving.velocity()), moving.angular_velocity());
+            let axes = from_fn(|i| axis(&frame.axes, i));
+            Placed { r: in_space(&frame.r), axes, turn: frame.turn, velocity, spin }
+        };
+        frames.iter().map(place).collect()
+    };
+    let kinetic = |state: &State| -> Vec<f64> {
+        let of = |part: &crate::scene::Part<D>| {
+            let (q, v) = (&state.q[part.first_q..][..part.nq], &state.v[part.first_v..][..part.nv]);
+            part.body.energy(q, v, &model.gravity).kinetic
+        };
+        model.bodies.iter().map(of).collect()
+    };
+    let kinetic = states.iter().map(kinetic).collect();
+    (states.iter().map(|state| placed(state, &mut scratch)).collect(), kinetic)
+}
+
+/// Motion of a marker against another, seen from that.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Relative {
+    /// Largest distance of the second marker from where it is at the start, m.
+    pub shift: f64,
+    /// Largest angle between the z axes against that at the start, rad; zero in the plane.
+    pub tilt: f64,
+    /// Largest rotation against the start, rad.
+    pub turn: f64,
+}
+
+impl Relative {
+    /// The larger of displacement and rotation, each relative to that of `all`.
+    pub fn part(&self, all: &Relative) -> f64 {
+        let part = |own: f64, all: f64| if own > 0.0 { own / all } else { 0.0 };
+        part(self.shift, all.shift).max(part(self.turn, all.turn))
+    }
+}
+
+impl Facts {
+    /// Relative motion of two markers.
+    pub fn relative(&self, [a, b]: [&str; 2]) -> Option<Relative> {
+        let pairs: Vec<(Placed, Placed)> = self.path(a)?.into_iter().zip(self.path(b)?).collect();
+        let local = |(a, b): &(Placed, Placed)| {
+            let gap: [f64; 3] = from_fn(|i| b.r[i] - a.r[i]);
+            let rotation: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| product(&a.axes[j], &b.axes[i])));
+            (a.axes.map(|axis| product(&axis, &gap)), rotation)
+        };
+        let start = local(pairs.first()?);
+        let mut most = Relative::default();
+        for now in pairs.iter().map(local) {
+            let shift: [f64; 3] = from_fn(|i| now.0[i] - start.0[i]);
+            let cosines: [f64; 3] = from_fn(|i| product(&now.1[i], &start.1[i]));
+            let trace: f64 = cosines.iter().sum();
+            most.shift = most.shift.max(product(&shift, &shift).sqrt());
+            most.tilt = most.tilt.max(cosines[2].clamp(-1.0, 1.0).acos());
+            most.turn = most.turn.max((0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos());
+        }
+        Some(most)
+    }
+
+    /// Length between two markers along the motion: least, mean and largest, m.
+    pub fn lengths(&self, [a, b]: [&str; 2]) -> Option<[f64; 3]> {
+        let pairs = self.path(a)?.into_iter().zip(self.path(b)?);
+        let length = |(a, b): (Placed, Placed)| {
+            let gap: [f64; 3] = from_fn(|i| b.r[i] - a.r[i]);
+            product(&gap, &gap).sqrt()
+        };
+        let all: Vec<f64> = pairs.map(length).collect();
+        let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+        Some([least, all.iter().sum::<f64>() / all.len().max(1) as f64, largest(&all)])
+    }
+
+    /// The element of this name in a list of the scene.
+    pub fn element(&self, list: &str, name: &str) -> Option<&Value> {
+        super::edit::elements(self.scene(), list).iter().find(|element| text(element, "name") == name)
+    }
+}
+
+/// a . b
+pub fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    crate::body::dot(a, b)
+}

@@ -1,0 +1,213 @@
+//! Only what a motion requires: the least model of a scene, and the cheapest method for it, that keep a promise.
+//!
+//! 1. The scene is the richest model. It is run twice: at a hundredth of its tolerance for the outputs that all others are
+//!    compared with ([`Promise`]) and for what its parts do ([`Facts`]); by its own method for its cost and own error.
+//! 2. Each [`Candidate`] looks at the facts and proposes changes of the scene, with a rough estimate of their effect:
+//!    shares of energy and work, relative motions, deflections.
+//! 3. Changes are tried where they save most, all of a kind together and, where that is refused, in halves. What is run is
+//!    always the whole model with all that was kept before, so that changes which are harmless alone and wrong together
+//!    are found out. A change is kept if every watched output stays within the promise, numerical error included.
+//! 4. Methods and tolerances are tried on the model that is found: their own error is to be a tenth of the promise.
+//! 5. With [`Nearby`] both models are run on motions near the given one.
+//!
+//! To add a kind: a file with a [`Candidate`] and a line in [`registry`], or from outside the crate in the list that
+//! [`simplify`] takes.
+
+mod bench;
+mod candidate;
+mod candidates;
+mod edit;
+mod facts;
+mod nearby;
+mod numerics;
+mod promise;
+mod search;
+mod source;
+
+pub use bench::{Difference, Run};
+pub use candidate::{Candidate, Edit, Proposal};
+pub use candidates::registry;
+pub use facts::{Facts, Placed, Relative};
+pub use nearby::{Nearby, NearbyMotion, Robustness, Which};
+pub use promise::{Norm, Promise};
+pub use search::Trial;
+pub use source::Source;
+
+use crate::compare::work_precision::{Watched, tighter};
+use crate::error::{Error, Result, Warning, percent};
+use crate::prepared::PreparedScene;
+use bench::{Bench, measured};
+use facts::record;
+use numerics::METHOD;
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::time::Duration;
+
+/// What is promised, and how much it may cost to find the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Allowed difference of every watched output from the richest model: 0.1 for 10 %.
+    pub within: f64,
+    /// How the difference is taken.
+    pub norm: Norm,
+    /// Names of the watched outputs; all where it is empty.
+    pub outputs: Vec<String>,
+    /// Number of runs in all, those of [`nearby`](Self::nearby) apart.
+    pub at_most: usize,
+    /// Motions on which the promise is tried.
+    pub nearby: Option<Nearby>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings { within: 0.05, norm: Norm::Range, outputs: Vec::new(), at_most: 15, nearby: None }
+    }
+}
+
+/// The least model that was found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Simplification {
+    /// Name of the richest scene.
+    pub scene: String,
+    /// Promised difference.
+    pub within: f64,
+    /// Norm of the difference.
+    pub norm: Norm,
+    /// The watched outputs.
+    pub outputs: Vec<String>,
+    /// Run of the richest model by its own method.
+    pub richest: Run,
+    /// All changes in the order in which they were tried; the last ones of kind `method`.
+    pub trials: Vec<Trial>,
+    /// Run of the model that is chosen.
+    pub chosen: Run,
+    /// Number of runs.
+    pub runs: usize,
+    /// The promise on motions nearby.
+    pub robustness: Option<Robustness>,
+    /// What has to be known about the result.
+    #[serde(skip)]
+    pub warnings: Vec<Warning>,
+    /// The model that is chosen, as a scene.
+    #[serde(skip)]
+    pub simplified: Value,
+}
+
+impl Simplification {
+    /// True if anything but the method is simpler than in the richest model.
+    pub fn is_simpler(&self) -> bool {
+        self.left_out().next().is_some()
+    }
+
+    /// The changes of the model that were kept, without those of the method.
+    pub fn left_out(&self) -> impl Iterator<Item = &Trial> {
+        self.trials.iter().filter(|trial| trial.is_kept && trial.candidate != METHOD)
+    }
+}
+
+/// Part of the runs that the search for a model leaves to that for a method.
+const RESERVED: usize = 3;
+/// The least number of runs: two of the richest model, and one of another.
+const LEAST: usize = 3;
+/// CPU time that the richest model may take.
+const ALLOWED: Duration = Duration::from_secs(3600);
+
+/// Finds the least model of a scene that keeps a promise.
+///
+/// `watch` is called before each run with what is run and the number of runs done.
+///
+/// # Errors
+/// Unknown outputs, a scene without outputs, settings out of range; a richest model that does not complete.
+pub fn simplify(
+    source: &Source,
+    settings: &Settings,
+    candidates: &[&dyn Candidate],
+    is_stopped: &(dyn Fn() -> bool + Sync),
+    watch: &mut dyn FnMut(&str, usize),
+) -> Result<Simplification> {
+    let prepared = source.prepare(&source.scene)?;
+    let watched = watched(&prepared, settings)?;
+    let names: Vec<String> = watched.columns.iter().map(|column| column.name.clone()).collect();
+    watch("the richest model, accurately", 0);
+    let recorded = record(&prepared, &watched, &tighter(&prepared.method))?;
+    let terms = (settings.within, settings.norm);
+    let promise = Promise::new(terms, &watched.columns, recorded.rows.clone(), &recorded.sizes);
+    watch("the richest model", 1);
+    let richest = measured(&prepared, &promise, ALLOWED, is_stopped)?;
+    if let Some(failure) = richest.failure {
+        return Err(failure.into());
+    }
+    let warnings = doubts(&richest, settings);
+    let scene = prepared.name.clone();
+    let facts = Facts::new(source.clone(), prepared, names.clone(), recorded);
+    let (runs, at_most) = (2, settings.at_most);
+    let mut bench = Bench { source, promise: &promise, is_stopped, watch, runs, at_most };
+    let reserved = RESERVED.min((at_most - LEAST) / 2);
+    let mut found = search::search(&mut bench, &facts, candidates, richest.clone(), reserved);
+    numerics::cheapest(&mut bench, &mut found);
+    let runs = bench.runs;
+    let near = |nearby| {
+        let terms = nearby::Terms { outputs: &names, within: settings.within, norm: settings.norm };
+        nearby::robustness(source, &found.scene, terms, nearby, is_stopped)
+    };
+    let robustness = settings.nearby.map(near).transpose()?;
+    let mut result = Simplification {
+        scene,
+        within: settings.within,
+        norm: settings.norm,
+        outputs: names,
+        richest,
+        trials: found.trials,
+        chosen: found.run,
+        runs,
+        robustness,
+        warnings,
+        simplified: Value::Null,
+    };
+    result.simplified = described(source.anywhere(&found.scene), &result);
+    Ok(result)
+}
+
+fn watched(prepared: &PreparedScene, settings: &Settings) -> Result<Watched> {
+    if !(settings.within > 0.0 && settings.within < 1.0) {
+        return Err(Error::input("a promise is above 0 % and below 100 %").under("--within").hint("write --within 5%"));
+    }
+    if settings.at_most < LEAST {
+        return Err(Error::input(format!("{} runs are too few", settings.at_most))
+            .under("--at-most")
+            .hint(format!("{LEAST} at least: two of the richest model, and one of another")));
+    }
+    if prepared.system().columns().is_empty() {
+        return Err(Error::input("the scene has no outputs that a promise could be about")
+            .under("outputs")
+            .hint("give it \"outputs\""));
+    }
+    Watched::new(prepared.system(), &settings.outputs).map_err(|error| error.under("--outputs"))
+}
+
+fn doubts(richest: &Run, settings: &Settings) -> Vec<Warning> {
+    let own = richest.error();
+    let is_coarse = own > search::NUMERICAL * settings.within;
+    let worst = richest.worst().map_or("", |worst| &worst.name);
+    let warning = || {
+        let text = format!("the richest model's own numerical error is {} ({worst})", percent(own));
+        Warning::new(text, "give it a tighter rtol and atol")
+    };
+    is_coarse.then(warning).into_iter().collect()
+}
+
+/// The scene with what was left out, and why, in its words.
+fn described(mut scene: Value, result: &Simplification) -> Value {
+    let changes: Vec<String> =
+        result.left_out().map(|trial| format!("{} ({})", trial.what.join(", "), trial.why)).collect();
+    let about = scene["about"].as_str().map_or(String::new(), |about| format!("{about} "));
+    let left_out = if changes.is_empty() { "nothing can be left out".to_string() } else { changes.join("; ") };
+    scene["about"] = json!(format!(
+        "{about}Simplified from {}, within {} in {}: {left_out}.",
+        result.scene,
+        percent(result.within),
+        result.outputs.join(", ")
+    ));
+    scene["name"] = json!(format!("{}_simplified", result.scene));
+    scene
+}

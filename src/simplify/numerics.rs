@@ -1,0 +1,129 @@
+//! The cheapest method for a model whose own error is a tenth of the promise.
+
+use super::bench::{Bench, Run};
+use super::search::{Found, NUMERICAL, Trial};
+use super::source::write_method;
+use crate::error::percent;
+use crate::simulate::{Method, atol_of};
+use std::time::Duration;
+
+/// Kind of the trials of methods.
+pub const METHOD: &str = "method";
+/// The loosest tolerance that is tried.
+const LOOSEST: f64 = 0.01;
+/// The first tolerance that is tried, of what is promised.
+const FIRST: f64 = 0.01;
+/// Steps from one tolerance, or fixed step, to the next.
+const TIGHTER: f64 = 0.1;
+const LONGER: f64 = 2.0;
+/// Tolerances of one method.
+const TOLERANCES: usize = 3;
+/// A method is taken if it costs so much less.
+const CHEAPER: f64 = 0.9;
+/// At so many times the cost of the best one a method is given up.
+const DEARER: f64 = 1.5;
+/// CPU time that a run may always take.
+const ALWAYS: Duration = Duration::from_millis(50);
+
+/// Methods that are tried beside the scene's own: those that cost least on most motions, without and with fast modes at
+/// rest.
+const METHODS: [&str; 2] = ["index1 + dop853 + manifold", "ggl + radau_iia"];
+
+/// Tries methods and tolerances on the model that is found, and takes the cheapest that keeps the promise.
+pub fn cheapest(bench: &mut Bench, found: &mut Found) {
+    let own = found.run.method.clone();
+    let exact = found.run.rows.clone();
+    try_method(bench, found, &exact, own.clone());
+    for method in METHODS.iter().filter_map(|name| name.parse::<Method>().ok()) {
+        if method.triple() != own.triple() {
+            try_method(bench, found, &exact, Method { step: None, rtol: own.rtol, atol: own.atol, ..method });
+        }
+    }
+}
+
+/// From a loose tolerance to tighter ones until one will do; where the first does, to looser ones.
+fn try_method(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], own: Method) {
+    let mut method = match own.step {
+        Some(step) => Method { step: Some(LONGER * step), ..own.clone() },
+        None => at(&own, (FIRST * bench.promise.within).clamp(own.rtol, LOOSEST)),
+    };
+    let mut first = None;
+    for _ in 0..TOLERANCES {
+        if method == found.run.method || bench.is_over(0) {
+            return;
+        }
+        let verdict = attempt(bench, found, exact, &method);
+        if verdict == Verdict::Dear || *first.get_or_insert(verdict) != verdict {
+            return;
+        }
+        method = match (verdict, method.step) {
+            (Verdict::Good, Some(step)) => Method { step: Some(LONGER * step), ..method },
+            (Verdict::Good, None) if method.rtol < LOOSEST => at(&method, (method.rtol / TIGHTER).min(LOOSEST)),
+            (Verdict::Poor, None) if TIGHTER * method.rtol > own.rtol => at(&method, TIGHTER * method.rtol),
+            _ => return,
+        };
+    }
+}
+
+/// What is known of a method at a tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    /// It keeps the promise.
+    Good,
+    /// It does not.
+    Poor,
+    /// It takes much longer than the best one.
+    Dear,
+}
+
+fn at(method: &Method, rtol: f64) -> Method {
+    let rtol: f64 = format!("{rtol:.0e}").parse().unwrap_or(rtol);
+    Method { rtol, atol: atol_of(rtol, method.atol / method.rtol), ..method.clone() }
+}
+
+/// Runs the model by a method, and takes that if it is good and cheaper.
+fn attempt(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], method: &Method) -> Verdict {
+    let mut scene = found.scene.clone();
+    write_method(&mut scene, method);
+    let accuracy = method.step.map_or_else(|| format!("rtol {:e}", method.rtol), |step| format!("step {step:e} s"));
+    let what = format!("{} at {accuracy}", method.triple());
+    let best = found.run.seconds;
+    let result = bench.run(&scene, &what, Duration::from_secs_f64(best) + ALWAYS);
+    let mut reason = result.as_ref().map_or_else(Clone::clone, |run| refusal(bench, run, exact));
+    let seconds = result.as_ref().map_or(0.0, |run| run.seconds);
+    let verdict = match reason.is_empty() {
+        _ if seconds > DEARER * best => Verdict::Dear,
+        true => Verdict::Good,
+        false => Verdict::Poor,
+    };
+    let is_kept = reason.is_empty() && seconds < CHEAPER * best;
+    match &result {
+        Ok(run) if is_kept => (found.scene, found.run) = (scene, run.clone()),
+        _ if reason.is_empty() => reason = "it costs as much".to_string(),
+        _ => {}
+    }
+    found.trials.push(Trial {
+        candidate: METHOD.to_string(),
+        subjects: vec![method.triple()],
+        what: vec![what],
+        why: "its own error is a tenth of the promise".to_string(),
+        estimated: NUMERICAL * bench.promise.within,
+        run: result.ok(),
+        is_kept,
+        reason,
+    });
+    verdict
+}
+
+/// Reason to refuse a method; empty if it is good.
+fn refusal(bench: &Bench, run: &Run, exact: &[Vec<f64>]) -> String {
+    let numerical = bench.promise.difference(exact, &run.rows).unwrap_or(f64::INFINITY);
+    match (&run.failure, run.worst()) {
+        (Some(failure), _) => failure.reason.clone(),
+        (None, Some(worst)) if worst.error > bench.promise.within => {
+            format!("{} is off by {}", worst.name, percent(worst.error))
+        }
+        _ if numerical > NUMERICAL * bench.promise.within => format!("its own error is {}", percent(numerical)),
+        _ => String::new(),
+    }
+}

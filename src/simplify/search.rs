@@ -1,0 +1,210 @@
+//! Greedy search: changes are tried where they save most, and kept while the promise is kept.
+
+use super::bench::{Bench, Run};
+use super::candidate::{Candidate, Proposal};
+use super::facts::Facts;
+use crate::error::{percent, short_list};
+use serde::Serialize;
+use serde_json::Value;
+use std::collections::VecDeque;
+use std::time::Duration;
+
+/// Part of the promise that the numerical error of a method may have.
+pub const NUMERICAL: f64 = 0.1;
+/// A change with an estimated effect of so many times the promise is not tried.
+const HOPELESS: f64 = 3.0;
+/// A change with a larger estimated effect is not tried.
+const TOO_MUCH: f64 = 0.5;
+/// A model that takes so much more work is not simpler.
+const DEARER: f64 = 1.1;
+/// A model may take so many times the CPU time of the richest, and `ALWAYS` more.
+const SLOWER: f64 = 3.0;
+const ALWAYS: Duration = Duration::from_millis(500);
+
+/// A change that was proposed, or several together.
+#[derive(Clone, Debug, Serialize)]
+pub struct Trial {
+    /// Kind of simplification.
+    pub candidate: String,
+    /// What it is about, such as the names of bodies.
+    pub subjects: Vec<String>,
+    /// What is done to each.
+    pub what: Vec<String>,
+    /// Why it may be harmless.
+    pub why: String,
+    /// Estimated relative effect.
+    pub estimated: f64,
+    /// Run of the model with all that was kept before and this change; none where it was not run.
+    pub run: Option<Run>,
+    /// True if the change was kept.
+    pub is_kept: bool,
+    /// Reason why it was not; empty if it was.
+    pub reason: String,
+}
+
+/// The model that the search has come to.
+pub struct Found {
+    /// Its scene.
+    pub scene: Value,
+    /// Its run.
+    pub run: Run,
+    /// All changes in the order in which they were tried.
+    pub trials: Vec<Trial>,
+}
+
+/// A proposal with the kind that made it.
+struct Idea {
+    candidate: &'static str,
+    proposal: Proposal,
+    size: usize,
+}
+
+/// Proposals that are tried together.
+struct Group(Vec<usize>);
+
+struct Search<'a, 'b> {
+    bench: &'a mut Bench<'b>,
+    ideas: Vec<Idea>,
+    settled: Vec<(&'static str, String)>,
+    limit: Duration,
+    reserved: usize,
+    found: Found,
+}
+
+/// Tries the changes that the candidates propose, `reserved` runs being left over.
+pub fn search(bench: &mut Bench, facts: &Facts, candidates: &[&dyn Candidate], richest: Run, reserved: usize) -> Found {
+    let limit = Duration::from_secs_f64(SLOWER * richest.seconds) + ALWAYS;
+    let found = Found { scene: facts.scene().clone(), run: richest, trials: Vec::new() };
+    let mut search = Search { bench, ideas: Vec::new(), settled: Vec::new(), limit, reserved, found };
+    for candidate in candidates {
+        for proposal in candidate.propose(facts) {
+            search.consider(candidate.name(), proposal);
+        }
+    }
+    let mut queue = search.queue();
+    while let Some(group) = queue.pop_front() {
+        search.attempt(group, &mut queue);
+    }
+    search.found
+}
+
+impl Search<'_, '_> {
+    /// Takes up a proposal that is possible by itself and not hopeless.
+    fn consider(&mut self, candidate: &'static str, proposal: Proposal) {
+        let mut scene = self.found.scene.clone();
+        let size = (proposal.edit)(&mut scene).and_then(|()| self.bench.size(&scene));
+        let most = TOO_MUCH.min(HOPELESS * self.bench.promise.within);
+        let refusal = match &size {
+            Err(reason) => Some(reason.clone()),
+            Ok(_) if proposal.effect.is_nan() || proposal.effect > most => Some("estimated as too much".to_string()),
+            Ok(_) => None,
+        };
+        let known = self.ideas.len();
+        self.ideas.push(Idea { candidate, proposal, size: size.unwrap_or(0) });
+        if let Some(reason) = refusal {
+            let trial = self.trial(&[known], None, reason);
+            self.found.trials.push(trial);
+            self.ideas.pop();
+        }
+    }
+
+    /// All ideas: of each kind those of different subjects together, the ones that save most first.
+    fn queue(&self) -> VecDeque<Group> {
+        let mut order: Vec<usize> = (0..self.ideas.len()).collect();
+        order.sort_by_key(|i| self.ideas[*i].size);
+        let mut groups: Vec<Group> = Vec::new();
+        for i in order {
+            let own = &self.ideas[i];
+            // The next group of the kind that has no alternative of the subject yet.
+            let goes_with =
+                |other: &Idea| other.candidate == own.candidate && other.proposal.subject != own.proposal.subject;
+            let fits = |group: &&mut Group| group.0.iter().all(|k| goes_with(&self.ideas[*k]));
+            match groups.iter_mut().find(fits) {
+                Some(group) => group.0.push(i),
+                None => groups.push(Group(vec![i])),
+            }
+        }
+        let within = self.bench.promise.within;
+        let key = |group: &Group| {
+            let saved = group.0.iter().map(|i| self.ideas[*i].size).min().unwrap_or(0);
+            (self.effect(&group.0) > within, saved)
+        };
+        groups.sort_by_key(key);
+        groups.into()
+    }
+
+    fn effect(&self, group: &[usize]) -> f64 {
+        group.iter().map(|i| self.ideas[*i].proposal.effect).fold(0.0, f64::max)
+    }
+
+    /// Tries what a group has left; one that is refused is tried in halves, those of the smaller effects first.
+    fn attempt(&mut self, Group(members): Group, queue: &mut VecDeque<Group>) {
+        let is_open = |i: &usize| {
+            let Idea { candidate, proposal, .. } = &self.ideas[*i];
+            !self.settled.iter().any(|(kind, subject)| kind == candidate && *subject == proposal.subject)
+        };
+        let mut group: Vec<usize> = members.into_iter().filter(is_open).collect();
+        if group.is_empty() {
+            return;
+        }
+        let trial = self.run(&group);
+        if trial.is_kept {
+            let subject = |i: &usize| (self.ideas[*i].candidate, self.ideas[*i].proposal.subject.clone());
+            self.settled.extend(group.iter().map(subject));
+        } else if group.len() > 1 && !self.bench.is_over(self.reserved) {
+            group.sort_by(|a, b| self.ideas[*a].proposal.effect.total_cmp(&self.ideas[*b].proposal.effect));
+            let larger = group.split_off(group.len().div_ceil(2));
+            queue.push_front(Group(larger));
+            queue.push_front(Group(group));
+        }
+        self.found.trials.push(trial);
+    }
+
+    fn run(&mut self, group: &[usize]) -> Trial {
+        if self.bench.is_over(self.reserved) {
+            return self.trial(group, None, "no runs are left".to_string());
+        }
+        let mut scene = self.found.scene.clone();
+        let made = group.iter().try_for_each(|i| (self.ideas[*i].proposal.edit)(&mut scene));
+        let made = made.and_then(|()| self.bench.size(&scene));
+        let what = self.ideas[group[0]].proposal.what.clone();
+        match made.and_then(|_| self.bench.run(&scene, &what, self.limit)) {
+            Err(reason) => self.trial(group, None, reason),
+            Ok(run) => {
+                let reason = self.refusal(&run);
+                if reason.is_empty() {
+                    (self.found.scene, self.found.run) = (scene, run.clone());
+                }
+                self.trial(group, Some(run), reason)
+            }
+        }
+    }
+
+    /// Reason to refuse a model; empty if it is kept.
+    fn refusal(&self, run: &Run) -> String {
+        match (&run.failure, run.worst()) {
+            (Some(failure), _) => failure.reason.clone(),
+            (None, Some(worst)) if worst.error > self.bench.promise.within => {
+                format!("{} is off by {}", worst.name, percent(worst.error))
+            }
+            _ if run.work > DEARER * self.found.run.work => "it takes more work".to_string(),
+            _ => String::new(),
+        }
+    }
+
+    fn trial(&self, group: &[usize], run: Option<Run>, reason: String) -> Trial {
+        let list = |text: fn(&Proposal) -> &String| -> Vec<String> {
+            group.iter().map(|i| text(&self.ideas[*i].proposal).clone()).collect()
+        };
+        Trial {
+            candidate: self.ideas[group[0]].candidate.to_string(),
+            subjects: list(|proposal| &proposal.subject),
+            what: list(|proposal| &proposal.what),
+            why: short_list(&list(|proposal| &proposal.why)),
+            estimated: self.effect(group),
+            is_kept: run.is_some() && reason.is_empty(),
+            run,
+            reason,
+        }
+    }
+}

@@ -1,0 +1,26 @@
+use super::*;
+
+#[test]
+fn a_scene_a_table_and_a_figure() {
+    let scene = PENDULUM.replace(r#""mass": 1,"#, r#""mass": "m","#);
+    let place = Place::new(scene.replacen('{', r#"{ "parameters": { "m": 1 },"#, 1));
+    let text =
+        place.done(&["simplify", "scene.json", "--within", "5%", "--robust", "10%", "--samples", "2", "-o", "here"]);
+    assert!(text.starts_with("pendulum: within 5 % of the range of theta, pin\n"), "{text}");
+    assert!(text.contains("on 2 of 2 motions nearby"), "{text}");
+    assert_eq!(place.files("here"), ["simplified.json", "simplify.csv", "simplify.json", "simplify.svg"]);
+    let told = place.json("here/simplify.json");
+    assert_eq!((&told["within"], &told["outputs"]), (&0.05.into(), &serde_json::json!(["theta", "pin"])));
+    assert!(told["chosen"]["outputs"].as_array().unwrap().len() == 2 && told["trials"].is_array());
+    let run = place.done(&["simulate", "here/simplified.json", "--figures", "none", "-o", "run"]);
+    assert!(run.starts_with("pendulum_simplified: "), "{run}");
+}
+
+#[test]
+fn a_promise_is_in_per_cent() {
+    let place = Place::new(PENDULUM);
+    for within in ["5", "0%", "100%", "x%"] {
+        let output = place.run(&["simplify", "scene.json", "--within", within]);
+        assert_eq!(output.status.code(), Some(2), "{within}");
+    }
+}
