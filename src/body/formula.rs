@@ -193,7 +193,12 @@ fn find<const D: usize>(
         return Ok(None);
     }
     let Some(output) = build.outputs.find(name, build) else { return Ok(None) };
-    if build.parameters.get(name).is_some() {
+    let is_parameter = build.parameters.get(name).is_some();
+    // What acts on the motion cannot mean such an output.
+    if is_parameter && order < 2 && matches!(output, Ok(NamedOutput::Other(_))) {
+        return Ok(None);
+    }
+    if is_parameter {
         let error = Error::input(format!("`{name}` is both a parameter and an output"));
         return Err(error.hint("rename one of them"));
     }

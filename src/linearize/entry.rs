@@ -1,6 +1,6 @@
 //! A method of linearization: its request, its result and its entry in the registry.
 
-use super::input_states::InputStates;
+use super::input_states::{InputStates, primed};
 use super::{Changes, Chart, Matrix, Variation};
 use crate::error::Result;
 use crate::method_spec::{Listed, MethodSpec, OptionDoc};
@@ -58,6 +58,35 @@ impl Built {
         let a = self.input_states.a.remove_rows(first, count);
         let input_states = InputStates { a, ..self.input_states };
         Built { a: square(self.a), e: self.e.map(square), b, c, input_states, changes, ..self }
+    }
+
+    /// Adds the states of the inputs to the model, as its last states, and renames its inputs to the derivatives that they are.
+    pub(super) fn add_input_states(&mut self, inputs: &mut [String]) {
+        let InputStates { orders, a, c } = &self.input_states;
+        let (own, added, n_u) = (self.a.nrows(), a.ncols(), orders.len());
+        self.states.extend(self.input_states.states(inputs));
+        inputs.iter_mut().zip(orders).for_each(|(name, &order)| *name = primed(name, order));
+        if added == 0 {
+            return;
+        }
+        let grow = |matrix: &Matrix, rows: usize, columns: usize| matrix.clone().resize(rows, columns, 0.0);
+        let size = own + added;
+        let mut whole = grow(&self.a, size, size);
+        whole.view_mut((0, own), a.shape()).copy_from(a);
+        let mut b = grow(&self.b, size, n_u);
+        let mut place = own;
+        for (j, &order) in orders.iter().enumerate().filter(|(_, order)| **order > 0) {
+            (1..order).for_each(|i| whole[(place + i - 1, place + i)] = 1.0);
+            place += order;
+            b[(place - 1, j)] = 1.0;
+        }
+        let mut outputs = grow(&self.c, self.c.nrows(), size);
+        outputs.view_mut((0, own), c.shape()).copy_from(c);
+        if let Some(e) = &mut self.e {
+            *e = grow(e, size, size);
+            (own..size).for_each(|i| e[(i, i)] = 1.0);
+        }
+        (self.a, self.b, self.c) = (whole, b, outputs);
     }
 
     /// The change of q along each velocity direction of a unit of each state; of a state xi, that of xi itself.

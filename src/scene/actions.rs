@@ -1,6 +1,6 @@
 //! Outputs of joints and forces: what they exert, and its power.
 
-use super::format::{OutputSpec, Side};
+use super::measures::{OutputSpec, Side};
 use super::model::{Connection, FORCE_SIZE, Measure, TORQUE_SIZE};
 use super::outputs::{Elements, find, wrong_component};
 use crate::body::Build;

@@ -1,6 +1,6 @@
 //! Outputs of a beam at a place on its line.
 
-use super::format::{MeasureKind, OutputSpec};
+use super::measures::{MeasureKind, OutputSpec};
 use super::model::{BeamLine, Combination, Connection, Measure, Reading};
 use super::outputs::{Elements, find, missing, wrong_component};
 use super::place::{Cut, Place};

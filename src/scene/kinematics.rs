@@ -1,6 +1,7 @@
 //! Outputs that are read off markers: positions, angles and distances with their rates, of joints too.
 
-use super::format::{MeasureKind, OutputSpec, SceneFile};
+use super::format::SceneFile;
+use super::measures::{MeasureKind, OutputSpec};
 use super::model::Connection;
 use super::outputs::{missing, wrong_component};
 use crate::body::{Build, MarkerId, NamedOutput, NamedOutputs, Probe, Quantity, TurnAxes, Turned, in_space};

@@ -20,6 +20,7 @@ mod json;
 mod kinematics;
 mod locate;
 mod markers;
+mod measures;
 mod model;
 mod names;
 mod outputs;
@@ -37,8 +38,10 @@ pub mod units;
 pub use builder::SceneBuilder;
 pub use elements::Elements;
 #[doc(hidden)]
-pub use format::{Assembly, MeasureKind};
+pub use format::Assembly;
 pub use format::{Automatic, Simulation};
+#[doc(hidden)]
+pub use measures::MeasureKind;
 pub use model::Model;
 #[doc(hidden)]
 pub use model::{BeamLine, Combination, Connection, EnergyPart, Input, Measure, Part, Reading, Target, Watched};

@@ -1,7 +1,7 @@
 //! Outputs of a scene.
 
-use super::format::{MeasureKind, OutputSpec};
 use super::kinematics::Placed;
+use super::measures::{MeasureKind, OutputSpec};
 use super::model::{BeamLine, Connection, EnergyPart, Measure, Part, TORQUE_SIZE, Watched};
 use super::place::Cut;
 use super::units::{Dimension, Unit};
@@ -26,47 +26,6 @@ pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
         checked.map_err(|error| error.under("name").under(format!("outputs[{i}]")))?;
     }
     Ok(())
-}
-
-impl MeasureKind {
-    /// The keys of an output that go with it.
-    pub fn keys(self) -> &'static [&'static str] {
-        use MeasureKind::*;
-        match self {
-            Angle | AngularVelocity | AngularAcceleration | Position | Velocity | Acceleration => {
-                &["of", "relative_to", "component"]
-            }
-            Distance | DistanceRate => &["between", "of"],
-            Reaction | Force => &["of", "relative_to", "component", "on"],
-            Power => &["of"],
-            Energy => &["component"],
-            Deflection | ShearForce | BendingMoment => &["of", "at", "component"],
-            Strain => &["of", "at", "offset"],
-            AxialForce | Torque => &["of", "at"],
-            Expression => &["value"],
-        }
-    }
-
-    /// Physical dimensions of its values: one, or what it is of decides; none for an expression, whose unit its author
-    /// gives.
-    pub fn dimensions(self) -> &'static [Dimension] {
-        use MeasureKind::*;
-        match self {
-            Angle => &[Dimension::Angle],
-            AngularVelocity => &[Dimension::AngularVelocity],
-            AngularAcceleration => &[Dimension::AngularAcceleration],
-            Position | Distance | Deflection => &[Dimension::Length],
-            Velocity | DistanceRate => &[Dimension::Velocity],
-            Acceleration => &[Dimension::Acceleration],
-            Power => &[Dimension::Power],
-            Torque | BendingMoment => &[Dimension::Torque],
-            Energy => &[Dimension::Energy],
-            Strain => &[Dimension::Strain],
-            AxialForce | ShearForce => &[Dimension::Force],
-            Reaction | Force => &[Dimension::Force, Dimension::Torque],
-            Expression => &[],
-        }
-    }
 }
 
 /// Refuses keys that a measure would silently ignore.

@@ -1,7 +1,8 @@
 //! The JSON Schema of the format, generated from the types and the registries.
 
 use super::elements::Elements;
-use super::format::{BodyPlace, ForcePlace, JointPlace, MeasureKind, SceneFile};
+use super::format::{BodyPlace, ForcePlace, JointPlace, SceneFile};
+use super::measures::MeasureKind;
 use super::units::{Dimension, spellings};
 use crate::body::ElementKind;
 use schemars::generate::SchemaSettings;

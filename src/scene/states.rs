@@ -1,6 +1,7 @@
 //! States xi of a scene, each a body of one velocity with its rate as a force.
 
-use super::format::{OutputSpec, StateSpec};
+use super::format::StateSpec;
+use super::measures::OutputSpec;
 use super::model::Connection;
 use super::names::check_name;
 use super::resolve::Parts;

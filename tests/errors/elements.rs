@@ -342,8 +342,8 @@ cases! {
         pendulum()
             .joint("{ 'name': 'p', 'type': 'driver', 'between': ['ground.O', 'rod.A'], 'coordinate': 'x', 'value': 'rod.x' }") => [
             "scene.json:13:100: at joints[0].value (`p`): this may depend on t and parameters only, but uses a marker",
-            "markers and outputs may stand in an `equation` joint, an applied force or torque, the law of a spring, and \
-             outputs",
+            "markers and outputs may stand in an `equation` joint, an applied force or torque, the law of a spring, a tyre's \
+             road, and outputs",
         ];
     driver_unknown:
         pendulum()
@@ -486,7 +486,7 @@ cases! {
         pendulum().with("'inputs': []", "'inputs': [{'name':'u','tyre':'w','value':'rod.x'}]")
             .force("{ 'name': 'w', 'type': 'tyre', 'at': 'rod.B', 'stiffness': 1, 'radius': 1 }") => [
             "scene.json:18:45: at inputs[0].value (`u`): this may depend on t and parameters only, but uses a marker",
-            "markers may stand in an `equation` joint, an applied force or torque, and outputs",
+            "markers and outputs may stand in an `equation` joint",
         ];
     input_dup:
         pendulum()

@@ -8,7 +8,7 @@ mod shifted;
 
 use super::changes::beside;
 use super::entry::Built;
-use super::input_states::{self, InputStates};
+use super::input_states::InputStates;
 use super::perturbation::Perturbation;
 use super::response::observe;
 use super::spectrum::{modes_of, refused};
@@ -144,7 +144,7 @@ fn finish(
     let size = built.a.nrows();
     let cost = Cost { assembly_seconds, eigen_seconds, conditioning, size, off_constraints: None };
     let (mut inputs, outputs) = variation.names();
-    input_states::add(&mut built, &mut inputs);
+    built.add_input_states(&mut inputs);
     let Built { chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, .. } = built;
     let (method, point) = ("modal".to_string(), variation.point.clone());
     Ok(LinearModel { method, chart, states, inputs, orders, outputs, a, b, c, d, e, modes, point, cost })
