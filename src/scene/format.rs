@@ -88,9 +88,9 @@ pub struct CentralGravity {
     pub mu: Number,
 }
 
-/// Another scene: its bodies, joints, forces, inputs, outputs, markers of the ground, parameters and start are added, with
-/// names that begin with `as` and an underscore, as in `left_crank.tip`, `ground.left_A` and `left_l`. Its gravity and
-/// simulation do not count.
+/// Another scene: its bodies, joints, forces, states, signals, inputs, outputs, markers of the ground, parameters and
+/// start are added, with names that begin with `as` and an underscore, as in `left_crank.tip`, `ground.left_A` and
+/// `left_l`. Its gravity and simulation do not count.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Include {

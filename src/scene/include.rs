@@ -1,8 +1,8 @@
 //! Other scenes in a scene.
 //!
 //! `"include": [{ "file": "leg.json", "as": "left", "parameters": { "l": "2*a" } }]` adds the bodies, joints, forces,
-//! states, inputs, outputs, markers of the ground and the start of another scene. Its names, those of its parameters among them,
-//! begin with `left_`.
+//! states, signals, inputs, outputs, markers of the ground and the start of another scene. Its names, those of its
+//! parameters among them, begin with `left_`.
 
 use super::format::Include;
 use super::names::check_name;
@@ -16,7 +16,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// Lists whose elements are added.
-const LISTS: [&str; 6] = ["bodies", "joints", "forces", "states", "inputs", "outputs"];
+const LISTS: [&str; 7] = ["bodies", "joints", "forces", "states", "signals", "inputs", "outputs"];
 /// Other keys that an included scene may have; what it says of gravity and simulation does not count.
 const OTHERS: [&str; 11] = [
     "$schema",
@@ -32,7 +32,8 @@ const OTHERS: [&str; 11] = [
     "simulation",
 ];
 /// Keys whose text is a word of the format, which names nothing.
-const WORDS: [&str; 7] = ["type", "measure", "component", "coordinate", "unit", "free", "frame"];
+const WORDS: [&str; 10] =
+    ["type", "measure", "component", "coordinate", "unit", "free", "frame", "columns", "interpolation", "beyond"];
 /// Includes in includes; more are taken for a mistake.
 const DEEPEST: usize = 16;
 
@@ -80,7 +81,7 @@ struct Origin {
     text: String,
     prefix: String,
     /// Index of its first element, and their number, for each of [`LISTS`].
-    ranges: [(usize, usize); 6],
+    ranges: [(usize, usize); 7],
     inner: Origins,
 }
 
@@ -213,19 +214,24 @@ struct Names<'a> {
     /// Folder of the included scene from that of the including one.
     folder: &'a Path,
     known: HashSet<String>,
+    /// Those that stand before brackets.
+    signals: HashSet<String>,
     ground: HashSet<String>,
 }
 
 impl<'a> Names<'a> {
     fn of(inner: &Value, prefix: String, folder: &'a Path) -> Self {
-        let elements = LISTS.iter().filter_map(|list| inner.get(list)?.as_array()).flatten();
-        let names = elements.filter_map(|element| element.get("name")?.as_str().map(str::to_string));
+        let of = |list: &str| -> Vec<String> {
+            let elements = inner.get(list).and_then(Value::as_array).into_iter().flatten();
+            elements.filter_map(|element| element.get("name")?.as_str().map(str::to_string)).collect()
+        };
+        let names = LISTS.iter().flat_map(|list| of(list));
         let keys = |value: Option<&Value>| -> Vec<String> {
             value.and_then(Value::as_object).map_or(Vec::new(), |map| map.keys().cloned().collect())
         };
         let known = names.chain(keys(inner.get("parameters"))).collect();
         let ground = keys(inner.pointer("/ground/markers")).into_iter().collect();
-        Names { prefix, folder, known, ground }
+        Names { prefix, folder, known, signals: of("signals").into_iter().collect(), ground }
     }
 
     /// Adds parameters, markers of the ground and the start; `given` are parameters in terms of the including scene.
@@ -290,7 +296,9 @@ impl<'a> Names<'a> {
             Some(rest) if first == "ground" && self.ground.contains(rest.split('.').next().unwrap_or("")) => {
                 format!("ground.{}{rest}", self.prefix)
             }
-            _ if self.known.contains(name) && !is_function => format!("{}{word}", self.prefix),
+            _ if if is_function { &self.signals } else { &self.known }.contains(name) => {
+                format!("{}{word}", self.prefix)
+            }
             _ => word.to_string(),
         }
     }

@@ -30,7 +30,7 @@ fn every_key_and_type_of_the_schema_is_a_topic() {
     );
     assert!(place.done(&["reference", "simulation"]).contains("tr_bdf2, esdirk34"));
     assert!(place.done(&["reference", "units"]).contains("rad/s, deg/s, rev/s, rpm"));
-    assert!(all.contains("  distance_rate     between "), "{all}");
+    assert!(all.contains("  distance_rate         between, of "), "{all}");
 }
 
 /// Each form of a name in the table stands in an output of a scene.

@@ -4,6 +4,7 @@ mod bode_figure;
 mod files;
 mod loci;
 mod loci_figures;
+mod pair;
 mod response;
 mod text;
 mod validation;
@@ -12,7 +13,8 @@ pub use bode_figure::bode_figure;
 pub use files::{LinearFile, OperatingPointFile, linear_stem};
 pub use loci::{LociFile, LociSummary, loci_table};
 pub use loci_figures::{frequency_figure, loci_figure};
-pub use response::{FrequencyResponse, Response, ResponseFile};
+pub use pair::Response;
+pub use response::{FrequencyResponse, ResponseFile};
 pub use text::comparison_text;
 pub use validation::{Deviation, ErrorOrder, ValidationFile, sequence_figure, validation_figure};
 
