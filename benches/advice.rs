@@ -95,8 +95,14 @@ fn measure(path: &Path) -> Result<Measured> {
     let between = (span.start, span.end);
     let watched = Watched::new(prepared.system(), &[])?;
     let within = |budget: Duration| -> Result<WorkPrecision> {
-        let motion =
-            Motion { system: prepared.system(), start: prepared.start(), between, ratio, is_stopped: &|| false };
+        let motion = Motion {
+            system: prepared.system(),
+            start: prepared.start(),
+            between,
+            ratio,
+            counts_start: false,
+            is_stopped: &|| false,
+        };
         let triples = triples.clone();
         let plan = Plan { triples, budget, repeats: 3, rows, digits: DIGITS[1], is_exhaustive: false, given: None };
         let mut result = WorkPrecision::fresh(&prepared.name, between, rows);

@@ -77,7 +77,8 @@ impl EnergyMeter {
         if self.balance.is_none() {
             self.potential = row.potential;
         }
-        let balance = self.balance.get_or_insert(EnergyBalance { initial: total, ..EnergyBalance::default() });
+        let balance =
+            self.balance.get_or_insert(EnergyBalance { initial: total - state.work, ..EnergyBalance::default() });
         (balance.last, balance.work) = (total, state.work);
         balance.max_error = balance.max_error.max(row.error.abs());
         if let Some(tolerated) = state.tolerated {
@@ -93,7 +94,8 @@ impl EnergyMeter {
     pub fn ledger(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Option<Ledger> {
         let energy = system.energy(state.t, state.q, state.v, scratch)?;
         let total = energy.kinetic + energy.potential;
-        let initial = self.balance.map_or(total, |balance| balance.initial);
+        // A run that goes on from another one begins with the work done before.
+        let initial = self.balance.map_or(total - state.work, |balance| balance.initial);
         let error = total - initial - state.work;
         Some(Ledger { kinetic: energy.kinetic, potential: energy.potential, work: state.work, error })
     }

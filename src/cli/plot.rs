@@ -256,8 +256,8 @@ impl Args {
             self.seal(folder, "mechanism", prepared, drawn)?;
         }
         if self.outputs {
-            self.output.figure(folder, "outputs", outputs_figure(&prepared.name, motion.trajectory()))?;
-            self.seal(folder, "outputs", prepared, drawn)?;
+            self.output.figure(folder, "plot-outputs", outputs_figure(&prepared.name, motion.trajectory()))?;
+            self.seal(folder, "plot-outputs", prepared, drawn)?;
         }
         match self.animate {
             Some(format) => self.animation(format, motion, look, folder, drawn),

@@ -45,7 +45,8 @@ pub struct Args {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum NormOption {
-    /// Largest difference over the range of the output
+    /// Largest difference over the range of the output; of energies over the swing of the kinetic energy, of what hardly
+    /// moves over a thousandth of the motion
     Range,
     /// Root mean square of the difference over that of the output about its mean
     Rms,
@@ -64,6 +65,12 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let name = prepared.name.clone();
     let source = Source::load(&args.scene.path, &overrides)?;
     let folder = args.output.folder(&name)?;
+    let own = folder.path().join("simplified.json").canonicalize();
+    if own.is_ok_and(|own| args.scene.path.canonicalize().is_ok_and(|scene| scene == own)) {
+        return Err(Error::input("simplified.json of that folder is the scene itself")
+            .under("-o")
+            .hint("name another folder"));
+    }
     let bar = args.talk.progress(args.at_most.into(), &name);
     let mut watch = |what: &str, done: usize| {
         bar.set_message(what.to_string());

@@ -14,6 +14,8 @@ pub struct LinearizationPoint {
     pub q: Vec<f64>,
     /// Velocities, n_v.
     pub v: Vec<f64>,
+    /// Number of the last of them that are states.
+    pub states: usize,
     /// Accelerations v', n_v.
     pub vdot: Vec<f64>,
     /// Multipliers, n_c.
@@ -41,6 +43,7 @@ impl LinearizationPoint {
             t,
             q: q.to_vec(),
             v: v.to_vec(),
+            states: dynamics.system.dimensions().states,
             vdot: dynamics.vdot.clone(),
             lambda: dynamics.lambda.clone(),
             u: Vec::new(),

@@ -73,8 +73,10 @@ impl FinishedRun {
             Some(trajectory) => Ok(Trajectory { rows: self.rows, ..trajectory }),
             None => {
                 let hint = unknown.as_ref().map(|name| suggest(name, known.iter().copied()));
-                let name = unknown.or_else(missing).unwrap_or_default();
-                let error = format!("it is of another scene: they do not share the column `{name}`");
+                let error = match unknown.or_else(missing) {
+                    Some(name) => format!("it is of another scene: they do not share the column `{name}`"),
+                    None => "it is of another scene: its columns are in another order".to_string(),
+                };
                 let hint = hint.unwrap_or("draw the scene as it was when it was simulated".to_string());
                 Err(Error::input(error).hint(hint).in_file(self.path))
             }

@@ -142,9 +142,7 @@ pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
         .series(Series::line("front", front(&points)))
         .series(Series::line("promise", promise));
     for (run, name) in [(&result.richest, "richest"), (&result.chosen, "chosen")] {
-        if let Some((seconds, error)) = point(run) {
-            panel = panel.annotate(seconds, error, name);
-        }
+        panel = panel.series(Series::dots(name, point(run).into_iter().collect()));
     }
     let title = format!("{}: within {}", result.scene, percent(result.within));
     (points.len() > 1).then(|| Figure::new().title(title).panel(panel.height(360.0)))

@@ -40,6 +40,7 @@ pub use elements::Elements;
 #[doc(hidden)]
 pub use format::Assembly;
 pub use format::{Automatic, Simulation};
+pub(crate) use include::complete;
 #[doc(hidden)]
 pub use measures::MeasureKind;
 pub use model::Model;

@@ -125,7 +125,8 @@ pub fn sampled(
     let watched = Watched::new(system, names)?;
     let span = prepared.span()?;
     let between = (span.start, span.end);
-    let motion = Motion { system, start: prepared.start(), between, ratio: method.atol / method.rtol, is_stopped };
+    let ratio = method.atol / method.rtol;
+    let motion = Motion { system, start: prepared.start(), between, ratio, counts_start: true, is_stopped };
     sample(&motion, &watched, method, span, Allowed { cpu: allowed, wall: BUSY * allowed + WAIT })
 }
 

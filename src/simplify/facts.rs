@@ -67,7 +67,7 @@ impl Placed {
 
 /// Watched rows, states and sizes of a run.
 pub struct Recorded {
-    /// Values of the watched outputs at each time after the start.
+    /// Values of the watched outputs at each time.
     pub rows: Vec<Vec<f64>>,
     /// Sizes of the motion.
     pub sizes: Sizes,
@@ -84,7 +84,7 @@ pub fn record(prepared: &PreparedScene, watched: &Watched, method: &Method) -> R
     let recorded = Recorded { rows: Vec::new(), sizes: Sizes::default(), states: Vec::new(), redundant: Vec::new() };
     let scales = system.scales();
     let span = prepared.span()?;
-    let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, start: span.start, recorded };
+    let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, recorded };
     let outcome = simulate(system, method, span, prepared.start(), &mut memory)?;
     match outcome.failure {
         None => Ok(memory.recorded),
@@ -100,7 +100,6 @@ struct Memory<'a> {
     watched: &'a Watched,
     scratch: Scratch,
     scales: Vec<f64>,
-    start: f64,
     recorded: Recorded,
 }
 
@@ -114,9 +113,7 @@ impl Sink for Memory<'_> {
         if state.dropped.len() > redundant.len() {
             *redundant = state.dropped.to_vec();
         }
-        if state.t > self.start {
-            rows.push(self.watched.read(self.system, state, &mut self.scratch));
-        }
+        rows.push(self.watched.read(self.system, state, &mut self.scratch));
     }
 }
 
@@ -157,7 +154,7 @@ impl Facts {
             sums.fold(0.0, f64::max)
         };
         let all = largest(&|_| true);
-        if all > 0.0 { largest(&|i| own[i]) / all } else { 1.0 }
+        if all > 0.0 { largest(&|i| own.get(i).copied().unwrap_or(false)) / all } else { 1.0 }
     }
 
     fn body_names(&self) -> Vec<String> {

@@ -130,6 +130,12 @@ pub fn simplify(
     let names: Vec<String> = watched.columns.iter().map(|column| column.name.clone()).collect();
     watch("the richest model, accurately", 0);
     let recorded = record(&prepared, &watched, &tighter(&prepared.method))?;
+    let undefined = (0..names.len()).find(|&i| recorded.rows.iter().any(|row| !row[i].is_finite()));
+    if let Some(i) = undefined {
+        return Err(Error::input(format!("the output `{}` has no value at some time of the motion", names[i]))
+            .under("outputs")
+            .hint("name the others by --outputs"));
+    }
     let terms = (settings.within, settings.norm);
     let promise = Promise::new(terms, &watched.columns, recorded.rows.clone(), &recorded.sizes);
     watch("the richest model", 1);
@@ -202,12 +208,12 @@ fn described(mut scene: Value, result: &Simplification) -> Value {
         result.left_out().map(|trial| format!("{} ({})", trial.what.join(", "), trial.why)).collect();
     let about = scene["about"].as_str().map_or(String::new(), |about| format!("{about} "));
     let left_out = if changes.is_empty() { "nothing can be left out".to_string() } else { changes.join("; ") };
-    scene["about"] = json!(format!(
-        "{about}Simplified from {}, within {} in {}: {left_out}.",
-        result.scene,
-        percent(result.within),
-        result.outputs.join(", ")
-    ));
+    // Where the richest model's own error is larger nobody knows.
+    let promise = match result.warnings.is_empty() {
+        true => format!(", within {} in {}", percent(result.within), result.outputs.join(", ")),
+        false => String::new(),
+    };
+    scene["about"] = json!(format!("{about}Simplified from {}{promise}: {left_out}.", result.scene));
     scene["name"] = json!(format!("{}_simplified", result.scene));
     scene
 }

@@ -86,7 +86,7 @@ pub fn robustness(
 ) -> Result<Robustness> {
     let scenes = [&source.scene, simplified];
     let parameters = movable(source, scenes, nearby.by);
-    let velocities = elements(scenes[0], "bodies").iter().any(moves);
+    let velocities = source.prepare(scenes[0])?.start().1.iter().any(|v| *v != 0.0);
     if parameters.is_empty() && !velocities {
         return Err(Error::input("the scene has no parameter and no velocity at the start that could be moved")
             .under("--robust")
@@ -121,11 +121,6 @@ fn movable(source: &Source, scenes: [&Value; 2], by: f64) -> Vec<String> {
 
 const VELOCITIES: [&str; 3] = ["velocity", "angular_velocity", "elastic_velocity"];
 
-/// True if a body has a velocity at the start.
-fn moves(body: &Value) -> bool {
-    VELOCITIES.iter().any(|key| body["initial"].get(key).is_some())
-}
-
 /// The scene with these parameters times 1 + u, and the velocities by the last u.
 fn moved(scene: &Value, parameters: &[String], u: &[f64]) -> Value {
     let mut scene = scene.clone();
@@ -138,6 +133,8 @@ fn moved(scene: &Value, parameters: &[String], u: &[f64]) -> Value {
     for initial in bodies.filter_map(|body| body.get_mut("initial")) {
         VELOCITIES.iter().filter_map(|key| initial.get_mut(key).map(|value| scale(value, factor))).for_each(drop);
     }
+    let of_joints = scene.get_mut("initial").and_then(Value::as_object_mut).into_iter().flatten();
+    of_joints.filter(|(name, _)| name.ends_with('\'')).for_each(|(_, value)| scale(value, factor));
     scene
 }
 

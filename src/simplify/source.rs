@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// A scene as JSON, with the settings of the command line and its method written in.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// The scene.
+    /// The scene, with all that it repeats and includes.
     pub scene: Value,
     /// Folder from which the files that it names are found.
     pub folder: PathBuf,
@@ -27,9 +27,10 @@ impl Source {
         let prepared = PreparedScene::load(path, overrides)?;
         let text = scene::read_text(path)?;
         let parsed = serde_json::from_str(text.trim_start_matches('\u{feff}'));
-        let scene = parsed.map_err(|error| Error::file(path, error))?;
-        let source =
-            Source { scene, folder: scene::folder(Some(path)).to_path_buf(), elements: overrides.elements.clone() };
+        let mut scene = parsed.map_err(|error| Error::file(path, error))?;
+        let folder = scene::folder(Some(path)).to_path_buf();
+        scene::complete(&mut scene, &folder, &overrides.set).map_err(|error| error.in_file(path))?;
+        let source = Source { scene, folder, elements: overrides.elements.clone() };
         source.settled(prepared, overrides).map_err(|error| error.in_file(path))
     }
 
@@ -37,7 +38,8 @@ impl Source {
     ///
     /// # Errors
     /// It is none, or has no end time.
-    pub fn new(scene: Value, overrides: &Overrides) -> Result<Source> {
+    pub fn new(mut scene: Value, overrides: &Overrides) -> Result<Source> {
+        scene::complete(&mut scene, Path::new(""), &overrides.set)?;
         let source = Source { scene, folder: PathBuf::new(), elements: overrides.elements.clone() };
         let scene = source.elements.parse_in(&source.folder, &source.scene.to_string(), &overrides.set)?;
         source.settled(PreparedScene::new(scene, overrides)?, overrides)
@@ -79,7 +81,7 @@ impl Source {
         if let Some(reference) = scene.get_mut("simulation").and_then(|simulation| simulation.get_mut("reference")) {
             place(reference);
         }
-        for list in ["bodies", "formulas"] {
+        for list in ["bodies", "signals"] {
             let elements = scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
             elements.filter_map(|element| element.get_mut("file")).for_each(place);
         }

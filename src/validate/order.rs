@@ -12,7 +12,8 @@ pub struct Decay {
     pub decades: f64,
     /// Range of sizes over which it was taken, largest and smallest.
     pub range: [f64; 2],
-    /// True if all errors are rounding: the model is exact along this direction.
+    /// True if all errors are rounding, but perhaps the few of the largest sizes, which may reach another piece of the
+    /// equations: the model is exact along this direction.
     pub is_exact: bool,
 }
 
@@ -23,8 +24,7 @@ pub fn decay(sizes: &[f64], errors: &[f64], largest: impl Fn(f64) -> f64, floor:
         error.is_finite() && **error > tolerances::ABOVE_ROUNDING * floor && **error <= largest(**size)
     });
     let logs: Vec<(f64, f64)> = points.map(|(size, error)| (size.log10(), error.log10())).collect();
-    let is_exact =
-        errors.iter().filter(|error| error.is_finite()).all(|error| *error <= tolerances::ABOVE_ROUNDING * floor);
+    let is_exact = is_exact(sizes, errors, tolerances::ABOVE_ROUNDING * floor);
     let (low, high) = logs.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), (x, _)| (a.min(*x), b.max(*x)));
     let enough = logs.len() >= tolerances::SLOPE_POINTS;
     Decay {
@@ -33,6 +33,14 @@ pub fn decay(sizes: &[f64], errors: &[f64], largest: impl Fn(f64) -> f64, floor:
         range: if enough { [10f64.powf(high), 10f64.powf(low)] } else { [0.0; 2] },
         is_exact,
     }
+}
+
+fn is_exact(sizes: &[f64], errors: &[f64], rounding: f64) -> bool {
+    let finite = sizes.iter().zip(errors).filter(|(_, error)| error.is_finite());
+    let (at, above): (Vec<_>, Vec<_>) = finite.partition(|(_, error)| **error <= rounding);
+    let largest = at.iter().fold(0.0, |most: f64, (size, _)| most.max(**size));
+    let few = above.len() < tolerances::SLOPE_POINTS && at.len() >= tolerances::SLOPE_POINTS;
+    above.is_empty() || few && above.iter().all(|(size, _)| **size > largest)
 }
 
 fn slope(points: &[(f64, f64)]) -> f64 {
@@ -56,6 +64,11 @@ mod tests {
         assert!((found.order.unwrap() - 2.0).abs() < 0.01, "{found:?}");
         assert!(found.decades > 2.9 && !found.is_exact);
         assert!(decay(&sizes, &[1e-10; 12], |_| 1.0, 1e-9).is_exact);
+        let mut saturated = [1e-10; 12];
+        saturated[0] = 0.1;
+        assert!(decay(&sizes, &saturated, |_| 1.0, 1e-9).is_exact);
+        saturated.swap(0, 6);
+        assert!(!decay(&sizes, &saturated, |_| 1.0, 1e-9).is_exact);
         assert!(decay(&sizes[..3], &errors[..3], |_| 1.0, 1e-9).order.is_none());
     }
 }

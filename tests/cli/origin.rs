@@ -94,7 +94,7 @@ fn a_finished_run_is_drawn() {
             ["plot", "scene.json", "--from", format, "-o", "drawn", "--outputs", "--figures", "png", "--at", "0.3"];
         assert!(place.done(&from).starts_with("pendulum at t = 0.3 s\n"));
         assert_eq!(place.json("drawn/mechanism.json")["parameters"]["l"], 3.0);
-        assert_eq!(place.files("drawn"), ["mechanism.json", "mechanism.png", "outputs.json", "outputs.png"]);
+        assert_eq!(place.files("drawn"), ["mechanism.json", "mechanism.png", "plot-outputs.json", "plot-outputs.png"]);
     }
     // What is drawn is what a run of its own draws, at times of rows to the last digit.
     let svg = |more: &[&str]| {

@@ -60,6 +60,7 @@ pub fn plain(prepared: &PreparedScene) -> LinearModel {
         e: None,
         modes,
         point: LinearizationPoint {
+            states: 0,
             t,
             q: q.to_vec(),
             v: v.to_vec(),

@@ -19,7 +19,14 @@ pub const ROWS: usize = 200;
 pub fn motion(scene: &Ready, end: f64) -> Motion<'_> {
     let ratio = scene.0.method.atol / scene.0.method.rtol;
     let start = scene.0.start_time();
-    Motion { system: scene.system(), start: scene.0.start(), between: (start, end), ratio, is_stopped: &|| false }
+    Motion {
+        system: scene.system(),
+        start: scene.0.start(),
+        between: (start, end),
+        ratio,
+        counts_start: false,
+        is_stopped: &|| false,
+    }
 }
 
 pub fn filter(formulations: &[&str], integrators: &[&str], projections: &[&str]) -> Filter {

@@ -31,7 +31,14 @@ fn differences_are_relative_to_the_largest_value() {
 fn equations_of_ones_own_have_a_reference_too() {
     let start = Exponential::exact(0.0);
     let (q, v) = start.split_at(1);
-    let motion = Motion { system: &Exponential, start: (q, v), between: (0.0, 4.0), ratio: 1.0, is_stopped: &|| false };
+    let motion = Motion {
+        system: &Exponential,
+        start: (q, v),
+        between: (0.0, 4.0),
+        ratio: 1.0,
+        counts_start: false,
+        is_stopped: &|| false,
+    };
     let result = measured(motion, &plan(&filter(&["index1"], &["dop853"], &["none"]), 3.0), &[]);
     let reference = result.reference.unwrap();
     assert!(reference.is_independent && reference.error < 1e-10, "{} {:e}", reference.checked_by, reference.error);

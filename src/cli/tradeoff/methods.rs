@@ -89,6 +89,7 @@ impl Question {
             start: prepared.start(),
             between: (span.start, span.end),
             ratio: prepared.method.atol / prepared.method.rtol,
+            counts_start: false,
             is_stopped: &interrupt::is_asked,
         };
         let result = Runner::new(motion, &self.plan, self.watched, watch).run(measured);

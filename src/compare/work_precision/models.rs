@@ -206,8 +206,14 @@ impl<'a> Run<'a> {
         }
         let between = (span.start, span.end);
         let ratio = method.atol / method.rtol;
-        let motion =
-            Motion { system: prepared.system(), start: prepared.start(), between, ratio, is_stopped: &|| false };
+        let motion = Motion {
+            system: prepared.system(),
+            start: prepared.start(),
+            between,
+            ratio,
+            counts_start: false,
+            is_stopped: &|| false,
+        };
         let run = sample(&motion, &self.watched, &method, span, allowed)?;
         if round == 0 {
             self.tight = Some(run);

@@ -20,6 +20,8 @@ pub struct Motion<'a> {
     pub between: (f64, f64),
     /// Ratio atol / rtol.
     pub ratio: f64,
+    /// True if the start counts, where all methods agree, but not all models.
+    pub counts_start: bool,
     /// Returns true if the user stops the measurement.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
 }
@@ -27,7 +29,7 @@ pub struct Motion<'a> {
 /// Result of one run.
 #[derive(Clone, Debug)]
 pub struct RunSample {
-    /// Values of the watched quantities, one row per output time after the start, where all motions agree.
+    /// Values of the watched quantities, one row per output time, at the start only where it counts.
     pub rows: Vec<Vec<f64>>,
     /// Sizes of the motion over the same rows and the start.
     pub sizes: Sizes,
@@ -140,7 +142,7 @@ impl Sink for Sampler<'_> {
 
     fn row(&mut self, state: &Observation) {
         self.sizes.add(self.motion.system, state, &self.scales, &mut self.scratch);
-        if state.t > self.start {
+        if state.t > self.start || self.motion.counts_start {
             self.rows.push(self.watched.read(self.motion.system, state, &mut self.scratch));
         }
     }

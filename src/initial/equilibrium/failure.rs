@@ -37,6 +37,7 @@ pub(super) fn too_bent(t: f64, beam: &Limited, turn: f64) -> Error {
     Failure { t, reason, hint }.into()
 }
 
+const INTEGRATOR: &str = "its rate has to come to zero somewhere: look whether what it commands saturates";
 const HOLD: &str = "hold it by a joint or a spring, or take the force away";
 const BEGIN_NEARER: &str = "begin nearer to it, or look at the motion with `holonom simulate`: with some damping it comes to \
                             rest where there is an equilibrium";
@@ -66,6 +67,11 @@ pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &Place, away: Opti
                 None => failure(format!("no static equilibrium was found; at the start {holds}"), BEGIN_NEARER),
             };
         }
+    }
+    if let Some(name) =
+        away.filter(|entry| *entry >= rest.coordinates).and_then(|entry| name_of(rest.dynamics.system, entry))
+    {
+        return failure(format!("there is no static equilibrium: the state `{name}` grows on and on"), INTEGRATOR);
     }
     if let Some(name) = away.and_then(|coordinate| name_of(rest.dynamics.system, coordinate)) {
         return failure(format!("there is no static equilibrium: the forces move `{name}` on and on"), HOLD);

@@ -166,8 +166,14 @@ impl Linear<'_> {
 
     pub(super) fn norms(&self) -> Norms {
         let point = &self.model.point;
+        let moving = point.v.len() - point.states;
         let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-        Norms { phi: point.phi, phi_dot: point.phi_dot, v: largest(&point.v), vdot: largest(&point.vdot) }
+        Norms {
+            phi: point.phi,
+            phi_dot: point.phi_dot,
+            v: largest(&point.v[..moving]),
+            vdot: largest(&point.vdot[..moving]),
+        }
     }
 }
 

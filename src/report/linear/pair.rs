@@ -33,7 +33,8 @@ impl Response {
         let words = [&self.output_unit, &self.input_unit];
         match words.map(|unit| unit.trim()) {
             ["", ""] => String::new(),
-            ["", input] => format!("1/({input})"),
+            ["", input] if input.contains(' ') => format!("1/({input})"),
+            ["", input] => format!("1/{input}"),
             [output, ""] => output.to_string(),
             [output, input] if input.contains(' ') => format!("{output}/({input})"),
             [output, input] => format!("{output}/{input}"),

@@ -144,9 +144,10 @@ fn grey(item: Item) -> Item {
 impl<'a> Swing<'a> {
     fn new(prepared: &'a PreparedScene, model: &'a LinearModel, mode: &'a Mode, rest: &Snapshot) -> Self {
         // At this phase the real part of the shape is largest: the sum of squares is real.
-        let squares: Complex<f64> = mode.shape.iter().map(|part| part * part).sum();
+        let moving = prepared.system().dimensions().moving();
+        let squares: Complex<f64> = mode.shape.iter().take(moving).map(|part| part * part).sum();
         let swing = Swing { prepared, model, mode, amplitude: 1.0, phase: -0.5 * squares.arg() };
-        let largest = swing.change(0.0).iter().fold(0.0, |most: f64, part| most.max(part.abs()));
+        let largest = swing.change(0.0).iter().take(moving).fold(0.0, |most: f64, part| most.max(part.abs()));
         let size = size(rest);
         let step = 1e-4 / largest.max(f64::MIN_POSITIVE);
         let moved = Swing { amplitude: step, ..swing }.snapshot(0.0);
