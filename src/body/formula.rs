@@ -55,9 +55,15 @@ impl Formula {
     pub fn parse<const D: usize>(text: &str, build: &Build<D>, order: usize, locals: Locals) -> Result<Formula> {
         let mut named = Vec::new();
         for (name, probe) in locals {
-            let other = if build.parameters.get(name).is_some() { "parameter" } else { "state" };
-            if other == "parameter" || build.probe(name).is_some() {
-                let error = Error::input(format!("`{name}` is a {other}, and a name of this expression's own"));
+            let is_output = || words(text).any(|word| word == *name) && build.outputs.find(name, build).is_some();
+            let other = match () {
+                _ if build.parameters.get(name).is_some() => Some("parameter"),
+                _ if build.probe(name).is_some() => Some("state"),
+                _ => is_output().then_some("output"),
+            };
+            if let Some(other) = other {
+                let article = if other == "output" { "an" } else { "a" };
+                let error = Error::input(format!("`{name}` is {article} {other}, and a name of this expression's own"));
                 return Err(error.hint(format!("rename the {other}")));
             }
             named.push((name.to_string(), *probe));
@@ -128,6 +134,11 @@ impl Formula {
 /// The frame of a marker among those of an element.
 pub fn slot<'f, F>(markers: &[MarkerId], marker: MarkerId, frames: &'f [F]) -> &'f F {
     &frames[markers.iter().position(|&known| known == marker).unwrap_or(0)]
+}
+
+/// Names and numbers of an expression, without the primes of rates.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.'))
 }
 
 /// Largest length of an expression with its outputs replaced, bytes.

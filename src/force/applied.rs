@@ -19,7 +19,8 @@ pub struct AppliedForce {
     /// Axes of the components. Default: the world's.
     #[serde(default)]
     pub axes: Axes,
-    /// Marker that takes the opposite force. Default: none.
+    /// Marker whose body takes the opposite force along the same line, so with the moment of the gap between both markers.
+    /// Default: none.
     pub reaction_on: Option<String>,
 }
 

@@ -75,8 +75,8 @@ impl<const D: usize> JointKernel<D> for Given<D> {
                 return;
             }
             JointCoordinate::Angle if D == 2 => {
-                let (s, c) = (b.turn - a.turn).sin_cos();
-                (c, s)
+                out[0] = b.turn - a.turn - value;
+                return;
             }
             JointCoordinate::Angle => relative_turn(&self.lock, a, b),
             // R = R_x(angle1) R_y(angle2): y_B is turned from y_A about x_A, x_B from x_A about y_B.

@@ -24,3 +24,31 @@ fn a_promise_is_in_per_cent() {
         assert_eq!(output.status.code(), Some(2), "{within}");
     }
 }
+
+/// States are bodies without a place; files and what is included or repeated are found from anywhere.
+#[test]
+fn controllers_roads_and_included_scenes_are_simplified() {
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+    let place = Place::new("");
+    for (name, kept) in [
+        ("pid_arm", "nothing can be left out"),
+        ("half_car", "front_tyre is not damped"),
+        ("suspension_on_road", "corner_tyre is not damped"),
+        // At the start, where the springs are relaxed, distances would carry a load.
+        ("flyball_governor", "nothing can be left out"),
+    ] {
+        let scene = models.join(format!("{name}.json")).display().to_string();
+        let text = place.done(&["simplify", &scene, "--within", "10%", "--figures", "none", "-o", name]);
+        assert!(text.contains(kept), "{name}: {text}");
+        let simplified = format!("{name}/simplified.json");
+        place.done(&["simulate", &simplified, "--until", "0.01", "--figures", "none", "-o", "run"]);
+    }
+}
+
+#[test]
+fn a_scene_is_not_written_over() {
+    let place = Place::new(PENDULUM);
+    fs::rename(place.path("scene.json"), place.path("simplified.json")).unwrap();
+    let output = place.run(&["simplify", "simplified.json", "--within", "5%", "-o", "."]);
+    assert_eq!(output.status.code(), Some(2));
+}

@@ -75,6 +75,11 @@ cases! {
             "at forces[0].law (`spring`): `length` is a parameter, and a name of this expression's own",
             "rename the parameter",
         ];
+    law_named_as_an_output:
+        law("'law': '3*angle + length'").with("'theta'", "'length'") => [
+            "at forces[0].law (`spring`): `length` is an output, and a name of this expression's own",
+            "rename the output",
+        ];
     law_of_an_acceleration:
         law("'law': '3*length + theta´´'") => [
             "at forces[0].law (`spring`): `theta''` is an acceleration, which cannot stand here",

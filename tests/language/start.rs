@@ -44,6 +44,23 @@ fn state(ready: &Ready) -> impl Fn(&str) -> f64 {
     move |name| all.iter().find(|(known, _)| known == name).unwrap_or_else(|| panic!("no {name}")).1
 }
 
+/// A spring on the hinge is wound up by full turns.
+#[test]
+fn full_turns_of_a_hinge_count() {
+    for angle in [3.5, 2.0 * PI, 7.0] {
+        let ready = parse(&format!(
+            r#"{{ "name": "wound", "dimension": 2, "ground": {{ "markers": {{ "A": [0, 0] }} }},
+                "bodies": [{{ "name": "rod", "type": "rigid", "mass": 1, "inertia": 0.1, "markers": {{ "A": [-0.5, 0] }},
+                             "initial": {{ "position": [0.5, 0] }} }}],
+                "joints": [{{ "name": "A", "type": "revolute", "between": ["ground.A", "rod.A"] }}],
+                "forces": [{{ "name": "s", "type": "torsion_spring", "between": ["ground.A", "rod.A"], "stiffness": 1 }}],
+                "initial": {{ "A.angle": {angle} }} }}"#
+        ));
+        let at = state(&ready);
+        assert!((at("rod.angle") - angle).abs() < 1e-14 && (at("rod.x") - 0.5 * angle.cos()).abs() < 1e-14, "{angle}");
+    }
+}
+
 #[test]
 fn a_loop_starts_at_the_angle_of_its_joint() {
     let ready = parse(&four_bar(r#""A.angle": "theta + 0.5", "A.angle'": 3"#));
