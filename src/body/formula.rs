@@ -55,7 +55,12 @@ impl Formula {
     pub fn parse<const D: usize>(text: &str, build: &Build<D>, order: usize, locals: Locals) -> Result<Formula> {
         let mut named = Vec::new();
         for (name, probe) in locals {
-            let is_output = || words(text).any(|word| word == *name) && build.outputs.find(name, build).is_some();
+            // An output that is the quantity itself, as the length of the spring, means the same.
+            let means_another = || match build.outputs.find(name, build) {
+                Some(Ok(NamedOutput::Probe(own))) => own != *probe,
+                found => matches!(found, Some(Ok(_))),
+            };
+            let is_output = || words(text).any(|word| word == *name) && means_another();
             let other = match () {
                 _ if build.parameters.get(name).is_some() => Some("parameter"),
                 _ if build.probe(name).is_some() => Some("state"),

@@ -69,8 +69,8 @@ impl Reference {
                 let place = kind.unwrap_or(&self.schema["properties"][name]);
                 let object = self.resolved(place.get("items").unwrap_or(place));
                 let is_object = object.get("properties").is_some();
-                let own = if is_object { plain(object) } else { plain(place) };
-                let about = if own.is_empty() { plain(place) } else { own };
+                let own = plain(place);
+                let about = if own.is_empty() { plain(object) } else { own };
                 let gap = if is_object { "\n\n" } else { "\n" };
                 format!("{name}: {}{gap}{}", wrapped(&about, 0), self.nested_keys(object))
             }
@@ -112,7 +112,7 @@ impl Reference {
     fn nested_keys(&self, object: &Value) -> String {
         let mut text = self.keys(object);
         for (name, value) in properties(object) {
-            let inner = self.keys(self.resolved(value));
+            let inner = self.keys(self.resolved(value.get("items").unwrap_or(value)));
             if !inner.is_empty() {
                 text += &format!("\n{name}\n{inner}");
             }
@@ -145,11 +145,12 @@ impl Reference {
         if words.is_empty() { String::new() } else { format!("\n      {}", wrapped(&words.join(", "), 6)) }
     }
 
-    /// Returns the definition that a value refers to, or the value.
+    /// Returns the definition that a value refers to, the last of a chain of them, or the value.
     fn resolved<'v>(&'v self, value: &'v Value) -> &'v Value {
         let choices = value["anyOf"].as_array().into_iter().flatten();
         let reference = [value].into_iter().chain(choices).find_map(|one| one["$ref"].as_str());
-        reference.and_then(|path| self.schema.pointer(path.trim_start_matches('#'))).unwrap_or(value)
+        let found = reference.and_then(|path| self.schema.pointer(path.trim_start_matches('#')));
+        found.map_or(value, |found| if found.get("properties").is_some() { found } else { self.resolved(found) })
     }
 }
 

@@ -164,7 +164,6 @@ pub struct OrientedMarker {
     pub z_axis: Option<Vec<Number>>,
     /// In space, with or without `z_axis`: direction of the x axis, made square to z.
     pub x_axis: Option<Vec<Number>>,
-    /// Copies of this element.
     #[serde(rename = "repeat")]
     pub _repeat: Option<Repeat>,
 }
@@ -179,7 +178,6 @@ pub struct StateSpec {
     pub initial: Option<Number>,
     /// Its rate per second: an expression of t, marker quantities (`arm.angle`, `arm.tip.x'`), named outputs and states.
     pub rate: Number,
-    /// Copies of this element.
     #[serde(rename = "repeat")]
     pub _repeat: Option<Repeat>,
 }
@@ -222,7 +220,6 @@ pub struct InputSpec {
     /// u in simulations, in N, N m, m or rad: an expression of t, for a force also of marker quantities and named
     /// outputs; linear models are taken about it. Default: zero.
     pub value: Option<Number>,
-    /// Copies of this element.
     #[serde(rename = "repeat")]
     pub _repeat: Option<Repeat>,
 }
@@ -285,7 +282,6 @@ pub struct BodyPlace {
     /// Position of the body's origin, which its markers and `initial` refer to, from its centre of mass, m.
     pub origin: Option<Vec<Number>>,
     pub initial: Option<crate::body::Initial>,
-    /// Copies of this element.
     pub repeat: Option<Repeat>,
 }
 
@@ -296,7 +292,6 @@ pub struct JointPlace {
     pub name: String,
     /// The kind of joint.
     pub r#type: String,
-    /// Copies of this element.
     pub repeat: Option<Repeat>,
 }
 
@@ -307,6 +302,5 @@ pub struct ForcePlace {
     pub name: String,
     /// The kind of force.
     pub r#type: String,
-    /// Copies of this element.
     pub repeat: Option<Repeat>,
 }

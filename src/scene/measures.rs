@@ -38,7 +38,6 @@ pub struct OutputSpec {
     /// reference table too. In expressions an output by its name is in SI units. Of an expression: any word, for axes
     /// alone. Default: that of the SI.
     pub unit: Option<String>,
-    /// Copies of this element.
     #[serde(rename = "repeat")]
     pub _repeat: Option<Repeat>,
 }

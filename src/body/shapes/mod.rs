@@ -50,7 +50,6 @@ pub struct Shape {
     pub z_axis: Option<Vec<Number>>,
     /// In space, with or without `z_axis`: direction of the x axis, made square to z.
     pub x_axis: Option<Vec<Number>>,
-    /// Copies of this shape.
     #[serde(rename = "repeat")]
     pub _repeat: Option<Repeat>,
 }
