@@ -348,3 +348,15 @@ fn ordinary_beams_have_their_equilibria_and_linear_models() {
         }
     }
 }
+
+#[test]
+fn an_integrator_that_nothing_stops_has_no_rest() {
+    let error = seek(&parse(
+        r#"{ "name": "runaway", "dimension": 2,
+            "bodies": [{ "name": "m", "type": "point_mass", "mass": 1, "initial": { "position": [1, 0] } }],
+            "ground": { "markers": { "O": [0, 0] } }, "states": [{ "name": "i", "rate": "1 + 0*m.x" }],
+            "forces": [{ "name": "s", "type": "spring_damper", "between": ["ground.O", "m"], "stiffness": 10, "free_length": 1 }] }"#,
+    ));
+    let text = error.unwrap_err().to_string();
+    assert!(text.contains("the rate of the state `i` does not come to zero"), "{text}");
+}

@@ -1,10 +1,10 @@
 //! Expressions over time, scalars read off markers, and outputs by their names.
 
-use super::{Build, MarkerId, Probe};
+use super::{Build, Frame, MarkerId, Probe};
 use crate::error::{Error, Result};
 use crate::math::expression::{Expression, Name, Names};
 use crate::math::signal::Signal;
-use crate::math::{Scalar, Time};
+use crate::math::{Scalar, Taylor, Time};
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -114,6 +114,12 @@ impl Formula {
         markers
     }
 
+    /// These markers, and after them the others that it reads.
+    pub fn markers_after(&self, own: &[MarkerId]) -> Vec<MarkerId> {
+        let others = self.markers().into_iter().filter(|marker| !own.contains(marker));
+        own.iter().copied().chain(others).collect()
+    }
+
     /// Value of the expression, with `read` for the values of the probes.
     pub fn evaluate<S: Scalar>(&self, time: Time<S>, read: impl Fn(&Probe) -> S) -> S {
         self.with(time, read, |variables| self.expression.eval_held(variables, time.regime))
@@ -122,6 +128,43 @@ impl Formula {
     /// Writes the arguments of its switching functions at their numbers.
     pub fn switching<S: Scalar>(&self, time: Time<S>, read: impl Fn(&Probe) -> S, out: &mut [S]) {
         self.with(time, read, |variables| self.expression.arguments(variables, time.regime, out));
+    }
+
+    /// Value at the moving frames of an element's markers.
+    pub fn at<S: Scalar, const D: usize>(
+        &self,
+        time: Time<S>,
+        markers: &[MarkerId],
+        frames: &[Frame<Taylor<S>, D>],
+    ) -> S {
+        self.evaluate(time, |probe| probe.read(time.regime, |marker| slot(markers, marker, frames)))
+    }
+
+    /// As [`switching`](Self::switching), at the moving frames of an element's markers.
+    pub fn switching_at<S: Scalar, const D: usize>(
+        &self,
+        time: Time<S>,
+        markers: &[MarkerId],
+        frames: &[Frame<Taylor<S>, D>],
+        out: &mut [S],
+    ) {
+        self.switching(time, |probe| probe.read(time.regime, |marker| slot(markers, marker, frames)), out);
+    }
+
+    /// Value of a formula over positions and angles alone at the frames of an element's markers.
+    pub fn placed<S: Scalar, const D: usize>(&self, time: Time<S>, markers: &[MarkerId], frames: &[Frame<S, D>]) -> S {
+        self.evaluate(time, |probe| probe.position(time.regime, |marker| slot(markers, marker, frames)))
+    }
+
+    /// As [`switching`](Self::switching), for a formula over positions and angles alone.
+    pub fn switching_placed<S: Scalar, const D: usize>(
+        &self,
+        time: Time<S>,
+        markers: &[MarkerId],
+        frames: &[Frame<S, D>],
+        out: &mut [S],
+    ) {
+        self.switching(time, |probe| probe.position(time.regime, |marker| slot(markers, marker, frames)), out);
     }
 
     fn with<S: Scalar, R>(&self, time: Time<S>, read: impl Fn(&Probe) -> S, see: impl FnOnce(&[S]) -> R) -> R {
@@ -137,7 +180,7 @@ impl Formula {
 }
 
 /// The frame of a marker among those of an element.
-pub fn slot<'f, F>(markers: &[MarkerId], marker: MarkerId, frames: &'f [F]) -> &'f F {
+fn slot<'f, F>(markers: &[MarkerId], marker: MarkerId, frames: &'f [F]) -> &'f F {
     &frames[markers.iter().position(|&known| known == marker).unwrap_or(0)]
 }
 

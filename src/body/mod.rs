@@ -30,7 +30,6 @@ mod state;
 mod turning;
 
 pub use build::{Build, MarkerId, MarkerTable, Switches};
-pub(crate) use formula::slot;
 pub use formula::{Formula, NamedOutput, NamedOutputs};
 pub(crate) use frame::turned;
 pub use frame::{Frame, Marker, Wrench, cross, dot, norm, scale, sub};

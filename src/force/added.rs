@@ -1,9 +1,9 @@
 //! A force with the value of an input added to it.
 
 use super::{Action, Beam, Force, ForceOver, InputKind, Instant, Motion, Wheel};
-use crate::body::{Dual6, Formula, MarkerId, Probe, Wrench, slot};
+use crate::body::{Dual6, Formula, MarkerId, Wrench};
 use crate::math::expression::Expression;
-use crate::math::{Rate, Regime, Scalar, Taylor, Time};
+use crate::math::{Rate, Scalar, Taylor};
 
 /// The value of an input as a function of the motion.
 #[derive(Clone, Debug)]
@@ -30,8 +30,7 @@ impl<const D: usize> Added<D> {
         own: &[MarkerId],
         (component, value): (usize, Formula),
     ) -> (Self, Vec<MarkerId>) {
-        let mut markers = own.to_vec();
-        markers.extend(value.markers().into_iter().filter(|marker| !own.contains(marker)));
+        let markers = value.markers_after(own);
         let value = match value.clone().function_of_time() {
             Ok(expression) => Value::OfTime(expression),
             Err(_) => Value::OfMotion(value),
@@ -39,18 +38,12 @@ impl<const D: usize> Added<D> {
         (Added { inner, markers: markers.clone(), own: own.len(), component, value }, markers)
     }
 
-    fn read<S: Scalar>(&self, probe: &Probe, regime: Regime, frames: &Motion<S, D>) -> S {
-        probe.read(regime, |marker| slot(&self.markers, marker, frames))
-    }
-
     /// `input` with the value, and its rate where it depends on t alone: no other is asked for.
     fn with<S: Scalar>(&self, input: &[Taylor<S>; 3], frames: &Motion<S, D>, time: Instant<S>) -> [Taylor<S>; 3] {
         let mut all = *input;
         all[self.component] += match &self.value {
             Value::OfTime(value) => value.eval_held(&[time.t], time.regime),
-            Value::OfMotion(value) => {
-                Taylor::fixed(value.evaluate(time.map(|t| t.x), |probe| self.read(probe, time.regime, frames)))
-            }
+            Value::OfMotion(value) => Taylor::fixed(value.at(time.map(|t| t.x), &self.markers, frames)),
         };
         all
     }
@@ -103,10 +96,7 @@ where
     fn switching(&self, input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         match &self.value {
             Value::OfTime(value) => value.arguments(&[time.t.x], time.regime, out),
-            Value::OfMotion(value) => {
-                let time = Time { t: time.t.x, regime: time.regime };
-                value.switching(time, |probe| self.read(probe, time.regime, frames), out);
-            }
+            Value::OfMotion(value) => value.switching_at(time.map(|t| t.x), &self.markers, frames, out),
         }
         self.inner.switching(&self.with(input, frames, time), &frames[..self.own], time, out);
     }

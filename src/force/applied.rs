@@ -1,10 +1,10 @@
 //! Applied force and torque: expressions of time, of marker quantities and of named outputs.
 
 use super::{Action, Built, ForceKernel, ForceSpec, InputKind, Instant, Motion};
-use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Probe, Wrench, cross, norm, slot};
+use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Wrench, cross, norm};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
-use crate::math::{Rate, Regime, Scalar, Taylor, Time};
+use crate::math::{Rate, Scalar, Taylor, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -112,12 +112,7 @@ fn assemble<const D: usize>(
     axes: Axes,
     targets: Vec<MarkerId>,
 ) -> Result<Built<D>> {
-    let mut markers = targets.clone();
-    for marker in formulas.iter().flat_map(Formula::markers) {
-        if !markers.contains(&marker) {
-            markers.push(marker);
-        }
-    }
+    let markers = formulas.iter().fold(targets.clone(), |own, formula| formula.markers_after(&own));
     if markers.len() > MOST_MARKERS {
         return Err(Error::input(format!("uses {} markers", markers.len()))
             .hint(format!("use at most {MOST_MARKERS} in one force")));
@@ -141,12 +136,8 @@ struct Applied {
 }
 
 impl Applied {
-    fn read<S: Scalar, const D: usize>(&self, probe: &Probe, regime: Regime, frames: &Motion<S, D>) -> S {
-        probe.read(regime, |marker| slot(&self.markers, marker, frames))
-    }
-
     fn components<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Time<S>) -> [S; 3] {
-        let value = |formula: &Formula| formula.evaluate(time, |probe| self.read(probe, time.regime, frames));
+        let value = |formula: &Formula| formula.at(time, &self.markers, frames);
         match self.formulas.as_slice() {
             [torque] => [S::zero(), S::zero(), value(torque)],
             all => std::array::from_fn(|i| all.get(i).map_or(S::zero(), value)),
@@ -173,7 +164,7 @@ impl<const D: usize> ForceKernel<D> for Applied {
 
     fn switching(&self, _input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         for formula in &self.formulas {
-            formula.switching(time.map(|t| t.x), |probe| self.read(probe, time.regime, frames), out);
+            formula.switching_at(time.map(|t| t.x), &self.markers, frames, out);
         }
     }
 

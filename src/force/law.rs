@@ -1,10 +1,10 @@
 //! The law of a spring: an expression of its length or angle, its rate and time.
 
 use super::{Instant, Motion};
-use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Probe, slot};
+use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Probe};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
-use crate::math::{Rate, Scalar, Time};
+use crate::math::{Rate, Scalar};
 
 /// A law over a spring's own scalar and its rate, and over anything that an applied force may read.
 pub struct Law {
@@ -29,8 +29,7 @@ impl Law {
         }
         let locals = [(name, own), ("rate", Probe { order: 1, ..own })];
         let formula = build.acting_with("law", law, true, &locals)?;
-        let mut markers = ends.to_vec();
-        markers.extend(formula.markers().into_iter().filter(|marker| !ends.contains(marker)));
+        let markers = formula.markers_after(ends);
         match markers.len() <= MOST_MARKERS {
             true => Ok(Law { formula, markers }),
             false => Err(Error::input(format!("the law uses {} markers", markers.len()))
@@ -45,15 +44,10 @@ impl Law {
     }
 
     pub fn value<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Instant<S>) -> S {
-        self.formula.evaluate(time.map(|t| t.x), |probe| self.read_at(probe, time.map(|t| t.x), frames))
+        self.formula.at(time.map(|t| t.x), &self.markers, frames)
     }
 
     pub fn switching<const D: usize>(&self, frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
-        let time = time.map(|t| t.x);
-        self.formula.switching(time, |probe| self.read_at(probe, time, frames), out);
-    }
-
-    fn read_at<S: Scalar, const D: usize>(&self, probe: &Probe, time: Time<S>, frames: &Motion<S, D>) -> S {
-        probe.read(time.regime, |marker| slot(&self.markers, marker, frames))
+        self.formula.switching_at(time.map(|t| t.x), &self.markers, frames, out);
     }
 }

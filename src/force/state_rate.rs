@@ -1,9 +1,9 @@
 //! The rate of a state.
 
 use super::{Action, ForceKernel, Instant, Motion};
-use crate::body::{Formula, MOST_MARKERS, MarkerId, Probe, Wrench, slot};
+use crate::body::{Formula, MOST_MARKERS, MarkerId, Wrench};
 use crate::error::{Error, Result};
-use crate::math::{Rate, Regime, Scalar, Taylor};
+use crate::math::{Rate, Scalar, Taylor};
 
 /// xi' = r(t, q, v, xi): a force of that size along x on the marker of a state, whose mass is one.
 pub struct StateRate {
@@ -17,8 +17,7 @@ impl StateRate {
     /// # Errors
     /// An expression over too many markers and states.
     pub fn new(state: MarkerId, rate: Formula) -> Result<Self> {
-        let others = rate.markers().into_iter().filter(|&marker| marker != state);
-        let markers: Vec<MarkerId> = [state].into_iter().chain(others).collect();
+        let markers = rate.markers_after(&[state]);
         match markers.len() <= MOST_MARKERS {
             true => Ok(StateRate { rate, markers }),
             false => Err(Error::input(format!("uses {} markers and states", markers.len()))
@@ -30,15 +29,11 @@ impl StateRate {
     pub fn markers(&self) -> &[MarkerId] {
         &self.markers
     }
-
-    fn read<S: Scalar, const D: usize>(&self, probe: &Probe, regime: Regime, frames: &Motion<S, D>) -> S {
-        probe.read(regime, |marker| slot(&self.markers, marker, frames))
-    }
 }
 
 impl<const D: usize> ForceKernel<D> for StateRate {
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        let rate = self.rate.evaluate(time.map(|t| t.x), |probe| self.read(probe, time.regime, frames));
+        let rate = self.rate.at(time.map(|t| t.x), &self.markers, frames);
         out[0].force[0] = rate;
         // A state has no energy: the power of the wrench that moves it is no work.
         let power = rate * frames[0].r[0].d;
@@ -46,6 +41,6 @@ impl<const D: usize> ForceKernel<D> for StateRate {
     }
 
     fn switching(&self, _input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
-        self.rate.switching(time.map(|t| t.x), |probe| self.read(probe, time.regime, frames), out);
+        self.rate.switching_at(time.map(|t| t.x), &self.markers, frames, out);
     }
 }

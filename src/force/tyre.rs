@@ -1,7 +1,7 @@
 //! Vertical tyre on a road profile.
 
 use super::{Action, Built, ForceKernel, ForceSpec, InputKind, Instant, Motion, Wheel};
-use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Probe, Wrench, slot};
+use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Wrench};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Taylor};
@@ -36,9 +36,7 @@ impl ForceSpec for Tyre {
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
         let road = self.road.clone().unwrap_or(Number::Value(0.0));
         let road = build.acting("road", &road, false)?;
-        let mut markers = vec![build.marker("at", &self.at)?];
-        let read = road.markers().into_iter().filter(|marker| *marker != markers[0]).collect::<Vec<_>>();
-        markers.extend(read);
+        let markers = road.markers_after(&[build.marker("at", &self.at)?]);
         if markers.len() > MOST_MARKERS {
             return Err(Error::input(format!("the tyre and its road use {} markers", markers.len()))
                 .under("road")
@@ -70,7 +68,7 @@ struct Spring {
 impl Spring {
     /// Height of the road, with its rate by the chain rule.
     fn height<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Instant<S>) -> Taylor<S> {
-        self.road.evaluate(time, |probe| probe.position(time.regime, |marker| slot(&self.markers, marker, frames)))
+        self.road.placed(time, &self.markers, frames)
     }
 
     fn squeeze<S: Scalar, const D: usize>(&self, frames: &Motion<S, D>, time: Instant<S>) -> Taylor<S> {
@@ -84,8 +82,7 @@ impl Spring {
 
 impl<const D: usize> ForceKernel<D> for Spring {
     fn switching(&self, input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
-        let read = |probe: &Probe| probe.read(time.regime, |marker| slot(&self.markers, marker, frames));
-        self.road.switching(time.map(|t| t.x), read, out);
+        self.road.switching_at(time.map(|t| t.x), &self.markers, frames, out);
         if let Some([gap, pull]) = self.lift_off {
             let squeeze = self.squeeze(frames, time) + input[0];
             (out[gap], out[pull]) = (squeeze.x, self.load(squeeze));

@@ -1,7 +1,7 @@
 //! A constraint given by an expression.
 
 use super::{Built, JointKernel, JointSpec};
-use crate::body::{Build, Formula, Frame, MOST_MARKERS, slot};
+use crate::body::{Build, Formula, Frame, MOST_MARKERS};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Time};
@@ -53,16 +53,10 @@ impl<const D: usize> JointKernel<D> for Given {
     }
 
     fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]) {
-        self.formula.switching(
-            time,
-            |probe| probe.position(time.regime, |marker| slot(&self.markers, marker, frames)),
-            out,
-        );
+        self.formula.switching_placed(time, &self.markers, frames, out);
     }
 
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
-        out[0] = self
-            .formula
-            .evaluate(time, |probe| probe.position(time.regime, |marker| slot(&self.markers, marker, frames)));
+        out[0] = self.formula.placed(time, &self.markers, frames);
     }
 }

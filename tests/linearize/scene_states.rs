@@ -89,21 +89,22 @@ fn off(found: &[f64], exact: &[f64]) -> f64 {
 
 const PID: [&str; 5] = ["arm.angle", "arm.angle'", "integral", "rate", "torque"];
 
-/// Errors within ten tolerances; of fixed steps of second order, h^2 times the third derivatives, 1e3.
+/// Errors within a tolerance; of `bdf` and `esdirk34` a hundred, as their errors add up; of fixed steps some times what
+/// their order leaves.
 #[test]
 fn every_method_carries_a_controller() {
     let scene = shipped("pid_arm", &[]);
     let exact = integrated(|_, y| pid(y), [0.0; 5], 0.5, 1e-5);
     for (formulation, integrator, step, allowed) in [
-        ("index1", "dop853", None, 1e-9),
-        ("null_space", "dopri5", None, 1e-9),
-        ("baumgarte:alpha=5,beta=5", "rk4", Some(1e-3), 1e-6),
-        ("index2", "hem5", Some(1e-3), 1e-8),
-        ("index2", "phem56", None, 1e-9),
-        ("ggl", "radau_iia", None, 1e-9),
-        ("ggl", "generalized_alpha", Some(1e-4), 1e-5),
-        ("stabilized_index1", "bdf", None, 1e-7),
-        ("index1", "esdirk34", None, 1e-7),
+        ("index1", "dop853", None, 1e-10),
+        ("null_space", "dopri5", None, 1e-10),
+        ("baumgarte:alpha=5,beta=5", "rk4", Some(1e-3), 5e-10),
+        ("index2", "hem5", Some(1e-3), 5e-12),
+        ("index2", "phem56", None, 1e-10),
+        ("ggl", "radau_iia", None, 1e-10),
+        ("ggl", "generalized_alpha", Some(1e-4), 2e-7),
+        ("stabilized_index1", "bdf", None, 1e-9),
+        ("index1", "esdirk34", None, 1e-8),
     ] {
         let [formulation, integrator] = [formulation, integrator].map(|text| MethodSpec::parse(text).unwrap());
         let projection = MethodSpec::named("none");
@@ -162,7 +163,7 @@ fn every_linear_model_has_the_modes_of_the_controller() {
         let found = model(&mut variation, method, None);
         let error = distance(&values(&found, Kind::Physical), &known);
         println!("{method}: {error:.1e}");
-        assert!(error < 1e-9, "{method}: {error:e}, {:?}", found.modes.iter().map(|m| m.value).collect::<Vec<_>>());
+        assert!(error < 1e-13, "{method}: {error:e}, {:?}", found.modes.iter().map(|m| m.value).collect::<Vec<_>>());
         assert_eq!(found.states.len(), found.a.nrows());
     }
 }

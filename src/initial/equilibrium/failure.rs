@@ -37,7 +37,7 @@ pub(super) fn too_bent(t: f64, beam: &Limited, turn: f64) -> Error {
     Failure { t, reason, hint }.into()
 }
 
-const INTEGRATOR: &str = "its rate has to come to zero somewhere: look whether what it commands saturates";
+const INTEGRATOR: &str = "look whether what it commands saturates, or does not act on what it integrates";
 const HOLD: &str = "hold it by a joint or a spring, or take the force away";
 const BEGIN_NEARER: &str = "begin nearer to it, or look at the motion with `holonom simulate`: with some damping it comes to \
                             rest where there is an equilibrium";
@@ -60,6 +60,13 @@ pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &Place, away: Opti
             soft.directions.into_iter().filter(|d| along(d) > tolerances::LOADED * all * d.amax()).collect();
         if !loaded.is_empty() {
             let names = named(rest, &loaded).join("`, `");
+            let moving = rest.dynamics.system.dimensions().moving();
+            if loaded.iter().all(|d| d.rows(0, moving).amax() < 0.5 * d.amax()) {
+                return failure(
+                    format!("there is no static equilibrium: the rate of the state `{names}` does not come to zero"),
+                    INTEGRATOR,
+                );
+            }
             let holds = format!("nothing holds `{names}` against the forces that move it");
             // A coordinate without stiffness at the start may have some elsewhere, as in a pendulum that starts level.
             return match away {
