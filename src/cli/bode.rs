@@ -2,7 +2,7 @@
 
 use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print};
 use super::linear::{ModelOptions, StateOptions};
-use crate::error::{Error, Result, short, suggest};
+use crate::error::{Error, Result, Warning, clock, short, suggest};
 use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_response};
 use crate::prepared::PreparedScene;
 use crate::report::linear::{FrequencyResponse, Response, ResponseFile, bode_figure};
@@ -67,6 +67,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut files = Vec::new();
     for state in &places {
         let model = linearize::linearize(&mut state.variation().map_err(in_file)?, &request).map_err(in_file)?;
+        args.talk.warn(&moving(&model));
         let frequencies = frequencies(&args, &model)?;
         let response = respond(&prepared, &model, &chosen, frequencies);
         files.push(write(&args, &prepared, &response, &mut folder)?);
@@ -81,6 +82,17 @@ pub fn run(args: Args) -> Result<ExitCode> {
         (false, _) => args.talk.tell_files(&written)?,
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Warning for a state off equilibrium, where A(t) is not constant and no transfer function is that of the motion.
+fn moving(model: &LinearModel) -> Option<Warning> {
+    let t = clock(model.point.t);
+    let text = format!(
+        "at t = {t} s the mechanism is not in equilibrium: this is the response of its equations frozen there, which holds \
+         at frequencies far above those of the motion, and belongs to the chart ({})",
+        model.chart
+    );
+    (!model.point.is_equilibrium).then(|| Warning::new(text, "--equilibrium finds the equilibrium near the state"))
 }
 
 /// Returns the indices of the named columns, or of all.

@@ -3,7 +3,7 @@
 use super::common::{MethodOptions, SceneOptions, Talk, number};
 use crate::analysis::Range;
 use crate::error::Result;
-use crate::linearize::{Chart, Operating, Request, State, at_rest, registry, states, tighten};
+use crate::linearize::{Chart, Operating, Request, State, at_rest, kinks, registry, states, tighten};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
 
@@ -73,9 +73,10 @@ impl MethodOptions {
 impl StateOptions {
     pub fn states<'a>(&self, prepared: &'a PreparedScene, talk: &Talk) -> Result<Vec<Operating<'a>>> {
         let found = self.operating(prepared, talk)?;
-        for Operating { state, doubt, .. } in &found {
+        for place @ Operating { state, doubt, .. } in &found {
             talk.warn(doubt);
             talk.warn(&Range::warnings_at(prepared.system(), state.t, &state.q));
+            talk.warn(&kinks(place.system(), state)?);
         }
         Ok(found)
     }

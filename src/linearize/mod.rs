@@ -14,6 +14,7 @@ pub mod flow;
 mod frequency;
 mod independent;
 mod input_states;
+mod kink;
 mod lift;
 mod lyapunov;
 mod matching;
@@ -56,6 +57,8 @@ pub use floquet::{Floquet, floquet};
 #[doc(hidden)]
 pub use frequency::Resonances;
 pub use frequency::frequency_response;
+#[doc(hidden)]
+pub use kink::kinks;
 #[doc(hidden)]
 pub use lift::Lift;
 pub use lyapunov::{Lyapunov, lyapunov};

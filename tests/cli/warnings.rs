@@ -272,3 +272,22 @@ fn loads_that_nearly_buckle_a_floating_beam_are_said() {
         assert!(!said(&narrow(0.39, ""), command, "warning"), "{command:?}");
     }
 }
+
+/// A mass on a spring that is stiffer on one side, at rest where it changes, and on one that is smooth there.
+#[test]
+fn a_linear_model_where_a_law_has_a_kink_is_a_warning() {
+    let scene = |force: &str| {
+        format!(
+            r#"{{ "name": "mass", "dimension": 2, "ground": {{ "markers": {{ "O": [0, 0] }} }},
+              "bodies": [{{ "name": "a", "type": "rigid", "mass": 1, "free": ["x"] }}],
+              "forces": [{{ "name": "spring", "type": "applied_force", "at": "a", "force": ["{force}", 0] }}],
+              "simulation": {{ "t_end": 1 }} }}"#
+        )
+    };
+    for (force, has_kink) in [("-2*a.x - abs(a.x)", true), ("-2*a.x - a.x*abs(a.x)", false), ("-2*a.x", false)] {
+        let place = Place::new(scene(force));
+        place.done(&["linearize", "scene.json", "-o", "here", "--figures", "none"]);
+        let found = place.json("here/linear-0.json")["warnings"].to_string();
+        assert_eq!(found.contains("the force `spring` is where its form changes"), has_kink, "{force}: {found}");
+    }
+}
