@@ -1,9 +1,7 @@
 //! The figure of a frequency response.
 
 use super::Response;
-use crate::linearize::Complex;
 use crate::plot::{AxisSpec, Figure, Panel, Series};
-use crate::tolerances::report as tolerances;
 
 /// Responses to one input in one unit.
 struct Group<'a> {
@@ -79,50 +77,19 @@ fn panels(group: &Group, frequencies: &[f64], name: impl Fn(&Response) -> String
         "" => "magnitude".to_string(),
         unit => format!("magnitude ({unit})"),
     };
-    let lines = |y: AxisSpec, name: &dyn Fn(&Response) -> String, values: fn(&[Complex<f64>]) -> Vec<f64>| {
+    let lines = |y: AxisSpec, name: &dyn Fn(&Response) -> String, values: fn(&Response) -> Vec<f64>| {
         let line = |response: &&Response| {
-            let points = frequencies.iter().copied().zip(values(&response.values)).collect();
+            let points = frequencies.iter().copied().zip(values(response)).collect();
             Series::line(name(response), points)
         };
         let panel = Panel::new(AxisSpec::from("frequency (Hz)").log(), y);
         group.responses.iter().take(LINES).map(line).fold(panel, Panel::series)
     };
     let sizes = lines(AxisSpec::from(magnitude).log(), &name, sizes);
-    [sizes, lines(AxisSpec::from("phase (deg)").degrees(), &|_| String::new(), phases)]
+    [sizes, lines(AxisSpec::from("phase (deg)").degrees(), &|_| String::new(), Response::phases)]
 }
 
 /// Returns magnitudes; zero has no place on a logarithmic axis and becomes NaN.
-fn sizes(values: &[Complex<f64>]) -> Vec<f64> {
-    values.iter().map(|value| value.norm()).map(|size| if size > 0.0 { size } else { f64::NAN }).collect()
-}
-
-/// Returns phases in degrees without jumps of 360, the first one above -180 and up to 180.
-fn phases(values: &[Complex<f64>]) -> Vec<f64> {
-    let mut before: Option<f64> = None;
-    let phase = |value: &Complex<f64>| {
-        if value.norm() == 0.0 || value.norm().is_nan() {
-            return f64::NAN;
-        }
-        let angle = Some(value.arg().to_degrees()).filter(|angle| angle.abs() > tolerances::SAME).unwrap_or(0.0);
-        let near = before.map_or(angle, |before| angle + 360.0 * ((before - angle) / 360.0).round());
-        before = Some(near);
-        near
-    };
-    values.iter().map(phase).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn phases_do_not_jump() {
-        // Three lags in a row: from 0 down to -270 degrees.
-        let lag = |w: f64| Complex::new(1.0, w).powi(-3);
-        let values: Vec<Complex<f64>> = (0..200).map(|k| lag(10f64.powf(-2.0 + 0.03 * f64::from(k)))).collect();
-        let phases = phases(&values);
-        assert!(phases.windows(2).all(|pair| pair[1] < pair[0] && pair[0] - pair[1] < 10.0));
-        assert!((phases[199] + 270.0).abs() < 1.0, "{}", phases[199]);
-        assert!(super::phases(&[Complex::new(0.0, 0.0)])[0].is_nan());
-    }
+fn sizes(response: &Response) -> Vec<f64> {
+    response.values.iter().map(|value| value.norm()).map(|size| if size > 0.0 { size } else { f64::NAN }).collect()
 }

@@ -1,9 +1,8 @@
 //! A frequency response: `bode-T.csv`, `bode-T.json`, its text and its figure.
 
 use super::bode_figure::not_drawn;
-use super::pair::Response;
+use super::pair::{Response, is_finite};
 use crate::error::{Result, significant};
-use crate::linearize::Complex;
 use crate::report::{Table, cell, table};
 use serde::Serialize;
 
@@ -60,29 +59,16 @@ pub struct PairFile {
     pub phase_deg: Vec<Option<f64>>,
 }
 
-type Part = fn(Complex<f64>) -> f64;
-
-/// Columns of a response.
-const PARTS: [(&str, Part); 4] = [
-    ("re", |value| value.re),
-    ("im", |value| value.im),
-    ("magnitude", |value| value.norm()),
-    ("phase_deg", |value| value.arg().to_degrees()),
-];
-
 impl FrequencyResponse {
     /// Returns `frequency_hz`, then real and imaginary part, magnitude and phase from each input to each output.
     ///
     /// # Errors
     /// A table that cannot be written.
     pub fn table(&self) -> Result<Vec<u8>> {
-        let names = self
-            .responses
-            .iter()
-            .flat_map(|response| PARTS.map(|(part, _)| format!("{}/{}.{part}", response.output, response.input)));
+        let columns: Vec<(String, Vec<Option<f64>>)> = self.responses.iter().flat_map(Response::columns).collect();
+        let names = columns.iter().map(|(name, _)| name.clone());
         let rows = self.frequencies.iter().enumerate().map(|(i, frequency)| {
-            let values = self.responses.iter().map(|response| response.values.get(i).copied().filter(is_finite));
-            let cells = values.flat_map(|value| PARTS.map(|(_, part)| value.map_or(String::new(), |x| cell(part(x)))));
+            let cells = columns.iter().map(|(_, values)| values[i].map_or(String::new(), cell));
             [cell(*frequency)].into_iter().chain(cells).collect()
         });
         table(["frequency_hz".to_string()].into_iter().chain(names), rows)
@@ -148,13 +134,8 @@ impl FrequencyResponse {
     }
 }
 
-fn is_finite(value: &Complex<f64>) -> bool {
-    value.re.is_finite() && value.im.is_finite()
-}
-
 fn pair(response: &Response) -> PairFile {
-    let each = |part: Part| response.values.iter().map(|x| Some(*x).filter(is_finite).map(part)).collect();
-    let [re, im, magnitude, phase_deg] = PARTS.map(|(_, part)| each(part));
+    let [re, im, magnitude, phase_deg] = response.parts();
     PairFile {
         input: response.input.clone(),
         output: response.output.clone(),
