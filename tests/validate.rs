@@ -36,10 +36,7 @@ fn three(prepared: &PreparedScene) -> Vec<State> {
 }
 
 fn check(prepared: &PreparedScene, state: &State) -> Validation {
-    // These motions come to a singular state, where the variational equations have no solution.
-    let folds = ["parallelogram", "slider_crank_singular", "slider_crank_singular_2", "n_four_bar"];
-    let horizon = folds.iter().any(|name| prepared.name.starts_with(name)).then_some(0.05);
-    let found = validate(prepared.system(), state, &Settings { horizon, ..Settings::default() }).unwrap();
+    let found = validate(prepared.system(), state, &Settings::default()).unwrap();
     let name = format!("{} at {} s", prepared.name, state.t);
     let orders = found.sequences.iter().map(|sequence| &sequence.order_ltv);
     for decay in orders.chain(found.inputs.iter().map(|input| &input.order_ltv)) {
@@ -67,6 +64,7 @@ fn quick_scenes_follow_their_linear_models() {
         "quarter_car",
         "robot_arm",
         "slider_crank_offset",
+        "slider_crank_singular_2",
         "spinning_top",
         "two_mass",
         "universal_shaft",
@@ -75,6 +73,15 @@ fn quick_scenes_follow_their_linear_models() {
         let prepared = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json")));
         three(&prepared).iter().for_each(|state| _ = check(&prepared, state));
     }
+}
+
+/// The slider-crank folds first at 0.3917321 s, as its scene says; before, perturbed motions follow the model.
+#[test]
+fn a_singular_state_ends_the_comparison() {
+    let prepared = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/slider_crank_singular_2.json"));
+    let found = check(&prepared, &states(&prepared, &[0.0], |_| {}).unwrap()[0]);
+    assert!((found.singular.unwrap() - 0.3917321).abs() < 1e-6, "{:?}", found.singular);
+    assert_eq!(found.followed, 0.5 * found.singular.unwrap());
 }
 
 /// All, minutes: `cargo test --release --test linear validate -- --ignored --nocapture`.

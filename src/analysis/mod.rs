@@ -22,5 +22,5 @@ pub use recorder::{Record, Recorder};
 #[doc(hidden)]
 pub use scale::{Sizes, scales};
 #[doc(hidden)]
-pub use singularity::{Branch, Nearest};
+pub use singularity::{Branch, Nearest, Watch};
 pub use singularity::{Passing, Singularity};

@@ -2,7 +2,7 @@
 
 use super::common::{MethodOptions, Output, SceneOptions, Talk, number, print};
 use super::linear::{ChartOptions, StateOptions};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Warning};
 use crate::linearize::{self, Chart, Comparison, Complex, Kind, LinearModel, Request, Variation, compare};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
@@ -74,8 +74,25 @@ fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Resul
             let shift = Complex::new(0.0, args.shift.unwrap_or(0.0));
             Ok(vec![linearize::modal(variation, count, shift)?])
         }
-        None => requests.iter().map(|request| linearize::linearize(variation, request)).collect(),
+        None => {
+            let mut models = Vec::new();
+            for request in requests {
+                match linearize::linearize(variation, request) {
+                    Ok(model) => models.push(model),
+                    Err(error) if models.is_empty() => return Err(error),
+                    Err(error) => args.talk.warn(&without_model(request, error)),
+                }
+            }
+            Ok(models)
+        }
     }
+}
+
+/// Warning for a method that is left out of the comparison.
+fn without_model(request: &Request, error: Error) -> Option<Warning> {
+    let Error::Input(input) = error else { return Some(Warning::new(error.to_string(), "take another time")) };
+    let text = format!("no model by {}: {}", request.method, input.message);
+    Some(Warning::new(text, input.hint.unwrap_or_default()))
 }
 
 fn requests(args: &Args) -> Result<Vec<Request>> {

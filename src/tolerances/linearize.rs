@@ -209,3 +209,8 @@ pub const STEEP_ENOUGH: f64 = 1.6;
 /// How many periods of the fastest mode a run counts at most.
 /// Unit: `[periods]`. Why: longer runs would cost more than they tell. Test: none: not tried with other values.
 pub const FASTEST_PERIODS: f64 = 8.0;
+
+/// Perturbed motions are followed up to this part of the way to a singular state.
+/// Unit: `[1]`. Why: a choice: nearer, terms of second order grow with the inverse of the distance. Test:
+/// `a_singular_state_ends_the_comparison`.
+pub const BEFORE_SINGULAR: f64 = 0.5;

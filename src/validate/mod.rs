@@ -12,6 +12,7 @@ mod frozen;
 mod input;
 mod order;
 mod perturb;
+mod regular;
 mod run;
 mod sequence;
 

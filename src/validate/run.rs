@@ -3,6 +3,7 @@
 use super::carried::Carried;
 use super::frozen::frozen;
 use super::perturb::{Norm, Speed};
+use super::regular::first_singular;
 use super::sequence::sequence;
 use super::{Decay, Frozen, InputCheck, PerturbationSequence, Settings, input};
 use crate::error::Result;
@@ -20,6 +21,8 @@ pub struct Validation {
     pub chart: String,
     /// Time over which the perturbed motions were followed, s.
     pub followed: f64,
+    /// Time of the first singular state of the motion, half way to which they were followed, s.
+    pub singular: Option<f64>,
     /// Rate by which velocities are divided to compare them with positions, 1/s.
     pub rate: f64,
     /// Result for each direction.
@@ -61,7 +64,9 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
     model.coordinates = carried.start.clone();
     let speed = Speed::of(&model)?;
     let norm = Norm { rate: speed.usual };
-    let followed = settings.horizon.unwrap_or(speed.period());
+    let wished = settings.horizon.unwrap_or(speed.period());
+    let singular = first_singular(system, start, wished)?;
+    let followed = singular.map_or(wished, |t| tolerances::BEFORE_SINGULAR * (t - start.t));
     let mut sequences = Vec::new();
     for direction in &settings.directions {
         let x0 = direction.state(&model.coordinates, norm.rate)?;
@@ -80,7 +85,18 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
         }
     }
     let verdict = judge(&sequences, &frozen, &inputs);
-    Ok(Validation { t: start.t, chart: name, followed, rate: norm.rate, sequences, frozen, inputs, unchecked, verdict })
+    Ok(Validation {
+        t: start.t,
+        chart: name,
+        followed,
+        singular,
+        rate: norm.rate,
+        sequences,
+        frozen,
+        inputs,
+        unchecked,
+        verdict,
+    })
 }
 
 fn judge(sequences: &[PerturbationSequence], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {

@@ -40,6 +40,17 @@ fn all_methods_stand_beside_each_other() {
     assert_eq!(place.files("here"), ["linear-0.json", "linear-0.mat", "linear-0.npz", "methods-0.json", "modes-0.svg"]);
 }
 
+/// The pencils of the modal link have no gap between finite and infinite eigenvalues; the other methods stand.
+#[test]
+fn a_method_without_a_model_is_left_out_of_the_comparison() {
+    let place = model("modal_link");
+    place.done(&["linearize", "scene.json", "--method", "all", "--figures", "none", "-o", "here"]);
+    let json = place.json("here/methods-0.json");
+    let left_out: Vec<&str> = json["warnings"].as_array().unwrap().iter().map(|x| x.as_str().unwrap()).collect();
+    assert!(left_out.iter().any(|warning| warning.starts_with("no model by rcs")), "{left_out:?}");
+    assert_eq!(json["methods"].as_array().unwrap()[0]["method"], "mcs");
+}
+
 #[test]
 fn models_at_states_of_the_motion() {
     let place = model("four_bar_spring");

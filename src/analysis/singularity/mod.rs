@@ -103,6 +103,7 @@ pub struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
+    /// A watch that has seen no state.
     pub fn new(system: &'a dyn MechanicalSystem) -> Self {
         Watch {
             survey: Survey::new(Dynamics::new(system)),

@@ -20,6 +20,8 @@ pub struct ValidationFile {
     pub chart: String,
     /// Time over which perturbed motions were followed, s.
     pub followed: f64,
+    /// Time of the singular state half way to which they were followed, s.
+    pub singular: Option<f64>,
     /// Sizes of (dq, dv / rate), m or rad.
     pub epsilons: Vec<f64>,
     /// Rate by which velocities are divided, 1/s.
@@ -56,6 +58,7 @@ impl ValidationFile {
             t: found.t,
             chart: found.chart.clone(),
             followed: found.followed,
+            singular: found.singular,
             epsilons: first.map_or(Vec::new(), |sequence| sequence.epsilons.clone()),
             rate: found.rate,
             errors_ltv: first.map_or(Vec::new(), |sequence| sequence.errors_ltv.clone()),
@@ -104,8 +107,12 @@ impl ValidationFile {
             [] => String::new(),
             names => format!("  not checked, since they move no degree of freedom: {}\n", names.join(", ")),
         };
+        let singular = found.singular.map_or(String::new(), |t| {
+            let t = significant(t, 6);
+            format!(" (half of the way to t = {t} s, where the mechanism is singular: linear models end there)")
+        });
         format!(
-            "{} at t = {} s: the linear model (chart {}) against simulations over {} s\n\n{table}{unchecked}\n  exp(A h) against the state-transition matrix: order {} in h\n  verdict: {}\n",
+            "{} at t = {} s: the linear model (chart {}) against simulations over {} s{singular}\n\n{table}{unchecked}\n  exp(A h) against the state-transition matrix: order {} in h\n  verdict: {}\n",
             self.scene,
             significant(self.t, 9),
             self.chart,
