@@ -16,7 +16,15 @@ fn c(re: f64, im: f64) -> Complex<f64> {
 
 fn mode(value: Complex<f64>, shape: &[f64]) -> Mode {
     let shape = shape.iter().map(|x| c(*x, 0.0)).collect();
-    Mode { value, kind: Kind::Physical, shape, participation: Vec::new(), energy: Vec::new() }
+    Mode {
+        value,
+        kind: Kind::Physical,
+        shape,
+        participation: Vec::new(),
+        energy: Vec::new(),
+        mass: 1.0,
+        outputs: Vec::new(),
+    }
 }
 
 /// Modes with their conjugates, in the order that a linear model has them.

@@ -4,6 +4,7 @@ use super::common::{Common, number};
 use crate::error::Result;
 use crate::initial::equilibrium;
 use crate::report;
+use crate::simplify::{Hints, hints, registry};
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
@@ -35,6 +36,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
         Err(error) if error.exit_code() == 1 => Some(error),
         Err(error) => return Err(error.in_file(&args.common.scene.path)),
     };
+    let hints = hints(&args.common.scene.path, &args.common.overrides(), registry());
+    check.hints = Some(hints.unwrap_or_else(|error| Hints { skipped: error.to_string(), ..Hints::default() }));
     if failure.is_some() {
         check.equilibrium = Some(report::EquilibriumFile::none(t));
     }

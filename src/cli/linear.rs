@@ -2,7 +2,7 @@
 
 use super::common::{MethodOptions, SceneOptions, Talk, number};
 use crate::analysis::Range;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::linearize::{Chart, Operating, Request, State, at_rest, kinks, registry, states, tighten};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
@@ -79,6 +79,13 @@ impl StateOptions {
             talk.warn(&kinks(place.system(), state)?);
         }
         Ok(found)
+    }
+
+    /// The state of another scene at a time.
+    pub fn at<'a>(&self, prepared: &'a PreparedScene, talk: &Talk, t: f64) -> Result<Operating<'a>> {
+        let own = StateOptions { at: vec![t], equilibrium: self.equilibrium };
+        let found = own.states(prepared, talk)?.pop();
+        found.ok_or_else(|| Error::input(format!("there is no state at t = {t} s")))
     }
 
     fn operating<'a>(&self, prepared: &'a PreparedScene, talk: &Talk) -> Result<Vec<Operating<'a>>> {

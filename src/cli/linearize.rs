@@ -3,13 +3,16 @@
 use super::common::{MethodOptions, Output, SceneOptions, Talk, number, print};
 use super::linear::{ChartOptions, StateOptions};
 use crate::error::{Error, Result, Warning};
-use crate::linearize::{self, Chart, Comparison, Complex, Kind, LinearModel, Request, Variation, compare};
+use crate::linearize::{
+    self, Chart, Comparison, Complex, Kind, LinearModel, Operating, Request, Variation, against, compare,
+};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
-use crate::report::linear::{Linear, comparison_text, linear_stem};
+use crate::report::linear::{AgainstFile, Linear, comparison_text, linear_stem};
 use crate::report::mechanism::{Look, mode_figure};
 use crate::report::{self, Folder, Repeatable, Sealed};
 use serde::Serialize;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
@@ -34,6 +37,9 @@ pub struct Args {
     /// Modes nearest to this circular frequency
     #[arg(long, value_name = "RAD_PER_S", value_parser = number, requires = "modes")]
     shift: Option<f64>,
+    /// Another scene of the mechanism, such as simplified.json: which modes it has lost, and how far others shift
+    #[arg(long, value_name = "SCENE")]
+    against: Option<PathBuf>,
     #[command(flatten)]
     run: MethodOptions,
     #[command(flatten)]
@@ -47,6 +53,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let prepared = args.run.load_tight(&args.scene, &args.talk)?;
     let requests = requests(&args).map_err(|error| error.under("--method"))?;
     let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
+    let other = args.against.as_ref().map(|path| other(&args, path)).transpose()?;
     let mut folder = args.output.folder(&prepared.name)?;
     let (mut results, mut told) = (Vec::new(), Vec::new());
     for state in &places {
@@ -56,7 +63,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
         let new: Vec<String> = uncertain.filter(|method| !told.contains(method)).collect();
         args.talk.warn(&report::uncertain_kinds(new.iter().map(String::as_str)));
         told.extend(new);
-        results.push(report(&args, &prepared, &models, &mut folder)?);
+        let compared = other.as_ref().map(|scene| compared(&args, &prepared, scene, (state, &models[0]), &requests));
+        results.push(report(&args, &prepared, (&models, compared.transpose()?), &mut folder)?);
     }
     let written = args.talk.finish(folder)?;
     match (args.talk.json, results.as_slice()) {
@@ -100,6 +108,9 @@ fn requests(args: &Args) -> Result<Vec<Request>> {
     if args.modes.is_some() && args.method != "mcs" {
         return Err(Error::input("--modes has a method of its own").hint("leave out --method, or --modes"));
     }
+    if args.against.is_some() && args.method == "all" {
+        return Err(Error::input("--against compares models by one method").hint("name it, or leave out --against"));
+    }
     let request = |method: MethodSpec| Request { method, chart: chart.clone() };
     if args.method != "all" {
         return Ok(vec![request(MethodSpec::parse(&args.method)?)]);
@@ -127,9 +138,34 @@ struct Methods {
 enum Printed {
     One(Box<Sealed<Repeatable<report::linear::LinearFile>>>),
     All(Box<Sealed<Repeatable<Methods>>>),
+    Against(Box<Sealed<Repeatable<AgainstFile>>>),
 }
 
-fn report(args: &Args, prepared: &PreparedScene, models: &[LinearModel], folder: &mut Folder) -> Result<Printed> {
+fn other(args: &Args, path: &Path) -> Result<PreparedScene> {
+    let scene = SceneOptions { path: path.to_path_buf(), set: Vec::new() };
+    args.run.load_tight(&scene, &args.talk)
+}
+
+/// The modes of `model` against those of another scene at the same time.
+fn compared(
+    args: &Args,
+    prepared: &PreparedScene,
+    scene: &PreparedScene,
+    (own, model): (&Operating, &LinearModel),
+    requests: &[Request],
+) -> Result<AgainstFile> {
+    let places = args.states.at(scene, &args.talk, own.state.t)?;
+    let other = models(args, &requests[..1], &mut places.variation()?)?;
+    let time = prepared.span().map_or(1.0, |span| span.end - span.start);
+    Ok(AgainstFile::new(own.state.t, &scene.name, &against(model, &other[0], time)))
+}
+
+fn report(
+    args: &Args,
+    prepared: &PreparedScene,
+    (models, against): (&[LinearModel], Option<AgainstFile>),
+    folder: &mut Folder,
+) -> Result<Printed> {
     let names = prepared.system().names();
     let first = &models[0];
     let linear = Linear { scene: &prepared.name, names: &names, model: first };
@@ -141,6 +177,14 @@ fn report(args: &Args, prepared: &PreparedScene, models: &[LinearModel], folder:
     let is_silent = args.talk.json || args.talk.quiet;
     if !is_silent {
         print(&linear.text())?;
+    }
+    if let Some(against) = against {
+        if !is_silent {
+            print(&format!("\n{}", against.text()))?;
+        }
+        let all = args.talk.repeatable(prepared, against);
+        let file = folder.seal(&format!("{}.json", stem.replace("linear", "against")), all)?;
+        return Ok(Printed::Against(Box::new(file)));
     }
     if models.len() == 1 {
         return Ok(Printed::One(Box::new(one)));

@@ -5,9 +5,12 @@ use super::linear::ModelOptions;
 use crate::error::{Error, Result, short};
 use crate::linearize::{At, Kind, Loci, Request, Variants, loci_along, loci_over, refuse_large};
 use crate::prepared::PreparedScene;
-use crate::report::linear::{LociFile, LociSummary, frequency_figure, loci_figure, loci_table};
+use crate::report::linear::{
+    LociAgainst, LociFile, LociSummary, frequency_figure, loci_figure, loci_table, with_others,
+};
 use crate::report::uncertain_kinds;
 use crate::sweep::{Family, Range};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
@@ -33,6 +36,9 @@ pub struct Args {
     /// With --sweep: at the static equilibrium of each scene, followed from value to value
     #[arg(long, requires = "sweep", conflicts_with = "at")]
     equilibrium: bool,
+    /// Another scene of the mechanism, such as simplified.json: which modes it has lost, and how far others shift
+    #[arg(long, value_name = "SCENE")]
+    against: Option<PathBuf>,
     #[command(flatten)]
     model: ModelOptions,
     #[command(flatten)]
@@ -58,21 +64,24 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let prepared = args.run.load_tight(&args.scene, &args.talk)?;
     refuse_large(prepared.system().dimensions().v).map_err(in_file)?;
     let mut folder = args.output.folder(&prepared.name)?;
-    let loci = match &args.sweep {
-        Some(range) => over(&args, &prepared, range, &request).map_err(in_file)?,
-        None => along(&args, &prepared, &request).map_err(in_file)?,
-    };
+    let loci = loci(&args, &args.scene, &prepared, &request).map_err(in_file)?;
     if loci.reached.is_empty() {
         return none(&args, &loci);
     }
     args.talk.warn(&loci.doubts);
-    let summary = LociSummary::new(&prepared.name, &loci);
+    let mut summary = LociSummary::new(&prepared.name, &loci);
+    let other = args.against.as_ref().map(|path| other(&args, path, &request)).transpose()?;
+    summary.against = other.as_ref().map(|(name, other)| LociAgainst::new(&loci, name, other));
     folder.write("loci.csv", &loci_table(&loci)?)?;
     let title = match &args.sweep {
         Some(range) => format!("{}: eigenvalues over {}", prepared.name, range.parameter),
         None => format!("{}: eigenvalues along the motion", prepared.name),
     };
-    args.output.figure(&mut folder, "loci", loci_figure(&title, summary.axis(), &loci.branches))?;
+    let mut plane = loci_figure(&title, summary.axis(), &loci.branches);
+    if let Some((name, other)) = &other {
+        plane = with_others(plane, name, other);
+    }
+    args.output.figure(&mut folder, "loci", plane)?;
     args.output.figure(&mut folder, "loci_modes", frequency_figure(&title, summary.axis(), &loci.branches))?;
     let uncertain = loci.branches.iter().filter(|branch| branch.kind == Kind::Uncertain);
     args.talk.warn(&uncertain_kinds(uncertain.map(|_| loci.method.as_str())));
@@ -87,6 +96,21 @@ pub fn run(args: Args) -> Result<ExitCode> {
         }
         _ => Ok(ExitCode::SUCCESS),
     }
+}
+
+fn loci(args: &Args, scene: &SceneOptions, prepared: &PreparedScene, request: &Request) -> Result<Loci> {
+    match &args.sweep {
+        Some(range) => over(args, scene, prepared, range, request),
+        None => along(args, prepared, request),
+    }
+}
+
+/// Loci of another scene at the same times, or values of the parameter.
+fn other(args: &Args, path: &Path, request: &Request) -> Result<(String, Loci)> {
+    let scene = SceneOptions { path: path.to_path_buf(), set: Vec::new() };
+    let prepared = args.run.load_tight(&scene, &args.talk)?;
+    let found = loci(args, &scene, &prepared, request).map_err(|error| error.in_file(path))?;
+    Ok((prepared.name, found))
 }
 
 fn along(args: &Args, prepared: &PreparedScene, request: &Request) -> Result<Loci> {
@@ -122,14 +146,14 @@ fn times(args: &Args, prepared: &PreparedScene) -> Result<Vec<f64>> {
     }
 }
 
-fn over(args: &Args, prepared: &PreparedScene, range: &Range, request: &Request) -> Result<Loci> {
+fn over(args: &Args, scene: &SceneOptions, prepared: &PreparedScene, range: &Range, request: &Request) -> Result<Loci> {
     let at = match args.at {
         Some(t) => within(prepared, t)?,
         None if args.equilibrium => At::Equilibrium,
         None => At::Start,
     };
-    let overrides = args.run.overrides(&args.scene, None);
-    let family = Family::load(&args.scene.path, &overrides)?;
+    let overrides = args.run.overrides(scene, None);
+    let family = Family::load(&scene.path, &overrides)?;
     let variants = Variants { family: &family, overrides: &overrides, range };
     let bar = args.talk.progress(range.count as u64, &range.parameter);
     let loci = loci_over(&variants, at, request, || bar.inc(1)).map_err(|error| error.under("--sweep"))?;

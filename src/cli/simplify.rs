@@ -1,6 +1,6 @@
 //! `holonom simplify SCENE --within P%`
 
-use super::common::{Output, SceneOptions, Talk, number, tell};
+use super::common::{Output, SceneOptions, Talk, duration, number, tell};
 use super::interrupt;
 use crate::error::{Error, Result};
 use crate::prepared::{Overrides, PreparedScene};
@@ -8,6 +8,7 @@ use crate::report::{simplify_figure, simplify_table, simplify_text};
 use crate::simplify::{Nearby, Norm, Settings, Simplification, Source, registry, simplify};
 use clap::ValueEnum;
 use std::process::ExitCode;
+use std::time::Duration;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -28,6 +29,9 @@ pub struct Args {
     /// Runs in all, two of them of the scene as it is
     #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u16).range(3..))]
     at_most: u16,
+    /// Time for all of it, such as 20s or 5min (default: no limit)
+    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
+    budget: Option<Duration>,
     /// Try the promise on motions nearby, too: parameters, and velocities at the start, moved by up to so much
     #[arg(long, value_name = "P%", value_parser = percentage, allow_hyphen_values = true)]
     robust: Option<f64>,
@@ -113,6 +117,7 @@ impl Args {
             },
             outputs: self.outputs.clone(),
             at_most: self.at_most.into(),
+            budget: self.budget,
             nearby: self.robust.map(|by| Nearby { by, samples }),
         }
     }

@@ -1,5 +1,6 @@
 //! Linear models at any state of a trajectory.
 
+mod against;
 mod along;
 mod amplification;
 mod changes;
@@ -34,7 +35,10 @@ mod tracking;
 mod transition;
 mod unconstrained;
 mod variation;
+mod visible;
 
+#[doc(hidden)]
+pub use against::{Against, Fate, against, both, branch_places};
 #[doc(hidden)]
 pub use along::tighten;
 pub use along::{State, states};
@@ -84,3 +88,5 @@ pub use tracking::track;
 pub use tracking::{Branch, LociPoint};
 pub use transition::{Transition, transition};
 pub use variation::Variation;
+#[doc(hidden)]
+pub use visible::{amplitude, seen, visible};

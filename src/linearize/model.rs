@@ -102,6 +102,10 @@ pub struct Mode {
     pub participation: Vec<f64>,
     /// Part of each velocity direction in the kinetic energy of the mode, sum 1; empty for infinite ones.
     pub energy: Vec<f64>,
+    /// Modal mass x^H M x of the shape x, kg m^2 or kg as its largest component is an angle or a length.
+    pub mass: f64,
+    /// Change of each output with the shape; empty for infinite ones.
+    pub outputs: Vec<Complex<f64>>,
 }
 
 impl Mode {

@@ -33,21 +33,19 @@ pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Reque
     let (kinds, off_constraints) = kinds(variation, &solved.values, &shapes, &weighed)?;
     let parts =
         |i: usize| solved.participation.as_ref().map_or(Vec::new(), |all| all.column(i).iter().copied().collect());
+    let outputs = complex(&built.c) * &solved.right;
     // States xi have no energy.
     let moving = |i: usize| shapes.column(i).into_iter().zip(weighed.column(i)).take(n.moving());
+    let column = |matrix: &ComplexMatrix, i: usize| matrix.column(i).iter().copied().collect();
     let mut modes: Vec<Mode> = (0..solved.values.len())
-        .map(|i| Mode {
-            value: solved.values[i],
-            kind: kinds[i],
-            shape: normalized(shapes.column(i).iter().copied().collect()),
-            participation: parts(i),
-            energy: shares(moving(i).map(|(x, mx)| (x.conj() * mx).re)),
+        .map(|i| {
+            let energy = moving(i).map(|(x, mx)| (x.conj() * mx).re).collect();
+            mode((solved.values[i], kinds[i]), column(&shapes, i), column(&outputs, i), parts(i), energy)
         })
         .collect();
     modes.sort_by_key(|mode| mode.kind);
-    let value = Complex::new(f64::INFINITY, 0.0);
-    let [participation, energy] = [Vec::new(), Vec::new()];
-    let infinite = Mode { value, kind: Kind::Infinite, shape: Vec::new(), participation, energy };
+    let value = (Complex::new(f64::INFINITY, 0.0), Kind::Infinite);
+    let infinite = mode(value, Vec::new(), Vec::new(), Vec::new(), Vec::new());
     modes.extend(std::iter::repeat_n(infinite, built.infinite));
     Ok(Spectrum { modes, conditioning: solved.conditioning, off_constraints })
 }
@@ -58,8 +56,9 @@ pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode
     let found = eigen(&built.a)?;
     let parts = parts(&found.left, &found.right);
     let shapes = complex(&built.changes.q) * &found.right;
+    let outputs = complex(&built.c) * &found.right;
     let (mass, values) = (&variation.dynamics.structure.mass, &variation.dynamics.terms.mass);
-    let mode = |(i, value): (usize, &Complex<f64>)| {
+    let of = |(i, value): (usize, &Complex<f64>)| {
         let shape: Vec<Complex<f64>> = shapes.column(i).iter().copied().collect();
         let mut energy = vec![0.0; shape.len()];
         for part in [|x: &Complex<f64>| x.re, |x: &Complex<f64>| x.im] {
@@ -69,18 +68,31 @@ pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode
             energy.iter_mut().zip(x.iter().zip(weighed)).for_each(|(energy, (x, mx))| *energy += x * mx);
         }
         let participation = parts.column(i).iter().copied().collect();
-        let (kind, energy) = (Kind::Physical, shares(energy.into_iter()));
-        Mode { value: *value, kind, shape: normalized(shape), participation, energy }
+        let outputs = outputs.column(i).iter().copied().collect();
+        mode((*value, Kind::Physical), shape, outputs, participation, energy)
     };
-    let modes = found.values.iter().enumerate().map(mode).collect();
+    let modes = found.values.iter().enumerate().map(of).collect();
     Ok((modes, found.right, found.conditioning))
 }
 
-/// Returns values over their sum.
-fn shares(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let values: Vec<f64> = values.collect();
-    let sum: f64 = values.iter().sum();
-    if sum > 0.0 { values.into_iter().map(|value| value / sum).collect() } else { values }
+/// The mode with its shape scaled to a largest component of 1.
+fn mode(
+    (value, kind): (Complex<f64>, Kind),
+    mut shape: Vec<Complex<f64>>,
+    mut outputs: Vec<Complex<f64>>,
+    participation: Vec<f64>,
+    mut energy: Vec<f64>,
+) -> Mode {
+    let largest = shape.iter().copied().fold(Complex::ZERO, |a, b| if b.norm() > a.norm() { b } else { a });
+    let mut mass: f64 = energy.iter().sum();
+    if mass > 0.0 {
+        energy.iter_mut().for_each(|part| *part /= mass);
+    }
+    if largest.norm() > 0.0 {
+        shape.iter_mut().chain(&mut outputs).for_each(|x| *x /= largest);
+        mass /= largest.norm_sqr();
+    }
+    Mode { value, kind, shape, participation, energy, mass, outputs }
 }
 
 fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
@@ -166,15 +178,6 @@ fn completed(values: &[Complex<f64>], parts: Vec<Option<f64>>) -> Vec<f64> {
         known.iter().min_by(|a, b| (a.0 - value).norm().total_cmp(&(b.0 - value).norm())).map_or(1.0, |(_, part)| *part)
     };
     values.iter().zip(parts).map(|(value, part)| part.unwrap_or_else(|| nearest(value))).collect()
-}
-
-/// Scales the largest component to 1.
-fn normalized(mut shape: Vec<Complex<f64>>) -> Vec<Complex<f64>> {
-    let largest = shape.iter().copied().fold(Complex::ZERO, |a, b| if b.norm() > a.norm() { b } else { a });
-    if largest.norm() > 0.0 {
-        shape.iter_mut().for_each(|x| *x /= largest);
-    }
-    shape
 }
 
 fn complex(matrix: &Matrix) -> ComplexMatrix {

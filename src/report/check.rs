@@ -2,6 +2,7 @@
 
 use super::Table;
 use super::equilibrium::EquilibriumFile;
+use super::hints::hints_text;
 use super::summary::AssemblySummary;
 use crate::analysis::{Rank, Redundant};
 use crate::error::significant;
@@ -9,6 +10,7 @@ use crate::initial::Assembly;
 use crate::math::largest;
 use crate::prepared::{AnyMechanism, PreparedScene};
 use crate::scene::{BeamLine, Connection, Model};
+use crate::simplify::Hints;
 use crate::simulate::SpectralMode;
 use crate::system::{Group, OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
@@ -62,6 +64,9 @@ pub struct Check {
     pub states: Vec<Item>,
     /// Quantities that the scene does not ask for and that are not computed.
     pub left_out: Vec<String>,
+    /// What looks superfluous or missing, if it was looked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hints: Option<Hints>,
     /// The static equilibrium, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibrium: Option<EquilibriumFile>,
@@ -123,6 +128,7 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
         forces: forces(model),
         states: states(model),
         left_out: left_out(model),
+        hints: None,
         equilibrium: None,
     }
 }
@@ -233,7 +239,8 @@ impl Check {
             }
         }
         let rest = self.equilibrium.as_ref().map_or(String::new(), EquilibriumFile::text);
-        text + &self.redundancy_text() + &self.start_text() + &self.scales_text() + &rest
+        let hints = self.hints.as_ref().map_or(String::new(), hints_text);
+        text + &self.redundancy_text() + &self.start_text() + &self.scales_text() + &hints + &rest
     }
 
     fn redundancy_text(&self) -> String {

@@ -7,6 +7,7 @@ mod equilibrium;
 mod figures;
 mod files;
 mod finished;
+mod hints;
 pub mod linear;
 pub mod mechanism;
 mod origin;

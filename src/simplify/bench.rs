@@ -88,23 +88,32 @@ impl Bench<'_> {
         measured(&prepared, self.promise, allowed, self.is_stopped).map_err(|error| error.to_string())
     }
 
-    /// Number of velocities and constraints of a scene that has all watched outputs.
+    /// See [`size`].
     ///
     /// # Errors
-    /// Reason why it is none.
+    /// As [`size`].
     pub fn size(&self, scene: &Value) -> std::result::Result<usize, String> {
-        let outputs = elements(scene, "outputs");
-        let names = self.promise.columns.iter().map(|column| column.name.as_str());
-        let lost: Vec<&str> = names.filter(|name| outputs.iter().all(|output| text(output, "name") != *name)).collect();
-        if let [name, rest @ ..] = &lost[..] {
-            let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
-            return Err(format!("takes away the watched output `{name}`{more}"));
-        }
-        let scene = self.source.elements.parse_in(&self.source.folder, &scene.to_string(), &[]);
-        let mechanism = AnyMechanism::new(scene.map_err(|error| error.to_string())?.model);
-        let Dimensions { v, lambda, .. } = mechanism.system().dimensions();
-        Ok(v + lambda)
+        let names: Vec<String> = self.promise.columns.iter().map(|column| column.name.clone()).collect();
+        size(self.source, &names, scene)
     }
+}
+
+/// Number of velocities and constraints of a scene that has all watched outputs.
+///
+/// # Errors
+/// Reason why it is none.
+pub fn size(source: &Source, watched: &[String], scene: &Value) -> std::result::Result<usize, String> {
+    let outputs = elements(scene, "outputs");
+    let is_lost = |name: &&String| outputs.iter().all(|output| text(output, "name") != name.as_str());
+    let lost: Vec<&String> = watched.iter().filter(is_lost).collect();
+    if let [name, rest @ ..] = &lost[..] {
+        let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
+        return Err(format!("takes away the watched output `{name}`{more}"));
+    }
+    let scene = source.elements.parse_in(&source.folder, &scene.to_string(), &[]);
+    let mechanism = AnyMechanism::new(scene.map_err(|error| error.to_string())?.model);
+    let Dimensions { v, lambda, .. } = mechanism.system().dimensions();
+    Ok(v + lambda)
 }
 
 /// Wall-clock time that a run may take on a busy machine: so many times its CPU time, and this more.

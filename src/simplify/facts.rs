@@ -9,7 +9,7 @@ use crate::error::{Failure, Result};
 use crate::math::expression::Number;
 use crate::math::{Taylor, largest};
 use crate::prepared::{AnyMechanism, PreparedScene};
-use crate::simulate::{Method, Observation, Sink, simulate};
+use crate::simulate::{Method, Observation, Sink, Stop, simulate};
 use crate::system::{MechanicalSystem, Mechanism, Need, Scratch, Terms, Theory};
 use serde_json::{Value, json};
 use std::array::from_fn;
@@ -32,12 +32,14 @@ pub struct Facts {
     kinetic: Vec<Vec<f64>>,
     /// Rows of G that were found redundant.
     pub redundant: Vec<usize>,
+    /// False where the states are small motions about the start, which tell nothing about work.
+    is_motion: bool,
 }
 
-struct State {
-    t: f64,
-    q: Vec<f64>,
-    v: Vec<f64>,
+pub(super) struct State {
+    pub t: f64,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
 }
 
 /// Position and axes of a marker in the world.
@@ -65,29 +67,48 @@ impl Placed {
     }
 }
 
+/// Reason of a run that was stopped.
+const INTERRUPTED: &str = "interrupted";
+
 /// Watched rows, states and sizes of a run.
 pub struct Recorded {
     /// Values of the watched outputs at each time.
     pub rows: Vec<Vec<f64>>,
     /// Sizes of the motion.
     pub sizes: Sizes,
+    /// Why and when it was stopped; none where it is complete.
+    pub stopped: Option<Failure>,
     states: Vec<State>,
     redundant: Vec<usize>,
 }
 
-/// Runs a model by `method` over its own span and records it.
+impl Recorded {
+    /// Time of the last row, s.
+    pub fn end(&self) -> f64 {
+        self.states.last().map_or(f64::NEG_INFINITY, |state| state.t)
+    }
+}
+
+/// Runs a model by `method` over its own span, until `is_stopped`, and records it.
 ///
 /// # Errors
-/// Bad input, and the failure of a run that does not complete.
-pub fn record(prepared: &PreparedScene, watched: &Watched, method: &Method) -> Result<Recorded> {
+/// Bad input, and the failure of a run that does not complete for another reason.
+pub fn record(
+    prepared: &PreparedScene,
+    watched: &Watched,
+    method: &Method,
+    is_stopped: &dyn Fn() -> bool,
+) -> Result<Recorded> {
     let system = prepared.system();
-    let recorded = Recorded { rows: Vec::new(), sizes: Sizes::default(), states: Vec::new(), redundant: Vec::new() };
+    let (rows, states, redundant) = (Vec::new(), Vec::new(), Vec::new());
+    let recorded = Recorded { rows, sizes: Sizes::default(), stopped: None, states, redundant };
     let scales = system.scales();
     let span = prepared.span()?;
-    let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, recorded };
+    let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, recorded, is_stopped };
     let outcome = simulate(system, method, span, prepared.start(), &mut memory)?;
     match outcome.failure {
         None => Ok(memory.recorded),
+        Some(failure) if failure.reason == INTERRUPTED => Ok(Recorded { stopped: Some(failure), ..memory.recorded }),
         Some(failure) => {
             Err(Failure { reason: format!("the richest model does not complete: {}", failure.reason), ..failure }
                 .into())
@@ -101,19 +122,24 @@ struct Memory<'a> {
     scratch: Scratch,
     scales: Vec<f64>,
     recorded: Recorded,
+    is_stopped: &'a dyn Fn() -> bool,
 }
 
 impl Sink for Memory<'_> {
     fn accepted(&mut self, _: &Observation) {}
 
     fn row(&mut self, state: &Observation) {
-        let Recorded { rows, sizes, states, redundant } = &mut self.recorded;
+        let Recorded { rows, sizes, states, redundant, .. } = &mut self.recorded;
         sizes.add(self.system, state, &self.scales, &mut self.scratch);
         states.push(State { t: state.t, q: state.q.to_vec(), v: state.v.to_vec() });
         if state.dropped.len() > redundant.len() {
             *redundant = state.dropped.to_vec();
         }
         rows.push(self.watched.read(self.system, state, &mut self.scratch));
+    }
+
+    fn stops(&self) -> Option<Stop> {
+        (self.is_stopped)().then(|| Stop { reason: INTERRUPTED.to_string(), hint: "give it more time".to_string() })
     }
 }
 
@@ -123,11 +149,22 @@ impl Facts {
         let Recorded { states, redundant, .. } = recorded;
         let stride = states.len().div_ceil(STATES).max(1);
         let states: Vec<State> = states.into_iter().step_by(stride).collect();
+        Facts { is_motion: true, ..Facts::at_start(source, prepared, watched, states, redundant) }
+    }
+
+    /// Facts from small motions about the start, the first of `states`.
+    pub(super) fn at_start(
+        source: Source,
+        prepared: PreparedScene,
+        watched: Vec<String>,
+        states: Vec<State>,
+        redundant: Vec<usize>,
+    ) -> Facts {
         let (placed, kinetic) = match &prepared.mechanism {
             AnyMechanism::Planar(mechanism) => seen(mechanism, &states),
             AnyMechanism::Spatial(mechanism) => seen(mechanism, &states),
         };
-        Facts { source, prepared, watched, states, placed, kinetic, redundant }
+        Facts { source, prepared, watched, states, placed, kinetic, redundant, is_motion: false }
     }
 
     /// The scene as JSON.
@@ -218,9 +255,9 @@ impl Facts {
     }
 
     /// Work on the recorded motion of the forces that a change adds or takes away, at most over time, relative to the
-    /// energy that the motion turns over; `None` where the change alters the coordinates.
+    /// energy that the motion turns over; `None` where the change alters the coordinates, and where no motion is known.
     pub fn work_share(&self, edited: &Value) -> Option<f64> {
-        let edited = self.source.prepare(edited).ok()?;
+        let edited = self.source.prepare(edited).ok().filter(|_| self.is_motion)?;
         let systems = [self.prepared.system(), edited.system()];
         let [own, other] = systems.map(MechanicalSystem::names);
         if own.q != other.q || own.v != other.v {
@@ -253,23 +290,33 @@ impl Facts {
     }
 }
 
+/// Placements of all markers at a state.
+pub(super) fn placed(prepared: &PreparedScene, state: &State) -> Vec<Placed> {
+    let mut scratch = Scratch::default();
+    match &prepared.mechanism {
+        AnyMechanism::Planar(mechanism) => places(mechanism, state, &mut scratch),
+        AnyMechanism::Spatial(mechanism) => places(mechanism, state, &mut scratch),
+    }
+}
+
+fn places<const D: usize>(mechanism: &Mechanism<D>, state: &State, scratch: &mut Scratch) -> Vec<Placed> {
+    let frames = mechanism.frames(&state.q, &state.v, scratch);
+    let axis = |axes: &[[f64; D]; D], i: usize| if i < D { in_space(&axes[i]) } else { [0.0, 0.0, 1.0] };
+    let place = |moving: &Frame<Taylor<f64>, D>| {
+        let frame = moving.map(|x| x.x);
+        let (velocity, spin) = (in_space(&moving.velocity()), moving.angular_velocity());
+        let axes = from_fn(|i| axis(&frame.axes, i));
+        Placed { r: in_space(&frame.r), axes, turn: frame.turn, velocity, spin }
+    };
+    frames.iter().map(place).collect()
+}
+
 type Seen = (Vec<Vec<Placed>>, Vec<Vec<f64>>);
 
 /// Placements of the markers and kinetic energies of the bodies at each state.
 fn seen<const D: usize>(mechanism: &Mechanism<D>, states: &[State]) -> Seen {
     let mut scratch = Scratch::default();
     let model = mechanism.model();
-    let placed = |state: &State, scratch: &mut Scratch| -> Vec<Placed> {
-        let frames = mechanism.frames(&state.q, &state.v, scratch);
-        let axis = |axes: &[[f64; D]; D], i: usize| if i < D { in_space(&axes[i]) } else { [0.0, 0.0, 1.0] };
-        let place = |moving: &Frame<Taylor<f64>, D>| {
-            let frame = moving.map(|x| x.x);
-            let (velocity, spin) = (in_space(&moving.velocity()), moving.angular_velocity());
-            let axes = from_fn(|i| axis(&frame.axes, i));
-            Placed { r: in_space(&frame.r), axes, turn: frame.turn, velocity, spin }
-        };
-        frames.iter().map(place).collect()
-    };
     let kinetic = |state: &State| -> Vec<f64> {
         let of = |part: &crate::scene::Part<D>| {
             let (q, v) = (&state.q[part.first_q..][..part.nq], &state.v[part.first_v..][..part.nv]);
@@ -278,7 +325,7 @@ fn seen<const D: usize>(mechanism: &Mechanism<D>, states: &[State]) -> Seen {
         model.bodies.iter().map(of).collect()
     };
     let kinetic = states.iter().map(kinetic).collect();
-    (states.iter().map(|state| placed(state, &mut scratch)).collect(), kinetic)
+    (states.iter().map(|state| places(mechanism, state, &mut scratch)).collect(), kinetic)
 }
 
 /// Motion of a marker against another, seen from that.

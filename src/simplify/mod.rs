@@ -18,11 +18,13 @@ mod candidate;
 mod candidates;
 mod edit;
 mod facts;
+mod modes;
 mod nearby;
 mod numerics;
 mod promise;
 mod search;
 mod source;
+mod start;
 
 pub use bench::{Difference, Run};
 pub use candidate::{Candidate, Edit, Proposal};
@@ -32,16 +34,17 @@ pub use nearby::{Nearby, NearbyMotion, Robustness, Which};
 pub use promise::{Norm, Promise};
 pub use search::Trial;
 pub use source::Source;
+pub use start::{Hint, Hints, Unseen, hints};
 
 use crate::compare::work_precision::{Watched, tighter};
-use crate::error::{Error, Result, Warning, percent};
+use crate::error::{Error, Failure, Result, Warning, clock, percent};
 use crate::prepared::PreparedScene;
 use bench::{Bench, measured};
-use facts::record;
+use facts::{Recorded, record};
 use numerics::METHOD;
 use serde::Serialize;
 use serde_json::{Value, json};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// What is promised, and how much it may cost to find the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,13 +57,16 @@ pub struct Settings {
     pub outputs: Vec<String>,
     /// Number of runs in all, those of [`nearby`](Self::nearby) apart.
     pub at_most: usize,
+    /// Time for all of it, those of [`nearby`](Self::nearby) included; none: no limit. Where it does not suffice for the
+    /// motion of the richest model, the promise is about the first part of that.
+    pub budget: Option<Duration>,
     /// Motions on which the promise is tried.
     pub nearby: Option<Nearby>,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { within: 0.05, norm: Norm::Range, outputs: Vec::new(), at_most: 15, nearby: None }
+        Settings { within: 0.05, norm: Norm::Range, outputs: Vec::new(), at_most: 15, budget: None, nearby: None }
     }
 }
 
@@ -109,6 +115,10 @@ impl Simplification {
 const RESERVED: usize = 3;
 /// The least number of runs: two of the richest model, and one of another.
 const LEAST: usize = 3;
+/// Its accurate run may take one of so many parts of the budget.
+const RICHEST: u32 = 4;
+/// Rows of the least part of a motion that a promise may be about.
+const FEWEST_ROWS: usize = 10;
 /// CPU time that the richest model may take.
 const ALLOWED: Duration = Duration::from_secs(3600);
 
@@ -125,11 +135,20 @@ pub fn simplify(
     is_stopped: &(dyn Fn() -> bool + Sync),
     watch: &mut dyn FnMut(&str, usize),
 ) -> Result<Simplification> {
+    let begun = Instant::now();
+    let is_within = |part: u32| settings.budget.is_none_or(|budget| begun.elapsed() < budget / part);
+    let (is_asked, is_spent) = (is_stopped, || is_stopped() || !is_within(1));
+    let is_stopped: &(dyn Fn() -> bool + Sync) = &is_spent;
     let prepared = source.prepare(&source.scene)?;
     let watched = watched(&prepared, settings)?;
     let names: Vec<String> = watched.columns.iter().map(|column| column.name.clone()).collect();
     watch("the richest model, accurately", 0);
-    let recorded = record(&prepared, &watched, &tighter(&prepared.method))?;
+    let is_long = || is_asked() || !is_within(RICHEST);
+    let recorded = record(&prepared, &watched, &tighter(&prepared.method), &is_long)?;
+    let whole = source;
+    let shorter = recorded.stopped.as_ref().map(|stopped| shorter(source, &recorded, stopped)).transpose()?;
+    let source = shorter.as_ref().unwrap_or(source);
+    let prepared = if shorter.is_some() { source.prepare(&source.scene)? } else { prepared };
     let undefined = (0..names.len()).find(|&i| recorded.rows.iter().any(|row| !row[i].is_finite()));
     if let Some(i) = undefined {
         return Err(Error::input(format!("the output `{}` has no value at some time of the motion", names[i]))
@@ -143,7 +162,8 @@ pub fn simplify(
     if let Some(failure) = richest.failure {
         return Err(failure.into());
     }
-    let warnings = doubts(&richest, settings);
+    let mut warnings = doubts(&richest, settings);
+    warnings.extend(shorter.as_ref().map(|_| part_only(recorded.end())));
     let scene = prepared.name.clone();
     let facts = Facts::new(source.clone(), prepared, names.clone(), recorded);
     let (runs, at_most) = (2, settings.at_most);
@@ -170,8 +190,32 @@ pub fn simplify(
         warnings,
         simplified: Value::Null,
     };
+    found.scene["simulation"]["t_end"] = whole.scene["simulation"]["t_end"].clone();
     result.simplified = described(source.anywhere(&found.scene), &result);
+    if !is_within(1) {
+        let text = "the time was over before all changes and methods were tried".to_string();
+        result.warnings.push(Warning::new(text, "give more time by --budget"));
+    }
+    if result.is_simpler() {
+        result.warnings.extend(modes::lost(&facts.prepared, &source.prepare(&found.scene)?));
+    }
     Ok(result)
+}
+
+/// The scene until the last row that the time allowed for.
+fn shorter(source: &Source, recorded: &Recorded, stopped: &Failure) -> Result<Source> {
+    if recorded.rows.len() < FEWEST_ROWS {
+        let reason = format!("the richest model came to t = {} s only", clock(stopped.t));
+        return Err(Failure { reason, hint: "give more time by --budget".to_string(), t: stopped.t }.into());
+    }
+    let mut source = source.clone();
+    source.scene["simulation"]["t_end"] = json!(recorded.end());
+    Ok(source)
+}
+
+fn part_only(end: f64) -> Warning {
+    let text = format!("the time sufficed for the motion until t = {} s, which the promise is about", clock(end));
+    Warning::new(text, "give more time by --budget, or shorten the motion by --until")
 }
 
 fn watched(prepared: &PreparedScene, settings: &Settings) -> Result<Watched> {

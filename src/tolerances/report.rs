@@ -187,3 +187,17 @@ pub const BRANCH_STEPS: usize = 1000;
 /// Unit: `[1]` of the range. Why: at a distance d the state is as far away as the root of d. Test: none: not tried with
 /// other values.
 pub const BRANCH_BESIDE: f64 = 1e-2;
+
+/// A change of the scene that is estimated, from the start alone, to have less of an effect looks harmless.
+/// Unit: `[1]`, as the estimates. Why: a choice. Test: `a_light_link_looks_superfluous_and_a_heavy_one_does_not`.
+pub const SUPERFLUOUS: f64 = 1e-3;
+
+/// Outputs that change by less with a mode do not see it.
+/// Unit: `[1]` of their change with another mode of the same kinetic energy. Why: a choice. Test:
+/// `a_mode_that_no_output_sees_is_told`.
+pub const UNSEEN_MODE: f64 = 1e-3;
+
+/// The square of a phase of a shape that is smaller is rounding.
+/// Unit: `[1]` of the largest component. Why: the square of what rounding leaves of double eigenvalues. Test: none: not
+/// tried with other values.
+pub const NO_PHASE: f64 = 1e-6;

@@ -50,6 +50,7 @@ fn json_has_all_of_it() {
         "joints",
         "forces",
         "left_out",
+        "hints",
     ];
     assert_eq!(keys(&check), expected);
     assert_eq!((&check["rank"], &check["degrees_of_freedom"]), (&11.into(), &1.into()));
@@ -81,4 +82,54 @@ fn a_static_equilibrium_shows_its_forces() {
     }
     let falling = Place::new(PENDULUM).done(&["check", "scene.json"]);
     assert!(falling.contains("at rest, accelerations up to") && !falling.contains("equilibrium"), "{falling}");
+}
+
+/// A four-bar whose coupler hardly weighs anything: in no motion does it have a part of the energy.
+#[test]
+fn a_light_link_looks_superfluous_and_a_heavy_one_does_not() {
+    let of = |mass: f64| {
+        let link = |name: &str, mass: f64, inertia: f64, [x, y]: [f64; 2], turn: f64| {
+            serde_json::json!({ "name": name, "type": "rigid", "mass": mass, "inertia": inertia,
+                "markers": { "A": [-0.5, 0], "B": [0.5, 0] }, "initial": { "position": [x, y], "angle": turn } })
+        };
+        let pin =
+            |name: &str, a: &str, b: &str| serde_json::json!({ "name": name, "type": "revolute", "between": [a, b] });
+        let scene = serde_json::json!({
+            "name": "four_bar", "dimension": 2, "gravity": [0, -9.81], "ground": { "markers": { "O": [0, 0], "C": [1, 0] } },
+            "bodies": [link("crank", 1.0, 0.1, [0.25, 0.4], 1.0), link("coupler", mass, 0.1 * mass, [1.0, 0.85], 0.0),
+                       link("rocker", 1.0, 0.1, [1.25, 0.4], 1.0)],
+            "joints": [pin("O", "ground.O", "crank.A"), pin("A", "crank.B", "coupler.A"), pin("B", "coupler.B", "rocker.B"),
+                       pin("C", "ground.C", "rocker.A")],
+            "outputs": [{ "name": "angle", "measure": "angle", "of": "crank" }],
+            "simulation": { "t_end": 1 }
+        });
+        let place = Place::new(scene.to_string());
+        let told: Value = serde_json::from_str(&place.done(&["check", "scene.json", "--json"])).unwrap();
+        (place.done(&["check", "scene.json"]), told["hints"].clone())
+    };
+    let (text, hints) = of(1e-6);
+    assert!(text.contains("\n  coupler becomes a distance without mass: it has "), "{text}");
+    let link = hints["changes"].as_array().unwrap().iter().find(|hint| hint["candidate"] == "two_force_link").unwrap();
+    // A parallelogram: the coupler has the velocity of the tips of the others, which turn about their ends, l = 1.
+    let share = 1e-6 / (2.0 * (0.1 + 0.25) + 1e-6);
+    let estimated = link["estimated"].as_f64().unwrap();
+    assert!((estimated / share - 1.0).abs() < 1e-9, "{estimated} {share}");
+    assert!(!of(1.0).0.contains("superfluous"));
+}
+
+/// Two pendulums of which one is watched: the mode of the other is seen by nothing.
+#[test]
+fn a_mode_that_no_output_sees_is_told() {
+    let place = Place::new(
+        r#"{ "name": "two", "dimension": 2, "gravity": [0, -9.81], "ground": { "markers": { "O": [0, 0], "P": [9, 0] } },
+        "bodies": [{ "name": "short", "type": "point_mass", "mass": 1, "initial": { "position": [0, -1] } },
+                   { "name": "long", "type": "point_mass", "mass": 1, "initial": { "position": [9, -4] } }],
+        "joints": [{ "name": "a", "type": "distance", "between": ["ground.O", "short"], "length": 1 },
+                   { "name": "b", "type": "distance", "between": ["ground.P", "long"], "length": 4 }],
+        "outputs": [{ "name": "x", "measure": "position", "of": "short", "component": "x" }],
+        "simulation": { "t_end": 1 } }"#,
+    );
+    let text = place.done(&["check", "scene.json"]);
+    // sqrt(g/l)
+    assert!(text.contains("an output may be missing: no output sees the mode at 1.57 1/s (long)\n"), "{text}");
 }

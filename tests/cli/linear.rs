@@ -136,3 +136,43 @@ fn a_motion_that_fails_is_told_with_its_cause() {
         assert!(err(&output).starts_with(cause), "{command:?}: {}", err(&output));
     }
 }
+
+/// Two masses on a line between a soft spring and a stiff one, and both as one body: w^2 are the roots of
+/// w^4 - (k + 2 K) w^2 + k K and k/2.
+pub fn chain(stiff: bool) -> String {
+    let body = |name: &str, mass: f64, x: f64| {
+        serde_json::json!({ "name": name, "type": "rigid", "mass": mass, "inertia": 0, "free": ["x"],
+                            "initial": { "position": [x, 0], "velocity": [0.1, 0] } })
+    };
+    let spring = |name: &str, a: &str, b: &str, stiffness: f64| serde_json::json!({ "name": name, "type": "spring_damper", "between": [a, b], "stiffness": stiffness, "free_length": 1 });
+    let bodies = if stiff { vec![body("a", 2.0, 1.0)] } else { vec![body("a", 1.0, 1.0), body("b", 1.0, 2.0)] };
+    let soft = spring("soft", "ground", "a", 4.0);
+    let forces = if stiff { vec![soft] } else { vec![soft, spring("between", "a", "b", 100.0)] };
+    let output = |name: &str, measure: &str| serde_json::json!({ "name": name, "measure": measure, "of": "a", "component": "x" });
+    serde_json::json!({ "name": if stiff { "one" } else { "two" }, "dimension": 2, "bodies": bodies, "forces": forces,
+        "outputs": [output("x", "position"), output("speed", "velocity")], "simulation": { "t_end": 1 } })
+    .to_string()
+}
+
+#[test]
+fn a_simpler_model_loses_a_mode_and_shifts_another() {
+    let place = Place::new(chain(false));
+    fs::write(place.path("one.json"), chain(true)).unwrap();
+    let text = place.done(&["linearize", "scene.json", "--equilibrium", "--against", "one.json", "-o", "here"]);
+    assert!(text.contains("\nagainst one: of 2 modes 1 lost\n"), "{text}");
+    let told = place.json("here/against-0.json");
+    let [slow, fast] = [-1.0, 1.0].map(|sign| (102.0 + sign * (102.0f64 * 102.0 - 400.0).sqrt()).sqrt());
+    let modes = told["modes"].as_array().unwrap();
+    let number = |value: &Value| value.as_f64().unwrap();
+    assert!((number(&modes[0]["im"]) - slow).abs() < 1e-9 && (number(&modes[1]["im"]) - fast).abs() < 1e-9, "{told}");
+    assert!((number(&modes[0]["shift"]) - (2.0f64.sqrt() / slow - 1.0)).abs() < 1e-9, "{told}");
+    assert!(modes[1]["there"].is_null() && told["added"].as_array().unwrap().is_empty());
+    // With the same energy both modes move a, at amplitudes 1/(w sqrt(m)): position sees the slow one, velocity both.
+    assert_eq!(number(&modes[0]["seen"]), 1.0);
+    assert!(number(&modes[1]["seen"]) > 0.9, "{told}");
+    refused(
+        &place,
+        &["linearize", "scene.json", "--equilibrium", "--method", "all", "--against", "one.json"],
+        &["one method"],
+    );
+}

@@ -150,3 +150,18 @@ fn bad_frequency_responses_are_refused() {
         &["the scene has no inputs", "add to the scene \"inputs\""],
     );
 }
+
+#[test]
+fn loci_of_a_simpler_model_are_drawn_and_matched() {
+    let place = Place::new(super::linear::chain(false));
+    fs::write(place.path("one.json"), super::linear::chain(true)).unwrap();
+    let text = place.done(&["loci", "scene.json", "--every", "0.1", "--against", "one.json", "-o", "here"]);
+    assert!(text.contains("\nagainst one: of 2 modes 1 lost\n"), "{text}");
+    let told = place.json("here/loci.json");
+    let slow = (102.0 - (102.0f64 * 102.0 - 400.0).sqrt()).sqrt();
+    let shift = told["against"]["modes"][0]["shift"].as_f64().unwrap();
+    // Linear: the same at all times.
+    assert!((shift - (2.0f64.sqrt() / slow - 1.0)).abs() < 1e-7, "{shift}");
+    assert!(told["against"]["modes"][1]["there"].is_null());
+    assert!(place.text("here/loci.svg").contains(">one<"));
+}

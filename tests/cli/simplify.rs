@@ -52,3 +52,15 @@ fn a_scene_is_not_written_over() {
     let output = place.run(&["simplify", "simplified.json", "--within", "5%", "-o", "."]);
     assert_eq!(output.status.code(), Some(2));
 }
+
+/// A motion that takes minutes, in two seconds: the promise is about its first part, and the scene stays as long as it was.
+#[test]
+fn a_budget_is_kept() {
+    let place =
+        Place::new(PENDULUM.replace(r#""t_end": 1, "output_step": 0.1"#, r#""t_end": 9e4, "output_step": 0.01"#));
+    let clock = std::time::Instant::now();
+    let output = place.run(&["simplify", "scene.json", "--within", "5%", "--budget", "2s", "-o", "here"]);
+    assert!(clock.elapsed().as_secs_f64() < 20.0 && output.status.code() == Some(0), "{}", err(&output));
+    assert!(err(&output).contains("the time sufficed for the motion until t = "), "{}", err(&output));
+    assert_eq!(place.json("here/simplified.json")["simulation"]["t_end"], 9e4);
+}

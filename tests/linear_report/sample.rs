@@ -108,6 +108,8 @@ fn mode(a: &Matrix, z: &Matrix, value: Complex<f64>) -> Mode {
         shape: shape.iter().map(|x| x / largest).collect(),
         participation,
         energy: Vec::new(),
+        mass: 1.0,
+        outputs: Vec::new(),
     }
 }
 
@@ -120,6 +122,8 @@ pub fn descriptor(prepared: &PreparedScene) -> LinearModel {
         shape: Vec::new(),
         participation,
         energy: Vec::new(),
+        mass: 1.0,
+        outputs: Vec::new(),
     };
     let spurious = [complex(-5.0, 1.0), complex(-5.0, -1.0), complex(-7.0, 0.0)];
     model.modes.extend(spurious.map(|value| mode(value, Kind::Spurious, vec![0.25, 0.75])));

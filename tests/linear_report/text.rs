@@ -11,7 +11,15 @@ fn text(model: &LinearModel) -> String {
 }
 
 fn mode(re: f64, im: f64, kind: Kind) -> Mode {
-    Mode { value: complex(re, im), kind, shape: Vec::new(), participation: vec![0.5, 0.5], energy: vec![] }
+    Mode {
+        value: complex(re, im),
+        kind,
+        shape: Vec::new(),
+        participation: vec![0.5, 0.5],
+        energy: vec![],
+        mass: 1.0,
+        outputs: vec![],
+    }
 }
 
 #[test]

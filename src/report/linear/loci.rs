@@ -1,5 +1,6 @@
 //! `loci.csv`, `loci.json`, and text on eigenvalues at many states.
 
+use super::against::LociAgainst;
 use crate::error::{Error, Failure, Result, significant};
 use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, damping, frequency};
 use crate::plot::AxisSpec;
@@ -27,6 +28,9 @@ pub struct LociSummary {
     pub failures: Vec<FailureFile>,
     /// Ranges of the modes.
     pub modes: Vec<ModeSummary>,
+    /// The modes against those of another scene, if requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub against: Option<LociAgainst>,
 }
 
 /// Variable that the eigenvalues are functions of: time in s, or a parameter of the scene.
@@ -122,6 +126,7 @@ impl LociSummary {
             equilibria: loci.reached.iter().filter(|state| state.equilibrium).count(),
             failures: loci.gaps.iter().map(|gap| failure(gap.at, &gap.error)).collect(),
             modes: upper(loci).map(|(mode, branch)| mode_summary(mode, branch, least)).collect(),
+            against: None,
         }
     }
 
@@ -179,7 +184,7 @@ fn cells(value: Option<Complex<f64>>) -> [String; 4] {
 }
 
 /// Returns the branches by the names of their modes, without those that are conjugate to others everywhere.
-fn upper(loci: &Loci) -> impl Iterator<Item = (String, &Branch)> {
+pub(super) fn upper(loci: &Loci) -> impl Iterator<Item = (String, &Branch)> {
     let is_upper = |branch: &&Branch| branch.points.iter().any(|(_, value)| value.im >= 0.0);
     let named = |(i, branch)| (format!("mode{}", i + 1), branch);
     loci.branches.iter().filter(is_upper).enumerate().map(named)
@@ -257,7 +262,9 @@ impl LociSummary {
             let place = if count == 1 { significant(first.at, 9) } else { span(first.at, last.at) };
             text += &format!("  NO EIGENVALUES at {} = {place}{unit}: {}\n", along.name, first.reason);
         }
-        text + "\n" + &self.table(&unit)
+        let against =
+            self.against.as_ref().map_or(String::new(), |against| "\n".to_string() + &against.text(&along.name));
+        text + "\n" + &self.table(&unit) + &against
     }
 
     /// Returns the meaning of the real parts.

@@ -1,5 +1,6 @@
 //! Linear models as files, text and figures.
 
+mod against;
 mod bode_figure;
 mod files;
 mod loci;
@@ -9,6 +10,7 @@ mod response;
 mod text;
 mod validation;
 
+pub use against::{AgainstFile, LociAgainst, with_others};
 pub use bode_figure::bode_figure;
 pub use files::{LinearFile, OperatingPointFile, linear_stem};
 pub use loci::{LociFile, LociSummary, loci_table};
