@@ -163,3 +163,23 @@ fn models_are_compared() {
     assert_eq!(result["richest"], 1);
     assert_eq!(result["models"][0]["velocities"], 7);
 }
+
+/// Two masses between a soft spring and a stiff one: models and methods in one figure.
+#[test]
+fn models_are_found_and_measured() {
+    let place = Place::new(super::linear::chain(false));
+    let text = tradeoff(&place, &["--models", "auto"]);
+    assert!(text.starts_with("two: models and methods, errors together\n"), "{text}");
+    assert_eq!(place.files("here"), ["tradeoff_models.csv", "tradeoff_models.json"]);
+    let told = json(&place, "here/tradeoff_models.json");
+    let models = told["models"].as_array().unwrap();
+    assert!(models[0]["error"] == 0.0 && models[0]["name"] == "as it is", "{text}");
+    // What is found keeps its promise, also as it is measured here.
+    let error = |model: &Value| model["error"].as_f64().unwrap();
+    assert!(models.len() > 1 && error(&models[1]) > 0.0 && error(&models[1]) < 0.1, "{text}");
+    let run = |line: &str| line.split(',').skip(4).map(|cell| cell.parse::<f64>().unwrap()).collect::<Vec<_>>();
+    for line in place.text("here/tradeoff_models.csv").lines().skip(1) {
+        let [_, model, method, both] = run(line)[..] else { panic!("{line}") };
+        assert!((both - model - method).abs() <= 1e-9 * both, "{line}");
+    }
+}

@@ -43,14 +43,9 @@ impl Question {
         let watched = Watched::new(prepared.system(), &outputs).map_err(|error| error.under("--outputs"))?;
         let rows = usize::from(args.rows);
         let rows = given.as_ref().map_or(Ok(rows), |given| given.parts((span.start, span.end), rows))?;
-        let filter = Filter {
-            formulations: args.formulation.clone(),
-            integrators: args.integrator.clone(),
-            projections: args.projection.clone(),
-        };
         args.check_choices(prepared.system())?;
         let plan = Plan {
-            triples: grid(&filter)?,
+            triples: grid(&args.filter())?,
             budget: args.budget,
             repeats: usize::from(args.repeats),
             rows,
@@ -133,8 +128,15 @@ impl Args {
         }
     }
 
+    /// Returns the methods that are named.
+    pub(super) fn filter(&self) -> Filter {
+        let [formulations, integrators, projections] =
+            [&self.formulation, &self.integrator, &self.projection].map(Clone::clone);
+        Filter { formulations, integrators, projections }
+    }
+
     /// Refuses unknown options of the named methods, before anything is run.
-    fn check_choices(&self, system: &dyn MechanicalSystem) -> Result<()> {
+    pub(super) fn check_choices(&self, system: &dyn MechanicalSystem) -> Result<()> {
         for spec in &self.formulation {
             formulation::make(spec, system).map_err(|error| error.under("--formulation"))?;
         }

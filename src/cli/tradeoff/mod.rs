@@ -1,5 +1,6 @@
 //! `holonom tradeoff SCENE`
 
+mod auto;
 mod methods;
 mod models;
 
@@ -7,6 +8,7 @@ use super::common::{Output, SceneOptions, Talk, duration, number, spec};
 use crate::error::Result;
 use crate::method_spec::MethodSpec;
 use crate::prepared::Overrides;
+use clap::ValueEnum;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -58,16 +60,28 @@ pub struct Args {
     /// rod.json:modes=2,n=8
     #[arg(long, value_name = "SCENE[:NAME=VALUE,...]", num_args = 1..)]
     variants: Vec<String>,
+    /// auto: models that `simplify` finds for 10 %, 1 % and 0.1 %, each by all methods; errors of model and method together
+    #[arg(long, value_name = "auto", value_enum, conflicts_with_all = ["variants", "reference", "resume"])]
+    models: Option<Models>,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]
     talk: Talk,
 }
 
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Models {
+    Auto,
+}
+
 pub fn run(args: Args) -> Result<ExitCode> {
     let prepared = args.talk.load(&args.scene.path, &args.overrides())?;
     prepared.span().map_err(|error| error.in_file(&args.scene.path))?;
-    if args.variants.is_empty() { methods::run(&args, &prepared) } else { models::run(&args, prepared.settled()?) }
+    match (args.models, args.variants.is_empty()) {
+        (Some(Models::Auto), _) => auto::run(&args, prepared),
+        (None, true) => methods::run(&args, &prepared),
+        (None, false) => models::run(&args, prepared.settled()?),
+    }
 }
 
 impl Args {

@@ -66,7 +66,7 @@ fn panel(measured: &WorkPrecision, named: &[usize], x: Quantity, y: Quantity) ->
 }
 
 /// Returns the Pareto front of points, less is better in both.
-fn front(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+pub(super) fn front(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let mut front: Vec<(f64, f64)> = points.collect();
     front.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let mut least = f64::INFINITY;

@@ -1,10 +1,12 @@
 //! Work-precision measurements as text, tables and figures.
 
+mod auto;
 mod figure;
 mod models;
 mod table;
 mod text;
 
+pub use auto::{MeasuredModel, ModelsAndMethods, auto_figure, auto_table};
 pub use figure::tradeoff_figure;
 pub use models::{ModelsSummary, models_figure, models_table};
 pub use table::tradeoff_table;

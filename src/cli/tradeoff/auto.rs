@@ -1,0 +1,106 @@
+//! Models that `simplify` finds, each by many methods.
+
+use super::Args;
+use crate::cli::common::tell;
+use crate::cli::interrupt;
+use crate::compare::work_precision::{Motion, Plan, Runner, Watched, WorkPrecision, grid};
+use crate::error::{Error, Result, percent};
+use crate::prepared::PreparedScene;
+use crate::report::tradeoff::{MeasuredModel, ModelsAndMethods, auto_figure, auto_table};
+use crate::simplify::{Settings, Simplification, Source, registry, simplify};
+use crate::system::Dimensions;
+use indicatif::ProgressBar;
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// Promises for which a model is sought.
+const WITHIN: [f64; 3] = [0.1, 0.01, 1e-3];
+/// Part of the budget for each search.
+const SEARCH: u32 = 8;
+
+pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
+    args.check_choices(prepared.system())?;
+    let mut folder = args.output.folder(&prepared.name)?;
+    let name = prepared.name.clone();
+    let bar = args.talk.progress((WITHIN.len() + 1) as u64, &name);
+    let found = models(args, &prepared, &bar);
+    let (found, searched) = (found?, WITHIN.len() as u32);
+    let rest = args.budget - args.budget * searched / SEARCH;
+    let budget = rest / (1 + found.len()) as u32;
+    let own = ("as it is".to_string(), Vec::new());
+    let all = [(own, &prepared)].into_iter().chain(found.iter().map(|(own, prepared)| (own.clone(), prepared)));
+    let mut models: Vec<MeasuredModel> = Vec::new();
+    for ((model, left_out), scene) in all {
+        bar.set_message(model.clone());
+        let measured = measure(args, scene, budget)?;
+        bar.inc(1);
+        let Dimensions { v, lambda, .. } = scene.system().dimensions();
+        models.push(MeasuredModel::new(model, left_out, [v, lambda], measured, models.first()));
+    }
+    bar.finish_and_clear();
+    let summary = ModelsAndMethods { scene: name, models };
+    folder.write("tradeoff_models.csv", &auto_table(&summary)?)?;
+    args.output.figure(&mut folder, "tradeoff_models", auto_figure(&summary))?;
+    let sealed = folder.seal("tradeoff_models.json", args.talk.repeatable(&prepared, &summary))?;
+    let written = args.talk.finish(folder)?;
+    args.talk.print(&sealed, || summary.text())?;
+    args.talk.tell_files(&written)?;
+    if interrupt::is_asked() {
+        tell("error: interrupted");
+        return Ok(ExitCode::from(1));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+type Named = (String, Vec<String>);
+
+/// The models that are simpler than the scene, each once, with what they leave out.
+fn models(args: &Args, prepared: &PreparedScene, bar: &ProgressBar) -> Result<Vec<(Named, PreparedScene)>> {
+    let source = Source::load(&args.scene.path, &args.overrides())?;
+    let mut models: Vec<(Named, PreparedScene)> = Vec::new();
+    for within in WITHIN {
+        let settings = Settings {
+            within,
+            outputs: args.outputs.clone(),
+            budget: Some(args.budget / SEARCH),
+            ..Settings::default()
+        };
+        let mut watch = |what: &str, _: usize| bar.set_message(format!("{}: {what}", prepared.name));
+        let found = simplify(&source, &settings, registry(), &interrupt::is_asked, &mut watch)?;
+        let left_out: Vec<String> = found.left_out().flat_map(|trial| trial.what.clone()).collect();
+        let is_new = models.iter().all(|((_, known), _)| *known != left_out);
+        if found.is_simpler() && is_new {
+            let Simplification { simplified, .. } = &found;
+            models.push(((format!("within {}", percent(within)), left_out), source.prepare(simplified)?));
+        }
+        bar.inc(1);
+    }
+    Ok(models)
+}
+
+/// Methods on a model, their errors against its own motion.
+fn measure(args: &Args, prepared: &PreparedScene, budget: Duration) -> Result<WorkPrecision> {
+    let span = prepared.span()?;
+    let watched = Watched::new(prepared.system(), &args.outputs).map_err(|error: Error| error.under("--outputs"))?;
+    let rows = usize::from(args.rows);
+    let plan = Plan {
+        triples: grid(&args.filter())?,
+        budget,
+        repeats: usize::from(args.repeats),
+        rows,
+        digits: args.digits,
+        is_exhaustive: args.exhaustive,
+        given: None,
+    };
+    let motion = Motion {
+        system: prepared.system(),
+        start: prepared.start(),
+        between: (span.start, span.end),
+        ratio: prepared.method.atol / prepared.method.rtol,
+        counts_start: false,
+        is_stopped: &interrupt::is_asked,
+    };
+    let mut measured = WorkPrecision::fresh(&prepared.name, (span.start, span.end), rows);
+    Runner::new(motion, &plan, watched, |_: &WorkPrecision, _: &str| ()).run(&mut measured)?;
+    Ok(measured)
+}
