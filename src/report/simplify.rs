@@ -3,7 +3,7 @@
 use super::tradeoff::milliseconds;
 use super::{Table, cell, table};
 use crate::error::{Result, percent, short_list};
-use crate::plot::{AxisSpec, Figure, Panel, Series};
+use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::simplify::{NearbyMotion, Norm, Robustness, Run, Simplification, Trial, Which};
 
 /// Returns the result as text.
@@ -123,29 +123,47 @@ pub fn simplify_table(result: &Simplification) -> Result<Vec<u8>> {
 
 /// Factor of the axes around the points.
 const MARGIN: f64 = 2.0;
+/// Colour of the richest model, as index in the palette: black.
+const BLACK: usize = 6;
 
-/// Draws the error of every model that was run against its CPU time; the front is marked, and the chosen one named.
+/// Draws the error of every model that was run against its CPU time: those that were kept, those that were not, the front of
+/// all, and the promise; the richest and the chosen one are named.
 pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
-    let runs = result.trials.iter().filter_map(|trial| trial.run.as_ref());
     let point = |run: &Run| run.worst().map(|worst| (run.seconds, worst.error)).filter(|(_, error)| *error > 0.0);
-    let points: Vec<(f64, f64)> = runs.chain([&result.richest]).filter_map(point).collect();
+    let of = |is_kept: bool| -> Vec<(f64, f64)> {
+        let trials = result.trials.iter().filter(|trial| trial.is_kept == is_kept);
+        trials.filter_map(|trial| trial.run.as_ref().and_then(point)).collect()
+    };
+    let [kept, refused] = [true, false].map(of);
+    let points: Vec<(f64, f64)> = kept.iter().chain(&refused).copied().chain(point(&result.richest)).collect();
     let bounds = |of: fn(&(f64, f64)) -> f64| {
         points.iter().map(of).fold((f64::INFINITY, 0.0f64), |(least, most), x| (least.min(x), most.max(x)))
     };
     let ((left, right), (low, high)) = (bounds(|point| point.0), bounds(|point| point.1));
-    let x = AxisSpec::from("CPU time (s)").log().range(left / MARGIN, MARGIN * right);
-    let top = MARGIN * high.max(result.within);
+    let (left, right, top) = (left / MARGIN, MARGIN * right, MARGIN * high.max(result.within));
+    let x = AxisSpec::from("CPU time (s)").log().range(left, right);
     let y = AxisSpec::from("largest difference (relative)").log().range(low / MARGIN, top);
-    let promise = vec![(left / MARGIN, result.within), (MARGIN * right, result.within)];
     let mut panel = Panel::new(x, y)
-        .series(Series::dots("models that were run", points.clone()))
-        .series(Series::line("front", front(&points)))
-        .series(Series::line("promise", promise));
-    for (run, name) in [(&result.richest, "richest"), (&result.chosen, "chosen")] {
-        panel = panel.series(Series::dots(name, point(run).into_iter().collect()));
+        .series(Series::dots("kept", kept))
+        .series(Series::dots("not kept", refused).style(Style::Crosses))
+        .series(Series::line("front", stairs(&front(&points), right)).style(Style::Guide))
+        .series(Series::line("promise", vec![(left, result.within), (right, result.within)]).style(Style::Dashed));
+    for (run, name) in [(&result.richest, "as it is"), (&result.chosen, "chosen")] {
+        let Some((seconds, error)) = point(run) else { continue };
+        panel = panel.series(Series::dots("", vec![(seconds, error)]).color(BLACK)).annotate(
+            seconds,
+            error,
+            format!("{name}: {} velocities", run.velocities),
+        );
     }
     let title = format!("{}: within {}", result.scene, percent(result.within));
     (points.len() > 1).then(|| Figure::new().title(title).panel(panel.height(360.0)))
+}
+
+/// The least error at each cost, as a line.
+fn stairs(front: &[(f64, f64)], end: f64) -> Vec<(f64, f64)> {
+    let next = front.iter().skip(1).map(|point| point.0).chain([end]);
+    front.iter().zip(next).flat_map(|(point, next)| [*point, (next, point.1)]).collect()
 }
 
 /// The points than which none is both cheaper and nearer, from cheap to dear.
