@@ -30,6 +30,15 @@ pub struct Loci {
     pub doubts: Vec<Warning>,
 }
 
+impl Loci {
+    /// The branches by the names of their modes, without those that are conjugate to others everywhere.
+    pub fn named(&self) -> impl Iterator<Item = (String, &Branch)> {
+        let is_upper = |branch: &&Branch| branch.points.iter().any(|(_, value)| value.im >= 0.0);
+        let named = |(i, branch)| (format!("mode{}", i + 1), branch);
+        self.branches.iter().filter(is_upper).enumerate().map(named)
+    }
+}
+
 /// Variable that the eigenvalues are functions of.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LociVariable {

@@ -1,6 +1,5 @@
 //! Which modes of a model another one has lost or shifted.
 
-use super::loci::upper;
 use crate::error::{percent, significant};
 use crate::linearize::{Against, Branch, Complex, Fate, Kind, Loci, both, branch_places, damping, frequency};
 use crate::plot::{Figure, Series, Style};
@@ -133,9 +132,10 @@ pub struct BranchFate {
 impl LociAgainst {
     /// The comparison of physical branches.
     pub fn new(loci: &Loci, scene: &str, other: &Loci) -> Self {
-        let physical = |loci| upper(loci).filter(|(_, branch)| branch.kind == Kind::Physical).unzip();
-        let (names, branches): (Vec<String>, Vec<&Branch>) = physical(loci);
-        let (there, others): (Vec<String>, Vec<&Branch>) = physical(other);
+        let [(names, branches), (there, others)] = [loci, other].map(|loci| {
+            let physical = loci.named().filter(|(_, branch)| branch.kind == Kind::Physical);
+            physical.unzip::<String, &Branch, Vec<String>, Vec<&Branch>>()
+        });
         let places = branch_places(&branches, &others);
         let added = (0..others.len()).filter(|j| !places.contains(&Some(*j))).count();
         let fate = |(i, mode): (usize, String)| {
@@ -173,7 +173,7 @@ impl LociAgainst {
 /// Adds the eigenvalues of the other scene to the complex plane of the first; those outside its axes are cut off.
 pub fn with_others(figure: Option<Figure>, scene: &str, other: &Loci) -> Option<Figure> {
     let mut figure = figure?;
-    let physical = upper(other).filter(|(_, branch)| branch.kind == Kind::Physical);
+    let physical = other.named().filter(|(_, branch)| branch.kind == Kind::Physical);
     let points = physical.flat_map(|(_, branch)| &branch.points).filter(|(_, value)| value.im >= 0.0);
     let points: Vec<(f64, f64)> = points.map(|(_, value)| (value.re, value.im)).collect();
     let panel = figure.panels.pop()?;

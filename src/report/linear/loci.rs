@@ -125,7 +125,7 @@ impl LociSummary {
             reached: loci.reached.len(),
             equilibria: loci.reached.iter().filter(|state| state.equilibrium).count(),
             failures: loci.gaps.iter().map(|gap| failure(gap.at, &gap.error)).collect(),
-            modes: upper(loci).map(|(mode, branch)| mode_summary(mode, branch, least)).collect(),
+            modes: loci.named().map(|(mode, branch)| mode_summary(mode, branch, least)).collect(),
             against: None,
         }
     }
@@ -140,7 +140,7 @@ impl LociSummary {
 impl LociFile {
     /// The file of loci.
     pub fn new(summary: LociSummary, loci: &Loci) -> Self {
-        let branches = upper(loci).map(|(mode, branch)| branch_file(mode, branch)).collect();
+        let branches = loci.named().map(|(mode, branch)| branch_file(mode, branch)).collect();
         LociFile { summary, states: loci.reached.clone(), branches }
     }
 }
@@ -155,7 +155,7 @@ pub fn loci_table(loci: &Loci) -> Result<Vec<u8>> {
         LociVariable::Time => "t".to_string(),
         LociVariable::Parameter(range) => range.parameter.clone(),
     };
-    let modes: Vec<(String, &Branch)> = upper(loci).collect();
+    let modes: Vec<(String, &Branch)> = loci.named().collect();
     let names = modes
         .iter()
         .flat_map(|(mode, _)| ["re", "im", "frequency_hz", "damping_ratio"].map(|column| format!("{mode}.{column}")));
@@ -181,13 +181,6 @@ fn cells(value: Option<Complex<f64>>) -> [String; 4] {
         Some(value) => [value.re, value.im, frequency(value), damping(value)].map(cell),
         None => Default::default(),
     }
-}
-
-/// Returns the branches by the names of their modes, without those that are conjugate to others everywhere.
-pub(super) fn upper(loci: &Loci) -> impl Iterator<Item = (String, &Branch)> {
-    let is_upper = |branch: &&Branch| branch.points.iter().any(|(_, value)| value.im >= 0.0);
-    let named = |(i, branch)| (format!("mode{}", i + 1), branch);
-    loci.branches.iter().filter(is_upper).enumerate().map(named)
 }
 
 /// Returns the finite points.
