@@ -17,7 +17,9 @@ pub fn simplify_text(result: &Simplification) -> String {
     text += &format!("{}\n", outcome(result));
     let mut changes = Table::new(&["tried", "estimated", "measured", "CPU", "result"]).words(4);
     trials.iter().filter(|trial| trial.run.is_some()).for_each(|trial| changes.row(row(trial)));
-    text += &format!("{changes}");
+    if trials.iter().any(|trial| trial.run.is_some()) {
+        text += &format!("{changes}");
+    }
     let left = trials.iter().filter(|trial| trial.run.is_none());
     for trial in left.clone().take(LISTED) {
         text += &format!("  not tried: {}: {}\n", name(trial), first_line(&trial.reason));

@@ -206,7 +206,8 @@ pub fn simplify(
 fn shorter(source: &Source, recorded: &Recorded, stopped: &Failure) -> Result<Source> {
     if recorded.rows.len() < FEWEST_ROWS {
         let reason = format!("the richest model came to t = {} s only", clock(stopped.t));
-        return Err(Failure { reason, hint: "give more time by --budget".to_string(), t: stopped.t }.into());
+        let hint = "give more time by --budget; `holonom check` says what looks superfluous from the start alone";
+        return Err(Failure { reason, hint: hint.to_string(), t: stopped.t }.into());
     }
     let mut source = source.clone();
     source.scene["simulation"]["t_end"] = json!(recorded.end());

@@ -63,4 +63,7 @@ fn a_budget_is_kept() {
     assert!(clock.elapsed().as_secs_f64() < 20.0 && output.status.code() == Some(0), "{}", err(&output));
     assert!(err(&output).contains("the time sufficed for the motion until t = "), "{}", err(&output));
     assert_eq!(place.json("here/simplified.json")["simulation"]["t_end"], 9e4);
+    // Not even a few rows of the motion.
+    let output = place.run(&["simplify", "scene.json", "--within", "5%", "--budget", "0.01ms", "-o", "none"]);
+    assert!(output.status.code() == Some(1) && err(&output).contains("more time by --budget"), "{}", err(&output));
 }
