@@ -132,6 +132,27 @@ fn rotations_in_space() {
     }
 }
 
+/// A shaft of finite elements that turns by 50 rad: what collocates rotation vectors is exact, bends nothing, and takes the
+/// longest steps that it may, 0.9 pi after those that grow to it.
+#[test]
+fn rotations_about_a_fixed_axis_are_exact() {
+    let ready = shipped("rotating_shaft", &[]);
+    for formulation in FORMULATIONS {
+        for tolerance in [1e-3, 1e-6, 1e-9] {
+            let run = ready.run(&adaptive(formulation, "radau_iia", "none", tolerance), until(1.0));
+            let work = run.outcome.statistics;
+            println!("{formulation} {tolerance:e}: {work:?}");
+            assert!(work.steps + work.rejected < 30, "{formulation} {tolerance:e}: {work:?}");
+            // The angle is 50 rad, rounded in each of the steps.
+            let (sin, cos) = 25f64.sin_cos();
+            let exact = [0.0, 0.0, 0.0, cos, sin, 0.0, 0.0];
+            let q = &run.outcome.q;
+            let error = q.iter().zip(exact.iter().chain(&[0.0; 200])).fold(0.0f64, |e, (q, x)| e.max((q - x).abs()));
+            assert!(error < 1e-12, "{formulation} {tolerance:e}: {error:e}");
+        }
+    }
+}
+
 /// Rows of G that depend on each other at every state are left out of the matrices, for as long as the motion lasts.
 #[test]
 fn redundant_constraints() {

@@ -1,7 +1,7 @@
 //! Rotations in space: unit quaternions p = [w, x, y, z] and their matrices.
 
 use super::Scalar;
-use super::screw::quaternion;
+use super::screw::{cotangent, cross3, dot3, quaternion};
 
 /// Row-major 3 x 3 matrix.
 pub type Matrix3 = [[f64; 3]; 3];
@@ -43,6 +43,15 @@ pub fn quaternion_from_vector(a: &[f64; 3]) -> [f64; 4] {
     [(0.5 * angle).cos(), factor * a[0], factor * a[1], factor * a[2]]
 }
 
+/// a' of the rotation vector `a` of p0^-1 p, with w in the axes of p: w + a x w/2 + c a x (a x w), see
+/// [`screw`](super::screw). Smooth below 2 pi; w itself where the axis is fixed.
+pub fn rotation_vector_rate(a: &[f64; 3], w: &[f64; 3]) -> [f64; 3] {
+    let across = cross3(a, w);
+    let twice = cross3(a, &across);
+    let c = cotangent(dot3(a, a));
+    std::array::from_fn(|i| w[i] + 0.5 * across[i] + c * twice[i])
+}
+
 /// Unit quaternion of the rotation with these axes, `axes[i]` being the i-th.
 pub fn quaternion_from_axes(axes: &Matrix3) -> [f64; 4] {
     let (w, [x, y, z]) = quaternion(&std::array::from_fn(|i| axes.map(|axis| axis[i])));
@@ -57,4 +66,26 @@ pub fn quaternion_product(p: &[f64; 4], r: &[f64; 4]) -> [f64; 4] {
         product[i] = p[0] * r[i] + p[i] * r[0] + p[j] * r[k] - p[k] * r[j];
     }
     product
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// p0^-1 p = exp(a) along a motion: its difference quotient, h^2 + round-off/h, against p (0, w)/2.
+    #[test]
+    fn rotation_vectors_move_as_their_quaternions() {
+        let (w, h) = ([0.3, -1.1, 0.7], 1e-5);
+        for size in [0.0, 1e-3, 0.8, 3.0, 5.0] {
+            let a = [0.6, 0.0, 0.8].map(|x: f64| x * size);
+            let rate = rotation_vector_rate(&a, &w);
+            let at = |s: f64| quaternion_from_vector(&std::array::from_fn(|i| a[i] + s * rate[i]));
+            let mut exact = [0.0; 4];
+            quaternion_rate(&at(0.0), &w, &mut exact);
+            for (i, exact) in exact.iter().enumerate() {
+                let quotient = (at(h)[i] - at(-h)[i]) / (2.0 * h);
+                assert!((quotient - exact).abs() < 1e-9, "{size} {i} {quotient} {exact}");
+            }
+        }
+    }
 }

@@ -7,7 +7,7 @@ use super::limits::{Extent, limits};
 use super::output_tangent::{OutputTangent, Slopes};
 use super::rows::{JointRows, PlacedJoint};
 use super::scale::{length_scale, row_scales};
-use super::spin::{Placement, Spin};
+use super::spin::{Placement, Rotation, Spin};
 use super::support::Support;
 use super::tangent::{Evaluation, OperatingPoint, Tangent};
 use super::view::{Plain, along_motion, gathered};
@@ -213,6 +213,10 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         }
     }
 
+    fn rotations(&self) -> Vec<Rotation> {
+        self.quaternions().collect()
+    }
+
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
         self.with_workspace(q, scratch, |work, regime| {
             self.write_terms(Time { t, regime }, (q, v), need, work, terms);
@@ -242,11 +246,9 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
 
     fn bracket(&self, v: &[f64], x: &[f64], out: &mut [f64]) {
         out.fill(0.0);
-        for part in &self.model.bodies {
-            if let Some(first) = part.body.turning() {
-                let three = |all: &[f64]| -> [f64; 3] { from_fn(|i| all[part.first_v + first + i]) };
-                out[part.first_v + first..][..3].copy_from_slice(&cross(&three(v), &three(x)));
-            }
+        for Rotation { v: first, .. } in self.quaternions() {
+            let three = |all: &[f64]| -> [f64; 3] { from_fn(|i| all[first + i]) };
+            out[first..][..3].copy_from_slice(&cross(&three(v), &three(x)));
         }
     }
 

@@ -45,7 +45,7 @@ pub use output_tangent::OutputTangent;
 #[doc(hidden)]
 pub use rotating::Rotating;
 #[doc(hidden)]
-pub use spin::{Placement, Spin};
+pub use spin::{Placement, Rotation, Spin};
 #[doc(hidden)]
 pub use states::refuse_states;
 pub use tangent::{OperatingPoint, Tangent};
@@ -191,6 +191,11 @@ pub trait MechanicalSystem: Send + Sync {
     /// q' = N(q) v without the rates of turning angles, whose entries are not written.
     fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         self.rate(q, v, qdot);
+    }
+
+    /// The unit quaternions among the coordinates. Default: none.
+    fn rotations(&self) -> Vec<Rotation> {
+        Vec::new()
     }
 
     /// The constant rotation about a fixed axis that drives prescribe at `t`; `None`, the default, where nothing is

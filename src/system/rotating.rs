@@ -1,6 +1,6 @@
 //! Equations of motion in axes that rotate with the mechanism.
 
-use super::spin::{Block, Placement, Spin};
+use super::spin::{Block, Placement, Rotation, Spin};
 use super::{
     Column, Dimensions, Energy, Excitation, Group, LeviCivita, Limited, MechanicalSystem, Names, Need, OperatingPoint,
     OutputTangent, Scratch, Structure, Tangent, Terms,
@@ -278,6 +278,10 @@ impl MechanicalSystem for Rotating<'_> {
 
     fn add_stiffness(&self, mass: &mut [f64]) {
         self.inner.add_stiffness(mass);
+    }
+
+    fn rotations(&self) -> Vec<Rotation> {
+        self.inner.rotations()
     }
 
     fn normalize(&self, q: &mut [f64]) {

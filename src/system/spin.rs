@@ -21,6 +21,16 @@ pub struct Spin {
     pub point: [f64; 3],
 }
 
+/// A unit quaternion [w, x, y, z] among the coordinates and the angular velocity in the body's axes that moves it, by
+/// their first places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation {
+    /// First place in q.
+    pub q: usize,
+    /// First place in v.
+    pub v: usize,
+}
+
 /// Coordinates of a body that change when the world is rotated, by their first places in q and v.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Placement {

@@ -1,7 +1,7 @@
 //! The steady rotation that drives prescribe, and the coordinates that take part in it.
 
 use super::mechanism::Mechanism;
-use super::spin::{Placement, Spin};
+use super::spin::{Placement, Rotation, Spin};
 use crate::body::{Frame, MarkerId, in_space};
 use crate::joint::{Axis, Joint};
 use crate::math::{Regime, Taylor, Time};
@@ -9,6 +9,12 @@ use crate::scene::{Connection, Part};
 use crate::tolerances::body as tolerances;
 
 impl<const D: usize> Mechanism<D> {
+    /// The unit quaternions among the coordinates.
+    pub(super) fn quaternions(&self) -> impl Iterator<Item = Rotation> {
+        let places = |part: &Part<D>| part.body.turning().map(|first| (part.first_q + first, part.first_v + first));
+        self.model().bodies.iter().filter_map(places).map(|(q, v)| Rotation { q, v })
+    }
+
     /// The rotation that all drives active at `t` prescribe in common; `None` where they differ or accelerate.
     pub(super) fn driven_spin(&self, t: f64) -> Option<Spin> {
         let mut common: Option<Spin> = None;

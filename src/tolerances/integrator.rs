@@ -87,6 +87,10 @@ pub const RADAU_LEAST_RATE: f64 = 0.1;
 /// Unit: `[sweeps]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const RADAU_SWEEPS: usize = 6;
 
+/// The largest component of a rotation vector in a step of radau_iia.
+/// Unit: `[rad]`. Why: rotation vectors have a pole at 2 pi. Test: `rotations_about_a_fixed_axis_are_exact`.
+pub const RADAU_TURN: f64 = std::f64::consts::PI;
+
 /// Steps at one order before it may change.
 /// Unit: `[steps]`. Why: a choice. Test: `no_more_work_than_other_codes`.
 pub const RADAU_STEADY: usize = 4;

@@ -3,6 +3,7 @@
 mod collocation;
 mod matrices;
 mod order;
+mod rotations;
 mod stages;
 mod system;
 mod velocity;
@@ -27,7 +28,8 @@ use system::{System, most};
 /// V_i = v + h sum a_ij (A_j + W_j),   Q_i = q + h sum a_ij N (V_j + U_j),   M A_i + G^T lambda_i = f
 /// ```
 ///
-/// with the rows of the formulation's [`Dae`] at every stage, and its shifts U and W; s = 3, 5 or 7 stages. Source:
+/// with the rows of the formulation's [`Dae`] at every stage, and its shifts U and W; unit quaternions by their rotation
+/// vectors from q, which are exact where the axis is fixed; s = 3, 5 or 7 stages. Source:
 /// Hairer, Wanner, Solving Ordinary Differential Equations II, IV.5, IV.8, VII.6 and the codes RADAU5 and RADAU;
 /// constants are computed from their definition. L-stable. Order 2 s - 1 in q, v and lambda. Where phi = 0 alone is
 /// solved the v of the last stage, and so lambda, would have order s: Hairer, Lubich, Roche, Lecture Notes in
@@ -73,8 +75,8 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         is_fresh: false,
         matrices: matrices()?,
         row_matrices: matrices()?,
-        stages: Stages::new(most, n),
-        row: Stages::new(most, n),
+        stages: Stages::new(most, setup.system),
+        row: Stages::new(most, setup.system),
         tolerance: Tolerance::new(1.0, 1.0, setup.system),
         newton: Monitor::default(),
         before: Unknowns::new(most, n),
@@ -268,7 +270,7 @@ impl Integrator for RadauIIA {
             return Err(StepError::NotConverged);
         }
         let s = self.order.method().stages();
-        self.order.limit(&self.newton, most(s, self.is_fixed));
+        self.order.limit(&self.newton, most(s, self.is_fixed), self.stages.turned());
         to.copy_from_slice(&self.stages.y[s - 1]);
         let tolerance = self.tolerance;
         let error = self.estimate(problem, &tolerance, from, h, to)?;

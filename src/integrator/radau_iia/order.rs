@@ -133,11 +133,12 @@ impl Order {
     }
 
     /// Limits the next step: shorter where Newton's method took many of its `most` corrections, and no longer than
-    /// where it would contract too slowly, as theta grows like h.
-    pub fn limit(&mut self, newton: &Monitor, most: usize) {
+    /// where it would contract too slowly, as theta grows like h, or turn too far after one with rotation vectors up to `turned`.
+    pub fn limit(&mut self, newton: &Monitor, most: usize, turned: f64) {
         let (most, iterations) = (most as f64, newton.iterations as f64);
         self.control.safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations);
-        self.control.grow = (tolerances::RADAU_SLOW / newton.rate).clamp(1.0, 5.0);
+        let farthest = (tolerances::RADAU_SLOW / newton.rate).min(0.9 * tolerances::RADAU_TURN / turned);
+        self.control.grow = farthest.clamp(1.0, 5.0);
     }
 }
 

@@ -1,11 +1,12 @@
 //! The stages of a step and the residuals of their equations.
 
 use super::collocation::Collocation;
+use super::rotations::Rotations;
 use crate::formulation::{self, Dae, Dynamics, Residual, StepError};
 use crate::integrator::sums::accumulate;
 use crate::integrator::{From, Problem, Tolerance};
 use crate::math::largest;
-use crate::system::Dimensions;
+use crate::system::{Dimensions, MechanicalSystem};
 use crate::tolerances::integrator as tolerances;
 
 /// V_i = v + h sum a_ij (A_j + W_j),  Q_i = q + h sum a_ij N(Q_j) (V_j + U_j), with the accelerations A, lambda and,
@@ -19,6 +20,7 @@ pub struct Stages {
     next: Vec<Vec<f64>>,
     qdot: Vec<Vec<f64>>,
     velocity: Vec<f64>,
+    rotations: Rotations,
 }
 
 /// The unknowns, stage by stage: see [`formulation::Unknowns`].
@@ -78,7 +80,8 @@ impl Unknowns {
 }
 
 impl Stages {
-    pub fn new(most: usize, n: Dimensions) -> Self {
+    pub fn new(most: usize, system: &dyn MechanicalSystem) -> Self {
+        let n = system.dimensions();
         let rows = |width: usize| vec![vec![0.0; width]; most];
         Stages {
             unknowns: Unknowns::new(most, n),
@@ -88,12 +91,14 @@ impl Stages {
             next: rows(n.q + n.v + 1),
             qdot: rows(n.q),
             velocity: vec![0.0; n.v],
+            rotations: Rotations::new(most, system),
         }
     }
 
     /// Sets all stages to the start, from which Q_i is iterated.
     pub fn reset(&mut self, from: From) {
         self.y.iter_mut().for_each(|y| y.copy_from_slice(from.y));
+        self.rotations.reset();
     }
 
     /// Q_i and V_i for the present unknowns. Where N depends on q, Q_i is found by sweeps from its last value, each of
@@ -120,13 +125,21 @@ impl Stages {
                     true => system.rate(q, &self.velocity, &mut self.qdot[i]),
                     false => system.own_rate(q, &self.velocity, &mut self.qdot[i]),
                 }
+                self.rotations.set_rates(i, &self.velocity);
             }
-            for i in 0..s {
-                self.next[i][..nq].copy_from_slice(&from.y[..nq]);
-                accumulate(&mut self.next[i][..nq], h, &method.a[i], &self.qdot);
+            for (i, row) in method.a.iter().enumerate() {
+                let q = &mut self.next[i][..nq];
+                q.copy_from_slice(&from.y[..nq]);
+                accumulate(q, h, row, &self.qdot);
+                self.rotations.advance((i, row), h, from.y, q);
             }
         }
         std::mem::swap(&mut self.y, &mut self.next);
+    }
+
+    /// The largest component of a rotation vector in the step, rad.
+    pub fn turned(&self) -> f64 {
+        self.rotations.largest()
     }
 
     /// Root mean square over the stages of the last change, over the tolerated errors at the start.

@@ -56,6 +56,6 @@ impl System<'_> {
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
         stages.work(method, from, h);
-        Ok(converged)
+        Ok(converged && (*is_fixed || stages.turned() <= tolerances::RADAU_TURN))
     }
 }

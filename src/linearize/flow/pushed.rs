@@ -1,7 +1,9 @@
 //! A system with a pulse added to one of its inputs.
 
 use super::Pulse;
-use crate::system::{Dimensions, Excitation, Group, MechanicalSystem, Names, Need, Scratch, Structure, Terms};
+use crate::system::{
+    Dimensions, Excitation, Group, MechanicalSystem, Names, Need, Rotation, Scratch, Structure, Terms,
+};
 use nalgebra::DMatrix;
 
 /// The equations with u(t) = amplitude times the pulse.
@@ -75,6 +77,10 @@ impl MechanicalSystem for Pushed<'_> {
 
     fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         self.system.own_rate(q, v, qdot);
+    }
+
+    fn rotations(&self) -> Vec<Rotation> {
+        self.system.rotations()
     }
 
     fn normalize(&self, q: &mut [f64]) {
