@@ -15,7 +15,7 @@ pub struct Cell {
     pub decades: u32,
     /// True if stability limits its steps.
     pub is_explicit: bool,
-    /// CPU time by counted work, s: see [`WorkPrecision::price`](super::WorkPrecision::price).
+    /// CPU time by counted work, s, where it was stopped up to there: see [`WorkPrecision::price`](super::WorkPrecision::price).
     pub cost: Option<f64>,
     /// Result.
     #[serde(flatten)]
@@ -53,6 +53,9 @@ pub enum Outcome {
         t: f64,
         /// CPU time, s.
         cpu_seconds: f64,
+        /// Counted work up to there.
+        #[serde(default)]
+        statistics: Statistics,
         /// The limit.
         reason: String,
     },
@@ -113,10 +116,10 @@ impl Cell {
         }
     }
 
-    /// Returns the counted work of a completed run.
+    /// Returns the counted work of a run that completed or was stopped.
     pub fn statistics(&self) -> Option<Statistics> {
         match self.outcome {
-            Outcome::Completed { statistics, .. } => Some(statistics),
+            Outcome::Completed { statistics, .. } | Outcome::TooSlow { statistics, .. } => Some(statistics),
             _ => None,
         }
     }

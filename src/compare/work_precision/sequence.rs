@@ -256,11 +256,12 @@ impl<'a> Runner<'a> {
         let (seconds, error) = match &last.outcome {
             // A run that was stopped at once gives no estimate.
             Outcome::TooSlow { t, cpu_seconds, .. } if *t > start => {
-                (cpu_seconds * (end - start) / (t - start), 0.1f64.powf(f64::from(last.decades)))
+                (last.cost.unwrap_or(*cpu_seconds) * (end - start) / (t - start), 0.1f64.powf(f64::from(last.decades)))
             }
             _ => (last.cost?, last.error()?),
         };
-        let before = self::last(result, triple, last.decades).and_then(|cell| Some((cell.cost?, cell.decades)));
+        let before = self::last(result, triple, last.decades);
+        let before = before.and_then(|cell| Some((cell.error().and(cell.cost)?, cell.decades)));
         let own_decade = before.map(|(before, at)| (seconds / before).powf(1.0 / f64::from(last.decades - at)));
         let decade = own_decade.map_or(decade, |own| decade.min(own.max(1.0)));
         Some(Forecast { seconds: seconds * decade.powf(more), error: error * 0.1f64.powf(more) })
@@ -280,7 +281,7 @@ impl<'a> Runner<'a> {
             let (start, end) = self.motion.between;
             let all = two(run.seconds * (end - start) / (t - start));
             let reason = format!("would take about {all} s: it came to t = {t:.3e} s in {} s", two(run.seconds));
-            return Outcome::TooSlow { t: *t, cpu_seconds: run.seconds, reason };
+            return Outcome::TooSlow { t: *t, cpu_seconds: run.seconds, statistics: run.statistics, reason };
         }
         if let Some(failure) = run.failure {
             return Outcome::Failed { failure, cpu_seconds: run.seconds };
@@ -306,7 +307,9 @@ impl<'a> Runner<'a> {
 fn skipped(result: &WorkPrecision, triple: &Triple, decades: u32, reason: String) -> Outcome {
     let own = cells_of(result, triple).find(|cell| cell.decades == decades);
     match own.map(|cell| &cell.outcome) {
-        Some(&Outcome::TooSlow { t, cpu_seconds, .. }) => Outcome::TooSlow { t, cpu_seconds, reason },
+        Some(&Outcome::TooSlow { t, cpu_seconds, statistics, .. }) => {
+            Outcome::TooSlow { t, cpu_seconds, statistics, reason }
+        }
         _ => Outcome::Skipped { reason },
     }
 }
