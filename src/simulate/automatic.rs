@@ -5,7 +5,7 @@
 //! that of the better method on each part of the motion. Work is counted in evaluations: a run is repeatable bit by
 //! bit.
 
-use super::contest::{Contest, Mark, Quiet};
+use super::contest::{Contest, Mark, Quiet, unseen};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, short};
 use crate::formulation::Statistics;
@@ -110,11 +110,6 @@ pub fn simulate_automatic(
     let saved = has_begun.then(|| drive.run.checkpoint(&methods[drive.carrier]));
     let (outcome, legs) = drive.finish(failure, sink);
     Ok((outcome, legs, saved))
-}
-
-/// The span without output rows.
-fn unseen(span: Span) -> Span {
-    Span { output_step: f64::INFINITY, ..span }
 }
 
 /// A run that may change its method.

@@ -6,7 +6,7 @@
 //! related to the size of the steps.
 
 use super::spectrum::{SpectralMode, fastest};
-use super::{Method, Observation, Run, Sink};
+use super::{Method, Observation, Run, Sink, Span};
 use crate::error::{Failure, Result};
 use crate::formulation::{Dynamics, Statistics};
 use crate::system::{MechanicalSystem, OperatingPoint};
@@ -39,6 +39,11 @@ pub struct Contest {
     pub step: f64,
     /// Time simulated by the other method over that of the present one, for the same work.
     pub gain: f64,
+}
+
+/// The span without output rows.
+pub fn unseen(span: Span) -> Span {
+    Span { output_step: f64::INFINITY, ..span }
 }
 
 /// Ignores all states.
@@ -118,8 +123,17 @@ impl Run<'_> {
         matters.then_some((mode, step))
     }
 
-    /// Lets `other` try from the state of this run, whose pace since `mark` is known, with the same output rows, which
-    /// are ignored. Returns the result and the work of the trial.
+    /// Time simulated since `mark` per unit of work, with that of output rows that were not made: one of an implicit
+    /// method is a step of its own, one of an explicit method about an evaluation.
+    fn pace_with_rows(&self, mark: Mark, output_step: f64) -> f64 {
+        let now = self.mark();
+        let (time, work) = (now.t - mark.t, now.work - mark.work);
+        let row = if self.is_explicit { 1.0 } else { work / (now.steps - mark.steps).max(1) as f64 };
+        time / (work + time / output_step * row).max(1.0)
+    }
+
+    /// Lets `other` try from the state of this run, whose pace since `mark` is known. Its output rows are not made, but
+    /// estimated. Returns the result and the work of the trial.
     pub fn contest(
         &self,
         mark: Mark,
@@ -130,12 +144,12 @@ impl Run<'_> {
         let own = self.mark();
         let share = |work: f64| tolerances::TRIAL_SHARE * work;
         let (budget, most) = (tolerances::TRIAL_WORK.max(share(own.work - mark.work)), share(self.left(mark)));
-        let mut rival = Run::new(system, other, self.span, self.y.clone())?;
+        let mut rival = Run::new(system, other, unseen(self.span), self.y.clone())?;
         (rival.t, rival.rows.next) = (self.t, self.rows.next);
         let failure = rival.go_on(&self.problem.dynamics.dropped).err();
         let (since, stopped) =
             if failure.is_none() { rival.window(budget, most, &mut Quiet) } else { (rival.mark(), failure) };
-        let theirs = if stopped.is_some() { 0.0 } else { rival.mark().pace(since) };
+        let theirs = if stopped.is_some() { 0.0 } else { rival.pace_with_rows(since, self.span.output_step) };
         let contest = Contest { t: self.t, mode, step, gain: theirs / own.pace(mark) };
         Ok((contest, rival.statistics()))
     }
