@@ -1,5 +1,6 @@
 //! The unit quaternions of the stages.
 
+use super::collocation::Collocation;
 use crate::integrator::sums::accumulate;
 use crate::math::largest;
 use crate::math::rotation::{quaternion_from_vector, quaternion_product, rotation_vector_rate};
@@ -29,6 +30,12 @@ fn four(all: &[f64], first: usize) -> [f64; 4] {
     from_fn(|i| all[first + i])
 }
 
+/// p = p_0 exp(vector)
+fn turn(place: &Rotation, vector: &[f64; 3], start: &[f64], q: &mut [f64]) {
+    let turned = quaternion_product(&four(start, place.q), &quaternion_from_vector(vector));
+    q[place.q..place.q + 4].copy_from_slice(&turned);
+}
+
 impl Rotations {
     pub fn new(most: usize, system: &dyn MechanicalSystem) -> Self {
         let places = system.rotations();
@@ -54,8 +61,19 @@ impl Rotations {
         self.vectors[i].fill(0.0);
         accumulate(&mut self.vectors[i], h, row, &self.rates);
         for (k, place) in self.places.iter().enumerate() {
-            let turn = quaternion_from_vector(&three(&self.vectors[i], 3 * k));
-            q[place.q..place.q + 4].copy_from_slice(&quaternion_product(&four(start, place.q), &turn));
+            turn(place, &three(&self.vectors[i], 3 * k), start, q);
+        }
+    }
+
+    /// Sets the quaternions at the fraction `theta` of the step, by the polynomials of the vectors.
+    pub fn interpolate(&self, method: &Collocation, theta: f64, start: &[f64], q: &mut [f64]) {
+        for (k, place) in self.places.iter().enumerate() {
+            let mut vector = [0.0; 3];
+            for (i, vectors) in self.vectors.iter().enumerate().take(method.stages()) {
+                let weight = method.lagrange(i + 1, theta);
+                vector.iter_mut().zip(three(vectors, 3 * k)).for_each(|(sum, part)| *sum += weight * part);
+            }
+            turn(place, &vector, start, q);
         }
     }
 

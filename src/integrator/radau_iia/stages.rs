@@ -160,6 +160,7 @@ impl Stages {
             let weight = method.lagrange(i, theta);
             out.iter_mut().zip(y).for_each(|(out, y)| *out += weight * y);
         }
+        self.rotations.interpolate(method, theta, from.y, out);
     }
 
     /// Round-off of the changes, over the tolerated errors; v is found from phi = 0 by a division by h.
