@@ -2,7 +2,7 @@
 
 use super::position::step;
 use super::{Metric, holds};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
 use crate::system::MechanicalSystem;
@@ -44,18 +44,24 @@ pub fn follow(
 ) -> Result<Option<Followed>> {
     let mut metric = Metric::new(system, holds::directions(system, hold)?);
     metric.kkt.drop_rows(dependent);
-    let (mut q, still) = (guess.to_vec(), vec![0.0; system.dimensions().v]);
+    let (mut q, mut moved) = (guess.to_vec(), vec![0.0; system.dimensions().v]);
     system.normalize(&mut q);
-    let mut rate = vec![0.0; q.len()];
-    let contracts = Monitor::default().solve(LIMITS, |_| {
-        metric.at(t, &q, &still)?;
-        let d = step(&mut metric, None)?;
-        system.rate(&q, &d, &mut rate);
+    let contracts = newton(&mut metric, t, &mut q, &mut moved)?;
+    if contracts { end(metric, t, q, &vec![0.0; moved.len()]) } else { Ok(None) }
+}
+
+/// Newton's method on phi; true if it contracts from its first step on. Adds its steps to `moved`.
+pub(super) fn newton(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
+    let (still, mut rate) = (vec![0.0; moved.len()], vec![0.0; q.len()]);
+    Monitor::default().solve(LIMITS, |_| {
+        metric.at(t, q, &still)?;
+        let d = step(metric, None)?;
+        metric.system.rate(q, &d, &mut rate);
         q.iter_mut().zip(&rate).for_each(|(q, rate)| *q += rate);
-        system.normalize(&mut q);
-        Ok::<_, Error>(largest(&d) / largest(&q).max(1.0))
-    })?;
-    if contracts { end(metric, t, q, &still) } else { Ok(None) }
+        metric.system.normalize(q);
+        moved.iter_mut().zip(&d).for_each(|(moved, d)| *moved += d);
+        Ok(largest(&d) / largest(q).max(1.0))
+    })
 }
 
 /// Rank indicator and dependent rows of a state; `None` if a joint is open.

@@ -4,6 +4,7 @@ mod equilibrium;
 mod follow;
 mod holds;
 mod position;
+mod reach;
 mod report;
 mod velocity;
 
@@ -81,7 +82,8 @@ fn consistent(
             velocity::fit(&mut metric, t, &assembled, &mut rates)?;
         }
         Some([coordinates, velocities]) => {
-            position::close(&mut Metric::new(coordinates, directions.clone()), t, &mut assembled)?;
+            let alone = Metric::new(system, directions.clone());
+            reach::reach(alone, &mut Metric::new(coordinates, directions.clone()), t, &mut assembled)?;
             velocity::fit(&mut Metric::new(velocities, directions), t, &assembled, &mut rates)?;
         }
     }
@@ -118,6 +120,8 @@ struct Metric<'a> {
     values: Vec<f64>,
     scales: Vec<f64>,
     held: Vec<usize>,
+    /// phi of a state on the way, which counts as closed; none: zero.
+    ahead: Vec<f64>,
 }
 
 impl<'a> Metric<'a> {
@@ -139,14 +143,20 @@ impl<'a> Metric<'a> {
             rows,
             scales: system.scales(),
             held,
+            ahead: Vec::new(),
             system,
         }
+    }
+
+    fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64], need: Need) {
+        self.system.evaluate(t, q, v, need, &mut self.terms, &mut self.scratch);
+        self.terms.phi.iter_mut().zip(&self.ahead).for_each(|(phi, ahead)| *phi -= ahead);
     }
 
     /// Evaluates the terms and factors the matrix at a state.
     fn at(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<()> {
         let need = Need::MASS | Need::CONSTRAINTS | Need::G;
-        self.system.evaluate(t, q, v, need, &mut self.terms, &mut self.scratch);
+        self.evaluate(t, q, v, need);
         if let Some(row) = self.infinite_row() {
             let group = self.system.groups().into_iter().find(|group| group.rows.contains(&row));
             let name = group.map_or(String::new(), |group| group.name);
@@ -191,7 +201,7 @@ impl<'a> Metric<'a> {
 
     /// Residuals at a state, in units of the scene's scale.
     fn level(&mut self, t: f64, q: &[f64], v: &[f64]) -> Level {
-        self.system.evaluate(t, q, v, Need::CONSTRAINTS, &mut self.terms, &mut self.scratch);
+        self.evaluate(t, q, v, Need::CONSTRAINTS);
         Level { phi: self.worst(&self.terms.phi), phi_dot: self.worst(&self.terms.phi_dot) }
     }
 

@@ -8,9 +8,14 @@ use crate::tolerances::initial as tolerances;
 /// guess within the tangent space, the second is Newton's step; where the first part does not help, Newton's step alone
 /// is taken, halved until the residual falls.
 pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
+    let moved = vec![0.0; metric.system.dimensions().v];
+    close_moved(metric, t, q, moved)
+}
+
+/// As [`close`]; `moved` is the way from the guess to q.
+pub fn close_moved(metric: &mut Metric, t: f64, q: &mut [f64], mut moved: Vec<f64>) -> Result<()> {
     let n = metric.system.dimensions();
     let still = vec![0.0; n.v];
-    let mut moved = vec![0.0; n.v];
     let (mut best, mut smallest, mut stalled) = (f64::INFINITY, f64::INFINITY, 0);
     for _ in 0..tolerances::ASSEMBLY_ITERATIONS {
         metric.at(t, q, &still)?;

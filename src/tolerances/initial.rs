@@ -150,6 +150,11 @@ pub const LEAST_WEIGHT: f64 = 1e-6;
 /// Unit: `[iterations]`. Why: a choice: guesses may be far off. Test: none: a bound of work, not tried.
 pub const ASSEMBLY_ITERATIONS: usize = 200;
 
+/// The least part of the way to the coordinates in `initial` that is tried before the path is taken to end.
+/// Unit: `[1]`. Why: near a dead centre steps shrink with the root of what is left. Test:
+/// `a_loop_is_turned_to_an_angle_far_from_the_guess`.
+pub const LEAST_PART: f64 = 1e-4;
+
 /// The largest phi of a closed loop after assembly.
 /// Unit: `[1]` of the scene's scale. Why: round-off of chains of transformations, up to thousands of them. Test: none:
 /// with a thousand times more or less the tests of its room pass.

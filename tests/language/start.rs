@@ -80,6 +80,19 @@ fn a_loop_starts_at_the_angle_of_its_joint() {
     assert!(ready.start().after.phi < 1e-14 && ready.start().after.phi_dot < 1e-13);
 }
 
+/// The crank goes around; the rocker stays on its branch, by the closed form.
+#[test]
+fn a_loop_is_turned_to_an_angle_far_from_the_guess() {
+    for k in -12..=16 {
+        let angle = 0.5 * f64::from(k);
+        let at = parse(&four_bar(&format!(r#""A.angle": {angle}"#)));
+        let at = state(&at);
+        assert!((at("crank.angle") - angle).abs() < 1e-12, "{angle}: {}", at("crank.angle"));
+        let off = (at("rocker.angle") - rocker(angle)).rem_euclid(2.0 * PI);
+        assert!(off.min(2.0 * PI - off) < 1e-11, "{angle}: the rocker is off by {off}");
+    }
+}
+
 #[test]
 fn values_that_cannot_be_are_refused_with_their_names() {
     let refused = |initial: &str| {
@@ -89,6 +102,8 @@ fn values_that_cannot_be_are_refused_with_their_names() {
     let table = [
         (r#""A.angle": 1, "B.angle": 3"#, "at initial: the joints cannot be closed with the coordinates in `initial`"),
         (r#""A.angle": 1, "B.angle": 3"#, "`initial B.angle`"),
+        // The rocker turns back where crank and coupler are in line, 1 from A to D: at acos((1 - 4 - 2.25)/6) = 2.636.
+        (r#""B.angle": 3"#, "turned there from the guess, they stop short by `initial B.angle` 0.364"),
         (r#""A.angle'": 1, "B.angle'": 3"#, "at initial: the rates in `initial` contradict the joints or each other"),
         (r#""E.angle": 1"#, "at initial.E.angle: there is no joint `E`"),
         (r#""A.angel": 1"#, "at initial.A.angel: the revolute joint `A` has no coordinate `angel`"),

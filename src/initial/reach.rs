@@ -1,0 +1,57 @@
+//! The coordinates in `initial`: a path to them from the guess with its joints closed.
+
+use super::follow::newton;
+use super::{Metric, position};
+use crate::error::{Error, Result};
+use crate::scene::INITIAL;
+use crate::tolerances::initial as tolerances;
+
+/// Closes the joints with the rows of `initial`, as [`position::close`], on the branch of the guess: phi of these rows,
+/// whose size at the guess is `gap`, goes to zero as (1 - s) gap, s from 0 to 1 in steps in each of which Newton's method
+/// contracts. Where the joints do not close without the rows, or the path ends, at a dead centre, it begins at the guess
+/// with all rows.
+///
+/// # Errors
+/// Values that the joints do not allow; the message says where the path ends.
+pub fn reach(alone: Metric, all: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
+    let (guess, mut moved) = (q.to_vec(), vec![0.0; all.system.dimensions().v]);
+    let ended = match follow(alone, all, t, q, &mut moved) {
+        Ok(None) => return position::close_moved(all, t, q, moved),
+        Ok(Some(gaps)) => format!("; turned there from the guess, they stop short by {gaps}"),
+        Err(_) => String::new(),
+    };
+    q.copy_from_slice(&guess);
+    position::close(all, t, q).map_err(|error| match error {
+        Error::Input(mut input) => {
+            input.message += &ended;
+            Error::Input(input)
+        }
+        other => other,
+    })
+}
+
+/// Moves q along the path; returns the gaps that remain where it ends before the values.
+fn follow(mut alone: Metric, all: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<Option<String>> {
+    position::close(&mut alone, t, q)?;
+    all.level(t, q, moved);
+    let groups = all.system.groups().into_iter().filter(|group| group.kind == INITIAL);
+    let mut gap = vec![0.0; all.terms.phi.len()];
+    groups.for_each(|group| gap[group.rows.clone()].copy_from_slice(&all.terms.phi[group.rows]));
+    let (mut done, mut part) = (0.0, 1.0);
+    while done < 1.0 && part > tolerances::LEAST_PART {
+        let next = f64::min(done + part, 1.0);
+        let (mut ahead, mut change) = (q.to_vec(), moved.to_vec());
+        all.ahead = gap.iter().map(|gap| (1.0 - next) * gap).collect();
+        let contracts = newton(all, t, &mut ahead, &mut change).unwrap_or(false);
+        if contracts && all.level(t, &ahead, &change).phi < tolerances::CLOSED {
+            q.copy_from_slice(&ahead);
+            moved.copy_from_slice(&change);
+            (done, part) = (next, 2.0 * part);
+        } else {
+            part *= 0.5;
+        }
+    }
+    all.ahead.clear();
+    all.level(t, q, moved);
+    Ok((done < 1.0).then(|| all.culprits(&all.terms.phi)))
+}
