@@ -49,7 +49,13 @@ fn a_two_link_arm_moves_as_by_hand() {
         assert!((a[0] - a.last().unwrap()).abs() > 0.3, "{output} moves: {a:?}");
     }
     let told = left_out.join("\n");
-    for piece in ["limits of the joints shoulder", "fixed joints", "tool", "`base-link`, now `base_link`"] {
+    for piece in [
+        "limit of the joints shoulder",
+        "visual of the links base-link",
+        "fixed joints",
+        "tool",
+        "`base-link`, now `base_link`",
+    ] {
         assert!(told.contains(piece), "{told}");
     }
     assert!(scene["about"].as_str().unwrap().contains("base-link: package://arm/base.stl"));
@@ -100,6 +106,33 @@ fn a_four_bar_is_closed_by_a_joint() {
     let rate = run.column("crank.wy");
     let energy = |i: usize| 0.5 * inertia * rate[i].powi(2) + weight * angle[i].cos();
     assert!((energy(2) - energy(0)).abs() < 1e-8 * energy(0), "{} {}", energy(0), energy(2));
+}
+
+/// Two jaws on one rail, the second one moved by the first.
+const GRIPPER: &str = r#"<robot name="gripper">
+  <link name="base"/>
+  <link name="a"><inertial><mass value="1"/><inertia ixx=".1" iyy=".1" izz=".1"/></inertial></link>
+  <link name="b"><inertial><mass value="2"/><inertia ixx=".1" iyy=".1" izz=".1"/></inertial></link>
+  <joint name="jaw" type="prismatic"><parent link="base"/><child link="a"/><axis xyz="1 0 0"/><dynamics damping="0.6"/>
+    <safety_controller k_velocity="1"/></joint>
+  <joint name="other jaw" type="prismatic"><parent link="base"/><child link="b"/><axis xyz="0 1 0"/>
+    <mimic joint="jaw" multiplier="-0.5" offset="0.1"/></joint>
+</robot>"#;
+
+/// (1 + 2/4) x'' = -0.6 x' from x' = 1, and y = 0.1 - x/2.
+#[test]
+fn a_joint_mimics_another_and_a_slider_is_damped() {
+    let Imported { mut scene, left_out } = imported(GRIPPER, None, &[]);
+    assert_eq!(scene["initial"], serde_json::json!({ "jaw.position": 0 }));
+    assert!(left_out.iter().any(|what| what == "safety_controller of the joints jaw"), "{left_out:?}");
+    assert!(!left_out.iter().any(|what| what.contains("damping") || what.contains("mimic")), "{left_out:?}");
+    scene["initial"]["jaw.position'"] = serde_json::json!(1);
+    let run = parse(&scene.to_string()).tight(1e-11, 3.0, 0.5);
+    let x = |t: f64| 2.5 * (1.0 - (-0.4 * t).exp());
+    assert!(run.worst("jaw", x) < 1e-10 && run.worst("other_jaw", |t| 0.1 - 0.5 * x(t)) < 1e-10);
+    let error =
+        import(&GRIPPER.replace("joint=\"jaw\"", "joint=\"jow\""), &Options::default()).unwrap_err().to_string();
+    assert!(error.contains("it mimics `jow`, which is no joint\n  help: did you mean `jaw`?"), "{error}");
 }
 
 #[test]

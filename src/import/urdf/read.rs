@@ -21,6 +21,8 @@ pub struct Link {
     pub inertial: Option<Inertial>,
     /// Files of its meshes.
     pub meshes: Vec<String>,
+    /// Names of its elements that are not used, each once.
+    pub unused: Vec<String>,
 }
 
 pub struct Inertial {
@@ -52,8 +54,24 @@ pub struct Joint {
     pub axis: [f64; 3],
     /// N m s/rad or N s/m.
     pub damping: f64,
-    /// Names of what it has beyond, which is not used.
-    pub unused: Vec<&'static str>,
+    /// The joint whose coordinate determines its own.
+    pub mimic: Option<Mimic>,
+    /// Names of its elements that are not used, each once.
+    pub unused: Vec<String>,
+}
+
+impl Joint {
+    /// True if its position is one number.
+    pub fn has_coordinate(&self) -> bool {
+        matches!(self.kind, Kind::Revolute | Kind::Prismatic)
+    }
+}
+
+/// coordinate = multiplier coordinate of `joint` + offset.
+pub struct Mimic {
+    pub joint: String,
+    pub multiplier: f64,
+    pub offset: f64,
 }
 
 const KINDS: [(&str, Kind); 6] = [
@@ -80,19 +98,23 @@ pub fn robot(text: &str) -> Result<Robot> {
         return Err(faulty(root, "this is a xacro file").hint("expand it first: xacro FILE.xacro > FILE.urdf"));
     }
     let all = |tag: &'static str| root.children().filter(move |node| node.has_tag_name(tag));
-    let mut unused: Vec<String> = Vec::new();
-    for node in root.children().filter(|node| node.is_element()) {
-        let tag = node.tag_name().name();
-        if !["link", "joint", "material"].contains(&tag) && !unused.iter().any(|known| known == tag) {
-            unused.push(tag.to_string());
-        }
-    }
     Ok(Robot {
         name: root.attribute("name").unwrap_or("robot").to_string(),
         links: all("link").map(link).collect::<Result<_>>()?,
         joints: all("joint").map(joint).collect::<Result<_>>()?,
-        unused,
+        unused: unused(root, &["link", "joint", "material"]),
     })
+}
+
+/// Names of the elements in a node that are not among the `used` ones, each once.
+fn unused(node: Node, used: &[&str]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for tag in node.children().filter(Node::is_element).map(|node| node.tag_name().name()) {
+        if !used.contains(&tag) && !names.iter().any(|known| known == tag) {
+            names.push(tag.to_string());
+        }
+    }
+    names
 }
 
 fn link(node: Node) -> Result<Link> {
@@ -101,7 +123,7 @@ fn link(node: Node) -> Result<Link> {
     let meshes = node.descendants().filter(|node| node.has_tag_name("mesh"));
     let mut meshes: Vec<String> = meshes.filter_map(|mesh| mesh.attribute("filename").map(str::to_string)).collect();
     meshes.dedup();
-    Ok(Link { name, place: place(node), inertial, meshes })
+    Ok(Link { name, place: place(node), inertial, meshes, unused: unused(node, &["inertial"]) })
 }
 
 fn inertial(node: Node) -> Result<Inertial> {
@@ -135,8 +157,10 @@ fn read_joint(node: Node, name: &str) -> Result<Joint> {
     let axis = child(node, "axis").map(|axis| numbers(axis, "xyz", [1.0, 0.0, 0.0])).transpose()?;
     let dynamics = child(node, "dynamics");
     let of = |key| dynamics.map_or(Ok(0.0), |dynamics| number(dynamics, key, Some(0.0)));
-    let unused = [("limit", child(node, "limit").is_some()), ("mimic", child(node, "mimic").is_some())];
-    let friction = ("friction", of("friction")? != 0.0);
+    let mut unused = unused(node, &["parent", "child", "origin", "axis", "dynamics", "mimic"]);
+    if of("friction")? != 0.0 {
+        unused.push("friction".to_string());
+    }
     Ok(Joint {
         name: name.to_string(),
         place: place(node),
@@ -146,7 +170,16 @@ fn read_joint(node: Node, name: &str) -> Result<Joint> {
         origin: origin(node)?,
         axis: axis.unwrap_or([1.0, 0.0, 0.0]),
         damping: of("damping")?,
-        unused: unused.into_iter().chain([friction]).filter(|(_, is_given)| *is_given).map(|(name, _)| name).collect(),
+        mimic: child(node, "mimic").map(mimic).transpose()?,
+        unused,
+    })
+}
+
+fn mimic(node: Node) -> Result<Mimic> {
+    Ok(Mimic {
+        joint: attribute(node, "joint")?.to_string(),
+        multiplier: number(node, "multiplier", Some(1.0))?,
+        offset: number(node, "offset", Some(0.0))?,
     })
 }
 

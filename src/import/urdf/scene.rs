@@ -2,15 +2,16 @@
 
 use super::close::Closure;
 use super::names::Names;
-use super::read::{Kind, Link, Robot};
+use super::read::{Kind, Link, Mimic, Robot};
 use super::transform::Transform;
 use super::tree::{Tree, find};
 use super::{Imported, Options};
 use crate::body::{MassProperties, aim};
-use crate::error::{Error, Result, short_list};
+use crate::error::{Error, Result, excerpt, short_list, suggest};
 use crate::math::rotation::{Matrix3, quaternion_from_axes};
 use serde_json::{Map, Value, json};
 use std::array::from_fn;
+use std::collections::BTreeMap;
 
 /// The scene at position zero of all joints, with what was left out.
 pub fn build(robot: &Robot, tree: &Tree, options: &Options) -> Result<Imported> {
@@ -25,9 +26,13 @@ pub fn build(robot: &Robot, tree: &Tree, options: &Options) -> Result<Imported> 
         scene: Lists::default(),
     };
     draft.mark_merged_links();
-    for (index, _) in robot.joints.iter().enumerate() {
-        let name = names.unique(&robot.joints[index].name);
-        draft.joint(index, &name)?;
+    let joints: Vec<String> = robot.joints.iter().map(|joint| names.unique(&joint.name)).collect();
+    for (index, name) in joints.iter().enumerate() {
+        draft.joint(index, name)?;
+    }
+    for (index, mimic) in robot.joints.iter().enumerate().filter_map(|(i, joint)| Some((i, joint.mimic.as_ref()?))) {
+        let name = names.unique(&format!("{}_mimic", joints[index]));
+        draft.mimic(index, mimic, &joints, &name)?;
     }
     for closure in &options.closures {
         let name = names.unique(&closure.name);
@@ -105,6 +110,11 @@ impl Draft<'_> {
                 .push(json!({ "name": name, "type": "torsion_spring", "between": between, "damping": joint.damping })),
             Kind::Prismatic => {
                 (output["measure"], output["component"]) = (json!("position"), json!("z"));
+                if joint.damping > 0.0 {
+                    let along = [json!(0), json!(0), json!(format!("-({})*{name}'", joint.damping))];
+                    self.scene.forces.push(json!({ "name": name, "type": "applied_force", "at": to, "axes": "marker",
+                        "force": along, "reaction_on": from }));
+                }
             }
             Kind::Planar => return Ok(()),
             _ => {}
@@ -112,6 +122,26 @@ impl Draft<'_> {
         let coordinate = if joint.kind == Kind::Revolute { "angle" } else { "position" };
         self.scene.initial.insert(format!("{name}.{coordinate}"), json!(0));
         self.scene.outputs.push(output);
+        Ok(())
+    }
+
+    /// Adds the equation of a joint whose coordinate follows that of another.
+    fn mimic(&mut self, index: usize, mimic: &Mimic, names: &[String], name: &str) -> Result<()> {
+        let Mimic { joint, multiplier, offset } = mimic;
+        let (own, all) = (&self.robot.joints[index], &self.robot.joints);
+        let place = |error: Error| error.element(&own.name).placed(own.place);
+        let of = all.iter().position(|known| known.name == *joint).ok_or_else(|| {
+            let hint = suggest(joint, all.iter().map(|known| known.name.as_str()));
+            place(Error::input(format!("it mimics `{}`, which is no joint", excerpt(joint))).hint(hint))
+        })?;
+        if let Some(other) = [own, &all[of]].into_iter().find(|joint| !joint.has_coordinate()) {
+            let message = format!("it mimics another joint, and `{}` has no coordinate", other.name);
+            return Err(place(Error::input(message).hint("joints that turn or slide mimic others of these")));
+        }
+        let expression = format!("{} - ({multiplier})*{} - ({offset})", names[index], names[of]);
+        self.scene.joints.push(json!({ "name": name, "type": "equation", "expression": expression }));
+        let start = format!("{}.", names[index]);
+        self.scene.initial.retain(|coordinate, _| !coordinate.starts_with(&start));
         Ok(())
     }
 
@@ -214,19 +244,12 @@ fn about(robot: &Robot) -> String {
 
 /// What the scene does not have.
 fn left_out(robot: &Robot, tree: &Tree, draft: &Draft) -> Vec<String> {
-    let joints_with = |what: &str| {
-        let with = robot.joints.iter().filter(|joint| joint.unused.contains(&what));
-        with.map(|joint| joint.name.clone()).collect::<Vec<_>>()
-    };
     let told = |names: Vec<String>, text: &str| (!names.is_empty()).then(|| format!("{text} {}", short_list(&names)));
-    let damped = robot.joints.iter().filter(|joint| joint.damping > 0.0 && !matches!(joint.kind, Kind::Revolute));
+    let damped = robot.joints.iter().filter(|joint| joint.damping > 0.0 && !joint.has_coordinate());
     let massless = draft.bodies().filter(|body| draft.mass_properties(*body).mass == 0.0);
     let fixed = robot.joints.iter().zip(&tree.ends).filter(|(joint, _)| joint.kind == Kind::Fixed);
     let fixed: Vec<String> = fixed.map(|(_, [_, child])| robot.links[*child].name.clone()).collect();
     [
-        told(joints_with("limit"), "limits of the joints"),
-        told(joints_with("mimic"), "mimicry: these joints move on their own:"),
-        told(joints_with("friction"), "friction of the joints"),
         told(damped.map(|joint| joint.name.clone()).collect(), "damping of the joints"),
         told(
             massless.map(|body| robot.links[body].name.clone()).collect(),
@@ -237,5 +260,16 @@ fn left_out(robot: &Robot, tree: &Tree, draft: &Draft) -> Vec<String> {
     ]
     .into_iter()
     .flatten()
+    .chain(of_elements("joints", robot.joints.iter().map(|joint| (&joint.name, &joint.unused))))
+    .chain(of_elements("links", robot.links.iter().map(|link| (&link.name, &link.unused))))
     .collect()
+}
+
+/// Elements of joints or links that are not used, with the names of those.
+fn of_elements<'a>(what: &str, all: impl Iterator<Item = (&'a String, &'a Vec<String>)>) -> Vec<String> {
+    let mut owners: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for (name, unused) in all {
+        unused.iter().for_each(|tag| owners.entry(tag).or_default().push(name.clone()));
+    }
+    owners.iter().map(|(tag, names)| format!("{tag} of the {what} {}", short_list(names))).collect()
 }
