@@ -25,16 +25,30 @@ pub struct Gap {
     pub count: usize,
 }
 
+/// Names and units of what a run watches: the outputs, then the works.
+pub fn recorded(system: &dyn MechanicalSystem) -> Vec<Column> {
+    [system.columns(), system.works()].concat()
+}
+
+/// The values of the `count` columns of [`recorded`] at a state of a run.
+pub fn values(system: &dyn MechanicalSystem, state: &Observation, count: usize, scratch: &mut Scratch) -> Vec<f64> {
+    let mut all = vec![0.0; count];
+    let (outputs, works) = all.split_at_mut(count - state.works.len());
+    system.outputs(state.loaded(), outputs, scratch);
+    works.copy_from_slice(state.works);
+    all
+}
+
 impl Trajectory {
     /// No rows, with the columns of a system.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
-        Trajectory { names: system.names(), outputs: system.columns(), rows: Vec::new() }
+        Trajectory { names: system.names(), outputs: recorded(system), rows: Vec::new() }
     }
 
     /// No rows, with time and outputs as the only columns.
     pub fn of_outputs(system: &dyn MechanicalSystem) -> Self {
         let names = Names { q: Vec::new(), v: Vec::new(), lambda: Vec::new() };
-        Trajectory { names, outputs: system.columns(), rows: Vec::new() }
+        Trajectory { names, outputs: recorded(system), rows: Vec::new() }
     }
 
     /// Headings of all columns: `t`, coordinates, velocities, multipliers, outputs.
@@ -46,8 +60,7 @@ impl Trajectory {
 
     /// Appends a row with the outputs at a state.
     pub fn push(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
-        let mut outputs = vec![0.0; self.outputs.len()];
-        system.outputs(state.loaded(), &mut outputs, scratch);
+        let outputs = values(system, state, self.outputs.len(), scratch);
         let Names { q, v, lambda } = &self.names;
         let own = [&state.q[..q.len()], &state.v[..v.len()], &state.lambda[..lambda.len()]];
         self.rows.push([&[state.t], own[0], own[1], own[2], &outputs].concat());

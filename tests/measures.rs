@@ -264,3 +264,34 @@ fn outputs_read_rates_of_states() {
         "simulation": { "t_end": 1 } });
     measured(&parse(&keys.to_string()).tight(1e-12, 2.0, 0.5), "rate", |t| 1.0 - (-t).exp());
 }
+
+/// A block of 1 kg on a damped spring, k = 4 and c = 0.4, pulled by a force of 3 N: from rest at x = 0, with x_s = 3/4, x =
+/// x_s (1 - e^(-d t) (cos w t + d/w sin w t)), x' = x_s (d^2 + w^2)/w e^(-d t) sin w t, d = 0.2 and w^2 = 4 - d^2. The force
+/// does the work 3 x, the spring the rest of the kinetic energy.
+#[test]
+fn works_of_forces() {
+    let block = scene(
+        2,
+        json!({ "O": [0, 0] }),
+        json!([{ "name": "block", "type": "rigid", "mass": 1, "inertia": 1, "initial": { "position": [5, 0] } }]),
+        json!([{ "name": "rail", "type": "prismatic", "between": ["ground.O", "block"] }]),
+        json!([{ "name": "spring", "type": "spring_damper", "between": ["ground.O", "block"], "stiffness": 4,
+                 "damping": 0.4, "free_length": 5 },
+               { "name": "pull", "type": "applied_force", "at": "block", "force": [3, 0] }]),
+        json!([{ "name": "pulled", "measure": "work", "of": "pull" },
+               { "name": "x", "measure": "position", "of": "block" },
+               { "name": "twice", "measure": "expression", "value": "2*power" },
+               { "name": "sprung", "measure": "work", "of": "spring", "unit": "kJ" },
+               { "name": "power", "measure": "power", "of": "pull" }]),
+    );
+    let (d, rest) = (0.2_f64, 0.75);
+    let w = (4.0 - d * d).sqrt();
+    let x = |t: f64| rest * (1.0 - (-d * t).exp() * ((w * t).cos() + d / w * (w * t).sin()));
+    let v = |t: f64| rest * 4.0 / w * (-d * t).exp() * (w * t).sin();
+    let run = block.tight(1e-12, 6.0, 0.05);
+    measured(&run, "x", |t| 5.0 + x(t));
+    measured(&run, "pulled", |t| 3.0 * x(t));
+    measured(&run, "sprung", |t| 1e-3 * (0.5 * v(t).powi(2) - 3.0 * x(t)));
+    // Expressions find other outputs beside works.
+    measured(&run, "twice", |t| 6.0 * v(t));
+}

@@ -13,6 +13,7 @@ use crate::report::{Folder, Origin, Repeatable, Written};
 use crate::scene::Automatic;
 use crate::simulate::Span;
 use crate::system::Dimensions;
+use crate::trajectory::recorded;
 use crate::{formulation, integrator, projection};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -207,7 +208,7 @@ impl Common {
     /// Returns the time span, if its rows fit into memory.
     pub fn span(&self, prepared: &PreparedScene) -> Result<Span> {
         let Dimensions { q, v, lambda, .. } = prepared.system().dimensions();
-        self.span_with(prepared, 1 + q + v + lambda + prepared.system().columns().len())
+        self.span_with(prepared, 1 + q + v + lambda + recorded(prepared.system()).len())
     }
 
     /// Returns the time span, if its rows with this number of columns fit into memory.

@@ -9,6 +9,7 @@ use crate::files::{mat, npz};
 use crate::prepared::PreparedScene;
 use crate::report::{self, Folder, Sealed, Summary, summarize};
 use crate::simulate::{Span, Start};
+use crate::trajectory::recorded;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -101,7 +102,7 @@ impl Args {
         if !self.outputs_only {
             return self.common.span(prepared);
         }
-        match prepared.system().columns().len() {
+        match recorded(prepared.system()).len() {
             0 => Err(Error::input("--outputs-only leaves nothing to write: the scene has no outputs")
                 .hint("give it `outputs`, or run without --outputs-only")),
             outputs => self.common.span_with(prepared, 1 + outputs),

@@ -284,9 +284,11 @@ impl<'a> Dynamics<'a> {
         }
     }
 
-    /// Power of the forces without a potential and of moving constraints, lambda^T phi_t, W.
-    pub fn power(&self) -> f64 {
-        self.terms.power + self.lambda.iter().zip(&self.terms.phi_t).map(|(l, p)| l * p).sum::<f64>()
+    /// Power of the forces without a potential and of moving constraints, lambda^T phi_t, W; then the powers whose
+    /// work is watched.
+    pub fn powers(&self, lambda: &[f64]) -> impl Iterator<Item = f64> {
+        let moving = lambda.iter().zip(&self.terms.phi_t).map(|(l, p)| l * p).sum::<f64>();
+        std::iter::once(self.terms.power + moving).chain(self.terms.powers.iter().copied())
     }
 
     /// max |phi''| = max |G v' - gamma| at the last solution. `row` has n_c places.

@@ -39,8 +39,8 @@ pub struct Residual {
     /// Row of mu, n_c.
     pub mu: Vec<f64>,
     phi_ddot: Vec<f64>,
-    /// Power of the forces without a potential and of moving constraints, W.
-    pub power: f64,
+    /// Those of [`Dynamics::powers`].
+    pub powers: Vec<f64>,
 }
 
 impl Residual {
@@ -49,7 +49,7 @@ impl Residual {
         let rows = || vec![0.0; n.lambda];
         let (lambda, eta, mu, phi_ddot) = (rows(), rows(), rows(), rows());
         let zeros = || vec![0.0; n.v];
-        Residual { motion: zeros(), w: zeros(), u: zeros(), lambda, eta, mu, phi_ddot, power: 0.0 }
+        Residual { motion: zeros(), w: zeros(), u: zeros(), lambda, eta, mu, phi_ddot, powers: Vec::new() }
     }
 
     /// Evaluates the terms at (t, q, v) and the residual for the unknowns. One evaluation.
@@ -104,6 +104,7 @@ impl Residual {
                 self.mu[i] = value(dae.mu, i, &self.phi_ddot);
             }
         }
-        self.power = terms.power + lambda.iter().zip(&terms.phi_t).map(|(l, p)| l * p).sum::<f64>();
+        self.powers.clear();
+        self.powers.extend(dynamics.powers(lambda));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Problem;
 use crate::formulation::StepError;
-use crate::system::MechanicalSystem;
+use crate::system::{Dimensions, MechanicalSystem};
 use crate::tolerances::integrator as tolerances;
 use std::ops::Range;
 
@@ -18,13 +18,15 @@ pub struct Tolerance {
     pub atol: f64,
     /// First place in y of the angles that count full turns, and the one after the last.
     turning: [usize; 2],
+    /// Number of components of y before the work, which is not tested.
+    motion: usize,
 }
 
 impl Tolerance {
     /// Tolerances for the states of a system.
     pub fn new(rtol: f64, atol: f64, system: &dyn MechanicalSystem) -> Self {
-        let q = system.dimensions().q;
-        Tolerance { rtol, atol, turning: [q - system.turning_angles(), q] }
+        let Dimensions { q, v, .. } = system.dimensions();
+        Tolerance { rtol, atol, turning: [q - system.turning_angles(), q], motion: q + v }
     }
 
     /// Tolerated error between two states.
@@ -33,20 +35,25 @@ impl Tolerance {
         self.atol + self.rtol * from.abs().max(to.abs())
     }
 
-    /// Root mean square of `change` over the tolerated errors at `y`. The last component, the work, is not tested.
+    /// Root mean square of `change` over the tolerated errors at `y`. The last components, of the work, are not tested.
     pub fn norm(&self, y: &[f64], change: &[f64]) -> f64 {
         self.norm_between(y, y, change)
     }
 
     /// Root mean square of `change` over the tolerated errors of a step.
     pub fn norm_between(&self, from: &[f64], to: &[f64], change: &[f64]) -> f64 {
-        let n = from.len() - 1;
+        let n = self.motion;
         (self.squares(n, from, to, |i| change[i]) / self.tested(n) as f64).sqrt()
     }
 
     /// Other tolerances for the same components.
     pub fn with(&self, rtol: f64, atol: f64) -> Self {
         Tolerance { rtol, atol, ..*self }
+    }
+
+    /// Number of components of y before the work.
+    pub fn motion(&self) -> usize {
+        self.motion
     }
 
     /// Range in y of the angles that count full turns.
@@ -210,7 +217,7 @@ mod tests {
 
     #[test]
     fn steps_are_never_looser_than_asked_nor_tighter_than_round_off() {
-        let asked = |rtol: f64| Tolerance { rtol, atol: 1e-2 * rtol, turning: [0, 0] };
+        let asked = |rtol: f64| Tolerance { rtol, atol: 1e-2 * rtol, turning: [0, 0], motion: 0 };
         let steps = |rtol: f64| Tightening { factor: 10.0, power: 1.5 }.of_steps(&asked(rtol)).rtol;
         assert_eq!(steps(1.0), 1.0);
         assert!((steps(1e-4) / 1e-5 - 1.0).abs() < 1e-12 && steps(1e-10) == 1e-11 && steps(1e-15) == 1e-15);

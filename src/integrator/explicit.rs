@@ -105,7 +105,7 @@ impl Explicit {
     }
 
     fn error(&mut self, tolerance: &Tolerance, from: &[f64], to: &[f64], h: f64) -> Option<f64> {
-        let last = from.len() - 1;
+        let last = tolerance.motion();
         let mut square = |weights: &[f64]| {
             self.stage.fill(0.0);
             accumulate(&mut self.stage, 1.0, weights, &self.k);

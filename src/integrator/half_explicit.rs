@@ -121,17 +121,17 @@ impl HalfExplicit {
         dynamics.evaluate(from.t + node * h, q, v, Need::DYNAMICS);
         dynamics.factor()?;
         self.phi_t.copy_from_slice(&dynamics.terms.phi_t);
-        let power = dynamics.terms.power;
         self.lambda.copy_from_slice(&dynamics.terms.gamma);
         self.g.copy_from_slice(&dynamics.terms.g);
         let (qdot, rest) = self.k[i].split_at_mut(n.q);
         dynamics.system.rate(q, v, qdot);
         // The row of the constraint sums the accelerations before V'_i.
         rest.fill(0.0);
+        rest[n.v..].iter_mut().zip(dynamics.powers(&[])).for_each(|(rate, power)| *rate = power);
         self.force.copy_from_slice(&dynamics.terms.f);
         self.solve(problem, i, from, h)?;
         let moving: f64 = self.lambda.iter().zip(&self.phi_t).map(|(lambda, phi_t)| lambda * phi_t).sum();
-        self.k[i][n.q + n.v] = power + moving;
+        self.k[i][n.q + n.v] += moving;
         Ok(())
     }
 

@@ -190,7 +190,7 @@ impl Setup<'_> {
     /// Length of the flat state.
     pub fn len(&self) -> usize {
         let n = self.system.dimensions();
-        n.q + n.v + 1
+        n.q + n.v + 1 + self.system.works().len()
     }
 
     /// True for a system without velocities.

@@ -5,24 +5,26 @@ use crate::math::all_finite;
 use crate::system::Dimensions;
 
 /// y = (q, v, w) with w the work of forces without a potential and of moving constraints, J, which is integrated, too,
-/// so that the energy balance has the accuracy of the method. States xi are the last of v.
+/// so that the energy balance has the accuracy of the method, and then that of the forces whose work is watched. States
+/// xi are the last of v.
 pub struct Problem<'a> {
     /// The equations with their memory.
     pub dynamics: Dynamics<'a>,
     /// The vector field.
     pub formulation: Box<dyn Formulation + 'a>,
     dimensions: Dimensions,
+    works: usize,
 }
 
 impl<'a> Problem<'a> {
     /// A formulation on its equations.
     pub fn new(dynamics: Dynamics<'a>, formulation: Box<dyn Formulation + 'a>) -> Self {
-        Problem { dimensions: dynamics.system.dimensions(), dynamics, formulation }
+        Problem { dimensions: dynamics.system.dimensions(), works: dynamics.terms.powers.len(), dynamics, formulation }
     }
 
     /// Length of y.
     pub fn len(&self) -> usize {
-        self.dimensions.q + self.dimensions.v + 1
+        self.dimensions.q + self.dimensions.v + 1 + self.works
     }
 
     /// True for a system without velocities.
@@ -51,7 +53,8 @@ impl<'a> Problem<'a> {
         let (qdot, rest) = slope.split_at_mut(self.dimensions.q);
         let (vdot, work) = rest.split_at_mut(self.dimensions.v);
         self.formulation.derivative(t, q, v, &mut self.dynamics, qdot, vdot)?;
-        work[0] = self.dynamics.power();
+        let powers = self.dynamics.powers(&self.dynamics.lambda);
+        work.iter_mut().zip(powers).for_each(|(rate, power)| *rate = power);
         Ok(())
     }
 

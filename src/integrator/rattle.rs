@@ -1,6 +1,7 @@
 //! RATTLE.
 
 use super::hermite::Hermite;
+use super::sums::trapezoid;
 use super::{
     Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance, refuses, takes,
 };
@@ -187,7 +188,8 @@ impl Rattle {
         let (qdot, rest) = self.slope.split_at_mut(q.len());
         dynamics.system.rate(q, v, qdot);
         rest[..v.len()].copy_from_slice(&dynamics.vdot);
-        rest[v.len()] = dynamics.power();
+        let powers = dynamics.powers(&dynamics.lambda);
+        rest[v.len()..].iter_mut().zip(powers).for_each(|(rate, power)| *rate = power);
         Ok(())
     }
 }
@@ -216,8 +218,8 @@ impl Integrator for Rattle {
         self.start(problem, from)?;
         self.first_half(problem, from, h)?;
         self.second_half(problem, from.end, h, to)?;
-        let work = to.len() - 1;
-        to[work] = from.y[work] + 0.5 * h * (from.slope[work] + self.slope[work]);
+        let n = problem.dynamics.system.dimensions();
+        trapezoid(from, h, &self.slope[n.q + n.v..], to);
         Ok(None)
     }
 

@@ -1,9 +1,18 @@
 //! Weighted sums of stages.
 
+use super::From;
+
 /// out = y + h sum_j weights_j k_j
 pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
     out.copy_from_slice(y);
     accumulate(out, h, weights, k);
+}
+
+/// The works at the end of a step of order 2, the last components of `to`, by the trapezoidal rule from the powers there.
+pub(super) fn trapezoid(from: From, h: f64, powers: &[f64], to: &mut [f64]) {
+    for i in to.len() - powers.len()..to.len() {
+        to[i] = from.y[i] + 0.5 * h * (from.slope[i] + powers[i + powers.len() - to.len()]);
+    }
 }
 
 /// y += h sum_j weights_j k_j, in the order of j, for the entries that both have. Four stages at a time, so that y is

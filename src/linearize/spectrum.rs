@@ -55,7 +55,8 @@ pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Reque
 pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode>, ComplexMatrix, f64), Unsolved> {
     let found = eigen(&built.a)?;
     let parts = parts(&found.left, &found.right);
-    let shapes = complex(&built.changes.q) * &found.right;
+    let n = variation.system().dimensions();
+    let shapes = complex(&built.shapes(n)) * &found.right;
     let outputs = complex(&built.c) * &found.right;
     let (mass, values) = (&variation.dynamics.structure.mass, &variation.dynamics.terms.mass);
     let of = |(i, value): (usize, &Complex<f64>)| {
@@ -67,6 +68,8 @@ pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode
             mass.multiply_symmetric(values, &x, &mut weighed);
             energy.iter_mut().zip(x.iter().zip(weighed)).for_each(|(energy, (x, mx))| *energy += x * mx);
         }
+        // States xi have no energy.
+        energy.truncate(n.moving());
         let participation = parts.column(i).iter().copied().collect();
         let outputs = outputs.column(i).iter().copied().collect();
         mode((*value, Kind::Physical), shape, outputs, participation, energy)

@@ -109,6 +109,16 @@ pub fn power<const D: usize>(of: &str, elements: Elements<D>) -> Result<Measure>
     find("force or driver", of, known.into_iter()).map(|force| Measure::Power { force })
 }
 
+/// Power of the force whose work is watched.
+pub fn work<const D: usize>(of: &str, elements: Elements<D>) -> Result<Measure> {
+    match power(of, elements)? {
+        Measure::DrivePower { .. } => Err(Error::input(format!("of the driver `{of}` the power is known alone"))
+            .under("of")
+            .hint("name a force; `energy.csv` has the work of all drivers and of forces without a potential")),
+        measure => Ok(measure),
+    }
+}
+
 fn is_a(of: &str, found: &str, wanted: &str, measure: &str) -> Error {
     Error::input(format!("`{of}` is a {found}, not a {wanted}"))
         .under("of")

@@ -31,11 +31,18 @@ impl<const D: usize> NamedOutputs<D> for Named<'_, D> {
     fn find(&self, name: &str, build: &Build<D>) -> Option<Result<NamedOutput>> {
         let number = self.file.outputs.iter().position(|spec| spec.name == name)?;
         let spec = &self.file.outputs[number];
+        if spec.measure == MeasureKind::Work {
+            let error = Error::input(format!("the output `{name}` is an integral over the run"));
+            return Some(Err(error.hint("expressions know the state alone: a state xi with that rate is part of it")));
+        }
         if let (MeasureKind::Expression, Some(value)) = (spec.measure, &spec.value) {
             return Some(Ok(NamedOutput::Text(value.to_string())));
         }
         let probe = match probe(spec, &self.elements.borrow(), build) {
-            Ok(None) => Ok(NamedOutput::Other(number)),
+            Ok(None) => {
+                let before = self.file.outputs[..number].iter();
+                Ok(NamedOutput::Other(before.filter(|spec| spec.measure != MeasureKind::Work).count()))
+            }
             Ok(Some(probe)) => Ok(NamedOutput::Probe(probe)),
             Err(error) => Err(self.unreadable(spec, error)),
         };

@@ -74,6 +74,8 @@ pub enum MeasureKind {
     Force,
     /// W, of a force or a driver `of`: what it gives to the bodies, negative where it takes
     Power,
+    /// J, of a force `of`: the integral of its power from the start of the run, a column of the trajectory alone
+    Work,
     /// J, of the whole scene
     Energy,
     /// m, of the centre line of beam `of` `at` a place from where it is at rest, in the beam's own axes
@@ -113,7 +115,7 @@ impl MeasureKind {
             }
             Distance | DistanceRate => &["between", "of"],
             Reaction | Force => &["of", "relative_to", "component", "on"],
-            Power => &["of"],
+            Power | Work => &["of"],
             Energy => &["component"],
             Deflection | ShearForce | BendingMoment => &["of", "at", "component"],
             Strain => &["of", "at", "offset"],
@@ -135,7 +137,7 @@ impl MeasureKind {
             Acceleration => &[Dimension::Acceleration],
             Power => &[Dimension::Power],
             Torque | BendingMoment => &[Dimension::Torque],
-            Energy => &[Dimension::Energy],
+            Work | Energy => &[Dimension::Energy],
             Strain => &[Dimension::Strain],
             AxialForce | ShearForce => &[Dimension::Force],
             Reaction | Force => &[Dimension::Force, Dimension::Torque],

@@ -27,6 +27,8 @@ pub struct Model<const D: usize> {
     pub beams: Vec<BeamLine>,
     /// Outputs in the order of the scene.
     pub outputs: Vec<Watched>,
+    /// Powers whose integrals over a run are watched, with the names and units of these works.
+    pub works: Vec<Watched>,
     /// Sections of beams in floating frames that outputs watch.
     pub cuts: Vec<Cut<D>>,
     /// Inputs u in the order of the scene.

@@ -54,13 +54,14 @@ fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
     }
 }
 
-/// The outputs with everything they name resolved, and the sections of beams that they watch.
+/// The outputs with everything they name resolved, those that are works apart, and the sections of beams that they
+/// watch.
 pub fn outputs<const D: usize>(
     specs: &[OutputSpec],
     elements: Elements<D>,
     build: &Build<D>,
-) -> Result<(Vec<Watched>, Vec<Cut<D>>)> {
-    let (mut all, mut cuts) = (Vec::new(), Vec::new());
+) -> Result<(Vec<Watched>, Vec<Watched>, Vec<Cut<D>>)> {
+    let (mut all, mut works, mut cuts) = (Vec::new(), Vec::new(), Vec::new());
     for (i, spec) in specs.iter().enumerate() {
         let place = |error: Error| error.element(&spec.name).under(format!("outputs[{i}]"));
         refuse_idle_keys(spec).map_err(place)?;
@@ -68,9 +69,10 @@ pub fn outputs<const D: usize>(
         let measure = reader.measure(elements, &mut cuts).map_err(place)?;
         build.own("output", &spec.name);
         let unit = unit(spec, dimension(spec.measure, &measure, elements)).map_err(place)?;
-        all.push(Watched { name: spec.name.clone(), unit, measure });
+        let kind = if spec.measure == MeasureKind::Work { &mut works } else { &mut all };
+        kind.push(Watched { name: spec.name.clone(), unit, measure });
     }
-    Ok((all, cuts))
+    Ok((all, works, cuts))
 }
 
 /// The elements of the model that outputs may read.
@@ -98,6 +100,7 @@ impl<const D: usize> Reader<'_, D> {
             MeasureKind::Reaction => actions::reaction(self.spec, self.of()?, elements, self.build),
             MeasureKind::Force => actions::force(self.spec, self.of()?, elements, self.build),
             MeasureKind::Power => actions::power(self.of()?, elements),
+            MeasureKind::Work => actions::work(self.of()?, elements),
             MeasureKind::Energy => Ok(Measure::Energy(match self.spec.component.as_deref() {
                 Some("kinetic") => EnergyPart::Kinetic,
                 Some("potential") => EnergyPart::Potential,

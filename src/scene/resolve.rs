@@ -106,6 +106,7 @@ struct Links<const D: usize> {
     joints: Vec<Connection<Box<dyn Joint<D>>>>,
     forces: Vec<Connection<Box<dyn Force<D>>>>,
     outputs: Vec<Watched>,
+    works: Vec<Watched>,
     cuts: Vec<Cut<D>>,
     inputs: Vec<Input>,
 }
@@ -122,8 +123,8 @@ impl<const D: usize> Links<D> {
         let Parts { bodies, beams, .. } = parts;
         let placed = &named.elements.borrow();
         let elements = outputs::Elements { bodies, beams, joints: &joints, forces: &forces, placed };
-        let (outputs, cuts) = outputs::outputs(&file.outputs, elements, build)?;
-        Ok(Links { joints, forces, outputs, cuts, inputs })
+        let (outputs, works, cuts) = outputs::outputs(&file.outputs, elements, build)?;
+        Ok(Links { joints, forces, outputs, works, cuts, inputs })
     }
 }
 
@@ -279,7 +280,7 @@ impl<const D: usize> Parts<D> {
         turnings: Vec<Turning>,
     ) -> (Model<D>, Vec<f64>, Vec<f64>) {
         let Parts { table: markers, ground, bodies, beams, mut q, v, .. } = self;
-        let Links { joints, forces, outputs, cuts, inputs } = links;
+        let Links { joints, forces, outputs, works, cuts, inputs } = links;
         let states = markers.states.len();
         let extent = extent(&bodies, &q);
         q.extend(turnings.iter().map(|turning| turning.start));
@@ -292,6 +293,7 @@ impl<const D: usize> Parts<D> {
             forces,
             beams,
             outputs,
+            works,
             cuts,
             inputs,
             states,

@@ -39,6 +39,7 @@ pub use start::{Hint, Hints, Unseen, hints};
 use crate::compare::work_precision::{Watched, tighter};
 use crate::error::{Error, Failure, Result, Warning, clock, percent};
 use crate::prepared::PreparedScene;
+use crate::trajectory::recorded;
 use bench::{Bench, measured};
 use facts::{Recorded, record};
 use numerics::METHOD;
@@ -228,7 +229,7 @@ fn watched(prepared: &PreparedScene, settings: &Settings) -> Result<Watched> {
             .under("--at-most")
             .hint(format!("{LEAST} at least: two of the richest model, and one of another")));
     }
-    if prepared.system().columns().is_empty() {
+    if recorded(prepared.system()).is_empty() {
         return Err(Error::input("the scene has no outputs that a promise could be about")
             .under("outputs")
             .hint("give it \"outputs\""));

@@ -178,8 +178,8 @@ impl Run<'_> {
         dynamics.kkt.forget();
         self.problem.split_mut(&mut self.y).1.iter_mut().zip(&change).for_each(|(v, change)| *v -= change);
         let work = kinetic(&self.y, self) - before;
-        let last = self.y.len() - 1;
-        self.y[last] += work;
+        let moving = self.tolerance.motion();
+        self.y[moving] += work;
         Ok(())
     }
 

@@ -17,7 +17,7 @@ pub struct Checkpoint {
     method: Method,
     span: Span,
     t: f64,
-    /// q, v, and the work since the start.
+    /// q, v, and the works since the start.
     y: Vec<f64>,
     /// Rows of G that are dropped.
     dropped: Vec<usize>,
@@ -68,7 +68,7 @@ pub fn simulate_from(
     method.check()?;
     span.check()?;
     let y = match start {
-        Start::State(q, v) => [q, v, &[0.0]].concat(),
+        Start::State(q, v) => [q, v, &vec![0.0; 1 + system.works().len()]].concat(),
         Start::Saved(saved) => saved.checked(system, span)?.y.clone(),
     };
     let mut run = Run::new(system, method, span, y)?;
@@ -105,7 +105,7 @@ impl Checkpoint {
         let exists = |piece: usize, s: &Switch| piece < 2 || s.thresholds.get(piece.div_ceil(2) - 1).is_some();
         let are_pieces = self.pieces.iter().zip(switches).all(|(&piece, switch)| exists(piece as usize, switch));
         let lengths = [self.y.len(), self.turned_at.len(), self.pieces.len(), self.turned.len()];
-        let all = n.q + n.v + 1;
+        let all = n.q + n.v + 1 + system.works().len();
         lengths == [all, all, switches.len(), switches.len()]
             && are_pieces
             && self.dropped.iter().all(|row| *row < n.lambda)

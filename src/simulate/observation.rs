@@ -56,6 +56,8 @@ pub struct Observation<'a> {
     pub phi_ddot: &'a [f64],
     /// Work of forces without a potential and of moving constraints since the start, J.
     pub work: f64,
+    /// Work of the forces of [`MechanicalSystem::works`](crate::system::MechanicalSystem::works) since the start, J.
+    pub works: &'a [f64],
     /// Change of energy due to the tolerated errors of this step, J; `None` for fixed steps and output rows.
     pub tolerated: Option<f64>,
     /// The longest time between evaluations of the equations in a fixed step, s; `None` otherwise.

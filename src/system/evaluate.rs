@@ -11,7 +11,7 @@ use crate::body::{Frame, Freedom, MOST_MARKERS, MarkerId, Pose, Wrench};
 use crate::force::Force;
 use crate::joint::{ClosedForm, Lock};
 use crate::math::{Taylor, Time};
-use crate::scene::{Connection, Model};
+use crate::scene::{Connection, Measure, Model, Watched};
 use std::ops::Range;
 
 /// The rigid bodies of a model, the joints between them, and what is constant.
@@ -147,16 +147,21 @@ impl<const D: usize> Mechanism<D> {
     }
 
     fn forces(&self, time: Time<f64>, q: &[f64], work: &mut Workspace<D>, terms: &mut Terms) {
-        for force in &self.model().forces {
-            match force.markers.len() {
+        for (i, force) in self.model().forces.iter().enumerate() {
+            let power = match force.markers.len() {
                 1 => self.force::<1>(force, time, q, work, terms),
                 2 => self.force::<2>(force, time, q, work, terms),
                 _ => self.force::<MOST_MARKERS>(force, time, q, work, terms),
+            };
+            for (rate, Watched { measure, unit, .. }) in terms.powers.iter_mut().zip(&self.model().works) {
+                if matches!(measure, Measure::Power { force } if *force == i) {
+                    *rate = power * unit.per_si;
+                }
             }
         }
     }
 
-    /// Adds a force with at most N markers to f.
+    /// Adds a force with at most N markers to f, and returns its power.
     fn force<const N: usize>(
         &self,
         Connection { element, markers, .. }: &Connection<Box<dyn Force<D>>>,
@@ -164,18 +169,20 @@ impl<const D: usize> Mechanism<D> {
         q: &[f64],
         work: &mut Workspace<D>,
         terms: &mut Terms,
-    ) {
+    ) -> f64 {
         let n = markers.len();
         let Workspace { motion, poses, pulled, .. } = work;
         let mut frames = [Frame::world(); N];
         frames.iter_mut().zip(markers).for_each(|(frame, &marker)| *frame = self.moving_frame(marker, motion, poses));
         let mut wrenches = [Wrench::zero(); N];
         let action = element.act(&frames[..n], time.map(Taylor::time), &mut wrenches[..n]);
-        terms.power += action.potential.d;
+        let mut power = 0.0;
         for ((wrench, frame), &marker) in wrenches.iter().zip(&frames).zip(markers) {
-            terms.power += wrench.power(frame);
+            power += wrench.power(frame);
             self.pull_back(marker, q, (frame, wrench), poses, pulled, &mut terms.f);
         }
+        terms.power += action.potential.d + power;
+        power
     }
 
     /// f += J^T w for a wrench at the frame of a marker.

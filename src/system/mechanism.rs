@@ -151,6 +151,10 @@ impl<const D: usize> Mechanism<D> {
 }
 
 /// Name of a coordinate or velocity of a body; a state has its own.
+fn column(output: &Watched) -> Column {
+    Column { name: output.name.clone(), unit: output.unit.name.clone() }
+}
+
 fn full_name<const D: usize>(part: &Part<D>, name: &str) -> String {
     if name.is_empty() { part.name.clone() } else { format!("{}.{name}", part.name) }
 }
@@ -295,8 +299,11 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn columns(&self) -> Vec<Column> {
-        let column = |output: &Watched| Column { name: output.name.clone(), unit: output.unit.name.clone() };
         self.model.outputs.iter().map(column).collect()
+    }
+
+    fn works(&self) -> Vec<Column> {
+        self.model.works.iter().map(column).collect()
     }
 
     fn groups(&self) -> Vec<Group> {

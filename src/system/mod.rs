@@ -23,7 +23,6 @@ mod section;
 mod solid;
 mod spin;
 mod spinning;
-mod states;
 mod support;
 mod tangent;
 mod terms;
@@ -46,8 +45,6 @@ pub use output_tangent::OutputTangent;
 pub use rotating::Rotating;
 #[doc(hidden)]
 pub use spin::{Placement, Rotation, Spin};
-#[doc(hidden)]
-pub use states::refuse_states;
 pub use tangent::{OperatingPoint, Tangent};
 pub use terms::{Need, Scratch, Structure, Terms};
 
@@ -229,6 +226,12 @@ pub trait MechanicalSystem: Send + Sync {
 
     /// Names and units of the outputs. Default: none.
     fn columns(&self) -> Vec<Column> {
+        Vec::new()
+    }
+
+    /// Names and units of the works of single forces since the start of a run, which are no functions of the state:
+    /// the integrals of [`Terms::powers`]. Default: none.
+    fn works(&self) -> Vec<Column> {
         Vec::new()
     }
 

@@ -81,6 +81,8 @@ pub struct Terms {
     pub l: Vec<f64>,
     /// Power of the forces that is not the rate of a potential, W.
     pub power: f64,
+    /// Rates of [`MechanicalSystem::works`].
+    pub powers: Vec<f64>,
 }
 
 impl Terms {
@@ -98,6 +100,7 @@ impl Terms {
             g: zeros(structure.g.entries.len()),
             l: zeros(structure.g.entries.len()),
             power: 0.0,
+            powers: zeros(system.works().len()),
         }
     }
 }

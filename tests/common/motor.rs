@@ -6,7 +6,7 @@
 //! i' = (U sin 2 t - R i - S i^3 - K w)/L,   w = x y' - y x'
 //! ```
 
-use holonom::system::{Dimensions, MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
+use holonom::system::{Column, Dimensions, MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 
 /// Its state is counted in so many A.
 pub struct Motor {
@@ -33,6 +33,10 @@ impl MechanicalSystem for Motor {
         Dimensions { q: 2, v: 3, lambda: 1, nonholonomic: 0, states: 1 }
     }
 
+    fn works(&self) -> Vec<Column> {
+        vec![Column { name: "work of the motor".to_string(), unit: "J".to_string() }]
+    }
+
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], _: Need, terms: &mut Terms, _: &mut Scratch) {
         let (&[x, y], &[vx, vy, xi]) = (q, v) else { return };
         let i = self.unit * xi;
@@ -41,6 +45,7 @@ impl MechanicalSystem for Motor {
         let w = x * vy - y * vx;
         terms.f.copy_from_slice(&[-K * i * y, K * i * x - GRAVITY, rate(t, w, i) / self.unit]);
         terms.power = K * i * w;
+        terms.powers[0] = terms.power;
         terms.phi[0] = 0.5 * (x * x + y * y - 1.0);
         terms.phi_dot[0] = x * vx + y * vy;
         terms.gamma[0] = -(vx * vx + vy * vy);
@@ -65,10 +70,15 @@ impl MechanicalSystem for Motor {
 /// The angle from the lowest position, its rate and the current at the start.
 const START: [f64; 3] = [0.8, 0.3, 0.4];
 
-/// q, v with the current, and lambda at an angle: r'' . r = -w^2 and |r| = 1 give lambda = f . r + w^2.
+/// q, v with the current, and lambda at an angle: r'' . r = -w^2 and |r| = 1 give lambda = f . r + w^2; then the work of
+/// the motor, which is the change of the pendulum's energy.
 fn row(t: f64, [angle, w, i]: [f64; 3]) -> Vec<f64> {
     let (sin, cos) = angle.sin_cos();
-    vec![t, sin, -cos, w * cos, w * sin, i, GRAVITY * cos + w * w]
+    vec![t, sin, -cos, w * cos, w * sin, i, GRAVITY * cos + w * w, energy(angle, w) - energy(START[0], START[1])]
+}
+
+fn energy(angle: f64, w: f64) -> f64 {
+    0.5 * w * w - GRAVITY * angle.cos()
 }
 
 /// q and v at the start.

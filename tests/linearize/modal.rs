@@ -82,7 +82,8 @@ fn check(prepared: &PreparedScene, state: &State, count: usize, shift: f64) {
 #[test]
 fn the_modes_are_the_nearest_of_all() {
     let at_rest = ["five_link_suspension_rods", "quarter_car", "parallelogram_redundant", "bricard", "andrews"];
-    for name in at_rest.into_iter().chain(["right_angle_cantilever", "flexible_four_bar", "full_axle"]) {
+    let more = ["right_angle_cantilever", "flexible_four_bar", "full_axle", "pid_arm", "hydraulic_boom"];
+    for name in at_rest.into_iter().chain(more) {
         let prepared = prepared(name, &[]);
         let at = rest(&prepared);
         for (count, shift) in [(1, 0.0), (3, 0.0), (3, 50.0), (12, 0.0)] {
@@ -100,9 +101,15 @@ fn the_modes_are_the_nearest_of_all() {
 /// Also where the frozen pencil has a term of its own for moving rotations.
 #[test]
 fn the_frozen_modes_of_moving_states() {
-    for name in
-        ["spinning_top", "flexible_slider_crank_fe", "flexible_four_bar", "double_pendulum", "andrews", "bricard"]
-    {
+    for name in [
+        "spinning_top",
+        "flexible_slider_crank_fe",
+        "flexible_four_bar",
+        "double_pendulum",
+        "andrews",
+        "bricard",
+        "pid_arm",
+    ] {
         let prepared = prepared(name, &[]);
         let at = holonom::linearize::states(&prepared, &[prepared.start_time() + 0.003], |_| ()).unwrap().remove(0);
         check(&prepared, &at, 3, 40.0);
@@ -126,7 +133,9 @@ fn a_free_beam_has_rigid_modes() {
 /// With all modes at every frequency; with a few at low ones, since D makes up for the rest.
 #[test]
 fn the_response_is_that_of_all_modes() {
-    for (name, moving) in [("quarter_car", false), ("andrews", true), ("five_link_suspension_rods", false)] {
+    for (name, moving) in
+        [("quarter_car", false), ("andrews", true), ("five_link_suspension_rods", false), ("hydraulic_boom", false)]
+    {
         let prepared = prepared(name, &[]);
         let at = if moving { start(&prepared) } else { rest(&prepared) };
         let mut variation = at.variation(&prepared).unwrap();

@@ -11,6 +11,7 @@ use crate::report::tradeoff::{Summary, tradeoff_figure, tradeoff_table};
 use crate::report::{Folder, Repeatable, write_whole};
 use crate::scene;
 use crate::system::MechanicalSystem;
+use crate::trajectory::recorded;
 use crate::{formulation, projection};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -120,7 +121,7 @@ impl Args {
 
     /// Returns the outputs to compare; by default all that a table has.
     fn outputs(&self, prepared: &PreparedScene, given: Option<&Given>) -> Vec<String> {
-        let known = prepared.system().columns();
+        let known = recorded(prepared.system());
         let has = |name: &&str| known.iter().any(|column| column.name == **name);
         match given {
             Some(given) if self.outputs.is_empty() => given.names().filter(has).map(str::to_string).collect(),

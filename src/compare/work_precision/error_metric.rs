@@ -4,6 +4,7 @@ use crate::analysis::{Sizes, scales};
 use crate::error::{Error, Result, suggest};
 use crate::simulate::Observation;
 use crate::system::{Column, MechanicalSystem, Scratch};
+use crate::trajectory::{recorded, values};
 use serde::{Deserialize, Serialize};
 
 /// The quantities that are compared: outputs, or all coordinates of a system without outputs.
@@ -21,7 +22,7 @@ impl Watched {
     /// # Errors
     /// A name that is not an output of the system.
     pub fn new(system: &dyn MechanicalSystem, names: &[String]) -> Result<Watched> {
-        let known = system.columns();
+        let known = recorded(system);
         if known.is_empty() && names.is_empty() {
             let coordinate = |name| Column { name, unit: String::new() };
             return Ok(Watched { columns: system.names().q.into_iter().map(coordinate).collect(), outputs: None });
@@ -43,8 +44,7 @@ impl Watched {
     /// Returns their values at a state.
     pub fn read(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Vec<f64> {
         let Some((count, places)) = &self.outputs else { return state.q.to_vec() };
-        let mut all = vec![0.0; *count];
-        system.outputs(state.loaded(), &mut all, scratch);
+        let all = values(system, state, *count, scratch);
         places.iter().map(|place| all[*place]).collect()
     }
 }

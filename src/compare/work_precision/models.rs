@@ -9,6 +9,7 @@ use crate::scene;
 use crate::simulate::{Method, Span};
 use crate::system::{Column, Dimensions};
 use crate::tolerances::report as tolerances;
+use crate::trajectory::recorded;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -185,7 +186,7 @@ struct Run<'a> {
 impl<'a> Run<'a> {
     fn new(variant: &'a Variant, columns: &[Column]) -> Result<Self> {
         let system = variant.prepared.system();
-        let own = system.columns();
+        let own = recorded(system);
         let shared = columns.iter().filter(|column| own.iter().any(|own| own.name == column.name));
         let shared: Vec<String> = shared.map(|column| column.name.clone()).collect();
         if shared.is_empty() {

@@ -4,6 +4,7 @@ mod matrix;
 
 use super::hermite::Hermite;
 use super::memory::Reader;
+use super::sums::trapezoid;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
 use crate::error::{Error, Result};
 use crate::formulation::{StepError, turn};
@@ -240,13 +241,14 @@ impl Integrator for Ali3p {
         h: f64,
         to: &mut [f64],
     ) -> Result<Option<f64>, StepError> {
-        let (t, work) = (from.t + h, to.len() - 1);
+        let n = problem.dynamics.system.dimensions();
+        let (t, work) = (from.t + h, n.q + n.v..);
         self.begin(problem, from);
         self.converge(problem, from, h, to)?;
         self.project(problem, t, to)?;
-        to[work] = from.y[work];
+        to[work.clone()].copy_from_slice(&from.y[work.clone()]);
         problem.derivative(t, to, &mut self.slope)?;
-        to[work] += 0.5 * h * (from.slope[work] + self.slope[work]);
+        trapezoid(from, h, &self.slope[work], to);
         Ok(None)
     }
 

@@ -56,7 +56,7 @@ struct Implicit<'s> {
 /// A method of diffsol on the formulation of `setup`.
 pub fn make<'s>(setup: &Setup<'s>, traits: Traits, start: Start<'s>) -> Result<Box<dyn Integrator + 's>> {
     let dae = formulation::dae(setup.formulation)?.unwrap_or(Dae::with(formulation::Row::ACCELERATION));
-    let unknowns = rows::unknowns(&dae, setup.system.dimensions());
+    let unknowns = rows::unknowns(&dae, setup.system.dimensions(), setup.len());
     refuse_dense(&setup.integrator.name, [unknowns; 2], COPIES).map_err(|error| error.hint(SPARSE))?;
     Ok(Box::new(Implicit {
         equations: Equations::new(rows::FirstOrderRows::new(dae, setup), setup.len()),

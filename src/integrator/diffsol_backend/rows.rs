@@ -7,7 +7,7 @@ use crate::system::{Dimensions, Need, OperatingPoint, Tangent};
 use std::ops::Range;
 
 /// ```text
-/// q' = N (v + u),   v' = a + w,   w' = power
+/// q' = N (v + u),   v' = a + w,   w' = powers
 /// 0 = M a + G^T lambda - f,   0 = M w + G^T eta,   0 = M u + G^T mu,   and the rows of lambda, eta and mu
 /// ```
 ///
@@ -29,7 +29,7 @@ pub struct FirstOrderRows<'s> {
 /// Ranges of the unknowns; the equations of motion are in the rows of a, those of the shifts in the rows of the shifts.
 struct Places {
     v: Range<usize>,
-    work: usize,
+    work: Range<usize>,
     a: Range<usize>,
     lambda: Range<usize>,
     /// Shift of v with its multipliers, then shift of q with its multipliers.
@@ -39,9 +39,8 @@ struct Places {
 }
 
 impl Places {
-    fn new(dae: &Dae, n: Dimensions) -> Self {
-        let work = n.q + n.v;
-        let mut end = work + 1;
+    fn new(dae: &Dae, n: Dimensions, rates: usize) -> Self {
+        let mut end = rates;
         let mut next = |size: usize| {
             end += size;
             end - size..end
@@ -49,13 +48,14 @@ impl Places {
         let (a, lambda) = (next(n.v), next(n.lambda));
         let w = dae.eta.map(|_| [next(n.v), next(n.lambda)]);
         let u = dae.mu.map(|_| [next(n.v), next(n.lambda)]);
-        Places { v: n.q..work, work, a, lambda, w, u, end }
+        let work = n.q + n.v..rates;
+        Places { v: n.q..work.start, work, a, lambda, w, u, end }
     }
 }
 
-/// Number of unknowns for a system of these dimensions.
-pub fn unknowns(dae: &Dae, n: Dimensions) -> usize {
-    Places::new(dae, n).end
+/// Number of unknowns for a system of these dimensions, `rates` of which have a rate.
+pub fn unknowns(dae: &Dae, n: Dimensions, rates: usize) -> usize {
+    Places::new(dae, n, rates).end
 }
 
 impl<'s> FirstOrderRows<'s> {
@@ -68,7 +68,7 @@ impl<'s> FirstOrderRows<'s> {
             tangent: Tangent::new(&setup.system.structure().tangent),
             kinematics: Kinematics::new(setup.system),
             velocity: vec![0.0; n.v],
-            places: Places::new(&dae, n),
+            places: Places::new(&dae, n, setup.len()),
         }
     }
 
@@ -153,8 +153,8 @@ impl FirstOrderRows<'_> {
         }
         x.fill(0.0);
         rate.fill(0.0);
-        x[..=*work].copy_from_slice(from.y);
-        rate[..=*work].copy_from_slice(from.slope);
+        x[..work.end].copy_from_slice(from.y);
+        rate[..work.end].copy_from_slice(from.slope);
         x[a.clone()].copy_from_slice(&self.dynamics.vdot);
         x[lambda.clone()].copy_from_slice(&self.dynamics.lambda);
         Ok(())
@@ -172,12 +172,12 @@ impl FirstOrderRows<'_> {
         let (a_1, lambda_1) = (&x[a.clone()], &x[lambda.clone()]);
         let unknowns = Unknowns { a: a_1, lambda: lambda_1, w: of_w, eta: of_eta, u: of_u, mu: of_mu, stiffness: &[] };
         self.residual.evaluate(&self.dae, state, unknowns, dynamics)?;
-        let Residual { motion, lambda: rows, w: left_w, eta: left_eta, u: left_u, mu: left_mu, power, .. } =
+        let Residual { motion, lambda: rows, w: left_w, eta: left_eta, u: left_u, mu: left_mu, powers, .. } =
             &self.residual;
         dynamics.system.rate(q, &self.velocity, &mut out[..v.start]);
         out[v.clone()].copy_from_slice(a_1);
         out[v.clone()].iter_mut().zip(of_w).for_each(|(rate, w)| *rate += w);
-        out[*work] = *power;
+        out[work.clone()].copy_from_slice(powers);
         let mut set = |place: &Range<usize>, left: &[f64]| {
             out[place.clone()].iter_mut().zip(left).for_each(|(out, left)| *out = -left);
         };

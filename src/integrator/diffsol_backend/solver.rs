@@ -171,12 +171,11 @@ pub async fn serve<'p, 's: 'p, S: OdeSolverMethod<'p, Equations<'s>>>(
 /// Equations and tolerances for diffsol. Its limit of Newton failures counts those of the whole run; if Newton's method
 /// stopped at a fifth of the tolerance, its default, the residual would appear in lambda and as drift.
 fn problem_of<'s>(eqn: Equations<'s>, tolerance: &Tolerance) -> OdeSolverProblem<Equations<'s>> {
-    let rates = eqn.rates;
     // diffsol averages over all unknowns, our norm over the tested ones.
-    let tested = (tolerance.tested(rates - 1) as f64 / eqn.len as f64).sqrt();
+    let tested = (tolerance.tested(tolerance.motion()) as f64 / eqn.len as f64).sqrt();
     let mut atol = Values::from_element(eqn.len, tolerances::NOT_TESTED, eqn.context);
     let places = atol.inner_mut().as_mut_slice();
-    places[..rates - 1].fill(tested * tolerance.atol);
+    places[..tolerance.motion()].fill(tested * tolerance.atol);
     places[tolerance.untested()].fill(tolerances::NOT_TESTED);
     OdeSolverProblem {
         eqn,

@@ -6,11 +6,11 @@ mod prediction;
 
 use super::hermite::Hermite;
 use super::memory::Reader;
+use super::sums::trapezoid;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
 use crate::error::{Error, Result};
 use crate::formulation::{self, StepError};
 use crate::method_spec::OptionDoc;
-use crate::system::refuse_states;
 use crate::tolerances::integrator as tolerances;
 use motion::{Motion, Scheme};
 use newton::Newton;
@@ -36,8 +36,8 @@ use newton::Newton;
 /// `exact`; `full` would distribute that error between v and q at every step, which costs q an order, so it is
 /// refused); with ggl to round-off too.
 ///
-/// Error of a step: (1/6 - beta - (alpha_m - alpha_f)/2) h^2 (a_1 - a) in q, the leading term; v and lambda, index 2
-/// and 3, are not tested. Source: Geradin, Cardona, Flexible Multibody Dynamics (2001), chapter 7. When the step
+/// Error of a step: (1/6 - beta - (alpha_m - alpha_f)/2) h^2 (a_1 - a) in q, the leading term, and that of h^3 xi''' in
+/// states; v and lambda, index 2 and 3, are not tested. Source: Geradin, Cardona, Flexible Multibody Dynamics (2001), chapter 7. When the step
 /// changes, a = v'(t + (alpha_m - alpha_f) h) is moved with it: Jay, Negrut, ECCOMAS Multibody Dynamics (2009)
 /// 143-158. One matrix, from exact K and C, is kept while Newton's method converges with it; an evaluation and a
 /// back-substitution (with ggl two) per iteration. The work is integrated by the trapezoidal rule. Cubic Hermite
@@ -58,12 +58,7 @@ pub const ENTRY: Entry = Entry {
     make,
 };
 
-const STEP: &str = "give a fixed step, or choose radau_iia";
-
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
-    if !setup.is_fixed {
-        refuse_states(setup.system, "generalized_alpha, whose error of a step is that of q,", STEP)?;
-    }
     let r = setup.integrator.not_negative("rho_inf", 0.8)?;
     if r > 1.0 {
         return Err(Error::input(format!("generalized_alpha: rho_inf is {r}")).hint("give a number from 0 to 1"));
@@ -97,12 +92,15 @@ struct GeneralizedAlpha {
 }
 
 impl GeneralizedAlpha {
-    /// Root mean square of the error of q in units of the tolerance.
+    /// Root mean square of the errors of q and xi in units of the tolerance.
     fn error(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, to: &[f64]) -> f64 {
-        let (q, _) = problem.split(to);
+        let (q, v) = problem.split(to);
+        let n = problem.dynamics.system.dimensions();
         problem.dynamics.system.rate(q, self.motion.local_error(h), &mut self.error);
         let sum = tolerance.squares(q.len(), from.y, q, |i| self.error[i]);
-        (sum / tolerance.tested(q.len()) as f64).sqrt()
+        let of_state = |i: usize| self.motion.state_error(i, h) / tolerance.weight(from.y[q.len() + i], v[i]);
+        let of_states: f64 = (n.moving()..n.v).map(|i| of_state(i).powi(2)).sum();
+        ((sum + of_states) / (tolerance.tested(q.len()) + n.states) as f64).sqrt()
     }
 }
 
@@ -133,9 +131,8 @@ impl Integrator for GeneralizedAlpha {
             found = self.newton.converge(problem, &mut self.motion, from, h, to);
         }
         found?;
-        let work = to.len() - 1;
-        // Uses the power at the new state as computed, since the work needs order 2 only.
-        to[work] = from.y[work] + 0.5 * h * (from.slope[work] + self.newton.power());
+        // Uses the powers at the new state as computed, since the work needs order 2 only.
+        trapezoid(from, h, self.newton.powers(), to);
         Ok(Some(self.error(problem, tolerance, from, h, to)))
     }
 

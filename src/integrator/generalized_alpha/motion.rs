@@ -37,6 +37,13 @@ impl Scheme {
     fn error(&self) -> f64 {
         1.0 / 6.0 - self.beta - 0.5 * self.lead()
     }
+
+    /// Coefficient of h^3 v''' in the local error of v: a = v'(t + lead h) + kappa h^2 v''', kappa from the recurrence
+    /// of a.
+    fn error_of_rate(&self) -> f64 {
+        let kappa = 0.5 * (1.0 - self.alpha_f) - (1.0 - self.alpha_m) * (0.5 + self.lead());
+        1.0 / 6.0 - kappa - self.gamma * (0.5 + self.lead())
+    }
 }
 
 pub(super) struct Motion {
@@ -186,6 +193,17 @@ impl Motion {
             *error = factor * (self.end.a[i] - self.a[i]);
         }
         &self.change
+    }
+
+    /// The leading term of the error of velocity `i`, a state.
+    pub fn state_error(&self, i: usize, h: f64) -> f64 {
+        let change = self.end.vdot[i] - self.start.vdot[i];
+        // h^2 xi''', or, at the first step, h xi'', which is larger.
+        let curvature = self
+            .prediction
+            .last(i)
+            .map_or(change, |(age, before)| 2.0 * h * (change - (self.start.vdot[i] - before) * h / age) / (h + age));
+        self.scheme.error_of_rate() * h * curvature
     }
 
     /// The largest change of a in the step.

@@ -107,8 +107,8 @@ impl Newton {
     }
 
     /// Power of the forces without a potential and of moving constraints at the end, W.
-    pub fn power(&self) -> f64 {
-        self.residual.power
+    pub fn powers(&self) -> &[f64] {
+        &self.residual.powers
     }
 
     /// Writes q_1 and v_1 to `to`, v'_1 and lambda_1 to the end of `motion`.

@@ -51,6 +51,11 @@ impl Prediction {
         self.degree
     }
 
+    /// Time from the state before the start of the present step to it, s, and v' `i` there.
+    pub fn last(&self, i: usize) -> Option<(f64, f64)> {
+        (self.known > 0).then(|| (self.past[0].age, self.past[0].vdot[i]))
+    }
+
     /// Forgets all states before the start of the present step.
     pub fn restart(&mut self) {
         (self.known, self.degree) = (0, 0);

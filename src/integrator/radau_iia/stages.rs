@@ -80,15 +80,16 @@ impl Unknowns {
 }
 
 impl Stages {
-    pub fn new(most: usize, system: &dyn MechanicalSystem) -> Self {
+    /// Memory for states of length `len`.
+    pub fn new(most: usize, system: &dyn MechanicalSystem, len: usize) -> Self {
         let n = system.dimensions();
         let rows = |width: usize| vec![vec![0.0; width]; most];
         Stages {
             unknowns: Unknowns::new(most, n),
-            y: rows(n.q + n.v + 1),
+            y: rows(len),
             residuals: vec![Residual::new(n); most],
             n,
-            next: rows(n.q + n.v + 1),
+            next: rows(len),
             qdot: rows(n.q),
             velocity: vec![0.0; n.v],
             rotations: Rotations::new(most, system),
@@ -208,12 +209,14 @@ impl Stages {
         Ok(())
     }
 
-    /// The work at each stage, from the power of the last evaluations.
+    /// The work at each stage, from the powers of the last evaluations.
     pub fn work(&mut self, method: &Collocation, from: From, h: f64) {
-        let last = from.y.len() - 1;
+        let first = self.n.q + self.n.v;
         for (y, a) in self.y.iter_mut().zip(&method.a) {
-            let power = a.iter().zip(&self.residuals).map(|(a, residual)| a * residual.power);
-            y[last] = from.y[last] + h * power.sum::<f64>();
+            for i in first..y.len() {
+                let power = a.iter().zip(&self.residuals).map(|(a, residual)| a * residual.powers[i - first]);
+                y[i] = from.y[i] + h * power.sum::<f64>();
+            }
         }
     }
 }

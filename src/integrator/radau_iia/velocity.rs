@@ -35,6 +35,7 @@ pub fn slope(problem: &mut Problem, t: f64, y: &[f64], slope: &mut [f64]) -> Res
     let (qdot, rest) = slope.split_at_mut(q.len());
     dynamics.system.rate(q, v, qdot);
     rest[..v.len()].copy_from_slice(&dynamics.vdot);
-    rest[v.len()] = dynamics.power();
+    let powers = dynamics.powers(&dynamics.lambda);
+    rest[v.len()..].iter_mut().zip(powers).for_each(|(rate, power)| *rate = power);
     Ok(())
 }

@@ -15,7 +15,6 @@ use super::spectrum::{modes_of, refused};
 use super::{Changes, Complex, Cost, Lift, LinearModel, Matrix, Response, Variation};
 use crate::error::{Error, Result};
 use crate::math::eigen::Unsolved;
-use crate::system::refuse_states;
 use crate::tolerances::linearize as tolerances;
 use quadratic::Quadratic;
 use reduce::Modal;
@@ -35,7 +34,7 @@ type C = Complex<f64>;
 /// ```
 ///
 /// A is block diagonal: [re im; -im re] for a pair, re for a real eigenvalue, states `mode1.re`, `mode1.im`, the
-/// largest change of a coordinate of a unit of which is 1. Eigenvalues without independent vectors, such as the double
+/// largest change of a coordinate or state xi of a unit of which is 1. Eigenvalues without independent vectors, such as the double
 /// zeros of a free body, have a common block of states `shared1` ... B follows from left vectors. D has the gain at s =
 /// 0 of the modes truncated, so that the model's static gain is right (mode acceleration); where rigid bodies make that
 /// infinite, their gain at the real shift of the search, a fiftieth of the fastest rate found, and nothing for a
@@ -49,7 +48,6 @@ type C = Complex<f64>;
 /// # Errors
 /// No mode asked for or none there; eigenvalues that do not converge; outputs without derivatives.
 pub fn modal(variation: &mut Variation, count: usize, shift: Complex<f64>) -> Result<LinearModel> {
-    refuse_states(variation.system(), "a model of a few modes", "leave --modes out")?;
     let clock = Instant::now();
     let equations = Quadratic::new(variation);
     check(&equations, count, shift)?;
@@ -94,9 +92,13 @@ fn hold(variation: &mut Variation, equations: &Quadratic, space: &mut Space) -> 
     Ok(())
 }
 
-/// Returns dq = p, dv = s p + [v, p].
+/// Returns dq = p, dv = s p + [v, p]; dxi = p.
 fn changes(equations: &Quadratic, space: &Space) -> Changes {
-    Changes { q: space.p.clone(), v: &space.u + equations.turn.product(&space.p) }
+    let (mut q, mut v) = (space.p.clone(), &space.u + equations.turn.product(&space.p));
+    let states = (equations.moving, equations.len() - equations.moving);
+    v.rows_mut(states.0, states.1).copy_from(&space.p.rows(states.0, states.1));
+    q.rows_mut(states.0, states.1).fill(0.0);
+    Changes { q, v }
 }
 
 /// Adds inputs and outputs. Returns also the forces of a unit of each state of the inputs and of each input: with
@@ -132,7 +134,8 @@ fn finish(
 ) -> Result<LinearModel> {
     let t = variation.point.t;
     let (modes, vectors, conditioning) = modes_of(variation, &built).map_err(|unsolved| refused(t, &unsolved))?;
-    let space = [built.changes.q.map(C::from), free_rates(variation, &built).map(C::from)];
+    let shapes = built.shapes(variation.system().dimensions());
+    let space = [shapes.map(C::from), free_rates(variation, &built, &shapes).map(C::from)];
     for (mode, vector) in modes.iter().zip(vectors.column_iter()) {
         let [p, u] = [&space[0] * vector, &space[1] * vector];
         let residual = residual(found, mode.value, p.iter().chain(u.iter()).copied());
@@ -150,9 +153,12 @@ fn finish(
     Ok(LinearModel { method, chart, states, inputs, orders, outputs, a, b, c, d, e, modes, point, cost })
 }
 
-/// Returns s dq = dv - [v, dq] of each state.
-fn free_rates(variation: &Variation, built: &Built) -> Matrix {
-    &built.changes.v - variation.bracket_with(&built.changes.q)
+/// Returns s dq = dv - [v, dq] of each state, and s dxi, which is that of its `shapes`.
+fn free_rates(variation: &Variation, built: &Built, shapes: &Matrix) -> Matrix {
+    let mut rates = &built.changes.v - variation.bracket_with(&built.changes.q);
+    let n = variation.system().dimensions();
+    rates.rows_mut(n.moving(), n.states).copy_from(&(shapes.rows(n.moving(), n.states) * &built.a));
+    rates
 }
 
 /// Returns the relative residual |op x - theta x| / |theta x|.

@@ -14,6 +14,8 @@ type C = Complex<f64>;
 /// ```
 ///
 /// with the K and C of a [`Variation`] on the right. W is exact; it is zero without rotations in space, and at rest.
+/// Of a state xi p is dxi itself, of which the equations have no second derivative: its column of C is one of K, and
+/// its 1 in M is one in C.
 pub struct Quadratic {
     pub mass: Sparse,
     pub damping: Sparse,
@@ -21,8 +23,10 @@ pub struct Quadratic {
     pub g: Sparse,
     /// W = [v, .].
     pub turn: Sparse,
-    /// Eigenvalues that are finite: 2 (n - m) with m independent rows of G.
+    /// Eigenvalues that are finite: 2 (n - m), less one for each state xi, with m independent rows of G.
     pub finite: usize,
+    /// Number of p that are dq; the others are dxi.
+    pub moving: usize,
 }
 
 /// A sparse matrix by its entries; entries at one place add up.
@@ -38,13 +42,18 @@ impl Quadratic {
     pub fn new(variation: &Variation) -> Self {
         let (structure, terms) = (&variation.dynamics.structure, &variation.dynamics.terms);
         let part = |values: &[f64]| Sparse { pattern: Pattern::clone(&structure.tangent), values: values.to_vec() };
-        let mass = Sparse::symmetric(&structure.mass, &terms.mass);
+        let mut mass = Sparse::symmetric(&structure.mass, &terms.mass);
+        let n = variation.system().dimensions();
         let (k, c, turn) = (part(&variation.tangent.k), part(&variation.tangent.c), turn(variation));
+        let (mut stiffness, mut damping) = (k.plus(c.times(&turn)), c.plus(mass.times(&turn)));
+        damping.give(&mut stiffness, |_, j| j >= n.moving());
+        mass.give(&mut damping, |_, j| j >= n.moving());
         Quadratic {
-            stiffness: k.plus(c.times(&turn)),
-            damping: c.plus(mass.times(&turn)),
+            stiffness,
+            damping,
             g: Sparse { pattern: Pattern::clone(&structure.g), values: terms.g.clone() },
-            finite: 2 * degrees_of_freedom(&variation.dynamics),
+            finite: 2 * degrees_of_freedom(&variation.dynamics) - n.states,
+            moving: n.moving(),
             mass,
             turn,
         }
@@ -64,6 +73,7 @@ impl Quadratic {
             g: self.g.clone(),
             turn: self.turn.clone(),
             finite: self.finite,
+            moving: self.moving,
         }
     }
 
@@ -125,6 +135,14 @@ impl Sparse {
         self.pattern.entries.extend(other.pattern.entries);
         self.values.extend(other.values);
         self
+    }
+
+    /// Moves the entries at these places to another matrix.
+    fn give(&mut self, other: &mut Self, places: impl Fn(usize, usize) -> bool) {
+        for (&(i, j), value) in self.pattern.entries.iter().zip(&mut self.values).filter(|((i, j), _)| places(*i, *j)) {
+            other.pattern.entries.push((i, j));
+            other.values.push(std::mem::take(value));
+        }
     }
 
     fn times(&self, right: &Self) -> Self {
