@@ -37,6 +37,12 @@ impl TurnAxes {
     /// The markers' own: the angle about z.
     pub const OWN: TurnAxes = TurnAxes { of: [1.0, 0.0, 0.0], to: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] };
 
+    /// b, and e_0 and e_1. Not inlined, so that the markers' own axes, which nearly all angles have, stay fast.
+    #[inline(never)]
+    fn directions<const D: usize>(&self, of: &Carried<D>, to: &Carried<D>) -> ([f64; D], [[f64; D]; 2]) {
+        (of.direction(&self.of), self.to.map(|e| to.direction(&e)))
+    }
+
     /// e_0 . b and e_1 . b
     pub fn cos_sin<S: Scalar, const D: usize>(&self, of: &Frame<S, D>, to: &Frame<S, D>) -> (S, S) {
         let b = turned(&of.axes, &self.of);
@@ -59,12 +65,12 @@ pub struct Turning {
 impl Turned {
     /// c, s and the rate of the angle, rad/s: (w_b - w_e) . b_x x (c e_y - s e_x)/(c^2 + s^2); zero if b_x is nearly
     /// along e_z.
-    #[inline]
+    #[inline(always)]
     fn at<'m, const D: usize>(&self, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> [f64; 3] {
         let (of, to) = (marker(self.of), marker(self.to));
         let (x, e) = match &self.axes {
             None => (of.axis(0), [to.axis(0), to.axis(1)]),
-            Some(axes) => (of.direction(&axes.of), axes.to.map(|e| to.direction(&e))),
+            Some(axes) => axes.directions(&of, &to),
         };
         let [c, s] = [dot(&e[0], &x), dot(&e[1], &x)];
         let across: [f64; D] = from_fn(|i| c * e[1][i] - s * e[0][i]);

@@ -45,7 +45,7 @@ impl<const D: usize> Mechanism<D> {
     }
 
     /// A marker with the pose of the body that carries it.
-    #[inline]
+    #[inline(always)]
     pub(super) fn carried(&self, marker: MarkerId, q: &[f64], v: &[f64]) -> Carried<'_, D> {
         let model = self.model();
         match model.carrier(marker) {
