@@ -135,9 +135,12 @@ fn free_body_turns_as_euler_says() {
     let body = parse(
         r#"{ "name": "free_body", "dimension": 3, "simulation": { "t_end": 10 },
              "bodies": [{ "name": "body", "type": "rigid", "mass": 1, "inertia": [1, 2, 3],
-                          "initial": { "angular_velocity": [0.4, 0, 1.2] } }] }"#,
+                          "initial": { "angular_velocity": [0.4, 0, 1.2] } }],
+             "outputs": [{ "name": "named", "measure": "expression", "value": "body.wy" }] }"#,
     );
     let run = body.tight(1e-13, 10.0, 1.0);
+    // One name means one thing in columns and in expressions.
+    assert!(run.column("named").iter().zip(run.column("body.wy")).all(|(a, b)| (a - b).abs() < CLOSE));
     // (0.4 cn, 0.4 sn, 1.2 dn)(1.2 t | 1/27) at t = 1, 2, 5, 10 s, by mpmath.
     let expected = [
         (1, [0.14791503353107383, 0.37164652945440146, 1.1806606705773537]),

@@ -92,7 +92,11 @@ impl EnergyMeter {
 
     /// Returns the balance at a state; `None` where the system defines no potential.
     pub fn ledger(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Option<Ledger> {
-        let energy = system.energy(state.t, state.q, state.v, scratch)?;
+        // Of a law that jumps here the run is still on the side it came from.
+        scratch.pieces.extend_from_slice(state.pieces);
+        let energy = system.energy(state.t, state.q, state.v, scratch);
+        scratch.pieces.clear();
+        let energy = energy?;
         let total = energy.kinetic + energy.potential;
         // A run that goes on from another one begins with the work done before.
         let initial = self.balance.map_or(total - state.work, |balance| balance.initial);

@@ -43,6 +43,8 @@ pub enum Quantity {
     },
     /// Component of the angular velocity along an axis of `to`, rad/s, in the plane the third; its order is 1 or 2.
     Spin(usize),
+    /// Component of the angular velocity along an axis of the marker itself, rad/s, in space; its order is 1 or 2.
+    OwnSpin(usize),
     /// Value of the scene's output of this number, in SI units; in other outputs alone, which know what it is.
     Output(usize),
 }
@@ -55,7 +57,7 @@ impl Probe {
         Probe { of, to: (to != 0).then_some(to), quantity, order }
     }
 
-    /// `body.marker.x`, `body.x`, `body.angle`, with `'` and `''` for rates; `body.wx` and `body.wx'` in space.
+    /// `body.marker.x`, `body.x`, `body.angle`, with `'` and `''` for rates; `body.wx` and `body.wx'` in space, about its own axes.
     pub fn parse<const D: usize>(name: &str, markers: &MarkerTable) -> Option<Probe> {
         let (place, quantity) = name.rsplit_once('.')?;
         let of = markers.find(place).ok()?;
@@ -63,7 +65,7 @@ impl Probe {
         let primes = quantity.len() - base.len();
         let axis = |text: &str| AXES[..D].iter().position(|axis| *axis == text);
         let (quantity, order) = match base.strip_prefix('w') {
-            Some(about) if D == 3 => (Quantity::Spin(axis(about)?), primes + 1),
+            Some(about) if D == 3 => (Quantity::OwnSpin(axis(about)?), primes + 1),
             _ if base == "angle" && D == 2 => (Quantity::Angle, primes),
             _ => (Quantity::Position(axis(base)?), primes),
         };
@@ -118,7 +120,7 @@ impl Probe {
                 let angle = if undefined { S::zero() } else { S::atan2(s, c) * factor };
                 regime.angle(turning, angle, start)
             }
-            Quantity::Spin(_) | Quantity::Output(_) => S::zero(),
+            Quantity::Spin(_) | Quantity::OwnSpin(_) | Quantity::Output(_) => S::zero(),
         }
     }
 
@@ -130,6 +132,7 @@ impl Probe {
     {
         match self.quantity {
             Quantity::Spin(axis) => self.spin(axis, frame),
+            Quantity::OwnSpin(axis) => own_spin(axis, frame(self.of).borrow(), self.order),
             Quantity::Distance if self.order > 0 => self.distance_rate(frame),
             _ => level(self.position(regime, frame), self.order),
         }
@@ -168,6 +171,11 @@ impl Probe {
             _ => level(norm(&gap), self.order),
         }
     }
+}
+
+fn own_spin<S: Scalar, const D: usize>(axis: usize, of: &Frame<Taylor<S>, D>, order: usize) -> S {
+    let spin = of.spin();
+    level(dot(&of.axes[axis], &std::array::from_fn(|i| spin[i])), order - 1)
 }
 
 /// Time derivative of this order.

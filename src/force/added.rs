@@ -76,7 +76,7 @@ where
     fn wheel(&self, frames: &Motion<f64, D>, time: Instant<f64>) -> Option<Wheel> {
         let wheel = self.inner.wheel(&frames[..self.own], time)?;
         let Value::OfTime(value) = &self.value else { return Some(wheel) };
-        Some(Wheel { road: wheel.road + value.eval(&[time.t.x]), ..wheel })
+        Some(Wheel { road: wheel.road + value.eval_held(&[time.t.x], time.regime), ..wheel })
     }
     fn beam(&self) -> Option<&Beam> {
         self.inner.beam()

@@ -30,17 +30,17 @@ use std::sync::Arc;
 /// Bad input: a name in `hold` that does not exist, joints that cannot all be closed, velocities that contradict the
 /// joints or each other; a start at which the accelerations are not determined, or beyond the range of a signal.
 pub fn assemble(system: &dyn MechanicalSystem, t: f64, guess: (&[f64], &[f64]), hold: &[String]) -> Result<Assembly> {
-    assemble_held(system, None, t, guess, hold)
+    assemble_held(system, [None; 2], t, guess, hold)
 }
 
 /// As [`assemble`]; the coordinates satisfy the constraints of the first of `held`, the velocities those of the second:
-/// both are the system with further constraints.
+/// each is the system with further constraints, if there are any.
 ///
 /// # Errors
 /// As [`assemble`].
 pub fn assemble_held(
     system: &dyn MechanicalSystem,
-    held: Option<[&dyn MechanicalSystem; 2]>,
+    held: [Option<&dyn MechanicalSystem>; 2],
     t: f64,
     guess: (&[f64], &[f64]),
     hold: &[String],
@@ -66,7 +66,7 @@ fn beyond_signal(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])
 
 fn consistent(
     system: &dyn MechanicalSystem,
-    held: Option<[&dyn MechanicalSystem; 2]>,
+    [coordinates, velocities]: [Option<&dyn MechanicalSystem>; 2],
     t: f64,
     (q, v): (&[f64], &[f64]),
     hold: &[String],
@@ -76,20 +76,23 @@ fn consistent(
     let (mut assembled, mut rates) = (q.to_vec(), v.to_vec());
     system.normalize(&mut assembled);
     let before = metric.level(t, &assembled, &rates);
-    match held {
-        None => {
-            position::close(&mut metric, t, &mut assembled)?;
-            velocity::fit(&mut metric, t, &assembled, &mut rates)?;
+    match coordinates {
+        None => position::close(&mut metric, t, &mut assembled)?,
+        Some(coordinates) => {
+            let all = &mut Metric::new(coordinates, directions.clone());
+            reach::reach(&mut metric, all, t, &mut assembled)?;
         }
-        Some([coordinates, velocities]) => {
-            let alone = Metric::new(system, directions.clone());
-            reach::reach(alone, &mut Metric::new(coordinates, directions.clone()), t, &mut assembled)?;
-            velocity::fit(&mut Metric::new(velocities, directions), t, &assembled, &mut rates)?;
-        }
+    }
+    match velocities {
+        None => velocity::fit(&mut metric, t, &assembled, &mut rates)?,
+        Some(velocities) => velocity::fit(&mut Metric::new(velocities, directions), t, &assembled, &mut rates)?,
     }
     let after = metric.level(t, &assembled, &rates);
     let mut dynamics = Dynamics::new(system);
-    dynamics.solve(t, &assembled, &rates, |_, _| 0.0).map_err(|halt| stuck(&halt))?;
+    dynamics.solve(t, &assembled, &rates, |_, _| 0.0).map_err(|halt| {
+        let force = system.infinite_force(t, &assembled, &rates, &mut Scratch::default());
+        force.map_or_else(|| stuck(&halt), |name| stuck(&halt).element(&name))
+    })?;
     let moves = report::moves(system, (q, v), (&assembled, &rates));
     Ok(Assembly { q: assembled, v: rates, vdot: dynamics.vdot, lambda: dynamics.lambda, before, after, moves })
 }

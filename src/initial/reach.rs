@@ -13,7 +13,7 @@ use crate::tolerances::initial as tolerances;
 ///
 /// # Errors
 /// Values that the joints do not allow; the message says where the path ends.
-pub fn reach(alone: Metric, all: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
+pub fn reach(alone: &mut Metric, all: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
     let (guess, mut moved) = (q.to_vec(), vec![0.0; all.system.dimensions().v]);
     let ended = match follow(alone, all, t, q, &mut moved) {
         Ok(None) => return position::close_moved(all, t, q, moved),
@@ -31,8 +31,8 @@ pub fn reach(alone: Metric, all: &mut Metric, t: f64, q: &mut [f64]) -> Result<(
 }
 
 /// Moves q along the path; returns the gaps that remain where it ends before the values.
-fn follow(mut alone: Metric, all: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<Option<String>> {
-    position::close(&mut alone, t, q)?;
+fn follow(alone: &mut Metric, all: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<Option<String>> {
+    position::close(alone, t, q)?;
     all.level(t, q, moved);
     let groups = all.system.groups().into_iter().filter(|group| group.kind == INITIAL);
     let mut gap = vec![0.0; all.terms.phi.len()];

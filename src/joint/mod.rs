@@ -33,7 +33,7 @@ use std::array::from_fn;
 
 #[doc(hidden)]
 pub use added::Added;
-pub use coordinates::given;
+pub use coordinates::{JointCoordinate, given};
 #[doc(hidden)]
 pub use lock::Lock;
 

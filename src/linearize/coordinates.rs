@@ -168,8 +168,16 @@ pub(super) fn levi_civita(variation: &mut Variation, connection: &mut LeviCivita
     dynamics.system.levi_civita(at, connection, &mut dynamics.scratch)
 }
 
-/// Returns the names u1 .. uk and u1' .. uk' of a chart with so many directions, states xi among them.
+/// Returns the names u1 .. uk and u1' .. uk' of a chart with so many directions, states xi among them; u_1 .. where an
+/// input or a state has such a name.
 pub(super) fn numbered(variation: &Variation, directions: usize) -> (Vec<String>, Vec<String>) {
-    let names = (1..=directions - variation.system().dimensions().states).map(|i| format!("u{i}"));
-    names.map(|name| (name.clone(), format!("{name}'"))).unzip()
+    let system = variation.system();
+    let count = directions - system.dimensions().states;
+    let mut taken = system.names().v.split_off(system.dimensions().moving());
+    taken.extend(system.inputs().into_iter().map(|input| input.name));
+    let mut names: Vec<String> = (1..=count).map(|i| format!("u{i}")).collect();
+    while names.iter().any(|name| taken.contains(name)) {
+        names.iter_mut().for_each(|name| name.insert(1, '_'));
+    }
+    names.into_iter().map(|name| (name.clone(), format!("{name}'"))).unzip()
 }

@@ -41,8 +41,8 @@ impl AnyMechanism {
     }
 
     /// Mechanisms of the models that hold joint coordinates of the start, and their rates.
-    pub(crate) fn held(models: Option<Box<[AnyModel; 2]>>) -> Option<[AnyMechanism; 2]> {
-        models.map(|models| models.map(AnyMechanism::new))
+    pub(crate) fn held(models: [Option<Box<AnyModel>>; 2]) -> [Option<AnyMechanism>; 2] {
+        models.map(|model| model.map(|model| AnyMechanism::new(*model)))
     }
 
     /// The mechanism as the solvers see it.
@@ -141,7 +141,7 @@ impl PreparedScene {
         let method = settings.method(is_automatic, length).map_err(|error| settings.place(error))?;
         method.check_options(mechanism.system()).map_err(|error| settings.place(error))?;
         let held = AnyMechanism::held(scene.held);
-        let held = held.as_ref().map(|held| held.each_ref().map(AnyMechanism::system));
+        let held = held.each_ref().map(|held| held.as_ref().map(AnyMechanism::system));
         let assembly = initial::assemble_held(mechanism.system(), held, start, (&scene.q, &scene.v), &scene.hold);
         let mut assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
         check_switches(mechanism.system(), start, (&assembly.q, &assembly.v))?;

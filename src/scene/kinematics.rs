@@ -6,7 +6,7 @@ use super::model::Connection;
 use super::outputs::{missing, wrong_component};
 use crate::body::{Build, MarkerId, NamedOutput, NamedOutputs, Probe, Quantity, TurnAxes, Turned, in_space};
 use crate::error::{Error, Result, suggest};
-use crate::joint::{ClosedForm, Lock};
+use crate::joint::{ClosedForm, JointCoordinate};
 use std::cell::RefCell;
 
 /// A joint or force, as outputs see it.
@@ -61,13 +61,16 @@ impl<const D: usize> Named<'_, D> {
     /// The error of an output that an expression names, with its place in the message.
     fn unreadable(&self, spec: &OutputSpec, error: Error) -> Error {
         let Error::Input(input) = error else { return error };
-        let comes_later = |of: &String| {
-            let all = self.file.joints.iter().chain(&self.file.forces);
-            all.into_iter().any(|element| element["name"] == **of)
-                && !self.elements.borrow().iter().any(|e| e.name == *of)
+        let (all, read) = (self.file.joints.iter().chain(&self.file.forces), self.elements.borrow());
+        // How many elements stand between this one, which is read, and that of the output.
+        let ahead = |of: &String| {
+            let place = all.skip(read.len()).position(|element| element["name"] == **of);
+            place.filter(|_| !read.iter().any(|known| known.name == *of))
         };
-        match &spec.of {
-            Some(of) if comes_later(of) => {
+        match (&spec.of, spec.of.as_ref().and_then(ahead)) {
+            (Some(of), Some(0)) => Error::input(format!("the output `{}` measures `{of}` itself", spec.name))
+                .hint("measure its markers, by `between` or `relative_to`; laws of springs know their own `length`, `angle` and `rate`"),
+            (Some(of), Some(_)) => {
                 Error::input(format!("the output `{}` measures `{of}`, which comes after this", spec.name))
                     .hint(format!("put `{of}` before it in the scene"))
             }
@@ -151,7 +154,11 @@ impl<const D: usize> Reader<'_, D> {
                 let (Some(ClosedForm::Lock(lock)), Some([a, b])) = (&joint.form, joint.ends) else {
                     return Err(self.immeasurable(joint, "position"));
                 };
-                let free: Vec<usize> = (0..D).filter(|axis| !lock.translation.contains(axis)).collect();
+                let translation = |(_, coordinate)| match coordinate {
+                    JointCoordinate::Translation(axis) => Some(axis),
+                    _ => None,
+                };
+                let free: Vec<usize> = lock.coordinates().into_iter().filter_map(translation).collect();
                 let names: Vec<&str> = free.iter().map(|&axis| AXES[axis]).collect();
                 let Some(first) = names.first() else { return Err(self.immeasurable(joint, "position")) };
                 let axis = free[self.component(first, &names)?];
@@ -184,15 +191,17 @@ impl<const D: usize> Reader<'_, D> {
         if element.kind == "torsion_spring" {
             return Ok(self.between([a, b], (None, Some(&element.name)), order));
         }
-        match &element.form {
-            Some(ClosedForm::Lock(Lock { translation: [0, 1, 2], rotation: [(0, 1)], .. })) => {
+        let Some(ClosedForm::Lock(lock)) = &element.form else { return Err(none()) };
+        let has = |wanted| lock.coordinates().iter().any(|(_, coordinate)| *coordinate == wanted);
+        match () {
+            _ if has(JointCoordinate::FirstPin) => {
                 let about = self.spec.component.as_deref();
                 let about = about.ok_or_else(|| missing("component", "x or y: the pin on the first or second body"))?;
                 let pin = ["x", "y"].iter().position(|axis| *axis == about);
                 let term = universal([a, b], pin.ok_or_else(|| wrong_component(about, &["x", "y"]))?);
                 Ok(self.turn(term, None, order))
             }
-            Some(ClosedForm::Lock(lock)) if lock.rotation.len() == if D == 2 { 0 } else { 2 } => {
+            _ if has(JointCoordinate::Angle) => {
                 self.component("z", &["z"])?;
                 self.build.oriented("of", &[a, b])?;
                 let about = |triad: &[[f64; D]; D]| {

@@ -79,8 +79,8 @@ pub struct Scene {
     /// Bodies, joints, forces, outputs and inputs.
     pub model: AnyModel,
     /// The model with further joints that hold the joint coordinates of `initial`, and with joints that hold their rates;
-    /// `None` where the scene gives none.
-    pub held: Option<Box<[AnyModel; 2]>>,
+    /// `None` where it gives none of these.
+    pub held: [Option<Box<AnyModel>>; 2],
     /// Initial guess of q for assembly, in the order of the bodies.
     pub q: Vec<f64>,
     /// Initial guess of v, in the order of the bodies.

@@ -179,7 +179,7 @@ impl Expansion<'_> {
             let mut longer = Vec::new();
             for variables in &all {
                 let (first, count) = self.range(range, variables).map_err(|error| error.under(name))?;
-                self.copies += count;
+                self.copies = self.copies.saturating_add(count);
                 if self.copies > MOST_COPIES {
                     return Err(Error::input(format!("more than {MOST_COPIES} copies"))
                         .under(name)
@@ -215,9 +215,9 @@ impl Expansion<'_> {
                 .hint("write \"1..6\" for 1 to 6; the ends may be expressions over parameters"));
         };
         let [first, last] = [self.evaluate(first, variables)?, self.evaluate(last, variables)?];
-        let is_whole = [first, last].iter().all(|x| x.fract() == 0.0 && x.abs() < 1e9);
-        match is_whole && last >= first - 1.0 {
-            true => Ok((first, (last - first + 1.0) as usize)),
+        let (is_whole, count) = ([first, last].iter().all(|x| x.fract() == 0.0), last - first + 1.0);
+        match is_whole && first.abs() < 1e9 && count >= 0.0 {
+            true => Ok((first, count as usize)),
             false => Err(Error::input(format!("`{}..{}` is no range", short(first), short(last)))
                 .hint("give two whole numbers, the smaller one first")),
         }
@@ -308,6 +308,7 @@ mod tests {
         let table = [
             (json!([{ "repeat": 3 }]), "at bodies[0].repeat: expected an object {...}, found 3"),
             (json!([{ "repeat": { "i": 3 } }]), "at bodies[0].repeat.i: expected a range, found 3"),
+            (json!([{ "repeat": { "i": "1..1e300" } }]), "at bodies[0].repeat.i: more than 1000000 copies"),
             (json!([{ "repeat": { "i": "3..1" } }]), "at bodies[0].repeat.i: `3..1` is no range"),
             (json!([{ "repeat": { "i": "1..1e7" } }]), "at bodies[0].repeat.i: more than 1000000 copies"),
             (json!([{ "repeat": { "i": "1..m" } }]), "at bodies[0].repeat.i: unknown name `m`"),

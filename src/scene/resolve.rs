@@ -44,7 +44,7 @@ pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)
 }
 
 /// The model, what [`Scene::held`] is, and the initial q and v.
-type Models = (AnyModel, Option<Box<[AnyModel; 2]>>, Vec<f64>, Vec<f64>);
+type Models = (AnyModel, [Option<Box<AnyModel>>; 2], Vec<f64>, Vec<f64>);
 
 fn models<const D: usize>(
     file: &SceneFile,
@@ -54,16 +54,16 @@ fn models<const D: usize>(
     any: fn(Model<D>) -> AnyModel,
 ) -> Result<Models> {
     let (own, q, v, rows) = model(file, kinds, parameters, folder)?;
-    let with = |rows| {
-        model(file, kinds, parameters, folder).map(|(mut model, ..)| {
+    let with = |rows: Vec<_>| {
+        let more = (!rows.is_empty()).then(|| model(file, kinds, parameters, folder));
+        let add = |(mut model, ..): (Model<D>, _, _, _)| {
             model.joints.extend(rows);
-            any(model)
-        })
+            Box::new(any(model))
+        };
+        more.transpose().map(|more| more.map(add))
     };
-    let held = match rows {
-        _ if file.initial.is_empty() => None,
-        [coordinates, rates] => Some(Box::new([with(coordinates)?, with(rates)?])),
-    };
+    let [coordinates, rates] = rows;
+    let held = [with(coordinates)?, with(rates)?];
     Ok((any(own), held, q, v))
 }
 

@@ -103,6 +103,10 @@ fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Poi
     for record in reader.records() {
         let record = record.map_err(broken)?;
         let place = format!("{file}, line {}", record.position().map_or(0, |at| line(text, at)));
+        if record.iter().skip(headings.len()).any(|cell| !cell.is_empty()) {
+            let message = format!("{place}: {} values under {} names", record.len(), headings.len());
+            return Err(Error::input(message).hint("decimals are written with a point; or name all columns"));
+        }
         let number = |k: usize| {
             let cell = record.get(chosen[k]).unwrap_or_default();
             cell.parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(|| {

@@ -3,16 +3,19 @@
 use super::Run;
 use super::events::{Passage, Turn};
 use crate::error::{Failure, short};
-use crate::formulation::StepError;
+use crate::formulation::{Dynamics, StepError};
 use crate::integrator::{From, first_step};
-use crate::math::largest;
-use crate::system::{Need, OperatingPoint, Scratch};
+use crate::math::{Piece, largest};
+use crate::system::{Need, OperatingPoint, Road, Scratch};
 use crate::tolerances::simulate as tolerances;
 
 const CONTINUOUS: &str = "write a law that passes through zero steadily, such as `tanh(x/width)` in the place of \
      `sign(x)`, or `smoothstep` in the place of `step` and `if`";
 
 const BEYOND: &str = "give the signal more points, or \"beyond\": \"hold\" or \"repeat\"; or end the run before";
+
+const STEEP: &str = "make the edge a ramp, with a signal that is \"linear\" or \"cubic\", or `smoothstep` in the place \
+     of `step`; or give the tyre no damping";
 
 impl Run<'_> {
     /// The first threshold passed in the step just tried. A method that chooses its own steps ends there on its
@@ -69,7 +72,7 @@ impl Run<'_> {
     /// Changes the form at the present state: at a given time, and where a step ended at a threshold or
     /// cannot begin. The next step is small where y' jumps.
     pub fn change_form(&mut self, at_start: Option<usize>) -> Result<(), Failure> {
-        let before = self.slope.clone();
+        let (before, roads, pieces) = (self.slope.clone(), self.roads(), self.events.pieces.clone());
         let turns = self.events.turn(at_start);
         if let Some(&turn) = turns.first() {
             self.check_crowd(turn)?;
@@ -85,6 +88,7 @@ impl Run<'_> {
                 return Err(self.sliding(turn));
             }
         }
+        self.meet_roads(roads, &pieces)?;
         self.integrator.restart();
         self.cut = None;
         let jump: Vec<f64> = self.slope.iter().zip(&before).map(|(after, before)| self.h * (after - before)).collect();
@@ -181,6 +185,29 @@ impl Run<'_> {
         let moving = self.tolerance.motion();
         self.y[moving] += work;
         Ok(())
+    }
+
+    /// The roads under the wheels, and the potential energy, J.
+    fn roads(&mut self) -> (Vec<Road>, f64) {
+        let (q, v) = self.problem.split(&self.y);
+        let Dynamics { system, scratch, .. } = &mut self.problem.dynamics;
+        let potential = system.energy(self.t, q, v, scratch).map_or(0.0, |energy| energy.potential);
+        (system.roads(self.t, q, v, scratch), potential)
+    }
+
+    /// A road that jumps does the work by which it loads the spring of a tyre. The damper of one would give the wheel
+    /// the impulse c times the jump, for which it takes energy without bound.
+    fn meet_roads(&mut self, (roads, potential): (Vec<Road>, f64), pieces: &[Piece]) -> Result<(), Failure> {
+        let (now, loaded) = self.roads();
+        let moving = self.tolerance.motion();
+        self.y[moving] += loaded - potential;
+        let same = tolerances::SAME * self.problem.dynamics.system.length();
+        let jump = |(old, new): &(Road, Road)| new.is_damped && (new.height - old.height).abs() > same;
+        let Some((old, Road { tyre, height, .. })) = roads.into_iter().zip(now).find(jump) else { return Ok(()) };
+        let signal = self.events.changed_signal(pieces, &format!("the force `{tyre}`"));
+        let by = short(format!("{:.1e}", height - old.height).parse().unwrap_or(0.0));
+        let reason = format!("the road{signal} under `{tyre}` jumps by {by} m, which its damper cannot follow");
+        Err(self.failure(reason, Some(STEEP)))
     }
 
     /// Failure of a law that drives the motion from both sides to the threshold at which it jumps.

@@ -1,7 +1,7 @@
 //! The states of a run and their receiver.
 
 use crate::error::{Error, Result, short};
-use crate::math::largest;
+use crate::math::{Piece, largest};
 use crate::system::OperatingPoint;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -58,6 +58,8 @@ pub struct Observation<'a> {
     pub work: f64,
     /// Work of the forces of [`MechanicalSystem::works`](crate::system::MechanicalSystem::works) since the start, J.
     pub works: &'a [f64],
+    /// The pieces on which the run evaluates functions that change their form.
+    pub pieces: &'a [Piece],
     /// Change of energy due to the tolerated errors of this step, J; `None` for fixed steps and output rows.
     pub tolerated: Option<f64>,
     /// The longest time between evaluations of the equations in a fixed step, s; `None` otherwise.

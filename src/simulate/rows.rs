@@ -104,6 +104,7 @@ pub fn observation<'o>(
         phi_ddot,
         work: y[q.len() + v.len()],
         works: &y[q.len() + v.len() + 1..],
+        pieces: &dynamics.scratch.pieces,
         tolerated: None,
         apart: None,
         rank_indicator,

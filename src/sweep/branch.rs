@@ -22,7 +22,7 @@ pub struct State {
 /// A scene at a value of its parameter.
 struct Ready {
     mechanism: AnyMechanism,
-    held: Option<[AnyMechanism; 2]>,
+    held: [Option<AnyMechanism>; 2],
     t: f64,
     scene: (Vec<f64>, Vec<f64>, Vec<String>),
 }
@@ -38,13 +38,13 @@ impl Ready {
     /// The state assembled from a guess with the velocities of the scene.
     fn assemble(&self, q: &[f64]) -> Result<Assembly> {
         let (_, v, hold) = &self.scene;
-        let held = self.held.as_ref().map(|held| held.each_ref().map(AnyMechanism::system));
+        let held = self.held.each_ref().map(|held| held.as_ref().map(AnyMechanism::system));
         initial::assemble_held(self.mechanism.system(), held, self.t, (q, v), hold)
     }
 
     /// Newton's method from a nearby guess.
     fn follow(&self, guess: &[f64], dependent: &[usize]) -> Result<Option<Followed>> {
-        let system = self.held.as_ref().map_or(&self.mechanism, |[coordinates, _]| coordinates).system();
+        let system = self.held[0].as_ref().unwrap_or(&self.mechanism).system();
         initial::follow(system, self.t, guess, &self.scene.2, dependent)
     }
 

@@ -10,10 +10,11 @@ use super::scale::{length_scale, row_scales};
 use super::spin::{Placement, Rotation, Spin};
 use super::support::Support;
 use super::tangent::{Evaluation, OperatingPoint, Tangent};
-use super::view::{Plain, along_motion, gathered};
+use super::view::{Plain, gathered};
 use super::workspace::Workspace;
 use super::{
-    Column, Dimensions, Energy, Excitation, Group, Limited, MechanicalSystem, Names, Need, Scratch, Structure, Terms,
+    Column, Dimensions, Energy, Excitation, Group, Limited, MechanicalSystem, Names, Need, Road, Scratch, Structure,
+    Terms,
 };
 use crate::body::{Frame, cross};
 use crate::math::expression::{Switch, TimeFunction};
@@ -145,16 +146,16 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    fn placed_joints(&self) -> impl Iterator<Item = PlacedJoint<'_, D>> {
+    pub(super) fn placed_joints(&self) -> impl Iterator<Item = PlacedJoint<'_, D>> {
         (0..self.joints.len()).map(|joint| self.placed_joint(joint))
     }
 }
 
-/// Name of a coordinate or velocity of a body; a state has its own.
 fn column(output: &Watched) -> Column {
     Column { name: output.name.clone(), unit: output.unit.name.clone() }
 }
 
+/// Name of a coordinate or velocity of a body; a state has its own.
 fn full_name<const D: usize>(part: &Part<D>, name: &str) -> String {
     if name.is_empty() { part.name.clone() } else { format!("{}.{name}", part.name) }
 }
@@ -358,26 +359,20 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         self.model.switches.owners.get(switch).map_or("", String::as_str)
     }
 
+    fn infinite_force(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<String> {
+        self.at(q, v, scratch, |work, regime| self.find_infinite_force((t, q, v), regime, work))
+    }
+
+    fn roads(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Vec<Road> {
+        self.at(q, v, scratch, |work, regime| self.find_roads(Time { t, regime }, work))
+    }
+
     fn time_functions(&self) -> &[TimeFunction] {
         &self.model.switches.time_functions
     }
 
     fn switching(&self, at: OperatingPoint, out: &mut [Rate], scratch: &mut Scratch) {
-        self.at(at.q, at.v, scratch, |work, regime| {
-            self.place(at.q, at.v, at.vdot, work);
-            let time = Time { t: Rate::seeded(at.t, 0), regime };
-            for joint in self.placed_joints() {
-                with_frames(&work.motion, &joint.joint.markers, |frames| joint.switching(time, frames, out));
-            }
-            let still = [Taylor::fixed(Rate::fixed(0.0)); 3];
-            for force in self.model.given_forces().iter().chain(self.model.rates()) {
-                gathered(
-                    &force.markers,
-                    |marker| work.motion[marker].map(along_motion),
-                    |frames| force.element.switching(&still, frames, time.map(Taylor::running), out),
-                );
-            }
-        });
+        self.at(at.q, at.v, scratch, |work, regime| self.write_arguments(at, regime, work, out));
     }
 
     fn limited(&self) -> &[Limited] {

@@ -24,6 +24,7 @@ mod solid;
 mod spin;
 mod spinning;
 mod support;
+mod switching;
 mod tangent;
 mod terms;
 #[cfg(test)]
@@ -94,6 +95,18 @@ pub struct Names {
     pub v: Vec<String>,
     /// Multipliers, n_c.
     pub lambda: Vec<String>,
+}
+
+/// The road under a wheel.
+#[derive(Clone, Debug, PartialEq)]
+#[doc(hidden)]
+pub struct Road {
+    /// Name of the tyre in the scene.
+    pub tyre: String,
+    /// Height under the wheel, m.
+    pub height: f64,
+    /// True if the force depends on the rate of the height.
+    pub is_damped: bool,
 }
 
 /// The rows of phi that belong to one joint.
@@ -280,6 +293,16 @@ pub trait MechanicalSystem: Send + Sync {
 
     /// Writes the arguments of all switching functions with their rates along the motion, at a state with its v'.
     fn switching(&self, _at: OperatingPoint, _out: &mut [Rate], _scratch: &mut Scratch) {}
+
+    /// Name of the first force that is infinite or not a number at a state, if the forces have names.
+    fn infinite_force(&self, _t: f64, _q: &[f64], _v: &[f64], _scratch: &mut Scratch) -> Option<String> {
+        None
+    }
+
+    /// The roads under the wheels at a state. Default: none.
+    fn roads(&self, _t: f64, _q: &[f64], _v: &[f64], _scratch: &mut Scratch) -> Vec<Road> {
+        Vec::new()
+    }
 
     /// Functions of t alone in the equations: the time loop limits its steps so as to miss none. Default: none.
     fn time_functions(&self) -> &[TimeFunction] {

@@ -88,6 +88,11 @@ cases! {
         law("'law': '3*length + R'").with("'outputs': [", "'outputs': [ { 'name': 'R', 'measure': 'reaction', 'of': 'pin' }, ") => [
             "at forces[0].law (`spring`): the output `R` is no position, angle, distance or rate of these",
         ];
+    law_of_its_own_output:
+        law("'law': '3*reach'").with("'outputs': [", "'outputs': [ { 'name': 'reach', 'measure': 'distance', 'of': 'spring' }, ") => [
+            "at forces[0].law (`spring`): the output `reach` measures `spring` itself",
+            "measure its markers, by `between` or `relative_to`; laws of springs know their own `length`, `angle` and `rate`",
+        ];
     equation_before_its_joint:
         measuring("'measure': 'angle', 'of': 'late'")
             .joint("{ 'name': 'early', 'type': 'equation', 'expression': 'theta - t' }, \

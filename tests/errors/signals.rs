@@ -55,7 +55,7 @@ cases! {
 /// One message a file: (its text, the columns, pieces).
 #[test]
 fn files_that_are_no_signal() {
-    let cases: [(&str, &str, &[&str]); 8] = [
+    let cases: [(&str, &str, &[&str]); 9] = [
         (
             "s,z\n0,1\n1,2\n1,3\n",
             "",
@@ -64,6 +64,11 @@ fn files_that_are_no_signal() {
         ("s;z\n0;1\n\n1;2,5\n", "", &["road.csv, line 4: expected a number in the column `z`, found `2,5`", "point"]),
         ("s\tz\n0\t1\n1\n", "", &["road.csv, line 3: expected a number in the column `z`, found nothing"]),
         ("s,z\n0,1\n", "", &["a signal takes at least 2 points, found 1"]),
+        (
+            "s,z\n0,1,\n1,5,2,5\n",
+            "",
+            &["road.csv, line 3: 4 values under 2 names", "decimals are written with a point"],
+        ),
         ("0,1\n1,2\n2,3\n", "", &["road.csv: the first line has numbers in the place of names"]),
         ("s\n1\n2\n", "", &["road.csv: expected two columns or more, found 1", "commas, semicolons or tabs"]),
         ("s,height\n0,1\n1,2\n", "'s', 'heigth'", &["road.csv: there is no column `heigth`", "did you mean `height`?"]),

@@ -76,7 +76,7 @@ cases! {
     nan_force_at_start:
         pendulum()
             .force("{ 'name': 'spring', 'type': 'applied_force', 'at': 'rod.B', 'force': [0, 'sqrt(t-1)'] }") => [
-            "scene.json:15:13: at forces: at the start, the force on `rod.y` is infinite or not a number",
+            "scene.json:15:13: at forces (`spring`): at the start, the force on `rod.y` is infinite or not a number",
             "look for roots and quotients in expressions, for `floor` and `mod` beyond 2^29, and for springs of length zero",
         ];
 }

@@ -1,7 +1,7 @@
 //! Forces and motions that are given over time.
 
 use super::{ADAPTIVE, attempt, fixed, method, pushed};
-use crate::scenes::{dop853, parse, shipped};
+use crate::scenes::{Ready, dop853, parse, shipped};
 use holonom::simulate::Span;
 use std::f64::consts::PI;
 
@@ -196,6 +196,37 @@ fn a_jump_of_a_driver_ends_the_run() {
         let failure = outcome.failure.unwrap_or_else(|| panic!("{names:?}"));
         assert_eq!(failure.t, 0.3);
         assert!(failure.reason.contains("`joint.d.x` prescribes jumps by 0.1"), "{failure:?}");
+    }
+}
+
+/// A wheel of 2 kg on a tyre of 5000 N/m at rest at 0.3 - 2 g/5000 + road.
+fn wheel(signals: &str, road: &str, damping: f64) -> Ready {
+    parse(&format!(
+        r#"{{ "name": "wheel", "dimension": 2, "gravity": [0, -10], "signals": [{signals}],
+            "bodies": [{{ "name": "a", "type": "point_mass", "mass": 2, "initial": {{ "position": [0, 0.296] }} }}],
+            "forces": [{{ "name": "tyre", "type": "tyre", "at": "a", "stiffness": 5000, "damping": {damping}, "radius": 0.3,
+                         "road": "{road}" }}] }}"#
+    ))
+}
+
+/// Of an edge c would make an impulse with energy without bound; k does the work by which it loads the tyre: the wheel
+/// swings by 0.02 (1 - cos 50 (t - 0.3)).
+#[test]
+fn a_road_that_jumps_is_refused_under_a_damper() {
+    let edge = r#"{ "name": "edge", "points": [[0, 0], [0.3, 0.02], [1, 0.02]], "interpolation": "previous" }"#;
+    for (signals, road, named) in [("", "0.02*step(t - 0.3)", ""), (edge, "edge(t)", " `edge`")] {
+        let (damped, sprung) = (wheel(signals, road, 10.0), wheel(signals, road, 0.0));
+        for names in ADAPTIVE {
+            let failure = attempt(&damped, &method(names, 1e-8), 1.0).0.failure;
+            let failure = failure.unwrap_or_else(|| panic!("{names:?}"));
+            let reason = format!("the road{named} under `tyre` jumps by 0.02 m, which its damper cannot follow");
+            assert!(failure.t == 0.3 && failure.reason == reason, "{names:?}: {failure:?}");
+            let (outcome, record) = attempt(&sprung, &method(names, 1e-8), 0.5);
+            let energy = record.energy.unwrap_or_else(|| panic!("{names:?}"));
+            // 1.4 J come in at the edge; errors of 1e-8 grow over 1.6 periods.
+            assert!((outcome.q[1] - 0.296 - 0.02 * (1.0 - 10.0_f64.cos())).abs() < 1e-7, "{names:?}: {outcome:?}");
+            assert!((energy.work - 1.4).abs() < 1e-6 && energy.max_error < 1e-6, "{names:?}: {energy:?}");
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::linearize::models::{model, values};
 use crate::linearize::reference::distance;
 use crate::scenes::{Ready, dop853, parse, shipped};
-use holonom::linearize::{Chart, Complex, Kind, State, Variation, at_rest, states};
+use holonom::linearize::{Chart, Complex, Kind, Request, State, Variation, at_rest, linearize, states};
 use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span};
 use holonom::validate::{Settings, validate};
@@ -237,6 +237,23 @@ fn oil_lifts_the_boom() {
 }
 
 /// In space, about an axis that is not a coordinate axis of the world, with a torque in the axes of the marker.
+/// The states of a chart have names that nothing else has.
+#[test]
+fn a_chart_has_names_of_its_own() {
+    let scene = parse(
+        r#"{ "name": "slider", "dimension": 2,
+            "bodies": [{ "name": "a", "type": "point_mass", "mass": 1 }],
+            "states": [{ "name": "u1", "initial": 0, "rate": "a.x - u1" }],
+            "forces": [{ "name": "f", "type": "applied_force", "at": "a", "force": ["-u1", "-a.y"] }],
+            "inputs": [{ "name": "u_2", "force": "f", "component": "x" }] }"#,
+    );
+    let at = start(&scene);
+    let mut variation = at.variation(&scene.0).unwrap();
+    let request = Request { method: MethodSpec::named("mcs"), chart: Some(Chart::Intrinsic) };
+    let model = linearize(&mut variation, &request).unwrap();
+    assert_eq!(model.states, ["u__1", "u__2", "u__1'", "u__2'", "u1"]);
+}
+
 #[test]
 fn a_state_drives_a_body_in_space() {
     let scene = parse(

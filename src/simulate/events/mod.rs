@@ -259,6 +259,13 @@ impl<'a> Events<'a> {
         is_from_threshold
     }
 
+    /// " `NAME`" of the signal in an element whose piece is another than `before`; nothing without one.
+    pub fn changed_signal(&self, before: &[Piece], owner: &str) -> String {
+        let changed = (0..before.len()).filter(|&i| before[i] != self.pieces[i] && self.owner(i) == owner);
+        let mut signals = changed.filter_map(|i| self.switches[i].signal.as_ref());
+        signals.next().map_or(String::new(), |signal| format!(" `{}`", signal.name()))
+    }
+
     /// Name of the element of a switching function.
     pub fn owner(&self, number: usize) -> &str {
         self.system.owner_of_switch(number)
