@@ -1,6 +1,8 @@
 //! Outputs, springs, gravity and bodies of one axis against closed forms.
 
 use crate::scenes::{Ready, Run, parse};
+use holonom::analysis::Recorder;
+use holonom::simulate::{Span, simulate_automatic};
 use serde_json::{Value, json};
 
 fn scene(dimension: usize, ground: Value, bodies: Value, joints: Value, forces: Value, outputs: Value) -> Ready {
@@ -294,4 +296,10 @@ fn works_of_forces() {
     measured(&run, "sprung", |t| 1e-3 * (0.5 * v(t).powi(2) - 3.0 * x(t)));
     // Expressions find other outputs beside works.
     measured(&run, "twice", |t| 6.0 * v(t));
+    let (system, mut recorder) = (block.system(), Recorder::new(block.system()));
+    let (start, span) = (block.start(), Span { start: 0.0, end: 6.0, output_step: 6.0 });
+    simulate_automatic(system, (1e-10, 1e-12), span, (&start.q, &start.v), &mut recorder).unwrap();
+    let pulled = recorder.finish().trajectory.column("pulled").unwrap()[1];
+    // README: errors within ten tolerances.
+    assert!((pulled - 3.0 * x(6.0)).abs() < 1e-9, "{pulled}");
 }

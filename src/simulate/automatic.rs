@@ -5,6 +5,7 @@
 //! that of the better method on each part of the motion. Work is counted in evaluations: a run is repeatable bit by
 //! bit.
 
+use super::checkpoint::flat;
 use super::contest::{Contest, Mark, Quiet, unseen};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, short};
@@ -137,7 +138,7 @@ impl<'a> Drive<'a> {
         span: Span,
         (q, v): (&[f64], &[f64]),
     ) -> Result<Self> {
-        let run = Run::new(system, &methods[EXPLICIT], span, [q, v, &[0.0]].concat())?;
+        let run = Run::new(system, &methods[EXPLICIT], span, flat(system, q, v))?;
         let leg = Leg::of(span.start, &methods[EXPLICIT], CALM.to_string());
         let (carrier, stopped, window, contest, legs) = (EXPLICIT, 0, tolerances::IMPLICIT_TRIED, None, Vec::new());
         Ok(Drive { system, methods, span, run, carrier, stopped, window, contest, legs, leg })

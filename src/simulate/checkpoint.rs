@@ -68,7 +68,7 @@ pub fn simulate_from(
     method.check()?;
     span.check()?;
     let y = match start {
-        Start::State(q, v) => [q, v, &vec![0.0; 1 + system.works().len()]].concat(),
+        Start::State(q, v) => flat(system, q, v),
         Start::Saved(saved) => saved.checked(system, span)?.y.clone(),
     };
     let mut run = Run::new(system, method, span, y)?;
@@ -80,6 +80,11 @@ pub fn simulate_from(
     let failure = begun.and_then(|()| run.advance(sink)).err();
     let saved = has_begun.then(|| run.checkpoint(method));
     Ok((run.finish(failure, sink), saved))
+}
+
+/// (q, v, w) at the start of a run.
+pub fn flat(system: &dyn MechanicalSystem, q: &[f64], v: &[f64]) -> Vec<f64> {
+    [q, v, &vec![0.0; 1 + system.works().len()]].concat()
 }
 
 impl Checkpoint {
