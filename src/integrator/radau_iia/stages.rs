@@ -213,9 +213,9 @@ impl Stages {
     pub fn work(&mut self, method: &Collocation, from: From, h: f64) {
         let first = self.n.q + self.n.v;
         for (y, a) in self.y.iter_mut().zip(&method.a) {
-            for i in first..y.len() {
-                let power = a.iter().zip(&self.residuals).map(|(a, residual)| a * residual.powers[i - first]);
-                y[i] = from.y[i] + h * power.sum::<f64>();
+            for (i, (y, start)) in y[first..].iter_mut().zip(&from.y[first..]).enumerate() {
+                let power = a.iter().zip(&self.residuals).map(|(a, residual)| a * residual.powers[i]);
+                *y = start + h * power.sum::<f64>();
             }
         }
     }
