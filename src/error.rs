@@ -284,13 +284,12 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// A part in per cent with two significant digits: 0.12 %, 3e-5 %.
+/// A part in per cent with three significant digits, without an exponent from 0.0001 % on: 0.123 %, 3e-5 %.
 pub fn percent(part: f64) -> String {
-    match 100.0 * part {
-        0.0 => "0".to_string(),
-        most if most >= 100.0 => format!("{most:.0} %"),
-        much if much >= 0.01 => format!("{} %", significant(format!("{much:.1e}").parse().unwrap_or(much), 2)),
-        little => format!("{little:.0e} %"),
+    let rounded = format!("{:.2e}", 100.0 * part).parse().unwrap_or(f64::NAN);
+    match rounded {
+        little if little != 0.0 && little < 1e-4 => format!("{little:.0e} %"),
+        much => format!("{much} %"),
     }
 }
 
@@ -320,6 +319,22 @@ pub fn short_list(names: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parts_are_told_in_per_cent() {
+        for (part, text) in [
+            (0.0, "0 %"),
+            (1.234e-8, "1e-6 %"),
+            (1.234e-6, "0.000123 %"),
+            (0.004995, "0.5 %"),
+            (0.1 + 0.2, "30 %"),
+            (0.9996, "100 %"),
+            (123.45, "12300 %"),
+            (f64::INFINITY, "inf %"),
+        ] {
+            assert_eq!(percent(part), text);
+        }
+    }
 
     #[test]
     fn slips_are_mended() {

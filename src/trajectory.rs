@@ -1,7 +1,7 @@
 //! The computed motion: named columns over time.
 
 use crate::simulate::Observation;
-use crate::system::{Column, MechanicalSystem, Names, Scratch};
+use crate::system::{Column, MechanicalSystem, Names, OperatingPoint, Scratch};
 
 /// Rows of t, q, v, lambda and outputs, as they will be written to a file.
 #[derive(Clone, Debug)]
@@ -30,12 +30,17 @@ pub fn recorded(system: &dyn MechanicalSystem) -> Vec<Column> {
     [system.columns(), system.works()].concat()
 }
 
-/// The values of the `count` columns of [`recorded`] at a state of a run.
-pub fn values(system: &dyn MechanicalSystem, state: &Observation, count: usize, scratch: &mut Scratch) -> Vec<f64> {
+/// The values of the `count` columns of [`recorded`] at a state with its works; without these they are zero.
+pub fn values(
+    system: &dyn MechanicalSystem,
+    (state, works): (OperatingPoint, &[f64]),
+    count: usize,
+    scratch: &mut Scratch,
+) -> Vec<f64> {
     let mut all = vec![0.0; count];
-    let (outputs, works) = all.split_at_mut(count - state.works.len());
-    system.outputs(state.loaded(), outputs, scratch);
-    works.copy_from_slice(state.works);
+    let (outputs, last) = all.split_at_mut(count - works.len());
+    system.outputs(state, outputs, scratch);
+    last.copy_from_slice(works);
     all
 }
 
@@ -60,7 +65,7 @@ impl Trajectory {
 
     /// Appends a row with the outputs at a state.
     pub fn push(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
-        let outputs = values(system, state, self.outputs.len(), scratch);
+        let outputs = values(system, (state.loaded(), state.works), self.outputs.len(), scratch);
         let Names { q, v, lambda } = &self.names;
         let own = [&state.q[..q.len()], &state.v[..v.len()], &state.lambda[..lambda.len()]];
         self.rows.push([&[state.t], own[0], own[1], own[2], &outputs].concat());

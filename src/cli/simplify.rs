@@ -32,12 +32,12 @@ pub struct Args {
     /// Time for all of it, such as 20s or 5min (default: no limit)
     #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
     budget: Option<Duration>,
-    /// Try the promise on motions nearby, too: parameters, and velocities at the start, moved by up to so much
+    /// Keep the promise on motions nearby, too: parameters, and velocities at the start, moved by up to so much
     #[arg(long, value_name = "P%", value_parser = percentage, allow_hyphen_values = true)]
     robust: Option<f64>,
-    /// Number of motions nearby
-    #[arg(long, value_name = "N", default_value_t = 8, requires = "robust", value_parser = clap::value_parser!(u16).range(1..))]
-    samples: u16,
+    /// Number of motions nearby (default: from 20 to 60, by the work of a run)
+    #[arg(long, value_name = "N", requires = "robust", value_parser = clap::value_parser!(u16).range(1..))]
+    samples: Option<u16>,
     /// End time, s
     #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
     until: Option<f64>,
@@ -108,7 +108,7 @@ fn report(
 
 impl Args {
     fn settings(&self) -> Settings {
-        let samples = usize::from(self.samples);
+        let samples = self.samples.map(usize::from);
         Settings {
             within: self.within,
             norm: match self.norm {

@@ -4,7 +4,7 @@ use super::tradeoff::milliseconds;
 use super::{Table, cell, table};
 use crate::error::{Result, percent, short_list};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
-use crate::simplify::{NearbyMotion, Norm, Robustness, Run, Simplification, Trial, Which};
+use crate::simplify::{Norm, Robustness, Run, Simplification, Trial, Which};
 
 /// Returns the result as text.
 pub fn simplify_text(result: &Simplification) -> String {
@@ -52,14 +52,21 @@ fn outcome(result: &Simplification) -> String {
     let farthest =
         chosen.worst().map_or(String::new(), |worst| format!("{} is off by {}", worst.name, percent(worst.error)));
     let [before, after] = [richest, chosen].map(|run| format!("{} in {}", size(run), milliseconds(run.seconds)));
-    text + &format!("  {after}, the richest {before}\n  {farthest}, all others by less; found by {runs} runs\n")
+    text + &format!(
+        "  {after}, the richest {before}\n  {farthest}, all others by less\n  found by {runs} runs, with the work of {:.1} of the richest\n",
+        result.cost()
+    )
 }
 
-/// One change by what it does, several by what they are about.
+/// What is done; to each of several, where that is the same.
 fn name(trial: &Trial) -> String {
-    match &trial.what[..] {
-        [one] => one.clone(),
-        _ => format!("{} of {}", trial.candidate, short_list(&trial.subjects)),
+    let Trial { subjects, what, .. } = trial;
+    let done = subjects.iter().zip(what).map(|(subject, what)| what.strip_prefix(subject.as_str()));
+    match &done.collect::<Vec<_>>()[..] {
+        [Some(first), rest @ ..] if !rest.is_empty() && rest.iter().all(|done| *done == Some(*first)) => {
+            format!("each of {}{first}", short_list(subjects))
+        }
+        _ => short_list(what),
     }
 }
 
@@ -75,10 +82,9 @@ fn row(trial: &Trial) -> Vec<String> {
 }
 
 fn near(robustness: &Robustness, within: f64) -> String {
-    let Robustness { nearby, motions, counted, kept, .. } = robustness;
-    let worst = motions.iter().filter_map(|motion| motion.error).fold(0.0, f64::max);
-    let failed = |motion: &&NearbyMotion, which| motion.failure.as_ref().is_some_and(|(own, _)| *own == which);
-    let left = |which, name: &str| match motions.iter().filter(|motion| failed(motion, which)).count() {
+    let Robustness { by, counted, kept, .. } = robustness;
+    let worst = robustness.worst().map_or(0.0, |worst| worst.error);
+    let left = |which, name: &str| match robustness.incomplete(which) {
         0 => String::new(),
         count => format!("; on {count} the {name} model does not complete"),
     };
@@ -90,7 +96,7 @@ fn near(robustness: &Robustness, within: f64) -> String {
         percent(worst),
         left(Which::Simplified, "simplified"),
         left(Which::Richest, "richest"),
-        percent(nearby.by),
+        percent(*by),
         parameters.into_iter().chain(velocities).collect::<Vec<_>>().join(" and "),
     )
 }

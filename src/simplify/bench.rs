@@ -1,59 +1,14 @@
-//! Runs of changed models, measured against the richest.
+//! Where models are run and counted.
 
 use super::edit::{elements, text};
+use super::nearby::{Neighbourhood, Robustness};
 use super::promise::Promise;
+use super::run::{Difference, Run, measured};
 use super::source::Source;
-use crate::compare::work_precision::{Allowed, Motion, RunSample, Watched, sample};
-use crate::error::{Failure, Result};
-use crate::prepared::{AnyMechanism, PreparedScene};
-use crate::simulate::Method;
-use crate::system::Dimensions;
-use serde::Serialize;
+use crate::error::percent;
+use crate::prepared::AnyMechanism;
 use serde_json::Value;
 use std::time::Duration;
-
-/// A run of a model.
-#[derive(Clone, Debug, Serialize)]
-pub struct Run {
-    /// n_v.
-    pub velocities: usize,
-    /// n_c.
-    pub constraints: usize,
-    /// Method of the run.
-    pub method: Method,
-    /// CPU time, s.
-    pub seconds: f64,
-    /// Evaluations, iterations and factorizations, times velocities and constraints.
-    pub work: f64,
-    /// Difference of each watched output from the richest model; empty where the run failed.
-    pub outputs: Vec<Difference>,
-    /// Reason why it did not complete.
-    pub failure: Option<Failure>,
-    /// Values of the watched outputs.
-    #[serde(skip)]
-    pub rows: Vec<Vec<f64>>,
-}
-
-/// Difference of an output.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Difference {
-    /// Name of the output.
-    pub name: String,
-    /// Difference relative to the size of the output.
-    pub error: f64,
-}
-
-impl Run {
-    /// The output that is farthest off; none where the run failed.
-    pub fn worst(&self) -> Option<&Difference> {
-        self.outputs.iter().max_by(|a, b| a.error.total_cmp(&b.error))
-    }
-
-    /// The largest difference; infinite where the run failed.
-    pub fn error(&self) -> f64 {
-        self.worst().map_or(f64::INFINITY, |worst| worst.error)
-    }
-}
 
 /// Where models are run: the promise, and how many runs are left.
 pub struct Bench<'a> {
@@ -69,6 +24,8 @@ pub struct Bench<'a> {
     pub runs: usize,
     /// Runs allowed.
     pub at_most: usize,
+    /// Motions on which a model has to keep the promise, too.
+    pub neighbourhood: Option<&'a Neighbourhood<'a>>,
 }
 
 impl Bench<'_> {
@@ -88,21 +45,38 @@ impl Bench<'_> {
         measured(&prepared, self.promise, allowed, self.is_stopped).map_err(|error| error.to_string())
     }
 
-    /// See [`size`].
+    /// Tries a model that keeps the promise on motions nearby.
     ///
     /// # Errors
-    /// As [`size`].
-    pub fn size(&self, scene: &Value) -> std::result::Result<usize, String> {
-        let names: Vec<String> = self.promise.columns.iter().map(|column| column.name.clone()).collect();
-        size(self.source, &names, scene)
+    /// Reason why it does not keep it there.
+    pub fn robustness(&mut self, scene: &Value) -> std::result::Result<Option<Robustness>, String> {
+        let Some(neighbourhood) = self.neighbourhood else { return Ok(None) };
+        (self.watch)("motions nearby", self.runs);
+        let found = neighbourhood.robustness(scene);
+        let Robustness { counted, kept, .. } = found;
+        let worst = found.worst().filter(|worst| worst.error > self.promise.within);
+        let off = |worst: &Difference| format!("{} is off by up to {}", worst.name, percent(worst.error));
+        let worst = worst.map_or("it does not complete all".to_string(), off);
+        match found.is_kept() {
+            true => Ok(Some(found)),
+            false => Err(format!("kept on {kept} of {counted} motions nearby only: {worst}")),
+        }
+    }
+
+    /// See [`mechanism`].
+    ///
+    /// # Errors
+    /// As [`mechanism`].
+    pub fn mechanism(&self, scene: &Value) -> std::result::Result<AnyMechanism, String> {
+        mechanism(self.source, &self.promise.names(), scene)
     }
 }
 
-/// Number of velocities and constraints of a scene that has all watched outputs.
+/// The mechanism of a scene that has all watched outputs.
 ///
 /// # Errors
 /// Reason why it is none.
-pub fn size(source: &Source, watched: &[String], scene: &Value) -> std::result::Result<usize, String> {
+pub fn mechanism(source: &Source, watched: &[String], scene: &Value) -> std::result::Result<AnyMechanism, String> {
     let outputs = elements(scene, "outputs");
     let is_lost = |name: &&String| outputs.iter().all(|output| text(output, "name") != name.as_str());
     let lost: Vec<&String> = watched.iter().filter(is_lost).collect();
@@ -111,58 +85,5 @@ pub fn size(source: &Source, watched: &[String], scene: &Value) -> std::result::
         return Err(format!("takes away the watched output `{name}`{more}"));
     }
     let scene = source.elements.parse_in(&source.folder, &scene.to_string(), &[]);
-    let mechanism = AnyMechanism::new(scene.map_err(|error| error.to_string())?.model);
-    let Dimensions { v, lambda, .. } = mechanism.system().dimensions();
-    Ok(v + lambda)
-}
-
-/// Wall-clock time that a run may take on a busy machine: so many times its CPU time, and this more.
-const BUSY: u32 = 20;
-const WAIT: Duration = Duration::from_secs(60);
-
-/// Runs a prepared model by its own method.
-///
-/// # Errors
-/// It has not all outputs, or no end time.
-pub fn sampled(
-    prepared: &PreparedScene,
-    names: &[String],
-    allowed: Duration,
-    is_stopped: &(dyn Fn() -> bool + Sync),
-) -> Result<RunSample> {
-    let (system, method) = (prepared.system(), &prepared.method);
-    let watched = Watched::new(system, names)?;
-    let span = prepared.span()?;
-    let between = (span.start, span.end);
-    let ratio = method.atol / method.rtol;
-    let motion = Motion { system, start: prepared.start(), between, ratio, counts_start: true, is_stopped };
-    sample(&motion, &watched, method, span, Allowed { cpu: allowed, wall: BUSY * allowed + WAIT })
-}
-
-/// Runs a prepared model by its own method and measures it.
-///
-/// # Errors
-/// As [`sampled`].
-pub fn measured(
-    prepared: &PreparedScene,
-    promise: &Promise,
-    allowed: Duration,
-    is_stopped: &(dyn Fn() -> bool + Sync),
-) -> Result<Run> {
-    let names: Vec<String> = promise.columns.iter().map(|column| column.name.clone()).collect();
-    let RunSample { rows, statistics, failure, seconds, .. } = sampled(prepared, &names, allowed, is_stopped)?;
-    let Dimensions { v, lambda, .. } = prepared.system().dimensions();
-    let errors = failure.is_none().then(|| promise.errors(&rows)).flatten().unwrap_or_default();
-    let differences = names.into_iter().zip(errors).map(|(name, error)| Difference { name, error });
-    let counted = statistics.rhs_evaluations + statistics.newton_iterations + 2 * statistics.factorizations;
-    Ok(Run {
-        velocities: v,
-        constraints: lambda,
-        method: prepared.method.clone(),
-        seconds,
-        work: counted as f64 * (v + lambda) as f64,
-        outputs: differences.collect(),
-        failure,
-        rows,
-    })
+    Ok(AnyMechanism::new(scene.map_err(|error| error.to_string())?.model))
 }

@@ -6,16 +6,19 @@ use crate::analysis::Sizes;
 use crate::body::{Frame, in_space};
 use crate::compare::work_precision::Watched;
 use crate::error::{Failure, Result};
+use crate::formulation::Dynamics;
 use crate::math::expression::Number;
 use crate::math::{Taylor, largest};
 use crate::prepared::{AnyMechanism, PreparedScene};
 use crate::simulate::{Method, Observation, Sink, Stop, simulate};
-use crate::system::{MechanicalSystem, Mechanism, Need, Scratch, Terms, Theory};
+use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
 use serde_json::{Value, json};
 use std::array::from_fn;
 
 /// The largest number of states that the estimates look at.
 const STATES: usize = 200;
+/// The largest number of them at which derivatives and changed models are evaluated.
+const FEW: usize = 25;
 
 /// The richest model and states along its motion.
 pub struct Facts {
@@ -36,9 +39,13 @@ pub struct Facts {
     is_motion: bool,
 }
 
-pub(super) struct State {
+/// A state of the recorded motion.
+pub struct State {
+    /// Time, s.
     pub t: f64,
+    /// Coordinates.
     pub q: Vec<f64>,
+    /// Velocities.
     pub v: Vec<f64>,
 }
 
@@ -135,7 +142,7 @@ impl Sink for Memory<'_> {
         if state.dropped.len() > redundant.len() {
             *redundant = state.dropped.to_vec();
         }
-        rows.push(self.watched.read(self.system, state, &mut self.scratch));
+        rows.push(self.watched.read(self.system, (state.loaded(), state.works), &mut self.scratch));
     }
 
     fn stops(&self) -> Option<Stop> {
@@ -186,12 +193,14 @@ impl Facts {
     pub fn kinetic_share(&self, body: &str) -> f64 {
         let names = self.body_names();
         let own: Vec<bool> = names.iter().map(|name| carrier(name) == body).collect();
-        let largest = |is_own: &dyn Fn(usize) -> bool| {
-            let sums = self.kinetic.iter().map(|row| (0..row.len()).filter(|i| is_own(*i)).map(|i| row[i]).sum());
-            sums.fold(0.0, f64::max)
-        };
-        let all = largest(&|_| true);
-        if all > 0.0 { largest(&|i| own.get(i).copied().unwrap_or(false)) / all } else { 1.0 }
+        let of = |row: &Vec<f64>| row.iter().zip(&own).filter(|(_, own)| **own).map(|(energy, _)| energy).sum();
+        let all = self.kinetic_energy();
+        if all > 0.0 { self.kinetic.iter().map(of).fold(0.0, f64::max) / all } else { 1.0 }
+    }
+
+    /// Largest kinetic energy of all bodies, J.
+    pub fn kinetic_energy(&self) -> f64 {
+        self.kinetic.iter().map(|row| row.iter().sum()).fold(0.0, f64::max)
     }
 
     fn body_names(&self) -> Vec<String> {
@@ -252,6 +261,28 @@ impl Facts {
             now[place]
         };
         Some(self.states.iter().map(at).fold(0.0, f64::max))
+    }
+
+    /// A few states along the recorded motion.
+    pub fn few_states(&self) -> impl Iterator<Item = &State> {
+        self.states.iter().step_by(self.states.len().div_ceil(FEW).max(1))
+    }
+
+    /// Values of the watched outputs that a model gives to a few states of the recorded motion; `None` where it has other
+    /// coordinates, or no accelerations there.
+    pub fn at_once(&self, model: &AnyMechanism) -> Option<Vec<Vec<f64>>> {
+        let (system, own) = (model.system(), self.prepared.system());
+        let ([other, names], watched) = ([system.names(), own.names()], Watched::new(system, &self.watched).ok()?);
+        if other.q != names.q || other.v != names.v {
+            return None;
+        }
+        let (mut dynamics, mut scratch) = (Dynamics::new(system), Scratch::default());
+        let read = |State { t, q, v }: &State| {
+            dynamics.solve(*t, q, v, |_, _| 0.0).ok()?;
+            let (vdot, lambda) = (&dynamics.vdot, &dynamics.lambda);
+            Some(watched.read(system, (OperatingPoint { t: *t, q, v, vdot, lambda }, &[]), &mut scratch))
+        };
+        self.few_states().map(read).collect()
     }
 
     /// Work on the recorded motion of the forces that a change adds or takes away, at most over time, relative to the

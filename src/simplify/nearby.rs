@@ -1,12 +1,11 @@
 //! The promise on motions near the one that it was made for.
 
-use super::bench::{measured, sampled};
 use super::edit::{elements, mentions};
-use super::promise::{Norm, Promise};
+use super::promise::Promise;
+use super::run::{Difference, Run, measured, sampled};
 use super::source::Source;
-use crate::compare::work_precision::Watched;
+use crate::compare::work_precision::RunSample;
 use crate::error::{Error, Result};
-use crate::prepared::PreparedScene;
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -18,32 +17,20 @@ use std::time::Duration;
 pub struct Nearby {
     /// Largest relative change.
     pub by: f64,
-    /// Number of motions.
-    pub samples: usize,
-}
-
-/// A promise about outputs of these names.
-#[derive(Clone, Copy, Debug)]
-pub struct Terms<'a> {
-    /// Names of the outputs.
-    pub outputs: &'a [String],
-    /// Allowed difference.
-    pub within: f64,
-    /// Norm of the difference.
-    pub norm: Norm,
+    /// Number of motions; from 20, where the richest model takes much work, to 60 where none is given.
+    pub samples: Option<usize>,
 }
 
 /// The promise on motions nearby.
 #[derive(Clone, Debug, Serialize)]
 pub struct Robustness {
-    /// What was asked for.
-    #[serde(flatten)]
-    pub nearby: Nearby,
+    /// How far the motions are from the given one.
+    pub by: f64,
     /// Parameters that were moved.
     pub parameters: Vec<String>,
     /// True if the velocities at the start were moved, too.
     pub velocities: bool,
-    /// The motions.
+    /// The motions that were tried.
     pub motions: Vec<NearbyMotion>,
     /// Number of motions that the richest model completes.
     pub counted: usize,
@@ -54,8 +41,8 @@ pub struct Robustness {
 /// A motion nearby.
 #[derive(Clone, Debug, Serialize)]
 pub struct NearbyMotion {
-    /// Largest difference of a watched output; none where a model does not complete.
-    pub error: Option<f64>,
+    /// The watched output that is farthest off; none where a model does not complete.
+    pub worst: Option<Difference>,
     /// Model that does not complete, and why.
     pub failure: Option<(Which, String)>,
 }
@@ -72,50 +59,117 @@ pub enum Which {
 
 /// CPU time that a run of either model may take.
 const ALLOWED: Duration = Duration::from_secs(600);
+/// Part of the motions that may break the promise: half of the twentieth that is granted, the other half being a reserve
+/// for motions that are not tried.
+const MAY_BREAK: f64 = 0.5 * 0.05;
+/// Work of the richest model on all motions together up to which there are more than the least number of them.
+const AFFORDED: f64 = 1e8;
+/// Least and largest number of motions: 60 of 60 say with 95 % certainty that the promise is kept on 95 % of all.
+const SAMPLES: [usize; 2] = [20, 60];
+/// Number of motions after which a model that breaks the promise too often is given up.
+const TOGETHER: usize = 10;
 
-/// Runs both models on motions nearby.
-///
-/// # Errors
-/// Nothing can be moved.
-pub fn robustness(
-    source: &Source,
-    simplified: &Value,
-    terms: Terms,
-    nearby: Nearby,
-    is_stopped: &(dyn Fn() -> bool + Sync),
-) -> Result<Robustness> {
-    let scenes = [&source.scene, simplified];
-    let parameters = movable(source, scenes, nearby.by);
-    let velocities = source.prepare(scenes[0])?.start().1.iter().any(|v| *v != 0.0);
-    if parameters.is_empty() && !velocities {
-        return Err(Error::input("the scene has no parameter and no velocity at the start that could be moved")
-            .under("--robust")
-            .hint("name its numbers in \"parameters\""));
+impl Robustness {
+    /// True if the promise is kept on so many of the motions that it can be given for those nearby.
+    pub fn is_kept(&self) -> bool {
+        (self.counted - self.kept) as f64 <= MAY_BREAK * self.counted as f64
     }
-    let one = |sample: usize| {
-        let mut random = Random(1 + sample as u64);
-        let moves: Vec<f64> = (0..=parameters.len()).map(|_| nearby.by * random.next()).collect();
-        motion(source, scenes.map(|scene| moved(scene, &parameters, &moves)), terms, is_stopped)
-    };
-    let motions: Vec<NearbyMotion> = (0..nearby.samples).into_par_iter().map(one).collect();
-    let is_counted = |motion: &&NearbyMotion| !matches!(motion.failure, Some((Which::Richest, _)));
-    let counted = motions.iter().filter(is_counted).count();
-    let kept = motions.iter().filter(|motion| motion.error.is_some_and(|error| error <= terms.within)).count();
-    Ok(Robustness { nearby, parameters, velocities, motions, counted, kept })
+
+    /// The output that is farthest off on any of the motions.
+    pub fn worst(&self) -> Option<&Difference> {
+        self.errors().max_by(|a, b| a.error.total_cmp(&b.error))
+    }
+
+    fn errors(&self) -> impl Iterator<Item = &Difference> {
+        self.motions.iter().filter_map(|motion| motion.worst.as_ref())
+    }
+
+    /// Number of motions that a model does not complete.
+    pub fn incomplete(&self, which: Which) -> usize {
+        let is_of = |motion: &&NearbyMotion| motion.failure.as_ref().is_some_and(|(own, _)| *own == which);
+        self.motions.iter().filter(is_of).count()
+    }
 }
 
-/// Parameters that both models can be built with at both ends of their range; numbers of elements and modes stay.
-fn movable(source: &Source, scenes: [&Value; 2], by: f64) -> Vec<String> {
-    let numbers = source.scene["parameters"].as_object().into_iter().flatten();
+/// The richest model on motions nearby.
+pub struct Neighbourhood<'a> {
+    source: &'a Source,
+    within: f64,
+    by: f64,
+    parameters: Vec<String>,
+    velocities: bool,
+    /// Relative change of each parameter, and of the velocities, with the promise about that motion or the reason why the
+    /// richest model does not complete it.
+    motions: Vec<(Vec<f64>, std::result::Result<Promise, String>)>,
+    is_stopped: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl<'a> Neighbourhood<'a> {
+    /// Runs the richest model, a run of which takes `work`, on the motions near that of `promise`.
+    ///
+    /// # Errors
+    /// Nothing can be moved; the richest model completes none of the motions.
+    pub fn new(
+        source: &'a Source,
+        promise: &Promise,
+        Nearby { by, samples }: Nearby,
+        work: f64,
+        is_stopped: &'a (dyn Fn() -> bool + Sync),
+    ) -> Result<Neighbourhood<'a>> {
+        let parameters = movable(source, by);
+        let velocities = source.prepare(&source.scene)?.start().1.iter().any(|v| *v != 0.0);
+        if parameters.is_empty() && !velocities {
+            return Err(Error::input("the scene has no parameter and no velocity at the start that could be moved")
+                .under("--robust")
+                .hint("name its numbers in \"parameters\""));
+        }
+        let motion = |sample: usize| {
+            let mut random = Random(1 + sample as u64);
+            let moves: Vec<f64> = (0..=parameters.len()).map(|_| by * random.next()).collect();
+            let there = promised(source, &moved(&source.scene, &parameters, &moves), promise, is_stopped);
+            (moves, there)
+        };
+        let samples = samples.unwrap_or(((AFFORDED / work) as usize).clamp(SAMPLES[0], SAMPLES[1]));
+        let motions: Vec<_> = (0..samples).into_par_iter().map(motion).collect();
+        match motions.iter().all(|(_, there)| there.is_err()).then(|| motions.first()).flatten() {
+            Some((_, Err(reason))) => {
+                Err(Error::input(format!("the richest model completes none of the motions nearby: {reason}"))
+                    .under("--robust")
+                    .hint(if is_stopped() { "give more time by --budget" } else { "move the scene by less" }))
+            }
+            _ => Ok(Neighbourhood { source, within: promise.within, by, parameters, velocities, motions, is_stopped }),
+        }
+    }
+
+    /// Tries a model on them, until it breaks the promise on too many.
+    pub fn robustness(&self, scene: &Value) -> Robustness {
+        let counted = self.motions.iter().filter(|(_, there)| there.is_ok()).count();
+        let Neighbourhood { by, velocities, .. } = *self;
+        let mut found =
+            Robustness { by, parameters: self.parameters.clone(), velocities, motions: Vec::new(), counted, kept: 0 };
+        for motions in self.motions.chunks(TOGETHER) {
+            found.motions.par_extend(motions.par_iter().map(|motion| self.motion(scene, motion)));
+            found.counted = found.motions.len() - found.incomplete(Which::Richest);
+            found.kept = found.errors().filter(|worst| worst.error <= self.within).count();
+            if (found.counted - found.kept) as f64 > MAY_BREAK * counted as f64 {
+                break;
+            }
+        }
+        found
+    }
+}
+
+/// Parameters that the richest model can be built with at both ends of their range; numbers of elements and modes stay.
+fn movable(source: &Source, by: f64) -> Vec<String> {
+    let scene = &source.scene;
+    let numbers = scene["parameters"].as_object().into_iter().flatten();
     let numbers = numbers.filter(|(_, value)| value.as_f64().is_some_and(|value| value != 0.0)).map(|(name, _)| name);
     let counts = |name: &str| {
-        let bodies = elements(&source.scene, "bodies").iter();
+        let bodies = elements(scene, "bodies").iter();
         bodies.flat_map(|body| [&body["elements"], &body["modes"]]).any(|count| mentions(count, name))
     };
-    let is_possible = |name: &&String| {
-        let builds = |scene: &Value, u: f64| source.prepare(&moved(scene, &[name.to_string()], &[u, 0.0])).is_ok();
-        !counts(name) && scenes.iter().all(|scene| builds(scene, by) && builds(scene, -by))
-    };
+    let builds = |name: &str, u: f64| source.prepare(&moved(scene, &[name.to_string()], &[u, 0.0])).is_ok();
+    let is_possible = |name: &&String| !counts(name) && builds(name, by) && builds(name, -by);
     numbers.filter(is_possible).cloned().collect()
 }
 
@@ -149,43 +203,37 @@ fn scale(value: &mut Value, factor: f64) {
     }
 }
 
-fn motion(
-    source: &Source,
-    [richest, simplified]: [Value; 2],
-    terms: Terms,
-    is_stopped: &(dyn Fn() -> bool + Sync),
-) -> NearbyMotion {
-    let failed = |which| move |reason: String| NearbyMotion { error: None, failure: Some((which, reason)) };
-    let promise = match promise(source, &richest, terms, is_stopped) {
-        Ok(promise) => promise,
-        Err(reason) => return failed(Which::Richest)(reason),
-    };
-    let run = source.prepare(&simplified).and_then(|prepared| measured(&prepared, &promise, ALLOWED, is_stopped));
-    match run {
-        Err(error) => failed(Which::Simplified)(error.to_string()),
-        Ok(run) => match run.failure {
-            Some(failure) => failed(Which::Simplified)(failure.reason),
-            None => NearbyMotion { error: Some(run.error()), failure: None },
-        },
+impl Neighbourhood<'_> {
+    fn motion(
+        &self,
+        scene: &Value,
+        (moves, promise): &(Vec<f64>, std::result::Result<Promise, String>),
+    ) -> NearbyMotion {
+        let failed = |which, reason: String| NearbyMotion { worst: None, failure: Some((which, reason)) };
+        let promise = match promise {
+            Ok(promise) => promise,
+            Err(reason) => return failed(Which::Richest, reason.clone()),
+        };
+        let prepared = self.source.prepare(&moved(scene, &self.parameters, moves));
+        match prepared.and_then(|prepared| measured(&prepared, promise, ALLOWED, self.is_stopped)) {
+            Err(error) => failed(Which::Simplified, error.to_string()),
+            Ok(Run { failure: Some(failure), .. }) => failed(Which::Simplified, failure.reason),
+            Ok(run) => NearbyMotion { worst: run.worst().cloned(), failure: None },
+        }
     }
 }
 
-/// The promise about a motion of the richest model.
-fn promise(
+/// The promise about another motion of the richest model.
+fn promised(
     source: &Source,
     scene: &Value,
-    terms: Terms,
+    promise: &Promise,
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> std::result::Result<Promise, String> {
-    let run = |prepared: &PreparedScene| {
-        let columns = Watched::new(prepared.system(), terms.outputs)?.columns;
-        Ok((columns, sampled(prepared, terms.outputs, ALLOWED, is_stopped)?))
-    };
-    let (columns, run) =
-        source.prepare(scene).and_then(|prepared| run(&prepared)).map_err(|error| error.to_string())?;
-    match run.failure {
-        Some(failure) => Err(failure.reason),
-        None => Ok(Promise::new((terms.within, terms.norm), &columns, run.rows, &run.sizes)),
+    let run = source.prepare(scene).and_then(|prepared| sampled(&prepared, &promise.names(), ALLOWED, is_stopped));
+    match run.map_err(|error| error.to_string())? {
+        RunSample { failure: Some(failure), .. } => Err(failure.reason),
+        run => Ok(promise.about(run.rows, &run.sizes)),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The cheapest method for a model whose own error is a tenth of the promise.
 
-use super::bench::{Bench, Run};
+use super::bench::Bench;
+use super::run::Run;
 use super::search::{Found, NUMERICAL, Trial};
 use super::source::write_method;
 use crate::error::percent;
@@ -91,16 +92,18 @@ fn attempt(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], method: &Me
     let result = bench.run(&scene, &what, Duration::from_secs_f64(best) + ALWAYS);
     let mut reason = result.as_ref().map_or_else(Clone::clone, |run| refusal(bench, run, exact));
     let seconds = result.as_ref().map_or(0.0, |run| run.seconds);
-    let verdict = match reason.is_empty() {
+    let is_cheaper = seconds < CHEAPER * best;
+    if let (Ok(run), true) = (&result, reason.is_empty() && is_cheaper) {
+        reason = found.take(bench, scene, run).err().unwrap_or_default();
+    }
+    let is_good = reason.is_empty();
+    let verdict = match is_good {
         _ if seconds > DEARER * best => Verdict::Dear,
         true => Verdict::Good,
         false => Verdict::Poor,
     };
-    let is_kept = reason.is_empty() && seconds < CHEAPER * best;
-    match &result {
-        Ok(run) if is_kept => (found.scene, found.run) = (scene, run.clone()),
-        _ if reason.is_empty() => reason = "it costs as much".to_string(),
-        _ => {}
+    if is_good && !is_cheaper {
+        reason = "it costs as much".to_string();
     }
     found.trials.push(Trial {
         candidate: METHOD.to_string(),
@@ -109,7 +112,7 @@ fn attempt(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], method: &Me
         why: "its own error is a tenth of the promise".to_string(),
         estimated: NUMERICAL * bench.promise.within,
         run: result.ok(),
-        is_kept,
+        is_kept: is_good && is_cheaper,
         reason,
     });
     verdict

@@ -46,6 +46,16 @@ impl Promise {
         Promise { columns: columns.to_vec(), within, norm, scales, rows }
     }
 
+    /// The same promise about another motion of the richest model.
+    pub fn about(&self, rows: Vec<Vec<f64>>, sizes: &Sizes) -> Promise {
+        Promise::new((self.within, self.norm), &self.columns, rows, sizes)
+    }
+
+    /// Names of the watched outputs.
+    pub fn names(&self) -> Vec<String> {
+        self.columns.iter().map(|column| column.name.clone()).collect()
+    }
+
     /// The relative difference of each output, infinite where one is no number; `None` where rows are missing.
     pub fn errors(&self, rows: &[Vec<f64>]) -> Option<Vec<f64>> {
         self.differences(&self.rows, rows)

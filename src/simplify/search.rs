@@ -1,8 +1,10 @@
 //! Greedy search: changes are tried where they save most, and kept while the promise is kept.
 
-use super::bench::{Bench, Run};
+use super::bench::Bench;
 use super::candidate::{Candidate, Proposal};
 use super::facts::Facts;
+use super::nearby::Robustness;
+use super::run::Run;
 use crate::error::{percent, short_list};
 use serde::Serialize;
 use serde_json::Value;
@@ -48,8 +50,22 @@ pub struct Found {
     pub scene: Value,
     /// Its run.
     pub run: Run,
+    /// The promise on motions nearby; none where these are not tried, or nothing was changed.
+    pub robustness: Option<Robustness>,
     /// All changes in the order in which they were tried.
     pub trials: Vec<Trial>,
+}
+
+impl Found {
+    /// Takes a model that keeps the promise, if it does so on motions nearby.
+    ///
+    /// # Errors
+    /// Reason why it does not.
+    pub fn take(&mut self, bench: &mut Bench, scene: Value, run: &Run) -> Result<(), String> {
+        self.robustness = bench.robustness(&scene)?;
+        (self.scene, self.run) = (scene, run.clone());
+        Ok(())
+    }
 }
 
 /// A proposal with the kind that made it.
@@ -74,11 +90,12 @@ struct Search<'a, 'b> {
 /// Tries the changes that the candidates propose, `reserved` runs being left over.
 pub fn search(bench: &mut Bench, facts: &Facts, candidates: &[&dyn Candidate], richest: Run, reserved: usize) -> Found {
     let limit = Duration::from_secs_f64(SLOWER * richest.seconds) + ALWAYS;
-    let found = Found { scene: facts.scene().clone(), run: richest, trials: Vec::new() };
+    let found = Found { scene: facts.scene().clone(), run: richest, robustness: None, trials: Vec::new() };
     let mut search = Search { bench, ideas: Vec::new(), settled: Vec::new(), limit, reserved, found };
+    let own = facts.at_once(&facts.prepared.mechanism);
     for candidate in candidates {
         for proposal in candidate.propose(facts) {
-            search.consider(candidate.name(), proposal);
+            search.consider(candidate.name(), proposal, facts, &own);
         }
     }
     let mut queue = search.queue();
@@ -89,18 +106,32 @@ pub fn search(bench: &mut Bench, facts: &Facts, candidates: &[&dyn Candidate], r
 }
 
 impl Search<'_, '_> {
-    /// Takes up a proposal that is possible by itself and not hopeless.
-    fn consider(&mut self, candidate: &'static str, proposal: Proposal) {
+    /// Takes up a proposal that is possible by itself and not hopeless. Its effect is at least what it does at once to the
+    /// outputs at states of the richest model.
+    fn consider(
+        &mut self,
+        candidate: &'static str,
+        mut proposal: Proposal,
+        facts: &Facts,
+        own: &Option<Vec<Vec<f64>>>,
+    ) {
         let mut scene = self.found.scene.clone();
-        let size = (proposal.edit)(&mut scene).and_then(|()| self.bench.size(&scene));
+        let mechanism = (proposal.edit)(&mut scene).and_then(|()| self.bench.mechanism(&scene));
+        let at_once = mechanism.as_ref().ok().and_then(|mechanism| facts.at_once(mechanism)).zip(own.as_ref());
+        if let Some(difference) = at_once.and_then(|(other, own)| self.bench.promise.difference(own, &other)) {
+            proposal.effect = proposal.effect.max(difference);
+        }
         let most = TOO_MUCH.min(HOPELESS * self.bench.promise.within);
-        let refusal = match &size {
+        let refusal = match &mechanism {
             Err(reason) => Some(reason.clone()),
-            Ok(_) if proposal.effect.is_nan() || proposal.effect > most => Some("estimated as too much".to_string()),
+            Ok(_) if proposal.effect.is_nan() || proposal.effect > most => {
+                Some("its estimated effect is too much".to_string())
+            }
             Ok(_) => None,
         };
         let known = self.ideas.len();
-        self.ideas.push(Idea { candidate, proposal, size: size.unwrap_or(0) });
+        let dimensions = mechanism.map(|mechanism| mechanism.system().dimensions());
+        self.ideas.push(Idea { candidate, proposal, size: dimensions.map_or(0, |n| n.v + n.lambda) });
         if let Some(reason) = refusal {
             let trial = self.trial(&[known], None, reason);
             self.found.trials.push(trial);
@@ -166,14 +197,14 @@ impl Search<'_, '_> {
         }
         let mut scene = self.found.scene.clone();
         let made = group.iter().try_for_each(|i| (self.ideas[*i].proposal.edit)(&mut scene));
-        let made = made.and_then(|()| self.bench.size(&scene));
+        let made = made.and_then(|()| self.bench.mechanism(&scene));
         let what = self.ideas[group[0]].proposal.what.clone();
         match made.and_then(|_| self.bench.run(&scene, &what, self.limit)) {
             Err(reason) => self.trial(group, None, reason),
             Ok(run) => {
-                let reason = self.refusal(&run);
+                let mut reason = self.refusal(&run);
                 if reason.is_empty() {
-                    (self.found.scene, self.found.run) = (scene, run.clone());
+                    reason = self.found.take(self.bench, scene, &run).err().unwrap_or_default();
                 }
                 self.trial(group, Some(run), reason)
             }

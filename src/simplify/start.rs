@@ -1,6 +1,6 @@
 //! What the start alone tells: small motions in the place of a run.
 
-use super::bench::size;
+use super::bench::mechanism;
 use super::candidate::{Candidate, Proposal};
 use super::edit::carrier;
 use super::facts::{Facts, Placed, State, placed, product};
@@ -12,7 +12,7 @@ use crate::initial::{Assembly, assemble};
 use crate::linearize::{Complex, Kind, Mode, amplitude, pairs, seen};
 use crate::math::largest;
 use crate::prepared::{Overrides, PreparedScene};
-use crate::system::Need;
+use crate::system::{Dimensions, Need};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use std::path::Path;
@@ -100,7 +100,9 @@ fn harmless(facts: &Facts, candidate: &dyn Candidate) -> Vec<Hint> {
     for Proposal { subject, what, why, effect, edit } in candidate.propose(facts) {
         let mut scene = facts.scene().clone();
         let changed = if effect < tolerances::SUPERFLUOUS { edit(&mut scene) } else { continue };
-        let Ok(saved) = changed.and_then(|()| size(&facts.source, &facts.watched, &scene)) else { continue };
+        let changed = changed.and_then(|()| mechanism(&facts.source, &facts.watched, &scene));
+        let Ok(Dimensions { v, lambda, .. }) = changed.map(|model| model.system().dimensions()) else { continue };
+        let saved = v + lambda;
         let hint = Hint { candidate: candidate.name().to_string(), what, why, estimated: effect };
         match found.iter_mut().find(|(known, ..)| *known == subject) {
             Some(best) if best.1 > saved => *best = (subject, saved, hint),

@@ -31,7 +31,7 @@ fn controllers_roads_and_included_scenes_are_simplified() {
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
     let place = Place::new("");
     for (name, kept) in [
-        ("pid_arm", "nothing can be left out"),
+        ("pid_arm", "rate follows at once"),
         ("half_car", "front_tyre is not damped"),
         ("suspension_on_road", "corner_tyre is not damped"),
         // At the start, where the springs are relaxed, distances would carry a load.

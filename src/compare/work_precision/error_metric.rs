@@ -2,8 +2,7 @@
 
 use crate::analysis::{Sizes, scales};
 use crate::error::{Error, Result, suggest};
-use crate::simulate::Observation;
-use crate::system::{Column, MechanicalSystem, Scratch};
+use crate::system::{Column, MechanicalSystem, OperatingPoint, Scratch};
 use crate::trajectory::{recorded, values};
 use serde::{Deserialize, Serialize};
 
@@ -41,10 +40,10 @@ impl Watched {
         Ok(Watched { columns, outputs: Some((known.len(), places)) })
     }
 
-    /// Returns their values at a state.
-    pub fn read(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Vec<f64> {
-        let Some((count, places)) = &self.outputs else { return state.q.to_vec() };
-        let all = values(system, state, *count, scratch);
+    /// Returns their values at a state with its works.
+    pub fn read(&self, system: &dyn MechanicalSystem, at: (OperatingPoint, &[f64]), scratch: &mut Scratch) -> Vec<f64> {
+        let Some((count, places)) = &self.outputs else { return at.0.q.to_vec() };
+        let all = values(system, at, *count, scratch);
         places.iter().map(|place| all[*place]).collect()
     }
 }

@@ -81,6 +81,11 @@ impl Signal {
         &self.thresholds
     }
 
+    /// x of its points.
+    pub fn knots(&self) -> &[f64] {
+        &self.knots
+    }
+
     /// True if points of it are no thresholds, and steps have to be short enough to see what is between them.
     pub fn is_watched(&self) -> bool {
         self.is_cubic && self.knots.len() > 2

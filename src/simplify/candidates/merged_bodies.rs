@@ -1,13 +1,16 @@
 //! Two bodies that hardly move against each other.
 
+use super::plane::combined;
 use crate::error::percent;
+use crate::math::expression::{Number, Parameters};
 use crate::simplify::edit::{carrier, drop_references, elements, find_mut, pair, remove, rename, text};
 use crate::simplify::facts::product;
 use crate::simplify::{Candidate, Facts, Placed, Proposal, Relative};
 use serde_json::{Value, json};
 use std::array::from_fn;
 
-/// Two rigid bodies that a joint connects become one, as they are to each other at the start: joints between the two go. By
+/// Two rigid bodies that a joint connects become one, as they are to each other at the start: joints between the two go.
+/// Its mass and inertia are sums in the numbers of the scene; where its centre is stays as the numbers are. By
 /// their motion against each other, which a weld does not let them have.
 pub struct MergedBodies;
 
@@ -23,7 +26,10 @@ impl Candidate for MergedBodies {
     }
 }
 
-fn proposal(facts: &Facts, [first, second]: [&str; 2], travel: &Relative) -> Option<Proposal> {
+fn proposal(facts: &Facts, names: [&str; 2], travel: &Relative) -> Option<Proposal> {
+    // The heavier one is that to which others are added.
+    let mass = |name: &str| facts.number(&facts.element("bodies", name)?["mass"]);
+    let [first, second] = if mass(names[0])? < mass(names[1])? { [names[1], names[0]] } else { names };
     let merged = Merged::new(facts, [first, second])?;
     let effect = facts.relative([first, second])?.part(travel);
     Some(Proposal {
@@ -35,76 +41,69 @@ fn proposal(facts: &Facts, [first, second]: [&str; 2], travel: &Relative) -> Opt
     })
 }
 
-/// The body that two make.
+/// A body to which a second one is added.
 struct Merged {
-    /// The two, as they are in the richest model.
-    parts: [Value; 2],
-    body: Value,
-    /// Markers of the second with their new names, its own frame last.
-    markers: Vec<(String, String)>,
-}
-
-type Tensor = [[f64; 3]; 3];
-
-/// Mass, centre of mass and inertia about that, in the frame of the first body's origin.
-struct Solid {
-    mass: f64,
-    centre: [f64; 3],
-    inertia: Tensor,
+    first: String,
+    /// Start of the first as assembled, which would share its motion alone among both.
+    initial: Value,
+    /// The second, as it is in the richest model.
+    second: Value,
+    /// Place of the second in the frame of the first.
+    place: Placed,
+    /// Markers of the second with their new names and places, its own frame last.
+    markers: Vec<(String, String, Value)>,
+    dimension: usize,
+    /// Numbers of the scene.
+    parameters: Parameters,
 }
 
 impl Merged {
     fn new(facts: &Facts, names: [&str; 2]) -> Option<Merged> {
         let is_free = |body: &Value| text(body, "type") == "rigid" && body.get("free").is_none();
-        let of = |name: &str| facts.element("bodies", name).filter(|body| is_free(body));
-        let parts = [of(names[0])?, of(names[1])?];
+        let of =
+            |name: &str| facts.element("bodies", name).filter(|body| is_free(body) && body.get("inertia").is_some());
+        let [_, second] = [of(names[0])?, of(names[1])?];
         let base = *facts.path(names[0])?.first()?;
         let place = |marker: &str| Some(seen(&base, facts.path(marker)?.first()?));
-        let dimension = facts.dimension();
-        let solid = |i: usize| solid(facts, parts[i], &place(names[i])?);
-        let whole = sum(&solid(0)?, &solid(1)?);
-        let mut body = parts[0].clone();
-        // Assembly would share the motion of the first alone among both.
-        body["initial"] = facts.initial(names[0])?;
-        body["mass"] = json!(whole.mass);
-        body["origin"] = json!(whole.centre.map(|x| -x)[..dimension]);
-        let j = whole.inertia;
-        body["inertia"] = match dimension {
-            2 => json!(j[2][2]),
-            _ => json!([j[0][0], j[1][1], j[2][2], j[0][1], j[0][2], j[1][2]]),
-        };
-        let own = parts[1]["markers"].as_object().into_iter().flatten().map(|(marker, _)| marker);
-        let renamed = |marker: &String| {
+        let own = second["markers"].as_object().into_iter().flatten();
+        let marker = |(marker, _): (&String, &Value)| {
             let (from, to) = (format!("{}.{marker}", names[1]), format!("{}_{marker}", names[1]));
-            (from, to)
+            let place = place(&from)?.marker(facts.dimension());
+            Some((from, to, place))
         };
-        let mut markers: Vec<(String, String)> = own.map(renamed).collect();
-        markers.push((names[1].to_string(), names[1].to_string()));
-        for (from, to) in &mut markers {
-            body["markers"][&*to] = place(from)?.marker(dimension);
-            *to = format!("{}.{to}", names[0]);
-        }
-        Some(Merged { parts: parts.map(Clone::clone), body, markers })
+        let mut markers: Vec<_> = own.map(marker).collect::<Option<_>>()?;
+        let place = place(names[1])?;
+        markers.push((names[1].to_string(), names[1].to_string(), place.marker(facts.dimension())));
+        Some(Merged {
+            first: names[0].to_string(),
+            initial: facts.initial(names[0])?,
+            second: second.clone(),
+            place,
+            markers,
+            dimension: facts.dimension(),
+            parameters: facts.prepared.parameters.clone(),
+        })
     }
 
     fn replace(&self, scene: &mut Value) -> Result<(), String> {
-        let [first, second] = self.parts.each_ref().map(|part| text(part, "name").to_string());
-        for (name, part) in [(&first, &self.parts[0]), (&second, &self.parts[1])] {
-            if find_mut(scene, "bodies", name)? != part {
-                return Err(format!("`{name}` is no longer what it was"));
-            }
+        let (first, second) = (&self.first, text(&self.second, "name"));
+        if find_mut(scene, "bodies", second)? != &self.second {
+            return Err(format!("`{second}` is no longer what it was"));
         }
-        *find_mut(scene, "bodies", &first)? = self.body.clone();
+        let total = format!("{first}_{second}_mass");
+        let own = find_mut(scene, "bodies", first)?;
+        let mass = self.add(own, &total).ok_or_else(|| format!("`{first}` is no longer what it was"))?;
+        scene["parameters"][total] = mass;
         remove(scene, "bodies", |body| text(body, "name") == second);
-        for (from, to) in &self.markers {
+        for (from, to, _) in &self.markers {
             for list in ["joints", "forces", "states", "outputs"] {
                 let elements = scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
-                elements.for_each(|element| rename(element, from, to));
+                elements.for_each(|element| rename(element, from, &format!("{first}.{to}")));
             }
         }
         for list in ["joints", "forces"] {
             let is_inner =
-                |element: &&Value| pair(element).is_some_and(|pair| pair.iter().all(|m| carrier(m) == first));
+                |element: &&Value| pair(element).is_some_and(|pair| pair.iter().all(|m| carrier(m) == *first));
             let inner = elements(scene, list).iter().filter(is_inner);
             let gone: Vec<String> = inner.map(|element| text(element, "name").to_string()).collect();
             remove(scene, list, |element| gone.iter().any(|name| name == text(element, "name")));
@@ -112,6 +111,60 @@ impl Merged {
         }
         Ok(())
     }
+}
+
+impl Merged {
+    /// Adds the second body to `own`, in the numbers of the scene, by the theorem of parallel axes; the parameter `total`
+    /// is to be the mass that is returned.
+    fn add(&self, own: &mut Value, total: &str) -> Option<Value> {
+        let number =
+            |value: &Value| serde_json::from_value::<Number>(value.clone()).ok()?.evaluate(&self.parameters).ok();
+        let origin = |body: &Value| -> [f64; 3] { from_fn(|i| number(&body["origin"][i]).unwrap_or(0.0)) };
+        let (masses, axes) = ([own["mass"].clone(), self.second["mass"].clone()], &self.place.axes);
+        let [m, other] = [number(&masses[0])?, number(&masses[1])?];
+        let arm = origin(&self.second);
+        let centres = [
+            origin(own).map(|x| 0.0 - x),
+            from_fn(|i| self.place.r[i] - (0..3).map(|k| arm[k] * axes[k][i]).sum::<f64>()),
+        ];
+        let gap: [f64; 3] = from_fn(|i| centres[1][i] - centres[0][i]);
+        let [own_mass, other_mass] =
+            masses.each_ref().map(|mass| mass.as_str().map_or_else(|| mass.to_string(), str::to_string));
+        // Of no mass at all there is no centre.
+        let reduced = if m + other > 0.0 { format!("({own_mass})*({other_mass})/{total}") } else { "0".to_string() };
+        let centre = |i: usize| format!("-({}) - {}*({other_mass})/{total}", centres[0][i], gap[i]);
+        let inertias = [packed(&own["inertia"])?, packed(&self.second["inertia"])?];
+        let moment = |(place, (i, j)): (usize, (usize, usize))| {
+            // axes[k] is the k-th axis of the second body: a vector x of it is sum x_k axes[k].
+            let turned = PLACES.map(|(k, l)| {
+                let part = axes[k][i] * axes[l][j];
+                if k == l { part } else { part + axes[l][i] * axes[k][j] }
+            });
+            let square = if i == j { product(&gap, &gap) } else { 0.0 };
+            let parts = [&[1.0][..], &turned, &[square - gap[i] * gap[j]]].concat();
+            let values = [&[inertias[0][place].clone()][..], &inertias[1], &[json!(reduced)]].concat();
+            combined(&parts, &json!(values))
+        };
+        let all = PLACES.into_iter().enumerate().map(moment).collect::<Option<Vec<_>>>()?;
+        own["inertia"] = if self.dimension == 2 { all[2].clone() } else { json!(all) };
+        own["origin"] = (0..self.dimension).map(centre).collect();
+        own["mass"] = json!(total);
+        own["initial"] = self.initial.clone();
+        self.markers.iter().for_each(|(_, to, place)| own["markers"][to] = place.clone());
+        Some(json!(format!("{own_mass} + {other_mass}")))
+    }
+}
+
+/// Places of xx, yy, zz, xy, xz and yz.
+pub const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+
+/// xx, yy, zz, xy, xz and yz of an inertia; of a number that about all axes.
+pub fn packed(inertia: &Value) -> Option<[Value; 6]> {
+    Some(match inertia {
+        Value::Array(all) => from_fn(|i| all.get(i).cloned().unwrap_or(json!(0))),
+        Value::Null => return None,
+        moment => from_fn(|i| if i < 3 { moment.clone() } else { json!(0) }),
+    })
 }
 
 /// A placement in the axes of another and from its origin.
@@ -122,65 +175,5 @@ fn seen(base: &Placed, place: &Placed) -> Placed {
         axes: place.axes.map(local),
         turn: place.turn - base.turn,
         ..*place
-    }
-}
-
-/// A rigid body with its origin at `place`.
-fn solid(facts: &Facts, body: &Value, place: &Placed) -> Option<Solid> {
-    let given = |values: &Value, i: usize| facts.number(&values[i]);
-    let origin: [f64; 3] = from_fn(|i| given(&body["origin"], i).unwrap_or(0.0));
-    let own: Tensor = match &body["inertia"] {
-        Value::Array(all) => {
-            let part = |i: usize| if i < all.len() { facts.number(&all[i]) } else { Some(0.0) };
-            let [xx, yy, zz, xy, xz, yz] = [part(0)?, part(1)?, part(2)?, part(3)?, part(4)?, part(5)?];
-            [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
-        }
-        moment => {
-            let moment = facts.number(moment)?;
-            from_fn(|i| from_fn(|j| if i == j { moment } else { 0.0 }))
-        }
-    };
-    // axes[k] is the k-th axis of the body: a vector x of it is sum x_k axes[k].
-    let turned = |i: usize, j: usize| {
-        let terms = (0..9).map(|k| (k / 3, k % 3));
-        terms.map(|(k, l)| place.axes[k][i] * own[k][l] * place.axes[l][j]).sum::<f64>()
-    };
-    Some(Solid {
-        mass: facts.number(&body["mass"])?,
-        centre: from_fn(|i| place.r[i] - (0..3).map(|k| origin[k] * place.axes[k][i]).sum::<f64>()),
-        inertia: from_fn(|i| from_fn(|j| turned(i, j))),
-    })
-}
-
-/// Both together, by the theorem of parallel axes.
-fn sum(a: &Solid, b: &Solid) -> Solid {
-    let mass = a.mass + b.mass;
-    let centre: [f64; 3] = match mass > 0.0 {
-        true => from_fn(|i| (a.mass * a.centre[i] + b.mass * b.centre[i]) / mass),
-        false => a.centre,
-    };
-    let about = |solid: &Solid, i: usize, j: usize| {
-        let arm: [f64; 3] = from_fn(|k| solid.centre[k] - centre[k]);
-        let square = if i == j { product(&arm, &arm) } else { 0.0 };
-        solid.inertia[i][j] + solid.mass * (square - arm[i] * arm[j])
-    };
-    Solid { mass, centre, inertia: from_fn(|i| from_fn(|j| about(a, i, j) + about(b, i, j))) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Two halves of a rod of 2 kg and 2 m.
-    #[test]
-    fn halves_make_a_whole() {
-        let half = |x: f64| Solid {
-            mass: 1.0,
-            centre: [x, 0.0, 0.0],
-            inertia: [[0.0; 3], [0.0, 1.0 / 12.0, 0.0], [0.0, 0.0, 1.0 / 12.0]],
-        };
-        let whole = sum(&half(0.5), &half(1.5));
-        assert_eq!((whole.mass, whole.centre), (2.0, [1.0, 0.0, 0.0]));
-        assert!((whole.inertia[2][2] - 2.0 * 4.0 / 12.0).abs() < 1e-15 && whole.inertia[0][0] == 0.0);
     }
 }

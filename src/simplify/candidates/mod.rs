@@ -1,11 +1,16 @@
 //! The built-in kinds of simplification, a file each.
 
 mod branch;
+mod coarser_signal;
 mod flexible_body;
 mod geometric_stiffening;
 mod merged_bodies;
 mod negligible_force;
 mod planar;
+mod planar_output;
+mod plane;
+mod point_mass;
+mod quasi_static_state;
 mod redundant_joint;
 mod resting_body;
 mod stiff_connection;
@@ -22,9 +27,12 @@ pub fn registry() -> &'static [&'static dyn Candidate] {
         &branch::Branch,
         &resting_body::RestingBody,
         &merged_bodies::MergedBodies,
+        &point_mass::PointMass,
         &stiff_connection::StiffConnection,
         &redundant_joint::RedundantJoint,
         &geometric_stiffening::GeometricStiffening,
         &negligible_force::NegligibleForce,
+        &quasi_static_state::QuasiStaticState,
+        &coarser_signal::CoarserSignal,
     ]
 }

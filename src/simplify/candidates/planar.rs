@@ -1,13 +1,16 @@
 //! A mechanism in space whose motion stays in a plane.
 
+use super::planar_output::flat_output;
+use super::plane::{Plane, combined, flat, world};
 use crate::error::percent;
-use crate::simplify::edit::{elements, text, words};
-use crate::simplify::{Candidate, Edit, Facts, Placed, Proposal};
+use crate::simplify::edit::{elements, text};
+use crate::simplify::facts::product;
+use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Map, Value, json};
 
-/// A scene in space whose bodies move parallel to the x-y plane becomes one in the plane: hinges about z stay hinges, and
-/// what they lock across the plane goes. By the displacements and rotations out of the plane.
+/// A scene in space whose bodies move parallel to a plane becomes one in the plane: hinges across it stay hinges, and what
+/// they lock out of the plane goes. By the displacements and rotations out of the plane.
 pub struct Planar;
 
 impl Candidate for Planar {
@@ -21,20 +24,23 @@ impl Candidate for Planar {
 }
 
 fn proposal(facts: &Facts) -> Option<Proposal> {
-    let travel = facts.travel();
+    let (plane, travel) = (Plane::new(facts), facts.travel());
     let mut effect = 0.0f64;
     for body in elements(facts.scene(), "bodies") {
         let path = facts.path(text(body, "name"))?;
-        let (start, tilt) = (path.first()?, facts.relative(["ground", text(body, "name")])?.tilt);
-        // The axes of the body have to begin in the plane.
-        if !is_along(&start.axes[2]) {
-            return None;
+        let start = path.first()?;
+        let normal = start.axes.map(|axis| product(&axis, plane.normal()));
+        let (mut out, mut tilt) = (0.0f64, 0.0f64);
+        for place in &path {
+            let height = |r: &[f64; 3]| product(r, plane.normal());
+            let cosine: f64 = (0..3).map(|i| normal[i] * height(&place.axes[i])).sum();
+            out = out.max((height(&place.r) - height(&start.r)).abs());
+            tilt = tilt.max(cosine.clamp(-1.0, 1.0).acos());
         }
-        let out = path.iter().map(|place| (place.r[2] - start.r[2]).abs()).fold(0.0, f64::max);
         let part = |own: f64, all: f64| if own > 0.0 { own / all } else { 0.0 };
         effect = effect.max(part(out, travel.shift)).max(part(tilt, travel.turn));
     }
-    let scene = flat(facts)?;
+    let scene = flattened(facts, &plane)?;
     let before = facts.scene().clone();
     let edit: Edit = Box::new(move |richest| {
         if *richest != before {
@@ -47,142 +53,163 @@ fn proposal(facts: &Facts) -> Option<Proposal> {
     Some(Proposal { subject: "the scene".to_string(), what: "the scene is planar".to_string(), why, effect, edit })
 }
 
-/// True if an axis is along z.
-fn is_along(axis: &[f64; 3]) -> bool {
-    (axis[2] - 1.0).abs() < SAME
-}
-
-/// True if it is square to z.
-fn is_across(axis: &[f64; 3]) -> bool {
-    axis[2].abs() < SAME
-}
-
 /// The scene in the plane; `None` where an element has no counterpart there.
-fn flat(facts: &Facts) -> Option<Value> {
+fn flattened(facts: &Facts, plane: &Plane) -> Option<Value> {
     let mut scene = facts.scene().clone();
     scene["dimension"] = json!(2);
-    if let Some(gravity) = scene.get_mut("gravity") {
-        cut(gravity);
+    // Coordinates of joints are turned the other way about some of them.
+    let is_usual = plane.normal() == &[0.0, 0.0, 1.0];
+    if scene.get("initial").is_some() && !is_usual {
+        return None;
+    }
+    if scene["gravity"].is_array() {
+        scene["gravity"] = plane.flat(&scene["gravity"])?;
     }
     if let Some(markers) = scene.get_mut("ground").and_then(|ground| ground.get_mut("markers")) {
-        *markers = flat_markers(facts, "ground", markers.as_object()?)?;
+        *markers = flat_markers(facts, plane, "ground", markers.as_object()?)?;
     }
-    let map = |list: &str, change: &dyn Fn(&Value) -> Option<Option<Value>>| -> Option<Value> {
+    let map = |list: &str, change: &dyn Fn(&Value) -> Option<Vec<Value>>| -> Option<Value> {
         let all = elements(facts.scene(), list).iter().map(change).collect::<Option<Vec<_>>>()?;
-        Some(json!(all.into_iter().flatten().collect::<Vec<_>>()))
+        Some(json!(all.concat()))
     };
-    scene["bodies"] = map("bodies", &|body| flat_body(facts, body).map(Some))?;
-    scene["joints"] = map("joints", &|joint| flat_joint(facts, joint))?;
-    scene["forces"] = map("forces", &|force| flat_force(force).map(Some))?;
-    scene["outputs"] = map("outputs", &|output| Some(flat_output(output)))?;
+    let one = |element: Option<Value>| element.map(|element| vec![element]);
+    scene["bodies"] = map("bodies", &|body| one(flat_body(facts, plane, body)))?;
+    scene["joints"] = map("joints", &|joint| flat_joint(facts, plane, joint))?;
+    scene["forces"] = map("forces", &|force| one(flat_force(facts, plane, force)))?;
+    scene["outputs"] = map("outputs", &|output| Some(flat_output(facts, plane, output).unwrap_or_default()))?;
+    for list in ["states", "inputs"] {
+        let all = scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
+        for element in all {
+            plane.translate(element)?;
+            if let Some(component) = element.get_mut("component") {
+                *component = json!(plane.component(component.as_str()?)?);
+            }
+        }
+    }
     Some(scene)
 }
 
-/// Keeps the x and y of a vector.
-fn cut(vector: &mut Value) {
-    vector.as_array_mut().into_iter().for_each(|all| all.truncate(2));
-}
-
-fn flat_markers(facts: &Facts, body: &str, markers: &Map<String, Value>) -> Option<Value> {
+fn flat_markers(facts: &Facts, plane: &Plane, body: &str, markers: &Map<String, Value>) -> Option<Value> {
     let frame = *facts.path(body)?.first()?;
+    let axes = plane.seen_from(body, &frame);
+    let zero = plane.angle(&world(&frame, &axes[0]));
     let one = |(name, marker): (&String, &Value)| -> Option<(String, Value)> {
-        let mut position = if marker.is_array() { marker.clone() } else { marker["position"].clone() };
-        cut(&mut position);
+        let position = flat(&axes, if marker.is_array() { marker } else { &marker["position"] })?;
         let place = *facts.path(&format!("{body}.{name}"))?.first()?;
-        let angle = turn(&place)? - turn(&frame)?;
-        let flat = if marker.is_array() { position } else { json!({ "position": position, "angle": angle }) };
-        Some((name.clone(), flat))
+        let angle = plane.angle(&plane.marker(&place)?) - zero;
+        let is_turned = angle.abs() > SAME;
+        Some((name.clone(), if is_turned { json!({ "position": position, "angle": angle }) } else { position }))
     };
     Some(Value::Object(markers.iter().map(one).collect::<Option<_>>()?))
 }
 
-/// Angle in the plane of the axis that a joint there goes by: x where z is across the plane, else z.
-fn turn(place: &Placed) -> Option<f64> {
-    let [x, _, z] = &place.axes;
-    match (is_along(z), is_across(z)) {
-        (true, _) => Some(x[1].atan2(x[0])),
-        (_, true) => Some(z[1].atan2(z[0])),
-        _ => None,
-    }
-}
-
-fn flat_body(facts: &Facts, body: &Value) -> Option<Value> {
-    if !["rigid", "point_mass"].contains(&text(body, "type")) {
+fn flat_body(facts: &Facts, plane: &Plane, body: &Value) -> Option<Value> {
+    if !["rigid", "point_mass"].contains(&text(body, "type")) || body.get("shapes").is_some() {
         return None;
     }
-    let (mut flat, name) = (body.clone(), text(body, "name"));
+    let (mut own, name) = (body.clone(), text(body, "name"));
+    let frame = *facts.path(name)?.first()?;
+    let axes = plane.seen_from(name, &frame);
     if let Some(all) = body["inertia"].as_array() {
-        flat["inertia"] = all.get(2)?.clone();
+        own["inertia"] = moment(&axes[2], all)?;
     }
     if let Some(markers) = body["markers"].as_object() {
-        flat["markers"] = flat_markers(facts, name, markers)?;
+        own["markers"] = flat_markers(facts, plane, name, markers)?;
     }
     if let Some(free) = body["free"].as_array() {
-        let names = free.iter().filter_map(Value::as_str).filter(|name| ["x", "y", "rz"].contains(name));
-        flat["free"] = names.map(|name| if name == "rz" { "angle" } else { name }).collect();
+        own["free"] =
+            json!(free.iter().map(|name| freedom(plane, name.as_str()?)).collect::<Option<Vec<_>>>()?.concat());
     }
-    flat.get_mut("origin").into_iter().for_each(cut);
-    if let Some(initial) = flat.get_mut("initial").and_then(Value::as_object_mut) {
-        ["position", "velocity"].iter().filter_map(|key| initial.get_mut(*key).map(cut)).for_each(drop);
-        if initial.shift_remove("rotation").is_some() {
-            initial.insert("angle".to_string(), json!(turn(facts.path(name)?.first()?)?));
+    if let Some(origin) = body.get("origin") {
+        own["origin"] = flat(&axes, origin)?;
+    }
+    if let Some(initial) = own.get_mut("initial").and_then(Value::as_object_mut) {
+        for key in ["position", "velocity"] {
+            if let Some(given) = initial.get_mut(key) {
+                *given = plane.flat(given)?;
+            }
         }
-        if let Some(spin) = initial.get_mut("angular_velocity") {
-            *spin = spin.get(2)?.clone();
+        ["rotation", "z_axis", "x_axis"].iter().for_each(|key| drop(initial.shift_remove(*key)));
+        let angle = plane.angle(&world(&frame, &axes[0]));
+        if text(body, "type") == "rigid" && angle != 0.0 {
+            initial.insert("angle".to_string(), json!(angle));
+        }
+        if let Some(spin) = initial.get_mut("angular_velocity").filter(|spin| spin.is_array()) {
+            *spin = combined(&axes[2], spin)?;
         }
     }
-    Some(flat)
+    Some(own)
 }
 
-/// The joint in the plane; `Some(None)` where it locks nothing there.
-fn flat_joint(facts: &Facts, joint: &Value) -> Option<Option<Value>> {
+/// Moment of inertia n . J n about an axis, of xx, yy, zz, xy, xz, yz.
+fn moment(n: &[f64; 3], inertia: &[Value]) -> Option<Value> {
+    let pairs = [(0, 1), (0, 2), (1, 2)];
+    let squares = n.iter().map(|x| x * x).chain(pairs.map(|(i, j)| 2.0 * n[i] * n[j]));
+    let terms = squares.zip(inertia).filter(|(part, _)| *part != 0.0);
+    let (parts, values): (Vec<f64>, Vec<Value>) = terms.map(|(part, value)| (part, value.clone())).unzip();
+    combined(&parts, &json!(values))
+}
+
+/// The freedom in the plane that one in space is; none where it is out of the plane.
+fn freedom(plane: &Plane, name: &str) -> Option<Vec<&'static str>> {
+    let index = |names: [&str; 3]| names.iter().position(|own| *own == name);
+    let of = |i: usize| plane.axes.iter().position(|axis| axis[i].abs() == 1.0);
+    Some(match (index(["x", "y", "z"]), index(["rx", "ry", "rz"])) {
+        (Some(i), _) => ["x", "y"].get(of(i)?).copied().into_iter().collect(),
+        (_, Some(i)) => (of(i)? == 2).then_some("angle").into_iter().collect(),
+        _ => return None,
+    })
+}
+
+/// The joint in the plane; none where it locks nothing there.
+fn flat_joint(facts: &Facts, plane: &Plane, joint: &Value) -> Option<Vec<Value>> {
     let first = joint["between"][0].as_str().and_then(|marker| facts.path(marker));
     let z = first.and_then(|path| path.first().copied())?.axes[2];
-    let kind = match (text(joint, "type"), is_along(&z), is_across(&z)) {
-        ("planar", true, _) => return Some(None),
+    let (sign, is_across) = (plane.along(&z), plane.contains(&z));
+    let kind = match (text(joint, "type"), sign.is_some(), is_across) {
+        ("planar", true, _) => return Some(Vec::new()),
         ("revolute" | "cylindrical" | "point_on_line", true, _) | ("spherical", ..) => "revolute",
         ("prismatic" | "cylindrical", _, true) => "prismatic",
         ("point_on_line", _, true) => "point_on_line",
         ("weld", ..) => "weld",
         ("distance", ..) => "distance",
-        ("driver", true, _) if text(joint, "coordinate") == "angle" => "driver",
+        ("driver", ..) if text(joint, "coordinate") == "angle" && sign == Some(1.0) => "driver",
         _ => return None,
     };
-    let mut flat = joint.clone();
-    flat["type"] = json!(kind);
-    joint.get("axis").is_none().then_some(Some(flat))
+    let first = joint["between"][0].as_str()?;
+    let slides = ["prismatic", "point_on_line"].contains(&kind);
+    if slides && product(&plane.x_of(facts, first)?, &z) < 1.0 - SAME {
+        return None;
+    }
+    let mut own = joint.clone();
+    plane.translate(&mut own)?;
+    own["type"] = json!(kind);
+    joint.get("axis").is_none().then_some(vec![own])
 }
 
-fn flat_force(force: &Value) -> Option<Value> {
-    let mut flat = force.clone();
+fn flat_force(facts: &Facts, plane: &Plane, force: &Value) -> Option<Value> {
+    let mut own = force.clone();
+    let first = || facts.path(force["between"][0].as_str()?)?.first().map(|place| place.axes);
     match text(force, "type") {
-        "spring_damper" | "torsion_spring" => {}
-        "applied_force" => flat.get_mut("force").into_iter().for_each(cut),
-        "applied_torque" => flat["torque"] = force["torque"].get(2)?.clone(),
+        "spring_damper" => {}
+        "torsion_spring" if plane.along(&first()?[2]) == Some(1.0) => {}
+        "applied_force" => own["force"] = plane.flat(&force["force"])?,
+        "applied_torque" => own["torque"] = plane.across(&force["torque"])?,
         "bushing" => {
+            // The planar x axis is that of the marker, or its z axis where that lies in the plane.
+            let across = first()?.iter().position(|axis| plane.along(axis).is_some())?;
+            let kept = match across {
+                2 => [0, 1, 5],
+                other => [2, 1 - other, 3 + other],
+            };
             for key in ["stiffness", "damping"] {
                 if let Some(all) = force[key].as_array() {
-                    flat[key] = [0, 1, 5].iter().filter_map(|i| all.get(*i).cloned()).collect();
+                    own[key] = kept.iter().filter_map(|i| all.get(*i).cloned()).collect();
                 }
             }
         }
         _ => return None,
     }
-    Some(flat)
-}
-
-/// The output in the plane; `None` for what is zero there or has no name.
-fn flat_output(output: &Value) -> Option<Value> {
-    let mut flat = output.clone();
-    let is_out = |word: &str| [".z", ".wx", ".wy", ".wz"].iter().any(|end| word.ends_with(end));
-    match (text(output, "measure"), text(output, "component")) {
-        ("expression", _) if words(text(output, "value")).any(is_out) => return None,
-        ("angular_velocity", "z") => {
-            flat.as_object_mut()?.shift_remove("component");
-        }
-        ("angular_velocity", component) if !component.is_empty() => return None,
-        (_, "z" | "mx" | "my") => return None,
-        _ => {}
-    }
-    Some(flat)
+    plane.translate(&mut own)?;
+    Some(own)
 }

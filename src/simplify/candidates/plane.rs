@@ -1,0 +1,174 @@
+//! A plane in space, and numbers of a scene seen in it.
+
+use crate::simplify::edit::{elements, text, words};
+use crate::simplify::facts::product;
+use crate::simplify::{Facts, Placed};
+use crate::tolerances::SAME;
+use serde_json::{Value, json};
+use std::array::from_fn;
+
+type Vector = [f64; 3];
+
+/// The plane that bodies move in: its x and y axes and its normal, in the world.
+pub struct Plane {
+    /// x, y and normal.
+    pub axes: [Vector; 3],
+}
+
+impl Plane {
+    /// The plane across the fastest rotation of a body, or across z where none rotates; seen from where the first hinge
+    /// turns to the left.
+    pub fn new(facts: &Facts) -> Plane {
+        let bodies = elements(facts.scene(), "bodies").iter();
+        let spins = bodies.filter_map(|body| facts.path(text(body, "name"))).flatten().map(|place| place.spin);
+        let fastest = spins.max_by(|a, b| product(a, a).total_cmp(&product(b, b))).unwrap_or_default();
+        let size = product(&fastest, &fastest).sqrt();
+        let normal = if size > 0.0 { exact(fastest.map(|x| x / size)) } else { unit(2) };
+        let hinges = elements(facts.scene(), "joints").iter().filter(|joint| text(joint, "type") == "revolute");
+        let markers = hinges.filter_map(|joint| facts.path(joint["between"][0].as_str()?)?.first().copied());
+        let hinge = markers.map(|place| place.axes[2]).find(|z| (product(z, &normal).abs() - 1.0).abs() < SAME);
+        let is_turned = hinge.map_or(normal.iter().sum::<f64>() < 0.0, |z| product(&z, &normal) < 0.0);
+        let normal = if is_turned { normal.map(|x| 0.0 - x) } else { normal };
+        // Of a coordinate plane its own axes.
+        let axis = (0..3).find(|i| normal[*i].abs() == 1.0);
+        let first = axis.map(|i| if normal[i] > 0.0 { unit((i + 1) % 3) } else { unit((i + 2) % 3) });
+        Plane { axes: first.map_or_else(|| basis(normal), |x| [x, cross(&normal, &x), normal]) }
+    }
+
+    /// The normal.
+    pub fn normal(&self) -> &Vector {
+        &self.axes[2]
+    }
+
+    /// 1 or -1 where a direction is along the normal.
+    pub fn along(&self, direction: &Vector) -> Option<f64> {
+        let part = product(direction, self.normal());
+        ((part.abs() - 1.0).abs() < SAME).then(|| part.signum())
+    }
+
+    /// True if a direction lies in the plane.
+    pub fn contains(&self, direction: &Vector) -> bool {
+        product(direction, self.normal()).abs() < SAME
+    }
+
+    /// Angle of a direction in the plane.
+    pub fn angle(&self, direction: &Vector) -> f64 {
+        product(&self.axes[1], direction).atan2(product(&self.axes[0], direction))
+    }
+
+    /// Direction in the world of the planar x axis of a marker: its x axis where its z axis is along the normal, else that.
+    pub fn marker(&self, place: &Placed) -> Option<Vector> {
+        let [x, _, z] = place.axes;
+        match self.along(&z) {
+            Some(_) => Some(x),
+            None => self.contains(&z).then_some(z),
+        }
+    }
+
+    /// Direction at the start of the planar x axis of what has this name: the ground, a body or a marker.
+    pub fn x_of(&self, facts: &Facts, name: &str) -> Option<Vector> {
+        let place = facts.path(name)?.first().copied()?;
+        match name.contains('.') {
+            true => self.marker(&place),
+            false => Some(world(&place, &self.seen_from(name, &place)[0])),
+        }
+    }
+
+    /// The axes of the plane in those of the ground or of a body that is at `place`.
+    pub fn seen_from(&self, name: &str, place: &Placed) -> [Vector; 3] {
+        if name == "ground" { self.axes } else { self.seen_by(place) }
+    }
+
+    /// The axes of the plane as a body at `place` sees them: its own x axis first, if that lies in the plane.
+    fn seen_by(&self, place: &Placed) -> [Vector; 3] {
+        basis(exact(place.axes.map(|axis| product(&axis, self.normal()))))
+    }
+
+    /// A vector of the world in the plane.
+    pub fn flat(&self, vector: &Value) -> Option<Value> {
+        flat(&self.axes, vector)
+    }
+
+    /// The part of a vector of the world along the normal.
+    pub fn across(&self, vector: &Value) -> Option<Value> {
+        combined(self.normal(), vector)
+    }
+
+    /// The name in the plane of a component x, y or z of the world; `None` where it is no axis of the plane.
+    pub fn component(&self, name: &str) -> Option<&'static str> {
+        let axis = unit(["x", "y", "z"].iter().position(|own| *own == name)?);
+        ["x", "y"].into_iter().zip(&self.axes).find(|(_, own)| product(own, &axis) == 1.0).map(|(name, _)| name)
+    }
+
+    /// Quantities of markers such as `crank.tip.z` in the plane, in all texts of a value; `None` where one has none.
+    pub fn translate(&self, value: &mut Value) -> Option<()> {
+        match value {
+            Value::String(text) => *text = self.translated(text)?,
+            Value::Array(all) => all.iter_mut().try_for_each(|value| self.translate(value))?,
+            Value::Object(keys) => keys.values_mut().try_for_each(|value| self.translate(value))?,
+            _ => {}
+        }
+        Some(())
+    }
+
+    fn translated(&self, text: &str) -> Option<String> {
+        let (mut result, mut rest) = (String::new(), text);
+        while let Some(word) = words(rest).next() {
+            let at = word.as_ptr() as usize - rest.as_ptr() as usize;
+            result += &rest[..at];
+            result += &match word.rsplit_once('.') {
+                Some((of, name @ ("x" | "y" | "z"))) => format!("{of}.{}", self.component(name)?),
+                Some((_, "wx" | "wy" | "wz")) => return None,
+                _ => word.to_string(),
+            };
+            rest = &rest[at + word.len()..];
+        }
+        Some(result + rest)
+    }
+}
+
+fn unit(i: usize) -> Vector {
+    from_fn(|j| if i == j { 1.0 } else { 0.0 })
+}
+
+pub fn cross(a: &Vector, b: &Vector) -> Vector {
+    from_fn(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
+}
+
+/// A direction of a body in the world.
+pub fn world(frame: &Placed, direction: &Vector) -> Vector {
+    from_fn(|i| (0..3).map(|k| direction[k] * frame.axes[k][i]).sum())
+}
+
+/// A direction without what rounding has added to one along a coordinate axis.
+fn exact(direction: Vector) -> Vector {
+    direction.map(|x| if (x - x.round()).abs() < SAME { x.round() + 0.0 } else { x })
+}
+
+/// Axes across and along `normal`: the first is the part of x, or of y where that is along the normal.
+fn basis(normal: Vector) -> [Vector; 3] {
+    let from = unit(usize::from((normal[0].abs() - 1.0).abs() < SAME));
+    let part: Vector = from_fn(|i| from[i] - product(&from, &normal) * normal[i]);
+    let size = product(&part, &part).sqrt();
+    let first = exact(part.map(|x| x / size));
+    [first, exact(cross(&normal, &first)), normal]
+}
+
+/// The first two components of a vector in other axes.
+pub fn flat(axes: &[Vector; 3], vector: &Value) -> Option<Value> {
+    Some(json!([combined(&axes[0], vector)?, combined(&axes[1], vector)?]))
+}
+
+/// `direction` . `vector`, in the numbers of the scene.
+pub fn combined(direction: &[f64], vector: &Value) -> Option<Value> {
+    let parts: Vec<(f64, &Value)> = direction.iter().copied().zip(vector.as_array()?).collect();
+    let number = |value: &Value| value.as_str().map_or_else(|| value.to_string(), |text| format!("({text})"));
+    let parts: Vec<(f64, &Value)> = parts.into_iter().filter(|(part, _)| *part != 0.0).collect();
+    match parts[..] {
+        [] => Some(json!(0)),
+        [(1.0, one)] => Some(one.clone()),
+        _ => Some(json!(
+            parts.iter().map(|(part, value)| format!("{part}*{}", number(value))).collect::<Vec<_>>().join(" + ")
+        )),
+    }
+}

@@ -1,0 +1,104 @@
+//! A run of a model, measured against the richest.
+
+use super::promise::Promise;
+use crate::compare::work_precision::{Allowed, Motion, RunSample, Watched, sample};
+use crate::error::{Failure, Result};
+use crate::prepared::PreparedScene;
+use crate::simulate::Method;
+use crate::system::Dimensions;
+use serde::Serialize;
+use std::time::Duration;
+
+/// A run of a model.
+#[derive(Clone, Debug, Serialize)]
+pub struct Run {
+    /// n_v.
+    pub velocities: usize,
+    /// n_c.
+    pub constraints: usize,
+    /// Method of the run.
+    pub method: Method,
+    /// CPU time, s.
+    pub seconds: f64,
+    /// Evaluations, iterations and factorizations, times velocities and constraints.
+    pub work: f64,
+    /// Difference of each watched output from the richest model; empty where the run failed.
+    pub outputs: Vec<Difference>,
+    /// Reason why it did not complete.
+    pub failure: Option<Failure>,
+    /// Values of the watched outputs.
+    #[serde(skip)]
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// Difference of an output.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// Name of the output.
+    pub name: String,
+    /// Difference relative to the size of the output.
+    pub error: f64,
+}
+
+impl Run {
+    /// The output that is farthest off; none where the run failed.
+    pub fn worst(&self) -> Option<&Difference> {
+        self.outputs.iter().max_by(|a, b| a.error.total_cmp(&b.error))
+    }
+
+    /// The largest difference; infinite where the run failed.
+    pub fn error(&self) -> f64 {
+        self.worst().map_or(f64::INFINITY, |worst| worst.error)
+    }
+}
+
+/// Wall-clock time that a run may take on a busy machine: so many times its CPU time, and this more.
+const BUSY: u32 = 20;
+const WAIT: Duration = Duration::from_secs(60);
+
+/// Runs a prepared model by its own method.
+///
+/// # Errors
+/// It has not all outputs, or no end time.
+pub fn sampled(
+    prepared: &PreparedScene,
+    names: &[String],
+    allowed: Duration,
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<RunSample> {
+    let (system, method) = (prepared.system(), &prepared.method);
+    let watched = Watched::new(system, names)?;
+    let span = prepared.span()?;
+    let between = (span.start, span.end);
+    let ratio = method.atol / method.rtol;
+    let motion = Motion { system, start: prepared.start(), between, ratio, counts_start: true, is_stopped };
+    sample(&motion, &watched, method, span, Allowed { cpu: allowed, wall: BUSY * allowed + WAIT })
+}
+
+/// Runs a prepared model by its own method and measures it.
+///
+/// # Errors
+/// As [`sampled`].
+pub fn measured(
+    prepared: &PreparedScene,
+    promise: &Promise,
+    allowed: Duration,
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<Run> {
+    let names = promise.names();
+    let RunSample { rows, statistics, failure, seconds, .. } = sampled(prepared, &names, allowed, is_stopped)?;
+    let Dimensions { v, lambda, .. } = prepared.system().dimensions();
+    let errors = failure.is_none().then(|| promise.errors(&rows)).flatten().unwrap_or_default();
+    let differences = names.into_iter().zip(errors).map(|(name, error)| Difference { name, error });
+    let counted = statistics.rhs_evaluations + statistics.newton_iterations + 2 * statistics.factorizations;
+    Ok(Run {
+        velocities: v,
+        constraints: lambda,
+        method: prepared.method.clone(),
+        seconds,
+        work: counted as f64 * (v + lambda) as f64,
+        outputs: differences.collect(),
+        failure,
+        rows,
+    })
+}
