@@ -15,7 +15,7 @@ use std::time::Duration;
 
 const WITHIN: [f64; 3] = [0.1, 0.01, 1e-3];
 const BUDGET: Duration = Duration::from_secs(120);
-const NEARBY: Nearby = Nearby { by: 0.1, samples: 20 };
+const NEARBY: Nearby = Nearby { by: 0.1, samples: Some(20) };
 /// Changes that are named.
 const NAMED: usize = 3;
 

@@ -37,7 +37,7 @@ fn promised(json: Value, settings: &Settings) -> Simplification {
     let robustness = found.robustness.as_ref().unwrap();
     assert!(robustness.counted == 20 && robustness.kept >= 19, "{:?}", robustness.motions);
     assert!(robustness.motions.iter().filter_map(|motion| motion.worst.as_ref()).any(|worst| worst.error > 0.0));
-    assert!(found.cost() <= 15.0, "{}", found.cost());
+    assert!(found.cost <= 15.0, "{}", found.cost);
     found
 }
 
@@ -191,7 +191,7 @@ fn four_of_thirty_bodies_matter() {
     let names: Vec<&str> =
         found.simplified["bodies"].as_array().unwrap().iter().filter_map(|body| body["name"].as_str()).collect();
     assert_eq!(names, ["crank", "coupler", "rocker", "hammer"]);
-    assert!(found.cost() <= 8.0, "{}", found.cost());
+    assert!(found.cost <= 8.0, "{}", found.cost);
 }
 
 #[test]

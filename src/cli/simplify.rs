@@ -26,7 +26,7 @@ pub struct Args {
     /// What differences are relative to
     #[arg(long, value_enum, default_value_t = NormOption::Range)]
     norm: NormOption,
-    /// Runs in all, two of them of the scene as it is
+    /// Runs in all, two of them of the scene as it is, and work in runs of that
     #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u16).range(3..))]
     at_most: u16,
     /// Time for all of it, such as 20s or 5min (default: no limit)

@@ -54,7 +54,7 @@ fn outcome(result: &Simplification) -> String {
     let [before, after] = [richest, chosen].map(|run| format!("{} in {}", size(run), milliseconds(run.seconds)));
     text + &format!(
         "  {after}, the richest {before}\n  {farthest}, all others by less\n  found by {runs} runs, with the work of {:.1} of the richest\n",
-        result.cost()
+        result.cost
     )
 }
 

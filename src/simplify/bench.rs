@@ -22,7 +22,11 @@ pub struct Bench<'a> {
     pub watch: &'a mut dyn FnMut(&str, usize),
     /// Runs done.
     pub runs: usize,
-    /// Runs allowed.
+    /// Their counted work, in that of one of the richest model.
+    pub cost: f64,
+    /// Counted work of a run of the richest model.
+    pub richest: f64,
+    /// Runs allowed, and work.
     pub at_most: usize,
     /// Motions on which a model has to keep the promise, too.
     pub neighbourhood: Option<&'a Neighbourhood<'a>>,
@@ -31,7 +35,8 @@ pub struct Bench<'a> {
 impl Bench<'_> {
     /// True if no run may be done any more, or but `reserved` are.
     pub fn is_over(&self, reserved: usize) -> bool {
-        self.runs + reserved >= self.at_most || (self.is_stopped)()
+        let done = self.cost.max(self.runs as f64) + reserved as f64;
+        done >= self.at_most as f64 || (self.is_stopped)()
     }
 
     /// Runs a scene for `allowed` CPU time at most.
@@ -42,7 +47,9 @@ impl Bench<'_> {
         let prepared = self.source.prepare(scene).map_err(|error| error.to_string())?;
         (self.watch)(what, self.runs);
         self.runs += 1;
-        measured(&prepared, self.promise, allowed, self.is_stopped).map_err(|error| error.to_string())
+        let run = measured(&prepared, self.promise, allowed, self.is_stopped).map_err(|error| error.to_string())?;
+        self.cost += run.work / self.richest;
+        Ok(run)
     }
 
     /// Tries a model that keeps the promise on motions nearby.

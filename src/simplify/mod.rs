@@ -61,7 +61,8 @@ pub struct Settings {
     pub norm: Norm,
     /// Names of the watched outputs; all where it is empty.
     pub outputs: Vec<String>,
-    /// Number of runs in all, those of [`nearby`](Self::nearby) apart.
+    /// Number of runs in all, and of runs of the richest model that take the same work; those of [`nearby`](Self::nearby)
+    /// apart.
     pub at_most: usize,
     /// Time for all of it, those of [`nearby`](Self::nearby) included; none: no limit. Where it does not suffice for the
     /// motion of the richest model, the promise is about the first part of that.
@@ -95,6 +96,8 @@ pub struct Simplification {
     pub chosen: Run,
     /// Number of runs.
     pub runs: usize,
+    /// Their counted work, in that of one of the richest model.
+    pub cost: f64,
     /// The promise on motions nearby.
     pub robustness: Option<Robustness>,
     /// What has to be known about the result.
@@ -109,12 +112,6 @@ impl Simplification {
     /// True if anything but the method is simpler than in the richest model.
     pub fn is_simpler(&self) -> bool {
         self.left_out().next().is_some()
-    }
-
-    /// Counted work of all runs of [`runs`](Self::runs), in that of one of the richest model.
-    pub fn cost(&self) -> f64 {
-        let tried: f64 = self.trials.iter().filter_map(|trial| trial.run.as_ref()).map(|run| run.work).sum();
-        2.0 + tried / self.richest.work
     }
 
     /// The changes of the model that were kept, without those of the method.
@@ -185,14 +182,25 @@ pub fn simplify(
     let near = |nearby| Neighbourhood::new(source, &promise, nearby, richest.work, is_stopped);
     let neighbourhood = settings.nearby.map(near).transpose()?;
     let neighbours = neighbourhood.as_ref();
-    let mut bench = Bench { source, promise: &promise, is_stopped, watch, runs, at_most, neighbourhood: neighbours };
+    let (cost, work) = (runs as f64, richest.work);
+    let mut bench = Bench {
+        source,
+        promise: &promise,
+        is_stopped,
+        watch,
+        runs,
+        cost,
+        richest: work,
+        at_most,
+        neighbourhood: neighbours,
+    };
     let reserved = RESERVED.min((at_most - LEAST) / 2);
     let mut found = search::search(&mut bench, &facts, candidates, richest.clone(), reserved);
     numerics::cheapest(&mut bench, &mut found);
     // Where nothing was changed it has not been tried.
     let untried = neighbours.filter(|_| found.robustness.is_none() && !is_stopped());
     let robustness = untried.map(|near| near.robustness(&found.scene)).or(found.robustness);
-    let runs = bench.runs;
+    let (runs, cost) = (bench.runs, bench.cost);
     let mut result = Simplification {
         scene,
         within: settings.within,
@@ -202,6 +210,7 @@ pub fn simplify(
         trials: found.trials,
         chosen: found.run,
         runs,
+        cost,
         robustness,
         warnings,
         simplified: Value::Null,
