@@ -1,0 +1,71 @@
+//! Motions of markers against each other.
+
+use super::edit::{elements, text};
+use super::facts::{Facts, Placed, product};
+use crate::math::largest;
+use std::array::from_fn;
+
+/// Motion of a marker against another, seen from that.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Relative {
+    /// Largest distance of the second marker from where it is at the start, m.
+    pub shift: f64,
+    /// Largest angle between the z axes against that at the start, rad; zero in the plane.
+    pub tilt: f64,
+    /// Largest rotation against the start, rad.
+    pub turn: f64,
+}
+
+impl Relative {
+    /// The larger of displacement and rotation, each relative to that of `all`.
+    pub fn part(&self, all: &Relative) -> f64 {
+        let part = |own: f64, all: f64| if own > 0.0 { own / all } else { 0.0 };
+        part(self.shift, all.shift).max(part(self.turn, all.turn))
+    }
+}
+
+impl Facts {
+    /// Relative motion of two markers.
+    pub fn relative(&self, [a, b]: [&str; 2]) -> Option<Relative> {
+        let pairs: Vec<(Placed, Placed)> = self.path(a)?.into_iter().zip(self.path(b)?).collect();
+        let local = |(a, b): &(Placed, Placed)| {
+            let gap: [f64; 3] = from_fn(|i| b.r[i] - a.r[i]);
+            let rotation: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| product(&a.axes[j], &b.axes[i])));
+            (a.axes.map(|axis| product(&axis, &gap)), rotation)
+        };
+        let start = local(pairs.first()?);
+        let mut most = Relative::default();
+        for now in pairs.iter().map(local) {
+            let shift: [f64; 3] = from_fn(|i| now.0[i] - start.0[i]);
+            let cosines: [f64; 3] = from_fn(|i| product(&now.1[i], &start.1[i]));
+            let trace: f64 = cosines.iter().sum();
+            most.shift = most.shift.max(product(&shift, &shift).sqrt());
+            most.tilt = most.tilt.max(cosines[2].clamp(-1.0, 1.0).acos());
+            most.turn = most.turn.max((0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos());
+        }
+        Some(most)
+    }
+
+    /// Length between two markers along the motion: least, mean and largest, m.
+    pub fn lengths(&self, [a, b]: [&str; 2]) -> Option<[f64; 3]> {
+        let pairs = self.path(a)?.into_iter().zip(self.path(b)?);
+        let length = |(a, b): (Placed, Placed)| {
+            let gap: [f64; 3] = from_fn(|i| b.r[i] - a.r[i]);
+            product(&gap, &gap).sqrt()
+        };
+        let all: Vec<f64> = pairs.map(length).collect();
+        let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+        Some([least, all.iter().sum::<f64>() / all.len().max(1) as f64, largest(&all)])
+    }
+
+    /// Largest displacement, m, and largest rotation, rad, of the bodies of the scene against the start.
+    pub fn travel(&self) -> Relative {
+        let bodies = elements(self.scene(), "bodies").iter();
+        let motions = bodies.filter_map(|body| self.relative(["ground", text(body, "name")]));
+        motions.fold(Relative::default(), |most, next| Relative {
+            shift: most.shift.max(next.shift),
+            tilt: most.tilt.max(next.tilt),
+            turn: most.turn.max(next.turn),
+        })
+    }
+}
