@@ -201,7 +201,7 @@ impl Sink for Seen<'_> {
     }
 
     fn row(&mut self, state: &Observation) {
-        self.rows.push(self.watched.read(self.system, state.loaded(), &mut self.scratch));
+        self.rows.push(self.watched.read(self.system, (state.loaded(), state.works), &mut self.scratch));
     }
 
     fn stops(&self) -> Option<Stop> {

@@ -45,7 +45,7 @@ use crate::compare::work_precision::{Watched, tighter};
 use crate::error::{Error, Failure, Result, Warning, clock, percent};
 use crate::prepared::PreparedScene;
 use crate::trajectory::recorded;
-use bench::{Bench, measured};
+use bench::Bench;
 use facts::{Recorded, record};
 use nearby::Neighbourhood;
 use numerics::METHOD;
