@@ -164,8 +164,9 @@ impl Stages {
         self.rotations.interpolate(method, theta, from.y, out);
     }
 
-    /// Round-off of the changes, over the tolerated errors; v is found from phi = 0 by a division by h.
-    pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, dae: &Dae) -> f64 {
+    /// Round-off of the changes, over the tolerated errors, where v is found from q by a division by h: from phi = 0, or
+    /// from forces so stiff that q follows them within the step. Other v are rounded by their own size.
+    pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, divides: bool) -> f64 {
         let (q, v) = problem.split(from.y);
         // Angles that count full turns grow, and only they are rounded to that size.
         let (moving, states) = v.split_at(self.n.moving());
@@ -173,7 +174,7 @@ impl Stages {
         let [of_q, of_v, of_states] = [own, moving, states].map(|x| tolerances::ROUND_OFF * largest(x));
         let change = &mut self.next[0];
         change[..q.len()].fill(of_q);
-        change[q.len()..].fill(if dae.velocity_index() == 2 { of_v.max(of_q / h) } else { of_v });
+        change[q.len()..].fill(if divides { of_v.max(of_q / h) } else { of_v });
         change[q.len() + moving.len()..].fill(of_states);
         tolerance.norm(from.y, change)
     }

@@ -36,12 +36,13 @@ impl System<'_> {
         let System { dae, method, at, matrices, stages, is_fixed } = self;
         stages.reset(from);
         stages.advance(problem, method, from, h);
-        let round_off = stages.round_off(problem, tolerance, from, h, dae);
+        let mut round_off = |divides| stages.round_off(problem, tolerance, from, h, divides);
+        let (round_off, of_stiff) = (round_off(dae.velocity_index() == 2), round_off(true));
         let limits = Limits {
             most: most(method.stages(), *is_fixed),
             tolerance: (10.0 * f64::EPSILON / tolerance.rtol).max(tolerance.rtol.sqrt().min(0.03)),
             round_off,
-            stagnation: tolerances::RADAU_STAGNATION * round_off,
+            stagnation: of_stiff.max(tolerances::RADAU_STAGNATION * round_off),
             patience: if *is_fixed { tolerances::RADAU_PATIENCE } else { 0 },
             least_rate: tolerances::RADAU_LEAST_RATE,
             kept_rate: tolerances::RADAU_MATRIX_KEPT,
