@@ -50,9 +50,11 @@ impl Trajectory {
         Trajectory { names: system.names(), outputs: recorded(system), rows: Vec::new() }
     }
 
-    /// No rows, with time and outputs as the only columns.
-    pub fn of_outputs(system: &dyn MechanicalSystem) -> Self {
-        let names = Names { q: Vec::new(), v: Vec::new(), lambda: Vec::new() };
+    /// No rows, with time, the first `coordinates` and the outputs as the only columns.
+    pub fn of_outputs(system: &dyn MechanicalSystem, coordinates: usize) -> Self {
+        let mut q = system.names().q;
+        q.truncate(coordinates);
+        let names = Names { q, v: Vec::new(), lambda: Vec::new() };
         Trajectory { names, outputs: recorded(system), rows: Vec::new() }
     }
 
@@ -80,17 +82,6 @@ impl Trajectory {
     pub fn column(&self, heading: &str) -> Option<Vec<f64>> {
         let index = self.headings().iter().position(|known| *known == heading)?;
         Some(self.rows.iter().map(|row| row[index]).collect())
-    }
-
-    /// The outputs that have no finite value at some rows.
-    pub fn gaps(&self) -> Vec<Gap> {
-        let gap = |index: usize| {
-            let without = |row: &&Vec<f64>| !self.row_outputs(row)[index].is_finite();
-            let first = self.rows.iter().find(without)?[0];
-            let name = self.outputs[index].name.clone();
-            Some(Gap { name, first, count: self.rows.iter().filter(without).count() })
-        };
-        (0..self.outputs.len()).filter_map(gap).collect()
     }
 
     /// The outputs of a row.

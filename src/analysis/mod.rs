@@ -8,6 +8,7 @@ mod rank;
 mod recorder;
 mod scale;
 mod singularity;
+mod thinned;
 
 pub use drift::{Drift, DriftLevel};
 pub use energy::EnergyBalance;
@@ -18,7 +19,7 @@ pub use range::{LargestDeformation, Range};
 pub use rank::Rank;
 #[doc(hidden)]
 pub use rank::{Redundant, dependent_nearby};
-pub use recorder::{Record, Recorder};
+pub use recorder::{Record, Recorder, Row};
 #[doc(hidden)]
 pub use scale::{Sizes, scales};
 #[doc(hidden)]

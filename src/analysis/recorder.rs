@@ -4,16 +4,21 @@ use super::drift::{Drift, largest};
 use super::energy::{EnergyBalance, EnergyMeter, Ledger};
 use super::range::Range;
 use super::singularity::{Singularity, Watch};
+use super::thinned::thin;
 use crate::simulate::{Observation, Sink, Stop};
 use crate::system::{MechanicalSystem, Scratch};
-use crate::trajectory::Trajectory;
+use crate::trajectory::{Gap, Trajectory};
 
 /// Trajectory, drift and energy of a run.
 pub struct Record {
-    /// Output rows.
+    /// Output rows; thinned where all are passed on.
     pub trajectory: Trajectory,
-    /// The last row with q, v and lambda, where `trajectory` has outputs only.
+    /// The last row with q, v and lambda, where `trajectory` does not have them.
     pub last: Option<Trajectory>,
+    /// Number of rows of the run.
+    pub rows: usize,
+    /// Outputs without a finite value at some rows.
+    pub gaps: Vec<Gap>,
     /// Constraint drift.
     pub drift: Drift,
     /// `None` where the system defines no potential.
@@ -28,6 +33,16 @@ pub struct Record {
     pub ledger_rows: Vec<Ledger>,
 }
 
+/// An output row as it is passed on.
+pub struct Row<'r> {
+    /// t, q, v, lambda and outputs; t and outputs where only these are kept.
+    pub values: &'r [f64],
+    /// Largest |phi|, |phi'|, |phi''|.
+    pub drift: [f64; 3],
+    /// Energies; `None` where the system defines no potential.
+    pub ledger: Option<Ledger>,
+}
+
 /// Collects a [`Record`] during a run.
 pub struct Recorder<'a> {
     system: &'a dyn MechanicalSystem,
@@ -38,7 +53,11 @@ pub struct Recorder<'a> {
     record: Record,
     progress: Box<dyn FnMut(f64) + 'a>,
     stop: Box<dyn Fn() -> Option<Stop> + 'a>,
+    pass: Option<Pass<'a>>,
+    outputs_only: bool,
 }
+
+type Pass<'a> = Box<dyn FnMut(Row) + 'a>;
 
 impl<'a> Recorder<'a> {
     /// A recorder for a run of `system`.
@@ -52,6 +71,8 @@ impl<'a> Recorder<'a> {
             record: Record {
                 trajectory: Trajectory::new(system),
                 last: None,
+                rows: 0,
+                gaps: Vec::new(),
                 drift: Drift::default(),
                 energy: None,
                 singularity: Singularity::default(),
@@ -61,12 +82,26 @@ impl<'a> Recorder<'a> {
             },
             progress: Box::new(|_| {}),
             stop: Box::new(|| None),
+            pass: None,
+            outputs_only: false,
         }
     }
 
     /// Keeps time and outputs alone of all rows but the last.
     pub fn with_outputs_only(mut self) -> Self {
-        self.record.trajectory = Trajectory::of_outputs(self.system);
+        self.outputs_only = true;
+        self.keep(0)
+    }
+
+    /// Passes each row on as it comes, and keeps those that curves need of the outputs, of the first `coordinates`, of
+    /// drift and energies: memory is bounded, however long the run.
+    pub fn with_rows(mut self, coordinates: usize, pass: impl FnMut(Row) + 'a) -> Self {
+        self.pass = Some(Box::new(pass));
+        self.keep(coordinates)
+    }
+
+    fn keep(mut self, coordinates: usize) -> Self {
+        self.record.trajectory = Trajectory::of_outputs(self.system, coordinates);
         self.record.last = Some(Trajectory::new(self.system));
         self
     }
@@ -103,16 +138,47 @@ impl Sink for Recorder<'_> {
     fn row(&mut self, state: &Observation) {
         self.record.drift.add(state, &self.scales);
         let levels = [state.phi, state.phi_dot, state.phi_ddot].map(|rows| largest(rows.iter().copied()));
-        self.record.drift_rows.push(levels);
-        self.record.ledger_rows.extend(self.meter.ledger(self.system, state, &mut self.scratch));
-        self.record.trajectory.push(self.system, state, &mut self.scratch);
-        if let Some(last) = &mut self.record.last {
+        let ledger = self.meter.ledger(self.system, state, &mut self.scratch);
+        let record = &mut self.record;
+        record.rows += 1;
+        record.drift_rows.push(levels);
+        record.ledger_rows.extend(ledger);
+        record.trajectory.push(self.system, state, &mut self.scratch);
+        if let Some(last) = &mut record.last {
             last.rows.clear();
             last.push(self.system, state, &mut self.scratch);
+        }
+        record.note_gaps(state.t);
+        if let Some(pass) = &mut self.pass {
+            let all = record.last.as_ref().filter(|_| !self.outputs_only).unwrap_or(&record.trajectory);
+            if let Some(values) = all.rows.last() {
+                pass(Row { values, drift: levels, ledger });
+            }
+            thin(&mut record.trajectory, &mut record.drift_rows, &mut record.ledger_rows);
         }
     }
 
     fn stops(&self) -> Option<Stop> {
         (self.stop)()
+    }
+}
+
+impl Record {
+    /// The last row with all columns that the run has.
+    pub fn full(&self) -> &Trajectory {
+        self.last.as_ref().unwrap_or(&self.trajectory)
+    }
+
+    /// Counts the outputs that have no value at the last row.
+    fn note_gaps(&mut self, t: f64) {
+        let Record { trajectory, gaps, .. } = self;
+        let Some(row) = trajectory.rows.last() else { return };
+        let outputs = trajectory.outputs.iter().zip(trajectory.row_outputs(row));
+        for (output, _) in outputs.filter(|(_, value)| !value.is_finite()) {
+            match gaps.iter_mut().find(|gap| gap.name == output.name) {
+                Some(gap) => gap.count += 1,
+                None => gaps.push(Gap { name: output.name.clone(), first: t, count: 1 }),
+            }
+        }
     }
 }

@@ -208,13 +208,14 @@ impl Common {
     /// Returns the time span, if its rows fit into memory.
     pub fn span(&self, prepared: &PreparedScene) -> Result<Span> {
         let Dimensions { q, v, lambda, .. } = prepared.system().dimensions();
-        self.span_with(prepared, 1 + q + v + lambda + recorded(prepared.system()).len())
+        self.span_with(prepared, 1 + q + v + lambda + recorded(prepared.system()).len(), true)
     }
 
-    /// Returns the time span, if its rows with this number of columns fit into memory.
-    pub fn span_with(&self, prepared: &PreparedScene, columns: usize) -> Result<Span> {
+    /// Returns the time span, if its rows with this number of columns fit into memory, or into a file where they are not
+    /// kept.
+    pub fn span_with(&self, prepared: &PreparedScene, columns: usize, is_kept: bool) -> Result<Span> {
         let span = prepared.span().map_err(|error| error.in_file(&self.scene.path))?;
-        refuse_rows((span.end - span.start) / span.output_step + 1.0, columns)
+        refuse_rows((span.end - span.start) / span.output_step + 1.0, columns, is_kept)
             .map_err(|error| error.under("--output-step").hint("give a larger one, or an earlier end with --until"))?;
         Ok(span)
     }

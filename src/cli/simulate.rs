@@ -7,9 +7,11 @@ use crate::compare::check_error;
 use crate::error::{Error, Result, Warning};
 use crate::files::{mat, npz};
 use crate::prepared::PreparedScene;
-use crate::report::{self, Folder, Sealed, Summary, summarize};
+use crate::report::{self, Folder, RowFiles, Sealed, Summary, summarize};
 use crate::simulate::{Span, Start};
-use crate::trajectory::recorded;
+use crate::system::{Dimensions, Scratch};
+use crate::trajectory::{Trajectory, recorded};
+use std::cell::RefCell;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -57,11 +59,16 @@ pub fn run(args: Args) -> Result<ExitCode> {
     args.common.talk.warn(&early[prepared.doubts.len()..]);
     let bar = args.common.talk.progress(1000, &prepared.name);
     let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;
+    let rows = RefCell::new(args.row_files(&prepared, &mut folder)?);
     let mut recorder = Recorder::new(prepared.system())
         .with_progress(|t| bar.set_position(fraction(t)))
-        .with_stop(|| interrupt::stop(&folder));
+        .with_stop(|| rows.borrow().stop().or_else(|| interrupt::stop(&folder)));
     if args.outputs_only {
         recorder = recorder.with_outputs_only();
+    }
+    if !args.keeps_rows() {
+        let coordinates = if recorded(prepared.system()).is_empty() { report::MOST_COORDINATES } else { 0 };
+        recorder = recorder.with_rows(coordinates, |row| rows.borrow_mut().add(&row));
     }
     let clock = Instant::now();
     let (q, v) = prepared.start();
@@ -70,6 +77,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let seconds = clock.elapsed().as_secs_f64();
     let record = recorder.finish();
     bar.finish_and_clear();
+    let mut rows = rows.into_inner();
+    if args.keeps_rows() {
+        rows.add_all(&record);
+    }
+    rows.finish()?;
     let mut summary = summarize((&prepared, stiffness, &early), (&outcome, &legs), &record, seconds);
     (summary.origin.command, summary.restart) = (std::env::args().collect(), saved);
     let summary = match args.check_error && summary.failure.is_none() {
@@ -97,36 +109,46 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 impl Args {
-    /// Returns the time span, if its rows fit into memory.
+    /// Returns the time span, if its rows fit into memory, or into a file.
     fn span(&self, prepared: &PreparedScene) -> Result<Span> {
-        if !self.outputs_only {
-            return self.common.span(prepared);
+        let (Dimensions { q, v, lambda, .. }, outputs) =
+            (prepared.system().dimensions(), recorded(prepared.system()).len());
+        if self.outputs_only && outputs == 0 {
+            return Err(Error::input("--outputs-only leaves nothing to write: the scene has no outputs")
+                .hint("give it `outputs`, or run without --outputs-only"));
         }
-        match recorded(prepared.system()).len() {
-            0 => Err(Error::input("--outputs-only leaves nothing to write: the scene has no outputs")
-                .hint("give it `outputs`, or run without --outputs-only")),
-            outputs => self.common.span_with(prepared, 1 + outputs),
-        }
+        let columns = 1 + outputs + if self.outputs_only { 0 } else { q + v + lambda };
+        self.common.span_with(prepared, columns, self.keeps_rows())
+    }
+
+    /// True if all rows are needed at the end: arrays have their size first, and errors compare all rows of two runs.
+    fn keeps_rows(&self) -> bool {
+        self.check_error || self.format.iter().any(|format| *format != Format::Csv)
+    }
+
+    /// The files of the rows.
+    fn row_files(&self, prepared: &PreparedScene, folder: &mut Folder) -> Result<RowFiles> {
+        let (system, (q, v)) = (prepared.system(), prepared.start());
+        let trajectory = if self.outputs_only { Trajectory::of_outputs(system, 0) } else { Trajectory::new(system) };
+        let headings = self.format.contains(&Format::Csv).then(|| trajectory.headings());
+        RowFiles::new(folder, headings, system.energy(0.0, q, v, &mut Scratch::default()).is_some())
     }
 }
 
 fn write<'s>(
     (prepared, record, summary): (&PreparedScene, &Record, &'s Summary),
     folder: &mut Folder,
-    Args { output, format, .. }: &Args,
+    args: &Args,
 ) -> Result<Sealed<&'s Summary>> {
     let arrays = || report::trajectory_arrays(&record.trajectory);
-    for format in format {
+    for format in &args.format {
         match format {
-            Format::Csv => folder.write("trajectory.csv", &report::trajectory_table(&record.trajectory)?)?,
+            Format::Csv => {}
             Format::Npz => folder.write("trajectory.npz", &npz::write(&arrays())?)?,
             Format::Mat => folder.write("trajectory.mat", &mat::write(&arrays())?)?,
         }
     }
-    folder.write("drift.csv", &report::drift_table(record)?)?;
-    if record.energy.is_some() {
-        folder.write("energy.csv", &report::energy_table(record)?)?;
-    }
+    let output = &args.output;
     output.figure(folder, "outputs", report::outputs_figure(&prepared.name, &record.trajectory))?;
     output.figure(folder, "drift", report::drift_figure(&format!("{}: drift", prepared.name), record))?;
     output.figure(folder, "energy", report::energy_figure(&format!("{}: energy", prepared.name), record))?;

@@ -47,16 +47,29 @@ impl Staging {
     /// # Errors
     /// Errors of the file system: a full disk, no permission, a folder of this name.
     pub fn write(&mut self, name: &str, contents: &[u8]) -> io::Result<()> {
+        let mut file = self.open(name)?;
+        file.write_all(contents)?;
+        file.sync_all()
+    }
+
+    /// Makes a file that will be called `name`, to be written and synchronized before [`publish`](Self::publish).
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub fn open(&mut self, name: &str) -> io::Result<File> {
         if self.target.join(name).is_dir() {
             return Err(io::ErrorKind::IsADirectory.into());
         }
-        let mut file = File::create(self.hidden.path().join(name))?;
-        file.write_all(contents)?;
-        file.sync_all()?;
+        let file = File::create(self.path(name))?;
         if !self.names.iter().any(|known| known == name) {
             self.names.push(name.to_string());
         }
-        Ok(())
+        Ok(file)
+    }
+
+    /// Path at which the file that will be called `name` is written.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.hidden.path().join(name)
     }
 
     /// Renames the files to their places, in the order in which they were first written, and removes the `obsolete`.
@@ -69,8 +82,7 @@ impl Staging {
             removed(&self.target.join(name)).map_err(|error| (name.clone(), error))?;
         }
         self.names.iter().try_for_each(|name| {
-            std::fs::rename(self.hidden.path().join(name), self.target.join(name))
-                .map_err(|error| (name.clone(), error))
+            std::fs::rename(self.path(name), self.target.join(name)).map_err(|error| (name.clone(), error))
         })
     }
 }

@@ -28,14 +28,22 @@ pub fn refuse_dense(what: &str, [rows, columns]: [usize; 2], copies: f64) -> Res
 /// Memory of a number that is kept in memory until it is written as text, bytes.
 const WRITTEN: f64 = 48.0;
 
+/// Size of a number as text, and the largest file that is not taken for a mistake, bytes.
+const TEXT: f64 = 20.0;
+const LARGEST_FILE: f64 = 1e12;
+
 /// Refuses a table, kept in memory until it is written, that takes more than the free memory of the machine and
-/// of the process.
+/// of the process; and one that is written as it comes, if its file would be larger than any that is wanted.
 ///
 /// # Errors
 /// Bad input with the size and the limit; the caller adds the remedy.
-pub fn refuse_rows(rows: f64, columns: usize) -> Result<()> {
-    let wanted = WRITTEN * rows * columns as f64;
-    let limit = if wanted > SMALL { free() } else { f64::INFINITY };
+pub fn refuse_rows(rows: f64, columns: usize, is_kept: bool) -> Result<()> {
+    let wanted = if is_kept { WRITTEN } else { TEXT } * rows * columns as f64;
+    let limit = match is_kept {
+        true if wanted > SMALL => free(),
+        true => f64::INFINITY,
+        false => LARGEST_FILE,
+    };
     if wanted <= limit {
         return Ok(());
     }
@@ -104,10 +112,12 @@ mod tests {
 
     #[test]
     fn rows_that_do_not_fit_are_refused() {
-        assert!(refuse_rows(1000.0, 1000).is_ok());
-        let error = refuse_rows(1e9, 1_000_000).unwrap_err().to_string();
+        assert!(refuse_rows(1000.0, 1000, true).is_ok() && refuse_rows(1e9, 40, false).is_ok());
+        let error = refuse_rows(1e9, 1_000_000, true).unwrap_err().to_string();
         let whole = "1000000000 rows of 1000000 numbers take 48000000.0 GB to write: the limit is ";
         assert!(error.starts_with(whole), "{error}");
+        let error = refuse_rows(1e9, 1_000_000, false).unwrap_err().to_string();
+        assert!(error.ends_with("take 20000000.0 GB to write: the limit is 1000.0 GB"), "{error}");
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub fn outputs_figure(title: &str, trajectory: &Trajectory) -> Option<Figure> {
 }
 
 /// Largest number of coordinates drawn.
-pub(super) const MOST_COORDINATES: usize = 12;
+pub const MOST_COORDINATES: usize = 12;
 
 /// Returns the quantity of a unit, for an axis; a percentage may be one of any quantity.
 pub(super) fn quantity(unit: &str) -> &'static str {
@@ -54,7 +54,7 @@ const WINDOWS: usize = 100;
 /// Draws the drift of positions, velocities and accelerations over time, on logarithmic axes.
 pub fn drift_figure(title: &str, record: &Record) -> Option<Figure> {
     let times: Vec<f64> = record.trajectory.times().collect();
-    if times.len() < 2 || record.trajectory.names.lambda.is_empty() {
+    if times.len() < 2 || record.full().names.lambda.is_empty() {
         return None;
     }
     let labels = ["position |φ|", "velocity |φ′|", "acceleration |φ″|"];

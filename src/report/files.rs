@@ -4,7 +4,8 @@ use super::origin::{Sealed, Settings};
 use crate::error::{Error, Result};
 use crate::files::{self, Staging};
 use serde::Serialize;
-use std::io;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes a whole file, or returns the reason why that fails.
@@ -75,16 +76,26 @@ impl Folder {
     /// Writes a file that appears after [`finish`](Self::finish). The presence of the last one shows that all are
     /// complete.
     pub fn write(&mut self, name: &str, contents: &[u8]) -> Result<()> {
-        let unwritten = |error: io::Error| failed(&self.path.join(name), "nothing was written", &error);
+        self.stage(name, |staging| staging.write(name, contents))
+    }
+
+    /// Makes a file that is written while it is computed, and appears after [`finish`](Self::finish).
+    pub fn stream(&mut self, name: &str) -> Result<Stream> {
+        let file = self.stage(name, |staging| staging.open(name))?;
+        Ok(Stream { path: self.path.join(name), file: BufWriter::new(file), error: None })
+    }
+
+    fn stage<T>(&mut self, name: &str, write: impl FnOnce(&mut Staging) -> io::Result<T>) -> Result<T> {
+        let unwritten = |error: io::Error| failed(&self.path.join(name), UNWRITTEN, &error);
         let staging = match &mut self.staging {
             Some(staging) => staging,
             none => none.insert(Staging::create(&self.path).map_err(unwritten)?),
         };
-        staging.write(name, contents).map_err(unwritten)?;
+        let made = write(staging).map_err(unwritten)?;
         if !self.written.iter().any(|known| known == name) {
             self.written.push(name.to_string());
         }
-        Ok(())
+        Ok(made)
     }
 
     /// Writes a result as indented JSON, with the names of the files that were written since the last one and belong
@@ -92,11 +103,13 @@ impl Folder {
     pub fn seal<T: Serialize>(&mut self, name: &str, result: T) -> Result<Sealed<T>> {
         let own = self.written[self.sealed..].iter().cloned();
         let sealed = Sealed { result, files: own.chain([name.to_string()]).collect() };
-        let text = serde_json::to_string_pretty(&sealed).map_err(|error| Error::file(self.path.join(name), error))?;
-        let text = format!("{text}\n").into_bytes();
-        self.write(name, &text)?;
+        let mut file = self.stream(name)?;
+        serde_json::to_writer_pretty(&mut file, &sealed).map_err(|error| Error::file(self.path.join(name), error))?;
+        file.append(b"\n");
+        file.finish()?;
         self.sealed = self.written.len();
-        if let Some((earlier, new)) = Settings::read(&self.path.join(name)).zip(Settings::parse(&text)) {
+        let written = self.staging.as_ref().and_then(|staging| Settings::read(&staging.path(name)));
+        if let Some((earlier, new)) = Settings::earlier(&self.path.join(name)).zip(written) {
             self.notes.extend(earlier.replaced_by(&new));
             self.obsolete.extend(earlier.files);
         }
@@ -114,6 +127,53 @@ impl Folder {
             .map_or(Ok(()), |staging| staging.publish(&obsolete))
             .map_err(|(name, error)| failed(&path.join(name), "not all results are in place", &error))?;
         Ok(Written { folder: path, names: written, notes, removed: obsolete })
+    }
+}
+
+const UNWRITTEN: &str = "nothing was written";
+
+/// A file of a [`Folder`] that is written as its contents come. The first error is kept until the end.
+pub struct Stream {
+    path: PathBuf,
+    file: BufWriter<File>,
+    error: Option<io::Error>,
+}
+
+impl Stream {
+    /// Appends to the file, unless an error came before.
+    pub fn append(&mut self, contents: &[u8]) {
+        if self.error.is_none() {
+            self.error = self.file.write_all(contents).err();
+        }
+    }
+
+    /// True if the file could not be written.
+    pub fn has_failed(&self) -> bool {
+        self.error.is_some()
+    }
+
+    /// Completes the file.
+    ///
+    /// # Errors
+    /// The first error of the file system.
+    pub fn finish(mut self) -> Result<()> {
+        let written = match self.error.take() {
+            Some(error) => Err(error),
+            None => self.file.flush().and_then(|()| self.file.get_ref().sync_all()),
+        };
+        written.map_err(|error| failed(&self.path, UNWRITTEN, &error))
+    }
+}
+
+/// Errors are kept for [`Stream::finish`].
+impl Write for Stream {
+    fn write(&mut self, contents: &[u8]) -> io::Result<usize> {
+        self.append(contents);
+        Ok(contents.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }
 

@@ -62,7 +62,7 @@ impl FinishedRun {
     /// # Errors
     /// A run of another system.
     pub fn trajectory(self, system: &dyn MechanicalSystem) -> Result<Trajectory> {
-        let all = [Trajectory::new(system), Trajectory::of_outputs(system)];
+        let all = [Trajectory::new(system), Trajectory::of_outputs(system, 0)];
         let known = all[0].headings();
         let other = |heading: &&String| !known.contains(&heading.as_str());
         let unknown = self.headings.iter().find(other).cloned();

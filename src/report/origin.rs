@@ -5,6 +5,8 @@ use crate::math::expression::Parameters;
 use crate::simulate::Method;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
+use std::fs::{File, Metadata};
+use std::io::BufReader;
 use std::path::Path;
 
 /// What it takes to repeat a run, and reasons to doubt it.
@@ -71,13 +73,15 @@ const NAMED: usize = 4;
 
 impl Settings {
     /// Reads those of earlier results; `None` if there are none, or nobody knows by which command they came.
-    pub fn read(path: &Path) -> Option<Settings> {
-        let settings = Settings::parse(&crate::files::read(path).ok()?)?;
-        (!settings.command.is_empty()).then_some(settings)
+    pub fn earlier(path: &Path) -> Option<Settings> {
+        Settings::read(path).filter(|settings| !settings.command.is_empty())
     }
 
-    pub fn parse(json: &[u8]) -> Option<Settings> {
-        serde_json::from_slice(json).ok()
+    /// Reads those of a result. The file is large where there are many coordinates, and little of it is kept.
+    pub fn read(path: &Path) -> Option<Settings> {
+        // A pipe would wait for a writer.
+        let file = std::fs::metadata(path).ok().filter(Metadata::is_file).and_then(|_| File::open(path).ok())?;
+        serde_json::from_reader(BufReader::new(file)).ok()
     }
 
     /// Returns what became of earlier results with other settings; `None` if these are the same.
@@ -145,7 +149,7 @@ mod tests {
 
     fn settings(command: &[&str], l: f64, rtol: f64) -> Settings {
         let file = json!({ "command": command, "parameters": { "l": l }, "method": { "rtol": rtol }, "files": [] });
-        Settings::parse(file.to_string().as_bytes()).unwrap()
+        serde_json::from_str(&file.to_string()).unwrap()
     }
 
     #[test]

@@ -146,7 +146,7 @@ pub fn summarize(
 }
 
 fn final_state(record: &Record) -> FinalState {
-    let trajectory = record.last.as_ref().unwrap_or(&record.trajectory);
+    let trajectory = record.full();
     let named = |names: &mut dyn Iterator<Item = &String>, values: &[f64]| -> Map<String, Value> {
         names.zip(values).map(|(name, value)| (name.clone(), Value::from(*value))).collect()
     };

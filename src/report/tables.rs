@@ -1,6 +1,5 @@
 //! Comma-separated tables for Python, MATLAB and spreadsheets.
 
-use crate::analysis::Record;
 use crate::error::{Error, Result};
 use crate::files::Array;
 use crate::sweep::Sweep;
@@ -41,23 +40,6 @@ pub fn heading<'a>(parameter: &str, mut others: impl Iterator<Item = &'a str>) -
     if others.any(|other| other == parameter) { format!("parameters.{parameter}") } else { parameter.to_string() }
 }
 
-/// Returns `t` and the largest |phi|, |phi'| and |phi''| at the output times.
-pub fn drift_table(record: &Record) -> Result<Vec<u8>> {
-    let times = record.trajectory.times();
-    let rows: Vec<[f64; 4]> = times.zip(&record.drift_rows).map(|(t, [p, v, a])| [t, *p, *v, *a]).collect();
-    write(vec!["t", "position", "velocity", "acceleration"], rows.iter().map(<[f64; 4]>::as_slice))
-}
-
-/// Returns `t`, kinetic and potential energy, work and the error of the balance at the output times, J.
-pub fn energy_table(record: &Record) -> Result<Vec<u8>> {
-    let times = record.trajectory.times();
-    let rows: Vec<[f64; 5]> = times
-        .zip(&record.ledger_rows)
-        .map(|(t, ledger)| [t, ledger.kinetic, ledger.potential, ledger.work, ledger.error])
-        .collect();
-    write(vec!["t", "kinetic", "potential", "work", "error"], rows.iter().map(<[f64; 5]>::as_slice))
-}
-
 /// Returns a number as tables have it.
 pub fn cell(value: f64) -> String {
     let mut text = Vec::new();
@@ -77,17 +59,25 @@ fn push(text: &mut Vec<u8>, value: f64) {
 
 /// Writes numbers under headings.
 fn write<'a>(headings: Vec<&str>, rows: impl Iterator<Item = &'a [f64]>) -> Result<Vec<u8>> {
-    let mut all = table(headings.into_iter().map(String::from), std::iter::empty())?;
-    for row in rows {
-        for (i, value) in row.iter().enumerate() {
-            if i > 0 {
-                all.push(b',');
-            }
-            push(&mut all, *value);
-        }
-        all.push(b'\n');
-    }
+    let mut all = header(headings)?;
+    rows.for_each(|row| line(&mut all, row));
     Ok(all)
+}
+
+/// Returns the line of headings.
+pub fn header(headings: Vec<&str>) -> Result<Vec<u8>> {
+    table(headings.into_iter().map(String::from), std::iter::empty())
+}
+
+/// Appends a line of numbers.
+pub fn line(text: &mut Vec<u8>, row: &[f64]) {
+    for (i, value) in row.iter().enumerate() {
+        if i > 0 {
+            text.push(b',');
+        }
+        push(text, *value);
+    }
+    text.push(b'\n');
 }
 
 fn failed(error: &dyn fmt::Display) -> Error {

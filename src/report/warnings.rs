@@ -4,17 +4,12 @@ use crate::analysis::{Drift, EnergyBalance, Record};
 use crate::error::Warning;
 use crate::error::significant;
 use crate::tolerances::report as tolerances;
-use crate::trajectory::{Gap, Trajectory};
+use crate::trajectory::Gap;
 
 /// Returns all warnings from the record of a run.
 pub fn warnings(record: &Record) -> Vec<Warning> {
     let energy = record.energy.as_ref().filter(|energy| energy.is_open()).map(open_balance);
-    open_joints(&record.drift)
-        .into_iter()
-        .chain(energy)
-        .chain(gaps(&record.trajectory))
-        .chain(record.range.warnings())
-        .collect()
+    open_joints(&record.drift).into_iter().chain(energy).chain(gaps(record)).chain(record.range.warnings()).collect()
 }
 
 /// Returns a warning of uncertain classes of eigenvalues, by these methods, each of which may be named more than once.
@@ -58,13 +53,13 @@ fn open_balance(energy: &EnergyBalance) -> Warning {
     Warning::new(text, hint)
 }
 
-fn gaps(trajectory: &Trajectory) -> Vec<Warning> {
-    let rows = trajectory.rows.len();
-    let warning = |Gap { name, first, count }: Gap| {
+fn gaps(record: &Record) -> Vec<Warning> {
+    let rows = record.rows;
+    let warning = |Gap { name, first, count }: &Gap| {
         let text = format!(
             "the output `{name}` has no finite value at {count} of {rows} times, first at t = {first:.6} s: its cells are empty"
         );
         Warning::new(text, "look for what it is not defined for")
     };
-    trajectory.gaps().into_iter().map(warning).collect()
+    record.gaps.iter().map(warning).collect()
 }

@@ -1,0 +1,81 @@
+//! Rows of a long run, thinned without losing extremes.
+
+use super::Ledger;
+use crate::trajectory::Trajectory;
+
+/// Numbers that are kept at most, if each window may keep the extremes of all columns.
+const NUMBERS: usize = 1_000_000;
+
+/// Thins the rows of a run, with their drift and energies, that have become too many: of the rows of a window those stay that are first or last, or
+/// the smallest or the largest in some column, so that no extreme of the run is lost, however often it is thinned.
+pub fn thin(trajectory: &mut Trajectory, drift_rows: &mut Vec<[f64; DRIFT]>, ledger_rows: &mut Vec<Ledger>) {
+    let rows = &trajectory.rows;
+    let columns = rows.first().map_or(1, Vec::len) + DRIFT + ENERGY;
+    let of_window = 2 * columns + 2;
+    let most = (NUMBERS / columns).max(4 * of_window);
+    if rows.len() < most {
+        return;
+    }
+    let value = |row: usize, column: usize| match column {
+        drift if drift < DRIFT => drift_rows[row][drift],
+        energy if energy < DRIFT + ENERGY => {
+            ledger_rows.get(row).map_or(0.0, |ledger| energies(ledger)[energy - DRIFT])
+        }
+        other => rows[row][other - DRIFT - ENERGY],
+    };
+    let width = rows.len().div_ceil(most / 2 / of_window);
+    let mut is_kept = vec![false; rows.len()];
+    for start in (0..rows.len()).step_by(width) {
+        let window = start..(start + width).min(rows.len());
+        (is_kept[window.start], is_kept[window.end - 1]) = (true, true);
+        for column in 0..columns {
+            let order = |a: &usize, b: &usize| value(*a, column).total_cmp(&value(*b, column));
+            let extremes = [window.clone().min_by(order), window.clone().max_by(order)];
+            extremes.into_iter().flatten().for_each(|row| is_kept[row] = true);
+        }
+    }
+    retain(&mut trajectory.rows, &is_kept);
+    retain(drift_rows, &is_kept);
+    retain(ledger_rows, &is_kept);
+}
+
+const DRIFT: usize = 3;
+const ENERGY: usize = 4;
+
+fn energies(ledger: &Ledger) -> [f64; ENERGY] {
+    [ledger.kinetic, ledger.potential, ledger.work, ledger.error]
+}
+
+fn retain<T>(rows: &mut Vec<T>, is_kept: &[bool]) {
+    let mut kept = is_kept.iter();
+    rows.retain(|_| kept.next().is_some_and(|kept| *kept));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::{Column, Names};
+
+    #[test]
+    fn no_extreme_is_lost_and_memory_is_bounded() {
+        let names = Names { q: Vec::new(), v: Vec::new(), lambda: Vec::new() };
+        let outputs = vec![Column { name: "x".into(), unit: "m".into() }];
+        let mut trajectory = Trajectory { names, outputs, rows: Vec::new() };
+        let (mut drift, mut energy) = (Vec::new(), Vec::new());
+        let (count, spikes) = (700_000, [(123_456, 9.0), (400_001, -8.0)]);
+        for i in 0..count {
+            let t = f64::from(i);
+            let spike = spikes.iter().find(|(place, _)| *place == i).map_or(0.0, |(_, size)| *size);
+            trajectory.rows.push(vec![t, (7.3 * t).sin() + spike]);
+            drift.push([0.0, 0.0, if i == 300_000 { 1.0 } else { 0.0 }]);
+            energy.push(Ledger { kinetic: t, potential: 0.0, work: if i == 500_000 { -3.0 } else { 0.0 }, error: 0.0 });
+            thin(&mut trajectory, &mut drift, &mut energy);
+        }
+        let times: Vec<f64> = trajectory.times().collect();
+        assert!(times.len() < NUMBERS / 9 && drift.len() == times.len() && energy.len() == times.len());
+        for kept in [0, 123_456, 300_000, 400_001, 500_000, count - 1] {
+            let place = times.iter().position(|t| *t == f64::from(kept)).unwrap();
+            assert_eq!(energy[place].kinetic, times[place]);
+        }
+    }
+}
