@@ -75,8 +75,8 @@ pub const RADAU_MATRIX_KEPT: f64 = 3e-5;
 pub const RADAU_PATIENCE: usize = 10;
 
 /// Changes of the stages of radau_iia that no longer fall are round-off up to so many times that of a few operations.
-/// Unit: `[1]`. Why: a choice: round-off of many operations. Test: none: with a thousand times more or less the tests
-/// of its room pass.
+/// Unit: `[1]`. Why: a choice: round-off of many operations. Test:
+/// `long_chains_of_beams_take_fixed_steps`.
 pub const RADAU_STAGNATION: f64 = 100.0;
 
 /// The least rate by which the error that an iteration leaves is told.

@@ -83,7 +83,11 @@ fn limited(place: &Place, kilobytes: u32, args: &[&str]) -> std::process::Output
 #[cfg(target_os = "linux")]
 fn more_rows_than_memory() {
     let place = chain();
-    let output = limited(&place, 4_000_000, &["simulate", "scene.json", "--until", "1e-4", "--output-step", "1e-7"]);
+    let output = limited(
+        &place,
+        4_000_000,
+        &["simulate", "scene.json", "--until", "1e-4", "--output-step", "1e-7", "--format", "npz"],
+    );
     let message = err(&output);
     assert_eq!(output.status.code(), Some(2), "{message}");
     let pieces = ["--output-step: 1001 rows of 160003 numbers take 7.7 GB", "the limit is ", "help: give a larger one"];

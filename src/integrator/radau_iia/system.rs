@@ -36,13 +36,15 @@ impl System<'_> {
         let System { dae, method, at, matrices, stages, is_fixed } = self;
         stages.reset(from);
         stages.advance(problem, method, from, h);
+        let divides = dae.velocity_index() == 2;
         let mut round_off = |divides| stages.round_off(problem, tolerance, from, h, divides);
-        let (round_off, of_stiff) = (round_off(dae.velocity_index() == 2), round_off(true));
+        // A fixed step goes on to where changes no longer fall, which stiff forces may raise.
+        let (round_off, stagnation) = (round_off(divides), round_off(divides || *is_fixed));
         let limits = Limits {
             most: most(method.stages(), *is_fixed),
             tolerance: (10.0 * f64::EPSILON / tolerance.rtol).max(tolerance.rtol.sqrt().min(0.03)),
             round_off,
-            stagnation: of_stiff.max(tolerances::RADAU_STAGNATION * round_off),
+            stagnation: tolerances::RADAU_STAGNATION * stagnation,
             patience: if *is_fixed { tolerances::RADAU_PATIENCE } else { 0 },
             least_rate: tolerances::RADAU_LEAST_RATE,
             kept_rate: tolerances::RADAU_MATRIX_KEPT,
