@@ -4,6 +4,7 @@ use super::coupling::Couplings;
 use super::evaluate::RigidParts;
 use super::levi_civita::LeviCivita;
 use super::limits::{Extent, limits};
+use super::output::column;
 use super::output_tangent::{OutputTangent, Slopes};
 use super::rows::{JointRows, PlacedJoint};
 use super::scale::{length_scale, row_scales};
@@ -20,7 +21,7 @@ use crate::body::{Frame, cross};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
-use crate::scene::{Connection, Input, Model, Part, Watched};
+use crate::scene::{Connection, Input, Model, Part};
 use nalgebra::DMatrix;
 use std::array::from_fn;
 use std::ops::Range;
@@ -149,10 +150,6 @@ impl<const D: usize> Mechanism<D> {
     pub(super) fn placed_joints(&self) -> impl Iterator<Item = PlacedJoint<'_, D>> {
         (0..self.joints.len()).map(|joint| self.placed_joint(joint))
     }
-}
-
-fn column(output: &Watched) -> Column {
-    Column { name: output.name.clone(), unit: output.unit.name.clone() }
 }
 
 /// Name of a coordinate or velocity of a body; a state has its own.

@@ -1,16 +1,21 @@
 //! Outputs of a scene, written once over any scalar, so that values and derivatives agree.
 
-use super::Scratch;
 use super::locked::row_gradient;
 use super::mechanism::Mechanism;
 use super::tangent::OperatingPoint;
 use super::view::{Plain, View, gathered};
 use super::workspace::Workspace;
+use super::{Column, Scratch};
 use crate::body::{Energy, Frame, MOST_MARKERS, Probe, Quantity, Wrench, norm, twist_len};
 use crate::force::{Action, Force, ForceOver};
 use crate::joint::{Joint, JointOver, MOST_ROWS, markers_per_pass};
 use crate::math::{Regime, Scalar, Taylor};
-use crate::scene::{FORCE_SIZE, Measure, TORQUE_SIZE};
+use crate::scene::{FORCE_SIZE, Measure, TORQUE_SIZE, Watched};
+
+/// Name and unit of an output.
+pub(super) fn column(output: &Watched) -> Column {
+    Column { name: output.name.clone(), unit: output.unit.name.clone() }
+}
 
 impl<const D: usize> Mechanism<D> {
     /// Calls `see` with the workspace evaluated at a state; with its v' only where an output reads accelerations.
