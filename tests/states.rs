@@ -50,7 +50,7 @@ fn rows_between_steps_have_the_order_of_the_steps() {
 fn methods_that_choose_their_steps_have_their_order() {
     let reference = reference();
     for entry in registry().iter().filter(|entry| entry.steps == Steps::Own) {
-        let (tolerances, slack) = if entry.name == "bdf" { ([1e-6, 1e-11], 1.0) } else { ([1e-4, 1e-9], 0.3) };
+        let (tolerances, slack) = if entry.name == "bdf" { ([1e-7, 1e-11], 1.0) } else { ([1e-4, 1e-9], 0.3) };
         for formulation in entry.accepts() {
             let found = tolerances.map(|tolerance| {
                 let method = adaptive(&orders::gentle(formulation), entry.name, "none", tolerance);

@@ -3,8 +3,8 @@
 use super::{Entry, Projection, move_back};
 use crate::error::Result;
 use crate::formulation::{Dynamics, StepError};
-use crate::math::largest_in;
 use crate::math::newton::{Limits, Monitor};
+use crate::math::{largest, largest_in};
 use crate::method_spec::OptionDoc;
 use crate::system::Need;
 use crate::tolerances::initial as tolerances;
@@ -52,6 +52,10 @@ impl Projection for Exact {
         let closed = newton.solve(limits, |_| {
             if std::mem::replace(&mut is_evaluated, true) {
                 dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut self.step)?;
+                // Beside the origin the residual would go on to fall. Near a singular state its round-off still moves q.
+                if largest(&self.step) <= f64::EPSILON * largest(q) {
+                    return Ok(0.0);
+                }
                 move_back(q, &self.step, &mut self.rate, dynamics.system);
             }
             dynamics.statistics.projections += 1;
