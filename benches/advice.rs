@@ -1,8 +1,8 @@
 //! Advice over all scenes: `cargo bench --bench advice`, some 20 minutes on two cores; with names, these scenes alone.
 //!
-//! Each scene is measured as `holonom tradeoff --budget 20s` does it (with more time where no reference vouches for six digits
-//! in that), with two methods more: the scene's own, and that of a scene without one; then `--method auto` as it runs, changes of method and trials included, at rtol 1e-3 to 1e-12. From
-//! these runs come three tables:
+//! Each scene is measured as `holonom tradeoff --budget 20s` does it (with more time where no reference vouches for six
+//! digits in that), with two methods more: the scene's own, and that of a scene without one; then `--method auto` as it
+//! runs, changes of method and trials included, at rtol 1e-3 to 1e-12. From these runs come three tables:
 //!
 //! - Error over tolerance of each integrator at rtol 1e-3, 1e-6, 1e-9: of motions that do not amplify small changes, which a
 //!   tolerance is promised for, and of the others.
@@ -157,8 +157,8 @@ fn automatic(
     Ok(Some(Automatic { digits: (-error.log10()).floor().max(0.0) as u32, cost }))
 }
 
-/// By the prices of the work of each kind; where no explicit run came through, what dop853 did costs as much as the same
-/// evaluations and factorizations of radau_iia.
+/// By the prices of the work of each kind; where no explicit run came through, what dop853 did costs as much as the
+/// same evaluations and factorizations of radau_iia.
 fn cost(result: &WorkPrecision, legs: &[Leg]) -> Option<f64> {
     let mut priced = result.clone();
     let known = priced.cells.len();

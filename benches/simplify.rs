@@ -1,9 +1,9 @@
 //! What can be left out of all scenes: `cargo bench --bench simplify`, some 20 minutes; with names, these scenes alone.
 //!
-//! Each scene is simplified as `holonom simplify --robust 10% --samples 20 --budget 120s` does it, within 10 %, 1 % and 0.1 %.
-//! The table: velocities, constraints and CPU time before and after, the output that is farthest off, motions nearby on which
-//! the promise is kept, and what it took to find the model: runs, and CPU time in runs of the scene as it is. The thread's
-//! CPU time is that of the search without the motions nearby, which run on others.
+//! Each scene is simplified as `holonom simplify --robust 10% --samples 20 --budget 120s` does it, within 10 %, 1 % and
+//! 0.1 %. The table: velocities, constraints and CPU time before and after, the output that is farthest off, motions
+//! nearby on which the promise is kept, and what it took to find the model: runs, and CPU time in runs of the scene as
+//! it is. The thread's CPU time is that of the search without the motions nearby, which run on others.
 
 use holonom::compare::work_precision::cpu_seconds;
 use holonom::error::{Result, percent};

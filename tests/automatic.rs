@@ -95,8 +95,8 @@ fn a_driven_motion_ends_where_its_joints_close() {
     }
 }
 
-/// Steps go on for nearly half a turn, and rows whose own step does not converge lie on the polynomial of it: at a constant
-/// speed there is no torque at any.
+/// Steps go on for nearly half a turn, and rows whose own step does not converge lie on the polynomial of it: at a
+/// constant speed there is no torque at any.
 #[test]
 fn rows_of_a_shaft_that_turns_are_as_right_as_its_steps() {
     let scene = shipped("rotating_shaft", &[]);
@@ -129,8 +129,8 @@ fn a_looser_rtol_takes_atol_along() {
     assert_eq!([atol(1e-3, None), atol(1e-12, None), atol(1e-3, Some(1e-7))], [1e-5, 1e-11, 1e-7]);
 }
 
-/// A force that has no value beyond a place stops one method, and then the other: the run ends with the reason, and what it
-/// had.
+/// A force that has no value beyond a place stops one method, and then the other: the run ends with the reason, and
+/// what it had.
 #[test]
 fn where_both_methods_stop_the_run_does() {
     let scene = parse(

@@ -330,8 +330,8 @@ fn stem(path: &std::path::Path) -> &str {
     path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default()
 }
 
-/// Kinetic + potential = initial + work, for all shipped scenes that are not stiff, also those that pass singular positions, at a tolerance
-/// of 1e-11.
+/// Kinetic + potential = initial + work, for all shipped scenes that are not stiff, also those that pass singular
+/// positions, at a tolerance of 1e-11.
 #[test]
 fn energy_is_accounted_for() {
     let conservative = models().into_iter().filter(|path| !STIFF.contains(&stem(path))).map(|path| (path, None));

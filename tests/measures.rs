@@ -267,9 +267,9 @@ fn outputs_read_rates_of_states() {
     measured(&parse(&keys.to_string()).tight(1e-12, 2.0, 0.5), "rate", |t| 1.0 - (-t).exp());
 }
 
-/// A block of 1 kg on a damped spring, k = 4 and c = 0.4, pulled by a force of 3 N: from rest at x = 0, with x_s = 3/4, x =
-/// x_s (1 - e^(-d t) (cos w t + d/w sin w t)), x' = x_s (d^2 + w^2)/w e^(-d t) sin w t, d = 0.2 and w^2 = 4 - d^2. The force
-/// does the work 3 x, the spring the rest of the kinetic energy.
+/// A block of 1 kg on a damped spring, k = 4 and c = 0.4, pulled by a force of 3 N: from rest at x = 0, with x_s = 3/4,
+/// x = x_s (1 - e^(-d t) (cos w t + d/w sin w t)), x' = x_s (d^2 + w^2)/w e^(-d t) sin w t, d = 0.2 and w^2 = 4 - d^2.
+/// The force does the work 3 x, the spring the rest of the kinetic energy.
 #[test]
 fn works_of_forces() {
     let block = scene(

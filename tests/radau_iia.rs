@@ -26,7 +26,8 @@ fn errors(formulation: &str, order: usize, projection: &str, steps: usize) -> [f
     [1..5, 5..9, 9..11].map(|columns| distance(&found[columns.clone()], &exact[columns]))
 }
 
-/// 2 s - 1 in all, with index3 too, since its steps end with v on G v + phi_t = 0. Steps between where Newton's method converges and round-off; order 5 is in `orders.rs`.
+/// 2 s - 1 in all, with index3 too, since its steps end with v on G v + phi_t = 0. Steps between where Newton's method
+/// converges and round-off; order 5 is in `orders.rs`.
 #[test]
 fn order_nine() {
     for (order, formulation, projection, [coarse, fine], expected) in [
@@ -46,8 +47,8 @@ fn order_nine() {
     }
 }
 
-/// A collocation method has the order of its quadrature: v' = (k + 1) t^k is exact up to k = order - 1. (On the pendulum no
-/// step is small enough for Newton's method and large enough for order 13 to be seen over round-off.)
+/// A collocation method has the order of its quadrature: v' = (k + 1) t^k is exact up to k = order - 1. (On the
+/// pendulum no step is small enough for Newton's method and large enough for order 13 to be seen over round-off.)
 #[test]
 fn orders_of_the_quadrature() {
     for order in [5, 9, 13] {
@@ -132,8 +133,8 @@ fn rotations_in_space() {
     }
 }
 
-/// A shaft of finite elements that turns by 50 rad: what collocates rotation vectors is exact, bends nothing, and takes the
-/// longest steps that it may, 0.9 pi after those that grow to it.
+/// A shaft of finite elements that turns by 50 rad: what collocates rotation vectors is exact, bends nothing, and takes
+/// the longest steps that it may, 0.9 pi after those that grow to it.
 #[test]
 fn rotations_about_a_fixed_axis_are_exact() {
     let ready = shipped("rotating_shaft", &[]);
@@ -188,7 +189,8 @@ fn shipped_stiff(damping: f64) -> crate::scenes::Ready {
     parse(&STIFF.replace("\"damping\": 0 }", &format!("\"damping\": {damping} }}")))
 }
 
-/// Newton's second correction of a chain released from rest is thirty times the first: no reason to give up a fixed step.
+/// Newton's second correction of a chain released from rest is thirty times the first: no reason to give up a fixed
+/// step.
 #[test]
 fn long_chains_take_fixed_steps() {
     let ready = parse(&generate::chain(2000).to_string());
@@ -233,8 +235,8 @@ fn velocities_of_index3_are_consistent() {
     }
 }
 
-/// At rest the accelerations are round-off and set no time: the first step is no part of the load's two seconds, and does
-/// not look for it after them, where it is over.
+/// At rest the accelerations are round-off and set no time: the first step is no part of the load's two seconds, and
+/// does not look for it after them, where it is over.
 #[test]
 fn a_load_that_starts_from_zero_is_seen() {
     let ready = shipped("right_angle_cantilever", &[]);
@@ -252,8 +254,8 @@ fn a_load_that_starts_from_zero_is_seen() {
     }
 }
 
-/// Long steps over a motion that a driver prescribes: where a row is so far off the constraints that no projection finds back,
-/// its step ends there.
+/// Long steps over a motion that a driver prescribes: where a row is so far off the constraints that no projection
+/// finds back, its step ends there.
 #[test]
 fn a_row_that_cannot_be_projected_ends_its_step() {
     let ready = shipped("slider_crank_offset", &[]);
@@ -264,8 +266,8 @@ fn a_row_that_cannot_be_projected_ends_its_step() {
     assert!(distance(&found, &exact) < rtol, "{:e}", distance(&found, &exact));
 }
 
-/// Shifts of positions leave stiff coordinates alone: moved by their mass, a shaft of EA = 1e4 EI rings after every step, which
-/// takes 135 steps. 50 are taken.
+/// Shifts of positions leave stiff coordinates alone: moved by their mass, a shaft of EA = 1e4 EI rings after every
+/// step, which takes 135 steps. 50 are taken.
 #[test]
 fn shifts_excite_nothing_stiff() {
     let shaft = shipped("rotating_shaft", &[]);

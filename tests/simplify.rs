@@ -30,7 +30,8 @@ fn scene(json: Value, settings: &Settings) -> Simplification {
     found(Source::new(json, &Overrides::default()).unwrap(), settings)
 }
 
-/// Found with the promise kept on at least 95 % of 20 motions nearby, for the work of 15 runs of the richest model at most.
+/// Found with the promise kept on at least 95 % of 20 motions nearby, for the work of 15 runs of the richest model at
+/// most.
 fn promised(json: Value, settings: &Settings) -> Simplification {
     let nearby = Some(Nearby { by: 0.1, samples: Some(20) });
     let found = scene(json, &Settings { nearby, ..settings.clone() });
@@ -125,8 +126,8 @@ fn what_is_harmless_alone_may_be_wrong_together() {
     assert_eq!(left_out(&off(0.1)), ["the force one is left out", "the force other is left out"]);
 }
 
-/// A four-bar linkage with a hammer on its coupler, and 26 bodies of no account: bolts on the crank, hangers on the rocker,
-/// covers on rubber.
+/// A four-bar linkage with a hammer on its coupler, and 26 bodies of no account: bolts on the crank, hangers on the
+/// rocker, covers on rubber.
 fn machine() -> Value {
     let bar = |name: &str, length: f64, [x, y, angle]: [f64; 3]| {
         json!({ "name": name, "type": "rigid", "mass": format!("rho*{length}"), "inertia": format!("rho*{length}^3/12"),
@@ -241,8 +242,8 @@ fn welded_bodies_are_one() {
     assert!(merged.run.as_ref().unwrap().error() < 1e-7, "{:?}", merged.run);
 }
 
-/// A four-bar linkage written in space, in the plane of the first two of `axes`, with hinges about the third: hinges on two
-/// closing joints too many. The frame of the coupler is turned about its line.
+/// A four-bar linkage written in space, in the plane of the first two of `axes`, with hinges about the third: hinges on
+/// two closing joints too many. The frame of the coupler is turned about its line.
 fn four_bar_in_space(axes: [[f64; 3]; 3], outputs: Value) -> Value {
     let [e, f, n] = axes;
     let at = |x: f64, y: f64| std::array::from_fn::<f64, 3, _>(|i| x * e[i] + y * f[i]);

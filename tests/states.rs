@@ -1,5 +1,5 @@
-//! States xi of controllers, filters and actuators, xi' = r(t, q, v, xi), through own equations: every method takes them at its
-//! full order.
+//! States xi of controllers, filters and actuators, xi' = r(t, q, v, xi), through own equations: every method takes
+//! them at its full order.
 
 use crate::common::motor::{MOTOR, Motor, exact, start};
 use crate::common::orders::{self, END, Rows, steps};
@@ -24,8 +24,8 @@ fn reference() -> Rows {
     exact(&(0..=8).map(|k| f64::from(k) * END / 8.0).collect::<Vec<f64>>())
 }
 
-/// Of order 8 the next term still counts at steps that leave errors of 1e-12, and so does round-off: found 7.56 to 8.20, all
-/// of 7.8 and less in lambda.
+/// Of order 8 the next term still counts at steps that leave errors of 1e-12, and so does round-off: found 7.56 to
+/// 8.20, all of 7.8 and less in lambda.
 #[test]
 fn every_triple_has_the_order_of_its_integrator() {
     let of = |entry: &Entry| match entry.order {
@@ -189,8 +189,8 @@ impl MechanicalSystem for Rotor {
     }
 }
 
-/// From rest: w'' + w' + w = 1, so w = 1 - exp(-t/2) (cos b t + sin(b t)/(2 b)) with b = sqrt(3)/2, and i = w'. The angle is its
-/// integral, t - i - w.
+/// From rest: w'' + w' + w = 1, so w = 1 - exp(-t/2) (cos b t + sin(b t)/(2 b)) with b = sqrt(3)/2, and i = w'. The
+/// angle is its integral, t - i - w.
 #[test]
 fn coordinates_are_told_from_states() {
     let (t, b) = (END, 0.75f64.sqrt());

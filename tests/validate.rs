@@ -221,8 +221,8 @@ fn independent_coordinates_and_named_directions() {
     assert!(error.contains("no state `u7`"), "{error}");
 }
 
-/// The intrinsic chart moves along with the motion: its frozen model is exact to h^2 in the basis carried with it, and to h
-/// only in a basis that stays.
+/// The intrinsic chart moves along with the motion: its frozen model is exact to h^2 in the basis carried with it, and
+/// to h only in a basis that stays.
 #[test]
 fn the_intrinsic_chart_is_followed() {
     for name in ["four_bar_spring", "double_pendulum", "spatial_slider_crank", "spinning_top", "universal_shaft"] {

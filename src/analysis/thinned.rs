@@ -6,8 +6,9 @@ use crate::trajectory::Trajectory;
 /// Numbers that are kept at most, if each window may keep the extremes of all columns.
 const NUMBERS: usize = 1_000_000;
 
-/// Thins the rows of a run, with their drift and energies, that have become too many: of the rows of a window those stay that are first or last, or
-/// the smallest or the largest in some column, so that no extreme of the run is lost, however often it is thinned.
+/// Thins the rows of a run, with their drift and energies, that have become too many: of the rows of a window those
+/// stay that are first or last, or the smallest or the largest in some column, so that no extreme of the run is lost,
+/// however often it is thinned.
 pub fn thin(trajectory: &mut Trajectory, drift_rows: &mut Vec<[f64; DRIFT]>, ledger_rows: &mut Vec<Ledger>) {
     let rows = &trajectory.rows;
     let columns = rows.first().map_or(1, Vec::len) + DRIFT + ENERGY;

@@ -57,7 +57,8 @@ impl Probe {
         Probe { of, to: (to != 0).then_some(to), quantity, order }
     }
 
-    /// `body.marker.x`, `body.x`, `body.angle`, with `'` and `''` for rates; `body.wx` and `body.wx'` in space, about its own axes.
+    /// `body.marker.x`, `body.x`, `body.angle`, with `'` and `''` for rates; `body.wx` and `body.wx'` in space, about
+    /// its own axes.
     pub fn parse<const D: usize>(name: &str, markers: &MarkerTable) -> Option<Probe> {
         let (place, quantity) = name.rsplit_once('.')?;
         let of = markers.find(place).ok()?;

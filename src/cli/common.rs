@@ -211,8 +211,8 @@ impl Common {
         self.span_with(prepared, 1 + q + v + lambda + recorded(prepared.system()).len(), true)
     }
 
-    /// Returns the time span, if its rows with this number of columns fit into memory, or into a file where they are not
-    /// kept.
+    /// Returns the time span, if its rows with this number of columns fit into memory, or into a file where they are
+    /// not kept.
     pub fn span_with(&self, prepared: &PreparedScene, columns: usize, is_kept: bool) -> Result<Span> {
         let span = prepared.span().map_err(|error| error.in_file(&self.scene.path))?;
         refuse_rows((span.end - span.start) / span.output_step + 1.0, columns, is_kept)

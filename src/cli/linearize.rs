@@ -30,8 +30,8 @@ pub struct Args {
     method: String,
     #[command(flatten)]
     chart: ChartOptions,
-    /// Only the N modes that are slowest, or nearest to --shift, in modal coordinates of the frozen equations: by sparse
-    /// methods, for large models
+    /// Only the N modes that are slowest, or nearest to --shift, in modal coordinates of the frozen equations: by
+    /// sparse methods, for large models
     #[arg(long, value_name = "N", conflicts_with_all = ["chart", "independent"])]
     modes: Option<usize>,
     /// Modes nearest to this circular frequency

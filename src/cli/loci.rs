@@ -26,8 +26,8 @@ pub struct Args {
     /// Time of the first state, s (default: the start)
     #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true, conflicts_with = "sweep")]
     from: Option<f64>,
-    /// Vary a parameter instead of time, such as k1=10..1000:50, or k1=10..1000:50:log with a constant factor; at the start
-    /// of each scene unless --at or --equilibrium says otherwise
+    /// Vary a parameter instead of time, such as k1=10..1000:50, or k1=10..1000:50:log with a constant factor; at the
+    /// start of each scene unless --at or --equilibrium says otherwise
     #[arg(long, value_name = "NAME=A..B[:N][:log]", value_parser = range)]
     sweep: Option<Range>,
     /// With --sweep: at this time of each motion, s

@@ -49,8 +49,8 @@ pub struct Args {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum NormOption {
-    /// Largest difference over the range of the output; of energies over the swing of the kinetic energy, of what hardly
-    /// moves over a thousandth of the motion
+    /// Largest difference over the range of the output; of energies over the swing of the kinetic energy, of what
+    /// hardly moves over a thousandth of the motion
     Range,
     /// Root mean square of the difference over that of the output about its mean
     Rms,

@@ -224,7 +224,8 @@ impl<'a> Dynamics<'a> {
         names.get(direction).map_or(String::new(), |name| name.trim_end_matches('\'').to_string())
     }
 
-    /// The first term that is not finite; `None` where only rates of constraints are not: then velocities are too large.
+    /// The first term that is not finite; `None` where only rates of constraints are not: then velocities are too
+    /// large.
     fn infinite_term(&self) -> Option<String> {
         let Terms { f, g, phi, .. } = &self.terms;
         if let Some(i) = f.iter().position(|f| !f.is_finite()) {

@@ -7,9 +7,9 @@ use crate::scene::INITIAL;
 use crate::tolerances::initial as tolerances;
 
 /// Closes the joints with the rows of `initial`, as [`position::close`], on the branch of the guess: phi of these rows,
-/// whose size at the guess is `gap`, goes to zero as (1 - s) gap, s from 0 to 1 in steps in each of which Newton's method
-/// contracts. Where the joints do not close without the rows, or the path ends, at a dead centre, it begins at the guess
-/// with all rows.
+/// whose size at the guess is `gap`, goes to zero as (1 - s) gap, s from 0 to 1 in steps in each of which Newton's
+/// method contracts. Where the joints do not close without the rows, or the path ends, at a dead centre, it begins at
+/// the guess with all rows.
 ///
 /// # Errors
 /// Values that the joints do not allow; the message says where the path ends.

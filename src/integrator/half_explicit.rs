@@ -15,8 +15,8 @@ use crate::tolerances::integrator as tolerances;
 /// Order of the rows of the cubic, whose error over a step is O(h^4).
 const CUBIC: usize = 4;
 
-/// Corrections of a stage, relative to its acceleration. Ten cost as much as a factorization; those that leave more than
-/// a tenth would take more.
+/// Corrections of a stage, relative to its acceleration. Ten cost as much as a factorization; those that leave more
+/// than a tenth would take more.
 const CORRECTIONS: Limits = Limits {
     most: 10,
     round_off: f64::EPSILON,
@@ -135,8 +135,8 @@ impl HalfExplicit {
         Ok(())
     }
 
-    /// Solves for V'_i and lambda_i; on entry k_i is N V and zeros, `force` f, `lambda` the guess gamma, and M and G(Q_i)
-    /// are factored.
+    /// Solves for V'_i and lambda_i; on entry k_i is N V and zeros, `force` f, `lambda` the guess gamma, and M and
+    /// G(Q_i) are factored.
     fn solve(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), StepError> {
         let row = self.tableau.constraint[i];
         let n = problem.dynamics.system.dimensions();

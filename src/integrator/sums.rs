@@ -8,7 +8,8 @@ pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[
     accumulate(out, h, weights, k);
 }
 
-/// The works at the end of a step of order 2, the last components of `to`, by the trapezoidal rule from the powers there.
+/// The works at the end of a step of order 2, the last components of `to`, by the trapezoidal rule from the powers
+/// there.
 pub(super) fn trapezoid(from: From, h: f64, powers: &[f64], to: &mut [f64]) {
     for i in to.len() - powers.len()..to.len() {
         to[i] = from.y[i] + 0.5 * h * (from.slope[i] + powers[i + powers.len() - to.len()]);

@@ -74,8 +74,8 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     /// Writes phi, one value a row, at the frames of the joint's markers, in the order of [`Built::markers`]; zero
     /// where the joint is closed. Derivatives follow from the scalars that are put in.
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]);
-    /// True if its row, the only one, is a coordinate minus a value that it prescribes, m or rad: an input of a scene may
-    /// then add to the value, by [`driven`](Self::driven). Default: false.
+    /// True if its row, the only one, is a coordinate minus a value that it prescribes, m or rad: an input of a scene
+    /// may then add to the value, by [`driven`](Self::driven). Default: false.
     fn prescribes(&self) -> bool {
         false
     }

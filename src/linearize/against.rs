@@ -112,8 +112,8 @@ fn places(cost: &Matrix) -> Vec<Option<usize>> {
     assign(&most).into_iter().enumerate().map(is_near).collect()
 }
 
-/// Place of each branch among others by the mean of |lambda - mu| / (|lambda| + |mu|) over the times that both have; none
-/// where it is lost. Their shapes are not known.
+/// Place of each branch among others by the mean of |lambda - mu| / (|lambda| + |mu|) over the times that both have;
+/// none where it is lost. Their shapes are not known.
 pub fn branch_places(branches: &[&Branch], others: &[&Branch]) -> Vec<Option<usize>> {
     let floor = floor(branches.iter().chain(others).flat_map(|branch| branch.points.iter().map(|(_, value)| value)));
     let cost = |i: usize, j: usize| {

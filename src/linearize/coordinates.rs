@@ -11,8 +11,8 @@ use crate::system::{LeviCivita, OperatingPoint};
 /// dq = R z,   dv = R y + T z,   z' = y + turn z,   y' = B dv' - drift_z z - drift_y y,   B R = I
 /// ```
 ///
-/// where the last s entries of y are the changes of xi, which have no z: R in dq is its first k columns, and y in z' its
-/// first k entries.
+/// where the last s entries of y are the changes of xi, which have no z: R in dq is its first k columns, and y in z'
+/// its first k entries.
 #[derive(Clone, Debug)]
 pub struct Coordinates {
     /// Name of the chart, as on the command line.

@@ -41,7 +41,8 @@ pub struct LinearModel {
     pub d: Matrix,
     /// E of a descriptor form, n_x x n_x, singular; none: I.
     pub e: Option<Matrix>,
-    /// All eigenvalues but the zeros of the states of inputs: physical ones first, then uncertain, spurious and infinite ones; each kind from the slowest.
+    /// All eigenvalues but the zeros of the states of inputs: physical ones first, then uncertain, spurious and
+    /// infinite ones; each kind from the slowest.
     pub modes: Vec<Mode>,
     /// The state that is perturbed.
     pub point: LinearizationPoint,

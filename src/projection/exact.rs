@@ -52,7 +52,8 @@ impl Projection for Exact {
         let closed = newton.solve(limits, |_| {
             if std::mem::replace(&mut is_evaluated, true) {
                 dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut self.step)?;
-                // Beside the origin the residual would go on to fall. Near a singular state its round-off still moves q.
+                // Beside the origin the residual would go on to fall. Near a singular state its round-off still moves
+                // q.
                 if largest(&self.step) <= f64::EPSILON * largest(q) {
                     return Ok(0.0);
                 }

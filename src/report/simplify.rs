@@ -134,8 +134,8 @@ const MARGIN: f64 = 2.0;
 /// Colour of the richest model, as index in the palette: black.
 const BLACK: usize = 6;
 
-/// Draws the error of every model that was run against its CPU time: those that were kept, those that were not, the front of
-/// all, and the promise; the richest and the chosen one are named.
+/// Draws the error of every model that was run against its CPU time: those that were kept, those that were not, the
+/// front of all, and the promise; the richest and the chosen one are named.
 pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
     let point = |run: &Run| run.worst().map(|worst| (run.seconds, worst.error)).filter(|(_, error)| *error > 0.0);
     let of = |is_kept: bool| -> Vec<(f64, f64)> {

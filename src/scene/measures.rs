@@ -46,10 +46,10 @@ pub struct OutputSpec {
 #[derive(Deserialize, Serialize, JsonSchema, Clone, Copy, PartialEq, Eq, Debug)]
 #[serde(rename_all = "snake_case")]
 pub enum MeasureKind {
-    /// rad, of a body or marker against `relative_to`, in space about the z axis of that (for another axis name a marker
-    /// with that `z_axis`); counted through full turns. Of a joint that turns about one axis, or a torsion spring: of its second marker against its first; of a universal
-    /// joint: `component` x, of its cross about x of the first marker, or y, of its second marker about its own y
-    /// against the cross.
+    /// rad, of a body or marker against `relative_to`, in space about the z axis of that (for another axis name a
+    /// marker with that `z_axis`); counted through full turns. Of a joint that turns about one axis, or a torsion
+    /// spring: of its second marker against its first; of a universal joint: `component` x, of its cross about x of the
+    /// first marker, or y, of its second marker about its own y against the cross.
     Angle,
     /// rad/s, of a body or marker along an axis of `relative_to`; of a joint or torsion spring the rate of its angle
     AngularVelocity,
@@ -90,8 +90,8 @@ pub enum MeasureKind {
     Torque,
     /// N m, about z or y of the section; positive where the curvature is
     BendingMoment,
-    /// `value`, over t, marker quantities such as `crank.tip.x`, with `'` for velocities and `''` for accelerations, and
-    /// other outputs by their names
+    /// `value`, over t, marker quantities such as `crank.tip.x`, with `'` for velocities and `''` for accelerations,
+    /// and other outputs by their names
     Expression,
 }
 

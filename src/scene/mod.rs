@@ -78,8 +78,8 @@ pub struct Scene {
     pub parameters: Parameters,
     /// Bodies, joints, forces, outputs and inputs.
     pub model: AnyModel,
-    /// The model with further joints that hold the joint coordinates of `initial`, and with joints that hold their rates;
-    /// `None` where it gives none of these.
+    /// The model with further joints that hold the joint coordinates of `initial`, and with joints that hold their
+    /// rates; `None` where it gives none of these.
     pub held: [Option<Box<AnyModel>>; 2],
     /// Initial guess of q for assembly, in the order of the bodies.
     pub q: Vec<f64>,

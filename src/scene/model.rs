@@ -153,8 +153,8 @@ pub enum Measure {
     Formula(Formula),
     /// A scalar of markers, or its rate.
     Probe(Probe),
-    /// Force (components 0 to 2), torque (3 to 5), [`FORCE_SIZE`] or [`TORQUE_SIZE`] of a joint on the body of one of its
-    /// markers, in the axes of a marker.
+    /// Force (components 0 to 2), torque (3 to 5), [`FORCE_SIZE`] or [`TORQUE_SIZE`] of a joint on the body of one of
+    /// its markers, in the axes of a marker.
     Reaction {
         /// Index of the joint in the model.
         joint: usize,
@@ -188,8 +188,8 @@ pub enum Measure {
     },
     /// Magnitude of the force, or of the torque, with this index.
     Force(usize),
-    /// Force (components 0 to 2) or torque (3 to 5) that a force exerts on the body of one of its markers, in the axes of
-    /// a marker.
+    /// Force (components 0 to 2) or torque (3 to 5) that a force exerts on the body of one of its markers, in the axes
+    /// of a marker.
     Load {
         /// Index of the force in the model.
         force: usize,

@@ -1,8 +1,8 @@
 //! Elements that are written once and repeated.
 //!
-//! An object with `"repeat": { "i": "1..6" }`, in a list or as an entry of another object, stands for one copy a value of
-//! i. In its text and keys `{EXPRESSION}` is replaced by the value of the expression over the parameters and i: `leg{i}`,
-//! `2*pi*{i}/6`, `leg{mod(i, 6) + 1}.end`.
+//! An object with `"repeat": { "i": "1..6" }`, in a list or as an entry of another object, stands for one copy a value
+//! of i. In its text and keys `{EXPRESSION}` is replaced by the value of the expression over the parameters and i:
+//! `leg{i}`, `2*pi*{i}/6`, `leg{mod(i, 6) + 1}.end`.
 
 use crate::error::{Error, Result, excerpt, short};
 use crate::math::expression::{Expression, Name, Names, Number, Parameters};

@@ -70,8 +70,8 @@ fn models<const D: usize>(
 /// Rows that hold the coordinates of joints, and rows that hold their rates.
 type Held<const D: usize> = [Vec<Connection<Box<dyn Joint<D>>>>; 2];
 
-/// The model with its initial q and v, and the rows of `initial`. Bodies are read first, so that joints, forces and outputs can name their
-/// markers.
+/// The model with its initial q and v, and the rows of `initial`. Bodies are read first, so that joints, forces and
+/// outputs can name their markers.
 fn model<const D: usize>(
     file: &SceneFile,
     kinds: &Kinds<D>,
@@ -171,8 +171,8 @@ impl<const D: usize> Parts<D> {
         let ground = markers::markers(&file.ground.markers, &[0.0; D], build).map_err(|error| error.under("ground"))?;
         build.switches.borrow_mut().own("the ground");
         let mut parts = Parts::new(ground, file.forces.len());
-        // Copies, here and of joints and forces: a file freed piece by piece, among what stays, scatters the memory of all
-        // that follows, which then takes twice as long in scenes of 10 000 loops.
+        // Copies, here and of joints and forces: a file freed piece by piece, among what stays, scatters the memory of
+        // all that follows, which then takes twice as long in scenes of 10 000 loops.
         for (i, json) in file.bodies.iter().enumerate() {
             parts.add(json.clone(), kinds, build).map_err(|error| error.under(format!("bodies[{i}]")))?;
         }

@@ -8,8 +8,8 @@ pub type Edit = Box<dyn Fn(&mut Value) -> Result<(), String> + Send + Sync>;
 
 /// A kind of simplification: it looks at the richest model and its motion, and proposes changes of the scene.
 ///
-/// A proposal is only that: the changed scene is run whole, and kept if the watched outputs stay within the promise. An own
-/// kind is tried beside those of the [`registry`](super::registry):
+/// A proposal is only that: the changed scene is run whole, and kept if the watched outputs stay within the promise. An
+/// own kind is tried beside those of the [`registry`](super::registry):
 ///
 /// ```
 /// use holonom::prepared::Overrides;

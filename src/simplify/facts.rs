@@ -262,8 +262,8 @@ impl Facts {
         self.states.iter().step_by(self.states.len().div_ceil(FEW).max(1))
     }
 
-    /// Values of the watched outputs that a model gives to a few states of the recorded motion; `None` where it has other
-    /// coordinates, or no accelerations there.
+    /// Values of the watched outputs that a model gives to a few states of the recorded motion; `None` where it has
+    /// other coordinates, or no accelerations there.
     pub fn at_once(&self, model: &AnyMechanism) -> Option<Vec<Vec<f64>>> {
         let (system, own) = (model.system(), self.prepared.system());
         let ([other, names], watched) = ([system.names(), own.names()], Watched::new(system, &self.watched).ok()?);

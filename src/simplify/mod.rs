@@ -63,11 +63,11 @@ pub struct Settings {
     pub norm: Norm,
     /// Names of the watched outputs; all where it is empty.
     pub outputs: Vec<String>,
-    /// Number of runs in all, and of runs of the richest model that take the same work; those of [`nearby`](Self::nearby)
-    /// apart.
+    /// Number of runs in all, and of runs of the richest model that take the same work; those of
+    /// [`nearby`](Self::nearby) apart.
     pub at_most: usize,
-    /// Time for all of it, those of [`nearby`](Self::nearby) included; none: no limit. Where it does not suffice for the
-    /// motion of the richest model, the promise is about the first part of that.
+    /// Time for all of it, those of [`nearby`](Self::nearby) included; none: no limit. Where it does not suffice for
+    /// the motion of the richest model, the promise is about the first part of that.
     pub budget: Option<Duration>,
     /// Motions on which the promise is tried.
     pub nearby: Option<Nearby>,

@@ -25,8 +25,8 @@ pub fn at_start(prepared: &PreparedScene) -> Result<LinearModel> {
     linearize(&mut variation, &Request { method: MethodSpec::named("mcs"), chart: None })
 }
 
-/// A warning where outputs see modes of the start that the simpler model has not: a motion that excites them is another one
-/// than that of the promise.
+/// A warning where outputs see modes of the start that the simpler model has not: a motion that excites them is another
+/// one than that of the promise.
 pub fn lost(richest: &PreparedScene, simpler: &PreparedScene) -> Option<Warning> {
     let time = richest.span().map_or(1.0, |span| span.end - span.start);
     let found = match at_start(richest).and_then(|own| Ok((own, at_start(simpler)?))) {

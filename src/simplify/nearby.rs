@@ -59,8 +59,8 @@ pub enum Which {
 
 /// CPU time that a run of either model may take.
 const ALLOWED: Duration = Duration::from_secs(600);
-/// Part of the motions that may break the promise: half of the twentieth that is granted, the other half being a reserve
-/// for motions that are not tried.
+/// Part of the motions that may break the promise: half of the twentieth that is granted, the other half being a
+/// reserve for motions that are not tried.
 const MAY_BREAK: f64 = 0.5 * 0.05;
 /// Work of the richest model on all motions together up to which there are more than the least number of them.
 const AFFORDED: f64 = 1e8;
@@ -98,8 +98,8 @@ pub struct Neighbourhood<'a> {
     by: f64,
     parameters: Vec<String>,
     velocities: bool,
-    /// Relative change of each parameter, and of the velocities, with the promise about that motion or the reason why the
-    /// richest model does not complete it.
+    /// Relative change of each parameter, and of the velocities, with the promise about that motion or the reason why
+    /// the richest model does not complete it.
     motions: Vec<(Vec<f64>, std::result::Result<Promise, String>)>,
     is_stopped: &'a (dyn Fn() -> bool + Sync),
 }

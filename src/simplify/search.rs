@@ -106,8 +106,8 @@ pub fn search(bench: &mut Bench, facts: &Facts, candidates: &[&dyn Candidate], r
 }
 
 impl Search<'_, '_> {
-    /// Takes up a proposal that is possible by itself and not hopeless. Its effect is at least what it does at once to the
-    /// outputs at states of the richest model.
+    /// Takes up a proposal that is possible by itself and not hopeless. Its effect is at least what it does at once to
+    /// the outputs at states of the richest model.
     fn consider(
         &mut self,
         candidate: &'static str,

@@ -17,8 +17,8 @@ use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use std::path::Path;
 
-/// The largest rotation of the small motions, rad, and their largest displacement, of the length of the scene: far enough
-/// that what moves by the second order, as at a dead centre, is told from what rests.
+/// The largest rotation of the small motions, rad, and their largest displacement, of the length of the scene: far
+/// enough that what moves by the second order, as at a dead centre, is told from what rests.
 const REACH: f64 = 0.3;
 
 /// What looks superfluous at the start.
@@ -59,10 +59,10 @@ pub struct Unseen {
     pub moves: Vec<String>,
 }
 
-/// What the candidates propose for the start of a scene alone, and the modes that no output sees. In the place of the motion,
-/// of which nothing is known, come small ones: the way on from the start, and every mode that outputs see with the same
-/// kinetic energy, so that slow ones go far and fast ones do not. What is harmless in all of them need not be so in the
-/// motion: work, which grows with time, is not known at all.
+/// What the candidates propose for the start of a scene alone, and the modes that no output sees. In the place of the
+/// motion, of which nothing is known, come small ones: the way on from the start, and every mode that outputs see with
+/// the same kinetic energy, so that slow ones go far and fast ones do not. What is harmless in all of them need not be
+/// so in the motion: work, which grows with time, is not known at all.
 ///
 /// # Errors
 /// A scene without an end time, or with more than 300 velocities; one whose modes cannot be computed.
@@ -93,8 +93,8 @@ pub fn hints(path: &Path, overrides: &Overrides, candidates: &[&dyn Candidate]) 
     Ok(Hints { changes, unseen, slowest_seen, skipped: String::new() })
 }
 
-/// The proposals of a candidate that are possible by themselves, keep all outputs and have hardly an effect; of alternatives
-/// the one that saves most.
+/// The proposals of a candidate that are possible by themselves, keep all outputs and have hardly an effect; of
+/// alternatives the one that saves most.
 fn harmless(facts: &Facts, candidate: &dyn Candidate) -> Vec<Hint> {
     let mut found: Vec<(String, usize, Hint)> = Vec::new();
     for Proposal { subject, what, why, effect, edit } in candidate.propose(facts) {
@@ -149,8 +149,8 @@ fn small_motions(prepared: &PreparedScene, modes: &[&Mode], time: f64) -> Vec<St
     [start].into_iter().chain(on).chain(moved).collect()
 }
 
-/// The state to which the velocities and accelerations of the start lead within `reach` and the time of the motion; none
-/// where they do not lead on.
+/// The state to which the velocities and accelerations of the start lead within `reach` and the time of the motion;
+/// none where they do not lead on.
 fn way_on(prepared: &PreparedScene, reach: impl Fn(&[f64]) -> f64, time: f64) -> Option<State> {
     let Assembly { v, vdot, .. } = &prepared.assembly;
     let fastest = reach(v).max((0.5 * reach(vdot)).sqrt());
@@ -160,8 +160,8 @@ fn way_on(prepared: &PreparedScene, reach: impl Fn(&[f64]) -> f64, time: f64) ->
     (fastest > 0.0).then(|| beside(prepared, prepared.start_time() + ahead, &change, &on(ahead))).flatten()
 }
 
-/// The largest angular velocity of a body, rad/s, and velocity of a marker, in lengths of the scene per second, at the start
-/// with the velocities `v`.
+/// The largest angular velocity of a body, rad/s, and velocity of a marker, in lengths of the scene per second, at the
+/// start with the velocities `v`.
 fn largest_speed(prepared: &PreparedScene, v: &[f64]) -> f64 {
     let (t, q) = (prepared.start_time(), prepared.start().0.to_vec());
     let length = prepared.system().length();

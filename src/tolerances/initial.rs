@@ -123,9 +123,8 @@ pub const DENSE_EIGENVALUES: usize = 300;
 /// Unit: `[1]` of the largest entry. Why: a choice, far above round-off. Test: none: not tried with other values.
 pub const SKEW: f64 = 1e-6;
 
-/// Growth or decay of a small motion that tells stability where K is not symmetric.
-/// Unit: `[1]` of the fastest rate. Why: twice the zero of a rigid motion is parted by the root of round-off. Test: none:
-/// not tried with other values.
+/// Growth or decay of a small motion that tells stability where K is not symmetric. Unit: `[1]` of the fastest rate.
+/// Why: twice the zero of a rigid motion is parted by the root of round-off. Test: none: not tried with other values.
 pub const SURE_GROWTH: f64 = 1e-7;
 
 /// A coordinate that is named takes part in a direction by this part of the largest.

@@ -24,9 +24,10 @@ pub const CONTROLLED_ERROR: f64 = 1e-6;
 /// or less the tests of its room pass.
 pub const LEAST_LARGEST_Q: f64 = 1e-10;
 
-/// Changes of v' at the end of a step of generalized_alpha that are small beside its local error.
-/// Unit: `[1]` of the change of a in the step. Why: the local error of v is about h/T of h times that change, with T the
-/// time scale of the motion, and what is left after a correction that small is a hundredth of it or less. Test: `fixed_steps_do_not_see_units`.
+/// Changes of v' at the end of a step of generalized_alpha that are small beside its local error. Unit: `[1]` of the
+/// change of a in the step. Why: the local error of v is about h/T of h times that change, with T the time scale of the
+/// motion, and what is left after a correction that small is a hundredth of it or less. Test:
+/// `fixed_steps_do_not_see_units`.
 pub const PART_OF_CHANGE: f64 = 1e-6;
 
 /// Corrections at most of a step of generalized_alpha.
@@ -51,14 +52,13 @@ pub const GENERALIZED_ALPHA_MATRIX_KEPT: f64 = 1e-2;
 /// `generalized_alpha_passes_the_flat_position`.
 pub const CORRECTIONS_WITH_OLD_MATRIX: usize = 4;
 
-/// Corrections of generalized_alpha that no longer fall before an iteration ends by stagnation.
-/// Unit: `[iterations]`. Why: their rate is the mean of two ratios, and one may be smaller by chance. Test: none: time alone
-/// depends on it.
+/// Corrections of generalized_alpha that no longer fall before an iteration ends by stagnation. Unit: `[iterations]`.
+/// Why: their rate is the mean of two ratios, and one may be smaller by chance. Test: none: time alone depends on it.
 pub const CORRECTIONS_OF_ROUND_OFF: usize = 3;
 
-/// Rank indicator below which generalized_alpha keeps a matrix of a step before also after long iterations.
-/// Unit: `[1]` of the indicator at regular states. Why: a choice: a matrix from there converges at the singular state too.
-/// Test: `generalized_alpha_passes_the_flat_position`.
+/// Rank indicator below which generalized_alpha keeps a matrix of a step before also after long iterations. Unit: `[1]`
+/// of the indicator at regular states. Why: a choice: a matrix from there converges at the singular state too. Test:
+/// `generalized_alpha_passes_the_flat_position`.
 pub const NEARLY_SINGULAR: f64 = 0.1;
 
 /// The matrix of generalized_alpha serves steps up to this factor longer or shorter.
@@ -145,7 +145,7 @@ pub const FARTHEST_LIMIT: f64 = 50.0;
 /// Unit: `[1]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const STRIDE_TO_LIMIT: f64 = 0.01;
 
-/// Corrections of a half-explicit stage that no longer fall are round-off up to here.
-/// Unit: `[1]` of the largest acceleration. Why: ten times ROUND_OFF_OF_FACTORS; above, as of accelerations at rest under
-/// load, the stage is factored. Test: `the_velocity_constraint_is_held_to_round_off`.
+/// Corrections of a half-explicit stage that no longer fall are round-off up to here. Unit: `[1]` of the largest
+/// acceleration. Why: ten times ROUND_OFF_OF_FACTORS; above, as of accelerations at rest under load, the stage is
+/// factored. Test: `the_velocity_constraint_is_held_to_round_off`.
 pub const STAGE_STAGNATION: f64 = 1e-12;

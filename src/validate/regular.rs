@@ -1,4 +1,5 @@
-//! How far motions can be compared: a linear model ends at a singular state, which perturbed motions pass at other times.
+//! How far motions can be compared: a linear model ends at a singular state, which perturbed motions pass at other
+//! times.
 
 use crate::analysis::Watch;
 use crate::error::Result;

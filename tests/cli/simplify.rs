@@ -53,7 +53,8 @@ fn a_scene_is_not_written_over() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// A motion that takes minutes, in two seconds: the promise is about its first part, and the scene stays as long as it was.
+/// A motion that takes minutes, in two seconds: the promise is about its first part, and the scene stays as long as it
+/// was.
 #[test]
 fn a_budget_is_kept() {
     let place =

@@ -14,7 +14,8 @@ fn warnings(scene: &str, more: &[&str]) -> Vec<String> {
     found
 }
 
-/// A mass of 1e-8 kg on a spring of 1e10 N/m that is swung round: steps as long as the swing damp what the spring holds.
+/// A mass of 1e-8 kg on a spring of 1e10 N/m that is swung round: steps as long as the swing damp what the spring
+/// holds.
 const SWUNG: &str = r#"{
   "name": "swung", "dimension": 2, "ground": { "markers": { "O": [0, 0] } },
   "bodies": [
@@ -231,8 +232,8 @@ fn a_mesh_that_is_too_coarse_is_said() {
     assert_eq!(warnings(&rubber(needed + 12), &[]), [""; 0]);
 }
 
-/// A strong and narrow cantilever in a floating frame with a force at its tip, in the direction in which it is strong; it
-/// buckles sideways under 4.013 N.
+/// A strong and narrow cantilever in a floating frame with a force at its tip, in the direction in which it is strong;
+/// it buckles sideways under 4.013 N.
 fn narrow(load: f64, more: &str) -> String {
     format!(
         r#"{{ "name": "narrow", "dimension": 3, "ground": {{ "markers": {{ "wall": [0, 0, 0] }} }},

@@ -1,5 +1,5 @@
-//! A pendulum of unit mass and length with a motor of first order at its pivot, in Cartesian coordinates with the current as a
-//! state:
+//! A pendulum of unit mass and length with a motor of first order at its pivot, in Cartesian coordinates with the
+//! current as a state:
 //!
 //! ```text
 //! x'' = -x lambda - K i y,   y'' = -g - y lambda + K i x,   0 = (x^2 + y^2 - 1)/2
@@ -70,8 +70,8 @@ impl MechanicalSystem for Motor {
 /// The angle from the lowest position, its rate and the current at the start.
 const START: [f64; 3] = [0.8, 0.3, 0.4];
 
-/// q, v with the current, and lambda at an angle: r'' . r = -w^2 and |r| = 1 give lambda = f . r + w^2; then the work of
-/// the motor, which is the change of the pendulum's energy.
+/// q, v with the current, and lambda at an angle: r'' . r = -w^2 and |r| = 1 give lambda = f . r + w^2; then the work
+/// of the motor, which is the change of the pendulum's energy.
 fn row(t: f64, [angle, w, i]: [f64; 3]) -> Vec<f64> {
     let (sin, cos) = angle.sin_cos();
     vec![t, sin, -cos, w * cos, w * sin, i, GRAVITY * cos + w * w, energy(angle, w) - energy(START[0], START[1])]
@@ -87,7 +87,8 @@ pub fn start() -> ([f64; 2], [f64; 3]) {
     ([row[1], row[2]], [row[3], row[4], row[5]])
 }
 
-/// Rows at these times, by the classical Runge-Kutta method in the angle: steps of 5e-5 s leave 1e-14, which is round-off.
+/// Rows at these times, by the classical Runge-Kutta method in the angle: steps of 5e-5 s leave 1e-14, which is
+/// round-off.
 pub fn exact(times: &[f64]) -> Vec<Vec<f64>> {
     let field = |t: f64, [angle, w, i]: [f64; 3]| [w, K * i - GRAVITY * angle.sin(), rate(t, w, i)];
     let ahead = |y: [f64; 3], h: f64, k: [f64; 3]| std::array::from_fn(|j| y[j] + h * k[j]);

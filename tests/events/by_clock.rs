@@ -5,8 +5,8 @@ use crate::scenes::{Ready, dop853, parse, shipped};
 use holonom::simulate::Span;
 use std::f64::consts::PI;
 
-/// Forces, and the momentum that each gives to a mass of 1 kg in ten seconds. All but the last few act for far less than a
-/// thousandth of that.
+/// Forces, and the momentum that each gives to a mass of 1 kg in ten seconds. All but the last few act for far less
+/// than a thousandth of that.
 fn pushes() -> Vec<(String, f64)> {
     let gauss = |size: f64, width: f64| size * width * PI.sqrt();
     let push = |text: &str, momentum: f64| (text.to_string(), momentum);
@@ -30,8 +30,8 @@ fn pushes() -> Vec<(String, f64)> {
     ]
 }
 
-/// With steps that could be ten seconds long. 1e-5 is a thousand tolerances, which the loosest methods, of second order,
-/// gather over a pulse; tr_bdf2 ends on a change of form by its dense output, which is of second order too, and
+/// With steps that could be ten seconds long. 1e-5 is a thousand tolerances, which the loosest methods, of second
+/// order, gather over a pulse; tr_bdf2 ends on a change of form by its dense output, which is of second order too, and
 /// generalized_alpha does not test velocities. A pulse that is missed costs 0.005 at least.
 #[test]
 fn no_push_is_missed_by_any_method() {
@@ -51,8 +51,8 @@ fn no_push_is_missed_by_any_method() {
     }
 }
 
-/// A fixed step is divided where it would miss a push, into parts on which the push is almost a cubic. Nobody estimates the
-/// error of the parts: rk4 leaves 2.5e-8, the others 3e-10.
+/// A fixed step is divided where it would miss a push, into parts on which the push is almost a cubic. Nobody estimates
+/// the error of the parts: rk4 leaves 2.5e-8, the others 3e-10.
 #[test]
 fn no_push_is_missed_by_fixed_steps() {
     for (force, momentum) in pushes() {
@@ -66,7 +66,8 @@ fn no_push_is_missed_by_fixed_steps() {
     }
 }
 
-/// Between knots the force is linear: with steps that end on them a method of order three and more makes round-off only.
+/// Between knots the force is linear: with steps that end on them a method of order three and more makes round-off
+/// only.
 #[test]
 fn steps_end_on_knots() {
     let scene = pushed("table(t, 0, 0, 5, 0, 5.5, 2, 6, 0, 10, 0)");
@@ -77,8 +78,8 @@ fn steps_end_on_knots() {
     }
 }
 
-/// A valve that opens and closes softly: near its end it is zero but for round-off, whose sign changes at every step. 1e-6:
-/// the time for which it is round-off.
+/// A valve that opens and closes softly: near its end it is zero but for round-off, whose sign changes at every step.
+/// 1e-6: the time for which it is round-off.
 #[test]
 fn a_function_that_comes_to_rest_on_a_threshold_passes_it_once() {
     let scene = pushed("sign(smoothstep(t/0.1) - smoothstep((t - 0.2)/0.1))");
@@ -88,8 +89,8 @@ fn a_function_that_comes_to_rest_on_a_threshold_passes_it_once() {
     }
 }
 
-/// A blow of a millisecond to a pendulum, moved over twenty instants: found each time, and with the same result by methods
-/// that know nothing of each other.
+/// A blow of a millisecond to a pendulum, moved over twenty instants: found each time, and with the same result by
+/// methods that know nothing of each other.
 #[test]
 fn a_blow_at_any_instant_is_felt() {
     for k in 0..20 {

@@ -86,7 +86,8 @@ const CHAIN: &str = r#"<robot name="four_bar">
   <joint name="B" type="continuous"><origin xyz="2 0 0"/><parent link="base"/><child link="rocker"/><axis xyz="0 1 0"/></joint>
 </robot>"#;
 
-/// A parallelogram: the coupler translates, so that it is a pendulum of (J_A + J_B + m l^2) angle'' = g (...) sin(angle).
+/// A parallelogram: the coupler translates, so that it is a pendulum of (J_A + J_B + m l^2) angle'' = g (...)
+/// sin(angle).
 #[test]
 fn a_four_bar_is_closed_by_a_joint() {
     let scene = imported(CHAIN, None, &["D=revolute:coupler@2,0,0:rocker@0,0,1:axis=0,1,0"]).scene;

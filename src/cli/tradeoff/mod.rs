@@ -60,7 +60,8 @@ pub struct Args {
     /// rod.json:modes=2,n=8
     #[arg(long, value_name = "SCENE[:NAME=VALUE,...]", num_args = 1..)]
     variants: Vec<String>,
-    /// auto: models that `simplify` finds for 10 %, 1 % and 0.1 %, each by all methods; errors of model and method together
+    /// auto: models that `simplify` finds for 10 %, 1 % and 0.1 %, each by all methods; errors of model and method
+    /// together
     #[arg(long, value_name = "auto", value_enum, conflicts_with_all = ["variants", "reference", "resume"])]
     models: Option<Models>,
     #[command(flatten)]

@@ -15,7 +15,8 @@ pub struct Cell {
     pub decades: u32,
     /// True if stability limits its steps.
     pub is_explicit: bool,
-    /// CPU time by counted work, s, where it was stopped up to there: see [`WorkPrecision::price`](super::WorkPrecision::price).
+    /// CPU time by counted work, s, where it was stopped up to there: see
+    /// [`WorkPrecision::price`](super::WorkPrecision::price).
     pub cost: Option<f64>,
     /// Result.
     #[serde(flatten)]

@@ -37,11 +37,11 @@ use newton::Newton;
 /// refused); with ggl to round-off too.
 ///
 /// Error of a step: (1/6 - beta - (alpha_m - alpha_f)/2) h^2 (a_1 - a) in q, the leading term, and that of h^3 xi''' in
-/// states; v and lambda, index 2 and 3, are not tested. Source: Geradin, Cardona, Flexible Multibody Dynamics (2001), chapter 7. When the step
-/// changes, a = v'(t + (alpha_m - alpha_f) h) is moved with it: Jay, Negrut, ECCOMAS Multibody Dynamics (2009)
-/// 143-158. One matrix, from exact K and C, is kept while Newton's method converges with it; an evaluation and a
-/// back-substitution (with ggl two) per iteration. The work is integrated by the trapezoidal rule. Cubic Hermite
-/// interpolation.
+/// states; v and lambda, index 2 and 3, are not tested. Source: Geradin, Cardona, Flexible Multibody Dynamics (2001),
+/// chapter 7. When the step changes, a = v'(t + (alpha_m - alpha_f) h) is moved with it: Jay, Negrut, ECCOMAS Multibody
+/// Dynamics (2009) 143-158. One matrix, from exact K and C, is kept while Newton's method converges with it; an
+/// evaluation and a back-substitution (with ggl two) per iteration. The work is integrated by the trapezoidal rule.
+/// Cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
     name: "generalized_alpha",
     about: "implicit, damped at high frequencies by rho_inf, for stiff motions; holds phi, with ggl phi' too",

@@ -67,8 +67,9 @@ impl Newton {
         })
     }
 
-    /// Keeps the matrix for the next step if the iteration contracted well, and one of a step before if it was short, too.
-    /// Near singular states round-off is divided by the rank indicator of the matrix, and one of a step before is kept.
+    /// Keeps the matrix for the next step if the iteration contracted well, and one of a step before if it was short,
+    /// too. Near singular states round-off is divided by the rank indicator of the matrix, and one of a step before is
+    /// kept.
     pub fn accepted(&mut self) {
         let of_round_off = if self.monitor.has_stagnated { tolerances::CORRECTIONS_OF_ROUND_OFF } else { 0 };
         let is_short = self.monitor.iterations <= tolerances::CORRECTIONS_WITH_OLD_MATRIX + of_round_off;

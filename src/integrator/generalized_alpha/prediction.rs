@@ -22,8 +22,8 @@ impl Carried {
 }
 
 /// Extrapolates v' and lambda from the ends of the last steps, by the polynomial of degree 0, 1 or 2 that would have
-/// predicted the last v' best: smooth motions want the highest degree, jumps and fast modes that steps do not follow the
-/// lowest.
+/// predicted the last v' best: smooth motions want the highest degree, jumps and fast modes that steps do not follow
+/// the lowest.
 pub(super) struct Prediction {
     /// States before the start of the present step, the last one first.
     past: [Past; POINTS - 1],

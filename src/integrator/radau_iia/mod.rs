@@ -28,13 +28,13 @@ use system::{System, most};
 /// V_i = v + h sum a_ij (A_j + W_j),   Q_i = q + h sum a_ij N (V_j + U_j),   M A_i + G^T lambda_i = f
 /// ```
 ///
-/// with the rows of the formulation's [`Dae`] at every stage, and its shifts U and W; unit quaternions by their rotation
-/// vectors from q, which are exact where the axis is fixed; s = 3, 5 or 7 stages. Source:
-/// Hairer, Wanner, Solving Ordinary Differential Equations II, IV.5, IV.8, VII.6 and the codes RADAU5 and RADAU;
-/// constants are computed from their definition. L-stable. Order 2 s - 1 in q, v and lambda. Where phi = 0 alone is
-/// solved the v of the last stage, and so lambda, would have order s: Hairer, Lubich, Roche, Lecture Notes in
-/// Mathematics 1409 (1989). So such a step, and a row, ends with v moved to G v + phi_t = 0, by the matrix that the new
-/// state's v' and lambda need in any case.
+/// with the rows of the formulation's [`Dae`] at every stage, and its shifts U and W; unit quaternions by their
+/// rotation vectors from q, which are exact where the axis is fixed; s = 3, 5 or 7 stages. Source: Hairer, Wanner,
+/// Solving Ordinary Differential Equations II, IV.5, IV.8, VII.6 and the codes RADAU5 and RADAU; constants are computed
+/// from their definition. L-stable. Order 2 s - 1 in q, v and lambda. Where phi = 0 alone is solved the v of the last
+/// stage, and so lambda, would have order s: Hairer, Lubich, Roche, Lecture Notes in Mathematics 1409 (1989). So such a
+/// step, and a row, ends with v moved to G v + phi_t = 0, by the matrix that the new state's v' and lambda need in any
+/// case.
 ///
 /// One matrix of n_v + n_c unknowns for the real eigenvalue of A and (s - 1)/2 complex ones, dense or sparse, from
 /// exact K, C, G and L: q and v are eliminated. The matrices are kept for the next step as long as Newton's method

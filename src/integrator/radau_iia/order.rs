@@ -133,7 +133,8 @@ impl Order {
     }
 
     /// Limits the next step: shorter where Newton's method took many of its `most` corrections, and no longer than
-    /// where it would contract too slowly, as theta grows like h, or turn too far after one with rotation vectors up to `turned`.
+    /// where it would contract too slowly, as theta grows like h, or turn too far after one with rotation vectors up to
+    /// `turned`.
     pub fn limit(&mut self, newton: &Monitor, most: usize, turned: f64) {
         let (most, iterations) = (most as f64, newton.iterations as f64);
         self.control.safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations);

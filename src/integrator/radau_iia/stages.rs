@@ -164,8 +164,8 @@ impl Stages {
         self.rotations.interpolate(method, theta, from.y, out);
     }
 
-    /// Round-off of the changes, over the tolerated errors, where v is found from q by a division by h: from phi = 0, or
-    /// from forces so stiff that q follows them within the step. Other v are rounded by their own size.
+    /// Round-off of the changes, over the tolerated errors, where v is found from q by a division by h: from phi = 0,
+    /// or from forces so stiff that q follows them within the step. Other v are rounded by their own size.
     pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, divides: bool) -> f64 {
         let (q, v) = problem.split(from.y);
         // Angles that count full turns grow, and only they are rounded to that size.

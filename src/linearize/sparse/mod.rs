@@ -34,11 +34,11 @@ type C = Complex<f64>;
 /// ```
 ///
 /// A is block diagonal: [re im; -im re] for a pair, re for a real eigenvalue, states `mode1.re`, `mode1.im`, the
-/// largest change of a coordinate or state xi of a unit of which is 1. Eigenvalues without independent vectors, such as the double
-/// zeros of a free body, have a common block of states `shared1` ... B follows from left vectors. D has the gain at s =
-/// 0 of the modes truncated, so that the model's static gain is right (mode acceleration); where rigid bodies make that
-/// infinite, their gain at the real shift of the search, a fiftieth of the fastest rate found, and nothing for a
-/// complex shift.
+/// largest change of a coordinate or state xi of a unit of which is 1. Eigenvalues without independent vectors, such as
+/// the double zeros of a free body, have a common block of states `shared1` ... B follows from left vectors. D has the
+/// gain at s = 0 of the modes truncated, so that the model's static gain is right (mode acceleration); where rigid
+/// bodies make that infinite, their gain at the real shift of the search, a fiftieth of the fastest rate found, and
+/// nothing for a complex shift.
 ///
 /// Krylov-Schur on (A - sigma E)^-1 E and on its adjoint, with dv eliminated: each takes one sparse complex
 /// factorization of [sigma^2 M + sigma C + K, G^T; G, 0] and a solution per application, so cost is linear in the

@@ -2,8 +2,8 @@
 //!
 //! A signal passes through its points, on a cubic between two of them. Steps, kinks and ends are thresholds of its
 //! argument, see [`Thresholds`]: each point of a linear signal and of one that keeps the previous value, both ends of a
-//! cubic one. The inner points of a cubic one are none: there the third derivative alone jumps, which is nothing to steps
-//! over many points and is left to the estimate of their error. Steps of about the distance of two points end on
+//! cubic one. The inner points of a cubic one are none: there the third derivative alone jumps, which is nothing to
+//! steps over many points and is left to the estimate of their error. Steps of about the distance of two points end on
 //! [them](Signal::point_ahead), without a change of form: else methods of high order would be refused about each point.
 //!
 //! A lookup takes O(1) where points are about equally apart, O(log n) elsewhere, and allocates nothing.

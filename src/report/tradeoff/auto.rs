@@ -28,8 +28,8 @@ pub struct MeasuredModel {
     pub velocities: usize,
     /// n_c.
     pub constraints: usize,
-    /// Largest difference of its reference from that of the richest, relative to the size of the output; none where one of
-    /// them is missing, zero of the richest.
+    /// Largest difference of its reference from that of the richest, relative to the size of the output; none where one
+    /// of them is missing, zero of the richest.
     pub error: Option<f64>,
     /// The output with that difference.
     pub worst: String,

@@ -9,8 +9,8 @@ use crate::simplify::{Candidate, Facts, Placed, Proposal, Relative};
 use serde_json::{Value, json};
 use std::array::from_fn;
 
-/// Two rigid bodies that a joint connects become one, as they are to each other at the start: joints between the two go.
-/// Its mass and inertia are sums in the numbers of the scene; where its centre is stays as the numbers are. By
+/// Two rigid bodies that a joint connects become one, as they are to each other at the start: joints between the two
+/// go. Its mass and inertia are sums in the numbers of the scene; where its centre is stays as the numbers are. By
 /// their motion against each other, which a weld does not let them have.
 pub struct MergedBodies;
 
@@ -114,8 +114,8 @@ impl Merged {
 }
 
 impl Merged {
-    /// Adds the second body to `own`, in the numbers of the scene, by the theorem of parallel axes; the parameter `total`
-    /// is to be the mass that is returned.
+    /// Adds the second body to `own`, in the numbers of the scene, by the theorem of parallel axes; the parameter
+    /// `total` is to be the mass that is returned.
     fn add(&self, own: &mut Value, total: &str) -> Option<Value> {
         let number =
             |value: &Value| serde_json::from_value::<Number>(value.clone()).ok()?.evaluate(&self.parameters).ok();

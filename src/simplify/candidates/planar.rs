@@ -9,8 +9,8 @@ use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Map, Value, json};
 
-/// A scene in space whose bodies move parallel to a plane becomes one in the plane: hinges across it stay hinges, and what
-/// they lock out of the plane goes. By the displacements and rotations out of the plane.
+/// A scene in space whose bodies move parallel to a plane becomes one in the plane: hinges across it stay hinges, and
+/// what they lock out of the plane goes. By the displacements and rotations out of the plane.
 pub struct Planar;
 
 impl Candidate for Planar {

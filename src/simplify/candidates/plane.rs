@@ -56,7 +56,8 @@ impl Plane {
         product(&self.axes[1], direction).atan2(product(&self.axes[0], direction))
     }
 
-    /// Direction in the world of the planar x axis of a marker: its x axis where its z axis is along the normal, else that.
+    /// Direction in the world of the planar x axis of a marker: its x axis where its z axis is along the normal, else
+    /// that.
     pub fn marker(&self, place: &Placed) -> Option<Vector> {
         let [x, _, z] = place.axes;
         match self.along(&z) {

@@ -8,8 +8,8 @@ use crate::simplify::{Candidate, Facts, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
 
-/// A rigid body on which all acts at its centre of mass becomes a point mass there, hinges in space becoming spherical: its
-/// rotation goes, with its inertia. By what that has of the kinetic energy.
+/// A rigid body on which all acts at its centre of mass becomes a point mass there, hinges in space becoming spherical:
+/// its rotation goes, with its inertia. By what that has of the kinetic energy.
 pub struct PointMass;
 
 impl Candidate for PointMass {

@@ -7,8 +7,8 @@ use crate::simplify::{Candidate, Facts, Proposal};
 use crate::system::{OperatingPoint, Tangent};
 use serde_json::{Value, json};
 
-/// A state whose rate falls with it, and fast, as that of a filter, becomes the value at which its rate is zero: of a rate
-/// a + b x that is -a/b. By the largest lag |x'/b| behind that, relative to the range of the state.
+/// A state whose rate falls with it, and fast, as that of a filter, becomes the value at which its rate is zero: of a
+/// rate a + b x that is -a/b. By the largest lag |x'/b| behind that, relative to the range of the state.
 pub struct QuasiStaticState;
 
 impl Candidate for QuasiStaticState {
