@@ -60,6 +60,7 @@ fn quick_scenes_follow_their_linear_models() {
         "four_bar_spring",
         "gear_pair",
         "half_car",
+        "hydraulic_boom",
         "pendulum",
         "quarter_car",
         "robot_arm",

@@ -138,7 +138,15 @@ struct Methods {
 enum Printed {
     One(Box<Sealed<Repeatable<report::linear::LinearFile>>>),
     All(Box<Sealed<Repeatable<Methods>>>),
-    Against(Box<Sealed<Repeatable<AgainstFile>>>),
+    Against(Box<Compared>),
+}
+
+/// A linear model with its comparison.
+#[derive(Serialize)]
+struct Compared {
+    #[serde(flatten)]
+    linear: Sealed<Repeatable<report::linear::LinearFile>>,
+    against: Sealed<Repeatable<AgainstFile>>,
 }
 
 fn other(args: &Args, path: &Path) -> Result<PreparedScene> {
@@ -183,8 +191,8 @@ fn report(
             print(&format!("\n{}", against.text()))?;
         }
         let all = args.talk.repeatable(prepared, against);
-        let file = folder.seal(&format!("{}.json", stem.replace("linear", "against")), all)?;
-        return Ok(Printed::Against(Box::new(file)));
+        let against = folder.seal(&format!("{}.json", stem.replace("linear", "against")), all)?;
+        return Ok(Printed::Against(Box::new(Compared { linear: one, against })));
     }
     if models.len() == 1 {
         return Ok(Printed::One(Box::new(one)));

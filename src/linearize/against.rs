@@ -64,8 +64,10 @@ pub fn against(model: &LinearModel, other: &LinearModel, time: f64) -> Against {
     };
     let [x, y] = [changes(&modes, 0), changes(&others, 1)];
     let largest = |k: usize| x.iter().chain(&y).filter_map(|x| x.get(k)).fold(0.0, |most: f64, x| most.max(x.norm()));
-    // What no mode moves tells nothing.
-    let size = |k: usize| Some(largest(k)).filter(|size| *size > 0.0).unwrap_or(f64::INFINITY);
+    // What no mode moves tells nothing: the energy at rest has no first derivative but round-off.
+    let all = (0..common.len()).map(largest).fold(0.0, f64::max);
+    let least = tolerances::ROUND_OFF_OF_SUMS * all;
+    let size = |k: usize| Some(largest(k)).filter(|size| *size > least).unwrap_or(f64::INFINITY);
     let sizes: Vec<f64> = (0..common.len()).map(size).collect();
     let mac = |i: usize, j: usize| (common.len() > 1).then(|| assurance(&x[i], &y[j], &sizes)).flatten();
     let values = |modes: &[&Mode]| modes.iter().map(|mode| mode.value).collect::<Vec<_>>();

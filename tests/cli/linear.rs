@@ -170,6 +170,10 @@ fn a_simpler_model_loses_a_mode_and_shifts_another() {
     // With the same energy both modes move a, at amplitudes 1/(w sqrt(m)): position sees the slow one, velocity both.
     assert_eq!(number(&modes[0]["seen"]), 1.0);
     assert!(number(&modes[1]["seen"]) > 0.9, "{told}");
+    let both =
+        place.done(&["linearize", "scene.json", "--equilibrium", "--against", "one.json", "--json", "-o", "here"]);
+    let both: Value = serde_json::from_str(&both).unwrap();
+    assert!(both["A"].is_array() && both["against"]["modes"] == told["modes"], "{both}");
     refused(
         &place,
         &["linearize", "scene.json", "--equilibrium", "--method", "all", "--against", "one.json"],

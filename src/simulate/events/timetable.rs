@@ -94,18 +94,23 @@ impl<'a> Timetable<'a> {
     }
 }
 
-/// What may be round-off of an argument: a part of its largest distance from the nearest threshold, sampled over a run.
+/// What may be round-off of an argument: a part of its largest distance from the nearest threshold, sampled over a run,
+/// and beyond, as all of a short run may be round-off.
 fn round_off(switch: &Switch, start: f64, end: f64) -> f64 {
     let Some(argument) = &switch.of_time else { return 0.0 };
-    let distance = |i: usize| {
-        let x: f64 = argument.at(start + (end - start) * i as f64 / SAMPLES as f64, Regime::FREE);
+    let inside = (0..=SAMPLES).map(|i| i as f64 / SAMPLES as f64);
+    let beyond = (1..=DOUBLINGS).map(|k| 2f64.powi(k));
+    let distance = |part: f64| {
+        let x: f64 = argument.at(start + (end - start) * part, Regime::FREE);
         switch.thresholds.nearest(x).map_or(0.0, |(_, threshold)| (x - threshold).abs())
     };
-    let size = (0..=SAMPLES).map(distance).filter(|size| size.is_finite()).fold(0.0, f64::max);
+    let size = inside.chain(beyond).map(distance).filter(|size| size.is_finite()).fold(0.0, f64::max);
     tolerances::TIME_FUNCTION_ROUND_OFF * size
 }
 
 const SAMPLES: usize = 64;
+/// How often the time of a run is doubled to look beyond.
+const DOUBLINGS: i32 = 20;
 
 /// Search for the time at which an argument leaves a range, with the pieces of a regime.
 struct Search<'s> {
