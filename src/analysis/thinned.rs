@@ -6,9 +6,9 @@ use crate::trajectory::Trajectory;
 /// Numbers that are kept at most, if each window may keep the extremes of all columns.
 const NUMBERS: usize = 1_000_000;
 
-/// Thins the rows of a run, with their drift and energies, that have become too many: of the rows of a window those
-/// stay that are first or last, or the smallest or the largest in some column, so that no extreme of the run is lost,
-/// however often it is thinned.
+/// Thins the rows of a run, with their drift and energies, that have become too many: of the rows of each of many equal
+/// parts of its time those stay that are first or last, or the smallest or the largest in some column, so that no
+/// extreme of the run is lost, and a curve keeps its shape, however often it is thinned.
 pub fn thin(trajectory: &mut Trajectory, drift_rows: &mut Vec<[f64; DRIFT]>, ledger_rows: &mut Vec<Ledger>) {
     let rows = &trajectory.rows;
     let columns = rows.first().map_or(1, Vec::len) + DRIFT + ENERGY;
@@ -24,10 +24,15 @@ pub fn thin(trajectory: &mut Trajectory, drift_rows: &mut Vec<[f64; DRIFT]>, led
         }
         other => rows[row][other - DRIFT - ENERGY],
     };
-    let width = rows.len().div_ceil(most / 2 / of_window);
+    let (start, end) = (rows[0][0], rows[rows.len() - 1][0]);
+    let windows = (most / 2 / of_window) as f64;
+    let window_of = |row: usize| ((rows[row][0] - start) / (end - start) * windows) as usize;
     let mut is_kept = vec![false; rows.len()];
-    for start in (0..rows.len()).step_by(width) {
-        let window = start..(start + width).min(rows.len());
+    let mut next = 0;
+    while next < rows.len() {
+        let own = window_of(next);
+        let window = next..(next..rows.len()).find(|row| window_of(*row) != own).unwrap_or(rows.len());
+        next = window.end;
         (is_kept[window.start], is_kept[window.end - 1]) = (true, true);
         for column in 0..columns {
             let order = |a: &usize, b: &usize| value(*a, column).total_cmp(&value(*b, column));
@@ -74,6 +79,9 @@ mod tests {
         }
         let times: Vec<f64> = trajectory.times().collect();
         assert!(times.len() < NUMBERS / 9 && drift.len() == times.len() && energy.len() == times.len());
+        // Parts of equal time, twice as long as at the last thinning at most.
+        let gaps = times.windows(2).map(|pair| pair[1] - pair[0]);
+        assert!(gaps.fold(0.0, f64::max) < 2.0 * f64::from(count) / 2500.0);
         for kept in [0, 123_456, 300_000, 400_001, 500_000, count - 1] {
             let place = times.iter().position(|t| *t == f64::from(kept)).unwrap();
             assert_eq!(energy[place].kinetic, times[place]);

@@ -8,30 +8,41 @@ use crate::tolerances::initial as tolerances;
 
 /// Closes the joints with the rows of `initial`, as [`position::close`], on the branch of the guess: phi of these rows,
 /// whose size at the guess is `gap`, goes to zero as (1 - s) gap, s from 0 to 1 in steps in each of which Newton's
-/// method contracts. Where the joints do not close without the rows, or the path ends, at a dead centre, it begins at
-/// the guess with all rows.
+/// method contracts. Where the joints do not close without the rows, or the path comes to the values only in the limit,
+/// at a dead centre, it begins at the guess with all rows.
 ///
 /// # Errors
-/// Values that the joints do not allow; the message says where the path ends.
+/// Values that the joints do not allow, or on another branch only; the message says where the path ends.
 pub fn reach(alone: &mut Metric, all: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
     let (guess, mut moved) = (q.to_vec(), vec![0.0; all.system.dimensions().v]);
-    let ended = match follow(alone, all, t, q, &mut moved) {
-        Ok(None) => return position::close_moved(all, t, q, moved),
-        Ok(Some(gaps)) => format!("; turned there from the guess, they stop short by {gaps}"),
-        Err(_) => String::new(),
+    let (done, ended) = match follow(alone, all, t, q, &mut moved) {
+        Ok((_, None)) => return position::close_moved(all, t, q, moved),
+        Ok((done, Some(gaps))) => (done, format!("; turned there from the guess, they stop short by {gaps}")),
+        Err(_) => (1.0, String::new()),
     };
     q.copy_from_slice(&guess);
-    position::close(all, t, q).map_err(|error| match error {
-        Error::Input(mut input) => {
+    match position::close(all, t, q) {
+        Ok(()) if done < tolerances::NEARLY_THERE => Err(Error::input(format!(
+            "the values in `initial` are on another branch of the mechanism than its guess{ended}"
+        ))
+        .under(INITIAL)
+        .hint("give the bodies a guess on the branch that is meant, or values that the joints come to")),
+        Err(Error::Input(mut input)) => {
             input.message += &ended;
-            Error::Input(input)
+            Err(Error::Input(input))
         }
-        other => other,
-    })
+        closed => closed,
+    }
 }
 
-/// Moves q along the path; returns the gaps that remain where it ends before the values.
-fn follow(alone: &mut Metric, all: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<Option<String>> {
+/// Moves q along the path; returns how much of it, and the gaps that remain where it ends before the values.
+fn follow(
+    alone: &mut Metric,
+    all: &mut Metric,
+    t: f64,
+    q: &mut [f64],
+    moved: &mut [f64],
+) -> Result<(f64, Option<String>)> {
     position::close(alone, t, q)?;
     all.level(t, q, moved);
     let groups = all.system.groups().into_iter().filter(|group| group.kind == INITIAL);
@@ -53,5 +64,5 @@ fn follow(alone: &mut Metric, all: &mut Metric, t: f64, q: &mut [f64], moved: &m
     }
     all.ahead.clear();
     all.level(t, q, moved);
-    Ok((done < 1.0).then(|| all.culprits(&all.terms.phi)))
+    Ok((done, (done < 1.0).then(|| all.culprits(&all.terms.phi))))
 }

@@ -16,7 +16,17 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
     }
     metric.at(t, q, v)?;
     let largest = v.iter().chain(&given).chain(&metric.terms.phi_t).fold(0.0f64, |largest, x| largest.max(x.abs()));
-    if metric.worst(&metric.terms.phi_dot) > tolerances::SAME * largest.max(f64::MIN_POSITIVE) {
+    let is_met = metric.worst(&metric.terms.phi_dot) <= tolerances::SAME * largest.max(f64::MIN_POSITIVE);
+    // Beside a dead centre a rate is met by velocities beyond all bounds.
+    let asked = given.iter().chain(&metric.terms.phi_t).fold(0.0f64, |largest, x| largest.max(x.abs()));
+    if is_met && metric.has_initial() && asked < tolerances::DEAD_CENTRE * largest {
+        let message =
+            format!("the rates in `initial` take velocities of {largest:.1e}: the joints are at a dead centre");
+        return Err(Error::input(message)
+            .under("initial")
+            .hint("give a position beside the dead centre, or the rate of another joint"));
+    }
+    if !is_met {
         let culprits = metric.culprits(&metric.terms.phi_dot);
         return Err(match metric.held.is_empty() {
             _ if metric.has_initial() => Error::input(format!(

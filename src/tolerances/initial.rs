@@ -162,3 +162,13 @@ pub const CLOSED: f64 = 1e-10;
 /// A start that keeps less than this part of the given velocities contradicts the joints.
 /// Unit: `[1]`. Why: a choice: no start that anybody meant. Test: none: not tried with other values.
 pub const VELOCITIES_KEPT: f64 = 1e-6;
+
+/// A path that ends after this part of the way comes to its end in the limit only.
+/// Unit: `[1]` of the way. Why: a choice: at a dead centre its steps halve. Test:
+/// `a_value_on_another_branch_is_refused`.
+pub const NEARLY_THERE: f64 = 0.999;
+
+/// Rates of joint coordinates that take velocities so much larger cannot be given: the state is at a dead centre.
+/// Unit: `[1]`. Why: half of the digits of the velocities would be lost. Test:
+/// `a_rate_at_a_dead_centre_is_refused`.
+pub const DEAD_CENTRE: f64 = 1e-7;

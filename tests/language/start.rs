@@ -44,6 +44,52 @@ fn state(ready: &Ready) -> impl Fn(&str) -> f64 {
     move |name| all.iter().find(|(known, _)| known == name).unwrap_or_else(|| panic!("no {name}")).1
 }
 
+/// A slider crank, crank 1 and rod 2.5, with the slider ahead: it comes from 1.5 to 3.5.
+fn slider_crank(initial: &str) -> Result<PreparedScene, String> {
+    let rod = |name: &str, length: f64, initial: &str| {
+        format!(
+            r#"{{ "name": "{name}", "type": "rigid", "mass": 1, "inertia": 0.1, "origin": [{}, 0],
+                "markers": {{ "a": [0, 0], "b": [{length}, 0] }}, "initial": {{ {initial} }} }}"#,
+            -0.5 * length
+        )
+    };
+    let text = format!(
+        r#"{{ "name": "slider_crank", "dimension": 2, "ground": {{ "markers": {{ "O": [0, 0] }} }},
+            "bodies": [{}, {}, {{ "name": "slider", "type": "rigid", "mass": 1, "inertia": 1,
+                                  "initial": {{ "position": [3.3, 0] }} }}],
+            "joints": [
+                {{ "name": "O", "type": "revolute", "between": ["ground.O", "crank.a"] }},
+                {{ "name": "A", "type": "revolute", "between": ["crank.b", "rod.a"] }},
+                {{ "name": "B", "type": "revolute", "between": ["rod.b", "slider"] }},
+                {{ "name": "S", "type": "prismatic", "between": ["ground.O", "slider"] }}],
+            "initial": {{ {initial} }}, "simulation": {{ "t_end": 1 }} }}"#,
+        rod("crank", 1.0, r#""angle": 0.5"#),
+        rod("rod", 2.5, r#""position": [0.88, 0.48], "angle": -0.19"#)
+    );
+    let scene = Scene::parse(&text, &[]).map_err(|error| error.to_string())?;
+    PreparedScene::new(scene, &Overrides::default()).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_value_on_another_branch_is_refused() {
+    for (x, is_reached) in [(1.5, true), (2.0, true), (3.5, true), (1.4, false), (-2.0, false), (-3.0, false)] {
+        let found = slider_crank(&format!(r#""S.position": {x}"#));
+        assert_eq!(found.is_ok(), is_reached, "{x}: {:?}", found.err());
+    }
+    let told = slider_crank(r#""S.position": -2"#).err().unwrap();
+    assert!(
+        told.contains("on another branch") && told.contains("they stop short by `initial S.position` 3.5"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_rate_at_a_dead_centre_is_refused() {
+    let told = slider_crank(r#""S.position": 3.5, "S.position'": 1"#).err().unwrap();
+    assert!(told.contains("the joints are at a dead centre"), "{told}");
+    assert!(slider_crank(r#""S.position": 3.4999, "S.position'": 0.1"#).is_ok());
+}
+
 /// A spring on the hinge is wound up by full turns.
 #[test]
 fn full_turns_of_a_hinge_count() {
