@@ -233,7 +233,7 @@ pub fn simplify(
 fn shorter(source: &Source, recorded: &Recorded, stopped: &Failure) -> Result<Source> {
     if recorded.rows.len() < FEWEST_ROWS {
         let reason = format!("the richest model came to t = {} s only", clock(stopped.t));
-        let hint = "give it more time (--budget), a shorter motion (--until), or the scene a faster method: an implicit one \
+        let hint = "give it more time by --budget, a shorter motion by --until, or the scene a faster method: an implicit one \
              where it is stiff; `holonom check` says what looks superfluous from the start alone";
         return Err(Failure { reason, hint: hint.to_string(), t: stopped.t }.into());
     }

@@ -94,18 +94,19 @@ impl<'a> Timetable<'a> {
     }
 }
 
-/// What may be round-off of an argument: a part of its largest distance from the nearest threshold, sampled over a run,
-/// and beyond, as all of a short run may be round-off.
+/// What may be round-off of an argument: a part of its largest distance from the nearest threshold, sampled over a run;
+/// or beyond it, where all of a short run may be round-off.
 fn round_off(switch: &Switch, start: f64, end: f64) -> f64 {
     let Some(argument) = &switch.of_time else { return 0.0 };
-    let inside = (0..=SAMPLES).map(|i| i as f64 / SAMPLES as f64);
-    let beyond = (1..=DOUBLINGS).map(|k| 2f64.powi(k));
     let distance = |part: f64| {
         let x: f64 = argument.at(start + (end - start) * part, Regime::FREE);
         switch.thresholds.nearest(x).map_or(0.0, |(_, threshold)| (x - threshold).abs())
     };
-    let size = inside.chain(beyond).map(distance).filter(|size| size.is_finite()).fold(0.0, f64::max);
-    tolerances::TIME_FUNCTION_ROUND_OFF * size
+    let finite = |size: f64| if size.is_finite() { size } else { 0.0 };
+    let inside = (0..=SAMPLES).map(|i| finite(distance(i as f64 / SAMPLES as f64))).fold(0.0, f64::max);
+    let beyond = (1..=DOUBLINGS).map(|k| finite(distance(2f64.powi(k)))).fold(0.0, f64::max);
+    let is_round_off = inside <= tolerances::TIME_FUNCTION_ROUND_OFF * beyond;
+    tolerances::TIME_FUNCTION_ROUND_OFF * if is_round_off { beyond } else { inside }
 }
 
 const SAMPLES: usize = 64;
