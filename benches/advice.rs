@@ -91,18 +91,10 @@ fn measure(path: &Path) -> Result<Measured> {
         }
     }
     let (span, rows) = (prepared.span()?, 200);
-    let ratio = prepared.method.atol / prepared.method.rtol;
     let between = (span.start, span.end);
     let watched = Watched::new(prepared.system(), &[])?;
     let within = |budget: Duration| -> Result<WorkPrecision> {
-        let motion = Motion {
-            system: prepared.system(),
-            start: prepared.start(),
-            between,
-            ratio,
-            counts_start: false,
-            is_stopped: &|| false,
-        };
+        let motion = Motion::of(&prepared, span, &|| false);
         let triples = triples.clone();
         let plan = Plan { triples, budget, repeats: 3, rows, digits: DIGITS[1], is_exhaustive: false, given: None };
         let mut result = WorkPrecision::fresh(&prepared.name, between, rows);

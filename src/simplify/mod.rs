@@ -150,22 +150,12 @@ pub fn simplify(
     let is_within = |part: u32| settings.budget.is_none_or(|budget| begun.elapsed() < budget / part);
     let (is_asked, is_spent) = (is_stopped, || is_stopped() || !is_within(1));
     let is_stopped: &(dyn Fn() -> bool + Sync) = &is_spent;
-    let prepared = source.prepare(&source.scene)?;
-    let watched = watched(&prepared, settings)?;
-    let names: Vec<String> = watched.columns.iter().map(|column| column.name.clone()).collect();
     watch("the richest model, accurately", 0);
     let is_long = || is_asked() || !is_within(RICHEST);
-    let recorded = record(&prepared, &watched, &tighter(&prepared.method), &is_long)?;
+    let Accurate { prepared, watched, recorded, shorter } = accurate(source, settings, &is_long)?;
+    let names: Vec<String> = watched.columns.iter().map(|column| column.name.clone()).collect();
     let whole = source;
-    let shorter = recorded.stopped.as_ref().map(|stopped| shorter(source, &recorded, stopped)).transpose()?;
     let source = shorter.as_ref().unwrap_or(source);
-    let prepared = if shorter.is_some() { source.prepare(&source.scene)? } else { prepared };
-    let undefined = (0..names.len()).find(|&i| recorded.rows.iter().any(|row| !row[i].is_finite()));
-    if let Some(i) = undefined {
-        return Err(Error::input(format!("the output `{}` has no value at some time of the motion", names[i]))
-            .under("outputs")
-            .hint("name the others by --outputs"));
-    }
     let terms = (settings.within, settings.norm);
     let promise = Promise::new(terms, &watched.columns, recorded.rows.clone(), &recorded.sizes);
     watch("the richest model", 1);
@@ -184,15 +174,14 @@ pub fn simplify(
     let near = |nearby| Neighbourhood::new(source, &promise, nearby, richest.work, is_stopped);
     let neighbourhood = settings.nearby.map(near).transpose()?;
     let neighbours = neighbourhood.as_ref();
-    let (cost, work) = (runs as f64, richest.work);
     let mut bench = Bench {
         source,
         promise: &promise,
         is_stopped,
         watch,
         runs,
-        cost,
-        richest: work,
+        cost: runs as f64,
+        richest: richest.work,
         at_most,
         neighbourhood: neighbours,
     };
@@ -227,6 +216,33 @@ pub fn simplify(
         result.warnings.extend(modes::lost(&facts.prepared, &source.prepare(&found.scene)?));
     }
     Ok(result)
+}
+
+/// The accurate run of the richest model.
+struct Accurate {
+    prepared: PreparedScene,
+    watched: Watched,
+    recorded: Recorded,
+    /// The scene of the part that the time allowed for, if that is not the whole.
+    shorter: Option<Source>,
+}
+
+fn accurate(source: &Source, settings: &Settings, is_long: &dyn Fn() -> bool) -> Result<Accurate> {
+    let mut prepared = source.prepare(&source.scene)?;
+    let watched = watched(&prepared, settings)?;
+    let recorded = record(&prepared, &watched, &tighter(&prepared.method), is_long)?;
+    let shorter = recorded.stopped.as_ref().map(|stopped| shorter(source, &recorded, stopped)).transpose()?;
+    if let Some(source) = &shorter {
+        prepared = source.prepare(&source.scene)?;
+    }
+    let undefined = (0..watched.columns.len()).find(|&i| recorded.rows.iter().any(|row| !row[i].is_finite()));
+    if let Some(i) = undefined {
+        let name = &watched.columns[i].name;
+        return Err(Error::input(format!("the output `{name}` has no value at some time of the motion"))
+            .under("outputs")
+            .hint("name the others by --outputs"));
+    }
+    Ok(Accurate { prepared, watched, recorded, shorter })
 }
 
 /// The scene until the last row that the time allowed for.

@@ -66,13 +66,9 @@ pub fn sampled(
     allowed: Duration,
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<RunSample> {
-    let (system, method) = (prepared.system(), &prepared.method);
-    let watched = Watched::new(system, names)?;
-    let span = prepared.span()?;
-    let between = (span.start, span.end);
-    let ratio = method.atol / method.rtol;
-    let motion = Motion { system, start: prepared.start(), between, ratio, counts_start: true, is_stopped };
-    sample(&motion, &watched, method, span, Allowed { cpu: allowed, wall: BUSY * allowed + WAIT })
+    let (watched, span) = (Watched::new(prepared.system(), names)?, prepared.span()?);
+    let motion = Motion { counts_start: true, ..Motion::of(prepared, span, is_stopped) };
+    sample(&motion, &watched, &prepared.method, span, Allowed { cpu: allowed, wall: BUSY * allowed + WAIT })
 }
 
 /// Runs a prepared model by its own method and measures it.

@@ -92,14 +92,7 @@ fn measure(args: &Args, prepared: &PreparedScene, budget: Duration) -> Result<Wo
         is_exhaustive: args.exhaustive,
         given: None,
     };
-    let motion = Motion {
-        system: prepared.system(),
-        start: prepared.start(),
-        between: (span.start, span.end),
-        ratio: prepared.method.atol / prepared.method.rtol,
-        counts_start: false,
-        is_stopped: &interrupt::is_asked,
-    };
+    let motion = Motion::of(prepared, span, &interrupt::is_asked);
     let mut measured = WorkPrecision::fresh(&prepared.name, (span.start, span.end), rows);
     Runner::new(motion, &plan, watched, |_: &WorkPrecision, _: &str| ()).run(&mut measured)?;
     Ok(measured)

@@ -80,14 +80,7 @@ impl Question {
                 let _ = save(place, measured);
             }
         };
-        let motion = Motion {
-            system: prepared.system(),
-            start: prepared.start(),
-            between: (span.start, span.end),
-            ratio: prepared.method.atol / prepared.method.rtol,
-            counts_start: false,
-            is_stopped: &interrupt::is_asked,
-        };
+        let motion = Motion::of(prepared, span, &interrupt::is_asked);
         let result = Runner::new(motion, &self.plan, self.watched, watch).run(measured);
         bar.finish_and_clear();
         result

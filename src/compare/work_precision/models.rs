@@ -205,16 +205,7 @@ impl<'a> Run<'a> {
         if failed {
             return Ok(());
         }
-        let between = (span.start, span.end);
-        let ratio = method.atol / method.rtol;
-        let motion = Motion {
-            system: prepared.system(),
-            start: prepared.start(),
-            between,
-            ratio,
-            counts_start: false,
-            is_stopped: &|| false,
-        };
+        let motion = Motion::of(prepared, span, &|| false);
         let run = sample(&motion, &self.watched, &method, span, allowed)?;
         if round == 0 {
             self.tight = Some(run);

@@ -4,6 +4,7 @@ use super::error_metric::Watched;
 use crate::analysis::{Drift, Sizes};
 use crate::error::{Failure, Result};
 use crate::formulation::Statistics;
+use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::{MechanicalSystem, Scratch};
 use cpu_time::ThreadTime;
@@ -24,6 +25,20 @@ pub struct Motion<'a> {
     pub counts_start: bool,
     /// Returns true if the user stops the measurement.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl<'a> Motion<'a> {
+    /// The motion of a scene over a span, without its start.
+    pub fn of(prepared: &'a PreparedScene, span: Span, is_stopped: &'a (dyn Fn() -> bool + Sync)) -> Self {
+        Motion {
+            system: prepared.system(),
+            start: prepared.start(),
+            between: (span.start, span.end),
+            ratio: prepared.method.atol / prepared.method.rtol,
+            counts_start: false,
+            is_stopped,
+        }
+    }
 }
 
 /// Result of one run.
