@@ -66,6 +66,9 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
     }
 
     fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D> {
+        if let (&[x, y, turn], &[x_rate, y_rate, spin]) = (q, v) {
+            return Pose::in_plane([x, y, turn], [x_rate, y_rate, spin]);
+        }
         Pose::in_plane(self.coordinates(q), self.slots.map(|slot| slot.map_or(0.0, |slot| v[slot])))
     }
     fn freedom(&self) -> Option<Freedom> {

@@ -19,6 +19,8 @@ pub(super) struct RigidParts<const D: usize> {
     /// What the velocities of each body are, if it is rigid.
     pub freedoms: Vec<Option<Freedom>>,
     pub are_all_rigid: bool,
+    /// True if q' = v for all of them, but for turning angles.
+    pub rates_are_velocities: bool,
     /// The translations and rotations that each joint locks, if that is all it does.
     pub locks: Vec<Option<Lock<D>>>,
     /// Joints with closed formulas.
@@ -42,6 +44,10 @@ impl<const D: usize> RigidParts<D> {
             model.joints.iter().zip(rows).map(|(joint, rows)| RigidJoint::new(model, joint, rows)).collect();
         let mut parts = RigidParts {
             are_all_rigid: model.bodies.iter().all(|part| part.body.freedom().is_some()),
+            rates_are_velocities: model
+                .bodies
+                .iter()
+                .all(|part| part.body.freedom().is_some() && part.body.turning().is_none() && part.nq == part.nv),
             freedoms: model.bodies.iter().map(|part| part.body.freedom()).collect(),
             locks: model.joints.iter().map(|joint| as_lock(joint.element.closed_form())).collect(),
             general_joints: (0..closed.len()).filter(|&joint| closed[joint].is_none()).collect(),

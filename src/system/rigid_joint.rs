@@ -17,8 +17,9 @@
 
 use super::rows::JointRows;
 use super::{Need, Terms};
-use crate::body::{Frame, Freedom, MarkerId, Pose, cross, dot, in_space, sub};
+use crate::body::{Frame, Freedom, MarkerId, Pose, cross, dot, in_space, sub, twist_len};
 use crate::joint::{ClosedForm, Joint, Lock};
+use crate::math::kkt::Lever;
 use crate::math::{Scalar, Taylor};
 use crate::scene::{Connection, Model};
 use std::array::from_fn;
@@ -31,6 +32,8 @@ pub(super) struct RigidJoint<const D: usize> {
     sides: [Side<D>; 2],
     /// Place of its blocks in G, that of A before that of B.
     first_entry: usize,
+    /// True if all translations of a point are locked and nothing else, between bodies that can move all ways.
+    is_point: bool,
 }
 
 /// A marker of the joint on its body.
@@ -42,6 +45,7 @@ struct Side<const D: usize> {
     axes: [[f64; D]; D],
     turn: f64,
     freedom: Freedom,
+    is_moving: bool,
 }
 
 /// A vector along the motion at v' = 0.
@@ -63,14 +67,38 @@ impl<const D: usize> RigidJoint<D> {
         let form = joint.element.closed_form()?;
         let &[a, b] = joint.markers.as_slice() else { return None };
         let sides = [Side::new(model, &form, a)?, Side::new(model, &form, b)?];
-        Some(RigidJoint { form, rows: rows.range(), sides, first_entry: rows.first_entry() })
+        let is_point = match &form {
+            ClosedForm::Lock(lock) => lock.translation.len() == D && lock.rotation.is_empty(),
+            ClosedForm::Rod(_) => false,
+        };
+        let is_free = |side: &Side<D>| [0, twist_len(D)].contains(&side.freedom.count());
+        let is_point = is_point && sides.iter().all(is_free);
+        Some(RigidJoint { form, rows: rows.range(), sides, first_entry: rows.first_entry(), is_point })
+    }
+
+    /// The blocks of a point: its rows are e_i of the world.
+    pub fn levers(&self) -> Vec<Lever> {
+        let [a, b] = &self.sides;
+        let ahead = D * a.freedom.count();
+        let blocks = [(a, 0, -1.0), (b, ahead, 1.0)].into_iter();
+        let moving = blocks.filter(|(side, ..)| self.is_point && side.is_moving);
+        moving.map(|(_, place, sign)| Lever { first_entry: self.first_entry + place, sign }).collect()
     }
 
     /// Writes phi, phi' and gamma, and the entries of G, as far as needed.
+    #[inline]
     pub fn evaluate(&self, poses: &[Pose<D>], need: Need, terms: &mut Terms) {
+        let poses = [&poses[self.sides[0].body], &poses[self.sides[1].body]];
+        match D == 2 && self.is_point {
+            true => self.point_in_plane(poses, need, terms),
+            false => self.any(poses, need, terms),
+        }
+    }
+
+    #[inline(never)]
+    fn any(&self, poses: [&Pose<D>; 2], need: Need, terms: &mut Terms) {
         let Terms { phi, phi_dot, gamma, g, .. } = terms;
         let [a, b] = &self.sides;
-        let poses = [&poses[a.body], &poses[b.body]];
         let gap = sub(&poses[1].place(&b.offset), &poses[0].place(&a.offset));
         let sizes = [a, b].map(|side| self.rows.len() * side.freedom.count());
         let blocks = need.includes(Need::G).then(|| {
@@ -88,6 +116,41 @@ impl<const D: usize> RigidJoint<D> {
             }
         }
     }
+
+    /// The rows of a point in the plane: G = [-I, (a_y, -a_x), I, (-b_y, b_x)] with the arms a and b.
+    fn point_in_plane(&self, [a, b]: [&Pose<D>; 2], need: Need, terms: &mut Terms) {
+        let arms = [a.carried(&self.sides[0].offset), b.carried(&self.sides[1].offset)];
+        if need.includes(Need::CONSTRAINTS) {
+            let row = self.rows.start;
+            if let Some(phi) = terms.phi[row..].first_chunk_mut::<2>() {
+                *phi = from_fn(|k| (b.r[k] + arms[1][k].x) - (a.r[k] + arms[0][k].x));
+            }
+            if let Some(phi_dot) = terms.phi_dot[row..].first_chunk_mut::<2>() {
+                *phi_dot = from_fn(|k| (b.velocity[k] + arms[1][k].d) - (a.velocity[k] + arms[0][k].d));
+            }
+            if let Some(gamma) = terms.gamma[row..].first_chunk_mut::<2>() {
+                *gamma = from_fn(|k| arms[0][k].dd - arms[1][k].dd);
+            }
+        }
+        if need.includes(Need::G) {
+            let [on_a, on_b] = [0, 1].map(|i| self.sides[i].is_moving);
+            let blocks = &mut terms.g[self.first_entry..];
+            if on_a {
+                write_lever(-1.0, &arms[0], blocks);
+            }
+            if on_b {
+                write_lever(1.0, &arms[1], &mut blocks[if on_a { 6 } else { 0 }..]);
+            }
+        }
+    }
+}
+
+/// [s I | s (-a_y, a_x)]
+#[inline(always)]
+fn write_lever<const D: usize>(sign: f64, arm: &Path<D>, block: &mut [f64]) {
+    if let Some(block) = block.first_chunk_mut::<6>() {
+        *block = [sign, 0.0, -sign * arm[1].x, 0.0, sign, sign * arm[0].x];
+    }
 }
 
 impl<const D: usize> Side<D> {
@@ -103,7 +166,8 @@ impl<const D: usize> Side<D> {
             ClosedForm::Lock(lock) => from_fn(|i| lock.axis(&Frame::world().at(place), i)),
             ClosedForm::Rod(_) => place.axes,
         };
-        Some(Side { body, offset: place.offset, axes, turn: place.turn, freedom })
+        let is_moving = freedom.count() > 0;
+        Some(Side { body, offset: place.offset, axes, turn: place.turn, freedom, is_moving })
     }
 
     /// Writes a row of the block.

@@ -10,17 +10,34 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// them.
 #[derive(Default)]
 pub struct Analysis {
+    /// Blocks of G that are levers.
+    levers: Vec<Lever>,
     found: Mutex<Vec<(Vec<bool>, Arc<Layout>)>>,
 }
 
+/// A block of G in the rows of a point that all translations of its body move, and that turns about the body's origin:
+/// [s I | a], with s = 1 or -1 and its entries row by row.
+#[derive(Clone, Copy, Debug)]
+pub struct Lever {
+    /// Index of its first entry in G.
+    pub first_entry: usize,
+    /// The sign s.
+    pub sign: f64,
+}
+
 impl Analysis {
+    /// For patterns with these levers.
+    pub fn with(levers: Vec<Lever>) -> Self {
+        Analysis { levers, ..Analysis::default() }
+    }
+
     /// The layout with the coordinates for which `late` is true behind their multipliers.
     pub(super) fn layout(&self, mass: &Pattern, g: &Pattern, late: &[bool]) -> Arc<Layout> {
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, layout)) = found.iter().find(|(of, _)| of == late) {
             return layout.clone();
         }
-        let layout = Arc::new(Layout::new(mass, g, late));
+        let layout = Arc::new(Layout::new(mass, g, late, &self.levers));
         found.push((late.to_vec(), layout.clone()));
         layout
     }

@@ -18,7 +18,7 @@ pub(super) enum Ldlt {
 
 impl Ldlt {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
-        Self::of(Arc::new(Layout::new(mass, g, late)), mass, g, late)
+        Self::of(Arc::new(Layout::new(mass, g, late, &[])), mass, g, late)
     }
 
     /// With a layout that is known.

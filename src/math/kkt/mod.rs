@@ -35,7 +35,7 @@ mod system;
 mod tests;
 mod unsymmetric;
 
-pub use analysis::Analysis;
+pub use analysis::{Analysis, Lever};
 pub use dependence::{Dependence, DependentRow, dependent_rows};
 pub use pattern::Pattern;
 pub use rank_revealing::{Chart, Reduced};

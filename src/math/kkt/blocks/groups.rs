@@ -44,23 +44,28 @@ impl Groups {
 }
 
 impl Groups {
-    /// The unknowns of each group (n + row for rows of G) and the groups (those of coordinates first) in an order of
-    /// elimination of single unknowns: where their first unknown is, but those of late coordinates where their last is,
-    /// behind all their multipliers.
-    pub fn in_order(&self, nodes: &[usize]) -> (Vec<Vec<usize>>, Vec<usize>) {
-        let (count, n) = (self.coordinates.len(), self.coordinates.iter().map(Vec::len).sum());
-        let (of_coordinate, of_row) = (numbers(&self.coordinates, n), numbers(&self.rows, nodes.len() - n));
-        let mut members = vec![Vec::new(); count + self.rows.len()];
+    /// The groups (those of coordinates first) in an order of elimination of single unknowns: where their first unknown
+    /// is, but those of late coordinates where their last is, behind all their multipliers.
+    pub fn in_order(&self, nodes: &[usize]) -> Vec<usize> {
+        let (of_coordinate, of_row) = self.numbers();
+        let (count, n) = (self.coordinates.len(), of_coordinate.len());
+        let mut members = vec![0; count + self.rows.len()];
         let mut order = Vec::with_capacity(members.len());
         for &node in nodes {
             let group = if node < n { of_coordinate[node] } else { count + of_row[node - n] };
-            members[group].push(node);
+            members[group] += 1;
             let is_late = group < count && self.late[group];
-            if members[group].len() == if is_late { self.coordinates[group].len() } else { 1 } {
+            if members[group] == if is_late { self.coordinates[group].len() } else { 1 } {
                 order.push(group);
             }
         }
-        (members, order)
+        order
+    }
+
+    /// The group of each coordinate and of each row of G.
+    pub fn numbers(&self) -> (Vec<usize>, Vec<usize>) {
+        let count = |groups: &[Vec<usize>]| groups.iter().map(Vec::len).sum();
+        (numbers(&self.coordinates, count(&self.coordinates)), numbers(&self.rows, count(&self.rows)))
     }
 }
 

@@ -2,9 +2,29 @@
 
 use super::super::pivot::{Quality, Rule};
 use super::groups::LARGEST;
-use super::layout::{Column, Layout};
+use super::layout::{Layout, Run};
 use std::array::from_fn;
-use std::ops::Range;
+
+/// The first N numbers from `place` on.
+#[inline(always)]
+pub(super) fn at<const N: usize>(numbers: &[f64], place: usize) -> Option<&[f64; N]> {
+    numbers.get(place..)?.first_chunk()
+}
+
+#[inline(always)]
+pub(super) fn at_mut<const N: usize>(numbers: &mut [f64], place: usize) -> Option<&mut [f64; N]> {
+    numbers.get_mut(place..)?.first_chunk_mut()
+}
+
+/// row -= x scaled
+#[inline(always)]
+pub(super) fn subtract<const W: usize, const R: usize>(row: &mut [f64; R], x: &[f64; W], scaled: &[[f64; R]; W]) {
+    let mut left = *row;
+    for p in 0..W {
+        (0..R).for_each(|j| left[j] -= x[p] * scaled[p][j]);
+    }
+    *row = left;
+}
 
 /// How pivots are judged, and what was found so far.
 pub(super) struct Judge<'a> {
@@ -13,6 +33,25 @@ pub(super) struct Judge<'a> {
     pub rule: Rule,
     pub skipped: &'a mut Vec<usize>,
     pub quality: Quality,
+}
+
+impl Judge<'_> {
+    /// The inverse of a pivot, whose sign is that of `sign`.
+    #[inline(always)]
+    pub fn inverse(&mut self, pivot: f64, (size, sign): (f64, f64), node: impl Fn() -> usize) -> Result<f64, usize> {
+        let positive = sign * pivot;
+        // Written so that a NaN is judged too.
+        match positive > self.rule.weak * size && positive < f64::INFINITY {
+            true => Ok(1.0 / pivot),
+            false => self.judge(node(), positive, size),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn judge(&mut self, node: usize, pivot: f64, size: f64) -> Result<f64, usize> {
+        self.quality.judge((node, self.n), (pivot, size), self.rule, self.skipped)
+    }
 }
 
 /// The factors as they are made.
@@ -26,105 +65,128 @@ pub(super) struct Elimination<'a, 'j> {
     pub judge: &'a mut Judge<'j>,
 }
 
+impl Elimination<'_, '_> {
+    /// Eliminates columns whose partners are all R wide; WR = W R.
+    pub fn alike<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) -> Result<(), usize> {
+        let layout = self.layout;
+        let mut targets = layout.targets[run.targets.clone()].iter();
+        self.columns::<W>(
+            run,
+            |count| count * WR,
+            |xs, inverse, later| {
+                let xs = xs.as_chunks::<WR>().0;
+                for (l, x) in xs.iter().enumerate() {
+                    let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j * W + p] * inverse[p]));
+                    for (x, &target) in xs[l..].iter().zip(targets.by_ref()) {
+                        for i in 0..R {
+                            if let Some(row) = at_mut::<R>(later, target as usize + i * R) {
+                                subtract(row, &from_fn(|p| x[i * W + p]), &scaled);
+                            }
+                        }
+                    }
+                }
+            },
+        )
+    }
+
+    /// Eliminates columns with partners of any width.
+    pub fn mixed<const W: usize>(&mut self, run: &Run) -> Result<(), usize> {
+        let layout = self.layout;
+        let (mut targets, mut widths) = (&layout.targets[run.targets.clone()], &layout.widths[run.partners.clone()]);
+        let mut lengths = widths;
+        let length = |count: usize| {
+            let (own, others) = lengths.split_at(count);
+            lengths = others;
+            own.iter().map(|&width| W * usize::from(width)).sum()
+        };
+        self.columns::<W>(run, length, |xs, inverse, later| {
+            let mut xs = xs.as_chunks::<W>().0;
+            while let (false, Some(&width)) = (xs.is_empty(), widths.first()) {
+                let part = Products { xs, widths, inverse, targets, later: &mut *later };
+                let products = match width {
+                    1 => part.subtract::<1>(),
+                    2 => part.subtract::<2>(),
+                    3 => part.subtract::<3>(),
+                    4 => part.subtract::<4>(),
+                    5 => part.subtract::<5>(),
+                    6 => part.subtract::<6>(),
+                    7 => part.subtract::<7>(),
+                    _ => part.subtract::<LARGEST>(),
+                };
+                (xs, widths, targets) = (&xs[usize::from(width)..], &widths[1..], &targets[products..]);
+            }
+        })
+    }
+
+    /// Factors the diagonal block of each column and makes X of the blocks below, which have `length` numbers for their
+    /// count. `update` subtracts the products of X from the columns behind it, with the inverse of D.
+    #[inline(always)]
+    fn columns<const W: usize>(
+        &mut self,
+        run: &Run,
+        mut length: impl FnMut(usize) -> usize,
+        mut update: impl FnMut(&[f64], &[f64; W], &mut [f64]),
+    ) -> Result<(), usize> {
+        let Elimination { layout, work, inverse, sizes, judge } = self;
+        let mut rest = &mut work[run.place..];
+        let inverses = inverse[run.first..].as_chunks_mut::<W>().0.iter_mut();
+        let sizes = sizes[run.first..].as_chunks::<W>().0.iter();
+        for (j, ((&count, inverse), sizes)) in
+            layout.counts[run.columns.clone()].iter().zip(inverses).zip(sizes).enumerate()
+        {
+            let (own, later) = rest.split_at_mut(W * W + length(count as usize));
+            rest = later;
+            let (diagonal, below) = own.split_at_mut(W * W);
+            let Some(diagonal) = diagonal.as_chunks_mut::<W>().0.first_chunk_mut::<W>() else { return Ok(()) };
+            for p in 0..W {
+                let node = || layout.nodes[run.first + j * W + p];
+                inverse[p] = judge.inverse(diagonal[p][p], (sizes[p], run.sign), node)?;
+                if !run.is_diagonal {
+                    for q in p + 1..W {
+                        let factor = diagonal[q][p] * inverse[p];
+                        (p + 1..=q).for_each(|r| diagonal[q][r] -= factor * diagonal[r][p]);
+                    }
+                    (p + 1..W).for_each(|q| diagonal[q][p] *= inverse[p]);
+                }
+            }
+            if !run.is_diagonal {
+                below.as_chunks_mut::<W>().0.iter_mut().for_each(|row| forward(diagonal, row));
+            }
+            update(below, inverse, rest);
+        }
+        Ok(())
+    }
+}
+
 /// The products of a column that are still to be subtracted.
 struct Products<'a, const W: usize> {
     /// X from some partner on, with the widths of these partners.
     xs: &'a [[f64; W]],
-    partners: &'a [u8],
+    widths: &'a [u8],
     /// Inverse of D.
-    inverse: [f64; W],
+    inverse: &'a [f64; W],
     targets: &'a [u32],
     later: &'a mut [f64],
 }
 
 impl<const W: usize> Products<'_, W> {
-    /// Subtracts X_k D^-1 X_l^T for the first partner l, R wide, and all partners k from it on.
+    /// Subtracts X_k D^-1 X_l^T for the first partner l, R wide, and all partners k from it on; returns their number.
     #[inline]
-    fn subtract<const R: usize>(&mut self) {
-        let Some(x) = self.xs.first_chunk::<R>() else { return };
+    fn subtract<const R: usize>(self) -> usize {
+        let Some(x) = self.xs.first_chunk::<R>() else { return 0 };
         // By columns, so that the products of a row of X are those of whole rows.
         let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j][p] * self.inverse[p]));
-        let mut rows = self.xs;
-        for (&width, &target) in self.partners.iter().zip(self.targets) {
+        let (mut rows, mut count) = (self.xs, 0);
+        for (&width, &target) in self.widths.iter().zip(self.targets) {
+            if rows.is_empty() {
+                break;
+            }
             let (x, others) = rows.split_at(usize::from(width));
             let target = self.later[target as usize..].as_chunks_mut::<R>().0;
-            for (x, target) in x.iter().zip(target) {
-                let mut row = *target;
-                (0..W).for_each(|p| (0..R).for_each(|j| row[j] -= x[p] * scaled[p][j]));
-                *target = row;
-            }
-            rows = others;
+            x.iter().zip(target).for_each(|(x, row)| subtract(row, x, &scaled));
+            (rows, count) = (others, count + 1);
         }
-        self.targets = &self.targets[self.partners.len()..];
-        (self.xs, self.partners) = (&self.xs[R..], &self.partners[1..]);
-    }
-}
-
-impl Elimination<'_, '_> {
-    /// Eliminates columns whose partners are all R wide.
-    pub fn alike<const W: usize, const R: usize>(&mut self, columns: Range<usize>) -> Result<(), usize> {
-        let layout = self.layout;
-        for column in &layout.columns[columns] {
-            let Products { xs, inverse, targets, later, .. } = self.divide::<W>(column)?;
-            let (xs, mut targets) = (xs.as_chunks::<R>().0, targets.iter());
-            for (l, x) in xs.iter().enumerate() {
-                let scaled: [[f64; W]; R] = from_fn(|j| from_fn(|p| x[j][p] * inverse[p]));
-                for (x, target) in xs[l..].iter().zip(targets.by_ref()) {
-                    let target = later[*target as usize..].as_chunks_mut::<R>().0;
-                    if let Some(target) = target.first_chunk_mut::<R>() {
-                        *target = from_fn(|i| from_fn(|j| target[i][j] - dot(&x[i], &scaled[j])));
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Eliminates columns with partners of any width.
-    pub fn mixed<const W: usize>(&mut self, columns: Range<usize>) -> Result<(), usize> {
-        let layout = self.layout;
-        for column in &layout.columns[columns] {
-            let mut products = self.divide::<W>(column)?;
-            for partner in &layout.partners[column.partners.clone()] {
-                match partner {
-                    1 => products.subtract::<1>(),
-                    2 => products.subtract::<2>(),
-                    3 => products.subtract::<3>(),
-                    4 => products.subtract::<4>(),
-                    5 => products.subtract::<5>(),
-                    6 => products.subtract::<6>(),
-                    7 => products.subtract::<7>(),
-                    _ => products.subtract::<LARGEST>(),
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Factors the diagonal block of a column and makes X of the blocks below.
-    #[inline(always)]
-    fn divide<const W: usize>(&mut self, column: &Column) -> Result<Products<'_, W>, usize> {
-        let (own, later) = self.work[column.diagonal..].split_at_mut(column.below.end - column.diagonal);
-        let (partners, targets) =
-            (&self.layout.partners[column.partners.clone()], &self.layout.targets[column.targets..]);
-        let unknowns = column.first..column.first + W;
-        let (sizes, place) = (self.sizes[unknowns.clone()].first_chunk(), self.inverse[unknowns].first_chunk_mut());
-        let (Some((diagonal, below)), Some(sizes), Some(place)) =
-            (own.as_chunks_mut::<W>().0.split_first_chunk_mut::<W>(), sizes, place)
-        else {
-            return Ok(Products { xs: &[], partners: &[], inverse: [0.0; W], targets, later });
-        };
-        let judged = (sizes, column.sign, |p: usize| self.layout.nodes[column.first + p]);
-        let inverse = match column.is_diagonal {
-            true => inverse_of_diagonal(diagonal, judged, self.judge)?,
-            false => {
-                let inverse = factor(diagonal, judged, self.judge)?;
-                below.iter_mut().for_each(|row| *row = forward(diagonal, *row));
-                inverse
-            }
-        };
-        *place = inverse;
-        Ok(Products { xs: below, partners, inverse, targets, later })
+        count
     }
 }
 
@@ -136,136 +198,153 @@ pub(super) struct Solution<'a> {
     pub x: &'a mut [f64],
 }
 
-/// L_jj and X of a column, R rows at a time.
-type Factors<'a, const W: usize, const R: usize> = (&'a [[f64; W]; W], &'a [[[f64; W]; R]]);
-
-/// L_jj and X of a column, and the inverse of D; `None` if the column is not W wide.
-#[inline]
-fn factors<'a, const W: usize, const R: usize>(
-    column: &Column,
-    work: &'a [f64],
-    inverse: &'a [f64],
-) -> Option<(Factors<'a, W, R>, &'a [f64; W])> {
-    let rows = work[column.diagonal..column.below.end].as_chunks::<W>().0;
-    let (diagonal, below) = rows.split_first_chunk::<W>()?;
-    Some(((diagonal, below.as_chunks::<R>().0), inverse[column.first..].first_chunk::<W>()?))
-}
-
 impl Solution<'_> {
-    /// x := L^-1 x for these columns, whose partners are R wide, or of any width if R is 1.
-    pub fn forward<const W: usize, const R: usize>(&mut self, columns: Range<usize>) {
+    /// x := L^-1 x for columns whose partners are R wide; WR = W R.
+    pub fn forward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
         let Solution { layout, work, inverse, x } = self;
-        for column in &layout.columns[columns] {
-            let Some(((diagonal, below), inverse)) = factors::<W, R>(column, work, inverse) else { return };
-            let Some(place) = x[column.first..].first_chunk_mut::<W>() else { return };
-            let mine = if column.is_diagonal { *place } else { forward(diagonal, *place) };
-            *place = mine;
-            let mine: [f64; W] = from_fn(|p| mine[p] * inverse[p]);
-            for (rows, places) in below.iter().zip(layout.rows[column.rows.clone()].as_chunks::<R>().0) {
-                if let Some(x) = x[places[0] as usize..].first_chunk_mut::<R>() {
-                    *x = from_fn(|i| x[i] - dot(&rows[i], &mine));
+        let (mut work, mut partners) = (&work[run.place..], &layout.partners[run.partners.clone()]);
+        let inverses = inverse[run.first..].as_chunks::<W>().0;
+        for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate() {
+            let (own, rest) = work.split_at(W * W + count as usize * WR);
+            let (positions, others) = partners.split_at(count as usize);
+            (work, partners) = (rest, others);
+            let Some(mine) = solved_forward(run, own, inverse, (run.first + j * W, x)) else { return };
+            for (block, &position) in own[W * W..].as_chunks::<WR>().0.iter().zip(positions) {
+                if let Some(x) = at_mut::<R>(x, position as usize) {
+                    *x = from_fn(|i| (0..W).fold(x[i], |x, p| x - block[i * W + p] * mine[p]));
                 }
             }
         }
     }
 
-    /// x := L^-T D^-1 x for these columns, the last first.
-    pub fn backward<const W: usize, const R: usize>(&mut self, columns: Range<usize>) {
+    /// The same for partners of any width.
+    pub fn forward_by_rows<const W: usize>(&mut self, run: &Run) {
         let Solution { layout, work, inverse, x } = self;
-        for column in layout.columns[columns].iter().rev() {
-            let Some(((diagonal, below), inverse)) = factors::<W, R>(column, work, inverse) else { return };
-            let Some(place) = x[column.first..].first_chunk::<W>() else { return };
-            let mut mine = *place;
-            for (rows, places) in below.iter().zip(layout.rows[column.rows.clone()].as_chunks::<R>().0) {
-                if let Some(x) = x[places[0] as usize..].first_chunk::<R>() {
-                    rows.iter().zip(x).for_each(|(row, x)| mine = from_fn(|p| mine[p] - row[p] * x));
+        let (mut work, mut partners) = (&work[run.place..], Partners::of(layout, run));
+        let inverses = inverse[run.first..].as_chunks::<W>().0;
+        for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate() {
+            let own = partners.first(count as usize);
+            let (block, rest) = work.split_at(W * W + W * own.rows());
+            work = rest;
+            let Some(mine) = solved_forward(run, block, inverse, (run.first + j * W, x)) else { return };
+            for (row, position) in block[W * W..].as_chunks::<W>().0.iter().zip(own.unknowns()) {
+                x[position] = (0..W).fold(x[position], |x, p| x - row[p] * mine[p]);
+            }
+        }
+    }
+
+    /// x := L^-T D^-1 x for columns whose partners are R wide, the last first; WR = W R.
+    pub fn backward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
+        let Solution { layout, work, inverse, x } = self;
+        let (mut work, mut partners) = (&work[..run.end], &layout.partners[run.partners.clone()]);
+        let inverses = inverse[run.first..].as_chunks::<W>().0;
+        for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate().rev() {
+            let (rest, own) = work.split_at(work.len() - W * W - count as usize * WR);
+            let (others, positions) = partners.split_at(partners.len() - count as usize);
+            (work, partners) = (rest, others);
+            let mut sum = [0.0; W];
+            for (block, &position) in own[W * W..].as_chunks::<WR>().0.iter().zip(positions) {
+                if let Some(x) = at::<R>(x, position as usize) {
+                    (0..R).for_each(|i| (0..W).for_each(|p| sum[p] += block[i * W + p] * x[i]));
                 }
             }
-            mine = from_fn(|p| mine[p] * inverse[p]);
-            if !column.is_diagonal {
-                for p in (0..W).rev() {
-                    (p + 1..W).for_each(|q| mine[p] -= diagonal[q][p] * mine[q]);
-                }
+            solve_backward(run, own, (inverse, &sum), (run.first + j * W, x));
+        }
+    }
+
+    /// The same for partners of any width.
+    pub fn backward_by_rows<const W: usize>(&mut self, run: &Run) {
+        let Solution { layout, work, inverse, x } = self;
+        let (mut work, mut partners) = (&work[..run.end], Partners::of(layout, run));
+        let inverses = inverse[run.first..].as_chunks::<W>().0;
+        for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate().rev() {
+            let own = partners.last(count as usize);
+            let (rest, block) = work.split_at(work.len() - W * W - W * own.rows());
+            work = rest;
+            let mut sum = [0.0; W];
+            for (row, position) in block[W * W..].as_chunks::<W>().0.iter().zip(own.unknowns()) {
+                let x = x[position];
+                (0..W).for_each(|p| sum[p] += row[p] * x);
             }
-            if let Some(place) = x[column.first..].first_chunk_mut::<W>() {
-                *place = mine;
-            }
+            solve_backward(run, block, (inverse, &sum), (run.first + j * W, x));
         }
     }
 }
 
-/// What the pivots of a block are judged by: their sizes, their sign and their nodes.
-type Judged<'a, N, const W: usize> = (&'a [f64; W], f64, N);
+/// Positions and widths of the groups below columns.
+struct Partners<'a> {
+    positions: &'a [u32],
+    widths: &'a [u8],
+}
 
-/// L D L^T of a diagonal block in place; returns the inverse of D.
+impl<'a> Partners<'a> {
+    fn of(layout: &'a Layout, run: &Run) -> Self {
+        Partners { positions: &layout.partners[run.partners.clone()], widths: &layout.widths[run.partners.clone()] }
+    }
+
+    /// Takes the first ones off.
+    fn first(&mut self, count: usize) -> Self {
+        let (positions, widths) = (self.positions.split_at(count), self.widths.split_at(count));
+        *self = Partners { positions: positions.1, widths: widths.1 };
+        Partners { positions: positions.0, widths: widths.0 }
+    }
+
+    /// Takes the last ones off.
+    fn last(&mut self, count: usize) -> Self {
+        let at = self.positions.len() - count;
+        let (positions, widths) = (self.positions.split_at(at), self.widths.split_at(at));
+        *self = Partners { positions: positions.0, widths: widths.0 };
+        Partners { positions: positions.1, widths: widths.1 }
+    }
+
+    fn rows(&self) -> usize {
+        self.widths.iter().map(|&width| usize::from(width)).sum()
+    }
+
+    /// Positions of all of their unknowns.
+    fn unknowns(&self) -> impl Iterator<Item = usize> {
+        let groups = self.positions.iter().zip(self.widths);
+        groups.flat_map(|(&first, &width)| first as usize..first as usize + usize::from(width))
+    }
+}
+
+/// x := L_jj^-1 x for a column with its diagonal block ahead; returns D^-1 x.
 #[inline(always)]
-fn factor<N: Fn(usize) -> usize, const W: usize>(
-    block: &mut [[f64; W]; W],
-    judged: Judged<N, W>,
-    judge: &mut Judge,
-) -> Result<[f64; W], usize> {
-    let (mut own, mut inverse) = (*block, [0.0; W]);
-    for p in 0..W {
-        inverse[p] = judge.inverse(own[p][p], p, &judged)?;
-        for q in p + 1..W {
-            let factor = own[q][p] * inverse[p];
-            (p + 1..=q).for_each(|r| own[q][r] -= factor * own[r][p]);
-        }
-        (p + 1..W).for_each(|q| own[q][p] *= inverse[p]);
+fn solved_forward<const W: usize>(
+    run: &Run,
+    block: &[f64],
+    inverse: &[f64; W],
+    (first, x): (usize, &mut [f64]),
+) -> Option<[f64; W]> {
+    let (diagonal, x) = (block.as_chunks::<W>().0.first_chunk::<W>()?, at_mut::<W>(x, first)?);
+    if !run.is_diagonal {
+        forward(diagonal, x);
     }
-    *block = own;
-    Ok(inverse)
+    Some(from_fn(|p| x[p] * inverse[p]))
 }
 
+/// x := L_jj^-T D^-1 (x - sum) for a column with its diagonal block ahead.
 #[inline(always)]
-fn inverse_of_diagonal<N: Fn(usize) -> usize, const W: usize>(
-    block: &[[f64; W]; W],
-    judged: Judged<N, W>,
-    judge: &mut Judge,
-) -> Result<[f64; W], usize> {
-    let mut inverse = [0.0; W];
-    for p in 0..W {
-        inverse[p] = judge.inverse(block[p][p], p, &judged)?;
-    }
-    Ok(inverse)
-}
-
-impl Judge<'_> {
-    /// The inverse of a pivot.
-    #[inline(always)]
-    fn inverse<N: Fn(usize) -> usize, const W: usize>(
-        &mut self,
-        pivot: f64,
-        p: usize,
-        (sizes, sign, node): &Judged<N, W>,
-    ) -> Result<f64, usize> {
-        let positive = sign * pivot;
-        // Written so that a NaN is judged too.
-        match positive > self.rule.weak * sizes[p] && positive < f64::INFINITY {
-            true => Ok(1.0 / pivot),
-            false => self.judge(node(p), positive, sizes[p]),
+fn solve_backward<const W: usize>(
+    run: &Run,
+    block: &[f64],
+    (inverse, sum): (&[f64; W], &[f64; W]),
+    (first, x): (usize, &mut [f64]),
+) {
+    let diagonal = block.as_chunks::<W>().0.first_chunk::<W>();
+    let (Some(diagonal), Some(x)) = (diagonal, at_mut::<W>(x, first)) else { return };
+    *x = from_fn(|p| (x[p] - sum[p]) * inverse[p]);
+    if !run.is_diagonal {
+        for p in (0..W).rev() {
+            (p + 1..W).for_each(|q| x[p] -= diagonal[q][p] * x[q]);
         }
     }
-
-    #[cold]
-    #[inline(never)]
-    fn judge(&mut self, node: usize, pivot: f64, size: f64) -> Result<f64, usize> {
-        self.quality.judge((node, self.n), (pivot, size), self.rule, self.skipped)
-    }
 }
 
-/// L^-1 x with the unit lower triangle of a diagonal block.
-#[inline]
-fn forward<const W: usize>(block: &[[f64; W]; W], mut x: [f64; W]) -> [f64; W] {
+/// x := L^-1 x with the unit lower triangle of a diagonal block.
+#[inline(always)]
+fn forward<const W: usize>(block: &[[f64; W]; W], x: &mut [f64; W]) {
     for p in 0..W {
         (p + 1..W).for_each(|q| x[q] -= block[q][p] * x[p]);
     }
-    x
-}
-
-#[inline]
-fn dot<const W: usize>(a: &[f64; W], b: &[f64; W]) -> f64 {
-    let mut sum = a[0] * b[0];
-    (1..W).for_each(|p| sum += a[p] * b[p]);
-    sum
 }

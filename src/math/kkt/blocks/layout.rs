@@ -1,52 +1,59 @@
-//! Places of all blocks of L D L^T in one array, in the order of elimination.
+//! Places of all blocks of L D L^T in one array, in the order of elimination. Bodies have none: they come first.
 
-use super::super::Pattern;
 use super::super::order::{columns, lower_adjacency, order};
+use super::super::{Lever, Pattern};
+use super::bodies::{Bodies, Side, Sides, find};
 use super::groups::Groups;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// One group: its diagonal block, then the blocks below it, row by row.
-#[derive(Default)]
-pub struct Column {
-    /// Number of its unknowns.
-    pub width: usize,
-    /// Its unknowns among all in the order of elimination.
-    pub first: usize,
+struct Column {
+    /// Number of its unknowns, and the first of them in the order of elimination.
+    width: usize,
+    first: usize,
     /// Place of the diagonal block.
-    pub diagonal: usize,
-    /// Places of the blocks below it.
-    pub below: Range<usize>,
-    /// The groups below it, in [`Layout::partners`], and their unknowns, in [`Layout::rows`].
-    pub partners: Range<usize>,
-    pub rows: Range<usize>,
-    /// The width of all of its partners, 0 if they differ.
-    pub partner_width: usize,
-    /// Where its list in [`Layout::targets`] begins.
-    pub targets: usize,
+    diagonal: usize,
+    /// The groups below it, in [`Layout::partners`], and the number of their unknowns.
+    partners: Range<usize>,
+    rows: usize,
+    /// Where its products begin in [`Layout::targets`].
+    targets: usize,
     /// True if the diagonal block has no entry off its diagonal.
-    pub is_diagonal: bool,
-    /// 1 for coordinates, -1 for rows of G: the sign of its pivots.
-    pub sign: f64,
+    is_diagonal: bool,
+    is_coordinate: bool,
 }
 
-/// Columns in sequence that are alike.
+/// Columns in sequence that are alike; all that belongs to them stands in their order.
 pub struct Run {
     pub columns: Range<usize>,
+    pub partners: Range<usize>,
+    pub targets: Range<usize>,
+    /// Position of the first unknown.
+    pub first: usize,
+    /// Where their blocks begin and end.
+    pub place: usize,
+    pub end: usize,
     /// Number of unknowns of each, and of each of their partners, 0 if these differ.
     pub width: usize,
     pub partner_width: usize,
     pub is_early: bool,
+    pub is_diagonal: bool,
+    /// 1 for coordinates, -1 for rows of G: the sign of the pivots.
+    pub sign: f64,
 }
 
 /// The frozen structure of the factors.
 pub struct Layout {
-    pub columns: Vec<Column>,
+    pub bodies: Bodies,
+    columns: Vec<Column>,
     pub runs: Vec<Run>,
-    /// Widths of the groups below each column, and the rows before each of them.
-    pub partners: Vec<u8>,
+    /// Number of groups below each column.
+    pub counts: Vec<u32>,
+    /// Position of the first unknown of the groups below each column, their widths, and the rows before each of them.
+    pub partners: Vec<u32>,
+    pub widths: Vec<u8>,
     before: Vec<u32>,
-    /// Positions of the unknowns below each column.
-    pub rows: Vec<u32>,
     /// For each pair of partners (l, k >= l) of a column the place of block (k, l), from the end of the column.
     pub targets: Vec<u32>,
     /// Coordinate i, or n + row of G, by position in the order of elimination.
@@ -54,10 +61,14 @@ pub struct Layout {
     /// Number of columns, and of unknowns, of the early coordinates.
     pub early: usize,
     pub early_unknowns: usize,
-    /// For each entry of M and of G its place.
-    pub slots: Vec<u32>,
-    /// Position of each coordinate and row of G.
-    pub positions: Vec<u32>,
+    /// Entries of M and of G that are not of bodies, with their places.
+    pub mass_slots: Vec<(u32, u32)>,
+    pub g_slots: Vec<(u32, u32)>,
+    /// Coordinates that are not of bodies, with their positions, the positions of the late ones among them, and of each
+    /// row of G.
+    pub coordinates: Vec<(u32, u32)>,
+    pub late: Vec<u32>,
+    pub g_rows: Vec<u32>,
     /// Place of each unknown's diagonal entry.
     pub diagonals: Vec<u32>,
     /// Length of the array.
@@ -65,29 +76,48 @@ pub struct Layout {
 }
 
 impl Layout {
-    pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
+    /// For M and G with these late coordinates; `levers` are blocks of G.
+    pub fn new(mass: &Pattern, g: &Pattern, late: &[bool], levers: &[Lever]) -> Self {
         let groups = Groups::new(mass, g, late);
-        let (members, nodes) = groups.in_order(&order(mass, g, late));
+        let sides = find(mass, g, &groups);
+        let (first, others): (Vec<usize>, Vec<usize>) = groups
+            .in_order(&order(mass, g, late))
+            .into_iter()
+            .partition(|&group| sides.get(group).is_some_and(Option::is_some));
+        let nodes = [first.as_slice(), &others].concat();
+        // Bodies fill the others' columns.
         let below = columns(&lower_adjacency(&groups.mass, &groups.g, &nodes), nodes.len());
+        let below: Vec<Vec<u32>> = below[first.len()..]
+            .iter()
+            .map(|column| column.iter().map(|&k| k - first.len() as u32).collect())
+            .collect();
         let (count, n) = (groups.coordinates.len(), g.cols);
         let mut layout = Layout {
-            columns: Vec::with_capacity(nodes.len()),
+            bodies: Bodies::default(),
+            columns: Vec::with_capacity(others.len()),
             runs: Vec::new(),
+            counts: Vec::new(),
             partners: Vec::new(),
+            widths: Vec::new(),
             before: Vec::new(),
-            rows: Vec::new(),
             targets: Vec::new(),
-            nodes: Vec::with_capacity(n + g.rows),
-            early: groups.late.iter().filter(|late| !**late).count(),
+            nodes: Vec::new(),
+            early: others.iter().filter(|&&group| group < count && !groups.late[group]).count(),
             early_unknowns: 0,
-            slots: Vec::new(),
-            positions: vec![0; n + g.rows],
-            diagonals: Vec::with_capacity(n + g.rows),
+            mass_slots: Vec::new(),
+            g_slots: Vec::new(),
+            coordinates: Vec::new(),
+            late: Vec::new(),
+            g_rows: vec![0; g.rows],
+            diagonals: Vec::new(),
             len: 0,
         };
-        for &group in &nodes {
+        for &group in &others {
             let first = layout.nodes.len();
-            layout.nodes.extend(&members[group]);
+            match group < count {
+                true => layout.nodes.extend(&groups.coordinates[group]),
+                false => layout.nodes.extend(groups.rows[group - count].iter().map(|row| n + row)),
+            }
             layout.push(first, group < count, group < count && !groups.late[group]);
         }
         layout.early_unknowns = layout.columns.get(layout.early).map_or(layout.nodes.len(), |column| column.first);
@@ -95,45 +125,91 @@ impl Layout {
         for (j, below) in below.iter().enumerate() {
             layout.aim(j, below);
         }
-        layout.nodes.iter().enumerate().for_each(|(p, &node)| layout.positions[node] = p as u32);
-        layout.slots = layout.slots(mass, g);
+        for (p, &node) in layout.nodes.iter().enumerate() {
+            match node < n {
+                true => layout.coordinates.push((node as u32, p as u32)),
+                false => layout.g_rows[node - n] = p as u32,
+            }
+        }
+        let positions = layout.coordinates.iter().map(|&(_, p)| p);
+        layout.late = positions.filter(|&p| p as usize >= layout.early_unknowns).collect();
+        layout.slots(mass, g);
+        layout.add_bodies(&first, &groups, sides, levers);
         layout.runs = layout.runs();
+        let of_body = layout.of_bodies(n);
+        layout.bodies.masses =
+            mass.entries.iter().enumerate().filter(|(_, (i, _))| of_body[*i]).map(|(k, (i, _))| (k, *i)).collect();
         layout
     }
 
+    /// True for the coordinates of bodies, of n.
+    fn of_bodies(&self, n: usize) -> Vec<bool> {
+        let mut is_of_body = vec![true; n];
+        self.coordinates.iter().for_each(|&(i, _)| is_of_body[i as usize] = false);
+        is_of_body
+    }
+
+    fn add_bodies(&mut self, first: &[usize], groups: &Groups, mut sides: Vec<Option<Sides>>, levers: &[Lever]) {
+        let signs: BTreeMap<usize, f64> = levers.iter().map(|lever| (lever.first_entry, lever.sign)).collect();
+        let mut bodies = Bodies::default();
+        for &group in first {
+            let coordinates = &groups.coordinates[group];
+            let blocks = sides[group].take().unwrap_or_default().into_iter();
+            let mut blocks: Vec<Side> = blocks
+                .map(|(rows, entries)| {
+                    let rows = &groups.rows[rows];
+                    Side {
+                        entries: entries as u32,
+                        position: self.g_rows[rows[0]],
+                        rows: rows.len() as u32,
+                        sign: signs.get(&entries).copied().unwrap_or(0.0),
+                    }
+                })
+                .collect();
+            blocks.sort_by_key(|side| side.position);
+            bodies.push(coordinates[0], coordinates.len(), blocks, |row, column| self.product(row, column));
+        }
+        self.bodies = bodies;
+    }
+
+    /// Place of the block of the columns that begin at these positions, the second at or before the first.
+    fn product(&self, row: u32, column: u32) -> usize {
+        let of = |position: u32| self.columns.partition_point(|column| column.first <= position as usize) - 1;
+        match row == column {
+            true => self.columns[of(column)].diagonal,
+            false => self.block(of(row), of(column)),
+        }
+    }
+
     fn push(&mut self, first: usize, is_coordinate: bool, is_diagonal: bool) {
-        let sign = if is_coordinate { 1.0 } else { -1.0 };
         let width = self.nodes.len() - first;
-        self.columns.push(Column { width, first, sign, is_diagonal, ..Column::default() });
+        let (diagonal, partners, rows, targets) = (0, 0..0, 0, 0);
+        self.columns.push(Column { width, first, diagonal, partners, rows, targets, is_diagonal, is_coordinate });
     }
 
     /// Gives every block its place.
     fn place(&mut self, below: &[Vec<u32>]) {
         for (j, below) in below.iter().enumerate() {
-            let starts = (self.partners.len(), self.rows.len());
+            let (start, mut rows) = (self.partners.len(), 0);
             for &k in below {
                 let Column { width, first, .. } = self.columns[k as usize];
-                self.before.push((self.rows.len() - starts.1) as u32);
-                self.partners.push(width as u8);
-                self.rows.extend((first..first + width).map(|position| position as u32));
+                self.before.push(rows as u32);
+                self.partners.push(first as u32);
+                self.widths.push(width as u8);
+                rows += width;
             }
-            let column = &mut self.columns[j];
-            (column.partners, column.rows) = (starts.0..self.partners.len(), starts.1..self.rows.len());
-            let (len, end) = (self.len, self.len + column.width * column.width);
-            column.diagonal = len;
-            let widths = &self.partners[column.partners.clone()];
-            let alike = widths.first().filter(|first| widths.iter().all(|width| width == *first));
-            column.partner_width = alike.map_or(0, |&width| usize::from(width));
-            column.below = end..end + column.rows.len() * column.width;
+            self.counts.push(below.len() as u32);
+            let (column, len) = (&mut self.columns[j], self.len);
+            (column.diagonal, column.partners, column.rows) = (len, start..self.partners.len(), rows);
             self.diagonals.extend((0..column.width).map(|p| (len + p * column.width + p) as u32));
-            self.len = column.below.end;
+            self.len = column.end();
         }
     }
 
     /// Lists where the products of a column with itself go.
     fn aim(&mut self, j: usize, below: &[u32]) {
+        let end = self.columns[j].end();
         self.columns[j].targets = self.targets.len();
-        let end = self.columns[j].below.end;
         for (l, &column) in below.iter().enumerate() {
             let own = &mut self.columns[column as usize];
             own.is_diagonal &= own.width == 1;
@@ -147,22 +223,31 @@ impl Layout {
 
     /// Place of the block of column `row` below that of an earlier column.
     fn block(&self, row: usize, column: usize) -> usize {
-        let (first, column) = (self.columns[row].first, &self.columns[column]);
-        let before = &self.before[column.partners.clone()];
-        let rows = &self.rows[column.rows.clone()];
-        let partner = before.partition_point(|&before| (rows[before as usize] as usize) < first);
-        column.below.start + column.width * before.get(partner).map_or(0, |&before| before as usize)
+        let (first, column) = (self.columns[row].first as u32, &self.columns[column]);
+        let partner = self.partners[column.partners.clone()].partition_point(|&position| position < first);
+        let before = self.before[column.partners.clone()].get(partner).map_or(0, |&before| before as usize);
+        column.diagonal + column.width * (column.width + before)
     }
 
-    /// Places of the entries of M and G; marks the blocks that are not diagonal.
-    fn slots(&mut self, mass: &Pattern, g: &Pattern) -> Vec<u32> {
-        let mut places = vec![(0, 0); self.nodes.len()];
+    /// Places of the entries of M and G that are not of bodies; marks the blocks that are not diagonal.
+    fn slots(&mut self, mass: &Pattern, g: &Pattern) {
+        let n = g.cols;
+        let mut places = vec![None; n + g.rows];
         for (k, column) in self.columns.iter().enumerate() {
-            (0..column.width).for_each(|p| places[self.nodes[column.first + p]] = (k, p));
+            (0..column.width).for_each(|p| places[self.nodes[column.first + p]] = Some((k, p)));
         }
-        let entries = g.entries.iter().map(|&(row, i)| (g.cols + row, i));
-        let pairs = mass.entries.iter().copied().chain(entries);
-        pairs.map(|(a, b)| self.slot(places[a].max(places[b]), places[a].min(places[b])) as u32).collect()
+        let mut slots = |entries: &mut dyn Iterator<Item = (usize, usize)>| {
+            let mut slots = Vec::new();
+            for (entry, (a, b)) in entries.enumerate() {
+                if let (Some(a), Some(b)) = (places[a], places[b]) {
+                    slots.push((entry as u32, self.slot(a.max(b), a.min(b)) as u32));
+                }
+            }
+            slots
+        };
+        let of_mass = slots(&mut mass.entries.iter().copied());
+        let of_g = slots(&mut g.entries.iter().map(|&(row, i)| (n + row, i)));
+        (self.mass_slots, self.g_slots) = (of_mass, of_g);
     }
 
     fn slot(&mut self, (row, p): (usize, usize), (column, q): (usize, usize)) -> usize {
@@ -175,29 +260,71 @@ impl Layout {
         block + p * width + q
     }
 
-    /// Splits the columns where their widths change, and where the late ones begin.
+    /// Splits the columns where their kinds change.
     fn runs(&self) -> Vec<Run> {
         let mut runs: Vec<Run> = Vec::new();
         for (k, column) in self.columns.iter().enumerate() {
-            let (width, is_early) = (column.width, k < self.early);
-            let partner_width = if column.below.is_empty() { None } else { Some(column.partner_width) };
-            match runs.last_mut().filter(|run| run.width == width && run.is_early == is_early) {
-                Some(run) if partner_width.is_none_or(|width| width == run.partner_width) => run.columns.end = k + 1,
-                _ => {
-                    let partner_width = partner_width.unwrap_or(0);
-                    runs.push(Run { columns: k..k + 1, width, partner_width, is_early });
-                }
+            let widths = &self.widths[column.partners.clone()];
+            let alike = widths.first().filter(|first| widths.iter().all(|width| width == *first));
+            let run = Run {
+                columns: k..k + 1,
+                partners: column.partners.clone(),
+                targets: column.targets..self.columns.get(k + 1).map_or(self.targets.len(), |next| next.targets),
+                first: column.first,
+                place: column.diagonal,
+                end: column.end(),
+                width: column.width,
+                partner_width: alike.map_or(0, |&width| usize::from(width)),
+                is_early: k < self.early,
+                is_diagonal: column.is_diagonal,
+                sign: if column.is_coordinate { 1.0 } else { -1.0 },
+            };
+            match runs.last_mut().filter(|last| last.takes(&run)) {
+                Some(last) => last.extend(run),
+                None => runs.push(run),
             }
         }
         runs
     }
 
+    /// Place of the diagonal entry of the unknown at a position.
+    pub fn diagonal(&self, position: u32) -> usize {
+        self.diagonals[position as usize] as usize
+    }
+
     /// Multiplications of a factorization.
     pub fn operations(&self) -> usize {
-        let products = |column: &Column| {
-            let rows = column.below.len() / column.width;
-            column.width * rows * (rows + 1) / 2
-        };
-        self.columns.iter().map(products).sum()
+        let products = |column: &Column| column.width * column.rows * (column.rows + 1) / 2;
+        self.columns.iter().map(products).sum::<usize>() + self.bodies.operations()
+    }
+}
+
+impl Column {
+    fn end(&self) -> usize {
+        self.diagonal + self.width * (self.width + self.rows)
+    }
+}
+
+impl Run {
+    /// True if the next columns are alike; any partners suit where there are none.
+    fn takes(&self, next: &Run) -> bool {
+        let kind = |run: &Run| (run.width, run.is_early, run.is_diagonal, run.sign > 0.0);
+        let (own, other) = (self.partner_width, next.partner_width);
+        kind(self) == kind(next) && (own == other || self.partners.is_empty() || next.partners.is_empty())
+    }
+
+    /// Position of the first unknown of each column.
+    pub fn firsts(&self) -> impl Iterator<Item = usize> + use<> {
+        let (first, width) = (self.first, self.width);
+        (0..self.columns.len()).map(move |j| first + j * width)
+    }
+
+    fn extend(&mut self, next: Run) {
+        if self.partners.is_empty() {
+            self.partner_width = next.partner_width;
+        }
+        (self.columns.end, self.partners.end, self.targets.end) =
+            (next.columns.end, next.partners.end, next.targets.end);
+        self.end = next.end;
     }
 }

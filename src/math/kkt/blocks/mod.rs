@@ -9,15 +9,18 @@
 //!
 //! from the blocks right of it. For a rigid body that is the part of G M^-1 G^T that the body couples two of its joints
 //! by, for a joint one update of Gaussian elimination. Pivots are those of the scalar factorization, and are judged one
-//! by one.
+//! by one. Rigid bodies come first, without places of their own ([`bodies`]).
 
+mod bodies;
 mod groups;
 mod kernels;
 mod layout;
+mod schur;
 
 use super::pivot::{Quality, Rule};
 use kernels::{Elimination, Judge, Solution};
 pub(super) use layout::Layout;
+use schur::{Passage, Schur};
 use std::sync::Arc;
 
 /// The factors, with the memory to make them and to solve.
@@ -31,37 +34,67 @@ pub(super) struct Blocks {
     inverse: Vec<f64>,
     sizes: Vec<f64>,
     x: Vec<f64>,
+    /// Values of G, and inverses of the masses of bodies by coordinate.
+    g: Vec<f64>,
+    inverse_masses: Vec<f64>,
+    /// Values of M that these belong to; empty if some of them were judged.
+    mass: Vec<f64>,
 }
 
-/// Calls a method with the widths of a run's columns and of their partners as constants: those of usual joints (one row,
-/// hinge and sphere in the plane and in space), or another method for the other runs.
+/// Calls a method with the widths of a run's columns and of their partners as constants, and their product: those of
+/// usual joints (one row, hinge and sphere in the plane and in space), or another method for the other runs.
 macro_rules! by_widths {
-    ($run:ident, $part:ident, $alike:ident, $mixed:ident $(::<$rows:literal>)?) => {
+    ($run:ident, $part:ident, $alike:ident, $mixed:ident) => {
         match ($run.width, $run.partner_width) {
-            (1, 1) => $part.$alike::<1, 1>($run.columns.clone()),
-            (2, 2) => $part.$alike::<2, 2>($run.columns.clone()),
-            (3, 2) => $part.$alike::<3, 2>($run.columns.clone()),
-            (3, 3) => $part.$alike::<3, 3>($run.columns.clone()),
-            (5, 5) => $part.$alike::<5, 5>($run.columns.clone()),
-            (6, 3) => $part.$alike::<6, 3>($run.columns.clone()),
-            (6, 5) => $part.$alike::<6, 5>($run.columns.clone()),
-            (1, _) => $part.$mixed::<1 $(, $rows)?>($run.columns.clone()),
-            (2, _) => $part.$mixed::<2 $(, $rows)?>($run.columns.clone()),
-            (3, _) => $part.$mixed::<3 $(, $rows)?>($run.columns.clone()),
-            (4, _) => $part.$mixed::<4 $(, $rows)?>($run.columns.clone()),
-            (5, _) => $part.$mixed::<5 $(, $rows)?>($run.columns.clone()),
-            (6, _) => $part.$mixed::<6 $(, $rows)?>($run.columns.clone()),
-            (7, _) => $part.$mixed::<7 $(, $rows)?>($run.columns.clone()),
-            _ => $part.$mixed::<{ groups::LARGEST } $(, $rows)?>($run.columns.clone()),
+            (1, 1) => $part.$alike::<1, 1, 1>($run),
+            (2, 1) => $part.$alike::<2, 1, 2>($run),
+            (2, 2) => $part.$alike::<2, 2, 4>($run),
+            (3, 1) => $part.$alike::<3, 1, 3>($run),
+            (3, 2) => $part.$alike::<3, 2, 6>($run),
+            (3, 3) => $part.$alike::<3, 3, 9>($run),
+            (5, 5) => $part.$alike::<5, 5, 25>($run),
+            (6, 1) => $part.$alike::<6, 1, 6>($run),
+            (6, 3) => $part.$alike::<6, 3, 18>($run),
+            (6, 5) => $part.$alike::<6, 5, 30>($run),
+            (1, _) => $part.$mixed::<1>($run),
+            (2, _) => $part.$mixed::<2>($run),
+            (3, _) => $part.$mixed::<3>($run),
+            (4, _) => $part.$mixed::<4>($run),
+            (5, _) => $part.$mixed::<5>($run),
+            (6, _) => $part.$mixed::<6>($run),
+            (7, _) => $part.$mixed::<7>($run),
+            _ => $part.$mixed::<{ groups::LARGEST }>($run),
         }
     };
+}
+
+/// The same for bodies, whose points with all their translations in the plane and in space are levers.
+macro_rules! by_kinds {
+    ($run:ident, $part:ident, $levers:ident::<$plane:tt, $space:tt>, $alike:ident, $mixed:ident) => {
+        match ($run.are_levers, $run.width, $run.partner_width) {
+            (true, 3, 2) => by_kinds!(@ $part.$levers $plane($run)),
+            (true, 6, 3) => by_kinds!(@ $part.$levers $space($run)),
+            _ => by_widths!($run, $part, $alike, $mixed),
+        }
+    };
+    (@ $part:ident.$levers:ident [$($n:literal),*]($run:ident)) => { $part.$levers::<$($n),*>($run) };
 }
 
 impl Blocks {
     /// For M and G of the layout, with `n` coordinates.
     pub fn new(layout: Arc<Layout>, n: usize) -> Self {
         let zeros = || vec![0.0; layout.nodes.len()];
-        Blocks { n, work: vec![0.0; layout.len], inverse: zeros(), sizes: zeros(), x: zeros(), layout }
+        Blocks {
+            n,
+            work: vec![0.0; layout.len],
+            inverse: zeros(),
+            sizes: zeros(),
+            x: zeros(),
+            g: Vec::new(),
+            inverse_masses: vec![0.0; n],
+            mass: Vec::new(),
+            layout,
+        }
     }
 
     /// Factors. The pivot of an early coordinate is compared with its mass; that of a multiplier with (G M^-1 G^T)_jj,
@@ -69,21 +102,46 @@ impl Blocks {
     /// early ones subtracted from it. So units of coordinates and rows cancel. The error is the node whose pivot
     /// collapsed.
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
-        self.work.fill(0.0);
-        let (of_mass, of_g) = self.layout.slots.split_at(mass.len());
-        of_mass.iter().zip(mass).for_each(|(&slot, value)| self.work[slot as usize] += value);
-        of_g.iter().zip(g).for_each(|(&slot, value)| self.work[slot as usize] += value);
         let mut judge = Judge { n: self.n, rule, skipped, quality: Quality::GOOD };
-        for (size, &place) in self.sizes.iter_mut().zip(&self.layout.diagonals) {
-            *size = self.work[place as usize];
-        }
+        self.invert(mass, &mut judge)?;
+        self.g.clear();
+        self.g.extend_from_slice(g);
+        self.work.fill(0.0);
+        let Blocks { layout, work, sizes, .. } = self;
+        layout.mass_slots.iter().for_each(|&(entry, slot)| work[slot as usize] += mass[entry as usize]);
+        layout.g_slots.iter().for_each(|&(entry, slot)| work[slot as usize] += g[entry as usize]);
+        layout.coordinates.iter().for_each(|&(_, p)| sizes[p as usize] = work[layout.diagonal(p)]);
+        self.reduce();
         self.eliminate(true, &mut judge)?;
-        for p in self.layout.early_unknowns..self.sizes.len() {
-            let value = self.work[self.layout.diagonals[p] as usize];
-            self.sizes[p] = if self.layout.nodes[p] < self.n { self.sizes[p] - value } else { -value };
-        }
+        let Blocks { layout, work, sizes, .. } = self;
+        layout.late.iter().for_each(|&p| sizes[p as usize] -= work[layout.diagonal(p)]);
+        layout.g_rows.iter().for_each(|&p| sizes[p as usize] = -work[layout.diagonal(p)]);
         self.eliminate(false, &mut judge)?;
         Ok(judge.quality)
+    }
+
+    /// The inverse masses of bodies, unless they are known.
+    fn invert(&mut self, mass: &[f64], judge: &mut Judge) -> Result<(), usize> {
+        if self.mass == mass {
+            return Ok(());
+        }
+        self.mass.clear();
+        for &(entry, i) in &self.layout.bodies.masses {
+            self.inverse_masses[i] = judge.inverse(mass[entry], (mass[entry], 1.0), || i)?;
+        }
+        if !judge.quality.weak && !judge.quality.replaced {
+            self.mass.extend_from_slice(mass);
+        }
+        Ok(())
+    }
+
+    /// S -= G M^-1 G^T of bodies.
+    fn reduce(&mut self) {
+        let Blocks { layout, work, g, inverse_masses, .. } = self;
+        let mut part = Schur { bodies: &layout.bodies, g, inverse: inverse_masses, work };
+        for run in &layout.bodies.runs {
+            by_kinds!(run, part, levers::<[2, 1, 3, 6, 4], [3, 3, 6, 18, 9]>, alike, mixed);
+        }
     }
 
     /// Eliminates the early columns, or the others.
@@ -98,36 +156,72 @@ impl Blocks {
 
     /// Solves in place; dropped multipliers are zero. 2 multiplications for each entry of L.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
-        let Blocks { layout, work, inverse, x, .. } = self;
-        let (of_top, of_bottom) = layout.positions.split_at(self.n);
-        of_top.iter().zip(&*top).for_each(|(&p, value)| x[p as usize] = *value);
-        of_bottom.iter().zip(&*bottom).for_each(|(&p, value)| x[p as usize] = *value);
+        let Blocks { layout, work, inverse, x, g, inverse_masses, .. } = self;
+        layout.coordinates.iter().for_each(|&(i, p)| x[p as usize] = top[i as usize]);
+        layout.g_rows.iter().zip(&*bottom).for_each(|(&p, value)| x[p as usize] = *value);
+        let mut bodies = Passage { bodies: &layout.bodies, g, inverse: inverse_masses, top, x };
+        for run in &layout.bodies.runs {
+            by_kinds!(run, bodies, forward_levers::<[2, 1, 3, 6], [3, 3, 6, 18]>, forward, forward_by_rows);
+        }
         let mut part = Solution { layout, work, inverse, x };
         for run in &layout.runs {
-            by_widths!(run, part, forward, forward::<1>);
+            by_widths!(run, part, forward, forward_by_rows);
         }
         for run in layout.runs.iter().rev() {
-            by_widths!(run, part, backward, backward::<1>);
+            by_widths!(run, part, backward, backward_by_rows);
         }
-        of_top.iter().zip(top).for_each(|(&p, value)| *value = self.x[p as usize]);
-        of_bottom.iter().zip(bottom).for_each(|(&p, value)| *value = self.x[p as usize]);
+        let mut bodies = Passage { bodies: &layout.bodies, g, inverse: inverse_masses, top, x };
+        for run in &layout.bodies.runs {
+            by_kinds!(run, bodies, backward_levers::<[2, 1, 3, 6], [3, 3, 6, 18]>, backward, backward_by_rows);
+        }
+        layout.coordinates.iter().for_each(|&(i, p)| top[i as usize] = x[p as usize]);
+        layout.g_rows.iter().zip(bottom).for_each(|(&p, value)| *value = x[p as usize]);
     }
 
     /// The smallest ratio above `collapsed` of a pivot to its size before elimination, and the number of multipliers
-    /// not above it.
+    /// not above it. Within a joint as if the largest ratio came first, so that the order of its rows does not matter.
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         let mut found = (1.0, 0);
-        for (p, &place) in self.layout.diagonals.iter().enumerate() {
-            let is_coordinate = self.layout.nodes[p] < self.n;
-            let pivot = if is_coordinate { self.work[place as usize] } else { -self.work[place as usize] };
-            let is_late = is_coordinate && p >= self.layout.early_unknowns;
-            let ratio: f64 = pivot / if is_late { self.sizes[p] + pivot } else { self.sizes[p] };
-            // Written so that the NaN of a row of zeros has collapsed.
-            match ratio > collapsed {
-                true => found.0 = ratio.min(found.0),
-                false => found.1 += usize::from(!is_coordinate),
+        for (run, first) in self.layout.runs.iter().flat_map(|run| run.firsts().map(move |first| (run, first))) {
+            let (positions, is_row) = (first..first + run.width, run.sign < 0.0);
+            let mut ratios = [1.0; groups::LARGEST];
+            for (ratio, p) in ratios.iter_mut().zip(positions) {
+                let pivot = run.sign * self.work[self.layout.diagonal(p as u32)];
+                *ratio = pivot / if is_row || run.is_early { self.sizes[p] } else { self.sizes[p] + pivot };
             }
+            let ratios = &mut ratios[..run.width];
+            // Written so that the NaN of a row of zeros has collapsed.
+            let lost = ratios.iter().filter(|ratio| !(**ratio > collapsed)).count();
+            if is_row && lost == 0 && run.width > 1 {
+                self.pivoted(first, ratios);
+            }
+            found.0 = ratios.iter().filter(|ratio| **ratio > collapsed).fold(found.0, |least: f64, x| least.min(*x));
+            found.1 += if is_row { lost } else { 0 };
         }
         found
+    }
+
+    /// The ratios of a joint's pivots with the largest first, by those without, from L_jj D L_jj^T.
+    fn pivoted(&self, first: usize, ratios: &mut [f64]) {
+        let (width, place) = (ratios.len(), self.layout.diagonal(first as u32));
+        let l = |i: usize, p: usize| if i == p { 1.0 } else { self.work[place + i * width + p] };
+        let pivot = |p: usize| -self.work[place + p * (width + 1)];
+        let mut block = [[0.0; groups::LARGEST]; groups::LARGEST];
+        for (i, j) in (0..width).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+            let sum: f64 = (0..=j).map(|p| l(i, p) * pivot(p) * l(j, p)).sum();
+            block[i][j] = sum / (self.sizes[first + i] * self.sizes[first + j]).sqrt();
+            block[j][i] = block[i][j];
+        }
+        let mut is_left = [true; groups::LARGEST];
+        for ratio in ratios.iter_mut() {
+            let left = (0..width).filter(|&i| is_left[i]);
+            let Some(next) = left.max_by(|&i, &j| block[i][i].total_cmp(&block[j][j])) else { return };
+            is_left[next] = false;
+            *ratio = block[next][next];
+            let row = block[next];
+            for i in (0..width).filter(|&i| is_left[i]) {
+                (0..width).for_each(|j| block[i][j] -= row[i] * row[j] / *ratio);
+            }
+        }
     }
 }

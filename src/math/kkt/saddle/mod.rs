@@ -9,6 +9,7 @@ use super::rank_revealing::NullSpace;
 use super::redundant_rows::{Alike, Kept, RedundantRowSolve};
 use super::system::{System, add};
 use super::{Analysis, Pattern, Singular};
+use crate::math::all_finite;
 use crate::tolerances::math as tolerances;
 use orders::Orders;
 use std::sync::Arc;
@@ -305,5 +306,5 @@ fn refine(
 }
 
 fn finite(top: &[f64], bottom: &[f64]) -> Result<(), Singular> {
-    if top.iter().chain(bottom).all(|v| v.is_finite()) { Ok(()) } else { Err(Singular::NotFinite) }
+    if all_finite(top) && all_finite(bottom) { Ok(()) } else { Err(Singular::NotFinite) }
 }

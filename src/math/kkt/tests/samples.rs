@@ -1,6 +1,6 @@
 //! Systems for tests, and dense oracles.
 
-use crate::math::kkt::Pattern;
+use crate::math::kkt::{Lever, Pattern};
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
@@ -50,6 +50,36 @@ impl Sample {
         }
         let mass_values = (0..3 * bodies).map(|_| 1.5 + random.next()).collect();
         Sample { mass: Pattern::diagonal(3 * bodies), mass_values, g, g_values }
+    }
+
+    /// Bodies of a dimension with the points that join them (0 is the ground), as whole blocks [s I | a] of G, and rods
+    /// of one row between the first bodies; also the blocks that are levers.
+    pub fn points(
+        dimension: usize,
+        bodies: usize,
+        joints: &[(usize, usize)],
+        rods: usize,
+        random: &mut Random,
+    ) -> (Self, Vec<Lever>) {
+        let width = dimension * (dimension + 1) / 2;
+        let n = width * bodies;
+        let (mut g, mut g_values, mut levers) = (Pattern { rows: 0, cols: n, entries: vec![] }, vec![], vec![]);
+        let pairs = joints.iter().map(|&pair| (pair, dimension)).chain((1..=rods).map(|k| ((k, k + 1), 1)));
+        for ((a, b), rows) in pairs {
+            for (body, sign) in [(a, -1.0), (b, 1.0)].into_iter().filter(|(body, _)| *body > 0) {
+                if rows > 1 {
+                    levers.push(Lever { first_entry: g.entries.len(), sign });
+                }
+                for (row, i) in (0..rows).flat_map(|row| (0..width).map(move |i| (row, i))) {
+                    g.entries.push((g.rows + row, width * (body - 1) + i));
+                    let translation = if i == row { sign } else { 0.0 };
+                    g_values.push(if rows > 1 && i < dimension { translation } else { random.next() });
+                }
+            }
+            g.rows += rows;
+        }
+        let mass_values = (0..n).map(|_| 1.5 + random.next()).collect();
+        (Sample { mass: Pattern::diagonal(n), mass_values, g, g_values }, levers)
     }
 
     /// Seven bodies and ten joints in three loops, one degree of freedom (Andrews' mechanism): n = 21, m = 20.

@@ -1,0 +1,225 @@
+//! The arithmetic of bodies, W coordinates wide: S -= G M^-1 G^T, and both ways through G.
+
+use super::bodies::{Bodies, Run, Side};
+use super::groups::LARGEST;
+use super::kernels::{at, at_mut, subtract};
+use std::array::from_fn;
+
+/// The Schur complement as it is made.
+pub(super) struct Schur<'a> {
+    pub bodies: &'a Bodies,
+    /// Values of G, and the inverse masses by coordinate.
+    pub g: &'a [f64],
+    pub inverse: &'a [f64],
+    /// The matrix of the unknowns that are left.
+    pub work: &'a mut [f64],
+}
+
+impl Schur<'_> {
+    /// Subtracts the products of blocks [s I | a], s = 1 or -1, of T rows for T translations and K rotations:
+    ///
+    /// ```text
+    /// [s_k I | a_k] M^-1 [s_l I | a_l]^T = s_k s_l / m + a_k J^-1 a_l^T
+    /// ```
+    ///
+    /// W = T + K, TW = T W, TT = T T.
+    pub fn levers<const T: usize, const K: usize, const W: usize, const TW: usize, const TT: usize>(
+        &mut self,
+        run: &Run,
+    ) {
+        let Schur { bodies, g, inverse, work } = self;
+        let (mut rest, mut targets) = (&bodies.sides[run.sides.clone()], bodies.targets[run.targets.clone()].iter());
+        for body in &bodies.all[run.bodies.clone()] {
+            let Some(inverse) = at::<W>(inverse, body.first as usize) else { return };
+            let (sides, others) = rest.split_at(body.sides as usize);
+            rest = others;
+            for (l, side) in sides.iter().enumerate() {
+                let Some(x) = at::<TW>(g, side.entries as usize) else { return };
+                let scaled: [[f64; T]; K] = from_fn(|p| from_fn(|j| x[j * W + T + p] * inverse[T + p]));
+                let identity: [f64; T] = from_fn(|i| side.sign * inverse[i]);
+                for (side, &target) in sides[l..].iter().zip(targets.by_ref()) {
+                    let x = at::<TW>(g, side.entries as usize);
+                    let (Some(x), Some(target)) = (x, at_mut::<TT>(work, target as usize)) else { return };
+                    for i in 0..T {
+                        let mut row: [f64; T] = from_fn(|j| target[i * T + j]);
+                        row[i] -= side.sign * identity[i];
+                        for p in 0..K {
+                            (0..T).for_each(|j| row[j] -= x[i * W + T + p] * scaled[p][j]);
+                        }
+                        (0..T).for_each(|j| target[i * T + j] = row[j]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Subtracts the products of bodies whose blocks have all R rows; WR = W R.
+    pub fn alike<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
+        let Schur { bodies, g, inverse, work } = self;
+        let (mut rest, mut targets) = (&bodies.sides[run.sides.clone()], bodies.targets[run.targets.clone()].iter());
+        for body in &bodies.all[run.bodies.clone()] {
+            let Some(inverse) = at::<W>(inverse, body.first as usize) else { return };
+            let (sides, others) = rest.split_at(body.sides as usize);
+            rest = others;
+            for (l, side) in sides.iter().enumerate() {
+                let Some(x) = at::<WR>(g, side.entries as usize) else { return };
+                let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j * W + p] * inverse[p]));
+                for (side, &target) in sides[l..].iter().zip(targets.by_ref()) {
+                    let Some(x) = at::<WR>(g, side.entries as usize) else { return };
+                    for i in 0..R {
+                        if let Some(row) = at_mut::<R>(work, target as usize + i * R) {
+                            subtract(row, &from_fn(|p| x[i * W + p]), &scaled);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Subtracts the products of bodies with blocks of any number of rows.
+    pub fn mixed<const W: usize>(&mut self, run: &Run) {
+        let bodies = self.bodies;
+        let (mut rest, mut targets) = (&bodies.sides[run.sides.clone()], &bodies.targets[run.targets.clone()]);
+        for body in &bodies.all[run.bodies.clone()] {
+            let Some(inverse) = at::<W>(self.inverse, body.first as usize) else { return };
+            let (sides, others) = rest.split_at(body.sides as usize);
+            rest = others;
+            for (l, side) in sides.iter().enumerate() {
+                let (now, later) = targets.split_at(sides.len() - l);
+                let part = (inverse, &sides[l..], now);
+                match side.rows {
+                    1 => self.column::<W, 1>(part),
+                    2 => self.column::<W, 2>(part),
+                    3 => self.column::<W, 3>(part),
+                    4 => self.column::<W, 4>(part),
+                    5 => self.column::<W, 5>(part),
+                    6 => self.column::<W, 6>(part),
+                    7 => self.column::<W, 7>(part),
+                    _ => self.column::<W, LARGEST>(part),
+                }
+                targets = later;
+            }
+        }
+    }
+
+    /// Subtracts the products of the first block, with R rows, and all.
+    #[inline]
+    fn column<const W: usize, const R: usize>(&mut self, (inverse, sides, targets): (&[f64; W], &[Side], &[u32])) {
+        let Some(x) = block::<W>(self.g, &sides[0]).first_chunk::<R>() else { return };
+        let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j][p] * inverse[p]));
+        for (side, &target) in sides.iter().zip(targets) {
+            let target = self.work[target as usize..].as_chunks_mut::<R>().0;
+            block::<W>(self.g, side).iter().zip(target).for_each(|(x, row)| subtract(row, x, &scaled));
+        }
+    }
+}
+
+/// A block of G, row by row.
+#[inline]
+fn block<'a, const W: usize>(g: &'a [f64], side: &Side) -> &'a [[f64; W]] {
+    g[side.entries as usize..][..side.rows as usize * W].as_chunks::<W>().0
+}
+
+/// A right side as it is solved for.
+pub(super) struct Passage<'a> {
+    pub bodies: &'a Bodies,
+    pub g: &'a [f64],
+    pub inverse: &'a [f64],
+    /// Right sides of the coordinates, then M^-1 times them, then the solution.
+    pub top: &'a mut [f64],
+    /// Those of the unknowns that are left.
+    pub x: &'a mut [f64],
+}
+
+impl Passage<'_> {
+    /// top := M^-1 top and x -= G top. `subtract` does the second for a block and the part of top of its body.
+    #[inline(always)]
+    fn forward_by<const W: usize>(&mut self, run: &Run, subtract: impl Fn(&Side, &[f64], &[f64; W], &mut [f64])) {
+        let Passage { bodies, g, inverse, top, x } = self;
+        let mut rest = &bodies.sides[run.sides.clone()];
+        for body in &bodies.all[run.bodies.clone()] {
+            let first = body.first as usize;
+            let (Some(inverse), Some(top)) = (at::<W>(inverse, first), at_mut::<W>(top, first)) else { return };
+            *top = from_fn(|p| top[p] * inverse[p]);
+            let (sides, others) = rest.split_at(body.sides as usize);
+            rest = others;
+            sides.iter().for_each(|side| subtract(side, g, top, x));
+        }
+    }
+
+    /// top -= M^-1 G^T x. `add` adds the part of G^T x of a block.
+    #[inline(always)]
+    fn backward_by<const W: usize>(&mut self, run: &Run, add: impl Fn(&Side, &[f64], &mut [f64; W], &[f64])) {
+        let Passage { bodies, g, inverse, top, x } = self;
+        let mut rest = &bodies.sides[run.sides.clone()];
+        for body in &bodies.all[run.bodies.clone()] {
+            let first = body.first as usize;
+            let (Some(inverse), Some(top)) = (at::<W>(inverse, first), at_mut::<W>(top, first)) else { return };
+            let (sides, others) = rest.split_at(body.sides as usize);
+            rest = others;
+            let mut sum = [0.0; W];
+            sides.iter().for_each(|side| add(side, g, &mut sum, x));
+            *top = from_fn(|p| top[p] - sum[p] * inverse[p]);
+        }
+    }
+
+    /// Forwards through blocks [s I | a].
+    pub fn forward_levers<const T: usize, const K: usize, const W: usize, const TW: usize>(&mut self, run: &Run) {
+        self.forward_by::<W>(run, |side, g, mine, x| {
+            let block = at::<TW>(g, side.entries as usize);
+            let (Some(block), Some(x)) = (block, at_mut::<T>(x, side.position as usize)) else { return };
+            for i in 0..T {
+                let start = x[i] - side.sign * mine[i];
+                x[i] = (0..K).fold(start, |x, p| x - block[i * W + T + p] * mine[T + p]);
+            }
+        });
+    }
+
+    /// Backwards through blocks [s I | a].
+    pub fn backward_levers<const T: usize, const K: usize, const W: usize, const TW: usize>(&mut self, run: &Run) {
+        self.backward_by::<W>(run, |side, g, sum, x| {
+            let block = at::<TW>(g, side.entries as usize);
+            let (Some(block), Some(x)) = (block, at::<T>(x, side.position as usize)) else { return };
+            for i in 0..T {
+                sum[i] += side.sign * x[i];
+                (0..K).for_each(|p| sum[T + p] += block[i * W + T + p] * x[i]);
+            }
+        });
+    }
+
+    /// Forwards through blocks of R rows; WR = W R.
+    pub fn forward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
+        self.forward_by::<W>(run, |side, g, mine, x| {
+            let block = at::<WR>(g, side.entries as usize);
+            let (Some(block), Some(x)) = (block, at_mut::<R>(x, side.position as usize)) else { return };
+            *x = from_fn(|i| (0..W).fold(x[i], |x, p| x - block[i * W + p] * mine[p]));
+        });
+    }
+
+    /// Backwards through blocks of R rows; WR = W R.
+    pub fn backward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
+        self.backward_by::<W>(run, |side, g, sum, x| {
+            let block = at::<WR>(g, side.entries as usize);
+            let (Some(block), Some(x)) = (block, at::<R>(x, side.position as usize)) else { return };
+            (0..R).for_each(|i| (0..W).for_each(|p| sum[p] += block[i * W + p] * x[i]));
+        });
+    }
+
+    /// Forwards through blocks of any number of rows.
+    pub fn forward_by_rows<const W: usize>(&mut self, run: &Run) {
+        self.forward_by::<W>(run, |side, g, mine, x| {
+            for (row, x) in block::<W>(g, side).iter().zip(&mut x[side.position as usize..]) {
+                *x = (0..W).fold(*x, |x, p| x - row[p] * mine[p]);
+            }
+        });
+    }
+
+    /// Backwards through blocks of any number of rows.
+    pub fn backward_by_rows<const W: usize>(&mut self, run: &Run) {
+        self.backward_by::<W>(run, |side, g, sum, x| {
+            for (row, x) in block::<W>(g, side).iter().zip(&x[side.position as usize..]) {
+                (0..W).for_each(|p| sum[p] += row[p] * x);
+            }
+        });
+    }
+}
