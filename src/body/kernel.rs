@@ -119,10 +119,8 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
         BodyKernel::own_forces(self, q, v, gravity, f);
     }
     fn tangent_pattern(&self) -> Vec<(usize, usize)> {
-        let n = BodyKernel::velocity_names(self).len();
-        (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).collect()
+        if BodyKernel::has_constant_forces(self) { Vec::new() } else { BodyKernel::tangent_pattern(self) }
     }
-
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
         if !BodyKernel::has_constant_forces(self) {
             BodyKernel::tangent(self, at, k, c);

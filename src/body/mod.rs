@@ -157,7 +157,14 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// f += weight and velocity-dependent inertia forces; `gravity` in m/s^2.
     fn own_forces<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]);
 
-    /// See [`Body::tangent`]; not called where the own forces are constant. Default: own forces over dual numbers.
+    /// See [`Body::tangent_pattern`]; not called where the own forces are constant. Default: all, row by row.
+    fn tangent_pattern(&self) -> Vec<(usize, usize)> {
+        let n = self.velocity_names().len();
+        (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).collect()
+    }
+
+    /// See [`Body::tangent`]; not called where the own forces are constant. Default: own forces over dual numbers, for
+    /// the default places.
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64])
     where
         Self: Sized,

@@ -84,13 +84,17 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
         f[3..].iter_mut().zip(gyroscopic).for_each(|(f, g)| *f -= g);
     }
     /// C = d(w x J w)/dw
+    /// C of the rotations.
+    fn tangent_pattern(&self) -> Vec<(usize, usize)> {
+        (3..6).flat_map(|i| (3..6).map(move |j| (i, j))).collect()
+    }
     fn tangent(&self, at: BodyState<D>, _k: &mut [f64], c: &mut [f64]) {
         let w = [at.v[3], at.v[4], at.v[5]];
         let momentum = self.angular_momentum(&w);
         for j in 0..3 {
             let unit: [f64; 3] = from_fn(|i| f64::from(u8::from(i == j)));
             let (turned, changed) = (cross(&unit, &momentum), cross(&w, &self.angular_momentum(&unit)));
-            (0..3).for_each(|i| c[6 * (3 + i) + 3 + j] += turned[i] + changed[i]);
+            (0..3).for_each(|i| c[3 * i + j] += turned[i] + changed[i]);
         }
     }
     fn energy<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {

@@ -1,8 +1,10 @@
 //! Places of the entries of K and C: a block for each body, and one for each pair of bodies that an element joins.
 
+use super::evaluate::RigidParts;
 use super::support::Support;
+use crate::joint::Joint;
 use crate::math::kkt::Pattern;
-use crate::scene::Model;
+use crate::scene::{Connection, Model};
 use std::ops::Range;
 
 /// Places of the blocks of all bodies, joints and forces.
@@ -41,7 +43,12 @@ pub(super) struct Block {
 }
 
 impl Couplings {
-    pub fn new<const D: usize>(model: &Model<D>, supports: &[Support], pattern: &mut Pattern) -> Self {
+    pub fn new<const D: usize>(
+        model: &Model<D>,
+        supports: &[Support],
+        rigid: &RigidParts<D>,
+        pattern: &mut Pattern,
+    ) -> Self {
         let own = |part: &crate::scene::Part<D>| {
             let first = pattern.entries.len();
             let places = part.body.tangent_pattern().into_iter();
@@ -49,21 +56,30 @@ impl Couplings {
             first..pattern.entries.len()
         };
         let bodies = model.bodies.iter().map(own).collect();
-        let mut coupling = |markers: &[usize]| Coupling::new(markers, supports, pattern);
-        let joints = model.joints.iter().map(|joint| coupling(&joint.markers)).collect();
-        let forces = model.forces.iter().map(|force| coupling(&force.markers)).collect();
+        let mut coupling = |carriers: Vec<Carrier>, is_joined: bool| Coupling::new(carriers, is_joined, pattern);
+        let joint = |(i, joint): (usize, &Connection<Box<dyn Joint<D>>>)| {
+            let mut carriers = Carrier::all(&joint.markers, supports);
+            let Some(lock) = rigid.lock(model, i) else { return coupling(carriers, true) };
+            if lock.changes_with_rotations() {
+                carriers.iter_mut().for_each(|carrier| carrier.keep_rotations(rigid));
+            }
+            coupling(carriers, lock.couples_bodies())
+        };
+        let joints = model.joints.iter().enumerate().map(joint).collect();
+        let forces = model.forces.iter().map(|force| coupling(Carrier::all(&force.markers, supports), true)).collect();
         Couplings { bodies, joints, forces }
     }
 }
 
 impl Coupling {
-    fn new(markers: &[usize], supports: &[Support], pattern: &mut Pattern) -> Self {
-        let carriers = Carrier::all(markers, supports);
+    /// The blocks of these bodies; of each with itself alone unless they are joined.
+    fn new(carriers: Vec<Carrier>, is_joined: bool, pattern: &mut Pattern) -> Self {
         let mut blocks = Vec::new();
         for column in &carriers {
             for row in &carriers {
                 blocks.push(Block { first_entry: pattern.entries.len(), width: column.velocities.len() });
-                let places = row.velocities.iter().flat_map(|&i| column.velocities.iter().map(move |&j| (i, j)));
+                let rows = if is_joined || row.body == column.body { &row.velocities[..] } else { &[] };
+                let places = rows.iter().flat_map(|&i| column.velocities.iter().map(move |&j| (i, j)));
                 pattern.entries.extend(places);
             }
         }
@@ -84,6 +100,12 @@ impl Carrier {
         bodies.sort_unstable();
         bodies.dedup();
         bodies.into_iter().map(|body| Carrier::new(body, markers, supports)).collect()
+    }
+
+    /// Leaves the translations of a rigid body out, which come first.
+    fn keep_rotations<const D: usize>(&mut self, rigid: &RigidParts<D>) {
+        let translations = rigid.freedoms[self.body].as_ref().map_or(0, |freedom| freedom.translations.len());
+        self.velocities.drain(..translations);
     }
 
     fn new(body: usize, markers: &[usize], supports: &[Support]) -> Self {

@@ -70,6 +70,12 @@ impl<const D: usize> RigidParts<D> {
         }
         parts
     }
+
+    /// What a joint locks, if that is all it does and its bodies are rigid.
+    pub fn lock(&self, model: &Model<D>, joint: usize) -> Option<&Lock<D>> {
+        let mut bodies = model.joints[joint].markers.iter().filter_map(|&marker| model.markers.bodies[marker]);
+        self.locks[joint].as_ref().filter(|_| bodies.all(|body| self.freedoms[body].is_some()))
+    }
 }
 
 impl<const D: usize> Mechanism<D> {

@@ -60,12 +60,27 @@ pub(super) fn write_rates<const D: usize>(
     }
 }
 
+impl<const D: usize> Lock<D> {
+    /// True if rotations alone change the forces of its multipliers, as those along axes of the world: the blocks of
+    /// K are then those of the rotations.
+    pub(super) fn changes_with_rotations(&self) -> bool {
+        [0, D].contains(&self.translation.len())
+    }
+
+    /// True if motions of one body change the forces on the other.
+    pub(super) fn couples_bodies(&self) -> bool {
+        !self.changes_with_rotations() || D == 3 && !self.rotation.is_empty()
+    }
+}
+
 /// The two bodies of a joint, with what K = d(G^T lambda)/dq is added to.
 pub(super) struct Stiffness<'a, const D: usize> {
     /// The bodies of markers A and B; none: the ground.
     pub solids: [Option<Solid<D>>; 2],
     /// The blocks of K, `blocks[row][column]`.
     pub blocks: [[Option<&'a Block>; 2]; 2],
+    /// True if these are blocks of the rotations alone.
+    pub are_rotations: bool,
     pub k: &'a mut [f64],
 }
 
@@ -133,6 +148,7 @@ impl<const D: usize> Stiffness<'_, D> {
         for (k, i) in left.rotations() {
             let along = if D == 2 { 0.0 } else { left.along(k, p) };
             for (l, j) in right.rotations() {
+                let [i, j] = if self.are_rotations { [k, l] } else { [i, j] };
                 let place = &mut self.k[block.first_entry + i * block.width + j];
                 *place += match D {
                     2 => alpha,

@@ -68,7 +68,7 @@ impl<const D: usize> Mechanism<D> {
             Dimensions { q: q + model.turnings.len(), v, lambda: g.rows, nonholonomic: 0, states: model.states };
         let length = length_scale(&model);
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
-        let couplings = Couplings::new(&model, &supports, &mut tangent);
+        let couplings = Couplings::new(&model, &supports, &rigid, &mut tangent);
         let analysis = Arc::new(Analysis::with(rigid.joints.iter().flat_map(RigidJoint::levers).collect()));
         let structure = Structure { analysis, ..Structure::new(mass, g, tangent) };
         let (limited, extents) = limits(&model);

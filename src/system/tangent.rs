@@ -68,10 +68,11 @@ impl<const D: usize> Evaluation<'_, D> {
             };
             part.body.tangent(own, &mut self.tangent.k[places.clone()], &mut self.tangent.c[places.clone()]);
         }
-        let joints = mechanism.model().joints.iter().zip(&mechanism.joints).zip(&mechanism.rigid.locks);
-        for (((joint, rows), lock), coupling) in joints.zip(&couplings.joints) {
+        let joints = mechanism.model().joints.iter().zip(&mechanism.joints).zip(&couplings.joints);
+        for (i, ((joint, rows), coupling)) in joints.enumerate() {
             let lambda = &self.at.lambda[rows.range()];
-            if lock.as_ref().is_some_and(|lock| self.locked(lock, coupling, &joint.markers, lambda)) {
+            if let Some(lock) = mechanism.rigid.lock(mechanism.model(), i) {
+                self.locked(lock, coupling, &joint.markers, lambda);
                 continue;
             }
             let reaction = |frames: &Frames<D>, out: &mut [Wrench<Dual6, D>]| {
@@ -93,22 +94,19 @@ impl<const D: usize> Evaluation<'_, D> {
         }
     }
 
-    /// K of a joint in closed form; returns false where a body of its deforms.
-    fn locked(&mut self, lock: &Lock<D>, coupling: &Coupling, markers: &[usize], lambda: &[f64]) -> bool {
+    /// K of a joint between rigid bodies, in closed form.
+    fn locked(&mut self, lock: &Lock<D>, coupling: &Coupling, markers: &[usize], lambda: &[f64]) {
         let (model, motion) = (self.mechanism.model(), &self.work.motion);
         let [a, b] = [markers[0], markers[1]].map(|marker| model.markers.bodies[marker]);
         let solid = |body: Option<usize>| body.and_then(|body| self.mechanism.solid(body, motion));
         let solids = [solid(a), solid(b)];
-        if solids[0].is_some() != a.is_some() || solids[1].is_some() != b.is_some() {
-            return false;
-        }
         let number = |body: Option<usize>| coupling.carriers.iter().position(|carrier| Some(carrier.body) == body);
         let numbers = [number(a), number(b)];
         let block = |row: usize, column: usize| Some(&coupling.column(numbers[column]?)[numbers[row]?]);
         let blocks = [[block(0, 0), block(0, 1)], [block(1, 0), block(1, 1)]];
         let frames = [&motion[markers[0]], &motion[markers[1]]];
-        Stiffness { solids, blocks, k: &mut self.tangent.k }.add(lock, frames, lambda);
-        true
+        let are_rotations = lock.changes_with_rotations();
+        Stiffness { solids, blocks, are_rotations, k: &mut self.tangent.k }.add(lock, frames, lambda);
     }
 
     /// The wrenches of one element, differentiated with respect to one of its bodies after the other.

@@ -88,7 +88,10 @@ fn locked_joints<const D: usize>(closed: Model<D>, mut generic: Model<D>) {
         mechanism.evaluate(0.0, q, v, Need::L, &mut terms, &mut scratch);
         let mut gdd = terms.l.clone();
         mechanism.acceleration_gradient(at, &mut gdd, &mut scratch);
-        (tangent.k, terms.l, gdd)
+        let mut k = vec![0.0; n.v * n.v];
+        let places = &mechanism.structure().tangent.entries;
+        places.iter().zip(&tangent.k).for_each(|(&(i, j), value)| k[i * n.v + j] += value);
+        (k, terms.l, gdd)
     });
     let [(k, l, gdd), (other_k, other_l, other_gdd)] = &values;
     agree(k, other_k, "K");
