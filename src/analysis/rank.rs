@@ -56,7 +56,10 @@ impl Rank {
             true => (all, Dependence { rank: all, rows: Vec::new() }),
             false => (all - dependent_nearby(system, t, q).len(), dependent_rows(&structure.g, &terms.g, RANK)),
         };
-        let (groups, names) = (system.groups(), system.names().lambda);
+        let (groups, names) = match rows.is_empty() {
+            true => (Vec::new(), Vec::new()),
+            false => (system.groups(), system.names().lambda),
+        };
         let redundant = dependence.rows.iter().map(|row| {
             let others = row.combination.iter().map(|(other, _)| owner(&groups, *other));
             redundant(&names[row.row], owner(&groups, row.row), others)

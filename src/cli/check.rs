@@ -36,7 +36,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         Err(error) if error.exit_code() == 1 => Some(error),
         Err(error) => return Err(error.in_file(&args.common.scene.path)),
     };
-    let hints = hints(&args.common.scene.path, &args.common.overrides(), registry());
+    let hints = hints(prepared, &args.common.scene.path, &args.common.overrides(), registry());
     check.hints = Some(hints.unwrap_or_else(|error| Hints { skipped: error.to_string(), ..Hints::default() }));
     if failure.is_some() {
         check.equilibrium = Some(report::EquilibriumFile::none(t));

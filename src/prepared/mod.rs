@@ -252,6 +252,9 @@ impl PreparedScene {
 /// Refuses an element with a switching function whose argument it never writes: its law would never switch.
 fn check_switches(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<()> {
     let (vdot, count) = (vec![0.0; v.len()], system.switches().len());
+    if count == 0 {
+        return Ok(());
+    }
     let [zeros, ones] = [0.0, 1.0].map(|x| {
         let mut out = vec![Rate::constant(x); count];
         system.switching(OperatingPoint { t, q, v, vdot: &vdot, lambda: &[] }, &mut out, &mut Scratch::default());

@@ -59,15 +59,19 @@ pub struct Unseen {
     pub moves: Vec<String>,
 }
 
-/// What the candidates propose for the start of a scene alone, and the modes that no output sees. In the place of the
+/// What the candidates propose for the start of a scene, `prepared` from `path`, alone, and the modes that no output sees. In the place of the
 /// motion, of which nothing is known, come small ones: the way on from the start, and every mode that outputs see with
 /// the same kinetic energy, so that slow ones go far and fast ones do not. What is harmless in all of them need not be
 /// so in the motion: work, which grows with time, is not known at all.
 ///
 /// # Errors
 /// A scene without an end time, or with more than 300 velocities; one whose modes cannot be computed.
-pub fn hints(path: &Path, overrides: &Overrides, candidates: &[&dyn Candidate]) -> Result<Hints> {
-    let prepared = PreparedScene::load(path, overrides)?;
+pub fn hints(
+    prepared: PreparedScene,
+    path: &Path,
+    overrides: &Overrides,
+    candidates: &[&dyn Candidate],
+) -> Result<Hints> {
     let model = modes::at_start(&prepared)?;
     let source = Source::load(path, overrides)?;
     let span = prepared.span()?;

@@ -167,6 +167,11 @@ pub const LAST_CHOICE: f64 = 1e-4;
 /// 17, 149 : 43, 63920 : 400, - : 50,270. Test: none: time alone depends on it.
 pub const DENSE_PART: usize = 3;
 
+/// Matrices of implicit methods with up to so many rows have dense factors, whatever their entries.
+/// Unit: `[1]`. Why: up to 20 rows dense and sparse factors take the same time, and partial pivoting tells more near
+/// singular states than pivots on the diagonal. Test: `implicit_steps_from_a_change_point_end`, on 17 rows.
+pub const DENSE_ROWS: usize = 20;
+
 /// A diagonal pivot of the matrix of an implicit method up to which partial pivoting takes its place.
 /// Unit: `[1]` of the largest number that it is the difference of. Why: ten digits of a correction are left, and rows
 /// that could be dependent, whose pivots are round-off, stay the matter of partial pivoting. Test:

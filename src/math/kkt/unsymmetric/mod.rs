@@ -87,7 +87,8 @@ impl<T: Field> Unsymmetric<T> {
     /// For A with entries of M (one triangle) and of C and K, and for G; `None` if there is not enough memory.
     pub fn new(mass: &Pattern, tangent: &Pattern, g: &Pattern) -> Option<Self> {
         let places = matrix::places(mass, tangent, g)?;
-        let is_dense = tolerances::DENSE_PART * places.compute_nnz() >= places.nrows() * places.ncols();
+        let size = places.nrows();
+        let is_dense = size <= tolerances::DENSE_ROWS || tolerances::DENSE_PART * places.compute_nnz() >= size * size;
         Self::at(places, g, is_dense)
     }
 
