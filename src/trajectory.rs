@@ -73,6 +73,14 @@ impl Trajectory {
         self.rows.push([&[state.t], own[0], own[1], own[2], &outputs].concat());
     }
 
+    /// Appends the last row of a trajectory that has more columns.
+    pub fn push_part(&mut self, full: &Trajectory) {
+        let (Some(row), Names { q, v, lambda }) = (full.rows.last(), &self.names) else { return };
+        let (all_q, all_v, all_lambda) = full.row_state(row);
+        let own = [&all_q[..q.len()], &all_v[..v.len()], &all_lambda[..lambda.len()]];
+        self.rows.push([&row[..1], own[0], own[1], own[2], full.row_outputs(row)].concat());
+    }
+
     /// Times of the rows, s.
     pub fn times(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
         self.rows.iter().map(|row| row[0])

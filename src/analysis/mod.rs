@@ -25,3 +25,4 @@ pub use scale::{Sizes, scales};
 #[doc(hidden)]
 pub use singularity::{Branch, Nearest, Watch};
 pub use singularity::{Passing, Singularity};
+pub(crate) use thinned::thin;

@@ -143,10 +143,13 @@ impl Sink for Recorder<'_> {
         record.rows += 1;
         record.drift_rows.push(levels);
         record.ledger_rows.extend(ledger);
-        record.trajectory.push(self.system, state, &mut self.scratch);
-        if let Some(last) = &mut record.last {
-            last.rows.clear();
-            last.push(self.system, state, &mut self.scratch);
+        match &mut record.last {
+            None => record.trajectory.push(self.system, state, &mut self.scratch),
+            Some(last) => {
+                last.rows.clear();
+                last.push(self.system, state, &mut self.scratch);
+                record.trajectory.push_part(last);
+            }
         }
         record.note_gaps(state.t);
         if let Some(pass) = &mut self.pass {
@@ -154,7 +157,7 @@ impl Sink for Recorder<'_> {
             if let Some(values) = all.rows.last() {
                 pass(Row { values, drift: levels, ledger });
             }
-            thin(&mut record.trajectory, &mut record.drift_rows, &mut record.ledger_rows);
+            thin(&mut record.trajectory.rows, &mut record.drift_rows, &mut record.ledger_rows);
         }
     }
 

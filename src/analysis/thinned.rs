@@ -1,16 +1,14 @@
 //! Rows of a long run, thinned without losing extremes.
 
 use super::Ledger;
-use crate::trajectory::Trajectory;
 
 /// Numbers that are kept at most, if each window may keep the extremes of all columns.
 const NUMBERS: usize = 1_000_000;
 
-/// Thins the rows of a run, with their drift and energies, that have become too many: of the rows of each of many equal
+/// Thins the rows of a run, with their drift and energies where there are any, that have become too many: of the rows of each of many equal
 /// parts of its time those stay that are first or last, or the smallest or the largest in some column, so that no
 /// extreme of the run is lost, and a curve keeps its shape, however often it is thinned.
-pub fn thin(trajectory: &mut Trajectory, drift_rows: &mut Vec<[f64; DRIFT]>, ledger_rows: &mut Vec<Ledger>) {
-    let rows = &trajectory.rows;
+pub fn thin(rows: &mut Vec<Vec<f64>>, drift_rows: &mut Vec<[f64; DRIFT]>, ledger_rows: &mut Vec<Ledger>) {
     let columns = rows.first().map_or(1, Vec::len) + DRIFT + ENERGY;
     let of_window = 2 * columns + 2;
     let most = (NUMBERS / columns).max(4 * of_window);
@@ -18,7 +16,7 @@ pub fn thin(trajectory: &mut Trajectory, drift_rows: &mut Vec<[f64; DRIFT]>, led
         return;
     }
     let value = |row: usize, column: usize| match column {
-        drift if drift < DRIFT => drift_rows[row][drift],
+        drift if drift < DRIFT => drift_rows.get(row).map_or(0.0, |levels| levels[drift]),
         energy if energy < DRIFT + ENERGY => {
             ledger_rows.get(row).map_or(0.0, |ledger| energies(ledger)[energy - DRIFT])
         }
@@ -40,7 +38,7 @@ pub fn thin(trajectory: &mut Trajectory, drift_rows: &mut Vec<[f64; DRIFT]>, led
             extremes.into_iter().flatten().for_each(|row| is_kept[row] = true);
         }
     }
-    retain(&mut trajectory.rows, &is_kept);
+    retain(rows, &is_kept);
     retain(drift_rows, &is_kept);
     retain(ledger_rows, &is_kept);
 }
@@ -60,24 +58,20 @@ fn retain<T>(rows: &mut Vec<T>, is_kept: &[bool]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Column, Names};
 
     #[test]
     fn no_extreme_is_lost_and_memory_is_bounded() {
-        let names = Names { q: Vec::new(), v: Vec::new(), lambda: Vec::new() };
-        let outputs = vec![Column { name: "x".into(), unit: "m".into() }];
-        let mut trajectory = Trajectory { names, outputs, rows: Vec::new() };
-        let (mut drift, mut energy) = (Vec::new(), Vec::new());
+        let (mut rows, mut drift, mut energy) = (Vec::new(), Vec::new(), Vec::new());
         let (count, spikes) = (700_000, [(123_456, 9.0), (400_001, -8.0)]);
         for i in 0..count {
             let t = f64::from(i);
             let spike = spikes.iter().find(|(place, _)| *place == i).map_or(0.0, |(_, size)| *size);
-            trajectory.rows.push(vec![t, (7.3 * t).sin() + spike]);
+            rows.push(vec![t, (7.3 * t).sin() + spike]);
             drift.push([0.0, 0.0, if i == 300_000 { 1.0 } else { 0.0 }]);
             energy.push(Ledger { kinetic: t, potential: 0.0, work: if i == 500_000 { -3.0 } else { 0.0 }, error: 0.0 });
-            thin(&mut trajectory, &mut drift, &mut energy);
+            thin(&mut rows, &mut drift, &mut energy);
         }
-        let times: Vec<f64> = trajectory.times().collect();
+        let times: Vec<f64> = rows.iter().map(|row| row[0]).collect();
         assert!(times.len() < NUMBERS / 9 && drift.len() == times.len() && energy.len() == times.len());
         // Parts of equal time, twice as long as at the last thinning at most.
         let gaps = times.windows(2).map(|pair| pair[1] - pair[0]);

@@ -12,7 +12,7 @@ use crate::report::{FinishedRun, Folder, Repeatable, Written, outputs_figure};
 use crate::simulate::Span;
 use crate::trajectory::Trajectory;
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
@@ -105,7 +105,8 @@ struct Film {
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let finished = args.from.as_deref().map(FinishedRun::read).transpose()?;
+    let read = |path: &Path| FinishedRun::read(path, !args.is_in_motion());
+    let finished = args.from.as_deref().map(read).transpose()?;
     let prepared = args.load(finished.as_ref())?;
     let look = args.look(&prepared)?;
     let failed = finished.as_ref().and_then(|run| run.failure.clone());

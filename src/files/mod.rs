@@ -9,7 +9,7 @@ mod read;
 mod staging;
 
 pub use array::Array;
-pub use read::{read, read_limited, read_text};
+pub use read::{open, read, read_limited, read_text, refuse_large};
 pub use staging::Staging;
 
 use std::fs::OpenOptions;

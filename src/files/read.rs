@@ -13,13 +13,33 @@ const MOST: u64 = 256_000_000;
 /// # Errors
 /// Errors of the file system, files that are too large, pipes and devices.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    read_limited(open(path)?)
+}
+
+/// A regular file, of any size.
+///
+/// # Errors
+/// Errors of the file system, pipes and devices.
+pub fn open(path: &Path) -> io::Result<File> {
     // Checked before opening, which waits for a writer at the other end of a pipe.
     let found = metadata(path)?;
     match found.is_file() {
-        true => read_limited(File::open(path)?),
+        true => File::open(path),
         false if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
         false => Err(io::Error::other("this is a pipe or a device; name a regular file")),
     }
+}
+
+/// Refuses a file that would be too large as a whole.
+///
+/// # Errors
+/// Errors of the file system, and more than 256 MB.
+pub fn refuse_large(file: &File) -> io::Result<()> {
+    if file.metadata()?.len() > MOST { Err(too_large()) } else { Ok(()) }
+}
+
+fn too_large() -> io::Error {
+    io::Error::other(format!("this is larger than the {} that are read", size(MOST as f64)))
 }
 
 /// The text of a regular file, as [`read`].
@@ -38,7 +58,7 @@ pub fn read_limited(source: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     source.take(MOST + 1).read_to_end(&mut bytes)?;
     match bytes.len() as u64 > MOST {
-        true => Err(io::Error::other(format!("this is larger than the {} that are read", size(MOST as f64)))),
+        true => Err(too_large()),
         false => Ok(bytes),
     }
 }

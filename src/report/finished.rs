@@ -1,5 +1,6 @@
 //! A finished run, read back from its folder.
 
+use crate::analysis::thin;
 use crate::error::{Error, Failure, Result, suggest};
 use crate::files;
 use crate::math::expression::Number;
@@ -31,11 +32,11 @@ struct Saved {
 type Rows = (Vec<String>, Vec<Vec<f64>>);
 
 impl FinishedRun {
-    /// Reads the run of a folder, or of its `summary.json`.
+    /// Reads the run of a folder, or of its `summary.json`; of a long one those rows that curves need, if `is_thinned`.
     ///
     /// # Errors
     /// A folder without a run, and files that are not as `simulate` writes them.
-    pub fn read(path: &Path) -> Result<FinishedRun> {
+    pub fn read(path: &Path, is_thinned: bool) -> Result<FinishedRun> {
         let summary = if path.is_dir() { path.join("summary.json") } else { path.to_path_buf() };
         let written = "name the folder that `holonom simulate` has written";
         let text = files::read_text(&summary)
@@ -50,7 +51,7 @@ impl FinishedRun {
                 .in_file(&summary)
         })?;
         let path = summary.with_file_name(name);
-        let read = if *name == known[0] { read_table(&path) } else { read_arrays(&path) };
+        let read = if *name == known[0] { read_table(&path, is_thinned) } else { read_arrays(&path) };
         let (headings, rows) = read.map_err(|error| error.in_file(&path))?;
         let number = |(name, value): (String, Value)| Some((name, Number::Value(value.as_f64()?)));
         let parameters = saved.parameters.into_iter().filter_map(number).collect();
@@ -84,20 +85,27 @@ impl FinishedRun {
     }
 }
 
-/// Reads a table; an empty cell is no value.
-fn read_table(path: &Path) -> Result<Rows> {
+/// Reads a table row by row; an empty cell is no value.
+fn read_table(path: &Path, is_thinned: bool) -> Result<Rows> {
     let wrong = |error: &dyn std::fmt::Display| Error::input(format!("this is no trajectory: {error}"));
-    let text = files::read_text(path).map_err(|error| wrong(&error))?;
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let headings = reader.headers().map_err(|error| wrong(&error))?.iter().map(String::from).collect();
-    let mut rows = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|error| wrong(&error))?;
+    let file = files::open(path).and_then(|file| {
+        let fits = if is_thinned { Ok(()) } else { files::refuse_large(&file) };
+        fits.map(|()| file)
+    });
+    let mut reader = csv::Reader::from_reader(file.map_err(|error| wrong(&error))?);
+    let headings: Vec<String> = reader.headers().map_err(|error| wrong(&error))?.iter().map(String::from).collect();
+    let (mut rows, mut record) = (Vec::new(), csv::StringRecord::new());
+    while reader.read_record(&mut record).map_err(|error| wrong(&error))? {
         let value = |cell: &str| match cell {
             "" => Ok(f64::NAN),
             cell => cell.parse::<f64>().map_err(|_| wrong(&format!("`{}` is no number", crate::error::excerpt(cell)))),
         };
-        rows.push(record.iter().map(value).collect::<Result<Vec<f64>>>()?);
+        let mut row = Vec::with_capacity(headings.len());
+        record.iter().try_for_each(|cell| value(cell).map(|value| row.push(value)))?;
+        rows.push(row);
+        if is_thinned {
+            thin(&mut rows, &mut Vec::new(), &mut Vec::new());
+        }
     }
     Ok((headings, rows))
 }

@@ -2,16 +2,28 @@
 
 use super::evaluate::RigidParts;
 use super::support::Support;
-use crate::joint::Joint;
+use crate::joint::Lock;
 use crate::math::kkt::Pattern;
 use crate::scene::{Connection, Model};
+use std::array::from_fn;
 use std::ops::Range;
 
 /// Places of the blocks of all bodies, joints and forces.
 pub(super) struct Couplings {
     pub bodies: Vec<Range<usize>>,
-    pub joints: Vec<Coupling>,
+    /// Those of joints in closed form.
+    pub locked: Vec<LockedBlocks>,
+    /// Those of all other joints, with their indices.
+    pub joints: Vec<(usize, Coupling)>,
     pub forces: Vec<Coupling>,
+}
+
+/// Places of the blocks of K of a joint that locks motions of two rigid bodies, row by row: of their rotations alone
+/// where others do not change its forces.
+pub(super) struct LockedBlocks {
+    pub joint: usize,
+    /// The first entry of each block, by the slots of the markers: `first[row][column]`.
+    pub first: [[Option<usize>; 2]; 2],
 }
 
 /// Blocks of one joint or force: the bodies that carry its markers, and the blocks of their pairs, column by column.
@@ -56,30 +68,51 @@ impl Couplings {
             first..pattern.entries.len()
         };
         let bodies = model.bodies.iter().map(own).collect();
-        let mut coupling = |carriers: Vec<Carrier>, is_joined: bool| Coupling::new(carriers, is_joined, pattern);
-        let joint = |(i, joint): (usize, &Connection<Box<dyn Joint<D>>>)| {
-            let mut carriers = Carrier::all(&joint.markers, supports);
-            let Some(lock) = rigid.lock(model, i) else { return coupling(carriers, true) };
-            if lock.changes_with_rotations() {
-                carriers.iter_mut().for_each(|carrier| carrier.keep_rotations(rigid));
+        let (mut locked, mut joints) = (Vec::new(), Vec::new());
+        for (joint, Connection { markers, .. }) in model.joints.iter().enumerate() {
+            match rigid.lock(model, joint) {
+                Some(lock) => locked.push(LockedBlocks::new(model, rigid, (joint, lock), pattern)),
+                None => joints.push((joint, Coupling::new(markers, supports, pattern))),
             }
-            coupling(carriers, lock.couples_bodies())
+        }
+        let forces = model.forces.iter().map(|force| Coupling::new(&force.markers, supports, pattern)).collect();
+        Couplings { bodies, locked, joints, forces }
+    }
+}
+
+impl LockedBlocks {
+    fn new<const D: usize>(
+        model: &Model<D>,
+        rigid: &RigidParts<D>,
+        (joint, lock): (usize, &Lock<D>),
+        pattern: &mut Pattern,
+    ) -> Self {
+        let velocities = |slot: usize| {
+            let body = model.markers.bodies[model.joints[joint].markers[slot]]?;
+            let (first, freedom) = (model.bodies[body].first_v, rigid.freedoms[body].as_ref()?);
+            let skipped = if lock.changes_with_rotations() { freedom.translations.len() } else { 0 };
+            Some(first + skipped..first + freedom.count())
         };
-        let joints = model.joints.iter().enumerate().map(joint).collect();
-        let forces = model.forces.iter().map(|force| coupling(Carrier::all(&force.markers, supports), true)).collect();
-        Couplings { bodies, joints, forces }
+        let sides = [velocities(0), velocities(1)];
+        let mut block = |row: usize, column: usize| {
+            let is_there = row == column || lock.couples_bodies();
+            let (rows, columns) = (sides[row].clone().filter(|_| is_there)?, sides[column].clone()?);
+            let first = pattern.entries.len();
+            pattern.entries.extend(rows.flat_map(|i| columns.clone().map(move |j| (i, j))));
+            Some(first)
+        };
+        LockedBlocks { joint, first: from_fn(|row| from_fn(|column| block(row, column))) }
     }
 }
 
 impl Coupling {
-    /// The blocks of these bodies; of each with itself alone unless they are joined.
-    fn new(carriers: Vec<Carrier>, is_joined: bool, pattern: &mut Pattern) -> Self {
+    fn new(markers: &[usize], supports: &[Support], pattern: &mut Pattern) -> Self {
+        let carriers = Carrier::all(markers, supports);
         let mut blocks = Vec::new();
         for column in &carriers {
             for row in &carriers {
                 blocks.push(Block { first_entry: pattern.entries.len(), width: column.velocities.len() });
-                let rows = if is_joined || row.body == column.body { &row.velocities[..] } else { &[] };
-                let places = rows.iter().flat_map(|&i| column.velocities.iter().map(move |&j| (i, j)));
+                let places = row.velocities.iter().flat_map(|&i| column.velocities.iter().map(move |&j| (i, j)));
                 pattern.entries.extend(places);
             }
         }
@@ -100,12 +133,6 @@ impl Carrier {
         bodies.sort_unstable();
         bodies.dedup();
         bodies.into_iter().map(|body| Carrier::new(body, markers, supports)).collect()
-    }
-
-    /// Leaves the translations of a rigid body out, which come first.
-    fn keep_rotations<const D: usize>(&mut self, rigid: &RigidParts<D>) {
-        let translations = rigid.freedoms[self.body].as_ref().map_or(0, |freedom| freedom.translations.len());
-        self.velocities.drain(..translations);
     }
 
     fn new(body: usize, markers: &[usize], supports: &[Support]) -> Self {

@@ -11,7 +11,6 @@
 //!
 //! Their generic definition is the kernel of [`Lock`], which tests compare with.
 
-use super::coupling::Block;
 use super::solid::Solid;
 use crate::body::{Frame, Wrench, cross, dot, sub};
 use crate::joint::Lock;
@@ -77,8 +76,8 @@ impl<const D: usize> Lock<D> {
 pub(super) struct Stiffness<'a, const D: usize> {
     /// The bodies of markers A and B; none: the ground.
     pub solids: [Option<Solid<D>>; 2],
-    /// The blocks of K, `blocks[row][column]`.
-    pub blocks: [[Option<&'a Block>; 2]; 2],
+    /// The first entry of each block of K, `first[row][column]`.
+    pub first: &'a [[Option<usize>; 2]; 2],
     /// True if these are blocks of the rotations alone.
     pub are_rotations: bool,
     pub k: &'a mut [f64],
@@ -129,12 +128,13 @@ impl<const D: usize> Stiffness<'_, D> {
         self.turn((A, A), -dot(e, gap), (gap, e));
         for (slot, sign) in [(0, -1.0), (1, 1.0)] {
             let [Some(turning), Some(moving)] = [&self.solids[0], &self.solids[slot]] else { continue };
-            let [Some(upper), Some(lower)] = [self.blocks[0][slot], self.blocks[slot][0]] else { continue };
+            let [Some(upper), Some(lower)] = [self.first[0][slot], self.first[slot][0]] else { continue };
+            let (width, own) = (moving.count(), turning.count());
             for (k, angle) in turning.rotations() {
                 let turned = turning.turned(k, e);
                 for (i, place) in moving.translations() {
-                    self.k[upper.first_entry + angle * upper.width + place] += sign * turned[i];
-                    self.k[lower.first_entry + place * lower.width + angle] += sign * turned[i];
+                    self.k[upper + angle * width + place] += sign * turned[i];
+                    self.k[lower + place * own + angle] += sign * turned[i];
                 }
             }
         }
@@ -144,12 +144,13 @@ impl<const D: usize> Stiffness<'_, D> {
     fn turn(&mut self, (row, column): (Option<usize>, Option<usize>), alpha: f64, (p, q): (&[f64; D], &[f64; D])) {
         let (Some(row), Some(column)) = (row, column) else { return };
         let [Some(left), Some(right)] = [&self.solids[row], &self.solids[column]] else { return };
-        let Some(block) = self.blocks[row][column] else { return };
+        let Some(first) = self.first[row][column] else { return };
+        let width = if self.are_rotations { right.rotations().count() } else { right.count() };
         for (k, i) in left.rotations() {
             let along = if D == 2 { 0.0 } else { left.along(k, p) };
             for (l, j) in right.rotations() {
                 let [i, j] = if self.are_rotations { [k, l] } else { [i, j] };
-                let place = &mut self.k[block.first_entry + i * block.width + j];
+                let place = &mut self.k[first + i * width + j];
                 *place += match D {
                     2 => alpha,
                     _ => alpha * dot(left.axis(k), right.axis(l)) + along * right.along(l, q),

@@ -53,6 +53,11 @@ impl<const D: usize> Solid<D> {
         self.centre.map(|c| c.x)
     }
 
+    /// Number of velocities.
+    pub fn count(&self) -> usize {
+        self.translations + self.rotations
+    }
+
     /// Components of the translations with their velocities.
     pub fn translations(&self) -> impl Iterator<Item = (usize, usize)> {
         self.components.iter().copied().zip(0..self.translations)

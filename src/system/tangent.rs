@@ -1,12 +1,12 @@
 //! K and C: derivatives of the residual of the equations of motion with respect to q and v.
 
-use super::coupling::{Block, Carrier, Coupling};
+use super::coupling::{Block, Carrier, Coupling, LockedBlocks};
 use super::locked::Stiffness;
 use super::mechanism::{Mechanism, of};
 use super::variation::{SeedDirection, SeededBody};
 use super::workspace::Workspace;
 use crate::body::{BodyState, Dual6, Frame, Wrench, twist_len};
-use crate::joint::{Lock, MOST_ROWS, markers_per_pass};
+use crate::joint::{MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
 use crate::math::{Regime, Scalar, Taylor, Time};
 
@@ -68,13 +68,12 @@ impl<const D: usize> Evaluation<'_, D> {
             };
             part.body.tangent(own, &mut self.tangent.k[places.clone()], &mut self.tangent.c[places.clone()]);
         }
-        let joints = mechanism.model().joints.iter().zip(&mechanism.joints).zip(&couplings.joints);
-        for (i, ((joint, rows), coupling)) in joints.enumerate() {
-            let lambda = &self.at.lambda[rows.range()];
-            if let Some(lock) = mechanism.rigid.lock(mechanism.model(), i) {
-                self.locked(lock, coupling, &joint.markers, lambda);
-                continue;
-            }
+        for LockedBlocks { joint, first } in &couplings.locked {
+            self.locked(*joint, first);
+        }
+        for (joint, coupling) in &couplings.joints {
+            let lambda = &self.at.lambda[mechanism.rows_of_joint(*joint)];
+            let joint = &mechanism.model().joints[*joint];
             let reaction = |frames: &Frames<D>, out: &mut [Wrench<Dual6, D>]| {
                 for pass in 0..frames.len().div_ceil(markers_per_pass(D)) {
                     let mut slopes = [[Dual6::constant(0.0); 6]; MOST_ROWS];
@@ -95,18 +94,15 @@ impl<const D: usize> Evaluation<'_, D> {
     }
 
     /// K of a joint between rigid bodies, in closed form.
-    fn locked(&mut self, lock: &Lock<D>, coupling: &Coupling, markers: &[usize], lambda: &[f64]) {
-        let (model, motion) = (self.mechanism.model(), &self.work.motion);
-        let [a, b] = [markers[0], markers[1]].map(|marker| model.markers.bodies[marker]);
-        let solid = |body: Option<usize>| body.and_then(|body| self.mechanism.solid(body, motion));
-        let solids = [solid(a), solid(b)];
-        let number = |body: Option<usize>| coupling.carriers.iter().position(|carrier| Some(carrier.body) == body);
-        let numbers = [number(a), number(b)];
-        let block = |row: usize, column: usize| Some(&coupling.column(numbers[column]?)[numbers[row]?]);
-        let blocks = [[block(0, 0), block(0, 1)], [block(1, 0), block(1, 1)]];
-        let frames = [&motion[markers[0]], &motion[markers[1]]];
+    fn locked(&mut self, joint: usize, first: &[[Option<usize>; 2]; 2]) {
+        let (mechanism, motion) = (self.mechanism, &self.work.motion);
+        let (model, Some(lock)) = (mechanism.model(), &mechanism.rigid.locks[joint]) else { return };
+        let &[a, b] = &model.joints[joint].markers[..] else { return };
+        let solids = [a, b].map(|marker| mechanism.solid(model.markers.bodies[marker]?, motion));
+        let lambda = &self.at.lambda[mechanism.rows_of_joint(joint)];
         let are_rotations = lock.changes_with_rotations();
-        Stiffness { solids, blocks, are_rotations, k: &mut self.tangent.k }.add(lock, frames, lambda);
+        let mut stiffness = Stiffness { solids, first, are_rotations, k: &mut self.tangent.k };
+        stiffness.add(lock, [&motion[a], &motion[b]], lambda);
     }
 
     /// The wrenches of one element, differentiated with respect to one of its bodies after the other.

@@ -173,6 +173,16 @@ fn locked_joints_agree_with_their_kernel() {
     }
 }
 
+/// The places of K are those that it can have: of hinges in the plane the angles of their bodies.
+#[test]
+fn reactions_of_planar_hinges_change_with_angles_alone() {
+    let AnyModel::Planar(model) = scene(2, &[("revolute", Value::Null)]) else { panic!("a scene in the plane") };
+    let mechanism = Mechanism::new(model);
+    let (names, tangent) = (mechanism.names().v, mechanism.structure().tangent);
+    assert!(!tangent.entries.is_empty());
+    assert!(tangent.entries.iter().all(|&(i, j)| i == j && names[i].contains("angle")), "{:?}", tangent.entries);
+}
+
 #[test]
 fn rigid_bodies_move_along_their_velocities_as_over_dual_numbers() {
     for dimension in [2, 3] {
