@@ -90,12 +90,16 @@ fn end_to_end() {
     classic::table::compare((andrews.system(), andrews.start()), adaptive, motion);
 }
 
-/// Twenty steps of rk4 with projection on N four-bar linkages: O(N).
+/// Twenty steps on N four-bar linkages, explicit with projection and implicit: O(N).
 fn growth() {
-    let method = fixed(["index1", "rk4", "manifold"], 1e-4);
     let studies = [1, 10, 100, 1000].map(|n| (n, generated(&generate::n_four_bar(n))));
-    let cases = studies.iter().map(|(n, prepared)| case(format!("N = {n}"), || drop(run(prepared, &method, 20e-4))));
-    compare("n_four_bar, 20 steps of rk4", cases.collect());
+    let explicit = ["index1", "rk4", "manifold"];
+    for names in [explicit, ["ggl", "generalized_alpha", "none"], ["index3", "generalized_alpha", "none"]] {
+        let method = fixed(names, 1e-4);
+        let steps = |prepared| drop(run(prepared, &method, 20e-4));
+        let cases = studies.iter().map(|(n, prepared)| case(format!("N = {n}"), move || steps(prepared)));
+        compare(&format!("n_four_bar, 20 steps of {}", method.triple()), cases.collect());
+    }
 }
 
 /// Stiff by its dampers, or oscillating fast at rest: what implicit methods are for, against dop853 at one tolerance.
