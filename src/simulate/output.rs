@@ -1,6 +1,6 @@
 //! Output rows within a step.
 
-use super::rows::project;
+use super::rows::{OutputRows, project};
 use super::{Run, Sink};
 use crate::formulation::StepError;
 use crate::integrator::From;
@@ -47,7 +47,6 @@ impl Run<'_> {
     /// Evaluates the row at `t`. Returns its fraction of the step if it contradicts the step, or is too far off the
     /// constraints to be projected.
     fn row_within(&mut self, t: f64, h: f64, end: f64) -> Result<Option<f64>, StepError> {
-        let sweeps = self.sweeps(h);
         let theta = (t - self.t) / h;
         let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope, end });
         rows.problem.begin_step(self.t, &self.y)?;
@@ -62,12 +61,26 @@ impl Run<'_> {
             self.integrator.interpolate(&mut rows.problem, from, h, theta + apart, &mut rows.ahead)?;
             rows.differentiate(h * apart);
         }
-        match project(t, &mut rows.y, &mut rows.problem, &mut rows.projection, sweeps) {
+        match self.project_row(t, h) {
             Err(halt) if self.fixed.is_none() && !halt.is_fatal() => return Ok(Some(theta)),
             projected => projected?,
         }
-        rows.evaluate(t)?;
+        self.rows.evaluate(t)?;
         Ok((is_checked && self.row_contradicts(h)).then_some(theta))
+    }
+
+    /// Projects the row, with as many sweeps as a step that ends there would take.
+    fn project_row(&mut self, t: f64, h: f64) -> Result<(), StepError> {
+        let (sweeps, OutputRows { y, problem, projection, .. }) = (self.sweeps(h), &mut self.rows);
+        project(t, y, problem, projection, sweeps)?;
+        let is_near = || {
+            projection.is_some()
+                && problem.dynamics.kkt.rank_indicator() < tolerances::PLACED_STEPS * self.approach.largest
+        };
+        match sweeps < tolerances::SINGULAR_SWEEPS && is_near() {
+            true => project(t, y, problem, projection, tolerances::SINGULAR_SWEEPS - sweeps),
+            false => Ok(()),
+        }
     }
 
     /// True if v' of the row differs from that of the dense output. This is not tested for implicit methods, in whose
