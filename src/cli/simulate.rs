@@ -100,6 +100,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     args.common.talk.tell_files(&written)?;
     args.common.talk.warn(&summary.origin.warnings[early.len()..]);
     Ok(match &summary.failure {
+        // What ended the second run is a warning.
+        None if args.check_error && interrupt::is_asked() => ExitCode::from(1),
         None => ExitCode::SUCCESS,
         Some(failure) => {
             tell(format!("error: {}", Error::from(failure.clone())));

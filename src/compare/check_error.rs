@@ -2,9 +2,11 @@
 
 use crate::analysis::Recorder;
 use crate::error::Failure;
+use crate::integrator::{Tightening, Tolerance, find};
 use crate::linearize::amplified;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Span, Stop};
+use crate::tolerances::simulate as tolerances;
 use crate::trajectory::Trajectory;
 use serde::{Serialize, Serializer};
 
@@ -47,7 +49,7 @@ pub fn check_error(
     first: &Trajectory,
     (show, stop): (impl Fn(f64), impl Fn() -> Option<Stop>),
 ) -> CheckError {
-    let method = closer(&prepared.method);
+    let method = closer(prepared);
     let mut recorder = Recorder::new(prepared.system()).with_progress(&show).with_stop(&stop);
     let outcome = prepared.simulate(&method, span, &mut recorder);
     let second = recorder.finish();
@@ -70,12 +72,21 @@ pub fn check_error(
     }
 }
 
-/// Returns the same method with a tenth of the tolerance, or half the step.
-fn closer(method: &Method) -> Method {
-    let mut closer = method.clone();
-    match &mut closer.step {
-        Some(step) => *step *= 0.5,
-        None => (closer.rtol, closer.atol) = (method.rtol / 10.0, method.atol / 10.0),
+/// Returns the same method with a tenth of the tolerance, or half the step. Where the steps of the run are at their
+/// tightest, and those of a tenth of its tolerance too, that is a tenth of what its steps were controlled by: else two
+/// equal runs would be compared.
+fn closer(prepared: &PreparedScene) -> Method {
+    let mut closer = prepared.method.clone();
+    let Method { rtol, atol, step, integrator, .. } = &prepared.method;
+    let tightening = find(integrator).map_or(Tightening::NONE, |entry| entry.tightening);
+    let of_steps = |rtol: f64| tightening.of_steps(&Tolerance::new(rtol, *atol, prepared.system())).rtol;
+    let is_same = of_steps(0.1 * rtol) > tolerances::FINER_STEPS * of_steps(*rtol);
+    match step {
+        Some(step) => closer.step = Some(0.5 * step),
+        None => {
+            closer.rtol = 0.1 * if is_same { of_steps(*rtol) } else { *rtol };
+            closer.atol = atol * closer.rtol / rtol;
+        }
     }
     closer
 }

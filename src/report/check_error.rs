@@ -53,5 +53,35 @@ pub fn cut_short(check: &CheckError) -> Option<Warning> {
         clock(failure.t),
         failure.reason
     );
-    Some(Warning::new(text, "compare with another integrator or projection"))
+    let hint = match failure.hint.as_str() {
+        "" => "compare with another integrator or projection",
+        hint => hint,
+    };
+    Some(Warning::new(text, hint))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Failure;
+
+    /// What was interrupted is not helped by another method.
+    #[test]
+    fn the_hint_is_that_of_the_failure() {
+        let hint = |hint: &str| {
+            let failure = Failure { t: 1.0, reason: "interrupted".to_string(), hint: hint.to_string() };
+            let amplification = Err(String::new());
+            let check = CheckError {
+                rtol: 1e-9,
+                atol: 1e-11,
+                step: None,
+                outputs: Vec::new(),
+                amplification,
+                failure: Some(failure),
+            };
+            cut_short(&check).map(|warning| warning.hint)
+        };
+        assert_eq!(hint("it is in here"), Some("it is in here".to_string()));
+        assert!(hint("").is_some_and(|hint| hint.starts_with("compare with")));
+    }
 }

@@ -265,6 +265,12 @@ pub const DIFFERENCE_OF_ROWS: f64 = 1e-3;
 
 /// The v' of a row contradicts the dense output where the difference over the step is more than so many tolerated
 /// errors of v, and CONTRADICTED_PART.
+/// Steps of a second run that are controlled by more than this part of the tolerance of the first say nothing of its
+/// error.
+/// Unit: `[1]`. Why: a choice; the steps of both are at their tightest there. Test:
+/// `steps_at_their_tightest_are_compared_with_tighter_ones`.
+pub const FINER_STEPS: f64 = 0.5;
+
 /// Unit: `[tolerated errors]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room
 /// pass.
 pub const CONTRADICTED_ERRORS: f64 = 100.0;

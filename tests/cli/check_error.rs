@@ -46,6 +46,21 @@ fn the_difference_is_the_error() {
     assert_eq!(place.json("own/summary.json")["check_error"]["step"], 0.005);
 }
 
+/// The steps of a run at 1e-9 and of one at a tenth of that are controlled alike, by 1e-11: their difference would be none.
+#[test]
+fn steps_at_their_tightest_are_compared_with_tighter_ones() {
+    let place = Place::new(PENDULUM);
+    let exact = ["--rtol", "1e-13", "--atol", "1e-15", "-o", "exact"];
+    place.done(&[&["simulate", "scene.json", "--quiet"], &exact[..]].concat());
+    let args = ["simulate", "scene.json", "--integrator", "esdirk34", "--projection", "none", "--check-error"];
+    let text = place.done(&[&args[..], &["--rtol", "1e-9", "--atol", "1e-11", "-o", "own"]].concat());
+    assert!(text.contains("difference to rtol 1e-12, atol 1e-14"), "{text}");
+    let [max, _] = error_of(&place, "theta", ["own", "exact"]);
+    let told = place.json("own/summary.json")["check_error"]["outputs"]["theta"]["max"].as_f64().unwrap();
+    // Of order 3, a tenth of the tolerance leaves a fifth of the error.
+    assert!(told > 0.3 * max && told < 2.0 * max, "{told:e} beside {max:e}");
+}
+
 #[test]
 fn without_outputs_coordinates_are_compared() {
     let place = Place::new(parallelogram());
