@@ -44,8 +44,9 @@ struct Implicit<'s> {
     /// Times at which the last attempt started and ended.
     began: f64,
     reached: f64,
-    /// The state at the end of the last attempt.
+    /// The state at the end of the last attempt; y' within it.
     y: Vec<f64>,
+    slope: Vec<f64>,
     /// True if the solver is beyond that end.
     is_ahead: bool,
     own_step: f64,
@@ -66,6 +67,7 @@ pub fn make<'s>(setup: &Setup<'s>, traits: Traits, start: Start<'s>) -> Result<B
         began: f64::NAN,
         reached: f64::NAN,
         y: vec![0.0; setup.len()],
+        slope: vec![0.0; setup.len()],
         is_ahead: false,
         own_step: 0.0,
         counted: Counted::default(),
@@ -121,6 +123,25 @@ impl<'s> Implicit<'s> {
             .request(if self.is_ahead { Request::At(end) } else { Request::State })
             .map_err(|error| self.halt(error))?;
         solver.read(to);
+        Ok(())
+    }
+
+    /// Writes the work at the end of a step, by Radau's rule of order 3. That of the solver is behind: an iteration of
+    /// Newton's method evaluates the powers before it moves the state, and is not continued for their sake.
+    fn add_work(
+        &mut self,
+        solver: &mut Solver,
+        problem: &mut Problem,
+        from: From,
+        to: &mut [f64],
+    ) -> Result<(), StepError> {
+        let (h, motion) = (self.own_step, self.y.len() - to.len());
+        solver.request(Request::At(from.t + 2.0 / 3.0 * h)).map_err(|error| self.halt(error))?;
+        solver.read(&mut self.y);
+        problem.derivative(from.t + 2.0 / 3.0 * h, &self.y, &mut self.slope)?;
+        for (i, to) in (motion..).zip(to) {
+            *to = from.y[i] + h * (0.25 * from.slope[i] + 0.75 * self.slope[i]);
+        }
         Ok(())
     }
 
@@ -183,6 +204,9 @@ impl Integrator for Implicit<'_> {
         self.count(&solver, problem);
         result?;
         (self.began, self.reached) = (from.t, from.t + self.own_step);
+        if self.traits.follows {
+            self.add_work(&mut solver, problem, from, &mut to[tolerance.motion()..])?;
+        }
         self.y.copy_from_slice(to);
         if !self.traits.follows {
             // The time loop normalizes quaternions, which is no reason to restart.
@@ -199,7 +223,7 @@ impl Integrator for Implicit<'_> {
 
     fn interpolate(
         &mut self,
-        _: &mut Problem,
+        problem: &mut Problem,
         from: From,
         h: f64,
         theta: f64,
@@ -209,8 +233,18 @@ impl Integrator for Implicit<'_> {
             out.fill(f64::NAN);
             return Ok(());
         };
+        if self.traits.follows {
+            // The solver has a work of its own, of which only the change within the step counts.
+            solver.request(Request::At(from.t)).map_err(|error| self.halt(error))?;
+            solver.read(&mut self.slope);
+        }
         solver.request(Request::At(from.t + theta * h)).map_err(|error| self.halt(error))?;
         solver.read(out);
+        if self.traits.follows {
+            let (q, v) = problem.split(out);
+            let motion = q.len() + v.len();
+            (motion..out.len()).for_each(|i| out[i] += from.y[i] - self.slope[i]);
+        }
         self.solver = Some(solver);
         Ok(())
     }
