@@ -111,6 +111,35 @@ fn rows_of_a_shaft_that_turns_are_as_right_as_its_steps() {
     }
 }
 
+/// What steps of dop853 leave in the stiff modes of the shaft, radau_iia would have to follow: from their state on it took
+/// four times the steps that it takes from the start.
+#[test]
+fn what_takes_over_early_begins_at_the_start() {
+    let scene = shipped("rotating_shaft", &[]);
+    let (outcome, legs, record) = automatic(&scene, 1e-6, scene.span());
+    assert_eq!(integrators(&legs), ["dop853", "radau_iia"]);
+    assert!(legs[1].from > 0.0 && legs[1].because.ends_with("it began again at the start"), "{legs:?}");
+    let alone = alone(&scene, IMPLICIT, 1e-6, scene.span());
+    let [steps, own] = [legs[1].statistics.steps, alone.statistics.steps];
+    // One more ends where the other method was.
+    assert!(steps <= own + 3, "{steps} beside {own}");
+    // Rows come each once, and states each later than the one before.
+    let rows = &record.trajectory.rows;
+    assert_eq!(rows.len(), (scene.span().end / scene.span().output_step).round() as usize + 1);
+    assert!(rows.windows(2).all(|pair| pair[0][0] < pair[1][0]) && outcome.failure.is_none());
+}
+
+/// A row of an implicit method is a step: where rows alone cost more than the steps of the explicit one, nothing is tried.
+#[test]
+fn dense_rows_leave_nothing_to_try() {
+    let scene = shipped("pid_arm", &[]);
+    for (output_step, is_tried) in [(0.003, false), (1.0, true)] {
+        let (_, legs, _) = automatic(&scene, 1e-6, Span { output_step, ..scene.span() });
+        assert_eq!(integrators(&legs), ["dop853"]);
+        assert_eq!(legs[0].trials != Statistics::default(), is_tried, "{output_step}: {legs:?}");
+    }
+}
+
 /// What is left of a short run is less than a trial costs.
 #[test]
 fn short_runs_try_nothing() {

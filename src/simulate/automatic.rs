@@ -3,7 +3,8 @@
 //! An explicit method begins. Whenever the work since the last comparison has doubled, and wherever a run stops, the
 //! other method may try from there ([`Contest`]); the better one continues. So the total cost is at most a few times
 //! that of the better method on each part of the motion. Work is counted in evaluations: a run is repeatable bit by
-//! bit.
+//! bit. A method that takes over early begins at the start: errors of explicit steps are too small to matter, and still
+//! far from the slow motion in the norm of the stiff forces that an implicit method would have to follow.
 
 use super::checkpoint::flat;
 use super::contest::{Contest, Mark, Quiet, unseen};
@@ -57,9 +58,9 @@ fn candidates(tolerances: (f64, f64)) -> [Method; 2] {
 pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Contest> {
     let methods = [method.clone(), implicit((method.rtol, method.atol))];
     let mut drive = Drive::new(system, &methods, unseen(span), start).ok()?;
-    drive.run.begin(&mut Quiet).ok()?;
+    drive.run.begin(&mut Quiet(None)).ok()?;
     let is_enough = |drive: &Drive, mark, changes| drive.contest.is_some() || changes || drive.is_known(mark);
-    drive.go(&mut Quiet, is_enough).ok()?;
+    drive.go(&mut Quiet(None), is_enough).ok()?;
     drive.contest
 }
 
@@ -76,11 +77,11 @@ pub fn advise(
     let methods = candidates(tolerances);
     methods[EXPLICIT].check()?;
     let mut drive = Drive::new(system, &methods, unseen(span), start)?;
-    if let Err(Failure { reason, .. }) = drive.run.begin(&mut Quiet) {
+    if let Err(Failure { reason, .. }) = drive.run.begin(&mut Quiet(None)) {
         // Any method fails so: the run will report it at its start.
         return Ok((methods[EXPLICIT].clone(), format!("nothing was tried: {reason}")));
     }
-    drive.go(&mut Quiet, |drive, mark, changes| !changes && drive.is_known(mark))?;
+    drive.go(&mut Quiet(None), |drive, mark, changes| !changes && drive.is_known(mark))?;
     let Leg { method, because, .. } = drive.leg;
     Ok((method, because))
 }
@@ -118,6 +119,8 @@ struct Drive<'a> {
     system: &'a dyn MechanicalSystem,
     methods: &'a [Method; 2],
     span: Span,
+    /// The flat state at the start.
+    start: Vec<f64>,
     run: Run<'a>,
     carrier: usize,
     /// Number of methods that failed at the present state.
@@ -138,10 +141,11 @@ impl<'a> Drive<'a> {
         span: Span,
         (q, v): (&[f64], &[f64]),
     ) -> Result<Self> {
-        let run = Run::new(system, &methods[EXPLICIT], span, flat(system, q, v))?;
+        let start = flat(system, q, v);
+        let run = Run::new(system, &methods[EXPLICIT], span, start.clone())?;
         let leg = Leg::of(span.start, &methods[EXPLICIT], CALM.to_string());
         let (carrier, stopped, window, contest, legs) = (EXPLICIT, 0, tolerances::IMPLICIT_TRIED, None, Vec::new());
-        Ok(Drive { system, methods, span, run, carrier, stopped, window, contest, legs, leg })
+        Ok(Drive { system, methods, span, start, run, carrier, stopped, window, contest, legs, leg })
     }
 
     /// Continues to the end, to a failure that both methods have, or until `is_enough`, which is called after each
@@ -150,7 +154,7 @@ impl<'a> Drive<'a> {
         let (mut mark, mut failure) = (self.run.mark(), None);
         loop {
             if failure.is_none() {
-                (mark, failure) = self.run.window(self.window, f64::INFINITY, sink);
+                (mark, failure) = self.run.window(self.window, f64::INFINITY, sink, |_, _, _| false);
                 self.window *= 2.0;
             }
             if self.is_over(failure.as_ref(), sink) {
@@ -160,7 +164,12 @@ impl<'a> Drive<'a> {
             if is_enough(self, mark, next.is_some()) {
                 break;
             }
-            failure = next.map_or(Ok(None), |(next, because)| self.change(next, because))?;
+            let wins = failure.is_none();
+            failure = match next {
+                Some((next, because)) if wins && self.is_early() => self.begin_again(next, because, sink)?,
+                Some((next, because)) => self.change(next, because)?,
+                None => None,
+            };
         }
         Ok(failure)
     }
@@ -203,14 +212,37 @@ impl<'a> Drive<'a> {
 
     /// Continues the motion with another method.
     fn change(&mut self, carrier: usize, because: String) -> Result<Option<Failure>> {
+        let next = self.run.rival(&self.methods[carrier], self.system, self.span)?;
+        let before = self.replace(next, carrier, because);
+        Ok(self.run.go_on(&before.problem.dynamics.dropped, before.h).err())
+    }
+
+    /// True if the motion so far costs another method little: it may begin at the start, where no errors of steps of
+    /// the first method excite stiff modes, which it would have to follow.
+    fn is_early(&self) -> bool {
+        self.legs.is_empty() && self.run.t - self.span.start < tolerances::BEGINNING * (self.span.end - self.span.start)
+    }
+
+    /// Continues the motion with another method, which comes to the present time from the start, unseen. From the
+    /// present state where it does not come there.
+    fn begin_again(&mut self, carrier: usize, because: String, sink: &mut dyn Sink) -> Result<Option<Failure>> {
+        let mut next = Run::new(self.system, &self.methods[carrier], self.span, self.start.clone())?;
+        let mut quiet = Quiet(Some(sink));
+        if next.begin(&mut quiet).and_then(|()| next.come_to(&self.run, &mut quiet)).is_err() {
+            self.leg.trials = self.leg.trials + next.statistics();
+            return self.change(carrier, because);
+        }
+        self.replace(next, carrier, format!("{because}; it began again at the start"));
+        Ok(None)
+    }
+
+    /// Replaces the run by one that is at the same time; returns the one before.
+    fn replace(&mut self, next: Run<'a>, carrier: usize, because: String) -> Run<'a> {
         self.carrier = carrier;
-        let method = &self.methods[carrier];
-        let next = Run::new(self.system, method, self.span, self.run.y.clone())?;
         let before = std::mem::replace(&mut self.run, next);
-        (self.run.t, self.run.rows.next) = (before.t, before.rows.next);
-        let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, method, because));
+        let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, &self.methods[carrier], because));
         self.legs.push(Leg { statistics: before.statistics(), ..leg });
-        Ok(self.run.go_on(&before.problem.dynamics.dropped).err())
+        before
     }
 
     fn finish(mut self, failure: Option<Failure>, sink: &mut dyn Sink) -> (Outcome, Vec<Leg>) {

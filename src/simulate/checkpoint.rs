@@ -166,7 +166,7 @@ impl Run<'_> {
         self.t = saved.t;
         match saved.method == *method {
             true => self.recall(saved)?,
-            false => self.go_on(&saved.dropped)?,
+            false => self.go_on(&saved.dropped, 0.0)?,
         }
         self.show((self.approach != SingularPassage::default()).then_some(self.approach.rank_indicator), sink);
         self.rows.y.copy_from_slice(&self.y);

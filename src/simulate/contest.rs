@@ -6,7 +6,7 @@
 //! related to the size of the steps.
 
 use super::spectrum::{SpectralMode, fastest};
-use super::{Method, Observation, Run, Sink, Span};
+use super::{Method, Observation, Run, Sink, Span, Stop};
 use crate::error::{Failure, Result};
 use crate::formulation::{Dynamics, Statistics};
 use crate::system::{MechanicalSystem, OperatingPoint};
@@ -46,15 +46,35 @@ pub fn unseen(span: Span) -> Span {
     Span { output_step: f64::INFINITY, ..span }
 }
 
-/// Ignores all states.
-pub struct Quiet;
+/// Ignores all states; stops where a sink does that is given.
+pub struct Quiet<'s>(pub Option<&'s dyn Sink>);
 
-impl Sink for Quiet {
+impl Sink for Quiet<'_> {
     fn accepted(&mut self, _: &Observation) {}
     fn row(&mut self, _: &Observation) {}
+
+    fn stops(&self) -> Option<Stop> {
+        self.0.and_then(Sink::stops)
+    }
 }
 
 impl Run<'_> {
+    /// A run by another method at the present state, which is to [go on](Run::go_on) from there.
+    pub fn rival<'a>(&self, method: &'a Method, system: &'a dyn MechanicalSystem, span: Span) -> Result<Run<'a>> {
+        let mut rival = Run::new(system, method, span, self.y.clone())?;
+        (rival.t, rival.rows.next) = (self.t, self.rows.next);
+        Ok(rival)
+    }
+
+    /// Comes from its start to the time of another run, whose rows it does not repeat.
+    pub fn come_to(&mut self, other: &Run, sink: &mut dyn Sink) -> std::result::Result<(), Failure> {
+        let end = std::mem::replace(&mut self.span.end, other.t);
+        self.rows.next = u64::MAX;
+        let came = self.advance(sink);
+        (self.span.end, self.rows.next) = (end, other.rows.next);
+        came.and_then(|()| self.meet_change())
+    }
+
     pub fn mark(&self) -> Mark {
         let Statistics { steps, rhs_evaluations, rows, .. } = self.statistics();
         let price = if self.is_explicit { 1.0 } else { tolerances::IMPLICIT_WORK };
@@ -63,9 +83,15 @@ impl Run<'_> {
     }
 
     /// Continues for this `work`, of which the first half is not measured, since the first steps may be small and grow.
-    /// While they grow, it continues, up to `most` work. Returns the mark at which the measurement begins, and the
-    /// failure of the run.
-    pub fn window(&mut self, work: f64, most: f64, sink: &mut dyn Sink) -> (Mark, Option<Failure>) {
+    /// While they grow, it continues, up to `most` work, unless `is_enough`, which is called with the mark at which the
+    /// measurement begins and the factor by which they grow. Returns that mark, and the failure of the run.
+    pub fn window(
+        &mut self,
+        work: f64,
+        most: f64,
+        sink: &mut dyn Sink,
+        is_enough: impl Fn(&Self, Mark, f64) -> bool,
+    ) -> (Mark, Option<Failure>) {
         let mut mark = self.mark();
         let most = mark.work + most;
         for _ in 0..=tolerances::WATCHED_AGAIN {
@@ -79,8 +105,9 @@ impl Run<'_> {
                     mark = self.mark();
                 }
             }
-            let has_grown = self.h < tolerances::STEPS_GROW * self.step_since(mark);
-            if self.t >= self.span.end || has_grown || self.mark().work + work > most {
+            let growth = self.h / self.step_since(mark);
+            let has_grown = growth < tolerances::STEPS_GROW;
+            if self.t >= self.span.end || has_grown || self.mark().work + work > most || is_enough(self, mark, growth) {
                 break;
             }
         }
@@ -106,7 +133,7 @@ impl Run<'_> {
     /// The fastest mode of the state and the mean step since `mark`, if the steps are long enough for the kind of
     /// method to matter, and enough work remains.
     pub fn hindered(&self, mark: Mark) -> Option<(SpectralMode, f64)> {
-        if tolerances::TRIAL_SHARE * self.left(mark) < tolerances::TRIAL_WORK {
+        if tolerances::TRIAL_SHARE * self.left(mark) < tolerances::TRIAL_WORK || self.rows_decide(mark) {
             return None;
         }
         let step = self.step_since(mark);
@@ -123,11 +150,18 @@ impl Run<'_> {
         matters.then_some((mode, step))
     }
 
-    /// Time simulated since `mark` per unit of work, with that of output rows that were not made: one of an implicit
-    /// method is a step of its own, one of an explicit method about an evaluation.
-    fn pace_with_rows(&self, mark: Mark, output_step: f64) -> f64 {
+    /// True if output rows alone would cost an implicit method more than it could save.
+    fn rows_decide(&self, mark: Mark) -> bool {
+        let row = tolerances::IMPLICIT_WORK * tolerances::IMPLICIT_ROW;
+        self.is_explicit && self.span.output_step < tolerances::IMPLICIT_WORTH * row * self.mark().pace(mark)
+    }
+
+    /// Time simulated since `mark` per unit of work, with steps that are `growth` times as long and with the work of
+    /// output rows that were not made: one of an implicit method is a step of its own, one of an explicit method about
+    /// an evaluation.
+    fn pace_with_rows(&self, mark: Mark, growth: f64, output_step: f64) -> f64 {
         let now = self.mark();
-        let (time, work) = (now.t - mark.t, now.work - mark.work);
+        let (time, work) = (growth * (now.t - mark.t), now.work - mark.work);
         let row = if self.is_explicit { 1.0 } else { work / (now.steps - mark.steps).max(1) as f64 };
         time / (work + time / output_step * row).max(1.0)
     }
@@ -144,12 +178,17 @@ impl Run<'_> {
         let own = self.mark();
         let share = |work: f64| tolerances::TRIAL_SHARE * work;
         let (budget, most) = (tolerances::TRIAL_WORK.max(share(own.work - mark.work)), share(self.left(mark)));
-        let mut rival = Run::new(system, other, unseen(self.span), self.y.clone())?;
-        (rival.t, rival.rows.next) = (self.t, self.rows.next);
-        let failure = rival.go_on(&self.problem.dynamics.dropped).err();
-        let (since, stopped) =
-            if failure.is_none() { rival.window(budget, most, &mut Quiet) } else { (rival.mark(), failure) };
-        let theirs = if stopped.is_some() { 0.0 } else { rival.pace_with_rows(since, self.span.output_step) };
+        let mut rival = self.rival(other, system, unseen(self.span))?;
+        let failure = rival.go_on(&self.problem.dynamics.dropped, self.h).err();
+        let pace = |rival: &Run, since, growth| rival.pace_with_rows(since, growth, self.span.output_step);
+        let is_hopeless = |rival: &Run, since: Mark, growth: f64| {
+            pace(rival, since, growth) < tolerances::NO_ALTERNATIVE * own.pace(mark)
+        };
+        let (since, stopped) = match failure {
+            None => rival.window(budget, most, &mut Quiet(None), is_hopeless),
+            failure => (rival.mark(), failure),
+        };
+        let theirs = if stopped.is_some() { 0.0 } else { pace(&rival, since, 1.0) };
         let contest = Contest { t: self.t, mode, step, gain: theirs / own.pace(mark) };
         Ok((contest, rival.statistics()))
     }

@@ -218,14 +218,15 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Begins at the present state, which another run has reached and shown, with the rows that it dropped.
-    fn go_on(&mut self, dropped: &[usize]) -> Result<(), Failure> {
+    /// Begins at the present state, which another run has reached and shown, with the rows that it dropped, and no
+    /// smaller a step than its last, `h`: a far smaller first one would take many to grow.
+    fn go_on(&mut self, dropped: &[usize], h: f64) -> Result<(), Failure> {
         (self.progress, self.divided) = ((self.t, 0), self.t);
         self.begin_form()?;
         self.settle();
         self.drop_rows(dropped);
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
-        self.h = self.first_step().map_err(|halt| self.halted(&halt))?;
+        self.h = self.first_step().map_err(|halt| self.halted(&halt))?.max(h);
         Ok(())
     }
 

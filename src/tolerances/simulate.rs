@@ -70,6 +70,11 @@ pub const IMPLICIT_WORTH: f64 = 1.5;
 /// values.
 pub const EXPLICIT_WORTH: f64 = 2.0;
 
+/// Up to here a motion is begun again by a method that takes over.
+/// Unit: `[1]` of the span. Why: a choice: it costs that method no more of its work. Test:
+/// `what_takes_over_early_begins_at_the_start`.
+pub const BEGINNING: f64 = 0.1;
+
 /// What comes no farther than this is no alternative.
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const NO_ALTERNATIVE: f64 = 0.5;
@@ -87,6 +92,11 @@ pub const ADVICE_WORK: f64 = 2e4;
 /// Unit: `[evaluations by explicit ones]`. Why: 2 to 4 on the shipped scenes, whatever their size. Test: none: not
 /// tried with other values.
 pub const IMPLICIT_WORK: f64 = 3.0;
+
+/// The least that an output row costs an implicit method.
+/// Unit: `[evaluations]`. Why: one iteration of three stages, and the row itself; 4 to 14 on the shipped scenes. Test:
+/// `dense_rows_leave_nothing_to_try`.
+pub const IMPLICIT_ROW: f64 = 4.0;
 
 /// Steps of an explicit method that are longer may be limited by stability.
 /// Unit: `[1]` of the longest stable step. Why: with the steps that it refuses again and again they are a quarter of it
@@ -255,6 +265,12 @@ pub const LEAST_ATOL: f64 = 1e-16;
 /// its room pass.
 pub const ERROR_OF_MOTION: f64 = 10.0;
 
+/// Steps of a second run that are controlled by more than this part of the tolerance of the first say nothing of its
+/// error.
+/// Unit: `[1]`. Why: a choice; the steps of both are at their tightest there. Test:
+/// `steps_at_their_tightest_are_compared_with_tighter_ones`.
+pub const FINER_STEPS: f64 = 0.5;
+
 /// A step that is undecided about a threshold is not made shorter than so many of those that make no sense.
 /// Unit: `[1]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const UNDECIDED_STEP: f64 = 1e3;
@@ -265,12 +281,6 @@ pub const DIFFERENCE_OF_ROWS: f64 = 1e-3;
 
 /// The v' of a row contradicts the dense output where the difference over the step is more than so many tolerated
 /// errors of v, and CONTRADICTED_PART.
-/// Steps of a second run that are controlled by more than this part of the tolerance of the first say nothing of its
-/// error.
-/// Unit: `[1]`. Why: a choice; the steps of both are at their tightest there. Test:
-/// `steps_at_their_tightest_are_compared_with_tighter_ones`.
-pub const FINER_STEPS: f64 = 0.5;
-
 /// Unit: `[tolerated errors]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room
 /// pass.
 pub const CONTRADICTED_ERRORS: f64 = 100.0;
