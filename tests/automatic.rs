@@ -129,6 +129,25 @@ fn what_takes_over_early_begins_at_the_start() {
     assert!(rows.windows(2).all(|pair| pair[0][0] < pair[1][0]) && outcome.failure.is_none());
 }
 
+/// What begins with a swing that the other method follows at a higher cost, and turns stiff, is not begun again.
+#[test]
+fn what_begins_badly_for_it_the_other_method_takes_over_on_the_way() {
+    let scene = parse(
+        r#"{ "name": "caught", "dimension": 2, "bodies": [{ "name": "m", "type": "point_mass", "mass": 1,
+            "initial": { "position": [1, 0] } }],
+            "joints": [{ "name": "rail", "type": "equation", "expression": "m.y" }],
+            "forces": [{ "name": "f", "type": "applied_force", "at": "m",
+                         "force": ["if(t < 5, -1e4*m.x, -10*sin(m.x) - 1e4*m.x')", 0] }] }"#,
+    );
+    let span = Span { start: 0.0, end: 120.0, output_step: 1.0 };
+    let (outcome, legs, record) = automatic(&scene, 1e-7, span);
+    assert_eq!(integrators(&legs), ["dop853", "radau_iia"], "{legs:?}");
+    assert!(legs[1].from > 5.0 && legs[1].from < 12.0 && !legs[1].because.contains("began again"), "{legs:?}");
+    // The work that the attempt took is counted, and is no more than that of the swing.
+    assert!(legs[0].trials.rhs_evaluations < 2 * legs[0].statistics.rhs_evaluations, "{legs:?}");
+    assert!(outcome.failure.is_none() && record.trajectory.rows.len() == 121);
+}
+
 /// A row of an implicit method is a step: where rows alone cost more than the steps of the explicit one, nothing is tried.
 #[test]
 fn dense_rows_leave_nothing_to_try() {

@@ -224,11 +224,11 @@ impl<'a> Drive<'a> {
     }
 
     /// Continues the motion with another method, which comes to the present time from the start, unseen. From the
-    /// present state where it does not come there.
+    /// present state where it does not come there for the work that this took.
     fn begin_again(&mut self, carrier: usize, because: String, sink: &mut dyn Sink) -> Result<Option<Failure>> {
         let mut next = Run::new(self.system, &self.methods[carrier], self.span, self.start.clone())?;
         let mut quiet = Quiet(Some(sink));
-        if next.begin(&mut quiet).and_then(|()| next.come_to(&self.run, &mut quiet)).is_err() {
+        if next.begin(&mut quiet).is_err() || !next.comes_to(&self.run, &mut quiet) {
             self.leg.trials = self.leg.trials + next.statistics();
             return self.change(carrier, because);
         }

@@ -66,13 +66,14 @@ impl Run<'_> {
         Ok(rival)
     }
 
-    /// Comes from its start to the time of another run, whose rows it does not repeat.
-    pub fn come_to(&mut self, other: &Run, sink: &mut dyn Sink) -> std::result::Result<(), Failure> {
+    /// Comes from its start to the time of another run, whose rows it does not repeat; false if it does not, or not for
+    /// the same work.
+    pub fn comes_to(&mut self, other: &Run, sink: &mut dyn Sink) -> bool {
         let end = std::mem::replace(&mut self.span.end, other.t);
-        self.rows.next = u64::MAX;
-        let came = self.advance(sink);
+        (self.rows.next, self.allowance) = (u64::MAX, self.mark().work + other.mark().work);
+        let came = self.advance(sink).is_ok() && self.t >= other.t;
         (self.span.end, self.rows.next) = (end, other.rows.next);
-        came.and_then(|()| self.meet_change())
+        came && self.meet_change().is_ok()
     }
 
     pub fn mark(&self) -> Mark {
