@@ -5,7 +5,8 @@
 //! runs, changes of method and trials included, at rtol 1e-3 to 1e-12. From these runs come three tables:
 //!
 //! - Error over tolerance of each integrator at rtol 1e-3, 1e-6, 1e-9: of motions that do not amplify small changes, which a
-//!   tolerance is promised for, and of the others.
+//!   tolerance is promised for, and of the others. Of rk4 and heun, which have fixed steps and no tolerance, error over
+//!   what a step of the sequence is meant for.
 //! - By how much each motion amplifies, and the cost of the three at 3, 6, 9 digits over that of the best; a dash where no
 //!   run came to the digits in the time.
 //! - What is recommended, and how far the reference vouches.
