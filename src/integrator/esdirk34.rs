@@ -11,8 +11,8 @@ use crate::error::Result;
 /// Source: Jorgensen, Kristensen, Thomsen, arXiv:1803.01613 (2018), the error by an embedded method of order 4; by
 /// diffsol. Order 3 in q, v and lambda, L-stable and stiffly accurate: fast oscillations are damped out, whatever the
 /// tolerance, and `ggl` satisfies its constraints at every step. Three stages of three or four evaluations a step, all
-/// with one dense matrix, which serves about ten steps, from exact K, C, G and L. It allocates. Projections cost it
-/// nothing. Cubic Hermite interpolation.
+/// with one dense matrix, which serves about ten steps, from exact K, C, G and L, and one evaluation for the work. It
+/// allocates. Projections cost it nothing. Cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
     name: "esdirk34",
     about: "implicit, L-stable, for stiff motions, also those that nothing damps; chooses its steps",

@@ -11,8 +11,9 @@ use crate::error::Result;
 /// with x' = F at t, t + g h and t + h. Source: Bank et al., IEEE Trans. CAD 4 (1985) 436-451; error estimate of Hosea,
 /// Shampine, Appl. Numer. Math. 20 (1996) 21-37; by diffsol. Order 2 in q, v and lambda, L-stable: infinitely fast
 /// oscillations vanish after one step. Two stages of two or three evaluations a step, both with one dense matrix, which
-/// serves about ten steps, from exact K, C, G and L. It allocates. For low accuracy in stiff or kinked motions: a
-/// digit more costs three times the steps. Projections cost it nothing. Interpolation of order 2.
+/// serves about ten steps, from exact K, C, G and L, and one evaluation for the work. It allocates. For low accuracy in
+/// stiff or kinked motions: a digit more costs three times the steps. Projections cost it nothing. Interpolation of
+/// order 2.
 pub const ENTRY: Entry = Entry {
     name: "tr_bdf2",
     about: "implicit, L-stable, for stiff motions at two or three digits; chooses its steps",
