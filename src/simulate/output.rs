@@ -69,7 +69,7 @@ impl Run<'_> {
         Ok((is_checked && self.row_contradicts(h)).then_some(theta))
     }
 
-    /// Projects the row, with as many sweeps as a step that ends there would take.
+    /// Projects the row, near a singular state with more sweeps than a step that ends there would take.
     fn project_row(&mut self, t: f64, h: f64) -> Result<(), StepError> {
         let (sweeps, OutputRows { y, problem, projection, .. }) = (self.sweeps(h), &mut self.rows);
         project(t, y, problem, projection, sweeps)?;
@@ -77,8 +77,8 @@ impl Run<'_> {
             projection.is_some()
                 && problem.dynamics.kkt.rank_indicator() < tolerances::PLACED_STEPS * self.approach.largest
         };
-        match sweeps < tolerances::SINGULAR_SWEEPS && is_near() {
-            true => project(t, y, problem, projection, tolerances::SINGULAR_SWEEPS - sweeps),
+        match is_near() {
+            true => project(t, y, problem, projection, tolerances::SINGULAR_ROW_SWEEPS - sweeps),
             false => Ok(()),
         }
     }

@@ -87,18 +87,19 @@ fn without_the_option_it_is_said_that_nobody_has_measured() {
     assert!(penalty.contains("the limit is the penalty, whose error O(1/penalty)"), "{penalty}");
 }
 
-/// A tolerance that goes over a singular state, and a tenth of it that is too near to round-off there.
+/// A tolerance that goes over a singular state, and a tenth of it that is too near to round-off there: the bound is at
+/// about 1e-14.
 #[test]
 fn a_second_run_that_fails_is_said_and_the_first_is_kept() {
     let mut scene: Value = serde_json::from_str(include_str!("../../models/n_four_bar.json")).unwrap();
     scene["simulation"] = serde_json::json!({ "t_end": 1, "output_step": 0.1, "integrator": "dop853" });
     let place = Place::new(scene.to_string());
     let output =
-        place.run(&["simulate", "scene.json", "-o", "here", "--rtol", "1e-14", "--atol", "1e-14", "--check-error"]);
+        place.run(&["simulate", "scene.json", "-o", "here", "--rtol", "5e-14", "--atol", "5e-14", "--check-error"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     let message = err(&output);
     assert!(
-        message.starts_with("warning: the second run, with rtol 1e-15, atol 1e-15, ended at t = 0.72"),
+        message.starts_with("warning: the second run, with rtol 5e-15, atol 5e-15, ended at t = 0.72"),
         "{message}"
     );
     let summary = place.json("here/summary.json");
