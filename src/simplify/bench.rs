@@ -5,7 +5,8 @@ use super::nearby::{Neighbourhood, Robustness};
 use super::promise::Promise;
 use super::run::{Difference, Run, measured};
 use super::source::Source;
-use crate::error::percent;
+use crate::compare::work_precision::median;
+use crate::error::{Error, percent};
 use crate::prepared::AnyMechanism;
 use serde_json::Value;
 use std::time::Duration;
@@ -24,12 +25,24 @@ pub struct Bench<'a> {
     pub runs: usize,
     /// Their counted work, in that of one of the richest model.
     pub cost: f64,
-    /// Counted work of a run of the richest model.
-    pub richest: f64,
+    /// A run of the richest model.
+    pub richest: &'a Run,
     /// Runs allowed, and work.
     pub at_most: usize,
     /// Motions on which a model has to keep the promise, too.
     pub neighbourhood: Option<&'a Neighbourhood<'a>>,
+    /// What was run, with the CPU time of a unit of its work, s.
+    pub prices: Vec<(Kind, f64)>,
+}
+
+/// CPU time that a run may always take: clocks are rough.
+const ALWAYS: Duration = Duration::from_millis(50);
+
+/// Runs with the same kind of work on models of the same size, whose time per unit is the same.
+type Kind = ((String, String), [usize; 2]);
+
+fn kind(run: &Run) -> Kind {
+    (run.class.clone(), [run.velocities, run.constraints])
 }
 
 impl Bench<'_> {
@@ -39,17 +52,36 @@ impl Bench<'_> {
         done >= self.at_most as f64 || (self.is_stopped)()
     }
 
-    /// Runs a scene for `allowed` CPU time at most.
+    /// Runs a scene, for little more CPU time, s, than `seconds` and than the runs that are left may take.
     ///
     /// # Errors
     /// Reason why the scene cannot be run.
-    pub fn run(&mut self, scene: &Value, what: &str, allowed: Duration) -> std::result::Result<Run, String> {
-        let prepared = self.source.prepare(scene).map_err(|error| error.to_string())?;
+    pub fn run(&mut self, scene: &Value, what: &str, seconds: f64) -> std::result::Result<Run, String> {
+        let prepared = self.source.prepare(scene).map_err(impossible)?;
         (self.watch)(what, self.runs);
         self.runs += 1;
-        let run = measured(&prepared, self.promise, allowed, self.is_stopped).map_err(|error| error.to_string())?;
-        self.cost += run.work / self.richest;
+        let left = (self.at_most as f64 - self.cost).max(0.0) * self.richest.seconds;
+        let allowed = Duration::from_secs_f64(seconds.min(left)) + ALWAYS;
+        let run = measured(&prepared, self.promise, allowed, self.is_stopped).map_err(impossible)?;
+        self.cost += run.work / self.richest.work;
+        self.enter(&run);
         Ok(run)
+    }
+
+    /// Enters the price of a run.
+    pub fn enter(&mut self, run: &Run) {
+        if run.work > 0.0 {
+            self.prices.push((kind(run), run.seconds / run.work));
+        }
+    }
+
+    /// CPU time of a run, s: its counted work at the median price of its kind, so that the clock of a busy machine does
+    /// not decide between two.
+    pub fn cost(&self, run: &Run) -> f64 {
+        let own = kind(run);
+        let prices: Vec<f64> =
+            self.prices.iter().filter(|(kind, _)| *kind == own).map(|(_, price)| *price).collect();
+        median(&prices).map_or(run.seconds, |price| price * run.work)
     }
 
     /// Tries a model that keeps the promise on motions nearby.
@@ -60,6 +92,9 @@ impl Bench<'_> {
         let Some(neighbourhood) = self.neighbourhood else { return Ok(None) };
         (self.watch)("motions nearby", self.runs);
         let found = neighbourhood.robustness(scene);
+        if (self.is_stopped)() {
+            return Err("the time was over before it was tried on all motions nearby".to_string());
+        }
         let Robustness { counted, kept, .. } = found;
         let worst = found.worst().filter(|worst| worst.error > self.promise.within);
         let off = |worst: &Difference| format!("{} is off by up to {}", worst.name, percent(worst.error));
@@ -79,6 +114,18 @@ impl Bench<'_> {
     }
 }
 
+/// Why a changed scene is none, without the place in a file that nobody has seen.
+fn impossible(error: Error) -> String {
+    let reason = match error {
+        Error::Input(input) => match &input.element {
+            Some(element) => format!("`{element}`: {}", input.message),
+            None => input.message,
+        },
+        other => other.to_string(),
+    };
+    format!("what is left is no scene: {}", reason.lines().next().unwrap_or_default())
+}
+
 /// The mechanism of a scene that has all watched outputs.
 ///
 /// # Errors
@@ -92,5 +139,5 @@ pub fn mechanism(source: &Source, watched: &[String], scene: &Value) -> std::res
         return Err(format!("takes away the watched output `{name}`{more}"));
     }
     let scene = source.elements.parse_in(&source.folder, &scene.to_string(), &[]);
-    Ok(AnyMechanism::new(scene.map_err(|error| error.to_string())?.model))
+    Ok(AnyMechanism::new(scene.map_err(impossible)?.model))
 }

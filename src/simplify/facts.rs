@@ -1,6 +1,7 @@
 //! What one run of the richest model tells about its parts.
 
 use super::edit::{carrier, text};
+use super::run::counted;
 use super::source::Source;
 use crate::analysis::Sizes;
 use crate::body::{Frame, in_space};
@@ -40,6 +41,7 @@ pub struct Facts {
 }
 
 /// A state of the recorded motion.
+#[derive(Clone)]
 pub struct State {
     /// Time, s.
     pub t: f64,
@@ -78,6 +80,7 @@ impl Placed {
 const INTERRUPTED: &str = "interrupted";
 
 /// Watched rows, states and sizes of a run.
+#[derive(Clone)]
 pub struct Recorded {
     /// Values of the watched outputs at each time.
     pub rows: Vec<Vec<f64>>,
@@ -85,6 +88,8 @@ pub struct Recorded {
     pub sizes: Sizes,
     /// Why and when it was stopped; none where it is complete.
     pub stopped: Option<Failure>,
+    /// Counted work.
+    pub work: f64,
     states: Vec<State>,
     redundant: Vec<usize>,
 }
@@ -108,11 +113,12 @@ pub fn record(
 ) -> Result<Recorded> {
     let system = prepared.system();
     let (rows, states, redundant) = (Vec::new(), Vec::new(), Vec::new());
-    let recorded = Recorded { rows, sizes: Sizes::default(), stopped: None, states, redundant };
+    let recorded = Recorded { rows, sizes: Sizes::default(), stopped: None, work: 0.0, states, redundant };
     let scales = system.scales();
     let span = prepared.span()?;
     let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, recorded, is_stopped };
     let outcome = simulate(system, method, span, prepared.start(), &mut memory)?;
+    memory.recorded.work = counted(prepared, method, outcome.statistics);
     match outcome.failure {
         None => Ok(memory.recorded),
         Some(failure) if failure.reason == INTERRUPTED => Ok(Recorded { stopped: Some(failure), ..memory.recorded }),

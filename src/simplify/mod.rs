@@ -2,6 +2,7 @@
 //!
 //! 1. The scene is the richest model. It is run twice: at a hundredth of its tolerance for the outputs that all others are
 //!    compared with ([`Promise`]) and for what its parts do ([`Facts`]); by its own method for its cost and own error.
+//!    Where that is more than a tenth of the promise a tighter tolerance or a shorter step takes its place.
 //! 2. Each [`Candidate`] looks at the facts and proposes changes of the scene, with a rough estimate of their effect:
 //!    shares of energy and work, relative motions, deflections; at least what they do at once to the outputs at states of
 //!    the motion, accelerations and reactions with them. What they do later would take the state-transition matrix, which
@@ -15,6 +16,7 @@
 //! To add a kind: a file with a [`Candidate`] and a line in [`registry`], or from outside the crate in the list that
 //! [`simplify`] takes.
 
+mod base;
 mod bench;
 mod candidate;
 mod candidates;
@@ -41,15 +43,11 @@ pub use search::Trial;
 pub use source::Source;
 pub use start::{Hint, Hints, Unseen, hints};
 
-use crate::compare::work_precision::{Watched, tighter};
-use crate::error::{Error, Failure, Result, Warning, clock, percent};
-use crate::prepared::PreparedScene;
-use crate::trajectory::recorded;
+use crate::error::{Result, Warning, percent};
+use base::{Accurate, Base, doubts};
 use bench::Bench;
-use facts::{Recorded, record};
 use nearby::Neighbourhood;
 use numerics::METHOD;
-use run::measured;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
@@ -128,10 +126,8 @@ const RESERVED: usize = 3;
 const LEAST: usize = 3;
 /// Its accurate run may take one of so many parts of the budget.
 const RICHEST: u32 = 4;
-/// Rows of the least part of a motion that a promise may be about.
-const FEWEST_ROWS: usize = 10;
-/// CPU time that the richest model may take.
-const ALLOWED: Duration = Duration::from_secs(3600);
+/// Motions nearby begin with the richest model, until one of so many parts of the budget is over.
+const NEARBY: u32 = 2;
 
 /// Finds the least model of a scene that keeps a promise.
 ///
@@ -150,54 +146,46 @@ pub fn simplify(
     let is_within = |part: u32| settings.budget.is_none_or(|budget| begun.elapsed() < budget / part);
     let (is_asked, is_spent) = (is_stopped, || is_stopped() || !is_within(1));
     let is_stopped: &(dyn Fn() -> bool + Sync) = &is_spent;
-    watch("the richest model, accurately", 0);
     let is_long = || is_asked() || !is_within(RICHEST);
-    let Accurate { prepared, watched, recorded, shorter } = accurate(source, settings, &is_long)?;
-    let names: Vec<String> = watched.columns.iter().map(|column| column.name.clone()).collect();
-    let whole = source;
-    let source = shorter.as_ref().unwrap_or(source);
-    let terms = (settings.within, settings.norm);
-    let promise = Promise::new(terms, &watched.columns, recorded.rows.clone(), &recorded.sizes);
-    watch("the richest model", 1);
-    let richest = measured(&prepared, &promise, ALLOWED, is_stopped)?;
-    if let Some(failure) = richest.failure {
-        return Err(failure.into());
-    }
-    let mut warnings = doubts(&richest, settings);
-    warnings.extend(shorter.as_ref().map(|_| part_only(recorded.end())));
-    let scene = prepared.name.clone();
-    let facts = Facts::new(source.clone(), prepared, names.clone(), recorded);
-    let (runs, at_most) = (2, settings.at_most);
+    let Base { accurate, richest, trials, runs, work } = Base::new(source, settings, &is_long, is_stopped, watch)?;
+    let mut warnings = doubts(&accurate, &richest);
+    let Accurate { source: base, prepared, recorded, promise, .. } = accurate;
+    let (scene, names) = (prepared.name.clone(), promise.names());
+    let facts = Facts::new(base.clone(), prepared, names.clone(), recorded);
     if settings.nearby.is_some() {
         watch("the richest model on motions nearby", runs);
     }
-    let near = |nearby| Neighbourhood::new(source, &promise, nearby, richest.work, is_stopped);
+    let is_near_long = || is_asked() || !is_within(NEARBY);
+    let near = |nearby| Neighbourhood::new(&base, &promise, nearby, richest.work, [&is_near_long, is_stopped]);
     let neighbourhood = settings.nearby.map(near).transpose()?;
-    let neighbours = neighbourhood.as_ref();
+    warnings.extend(neighbourhood.as_ref().and_then(Neighbourhood::doubt));
+    let neighbours = neighbourhood.as_ref().filter(|near| !near.is_empty());
     let mut bench = Bench {
-        source,
+        source: &base,
         promise: &promise,
         is_stopped,
         watch,
         runs,
-        cost: runs as f64,
-        richest: richest.work,
-        at_most,
+        cost: work / richest.work,
+        richest: &richest,
+        at_most: settings.at_most,
         neighbourhood: neighbours,
+        prices: Vec::new(),
     };
-    let reserved = RESERVED.min((at_most - LEAST) / 2);
-    let mut found = search::search(&mut bench, &facts, candidates, richest.clone(), reserved);
+    bench.enter(&richest);
+    let reserved = RESERVED.min((settings.at_most - LEAST) / 2);
+    let mut found = search::search(&mut bench, &facts, candidates, trials, reserved);
     numerics::cheapest(&mut bench, &mut found);
+    let (runs, cost) = (bench.runs, bench.cost);
     // Where nothing was changed it has not been tried.
     let untried = neighbours.filter(|_| found.robustness.is_none() && !is_stopped());
     let robustness = untried.map(|near| near.robustness(&found.scene)).or(found.robustness);
-    let (runs, cost) = (bench.runs, bench.cost);
     let mut result = Simplification {
         scene,
         within: settings.within,
         norm: settings.norm,
         outputs: names,
-        richest,
+        richest: richest.clone(),
         trials: found.trials,
         chosen: found.run,
         runs,
@@ -206,103 +194,31 @@ pub fn simplify(
         warnings,
         simplified: Value::Null,
     };
-    found.scene["simulation"]["t_end"] = whole.scene["simulation"]["t_end"].clone();
+    found.scene["simulation"]["t_end"] = source.scene["simulation"]["t_end"].clone();
     result.simplified = described(source.anywhere(&found.scene), &result);
     if !is_within(1) {
         let text = "the time was over before all changes and methods were tried".to_string();
         result.warnings.push(Warning::new(text, "give more time by --budget"));
     }
     if result.is_simpler() {
-        result.warnings.extend(modes::lost(&facts.prepared, &source.prepare(&found.scene)?));
+        result.warnings.extend(modes::lost(&facts.prepared, &base.prepare(&found.scene)?));
     }
     Ok(result)
-}
-
-/// The accurate run of the richest model.
-struct Accurate {
-    prepared: PreparedScene,
-    watched: Watched,
-    recorded: Recorded,
-    /// The scene of the part that the time allowed for, if that is not the whole.
-    shorter: Option<Source>,
-}
-
-fn accurate(source: &Source, settings: &Settings, is_long: &dyn Fn() -> bool) -> Result<Accurate> {
-    let mut prepared = source.prepare(&source.scene)?;
-    let watched = watched(&prepared, settings)?;
-    let recorded = record(&prepared, &watched, &tighter(&prepared.method), is_long)?;
-    let shorter = recorded.stopped.as_ref().map(|stopped| shorter(source, &recorded, stopped)).transpose()?;
-    if let Some(source) = &shorter {
-        prepared = source.prepare(&source.scene)?;
-    }
-    let undefined = (0..watched.columns.len()).find(|&i| recorded.rows.iter().any(|row| !row[i].is_finite()));
-    if let Some(i) = undefined {
-        let name = &watched.columns[i].name;
-        return Err(Error::input(format!("the output `{name}` has no value at some time of the motion"))
-            .under("outputs")
-            .hint("name the others by --outputs"));
-    }
-    Ok(Accurate { prepared, watched, recorded, shorter })
-}
-
-/// The scene until the last row that the time allowed for.
-fn shorter(source: &Source, recorded: &Recorded, stopped: &Failure) -> Result<Source> {
-    if recorded.rows.len() < FEWEST_ROWS {
-        let reason = format!("the richest model came to t = {} s only", clock(stopped.t));
-        let hint = "give it more time by --budget, a shorter motion by --until, or the scene a faster method: an implicit one \
-             where it is stiff; `holonom check` says what looks superfluous from the start alone";
-        return Err(Failure { reason, hint: hint.to_string(), t: stopped.t }.into());
-    }
-    let mut source = source.clone();
-    source.scene["simulation"]["t_end"] = json!(recorded.end());
-    Ok(source)
-}
-
-fn part_only(end: f64) -> Warning {
-    let text = format!("the time sufficed for the motion until t = {} s, which the promise is about", clock(end));
-    Warning::new(text, "give more time by --budget, or shorten the motion by --until")
-}
-
-fn watched(prepared: &PreparedScene, settings: &Settings) -> Result<Watched> {
-    if !(settings.within > 0.0 && settings.within < 1.0) {
-        return Err(Error::input("a promise is above 0 % and below 100 %").under("--within").hint("write --within 5%"));
-    }
-    if settings.at_most < LEAST {
-        return Err(Error::input(format!("{} runs are too few", settings.at_most))
-            .under("--at-most")
-            .hint(format!("{LEAST} at least: two of the richest model, and one of another")));
-    }
-    if recorded(prepared.system()).is_empty() {
-        return Err(Error::input("the scene has no outputs that a promise could be about")
-            .under("outputs")
-            .hint("give it \"outputs\""));
-    }
-    Watched::new(prepared.system(), &settings.outputs).map_err(|error| error.under("--outputs"))
-}
-
-fn doubts(richest: &Run, settings: &Settings) -> Vec<Warning> {
-    let own = richest.error();
-    let is_coarse = own > search::NUMERICAL * settings.within;
-    let worst = richest.worst().map_or("", |worst| &worst.name);
-    let warning = || {
-        let text = format!("the richest model's own numerical error is {} ({worst})", percent(own));
-        Warning::new(text, "give it a tighter rtol and atol")
-    };
-    is_coarse.then(warning).into_iter().collect()
 }
 
 /// The scene with what was left out, and why, in its words.
 fn described(mut scene: Value, result: &Simplification) -> Value {
     let changes: Vec<String> =
         result.left_out().map(|trial| format!("{} ({})", trial.what.join(", "), trial.why)).collect();
-    let about = scene["about"].as_str().map_or(String::new(), |about| format!("{about} "));
+    // What the scene says of itself may no longer be so.
+    let about = scene["about"].as_str().map_or(String::new(), |about| format!(" About {}: {about}", result.scene));
     let left_out = if changes.is_empty() { "nothing can be left out".to_string() } else { changes.join("; ") };
     // Where the richest model's own error is larger nobody knows.
     let promise = match result.warnings.is_empty() {
         true => format!(", within {} in {}", percent(result.within), result.outputs.join(", ")),
         false => String::new(),
     };
-    scene["about"] = json!(format!("{about}Simplified from {}{promise}: {left_out}.", result.scene));
+    scene["about"] = json!(format!("Simplified from {}{promise}: {left_out}.{about}", result.scene));
     scene["name"] = json!(format!("{}_simplified", result.scene));
     scene
 }

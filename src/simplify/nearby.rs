@@ -5,7 +5,7 @@ use super::promise::Promise;
 use super::run::{Difference, Run, measured, sampled};
 use super::source::Source;
 use crate::compare::work_precision::RunSample;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Warning};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -101,20 +101,23 @@ pub struct Neighbourhood<'a> {
     /// Relative change of each parameter, and of the velocities, with the promise about that motion or the reason why
     /// the richest model does not complete it.
     motions: Vec<(Vec<f64>, std::result::Result<Promise, String>)>,
+    /// Number of motions that there were to be.
+    wanted: usize,
     is_stopped: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl<'a> Neighbourhood<'a> {
-    /// Runs the richest model, a run of which takes `work`, on the motions near that of `promise`.
+    /// Runs the richest model, a run of which takes `work`, on the motions near that of `promise`, until `is_long`;
+    /// models are tried on them until `is_stopped`.
     ///
     /// # Errors
-    /// Nothing can be moved; the richest model completes none of the motions.
+    /// Nothing can be moved; the richest model completes none of the motions, though there is time.
     pub fn new(
         source: &'a Source,
         promise: &Promise,
         Nearby { by, samples }: Nearby,
         work: f64,
-        is_stopped: &'a (dyn Fn() -> bool + Sync),
+        [is_long, is_stopped]: [&'a (dyn Fn() -> bool + Sync); 2],
     ) -> Result<Neighbourhood<'a>> {
         let parameters = movable(source, by);
         let velocities = source.prepare(&source.scene)?.start().1.iter().any(|v| *v != 0.0);
@@ -126,19 +129,37 @@ impl<'a> Neighbourhood<'a> {
         let motion = |sample: usize| {
             let mut random = Random(1 + sample as u64);
             let moves: Vec<f64> = (0..=parameters.len()).map(|_| by * random.next()).collect();
-            let there = promised(source, &moved(&source.scene, &parameters, &moves), promise, is_stopped);
-            (moves, there)
+            let there = promised(source, &moved(&source.scene, &parameters, &moves), promise, is_long);
+            // What was not completed for want of time says nothing.
+            (there.is_ok() || !is_long()).then_some((moves, there))
         };
         let samples = samples.unwrap_or(((AFFORDED / work) as usize).clamp(SAMPLES[0], SAMPLES[1]));
-        let motions: Vec<_> = (0..samples).into_par_iter().map(motion).collect();
+        let motions: Vec<_> = (0..samples).into_par_iter().filter_map(motion).collect();
         match motions.iter().all(|(_, there)| there.is_err()).then(|| motions.first()).flatten() {
             Some((_, Err(reason))) => {
                 Err(Error::input(format!("the richest model completes none of the motions nearby: {reason}"))
                     .under("--robust")
-                    .hint(if is_stopped() { "give more time by --budget" } else { "move the scene by less" }))
+                    .hint("move the scene by less"))
             }
-            _ => Ok(Neighbourhood { source, within: promise.within, by, parameters, velocities, motions, is_stopped }),
+            _ => {
+                let (within, wanted) = (promise.within, samples);
+                Ok(Neighbourhood { source, within, by, parameters, velocities, motions, wanted, is_stopped })
+            }
         }
+    }
+
+    /// True if the time allowed for none of the motions.
+    pub fn is_empty(&self) -> bool {
+        self.motions.is_empty()
+    }
+
+    /// A warning where the time did not allow for all motions.
+    pub fn doubt(&self) -> Option<Warning> {
+        let text = match self.motions.len() {
+            0 => "the time did not suffice for motions nearby: the promise is about the given motion alone".to_string(),
+            count => format!("the time sufficed for {count} of {} motions nearby", self.wanted),
+        };
+        (self.motions.len() < self.wanted).then(|| Warning::new(text, "give more time by --budget"))
     }
 
     /// Tries a model on them, until it breaks the promise on too many.
@@ -170,7 +191,7 @@ fn movable(source: &Source, by: f64) -> Vec<String> {
     };
     let builds = |name: &str, u: f64| source.prepare(&moved(scene, &[name.to_string()], &[u, 0.0])).is_ok();
     let is_possible = |name: &&String| !counts(name) && builds(name, by) && builds(name, -by);
-    numbers.filter(is_possible).cloned().collect()
+    numbers.collect::<Vec<_>>().into_par_iter().filter(is_possible).cloned().collect()
 }
 
 const VELOCITIES: [&str; 3] = ["velocity", "angular_velocity", "elastic_velocity"];

@@ -1,12 +1,12 @@
 //! The cheapest method for a model whose own error is a tenth of the promise.
 
+use super::base::at;
 use super::bench::Bench;
 use super::run::Run;
 use super::search::{Found, NUMERICAL, Trial};
 use super::source::write_method;
 use crate::error::percent;
-use crate::simulate::{Method, atol_of};
-use std::time::Duration;
+use crate::simulate::Method;
 
 /// Kind of the trials of methods.
 pub const METHOD: &str = "method";
@@ -23,9 +23,6 @@ const TOLERANCES: usize = 3;
 const CHEAPER: f64 = 0.9;
 /// At so many times the cost of the best one a method is given up.
 const DEARER: f64 = 1.5;
-/// CPU time that a run may always take.
-const ALWAYS: Duration = Duration::from_millis(50);
-
 /// Methods that are tried beside the scene's own: those that cost least on most motions, without and with fast modes at
 /// rest.
 const METHODS: [&str; 2] = ["index1 + dop853 + manifold", "ggl + radau_iia"];
@@ -77,28 +74,27 @@ enum Verdict {
     Dear,
 }
 
-fn at(method: &Method, rtol: f64) -> Method {
-    let rtol: f64 = format!("{rtol:.0e}").parse().unwrap_or(rtol);
-    Method { rtol, atol: atol_of(rtol, method.atol / method.rtol), ..method.clone() }
+/// Its tolerance, or its step, in words.
+pub fn accuracy(method: &Method) -> String {
+    method.step.map_or_else(|| format!("rtol {:e}", method.rtol), |step| format!("step {step:e} s"))
 }
 
 /// Runs the model by a method, and takes that if it is good and cheaper.
 fn attempt(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], method: &Method) -> Verdict {
     let mut scene = found.scene.clone();
     write_method(&mut scene, method);
-    let accuracy = method.step.map_or_else(|| format!("rtol {:e}", method.rtol), |step| format!("step {step:e} s"));
-    let what = format!("{} at {accuracy}", method.triple());
-    let best = found.run.seconds;
-    let result = bench.run(&scene, &what, Duration::from_secs_f64(best) + ALWAYS);
+    let what = format!("{} at {}", method.triple(), accuracy(method));
+    let result = bench.run(&scene, &what, found.run.seconds);
     let mut reason = result.as_ref().map_or_else(Clone::clone, |run| refusal(bench, run, exact));
-    let seconds = result.as_ref().map_or(0.0, |run| run.seconds);
+    let (best, seconds) = (bench.cost(&found.run), result.as_ref().map_or(0.0, |run| bench.cost(run)));
     let is_cheaper = seconds < CHEAPER * best;
     if let (Ok(run), true) = (&result, reason.is_empty() && is_cheaper) {
         reason = found.take(bench, scene, run).err().unwrap_or_default();
     }
     let is_good = reason.is_empty();
+    let is_dear = seconds > DEARER * best || result.as_ref().is_ok_and(|run| run.is_too_slow);
     let verdict = match is_good {
-        _ if seconds > DEARER * best => Verdict::Dear,
+        _ if is_dear => Verdict::Dear,
         true => Verdict::Good,
         false => Verdict::Poor,
     };

@@ -1,10 +1,11 @@
 //! A run of a model, measured against the richest.
 
 use super::promise::Promise;
-use crate::compare::work_precision::{Allowed, Motion, RunSample, Watched, sample};
+use crate::compare::work_precision::{Allowed, Motion, RunSample, Watched, Worker, sample};
 use crate::error::{Failure, Result};
 use crate::prepared::PreparedScene;
-use crate::simulate::Method;
+use crate::formulation::Statistics;
+use crate::simulate::{Method, explicit};
 use crate::system::Dimensions;
 use serde::Serialize;
 use std::time::Duration;
@@ -20,12 +21,18 @@ pub struct Run {
     pub method: Method,
     /// CPU time, s.
     pub seconds: f64,
-    /// Evaluations, iterations and factorizations, times velocities and constraints.
+    /// Counted work: see [`counted`].
     pub work: f64,
+    /// Kind of the work: formulation, and integrator if that is implicit.
+    #[serde(skip)]
+    pub class: (String, String),
     /// Difference of each watched output from the richest model; empty where the run failed.
     pub outputs: Vec<Difference>,
     /// Reason why it did not complete.
     pub failure: Option<Failure>,
+    /// True if it was stopped at its time limit.
+    #[serde(skip)]
+    pub is_too_slow: bool,
     /// Values of the watched outputs.
     #[serde(skip)]
     pub rows: Vec<Vec<f64>>,
@@ -71,6 +78,16 @@ pub fn sampled(
     sample(&motion, &watched, &prepared.method, span, Allowed { cpu: allowed, wall: BUSY * allowed + WAIT })
 }
 
+/// The work of a run in solutions of the equations of motion, times velocities and constraints.
+pub fn counted(prepared: &PreparedScene, method: &Method, statistics: Statistics) -> f64 {
+    let Dimensions { v, lambda, .. } = prepared.system().dimensions();
+    worker(prepared, method).work(statistics) * (v + lambda) as f64
+}
+
+fn worker<'m>(prepared: &PreparedScene, method: &'m Method) -> Worker<'m> {
+    Worker { method, is_explicit: explicit(prepared.system(), method).is_some() }
+}
+
 /// Runs a prepared model by its own method and measures it.
 ///
 /// # Errors
@@ -82,19 +99,21 @@ pub fn measured(
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<Run> {
     let names = promise.names();
-    let RunSample { rows, statistics, failure, seconds, .. } = sampled(prepared, &names, allowed, is_stopped)?;
+    let RunSample { rows, statistics, failure, is_too_slow, seconds, .. } = sampled(prepared, &names, allowed, is_stopped)?;
     let Dimensions { v, lambda, .. } = prepared.system().dimensions();
     let errors = failure.is_none().then(|| promise.errors(&rows)).flatten().unwrap_or_default();
     let differences = names.into_iter().zip(errors).map(|(name, error)| Difference { name, error });
-    let counted = statistics.rhs_evaluations + statistics.newton_iterations + 2 * statistics.factorizations;
+    let (formulation, integrator) = worker(prepared, &prepared.method).class();
     Ok(Run {
         velocities: v,
         constraints: lambda,
         method: prepared.method.clone(),
         seconds,
-        work: counted as f64 * (v + lambda) as f64,
+        work: counted(prepared, &prepared.method, statistics),
+        class: (formulation.to_string(), integrator.to_string()),
         outputs: differences.collect(),
         failure,
+        is_too_slow,
         rows,
     })
 }

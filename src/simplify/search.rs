@@ -9,7 +9,6 @@ use crate::error::{percent, short_list};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::VecDeque;
-use std::time::Duration;
 
 /// Part of the promise that the numerical error of a method may have.
 pub const NUMERICAL: f64 = 0.1;
@@ -19,9 +18,8 @@ const HOPELESS: f64 = 3.0;
 const TOO_MUCH: f64 = 0.5;
 /// A model that takes so much more work is not simpler.
 const DEARER: f64 = 1.1;
-/// A model may take so many times the CPU time of the richest, and `ALWAYS` more.
+/// A model may take so many times the CPU time of the richest.
 const SLOWER: f64 = 3.0;
-const ALWAYS: Duration = Duration::from_millis(500);
 
 /// A change that was proposed, or several together.
 #[derive(Clone, Debug, Serialize)]
@@ -82,16 +80,20 @@ struct Search<'a, 'b> {
     bench: &'a mut Bench<'b>,
     ideas: Vec<Idea>,
     settled: Vec<(&'static str, String)>,
-    limit: Duration,
     reserved: usize,
     found: Found,
 }
 
-/// Tries the changes that the candidates propose, `reserved` runs being left over.
-pub fn search(bench: &mut Bench, facts: &Facts, candidates: &[&dyn Candidate], richest: Run, reserved: usize) -> Found {
-    let limit = Duration::from_secs_f64(SLOWER * richest.seconds) + ALWAYS;
-    let found = Found { scene: facts.scene().clone(), run: richest, robustness: None, trials: Vec::new() };
-    let mut search = Search { bench, ideas: Vec::new(), settled: Vec::new(), limit, reserved, found };
+/// Tries the changes that the candidates propose after what was tried, `reserved` runs being left over.
+pub fn search(
+    bench: &mut Bench,
+    facts: &Facts,
+    candidates: &[&dyn Candidate],
+    trials: Vec<Trial>,
+    reserved: usize,
+) -> Found {
+    let found = Found { scene: facts.scene().clone(), run: bench.richest.clone(), robustness: None, trials };
+    let mut search = Search { bench, ideas: Vec::new(), settled: Vec::new(), reserved, found };
     let own = facts.at_once(&facts.prepared.mechanism);
     for candidate in candidates {
         for proposal in candidate.propose(facts) {
@@ -121,11 +123,12 @@ impl Search<'_, '_> {
         if let Some(difference) = at_once.and_then(|(other, own)| self.bench.promise.difference(own, &other)) {
             proposal.effect = proposal.effect.max(difference);
         }
-        let most = TOO_MUCH.min(HOPELESS * self.bench.promise.within);
+        let within = self.bench.promise.within;
+        let most = TOO_MUCH.min(HOPELESS * within);
         let refusal = match &mechanism {
             Err(reason) => Some(reason.clone()),
             Ok(_) if proposal.effect.is_nan() || proposal.effect > most => {
-                Some("its estimated effect is too much".to_string())
+                Some(format!("its estimated effect is more than {}, of which {} is promised", percent(most), percent(within)))
             }
             Ok(_) => None,
         };
@@ -193,13 +196,13 @@ impl Search<'_, '_> {
 
     fn run(&mut self, group: &[usize]) -> Trial {
         if self.bench.is_over(self.reserved) {
-            return self.trial(group, None, "no runs are left".to_string());
+            return self.trial(group, None, "the runs, or the time, were over before".to_string());
         }
         let mut scene = self.found.scene.clone();
         let made = group.iter().try_for_each(|i| (self.ideas[*i].proposal.edit)(&mut scene));
         let made = made.and_then(|()| self.bench.mechanism(&scene));
         let what = self.ideas[group[0]].proposal.what.clone();
-        match made.and_then(|_| self.bench.run(&scene, &what, self.limit)) {
+        match made.and_then(|_| self.bench.run(&scene, &what, SLOWER * self.bench.richest.seconds)) {
             Err(reason) => self.trial(group, None, reason),
             Ok(run) => {
                 let mut reason = self.refusal(&run);

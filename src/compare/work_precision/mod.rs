@@ -29,7 +29,7 @@ pub use advice::Recommendation;
 #[doc(hidden)]
 pub use advice::{Lack, cheapest_by_method};
 #[doc(hidden)]
-pub use cell::Held;
+pub use cell::{Held, median};
 pub use cell::{Cell, Outcome};
 #[doc(hidden)]
 pub use error_metric::ErrorMetric;
@@ -45,6 +45,8 @@ pub use runner::{Plan, Runner};
 pub use sample::Motion;
 #[doc(hidden)]
 pub use sample::{Allowed, RunSample, cpu_seconds, sample};
+#[doc(hidden)]
+pub use work::Worker;
 
 use serde::{Deserialize, Serialize};
 

@@ -3,6 +3,7 @@
 use super::WorkPrecision;
 use super::cell::{Cell, median};
 use crate::formulation::{Statistics, Work};
+use crate::simulate::Method;
 use std::collections::BTreeMap;
 
 /// Work in solutions of the equations of motion. Over 1672 runs on nine scenes the times of a class are proportional to
@@ -19,12 +20,20 @@ const LIKE_INDEX1: [(&str, f64); 3] = [("baumgarte", 1.0), ("force_projection", 
 
 /// Runs with the same kind of work, whose time per unit is the same: explicit methods on one formulation; an implicit
 /// method on one formulation.
-type Class<'c> = (&'c str, &'c str);
+pub type Class<'c> = (&'c str, &'c str);
 
-impl Cell {
-    /// Returns the units of work; none where the run did not complete.
-    fn work(&self) -> Option<f64> {
-        let statistics = self.statistics()?;
+/// A method and whether stability limits its steps.
+#[derive(Clone, Copy)]
+pub struct Worker<'c> {
+    /// The method.
+    pub method: &'c Method,
+    /// True if stability limits its steps.
+    pub is_explicit: bool,
+}
+
+impl<'c> Worker<'c> {
+    /// Returns the units of work.
+    pub fn work(self, statistics: Statistics) -> f64 {
         let Statistics { steps, rejected, .. } = statistics;
         let Work { rhs_evaluations, jacobian_evaluations, factorizations, newton_iterations, projections } =
             statistics.whole();
@@ -34,18 +43,30 @@ impl Cell {
             + FACTORIZATION * factorizations as f64
             + ITERATION * newton_iterations as f64;
         let all = if self.is_explicit { every } else { every + implicit };
-        Some(self.like_index1().unwrap_or(1.0) * all)
+        self.like_index1().unwrap_or(1.0) * all
     }
 
-    fn class(&self) -> Class<'_> {
+    /// Returns the kind of its work.
+    pub fn class(self) -> Class<'c> {
         let formulation = if self.like_index1().is_some() { "index1" } else { &self.method.formulation.name };
         (formulation, if self.is_explicit { "" } else { &self.method.integrator.name })
     }
 
     /// Returns the price of its evaluations over those of `index1`, where it is known.
-    fn like_index1(&self) -> Option<f64> {
+    fn like_index1(self) -> Option<f64> {
         let like = LIKE_INDEX1.iter().find(|(name, _)| self.is_explicit && *name == self.method.formulation.name);
         like.map(|(_, price)| *price)
+    }
+}
+
+impl Cell {
+    fn worker(&self) -> Worker<'_> {
+        Worker { method: &self.method, is_explicit: self.is_explicit }
+    }
+
+    /// Returns the units of work; none where the run did not complete.
+    fn work(&self) -> Option<f64> {
+        Some(self.worker().work(self.statistics()?))
     }
 }
 
@@ -56,10 +77,10 @@ impl WorkPrecision {
         let mut units: BTreeMap<Class, Vec<f64>> = BTreeMap::new();
         for cell in &self.cells {
             let unit = cell.seconds().zip(cell.work()).map(|(seconds, work)| seconds / work);
-            units.entry(cell.class()).or_default().extend(unit);
+            units.entry(cell.worker().class()).or_default().extend(unit);
         }
         let units: BTreeMap<Class, Option<f64>> = units.into_iter().map(|(class, all)| (class, median(&all))).collect();
-        let cost = |cell: &Cell| Some(cell.work()? * units.get(&cell.class()).copied().flatten()?);
+        let cost = |cell: &Cell| Some(cell.work()? * units.get(&cell.worker().class()).copied().flatten()?);
         let costs: Vec<Option<f64>> = self.cells.iter().map(cost).collect();
         self.cells.iter_mut().zip(costs).for_each(|(cell, cost)| cell.cost = cost);
     }

@@ -1,0 +1,234 @@
+//! The richest model: accurately, and by a method whose own error the promise allows.
+
+use super::facts::{Recorded, record};
+use super::numerics::{METHOD, accuracy};
+use super::promise::Promise;
+use super::run::{Run, measured};
+use super::search::{NUMERICAL, Trial};
+use super::source::{Source, write_method};
+use super::{LEAST, Settings};
+use crate::compare::work_precision::{Watched, tighter};
+use crate::error::{Error, Failure, Result, Warning, clock, percent};
+use crate::integrator;
+use crate::prepared::PreparedScene;
+use crate::simulate::{Method, atol_of};
+use crate::trajectory::recorded;
+use serde_json::json;
+use std::time::Duration;
+
+/// Rows of the least part of a motion that a promise may be about.
+const FEWEST_ROWS: usize = 10;
+/// CPU time that the richest model may take.
+const ALLOWED: Duration = Duration::from_secs(3600);
+/// A tighter method is to have this part of the error that is allowed: predictions are rough.
+const AIM: f64 = 0.5;
+/// Number of tighter methods that are tried.
+const TIGHTENED: usize = 2;
+/// A step, and a tolerance, that are so many times that of the accurate run are measured against it.
+const COARSER: [f64; 2] = [2.0, 10.0];
+/// The tightest relative tolerance.
+const TIGHTEST: f64 = 1e-12;
+
+/// The accurate run of the richest model.
+pub struct Accurate {
+    /// The scene, until where the time allowed for.
+    pub source: Source,
+    /// It, ready to run.
+    pub prepared: PreparedScene,
+    /// What the run tells.
+    pub recorded: Recorded,
+    /// The promise about it.
+    pub promise: Promise,
+    /// True if the time did not allow for the whole.
+    is_shorter: bool,
+}
+
+/// The richest model with its two runs.
+pub struct Base {
+    /// The accurate run.
+    pub accurate: Accurate,
+    /// Run by the method of the scene, or a tighter one whose own error the promise allows.
+    pub richest: Run,
+    /// That tighter one, if it took one.
+    pub trials: Vec<Trial>,
+    /// Number of runs.
+    pub runs: usize,
+    /// Their counted work.
+    pub work: f64,
+}
+
+impl Accurate {
+    /// Runs the model at a hundredth of its tolerance until `is_long`.
+    fn new(source: &Source, settings: &Settings, is_long: &dyn Fn() -> bool) -> Result<Accurate> {
+        let mut prepared = source.prepare(&source.scene)?;
+        let watched = watched(&prepared, settings)?;
+        let recorded = record(&prepared, &watched, &tighter(&prepared.method), is_long)?;
+        let shorter = recorded.stopped.as_ref().map(|stopped| shorter(source, &recorded, stopped)).transpose()?;
+        if let Some(source) = &shorter {
+            prepared = source.prepare(&source.scene)?;
+        }
+        let undefined = (0..watched.columns.len()).find(|&i| recorded.rows.iter().any(|row| !row[i].is_finite()));
+        if let Some(i) = undefined {
+            let name = &watched.columns[i].name;
+            return Err(Error::input(format!("the output `{name}` has no value at some time of the motion"))
+                .under("outputs")
+                .hint("name the others by --outputs"));
+        }
+        let terms = (settings.within, settings.norm);
+        let promise = Promise::new(terms, &watched.columns, recorded.rows.clone(), &recorded.sizes);
+        let is_shorter = shorter.is_some();
+        Ok(Accurate { source: shorter.unwrap_or_else(|| source.clone()), prepared, recorded, promise, is_shorter })
+    }
+
+    /// The same run, as the measure of the scene by another method.
+    fn of(&self, source: Source) -> Result<Accurate> {
+        let prepared = source.prepare(&source.scene)?;
+        let Accurate { recorded, promise, is_shorter, .. } = self;
+        Ok(Accurate { source, prepared, recorded: recorded.clone(), promise: promise.clone(), is_shorter: *is_shorter })
+    }
+
+    /// Runs the model by its own method.
+    fn measured(&self, is_stopped: &(dyn Fn() -> bool + Sync)) -> Result<Run> {
+        let run = measured(&self.prepared, &self.promise, ALLOWED, is_stopped)?;
+        run.failure.clone().map_or(Ok(run), |failure| Err(failure.into()))
+    }
+}
+
+impl Base {
+    /// Runs the richest model: at a hundredth of its tolerance until `is_long`, by its own method and, where the error
+    /// of that is too much, by a tighter one.
+    ///
+    /// # Errors
+    /// Unknown outputs, a scene without outputs, settings out of range; a richest model that does not complete.
+    pub fn new(
+        source: &Source,
+        settings: &Settings,
+        is_long: &(dyn Fn() -> bool + Sync),
+        is_stopped: &(dyn Fn() -> bool + Sync),
+        watch: &mut dyn FnMut(&str, usize),
+    ) -> Result<Base> {
+        watch("the richest model, accurately", 0);
+        let accurate = Accurate::new(source, settings, is_long)?;
+        watch("the richest model", 1);
+        let richest = accurate.measured(is_stopped)?;
+        let work = accurate.recorded.work + richest.work;
+        let mut base = Base { accurate, richest, trials: Vec::new(), runs: 2, work };
+        for _ in 0..TIGHTENED {
+            let Some(method) = base.sufficient().filter(|_| !is_stopped()) else { break };
+            watch("the richest model by a tighter method", base.runs);
+            // Where that does not complete it stays as it is, and its error is told.
+            let Ok(next) = base.tightened(&method, settings, [is_long, is_stopped]) else { break };
+            base = next;
+        }
+        Ok(base)
+    }
+
+    /// The method of which an error within the allowed one is expected; none where that of the run is.
+    fn sufficient(&self) -> Option<Method> {
+        let (Run { method, .. }, error) = (&self.richest, self.richest.error());
+        let allowed = NUMERICAL * self.accurate.promise.within;
+        if error <= allowed {
+            return None;
+        }
+        let part = AIM * allowed / error;
+        Some(match method.step {
+            Some(step) => {
+                let order = integrator::find(&method.integrator).map_or(1, |entry| entry.order);
+                Method { step: Some(rounded(step * part.powf(1.0 / order as f64))), ..method.clone() }
+            }
+            None => at(method, (part * method.rtol).max(TIGHTEST)),
+        })
+        .filter(|finer| finer.step < method.step || finer.rtol < method.rtol)
+    }
+
+    /// The richest model by a tighter method, against the accurate run that is there where that is accurate enough.
+    fn tightened(
+        &self,
+        method: &Method,
+        settings: &Settings,
+        [is_long, is_stopped]: [&(dyn Fn() -> bool + Sync); 2],
+    ) -> Result<Base> {
+        let known = tighter(&self.richest.method);
+        let mut source = self.accurate.source.clone();
+        write_method(&mut source.scene, method);
+        let is_known = match (method.step, known.step) {
+            (Some(step), Some(known)) => step >= COARSER[0] * known,
+            _ => method.rtol >= COARSER[1] * known.rtol,
+        };
+        let accurate =
+            if is_known { self.accurate.of(source)? } else { Accurate::new(&source, settings, is_long)? };
+        if let Some(stopped) = accurate.recorded.stopped.clone().filter(|_| !is_known) {
+            return Err(stopped.into());
+        }
+        let richest = accurate.measured(is_stopped)?;
+        let trial = Trial {
+            candidate: METHOD.to_string(),
+            subjects: vec![method.triple()],
+            what: vec![format!("the scene as it is at {}", accuracy(method))],
+            why: format!("the error of {} is {}", accuracy(&self.richest.method), percent(self.richest.error())),
+            estimated: NUMERICAL * self.accurate.promise.within,
+            run: Some(richest.clone()),
+            is_kept: true,
+            reason: String::new(),
+        };
+        let again = if is_known { 0.0 } else { accurate.recorded.work };
+        let (runs, work) = (self.runs + if is_known { 1 } else { 2 }, self.work + again + richest.work);
+        Ok(Base { accurate, richest, trials: vec![trial], runs, work })
+    }
+}
+
+/// What is doubtful about the richest model.
+pub fn doubts(accurate: &Accurate, richest: &Run) -> Vec<Warning> {
+    let own = richest.error();
+    let worst = richest.worst().map_or("", |worst| &worst.name);
+    let coarse = (own > NUMERICAL * accurate.promise.within).then(|| {
+        let text = format!("the richest model's own numerical error is {} ({worst})", percent(own));
+        Warning::new(text, "give it a tighter rtol and atol, or a shorter step")
+    });
+    let part = accurate.is_shorter.then(|| {
+        let end = clock(accurate.recorded.end());
+        let text = format!("the time sufficed for the motion until t = {end} s, which the promise is about");
+        Warning::new(text, "give more time by --budget, or shorten the motion by --until")
+    });
+    coarse.into_iter().chain(part).collect()
+}
+
+/// A method at another relative tolerance, of one digit.
+pub fn at(method: &Method, rtol: f64) -> Method {
+    let rtol = rounded(rtol);
+    Method { rtol, atol: atol_of(rtol, method.atol / method.rtol), ..method.clone() }
+}
+
+fn rounded(x: f64) -> f64 {
+    format!("{x:.0e}").parse().unwrap_or(x)
+}
+
+/// The scene until the last row that the time allowed for.
+fn shorter(source: &Source, recorded: &Recorded, stopped: &Failure) -> Result<Source> {
+    if recorded.rows.len() < FEWEST_ROWS {
+        let reason = format!("the richest model came to t = {} s only", clock(stopped.t));
+        let hint = "give it more time by --budget, a shorter motion by --until, or the scene a faster method: an implicit one \
+             where it is stiff; `holonom check` says what looks superfluous from the start alone";
+        return Err(Failure { reason, hint: hint.to_string(), t: stopped.t }.into());
+    }
+    let mut source = source.clone();
+    source.scene["simulation"]["t_end"] = json!(recorded.end());
+    Ok(source)
+}
+
+fn watched(prepared: &PreparedScene, settings: &Settings) -> Result<Watched> {
+    if !(settings.within > 0.0 && settings.within < 1.0) {
+        return Err(Error::input("a promise is above 0 % and below 100 %").under("--within").hint("write --within 5%"));
+    }
+    if settings.at_most < LEAST {
+        return Err(Error::input(format!("{} runs are too few", settings.at_most))
+            .under("--at-most")
+            .hint(format!("{LEAST} at least: two of the richest model, and one of another")));
+    }
+    if recorded(prepared.system()).is_empty() {
+        return Err(Error::input("the scene has no outputs that a promise could be about")
+            .under("outputs")
+            .hint("give it \"outputs\""));
+    }
+    Watched::new(prepared.system(), &settings.outputs).map_err(|error| error.under("--outputs"))
+}
