@@ -24,6 +24,7 @@ fn mode(value: Complex<f64>, shape: &[f64]) -> Mode {
         energy: Vec::new(),
         mass: 1.0,
         outputs: Vec::new(),
+        rounding: 0.0,
     }
 }
 

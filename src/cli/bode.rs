@@ -60,7 +60,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let (inputs, outputs) = (prepared.system().inputs(), prepared.system().columns());
     let chosen = Chosen {
         inputs: choose("input", &args.inputs, &inputs).map_err(in_file)?,
-        outputs: choose("output", &args.outputs, &outputs).map_err(in_file)?,
+        outputs: choose("output", &args.outputs, &outputs)
+            .map_err(|error| accumulated(&args.outputs, &prepared.system().works()).unwrap_or(error))
+            .map_err(in_file)?,
     };
     let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
     let mut folder = args.files.folder(&prepared.name)?;
@@ -93,6 +95,13 @@ fn moving(model: &LinearModel) -> Option<Warning> {
         model.chart
     );
     (!model.point.is_equilibrium).then(|| Warning::new(text, "--equilibrium finds the equilibrium near the state"))
+}
+
+/// Why works among the named outputs, or the only ones, have no response.
+fn accumulated(named: &[String], works: &[Column]) -> Option<Error> {
+    let work = works.iter().find(|work| named.is_empty() || named.contains(&work.name))?;
+    let text = format!("`{}` is a work, which adds up along the motion: it is no function of the state", work.name);
+    Some(Error::input(text).under("--output").hint("name an output of the state, such as the power of the same force"))
 }
 
 /// Returns the indices of the named columns, or of all.

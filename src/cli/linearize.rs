@@ -54,6 +54,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let requests = requests(&args).map_err(|error| error.under("--method"))?;
     let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
     let other = args.against.as_ref().map(|path| other(&args, path)).transpose()?;
+    let strangers = other.as_ref().map(|scene| unlike(&prepared, scene)).transpose()?.flatten();
+    args.talk.warn(&strangers);
     let mut folder = args.output.folder(&prepared.name)?;
     let (mut results, mut told) = (Vec::new(), Vec::new());
     for state in &places {
@@ -152,6 +154,34 @@ struct Compared {
 fn other(args: &Args, path: &Path) -> Result<PreparedScene> {
     let scene = SceneOptions { path: path.to_path_buf(), set: Vec::new() };
     args.run.load_tight(&scene, &args.talk)
+}
+
+/// A warning where a scene to compare with has no body, or no output, of the first.
+///
+/// # Errors
+/// It has neither: it is a scene of something else.
+pub fn unlike(own: &PreparedScene, other: &PreparedScene) -> Result<Option<Warning>> {
+    let bodies = |scene: &PreparedScene| -> Vec<String> {
+        let names = scene.system().names().v.into_iter();
+        names.map(|name| name.split('.').next().unwrap_or_default().trim_end_matches('\'').to_string()).collect()
+    };
+    let outputs = |scene: &PreparedScene| scene.system().columns().into_iter().map(|column| column.name).collect();
+    let shares = |list: &dyn Fn(&PreparedScene) -> Vec<String>| {
+        let there = list(other);
+        list(own).iter().any(|name| there.contains(name))
+    };
+    let text = match [shares(&bodies), shares(&outputs)] {
+        [true, true] => return Ok(None),
+        [false, false] => {
+            let text = format!("{} has no body and no output of {}: it is a scene of something else", other.name, own.name);
+            return Err(Error::input(text)
+                .under("--against")
+                .hint("name a scene of the same mechanism, such as simplified.json"));
+        }
+        [false, true] => format!("{} has no body of {}: is it a scene of the same mechanism?", other.name, own.name),
+        [true, false] => format!("{} has no output of {}: modes are told by their eigenvalues alone", other.name, own.name),
+    };
+    Ok(Some(Warning::new(text, "give both scenes the same names")))
 }
 
 /// The modes of `model` against those of another scene at the same time.

@@ -2,8 +2,9 @@
 
 use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive, tell};
 use super::linear::ModelOptions;
+use super::linearize::unlike;
 use crate::error::{Error, Result, short};
-use crate::linearize::{At, Kind, Loci, Request, Variants, loci_along, loci_over, refuse_large};
+use crate::linearize::{At, Gap, Kind, Loci, Request, Variants, loci_along, loci_over, refuse_large};
 use crate::prepared::PreparedScene;
 use crate::report::linear::{
     LociAgainst, LociFile, LociSummary, frequency_figure, loci_figure, loci_table, with_others,
@@ -70,7 +71,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
     args.talk.warn(&loci.doubts);
     let mut summary = LociSummary::new(&prepared.name, &loci);
-    let other = args.against.as_ref().map(|path| other(&args, path, &request)).transpose()?;
+    let other = args.against.as_ref().map(|path| other(&args, &prepared, path, &request)).transpose()?;
     summary.against = other.as_ref().map(|(name, other)| LociAgainst::new(&loci, name, other));
     folder.write("loci.csv", &loci_table(&loci)?)?;
     let title = match &args.sweep {
@@ -89,12 +90,26 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let written = args.talk.finish(folder)?;
     args.talk.print(&args.talk.repeatable(&prepared, &summary), || summary.text())?;
     args.talk.tell_files(&written)?;
-    match loci.gaps.last().filter(|_| args.sweep.is_none()).map(|gap| &gap.error) {
-        Some(error @ Error::Run(_)) => {
-            tell(format!("error: {error}"));
-            Ok(ExitCode::from(1))
-        }
-        _ => Ok(ExitCode::SUCCESS),
+    let Some(gap) = failed(&args, &loci) else { return Ok(ExitCode::SUCCESS) };
+    match &args.sweep {
+        Some(range) => tell(format!(
+            "error: {} of {} values have no eigenvalues; at {} = {}: {}",
+            loci.gaps.len(),
+            range.count,
+            range.parameter,
+            short(gap.at),
+            gap.error
+        )),
+        None => tell(format!("error: {}", gap.error)),
+    }
+    Ok(ExitCode::from(1))
+}
+
+/// The gap that makes the loci incomplete: any value of a parameter; of a motion the end.
+fn failed<'l>(args: &Args, loci: &'l Loci) -> Option<&'l Gap> {
+    match args.sweep {
+        Some(_) => loci.gaps.first(),
+        None => loci.gaps.last().filter(|gap| matches!(gap.error, Error::Run(_))),
     }
 }
 
@@ -106,10 +121,12 @@ fn loci(args: &Args, scene: &SceneOptions, prepared: &PreparedScene, request: &R
 }
 
 /// Loci of another scene at the same times, or values of the parameter.
-fn other(args: &Args, path: &Path, request: &Request) -> Result<(String, Loci)> {
+fn other(args: &Args, own: &PreparedScene, path: &Path, request: &Request) -> Result<(String, Loci)> {
     let scene = SceneOptions { path: path.to_path_buf(), set: Vec::new() };
     let prepared = args.run.load_tight(&scene, &args.talk)?;
-    let found = loci(args, &scene, &prepared, request).map_err(|error| error.in_file(path))?;
+    args.talk.warn(&unlike(own, &prepared)?);
+    // Of two scenes the message has to say which.
+    let found = loci(args, &scene, &prepared, request).map_err(|error| error.element(&prepared.name).in_file(path))?;
     Ok((prepared.name, found))
 }
 

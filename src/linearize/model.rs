@@ -107,6 +107,9 @@ pub struct Mode {
     pub mass: f64,
     /// Change of each output with the shape; empty for infinite ones.
     pub outputs: Vec<Complex<f64>>,
+    /// |lambda| that rounding of K leaves of a zero eigenvalue, 1/s: with lambda^2 x^H M x = -x^H K x for the shape x,
+    /// the root of that of the terms of x^H K x.
+    pub rounding: f64,
 }
 
 impl Mode {
@@ -120,9 +123,14 @@ impl Mode {
         damping(self.value)
     }
 
+    /// True if the eigenvalue is zero but for rounding: it has no frequency and no damping.
+    pub fn is_zero(&self) -> bool {
+        self.value.norm() <= self.rounding
+    }
+
     /// The damping ratio, 0 where it is rounding.
     pub fn clean_damping(&self) -> f64 {
-        Some(self.damping()).filter(|ratio| ratio.abs() > tolerances::SAME).unwrap_or(0.0)
+        Some(self.damping()).filter(|ratio| ratio.abs() > tolerances::SAME && !self.is_zero()).unwrap_or(0.0)
     }
 }
 

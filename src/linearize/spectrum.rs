@@ -40,7 +40,8 @@ pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Reque
     let mut modes: Vec<Mode> = (0..solved.values.len())
         .map(|i| {
             let energy = moving(i).map(|(x, mx)| (x.conj() * mx).re).collect();
-            mode((solved.values[i], kinds[i]), column(&shapes, i), column(&outputs, i), parts(i), energy)
+            let shape = column(&shapes, i);
+            rounded(variation, mode((solved.values[i], kinds[i]), shape, column(&outputs, i), parts(i), energy))
         })
         .collect();
     modes.sort_by_key(|mode| mode.kind);
@@ -72,7 +73,7 @@ pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode
         energy.truncate(n.moving());
         let participation = parts.column(i).iter().copied().collect();
         let outputs = outputs.column(i).iter().copied().collect();
-        mode((*value, Kind::Physical), shape, outputs, participation, energy)
+        rounded(variation, mode((*value, Kind::Physical), shape, outputs, participation, energy))
     };
     let modes = found.values.iter().enumerate().map(of).collect();
     Ok((modes, found.right, found.conditioning))
@@ -95,7 +96,16 @@ fn mode(
         shape.iter_mut().chain(&mut outputs).for_each(|x| *x /= largest);
         mass /= largest.norm_sqr();
     }
-    Mode { value, kind, shape, participation, energy, mass, outputs }
+    Mode { value, kind, shape, participation, energy, mass, outputs, rounding: 0.0 }
+}
+
+/// The mode with the size of what rounding leaves of a zero eigenvalue.
+fn rounded(variation: &Variation, mode: Mode) -> Mode {
+    let entries = variation.dynamics.structure.tangent.entries.iter().zip(&variation.tangent.k);
+    let size = |i: usize| mode.shape.get(i).map_or(0.0, |x| x.norm());
+    let terms: f64 = entries.map(|(&(i, j), k)| size(i) * k.abs() * size(j)).sum();
+    let rounding = if mode.mass > 0.0 { (tolerances::ROUND_OFF_OF_SUMS * terms / mode.mass).sqrt() } else { 0.0 };
+    Mode { rounding, ..mode }
 }
 
 fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {

@@ -1,7 +1,7 @@
 //! The least model that keeps a promise: text, table and figure.
 
 use super::tradeoff::milliseconds;
-use super::{Table, cell, table};
+use super::{Table, cell, table, velocities};
 use crate::error::{Result, percent, short_list};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::simplify::{Norm, Robustness, Run, Simplification, Trial, Which};
@@ -48,7 +48,10 @@ fn outcome(result: &Simplification) -> String {
         Some(step) => format!("  by {}, step {step:e} s\n", chosen.method.triple()),
         None => format!("  by {}, rtol {:e}\n", chosen.method.triple(), chosen.method.rtol),
     };
-    let size = |run: &Run| format!("{} velocities and {} constraints", run.velocities, run.constraints);
+    let size = |run: &Run| {
+        let s = if run.constraints == 1 { "" } else { "s" };
+        format!("{} and {} constraint{s}", velocities(run.velocities), run.constraints)
+    };
     let farthest =
         chosen.worst().map_or(String::new(), |worst| format!("{} is off by {}", worst.name, percent(worst.error)));
     let [before, after] = [richest, chosen].map(|run| format!("{} in {}", size(run), milliseconds(run.seconds)));
@@ -161,7 +164,7 @@ pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
         panel = panel.series(Series::dots("", vec![(seconds, error)]).color(BLACK)).annotate(
             seconds,
             error,
-            format!("{name}: {} velocities", run.velocities),
+            format!("{name}: {}", velocities(run.velocities)),
         );
     }
     let title = format!("{}: within {}", result.scene, percent(result.within));

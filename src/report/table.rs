@@ -58,3 +58,11 @@ impl fmt::Display for Table {
         Ok(())
     }
 }
+
+/// A number of velocities in words.
+pub fn velocities(count: usize) -> String {
+    match count {
+        1 => "1 velocity".to_string(),
+        _ => format!("{count} velocities"),
+    }
+}

@@ -12,6 +12,7 @@ use crate::error::{Error, Failure, Result, Warning, clock, percent};
 use crate::integrator;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, atol_of};
+use crate::tolerances::report as tolerances;
 use crate::trajectory::recorded;
 use serde_json::json;
 use std::time::Duration;
@@ -26,8 +27,6 @@ const AIM: f64 = 0.5;
 const TIGHTENED: usize = 2;
 /// A step, and a tolerance, that are so many times that of the accurate run are measured against it.
 const COARSER: [f64; 2] = [2.0, 10.0];
-/// The tightest relative tolerance.
-const TIGHTEST: f64 = 1e-12;
 
 /// The accurate run of the richest model.
 pub struct Accurate {
@@ -136,7 +135,7 @@ impl Base {
                 let order = integrator::find(&method.integrator).map_or(1, |entry| entry.order);
                 Method { step: Some(rounded(step * part.powf(1.0 / order as f64))), ..method.clone() }
             }
-            None => at(method, (part * method.rtol).max(TIGHTEST)),
+            None => at(method, (part * method.rtol).max(tolerances::TIGHTEST)),
         })
         .filter(|finer| finer.step < method.step || finer.rtol < method.rtol)
     }

@@ -1,7 +1,7 @@
 //! The modes of the start, and those that a simpler model has lost.
 
 use crate::error::{Error, Result, Warning, percent, significant};
-use crate::linearize::{Fate, LinearModel, Request, State, against, frequency, linearize};
+use crate::linearize::{Complex, Fate, LinearModel, Request, State, against, damping, frequency, linearize};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
 
@@ -11,6 +11,9 @@ const MOST: usize = 300;
 const SEEN: f64 = 0.1;
 /// Number of modes that are told.
 const TOLD: usize = 3;
+/// A mode has lost its damping where it keeps a smaller part of its decay rate, if its damping ratio was above `DAMPED`.
+const KEPT: f64 = 0.5;
+const DAMPED: f64 = 0.01;
 
 /// The linear model of the start.
 ///
@@ -25,27 +28,45 @@ pub fn at_start(prepared: &PreparedScene) -> Result<LinearModel> {
     linearize(&mut variation, &Request { method: MethodSpec::named("mcs"), chart: None })
 }
 
-/// A warning where outputs see modes of the start that the simpler model has not: a motion that excites them is another
-/// one than that of the promise.
-pub fn lost(richest: &PreparedScene, simpler: &PreparedScene) -> Option<Warning> {
+/// Warnings where outputs see modes of the start, or damping of these, that the simpler model has not: a motion that
+/// excites them is another one than that of the promise.
+pub fn lost(richest: &PreparedScene, simpler: &PreparedScene) -> Vec<Warning> {
     let time = richest.span().map_or(1.0, |span| span.end - span.start);
     let found = match at_start(richest).and_then(|own| Ok((own, at_start(simpler)?))) {
         Ok((own, other)) => against(&own, &other, time),
         Err(error) => {
             let text = format!("whether modes are lost is not known: {error}");
-            return Some(Warning::new(text, "compare by `holonom linearize --modes N --against`"));
+            return vec![Warning::new(text, "compare by `holonom linearize --modes N --against`")];
         }
     };
-    let lost: Vec<&Fate> = found.modes.iter().filter(|mode| mode.there.is_none() && mode.seen > SEEN).collect();
-    let tell = |mode: &&Fate| format!("{} Hz ({})", significant(frequency(mode.value), 4), percent(mode.seen));
-    let told: Vec<String> = lost.iter().take(TOLD).map(tell).collect();
-    let more = if lost.len() > TOLD { format!(" and {} more", lost.len() - TOLD) } else { String::new() };
-    (!lost.is_empty()).then(|| {
+    let is_undamped = |mode: &Fate| {
+        let decay = |value: Complex<f64>| 0.0 - value.re;
+        damping(mode.value) > DAMPED && mode.there.is_some_and(|there| decay(there) < KEPT * decay(mode.value))
+    };
+    let seen = || found.modes.iter().filter(|mode| mode.seen > SEEN);
+    let lost: Vec<&Fate> = seen().filter(|mode| mode.there.is_none()).collect();
+    let undamped: Vec<&Fate> = seen().filter(|mode| is_undamped(mode)).collect();
+    let damped = |mode: &Fate| {
+        let [own, there] = [Some(mode.value), mode.there].map(|value| value.map_or(0.0, damping));
+        format!("damping ratio {} is {}", significant(own, 2), significant(there, 2))
+    };
+    [
+        warning("the simpler model has lost modes of the start", &lost, |mode| percent(mode.seen)),
+        warning("the simpler model has lost damping of modes of the start", &undamped, damped),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// A warning about these modes, with a remark on each; none where there is none.
+fn warning(what: &str, modes: &[&Fate], remark: impl Fn(&Fate) -> String) -> Option<Warning> {
+    let tell = |mode: &&Fate| format!("{} Hz ({})", significant(frequency(mode.value), 4), remark(mode));
+    let told: Vec<String> = modes.iter().take(TOLD).map(tell).collect();
+    let more = if modes.len() > TOLD { format!(" and {} more", modes.len() - TOLD) } else { String::new() };
+    (!modes.is_empty()).then(|| {
         Warning::new(
-            format!(
-                "the simpler model has lost modes of the start that outputs see, of others with the same energy being 100 %: {}{more}",
-                told.join(", ")
-            ),
+            format!("{what} that outputs see, of others with the same energy being 100 %: {}{more}", told.join(", ")),
             "a motion that excites them is not that of the promise; `holonom linearize --against` compares all modes",
         )
     })

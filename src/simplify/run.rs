@@ -4,7 +4,7 @@ use super::promise::Promise;
 use crate::compare::work_precision::{Allowed, Motion, RunSample, Watched, Worker, sample};
 use crate::error::{Failure, Result};
 use crate::prepared::PreparedScene;
-use crate::formulation::Statistics;
+use crate::formulation::{Statistics, Work};
 use crate::simulate::{Method, explicit};
 use crate::system::Dimensions;
 use serde::Serialize;
@@ -78,10 +78,12 @@ pub fn sampled(
     sample(&motion, &watched, &prepared.method, span, Allowed { cpu: allowed, wall: BUSY * allowed + WAIT })
 }
 
-/// The work of a run in solutions of the equations of motion, times velocities and constraints.
+/// The work of the steps of a run in solutions of the equations of motion, times velocities and constraints. Rows are
+/// as many in every model.
 pub fn counted(prepared: &PreparedScene, method: &Method, statistics: Statistics) -> f64 {
     let Dimensions { v, lambda, .. } = prepared.system().dimensions();
-    worker(prepared, method).work(statistics) * (v + lambda) as f64
+    let steps = Statistics { rows: Work::default(), ..statistics };
+    worker(prepared, method).work(steps) * (v + lambda) as f64
 }
 
 fn worker<'m>(prepared: &PreparedScene, method: &'m Method) -> Worker<'m> {

@@ -142,9 +142,10 @@ fn small_motions(prepared: &PreparedScene, modes: &[&Mode], time: f64) -> Vec<St
     let on = way_on(prepared, reach, time);
     let energy = |state: &State| prepared.system().energy(state.t, &state.q, &state.v, &mut Default::default());
     let kinetic = on.iter().chain([&start]).filter_map(energy).map(|energy| energy.kinetic).fold(0.0, f64::max);
-    let speed = if kinetic > 0.0 { (2.0 * kinetic).sqrt() } else { 1.0 };
     let ends: Vec<[Vec<f64>; 2]> = modes.iter().flat_map(|mode| end(mode, time)).collect();
     let farthest = ends.iter().map(|[change, _]| reach(change)).fold(0.0, f64::max);
+    // Where nothing moves the modes have the energy with which the slowest goes as far as it may.
+    let speed = if kinetic > 0.0 { (2.0 * kinetic).sqrt() } else { 1.0 / farthest };
     let moved = ends.iter().filter_map(|[change, rate]| {
         let times = |all: &[f64], factor: f64| all.iter().map(|x| factor * x).collect::<Vec<_>>();
         beside(prepared, t, &times(change, 1.0 / farthest), &times(rate, speed))

@@ -77,7 +77,10 @@ fn a_stability_limit_over_a_parameter() {
 fn values_without_a_model_are_gaps_with_their_reason() {
     let place = model("two_mass");
     let args = ["loci", "scene.json", "--sweep", "m1=-2..4:4", "-o", "here", "--figures", "none"];
-    let text = place.done(&args);
+    let output = place.run(&args);
+    let text = out(&output);
+    // What was found is written, and what failed is a failure.
+    assert!(output.status.code() == Some(1) && err(&output).contains("1 of 4 values have no eigenvalues"), "{text}");
     assert!(text.contains("NO EIGENVALUES at m1 = -2"), "{text}");
     assert_eq!(column(&place.text("here/loci.csv"), "mode1.re")[0], "");
     assert!(place.json("here/loci.json")["failures"][0]["reason"].as_str().unwrap().len() > 10);

@@ -110,6 +110,7 @@ fn mode(a: &Matrix, z: &Matrix, value: Complex<f64>) -> Mode {
         energy: Vec::new(),
         mass: 1.0,
         outputs: Vec::new(),
+        rounding: 0.0,
     }
 }
 
@@ -124,6 +125,7 @@ pub fn descriptor(prepared: &PreparedScene) -> LinearModel {
         energy: Vec::new(),
         mass: 1.0,
         outputs: Vec::new(),
+        rounding: 0.0,
     };
     let spurious = [complex(-5.0, 1.0), complex(-5.0, -1.0), complex(-7.0, 0.0)];
     model.modes.extend(spurious.map(|value| mode(value, Kind::Spurious, vec![0.25, 0.75])));

@@ -19,6 +19,7 @@ fn mode(re: f64, im: f64, kind: Kind) -> Mode {
         energy: vec![],
         mass: 1.0,
         outputs: vec![],
+        rounding: 0.0,
     }
 }
 

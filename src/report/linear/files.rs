@@ -194,7 +194,7 @@ fn eigenvalue(model: &LinearModel, mode: &Mode) -> Eigenvalue {
         re: finite(mode.value.re),
         im: finite(mode.value.im),
         frequency_hz: finite(mode.frequency()),
-        damping_ratio: finite(mode.damping()),
+        damping_ratio: finite(mode.clean_damping()),
         kind: mode.kind,
         participation: parts.map(|(name, part)| (name.to_string(), Value::from(part))).collect(),
     }

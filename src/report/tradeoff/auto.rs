@@ -5,7 +5,7 @@ use super::{accuracy, milliseconds};
 use crate::compare::work_precision::{Cell, WorkPrecision};
 use crate::error::{Result, percent};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
-use crate::report::{Table, cell as number, table};
+use crate::report::{Table, cell as number, table, velocities};
 use serde::Serialize;
 
 /// The models of a scene, the richest first, each by many methods.
@@ -156,7 +156,7 @@ pub fn auto_figure(summary: &ModelsAndMethods) -> Option<Figure> {
     let axis = |label: &str| AxisSpec::from(label).log();
     let mut panel = Panel::new(axis("CPU time (s)").range(least / MARGIN, MARGIN * most), axis("error (relative)"));
     for (color, model) in summary.models.iter().enumerate() {
-        let name = format!("{}, {} velocities", model.name, model.velocities);
+        let name = format!("{}, {}", model.name, velocities(model.velocities));
         panel = panel.series(Series::line(name, together(model)).style(Style::LineDots).color(color));
     }
     let simpler = summary
