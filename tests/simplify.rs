@@ -348,6 +348,22 @@ fn a_promise_is_tried_on_motions_nearby() {
     assert_eq!(first.motions.len(), again.motions.len());
 }
 
+/// Heun's method at 10 ms errs by more than a tenth of 0.1 %: a shorter step takes its place.
+#[test]
+fn numerical_error_is_a_tenth_of_the_promise() {
+    let mut coarse = pendulum(pin(), json!([]));
+    for (key, value) in [("integrator", json!("heun")), ("step", json!(0.01))] {
+        coarse["simulation"][key] = value;
+    }
+    let found = scene(coarse.clone(), &settings(0.001, &[]));
+    let first = &found.trials[0];
+    assert!(first.is_kept && first.candidate == "method" && first.what[0].contains("as it is at step"), "{first:?}");
+    assert!(found.richest.method.step < Some(0.01) && found.richest.error() <= 1e-4, "{:?}", found.richest);
+    assert!(found.warnings.iter().all(|warning| !warning.text.contains("numerical error")), "{:?}", found.warnings);
+    // At 10 % the scene's own step will do.
+    assert_eq!(scene(coarse, &settings(0.1, &[])).richest.method.step, Some(0.01));
+}
+
 #[test]
 fn what_cannot_be_promised_is_refused() {
     let refused = |json: Value, settings: Settings, what: &str| {

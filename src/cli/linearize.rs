@@ -173,13 +173,16 @@ pub fn unlike(own: &PreparedScene, other: &PreparedScene) -> Result<Option<Warni
     let text = match [shares(&bodies), shares(&outputs)] {
         [true, true] => return Ok(None),
         [false, false] => {
-            let text = format!("{} has no body and no output of {}: it is a scene of something else", other.name, own.name);
+            let text =
+                format!("{} has no body and no output of {}: it is a scene of something else", other.name, own.name);
             return Err(Error::input(text)
                 .under("--against")
                 .hint("name a scene of the same mechanism, such as simplified.json"));
         }
         [false, true] => format!("{} has no body of {}: is it a scene of the same mechanism?", other.name, own.name),
-        [true, false] => format!("{} has no output of {}: modes are told by their eigenvalues alone", other.name, own.name),
+        [true, false] => {
+            format!("{} has no output of {}: modes are told by their eigenvalues alone", other.name, own.name)
+        }
     };
     Ok(Some(Warning::new(text, "give both scenes the same names")))
 }

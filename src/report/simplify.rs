@@ -18,7 +18,9 @@ pub fn simplify_text(result: &Simplification) -> String {
     let mut changes = Table::new(&["tried", "estimated", "measured", "CPU", "result"]).words(4);
     trials.iter().filter(|trial| trial.run.is_some()).for_each(|trial| changes.row(row(trial)));
     if trials.iter().any(|trial| trial.run.is_some()) {
-        text += &format!("{changes}");
+        text += &format!(
+            "{changes}  estimates are of an order only, and say what is tried first: what accumulates later is not in them\n"
+        );
     }
     let left = trials.iter().filter(|trial| trial.run.is_none());
     for trial in left.clone().take(LISTED) {

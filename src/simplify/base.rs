@@ -154,8 +154,7 @@ impl Base {
             (Some(step), Some(known)) => step >= COARSER[0] * known,
             _ => method.rtol >= COARSER[1] * known.rtol,
         };
-        let accurate =
-            if is_known { self.accurate.of(source)? } else { Accurate::new(&source, settings, is_long)? };
+        let accurate = if is_known { self.accurate.of(source)? } else { Accurate::new(&source, settings, is_long)? };
         if let Some(stopped) = accurate.recorded.stopped.clone().filter(|_| !is_known) {
             return Err(stopped.into());
         }

@@ -79,8 +79,7 @@ impl Bench<'_> {
     /// not decide between two.
     pub fn cost(&self, run: &Run) -> f64 {
         let own = kind(run);
-        let prices: Vec<f64> =
-            self.prices.iter().filter(|(kind, _)| *kind == own).map(|(_, price)| *price).collect();
+        let prices: Vec<f64> = self.prices.iter().filter(|(kind, _)| *kind == own).map(|(_, price)| *price).collect();
         median(&prices).map_or(run.seconds, |price| price * run.work)
     }
 

@@ -3,8 +3,8 @@
 use super::promise::Promise;
 use crate::compare::work_precision::{Allowed, Motion, RunSample, Watched, Worker, sample};
 use crate::error::{Failure, Result};
-use crate::prepared::PreparedScene;
 use crate::formulation::{Statistics, Work};
+use crate::prepared::PreparedScene;
 use crate::simulate::{Method, explicit};
 use crate::system::Dimensions;
 use serde::Serialize;
@@ -101,7 +101,8 @@ pub fn measured(
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<Run> {
     let names = promise.names();
-    let RunSample { rows, statistics, failure, is_too_slow, seconds, .. } = sampled(prepared, &names, allowed, is_stopped)?;
+    let RunSample { rows, statistics, failure, is_too_slow, seconds, .. } =
+        sampled(prepared, &names, allowed, is_stopped)?;
     let Dimensions { v, lambda, .. } = prepared.system().dimensions();
     let errors = failure.is_none().then(|| promise.errors(&rows)).flatten().unwrap_or_default();
     let differences = names.into_iter().zip(errors).map(|(name, error)| Difference { name, error });

@@ -127,9 +127,11 @@ impl Search<'_, '_> {
         let most = TOO_MUCH.min(HOPELESS * within);
         let refusal = match &mechanism {
             Err(reason) => Some(reason.clone()),
-            Ok(_) if proposal.effect.is_nan() || proposal.effect > most => {
-                Some(format!("its estimated effect is more than {}, of which {} is promised", percent(most), percent(within)))
-            }
+            Ok(_) if proposal.effect.is_nan() || proposal.effect > most => Some(format!(
+                "its estimated effect is more than {}, of which {} is promised",
+                percent(most),
+                percent(within)
+            )),
             Ok(_) => None,
         };
         let known = self.ideas.len();

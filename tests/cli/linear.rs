@@ -154,6 +154,33 @@ pub fn chain(stiff: bool) -> String {
     .to_string()
 }
 
+/// A scene with other names is one of something else.
+#[test]
+fn models_of_other_mechanisms_are_not_compared() {
+    let place = Place::new(chain(false));
+    let names =
+        [("\"a\"", "\"p\""), ("\"b\"", "\"q\""), ("\"name\":\"x\"", "\"name\":\"px\""), ("\"speed\"", "\"pace\"")];
+    let renamed = |names: &[(&str, &str)]| names.iter().fold(chain(true), |text, (from, to)| text.replace(from, to));
+    fs::write(place.path("other.json"), renamed(&names)).unwrap();
+    fs::write(place.path("bodies.json"), renamed(&names[..2])).unwrap();
+    let against = |file: &str| place.run(&["linearize", "scene.json", "--equilibrium", "--against", file, "-o", file]);
+    let other = against("other.json");
+    assert!(other.status.code() == Some(2) && err(&other).contains("a scene of something else"), "{}", err(&other));
+    let bodies = against("bodies.json");
+    assert!(bodies.status.code() == Some(0) && err(&bodies).contains("has no body of two"), "{}", err(&bodies));
+}
+
+/// A car may roll on: the mode has no frequency, where rounding of K would give it 1e-7 Hz.
+#[test]
+fn zero_modes_have_no_frequency() {
+    let place = Place::new("");
+    let car = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/half_car.json").display().to_string();
+    let text = place.done(&["linearize", &car, "--at", "0", "--modes", "4", "--figures", "none", "-o", "here"]);
+    let cells = |line: &str| line.split_whitespace().take(5).map(str::to_string).collect::<Vec<_>>();
+    assert!(text.lines().any(|line| cells(line) == ["1", "0", "0", "0", "-"]), "{text}");
+    assert!(text.contains("1.1756"), "{text}");
+}
+
 #[test]
 fn a_simpler_model_loses_a_mode_and_shifts_another() {
     let place = Place::new(chain(false));

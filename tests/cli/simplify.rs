@@ -57,13 +57,21 @@ fn a_scene_is_not_written_over() {
 /// was.
 #[test]
 fn a_budget_is_kept() {
-    let place =
-        Place::new(PENDULUM.replace(r#""t_end": 1, "output_step": 0.1"#, r#""t_end": 9e4, "output_step": 0.01"#));
+    let place = Place::new(
+        PENDULUM
+            .replace(r#""t_end": 1, "output_step": 0.1"#, r#""t_end": 9e4, "output_step": 0.01"#)
+            .replace(r#""mass": 1,"#, r#""mass": "m","#)
+            .replacen('{', r#"{ "parameters": { "m": 1 },"#, 1),
+    );
     let clock = std::time::Instant::now();
     let output = place.run(&["simplify", "scene.json", "--within", "5%", "--budget", "2s", "-o", "here"]);
     assert!(clock.elapsed().as_secs_f64() < 20.0 && output.status.code() == Some(0), "{}", err(&output));
     assert!(err(&output).contains("the time sufficed for the motion until t = "), "{}", err(&output));
     assert_eq!(place.json("here/simplified.json")["simulation"]["t_end"], 9e4);
+    // Motions nearby for which there is no time are told, and are no error.
+    let output =
+        place.run(&["simplify", "scene.json", "--within", "5%", "--budget", "2s", "--robust", "10%", "-o", "near"]);
+    assert!(output.status.code() == Some(0) && err(&output).contains(" motions nearby"), "{}", err(&output));
     // Not even a few rows of the motion.
     let output = place.run(&["simplify", "scene.json", "--within", "5%", "--budget", "0.01ms", "-o", "none"]);
     assert!(output.status.code() == Some(1) && err(&output).contains("more time by --budget"), "{}", err(&output));

@@ -28,9 +28,9 @@ mod work;
 pub use advice::Recommendation;
 #[doc(hidden)]
 pub use advice::{Lack, cheapest_by_method};
+pub use cell::{Cell, Outcome};
 #[doc(hidden)]
 pub use cell::{Held, median};
-pub use cell::{Cell, Outcome};
 #[doc(hidden)]
 pub use error_metric::ErrorMetric;
 pub use error_metric::Watched;

@@ -146,12 +146,8 @@ fn cells(bodies: &[&str], number: usize, pair: &Pair) -> [String; 7] {
     let (mode, value) = (pair.mode, pair.mode.value);
     let imaginary =
         if pair.is_pair { format!("+-{}", significant(value.im.abs(), 6)) } else { significant(value.im, 6) };
-    let numbers = [
-        significant(value.re, 6),
-        imaginary,
-        significant(mode.frequency(), 5),
-        significant(mode.clean_damping(), 4),
-    ];
+    let numbers =
+        [significant(value.re, 6), imaginary, significant(mode.frequency(), 5), significant(mode.clean_damping(), 4)];
     // Digits of rounding are none.
     let numbers = if mode.is_zero() { ["0", "0", "0", "-"].map(str::to_string) } else { numbers };
     let [re, im, frequency, damping] = numbers;
