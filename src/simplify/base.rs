@@ -1,7 +1,6 @@
 //! The richest model: accurately, and by a method whose own error the promise allows.
 
 use super::facts::{Recorded, record};
-use super::numerics::{METHOD, accuracy};
 use super::promise::Promise;
 use super::run::{Run, measured};
 use super::search::{NUMERICAL, Trial};
@@ -17,6 +16,8 @@ use crate::trajectory::recorded;
 use serde_json::json;
 use std::time::Duration;
 
+/// Kind of the trials of methods.
+pub const METHOD: &str = "method";
 /// Rows of the least part of a motion that a promise may be about.
 const FEWEST_ROWS: usize = 10;
 /// CPU time that the richest model may take.
@@ -189,6 +190,11 @@ pub fn doubts(accurate: &Accurate, richest: &Run) -> Vec<Warning> {
         Warning::new(text, "give more time by --budget, or shorten the motion by --until")
     });
     coarse.into_iter().chain(part).collect()
+}
+
+/// Its tolerance, or its step, in words.
+pub fn accuracy(method: &Method) -> String {
+    method.step.map_or_else(|| format!("rtol {:e}", method.rtol), |step| format!("step {step:e} s"))
 }
 
 /// A method at another relative tolerance, of one digit.

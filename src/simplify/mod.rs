@@ -44,10 +44,9 @@ pub use source::Source;
 pub use start::{Hint, Hints, Unseen, hints};
 
 use crate::error::{Result, Warning, percent};
-use base::{Accurate, Base, doubts};
+use base::{Accurate, Base, METHOD, doubts};
 use bench::Bench;
 use nearby::Neighbourhood;
-use numerics::METHOD;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};

@@ -1,6 +1,6 @@
 //! The cheapest method for a model whose own error is a tenth of the promise.
 
-use super::base::at;
+use super::base::{METHOD, accuracy, at};
 use super::bench::Bench;
 use super::run::Run;
 use super::search::{Found, NUMERICAL, Trial};
@@ -8,8 +8,6 @@ use super::source::write_method;
 use crate::error::percent;
 use crate::simulate::Method;
 
-/// Kind of the trials of methods.
-pub const METHOD: &str = "method";
 /// The loosest tolerance that is tried.
 const LOOSEST: f64 = 0.01;
 /// The first tolerance that is tried, of what is promised.
@@ -72,11 +70,6 @@ enum Verdict {
     Poor,
     /// It takes much longer than the best one.
     Dear,
-}
-
-/// Its tolerance, or its step, in words.
-pub fn accuracy(method: &Method) -> String {
-    method.step.map_or_else(|| format!("rtol {:e}", method.rtol), |step| format!("step {step:e} s"))
 }
 
 /// Runs the model by a method, and takes that if it is good and cheaper.

@@ -117,22 +117,25 @@ impl Search<'_, '_> {
         facts: &Facts,
         own: &Option<Vec<Vec<f64>>>,
     ) {
-        let mut scene = self.found.scene.clone();
-        let mechanism = (proposal.edit)(&mut scene).and_then(|()| self.bench.mechanism(&scene));
+        let within = self.bench.promise.within;
+        let most = TOO_MUCH.min(HOPELESS * within);
+        let hopeless =
+            || format!("its estimated effect is more than {}, of which {} is promised", percent(most), percent(within));
+        let mechanism = match proposal.effect {
+            // To build what is not tried takes more time than runs do, where there are hundreds.
+            effect if effect.is_nan() || effect > most => Err(hopeless()),
+            _ => {
+                let mut scene = self.found.scene.clone();
+                (proposal.edit)(&mut scene).and_then(|()| self.bench.mechanism(&scene))
+            }
+        };
         let at_once = mechanism.as_ref().ok().and_then(|mechanism| facts.at_once(mechanism)).zip(own.as_ref());
         if let Some(difference) = at_once.and_then(|(other, own)| self.bench.promise.difference(own, &other)) {
             proposal.effect = proposal.effect.max(difference);
         }
-        let within = self.bench.promise.within;
-        let most = TOO_MUCH.min(HOPELESS * within);
         let refusal = match &mechanism {
             Err(reason) => Some(reason.clone()),
-            Ok(_) if proposal.effect.is_nan() || proposal.effect > most => Some(format!(
-                "its estimated effect is more than {}, of which {} is promised",
-                percent(most),
-                percent(within)
-            )),
-            Ok(_) => None,
+            Ok(_) => (proposal.effect.is_nan() || proposal.effect > most).then(hopeless),
         };
         let known = self.ideas.len();
         let dimensions = mechanism.map(|mechanism| mechanism.system().dimensions());

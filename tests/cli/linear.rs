@@ -163,7 +163,8 @@ fn models_of_other_mechanisms_are_not_compared() {
     let renamed = |names: &[(&str, &str)]| names.iter().fold(chain(true), |text, (from, to)| text.replace(from, to));
     fs::write(place.path("other.json"), renamed(&names)).unwrap();
     fs::write(place.path("bodies.json"), renamed(&names[..2])).unwrap();
-    let against = |file: &str| place.run(&["linearize", "scene.json", "--equilibrium", "--against", file, "-o", file]);
+    let against =
+        |file: &str| place.run(&["linearize", "scene.json", "--equilibrium", "--against", file, "-o", "here"]);
     let other = against("other.json");
     assert!(other.status.code() == Some(2) && err(&other).contains("a scene of something else"), "{}", err(&other));
     let bodies = against("bodies.json");
