@@ -10,9 +10,11 @@ use super::{Need, Terms};
 use crate::body::{Frame, Freedom, MOST_MARKERS, MarkerId, Pose, Wrench};
 use crate::force::Force;
 use crate::joint::{ClosedForm, Lock};
+use crate::math::kkt::Analysis;
 use crate::math::{Taylor, Time};
 use crate::scene::{Connection, Measure, Model, Watched};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The rigid bodies of a model, the joints between them, and what is constant.
 pub(super) struct RigidParts<const D: usize> {
@@ -71,6 +73,11 @@ impl<const D: usize> RigidParts<D> {
         parts
     }
 
+    /// What is known of the blocks of G.
+    pub fn analysis(&self) -> Arc<Analysis> {
+        Arc::new(Analysis::with(self.joints.iter().flat_map(RigidJoint::levers).collect()))
+    }
+
     /// What a joint locks, if that is all it does and its bodies are rigid.
     pub fn lock(&self, model: &Model<D>, joint: usize) -> Option<&Lock<D>> {
         let mut bodies = model.joints[joint].markers.iter().filter_map(|&marker| model.markers.bodies[marker]);
@@ -102,6 +109,17 @@ impl<const D: usize> Mechanism<D> {
         if need.includes(Need::CONSTRAINTS) || need.includes(Need::G) {
             self.rigid.joints.iter().for_each(|joint| joint.evaluate(&work.poses, need, terms));
             self.general_joints(time, q, need, work, terms);
+        }
+    }
+
+    /// q' of all bodies.
+    pub(super) fn write_rates(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
+        if self.rigid.rates_are_velocities {
+            return qdot[..v.len()].copy_from_slice(v);
+        }
+        for part in &self.model().bodies {
+            let rates = &mut qdot[part.first_q..part.first_q + part.nq];
+            part.body.rate(of(q, part, true), of(v, part, false), rates);
         }
     }
 

@@ -6,7 +6,6 @@ use super::levi_civita::LeviCivita;
 use super::limits::{Extent, limits};
 use super::output::column;
 use super::output_tangent::{OutputTangent, Slopes};
-use super::rigid_joint::RigidJoint;
 use super::rows::{JointRows, PlacedJoint};
 use super::scale::{length_scale, row_scales};
 use super::spin::{Placement, Rotation, Spin};
@@ -20,13 +19,12 @@ use super::{
 };
 use crate::body::{Frame, cross};
 use crate::math::expression::{Switch, TimeFunction};
-use crate::math::kkt::{Analysis, Pattern};
+use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
 use crate::scene::{Connection, Input, Model, Part};
 use nalgebra::DMatrix;
 use std::array::from_fn;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// A model with the places of its coordinates, rows and matrix entries fixed.
 pub struct Mechanism<const D: usize> {
@@ -69,8 +67,7 @@ impl<const D: usize> Mechanism<D> {
         let length = length_scale(&model);
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
         let couplings = Couplings::new(&model, &supports, &rigid, &mut tangent);
-        let analysis = Arc::new(Analysis::with(rigid.joints.iter().flat_map(RigidJoint::levers).collect()));
-        let structure = Structure { analysis, ..Structure::new(mass, g, tangent) };
+        let structure = Structure { analysis: rigid.analysis(), ..Structure::new(mass, g, tangent) };
         let (limited, extents) = limits(&model);
         Mechanism { model, dimensions, structure, joints, couplings, masses, rigid, supports, length, limited, extents }
     }
@@ -212,13 +209,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
-        if self.rigid.rates_are_velocities {
-            return qdot[..v.len()].copy_from_slice(v);
-        }
-        for part in &self.model.bodies {
-            let rates = &mut qdot[part.first_q..part.first_q + part.nq];
-            part.body.rate(of(q, part, true), of(v, part, false), rates);
-        }
+        self.write_rates(q, v, qdot);
     }
 
     fn rotations(&self) -> Vec<Rotation> {
