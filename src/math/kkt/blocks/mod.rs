@@ -191,7 +191,7 @@ impl Blocks {
             }
             let ratios = &mut ratios[..run.width];
             // Written so that the NaN of a row of zeros has collapsed.
-            let lost = ratios.iter().filter(|ratio| !(**ratio > collapsed)).count();
+            let lost = run.width - ratios.iter().filter(|ratio| **ratio > collapsed).count();
             if is_row && lost == 0 && run.width > 1 {
                 self.pivoted(first, ratios);
             }

@@ -4,6 +4,7 @@ use super::bodies::{Bodies, Run, Side};
 use super::groups::LARGEST;
 use super::kernels::{at, at_mut, subtract};
 use std::array::from_fn;
+use std::slice::Iter;
 
 /// The Schur complement as it is made.
 pub(super) struct Schur<'a> {
@@ -16,6 +17,23 @@ pub(super) struct Schur<'a> {
 }
 
 impl Schur<'_> {
+    /// Calls `reduce` for each body with its inverse masses, its blocks, the places of their products, G and the matrix.
+    #[inline(always)]
+    fn by_bodies<const W: usize>(
+        &mut self,
+        run: &Run,
+        reduce: impl Fn(&[f64; W], &[Side], &mut Iter<u32>, &[f64], &mut [f64]),
+    ) {
+        let Schur { bodies, g, inverse, work } = self;
+        let (mut rest, mut targets) = (&bodies.sides[run.sides.clone()], bodies.targets[run.targets.clone()].iter());
+        for body in &bodies.all[run.bodies.clone()] {
+            let Some(inverse) = at::<W>(inverse, body.first as usize) else { return };
+            let (sides, others) = rest.split_at(body.sides as usize);
+            rest = others;
+            reduce(inverse, sides, &mut targets, g, work);
+        }
+    }
+
     /// Subtracts the products of blocks [s I | a], s = 1 or -1, of T rows for T translations and K rotations:
     ///
     /// ```text
@@ -27,12 +45,7 @@ impl Schur<'_> {
         &mut self,
         run: &Run,
     ) {
-        let Schur { bodies, g, inverse, work } = self;
-        let (mut rest, mut targets) = (&bodies.sides[run.sides.clone()], bodies.targets[run.targets.clone()].iter());
-        for body in &bodies.all[run.bodies.clone()] {
-            let Some(inverse) = at::<W>(inverse, body.first as usize) else { return };
-            let (sides, others) = rest.split_at(body.sides as usize);
-            rest = others;
+        self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
             for (l, side) in sides.iter().enumerate() {
                 let Some(x) = at::<TW>(g, side.entries as usize) else { return };
                 let scaled: [[f64; T]; K] = from_fn(|p| from_fn(|j| x[j * W + T + p] * inverse[T + p]));
@@ -50,17 +63,12 @@ impl Schur<'_> {
                     }
                 }
             }
-        }
+        });
     }
 
     /// Subtracts the products of bodies whose blocks have all R rows; WR = W R.
     pub fn alike<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
-        let Schur { bodies, g, inverse, work } = self;
-        let (mut rest, mut targets) = (&bodies.sides[run.sides.clone()], bodies.targets[run.targets.clone()].iter());
-        for body in &bodies.all[run.bodies.clone()] {
-            let Some(inverse) = at::<W>(inverse, body.first as usize) else { return };
-            let (sides, others) = rest.split_at(body.sides as usize);
-            rest = others;
+        self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
             for (l, side) in sides.iter().enumerate() {
                 let Some(x) = at::<WR>(g, side.entries as usize) else { return };
                 let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j * W + p] * inverse[p]));
@@ -73,44 +81,41 @@ impl Schur<'_> {
                     }
                 }
             }
-        }
+        });
     }
 
     /// Subtracts the products of bodies with blocks of any number of rows.
     pub fn mixed<const W: usize>(&mut self, run: &Run) {
-        let bodies = self.bodies;
-        let (mut rest, mut targets) = (&bodies.sides[run.sides.clone()], &bodies.targets[run.targets.clone()]);
-        for body in &bodies.all[run.bodies.clone()] {
-            let Some(inverse) = at::<W>(self.inverse, body.first as usize) else { return };
-            let (sides, others) = rest.split_at(body.sides as usize);
-            rest = others;
+        self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
             for (l, side) in sides.iter().enumerate() {
-                let (now, later) = targets.split_at(sides.len() - l);
-                let part = (inverse, &sides[l..], now);
+                let part = (inverse, &sides[l..], &mut *targets);
                 match side.rows {
-                    1 => self.column::<W, 1>(part),
-                    2 => self.column::<W, 2>(part),
-                    3 => self.column::<W, 3>(part),
-                    4 => self.column::<W, 4>(part),
-                    5 => self.column::<W, 5>(part),
-                    6 => self.column::<W, 6>(part),
-                    7 => self.column::<W, 7>(part),
-                    _ => self.column::<W, LARGEST>(part),
+                    1 => column::<W, 1>(part, g, work),
+                    2 => column::<W, 2>(part, g, work),
+                    3 => column::<W, 3>(part, g, work),
+                    4 => column::<W, 4>(part, g, work),
+                    5 => column::<W, 5>(part, g, work),
+                    6 => column::<W, 6>(part, g, work),
+                    7 => column::<W, 7>(part, g, work),
+                    _ => column::<W, LARGEST>(part, g, work),
                 }
-                targets = later;
             }
-        }
+        });
     }
+}
 
-    /// Subtracts the products of the first block, with R rows, and all.
-    #[inline]
-    fn column<const W: usize, const R: usize>(&mut self, (inverse, sides, targets): (&[f64; W], &[Side], &[u32])) {
-        let Some(x) = block::<W>(self.g, &sides[0]).first_chunk::<R>() else { return };
-        let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j][p] * inverse[p]));
-        for (side, &target) in sides.iter().zip(targets) {
-            let target = self.work[target as usize..].as_chunks_mut::<R>().0;
-            block::<W>(self.g, side).iter().zip(target).for_each(|(x, row)| subtract(row, x, &scaled));
-        }
+/// Subtracts the products of the first block, with R rows, and all.
+#[inline]
+fn column<const W: usize, const R: usize>(
+    (inverse, sides, targets): (&[f64; W], &[Side], &mut Iter<u32>),
+    g: &[f64],
+    work: &mut [f64],
+) {
+    let Some(x) = block::<W>(g, &sides[0]).first_chunk::<R>() else { return };
+    let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j][p] * inverse[p]));
+    for (side, &target) in sides.iter().zip(targets) {
+        let target = work[target as usize..].as_chunks_mut::<R>().0;
+        block::<W>(g, side).iter().zip(target).for_each(|(x, row)| subtract(row, x, &scaled));
     }
 }
 
