@@ -65,9 +65,9 @@ impl SaddlePoint {
         }
     }
 
-    /// Rank indicator of G: about the smallest sine of the angle between a row and those before it (metric M^-1),
-    /// without dropped rows; by the smallest ratio of a pivot to its size before elimination, which is its square.
-    /// In [0, 1]; zero if other rows are dependent, and without a factorization.
+    /// Rank indicator of G: about the smallest sine of the angle between a row and those before it (metric M^-1), the
+    /// rows of one joint with the farthest first, without dropped rows; by the smallest ratio of a pivot to its size
+    /// before elimination, which is its square. In [0, 1]; zero if other rows are dependent, and without a factorization.
     pub fn rank_indicator(&self) -> f64 {
         let ratio: f64 = match (self.way, &self.fast, &self.kept, &self.skipping, &self.dense) {
             (Way::Ldlt { .. }, Some(orders), ..) => orders.smallest_ratio(),
