@@ -62,7 +62,8 @@ impl Accurate {
     fn new(source: &Source, settings: &Settings, is_long: &dyn Fn() -> bool) -> Result<Accurate> {
         let mut prepared = source.prepare(&source.scene)?;
         let watched = watched(&prepared, settings)?;
-        let recorded = record(&prepared, &watched, &tighter(&prepared.method), is_long)?;
+        let mut recorded = record(&prepared, &watched, &tighter(&prepared.method), is_long)?;
+        recorded.end_on_grid(prepared.span()?);
         let shorter = recorded.stopped.as_ref().map(|stopped| shorter(source, &recorded, stopped)).transpose()?;
         if let Some(source) = &shorter {
             prepared = source.prepare(&source.scene)?;

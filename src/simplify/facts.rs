@@ -11,8 +11,9 @@ use crate::formulation::Dynamics;
 use crate::math::Taylor;
 use crate::math::expression::Number;
 use crate::prepared::{AnyMechanism, PreparedScene};
-use crate::simulate::{Method, Observation, Sink, Stop, simulate};
+use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
+use crate::tolerances::SAME;
 use serde_json::{Value, json};
 use std::array::from_fn;
 
@@ -98,6 +99,15 @@ impl Recorded {
     /// Time of the last row, s.
     pub fn end(&self) -> f64 {
         self.states.last().map_or(f64::NEG_INFINITY, |state| state.t)
+    }
+
+    /// Forgets the last row of a run that was stopped if that is where it was stopped, between the rows of others.
+    pub fn end_on_grid(&mut self, span: Span) {
+        let rows = (self.end() - span.start) / span.output_step;
+        if self.stopped.is_some() && (rows - rows.round()).abs() > SAME {
+            self.rows.pop();
+            self.states.pop();
+        }
     }
 }
 
@@ -362,4 +372,23 @@ fn seen<const D: usize>(mechanism: &Mechanism<D>, states: &[State]) -> Seen {
 /// a . b
 pub fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     crate::body::dot(a, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_that_was_stopped_ends_on_a_row_that_others_have() {
+        let span = Span { start: 0.0, end: 1.0, output_step: 0.1 };
+        for (times, end) in [([0.0, 0.1, 0.15], 0.1), ([0.0, 0.1, 0.2], 0.2)] {
+            let states = times.iter().map(|&t| State { t, q: Vec::new(), v: Vec::new() }).collect();
+            let stopped = Some(Failure { reason: INTERRUPTED.to_string(), hint: String::new(), t: times[2] });
+            let rows = times.iter().map(|&t| vec![t]).collect();
+            let (sizes, redundant) = (Sizes::default(), Vec::new());
+            let mut recorded = Recorded { rows, sizes, stopped, work: 0.0, states, redundant };
+            recorded.end_on_grid(span);
+            assert_eq!((recorded.end(), recorded.rows.last()), (end, Some(&vec![end])));
+        }
+    }
 }

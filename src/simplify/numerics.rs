@@ -110,12 +110,7 @@ fn attempt(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], method: &Me
 /// Reason to refuse a method; empty if it is good.
 fn refusal(bench: &Bench, run: &Run, exact: &[Vec<f64>]) -> String {
     let numerical = bench.promise.difference(exact, &run.rows).unwrap_or(f64::INFINITY);
-    match (&run.failure, run.worst()) {
-        (Some(failure), _) => failure.reason.clone(),
-        (None, Some(worst)) if worst.error > bench.promise.within => {
-            format!("{} is off by {}", worst.name, percent(worst.error))
-        }
-        _ if numerical > NUMERICAL * bench.promise.within => format!("its own error is {}", percent(numerical)),
-        _ => String::new(),
-    }
+    let is_coarse = numerical > NUMERICAL * bench.promise.within;
+    let reason = run.refusal(bench.promise.within);
+    reason.or_else(|| is_coarse.then(|| format!("its own error is {}", percent(numerical)))).unwrap_or_default()
 }

@@ -2,7 +2,7 @@
 
 use super::promise::Promise;
 use crate::compare::work_precision::{Allowed, Motion, RunSample, Watched, Worker, sample};
-use crate::error::{Failure, Result};
+use crate::error::{Failure, Result, percent};
 use crate::formulation::{Statistics, Work};
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, explicit};
@@ -56,6 +56,17 @@ impl Run {
     /// The largest difference; infinite where the run failed.
     pub fn error(&self) -> f64 {
         self.worst().map_or(f64::INFINITY, |worst| worst.error)
+    }
+
+    /// Reason why the promise of so much is not kept; none if it is.
+    pub fn refusal(&self, within: f64) -> Option<String> {
+        match (&self.failure, self.worst()) {
+            (Some(failure), _) => Some(failure.reason.clone()),
+            (None, None) => Some("it has no values at the times of the richest model".to_string()),
+            (None, Some(worst)) => {
+                (worst.error > within).then(|| format!("{} is off by {}", worst.name, percent(worst.error)))
+            }
+        }
     }
 }
 

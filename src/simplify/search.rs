@@ -221,14 +221,9 @@ impl Search<'_, '_> {
 
     /// Reason to refuse a model; empty if it is kept.
     fn refusal(&self, run: &Run) -> String {
-        match (&run.failure, run.worst()) {
-            (Some(failure), _) => failure.reason.clone(),
-            (None, Some(worst)) if worst.error > self.bench.promise.within => {
-                format!("{} is off by {}", worst.name, percent(worst.error))
-            }
-            _ if run.work > DEARER * self.found.run.work => "it takes more work".to_string(),
-            _ => String::new(),
-        }
+        let is_dearer = || run.work > DEARER * self.found.run.work;
+        let reason = run.refusal(self.bench.promise.within);
+        reason.or_else(|| is_dearer().then(|| "it takes more work".to_string())).unwrap_or_default()
     }
 
     fn trial(&self, group: &[usize], run: Option<Run>, reason: String) -> Trial {
