@@ -120,6 +120,8 @@ pub struct Control {
     pub grow: f64,
     /// Safety factor on the optimal step.
     pub safety: f64,
+    /// h_new/h after a step that failed without an error.
+    pub retry: f64,
     /// max(err, 1e-4) of the last accepted step.
     last: f64,
     /// Size and error of the last accepted step, for the predictive control.
@@ -137,6 +139,7 @@ impl Control {
             shrink,
             grow,
             safety: 0.9,
+            retry: 0.25,
             last: 1e-4,
             before: None,
             is_predictive: false,

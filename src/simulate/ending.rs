@@ -47,7 +47,7 @@ impl Run<'_> {
         }
         let smaller = match error {
             Some(error) if error.is_finite() => self.integrator.control().reject(h, error),
-            _ => 0.25 * h,
+            _ => self.integrator.control().retry * h,
         };
         let is_stuck = self.keeps_constraints() && self.approach.is_stuck(h);
         match smaller > self.smallest() && !is_stuck {

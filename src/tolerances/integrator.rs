@@ -103,6 +103,15 @@ pub const RADAU_GAIN: f64 = 1.2;
 /// Unit: `[1]`. Why: a choice. Test: `no_more_work_than_other_codes`.
 pub const RADAU_SLOW: f64 = 0.4;
 
+/// The longest step of radau_iia over the one before.
+/// Unit: `[1]`. Why: a choice, as in RADAU5: stages are extrapolated so far. Test: `no_more_work_than_other_codes`.
+pub const RADAU_GROWTH: f64 = 5.0;
+
+/// The shortest and the longest step that radau_iia tries over one that Newton's method did not solve.
+/// Unit: `[1]`. Why: a choice: contraction tells the length within, but its first rates are rough. Test:
+/// `turning_stiff_directions_do_not_limit_steps`.
+pub const RADAU_RETRIED: [f64; 2] = [0.25, 0.8];
+
 /// The largest rho_inf of generalized_alpha with index3.
 /// Unit: `[1]`. Why: with 0.98 the energy of a pendulum grows a million times in steps of a hundredth of its period.
 /// Test: `every_triple_has_the_order_of_its_integrator`.

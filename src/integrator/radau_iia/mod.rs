@@ -102,7 +102,7 @@ struct RadauIIA {
     /// M, G, L, K and C, and whether they are evaluated.
     at: Linearized,
     is_linearized: bool,
-    /// True if that was at the start of the present step.
+    /// True if that was for the present step.
     is_fresh: bool,
     matrices: Matrices,
     stages: Stages,
@@ -138,14 +138,29 @@ struct Step {
 }
 
 impl RadauIIA {
-    /// M, G, K and C at the start of a step.
-    fn linearize(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
+    /// M, G, K and C at the middle stage as it is predicted: stiff directions that turn with the motion, as those of
+    /// beams do, are off by half as much at the other stages as they would be from the start. At the start where there
+    /// is no prediction, or where a cut step before makes it a far one.
+    fn linearize(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), StepError> {
         self.matrices.forget();
         self.row_matrices.forget();
         self.is_linearized = false;
-        let ((q, v), (_, vdot)) = (problem.split(from.y), problem.split(from.slope));
-        let at = OperatingPoint { t: from.t, q, v, vdot, lambda: &self.lambda };
-        self.at.update(at, &mut problem.dynamics)?;
+        let is_near = |step: Step| h <= tolerances::RADAU_GROWTH * step.h;
+        if self.accepted.is_some_and(is_near) {
+            self.predict(problem, from, h);
+            let RadauIIA { order, stages, at, .. } = self;
+            let (method, middle) = (order.method(), order.method().stages() / 2);
+            stages.reset(from);
+            stages.advance(problem, method, from, h);
+            let (q, v) = problem.split(&stages.y[middle]);
+            let (vdot, lambda) = (&stages.unknowns.a[middle][..], &stages.unknowns.lambda[middle][..]);
+            let t = from.t + method.nodes[middle] * h;
+            at.update(OperatingPoint { t, q, v, vdot, lambda }, &mut problem.dynamics)?;
+        } else {
+            let ((q, v), (_, vdot)) = (problem.split(from.y), problem.split(from.slope));
+            let at = OperatingPoint { t: from.t, q, v, vdot, lambda: &self.lambda };
+            self.at.update(at, &mut problem.dynamics)?;
+        }
         (self.is_linearized, self.is_fresh) = (true, true);
         Ok(())
     }
@@ -254,8 +269,10 @@ impl Integrator for RadauIIA {
             self.lambda.copy_from_slice(&problem.dynamics.lambda);
         }
         self.renew(problem)?;
+        // The middle of a refused step is far from that of a shorter one, unless the matrices hardly change.
+        self.is_linearized &= !std::mem::take(&mut self.is_fresh) || self.newton.keeps_matrix();
         if !self.is_linearized || !self.matrices.serves(&problem.dynamics.dropped) {
-            self.linearize(problem, from)?;
+            self.linearize(problem, from, h)?;
         }
         let mut solved = self.solve(problem, from, h);
         let is_solved = |solved: &std::result::Result<bool, StepError>| {
@@ -263,8 +280,11 @@ impl Integrator for RadauIIA {
         };
         if !self.is_fresh && !is_solved(&solved) {
             self.newton.reset();
-            self.linearize(problem, from)?;
+            self.linearize(problem, from, h)?;
             solved = self.solve(problem, from, h);
+        }
+        if !is_solved(&solved) {
+            self.order.retry(&self.newton, solved.is_ok(), self.stages.turned());
         }
         if !solved? {
             return Err(StepError::NotConverged);
@@ -331,7 +351,7 @@ impl Integrator for RadauIIA {
 
     fn restart(&mut self) {
         (self.tried, self.accepted) = (None, None);
-        (self.is_begun, self.is_linearized) = (false, false);
+        (self.is_begun, self.is_linearized, self.is_fresh) = (false, false, false);
     }
 
     fn last_slope(&self) -> Option<&[f64]> {

@@ -46,7 +46,7 @@ impl Order {
             }
         };
         let methods = stages.into_iter().map(Collocation::new).collect();
-        let control = Control::predictive(4.0, 0.125, 5.0);
+        let control = Control::predictive(4.0, 0.125, tolerances::RADAU_GROWTH);
         let mut order = Order { methods, current: 0, control, steady: 0, last_decay: None };
         order.set(0);
         Ok(order)
@@ -138,9 +138,22 @@ impl Order {
     pub fn limit(&mut self, newton: &Monitor, most: usize, turned: f64) {
         let (most, iterations) = (most as f64, newton.iterations as f64);
         self.control.safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations);
-        let farthest = (tolerances::RADAU_SLOW / newton.rate).min(0.9 * tolerances::RADAU_TURN / turned);
-        self.control.grow = farthest.clamp(1.0, 5.0);
+        self.control.grow = farthest(newton.rate, turned).clamp(1.0, tolerances::RADAU_GROWTH);
     }
+
+    /// Sets how much shorter a step is tried again that Newton's method did not solve: so that it would contract well
+    /// enough and not turn too far; as short as it may be where the residual has no value, or nothing is known.
+    pub fn retry(&mut self, newton: &Monitor, has_value: bool, turned: f64) {
+        let [shortest, longest] = tolerances::RADAU_RETRIED;
+        let is_known = has_value && newton.iterations > 1 && !newton.rate.is_nan();
+        let shorter = if is_known { farthest(newton.rate, turned) } else { shortest };
+        self.control.retry = shorter.clamp(shortest, longest);
+    }
+}
+
+/// The longest next step over the present one, which contracts with `rate` and has rotation vectors up to `turned`.
+fn farthest(rate: f64, turned: f64) -> f64 {
+    (tolerances::RADAU_SLOW / rate).min(0.9 * tolerances::RADAU_TURN / turned)
 }
 
 /// Tolerance for the error estimate of order s + 1 at which the solution, of order 2 s, meets the given one.
