@@ -90,7 +90,7 @@ fn no_more_work_than_other_codes() {
     let (found, work) = andrews("index2", 1e-14);
     assert!(work.steps + work.rejected <= 228 && work.rhs_evaluations <= 5887, "{work:?}");
     assert!(found > 12.0, "{found}");
-    let method = stepwise("index2", "radau_iia", "none", 3e-10);
+    let method = stepwise("index2", "radau_iia", "none", 2e-10);
     let run = solve(&Crank, &crank::START, &crank::END, &method);
     let work = run.outcome.statistics;
     println!("crank: {:.2} digits, {work:?}", digits(run.last().0, crank::END.q, 0.0));

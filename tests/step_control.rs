@@ -74,8 +74,9 @@ fn the_loosest_tolerance() {
         sound(&run, &what);
         let drift = run.record.drift.position.max;
         match (&run.outcome.failure, formulation) {
-            // A wrong acceleration is integrated twice: the rod, of 1 m, comes apart, which ends a run or leaves its steps no size.
-            (failure, "index1") => assert!(failure.is_some() || drift < 1.0, "{what}: {drift:e} m apart in silence"),
+            // A wrong acceleration is integrated twice: the rod, of 1 m, drifts as far as is tolerated, some times 1 + 1 m, or
+            // comes apart, which ends a run or leaves its steps no size.
+            (failure, "index1") => assert!(failure.is_some() || drift < 6.0, "{what}: {drift:e} m apart in silence"),
             (failure, _) => {
                 assert_eq!(*failure, None, "{what}");
                 // phi is solved for to a part of the tolerance, or to round-off; with phi' = 0 it drifts as far as is tolerated:
