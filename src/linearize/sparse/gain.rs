@@ -1,9 +1,9 @@
 //! Static gain of the truncated modes.
 
+use super::changes;
 use super::quadratic::{Quadratic, Sparse};
-use super::search::{Found, Space};
+use super::search::{Found, Operator, Space};
 use super::shifted::Shifted;
-use super::{C, changes};
 use crate::error::Result;
 use crate::linearize::changes::beside;
 use crate::linearize::entry::Built;
@@ -26,17 +26,16 @@ pub fn add_residual<'a>(
     }
     let t = variation.point.t;
     let mut held = held(equations);
-    let at = match (&mut held, found.operator.sigma.im == 0.0) {
+    let at = match (&mut held, &mut found.operator) {
         (Some(held), _) => held,
-        (None, true) => &mut found.operator,
-        (None, false) => return Ok(()),
+        (None, Operator::Real(operator)) => operator,
+        (None, Operator::Complex(_)) => return Ok(()),
     };
-    let s = at.sigma.re;
+    let s = at.sigma;
     let mut p = Matrix::zeros(equations.len(), forces.ncols());
     for (force, mut to) in forces.column_iter().zip(p.column_iter_mut()) {
-        let mut answer: Vec<C> = force.iter().map(|f| C::from(*f)).collect();
-        at.solve(&mut answer).map_err(|unsolved| refused(t, &unsolved))?;
-        to.iter_mut().zip(answer).for_each(|(to, x)| *to = x.re);
+        to.copy_from(&force);
+        at.solve(to.as_mut_slice()).map_err(|unsolved| refused(t, &unsolved))?;
     }
     let changes = changes(equations, &Space { u: &p * s, p });
     let perturbation = Perturbation::new(variation, &changes, |_, _| None);
@@ -54,21 +53,21 @@ pub fn add_residual<'a>(
 }
 
 /// Returns the equations at s = 0 if they have a stiffness above rounding along the softest direction; none otherwise.
-fn held(equations: &Quadratic) -> Option<Shifted<'_>> {
-    let mut operator = Shifted::new(equations, C::ZERO, 1.0).ok()?;
-    let mut p: Vec<C> = (0..equations.len()).map(|i| C::from(1.0 + (i as f64).sin())).collect();
+fn held(equations: &Quadratic) -> Option<Shifted<'_, f64>> {
+    let mut operator = Shifted::new(equations, 0.0, 1.0).ok()?;
+    let mut p: Vec<f64> = (0..equations.len()).map(|i| 1.0 + (i as f64).sin()).collect();
     for _ in 0..2 {
-        let mut weighed = vec![C::ZERO; p.len()];
-        equations.mass.add_product(&p, C::from(1.0), &mut weighed);
-        let size = weighed.iter().map(|x| x.norm()).fold(f64::MIN_POSITIVE, f64::max);
+        let mut weighed = vec![0.0; p.len()];
+        equations.mass.add_product(&p, 1.0, &mut weighed);
+        let size = weighed.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
         weighed.iter_mut().for_each(|x| *x /= size);
         operator.solve(&mut weighed).ok()?;
         p = weighed;
     }
     let energy = |part: &Sparse| {
-        let mut product = vec![C::ZERO; p.len()];
-        part.add_product(&p, C::from(1.0), &mut product);
-        p.iter().zip(product).map(|(p, x)| (p.conj() * x).re).sum::<f64>()
+        let mut product = vec![0.0; p.len()];
+        part.add_product(&p, 1.0, &mut product);
+        p.iter().zip(product).map(|(p, x)| p * x).sum::<f64>()
     };
     let softest = energy(&equations.stiffness).abs() / energy(&equations.mass).abs();
     (softest > tolerances::ROUND_OFF_OF_SUMS * equations.fastest().powi(2)).then_some(operator)

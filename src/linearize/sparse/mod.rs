@@ -40,10 +40,10 @@ type C = Complex<f64>;
 /// bodies make that infinite, their gain at the real shift of the search, a fiftieth of the fastest rate found, and
 /// nothing for a complex shift.
 ///
-/// Krylov-Schur on (A - sigma E)^-1 E and on its adjoint, with dv eliminated: each takes one sparse complex
-/// factorization of [sigma^2 M + sigma C + K, G^T; G, 0] and a solution per application, so cost is linear in the
-/// number of links of a chain. sigma lies close to `shift`. Source of the elimination: Tisseur, Meerbergen, "The
-/// quadratic eigenvalue problem", SIAM Review 43 (2001) 235-286.
+/// Krylov-Schur on (A - sigma E)^-1 E and on its adjoint, with dv eliminated: each takes one sparse factorization of
+/// [sigma^2 M + sigma C + K, G^T; G, 0] and a solution per application, so cost is linear in the number of links of a
+/// chain; all is real for a real shift. sigma lies close to `shift`. Source of the elimination: Tisseur, Meerbergen,
+/// "The quadratic eigenvalue problem", SIAM Review 43 (2001) 235-286.
 ///
 /// # Errors
 /// No mode asked for or none there; eigenvalues that do not converge; outputs without derivatives.
@@ -138,7 +138,7 @@ fn finish(
     let space = [shapes.map(C::from), free_rates(variation, &built, &shapes).map(C::from)];
     for (mode, vector) in modes.iter().zip(vectors.column_iter()) {
         let [p, u] = [&space[0] * vector, &space[1] * vector];
-        let residual = residual(found, mode.value, p.iter().chain(u.iter()).copied());
+        let residual = found.operator.residual(mode.value, p.iter().chain(u.iter()).copied());
         let residual = residual.map_err(|unsolved| refused(t, &unsolved))?;
         if residual.is_nan() || residual > tolerances::MODE_RESIDUAL {
             return Err(refused(t, &Unsolved::NotConverged { converged: 0, wanted: modes.len() }));
@@ -159,16 +159,4 @@ fn free_rates(variation: &Variation, built: &Built, shapes: &Matrix) -> Matrix {
     let n = variation.system().dimensions();
     rates.rows_mut(n.moving(), n.states).copy_from(&(shapes.rows(n.moving(), n.states) * &built.a));
     rates
-}
-
-/// Returns the relative residual |op x - theta x| / |theta x|.
-fn residual(found: &mut Found, value: C, x: impl Iterator<Item = C>) -> Result<f64, Unsolved> {
-    let operator = &mut found.operator;
-    let x: Vec<C> = x.zip(&operator.scale).map(|(x, scale)| x * *scale).collect();
-    let mut image = vec![C::ZERO; x.len()];
-    operator.apply(&x, &mut image)?;
-    let theta = (value - operator.sigma).inv();
-    let norm = |all: &mut dyn Iterator<Item = C>| all.map(|x| x.norm_sqr()).sum::<f64>().sqrt();
-    let off = norm(&mut image.iter().zip(&x).map(|(image, x)| image - theta * x));
-    Ok(off / (theta.norm() * norm(&mut x.iter().copied())).max(f64::MIN_POSITIVE))
 }

@@ -1,10 +1,8 @@
 //! The frozen equations as one of second order, in sparse matrices.
 
 use crate::formulation::degrees_of_freedom;
-use crate::linearize::{Complex, Matrix, Variation};
-use crate::math::kkt::Pattern;
-
-type C = Complex<f64>;
+use crate::linearize::{Matrix, Variation};
+use crate::math::kkt::{Field, Pattern};
 
 /// The frozen index-3 pencil with dv = s p + [v, p] eliminated, in p = dq alone:
 ///
@@ -169,7 +167,7 @@ impl Sparse {
     }
 
     /// y += factor A x
-    pub fn add_product(&self, x: &[C], factor: C, y: &mut [C]) {
+    pub fn add_product<T: Field>(&self, x: &[T], factor: T, y: &mut [T]) {
         for (&(i, j), value) in self.pattern.entries.iter().zip(&self.values) {
             y[i] += factor * x[j] * *value;
         }

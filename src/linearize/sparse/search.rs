@@ -3,7 +3,7 @@
 use super::quadratic::Quadratic;
 use super::shifted::Shifted;
 use crate::linearize::{Complex, Matrix};
-use crate::math::eigen::{Options, Partial, Unsolved, nearest};
+use crate::math::eigen::{Options, Partial, Scalar, Unsolved, nearest};
 use crate::math::kkt::Singular;
 use crate::tolerances::linearize as tolerances;
 
@@ -19,36 +19,83 @@ pub struct Space {
 pub struct Found<'a> {
     pub right: Space,
     pub left: Space,
-    pub operator: Shifted<'a>,
+    pub operator: Operator<'a>,
+}
+
+/// That of a real or a complex shift.
+pub enum Operator<'a> {
+    Real(Shifted<'a, f64>),
+    Complex(Shifted<'a, C>),
+}
+
+impl Operator<'_> {
+    /// Returns |op x - theta x| / |theta x| of x in the coordinates of the equations and theta = 1 / (value - sigma).
+    pub fn residual(&mut self, value: C, x: impl Iterator<Item = C>) -> Result<f64, Unsolved> {
+        let (sigma, scale) = match self {
+            Operator::Real(operator) => (C::from(operator.sigma), &operator.scale),
+            Operator::Complex(operator) => (operator.sigma, &operator.scale),
+        };
+        let x: Vec<C> = x.zip(scale).map(|(x, scale)| x * *scale).collect();
+        let mut image = vec![C::ZERO; x.len()];
+        match self {
+            Operator::Complex(operator) => operator.apply(&x, &mut image)?,
+            Operator::Real(operator) => {
+                let (mut part, mut of_part) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+                for unit in [C::ONE, C::I] {
+                    part.iter_mut().zip(&x).for_each(|(part, x)| *part = (unit.conj() * x).re);
+                    operator.apply(&part, &mut of_part)?;
+                    image.iter_mut().zip(&of_part).for_each(|(image, of_part)| *image += unit * *of_part);
+                }
+            }
+        }
+        let theta = (value - sigma).inv();
+        let norm = |all: &mut dyn Iterator<Item = C>| all.map(|x| x.norm_sqr()).sum::<f64>().sqrt();
+        let off = norm(&mut image.iter().zip(&x).map(|(image, x)| image - theta * x));
+        Ok(off / (theta.norm() * norm(&mut x.iter().copied())).max(f64::MIN_POSITIVE))
+    }
 }
 
 /// Finds eigenvalues that include the `count` modes nearest to `shift` (im >= 0).
-pub fn find<'a>([equations, adjoint]: [&'a Quadratic; 2], count: usize, shift: C) -> Result<Found<'a>, Unsolved> {
-    let total = equations.finite;
+pub fn find<'a>(equations: [&'a Quadratic; 2], count: usize, shift: C) -> Result<Found<'a>, Unsolved> {
     let each = if shift.im > 0.0 { 1 } else { 2 };
-    let mut wanted = (each * count + count / 8 + 6).min(total);
+    let mut wanted = (each * count + count / 8 + 6).min(equations[0].finite);
     let (sigma, rate) = match shift.norm() > 0.0 {
         true => (shift + tolerances::SHIFT_BESIDE * shift.norm(), shift.norm()),
-        false => slowest(equations, &mut wanted)?,
+        false => slowest(equations[0], &mut wanted)?,
     };
-    let mut operator = beside(equations, sigma, rate)?;
-    let sigma = operator.sigma;
+    if sigma.im == 0.0 {
+        let operator = beside(equations[0], sigma.re, rate)?;
+        let ([right, left], operator) = spaces(equations[1], operator, [count, wanted], shift, rate)?;
+        return Ok(Found { right, left, operator: Operator::Real(operator) });
+    }
+    let operator = beside(equations[0], sigma, rate)?;
+    let ([right, left], operator) = spaces(equations[1], operator, [count, wanted], shift, rate)?;
+    Ok(Found { right, left, operator: Operator::Complex(operator) })
+}
+
+/// Returns the right and the left space of `count` modes; `wanted` eigenvalues are tried first.
+fn spaces<'a, T: Scalar + Into<C>>(
+    adjoint: &Quadratic,
+    mut operator: Shifted<'a, T>,
+    [count, mut wanted]: [usize; 2],
+    shift: C,
+    rate: f64,
+) -> Result<([Space; 2], Shifted<'a, T>), Unsolved> {
+    let (total, sigma) = (adjoint.finite, operator.sigma);
     let (right, cut) = loop {
         let partial = run(&mut operator, wanted, false)?;
         let cut = cut(&partial, wanted == total);
-        match cut.filter(|cut| *cut == total || modes(&partial, *cut, sigma, shift) >= count) {
+        match cut.filter(|cut| *cut >= total || modes(&partial, *cut, sigma.into(), shift) >= count) {
             Some(cut) => break (partial, cut),
             None => wanted = (2 * wanted).min(total),
         }
     };
-    let mut other = Shifted::new(adjoint, sigma, rate)?;
-    let left = run(&mut other, wanted, false)?;
-    let [right, left] = [right, left].map(|partial| real(&partial, cut, sigma.im == 0.0, &operator.scale));
-    Ok(Found { right, left, operator })
+    let left = run(&mut Shifted::new(adjoint, sigma, rate)?, wanted, false)?;
+    Ok(([right, left].map(|partial| real(&partial, cut, &operator.scale)), operator))
 }
 
 /// Runs Krylov-Schur to rounding, with multiple eigenvalues; or roughly (`is_first`).
-fn run(operator: &mut Shifted, count: usize, is_first: bool) -> Result<Partial, Unsolved> {
+fn run<T: Scalar>(operator: &mut Shifted<T>, count: usize, is_first: bool) -> Result<Partial<T>, Unsolved> {
     let (tolerance, restarts) = if is_first { (1e-2, 5) } else { (1e-12, 300) };
     let subspace = Some(count + count / 3 + 16);
     let options = Options { subspace, tolerance, restarts, filter: 2, repeats: !is_first };
@@ -57,11 +104,10 @@ fn run(operator: &mut Shifted, count: usize, is_first: bool) -> Result<Partial, 
 }
 
 /// Returns the operator at sigma, or a little further off where sigma is an eigenvalue.
-fn beside(equations: &Quadratic, sigma: C, rate: f64) -> Result<Shifted<'_>, Unsolved> {
-    let mut sigma = sigma;
+fn beside<T: Scalar>(equations: &Quadratic, mut sigma: T, rate: f64) -> Result<Shifted<'_, T>, Unsolved> {
     for _ in 0..8 {
         match Shifted::new(equations, sigma, rate) {
-            Err(Unsolved::Operator(Singular::Collapsed)) => sigma += 2.0 * sigma.re,
+            Err(Unsolved::Operator(Singular::Collapsed)) => sigma += T::from_real(2.0 * sigma.real()),
             other => return other,
         }
     }
@@ -74,8 +120,8 @@ fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolve
     let fastest = equations.fastest();
     let mut sigma = 1e-5 * fastest;
     for _ in 0..10 {
-        let mut operator = beside(equations, C::from(sigma), 100.0 * sigma)?;
-        let used = operator.sigma.re;
+        let mut operator = beside(equations, sigma, 100.0 * sigma)?;
+        let used = operator.sigma;
         let partial = match run(&mut operator, *count, true) {
             Err(Unsolved::NotConverged { .. }) => {
                 sigma = 0.03 * used;
@@ -83,7 +129,7 @@ fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolve
             }
             other => other?,
         };
-        let rates = partial.values.iter().map(|theta| (operator.sigma + theta.inv()).norm());
+        let rates = partial.values.iter().map(|theta| (used + theta.inv()).norm());
         let last = rates.fold(0.0, f64::max);
         if last < tolerances::ROUNDING_OF_K * fastest && *count < equations.finite {
             *count = (2 * *count).min(equations.finite);
@@ -100,7 +146,7 @@ fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolve
 
 /// Returns the number of values to keep: up to the widest gap among the last ones, so that no pair is parted and both
 /// sides keep the same. None without a gap.
-fn cut(partial: &Partial, is_all: bool) -> Option<usize> {
+fn cut<T: Scalar>(partial: &Partial<T>, is_all: bool) -> Option<usize> {
     let count = partial.values.len();
     if is_all {
         return Some(count);
@@ -113,7 +159,7 @@ fn cut(partial: &Partial, is_all: bool) -> Option<usize> {
 
 /// Returns the number of modes that are certainly nearest to `shift` when all within the radius of the first `cut`
 /// values about sigma are known. A pair is one; so are two real eigenvalues, which may be a double zero.
-fn modes(partial: &Partial, cut: usize, sigma: C, shift: C) -> usize {
+fn modes<T: Scalar>(partial: &Partial<T>, cut: usize, sigma: C, shift: C) -> usize {
     let radius = (1.0 + tolerances::EIGENVALUES_AGREE) / partial.values[cut - 1].norm() - (sigma - shift).norm();
     let values = partial.values.iter().take(cut).map(|theta| (sigma + theta.inv(), theta.norm().recip()));
     let inside = values.filter(|(value, _)| (value - shift).norm() <= radius);
@@ -125,17 +171,18 @@ fn modes(partial: &Partial, cut: usize, sigma: C, shift: C) -> usize {
     halves.sum::<usize>() / 2
 }
 
-/// Returns a real basis of the space of the first `cut` Schur vectors and of their conjugates, which a real shift
-/// (`is_closed`) finds among them.
-fn real(partial: &Partial, cut: usize, is_closed: bool, scale: &[f64]) -> Space {
-    let q = partial.schur[0].columns(0, cut);
-    let parts = Matrix::from_fn(q.nrows(), 2 * cut, |i, j| if j < cut { q[(i, j)].re } else { q[(i, j - cut)].im });
+/// Returns a real basis of the space of the first `cut` Schur vectors and of their conjugates, which are among them
+/// where these are real.
+fn real<T: Scalar>(partial: &Partial<T>, cut: usize, scale: &[f64]) -> Space {
+    let q = partial.basis.columns(0, cut);
+    let count = if T::IS_REAL { cut } else { 2 * cut };
+    let part = |i: usize, j: usize| if j < cut { q[(i, j)].real() } else { q[(i, j - cut)].imaginary() };
+    let parts = Matrix::from_fn(q.nrows(), count, part);
     let gram = (parts.transpose() * &parts).symmetric_eigen();
-    let mut kept: Vec<usize> = (0..2 * cut).filter(|&j| gram.eigenvalues[j] > tolerances::NEW_MODE).collect();
+    let mut kept: Vec<usize> = (0..count).filter(|&j| gram.eigenvalues[j] > tolerances::NEW_MODE).collect();
     kept.sort_by(|&i, &j| gram.eigenvalues[j].total_cmp(&gram.eigenvalues[i]));
-    kept.truncate(if is_closed { cut } else { 2 * cut });
     let weights =
-        Matrix::from_fn(2 * cut, kept.len(), |i, j| gram.eigenvectors[(i, kept[j])] / gram.eigenvalues[kept[j]].sqrt());
+        Matrix::from_fn(count, kept.len(), |i, j| gram.eigenvectors[(i, kept[j])] / gram.eigenvalues[kept[j]].sqrt());
     let mut basis = parts * weights;
     basis.row_iter_mut().zip(scale).for_each(|(mut row, scale)| row /= *scale);
     let n = scale.len() / 2;

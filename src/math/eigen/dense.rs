@@ -1,6 +1,6 @@
 //! Dense decompositions of faer on matrices of nalgebra.
 
-use super::{Complex, ComplexMatrix, Matrix, Unsolved};
+use super::{Complex, ComplexMatrix, Matrix, Scalar, Unsolved};
 use faer::linalg::matmul::matmul;
 use faer::traits::Conjugate;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
@@ -15,10 +15,10 @@ pub fn copy<T: nalgebra::Scalar + Copy>(matrix: MatRef<T>) -> DMatrix<T> {
 }
 
 /// The product A B.
-pub fn product<A: Conjugate<Canonical = Complex<f64>>>(a: MatRef<A>, b: MatRef<Complex<f64>>) -> ComplexMatrix {
-    let mut product = ComplexMatrix::zeros(a.nrows(), b.ncols());
+pub fn product<T: Scalar, A: Conjugate<Canonical = T>>(a: MatRef<A>, b: MatRef<T>) -> DMatrix<T> {
+    let mut product = DMatrix::zeros(a.nrows(), b.ncols());
     let to = MatMut::from_column_major_slice_mut(product.as_mut_slice(), a.nrows(), b.ncols());
-    matmul(to, Accum::Replace, a, b, Complex::new(1.0, 0.0), Par::Seq);
+    matmul(to, Accum::Replace, a, b, T::from_real(1.0), Par::Seq);
     product
 }
 
@@ -107,12 +107,12 @@ pub fn power_of_two(x: f64) -> f64 {
 }
 
 /// Pseudo-random numbers in (-1, 1), the same for the same seed: a start direction.
-pub fn direction(n: usize, seed: u64) -> impl Iterator<Item = Complex<f64>> {
+pub fn direction(n: usize, seed: u64) -> impl Iterator<Item = f64> {
     let mut state = seed;
     (0..n).map(move |_| {
         // A linear congruential generator (Knuth's).
         state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        Complex::new((state >> 33) as f64 / (1u64 << 30) as f64 - 1.0, 0.0)
+        (state >> 33) as f64 / (1u64 << 30) as f64 - 1.0
     })
 }
 

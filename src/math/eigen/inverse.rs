@@ -22,7 +22,7 @@ pub fn vectors(a: &ComplexMatrix, value: Complex<f64>, seed: u64, accuracy: f64)
     // Shifted from the eigenvalue by round-off, so that there is an inverse.
     let near = value + a.norm() * f64::EPSILON;
     let shifted = a - ComplexMatrix::from_diagonal_element(n, n, near);
-    let start = ComplexMatrix::from_iterator(n, 1, dense::direction(n, seed));
+    let start = ComplexMatrix::from_iterator(n, 1, dense::direction(n, seed).map(Complex::from));
     let lu = dense::view(&shifted).partial_piv_lu();
     let right = dense::copy(lu.solve(dense::view(&start)).as_ref());
     let left = dense::copy(lu.solve_adjoint(dense::view(&start)).as_ref());

@@ -23,7 +23,7 @@ pub use assignment::assign;
 pub use deflate::{Deflated, Deflation, Finite, deflate, finite};
 pub use dense::{pseudo_inverse, singular_values};
 pub use exponential::expm;
-pub use krylov::{Options, Partial, nearest};
+pub use krylov::{Options, Partial, Scalar, nearest};
 pub use pencil::{Generalized, Split, generalized};
 pub use standard::{Eigen, eigen};
 pub use unsolved::Unsolved;

@@ -4,13 +4,43 @@ mod ritz;
 mod schur;
 mod space;
 
-use super::{Complex, ComplexMatrix, Unsolved};
+use super::{Complex, Unsolved};
+use crate::math::kkt::Field;
 use crate::tolerances::math as tolerances;
+use nalgebra::{DMatrix, DVector};
 use ritz::Ritz;
 use schur::Ordered;
 use space::Krylov;
 
 type C = Complex<f64>;
+
+/// `f64` or `c64`, the numbers of an operator.
+pub trait Scalar: Field + faer::traits::ComplexField<Real = f64> + nalgebra::ComplexField<RealField = f64> {
+    /// Returns a basis of the spaces of the vectors, in their order, and the sizes of their blocks: for a real matrix
+    /// the real and the imaginary part of one vector of a pair, of size two.
+    #[doc(hidden)]
+    fn columns(ritz: &Ritz) -> (Vec<DVector<Self>>, Vec<usize>);
+}
+
+impl Scalar for C {
+    fn columns(ritz: &Ritz) -> (Vec<DVector<C>>, Vec<usize>) {
+        let columns: Vec<_> = ritz.vectors.column_iter().map(|column| column.clone_owned()).collect();
+        let sizes = vec![1; columns.len()];
+        (columns, sizes)
+    }
+}
+
+impl Scalar for f64 {
+    fn columns(ritz: &Ritz) -> (Vec<DVector<f64>>, Vec<usize>) {
+        let (mut columns, mut sizes) = (Vec::new(), Vec::new());
+        for (value, vector) in ritz.values.iter().zip(ritz.vectors.column_iter()).filter(|(value, _)| value.im >= 0.0) {
+            let size = if value.im > 0.0 { 2 } else { 1 };
+            columns.extend([vector.map(|x| x.re), vector.map(|x| x.im)].into_iter().take(size));
+            sizes.push(size);
+        }
+        (columns, sizes)
+    }
+}
 
 /// Options of [`nearest`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,18 +67,19 @@ impl Default for Options {
 
 /// Some eigenvalues of an operator, see [`nearest`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Partial {
-    /// Eigenvalues theta of largest magnitude, largest first.
+pub struct Partial<T: Scalar> {
+    /// Eigenvalues theta of largest magnitude, largest first; of a real operator both of a pair.
     pub values: Vec<C>,
-    /// Q and T with apply(Q) = Q T, orthonormal Q and triangular T, the values on its diagonal: a basis of the space of
-    /// the vectors that is well conditioned for defective eigenvalues too.
-    pub schur: [ComplexMatrix; 2],
+    /// Orthonormal Schur vectors: the leading k span the space of the first k values, for defective ones too, unless
+    /// that parts a pair of a real operator.
+    pub basis: DMatrix<T>,
 }
 
 /// The `count` eigenvalues theta of largest magnitude of the operator y = `apply`(x) of dimension n.
 ///
 /// With `apply` = (A - sigma E)^-1 E these belong to the eigenvalues lambda = sigma + 1/theta of A x = lambda E x
-/// nearest to sigma, with the same vectors. Infinite eigenvalues have theta = 0 and do not disturb.
+/// nearest to sigma, with the same vectors. Infinite eigenvalues have theta = 0 and do not disturb. Real pencils and
+/// shifts have a real operator, of which all is computed in real numbers, at half the cost or less.
 ///
 /// Krylov-Schur method (Stewart, "A Krylov-Schur algorithm for large eigenproblems", SIAM J. Matrix Anal. Appl. 23,
 /// 2001), from a fixed start vector. Each step costs an application and 8 n m operations, m the size of the subspace;
@@ -58,38 +89,38 @@ pub struct Partial {
 ///
 /// # Errors
 /// Errors of `apply`; no convergence within the restarts, with the number that converged; results that are not finite.
-pub fn nearest(
+pub fn nearest<T: Scalar>(
     n: usize,
     count: usize,
-    apply: impl FnMut(&[C], &mut [C]) -> Result<(), Unsolved>,
+    apply: impl FnMut(&[T], &mut [T]) -> Result<(), Unsolved>,
     options: Options,
-) -> Result<Partial, Unsolved> {
+) -> Result<Partial<T>, Unsolved> {
     let count = count.min(n);
     let m = options.subspace.unwrap_or(2 * count + 20).max(count + 2).min(n);
     if count == 0 {
-        return Ok(Partial { values: Vec::new(), schur: [ComplexMatrix::zeros(n, 0), ComplexMatrix::zeros(0, 0)] });
+        return Ok(Partial { values: Vec::new(), basis: DMatrix::zeros(n, 0) });
     }
     let mut space = Krylov::new(n, m, options.filter, apply)?;
     let (mut converged, mut known) = (0, None);
     for _ in 0..=options.restarts {
         space.extend()?;
-        let ritz = Ritz::of(&space.h, space.rest, count)?;
-        converged = ritz.converged(options.tolerance);
+        let ritz = Ritz::of(&space.h)?;
+        converged = ritz.converged(count, space.rest, options.tolerance);
         if converged == count {
-            let size: f64 = ritz.values.iter().map(|theta| theta.norm()).sum();
+            let size: f64 = ritz.values[..count].iter().map(|theta| theta.norm()).sum();
             if !options.repeats
                 || count == n
                 || known.is_some_and(|before: f64| size - before <= tolerances::KRYLOV_NEW * size)
             {
-                return space.finish(ritz.values);
+                return space.finish(ritz, count);
             }
             known = Some(size);
-            space.renew(&Ordered::of(&space.h)?, count)?;
+            space.renew(&Ordered::of(&space.h, &ritz)?, count)?;
             continue;
         }
         // More than the wanted ones are kept, which speeds up convergence; those that have converged count as kept.
-        let kept = (count + (m - count) / 3 + converged / 2).min(m - 1);
-        space.contract(&Ordered::of(&space.h)?, kept);
+        let kept = (count + (m - count) / 3 + converged / 2).min(m.saturating_sub(2));
+        space.contract(&Ordered::of(&space.h, &ritz)?, kept);
     }
     Err(Unsolved::NotConverged { converged, wanted: count })
 }

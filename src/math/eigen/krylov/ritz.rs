@@ -1,33 +1,32 @@
 //! Ritz values and vectors of a Krylov space.
 
 use super::super::{ComplexMatrix, Unsolved, conjugates, dense};
-use super::C;
+use super::{C, Scalar};
+use nalgebra::DMatrix;
 
-/// Eigenvalues of H, largest first.
+/// Eigenvalues and unit vectors of H, largest first.
 pub struct Ritz {
     pub values: Vec<C>,
     pub vectors: ComplexMatrix,
-    /// Residuals |apply(x) - theta x|.
-    residuals: Vec<f64>,
 }
 
 impl Ritz {
-    pub fn of(h: &ComplexMatrix, rest: f64, count: usize) -> Result<Ritz, Unsolved> {
+    pub fn of<T: Scalar>(h: &DMatrix<T>) -> Result<Ritz, Unsolved> {
         let m = h.nrows();
         faer::set_global_parallelism(faer::Par::Seq);
-        let eigen = dense::view(h).eigen().map_err(|_| Unsolved::NotConverged { converged: 0, wanted: count })?;
+        let eigen = dense::view(h).eigen().map_err(|_| Unsolved::NotConverged { converged: 0, wanted: m })?;
         let all: Vec<C> = eigen.S().column_vector().iter().copied().collect();
         let mut order: Vec<usize> = (0..m).collect();
         order.sort_by(|&i, &j| conjugates::compare(&all[j], &all[i]));
-        order.truncate(count);
-        let mut vectors = ComplexMatrix::from_fn(m, count, |i, j| eigen.U()[(i, order[j])]);
+        let mut vectors = ComplexMatrix::from_fn(m, m, |i, j| eigen.U()[(i, order[j])]);
         dense::normalize(&mut vectors);
-        let residuals = (0..count).map(|j| rest * vectors[(m - 1, j)].norm()).collect();
-        Ok(Ritz { values: order.iter().map(|&j| all[j]).collect(), vectors, residuals })
+        Ok(Ritz { values: order.iter().map(|&j| all[j]).collect(), vectors })
     }
 
-    pub fn converged(&self, tolerance: f64) -> usize {
+    /// Returns how many of the largest `count` have a residual |apply(x) - theta x| within the tolerance.
+    pub fn converged(&self, count: usize, rest: f64, tolerance: f64) -> usize {
         let size = self.values.first().map_or(0.0, |theta| theta.norm());
-        self.residuals.iter().filter(|residual| **residual <= tolerance * size).count()
+        let last = self.vectors.row(self.values.len() - 1);
+        last.iter().take(count).filter(|x| rest * x.norm() <= tolerance * size).count()
     }
 }

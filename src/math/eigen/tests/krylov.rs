@@ -1,18 +1,19 @@
-use super::super::{Complex, Matrix, Options, Partial, Unsolved, dense, eigen, nearest};
+use super::super::{Complex, Matrix, Options, Partial, Scalar, Unsolved, dense, eigen, nearest};
 use super::samples::{Form, Random, chain, residual};
 use crate::math::kkt::Singular;
 use nalgebra::DVector;
 
 type C = Complex<f64>;
 
-/// |apply(Q) - Q T|, over |T|.
-fn residual_of(found: &Partial, mut apply: impl FnMut(&[C], &mut [C]) -> Result<(), Unsolved>) -> f64 {
-    let [q, t] = &found.schur;
+/// |apply(Q) - Q T| with T = Q^H apply(Q), over |T|.
+fn residual_of<T: Scalar>(found: &Partial<T>, mut apply: impl FnMut(&[T], &mut [T]) -> Result<(), Unsolved>) -> f64 {
+    let q = &found.basis;
     let mut image = q.clone();
     q.column_iter().zip(image.column_iter_mut()).for_each(|(x, mut y)| {
         apply(x.clone_owned().as_slice(), y.as_mut_slice()).unwrap();
     });
-    (image - q * t).norm() / t.norm()
+    let t = q.adjoint() * &image;
+    (image - q * &t).norm() / t.norm()
 }
 
 fn diagonal(values: Vec<C>) -> impl FnMut(&[C], &mut [C]) -> Result<(), Unsolved> {
@@ -66,19 +67,44 @@ fn shift_and_invert_finds_the_nearest() {
     }
 }
 
+/// y = A x in real or complex numbers.
+fn times<T: Scalar>(a: &Matrix) -> impl FnMut(&[T], &mut [T]) -> Result<(), Unsolved> {
+    move |x, y| {
+        let row = |i: usize| (0..a.ncols()).fold(T::ZERO, |sum, j| sum + x[j] * T::from_real(a[(i, j)]));
+        y.iter_mut().enumerate().for_each(|(i, y)| *y = row(i));
+        Ok(())
+    }
+}
+
 #[test]
 fn a_subspace_of_all_rows_gives_all_eigenvalues() {
     let a = Random(4).matrix(12, 12);
-    let apply = |x: &[C], y: &mut [C]| {
-        (0..12).for_each(|i| y[i] = (0..12).map(|j| x[j] * a[(i, j)]).sum());
-        Ok(())
-    };
-    let found = nearest(12, 12, apply, Options::default()).unwrap();
-    assert!(residual_of(&found, apply) < 1e-12);
+    let complex = nearest(12, 12, times::<C>(&a), Options::default()).unwrap();
+    let real = nearest(12, 12, times::<f64>(&a), Options::default()).unwrap();
+    assert!(residual_of(&complex, times(&a)) < 1e-12 && residual_of(&real, times(&a)) < 1e-12);
     let mut expected = eigen(&a).unwrap().values;
     expected.reverse();
-    for (value, expected) in found.values.iter().zip(&expected) {
+    for (value, expected) in complex.values.iter().chain(&real.values).zip(expected.iter().chain(&expected)) {
         assert!((value.norm() - expected.norm()).abs() < 1e-12);
+    }
+}
+
+/// Restarts in real numbers keep both of a pair: for any count the space is invariant and holds the largest.
+#[test]
+fn a_real_operator_has_real_spaces() {
+    let n = 150;
+    let a = Random(9).matrix(n, n);
+    let mut expected = eigen(&a).unwrap().values;
+    expected.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
+    for count in 1..12 {
+        let options = Options { subspace: Some(2 * count + 12), repeats: true, ..Options::default() };
+        let found = nearest(n, count, times::<f64>(&a), options).unwrap();
+        assert!(found.values.len() - count <= 1 && found.values.len() == found.basis.ncols());
+        assert!(found.values.iter().map(|value| value.im).sum::<f64>().abs() < 1e-12, "a pair is parted");
+        for (value, expected) in found.values.iter().zip(&expected) {
+            assert!((value.norm() - expected.norm()).abs() < 1e-10 * expected.norm(), "{value} {expected}");
+        }
+        assert!(residual_of(&found, times(&a)) < 1e-10);
     }
 }
 
@@ -98,13 +124,33 @@ fn invariant_subspaces_and_equal_eigenvalues() {
 
 #[test]
 fn a_defective_eigenvalue_converges_to_half_precision() {
-    let jordan = |x: &[C], y: &mut [C]| {
-        (0..400).for_each(|i| y[i] = x[i] / (1.0 + (i / 2) as f64));
+    fn jordan<T: Scalar>(x: &[T], y: &mut [T]) -> Result<(), Unsolved> {
+        (0..400).for_each(|i| y[i] = x[i] * T::from_real(1.0 / (1.0 + (i / 2) as f64)));
         y[0] += x[1];
         Ok(())
-    };
-    let found = nearest(400, 3, jordan, Options::default()).unwrap();
-    assert!(found.values[..2].iter().all(|value| (value - 1.0).norm() < 1e-6));
+    }
+    let complex = nearest(400, 3, jordan::<C>, Options::default()).unwrap();
+    let real = nearest(400, 3, jordan::<f64>, Options::default()).unwrap();
+    assert!(complex.values[..2].iter().chain(&real.values[..2]).all(|value| (value - 1.0).norm() < 1e-6));
+    assert!(residual_of(&complex, jordan) < 1e-10 && residual_of(&real, jordan) < 1e-10);
+}
+
+/// A double pair with one vector beside real eigenvalues: blocks of two rows change places with each other and with
+/// single ones.
+#[test]
+fn defective_pairs_of_a_real_operator() {
+    let n = 300;
+    let mut a = Matrix::from_diagonal(&DVector::from_fn(n, |i, _| 0.9 / (1.0 + i as f64)));
+    for (at, size) in [(100, 0.5), (102, 0.5), (200, 1.0), (202, 1.0)] {
+        a.view_mut((at, at), (2, 2)).copy_from(&(Matrix::from_row_slice(2, 2, &[0.6, 0.8, -0.8, 0.6]) * size));
+    }
+    (a[(100, 102)], a[(101, 103)], a[(200, 202)], a[(201, 203)]) = (1.0, 1.0, 1.0, 1.0);
+    let found = nearest(n, 10, times::<f64>(&a), Options::default()).unwrap();
+    let expected = [1.0, 1.0, 1.0, 1.0, 0.9, 0.5, 0.5, 0.5, 0.5, 0.45];
+    for (value, expected) in found.values.iter().zip(expected) {
+        assert!((value.norm() - expected).abs() < 1e-6, "{value} {expected}");
+    }
+    assert!(residual_of(&found, times(&a)) < 1e-10);
 }
 
 #[test]
@@ -150,8 +196,13 @@ fn infinite_eigenvalues_do_not_disturb() {
         let value = sigma + theta.inv();
         assert!((value - exact).norm() < 1e-11 * exact.norm(), "{value} {exact}");
     }
-    let values: Vec<C> = found.values.iter().map(|theta| sigma + theta.inv()).collect();
-    let [q, t] = &found.schur;
-    let vectors = q * dense::copy(dense::view(t).eigen().unwrap().U());
+    let mut image = found.basis.clone();
+    found.basis.column_iter().zip(image.column_iter_mut()).for_each(|(x, mut y)| {
+        apply(x.clone_owned().as_slice(), y.as_mut_slice()).unwrap();
+    });
+    let t = found.basis.adjoint() * image;
+    let solved = dense::view(&t).eigen().unwrap();
+    let values: Vec<C> = solved.S().column_vector().iter().map(|theta| sigma + theta.inv()).collect();
+    let vectors = &found.basis * dense::copy(solved.U());
     assert!(residual(&a, &e.map(|x| x.re), &values, &vectors) < 1e-13);
 }
