@@ -12,14 +12,27 @@ use crate::force::Force;
 use crate::joint::{ClosedForm, Lock};
 use crate::math::kkt::Analysis;
 use crate::math::{Taylor, Time};
-use crate::scene::{Connection, Measure, Model, Watched};
+use crate::scene::{Connection, Measure, Model, Part, Watched};
 use std::ops::Range;
 use std::sync::Arc;
+
+/// What the velocities of each body are, if it is rigid; neighbours that are alike share one.
+fn freedoms<const D: usize>(model: &Model<D>) -> Vec<Option<Arc<Freedom>>> {
+    let mut last: Option<Arc<Freedom>> = None;
+    let shared = |part: &Part<D>| {
+        let freedom = part.body.freedom()?;
+        if last.as_deref() != Some(&freedom) {
+            last = Some(Arc::new(freedom));
+        }
+        last.clone()
+    };
+    model.bodies.iter().map(shared).collect()
+}
 
 /// The rigid bodies of a model, the joints between them, and what is constant.
 pub(super) struct RigidParts<const D: usize> {
     /// What the velocities of each body are, if it is rigid.
-    pub freedoms: Vec<Option<Freedom>>,
+    pub freedoms: Vec<Option<Arc<Freedom>>>,
     pub are_all_rigid: bool,
     /// True if q' = v for all of them, but for turning angles.
     pub rates_are_velocities: bool,
@@ -42,18 +55,24 @@ pub(super) struct RigidParts<const D: usize> {
 impl<const D: usize> RigidParts<D> {
     /// Finds them in a model with the places of its joints and of the values of M.
     pub fn new(model: &Model<D>, rows: &[JointRows], masses: &[Range<usize>]) -> Self {
-        let closed: Vec<Option<RigidJoint<D>>> =
-            model.joints.iter().zip(rows).map(|(joint, rows)| RigidJoint::new(model, joint, rows)).collect();
+        let freedoms = freedoms(model);
+        let (mut joints, mut general_joints) = (Vec::new(), Vec::new());
+        for (i, (joint, rows)) in model.joints.iter().zip(rows).enumerate() {
+            match RigidJoint::new(model, &freedoms, joint, rows) {
+                Some(joint) => joints.push(joint),
+                None => general_joints.push(i),
+            }
+        }
+        joints.shrink_to_fit();
+        let are_all_rigid = freedoms.iter().all(Option::is_some);
+        let is_rate = |part: &Part<D>| part.body.turning().is_none() && part.nq == part.nv;
         let mut parts = RigidParts {
-            are_all_rigid: model.bodies.iter().all(|part| part.body.freedom().is_some()),
-            rates_are_velocities: model
-                .bodies
-                .iter()
-                .all(|part| part.body.freedom().is_some() && part.body.turning().is_none() && part.nq == part.nv),
-            freedoms: model.bodies.iter().map(|part| part.body.freedom()).collect(),
+            are_all_rigid,
+            rates_are_velocities: are_all_rigid && model.bodies.iter().all(is_rate),
+            freedoms,
             locks: model.joints.iter().map(|joint| as_lock(joint.element.closed_form())).collect(),
-            general_joints: (0..closed.len()).filter(|&joint| closed[joint].is_none()).collect(),
-            joints: closed.into_iter().flatten().collect(),
+            general_joints,
+            joints,
             mass: vec![0.0; masses.last().map_or(0, |last| last.end)],
             varying_masses: Vec::new(),
             weight: vec![0.0; model.bodies.last().map_or(0, |last| last.first_v + last.nv)],
@@ -132,6 +151,7 @@ impl<const D: usize> Mechanism<D> {
             work.motion.resize(self.model().marker_count(), Frame::world());
         }
         let Workspace { poses, motion, .. } = work;
+        poses.resize(self.model().bodies.len() + 1, Pose::ground());
         for ((part, freedom), pose) in self.model().bodies.iter().zip(&self.rigid.freedoms).zip(poses) {
             match freedom {
                 Some(_) => *pose = part.body.pose(of(q, part, true), of(v, part, false)),

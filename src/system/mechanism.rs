@@ -101,6 +101,11 @@ impl<const D: usize> Mechanism<D> {
         })
     }
 
+    /// Calls `see` with a view of the state.
+    fn viewed<R>(&self, at: OperatingPoint, scratch: &mut Scratch, see: impl FnOnce(&Plain<D>) -> R) -> R {
+        self.with_workspace(at.q, scratch, |_, regime| see(&Plain { model: &self.model, at, regime }))
+    }
+
     /// Calls `see` with the workspace as it was left.
     fn with_workspace<R>(
         &self,
@@ -284,13 +289,8 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
-        Some(self.at(q, v, scratch, |work, regime| {
-            self.energies(&Plain {
-                at: OperatingPoint { t, q, v, vdot: &[], lambda: &[] },
-                regime,
-                motion: &work.motion,
-            })
-        }))
+        let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
+        Some(self.viewed(at, scratch, |view| self.energies(view)))
     }
 
     fn columns(&self) -> Vec<Column> {
@@ -312,9 +312,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn outputs(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {
-        self.observed(at, scratch, |at, regime, work| {
-            self.write_outputs(&Plain { at, regime, motion: &work.motion }, out);
-        });
+        self.viewed(self.felt(at), scratch, |view| self.write_outputs(view, out));
     }
 
     fn output_tangent(&self, at: OperatingPoint, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
@@ -340,9 +338,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn input_values(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {
-        self.at(at.q, at.v, scratch, |work, regime| {
-            self.write_input_values(&Plain { at, regime, motion: &work.motion }, out);
-        });
+        self.viewed(OperatingPoint { vdot: &[], ..at }, scratch, |view| self.write_input_values(view, out));
     }
 
     fn switches(&self) -> &[Switch] {
@@ -354,7 +350,8 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn infinite_force(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<String> {
-        self.at(q, v, scratch, |work, regime| self.find_infinite_force((t, q, v), regime, work))
+        let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
+        self.viewed(at, scratch, |view| self.find_infinite_force(view))
     }
 
     fn roads(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Vec<Road> {

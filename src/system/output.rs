@@ -18,20 +18,25 @@ pub(super) fn column(output: &Watched) -> Column {
 }
 
 impl<const D: usize> Mechanism<D> {
-    /// Calls `see` with the workspace evaluated at a state; with its v' only where an output reads accelerations.
+    /// Returns the state with its v' only where an output reads accelerations.
+    pub(super) fn felt<'a>(&self, at: OperatingPoint<'a>) -> OperatingPoint<'a> {
+        let is_accelerated = self.model().outputs.iter().any(|output| output.measure.feels_acceleration());
+        OperatingPoint { vdot: if is_accelerated { at.vdot } else { &[] }, ..at }
+    }
+
+    /// Calls `see` with the workspace evaluated at a state as outputs feel it.
     pub(super) fn observed<R>(
         &self,
         at: OperatingPoint,
         scratch: &mut Scratch,
         see: impl FnOnce(OperatingPoint, Regime, &mut Workspace<D>) -> R,
     ) -> R {
-        let is_accelerated = self.model().outputs.iter().any(|output| output.measure.feels_acceleration());
-        let vdot = if is_accelerated { at.vdot } else { &[] };
+        let at = self.felt(at);
         self.at(at.q, at.v, scratch, |work, regime| {
-            if is_accelerated {
-                self.place(at.q, at.v, vdot, work);
+            if !at.vdot.is_empty() {
+                self.place(at.q, at.v, at.vdot, work);
             }
-            see(OperatingPoint { vdot, ..at }, regime, work)
+            see(at, regime, work)
         })
     }
 

@@ -24,6 +24,7 @@ use crate::math::{Scalar, Taylor};
 use crate::scene::{Connection, Model};
 use std::array::from_fn;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A joint whose markers are on rigid bodies or on the ground.
 pub(super) struct RigidJoint<const D: usize> {
@@ -44,7 +45,7 @@ struct Side<const D: usize> {
     /// Axes of the joint in those of the body.
     axes: [[f64; D]; D],
     turn: f64,
-    freedom: Freedom,
+    freedom: Arc<Freedom>,
     is_moving: bool,
 }
 
@@ -63,10 +64,15 @@ struct Rows<'a, const D: usize> {
 
 impl<const D: usize> RigidJoint<D> {
     /// The joint with its places; none if it has no closed form or is on a body that is not rigid.
-    pub fn new(model: &Model<D>, joint: &Connection<Box<dyn Joint<D>>>, rows: &JointRows) -> Option<Self> {
+    pub fn new(
+        model: &Model<D>,
+        freedoms: &[Option<Arc<Freedom>>],
+        joint: &Connection<Box<dyn Joint<D>>>,
+        rows: &JointRows,
+    ) -> Option<Self> {
         let form = joint.element.closed_form()?;
         let &[a, b] = joint.markers.as_slice() else { return None };
-        let sides = [Side::new(model, &form, a)?, Side::new(model, &form, b)?];
+        let sides = [Side::new(model, freedoms, &form, a)?, Side::new(model, freedoms, &form, b)?];
         let is_point = match &form {
             ClosedForm::Lock(lock) => lock.translation.len() == D && lock.rotation.is_empty(),
             ClosedForm::Rod(_) => false,
@@ -154,12 +160,17 @@ fn write_lever<const D: usize>(sign: f64, arm: &Path<D>, block: &mut [f64]) {
 }
 
 impl<const D: usize> Side<D> {
-    fn new(model: &Model<D>, form: &ClosedForm<D>, marker: MarkerId) -> Option<Self> {
+    fn new(
+        model: &Model<D>,
+        freedoms: &[Option<Arc<Freedom>>],
+        form: &ClosedForm<D>,
+        marker: MarkerId,
+    ) -> Option<Self> {
         let (body, freedom, place) = match model.markers.bodies[marker] {
-            None => (model.bodies.len(), Freedom::default(), &model.ground[marker]),
+            None => (model.bodies.len(), Arc::default(), &model.ground[marker]),
             Some(body) => {
                 let part = &model.bodies[body];
-                (body, part.body.freedom()?, part.body.marker(marker - part.first_marker))
+                (body, freedoms[body].clone()?, part.body.marker(marker - part.first_marker))
             }
         };
         let axes = match form {

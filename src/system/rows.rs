@@ -45,7 +45,7 @@ impl JointRows {
     /// Adds the joint's entries to the pattern of G, and its rows.
     pub fn new<const D: usize>(supports: &[Support], joint: &Connection<Box<dyn Joint<D>>>, g: &mut Pattern) -> Self {
         let count = joint.element.row_names().len();
-        let mut blocks: Vec<Block> = Vec::new();
+        let mut blocks: Vec<Block> = Vec::with_capacity(joint.markers.len());
         for (slot, &marker) in joint.markers.iter().enumerate() {
             let Support { body: Some(body), velocities, .. } = &supports[marker] else { continue };
             if !velocities.is_empty() {

@@ -46,17 +46,10 @@ impl<const D: usize> Mechanism<D> {
     }
 
     /// Name of the first force that is infinite or not a number.
-    pub(super) fn find_infinite_force(
-        &self,
-        (t, q, v): (f64, &[f64], &[f64]),
-        regime: Regime,
-        work: &Workspace<D>,
-    ) -> Option<String> {
-        let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
-        let view = Plain { at, regime, motion: &work.motion };
+    pub(super) fn find_infinite_force(&self, view: &Plain<D>) -> Option<String> {
         let is_infinite = |force: &usize| {
             let mut wrenches = [Wrench::zero(); MOST_MARKERS];
-            self.act(*force, &view, &mut wrenches);
+            self.act(*force, view, &mut wrenches);
             wrenches.iter().any(|wrench| !all_finite(&wrench.force) || !all_finite(&wrench.torque))
         };
         (0..self.model().forces.len()).find(is_infinite).map(|force| self.model().forces[force].name.clone())

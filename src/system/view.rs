@@ -5,7 +5,7 @@ use super::tangent::OperatingPoint;
 use super::variation::{SeededBody, fixed};
 use crate::body::{Dual6, Energy, Frame, MOST_MARKERS, MarkerId};
 use crate::math::{Rate, Regime, Scalar, Taylor, Time};
-use crate::scene::Part;
+use crate::scene::{Model, Part};
 use std::array::from_fn;
 
 /// Access to the quantities of a state.
@@ -25,11 +25,12 @@ pub(super) trait View<S: Scalar, const D: usize> {
     fn input(&self, force: usize) -> [Taylor<S>; 3];
 }
 
-/// The state over floats.
+/// The state over floats. Frames are evaluated one by one: few markers of a large mechanism are read.
 pub(super) struct Plain<'a, const D: usize> {
+    pub model: &'a Model<D>,
+    /// Frames have the accelerations v' of the state; where that is empty, those at v' = 0.
     pub at: OperatingPoint<'a>,
     pub regime: Regime<'a>,
-    pub motion: &'a [Frame<Taylor<f64>, D>],
 }
 
 impl<const D: usize> View<f64, D> for Plain<'_, D> {
@@ -46,7 +47,17 @@ impl<const D: usize> View<f64, D> for Plain<'_, D> {
         self.at.vdot[direction]
     }
     fn frame(&self, marker: MarkerId) -> Frame<Taylor<f64>, D> {
-        self.motion[marker]
+        let mut frame = Frame::world();
+        match self.model.carrier(marker) {
+            None => frame = Frame::world().at(&self.model.ground[marker]),
+            Some(part) => {
+                let OperatingPoint { q, v, vdot, .. } = self.at;
+                let vdot = (!vdot.is_empty()).then(|| of(vdot, part, false));
+                let (q, v, first) = (of(q, part, true), of(v, part, false), marker - part.first_marker);
+                part.body.motion(q, v, vdot, first, std::slice::from_mut(&mut frame));
+            }
+        }
+        frame
     }
     fn energy(&self, part: &Part<D>, gravity: &[f64; D]) -> Energy {
         part.body.energy(of(self.at.q, part, true), of(self.at.v, part, false), gravity)
@@ -119,8 +130,8 @@ impl<const D: usize> View<Dual6, D> for SeededView<'_, D> {
                 part.body.energy(&self.varied.moved, &self.varied.moved_v, gravity)
             }
             _ => {
-                let plain = Plain { at: self.at, regime: self.regime, motion: self.motion };
-                let Energy { kinetic, potential } = plain.energy(part, gravity);
+                let (q, v) = (of(self.at.q, part, true), of(self.at.v, part, false));
+                let Energy { kinetic, potential } = part.body.energy(q, v, gravity);
                 Energy { kinetic: Dual6::fixed(kinetic), potential: Dual6::fixed(potential) }
             }
         }

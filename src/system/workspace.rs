@@ -10,7 +10,8 @@ pub(super) struct Workspace<const D: usize> {
     /// Frames of all markers with their velocities, and their accelerations at v' = 0; those of the ground alone as
     /// long as rigid bodies make do with poses.
     pub motion: Vec<Frame<Taylor<f64>, D>>,
-    /// Poses of the rigid bodies by the index of the body, in an evaluation; the last is that of the ground.
+    /// Poses of the rigid bodies by the index of the body, in an evaluation; the last is that of the ground. Empty until
+    /// needed.
     pub poses: Vec<Pose<D>>,
     pub varied: SeededBody<D>,
     pub pulled: Vec<f64>,
@@ -25,7 +26,7 @@ impl<const D: usize> Workspace<D> {
     pub fn new(model: &Model<D>) -> Self {
         Workspace {
             motion: model.ground_frames().map(|frame| frame.map(Taylor::fixed)).collect(),
-            poses: vec![Pose::ground(); model.bodies.len() + 1],
+            poses: Vec::new(),
             varied: SeededBody::default(),
             pulled: Vec::new(),
             read: Vec::new(),

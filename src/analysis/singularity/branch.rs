@@ -19,8 +19,6 @@ pub fn reach([position, velocity]: [f64; 2]) -> f64 {
 /// States before and after a singular state.
 #[derive(Default)]
 pub struct Turning {
-    /// The last two accepted states.
-    last: [PathPoint; 2],
     way: Vec<PathPoint>,
     open: Option<Open>,
 }
@@ -38,7 +36,7 @@ struct Open {
 impl Turning {
     /// Begins with a singular or nearly singular state passed at `t`. A sharp change of velocity can be due to
     /// geometry: the motion may leave its branch (`may_turn`) only at a singular state, or within reach of the drift.
-    pub fn begin(&mut self, passing: usize, t: f64, rank_indicator: f64, may_turn: bool) {
+    pub fn begin(&mut self, passing: usize, (t, last): (f64, &PathPoint), rank_indicator: f64, may_turn: bool) {
         let aside = self
             .way
             .iter()
@@ -46,27 +44,27 @@ impl Turning {
             .unwrap_or(0);
         let before = match self.way.get(..=aside) {
             Some(way) => way[aside.saturating_sub(1)..].to_vec(),
-            None => vec![self.last[1].clone()],
+            None => vec![last.clone()],
         };
         self.open = Some(Open { passing, before, after: Vec::new(), rank_indicator, may_turn });
         self.way.clear();
     }
 
-    /// Adds an accepted state, and judges the singular state before it once it is far enough behind.
-    pub fn add(&mut self, now: &PathPoint, largest: f64, survey: &mut Survey) -> Option<(usize, Branch)> {
-        let falls = now.rank_indicator < self.last[1].rank_indicator;
+    /// Adds an accepted state, given with the two before it, and judges the singular state before it once it is far
+    /// enough behind.
+    pub fn add(&mut self, states: &[PathPoint; 3], largest: f64, survey: &mut Survey) -> Option<(usize, Branch)> {
+        let [before @ .., now] = states;
+        let falls = now.rank_indicator < before[1].rank_indicator;
         if now.rank_indicator > tolerances::WAY_BEGINS * largest {
             self.way.clear();
         } else if falls {
             if self.way.is_empty() {
-                self.way.extend(self.last.iter().filter(|sample| !sample.q.is_empty()).cloned());
+                self.way.extend(before.iter().filter(|sample| !sample.q.is_empty()).cloned());
             }
             if self.way.last().is_none_or(|last| now.rank_indicator < tolerances::WAY_HALVED * last.rank_indicator) {
                 self.way.push(now.clone());
             }
         }
-        self.last.rotate_left(1);
-        self.last[1].clone_from(now);
         match self.open.as_mut().is_some_and(|open| open.is_seen(now)) {
             true => self.judge(survey),
             false => None,

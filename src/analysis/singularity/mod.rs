@@ -131,7 +131,7 @@ impl<'a> Watch<'a> {
         if self.seen >= 3 && self.dips() {
             self.look_at_dip();
         }
-        let judged = self.turning.add(&self.last[2], self.largest, &mut self.survey);
+        let judged = self.turning.add(&self.last, self.largest, &mut self.survey);
         self.settle(judged);
     }
 
@@ -205,7 +205,12 @@ impl<'a> Watch<'a> {
         self.settle(judged);
         let is_singular = rank_indicator < tolerances::TOLD_SINGULAR * self.largest;
         let (lost, joints) = self.survey.dependence(t, &q, 10.0 * rank_indicator);
-        self.turning.begin(self.found.passed.len(), t, rank_indicator, is_singular || rank_indicator < turned);
+        self.turning.begin(
+            self.found.passed.len(),
+            (t, &self.last[1]),
+            rank_indicator,
+            is_singular || rank_indicator < turned,
+        );
         let regular_rank = self.survey.regular_rank();
         let rank = if is_singular { lost } else { Some(regular_rank) };
         let passing = Passing { t, rank_indicator, is_singular, rank, regular_rank, joints, branch: Branch::Open };
