@@ -87,7 +87,7 @@ const FOREIGN: [(&str, &str); 19] = [
 
 /// The tokens of `text`, the last one [`Kind::End`].
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, ExpressionError> {
-    let mut tokens = Vec::new();
+    let mut tokens = Vec::with_capacity(text.len() + 1);
     let mut start = 0;
     loop {
         let rest = text.get(start..).unwrap_or("");

@@ -20,7 +20,9 @@ pub(super) fn order(mass: &Pattern, g: &Pattern, late: &[bool]) -> Vec<usize> {
     nodes = ordered(&nodes, n + m, mass.entries.iter().copied());
     let mut rest: Vec<usize> = (0..n).filter(|&i| late[i]).chain(n..n + m).collect();
     let all: Vec<usize> = nodes.iter().chain(&rest).copied().collect();
-    let columns = columns(&lower_adjacency(mass, g, &all), early);
+    let mut columns = columns(&lower_adjacency(mass, g, &all), early);
+    // Coordinates of a body mostly have one clique.
+    columns.dedup();
     let cliques = columns.iter().filter(|c| c.first().is_some_and(|&parent| parent as usize >= early));
     let cliques: Vec<Vec<usize>> = cliques.map(|c| c.iter().map(|&a| all[a as usize]).collect()).collect();
     let mut edges: Vec<(usize, usize)> = cliques

@@ -5,7 +5,7 @@ use super::ldlt::Ldlt;
 use crate::math::largest;
 use std::sync::Arc;
 
-/// A copy of the patterns and of the values of the last factorization.
+/// The patterns and a copy of the values of the last factorization that needs them; room is taken up by the first.
 pub(super) struct System {
     pub mass: Arc<Pattern>,
     pub g: Arc<Pattern>,
@@ -19,14 +19,16 @@ impl System {
     }
 
     pub fn of(mass: Arc<Pattern>, g: Arc<Pattern>) -> Self {
-        let zeros = |pattern: &Pattern| vec![0.0; pattern.entries.len()];
-        System { mass_values: zeros(&mass), g_values: zeros(&g), mass, g }
+        let room = |pattern: &Pattern| Vec::with_capacity(pattern.entries.len());
+        System { mass_values: room(&mass), g_values: room(&g), mass, g }
     }
 
     /// Stores values; lengths must be those of the patterns.
     pub fn store(&mut self, mass: &[f64], g: &[f64]) {
-        self.mass_values.copy_from_slice(mass);
-        self.g_values.copy_from_slice(g);
+        for (own, values) in [(&mut self.mass_values, mass), (&mut self.g_values, g)] {
+            own.clear();
+            own.extend_from_slice(values);
+        }
     }
 
     /// top -= M a + G^T lambda, bottom -= G a.

@@ -37,7 +37,7 @@ impl Nearly {
         let beside = (0..*n).map(|i| (i, m + i));
         let entries: Vec<_> = entries.iter().map(|&(row, column)| (column, row)).chain(beside).collect();
         let mut g = vec![1.0; entries.len()];
-        g[..system.g_values.len()].fill(0.0);
+        g[..system.g.entries.len()].fill(0.0);
         let (mass, transposed) = (Pattern::diagonal(m + n), Pattern { rows: *n, cols: m + n, entries });
         Nearly {
             factor: Ldlt::new(&mass, &transposed, &vec![false; m + n]),
