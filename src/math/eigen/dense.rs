@@ -1,6 +1,7 @@
 //! Dense decompositions of faer on matrices of nalgebra.
 
-use super::{Complex, ComplexMatrix, Matrix, Scalar, Unsolved};
+use super::{Complex, ComplexMatrix, Matrix, Unsolved};
+use crate::math::kkt::Field;
 use faer::linalg::matmul::matmul;
 use faer::traits::Conjugate;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
@@ -15,10 +16,10 @@ pub fn copy<T: nalgebra::Scalar + Copy>(matrix: MatRef<T>) -> DMatrix<T> {
 }
 
 /// The product A B.
-pub fn product<T: Scalar, A: Conjugate<Canonical = T>>(a: MatRef<A>, b: MatRef<T>) -> DMatrix<T> {
-    let mut product = DMatrix::zeros(a.nrows(), b.ncols());
+pub fn product<T: Field + 'static, A: Conjugate<Canonical = T>>(a: MatRef<A>, b: MatRef<T>) -> DMatrix<T> {
+    let mut product = DMatrix::from_element(a.nrows(), b.ncols(), T::ZERO);
     let to = MatMut::from_column_major_slice_mut(product.as_mut_slice(), a.nrows(), b.ncols());
-    matmul(to, Accum::Replace, a, b, T::from_real(1.0), Par::Seq);
+    matmul(to, Accum::Replace, a, b, T::real(1.0), Par::Seq);
     product
 }
 
