@@ -6,7 +6,7 @@ use super::perturb::{Norm, Speed};
 use super::regular::first_singular;
 use super::sequence::sequence;
 use super::{Decay, Frozen, InputCheck, PerturbationSequence, Settings, input};
-use crate::error::Result;
+use crate::error::{Result, short_list};
 use crate::linearize::{Chart, State, Variation, minimal, refuse_large};
 use crate::system::{Column, MechanicalSystem};
 use crate::tolerances::linearize as tolerances;
@@ -108,7 +108,18 @@ fn judge(sequences: &[PerturbationSequence], frozen: &Frozen, inputs: &[InputChe
     let (ltv, lti) = (orders.clone().all(passes), steep(&frozen.decay));
     let lowest = orders.filter_map(|decay| decay.order).fold(f64::INFINITY, f64::min);
     let order = if lowest.is_finite() { format!("order {lowest:.2}") } else { "exact to rounding".to_string() };
+    let is_untold = |decay: &Decay| !decay.is_exact && decay.order.is_none();
+    let rows = sequences.iter().map(|sequence| (&sequence.direction, &sequence.order_ltv));
+    let rows = rows.chain(inputs.iter().map(|input| (&input.input, &input.order_ltv)));
+    let untold: Vec<String> =
+        rows.clone().filter(|(_, decay)| is_untold(decay)).map(|(name, _)| name.clone()).collect();
+    let are_others_right = rows.map(|(_, decay)| decay).filter(|decay| !is_untold(decay)).all(passes);
     let text = match (ltv, lti) {
+        (false, _) if are_others_right => format!(
+            "not told: along {} too few sizes lie between rounding and what leaves the linear model; a shorter --horizon \
+             may tell",
+            short_list(&untold)
+        ),
         (true, true) => format!("right: perturbed simulations follow the linear model ({order} in eps)"),
         (true, false) => {
             format!("the variational equations are right ({order} in eps), but A misses terms of its chart")

@@ -109,6 +109,15 @@ fn validate_has_a_verdict() {
     );
 }
 
+/// Over ten seconds of a chaotic motion only the smallest perturbations follow the linear model, and these are round-off.
+#[test]
+fn a_horizon_that_is_too_long_is_not_called_a_wrong_model() {
+    let place = model("double_pendulum");
+    let output = place.run(&["validate", "scene.json", "--horizon", "10", "-o", "here"]);
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    assert!(err(&output).contains("not told: along random:1") && err(&output).contains("a shorter --horizon"));
+}
+
 #[test]
 fn transition_tells_growth() {
     let place = model("pendulum");
