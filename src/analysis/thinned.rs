@@ -5,9 +5,9 @@ use super::Ledger;
 /// Numbers that are kept at most, if each window may keep the extremes of all columns.
 const NUMBERS: usize = 1_000_000;
 
-/// Thins the rows of a run, with their drift and energies where there are any, that have become too many: of the rows of each of many equal
-/// parts of its time those stay that are first or last, or the smallest or the largest in some column, so that no
-/// extreme of the run is lost, and a curve keeps its shape, however often it is thinned.
+/// Thins the rows of a run, with their drift and energies where there are any, that have become too many: of the rows
+/// of each of many equal parts of its time those stay that are first or last, or the smallest or the largest in some
+/// column, so that no extreme of the run is lost, and a curve keeps its shape, however often it is thinned.
 pub fn thin(rows: &mut Vec<Vec<f64>>, drift_rows: &mut Vec<[f64; DRIFT]>, ledger_rows: &mut Vec<Ledger>) {
     let columns = rows.first().map_or(1, Vec::len) + DRIFT + ENERGY;
     let of_window = 2 * columns + 2;
