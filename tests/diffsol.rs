@@ -15,7 +15,7 @@ use std::time::Instant;
 const END: f64 = 1.5;
 
 fn implicit() -> impl Iterator<Item = &'static Entry> {
-    registry().iter().filter(|entry| entry.steps == Steps::Own)
+    registry().iter().filter(|entry| entry.steps == Steps::Own && !entry.follows_fields())
 }
 
 /// Every accepted triple.

@@ -1,5 +1,6 @@
 //! What methods promise: orders, references, extremes, restarts.
 
+mod adams;
 mod ali3p;
 mod andrews;
 mod common;

@@ -4,7 +4,7 @@
 use crate::common::{fixed, method};
 use crate::scenes::{Ready, parse};
 use holonom::analysis::Recorder;
-use holonom::integrator::{self, Setup, Stability};
+use holonom::integrator::{self, Setup, Stability, Steps};
 use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span, simulate};
 
@@ -21,7 +21,7 @@ fn oscillator(k: f64, c: f64) -> Ready {
     ))
 }
 
-/// Limits of all integrators that have one, with a formulation each.
+/// Limits of all integrators of fixed steps that have one, with a formulation each.
 fn limits(system: &Ready) -> Vec<(&'static str, &'static str, Stability)> {
     let of = |entry: &'static integrator::Entry| {
         let [name, formulation] = [entry.name, entry.accepts().next()?];
@@ -29,7 +29,7 @@ fn limits(system: &Ready) -> Vec<(&'static str, &'static str, Stability)> {
         let setup = Setup { integrator: &integrator, formulation: &spec, system: system.system(), is_fixed: true };
         Some((name, formulation, (entry.make)(&setup).ok()?.stability()?))
     };
-    integrator::registry().iter().filter_map(of).collect()
+    integrator::registry().iter().filter(|entry| entry.steps != Steps::Own).filter_map(of).collect()
 }
 
 /// The largest |x| on the way, infinite where the run fails.

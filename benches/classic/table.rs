@@ -8,7 +8,7 @@ use std::hint::black_box;
 
 const TOLERANCES: std::ops::RangeInclusive<i32> = 3..=12;
 const DIGITS: [f64; 7] = [3.0, 5.0, 6.0, 8.0, 9.0, 10.0, 12.0];
-const INTEGRATORS: [&str; 2] = ["dop853", "dopri5"];
+const INTEGRATORS: [&str; 3] = ["dop853", "adams", "dopri5"];
 const RIVALS: [&str; 3] = ["classic DOP853, by hand", "own equations", "scene"];
 
 /// A run at one tolerance: the rival, correct digits, evaluations with a factorization, and the time, s.

@@ -196,6 +196,7 @@ fn purpose(name: &str) -> &'static str {
         "rk4" => "fixed steps where nothing is stiff: real time, comparison with other codes",
         "dopri5" => "three to five digits where nothing is stiff",
         "dop853" => "five digits to round-off where nothing is stiff: the first choice",
+        "adams" => "smooth motions of mechanisms whose equations are costly, five digits to round-off; few events",
         "hem3" => "fixed steps at low accuracy with exact velocity constraints",
         "hem4" => "the same at medium accuracy",
         "hem5" => "the same at high accuracy",

@@ -113,6 +113,11 @@ pub struct Dynamics<'a> {
     pub vdot: Vec<f64>,
     /// lambda of the last solution.
     pub lambda: Vec<f64>,
+    /// True if the factors are those of the last state at which terms were evaluated.
+    pub is_factored: bool,
+    /// True if a projection may take the factors of the last evaluation: that was at the state it projects, up to the
+    /// error of a step.
+    pub ends_near: bool,
     /// True if G was rank deficient at the last solution; false with a formulation that does not ask for the rank.
     pub is_rank_deficient: bool,
     /// Counters of the work.
@@ -138,6 +143,8 @@ impl<'a> Dynamics<'a> {
             structure,
             vdot: vec![0.0; n.v],
             lambda: vec![0.0; n.lambda],
+            is_factored: false,
+            ends_near: false,
             is_rank_deficient: false,
             statistics: Statistics::default(),
             scratch: Scratch::default(),
@@ -146,6 +153,7 @@ impl<'a> Dynamics<'a> {
 
     /// Evaluates the terms `need` at a state.
     pub fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64], need: Need) {
+        self.is_factored = false;
         self.system.evaluate(t, q, v, need, &mut self.terms, &mut self.scratch);
     }
 
@@ -153,6 +161,7 @@ impl<'a> Dynamics<'a> {
     pub fn factor(&mut self) -> Result<(), StepError> {
         self.statistics.factorizations += 1;
         let factored = self.kkt.factor(&self.terms.mass, &self.terms.g);
+        self.is_factored = factored.is_ok();
         factored.map_err(|singular| self.halt(singular))
     }
 
@@ -160,6 +169,7 @@ impl<'a> Dynamics<'a> {
     pub fn factor_truncated(&mut self) -> Result<(), StepError> {
         self.statistics.factorizations += 1;
         let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g, self.rank_tolerance);
+        self.is_factored = factored.is_ok();
         factored.map_err(|singular| self.halt(singular))
     }
 

@@ -4,6 +4,7 @@
 //! outside the crate, an [`Entry`] and its [`spec`](Listed::spec), as in `tests/examples/own_integrator.rs` and
 //! `own_tableau.rs`.
 
+mod adams;
 mod ali3p;
 mod bdf;
 mod control;
@@ -99,6 +100,11 @@ pub trait Integrator {
     /// The size of the step just tried, if the method chose it instead of the `h` it was given.
     fn own_step(&self) -> Option<f64> {
         None
+    }
+
+    /// True if the last evaluation of an attempt is at its end, off by O(h^(p+1)).
+    fn ends_near(&self) -> bool {
+        false
     }
 
     /// Time from the start of the step just tried to the last evaluation of a method that chose its step, s.
@@ -276,6 +282,7 @@ pub fn registry() -> &'static [Entry] {
         rk4::ENTRY,
         dopri5::ENTRY,
         dop853::ENTRY,
+        adams::ENTRY,
         hem::HEM3,
         hem::HEM4,
         hem::HEM5,

@@ -79,11 +79,13 @@ impl Run<'_> {
     ) -> Result<Option<f64>, StepError> {
         self.change.copy_from_slice(&self.next);
         let (t, sweeps) = (self.end_of(h, end), self.sweeps(h));
+        self.problem.dynamics.ends_near = self.integrator.ends_near() && !is_singular;
         // A method that chooses its steps reaches a stop on the dense output of a step that ends after it.
         match end.is_some() && self.integrator.seen().is_some_and(|seen| seen > h) {
             true => self.project_within(t, h)?,
             false => project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?,
         }
+        self.problem.dynamics.ends_near = false;
         self.is_moved = self.projection.is_some() || self.change != self.next;
         if error.is_none() || !self.is_moved {
             return Ok(error);

@@ -112,6 +112,20 @@ pub const RADAU_GROWTH: f64 = 5.0;
 /// `turning_stiff_directions_do_not_limit_steps`.
 pub const RADAU_RETRIED: [f64; 2] = [0.25, 0.8];
 
+/// The shortest step of adams over one that was refused.
+/// Unit: `[1]`. Why: a choice: the error tells the length, but not over a kink. Test: none: time alone depends on it.
+pub const ADAMS_SHRINK: f64 = 0.2;
+
+/// Error that a step of adams aims at.
+/// Unit: `[tolerated errors]`. Why: with 0.5 a third more steps are refused, with 0.1 there are more of them. Test: none:
+/// time alone depends on it.
+pub const ADAMS_AIM: f64 = 0.25;
+
+/// Steps of adams stay equal unless the next one can be so much longer.
+/// Unit: `[1]`. Why: a choice: with 1.05 to 1.2 evaluations are the fewest, with 2, as in the code ODE, 5 % more. Test:
+/// none: time alone depends on it.
+pub const ADAMS_LONGER: f64 = 1.1;
+
 /// The largest rho_inf of generalized_alpha with index3.
 /// Unit: `[1]`. Why: with 0.98 the energy of a pendulum grows a million times in steps of a hundredth of its period.
 /// Test: `every_triple_has_the_order_of_its_integrator`.

@@ -54,6 +54,7 @@ fn references_fit_the_equations() {
 fn andrews_squeezer() {
     ANDREWS.check(&[
         ("index1 dop853 manifold", Tolerances(&[(1e-4, 3.9, 450), (1e-8, 8.3, 1300), (1e-12, 13.0, 3400)])),
+        ("index1 adams manifold", Tolerances(&[(1e-4, 3.3, 270), (1e-8, 7.0, 600), (1e-10, 8.8, 820)])),
         ("index1 dop853 exact", Tolerances(&[(1e-4, 3.9, 400), (1e-8, 8.3, 1300), (1e-12, 13.0, 3400)])),
         ("index1 dop853 none", Tolerances(&[(1e-4, 2.8, 400), (1e-8, 7.0, 1300), (1e-12, 11.0, 3400)])),
         ("index1 dopri5 manifold", Tolerances(&[(1e-4, 3.7, 390), (1e-7, 7.0, 1400), (1e-10, 10.2, 4800)])),
@@ -97,6 +98,7 @@ fn andrews_takes_no_more_than_other_codes() {
 fn car_on_a_bump() {
     CAR_AXIS.check(&[
         ("index1 dop853 manifold", Tolerances(&[(1e-4, 3.9, 1100), (1e-8, 7.8, 2700), (1e-12, 11.5, 7800)])),
+        ("index1 adams manifold", Tolerances(&[(1e-4, 2.6, 620), (1e-8, 7.1, 1580), (1e-10, 9.5, 2280)])),
         ("index1 dopri5 manifold", Tolerances(&[(1e-4, 2.9, 1400), (1e-7, 5.7, 4900), (1e-10, 8.7, 19000)])),
         ("index2 phem56 none", Tolerances(&[(1e-4, 2.9, 1200), (1e-7, 5.7, 4200), (1e-10, 8.7, 16000)])),
         ("index2 phem56 manifold", Tolerances(&[(1e-4, 2.9, 1400), (1e-7, 5.7, 4900), (1e-10, 8.7, 19000)])),
@@ -113,6 +115,7 @@ fn car_on_a_bump() {
 fn pendulum_for_ten_seconds() {
     PENDULUM.check(&[
         ("index1 dop853 manifold", Tolerances(&[(1e-4, 2.2, 620), (1e-8, 6.1, 1700), (1e-12, 10.6, 4600)])),
+        ("index1 adams manifold", Tolerances(&[(1e-4, 1.5, 420), (1e-8, 5.4, 850), (1e-10, 7.3, 1200)])),
         ("index1 dopri5 manifold", Tolerances(&[(1e-4, 1.5, 610), (1e-7, 4.4, 2300), (1e-10, 7.5, 8600)])),
         ("index2 phem56 none", Tolerances(&[(1e-4, 2.0, 520), (1e-7, 4.3, 1600), (1e-10, 7.4, 6000)])),
         ("index3 rattle none", Steps(&[(2e-3, 3.0, 5300), (1e-3, 3.6, 11000)])),
@@ -127,6 +130,7 @@ fn pendulum_for_ten_seconds() {
 fn constrained_robot_arm() {
     ROBOT_ARM.check(&[
         ("index1 dop853 manifold", Tolerances(&[(1e-4, 1.7, 2000), (1e-8, 4.8, 5400), (1e-12, 8.9, 15000)])),
+        ("index1 adams manifold", Tolerances(&[(1e-8, 4.2, 3100), (1e-10, 6.3, 4300)])),
         ("index1 dopri5 manifold", Tolerances(&[(1e-6, 2.7, 3600), (1e-8, 5.1, 7000), (1e-10, 7.1, 18000)])),
         ("index2 phem56 none", Tolerances(&[(1e-6, 2.5, 2700), (1e-8, 5.7, 5300), (1e-10, 7.6, 13000)])),
         ("index2 phem56 manifold", Tolerances(&[(1e-6, 2.5, 3100), (1e-8, 5.2, 6200), (1e-10, 7.0, 15000)])),

@@ -314,7 +314,7 @@ impl Run {
     }
 
     /// Position of the first unknown of each column.
-    pub fn firsts(&self) -> impl Iterator<Item = usize> + use<> {
+    pub fn firsts(&self) -> impl DoubleEndedIterator<Item = usize> + use<> {
         let (first, width) = (self.first, self.width);
         (0..self.columns.len()).map(move |j| first + j * width)
     }

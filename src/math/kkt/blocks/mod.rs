@@ -182,7 +182,10 @@ impl Blocks {
     /// not above it. Within a joint as if the largest ratio came first, so that the order of its rows does not matter.
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         let mut found = (1.0, 0);
-        for (run, first) in self.layout.runs.iter().flat_map(|run| run.firsts().map(move |first| (run, first))) {
+        // The last joints first: their ratios are the smallest, as a rule.
+        for (run, first) in
+            self.layout.runs.iter().rev().flat_map(|run| run.firsts().rev().map(move |first| (run, first)))
+        {
             let (positions, is_row) = (first..first + run.width, run.sign < 0.0);
             let mut ratios = [1.0; groups::LARGEST];
             for (ratio, p) in ratios.iter_mut().zip(positions) {
@@ -192,7 +195,9 @@ impl Blocks {
             let ratios = &mut ratios[..run.width];
             // Written so that the NaN of a row of zeros has collapsed.
             let lost = run.width - ratios.iter().filter(|ratio| **ratio > collapsed).count();
-            if is_row && lost == 0 && run.width > 1 {
+            // In any order of the rows none is smaller than the product of all.
+            let least: f64 = ratios.iter().product();
+            if is_row && lost == 0 && run.width > 1 && least < found.0 {
                 self.pivoted(first, ratios);
             }
             found.0 = ratios.iter().filter(|ratio| **ratio > collapsed).fold(found.0, |least: f64, x| least.min(*x));

@@ -1,0 +1,341 @@
+//! Adams methods of variable order and step.
+
+mod coefficients;
+
+use super::memory::Reader;
+use super::{Control, Entry, From, Integrator, Problem, Stability, Steps, Tightening, Tolerance, refuses, takes};
+use crate::formulation::StepError;
+use crate::method_spec::OptionDoc;
+use crate::tolerances::integrator as tolerances;
+use coefficients::{Coefficients, MOST, ROOM, error_constants};
+
+/// ```text
+/// y~ = y + h sum_{i=1..k} g_i Phi*_i,   y_1 = y~ + h g_{k+1} (F(t_1, y~) - Phi~_1)
+/// ```
+///
+/// with differences Phi*_i of y' at the last points, and Phi~_1 = sum Phi*_i the y' that they predict: the
+/// Adams-Bashforth prediction of order k = 1 to 12, evaluated, corrected by the Adams-Moulton formula of order k + 1,
+/// projected and evaluated again (PECE). k and h are chosen by the error of order k. Source: Shampine, Gordon, Computer
+/// Solution of Ordinary Differential Equations, Freeman 1975, codes ODE and DEABM; Hairer, Norsett, Wanner, Solving
+/// Ordinary Differential Equations I, III.5 and III.7; projected as in Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482,
+/// which keeps the order.
+///
+/// Order k + 1 in q, v and lambda. Two evaluations a step, whatever the order: of those of `dop853` at equal errors
+/// as many at four digits, half as many at ten. A projection takes the factors of the prediction, which is off by the error of the step.
+/// A start, and every change of the form of the equations, begins at order 1 with small steps; stiff modes are stable
+/// up to |h lambda| of about one only. Interpolation by the polynomial of the step, of order k + 1, which meets both
+/// ends.
+pub const ENTRY: Entry = Entry {
+    name: "adams",
+    about: "Adams-Bashforth-Moulton, order up to 13 by itself, 2 evaluations a step; smooth motions, few events",
+    order: MOST + 1,
+    steps: Steps::Own,
+    // Errors over a motion were 5 to 10 times those of dop853 at equal tolerances of the steps.
+    tightening: Tightening { factor: 0.03, power: 1.0 },
+    solves: takes::vector_fields,
+    refuses: refuses::none,
+    options: &[OptionDoc { name: "order", about: "the highest order, 2 to 13 (default 13)" }],
+    make: |setup| {
+        let highest = setup.integrator.whole("order", MOST + 1, 2..=MOST + 1)?;
+        Ok(Box::new(Adams::new(setup.len(), highest - 1)))
+    },
+};
+
+/// The method between two steps.
+struct Adams {
+    /// Order k of the next step, and the highest.
+    order: usize,
+    most: usize,
+    /// Phi_i of the start of the step, i = 1 to `known`; none before the first step.
+    differences: Vec<Vec<f64>>,
+    known: usize,
+    /// Sums Phi~_i of Phi*_j over j = i to k, and then Phi*_{k+1}.
+    predicted: Vec<Vec<f64>>,
+    /// Sizes of the steps before, the last one first.
+    past: [f64; ROOM],
+    /// The last attempt.
+    tried: Tried,
+    is_accepted: bool,
+    /// True from a start on, as long as order and step can rise with every step.
+    is_rising: bool,
+    coefficients: Coefficients,
+    constants: [f64; ROOM],
+    control: Control,
+    /// Inverses of the tolerated errors, zero where there are none.
+    weights: Vec<f64>,
+    /// y' at the prediction, then its difference to the predicted one.
+    defect: Vec<f64>,
+    /// State at the end of the step, and what the polynomial is off at its start.
+    end: Vec<f64>,
+    open: Vec<f64>,
+}
+
+#[derive(Clone, Copy)]
+struct Tried {
+    h: f64,
+    order: usize,
+    /// Order of the step after it.
+    next: usize,
+}
+
+impl Adams {
+    fn new(len: usize, most: usize) -> Self {
+        let zeros = || vec![0.0; len];
+        Adams {
+            order: 1,
+            most,
+            differences: vec![zeros(); ROOM],
+            known: 0,
+            predicted: vec![zeros(); ROOM],
+            past: [0.0; ROOM],
+            tried: Tried { h: 0.0, order: 1, next: 1 },
+            is_accepted: false,
+            is_rising: true,
+            coefficients: Coefficients::NONE,
+            constants: error_constants(),
+            control: Control::new(1.0, 0.0, tolerances::ADAMS_SHRINK, 2.0),
+            weights: zeros(),
+            defect: zeros(),
+            end: zeros(),
+            open: zeros(),
+        }
+    }
+
+    /// Adds y' at the start of the step to the differences, if that is the end of the last one.
+    fn extend(&mut self, slope: &[f64]) {
+        if self.known == 0 {
+            self.differences[0].copy_from_slice(slope);
+            (self.known, self.order, self.is_rising) = (1, 1, true);
+        }
+        if !std::mem::take(&mut self.is_accepted) {
+            return;
+        }
+        let Tried { h, order, next } = self.tried;
+        std::mem::swap(&mut self.differences, &mut self.predicted);
+        let Adams { differences, defect, .. } = self;
+        defect.iter_mut().zip(slope).zip(&differences[0]).for_each(|((d, slope), sum)| *d = slope - sum);
+        let (lower, higher) = differences.split_at_mut(order);
+        lower.iter_mut().for_each(|row| row.iter_mut().zip(&*defect).for_each(|(row, d)| *row += d));
+        if let [first, second, ..] = higher {
+            second.iter_mut().zip(&*first).zip(&*defect).for_each(|((second, first), d)| *second = d - first);
+            first.copy_from_slice(defect);
+        }
+        self.known = if self.known > order { (order + 2).min(ROOM) } else { order + 1 };
+        self.past.copy_within(..ROOM - 1, 1);
+        self.past[0] = h;
+        self.order = next;
+    }
+
+    /// y~, and the sums of the differences.
+    fn predict(&mut self, from: From, h: f64, to: &mut [f64]) {
+        let Adams { order, differences, known, predicted, coefficients, .. } = self;
+        let k = *order;
+        to.copy_from_slice(from.y);
+        if *known > k {
+            predicted[k].iter_mut().zip(&differences[k]).for_each(|(row, x)| *row = coefficients.beta[k] * x);
+        }
+        for i in (0..k).rev() {
+            let (lower, higher) = predicted.split_at_mut(i + 1);
+            let Some(row) = lower.last_mut() else { return };
+            match higher.first().filter(|_| i + 1 < k) {
+                Some(above) => row.copy_from_slice(above),
+                None => row.fill(0.0),
+            }
+            add(row, to, (coefficients.beta[i], h * coefficients.g[i]), &differences[i]);
+        }
+    }
+
+    fn weigh(&mut self, tolerance: &Tolerance, from: &[f64], to: &[f64]) {
+        let (n, untested) = (tolerance.motion(), tolerance.untested());
+        let per = (tolerance.tested(n) as f64).sqrt().recip();
+        for range in [0..untested.start, untested.end..n] {
+            let sizes = from[range.clone()].iter().zip(&to[range.clone()]);
+            let weights = self.weights[range].iter_mut().zip(sizes);
+            weights.for_each(|(weight, (from, to))| *weight = per / tolerance.weight(*from, *to));
+        }
+    }
+
+    /// Norm of the defect plus `factor` times the row of the predicted differences, over the tolerated errors.
+    fn norm(&self, factor: f64, row: usize) -> f64 {
+        let Adams { weights, defect, predicted, .. } = self;
+        let sums = defect.iter().zip(&predicted[row]).map(|(d, row)| d + factor * row);
+        let mut squares = [0.0; 4];
+        for (i, (weight, sum)) in weights.iter().zip(sums).enumerate() {
+            squares[i % 4] += (weight * sum).powi(2);
+        }
+        squares.iter().sum::<f64>().sqrt()
+    }
+
+    /// Error of a formula of order `order` over the tolerated one, by a difference of that order and this norm.
+    fn error_of(&self, order: usize, norm: f64) -> f64 {
+        self.tried.h * self.coefficients.sigma[order] * self.constants[order] * norm
+    }
+
+    /// Chooses the order of the next step, and returns the error of a step of that order: as long as it rises, each
+    /// step raises it; then it falls where a lower order would have no larger error, and rises where the next one
+    /// would have a smaller one.
+    fn choose(&mut self, own: f64) -> f64 {
+        let k = self.order;
+        let lower = |below: usize| match k > below {
+            true => self.error_of(k - below, self.norm(1.0, k - below)),
+            false => f64::INFINITY,
+        };
+        let (one, two) = (lower(1), if k > 2 { lower(2) } else { 0.0 });
+        let falls = if k == 2 { one <= 0.5 * own } else { one.max(two) <= own };
+        self.is_rising &= !falls && k < self.most;
+        let rises = self.known > k && k < self.most;
+        let raised = if rises { self.error_of(k + 1, self.norm(-1.0, k)) } else { f64::INFINITY };
+        let (next, error) = match () {
+            _ if self.is_rising => (k + 1, 0.0),
+            _ if falls || one <= own.min(raised) => (k - 1, one),
+            _ if raised < if k == 1 { 0.5 * own } else { own } => (k + 1, raised),
+            _ => (k, own),
+        };
+        self.tried.next = next;
+        error
+    }
+
+    /// The polynomial of degree k + 1 through the end of the step, with y' there and at k points before it, `ahead`
+    /// seconds after the end.
+    fn follow(&self, ahead: f64, out: &mut [f64]) {
+        let k = self.tried.order;
+        let g = self.coefficients.interpolation(ahead, k + 1);
+        let sum = ahead * g[..=k].iter().sum::<f64>();
+        out.iter_mut().zip(&self.end).zip(&self.defect).for_each(|((out, end), d)| *out = end + sum * d);
+        for (weight, row) in g[..k].iter().zip(&self.predicted) {
+            out.iter_mut().zip(row).for_each(|(out, row)| *out += ahead * weight * row);
+        }
+    }
+
+    /// Sets the control so that the next step has a part of the tolerated error, and is as long as the last one unless
+    /// it can be clearly longer; or the one after a refusal.
+    fn steer(&mut self, error: f64, next: f64) {
+        let factor =
+            |error: f64, order: usize| (tolerances::ADAMS_AIM / error.max(1e-30)).powf(1.0 / (order as f64 + 1.0));
+        self.control.exponent = 1.0 / (self.order as f64 + 1.0);
+        let ratio = match error > 1.0 {
+            true => factor(error, self.order),
+            false => factor(next, self.tried.next),
+        };
+        let holds = (1.0..tolerances::ADAMS_LONGER).contains(&ratio);
+        self.control.safety = if holds { 1.0 } else { ratio } * error.max(1e-16).powf(self.control.exponent);
+    }
+}
+
+/// row += beta x, y += weight beta x
+fn add(row: &mut [f64], y: &mut [f64], (beta, weight): (f64, f64), x: &[f64]) {
+    for ((row, y), x) in row.iter_mut().zip(y).zip(x) {
+        let scaled = beta * x;
+        *row += scaled;
+        *y += weight * scaled;
+    }
+}
+
+impl Integrator for Adams {
+    fn order(&self) -> usize {
+        self.order + 1
+    }
+
+    fn control(&mut self) -> &mut Control {
+        &mut self.control
+    }
+
+    /// That of the lowest orders, Heun's; it shrinks as the order rises.
+    fn stability(&self) -> Option<Stability> {
+        Some(Stability::Polynomial(vec![1.0, 1.0, 0.5]))
+    }
+
+    fn attempt(
+        &mut self,
+        problem: &mut Problem,
+        tolerance: &Tolerance,
+        from: From,
+        h: f64,
+        to: &mut [f64],
+    ) -> Result<Option<f64>, StepError> {
+        self.extend(from.slope);
+        let k = self.order;
+        self.tried = Tried { h, order: k, next: k };
+        self.coefficients = Coefficients::new(h, &self.past, k + 1);
+        self.predict(from, h, to);
+        problem.derivative(from.end, to, &mut self.defect)?;
+        self.defect.iter_mut().zip(&self.predicted[0]).for_each(|(d, sum)| *d -= sum);
+        let weight = h * self.coefficients.g[k];
+        to.iter_mut().zip(&self.defect).for_each(|(y, d)| *y += weight * d);
+        self.weigh(tolerance, from.y, to);
+        let norm = self.norm(0.0, 0);
+        let error = h * (self.coefficients.g[k - 1] - self.coefficients.g[k]) * norm;
+        let next = self.choose(self.error_of(k, norm));
+        self.steer(error, next);
+        Ok(Some(error))
+    }
+
+    fn ends_near(&self) -> bool {
+        true
+    }
+
+    fn accepted(&mut self, _: &Tolerance) {
+        self.is_accepted = true;
+    }
+
+    fn restart(&mut self) {
+        (self.known, self.is_accepted) = (0, false);
+        self.order = 1;
+    }
+
+    fn memory(&self) -> Vec<f64> {
+        let Tried { h, order, next } = self.tried;
+        let numbers = [self.known, order, next, usize::from(self.is_accepted), usize::from(self.is_rising)];
+        let mut memory = numbers.map(|number| number as f64).to_vec();
+        memory.push(h);
+        memory.extend(self.past);
+        self.predicted[..=order].iter().for_each(|row| memory.extend(row));
+        memory
+    }
+
+    fn recall(&mut self, memory: &[f64]) {
+        let mut memory = Reader(memory);
+        let [known, order, next, is_accepted, is_rising] = std::array::from_fn(|_| memory.number() as usize);
+        self.known = known.min(ROOM);
+        self.tried = Tried { h: memory.number(), order: order.clamp(1, MOST), next: next.clamp(1, MOST) };
+        (self.is_accepted, self.is_rising) = (is_accepted > 0, is_rising > 0);
+        memory.fill(&mut self.past);
+        self.predicted[..=self.tried.order].iter_mut().for_each(|row| memory.fill(row));
+    }
+
+    fn lower_order(&self, from: From, h: f64, out: &mut [f64]) -> bool {
+        // Of order k: y~ with g_k in the place of g_{k+1}.
+        let (k, g) = (self.tried.order, &self.coefficients.g);
+        out.copy_from_slice(from.y);
+        for (i, g) in g[..k].iter().enumerate() {
+            // Phi*_i from the sums over i and over i + 1.
+            let above = (i + 1 < k).then(|| &self.predicted[i + 1]);
+            for (j, y) in out.iter_mut().enumerate() {
+                let difference = self.predicted[i][j] - above.map_or(0.0, |above| above[j]);
+                *y += h * g * difference;
+            }
+        }
+        out.iter_mut().zip(&self.defect).for_each(|(y, d)| *y += h * g[k - 1] * d);
+        true
+    }
+
+    /// At the start of the step the polynomial is off by the error of the step and by the projection, which is spread
+    /// over the step.
+    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), StepError> {
+        self.end.copy_from_slice(to);
+        let Adams { defect, predicted, .. } = self;
+        defect.iter_mut().zip(slope).zip(&predicted[0]).for_each(|((d, slope), sum)| *d = slope - sum);
+        let mut open = std::mem::take(&mut self.open);
+        self.follow(-h, &mut open);
+        open.iter_mut().zip(from.y).for_each(|(open, y)| *open = y - *open);
+        self.open = open;
+        Ok(())
+    }
+
+    fn interpolate(&mut self, _: &mut Problem, _: From, h: f64, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
+        self.follow((theta - 1.0) * h, out);
+        let part = (1.0 - theta).powi(2) * (1.0 + 2.0 * theta);
+        out.iter_mut().zip(&self.open).for_each(|(out, open)| *out += part * open);
+        Ok(())
+    }
+}
