@@ -41,10 +41,11 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// Scenes at a time: the search for a reference takes several threads of each.
 const AT_ONCE: usize = 2;
 /// Of each integrator, in the forms that are usual: formulation and projection.
-const USUAL: [(&str, &str, &str); 10] = [
+const USUAL: [(&str, &str, &str); 11] = [
     ("radau_iia", "ggl", "none"),
     ("dop853", "index1", "manifold"),
     ("dopri5", "index1", "manifold"),
+    ("adams", "index1", "manifold"),
     ("phem56", "index2", "manifold"),
     ("tr_bdf2", "index1", "none"),
     ("esdirk34", "index1", "none"),

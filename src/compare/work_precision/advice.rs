@@ -11,7 +11,7 @@ const MOST_DIGITS: u32 = 14;
 
 /// Order of preference for runs of equal cost and drift: the best-known methods first, others after them.
 const KNOWN: [&[&str]; 3] = [
-    &["dop853", "radau_iia", "dopri5", "rk4", "phem56", "generalized_alpha", "bdf"],
+    &["dop853", "radau_iia", "dopri5", "adams", "rk4", "phem56", "generalized_alpha", "bdf"],
     &["index1", "ggl", "index2", "index3", "null_space", "baumgarte"],
     &["manifold", "exact", "none"],
 ];
