@@ -40,7 +40,7 @@ fn a_bad_beginning_is_left() {
     let scene = shipped("spin_up_beam", &[]);
     let span = Span { output_step: 0.01, ..scene.span() };
     let (outcome, legs, record) = automatic(&scene, 1e-7, span);
-    assert_eq!(integrators(&legs), ["dop853", "radau_iia"]);
+    assert_eq!(integrators(&legs), ["adams", "radau_iia"]);
     assert!(outcome.failure.is_none() && legs[1].from < 0.01 * span.end, "{legs:?}");
     // Rows come each once, through the change.
     let times: Vec<f64> = record.trajectory.rows.iter().map(|row| row[0]).collect();
@@ -74,7 +74,7 @@ fn the_explicit_method_comes_back() {
     );
     let span = Span { start: 0.0, end: 120.0, output_step: 1.0 };
     let (outcome, legs, _) = automatic(&scene, 1e-7, span);
-    assert_eq!(integrators(&legs), ["dop853", "radau_iia", "dop853"], "{legs:?}");
+    assert_eq!(integrators(&legs), ["adams", "radau_iia", "adams"], "{legs:?}");
     assert!(outcome.failure.is_none() && legs[2].from > 20.0 && legs[2].from < 60.0, "{legs:?}");
     let alone = alone(&scene, IMPLICIT, 1e-10, span);
     assert!(gap(&alone, &outcome) < 1e-5, "{:e}", gap(&alone, &outcome));
@@ -102,7 +102,7 @@ fn rows_of_a_shaft_that_turns_are_as_right_as_its_steps() {
     let scene = shipped("rotating_shaft", &[]);
     for rtol in [1e-3, 1e-7, 1e-8] {
         let (outcome, legs, record) = automatic(&scene, rtol, scene.span());
-        assert!(outcome.failure.is_none() && integrators(&legs) == ["dop853", "radau_iia"], "{legs:?}");
+        assert!(outcome.failure.is_none() && integrators(&legs)[1..] == ["radau_iia"], "{legs:?}");
         let torque = record.trajectory.column("drive_torque").unwrap();
         let largest = torque.iter().fold(0.0f64, |largest, torque| largest.max(torque.abs()));
         println!("{rtol:e}: {largest:e}");
@@ -117,7 +117,7 @@ fn rows_of_a_shaft_that_turns_are_as_right_as_its_steps() {
 fn what_takes_over_early_begins_at_the_start() {
     let scene = shipped("rotating_shaft", &[]);
     let (outcome, legs, record) = automatic(&scene, 1e-6, scene.span());
-    assert_eq!(integrators(&legs), ["dop853", "radau_iia"]);
+    assert_eq!(integrators(&legs), ["adams", "radau_iia"]);
     assert!(legs[1].from > 0.0 && legs[1].because.ends_with("it began again at the start"), "{legs:?}");
     let alone = alone(&scene, IMPLICIT, 1e-6, scene.span());
     let [steps, own] = [legs[1].statistics.steps, alone.statistics.steps];
@@ -141,7 +141,7 @@ fn what_begins_badly_for_it_the_other_method_takes_over_on_the_way() {
     );
     let span = Span { start: 0.0, end: 120.0, output_step: 1.0 };
     let (outcome, legs, record) = automatic(&scene, 1e-7, span);
-    assert_eq!(integrators(&legs), ["dop853", "radau_iia"], "{legs:?}");
+    assert_eq!(integrators(&legs), ["adams", "radau_iia"], "{legs:?}");
     assert!(legs[1].from > 5.0 && legs[1].from < 12.0 && !legs[1].because.contains("began again"), "{legs:?}");
     // The work that the attempt took is counted, and is no more than that of the swing.
     assert!(legs[0].trials.rhs_evaluations < 2 * legs[0].statistics.rhs_evaluations, "{legs:?}");
@@ -154,8 +154,8 @@ fn dense_rows_leave_nothing_to_try() {
     let scene = shipped("pid_arm", &[]);
     for (output_step, is_tried) in [(0.003, false), (1.0, true)] {
         let (_, legs, _) = automatic(&scene, 1e-6, Span { output_step, ..scene.span() });
-        assert_eq!(integrators(&legs), ["dop853"]);
         assert_eq!(legs[0].trials != Statistics::default(), is_tried, "{output_step}: {legs:?}");
+        assert!(is_tried || integrators(&legs) == ["adams"], "{output_step}: {legs:?}");
     }
 }
 
@@ -191,4 +191,16 @@ fn where_both_methods_stop_the_run_does() {
     let failure = outcome.failure.expect("nothing is defined beyond x = 0.5");
     assert!(legs.len() >= 2 && failure.t > 0.3 && failure.t < 5.0, "{legs:?} {failure:?}");
     assert!(record.trajectory.rows.len() > 3);
+}
+
+/// A linkage without events, one whose road has hundreds of points, and a loose tolerance.
+#[test]
+fn tight_tolerances_of_smooth_motions_begin_with_adams() {
+    for (name, rtol, expected) in
+        [("andrews", 1e-6, "adams"), ("andrews", 1e-3, "dop853"), ("half_car", 1e-6, "dop853")]
+    {
+        let scene = shipped(name, &[]);
+        let (outcome, legs, _) = automatic(&scene, rtol, Span { output_step: 1.0, ..scene.span() });
+        assert!(outcome.failure.is_none() && legs[0].method.integrator.name == expected, "{name}: {legs:?}");
+    }
 }

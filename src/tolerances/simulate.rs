@@ -63,6 +63,16 @@ pub const SINGULAR_ROUND_OFF: f64 = 1e3;
 /// room pass.
 pub const DROPPED_ROW_OPEN_OF_OTHERS: f64 = 1e3;
 
+/// Automatic choice begins with adams at this rtol and below.
+/// Unit: `[1]`. Why: above, dop853 takes as many evaluations or fewer. Test:
+/// `tight_tolerances_of_smooth_motions_begin_with_adams`.
+pub const RTOL_OF_ADAMS: f64 = 1e-6;
+
+/// Automatic choice begins with adams where each switching function has so many thresholds at most.
+/// Unit: `[thresholds]`. Why: a choice: each passage begins anew at order 1.
+/// Test: `tight_tolerances_of_smooth_motions_begin_with_adams`.
+pub const THRESHOLDS_OF_ADAMS: usize = 8;
+
 /// Work before automatic choice looks at the steps first.
 /// Unit: `[evaluations]`. Why: a choice: short runs try nothing. Test: none: not tried with other values.
 pub const IMPLICIT_TRIED: f64 = 200.0;
