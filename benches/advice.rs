@@ -172,7 +172,7 @@ fn cost(result: &WorkPrecision, legs: &[Leg]) -> Option<f64> {
     let is_known = |cell: &Cell| cell.is_explicit && cell.method.formulation.name == "index1" && cell.cost.is_some();
     let has_explicit = result.cells.iter().any(is_known);
     for Leg { method, statistics, trials, .. } in legs {
-        let is_explicit = method.integrator.name == "dop853";
+        let is_explicit = method.integrator.name != "radau_iia";
         for (is_explicit, work) in [(is_explicit, statistics), (!is_explicit, trials)] {
             let is_explicit = is_explicit && has_explicit;
             let (formulation, integrator) = if is_explicit { ("index1", "dop853") } else { ("ggl", "radau_iia") };
