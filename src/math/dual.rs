@@ -1,8 +1,7 @@
 //! Forward-mode derivatives: a value with its derivatives along `N` directions.
 
-use super::scalar::{Scalar, Unary};
+use super::scalar::{Scalar, Unary, operators};
 use std::array::from_fn;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// re + sum_i eps_i e_i with e_i e_j = 0: `eps[i]` is the derivative of `re` along direction i.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,80 +60,18 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
     }
 }
 
-impl<S: Scalar, const N: usize> Neg for Dual<S, N> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Dual { re: -self.re, eps: self.eps.map(|e| -e) }
-    }
-}
-impl<S: Scalar, const N: usize> Add for Dual<S, N> {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        Dual { re: self.re + o.re, eps: from_fn(|i| self.eps[i] + o.eps[i]) }
-    }
-}
-impl<S: Scalar, const N: usize> Sub for Dual<S, N> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        Dual { re: self.re - o.re, eps: from_fn(|i| self.eps[i] - o.eps[i]) }
-    }
-}
-impl<S: Scalar, const N: usize> Mul for Dual<S, N> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: Self) -> Self {
-        Dual { re: self.re * o.re, eps: from_fn(|i| self.eps[i] * o.re + self.re * o.eps[i]) }
-    }
-}
-impl<S: Scalar, const N: usize> Div for Dual<S, N> {
-    type Output = Self;
-    #[inline]
-    fn div(self, o: Self) -> Self {
-        let inverse = o.re.recip();
-        let re = self.re * inverse;
-        Dual { re, eps: from_fn(|i| (self.eps[i] - re * o.eps[i]) * inverse) }
-    }
-}
-impl<S: Scalar, const N: usize> Add<f64> for Dual<S, N> {
-    type Output = Self;
-    #[inline]
-    fn add(self, x: f64) -> Self {
-        Dual { re: self.re + x, ..self }
-    }
-}
-impl<S: Scalar, const N: usize> Sub<f64> for Dual<S, N> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, x: f64) -> Self {
-        Dual { re: self.re - x, ..self }
-    }
-}
-impl<S: Scalar, const N: usize> Mul<f64> for Dual<S, N> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, x: f64) -> Self {
-        Dual { re: self.re * x, eps: self.eps.map(|e| e * x) }
-    }
-}
-impl<S: Scalar, const N: usize> Div<f64> for Dual<S, N> {
-    type Output = Self;
-    #[inline]
-    fn div(self, x: f64) -> Self {
-        Dual { re: self.re / x, eps: self.eps.map(|e| e / x) }
-    }
-}
-impl<S: Scalar, const N: usize> AddAssign for Dual<S, N> {
-    #[inline]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl<S: Scalar, const N: usize> SubAssign for Dual<S, N> {
-    #[inline]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
+operators! {
+    impl[S: Scalar, const N: usize] Dual<S, N>:
+    Neg neg(a) = Dual { re: -a.re, eps: a.eps.map(|e| -e) };
+    Add add(a, b: Self) = Dual { re: a.re + b.re, eps: from_fn(|i| a.eps[i] + b.eps[i]) };
+    Sub sub(a, b: Self) = Dual { re: a.re - b.re, eps: from_fn(|i| a.eps[i] - b.eps[i]) };
+    Mul mul(a, b: Self) = Dual { re: a.re * b.re, eps: from_fn(|i| a.eps[i] * b.re + a.re * b.eps[i]) };
+    Div div(a, b: Self) = {
+        let inverse = b.re.recip();
+        let re = a.re * inverse;
+        Dual { re, eps: from_fn(|i| (a.eps[i] - re * b.eps[i]) * inverse) }
+    };
+    Add add(a, x: f64) = Dual { re: a.re + x, ..a };
+    Mul mul(a, x: f64) = Dual { re: a.re * x, eps: a.eps.map(|e| e * x) };
+    Div div(a, x: f64) = Dual { re: a.re / x, eps: a.eps.map(|e| e / x) };
 }

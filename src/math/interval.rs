@@ -1,8 +1,7 @@
 //! Interval arithmetic: bounds on all values of a function over an interval of its argument.
 
-use super::scalar::{Scalar, Unary};
+use super::scalar::{Scalar, Unary, operators};
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// The numbers from `low` to `high`. Every operation gives an interval that contains all its results, up to rounding;
 /// one without bounds gives all numbers. Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2.
@@ -130,72 +129,22 @@ impl Scalar for Interval {
     }
 }
 
-impl Neg for Interval {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Interval { low: -self.high, high: -self.low }
-    }
-}
-impl Add for Interval {
-    type Output = Self;
-    fn add(self, o: Self) -> Self {
-        let (low, high) = (self.low + o.low, self.high + o.high);
+operators! {
+    impl[] Interval:
+    Neg neg(a) = Interval { low: -a.high, high: -a.low };
+    Add add(a, b: Self) = {
+        let (low, high) = (a.low + b.low, a.high + b.high);
         if low <= high { Interval { low, high } } else { Self::WHOLE }
-    }
-}
-impl Sub for Interval {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        self + -o
-    }
-}
-impl Mul for Interval {
-    type Output = Self;
-    fn mul(self, o: Self) -> Self {
+    };
+    Sub sub(a, b: Self) = a + -b;
+    Mul mul(a, b: Self) = {
         // Zero times something without bounds is zero.
-        let product = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
-        let [a, b] = [self.low, self.high].map(|x| Interval::new(product(x, o.low), product(x, o.high)));
-        Interval { low: a.low.min(b.low), high: a.high.max(b.high) }
-    }
-}
-impl Div for Interval {
-    type Output = Self;
-    fn div(self, o: Self) -> Self {
-        self * o.recip()
-    }
-}
-impl Add<f64> for Interval {
-    type Output = Self;
-    fn add(self, x: f64) -> Self {
-        let (low, high) = (self.low + x, self.high + x);
-        if low <= high { Interval { low, high } } else { Self::WHOLE }
-    }
-}
-impl Sub<f64> for Interval {
-    type Output = Self;
-    fn sub(self, x: f64) -> Self {
-        self + -x
-    }
-}
-impl Mul<f64> for Interval {
-    type Output = Self;
-    fn mul(self, x: f64) -> Self {
-        self * Self::constant(x)
-    }
-}
-impl Div<f64> for Interval {
-    type Output = Self;
-    fn div(self, x: f64) -> Self {
-        self / Self::constant(x)
-    }
-}
-impl AddAssign for Interval {
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl SubAssign for Interval {
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
+        let product = |x: f64, y: f64| if x == 0.0 || y == 0.0 { 0.0 } else { x * y };
+        let [low, high] = [a.low, a.high].map(|x| Interval::new(product(x, b.low), product(x, b.high)));
+        Interval { low: low.low.min(high.low), high: low.high.max(high.high) }
+    };
+    Div div(a, b: Self) = a * b.recip();
+    Add add(a, x: f64) = a + Self::constant(x);
+    Mul mul(a, x: f64) = a * Self::constant(x);
+    Div div(a, x: f64) = a / Self::constant(x);
 }

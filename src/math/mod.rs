@@ -32,6 +32,7 @@ pub use regime::{Regime, Time};
 pub use scalar::Scalar;
 #[doc(hidden)]
 pub use scalar::Unary;
+pub(crate) use scalar::operators;
 pub use taylor::Taylor;
 
 /// True if no entry is infinite or NaN, of which 0 x is NaN; in four sums so that it vectorizes.

@@ -7,6 +7,35 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+/// The operators of a number of this type from their formulas; a - x with a plain x, += and -= follow from them.
+macro_rules! operators {
+    (impl $generics:tt $number:ty: $($operator:ident $name:ident($a:ident $(, $b:ident: $other:ty)?) = $value:expr;)*) => {
+        $($crate::math::operators!(@$generics $number, $operator $(<$other>)?, $name($a $(, $b: $other)?) { $value });)*
+        $crate::math::operators!(@$generics $number, Sub<f64>, sub(a, x: f64) { a + -x });
+        $crate::math::operators!(@@$generics $number, AddAssign, add_assign, +);
+        $crate::math::operators!(@@$generics $number, SubAssign, sub_assign, -);
+    };
+    (@[$($generics:tt)*] $number:ty, $operator:ident $(<$other:ty>)?, $name:ident($a:ident $(, $b:ident: $of:ty)?) $body:block) => {
+        impl<$($generics)*> std::ops::$operator $(<$other>)? for $number {
+            type Output = Self;
+            #[inline]
+            fn $name(self $(, $b: $of)?) -> Self {
+                let $a = self;
+                $body
+            }
+        }
+    };
+    (@@[$($generics:tt)*] $number:ty, $operator:ident, $name:ident, $sign:tt) => {
+        impl<$($generics)*> std::ops::$operator for $number {
+            #[inline]
+            fn $name(&mut self, other: Self) {
+                *self = *self $sign other;
+            }
+        }
+    };
+}
+pub(crate) use operators;
+
 /// A number that the equations of an element can be evaluated over.
 pub trait Scalar:
     Copy

@@ -1,7 +1,6 @@
 //! Time derivatives along a motion: a value with its first and second derivative.
 
-use super::scalar::{Scalar, Unary};
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use super::scalar::{Scalar, Unary, operators};
 
 /// x, x' and x'' at one instant. With q, q' and q'' (at v' = 0) in, phi gives phi, phi' and -gamma.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,85 +66,23 @@ impl<S: Scalar> Scalar for Taylor<S> {
     }
 }
 
-impl<S: Scalar> Neg for Taylor<S> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Taylor { x: -self.x, d: -self.d, dd: -self.dd }
-    }
-}
-impl<S: Scalar> Add for Taylor<S> {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        Taylor { x: self.x + o.x, d: self.d + o.d, dd: self.dd + o.dd }
-    }
-}
-impl<S: Scalar> Sub for Taylor<S> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        Taylor { x: self.x - o.x, d: self.d - o.d, dd: self.dd - o.dd }
-    }
-}
-impl<S: Scalar> Mul for Taylor<S> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: Self) -> Self {
-        Taylor {
-            x: self.x * o.x,
-            d: self.d * o.x + self.x * o.d,
-            dd: self.dd * o.x + self.d * o.d * 2.0 + self.x * o.dd,
-        }
-    }
-}
-impl<S: Scalar> Div for Taylor<S> {
-    type Output = Self;
-    #[inline]
-    fn div(self, o: Self) -> Self {
-        let inverse = o.x.recip();
-        let x = self.x * inverse;
-        let d = (self.d - x * o.d) * inverse;
-        Taylor { x, d, dd: (self.dd - d * o.d * 2.0 - x * o.dd) * inverse }
-    }
-}
-impl<S: Scalar> Add<f64> for Taylor<S> {
-    type Output = Self;
-    #[inline]
-    fn add(self, x: f64) -> Self {
-        Taylor { x: self.x + x, ..self }
-    }
-}
-impl<S: Scalar> Sub<f64> for Taylor<S> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, x: f64) -> Self {
-        Taylor { x: self.x - x, ..self }
-    }
-}
-impl<S: Scalar> Mul<f64> for Taylor<S> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, x: f64) -> Self {
-        Taylor { x: self.x * x, d: self.d * x, dd: self.dd * x }
-    }
-}
-impl<S: Scalar> Div<f64> for Taylor<S> {
-    type Output = Self;
-    #[inline]
-    fn div(self, x: f64) -> Self {
-        Taylor { x: self.x / x, d: self.d / x, dd: self.dd / x }
-    }
-}
-impl<S: Scalar> AddAssign for Taylor<S> {
-    #[inline]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl<S: Scalar> SubAssign for Taylor<S> {
-    #[inline]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
+operators! {
+    impl[S: Scalar] Taylor<S>:
+    Neg neg(a) = Taylor { x: -a.x, d: -a.d, dd: -a.dd };
+    Add add(a, b: Self) = Taylor { x: a.x + b.x, d: a.d + b.d, dd: a.dd + b.dd };
+    Sub sub(a, b: Self) = Taylor { x: a.x - b.x, d: a.d - b.d, dd: a.dd - b.dd };
+    Mul mul(a, b: Self) = Taylor {
+        x: a.x * b.x,
+        d: a.d * b.x + a.x * b.d,
+        dd: a.dd * b.x + a.d * b.d * 2.0 + a.x * b.dd,
+    };
+    Div div(a, b: Self) = {
+        let inverse = b.x.recip();
+        let x = a.x * inverse;
+        let d = (a.d - x * b.d) * inverse;
+        Taylor { x, d, dd: (a.dd - d * b.d * 2.0 - x * b.dd) * inverse }
+    };
+    Add add(a, x: f64) = Taylor { x: a.x + x, ..a };
+    Mul mul(a, x: f64) = Taylor { x: a.x * x, d: a.d * x, dd: a.dd * x };
+    Div div(a, x: f64) = Taylor { x: a.x / x, d: a.d / x, dd: a.dd / x };
 }

@@ -1,8 +1,7 @@
 //! phi with phi', gamma, G and phi_t in one evaluation.
 
-use crate::math::{Scalar, Taylor, Unary};
+use crate::math::{Scalar, Taylor, Unary, operators};
 use std::array::from_fn;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// Directions in which a [`Jet`] is differentiated.
 pub(super) const WIDTH: usize = 8;
@@ -52,80 +51,20 @@ impl Scalar for Jet {
     }
 }
 
-impl Neg for Jet {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Jet { path: -self.path, slope: self.slope.map(|e| -e) }
-    }
-}
-impl Add for Jet {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        Jet { path: self.path + o.path, slope: from_fn(|i| self.slope[i] + o.slope[i]) }
-    }
-}
-impl Sub for Jet {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        Jet { path: self.path - o.path, slope: from_fn(|i| self.slope[i] - o.slope[i]) }
-    }
-}
-impl Mul for Jet {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: Self) -> Self {
-        let (x, y) = (self.path.x, o.path.x);
-        Jet { path: self.path * o.path, slope: from_fn(|i| self.slope[i] * y + x * o.slope[i]) }
-    }
-}
-impl Div for Jet {
-    type Output = Self;
-    #[inline]
-    fn div(self, o: Self) -> Self {
-        let (path, inverse) = (self.path / o.path, o.path.x.recip());
-        Jet { path, slope: from_fn(|i| (self.slope[i] - path.x * o.slope[i]) * inverse) }
-    }
-}
-impl Add<f64> for Jet {
-    type Output = Self;
-    #[inline]
-    fn add(self, x: f64) -> Self {
-        Jet { path: self.path + x, ..self }
-    }
-}
-impl Sub<f64> for Jet {
-    type Output = Self;
-    #[inline]
-    fn sub(self, x: f64) -> Self {
-        Jet { path: self.path - x, ..self }
-    }
-}
-impl Mul<f64> for Jet {
-    type Output = Self;
-    #[inline]
-    fn mul(self, x: f64) -> Self {
-        self.chain(self.path * x, x)
-    }
-}
-impl Div<f64> for Jet {
-    type Output = Self;
-    #[inline]
-    fn div(self, x: f64) -> Self {
-        Jet { path: self.path / x, slope: self.slope.map(|e| e / x) }
-    }
-}
-impl AddAssign for Jet {
-    #[inline]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl SubAssign for Jet {
-    #[inline]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
+operators! {
+    impl[] Jet:
+    Neg neg(a) = Jet { path: -a.path, slope: a.slope.map(|e| -e) };
+    Add add(a, b: Self) = Jet { path: a.path + b.path, slope: from_fn(|i| a.slope[i] + b.slope[i]) };
+    Sub sub(a, b: Self) = Jet { path: a.path - b.path, slope: from_fn(|i| a.slope[i] - b.slope[i]) };
+    Mul mul(a, b: Self) = {
+        let (x, y) = (a.path.x, b.path.x);
+        Jet { path: a.path * b.path, slope: from_fn(|i| a.slope[i] * y + x * b.slope[i]) }
+    };
+    Div div(a, b: Self) = {
+        let (path, inverse) = (a.path / b.path, b.path.x.recip());
+        Jet { path, slope: from_fn(|i| (a.slope[i] - path.x * b.slope[i]) * inverse) }
+    };
+    Add add(a, x: f64) = Jet { path: a.path + x, ..a };
+    Mul mul(a, x: f64) = a.chain(a.path * x, x);
+    Div div(a, x: f64) = Jet { path: a.path / x, slope: a.slope.map(|e| e / x) };
 }
