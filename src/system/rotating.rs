@@ -3,7 +3,7 @@
 use super::spin::{Block, Placement, Rotation, Spin};
 use super::{
     Column, Dimensions, Energy, Excitation, Group, LeviCivita, Limited, MechanicalSystem, Names, Need, OperatingPoint,
-    OutputTangent, Scratch, Structure, Tangent, Terms,
+    OutputTangent, Scratch, Structure, Tangent, Terms, forward,
 };
 use crate::math::Rate;
 use crate::math::expression::Switch;
@@ -177,8 +177,30 @@ fn block_of(placements: &[Placement], j: usize) -> Option<(usize, usize)> {
 }
 
 impl MechanicalSystem for Rotating<'_> {
-    fn dimensions(&self) -> Dimensions {
-        self.inner.dimensions()
+    forward! {
+        inner:
+        fn dimensions(&self) -> Dimensions;
+        fn bracket(&self, v: &[f64], x: &[f64], out: &mut [f64]);
+        fn levi_civita(&self, at: OperatingPoint, connection: &mut LeviCivita, scratch: &mut Scratch) -> bool;
+        fn names(&self) -> Names;
+        fn turning_angles(&self) -> usize;
+        fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]);
+        fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]);
+        fn turning_bodies(&self) -> Vec<String>;
+        fn spins(&self, q: &[f64], v: &[f64], out: &mut [f64]);
+        fn add_stiffness(&self, mass: &mut [f64]);
+        fn rotations(&self) -> Vec<Rotation>;
+        fn normalize(&self, q: &mut [f64]);
+        fn columns(&self) -> Vec<Column>;
+        fn inputs(&self) -> Vec<Column>;
+        fn excitations(&self) -> Vec<Excitation>;
+        fn switches(&self) -> &[Switch];
+        fn owner_of_switch(&self, switch: usize) -> &str;
+        fn limited(&self) -> &[Limited];
+        fn deformations(&self, q: &[f64], out: &mut [f64]);
+        fn length(&self) -> f64;
+        fn scales(&self) -> Vec<f64>;
+        fn groups(&self) -> Vec<Group>;
     }
 
     fn structure(&self) -> Structure {
@@ -244,56 +266,8 @@ impl MechanicalSystem for Rotating<'_> {
         true
     }
 
-    fn bracket(&self, v: &[f64], x: &[f64], out: &mut [f64]) {
-        self.inner.bracket(v, x, out);
-    }
-
-    fn levi_civita(&self, at: OperatingPoint, connection: &mut LeviCivita, scratch: &mut Scratch) -> bool {
-        self.inner.levi_civita(at, connection, scratch)
-    }
-
-    fn names(&self) -> Names {
-        self.inner.names()
-    }
-
-    fn turning_angles(&self) -> usize {
-        self.inner.turning_angles()
-    }
-
-    fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
-        self.inner.rate(q, v, qdot);
-    }
-
-    fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
-        self.inner.own_rate(q, v, qdot);
-    }
-
-    fn turning_bodies(&self) -> Vec<String> {
-        self.inner.turning_bodies()
-    }
-
-    fn spins(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
-        self.inner.spins(q, v, out);
-    }
-
-    fn add_stiffness(&self, mass: &mut [f64]) {
-        self.inner.add_stiffness(mass);
-    }
-
-    fn rotations(&self) -> Vec<Rotation> {
-        self.inner.rotations()
-    }
-
-    fn normalize(&self, q: &mut [f64]) {
-        self.inner.normalize(q);
-    }
-
     fn energy(&self, _t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
         self.inner.energy(self.t, q, &self.velocity(q, v), scratch)
-    }
-
-    fn columns(&self) -> Vec<Column> {
-        self.inner.columns()
     }
 
     fn outputs(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {
@@ -318,16 +292,8 @@ impl MechanicalSystem for Rotating<'_> {
         true
     }
 
-    fn inputs(&self) -> Vec<Column> {
-        self.inner.inputs()
-    }
-
     fn input_forces(&self, _t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
         self.inner.input_forces(self.t, q, &self.velocity(q, v), f, scratch);
-    }
-
-    fn excitations(&self) -> Vec<Excitation> {
-        self.inner.excitations()
     }
 
     fn input_rate_forces(&self, _t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
@@ -339,37 +305,9 @@ impl MechanicalSystem for Rotating<'_> {
         self.inner.input_values(OperatingPoint { t: self.t, v: &v, ..at }, out, scratch);
     }
 
-    fn switches(&self) -> &[Switch] {
-        self.inner.switches()
-    }
-
-    fn owner_of_switch(&self, switch: usize) -> &str {
-        self.inner.owner_of_switch(switch)
-    }
-
     fn switching(&self, at: OperatingPoint, out: &mut [Rate], scratch: &mut Scratch) {
         let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
         self.inner.switching(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at }, out, scratch);
-    }
-
-    fn limited(&self) -> &[Limited] {
-        self.inner.limited()
-    }
-
-    fn deformations(&self, q: &[f64], out: &mut [f64]) {
-        self.inner.deformations(q, out);
-    }
-
-    fn length(&self) -> f64 {
-        self.inner.length()
-    }
-
-    fn scales(&self) -> Vec<f64> {
-        self.inner.scales()
-    }
-
-    fn groups(&self) -> Vec<Group> {
-        self.inner.groups()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Pulse;
 use crate::system::{
-    Dimensions, Excitation, Group, MechanicalSystem, Names, Need, Rotation, Scratch, Structure, Terms,
+    Dimensions, Excitation, Group, MechanicalSystem, Names, Need, Rotation, Scratch, Structure, Terms, forward,
 };
 use nalgebra::DMatrix;
 
@@ -37,12 +37,19 @@ impl<'a> Pushed<'a> {
 }
 
 impl MechanicalSystem for Pushed<'_> {
-    fn dimensions(&self) -> Dimensions {
-        self.system.dimensions()
-    }
-
-    fn structure(&self) -> Structure {
-        self.system.structure()
+    forward! {
+        system:
+        fn dimensions(&self) -> Dimensions;
+        fn structure(&self) -> Structure;
+        fn names(&self) -> Names;
+        fn turning_angles(&self) -> usize;
+        fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]);
+        fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]);
+        fn rotations(&self) -> Vec<Rotation>;
+        fn normalize(&self, q: &mut [f64]);
+        fn length(&self) -> f64;
+        fn scales(&self) -> Vec<f64>;
+        fn groups(&self) -> Vec<Group>;
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
@@ -61,41 +68,5 @@ impl MechanicalSystem for Pushed<'_> {
             }
             _ => {}
         }
-    }
-
-    fn names(&self) -> Names {
-        self.system.names()
-    }
-
-    fn turning_angles(&self) -> usize {
-        self.system.turning_angles()
-    }
-
-    fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
-        self.system.rate(q, v, qdot);
-    }
-
-    fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
-        self.system.own_rate(q, v, qdot);
-    }
-
-    fn rotations(&self) -> Vec<Rotation> {
-        self.system.rotations()
-    }
-
-    fn normalize(&self, q: &mut [f64]) {
-        self.system.normalize(q);
-    }
-
-    fn length(&self) -> f64 {
-        self.system.length()
-    }
-
-    fn scales(&self) -> Vec<f64> {
-        self.system.scales()
-    }
-
-    fn groups(&self) -> Vec<Group> {
-        self.system.groups()
     }
 }
