@@ -216,15 +216,7 @@ impl Integrator for Explicit {
         Ok(())
     }
 
-    fn interpolate(
-        &mut self,
-        _: &mut Problem,
-        from: From,
-        _: f64,
-        theta: f64,
-        out: &mut [f64],
-    ) -> Result<(), StepError> {
-        self.polynomial.interpolate(theta, from.y, out);
-        Ok(())
+    fn polynomial(&mut self) -> Option<&mut Hermite> {
+        Some(&mut self.polynomial)
     }
 }

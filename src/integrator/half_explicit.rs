@@ -277,15 +277,7 @@ impl Integrator for HalfExplicit {
         }
     }
 
-    fn interpolate(
-        &mut self,
-        _: &mut Problem,
-        from: From,
-        _: f64,
-        theta: f64,
-        out: &mut [f64],
-    ) -> Result<(), StepError> {
-        self.polynomial.interpolate(theta, from.y, out);
-        Ok(())
+    fn polynomial(&mut self) -> Option<&mut Hermite> {
+        Some(&mut self.polynomial)
     }
 }

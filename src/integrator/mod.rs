@@ -146,26 +146,35 @@ pub trait Integrator {
         1.0
     }
 
-    /// Prepares interpolation over the step just accepted; `slope` is y' at its end `to`.
-    fn prepare(
-        &mut self,
-        problem: &mut Problem,
-        from: From,
-        h: f64,
-        to: &[f64],
-        slope: &[f64],
-    ) -> Result<(), StepError>;
+    /// The polynomial of a method that interpolates by one, through both ends of a step with their slopes. Default: none.
+    fn polynomial(&mut self) -> Option<&mut Hermite> {
+        None
+    }
 
-    /// The state at the fraction `theta` of the prepared step of size `h`.
+    /// Prepares interpolation over the step just accepted; `slope` is y' at its end `to`. Default: the polynomial.
+    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), StepError> {
+        self.polynomial().ok_or(NO_INTERPOLATION)?.prepare(from, h, to, slope);
+        Ok(())
+    }
+
+    /// The state at the fraction `theta` of the prepared step of size `h`. Default: by the polynomial.
     fn interpolate(
         &mut self,
-        problem: &mut Problem,
+        _: &mut Problem,
         from: From,
-        h: f64,
+        _h: f64,
         theta: f64,
         out: &mut [f64],
-    ) -> Result<(), StepError>;
+    ) -> Result<(), StepError> {
+        self.polynomial().ok_or(NO_INTERPOLATION)?.interpolate(theta, from.y, out);
+        Ok(())
+    }
 }
+
+const NO_INTERPOLATION: StepError = StepError::Unsuitable {
+    reason: "the method does not interpolate within its steps",
+    hint: "its code must have a polynomial, or prepare and interpolate of its own",
+};
 
 /// The start of a step.
 #[derive(Clone, Copy, Debug)]

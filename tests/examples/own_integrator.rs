@@ -57,21 +57,8 @@ impl Integrator for Midpoint {
         &mut self.control
     }
 
-    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), StepError> {
-        self.dense.prepare(from, h, to, slope);
-        Ok(())
-    }
-
-    fn interpolate(
-        &mut self,
-        _: &mut Problem,
-        from: From,
-        _: f64,
-        theta: f64,
-        out: &mut [f64],
-    ) -> Result<(), StepError> {
-        self.dense.interpolate(theta, from.y, out);
-        Ok(())
+    fn polynomial(&mut self) -> Option<&mut Hermite> {
+        Some(&mut self.dense)
     }
 }
 
