@@ -1,7 +1,7 @@
 //! Baumgarte stabilization.
 
-use super::index1::{RANK, rank_tolerance};
-use super::{Dae, Dynamics, Entry, Formulation, Row, StepError};
+use super::index1::{Index1, RANK, rank_tolerance};
+use super::{Dae, Entry, Row};
 use crate::error::Result;
 use crate::method_spec::{MethodSpec, OptionDoc};
 
@@ -21,43 +21,12 @@ pub const ENTRY: Entry = Entry {
         OptionDoc { name: "beta", about: "frequency of phi, 1/s (default alpha)" },
         RANK,
     ],
-    dae: Some(|spec| {
-        let [alpha, beta] = gains(spec)?;
-        Ok(Dae::with(Row { position: beta * beta, velocity: 2.0 * alpha, acceleration: 1.0 }))
-    }),
-    field: Some(|spec, _| {
-        let [alpha, beta] = gains(spec)?;
-        Ok(Box::new(Baumgarte { alpha, beta, rank_tolerance: rank_tolerance(spec)? }))
-    }),
+    dae: Some(|spec| Ok(Dae::with(row(spec)?))),
+    field: Some(|spec, _| Ok(Box::new(Index1 { row: row(spec)?, rank_tolerance: rank_tolerance(spec)? }))),
 };
 
-/// alpha and beta
-fn gains(spec: &MethodSpec) -> Result<[f64; 2]> {
+fn row(spec: &MethodSpec) -> Result<Row> {
     let alpha = spec.not_negative("alpha", 5.0)?;
-    Ok([alpha, spec.not_negative("beta", alpha)?])
-}
-
-struct Baumgarte {
-    alpha: f64,
-    beta: f64,
-    rank_tolerance: f64,
-}
-
-impl Formulation for Baumgarte {
-    fn derivative(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        dynamics: &mut Dynamics,
-        qdot: &mut [f64],
-        vdot: &mut [f64],
-    ) -> Result<(), StepError> {
-        let (alpha, beta) = (self.alpha, self.beta);
-        dynamics.rank_tolerance = self.rank_tolerance;
-        dynamics.solve(t, q, v, |phi, phi_dot| -2.0 * alpha * phi_dot - beta * beta * phi)?;
-        dynamics.system.rate(q, v, qdot);
-        vdot.copy_from_slice(&dynamics.vdot);
-        Ok(())
-    }
+    let beta = spec.not_negative("beta", alpha)?;
+    Ok(Row { position: beta * beta, velocity: 2.0 * alpha, acceleration: 1.0 })
 }

@@ -16,7 +16,7 @@ pub const ENTRY: Entry = Entry {
     about: "phi'' = 0, lambda eliminated; drifts unless projected",
     options: &[RANK],
     dae: Some(|_| Ok(Dae::with(Row::ACCELERATION))),
-    field: Some(|spec, _| Ok(Box::new(Index1 { rank_tolerance: rank_tolerance(spec)? }))),
+    field: Some(|spec, _| Ok(Box::new(Index1 { row: Row::ACCELERATION, rank_tolerance: rank_tolerance(spec)? }))),
 };
 
 /// Option of the rank indicator below which constraints are dropped as dependent when v' and lambda are solved for.
@@ -29,13 +29,15 @@ pub(super) fn rank_tolerance(spec: &MethodSpec) -> Result<f64> {
     spec.not_negative(RANK.name, TRUNCATED_RANK)
 }
 
+/// The vector field of a row of phi'', with or without feedback of phi and phi'.
 pub(super) struct Index1 {
-    rank_tolerance: f64,
+    pub row: Row,
+    pub rank_tolerance: f64,
 }
 
 impl Default for Index1 {
     fn default() -> Self {
-        Index1 { rank_tolerance: TRUNCATED_RANK }
+        Index1 { row: Row::ACCELERATION, rank_tolerance: TRUNCATED_RANK }
     }
 }
 
@@ -50,7 +52,8 @@ impl Formulation for Index1 {
         vdot: &mut [f64],
     ) -> Result<(), StepError> {
         dynamics.rank_tolerance = self.rank_tolerance;
-        dynamics.solve(t, q, v, |_, _| 0.0)?;
+        let Row { position, velocity, .. } = self.row;
+        dynamics.solve(t, q, v, |phi, phi_dot| -velocity * phi_dot - position * phi)?;
         dynamics.system.rate(q, v, qdot);
         vdot.copy_from_slice(&dynamics.vdot);
         Ok(())
