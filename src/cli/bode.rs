@@ -1,6 +1,6 @@
 //! `holonom bode SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, positive};
 use super::linear::{ModelOptions, StateOptions};
 use crate::error::{Error, Result, Warning, clock, short, suggest};
 use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_response};
@@ -73,16 +73,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
         let frequencies = frequencies(&args, &model)?;
         let response = respond(&prepared, &model, &chosen, frequencies);
         files.push(write(&args, &prepared, &response, &mut folder)?);
-        if !args.talk.json && !args.talk.quiet {
-            print(&response.text())?;
-        }
+        args.talk.say(&response.text())?;
     }
-    let written = args.talk.finish(folder)?;
-    match (args.talk.json, files.as_slice()) {
-        (true, [one]) => args.talk.print(one, String::new)?,
-        (true, all) => args.talk.print(&all, String::new)?,
-        (false, _) => args.talk.tell_files(&written)?,
-    }
+    args.talk.conclude_all(folder, &files)?;
     Ok(ExitCode::SUCCESS)
 }
 

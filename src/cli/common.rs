@@ -64,14 +64,14 @@ pub struct AutoOption {
 #[derive(Args)]
 pub struct MethodOptions {
     /// Formulation, such as index1 or baumgarte:alpha=5,beta=5
-    #[arg(long, help_heading = OWN, value_parser = spec, long_help = names("Formulation, with options as in \
+    #[arg(long, help_heading = OWN, long_help = names("Formulation, with options as in \
           baumgarte:alpha=5,beta=5", formulation::registry()))]
     pub formulation: Option<MethodSpec>,
     /// Integrator, such as dop853
-    #[arg(long, help_heading = OWN, value_parser = spec, long_help = names("Integrator", integrator::registry()))]
+    #[arg(long, help_heading = OWN, long_help = names("Integrator", integrator::registry()))]
     pub integrator: Option<MethodSpec>,
     /// Projection after each step, such as manifold:sweeps=2
-    #[arg(long, help_heading = OWN, value_parser = spec, long_help = names("Projection after each step, with options as \
+    #[arg(long, help_heading = OWN, long_help = names("Projection after each step, with options as \
           in manifold:sweeps=2", projection::registry()))]
     pub projection: Option<MethodSpec>,
     /// Relative tolerance, asked of the motion: steps are controlled by tighter ones
@@ -132,10 +132,6 @@ impl Format {
             Format::None => None,
         }
     }
-}
-
-pub fn spec(text: &str) -> Result<MethodSpec, String> {
-    MethodSpec::parse(text).map_err(|error| error.to_string())
 }
 
 /// Returns the help on an option with all that it can name.
@@ -240,6 +236,26 @@ impl Talk {
         Ok(prepared)
     }
 
+    /// Prints a text of one of several results as it comes, unless JSON is requested or nothing.
+    pub fn say(&self, text: &str) -> Result<()> {
+        if self.json || self.quiet { Ok(()) } else { print(text) }
+    }
+
+    /// Moves the files into place, prints the result, and names the files.
+    pub fn conclude(&self, folder: Folder, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
+        let written = self.finish(folder)?;
+        self.print(json, text)?;
+        self.tell_files(&written)
+    }
+
+    /// The same for results whose texts were printed as they came; as JSON one alone is no list.
+    pub fn conclude_all(&self, folder: Folder, results: &[impl serde::Serialize]) -> Result<()> {
+        match results {
+            [one] => self.conclude(folder, one, String::new),
+            all => self.conclude(folder, &all, String::new),
+        }
+    }
+
     /// Prints the result: JSON if requested, else text unless quiet.
     pub fn print(&self, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
         match (self.json, self.quiet) {
@@ -270,7 +286,7 @@ impl Talk {
 
     /// Prints the folder and the names of the files, if text is printed.
     pub fn tell_files(&self, written: &Written) -> Result<()> {
-        if self.json || self.quiet { Ok(()) } else { print(&format!("\nwritten to {}\n", written.listing())) }
+        self.say(&format!("\nwritten to {}\n", written.listing()))
     }
 
     /// Prints warnings on standard error.

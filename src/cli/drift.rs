@@ -42,9 +42,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     args.output.figure(&mut folder, "stabilizations", stabilizations_figure(&prepared.name, &rows))?;
     let result = args.common.talk.repeatable(&prepared, DriftFile { scene: &prepared.name, runs: &rows });
     let sealed = folder.seal("stabilizations.json", result)?;
-    let written = args.common.talk.finish(folder)?;
-    args.common.talk.print(&sealed, || drift_text(&prepared, &rows))?;
-    args.common.talk.tell_files(&written)?;
+    args.common.talk.conclude(folder, &sealed, || drift_text(&prepared, &rows))?;
     match fatal(&rows) {
         Some(failure) => Err(failure.clone().into()),
         None => Ok(ExitCode::SUCCESS),

@@ -1,6 +1,6 @@
 //! `holonom linearize SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, number, print};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, number};
 use super::linear::{ChartOptions, StateOptions};
 use crate::error::{Error, Result, Warning};
 use crate::linearize::{
@@ -68,12 +68,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         let compared = other.as_ref().map(|scene| compared(&args, &prepared, scene, (state, &models[0]), &requests));
         results.push(report(&args, &prepared, (&models, compared.transpose()?), &mut folder)?);
     }
-    let written = args.talk.finish(folder)?;
-    match (args.talk.json, results.as_slice()) {
-        (true, [one]) => args.talk.print(one, String::new)?,
-        (true, all) => args.talk.print(&all, String::new)?,
-        (false, _) => args.talk.tell_files(&written)?,
-    }
+    args.talk.conclude_all(folder, &results)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -215,14 +210,9 @@ fn report(
     let figure = mode_figure(prepared, &Look::plain(&prepared.mechanism), first);
     args.output.figure(folder, &stem.replace("linear", "modes"), figure)?;
     let one = folder.seal(&format!("{stem}.json"), args.talk.repeatable(prepared, linear.file()))?;
-    let is_silent = args.talk.json || args.talk.quiet;
-    if !is_silent {
-        print(&linear.text())?;
-    }
+    args.talk.say(&linear.text())?;
     if let Some(against) = against {
-        if !is_silent {
-            print(&format!("\n{}", against.text()))?;
-        }
+        args.talk.say(&format!("\n{}", against.text()))?;
         let all = args.talk.repeatable(prepared, against);
         let against = folder.seal(&format!("{}.json", stem.replace("linear", "against")), all)?;
         return Ok(Printed::Against(Box::new(Compared { linear: one, against })));
@@ -232,9 +222,7 @@ fn report(
     }
     let exact = first.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.value);
     let rows = compare(models, &exact.collect::<Vec<_>>());
-    if !is_silent {
-        print(&format!("\n{}", comparison_text(&rows, first.point.is_equilibrium)))?;
-    }
+    args.talk.say(&format!("\n{}", comparison_text(&rows, first.point.is_equilibrium)))?;
     let all = args.talk.repeatable(prepared, Methods { t: first.point.t, methods: rows });
     folder.seal(&format!("{}.json", stem.replace("linear", "methods")), all).map(|all| Printed::All(Box::new(all)))
 }

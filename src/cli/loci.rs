@@ -29,7 +29,7 @@ pub struct Args {
     from: Option<f64>,
     /// Vary a parameter instead of time, such as k1=10..1000:50, or k1=10..1000:50:log with a constant factor; at the
     /// start of each scene unless --at or --equilibrium says otherwise
-    #[arg(long, value_name = "NAME=A..B[:N][:log]", value_parser = range)]
+    #[arg(long, value_name = "NAME=A..B[:N][:log]")]
     sweep: Option<Range>,
     /// With --sweep: at this time of each motion, s
     #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true, requires = "sweep")]
@@ -54,10 +54,6 @@ pub struct Args {
 const STATES: f64 = 60.0;
 /// More states are probably a mistake.
 const MOST: f64 = 1e5;
-
-fn range(text: &str) -> Result<Range, String> {
-    text.parse().map_err(|error: Error| error.to_string())
-}
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
@@ -87,9 +83,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let uncertain = loci.branches.iter().filter(|branch| branch.kind == Kind::Uncertain);
     args.talk.warn(&uncertain_kinds(uncertain.map(|_| loci.method.as_str())));
     folder.seal("loci.json", args.talk.repeatable(&prepared, LociFile::new(summary.clone(), &loci)))?;
-    let written = args.talk.finish(folder)?;
-    args.talk.print(&args.talk.repeatable(&prepared, &summary), || summary.text())?;
-    args.talk.tell_files(&written)?;
+    args.talk.conclude(folder, &args.talk.repeatable(&prepared, &summary), || summary.text())?;
     let Some(gap) = failed(&args, &loci) else { return Ok(ExitCode::SUCCESS) };
     match &args.sweep {
         Some(range) => tell(format!(

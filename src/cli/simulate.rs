@@ -95,9 +95,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         false => summary,
     };
     let sealed = write((&prepared, &record, &summary), &mut folder, &args)?;
-    let written = args.common.talk.finish(folder)?;
-    args.common.talk.print(&sealed, || summary.text(&units(&record)))?;
-    args.common.talk.tell_files(&written)?;
+    args.common.talk.conclude(folder, &sealed, || summary.text(&units(&record)))?;
     args.common.talk.warn(&summary.origin.warnings[early.len()..]);
     Ok(match &summary.failure {
         // What ended the second run is a warning.

@@ -71,9 +71,7 @@ fn run_one(args: &Args, path: &Path) -> Result<ExitCode> {
     write(args, &mut folder, std::slice::from_ref(&file), &[], |_, map| format!("stress-{map}"), &stressed)?;
     let origin = args.talk.origin(&subject.values);
     let sealed = folder.seal("stress.json", Repeatable { origin, simulation: None, result: &file })?;
-    let written = args.talk.finish(folder)?;
-    args.talk.print(&sealed, || text(&file, &stressed))?;
-    args.talk.tell_files(&written)?;
+    args.talk.conclude(folder, &sealed, || text(&file, &stressed))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -87,9 +85,7 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
             Err(error) => unread.push((scene.display().to_string(), error.to_string())),
             Ok((subject, maps)) => {
                 let (file, stressed) = simulate(args, &subject, maps, begin);
-                if !args.talk.json && !args.talk.quiet {
-                    print(&text(&file, &stressed))?;
-                }
+                args.talk.say(&text(&file, &stressed))?;
                 files.push(file);
                 all.extend(stressed);
             }
@@ -99,9 +95,7 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
     let (is_empty, origin) = (files.is_empty(), args.talk.origin(&Parameters::default()));
     let all = Repeatable { origin, simulation: None, result: All { scenes: files } };
     let sealed = folder.seal("stress.json", all)?;
-    let written = args.talk.finish(folder)?;
-    args.talk.print(&sealed, String::new)?;
-    args.talk.tell_files(&written)?;
+    args.talk.conclude(folder, &sealed, String::new)?;
     Ok(ExitCode::from(u8::from(is_empty)))
 }
 

@@ -16,7 +16,7 @@ pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
     /// The parameter and its values, such as travel=-0.08..0.08:81 (without :N, 81 values)
-    #[arg(value_name = "NAME=A..B[:N]", value_parser = range)]
+    #[arg(value_name = "NAME=A..B[:N]")]
     range: Range,
     /// Outputs in the figure (default: all)
     #[arg(long, value_name = "NAME[,NAME...]", value_delimiter = ',')]
@@ -31,10 +31,6 @@ pub struct Args {
     output: Output,
     #[command(flatten)]
     talk: Talk,
-}
-
-fn range(text: &str) -> Result<Range, String> {
-    text.parse().map_err(|error: Error| error.to_string())
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
@@ -70,7 +66,5 @@ fn write(args: &Args, family: &Family, sweep: &Sweep, summary: &SweepSummary) ->
     args.output.figure(&mut folder, "sweep", sweep_figure(sweep, look))?;
     let origin = args.talk.origin(&family.scene()?.parameters);
     let sealed = folder.seal("sweep.json", Repeatable { origin, simulation: None, result: summary })?;
-    let written = args.talk.finish(folder)?;
-    args.talk.print(&sealed, || summary.text())?;
-    args.talk.tell_files(&written)
+    args.talk.conclude(folder, &sealed, || summary.text())
 }

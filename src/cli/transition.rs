@@ -1,13 +1,13 @@
 //! `holonom transition SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, positive};
 use super::linear::StateOptions;
 use crate::error::significant;
 use crate::error::{Error, Result};
 use crate::linearize::{Defect, Floquet, Lyapunov, Operating, State, floquet, lyapunov};
 use crate::plot::{Figure, Panel, Series};
 use crate::prepared::PreparedScene;
-use crate::report::{Repeatable, Sealed, Table, Written, cell};
+use crate::report::{Table, cell};
 use crate::tolerances::report as tolerances;
 use serde_json::{Value, json};
 use std::process::ExitCode;
@@ -51,19 +51,20 @@ pub fn run(args: Args) -> Result<ExitCode> {
         if let Some(period) = args.period {
             let found = floquet(place.system(), state, period).map_err(in_file)?;
             let defects = found.defects(tolerances::MULTIPLIER_OUTSIDE)?;
-            show(&args, &floquet_text(&prepared, state, &found, &defects))?;
+            args.talk.say(&floquet_text(&prepared, state, &found, &defects))?;
             result["floquet"] = floquet_json(&found, &defects);
         }
         if let Some(duration) = args.lyapunov {
             let found = exponents(&args, &prepared.name, place, duration).map_err(in_file)?;
-            show(&args, &lyapunov_text(&prepared, state, &found))?;
+            args.talk.say(&lyapunov_text(&prepared, state, &found))?;
             args.output.figure(&mut folder, &format!("lyapunov-{}", cell(state.t)), figure(&prepared, &found))?;
             result["lyapunov"] = json!({ "times": found.times, "exponents": found.exponents });
         }
         let result = args.talk.repeatable(&prepared, result);
         results.push(folder.seal(&format!("transition-{}.json", cell(state.t)), result)?);
     }
-    finish(&args, &results, &args.talk.finish(folder)?)
+    args.talk.conclude_all(folder, &results)?;
+    Ok(ExitCode::SUCCESS)
 }
 
 fn exponents(args: &Args, name: &str, place: &Operating, duration: f64) -> Result<Lyapunov> {
@@ -72,19 +73,6 @@ fn exponents(args: &Args, name: &str, place: &Operating, duration: f64) -> Resul
     let found = lyapunov(place.system(), &place.state, (duration, duration / RENEWALS), progress);
     bar.finish_and_clear();
     found
-}
-
-fn finish(args: &Args, results: &[Sealed<Repeatable<Value>>], written: &Written) -> Result<ExitCode> {
-    match (args.talk.json, results) {
-        (true, [one]) => args.talk.print(one, String::new)?,
-        (true, all) => args.talk.print(&all, String::new)?,
-        (false, _) => args.talk.tell_files(written)?,
-    }
-    Ok(ExitCode::SUCCESS)
-}
-
-fn show(args: &Args, text: &str) -> Result<()> {
-    if args.talk.json || args.talk.quiet { Ok(()) } else { print(text) }
 }
 
 fn floquet_json(found: &Floquet, defects: &[Defect]) -> Value {

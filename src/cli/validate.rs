@@ -1,6 +1,6 @@
 //! `holonom validate SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, print, tell};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, tell};
 use super::linear::{ChartOptions, StateOptions};
 use crate::error::{Error, Result};
 use crate::report::cell;
@@ -62,20 +62,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
             let name = if i == 0 { stem.clone() } else { format!("{stem}-{}", i + 1) };
             args.output.figure(&mut folder, &name, sequence_figure(&title, &names, sequence))?;
         }
-        if !args.talk.json && !args.talk.quiet {
-            print(&file.text(&found))?;
-        }
+        args.talk.say(&file.text(&found))?;
         if !file.is_right() {
             complaints.push(file.complaint());
         }
         files.push(folder.seal(&format!("{stem}.json"), args.talk.repeatable(&prepared, file))?);
     }
-    let written = args.talk.finish(folder)?;
-    match (args.talk.json, files.as_slice()) {
-        (true, [one]) => args.talk.print(one, String::new)?,
-        (true, all) => args.talk.print(&all, String::new)?,
-        (false, _) => args.talk.tell_files(&written)?,
-    }
+    args.talk.conclude_all(folder, &files)?;
     for complaint in &complaints {
         tell(format!("error: {complaint}"));
     }

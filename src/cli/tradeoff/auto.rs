@@ -42,9 +42,7 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
     folder.write("tradeoff_models.csv", &auto_table(&summary)?)?;
     args.output.figure(&mut folder, "tradeoff_models", auto_figure(&summary))?;
     let sealed = folder.seal("tradeoff_models.json", args.talk.repeatable(&prepared, &summary))?;
-    let written = args.talk.finish(folder)?;
-    args.talk.print(&sealed, || summary.text())?;
-    args.talk.tell_files(&written)?;
+    args.talk.conclude(folder, &sealed, || summary.text())?;
     if interrupt::is_asked() {
         tell("error: interrupted");
         return Ok(ExitCode::from(1));

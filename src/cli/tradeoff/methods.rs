@@ -94,9 +94,7 @@ fn report(args: &Args, prepared: &PreparedScene, measured: &WorkPrecision, mut f
     // Methods and tolerances are those of the cells.
     let origin = args.talk.origin(&prepared.parameters);
     let sealed = folder.seal("tradeoff.json", Repeatable { origin, simulation: None, result: &summary })?;
-    let written = args.talk.finish(folder)?;
-    args.talk.print(&sealed, || summary.text(args.digits))?;
-    args.talk.tell_files(&written)?;
+    args.talk.conclude(folder, &sealed, || summary.text(args.digits))?;
     match (interrupt::is_asked(), measured.lacks(args.digits)) {
         (true, _) => tell("error: interrupted\n  help: go on with --resume"),
         (_, Some(Lack { why, hint, is_all: true })) => tell(format!("error: no recommendation: {why}\n  help: {hint}")),

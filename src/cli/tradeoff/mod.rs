@@ -4,7 +4,7 @@ mod auto;
 mod methods;
 mod models;
 
-use super::common::{Output, SceneOptions, Talk, duration, number, spec};
+use super::common::{Output, SceneOptions, Talk, duration, number};
 use crate::error::Result;
 use crate::method_spec::MethodSpec;
 use crate::prepared::Overrides;
@@ -21,13 +21,13 @@ pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
     /// Formulations to compare, such as index1; repeat for several (default: all)
-    #[arg(long, value_parser = spec)]
+    #[arg(long)]
     formulation: Vec<MethodSpec>,
     /// Integrators to compare; repeat for several (default: all)
-    #[arg(long, value_parser = spec)]
+    #[arg(long)]
     integrator: Vec<MethodSpec>,
     /// Projections to compare; repeat for several (default: those that are usual with each formulation)
-    #[arg(long, value_parser = spec)]
+    #[arg(long)]
     projection: Vec<MethodSpec>,
     /// End time, s
     #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]

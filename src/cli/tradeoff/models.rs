@@ -34,9 +34,7 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
     folder.write("models.csv", &models_table(&costs)?)?;
     args.output.figure(&mut folder, "models", models_figure(&title, &costs))?;
     let sealed = folder.seal("models.json", args.talk.repeatable(&variants[0].prepared, &summary))?;
-    let written = args.talk.finish(folder)?;
-    args.talk.print(&sealed, || summary.text())?;
-    args.talk.tell_files(&written)?;
+    args.talk.conclude(folder, &sealed, || summary.text())?;
     Ok(ExitCode::SUCCESS)
 }
 
