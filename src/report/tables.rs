@@ -5,6 +5,7 @@ use crate::files::Array;
 use crate::sweep::Sweep;
 use crate::system::Names;
 use crate::trajectory::Trajectory;
+use std::borrow::Borrow;
 use std::fmt;
 
 /// Returns `t`, coordinates, velocities, multipliers, outputs: one row per output time, at full precision.
@@ -92,6 +93,20 @@ pub fn table(headings: impl Iterator<Item = String>, rows: impl Iterator<Item = 
         writer.write_record(row).map_err(|error| failed(&error))?;
     }
     writer.into_inner().map_err(|error| failed(&error))
+}
+
+/// A column: its heading, and the cell of an item.
+pub type Column<T> = (&'static str, fn(&T) -> String);
+
+/// Writes a row for each item.
+pub fn by_columns<T>(columns: &[Column<T>], items: impl Iterator<Item = impl Borrow<T>>) -> Result<Vec<u8>> {
+    let row = |item| columns.iter().map(|(_, cell)| cell(Borrow::borrow(&item))).collect();
+    table(columns.iter().map(|(heading, _)| heading.to_string()), items.map(row))
+}
+
+/// Returns a number as tables have it; an empty cell where there is none.
+pub fn optional(value: Option<f64>) -> String {
+    value.map_or(String::new(), cell)
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 use super::words::sentences;
 use crate::compare::stress::{Axis, Cell, GainVerdict, Quantity, Stressed, Verdict};
 use crate::error::Result;
-use crate::report::{cell as full, table};
+use crate::report::cell as full;
+use crate::report::tables::{Column, by_columns, optional};
 use crate::simulate::Method;
 use serde::Serialize;
 
@@ -90,74 +91,49 @@ impl From<&Stressed> for MapFile {
     }
 }
 
-const HEADINGS: [&str; 26] = [
-    "scene",
-    "map",
-    "x_name",
-    "x",
-    "y_name",
-    "y",
-    "y_label",
-    "formulation",
-    "integrator",
-    "projection",
-    "rtol",
-    "atol",
-    "step",
-    "status",
-    "reason",
-    "t",
-    "position_drift",
-    "velocity_drift",
-    "final_position_drift",
-    "energy_error",
-    "relative_energy_error",
-    "error",
-    "worst_output",
-    "holds",
-    "steps",
-    "seconds",
-];
+/// A cell of a map of a scene.
+struct Place<'a> {
+    scene: &'a str,
+    map: &'a MapFile,
+    cell: &'a Cell,
+}
+
+fn columns<'a>() -> [Column<Place<'a>>; 26] {
+    [
+        ("scene", |at| at.scene.to_string()),
+        ("map", |at| at.map.name.clone()),
+        ("x_name", |at| at.map.x.name.clone()),
+        ("x", |at| optional(at.map.x.values[at.cell.column])),
+        ("y_name", |at| at.map.y.name.clone()),
+        ("y", |at| optional(at.map.y.values[at.cell.row])),
+        ("y_label", |at| at.map.y.labels[at.cell.row].clone()),
+        ("formulation", |at| at.cell.method.formulation.to_string()),
+        ("integrator", |at| at.cell.method.integrator.to_string()),
+        ("projection", |at| at.cell.method.projection.to_string()),
+        ("rtol", |at| full(at.cell.method.rtol)),
+        ("atol", |at| full(at.cell.method.atol)),
+        ("step", |at| optional(at.cell.method.step)),
+        ("status", |at| at.cell.status.word().replace(' ', "_")),
+        ("reason", |at| at.cell.reason.clone().unwrap_or_default()),
+        ("t", |at| full(at.cell.t)),
+        ("position_drift", |at| optional(at.cell.drift.as_ref().map(|drift| drift.position.max))),
+        ("velocity_drift", |at| optional(at.cell.drift.as_ref().map(|drift| drift.velocity.max))),
+        ("final_position_drift", |at| optional(at.cell.drift.as_ref().map(|drift| drift.position.last))),
+        ("energy_error", |at| optional(at.cell.energy_error)),
+        ("relative_energy_error", |at| optional(at.cell.relative_energy_error)),
+        ("error", |at| optional(at.cell.error)),
+        ("worst_output", |at| at.cell.worst.clone().unwrap_or_default()),
+        ("holds", |at| at.cell.holds.map_or(String::new(), |holds| holds.to_string())),
+        ("steps", |at| at.cell.steps.to_string()),
+        ("seconds", |at| full(at.cell.seconds)),
+    ]
+}
 
 /// Returns one row for each cell, over all scenes; empty where a value is not known.
 pub fn stress_table(files: &[StressFile]) -> Result<Vec<u8>> {
-    let maps = files.iter().flat_map(|file| file.maps.iter().map(move |map| (file, map)));
-    let rows = maps.flat_map(|(file, map)| map.cells.iter().map(move |cell| row(&file.scene, map, cell)));
-    table(HEADINGS.into_iter().map(String::from), rows)
-}
-
-fn row(scene: &str, map: &MapFile, cell: &Cell) -> Vec<String> {
-    let number = |value: Option<f64>| value.filter(|value| value.is_finite()).map_or(String::new(), full);
-    let Method { formulation, integrator, projection, rtol, atol, step } = &cell.method;
-    let drift = cell.drift.as_ref();
-    vec![
-        scene.to_string(),
-        map.name.clone(),
-        map.x.name.clone(),
-        number(map.x.values[cell.column]),
-        map.y.name.clone(),
-        number(map.y.values[cell.row]),
-        map.y.labels[cell.row].clone(),
-        formulation.to_string(),
-        integrator.to_string(),
-        projection.to_string(),
-        full(*rtol),
-        full(*atol),
-        number(*step),
-        cell.status.word().replace(' ', "_"),
-        cell.reason.clone().unwrap_or_default(),
-        number(Some(cell.t)),
-        number(drift.map(|drift| drift.position.max)),
-        number(drift.map(|drift| drift.velocity.max)),
-        number(drift.map(|drift| drift.position.last)),
-        number(cell.energy_error),
-        number(cell.relative_energy_error),
-        number(cell.error),
-        cell.worst.clone().unwrap_or_default(),
-        cell.holds.map_or(String::new(), |holds| holds.to_string()),
-        cell.steps.to_string(),
-        full(cell.seconds),
-    ]
+    let maps = files.iter().flat_map(|file| file.maps.iter().map(move |map| (&file.scene, map)));
+    let places = maps.flat_map(|(scene, map)| map.cells.iter().map(move |cell| Place { scene, map, cell }));
+    by_columns(&columns(), places)
 }
 
 const LEGEND: &str = "Cells of the figures: ∞ diverged (joints open by a tenth of the scene's size, or infinite numbers), \

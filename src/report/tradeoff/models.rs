@@ -4,7 +4,8 @@ use super::milliseconds;
 use crate::compare::work_precision::models::{Finer, ModelCost, ModelCosts};
 use crate::error::{Result, percent};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
-use crate::report::{Table, cell, table};
+use crate::report::tables::optional;
+use crate::report::{Table, table};
 use serde::Serialize;
 
 /// Contents of `models.json`.
@@ -132,12 +133,11 @@ pub fn models_table(costs: &ModelCosts) -> Result<Vec<u8>> {
     let headings: Vec<String> = own.map(String::from).into_iter().chain(outputs).collect();
     let row = |model: &ModelCost| {
         let counts = [model.coordinates, model.velocities, model.constraints].map(|count| count.to_string());
-        let number = |value: Option<f64>| value.map_or(String::new(), cell);
         let errors = costs.columns.iter().flat_map(|column| {
             let output = model.outputs.iter().find(|output| output.name == column.name);
-            [number(output.map(|output| output.max)), number(output.map(|output| output.rms))]
+            [optional(output.map(|output| output.max)), optional(output.map(|output| output.rms))]
         });
-        let times = [number(model.seconds()), number(model.numerical_error)];
+        let times = [optional(model.seconds()), optional(model.numerical_error)];
         let own = [model.name.clone()].into_iter().chain(counts).chain([model.method.triple()]).chain(times);
         own.chain(errors).collect()
     };

@@ -2,81 +2,70 @@
 
 use crate::compare::work_precision::{Cell, Outcome, WorkPrecision};
 use crate::error::Result;
-use crate::report::{cell as number, table};
+use crate::formulation::Statistics;
+use crate::report::cell as number;
+use crate::report::tables::{Column, by_columns, optional};
 
-const HEADINGS: [&str; 26] = [
-    "formulation",
-    "integrator",
-    "projection",
-    "rtol",
-    "atol",
-    "step",
-    "status",
-    "digits",
-    "error",
-    "worst",
-    "cost",
-    "cpu_seconds",
-    "fastest",
-    "slowest",
-    "repeats",
-    "position_drift",
-    "velocity_drift",
-    "steps",
-    "rejected",
-    "rhs_evaluations",
-    "jacobian_evaluations",
-    "factorizations",
-    "newton_iterations",
-    "projections",
-    "row_evaluations",
-    "reason",
+const COLUMNS: [Column<Cell>; 26] = [
+    ("formulation", |cell| cell.method.formulation.to_string()),
+    ("integrator", |cell| cell.method.integrator.to_string()),
+    ("projection", |cell| cell.method.projection.to_string()),
+    ("rtol", |cell| number(cell.method.rtol)),
+    ("atol", |cell| number(cell.method.atol)),
+    ("step", |cell| optional(cell.method.step)),
+    ("status", |cell| status(cell).to_string()),
+    ("digits", |cell| optional(cell.digits())),
+    ("error", |cell| optional(cell.error())),
+    ("worst", |cell| worst(cell).to_string()),
+    ("cost", |cell| optional(cell.cost.filter(|_| cell.error().is_some()))),
+    ("cpu_seconds", |cell| optional(seconds(cell).iter().copied().reduce(f64::min))),
+    ("fastest", |cell| optional(cell.seconds())),
+    ("slowest", |cell| optional(cell.seconds().and_then(|_| seconds(cell).iter().copied().reduce(f64::max)))),
+    ("repeats", |cell| cell.error().map_or(String::new(), |_| seconds(cell).len().to_string())),
+    ("position_drift", |cell| optional(cell.drift().map(|drift| drift.position))),
+    ("velocity_drift", |cell| optional(cell.drift().map(|drift| drift.velocity))),
+    ("steps", |cell| work(cell, |work| work.steps)),
+    ("rejected", |cell| work(cell, |work| work.rejected)),
+    ("rhs_evaluations", |cell| work(cell, |work| work.rhs_evaluations)),
+    ("jacobian_evaluations", |cell| work(cell, |work| work.jacobian_evaluations)),
+    ("factorizations", |cell| work(cell, |work| work.factorizations)),
+    ("newton_iterations", |cell| work(cell, |work| work.newton_iterations)),
+    ("projections", |cell| work(cell, |work| work.projections)),
+    ("row_evaluations", |cell| work(cell, |work| work.rows.rhs_evaluations)),
+    ("reason", |cell| cell.reason().unwrap_or_default().to_string()),
 ];
 
-/// Returns one row for each run, failures with their reason.
-///
-/// # Errors
-/// Only those of the table's writer.
+/// Returns one row for each run; empty cells where a run has no value.
 pub fn tradeoff_table(measured: &WorkPrecision) -> Result<Vec<u8>> {
-    table(HEADINGS.map(String::from).into_iter(), measured.cells.iter().map(row))
+    by_columns(&COLUMNS, measured.cells.iter())
 }
 
-fn row(cell: &Cell) -> Vec<String> {
-    let method = &cell.method;
-    let names = [&method.formulation, &method.integrator, &method.projection].map(ToString::to_string);
-    let step = method.step.map_or(String::new(), number);
-    let mut row: Vec<String> = names.into_iter().chain([number(method.rtol), number(method.atol), step]).collect();
-    match &cell.outcome {
-        Outcome::Completed { error, worst, drift, cpu_seconds, statistics: s } => {
-            let extreme =
-                |pick: fn(f64, f64) -> f64| cpu_seconds.iter().copied().reduce(pick).map_or(String::new(), number);
-            let numbers = [cell.digits().unwrap_or(0.0), *error].map(number);
-            row.extend(["completed".to_string()].into_iter().chain(numbers).chain([worst.clone()]));
-            row.push(cell.cost.map_or(String::new(), number));
-            row.extend([cell.seconds().map_or(String::new(), number), extreme(f64::min), extreme(f64::max)]);
-            row.push(cpu_seconds.len().to_string());
-            row.extend([drift.position, drift.velocity].map(number));
-            let work = [
-                s.steps,
-                s.rejected,
-                s.rhs_evaluations,
-                s.jacobian_evaluations,
-                s.factorizations,
-                s.newton_iterations,
-                s.projections,
-                s.rows.rhs_evaluations,
-            ];
-            row.extend(work.map(|count| count.to_string()));
-        }
-        Outcome::Failed { cpu_seconds, .. } => {
-            row.extend(["failed", "", "", "", ""].map(String::from).into_iter().chain([number(*cpu_seconds)]));
-        }
-        Outcome::TooSlow { cpu_seconds, .. } => {
-            row.extend(["too_slow", "", "", "", ""].map(String::from).into_iter().chain([number(*cpu_seconds)]));
-        }
-        Outcome::Skipped { .. } => row.push("skipped".to_string()),
+fn status(cell: &Cell) -> &'static str {
+    match cell.outcome {
+        Outcome::Completed { .. } => "completed",
+        Outcome::Failed { .. } => "failed",
+        Outcome::TooSlow { .. } => "too_slow",
+        Outcome::Skipped { .. } => "skipped",
     }
-    row.resize(HEADINGS.len() - 1, String::new());
-    row.push(cell.reason().unwrap_or_default().to_string());
-    row
+}
+
+fn worst(cell: &Cell) -> &str {
+    if let Outcome::Completed { worst, .. } = &cell.outcome { worst } else { "" }
+}
+
+/// CPU time of each repetition.
+fn seconds(cell: &Cell) -> &[f64] {
+    match &cell.outcome {
+        Outcome::Completed { cpu_seconds, .. } => cpu_seconds,
+        Outcome::Failed { cpu_seconds, .. } | Outcome::TooSlow { cpu_seconds, .. } => std::slice::from_ref(cpu_seconds),
+        Outcome::Skipped { .. } => &[],
+    }
+}
+
+/// Counted work of a completed run.
+fn work(cell: &Cell, count: fn(&Statistics) -> u64) -> String {
+    match &cell.outcome {
+        Outcome::Completed { statistics, .. } => count(statistics).to_string(),
+        _ => String::new(),
+    }
 }
