@@ -35,50 +35,39 @@ pub fn known() -> &'static [MapEntry] {
             quantity: Quantity::Velocity,
             methods: fixed,
             adapt: beside_gains,
-            suits: |_| true,
+            ..MAP
         },
         MapEntry {
             name: "start",
             about: "tolerance x error of the start: which methods pull an inconsistent start back",
-            x: "tolerance",
             y: "start_error",
             quantity: Quantity::FinalPosition,
             methods: || {
                 let projected = method("index1", "dopri5", "manifold");
                 vec![method("index1", "dopri5", "none"), method("baumgarte", "dopri5", "none"), projected]
             },
-            adapt: |_| {},
-            suits: |_| true,
+            ..MAP
         },
         MapEntry {
             name: "mass",
             about: "tolerance x mass of the last body",
-            x: "tolerance",
             y: "mass_ratio",
-            quantity: Quantity::Energy,
-            methods: adaptive,
-            adapt: |_| {},
             suits: |subject| !has("stiffness", subject),
+            ..MAP
         },
         MapEntry {
             name: "stiffness",
             about: "stiffness of the springs x mass of the last body",
             x: "stiffness",
             y: "mass_ratio",
-            quantity: Quantity::Energy,
-            methods: adaptive,
-            adapt: |_| {},
-            suits: |_| true,
+            ..MAP
         },
         MapEntry {
             name: "damping",
             about: "stiffness of the springs x their damping",
             x: "stiffness",
             y: "damping",
-            quantity: Quantity::Energy,
-            methods: adaptive,
-            adapt: |_| {},
-            suits: |_| true,
+            ..MAP
         },
         MapEntry {
             name: "speed",
@@ -87,18 +76,13 @@ pub fn known() -> &'static [MapEntry] {
             y: "speed",
             quantity: Quantity::Velocity,
             methods: || vec![method("index1", "rk4", "none"), method("index1", "rk4", "manifold")],
-            adapt: |_| {},
-            suits: |_| true,
+            ..MAP
         },
         MapEntry {
             name: "geometry",
             about: "tolerance x link lengths towards a singular geometry",
-            x: "tolerance",
             y: "link_ratio",
-            quantity: Quantity::Energy,
-            methods: adaptive,
-            adapt: |_| {},
-            suits: |_| true,
+            ..MAP
         },
         MapEntry {
             name: "links",
@@ -107,21 +91,31 @@ pub fn known() -> &'static [MapEntry] {
             y: "links",
             quantity: Quantity::Velocity,
             methods: || vec![method("index1", "rk4", "manifold"), method("index3", "generalized_alpha", "none")],
-            adapt: |_| {},
-            suits: |_| true,
+            ..MAP
         },
         MapEntry {
             name: "time",
             about: "simulated time x method",
             x: "time",
             y: "time",
-            quantity: Quantity::Energy,
             methods: || vec![AxisPlace::named("", Vec::new())],
             adapt: by_method,
-            suits: |_| true,
+            ..MAP
         },
     ]
 }
+
+/// What most maps have.
+const MAP: MapEntry = MapEntry {
+    name: "",
+    about: "",
+    x: "tolerance",
+    y: "",
+    quantity: Quantity::Energy,
+    methods: adaptive,
+    adapt: |_| {},
+    suits: |_| true,
+};
 
 /// Returns the maps of these names, or all that make sense for the subject.
 ///
