@@ -2,8 +2,9 @@
 
 use super::Pattern;
 use super::blocks::Layout;
+use super::redundant_rows::Alike;
 use std::fmt;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Layouts of the factors of [M G^T; G 0] for one pair of patterns, each found when it is needed first: they depend on
 /// nothing but the patterns and which coordinates are late. [`SaddlePoint::sharing`](super::SaddlePoint::sharing) takes
@@ -12,6 +13,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct Analysis {
     /// Blocks of G that are levers.
     levers: Vec<Lever>,
+    is_crowded: OnceLock<bool>,
     found: Mutex<Vec<(Vec<bool>, Arc<Layout>)>>,
 }
 
@@ -29,6 +31,11 @@ impl Analysis {
     /// For patterns with these levers.
     pub fn with(levers: Vec<Lever>) -> Self {
         Analysis { levers, ..Analysis::default() }
+    }
+
+    /// True if there are more rows of G over the same coordinates than these, so that some always depend on others.
+    pub(super) fn is_crowded(&self, g: &Pattern) -> bool {
+        *self.is_crowded.get_or_init(|| Alike::new(g).is_crowded())
     }
 
     /// The layout with the coordinates for which `late` is true behind their multipliers.

@@ -67,14 +67,13 @@ impl SaddlePoint {
         let empty = Arc::default();
         let (mass, g) = if is_shaped { (mass, g) } else { (&empty, &empty) };
         let (n, m) = (mass.rows, g.rows);
-        let alike = Alike::new(g);
         SaddlePoint {
             rank_tolerance: 1e-10,
             n,
             m,
             is_shaped,
             system: System::of(mass.clone(), g.clone()),
-            fast: (!alike.is_crowded()).then(|| Orders::new(mass, g, analysis.clone())),
+            fast: (!analysis.is_crowded(g)).then(|| Orders::new(mass, g, analysis.clone())),
             alike: None,
             kept: None,
             skipping: None,
