@@ -52,10 +52,14 @@ impl Trajectory {
 
     /// No rows, with time, the first `coordinates` and the outputs as the only columns.
     pub fn of_outputs(system: &dyn MechanicalSystem, coordinates: usize) -> Self {
-        let mut q = system.names().q;
-        q.truncate(coordinates);
+        Trajectory::new(system).part(coordinates)
+    }
+
+    /// No rows, with time, the first `coordinates` and the outputs of this one as the only columns.
+    pub(crate) fn part(&self, coordinates: usize) -> Self {
+        let q = self.names.q.iter().take(coordinates).cloned().collect();
         let names = Names { q, v: Vec::new(), lambda: Vec::new() };
-        Trajectory { names, outputs: recorded(system), rows: Vec::new() }
+        Trajectory { names, outputs: self.outputs.clone(), rows: Vec::new() }
     }
 
     /// Headings of all columns: `t`, coordinates, velocities, multipliers, outputs.

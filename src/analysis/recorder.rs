@@ -101,8 +101,9 @@ impl<'a> Recorder<'a> {
     }
 
     fn keep(mut self, coordinates: usize) -> Self {
-        self.record.trajectory = Trajectory::of_outputs(self.system, coordinates);
-        self.record.last = Some(Trajectory::new(self.system));
+        let part = self.record.last.as_ref().unwrap_or(&self.record.trajectory).part(coordinates);
+        let all = std::mem::replace(&mut self.record.trajectory, part);
+        self.record.last.get_or_insert(all);
         self
     }
 
