@@ -35,13 +35,6 @@ unsafe impl GlobalAlloc for Peak {
 #[global_allocator]
 static ALLOCATOR: Peak = Peak;
 
-struct Nothing;
-
-impl Sink for Nothing {
-    fn accepted(&mut self, _: &Observation) {}
-    fn row(&mut self, _: &Observation) {}
-}
-
 /// A beam that is clamped at one end and falls at the other.
 fn cantilever(dimension: usize, frame: &str, elements: usize) -> PreparedScene {
     let zeros = vec![json!(0); dimension];
@@ -72,7 +65,7 @@ fn cost(prepared: &PreparedScene, method: &Method, step: f64, steps: usize) -> (
     let run = |steps: usize| {
         let span = Span { start: 0.0, end: step * steps as f64, output_step: step * steps as f64 };
         let begin = Instant::now();
-        let outcome = simulate(prepared.system(), method, span, prepared.start(), &mut Nothing);
+        let outcome = simulate(prepared.system(), method, span, prepared.start(), &mut ());
         let failure = outcome.unwrap_or_else(|error| panic!("{error}")).failure;
         assert!(failure.is_none(), "{failure:?}");
         begin.elapsed().as_secs_f64()

@@ -17,14 +17,6 @@ use holonom::system::{MechanicalSystem, Need};
 use std::cell::RefCell;
 use std::path::Path;
 
-/// A sink that keeps nothing.
-struct Nothing;
-
-impl Sink for Nothing {
-    fn accepted(&mut self, _: &Observation) {}
-    fn row(&mut self, _: &Observation) {}
-}
-
 fn shipped(name: &str, overrides: &Overrides) -> PreparedScene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
     PreparedScene::load(&path, overrides).unwrap_or_else(|error| panic!("{error}"))
@@ -55,7 +47,7 @@ fn run(prepared: &PreparedScene, method: &Method, end: f64) -> Outcome {
 
 fn motion(system: &dyn MechanicalSystem, start: (&[f64], &[f64]), method: &Method, end: f64) -> Outcome {
     let span = Span { start: 0.0, end, output_step: end };
-    let outcome = simulate(system, method, span, start, &mut Nothing);
+    let outcome = simulate(system, method, span, start, &mut ());
     let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(outcome.failure, None, "a run that fails early costs little");
     outcome

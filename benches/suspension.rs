@@ -59,7 +59,6 @@ impl Sink for Clock {
         self.steps.push((now - self.last).as_secs_f64());
         self.last = now;
     }
-    fn row(&mut self, _: &Observation) {}
 }
 
 fn shipped(name: &str, set: &[(&str, f64)]) -> PreparedScene {

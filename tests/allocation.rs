@@ -44,14 +44,6 @@ const DIRECT: [(&str, &str, &str); 10] = [
     ("index3", "ali3p", "none"),
 ];
 
-/// Keeps nothing.
-struct Nothing;
-
-impl Sink for Nothing {
-    fn accepted(&mut self, _: &Observation) {}
-    fn row(&mut self, _: &Observation) {}
-}
-
 fn allocations(
     system: &dyn MechanicalSystem,
     method: &Method,
@@ -59,7 +51,7 @@ fn allocations(
     start: (&[f64], &[f64]),
 ) -> (usize, Outcome) {
     let before = count();
-    let outcome = simulate(system, method, span, start, &mut Nothing).unwrap();
+    let outcome = simulate(system, method, span, start, &mut ()).unwrap();
     (count() - before, outcome)
 }
 

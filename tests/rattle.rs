@@ -35,7 +35,6 @@ impl Sink for Kept<'_> {
             *drift = rows.iter().fold(*drift, |largest, row| largest.max(row.abs()));
         }
     }
-    fn row(&mut self, _: &Observation) {}
 }
 
 /// `steps` steps of `h`.

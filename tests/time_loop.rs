@@ -166,7 +166,6 @@ impl Sink for Fresh<'_> {
         assert_eq!(self.0.terms.phi_dot, state.phi_dot);
         self.1 += 1;
     }
-    fn row(&mut self, _: &Observation) {}
 }
 
 #[test]

@@ -6,7 +6,7 @@
 //! related to the size of the steps.
 
 use super::spectrum::{SpectralMode, fastest};
-use super::{Method, Observation, Run, Sink, Span, Stop};
+use super::{Method, Run, Sink, Span, Stop};
 use crate::error::{Failure, Result};
 use crate::formulation::{Dynamics, Statistics};
 use crate::system::{MechanicalSystem, OperatingPoint};
@@ -50,9 +50,6 @@ pub fn unseen(span: Span) -> Span {
 pub struct Quiet<'s>(pub Option<&'s dyn Sink>);
 
 impl Sink for Quiet<'_> {
-    fn accepted(&mut self, _: &Observation) {}
-    fn row(&mut self, _: &Observation) {}
-
     fn stops(&self) -> Option<Stop> {
         self.0.and_then(Sink::stops)
     }

@@ -81,14 +81,17 @@ impl Observation<'_> {
 /// Receives the motion while it is computed.
 pub trait Sink {
     /// Called with every accepted step, the start included.
-    fn accepted(&mut self, state: &Observation);
+    fn accepted(&mut self, _state: &Observation) {}
     /// Called with every output row, in order.
-    fn row(&mut self, state: &Observation);
+    fn row(&mut self, _state: &Observation) {}
     /// Called before every step and after every row: returns the reason if the run should end here.
     fn stops(&self) -> Option<Stop> {
         None
     }
 }
+
+/// Stores nothing.
+impl Sink for () {}
 
 /// The reason to end a run from outside, and the remedy.
 #[derive(Clone, Debug, PartialEq)]

@@ -14,8 +14,6 @@ impl Sink for Watcher<'_> {
     fn accepted(&mut self, state: &Observation) {
         self.0.add(state);
     }
-
-    fn row(&mut self, _: &Observation) {}
 }
 
 /// Returns the time of the first singular state of the motion within `duration`, or the time at which it ends at one.

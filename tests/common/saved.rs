@@ -11,7 +11,6 @@ impl Sink for Bits {
         let all = [at.t, at.work].into_iter().chain([at.q, at.v, at.vdot, at.lambda].concat());
         self.0.push(all.map(f64::to_bits).collect());
     }
-    fn row(&mut self, _: &Observation) {}
     fn stops(&self) -> Option<Stop> {
         (self.0.len() >= self.1).then(|| Stop { reason: "saved".to_string(), hint: String::new() })
     }

@@ -90,7 +90,6 @@ impl Sink for Watch {
         self.largest = self.largest.max(self.energy.abs());
         self.drift = [self.drift[0].max(state.phi[0].abs()), self.drift[1].max(state.phi_dot[0].abs())];
     }
-    fn row(&mut self, _: &Observation) {}
 }
 
 /// Runs to each of the given numbers of periods, in order, and tells what it has come to.

@@ -91,8 +91,6 @@ impl Sink for Counter {
         self.0 += 1;
     }
 
-    fn row(&mut self, _: &Observation) {}
-
     fn stops(&self) -> Option<Stop> {
         (self.0 > tolerances::FLOW_STEPS).then(|| Stop {
             reason: "the explicit method that carries perturbations needs more than two million steps".to_string(),
