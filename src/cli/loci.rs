@@ -4,7 +4,7 @@ use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive,
 use super::linear::ModelOptions;
 use super::linearize::unlike;
 use crate::error::{Error, Result, short};
-use crate::linearize::{At, Gap, Kind, Loci, Request, Variants, loci_along, loci_over, refuse_large};
+use crate::linearize::{At, Gap, Kind, Loci, Request, Variants, loci_along, loci_over, refuse_large, within_run};
 use crate::prepared::PreparedScene;
 use crate::report::linear::{
     LociAgainst, LociFile, LociSummary, frequency_figure, loci_figure, loci_table, with_others,
@@ -159,7 +159,7 @@ fn times(args: &Args, prepared: &PreparedScene) -> Result<Vec<f64>> {
 
 fn over(args: &Args, scene: &SceneOptions, prepared: &PreparedScene, range: &Range, request: &Request) -> Result<Loci> {
     let at = match args.at {
-        Some(t) => within(prepared, t)?,
+        Some(t) => within_run(prepared, &[t]).map(|()| At::Time(t))?,
         None if args.equilibrium => At::Equilibrium,
         None => At::Start,
     };
@@ -170,22 +170,6 @@ fn over(args: &Args, scene: &SceneOptions, prepared: &PreparedScene, range: &Ran
     let loci = loci_over(&variants, at, request, || bar.inc(1)).map_err(|error| error.under("--sweep"))?;
     bar.finish_and_clear();
     Ok(loci)
-}
-
-fn within(prepared: &PreparedScene, t: f64) -> Result<At> {
-    let (start, end) = (prepared.start_time(), prepared.span().map_or(f64::INFINITY, |span| span.end));
-    match (start..=end).contains(&t) {
-        true => Ok(At::Time(t)),
-        false => {
-            let message = format!(
-                "t = {} s is outside the run, which goes from {} s to {} s",
-                short(t),
-                short(start),
-                short(end)
-            );
-            Err(Error::input(message).under("--at").hint("choose a time within it, or run longer with --until T"))
-        }
-    }
 }
 
 /// Handles the case that no state has eigenvalues: wrong input, or a failure everywhere.

@@ -4,7 +4,7 @@ use super::Variation;
 use crate::error::{Error, Result, short};
 use crate::initial::assemble;
 use crate::prepared::{Overrides, PreparedScene};
-use crate::simulate::{Method, Observation, Sink, Span, Start};
+use crate::simulate::{Method, Span, Start};
 use crate::tolerances::linearize as tolerances;
 
 /// A state on the constraints.
@@ -50,7 +50,7 @@ pub fn tighten(prepared: &mut PreparedScene, given: &Overrides) {
 /// # Errors
 /// A time before the start or after the end of the run; a run that stops before it.
 pub fn states(prepared: &PreparedScene, times: &[f64], progress: impl FnMut(f64)) -> Result<Vec<State>> {
-    check(prepared, times)?;
+    within_run(prepared, times)?;
     let mut order: Vec<usize> = (0..times.len()).collect();
     order.sort_by(|&i, &j| times[i].total_cmp(&times[j]));
     let mut walk = Walk::new(prepared);
@@ -84,35 +84,24 @@ impl<'a> Walk<'a> {
     }
 }
 
-fn check(prepared: &PreparedScene, times: &[f64]) -> Result<()> {
-    let (start, end) = (prepared.start_time(), prepared.span().map(|span| span.end).unwrap_or(f64::INFINITY));
-    match times.iter().find(|t| !(**t >= start && **t <= end)) {
-        None => Ok(()),
-        Some(t) => {
-            let message = format!(
-                "t = {} s is outside the run, which goes from {} s to {} s",
-                short(*t),
-                short(start),
-                short(end)
-            );
-            Err(Error::input(message).under("--at").hint("choose a time within it, or run longer with --until T"))
-        }
-    }
-}
-
-/// A sink that stores nothing.
-struct Nothing;
-
-impl Sink for Nothing {
-    fn accepted(&mut self, _: &Observation) {}
-    fn row(&mut self, _: &Observation) {}
+/// Refuses times outside the run.
+///
+/// # Errors
+/// The first such time.
+pub fn within_run(prepared: &PreparedScene, times: &[f64]) -> Result<()> {
+    let (start, end) = (prepared.start_time(), prepared.span().map_or(f64::INFINITY, |span| span.end));
+    let Some(t) = times.iter().find(|t| !(start..=end).contains(*t)) else { return Ok(()) };
+    let [t, start, end] = [*t, start, end].map(short);
+    Err(Error::input(format!("t = {t} s is outside the run, which goes from {start} s to {end} s"))
+        .under("--at")
+        .hint("choose a time within it, or run longer with --until T"))
 }
 
 /// Integrates to `end` and projects the state onto the constraints.
 pub(super) fn follow(prepared: &PreparedScene, from: &State, end: f64) -> Result<State> {
     let span = Span { start: from.t, end, output_step: end - from.t };
     let start = Start::State(&from.q, &from.v);
-    let (outcome, _, _) = prepared.simulate_from(&prepared.method, span, start, &mut Nothing)?;
+    let (outcome, _, _) = prepared.simulate_from(&prepared.method, span, start, &mut ())?;
     if let Some(failure) = outcome.failure {
         return Err(failure.into());
     }

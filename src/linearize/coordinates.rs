@@ -3,7 +3,7 @@
 use super::changes::beside;
 use super::{Changes, Lift, LinearizationPoint, Matrix, Variation};
 use crate::error::{Error, Result};
-use crate::system::{LeviCivita, OperatingPoint};
+use crate::system::LeviCivita;
 
 /// The chart at a state, with n directions of v, k degrees of freedom and s states xi:
 ///
@@ -164,8 +164,7 @@ pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
 
 pub(super) fn levi_civita(variation: &mut Variation, connection: &mut LeviCivita) -> bool {
     let Variation { dynamics, point, .. } = variation;
-    let at = OperatingPoint { t: point.t, q: &point.q, v: &point.v, vdot: &point.vdot, lambda: &point.lambda };
-    dynamics.system.levi_civita(at, connection, &mut dynamics.scratch)
+    dynamics.system.levi_civita(point.at(), connection, &mut dynamics.scratch)
 }
 
 /// Returns the names u1 .. uk and u1' .. uk' of a chart with so many directions, states xi among them; u_1 .. where an

@@ -1,9 +1,9 @@
 //! What the inputs add to the equations at a state.
 
-use super::{LinearizationPoint, Matrix, Variation};
+use super::{Matrix, Variation};
 use crate::error::{Error, Result, clock};
 use crate::formulation::Dynamics;
-use crate::system::{Excitation, OperatingPoint};
+use crate::system::Excitation;
 use crate::tolerances::linearize as tolerances;
 
 /// Derivatives of the equations with respect to the inputs.
@@ -42,9 +42,8 @@ impl Variation<'_> {
     pub(super) fn input_values(&mut self) -> Vec<f64> {
         let mut u = vec![0.0; self.excitations.len()];
         if !u.is_empty() {
-            let LinearizationPoint { t, q, v, vdot, lambda, .. } = &self.point;
-            let (t, Dynamics { system, scratch, .. }) = (*t, &mut self.dynamics);
-            system.input_values(OperatingPoint { t, q, v, vdot, lambda }, &mut u, scratch);
+            let Dynamics { system, scratch, .. } = &mut self.dynamics;
+            system.input_values(self.point.at(), &mut u, scratch);
         }
         u
     }

@@ -19,7 +19,7 @@ pub fn kinks(system: &dyn MechanicalSystem, state: &State) -> Result<Vec<Warning
     }
     let mut variation = Variation::new(system, state.t, &state.q, &state.v)?;
     let (point, scratch) = (variation.point, &mut variation.dynamics.scratch);
-    let at = OperatingPoint { t: point.t, q: &point.q, v: &point.v, vdot: &point.vdot, lambda: &point.lambda };
+    let at = point.at();
     let mut arguments = vec![Rate::fixed(0.0); switches.len()];
     system.switching(at, &mut arguments, scratch);
     let pieces = switches.iter().zip(&arguments).map(|(switch, argument)| switch.thresholds.piece(argument.re));

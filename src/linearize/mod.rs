@@ -39,9 +39,9 @@ mod visible;
 
 #[doc(hidden)]
 pub use against::{Against, Fate, against, both, branch_places};
-#[doc(hidden)]
-pub use along::tighten;
 pub use along::{State, states};
+#[doc(hidden)]
+pub use along::{tighten, within_run};
 #[doc(hidden)]
 pub use amplification::{amplification, amplified};
 #[doc(hidden)]

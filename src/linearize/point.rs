@@ -2,7 +2,7 @@
 
 use crate::formulation::Dynamics;
 use crate::math::largest;
-use crate::system::Spin;
+use crate::system::{OperatingPoint, Spin};
 use crate::tolerances::linearize as tolerances;
 
 /// A state with its accelerations and multipliers.
@@ -35,6 +35,11 @@ pub struct LinearizationPoint {
 }
 
 impl LinearizationPoint {
+    /// The state as systems take it.
+    pub(super) fn at(&self) -> OperatingPoint<'_> {
+        OperatingPoint { t: self.t, q: &self.q, v: &self.v, vdot: &self.vdot, lambda: &self.lambda }
+    }
+
     /// The state whose terms and solution `dynamics` contains, with its K.
     pub(super) fn new(dynamics: &Dynamics, k: &[f64], t: f64, q: &[f64], v: &[f64]) -> Self {
         let (terms, scales) = (&dynamics.terms, dynamics.system.scales());

@@ -3,7 +3,7 @@
 use super::entry::{Built, Request};
 use super::{Complex, Kind, Matrix, Mode, Variation};
 use crate::error::{Error, Result, clock};
-use crate::math::eigen::{ComplexMatrix, Deflation, Unsolved, eigen, finite, generalized};
+use crate::math::eigen::{ComplexMatrix, Deflation, Eigen, Unsolved, eigen, finite, generalized};
 use crate::tolerances::linearize as tolerances;
 
 /// Eigenvalues with eigenvectors.
@@ -27,23 +27,10 @@ pub(super) struct Spectrum {
 pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Request) -> Result<Spectrum> {
     let t = variation.point.t;
     let solved = solve(built, request).map_err(|unsolved| refused(t, &unsolved))?;
-    let n = variation.system().dimensions();
-    let shapes = complex(&built.shapes(n)) * &solved.right;
-    let weighed = complex(&variation.mass()) * &shapes;
+    let shapes = complex(&built.shapes(variation.system().dimensions())) * &solved.right;
+    let weighed = weighed(variation, &shapes);
     let (kinds, off_constraints) = kinds(variation, &solved.values, &shapes, &weighed)?;
-    let parts =
-        |i: usize| solved.participation.as_ref().map_or(Vec::new(), |all| all.column(i).iter().copied().collect());
-    let outputs = complex(&built.c) * &solved.right;
-    // States xi have no energy.
-    let moving = |i: usize| shapes.column(i).into_iter().zip(weighed.column(i)).take(n.moving());
-    let column = |matrix: &ComplexMatrix, i: usize| matrix.column(i).iter().copied().collect();
-    let mut modes: Vec<Mode> = (0..solved.values.len())
-        .map(|i| {
-            let energy = moving(i).map(|(x, mx)| (x.conj() * mx).re).collect();
-            let shape = column(&shapes, i);
-            rounded(variation, mode((solved.values[i], kinds[i]), shape, column(&outputs, i), parts(i), energy))
-        })
-        .collect();
+    let mut modes = modes(variation, built, &solved, (&shapes, &weighed), &kinds);
     modes.sort_by_key(|mode| mode.kind);
     let value = (Complex::new(f64::INFINITY, 0.0), Kind::Infinite);
     let infinite = mode(value, Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -52,31 +39,41 @@ pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Reque
 }
 
 /// Returns the modes of a model without E all of which are physical, their vectors in its states, and the condition
-/// number of these. The mass is used as it is stored.
+/// number of these.
 pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode>, ComplexMatrix, f64), Unsolved> {
-    let found = eigen(&built.a)?;
-    let parts = parts(&found.left, &found.right);
-    let n = variation.system().dimensions();
-    let shapes = complex(&built.shapes(n)) * &found.right;
-    let outputs = complex(&built.c) * &found.right;
-    let (mass, values) = (&variation.dynamics.structure.mass, &variation.dynamics.terms.mass);
+    let solved = solve_plain(built)?;
+    let shapes = complex(&built.shapes(variation.system().dimensions())) * &solved.right;
+    let weighed = weighed(variation, &shapes);
+    let modes = modes(variation, built, &solved, (&shapes, &weighed), &vec![Kind::Physical; solved.values.len()]);
+    Ok((modes, solved.right, solved.conditioning))
+}
+
+/// M X, by the entries of M.
+fn weighed(variation: &Variation, shapes: &ComplexMatrix) -> ComplexMatrix {
+    let [re, im] = [shapes.map(|x| x.re), shapes.map(|x| x.im)].map(|part| variation.mass_times(&part));
+    re.zip_map(&im, Complex::new)
+}
+
+/// The modes with their shapes, and these times M.
+fn modes(
+    variation: &Variation,
+    built: &Built,
+    solved: &Solved,
+    (shapes, weighed): (&ComplexMatrix, &ComplexMatrix),
+    kinds: &[Kind],
+) -> Vec<Mode> {
+    let moving = variation.system().dimensions().moving();
+    let outputs = complex(&built.c) * &solved.right;
+    let column = |matrix: &ComplexMatrix, i: usize| matrix.column(i).iter().copied().collect();
     let of = |(i, value): (usize, &Complex<f64>)| {
-        let shape: Vec<Complex<f64>> = shapes.column(i).iter().copied().collect();
-        let mut energy = vec![0.0; shape.len()];
-        for part in [|x: &Complex<f64>| x.re, |x: &Complex<f64>| x.im] {
-            let x: Vec<f64> = shape.iter().map(part).collect();
-            let mut weighed = vec![0.0; x.len()];
-            mass.multiply_symmetric(values, &x, &mut weighed);
-            energy.iter_mut().zip(x.iter().zip(weighed)).for_each(|(energy, (x, mx))| *energy += x * mx);
-        }
+        let parts = solved.participation.as_ref();
+        let parts = parts.map_or(Vec::new(), |all| all.column(i).iter().copied().collect());
         // States xi have no energy.
-        energy.truncate(n.moving());
-        let participation = parts.column(i).iter().copied().collect();
-        let outputs = outputs.column(i).iter().copied().collect();
-        rounded(variation, mode((*value, Kind::Physical), shape, outputs, participation, energy))
+        let energy = shapes.column(i).into_iter().zip(weighed.column(i)).take(moving);
+        let energy = energy.map(|(x, mx)| (x.conj() * mx).re).collect();
+        rounded(variation, mode((*value, kinds[i]), column(shapes, i), column(&outputs, i), parts, energy))
     };
-    let modes = found.values.iter().enumerate().map(of).collect();
-    Ok((modes, found.right, found.conditioning))
+    solved.values.iter().enumerate().map(of).collect()
 }
 
 /// The mode with its shape scaled to a largest component of 1.
@@ -108,17 +105,14 @@ fn rounded(variation: &Variation, mode: Mode) -> Mode {
     Mode { rounding, ..mode }
 }
 
+/// Solves a model without E.
+fn solve_plain(built: &Built) -> Result<Solved, Unsolved> {
+    let Eigen { values, right, left, conditioning } = eigen(&built.a)?;
+    Ok(Solved { values, participation: Some(parts(&left, &right)), right, conditioning })
+}
+
 fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
-    let Some(e) = &built.e else {
-        let found = eigen(&built.a)?;
-        let participation = Some(parts(&found.left, &found.right));
-        return Ok(Solved {
-            values: found.values,
-            right: found.right,
-            participation,
-            conditioning: found.conditioning,
-        });
-    };
+    let Some(e) = &built.e else { return solve_plain(built) };
     let by = match request.method.text("solver") {
         Some("qz") => {
             let found = generalized(&built.a, e)?.split(built.infinite)?;

@@ -127,8 +127,7 @@ impl<'a> Variation<'a> {
     /// Evaluates K, C and Gdd at the operating point again.
     pub(super) fn load_point(&mut self) -> Result<()> {
         let point = self.point.clone();
-        let at = OperatingPoint { t: point.t, q: &point.q, v: &point.v, vdot: &point.vdot, lambda: &point.lambda };
-        self.load(at).map(|_| ()).map_err(|halt| at_state(point.t, &halt))
+        self.load(point.at()).map(|_| ()).map_err(|halt| at_state(point.t, &halt))
     }
 
     /// Returns the mechanical system.
@@ -255,9 +254,7 @@ impl<'a> Variation<'a> {
         let system = self.system();
         let n = system.dimensions();
         let mut tangent = OutputTangent::new(self.outputs, n.v, n.lambda, self.excitations.len());
-        let LinearizationPoint { t, q, v, vdot, lambda, .. } = &self.point;
-        let at = OperatingPoint { t: *t, q, v, vdot, lambda };
-        match system.output_tangent(at, &mut tangent, &mut self.dynamics.scratch) {
+        match system.output_tangent(self.point.at(), &mut tangent, &mut self.dynamics.scratch) {
             true => Ok(tangent),
             false => Err(Error::input("these equations give no derivatives of their outputs")
                 .hint("implement MechanicalSystem::output_tangent, or leave the outputs out")),
