@@ -123,17 +123,23 @@ impl WorkPrecision {
     /// Returns the Pareto front: the indices of runs than which none is both cheaper and more accurate, from cheap to
     /// expensive.
     pub fn front(&self) -> Vec<usize> {
-        let known = |i: usize| Some((i, self.cells[i].cost?, self.cells[i].error()?));
-        let mut all: Vec<(usize, f64, f64)> = (0..self.cells.len()).filter_map(known).collect();
-        all.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2)));
-        let mut best = f64::INFINITY;
-        all.retain(|(_, _, error)| {
-            let is_better = *error < best;
-            best = best.min(*error);
-            is_better
-        });
-        all.into_iter().map(|(i, ..)| i).collect()
+        let known = |i: usize| Some((i, (self.cells[i].cost?, self.cells[i].error()?)));
+        front((0..self.cells.len()).filter_map(known), |known| known.1).into_iter().map(|(i, _)| i).collect()
     }
+}
+
+/// Returns the items than which none is lower in both numbers, the Pareto front, by the first.
+pub fn front<T>(items: impl Iterator<Item = T>, of: impl Fn(&T) -> (f64, f64)) -> Vec<T> {
+    let mut all: Vec<T> = items.collect();
+    let order = |(a, b): (f64, f64), (c, d): (f64, f64)| a.total_cmp(&c).then(b.total_cmp(&d));
+    all.sort_by(|one, other| order(of(one), of(other)));
+    let mut least = f64::INFINITY;
+    all.retain(|item| {
+        let is_less = of(item).1 < least;
+        least = least.min(of(item).1);
+        is_less
+    });
+    all
 }
 
 /// Returns the order of preference, less is better: decades of drift, then how well the method is known.

@@ -27,7 +27,7 @@ mod work;
 
 pub use advice::Recommendation;
 #[doc(hidden)]
-pub use advice::{Lack, cheapest_by_method};
+pub use advice::{Lack, cheapest_by_method, front};
 pub use cell::{Cell, Outcome};
 #[doc(hidden)]
 pub use cell::{Held, median};

@@ -4,7 +4,6 @@ use super::{PROJECTED, build};
 use crate::error::{Error, Result};
 use crate::linearize::entry::Entry;
 use crate::linearize::{Matrix, Perturbation, Response, Variation};
-use crate::math::eigen::pseudo_inverse;
 use crate::method_spec::OptionDoc;
 
 /// With P = I - G^+ G, which projects forces on the directions that are free,
@@ -15,7 +14,7 @@ use crate::method_spec::OptionDoc;
 ///
 /// the underlying ODE of Baumgarte's equations with a mass matrix that is well conditioned, also with redundant rows.
 /// mu is the mean of diag(M). Without gains the spurious eigenvalues are 2 m zeros. Source: Masarati, Proc. Inst. Mech.
-/// Eng. K 225 (2011) 12-33. Cost: the singular values of G, an LU of size n and the eigenvalues of a 2 n matrix.
+/// Eng. K 225 (2011) 12-33. Cost: a QR of G^T, an LU of size n and the eigenvalues of a 2 n matrix.
 pub const FORCE_PROJECTION: Entry = Entry {
     name: "force_projection",
     about: "forces projected on the free directions: exact, with 2 m spurious eigenvalues (zero without gains)",
@@ -39,23 +38,24 @@ fn response(variation: &mut Variation, perturbation: &Perturbation, held: [f64; 
     let kept = variation.independent_rows();
     let g = all.select_rows(&kept);
     let rows = perturbation.rows(variation, held).select_rows(&kept);
-    let inverse = inverted(&g, kept.len())?;
-    let along = &inverse * &g;
+    // G^T = Q R: G^+ G = Q Q^T and G^+ = Q R^-T.
+    let (q, r) = g.transpose().qr().unpack();
+    let along = &q * q.transpose();
     let project = Matrix::identity(g.ncols(), g.ncols()) - &along;
     let mu = mass.trace() / (g.ncols().max(1) as f64);
     let lu = (&project * &mass + along * mu).lu();
-    let solve = |right: Matrix| {
-        let error =
-            || Error::input("the motion is not determined: a free direction has no mass").hint("give the body mass");
-        lu.solve(&right).ok_or_else(error)
-    };
+    let error =
+        || Error::input("the motion is not determined: a free direction has no mass").hint("give the body mass");
     let force = perturbation.force(variation);
-    let vdot = solve(&project * &force + &inverse * rows * mu)?;
-    // Multipliers of least norm, over all rows.
-    let reaction = inverted(&all, kept.len())?.transpose();
-    Ok(Response { lambda: reaction * (force - mass * &vdot), vdot })
+    let held = &q * solve_transposed(&r, &rows)?;
+    let vdot = lu.solve(&(&project * &force + held * mu)).ok_or_else(error)?;
+    // Multipliers of least norm, over all rows: G Q = Q_2 R_2, lambda = Q_2 R_2^-T Q^T (f - M v').
+    let (basis, r) = (all * &q).qr().unpack();
+    let lambda = basis * solve_transposed(&r, &(q.transpose() * (force - mass * &vdot)))?;
+    Ok(Response { lambda, vdot })
 }
 
-fn inverted(g: &Matrix, rank: usize) -> Result<Matrix> {
-    pseudo_inverse(g, rank).map_err(|unsolved| Error::input(unsolved.to_string()))
+/// R^-T x.
+fn solve_transposed(r: &Matrix, x: &Matrix) -> Result<Matrix> {
+    r.transpose().solve_lower_triangular(x).ok_or_else(|| Error::input("the constraints depend on each other"))
 }

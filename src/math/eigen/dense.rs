@@ -58,16 +58,6 @@ pub fn svd(matrix: &Matrix) -> Result<Svd, Unsolved> {
     Ok(Svd { u: copy(svd.U()), s, v: copy(svd.V()) })
 }
 
-/// Pseudo-inverse A^+ of a matrix of known rank, by its largest singular values.
-pub fn pseudo_inverse(matrix: &Matrix, rank: usize) -> Result<Matrix, Unsolved> {
-    let Svd { u, s, v } = svd(matrix)?;
-    let mut scaled = v.columns(0, rank).into_owned();
-    for (mut column, s) in scaled.column_iter_mut().zip(&s) {
-        column /= *s;
-    }
-    Ok(scaled * u.columns(0, rank).transpose())
-}
-
 /// Singular values in descending order.
 pub fn singular_values(matrix: &ComplexMatrix) -> Result<Vec<f64>, Unsolved> {
     faer::set_global_parallelism(Par::Seq);

@@ -21,7 +21,7 @@ mod unsolved;
 
 pub use assignment::assign;
 pub use deflate::{Deflated, Deflation, Finite, deflate, finite};
-pub use dense::{pseudo_inverse, singular_values};
+pub use dense::singular_values;
 pub use exponential::expm;
 pub use krylov::{Options, Partial, Scalar, nearest};
 pub use pencil::{Generalized, Split, generalized};

@@ -1,8 +1,7 @@
 //! Models and methods together: the error of the model and that of the method, against cost.
 
-use super::figure::front;
 use super::{accuracy, milliseconds};
-use crate::compare::work_precision::{Cell, WorkPrecision};
+use crate::compare::work_precision::{Cell, WorkPrecision, front};
 use crate::error::{Result, percent};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::{Table, cell as number, table, velocities};
@@ -139,7 +138,7 @@ const SAME: f64 = 0.02;
 /// tolerance down to the error of the model, and each alone. `None` where no run was completed.
 pub fn auto_figure(summary: &ModelsAndMethods) -> Option<Figure> {
     let points = |model: &MeasuredModel, error: fn((&Cell, f64, f64)) -> Option<f64>| -> Vec<(f64, f64)> {
-        front(model.runs().filter_map(|run| Some((run.1, error(run)?))))
+        front(model.runs().filter_map(|run| Some((run.1, error(run)?))), |point| *point)
     };
     let together = |model: &MeasuredModel| {
         let mut line = points(model, |(_, _, both)| Some(both));

@@ -1,6 +1,6 @@
 //! Error and drift over CPU time.
 
-use crate::compare::work_precision::{Cell, Held, WorkPrecision, cheapest_by_method};
+use crate::compare::work_precision::{Cell, Held, WorkPrecision, cheapest_by_method, front};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 
 /// Number of methods in colour; the others are crosses.
@@ -55,25 +55,14 @@ fn panel(measured: &WorkPrecision, named: &[usize], x: Quantity, y: Quantity) ->
     let point = |cell: &Cell| Some((x.1(cell)?, y.1(cell)?));
     let is_named = |cell: &Cell| named.iter().any(|place| cell.is_of(&measured.cells[*place].method));
     let others = measured.cells.iter().filter(|cell| !is_named(cell)).filter_map(point).collect();
-    let panel = Panel::new(axis(x), axis(y))
-        .series(Series::line("other methods", others).style(Style::Crosses))
-        .series(Series::line("Pareto front", front(measured.cells.iter().filter_map(point))).style(Style::Guide));
+    let panel =
+        Panel::new(axis(x), axis(y)).series(Series::line("other methods", others).style(Style::Crosses)).series(
+            Series::line("Pareto front", front(measured.cells.iter().filter_map(point), |point| *point))
+                .style(Style::Guide),
+        );
     named.iter().enumerate().fold(panel, |panel, (color, place)| {
         let method = &measured.cells[*place].method;
         let points = measured.cells.iter().filter(|cell| cell.is_of(method)).filter_map(point).collect();
         panel.series(Series::line(method.triple(), points).style(Style::LineDots).color(color))
     })
-}
-
-/// Returns the Pareto front of points, less is better in both.
-pub(super) fn front(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-    let mut front: Vec<(f64, f64)> = points.collect();
-    front.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut least = f64::INFINITY;
-    front.retain(|point| {
-        let is_less = point.1 < least;
-        least = least.min(point.1);
-        is_less
-    });
-    front
 }
