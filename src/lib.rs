@@ -113,6 +113,7 @@ pub mod error;
 pub mod files;
 pub mod force;
 pub mod formulation;
+mod forward;
 #[cfg(feature = "urdf")]
 pub mod import;
 pub mod initial;

@@ -5,7 +5,7 @@ use crate::common::driven_pendulum::{self, DrivenPendulum};
 use crate::common::{adaptive, fixed};
 use holonom::math::Scalar;
 use holonom::prepared::{Overrides, PreparedScene};
-use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
+use holonom::simulate::{Method, Outcome, Span, simulate};
 use holonom::system::{Equations, MechanicalSystem, OperatingPoint, Scratch};
 use std::path::Path;
 

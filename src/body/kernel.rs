@@ -4,6 +4,7 @@ use super::flexible::PointShape;
 use super::{
     Bent, Body, BodyKernel, BodyOver, BodyState, Dual6, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, dot, sub,
 };
+use crate::forward::forward;
 use crate::math::{Scalar, Taylor};
 use std::array::from_fn;
 
@@ -108,16 +109,20 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     fn support(&self, _marker: usize) -> Vec<usize> {
         (0..BodyKernel::velocity_names(self).len()).collect()
     }
-    fn mass_pattern(&self) -> Vec<(usize, usize)> {
-        BodyKernel::mass_pattern(self)
+    forward! { BodyKernel =>
+        fn mass_pattern(&self) -> Vec<(usize, usize)>;
+        fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]);
+        fn normalize(&self, q: &mut [f64]);
+        fn oriented(&self) -> bool;
+        fn turning(&self) -> Option<usize>;
+        fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D>;
+        fn freedom(&self) -> Option<Freedom>;
+        fn has_constant_forces(&self) -> bool;
     }
     fn mass(&self, _q: &[f64], values: &mut [f64]) {
         BodyKernel::mass(self, values);
     }
     fn add_stiffness(&self, _values: &mut [f64]) {}
-    fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]) {
-        BodyKernel::own_forces(self, q, v, gravity, f);
-    }
     fn tangent_pattern(&self) -> Vec<(usize, usize)> {
         if BodyKernel::has_constant_forces(self) { Vec::new() } else { BodyKernel::tangent_pattern(self) }
     }
@@ -129,26 +134,8 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     fn dissipation(&self, _v: &[f64]) -> f64 {
         0.0
     }
-    fn normalize(&self, q: &mut [f64]) {
-        BodyKernel::normalize(self, q);
-    }
-    fn oriented(&self) -> bool {
-        BodyKernel::oriented(self)
-    }
-    fn turning(&self) -> Option<usize> {
-        BodyKernel::turning(self)
-    }
-    fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D> {
-        BodyKernel::pose(self, q, v)
-    }
-    fn freedom(&self) -> Option<Freedom> {
-        BodyKernel::freedom(self)
-    }
     fn has_constant_mass(&self) -> bool {
         true
-    }
-    fn has_constant_forces(&self) -> bool {
-        BodyKernel::has_constant_forces(self)
     }
     fn reach(&self) -> f64 {
         self.markers().iter().map(|marker| dot(&marker.offset, &marker.offset).sqrt()).fold(0.0, f64::max)

@@ -2,6 +2,7 @@
 
 use super::{Action, Beam, Force, ForceOver, InputKind, Instant, Motion, Wheel};
 use crate::body::{Dual6, Formula, MarkerId, Wrench};
+use crate::forward::forward;
 use crate::math::expression::Expression;
 use crate::math::{Rate, Scalar, Taylor};
 
@@ -78,20 +79,14 @@ where
         let Value::OfTime(value) = &self.value else { return Some(wheel) };
         Some(Wheel { road: wheel.road + value.eval_held(&[time.t.x], time.regime), ..wheel })
     }
-    fn beam(&self) -> Option<&Beam> {
-        self.inner.beam()
-    }
-    fn takes_small_rotations(&self) -> bool {
-        self.inner.takes_small_rotations()
-    }
-    fn input(&self) -> InputKind {
-        self.inner.input()
+    forward! { .inner =>
+        fn beam(&self) -> Option<&Beam>;
+        fn takes_small_rotations(&self) -> bool;
+        fn input(&self) -> InputKind;
+        fn is_torque(&self) -> bool;
     }
     fn acted(&self, _markers: usize) -> usize {
         self.inner.acted(self.own)
-    }
-    fn is_torque(&self) -> bool {
-        self.inner.is_torque()
     }
     fn switching(&self, input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
         match &self.value {

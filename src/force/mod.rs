@@ -26,6 +26,7 @@ pub(crate) use state_rate::StateRate;
 
 use crate::body::{Build, Dual6, ElementKind, Frame, MOST_MARKERS, MarkerId, Wrench, mistaken, parse_among};
 use crate::error::Result;
+use crate::forward::forward;
 use crate::math::{Rate, Scalar, Taylor, Time};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
@@ -178,26 +179,14 @@ pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send 
 }
 
 impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
-    fn wheel(&self, frames: &Motion<f64, D>, time: Instant<f64>) -> Option<Wheel> {
-        ForceKernel::wheel(self, frames, time)
-    }
-    fn beam(&self) -> Option<&Beam> {
-        ForceKernel::beam(self)
-    }
-    fn takes_small_rotations(&self) -> bool {
-        ForceKernel::takes_small_rotations(self)
-    }
-    fn input(&self) -> InputKind {
-        ForceKernel::input(self)
-    }
-    fn acted(&self, markers: usize) -> usize {
-        ForceKernel::acted(self, markers)
-    }
-    fn is_torque(&self) -> bool {
-        ForceKernel::is_torque(self)
-    }
-    fn switching(&self, input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]) {
-        ForceKernel::switching(self, input, frames, time, out);
+    forward! { ForceKernel =>
+        fn wheel(&self, frames: &Motion<f64, D>, time: Instant<f64>) -> Option<Wheel>;
+        fn beam(&self) -> Option<&Beam>;
+        fn takes_small_rotations(&self) -> bool;
+        fn input(&self) -> InputKind;
+        fn acted(&self, markers: usize) -> usize;
+        fn is_torque(&self) -> bool;
+        fn switching(&self, input: &[Taylor<Rate>; 3], frames: &Motion<Rate, D>, time: Instant<Rate>, out: &mut [Rate]);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Axis, ClosedForm, Joint, JointOver};
 use crate::body::{Dual6, Frame};
+use crate::forward::forward;
 use crate::math::expression::Expression;
 use crate::math::{Rate, Scalar, Taylor, Time};
 
@@ -36,17 +37,13 @@ impl<const D: usize> Joint<D> for Added<D>
 where
     dyn Joint<D>: JointOver<f64, D> + JointOver<Dual6, D>,
 {
-    fn row_names(&self) -> Vec<&'static str> {
-        self.inner.row_names()
+    forward! { .inner =>
+        fn row_names(&self) -> Vec<&'static str>;
+        fn prescribes(&self) -> bool;
+        fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis>;
     }
     fn depends_on_time(&self) -> bool {
         true
-    }
-    fn prescribes(&self) -> bool {
-        self.inner.prescribes()
-    }
-    fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis> {
-        self.inner.joint_axis(first)
     }
     fn closed_form(&self) -> Option<ClosedForm<D>> {
         None

@@ -26,6 +26,7 @@ mod weld;
 
 use crate::body::{Build, Dual6, ElementKind, Frame, MOST_MARKERS, MarkerId, mistaken, parse_among, twist_len};
 use crate::error::Result;
+use crate::forward::forward;
 use crate::math::{Dual, Rate, Scalar, Taylor, Time};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
@@ -161,23 +162,13 @@ impl<K: JointKernel<D>, S: Scalar, const D: usize> JointOver<S, D> for K {
 }
 
 impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
-    fn row_names(&self) -> Vec<&'static str> {
-        JointKernel::row_names(self)
-    }
-    fn depends_on_time(&self) -> bool {
-        JointKernel::depends_on_time(self)
-    }
-    fn prescribes(&self) -> bool {
-        JointKernel::prescribes(self)
-    }
-    fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis> {
-        JointKernel::joint_axis(self, first)
-    }
-    fn closed_form(&self) -> Option<ClosedForm<D>> {
-        JointKernel::closed_form(self)
-    }
-    fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]) {
-        JointKernel::switching(self, frames, time, out);
+    forward! { JointKernel =>
+        fn row_names(&self) -> Vec<&'static str>;
+        fn depends_on_time(&self) -> bool;
+        fn prescribes(&self) -> bool;
+        fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis>;
+        fn closed_form(&self) -> Option<ClosedForm<D>>;
+        fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]);
     }
 }
 

@@ -56,16 +56,6 @@ use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use nalgebra::DMatrix;
 
-/// Methods of a system, each by that of the system in `$inner`.
-macro_rules! forward {
-    ($inner:ident: $(fn $name:ident(&self $(, $argument:ident: $type:ty)*) $(-> $output:ty)?;)*) => {
-        $(fn $name(&self $(, $argument: $type)*) $(-> $output)? {
-            self.$inner.$name($($argument),*)
-        })*
-    };
-}
-pub(crate) use forward;
-
 /// Numbers of coordinates, velocities and constraints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dimensions {

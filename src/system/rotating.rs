@@ -3,8 +3,9 @@
 use super::spin::{Block, Placement, Rotation, Spin};
 use super::{
     Column, Dimensions, Energy, Excitation, Group, LeviCivita, Limited, MechanicalSystem, Names, Need, OperatingPoint,
-    OutputTangent, Scratch, Structure, Tangent, Terms, forward,
+    OutputTangent, Scratch, Structure, Tangent, Terms,
 };
+use crate::forward::forward;
 use crate::math::Rate;
 use crate::math::expression::Switch;
 use crate::math::kkt::Pattern;
@@ -103,6 +104,12 @@ impl<'a> Rotating<'a> {
         self.added(vdot, |placement| self.spin.acceleration(placement, q, v))
     }
 
+    /// What `ask` gives for the inner system at its t, v and v'.
+    fn at<T>(&self, at: OperatingPoint, ask: impl FnOnce(OperatingPoint) -> T) -> T {
+        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
+        ask(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at })
+    }
+
     fn added(&self, to: &[f64], what: impl Fn(Placement) -> [f64; 3]) -> Vec<f64> {
         let mut sum = to.to_vec();
         for &placement in &self.placements {
@@ -177,8 +184,7 @@ fn block_of(placements: &[Placement], j: usize) -> Option<(usize, usize)> {
 }
 
 impl MechanicalSystem for Rotating<'_> {
-    forward! {
-        inner:
+    forward! { .inner =>
         fn dimensions(&self) -> Dimensions;
         fn bracket(&self, v: &[f64], x: &[f64], out: &mut [f64]);
         fn levi_civita(&self, at: OperatingPoint, connection: &mut LeviCivita, scratch: &mut Scratch) -> bool;
@@ -271,13 +277,11 @@ impl MechanicalSystem for Rotating<'_> {
     }
 
     fn outputs(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {
-        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
-        self.inner.outputs(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at }, out, scratch);
+        self.at(at, |at| self.inner.outputs(at, out, scratch));
     }
 
     fn output_tangent(&self, at: OperatingPoint, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
-        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
-        if !self.inner.output_tangent(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at }, tangent, scratch) {
+        if !self.at(at, |at| self.inner.output_tangent(at, tangent, scratch)) {
             return false;
         }
         let slopes = self.slopes(at.q, at.v);
@@ -306,8 +310,7 @@ impl MechanicalSystem for Rotating<'_> {
     }
 
     fn switching(&self, at: OperatingPoint, out: &mut [Rate], scratch: &mut Scratch) {
-        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
-        self.inner.switching(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at }, out, scratch);
+        self.at(at, |at| self.inner.switching(at, out, scratch));
     }
 }
 

@@ -1,8 +1,9 @@
 //! A system with a pulse added to one of its inputs.
 
 use super::Pulse;
+use crate::forward::forward;
 use crate::system::{
-    Dimensions, Excitation, Group, MechanicalSystem, Names, Need, Rotation, Scratch, Structure, Terms, forward,
+    Dimensions, Excitation, Group, MechanicalSystem, Names, Need, Rotation, Scratch, Structure, Terms,
 };
 use nalgebra::DMatrix;
 
@@ -37,8 +38,7 @@ impl<'a> Pushed<'a> {
 }
 
 impl MechanicalSystem for Pushed<'_> {
-    forward! {
-        system:
+    forward! { .system =>
         fn dimensions(&self) -> Dimensions;
         fn structure(&self) -> Structure;
         fn names(&self) -> Names;
