@@ -72,8 +72,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
         args.talk.warn(&moving(&model));
         let frequencies = frequencies(&args, &model)?;
         let response = respond(&prepared, &model, &chosen, frequencies);
-        files.push(write(&args, &prepared, &response, &mut folder)?);
-        args.talk.say(&response.text())?;
+        let text = response.text();
+        files.push(write(&args, &prepared, response, &mut folder)?);
+        args.talk.say(&text)?;
     }
     args.talk.conclude_all(folder, &files)?;
     Ok(ExitCode::SUCCESS)
@@ -160,7 +161,7 @@ fn respond(prepared: &PreparedScene, model: &LinearModel, chosen: &Chosen, frequ
 fn write(
     args: &Args,
     prepared: &PreparedScene,
-    response: &FrequencyResponse,
+    response: FrequencyResponse,
     folder: &mut Folder,
 ) -> Result<Sealed<Repeatable<ResponseFile>>> {
     let stem = format!("bode-{}", cell(response.t));

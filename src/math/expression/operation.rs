@@ -177,20 +177,9 @@ impl Two {
             Two::AtLeast => truth(piece >= 1),
             Two::Equal => truth(piece == 1),
             Two::Unequal => truth(piece != 1),
-            Two::Min => {
-                if piece == 2 {
-                    b
-                } else {
-                    a
-                }
-            }
-            Two::Max => {
-                if piece == 0 {
-                    b
-                } else {
-                    a
-                }
-            }
+            Two::Min if piece == 2 => b,
+            Two::Max if piece == 0 => b,
+            Two::Min | Two::Max => a,
             Two::Mod => a - b * whole_below(piece),
             smooth => smooth.apply(a, b),
         }
@@ -313,32 +302,12 @@ mod tests {
     #[test]
     fn not_a_number_goes_through_every_operation() {
         use {One::*, Two::*};
-        let one = [
-            Neg,
-            Not,
-            Plus(1.0),
-            Power(-2),
-            Power(3),
-            Sin,
-            Cos,
-            Tan,
-            Asin,
-            Acos,
-            Atan,
-            Sinh,
-            Cosh,
-            Tanh,
-            Exp,
-            Ln,
-            Log10,
-            Sqrt,
-            Abs,
-            Sign,
-            Step,
-            Smoothstep,
-            Floor,
+        let numbered = [Plus(1.0), Power(-2), Power(3)];
+        let named = [
+            Neg, Not, Sin, Cos, Tan, Asin, Acos, Atan, Sinh, Cosh, Tanh, Exp, Ln, Log10, Sqrt, Abs, Sign, Step,
+            Smoothstep, Floor,
         ];
-        one.iter().for_each(|f| assert!(f.apply(f64::NAN).is_nan(), "{f:?}"));
+        numbered.iter().chain(&named).for_each(|f| assert!(f.apply(f64::NAN).is_nan(), "{f:?}"));
         let two = [
             Add, Sub, Mul, Div, Pow, Less, AtMost, Greater, AtLeast, Equal, Unequal, And, Or, Atan2, Min, Max, Hypot,
             Mod,

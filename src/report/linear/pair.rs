@@ -2,9 +2,10 @@
 
 use crate::linearize::Complex;
 use crate::tolerances::report as tolerances;
+use serde::Serialize;
 
 /// Response of an output to an input, at each frequency.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Response {
     /// Name of the input.
     pub input: String,
@@ -15,6 +16,7 @@ pub struct Response {
     /// Unit of the output.
     pub output_unit: String,
     /// Values, in output unit per input unit.
+    #[serde(skip)]
     pub values: Vec<Complex<f64>>,
 }
 

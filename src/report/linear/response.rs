@@ -5,9 +5,10 @@ use super::pair::{Response, is_finite};
 use crate::error::{Result, significant};
 use crate::report::{Table, cell, table};
 use serde::Serialize;
+use std::mem::take;
 
 /// Frequency responses of a model.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct FrequencyResponse {
     /// Name of the scene.
     pub scene: String,
@@ -20,43 +21,31 @@ pub struct FrequencyResponse {
     /// Chart of the coordinates.
     pub chart: String,
     /// Frequencies, Hz.
+    #[serde(rename = "frequency_hz")]
     pub frequencies: Vec<f64>,
     /// Responses of each output to each input; NaN at a pole.
+    #[serde(skip)]
     pub responses: Vec<Response>,
 }
 
 /// Contents of `bode-T.json`.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Serialize)]
 pub struct ResponseFile {
-    /// Name of the scene.
-    pub scene: String,
-    /// Time of the state, s.
-    pub t: f64,
-    /// True if the state is an equilibrium.
-    pub equilibrium: bool,
-    /// Method with its options.
-    pub method: String,
-    /// Chart of the coordinates.
-    pub chart: String,
-    /// Frequencies, Hz.
-    pub frequency_hz: Vec<f64>,
-    /// Frequencies of poles, at which there is no response, Hz.
-    pub poles_hz: Vec<f64>,
-    /// Responses of each output to each input.
-    pub responses: Vec<PairFile>,
+    #[serde(flatten)]
+    of: FrequencyResponse,
+    poles_hz: Vec<f64>,
+    responses: Vec<PairFile>,
 }
 
 /// Response of an output to an input, at each frequency; none at a pole.
-#[derive(Clone, Debug, Serialize)]
-pub struct PairFile {
-    pub input: String,
-    pub output: String,
-    pub input_unit: String,
-    pub output_unit: String,
-    pub re: Vec<Option<f64>>,
-    pub im: Vec<Option<f64>>,
-    pub magnitude: Vec<Option<f64>>,
-    pub phase_deg: Vec<Option<f64>>,
+#[derive(Serialize)]
+struct PairFile {
+    #[serde(flatten)]
+    of: Response,
+    re: Vec<Option<f64>>,
+    im: Vec<Option<f64>>,
+    magnitude: Vec<Option<f64>>,
+    phase_deg: Vec<Option<f64>>,
 }
 
 impl FrequencyResponse {
@@ -74,20 +63,21 @@ impl FrequencyResponse {
         table(["frequency_hz".to_string()].into_iter().chain(names), rows)
     }
 
-    /// Returns the contents of `bode-T.json`.
-    pub fn file(&self) -> ResponseFile {
+    /// Frequencies of poles, at which there is no response, Hz.
+    fn poles(&self) -> Vec<f64> {
         let is_pole = |i: &usize| self.responses.iter().any(|x| x.values.get(*i).is_some_and(|x| !is_finite(x)));
-        let poles = (0..self.frequencies.len()).filter(is_pole).map(|i| self.frequencies[i]);
-        ResponseFile {
-            scene: self.scene.clone(),
-            t: self.t,
-            equilibrium: self.equilibrium,
-            method: self.method.clone(),
-            chart: self.chart.clone(),
-            poles_hz: poles.collect(),
-            frequency_hz: self.frequencies.clone(),
-            responses: self.responses.iter().map(pair).collect(),
-        }
+        (0..self.frequencies.len()).filter(is_pole).map(|i| self.frequencies[i]).collect()
+    }
+
+    /// Returns the contents of `bode-T.json`.
+    pub fn file(mut self) -> ResponseFile {
+        let poles_hz = self.poles();
+        let pair = |of: Response| {
+            let [re, im, magnitude, phase_deg] = of.parts();
+            PairFile { of, re, im, magnitude, phase_deg }
+        };
+        let responses = take(&mut self.responses).into_iter().map(pair).collect();
+        ResponseFile { of: self, poles_hz, responses }
     }
 
     /// Returns each pair with its response at the lowest frequency and at its largest.
@@ -102,7 +92,7 @@ impl FrequencyResponse {
             self.method,
             self.chart
         );
-        for pole in self.file().poles_hz {
+        for pole in self.poles() {
             text += &format!("  NO RESPONSE at {} Hz: the model has a pole there\n", significant(pole, 6));
         }
         let at = format!("at {from} Hz");
@@ -131,19 +121,5 @@ impl FrequencyResponse {
         let first = sizes.first().copied().unwrap_or_default();
         let (at, largest) = sizes.iter().copied().fold(first, |most, next| if next.1 > most.1 { next } else { most });
         [response.pair(), response.unit(), significant(first.1, 5), significant(largest, 5), significant(at, 5)]
-    }
-}
-
-fn pair(response: &Response) -> PairFile {
-    let [re, im, magnitude, phase_deg] = response.parts();
-    PairFile {
-        input: response.input.clone(),
-        output: response.output.clone(),
-        input_unit: response.input_unit.clone(),
-        output_unit: response.output_unit.clone(),
-        re,
-        im,
-        magnitude,
-        phase_deg,
     }
 }

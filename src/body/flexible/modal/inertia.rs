@@ -148,13 +148,8 @@ fn at_rest<const D: usize>(piece: &Piece<D>) -> Mat<f64> {
         p[(r + 1) % 3][(r + 2) % 3] - p[(r + 2) % 3][(r + 1) % 3]
     };
     let entry = |row: usize, col: usize| match (row, col) {
-        (i, j) if i < D => {
-            if i == j {
-                piece.mass
-            } else {
-                0.0
-            }
-        }
+        (i, j) if i < D && i == j => piece.mass,
+        (i, _) if i < D => 0.0,
         (i, j) if i < first && j < D => cross(&unit(turns[i - D]), &in_space(&piece.moments[0]))[j],
         (i, j) if i < first => inertia(turns[i - D], turns[j - D]),
         (i, j) if j < D => piece.moments[1 + i - first][j],
