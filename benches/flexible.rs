@@ -7,7 +7,7 @@
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::Scene;
-use holonom::simulate::{Method, Observation, Sink, Span, simulate};
+use holonom::simulate::{Method, Span, simulate};
 use serde_json::json;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};

@@ -12,7 +12,7 @@ use holonom::formulation::Dynamics;
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::{Scene, generate};
-use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
+use holonom::simulate::{Method, Outcome, Span, simulate};
 use holonom::system::{MechanicalSystem, Need};
 use std::cell::RefCell;
 use std::path::Path;
