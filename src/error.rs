@@ -92,6 +92,11 @@ impl Error {
         Error::Input(Box::new(Input { message: message.into(), ..Input::default() }))
     }
 
+    /// There is no `name` of this sort; the hint is the most similar known one.
+    pub fn unknown<'a>(what: &str, name: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
+        Error::input(format!("there is no {what} `{name}`")).hint(suggest(name, known))
+    }
+
     /// An error of a file that cannot be read or used.
     pub fn file(path: impl Into<PathBuf>, problem: impl ToString) -> Self {
         Error::File { path: path.into(), problem: problem.to_string() }
@@ -249,6 +254,12 @@ pub fn suggest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Str
     known.truncate(MOST_NAMES);
     let tail = if more > 0 { format!(" and {more} more") } else { String::new() };
     format!("choose one of {}{tail}", known.join(", "))
+}
+
+/// The place of `name` among the known names of this sort; else [`Error::unknown`].
+pub fn find<'a>(what: &str, name: &str, mut known: impl Iterator<Item = &'a str> + Clone) -> Result<usize> {
+    let names = known.clone();
+    known.position(|known| known == name).ok_or_else(|| Error::unknown(what, name, names))
 }
 
 /// Largest number of names that a message lists.

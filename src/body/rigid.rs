@@ -7,7 +7,7 @@ use super::rigid_planar::RigidPlanar;
 use super::rigid_spatial::RigidSpatial;
 use super::shapes::{MassProperties, Shape};
 use super::{BodySpec, Build, Built, Marker, cross};
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::rotation::{Matrix3, matrix_from_quaternion, quaternion_from_axes};
 use crate::tolerances::body as tolerances;
@@ -307,9 +307,7 @@ impl Rigid {
         let Some(free) = &self.free else { return Ok((0..names.len()).collect()) };
         for (i, name) in free.iter().enumerate() {
             if !names.contains(&name.as_str()) {
-                return Err(Error::input(format!("there is no coordinate `{name}`"))
-                    .under(format!("free[{i}]"))
-                    .hint(suggest(name, names.iter().copied())));
+                return Err(Error::unknown("coordinate", name, names.iter().copied()).under(format!("free[{i}]")));
             }
         }
         if free.is_empty() {

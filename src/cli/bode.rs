@@ -2,7 +2,7 @@
 
 use super::common::{MethodOptions, Output, SceneOptions, Talk, positive};
 use super::linear::{ModelOptions, StateOptions};
-use crate::error::{Error, Result, Warning, clock, short, suggest};
+use crate::error::{Error, Result, Warning, clock, find, short};
 use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_response};
 use crate::prepared::PreparedScene;
 use crate::report::linear::{FrequencyResponse, Response, ResponseFile, bode_figure};
@@ -112,13 +112,11 @@ fn choose(what: &str, named: &[String], known: &[Column]) -> Result<Vec<usize>> 
         return Err(Error::input(format!("the scene has no {what}s, so there is no frequency response"))
             .hint(format!("add to the scene {example}")));
     }
-    let names = || known.iter().map(|column| column.name.as_str());
-    let find = |name: &String| {
-        names().position(|known| known == name).ok_or_else(|| {
-            Error::input(format!("there is no {what} `{name}`")).under(format!("--{what}")).hint(suggest(name, names()))
-        })
+    let place = |name: &String| {
+        let known = known.iter().map(|column| column.name.as_str());
+        find(what, name, known).map_err(|error| error.under(format!("--{what}")))
     };
-    if named.is_empty() { Ok((0..known.len()).collect()) } else { named.iter().map(find).collect() }
+    if named.is_empty() { Ok((0..known.len()).collect()) } else { named.iter().map(place).collect() }
 }
 
 fn frequencies(args: &Args, model: &LinearModel) -> Result<Vec<f64>> {

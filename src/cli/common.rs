@@ -3,7 +3,7 @@
 pub use super::terminal::{print, tell};
 
 use super::terminal::visible;
-use crate::error::{Error, Result, Warning, suggest};
+use crate::error::{Error, Result, Warning};
 use crate::math::expression::{Number, Parameters, constant};
 use crate::math::memory::refuse_rows;
 use crate::method_spec::{Listed, MethodSpec};
@@ -342,7 +342,6 @@ pub fn to_json(value: &impl serde::Serialize) -> Result<String> {
 /// Returns one of `names`, or an error that suggests the most similar.
 pub fn pick<'a>(what: &str, found: &str, names: &[&'a str]) -> Result<&'a str> {
     let canonical = found.replace('-', "_");
-    names.iter().find(|name| **name == canonical).copied().ok_or_else(|| {
-        Error::input(format!("there is no {what} `{found}`")).hint(suggest(found, names.iter().copied()))
-    })
+    let name = names.iter().find(|name| **name == canonical).copied();
+    name.ok_or_else(|| Error::unknown(what, found, names.iter().copied()))
 }

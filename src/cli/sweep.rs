@@ -1,7 +1,7 @@
 //! `holonom sweep SCENE NAME=A..B:N`
 
 use super::common::{Output, SceneOptions, Talk, tell};
-use crate::error::{Error, Result, suggest};
+use crate::error::{Result, find};
 use crate::prepared::Overrides;
 use crate::report::{Repeatable, SweepLook, SweepSummary, sweep_figure, sweep_table};
 use crate::sweep::{Family, Range, Sweep};
@@ -53,10 +53,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 
 fn known_output(known: &[Column], names: &[String]) -> Result<()> {
     let names_of = || known.iter().map(|column| column.name.as_str());
-    match names.iter().find(|name| names_of().all(|known| known != *name)) {
-        Some(name) => Err(Error::input(format!("there is no output `{name}`")).hint(suggest(name, names_of()))),
-        None => Ok(()),
-    }
+    names.iter().try_for_each(|name| find("output", name, names_of()).map(drop))
 }
 
 fn write(args: &Args, family: &Family, sweep: &Sweep, summary: &SweepSummary) -> Result<()> {

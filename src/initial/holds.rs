@@ -1,6 +1,6 @@
 //! The directions of motion that assembly must not change.
 
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result};
 use crate::system::MechanicalSystem;
 
 /// Indices of the velocity directions that `hold` names: a coordinate (`crank.angle`), the rotation of a spatial body
@@ -14,9 +14,7 @@ pub fn directions(system: &dyn MechanicalSystem, hold: &[String]) -> Result<Vec<
             let mut known: Vec<&str> = names.iter().map(|name| name.trim_end_matches('\'')).collect();
             known.extend(names.iter().filter_map(|name| name.split_once('.')).map(|(body, _)| body));
             known.dedup();
-            return Err(Error::input(format!("there is no coordinate `{wanted}`"))
-                .under(format!("assembly.hold[{i}]"))
-                .hint(suggest(wanted, known)));
+            return Err(Error::unknown("coordinate", wanted, known).under(format!("assembly.hold[{i}]")));
         }
         held.extend(found);
     }

@@ -3,7 +3,7 @@
 use super::changes::{Directions, directions};
 use super::coordinates::constant;
 use super::{Coordinates, Matrix, Variation};
-use crate::error::{Error, Result, clock, suggest};
+use crate::error::{Error, Result, clock};
 use crate::tolerances::linearize as tolerances;
 
 /// A coordinate that can be chosen: its name, that of its rate, and its direction of v.
@@ -48,9 +48,8 @@ fn candidates(variation: &Variation) -> Vec<Candidate> {
 
 fn find<'c>(candidates: &'c [Candidate], name: &str) -> Result<&'c Candidate> {
     candidates.iter().find(|candidate| candidate.name == name || candidate.rate == name).ok_or_else(|| {
-        Error::input(format!("there is no coordinate `{name}`"))
-            .under("--independent")
-            .hint(suggest(name, candidates.iter().map(|candidate| candidate.name.as_str())))
+        let known = candidates.iter().map(|candidate| candidate.name.as_str());
+        Error::unknown("coordinate", name, known).under("--independent")
     })
 }
 

@@ -132,7 +132,7 @@ impl<const D: usize> Reader<'_, D> {
         let table = self.build.markers;
         let markers = table.names[..table.names.len() - table.states.len()].iter().map(String::as_str);
         let known = markers.chain(names);
-        Err(Error::input(format!("there is no marker, joint or force `{name}`")).under("of").hint(suggest(name, known)))
+        Err(Error::unknown("marker, joint or force", name, known).under("of"))
     }
 
     fn reference(&self) -> Result<MarkerId> {

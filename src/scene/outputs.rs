@@ -7,7 +7,7 @@ use super::place::Cut;
 use super::units::{Dimension, Unit};
 use super::{actions, beam_outputs, kinematics};
 use crate::body::Build;
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result};
 use crate::force::Force;
 use crate::joint::Joint;
 
@@ -158,9 +158,6 @@ pub(super) fn wrong_component(found: &str, known: &[&str]) -> Error {
         .hint(format!("choose one of {}", known.join(", ")))
 }
 
-pub(super) fn find<'a>(what: &str, name: &str, mut known: impl Iterator<Item = &'a str> + Clone) -> Result<usize> {
-    let names = known.clone();
-    known
-        .position(|known| known == name)
-        .ok_or_else(|| Error::input(format!("there is no {what} `{name}`")).under("of").hint(suggest(name, names)))
+pub(super) fn find<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Result<usize> {
+    crate::error::find(what, name, known).map_err(|error| error.under("of"))
 }

@@ -4,7 +4,7 @@ use super::Floating;
 use crate::body::flexible::modal::{ModalBody, ModalShapes};
 use crate::body::flexible::{FlexibleBeam, PointShape, elastic_beam};
 use crate::body::{BodySpec, Build, Built, Initial, Marker};
-use crate::error::{Error, Result, short, suggest};
+use crate::error::{Error, Result, find, short};
 use crate::math::expression::Number;
 use crate::tolerances::body as tolerances;
 use std::collections::BTreeMap;
@@ -114,12 +114,9 @@ fn elastic<const D: usize>(
 ) -> Result<Vec<f64>> {
     let mut values = vec![0.0; names.len()];
     for (name, number) in given.iter().flatten() {
-        let Some(place) = names.iter().position(|known| known == name) else {
-            return Err(Error::input(format!("there is no elastic coordinate `{name}`"))
-                .under(format!("{field}.{name}"))
-                .hint(suggest(name, names.iter().map(String::as_str))));
-        };
-        values[place] = build.number(&format!("{field}.{name}"), number)?;
+        let place = find("elastic coordinate", name, names.iter().map(String::as_str));
+        values[place.map_err(|error| error.under(format!("{field}.{name}")))?] =
+            build.number(&format!("{field}.{name}"), number)?;
     }
     Ok(values)
 }

@@ -5,7 +5,7 @@ use super::change::Change;
 use super::map::{Axis, AxisPlace, Map};
 use super::parameters::find;
 use super::subject::Subject;
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result};
 use crate::method_spec::MethodSpec;
 
 /// A map as the command line lists it.
@@ -127,10 +127,7 @@ pub fn maps(subject: &Subject, names: &[String]) -> Result<Vec<Map>> {
     }
     let named = |name: &String| {
         let found = known().iter().find(|entry| entry.name == name.replace('-', "_"));
-        let entry = found.ok_or_else(|| {
-            let hint = suggest(name, known().iter().map(|entry| entry.name));
-            Error::input(format!("there is no map `{name}`")).hint(hint)
-        })?;
+        let entry = found.ok_or_else(|| Error::unknown("map", name, known().iter().map(|entry| entry.name)))?;
         match has(entry.x, subject) && has(entry.y, subject) {
             true => entry.map(subject),
             false => Err(Error::input(format!("the scene has nothing for the map `{name}`: {}", entry.about))

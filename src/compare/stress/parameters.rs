@@ -3,7 +3,7 @@
 use super::json::{elements, faster, has, multiply, replace};
 use super::subject::Case;
 use super::subject::Subject;
-use crate::error::{Error, Result, suggest};
+use crate::error::{Error, Result};
 use crate::method_spec::MethodSpec;
 use crate::scene::generate;
 use serde_json::Value;
@@ -35,7 +35,7 @@ pub fn find(name: &str) -> Result<&'static StressParameter> {
     let canonical = name.replace('-', "_");
     registry().iter().find(|parameter| parameter.name == canonical).ok_or_else(|| {
         let names = registry().iter().map(|parameter| parameter.name);
-        Error::input(format!("there is no extreme `{name}`")).hint(suggest(name, names))
+        Error::unknown("extreme", name, names)
     })
 }
 

@@ -1,7 +1,7 @@
 //! Quantities of a motion that are compared, and their error metric.
 
 use crate::analysis::{Sizes, scales};
-use crate::error::{Error, Result, suggest};
+use crate::error::{Result, find};
 use crate::system::{Column, MechanicalSystem, OperatingPoint, Scratch};
 use crate::trajectory::{recorded, values};
 use serde::{Deserialize, Serialize};
@@ -26,12 +26,7 @@ impl Watched {
             let coordinate = |name| Column { name, unit: String::new() };
             return Ok(Watched { columns: system.names().q.into_iter().map(coordinate).collect(), outputs: None });
         }
-        let place = |name: &String| {
-            known.iter().position(|column| column.name == *name).ok_or_else(|| {
-                let names = known.iter().map(|column| column.name.as_str());
-                Error::input(format!("there is no output `{name}`")).hint(suggest(name, names))
-            })
-        };
+        let place = |name: &String| find("output", name, known.iter().map(|column| column.name.as_str()));
         let places: Vec<usize> = match names {
             [] => (0..known.len()).collect(),
             names => names.iter().map(place).collect::<Result<_>>()?,

@@ -2,7 +2,7 @@
 
 use super::read::{Joint, Kind, Robot};
 use super::transform::Transform;
-use crate::error::{Error, Result, short_list, suggest};
+use crate::error::{Error, Result, short_list};
 use std::collections::HashMap;
 
 /// Places of the links at position zero of all joints, and the links that are one body.
@@ -60,12 +60,7 @@ impl Tree {
 
 /// Index of a link by its name.
 pub fn find(robot: &Robot, name: &str) -> Result<usize> {
-    let names = || robot.links.iter().map(|link| link.name.as_str());
-    names().position(|known| known == name).ok_or_else(|| unknown(name, names()))
-}
-
-fn unknown<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Error {
-    Error::input(format!("there is no link `{name}`")).hint(suggest(name, known))
+    crate::error::find("link", name, robot.links.iter().map(|link| link.name.as_str()))
 }
 
 fn indices(robot: &Robot) -> Result<HashMap<&str, usize>> {
@@ -85,7 +80,10 @@ fn joint_ends(joint: &Joint, index: &HashMap<&str, usize>) -> Result<[usize; 2]>
     let find = |name: &str| {
         let mut known: Vec<&str> = index.keys().copied().collect();
         known.sort_unstable();
-        index.get(name).copied().ok_or_else(|| unknown(name, known).element(&joint.name).placed(joint.place))
+        index
+            .get(name)
+            .copied()
+            .ok_or_else(|| Error::unknown("link", name, known).element(&joint.name).placed(joint.place))
     };
     Ok([find(&joint.parent)?, find(&joint.child)?])
 }
