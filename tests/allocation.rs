@@ -31,7 +31,7 @@ const METHODS: [(&str, &str, &str); 17] = [
 ];
 
 /// Methods for the constraints themselves.
-const DIRECT: [(&str, &str, &str); 10] = [
+const DIRECT: [(&str, &str, &str); 13] = [
     ("index1", "radau_iia", "none"),
     ("index2", "radau_iia:order=9", "manifold"),
     ("index3", "radau_iia:order=13", "velocity"),
@@ -42,6 +42,9 @@ const DIRECT: [(&str, &str, &str); 10] = [
     ("index3", "generalized_alpha", "velocity"),
     ("ggl", "generalized_alpha", "none"),
     ("index3", "ali3p", "none"),
+    ("index1", "esdirk34", "none"),
+    ("stabilized_index1", "esdirk34", "manifold"),
+    ("ggl", "tr_bdf2", "none"),
 ];
 
 fn allocations(
@@ -167,13 +170,15 @@ fn outputs() {
 #[test]
 fn adaptive_steps_and_rows() {
     let (q, v) = driven_pendulum::start();
-    for (formulation, integrator, tolerance) in [
-        ("index1", "dopri5", 1e-10),
-        ("index1", "dop853", 1e-10),
-        ("null_space", "dop853", 1e-10),
-        ("ggl", "generalized_alpha", 1e-7),
+    for (formulation, integrator, projection, tolerance) in [
+        ("index1", "dopri5", "manifold", 1e-10),
+        ("index1", "dop853", "manifold", 1e-10),
+        ("null_space", "dop853", "manifold", 1e-10),
+        ("ggl", "generalized_alpha", "manifold", 1e-7),
+        ("ggl", "bdf", "none", 1e-7),
+        ("stabilized_index1", "tr_bdf2", "none", 1e-5),
     ] {
-        let method = adaptive(formulation, integrator, "manifold", tolerance);
+        let method = adaptive(formulation, integrator, projection, tolerance);
         let run = |end| {
             let span = Span { start: 0.0, end, output_step: 0.001 };
             let (made, outcome) = allocations(&DrivenPendulum, &method, span, (&q, &v));

@@ -76,7 +76,7 @@ pub fn doubt(saved: &Checkpoint, prepared: &PreparedScene) -> Option<Warning> {
     (!saved.is_exact()).then(|| {
         Warning::new(
             format!("{} begins anew at t = {t} s, with what it knows of that state alone", method.integrator.name),
-            "the run goes on within the tolerance, but not bit by bit as it would have; all methods but bdf, tr_bdf2 and esdirk34 do",
+            "the run goes on within the tolerance, but not bit by bit as it would have",
         )
     })
 }

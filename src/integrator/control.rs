@@ -2,6 +2,7 @@
 
 use super::Problem;
 use crate::formulation::StepError;
+use crate::math::largest;
 use crate::system::{Dimensions, MechanicalSystem};
 use crate::tolerances::integrator as tolerances;
 use std::ops::Range;
@@ -125,6 +126,8 @@ pub struct Control {
     pub safety: f64,
     /// h_new/h after a step that failed without an error.
     pub retry: f64,
+    /// A step that would grow by less than this stays as it is, so that its matrix serves on: 1 for any growth.
+    hold: f64,
     /// max(err, 1e-4) of the last accepted step.
     last: f64,
     /// Size and error of the last accepted step, for the predictive control.
@@ -143,6 +146,7 @@ impl Control {
             grow,
             safety: SAFETY,
             retry: 0.25,
+            hold: 1.0,
             last: 1e-4,
             before: None,
             is_predictive: false,
@@ -152,6 +156,11 @@ impl Control {
     /// Predictive control for an error estimate of this order.
     pub fn predictive(order: f64, shrink: f64, grow: f64) -> Self {
         Control { is_predictive: true, ..Control::new(order, 0.0, shrink, grow) }
+    }
+
+    /// The same, but steps that would grow by less than `hold` stay as they are.
+    pub fn holding(self, hold: f64) -> Self {
+        Control { hold, ..self }
     }
 
     /// The next step after one of size `h` with error `error`; `growing` is false right after a rejection.
@@ -166,7 +175,8 @@ impl Control {
             }
             self.before = Some((h, error));
         }
-        h * factor.clamp(self.shrink, if growing { self.grow } else { 1.0 })
+        let factor = factor.clamp(self.shrink, if growing { self.grow } else { 1.0 });
+        if (1.0..self.hold).contains(&factor) { h } else { h * factor }
     }
 
     /// The values carried from step to step, for [`Self::recall`].
@@ -187,6 +197,27 @@ impl Control {
     pub fn reject(&self, h: f64, error: f64) -> f64 {
         h * (self.safety.min(SAFETY) * error.powf(-self.exponent)).clamp(self.shrink, 1.0)
     }
+}
+
+/// Round-off of changes of y, over the tolerated errors; with `divisor`, s, where v is found from q by a division by it:
+/// from phi = 0, or from forces so stiff that q follows them within the step. Other v are rounded by their own size.
+/// `change` is scratch.
+pub(super) fn round_off(
+    problem: &Problem,
+    tolerance: &Tolerance,
+    y: &[f64],
+    divisor: Option<f64>,
+    change: &mut [f64],
+) -> f64 {
+    let (q, v) = problem.split(y);
+    // Angles that count full turns grow, and only they are rounded to that size.
+    let system = problem.dynamics.system;
+    let (moving, states) = v.split_at(system.dimensions().moving());
+    let [of_q, of_v, of_states] = [system.own(q), moving, states].map(|x| tolerances::ROUND_OFF * largest(x));
+    change[..q.len()].fill(of_q);
+    change[q.len()..].fill(divisor.map_or(of_v, |h| of_v.max(of_q / h)));
+    change[q.len() + moving.len()..].fill(of_states);
+    tolerance.norm(y, change)
 }
 
 /// A first step from the sizes of y, y' and y''. Source: Hairer, Norsett, Wanner, II.4, with one extra evaluation.

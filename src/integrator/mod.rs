@@ -8,10 +8,10 @@ mod adams;
 mod ali3p;
 mod bdf;
 mod control;
-mod diffsol_backend;
 mod dop853;
 mod dop853_tableau;
 mod dopri5;
+mod esdirk;
 mod esdirk34;
 mod explicit;
 mod generalized_alpha;
@@ -27,10 +27,12 @@ mod rattle;
 mod refuses;
 mod rk4;
 mod stability;
+mod stage;
 mod sums;
 mod takes;
 mod tr_bdf2;
 
+use control::round_off;
 pub use control::{Control, Tightening, Tolerance, first_step};
 pub use explicit::{ErrorEstimate, Explicit, Tableau};
 pub use hermite::Hermite;
@@ -97,19 +99,14 @@ pub trait Integrator {
     /// estimate.
     fn control(&mut self) -> &mut Control;
 
-    /// The size of the step just tried, if the method chose it instead of the `h` it was given.
-    fn own_step(&self) -> Option<f64> {
-        None
-    }
-
     /// True if the last evaluation of an attempt is at its end, off by O(h^(p+1)).
     fn ends_near(&self) -> bool {
         false
     }
 
-    /// Time from the start of the step just tried to the last evaluation of a method that chose its step, s.
-    fn seen(&self) -> Option<f64> {
-        None
+    /// The next step after an accepted one of size `h` with error `error`; `growing` is false right after a rejection.
+    fn propose(&mut self, h: f64, error: f64, growing: bool) -> f64 {
+        self.control().accept(h, error, growing)
     }
 
     /// The last attempt was accepted and the next step proposed; `tolerance` is that of the run's steps.
@@ -117,6 +114,11 @@ pub trait Integrator {
 
     /// Discards the history of the steps: the equations change their form here.
     fn restart(&mut self) {}
+
+    /// True for a multistep method that evaluates the ends of steps only: after [`Self::restart`] it takes short ones.
+    fn begins_anew(&self) -> bool {
+        false
+    }
 
     /// Notes that the state of the last attempt was moved, as by a projection.
     fn moved(&mut self) {}

@@ -7,6 +7,7 @@ pub mod expression;
 mod interval;
 #[doc(hidden)]
 pub mod kkt;
+mod lagrange;
 #[doc(hidden)]
 pub mod memory;
 #[doc(hidden)]
@@ -26,6 +27,8 @@ pub use dual::Dual;
 pub use dual::Rate;
 #[doc(hidden)]
 pub use interval::Interval;
+#[doc(hidden)]
+pub use lagrange::{lagrange, lagrange_rate};
 #[doc(hidden)]
 pub use regime::{Piece, Thresholds, piece_of, piece_of_whole, whole_below};
 pub use regime::{Regime, Time};

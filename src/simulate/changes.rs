@@ -2,6 +2,7 @@
 
 use super::Run;
 use super::events::{Passage, Turn};
+use super::rows::project;
 use crate::error::{Failure, short};
 use crate::formulation::{Dynamics, StepError};
 use crate::integrator::{From, first_step};
@@ -18,18 +19,17 @@ const STEEP: &str = "make the edge a ramp, with a signal that is \"linear\" or \
      of `step`; or give the tyre no damping";
 
 impl Run<'_> {
-    /// The first threshold passed in the step just tried. A method that chooses its own steps ends there on its
-    /// dense output, since it would not find the same state again.
+    /// The first threshold passed in the step just tried. A method that begins anew there ends on its dense output.
     pub fn end_at_passage(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<Passage>, StepError> {
         let mut passage = self.passage(*h, self.end_of(*h, *end))?;
         for _ in 0..tolerances::CUTS {
-            let own = passage.filter(|_| self.integrator.own_step().is_some());
+            let own = passage.filter(|_| self.integrator.begins_anew());
             let Some(Passage::Within(theta)) = own else { break };
             let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.end_of(*h, *end) };
             self.integrator.interpolate(&mut self.rows.problem, from, *h, theta, &mut self.next)?;
             (*h, *end, self.is_moved) = (theta * *h, None, true);
-            let t = self.t + *h;
-            self.project_within(t, *h)?;
+            let (t, sweeps) = (self.t + *h, self.sweeps(*h));
+            project(t, &mut self.next, &mut self.problem, &mut self.rows.projection, sweeps)?;
             self.problem.derivative(t, &self.next, &mut self.next_slope)?;
             passage = self.passage(*h, t)?;
         }
@@ -92,9 +92,8 @@ impl Run<'_> {
         self.integrator.restart();
         self.cut = None;
         let jump: Vec<f64> = self.slope.iter().zip(&before).map(|(after, before)| self.h * (after - before)).collect();
-        // A method that chooses its own steps has no history here.
-        let is_own = self.integrator.own_step().is_some();
-        if self.fixed.is_none() && (is_own || self.tolerance.norm(&self.y, &jump) > tolerances::SMALL_JUMP) {
+        let begins_anew = self.integrator.begins_anew();
+        if self.fixed.is_none() && (begins_anew || self.tolerance.norm(&self.y, &jump) > tolerances::SMALL_JUMP) {
             self.start_small()?;
         }
         Ok(())
@@ -112,7 +111,10 @@ impl Run<'_> {
     fn start_small(&mut self) -> Result<(), Failure> {
         let span = (self.t, self.span.end - self.t);
         let order = self.integrator.order();
+        let lambda = self.problem.dynamics.lambda.clone();
         let first = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order);
+        // `first_step` evaluates ahead; lambda is that of the start.
+        self.problem.dynamics.lambda = lambda;
         // `first_step` aims at a hundredth of the tolerance.
         let step = 100f64.powf(1.0 / order as f64) * first.map_err(|halt| self.halted(&halt))?;
         self.h = self.h.min(step.max(2.0 * self.smallest()));

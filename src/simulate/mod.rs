@@ -35,7 +35,6 @@ pub use stiffness::{Stiffness, stiffness};
 use crowd::Crowd;
 use events::{Events, Passage};
 use passage::SingularPassage;
-use plan::NextStop;
 use rows::{OutputRows, observation};
 use step::is_too_large;
 
@@ -254,8 +253,9 @@ impl<'a> Run<'a> {
             self.check_progress()?;
             let stop = self.next_stop();
             let (mut size, mut end) = self.fit(stop);
-            let Some(error) = self.try_step(&mut size, &mut end)? else { continue };
-            if !self.meets_all(&mut size, &mut end, stop)? {
+            let tried = size;
+            let Some(error) = self.try_step(size, end)? else { continue };
+            if !self.is_of_one_form(&mut size, &mut end)? {
                 continue;
             }
             if let Some(theta) = self.output(size, end, sink).map_err(|halt| self.halted(&halt))? {
@@ -268,7 +268,7 @@ impl<'a> Run<'a> {
             if self.t >= self.span.end && self.span.row(self.rows.next - 1) < self.span.end {
                 self.ask(sink)?;
             }
-            self.propose(size, error, end.is_some() || self.cut.is_some())?;
+            self.propose(size, error, end.is_some() || self.cut.is_some() || size < tried)?;
             self.integrator.accepted(&self.tolerance);
             (self.growing, self.cut) = (true, None);
             if self.t < self.span.end && (self.events.is_at_threshold() || stop.changes_form && self.t >= stop.t) {
@@ -282,25 +282,19 @@ impl<'a> Run<'a> {
 
     /// Tries a step. Returns its error in units of the tolerance, if there is an estimate; `None` if the step was
     /// refused.
-    fn try_step(&mut self, size: &mut f64, end: &mut Option<f64>) -> Result<Option<Option<f64>>, Failure> {
+    fn try_step(&mut self, size: f64, end: Option<f64>) -> Result<Option<Option<f64>>, Failure> {
         self.h = match self.step(size, end) {
             Ok(error) if !error.is_some_and(is_too_large) => return Ok(Some(error)),
-            Ok(error) => self.retry(*size, error, self.refusal, None)?,
+            Ok(error) => self.retry(size, error, self.refusal, None)?,
             Err(halt) if halt.is_fatal() => return Err(self.halted(&halt)),
-            Err(halt) => self.retry(*size, None, &halt.to_string(), halt.hint())?,
+            Err(halt) => self.retry(size, None, &halt.to_string(), halt.hint())?,
         };
         (self.growing, self.cut) = (false, None);
         Ok(None)
     }
 
-    /// True if the step just tried resolved all functions of time and passed no threshold; else it prepares the next
-    /// attempt.
-    fn meets_all(&mut self, size: &mut f64, end: &mut Option<f64>, stop: NextStop) -> Result<bool, Failure> {
-        if let Some(resolved) = self.unresolved(stop.t) {
-            self.integrator.restart();
-            self.h = resolved;
-            return Ok(false);
-        }
+    /// True if the step just tried passed no threshold; else it prepares the next attempt.
+    fn is_of_one_form(&mut self, size: &mut f64, end: &mut Option<f64>) -> Result<bool, Failure> {
         let passage = self.end_at_passage(size, end).map_err(|halt| self.halted(&halt))?;
         match passage {
             None => return Ok(true),
@@ -325,7 +319,7 @@ impl<'a> Run<'a> {
     /// Proposes the next step. One that was cut to end at a given time does not reduce the size before it.
     fn propose(&mut self, size: f64, error: Option<f64>, is_cut: bool) -> Result<(), Failure> {
         let Some(error) = error else { return Ok(()) };
-        let proposed = self.integrator.control().accept(size, error, self.growing);
+        let proposed = self.integrator.propose(size, error, self.growing);
         self.h = if is_cut { self.h.max(proposed) } else { proposed };
         match self.t < self.span.end && self.h < self.smallest() {
             true => Err(self.too_small(format!("steps have fallen to {:.1e} s", self.h), None)),

@@ -70,7 +70,7 @@ impl Run<'_> {
             None => (placed, None),
         };
         let resolved = self.resolved(size, stop.t);
-        let adapts = self.fixed.is_none() && self.integrator.own_step().is_none();
+        let adapts = self.fixed.is_none() && !self.integrator.begins_anew();
         if let Some(step) = self.events.ends_at_point(self.t, resolved).filter(|_| adapts) {
             self.cut = Some(step);
             return (step, None);
@@ -93,13 +93,6 @@ impl Run<'_> {
         let parts = tolerances::FINER_PARTS * timetable.finely_resolved(t, size / tolerances::FINER_PARTS, pieces);
         self.divided = self.next_of_grid(step);
         parts.min(size)
-    }
-
-    /// A smaller step, if a method that chose its own step missed a function of time.
-    pub fn unresolved(&mut self, stop: f64) -> Option<f64> {
-        let seen = self.integrator.seen()?.min(stop - self.t);
-        let resolved = self.events.resolved(self.t, seen, stop);
-        (resolved < seen).then_some(resolved)
     }
 
     /// End of a step of size `h`, unless it is the time `end`.

@@ -13,17 +13,17 @@ pub fn is_too_large(error: f64) -> bool {
 }
 
 impl Run<'_> {
-    /// Tries one step of size `h` (or one that the method chose) with its projection, and writes y' at the new state to
-    /// `next_slope`. Returns the error in units of the tolerance, if there is an estimate.
-    pub fn step(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<f64>, StepError> {
+    /// Tries one step of size `h` with its projection, and writes y' at the new state to `next_slope`. Returns the error
+    /// in units of the tolerance, if there is an estimate.
+    pub fn step(&mut self, h: f64, end: Option<f64>) -> Result<Option<f64>, StepError> {
         let error = self.attempt(h, end)?;
-        let is_singular = self.is_singular(*h);
+        let is_singular = self.is_singular(h);
         if error.is_some_and(is_too_large) && !is_singular {
             self.refusal = "the error of a step stays above the tolerance";
             return Ok(error);
         }
-        let t = self.end_of(*h, *end);
-        let error = self.project_step((*h, *end), error, is_singular)?;
+        let t = self.end_of(h, end);
+        let error = self.project_step((h, end), error, is_singular)?;
         if error.is_some_and(is_too_large) {
             return Ok(error);
         }
@@ -60,13 +60,10 @@ impl Run<'_> {
         self.projection.is_some() || self.problem.formulation.keeps_constraints()
     }
 
-    fn attempt(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<f64>, StepError> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.end_of(*h, *end) };
+    fn attempt(&mut self, h: f64, end: Option<f64>) -> Result<Option<f64>, StepError> {
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.end_of(h, end) };
         self.problem.begin_step(self.t, &self.y)?;
-        let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, *h, &mut self.next)?;
-        if let Some(own) = self.integrator.own_step() {
-            (*h, *end) = (own, end.filter(|_| own >= *h));
-        }
+        let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, h, &mut self.next)?;
         Ok(if self.fixed.is_some() { None } else { error })
     }
 
@@ -80,11 +77,7 @@ impl Run<'_> {
         self.change.copy_from_slice(&self.next);
         let (t, sweeps) = (self.end_of(h, end), self.sweeps(h));
         self.problem.dynamics.ends_near = self.integrator.ends_near() && !is_singular;
-        // A method that chooses its steps reaches a stop on the dense output of a step that ends after it.
-        match end.is_some() && self.integrator.seen().is_some_and(|seen| seen > h) {
-            true => self.project_within(t, h)?,
-            false => project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?,
-        }
+        project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?;
         self.problem.dynamics.ends_near = false;
         self.is_moved = self.projection.is_some() || self.change != self.next;
         if error.is_none() || !self.is_moved {
@@ -101,12 +94,6 @@ impl Run<'_> {
         }
         self.refusal = "the projection moves the state by far more than the tolerance (is the start consistent?)";
         Ok(if is_far { Some(correction) } else { error })
-    }
-
-    /// Projects a state on the dense output of a step.
-    pub fn project_within(&mut self, t: f64, h: f64) -> Result<(), StepError> {
-        let sweeps = self.sweeps(h);
-        project(t, &mut self.next, &mut self.problem, &mut self.rows.projection, sweeps)
     }
 
     pub fn drop_rows(&mut self, rows: &[usize]) {

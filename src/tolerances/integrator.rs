@@ -145,11 +145,56 @@ pub const FIRST_STEP_SHORTER: usize = 20;
 /// that rises there is seen early, if at all. Test: `a_load_that_grows_from_zero_moves_what_is_at_rest`.
 pub const FIRST_STEP_OF_SPAN: f64 = 1e-3;
 
-/// Tolerated error of unknowns of diffsol that are not tested: those without a rate, angles that count turns, and the
-/// work.
-/// Unit: `[unit of the unknown]`. Why: a choice: as good as infinite, and still a number. Test: none: not tried with
-/// other values.
-pub const NOT_TESTED: f64 = 1e20;
+/// Error that Newton's method may leave of a stage, and of a step of bdf.
+/// Unit: `[1]` of the tolerated error of a step. Why: what it leaves of the constraints is drift. Test:
+/// `ggl_holds_both_constraints_and_runs_repeat_bit_by_bit`.
+pub const STAGE_ERROR: f64 = 0.01;
+
+/// Corrections at most of a stage, and of a step of bdf.
+/// Unit: `[iterations]`. Why: more cost as much as a shorter step. Test: none: time alone depends on it.
+pub const STAGE_ITERATIONS: usize = 7;
+
+/// Rate of convergence up to which the matrix of a stage serves the next step too.
+/// Unit: `[1]`. Why: a choice: an iteration more costs an evaluation, a matrix about four. Test: none: time alone
+/// depends on it.
+pub const STAGE_MATRIX_KEPT: f64 = 0.1;
+
+/// The factors of a stage serve steps up to this factor longer or shorter.
+/// Unit: `[1]`. Why: stiff directions contract by 1 - 1/1.1^2 with them. Test: none: time alone depends on it.
+pub const STAGE_BAND: f64 = 1.1;
+
+/// Steps of a diagonally implicit method that would grow by less than this stay as they are.
+/// Unit: `[1]`. Why: as in RADAU5, the factors of the matrix serve on. Test: none: time alone depends on it.
+pub const STAGE_HOLD: f64 = 1.2;
+
+/// Safety factor on the steps of diagonally implicit methods.
+/// Unit: `[1]`. Why: the damped error is half to a third of that of the step where nothing is stiff. Test:
+/// `links_without_mass_swing_as_rods_do`.
+pub const STAGE_SAFETY: f64 = 0.7;
+
+/// Error of a step below which bdf doubles the next one at the beginning of a motion.
+/// Unit: `[1]` of the tolerated error of a step. Why: twice the step with the same order has four times the error.
+/// Test: none: time alone depends on it.
+pub const BDF_START: f64 = 0.1;
+
+/// Refused attempts of a step after which bdf returns to order 1.
+/// Unit: `[attempts]`. Why: as in IDA: the past does not predict what comes. Test: none: time alone depends on it.
+pub const BDF_FAILURES: usize = 3;
+
+/// Error of a step of bdf that is round-off, over that of one state.
+/// Unit: `[1]`. Why: weights of extrapolation over six states of unequal distances come to some hundred, and a
+/// sixth of that, sixteen ulps each, is in the error. Test: `the_tightest_tolerance`.
+pub const BDF_ROUND_OFF: f64 = 30.0;
+
+/// Error of a step of bdf up to which its order does not fall.
+/// Unit: `[1]` of the tolerated error of a step. Why: such a step may grow, and round-off, which does not decrease with
+/// the order, may be most of the error. Test: `the_tightest_tolerance`.
+pub const BDF_SMALL: f64 = 0.05;
+
+/// Steps of bdf that would grow by less than this stay as they are.
+/// Unit: `[1]`. Why: as in VODE: formulas and the matrix are those of equal steps. Test: none: time alone depends on
+/// it.
+pub const BDF_GROWTH: f64 = 1.5;
 
 /// What a step may grow a radian, in ln |x|, at the limit of stability.
 /// Unit: `[1]`. Why: all but a few methods grow a little on the imaginary axis, however short the steps. Test:

@@ -44,14 +44,6 @@ fn methods_that_are_dense() {
         let pieces = ["--formulation: ", formulation, size, "the limit is ", "help: choose a sparse formulation"];
         refused(&place, &args.concat(), &pieces);
     }
-    for (integrator, formulation, unknowns) in
-        [("bdf", "ggl", "320"), ("tr_bdf2", "index1", "220"), ("esdirk34", "ggl", "")]
-    {
-        let args = ["simulate", "scene.json", "--formulation", formulation, "--integrator", integrator];
-        let size = format!("dense matrices of {unknowns}");
-        let pieces = ["--integrator: ", integrator, &size, "help: choose a sparse implicit integrator"];
-        refused(&place, &[&args, &short[..]].concat(), &pieces);
-    }
     assert_eq!(place.files("."), ["scene.json"]);
 }
 

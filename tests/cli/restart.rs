@@ -46,12 +46,6 @@ fn another_method_begins_anew_and_says_so() {
     place.done(&["simulate", "scene.json", "-o", "second", "--start", "first/summary.json", "--rtol", "1e-9"]);
     let warnings = summary(&place, "second")["warnings"].to_string();
     assert!(warnings.contains("begins anew"), "{warnings}");
-    let implicit =
-        ["simulate", "scene.json", "--formulation", "ggl", "--integrator", "bdf", "--projection", "none", "--quiet"];
-    place.done(&[&implicit[..], &["-o", "bdf", "--until", "0.4"]].concat());
-    place.done(&[&implicit[..], &["-o", "more", "--start", "bdf/summary.json"]].concat());
-    let warnings = summary(&place, "more")["warnings"].to_string();
-    assert!(warnings.contains("bdf begins anew"), "{warnings}");
     place.done(&["simulate", "scene.json", "-o", "third", "--start", "first/summary.json"]);
     assert_eq!(summary(&place, "third")["warnings"], Value::Array(vec![]));
 }

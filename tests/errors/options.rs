@@ -282,8 +282,8 @@ cases! {
             "bdf with index1 goes with none",
         ];
     a_step_for_a_method_that_chooses_its_own:
-        pendulum().args(&["--integrator", "tr-bdf2", "--step", "0.01"]) => [
-            "at --step: tr_bdf2 chooses its own steps",
+        pendulum().args(&["--integrator", "bdf", "--projection", "none", "--step", "0.01"]) => [
+            "at --step: bdf chooses its own steps",
             "leave the step out and give --rtol and --atol",
         ];
     a_formulation_that_is_not_solved_with_derivatives:

@@ -69,11 +69,10 @@ fn adaptive_methods_do_not_see_units() {
         ["ggl", "radau_iia", "none"],
         ["index2", "radau_iia", "none"],
         ["index1", "radau_iia", "none"],
-        ["ggl", "bdf", "none"],
-        ["index1", "bdf", "none"],
     ];
     methods.iter().for_each(|[f, i, p]| compare(&adaptive(f, i, p, 1e-8), 1e-12));
-    // v of index3 is phi over the step.
+    // Of bdf round-off of six states is extrapolated at every step; v of index3 is phi over the step.
+    ["ggl", "index1"].iter().for_each(|f| compare(&adaptive(f, "bdf", "none", 1e-8), 1e-11));
     compare(&adaptive("index3", "radau_iia", "none", 1e-8), 1e-11);
 }
 

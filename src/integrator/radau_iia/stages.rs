@@ -4,8 +4,7 @@ use super::collocation::Collocation;
 use super::rotations::Rotations;
 use crate::formulation::{self, Dae, Dynamics, Residual, StepError};
 use crate::integrator::sums::accumulate;
-use crate::integrator::{From, Problem, Tolerance};
-use crate::math::largest;
+use crate::integrator::{From, Problem, Tolerance, round_off};
 use crate::system::{Dimensions, MechanicalSystem};
 use crate::tolerances::integrator as tolerances;
 
@@ -164,19 +163,9 @@ impl Stages {
         self.rotations.interpolate(method, theta, from.y, out);
     }
 
-    /// Round-off of the changes, over the tolerated errors, where v is found from q by a division by h: from phi = 0,
-    /// or from forces so stiff that q follows them within the step. Other v are rounded by their own size.
-    pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, divides: bool) -> f64 {
-        let (q, v) = problem.split(from.y);
-        // Angles that count full turns grow, and only they are rounded to that size.
-        let (moving, states) = v.split_at(self.n.moving());
-        let own = problem.dynamics.system.own(q);
-        let [of_q, of_v, of_states] = [own, moving, states].map(|x| tolerances::ROUND_OFF * largest(x));
-        let change = &mut self.next[0];
-        change[..q.len()].fill(of_q);
-        change[q.len()..].fill(if divides { of_v.max(of_q / h) } else { of_v });
-        change[q.len() + moving.len()..].fill(of_states);
-        tolerance.norm(from.y, change)
+    /// Round-off of the changes of a stage, over the tolerated errors: see [`round_off`].
+    pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, divisor: Option<f64>) -> f64 {
+        round_off(problem, tolerance, from.y, divisor, &mut self.next[0])
     }
 
     /// Ratio of successive Legendre coefficients of V' over the step, the last two to the two before so that even and

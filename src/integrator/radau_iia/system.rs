@@ -37,7 +37,7 @@ impl System<'_> {
         stages.reset(from);
         stages.advance(problem, method, from, h);
         let divides = dae.velocity_index() == 2;
-        let mut round_off = |divides| stages.round_off(problem, tolerance, from, h, divides);
+        let mut round_off = |divides: bool| stages.round_off(problem, tolerance, from, Some(h).filter(|_| divides));
         // A fixed step goes on to where changes no longer fall, which stiff forces may raise.
         let (round_off, stagnation) = (round_off(divides), round_off(divides || *is_fixed));
         let limits = Limits {

@@ -1,10 +1,10 @@
-//! The implicit integrators of diffsol: orders, stiff motions, rotations, what they refuse; and a table beside our own.
+//! bdf, tr_bdf2 and esdirk34: orders by tolerances, stiff motions, rotations, what they refuse; and a table beside others.
 
 use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::stiff::{STIFF, slow_position};
 use crate::common::{adaptive, distance, fixed, run, stepwise, until};
 use crate::scenes::{Ready, parse, shipped};
-use holonom::integrator::{Entry, Steps, registry};
+use holonom::integrator::{Entry, registry};
 use holonom::prepared::PreparedScene;
 use holonom::projection::registry as projections;
 use holonom::scene::Scene;
@@ -15,7 +15,7 @@ use std::time::Instant;
 const END: f64 = 1.5;
 
 fn implicit() -> impl Iterator<Item = &'static Entry> {
-    registry().iter().filter(|entry| entry.steps == Steps::Own && !entry.follows_fields())
+    registry().iter().filter(|entry| ["bdf", "tr_bdf2", "esdirk34"].contains(&entry.name))
 }
 
 /// Every accepted triple.
@@ -46,7 +46,8 @@ fn errors(rows: &[Vec<f64>], reference: &[Vec<f64>]) -> [f64; 3] {
 }
 
 /// Steps cannot be given: the order is the power of the mean step that the error falls with, from one tolerance to a
-/// much tighter one. BDF has no order of its own: order 5 rules at tight tolerances.
+/// much tighter one. BDF has no order of its own: order 5 rules at tight tolerances, and the start, with steps of
+/// lower orders, is a larger part of the steps at the looser one.
 #[test]
 fn every_triple_has_its_order() {
     let (_, reference) = solve(&adaptive("index1", "dop853", "exact", 1e-13));
@@ -54,7 +55,7 @@ fn every_triple_has_its_order() {
     // Four formulations: two methods with all projections, and bdf with none.
     assert_eq!(triples.len(), 52);
     for (entry, formulation, projection) in triples {
-        let (coarse, fine, off) = if entry.name == "bdf" { (1e-6, 1e-11, 1.0) } else { (1e-5, 1e-9, 0.3) };
+        let (coarse, fine, off) = if entry.name == "bdf" { (1e-6, 1e-11, 1.3) } else { (1e-5, 1e-9, 0.3) };
         // Gains that are no faster than the motion.
         let formulation = if formulation == "baumgarte" { "baumgarte:alpha=1" } else { formulation };
         let found = [coarse, fine].map(|tolerance| {
@@ -122,7 +123,7 @@ fn driven_mechanisms_are_as_accurate_as_asked_between_steps() {
             let off = worst("phi2", &angle).max(worst("x3", &slider));
             assert!(off < 1e-2 * tolerance + 1e-14, "{} {tolerance}: {off:e}", entry.name);
             let drift = run.record.drift.position.last;
-            assert!(drift < 1e-14, "{} {tolerance}: {drift:e}", entry.name);
+            assert!(drift < 1e-2 * tolerance + 1e-14, "{} {tolerance}: {drift:e}", entry.name);
         }
     }
 }

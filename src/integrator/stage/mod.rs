@@ -1,0 +1,254 @@
+//! One implicit stage, of singly diagonally implicit and of multistep methods.
+
+mod matrix;
+
+use super::memory::Reader;
+use super::{From, Problem, Setup, Tolerance, round_off};
+use crate::error::{self, Error};
+use crate::formulation::{self, Change, Dae, Residual, StepError};
+use crate::math::newton::{Limits, Monitor};
+use crate::system::{Dimensions, OperatingPoint};
+use crate::tolerances::integrator as tolerances;
+use matrix::Matrix;
+
+/// ```text
+/// v = v* + g (a + w),   q = q* + g N (v + u),   M a + G^T lambda = f
+/// ```
+///
+/// with the rows of the formulation's [`Dae`] and its shifts u and w: one stage of a diagonally implicit Runge-Kutta
+/// method, with g = gamma h, or a step of a backward differentiation formula, with g = h/alpha. q and v are eliminated,
+/// so that Newton's method has one matrix of n_v + n_c unknowns, dense or sparse, from exact K, C, G and L. It is kept
+/// while it converges. One evaluation and a back-substitution an iteration, with shifts one more each.
+pub struct Stage {
+    dae: Dae,
+    n: Dimensions,
+    /// y*, the part of (q, v, work) that is known.
+    pub known: Vec<f64>,
+    /// y and y' as far as they are found.
+    pub y: Vec<f64>,
+    pub rate: Vec<f64>,
+    /// The unknowns; on entry of a solution their first guess.
+    pub unknowns: Change<f64>,
+    residual: Residual,
+    matrix: Matrix,
+    newton: Monitor,
+    /// The slowest rate of convergence of the stages of this step.
+    slowest: f64,
+    /// Round-off of y in the last solution, over the tolerated errors.
+    pub round_off: f64,
+    is_fixed: bool,
+    change: Vec<f64>,
+    /// v + u
+    velocity: Vec<f64>,
+}
+
+/// True for formulations in which lambda follows from accelerations, or q is moved to phi = 0 by multipliers of its
+/// own: with phi' = 0 or phi = 0 alone these methods lose orders.
+pub fn solves(formulation: &formulation::Entry) -> bool {
+    formulation.default_dae().is_some_and(|dae| dae.holds(2) || dae.mu.is_some())
+}
+
+impl Stage {
+    /// Memory for a system.
+    pub fn new(setup: &Setup) -> error::Result<Self> {
+        let (integrator, formulation, n) = (&setup.integrator.name, &setup.formulation.name, setup.system.dimensions());
+        let dae = formulation::dae(setup.formulation)?
+            .ok_or_else(|| Error::input(format!("{integrator} cannot integrate {formulation}")))?;
+        let matrix = Matrix::new(dae, setup.system)
+            .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
+        let zeros = |n: usize| vec![0.0; n];
+        Ok(Stage {
+            dae,
+            n,
+            known: zeros(setup.len()),
+            y: zeros(setup.len()),
+            rate: zeros(setup.len()),
+            unknowns: Change {
+                a: zeros(n.v),
+                lambda: zeros(n.lambda),
+                w: zeros(n.v),
+                u: zeros(n.v),
+                eta: zeros(n.lambda),
+                mu: zeros(n.lambda),
+            },
+            residual: Residual::new(n),
+            matrix,
+            newton: Monitor::default(),
+            slowest: 0.0,
+            round_off: 0.0,
+            is_fixed: setup.is_fixed,
+            change: zeros(setup.len()),
+            velocity: zeros(n.v),
+        })
+    }
+
+    /// Solves the stages of a step by `solve`, with a matrix of a step before, if there is one, or a new one, at the
+    /// state that `point` returns.
+    pub fn attempt<T>(
+        &mut self,
+        problem: &mut Problem,
+        from: From,
+        mut solve: impl FnMut(&mut Self, &mut Problem) -> Result<T, StepError>,
+    ) -> Result<T, StepError> {
+        self.matrix.renew(problem, from)?;
+        let is_old = self.matrix.serves(problem) && !self.matrix.is_fresh;
+        let mut solved = solve(self, problem);
+        if is_old && solved.as_ref().is_err_and(|halt| !halt.is_fatal()) {
+            self.matrix.forget();
+            self.newton.reset();
+            solved = solve(self, problem);
+        }
+        if solved.is_err() {
+            self.matrix.forget();
+        }
+        solved
+    }
+
+    /// Sets all unknowns to zero, and returns v' and lambda for a first guess.
+    pub fn guess(&mut self) -> [&mut [f64]; 2] {
+        let Change { a, lambda, w, u, eta, mu } = &mut self.unknowns;
+        [&mut *a, &mut *lambda, w, u, eta, mu].into_iter().for_each(|unknowns| unknowns.fill(0.0));
+        [a, lambda]
+    }
+
+    /// Factors the matrix for `g`, from the present M, G, L, K and C or, if there are none, those of a state with the
+    /// first guess of v' and lambda.
+    pub fn factor(
+        &mut self,
+        problem: &mut Problem,
+        (t, y): (f64, &[f64]),
+        step: (From, f64),
+        g: f64,
+    ) -> Result<(), StepError> {
+        if !self.matrix.serves(problem) {
+            let (q, v) = problem.split(y);
+            let Change { a, lambda, .. } = &self.unknowns;
+            self.matrix.linearize(OperatingPoint { t, q, v, vdot: a, lambda }, problem)?;
+        }
+        self.slowest = 0.0;
+        self.matrix.factor(problem, step, g)
+    }
+
+    /// Solves the stage at `t` by Newton's method, whose matrix is factored.
+    pub fn solve(
+        &mut self,
+        problem: &mut Problem,
+        tolerance: &Tolerance,
+        from: From,
+        t: f64,
+        g: f64,
+    ) -> Result<(), StepError> {
+        self.leave_out();
+        self.y.copy_from_slice(&self.known);
+        self.advance(problem, g);
+        let mut round_off = |divisor| round_off(problem, tolerance, from.y, divisor, &mut self.change);
+        // A fixed step goes on to where changes no longer fall, which stiff forces may raise.
+        let (round_off, stagnation) = (round_off(None), round_off(Some(g).filter(|_| self.is_fixed)));
+        self.round_off = round_off;
+        let limits = Limits {
+            most: if self.is_fixed { tolerances::FIXED_STEP_ITERATIONS } else { tolerances::STAGE_ITERATIONS },
+            tolerance: if self.is_fixed { 0.0 } else { tolerances::STAGE_ERROR },
+            round_off,
+            stagnation: tolerances::RADAU_STAGNATION * stagnation,
+            patience: if self.is_fixed { tolerances::RADAU_PATIENCE } else { 0 },
+            kept_rate: tolerances::STAGE_MATRIX_KEPT,
+            ..Limits::NONE
+        };
+        let mut newton = std::mem::take(&mut self.newton);
+        let converged = newton.solve(limits, |_| {
+            self.correct(problem, t, g)?;
+            Ok::<_, StepError>(tolerance.norm(from.y, &self.change))
+        });
+        self.newton = newton;
+        if !converged? {
+            return Err(StepError::NotConverged);
+        }
+        problem.dynamics.statistics.stagnated += u64::from(self.newton.has_stagnated);
+        self.slowest = self.slowest.max(self.newton.rate);
+        self.add_work(problem, g);
+        Ok(())
+    }
+
+    /// One correction; `change` is that of y.
+    fn correct(&mut self, problem: &mut Problem, t: f64, g: f64) -> Result<(), StepError> {
+        let Stage { dae, residual, matrix, unknowns, .. } = self;
+        let Change { a, lambda, w, u, eta, mu } = unknowns;
+        let (q, v) = problem.split(&self.y);
+        let stiffness = matrix.at.stiffness();
+        let guess = formulation::Unknowns { a, lambda, w, eta, u, mu, stiffness };
+        residual.evaluate(dae, (t, q, v), guess, &mut problem.dynamics)?;
+        problem.dynamics.statistics.newton_iterations += 1;
+        matrix.iteration.load(std::iter::once((1.0, &*residual)));
+        matrix.iteration.solve(&mut matrix.at, &problem.dynamics.structure)?;
+        let by = &matrix.iteration.change;
+        let pairs = [(a, &by.a), (lambda, &by.lambda), (w, &by.w), (u, &by.u), (eta, &by.eta), (mu, &by.mu)];
+        pairs.into_iter().for_each(|(sum, by)| sum.iter_mut().zip(by).for_each(|(sum, by)| *sum += by));
+        self.change.copy_from_slice(&self.y);
+        self.advance(problem, g);
+        self.change.iter_mut().zip(&self.y).for_each(|(change, y)| *change = y - *change);
+        Ok(())
+    }
+
+    /// q and v for the present unknowns. Where N depends on q, q is found by sweeps from its last value, each of which
+    /// reduces its error by g |omega|/2.
+    fn advance(&mut self, problem: &Problem, g: f64) {
+        let Stage { n, known, y, rate, unknowns: Change { a, w, u, .. }, velocity, .. } = self;
+        let motion = n.q + n.v;
+        let (q, v) = y[..motion].split_at_mut(n.q);
+        let (qdot, vdot) = rate[..motion].split_at_mut(n.q);
+        vdot.copy_from_slice(a);
+        vdot.iter_mut().zip(w).for_each(|(rate, w)| *rate += *w);
+        v.iter_mut().zip(known[n.q..].iter().zip(&*vdot)).for_each(|(v, (known, rate))| *v = known + g * rate);
+        velocity.copy_from_slice(v);
+        velocity.iter_mut().zip(u).for_each(|(velocity, u)| *velocity += *u);
+        let sweeps = if n.q == n.moving() { 1 } else { tolerances::RADAU_SWEEPS };
+        for _ in 0..sweeps {
+            problem.dynamics.system.rate(q, velocity, qdot);
+            q.iter_mut().zip(known.iter().zip(&*qdot)).for_each(|(q, (known, rate))| *q = known + g * rate);
+        }
+    }
+
+    /// The work, from the terms of the last evaluation and the lambda corrected since: where drivers leave nothing to the
+    /// error test, one correction of lambda may be large.
+    fn add_work(&mut self, problem: &Problem, g: f64) {
+        let first = self.n.q + self.n.v;
+        let powers = problem.dynamics.powers(&self.unknowns.lambda);
+        self.rate[first..].iter_mut().zip(powers).for_each(|(rate, power)| *rate = power);
+        for i in first..self.y.len() {
+            self.y[i] = self.known[i] + g * self.rate[i];
+        }
+    }
+
+    /// Sets the multipliers of rows that are dropped from the matrix to zero, since no correction reaches them.
+    fn leave_out(&mut self) {
+        let rows = self.matrix.iteration.matrix.left_out();
+        let dropped = self.unknowns.lambda.iter_mut().zip(rows).filter(|(_, is_out)| **is_out);
+        dropped.for_each(|(lambda, _)| *lambda = 0.0);
+    }
+
+    /// Damps raw errors along the stiff directions: see [`crate::formulation::Iteration::damp`].
+    pub fn damp(&mut self, h: f64, x: &mut [f64], v: &mut [f64], problem: &Problem) -> Result<(), StepError> {
+        self.matrix.iteration.damp(&self.matrix.at, h, x, v, &problem.dynamics)
+    }
+
+    /// Ends a step, and keeps the matrix as long as Newton's method converges well.
+    pub fn accepted(&mut self) {
+        self.matrix.accepted(self.slowest <= tolerances::STAGE_MATRIX_KEPT);
+    }
+
+    /// Discards the matrix: the equations change their form.
+    pub fn restart(&mut self) {
+        self.matrix.forget();
+    }
+
+    /// The values that steps pass on, for [`Self::recall`].
+    pub fn memory(&self) -> Vec<f64> {
+        [&self.newton.memory()[..], &self.matrix.memory()].concat()
+    }
+
+    /// Restores a [`memory`](Self::memory).
+    pub fn recall(&mut self, mut memory: Reader) {
+        self.newton.recall([memory.number(), memory.number()]);
+        self.matrix.recall(memory);
+    }
+}
