@@ -1,5 +1,6 @@
 //! The richest model: accurately, and by a method whose own error the promise allows.
 
+use super::assembled::carried;
 use super::facts::{Recorded, record};
 use super::promise::Promise;
 use super::run::{Run, measured};
@@ -61,6 +62,7 @@ impl Accurate {
     /// Runs the model at a hundredth of its tolerance until `is_long`.
     fn new(source: &Source, settings: &Settings, is_long: &dyn Fn() -> bool) -> Result<Accurate> {
         let mut prepared = source.prepare(&source.scene)?;
+        let source = &carried(source, &prepared);
         let watched = watched(&prepared, settings)?;
         let mut recorded = record(&prepared, &watched, &tighter(&prepared.method), is_long)?;
         recorded.end_on_grid(prepared.span()?);

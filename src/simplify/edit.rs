@@ -29,13 +29,16 @@ pub fn remove(scene: &mut Value, list: &str, is_gone: impl Fn(&Value) -> bool) {
     }
 }
 
-/// Removes outputs, inputs and entries of `hold` that refer to an element that is gone.
+/// Removes outputs, inputs and entries of `hold` and `initial` that refer to an element that is gone.
 pub fn drop_references(scene: &mut Value, name: &str) {
     remove(scene, "outputs", |output| mentions(output, name));
     remove(scene, "inputs", |input| text(input, "force") == name);
     let hold = scene.get_mut("assembly").and_then(|assembly| assembly.get_mut("hold"));
     if let Some(names) = hold.and_then(Value::as_array_mut) {
         names.retain(|held| !mentions(held, name));
+    }
+    if let Some(starts) = scene.get_mut("initial").and_then(Value::as_object_mut) {
+        starts.retain(|coordinate, _| carrier(coordinate) != name);
     }
 }
 

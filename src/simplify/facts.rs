@@ -14,7 +14,7 @@ use crate::prepared::{AnyMechanism, PreparedScene};
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
 use crate::tolerances::SAME;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::array::from_fn;
 
 /// The largest number of states that the estimates look at.
@@ -241,22 +241,10 @@ impl Facts {
         super::edit::elements(self.scene(), list).iter().find(|element| text(element, "name") == name)
     }
 
-    /// Start of a rigid body as assembled: the keys of its `initial`.
+    /// Start of a rigid body or point mass as assembled: the keys of its `initial`.
     pub fn initial(&self, body: &str) -> Option<Value> {
-        let place = *self.path(body)?.first()?;
-        if self.dimension() == 2 {
-            let Placed { r, turn, velocity, spin, .. } = place;
-            let start =
-                json!({ "position": r[..2], "angle": turn, "velocity": velocity[..2], "angular_velocity": spin[2] });
-            return Some(start);
-        }
-        let names = self.prepared.system().names().q;
-        let first = names.iter().position(|name| *name == format!("{body}.qw"))?;
-        let quaternion = self.states.first()?.q.get(first..first + 4)?;
-        let spin = place.axes.map(|axis| product(&axis, &place.spin));
-        Some(
-            json!({ "position": place.r, "rotation": quaternion, "velocity": place.velocity, "angular_velocity": spin }),
-        )
+        let body = self.element("bodies", body)?;
+        initial(&self.prepared, self.states.first()?, self.placed.first()?, body)
     }
 
     /// Largest displacement of a beam in a floating frame relative to its length.
@@ -329,6 +317,32 @@ impl Facts {
         let first = all.first().map_or(0.0, |energy| energy.potential);
         all.iter().fold(0.0, |most: f64, energy| most.max(energy.kinetic).max((energy.potential - first).abs()))
     }
+}
+
+/// `initial` of a rigid body or point mass at a state with these places of markers; none of another.
+pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body: &Value) -> Option<Value> {
+    let (name, kind) = (text(body, "name"), text(body, "type"));
+    if !["rigid", "point_mass"].contains(&kind) || body.get("free").is_some() {
+        return None;
+    }
+    let (markers, dimension) = match &prepared.mechanism {
+        AnyMechanism::Planar(mechanism) => (&mechanism.model().markers, 2),
+        AnyMechanism::Spatial(mechanism) => (&mechanism.model().markers, 3),
+    };
+    let Placed { r, axes, turn, velocity, spin } = *places.get(markers.find(name).ok()?)?;
+    let mut start = Map::new();
+    start.insert("position".to_string(), json!(r[..dimension]));
+    start.insert("velocity".to_string(), json!(velocity[..dimension]));
+    if kind == "rigid" && dimension == 2 {
+        start.insert("angle".to_string(), json!(turn));
+        start.insert("angular_velocity".to_string(), json!(spin[2]));
+    } else if kind == "rigid" {
+        let names = prepared.system().names().q;
+        let first = names.iter().position(|own| *own == format!("{name}.qw"))?;
+        start.insert("rotation".to_string(), json!(state.q.get(first..first + 4)?));
+        start.insert("angular_velocity".to_string(), json!(axes.map(|axis| product(&axis, &spin))));
+    }
+    Some(Value::Object(start))
 }
 
 /// Placements of all markers at a state.

@@ -16,6 +16,7 @@
 //! To add a kind: a file with a [`Candidate`] and a line in [`registry`], or from outside the crate in the list that
 //! [`simplify`] takes.
 
+mod assembled;
 mod base;
 mod bench;
 mod candidate;

@@ -77,7 +77,7 @@ fn attempt(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], method: &Me
     let mut scene = found.scene.clone();
     write_method(&mut scene, method);
     let what = format!("{} at {}", method.triple(), accuracy(method));
-    let result = bench.run(&scene, &what, found.run.seconds);
+    let result = bench.run(&scene, &what, DEARER * found.run.seconds);
     let mut reason = result.as_ref().map_or_else(Clone::clone, |run| refusal(bench, run, exact));
     let (best, seconds) = (bench.cost(&found.run), result.as_ref().map_or(0.0, |run| bench.cost(run)));
     let is_cheaper = seconds < CHEAPER * best;

@@ -1,0 +1,39 @@
+//! The start as assembled, in the words of the scene.
+
+use super::edit::{carrier, elements, find_mut, text};
+use super::facts::{State, initial, placed};
+use super::source::Source;
+use crate::prepared::PreparedScene;
+use crate::tolerances::SAME;
+use serde_json::Value;
+
+/// The scene with the start of all bodies that assembly moves. A simpler model is assembled by itself, and from
+/// the guesses of the scene it would come to another start. What assembly leaves where it is keeps its expressions.
+/// Where the start of a moved body cannot be written (`free` directions, elastic coordinates) all stays as it is.
+pub fn carried(source: &Source, prepared: &PreparedScene) -> Source {
+    let moves = &prepared.assembly.moves;
+    let is_moved = |body: &&Value| moves.iter().any(|change| carrier(&change.name) == text(body, "name"));
+    let moved: Vec<&Value> = elements(&source.scene, "bodies").iter().filter(is_moved).collect();
+    if moved.is_empty() {
+        return source.clone();
+    }
+    let (q, v) = prepared.start();
+    let start = State { t: prepared.start_time(), q: q.to_vec(), v: v.to_vec() };
+    let places = placed(prepared, &start);
+    let own = |body: &&Value| Some((text(body, "name").to_string(), initial(prepared, &start, &places, body)?));
+    let Some(starts) = moved.iter().map(own).collect::<Option<Vec<_>>>() else { return source.clone() };
+    let mut scene = source.scene.clone();
+    for (name, initial) in starts {
+        if let Ok(body) = find_mut(&mut scene, "bodies", &name) {
+            body["initial"] = initial;
+        }
+    }
+    let near = |own: &[f64], other: &[f64]| {
+        own.len() == other.len() && own.iter().zip(other).all(|(x, y)| (x - y).abs() <= SAME * (1.0 + x.abs()))
+    };
+    let is_same = |again: PreparedScene| near(q, again.start().0) && near(v, again.start().1);
+    match source.prepare(&scene).is_ok_and(is_same) {
+        true => Source { scene, ..source.clone() },
+        false => source.clone(),
+    }
+}
