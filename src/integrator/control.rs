@@ -106,9 +106,6 @@ impl Tightening {
     }
 }
 
-/// Safety factor on the optimal step, where the method sets none.
-const SAFETY: f64 = 0.9;
-
 /// h_new = h safety err^-expo err_old^beta within [shrink, grow] h. Source: Hairer, Norsett, Wanner, Solving Ordinary
 /// Differential Equations I, II.4 and the codes DOPRI5 and DOP853. Predictive, for implicit methods: not more than
 /// h_new = h safety (h/h_old) (err_old/err^2)^expo. Source: Hairer, Wanner II, IV.8 (8.25), after Gustafsson.
@@ -144,7 +141,7 @@ impl Control {
             beta,
             shrink,
             grow,
-            safety: SAFETY,
+            safety: 0.9,
             retry: 0.25,
             hold: 1.0,
             last: 1e-4,
@@ -195,7 +192,7 @@ impl Control {
 
     /// The step to try again after the error was too large.
     pub fn reject(&self, h: f64, error: f64) -> f64 {
-        h * (self.safety.min(SAFETY) * error.powf(-self.exponent)).clamp(self.shrink, 1.0)
+        h * (self.safety * error.powf(-self.exponent)).clamp(self.shrink, 1.0)
     }
 }
 

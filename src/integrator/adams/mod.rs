@@ -61,6 +61,8 @@ struct Adams {
     coefficients: Coefficients,
     constants: [f64; ROOM],
     control: Control,
+    /// Size of the next step over that of the last attempt.
+    ratio: f64,
     /// Inverses of the tolerated errors, zero where there are none.
     weights: Vec<f64>,
     /// y' at the prediction, then its difference to the predicted one.
@@ -94,6 +96,7 @@ impl Adams {
             coefficients: Coefficients::NONE,
             constants: error_constants(),
             control: Control::new(1.0, 0.0, tolerances::ADAMS_SHRINK, 2.0),
+            ratio: 1.0,
             weights: zeros(),
             defect: zeros(),
             end: zeros(),
@@ -207,18 +210,14 @@ impl Adams {
         }
     }
 
-    /// Sets the control so that the next step has a part of the tolerated error, and is as long as the last one unless
-    /// it can be clearly longer; or the one after a refusal.
-    fn steer(&mut self, error: f64, next: f64) {
-        let factor =
-            |error: f64, order: usize| (tolerances::ADAMS_AIM / error.max(1e-30)).powf(1.0 / (order as f64 + 1.0));
-        self.control.exponent = 1.0 / (self.order as f64 + 1.0);
-        let ratio = match error > 1.0 {
-            true => factor(error, self.order),
-            false => factor(next, self.tried.next),
-        };
-        let holds = (1.0..tolerances::ADAMS_LONGER).contains(&ratio);
-        self.control.safety = if holds { 1.0 } else { ratio } * error.max(1e-16).powf(self.control.exponent);
+    /// Chooses the size of the next step over that of this one, so that its error `next` becomes a part of the tolerated
+    /// one; it is as long as the last one unless it can be clearly longer.
+    fn steer(&mut self, next: f64) {
+        let power = |order: usize| 1.0 / (order as f64 + 1.0);
+        self.control.exponent = power(self.order);
+        self.control.safety = tolerances::ADAMS_AIM.powf(self.control.exponent);
+        let ratio = (tolerances::ADAMS_AIM / next.max(1e-30)).powf(power(self.tried.next));
+        self.ratio = if (1.0..tolerances::ADAMS_LONGER).contains(&ratio) { 1.0 } else { ratio };
     }
 }
 
@@ -238,6 +237,10 @@ impl Integrator for Adams {
 
     fn control(&mut self) -> &mut Control {
         &mut self.control
+    }
+
+    fn propose(&mut self, h: f64, _: f64, growing: bool) -> f64 {
+        h * self.ratio.clamp(self.control.shrink, if growing { self.control.grow } else { 1.0 })
     }
 
     /// That of the lowest orders, Heun's; it shrinks as the order rises.
@@ -266,7 +269,7 @@ impl Integrator for Adams {
         let norm = self.norm(0.0, 0);
         let error = h * (self.coefficients.g[k - 1] - self.coefficients.g[k]) * norm;
         let next = self.choose(self.error_of(k, norm));
-        self.steer(error, next);
+        self.steer(next);
         Ok(Some(error))
     }
 
