@@ -1,4 +1,4 @@
-//! A run that was saved at an accepted step and goes on from there is, bit by bit, the run that went on by itself.
+//! A run that was saved at an accepted step, or after one that was refused, and goes on from there is, bit by bit, the run that went on by itself.
 
 use crate::scenes::{Ready, parse, shipped};
 use holonom::integrator::{self, Steps};
@@ -6,6 +6,11 @@ use holonom::method_spec::MethodSpec;
 use holonom::projection;
 use holonom::simulate::{Checkpoint, Method, Observation, Outcome, Sink, Span, Start, Stop, simulate_from};
 use rayon::prelude::*;
+use std::cell::Cell;
+
+/// Those that carry more than they save where an attempt was refused, or a step was left among its rows: from there
+/// they go on within the tolerance only.
+const BETWEEN_STEPS: [&str; 4] = ["radau_iia", "dopri5", "dop853", "phem56"];
 
 /// Steps of a run with fixed ones.
 const STEPS: f64 = 40.0;
@@ -68,16 +73,17 @@ fn methods(ready: &Ready, span: Span) -> Vec<Method> {
     all
 }
 
-/// Every number that a run shows; stops it after so many accepted states.
+/// Every number that a run shows; stops it after so many accepted states, or one attempt later, which may be refused.
 struct Numbers {
     accepted: Vec<Vec<u64>>,
     rows: Vec<Vec<u64>>,
     most: usize,
+    attempts: Cell<usize>,
 }
 
 impl Numbers {
     fn up_to(most: usize) -> Self {
-        Numbers { accepted: Vec::new(), rows: Vec::new(), most }
+        Numbers { accepted: Vec::new(), rows: Vec::new(), most, attempts: Cell::new(0) }
     }
 }
 
@@ -97,7 +103,9 @@ impl Sink for Numbers {
     }
 
     fn stops(&self) -> Option<Stop> {
-        let is_over = self.accepted.len() >= self.most;
+        let is_last = self.accepted.len() >= self.most;
+        let is_over = is_last && self.attempts.get() == 0;
+        self.attempts.set(self.attempts.get().saturating_sub(usize::from(is_last)));
         is_over.then(|| Stop { reason: "saved".to_string(), hint: String::new() })
     }
 }
@@ -107,9 +115,9 @@ fn run(
     method: &Method,
     span: Span,
     start: Start,
-    most: usize,
+    (most, attempts): (usize, usize),
 ) -> (Outcome, Option<Checkpoint>, Numbers) {
-    let mut numbers = Numbers::up_to(most);
+    let mut numbers = Numbers { attempts: Cell::new(attempts), ..Numbers::up_to(most) };
     let (outcome, saved) = simulate_from(ready.system(), method, span, start, &mut numbers).unwrap();
     (outcome, saved, numbers)
 }
@@ -125,19 +133,25 @@ fn written(saved: &Checkpoint) -> Checkpoint {
 fn compared(ready: &Ready, method: &Method, span: Span) -> Result<usize, String> {
     let (q, v) = ready.0.start();
     let start = Start::State(q, v);
-    let (whole, last, all) = run(ready, method, span, start, usize::MAX);
+    let (whole, last, all) = run(ready, method, span, start, (usize::MAX, 0));
     let Some(last) = last else { return Ok(0) };
     let count = all.accepted.len();
     let mut places: Vec<usize> = [1, count / 4, count / 2, 3 * count / 4, count - 1].into();
     places.retain(|place| (1..count).contains(place));
     places.dedup();
-    for &place in &places {
-        let (_, saved, first) = run(ready, method, span, start, place);
-        let Some(saved) = saved else { return Err(format!("{place}: nothing saved")) };
+    let later = usize::from(!BETWEEN_STEPS.contains(&method.integrator.name.as_str()));
+    for stop in places.iter().flat_map(|&place| (0..=later).map(move |attempts| (place, attempts))) {
+        let (_, saved, first) = run(ready, method, span, start, stop);
+        let (Some(saved), place) = (saved, first.accepted.len()) else {
+            return Err(format!("{stop:?}: nothing saved"));
+        };
+        if place == count {
+            continue;
+        }
         if first.accepted != all.accepted[..place] {
             return Err(format!("{place}: the run to be saved is another one"));
         }
-        let (outcome, saved, rest) = run(ready, method, span, Start::Saved(&written(&saved)), usize::MAX);
+        let (outcome, saved, rest) = run(ready, method, span, Start::Saved(&written(&saved)), (usize::MAX, 0));
         // Where the form of the equations changes at the saved state, the run shows it with v' before, and this one after that.
         let length = 2 + q.len() + v.len();
         if rest.accepted[0][..length] != all.accepted[place - 1][..length] {

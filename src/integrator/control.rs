@@ -52,6 +52,14 @@ impl Tolerance {
         Tolerance { rtol, atol, ..*self }
     }
 
+    /// Round-off of sums, for the iterations of fixed steps at coordinates `q`.
+    pub(super) fn exact(q: &[f64], system: &dyn MechanicalSystem) -> Self {
+        let size = Some(largest(system.own(q)))
+            .filter(|size| *size > 0.0)
+            .map_or(1.0, |size| size.clamp(tolerances::LEAST_LARGEST_Q, 1.0));
+        Tolerance::new(tolerances::ROUND_OFF_OF_SUMS, tolerances::ROUND_OFF_OF_SUMS * size, system)
+    }
+
     /// Number of components of y before the work.
     pub fn motion(&self) -> usize {
         self.motion

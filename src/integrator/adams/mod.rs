@@ -286,24 +286,28 @@ impl Integrator for Adams {
         self.order = 1;
     }
 
+    /// The sums of the last step; before its end, after a refusal, the differences at its start.
     fn memory(&self) -> Vec<f64> {
         let Tried { h, order, next } = self.tried;
-        let numbers = [self.known, order, next, usize::from(self.is_accepted), usize::from(self.is_rising)];
+        let numbers = [self.order, self.known, order, next, usize::from(self.is_accepted), usize::from(self.is_rising)];
         let mut memory = numbers.map(|number| number as f64).to_vec();
         memory.push(h);
         memory.extend(self.past);
-        self.predicted[..=order].iter().for_each(|row| memory.extend(row));
+        let rows = if self.is_accepted { &self.predicted[..=order] } else { &self.differences[..self.known] };
+        rows.iter().for_each(|row| memory.extend(row));
         memory
     }
 
     fn recall(&mut self, memory: &[f64]) {
         let mut memory = Reader(memory);
-        let [known, order, next, is_accepted, is_rising] = std::array::from_fn(|_| memory.number() as usize);
-        self.known = known.min(ROOM);
-        self.tried = Tried { h: memory.number(), order: order.clamp(1, MOST), next: next.clamp(1, MOST) };
+        let [own, known, order, next, is_accepted, is_rising] = std::array::from_fn(|_| memory.number() as usize);
+        (self.order, self.known) = (own.clamp(1, self.most), known.min(ROOM));
+        self.tried = Tried { h: memory.number(), order: order.clamp(1, MOST), next: next.clamp(1, self.most) };
         (self.is_accepted, self.is_rising) = (is_accepted > 0, is_rising > 0);
         memory.fill(&mut self.past);
-        self.predicted[..=self.tried.order].iter_mut().for_each(|row| memory.fill(row));
+        let Adams { tried, known, predicted, differences, .. } = self;
+        let rows = if is_accepted > 0 { &mut predicted[..=tried.order] } else { &mut differences[..*known] };
+        rows.iter_mut().for_each(|row| memory.fill(row));
     }
 
     fn lower_order(&self, from: From, h: f64, out: &mut [f64]) -> bool {

@@ -153,11 +153,13 @@ impl Integrator for Bdf {
     }
 
     fn memory(&self) -> Vec<f64> {
-        [&self.order.memory()[..], &self.history.memory(), &self.stage.memory()].concat()
+        let is_begun = [f64::from(self.is_begun)];
+        [&is_begun[..], &self.order.memory(), &self.history.memory(), &self.stage.memory()].concat()
     }
 
     fn recall(&mut self, memory: &[f64]) {
         let mut memory = Reader(memory);
+        self.is_begun = memory.number() != 0.0;
         self.order.recall(&mut memory);
         self.history.recall(&mut memory);
         self.stage.recall(memory);

@@ -114,8 +114,8 @@ impl Order {
     }
 
     /// The state of the choice as numbers, for [`Self::recall`].
-    pub fn memory(&self) -> [f64; 4] {
-        [self.k as f64, f64::from(self.is_starting), self.steady as f64, self.last]
+    pub fn memory(&self) -> [f64; 5] {
+        [self.k as f64, f64::from(self.is_starting), self.steady as f64, self.last, self.failures as f64]
     }
 
     /// Restores a [`memory`](Self::memory).
@@ -123,5 +123,6 @@ impl Order {
         self.set((memory.number() as usize).clamp(1, HIGHEST));
         self.is_starting = memory.number() != 0.0;
         (self.steady, self.last) = (memory.number() as usize, memory.number());
+        self.failures = memory.number() as usize;
     }
 }

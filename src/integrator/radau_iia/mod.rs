@@ -14,10 +14,9 @@ use super::sums::accumulate;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, collapsed, refuses};
 use crate::error::{Error, Result};
 use crate::formulation::{self, Dae, Linearized, StepError};
-use crate::math::largest;
 use crate::math::newton::Monitor;
 use crate::method_spec::OptionDoc;
-use crate::system::{MechanicalSystem, OperatingPoint};
+use crate::system::OperatingPoint;
 use crate::tolerances::integrator as tolerances;
 use matrices::Matrices;
 use order::{Order, Seen, internal};
@@ -235,13 +234,6 @@ impl RadauIIA {
     }
 }
 
-fn exact(q: &[f64], system: &dyn MechanicalSystem) -> Tolerance {
-    let size = Some(largest(system.own(q)))
-        .filter(|size| *size > 0.0)
-        .map_or(1.0, |size| size.clamp(tolerances::LEAST_LARGEST_Q, 1.0));
-    Tolerance::new(tolerances::ROUND_OFF_OF_SUMS, tolerances::ROUND_OFF_OF_SUMS * size, system)
-}
-
 impl Integrator for RadauIIA {
     fn order(&self) -> usize {
         self.order.method().stages()
@@ -262,7 +254,7 @@ impl Integrator for RadauIIA {
         let method = self.order.current();
         self.tried = Some(Step { h, method });
         self.tolerance = match self.is_fixed {
-            true => exact(problem.split(from.y).0, problem.dynamics.system),
+            true => Tolerance::exact(problem.split(from.y).0, problem.dynamics.system),
             false => internal(tolerance, self.order.method().stages()),
         };
         if !std::mem::replace(&mut self.is_begun, true) {

@@ -17,8 +17,8 @@ pub struct Matrix {
     /// g for which the matrix is factored, and the rows that are dropped from it.
     factored: Option<f64>,
     dropped: Vec<usize>,
-    /// g and the state of the matrix of a saved run.
-    recalled: Option<(f64, Vec<f64>)>,
+    /// g of the matrix of a saved run, whether it was fresh, and its state.
+    recalled: Option<(f64, bool, Vec<f64>)>,
 }
 
 /// With v = v* + g (a + w) and q = q* + g N (v + u).
@@ -82,26 +82,26 @@ impl Matrix {
     /// g and the state of the matrix if it is kept, for [`Self::recall`].
     pub fn memory(&self) -> Vec<f64> {
         match self.factored.filter(|_| self.is_linearized) {
-            Some(g) => [&[g], self.at.point()].concat(),
+            Some(g) => [&[g, f64::from(self.is_fresh)], self.at.point()].concat(),
             None => vec![0.0],
         }
     }
 
     /// Restores a [`memory`](Self::memory) at the next step.
     pub fn recall(&mut self, mut memory: Reader) {
-        let g = memory.number();
-        self.recalled = (g > 0.0).then(|| (g, memory.rest().to_vec()));
+        let (g, is_fresh) = (memory.number(), memory.number() != 0.0);
+        self.recalled = (g > 0.0).then(|| (g, is_fresh, memory.rest().to_vec()));
     }
 
     /// Computes the matrix of a saved run again, without counting the work.
     pub fn renew(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
-        let Some((g, point)) = self.recalled.take() else { return Ok(()) };
+        let Some((g, is_fresh, point)) = self.recalled.take() else { return Ok(()) };
         let counted = problem.dynamics.statistics;
         self.at.recall(&point, &mut problem.dynamics)?;
         self.dropped.clone_from(&problem.dynamics.dropped);
         self.factor(problem, (from, g), g)?;
         problem.dynamics.statistics = counted;
-        self.is_linearized = true;
+        (self.is_linearized, self.is_fresh) = (true, is_fresh);
         Ok(())
     }
 }

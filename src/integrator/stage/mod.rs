@@ -138,10 +138,14 @@ impl Stage {
         t: f64,
         g: f64,
     ) -> Result<(), StepError> {
+        let tolerance = match self.is_fixed {
+            true => Tolerance::exact(problem.split(from.y).0, problem.dynamics.system),
+            false => *tolerance,
+        };
         self.leave_out();
         self.y.copy_from_slice(&self.known);
         self.advance(problem, g);
-        let mut round_off = |divisor| round_off(problem, tolerance, from.y, divisor, &mut self.change);
+        let mut round_off = |divisor| round_off(problem, &tolerance, from.y, divisor, &mut self.change);
         // A fixed step goes on to where changes no longer fall, which stiff forces may raise.
         let (round_off, stagnation) = (round_off(None), round_off(Some(g).filter(|_| self.is_fixed)));
         self.round_off = round_off;
@@ -151,7 +155,7 @@ impl Stage {
             round_off,
             stagnation: tolerances::RADAU_STAGNATION * stagnation,
             patience: if self.is_fixed { tolerances::RADAU_PATIENCE } else { 0 },
-            kept_rate: tolerances::STAGE_MATRIX_KEPT,
+            kept_rate: self.kept_rate(),
             ..Limits::NONE
         };
         let mut newton = std::mem::take(&mut self.newton);
@@ -233,7 +237,13 @@ impl Stage {
 
     /// Ends a step, and keeps the matrix as long as Newton's method converges well.
     pub fn accepted(&mut self) {
-        self.matrix.accepted(self.slowest <= tolerances::STAGE_MATRIX_KEPT);
+        self.matrix.accepted(self.slowest <= self.kept_rate());
+    }
+
+    /// Rate of convergence up to which the matrix serves the next step too. Iterations of fixed steps end at round-off,
+    /// which slow convergence looks like.
+    fn kept_rate(&self) -> f64 {
+        if self.is_fixed { tolerances::RADAU_MATRIX_KEPT } else { tolerances::STAGE_MATRIX_KEPT }
     }
 
     /// Discards the matrix: the equations change their form.
