@@ -204,9 +204,9 @@ impl Control {
     }
 }
 
-/// Round-off of changes of y, over the tolerated errors; with `divisor`, s, where v is found from q by a division by it:
-/// from phi = 0, or from forces so stiff that q follows them within the step. Other v are rounded by their own size.
-/// `change` is scratch.
+/// Round-off of changes of y, over the tolerated errors; with `divisor`, s, where v is found from q by a division by
+/// it: from phi = 0, or from forces so stiff that q follows them within the step. Other v are rounded by their own
+/// size. `change` is scratch.
 pub(super) fn round_off(
     problem: &Problem,
     tolerance: &Tolerance,

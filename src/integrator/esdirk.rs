@@ -130,8 +130,8 @@ impl Esdirk {
         })
     }
 
-    /// The error of the tableau, damped along the stiff directions, over the tolerated errors; without the shifts, which
-    /// the first stage does not have and the others have with an order less.
+    /// The error of the tableau, damped along the stiff directions, over the tolerated errors; without the shifts,
+    /// which the first stage does not have and the others have with an order less.
     fn estimate(
         &mut self,
         problem: &Problem,

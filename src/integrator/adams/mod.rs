@@ -20,11 +20,11 @@ use coefficients::{Coefficients, MOST, ROOM, error_constants};
 /// Ordinary Differential Equations I, III.5 and III.7; projected as in Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482,
 /// which keeps the order.
 ///
-/// Order k + 1 in q, v and lambda. Two evaluations a step, whatever the order: of those of `dop853` at equal errors
-/// as many at four digits, half as many at ten. A projection takes the factors of the prediction, which is off by the error of the step.
-/// A start, and every change of the form of the equations, begins at order 1 with small steps; stiff modes are stable
-/// up to |h lambda| of about one only. Interpolation by the polynomial of the step, of order k + 1, which meets both
-/// ends.
+/// Order k + 1 in q, v and lambda. Two evaluations a step, whatever the order: at equal errors as many as `dop853` at
+/// four digits, little more than half at ten. A projection takes the factors of the prediction, which is off by the
+/// error of the step. A start, and every change of the form of the equations, begins at order 1. Stiff modes limit the
+/// step to |h lambda| of two, the limit of Heun's method, at order 1 and to less at higher orders. Interpolation by the
+/// polynomial of the step, of order k + 1, which meets both ends.
 pub const ENTRY: Entry = Entry {
     name: "adams",
     about: "Adams-Bashforth-Moulton, order up to 13 by itself, 2 evaluations a step; smooth motions, few events",
@@ -210,8 +210,8 @@ impl Adams {
         }
     }
 
-    /// Chooses the size of the next step over that of this one, so that its error `next` becomes a part of the tolerated
-    /// one; it is as long as the last one unless it can be clearly longer.
+    /// Chooses the size of the next step over that of this one, so that its error `next` becomes a part of the
+    /// tolerated one; it is as long as the last one unless it can be clearly longer.
     fn steer(&mut self, next: f64) {
         let power = |order: usize| 1.0 / (order as f64 + 1.0);
         self.control.exponent = power(self.order);

@@ -55,8 +55,8 @@ impl Order {
         (self.is_starting, self.steady, self.failures) = (true, 0, 0);
     }
 
-    /// True if the terms do not decrease from the order below, so that this is to be preferred; unless they are so small
-    /// that round-off may be most of them.
+    /// True if the terms do not decrease from the order below, so that this is to be preferred; unless they are so
+    /// small that round-off may be most of them.
     fn falls(&self) -> bool {
         let [lowest, lower, own, _] = self.terms;
         match self.k {

@@ -212,8 +212,8 @@ impl Stage {
         }
     }
 
-    /// The work, from the terms of the last evaluation and the lambda corrected since: where drivers leave nothing to the
-    /// error test, one correction of lambda may be large.
+    /// The work, from the terms of the last evaluation and the lambda corrected since: where drivers leave nothing to
+    /// the error test, one correction of lambda may be large.
     fn add_work(&mut self, problem: &Problem, g: f64) {
         let first = self.n.q + self.n.v;
         let powers = problem.dynamics.powers(&self.unknowns.lambda);
