@@ -1,12 +1,13 @@
-//! Bodies: groups of coordinates that M couples to nothing, not even to each other, eliminated without places of their
-//! own. Their blocks of G are read where they stand.
+//! Bodies: groups of coordinates that M couples to no others, eliminated without places of their own. Their blocks of G
+//! are read where they stand.
 
 use super::super::Pattern;
+use super::dense::Dense;
 use super::groups::Groups;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Coordinates in sequence with a diagonal mass matrix.
+/// Coordinates in sequence with a mass matrix of their own.
 pub struct Body {
     /// Its first coordinate.
     pub first: u32,
@@ -46,31 +47,42 @@ pub struct Bodies {
     pub sides: Vec<Side>,
     pub targets: Vec<u32>,
     pub runs: Vec<Run>,
-    /// Entries of M on the diagonal of bodies, with their coordinates.
+    /// Entries of M of bodies where it is diagonal, with their coordinates, and the bodies where it is not.
     pub masses: Vec<(usize, usize)>,
+    pub dense: Vec<Dense>,
 }
 
-/// The blocks of G of a body: groups of rows with the places of their first entries.
-pub type Sides = Vec<(usize, usize)>;
+/// The entries of a body.
+#[derive(Clone, Default)]
+pub struct Entries {
+    /// Those of M.
+    pub mass: Vec<usize>,
+    /// Blocks of G: groups of rows with the places of their first entries.
+    pub sides: Vec<(usize, usize)>,
+}
 
-/// The blocks of the groups of coordinates that are bodies, none for the others.
-pub fn find(mass: &Pattern, g: &Pattern, groups: &Groups) -> Vec<Option<Sides>> {
+/// The entries of the groups of coordinates that are bodies, none for the others.
+pub fn find(mass: &Pattern, g: &Pattern, groups: &Groups) -> Vec<Option<Entries>> {
     let (of_coordinate, of_row) = groups.numbers();
     let mut are_bodies: Vec<bool> = groups.late.iter().map(|late| !late).collect();
     let mut diagonals = vec![0; g.cols];
-    for &(i, j) in &mass.entries {
+    let mut found = vec![Entries::default(); groups.coordinates.len()];
+    for (entry, &(i, j)) in mass.entries.iter().enumerate() {
+        found[of_coordinate[i]].mass.push(entry);
         diagonals[i] += usize::from(i == j);
-        are_bodies[of_coordinate[i]] &= i == j;
-        are_bodies[of_coordinate[j]] &= i == j;
+        let is_inside = of_coordinate[i] == of_coordinate[j];
+        are_bodies[of_coordinate[i]] &= is_inside;
+        are_bodies[of_coordinate[j]] &= is_inside;
     }
-    for (group, is_body) in groups.coordinates.iter().zip(&mut are_bodies) {
-        *is_body &= is_sequence(group) && group.iter().all(|&i| diagonals[i] == 1);
+    for ((group, found), is_body) in groups.coordinates.iter().zip(&found).zip(&mut are_bodies) {
+        // A mass matrix that is full, of flexible bodies, costs less as a column.
+        *is_body &= is_sequence(group) && found.mass.len() <= 2 * group.len();
+        *is_body &= group.iter().all(|&i| diagonals[i] == 1);
     }
     let mut blocks: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
     for (entry, &(row, i)) in g.entries.iter().enumerate() {
         blocks.entry((of_coordinate[i], of_row[row])).or_default().push(entry);
     }
-    let mut sides: Vec<Sides> = vec![Vec::new(); groups.coordinates.len()];
     for ((group, rows), entries) in blocks {
         let (coordinates, rows_of) = (&groups.coordinates[group], &groups.rows[rows]);
         let places = rows_of.iter().flat_map(|&row| coordinates.iter().map(move |&i| (row, i)));
@@ -78,9 +90,9 @@ pub fn find(mass: &Pattern, g: &Pattern, groups: &Groups) -> Vec<Option<Sides>> 
             && is_sequence(rows_of)
             && entries.len() == coordinates.len() * rows_of.len()
             && entries.iter().zip(places).all(|(&entry, place)| g.entries[entry] == place);
-        sides[group].push((rows, entries[0]));
+        found[group].sides.push((rows, entries[0]));
     }
-    sides.into_iter().zip(are_bodies).map(|(sides, is_body)| is_body.then_some(sides)).collect()
+    found.into_iter().zip(are_bodies).map(|(found, is_body)| is_body.then_some(found)).collect()
 }
 
 fn is_sequence(numbers: &[usize]) -> bool {
@@ -88,15 +100,30 @@ fn is_sequence(numbers: &[usize]) -> bool {
 }
 
 impl Bodies {
-    /// Adds a body with its blocks, and the place of each of their products.
-    pub fn push(&mut self, first: usize, width: usize, sides: Vec<Side>, target: impl Fn(u32, u32) -> usize) {
+    /// Adds a body of `width` coordinates from `first` on with its entries of M, its blocks, and the place of each of
+    /// their products.
+    pub fn push(
+        &mut self,
+        (first, width): (usize, usize),
+        mass: &[(usize, (usize, usize))],
+        sides: Vec<Side>,
+        target: impl Fn(u32, u32) -> usize,
+    ) {
         let starts = (self.all.len(), self.sides.len(), self.targets.len());
         for l in 0..sides.len() {
             self.targets.extend((l..sides.len()).map(|k| target(sides[k].position, sides[l].position) as u32));
         }
         let alike = sides.first().filter(|side| sides.iter().all(|other| other.rows == side.rows));
         let partner_width = alike.map_or(0, |side| side.rows as usize);
-        let are_levers = partner_width > 0 && sides.iter().all(|side| side.sign != 0.0);
+        let blocks = sides.iter().map(|side| side.entries as usize..(side.entries + side.rows * width as u32) as usize);
+        let dense = Dense::new((first, width), mass, blocks.collect(), self.dense.last().map_or(0, Dense::end));
+        let are_levers = partner_width > 0
+            && sides.iter().all(|side| side.sign != 0.0)
+            && dense.as_ref().is_none_or(|dense| dense.leaves_alone(partner_width));
+        match dense {
+            Some(dense) => self.dense.push(dense),
+            None => self.masses.extend(mass.iter().map(|&(entry, (i, _))| (entry, i))),
+        }
         self.all.push(Body { first: first as u32, sides: sides.len() as u32 });
         self.sides.extend(sides);
         let kind = |run: &Run| (run.width, run.partner_width, run.are_levers);

@@ -2,7 +2,7 @@
 
 use super::super::order::{columns, lower_adjacency, order};
 use super::super::{Lever, Pattern};
-use super::bodies::{Bodies, Side, Sides, find};
+use super::bodies::{Bodies, Entries, Side, find};
 use super::groups::Groups;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -79,11 +79,11 @@ impl Layout {
     /// For M and G with these late coordinates; `levers` are blocks of G.
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool], levers: &[Lever]) -> Self {
         let groups = Groups::new(mass, g, late);
-        let sides = find(mass, g, &groups);
+        let entries = find(mass, g, &groups);
         let (first, others): (Vec<usize>, Vec<usize>) = groups
             .in_order(&order(mass, g, late))
             .into_iter()
-            .partition(|&group| sides.get(group).is_some_and(Option::is_some));
+            .partition(|&group| entries.get(group).is_some_and(Option::is_some));
         let nodes = [first.as_slice(), &others].concat();
         // Bodies fill the others' columns.
         let below = columns(&lower_adjacency(&groups.mass, &groups.g, &nodes), nodes.len());
@@ -134,27 +134,25 @@ impl Layout {
         let positions = layout.coordinates.iter().map(|&(_, p)| p);
         layout.late = positions.filter(|&p| p as usize >= layout.early_unknowns).collect();
         layout.slots(mass, g);
-        layout.add_bodies(&first, &groups, sides, levers);
+        layout.add_bodies(mass, (&first, &groups), entries, levers);
         layout.runs = layout.runs();
-        let of_body = layout.of_bodies(n);
-        layout.bodies.masses =
-            mass.entries.iter().enumerate().filter(|(_, (i, _))| of_body[*i]).map(|(k, (i, _))| (k, *i)).collect();
         layout
     }
 
-    /// True for the coordinates of bodies, of n.
-    fn of_bodies(&self, n: usize) -> Vec<bool> {
-        let mut is_of_body = vec![true; n];
-        self.coordinates.iter().for_each(|&(i, _)| is_of_body[i as usize] = false);
-        is_of_body
-    }
-
-    fn add_bodies(&mut self, first: &[usize], groups: &Groups, mut sides: Vec<Option<Sides>>, levers: &[Lever]) {
+    fn add_bodies(
+        &mut self,
+        mass: &Pattern,
+        (first, groups): (&[usize], &Groups),
+        mut entries: Vec<Option<Entries>>,
+        levers: &[Lever],
+    ) {
         let signs: BTreeMap<usize, f64> = levers.iter().map(|lever| (lever.first_entry, lever.sign)).collect();
         let mut bodies = Bodies::default();
         for &group in first {
             let coordinates = &groups.coordinates[group];
-            let blocks = sides[group].take().unwrap_or_default().into_iter();
+            let entries = entries[group].take().unwrap_or_default();
+            let masses: Vec<_> = entries.mass.iter().map(|&entry| (entry, mass.entries[entry])).collect();
+            let blocks = entries.sides.into_iter();
             let mut blocks: Vec<Side> = blocks
                 .map(|(rows, entries)| {
                     let rows = &groups.rows[rows];
@@ -167,7 +165,8 @@ impl Layout {
                 })
                 .collect();
             blocks.sort_by_key(|side| side.position);
-            bodies.push(coordinates[0], coordinates.len(), blocks, |row, column| self.product(row, column));
+            let own = (coordinates[0], coordinates.len());
+            bodies.push(own, &masses, blocks, |row, column| self.product(row, column));
         }
         self.bodies = bodies;
     }

@@ -12,13 +12,17 @@
 //! by one. Rigid bodies come first, without places of their own ([`bodies`]).
 
 mod bodies;
+mod dense;
 mod groups;
+mod judge;
 mod kernels;
 mod layout;
 mod schur;
 
 use super::pivot::{Quality, Rule};
-use kernels::{Elimination, Judge, Solution};
+use dense::Dense;
+use judge::Judge;
+use kernels::{Elimination, Solution};
 pub(super) use layout::Layout;
 use schur::{Passage, Schur};
 use std::sync::Arc;
@@ -34,9 +38,10 @@ pub(super) struct Blocks {
     inverse: Vec<f64>,
     sizes: Vec<f64>,
     x: Vec<f64>,
-    /// Values of G, and inverses of the masses of bodies by coordinate.
+    /// Values of G, inverses of the masses of bodies by coordinate, and L of those whose M is not diagonal.
     g: Vec<f64>,
     inverse_masses: Vec<f64>,
+    lower: Vec<f64>,
     /// Values of M that these belong to; empty if some of them were judged.
     mass: Vec<f64>,
 }
@@ -92,6 +97,7 @@ impl Blocks {
             x: zeros(),
             g: Vec::new(),
             inverse_masses: vec![0.0; n],
+            lower: vec![0.0; layout.bodies.dense.last().map_or(0, Dense::end)],
             mass: Vec::new(),
             layout,
         }
@@ -107,7 +113,8 @@ impl Blocks {
         self.g.clear();
         self.g.extend_from_slice(g);
         self.work.fill(0.0);
-        let Blocks { layout, work, sizes, .. } = self;
+        let Blocks { layout, work, sizes, g: own, lower, .. } = self;
+        layout.bodies.dense.iter().for_each(|body| body.transform(lower, own));
         layout.mass_slots.iter().for_each(|&(entry, slot)| work[slot as usize] += mass[entry as usize]);
         layout.g_slots.iter().for_each(|&(entry, slot)| work[slot as usize] += g[entry as usize]);
         layout.coordinates.iter().for_each(|&(_, p)| sizes[p as usize] = work[layout.diagonal(p)]);
@@ -128,6 +135,9 @@ impl Blocks {
         self.mass.clear();
         for &(entry, i) in &self.layout.bodies.masses {
             self.inverse_masses[i] = judge.inverse(mass[entry], (mass[entry], 1.0), || i)?;
+        }
+        for body in &self.layout.bodies.dense {
+            body.factor(mass, (&mut self.lower, &mut self.inverse_masses), judge)?;
         }
         if !judge.quality.weak && !judge.quality.replaced {
             self.mass.extend_from_slice(mass);
@@ -156,7 +166,8 @@ impl Blocks {
 
     /// Solves in place; dropped multipliers are zero. 2 multiplications for each entry of L.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
-        let Blocks { layout, work, inverse, x, g, inverse_masses, .. } = self;
+        let Blocks { layout, work, inverse, x, g, inverse_masses, lower, .. } = self;
+        layout.bodies.dense.iter().for_each(|body| body.enter(lower, top));
         layout.coordinates.iter().for_each(|&(i, p)| x[p as usize] = top[i as usize]);
         layout.g_rows.iter().zip(&*bottom).for_each(|(&p, value)| x[p as usize] = *value);
         let mut bodies = Passage { bodies: &layout.bodies, g, inverse: inverse_masses, top, x };
@@ -174,6 +185,7 @@ impl Blocks {
         for run in &layout.bodies.runs {
             by_kinds!(run, bodies, backward_levers::<[2, 1, 3, 6], [3, 3, 6, 18]>, backward, backward_by_rows);
         }
+        layout.bodies.dense.iter().for_each(|body| body.leave(lower, top));
         layout.coordinates.iter().for_each(|&(i, p)| top[i as usize] = x[p as usize]);
         layout.g_rows.iter().zip(bottom).for_each(|(&p, value)| *value = x[p as usize]);
     }

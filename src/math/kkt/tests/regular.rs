@@ -151,8 +151,16 @@ fn bodies_levers_and_single_entries_agree() {
     let mut random = Random(14);
     let joints = [(1, 0), (1, 2), (2, 3), (2, 4), (2, 6), (3, 0), (4, 5), (5, 0), (6, 7), (7, 0)];
     // Bodies are found by the sequence of their entries, so a sequence turned round has none.
-    for (dimension, rods) in [(2, 0), (3, 0), (2, 1), (3, 3)] {
-        let (sample, levers) = Sample::points(dimension, 7, &joints, rods, &mut random);
+    // Products of inertia, and a centre of mass beside the origin.
+    let (inertia, offset): (&[_], &[_]) = (&[(4, 3), (5, 3), (5, 4)], &[(4, 0), (3, 1), (5, 4)]);
+    for (dimension, rods, products) in
+        [(2, 0, &[][..]), (3, 0, &[]), (2, 1, &[]), (3, 3, &[]), (3, 0, inertia), (3, 3, inertia), (3, 0, offset)]
+    {
+        let (mut sample, levers) = Sample::points(dimension, 7, &joints, rods, &mut random);
+        for (body, (i, j)) in (0..7).flat_map(|body| products.iter().map(move |&pair| (6 * body, pair))) {
+            sample.mass.entries.push((body + i, body + j));
+            sample.mass_values.push(0.2 * random.next());
+        }
         let mut turned = sample.clone();
         turned.g.entries.reverse();
         turned.g_values.reverse();
