@@ -85,6 +85,9 @@ where
         fn input(&self) -> InputKind;
         fn is_torque(&self) -> bool;
     }
+    fn depends_on_velocities(&self) -> bool {
+        matches!(self.value, Value::OfMotion(_)) || self.inner.depends_on_velocities()
+    }
     fn acted(&self, _markers: usize) -> usize {
         self.inner.acted(self.own)
     }

@@ -63,6 +63,10 @@ impl Cushion {
 }
 
 impl<const D: usize> ForceKernel<D> for Cushion {
+    fn depends_on_velocities(&self) -> bool {
+        self.c.iter().any(|c| *c > 0.0)
+    }
+
     fn takes_small_rotations(&self) -> bool {
         D == 3 && self.k[3..].iter().chain(&self.c[3..]).any(|coefficient| *coefficient > 0.0)
     }

@@ -94,6 +94,10 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     fn acted(&self, markers: usize) -> usize {
         markers
     }
+    /// False if its wrenches are the same at all velocities, so that they add nothing to C. Default: true.
+    fn depends_on_velocities(&self) -> bool {
+        true
+    }
     /// [`Self::act`] with inputs, each with its rate: `input` adds to its components, N or N m, in its own axes, or its
     /// first entry to a displacement, m.
     fn driven<S: Scalar>(
@@ -170,6 +174,8 @@ pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send 
     fn takes_small_rotations(&self) -> bool;
     /// Number of its first markers on whose bodies it acts, of `markers` in all.
     fn acted(&self, markers: usize) -> usize;
+    /// False if its wrenches are the same at all velocities.
+    fn depends_on_velocities(&self) -> bool;
     /// What inputs of a scene can add to.
     fn input(&self) -> InputKind;
     /// True if its magnitude is a torque, N m, in place of a force, N.
@@ -183,6 +189,7 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
         fn wheel(&self, frames: &Motion<f64, D>, time: Instant<f64>) -> Option<Wheel>;
         fn beam(&self) -> Option<&Beam>;
         fn takes_small_rotations(&self) -> bool;
+        fn depends_on_velocities(&self) -> bool;
         fn input(&self) -> InputKind;
         fn acted(&self, markers: usize) -> usize;
         fn is_torque(&self) -> bool;

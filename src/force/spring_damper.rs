@@ -75,6 +75,10 @@ struct Spring {
 }
 
 impl<const D: usize> ForceKernel<D> for Spring {
+    fn depends_on_velocities(&self) -> bool {
+        self.c > 0.0
+    }
+
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, _: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let gap = sub(&frames[1].r, &frames[0].r);
         let square = dot(&gap, &gap);

@@ -83,6 +83,10 @@ struct Torsion {
 }
 
 impl<const D: usize> ForceKernel<D> for Torsion {
+    fn depends_on_velocities(&self) -> bool {
+        self.c > 0.0
+    }
+
     fn is_torque(&self) -> bool {
         true
     }

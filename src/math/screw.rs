@@ -133,6 +133,25 @@ pub fn pull_back<S: Scalar>(a: &Vector<S>, p: &Vector<S>, n: &Vector<S>, m: &Vec
     [w(n), w(&from_fn(|i| m[i] + gradient[i]))]
 }
 
+/// [`shift`] in the plane, for a rotation by `a` about z.
+#[inline]
+pub fn planar_shift<S: Scalar>(a: S, [x, y]: [S; 2]) -> [S; 2] {
+    let square = a * a;
+    let (along, across) = (S::one() - cotangent(square) * square, a * 0.5);
+    [along * x + across * y, along * y - across * x]
+}
+
+/// [`pull_back`] in the plane: the components of the force, and the torque about z.
+#[inline]
+pub fn planar_pull_back<S: Scalar>(a: S, [x, y]: [S; 2], [nx, ny]: [S; 2], m: S) -> ([S; 2], S) {
+    let square = a * a;
+    let (c, slope) = (cotangent(square), cotangent_slope(square));
+    let (along, across) = (S::one() - c * square, a * 0.5);
+    let np = nx * x + ny * y;
+    let gradient = (nx * y - ny * x) * 0.5 - a * 2.0 * np * (c + square * slope);
+    ([along * nx - across * ny, along * ny + across * nx], m + gradient)
+}
+
 /// 1/(n + 1)!, indexed by n.
 const INVERSE_FACTORIALS: [f64; 2 * tolerances::SERIES_TERMS + 1] = {
     let mut all = [1.0; 2 * tolerances::SERIES_TERMS + 1];
@@ -191,6 +210,23 @@ mod tests {
                     assert!((back[i] - a[i]).abs() < 4e-15, "{angle} {axis:?}: {back:?}");
                     assert!((shifted[i] - u[i]).abs() < 1e-14, "{angle} {axis:?}: {shifted:?}");
                 }
+            }
+        }
+    }
+
+    /// In the plane as in space, at the bounds of the series too.
+    #[test]
+    fn the_plane_is_a_part_of_space() {
+        let (p, n, m) = ([0.3, -1.0], [2.0, 0.7], -0.4);
+        for angle in [0.0, 1e-9, -1e-3, 0.2, -0.547, 0.548, 1.0, -2.1, 3.0] {
+            let (a, lifted) = ([0.0, 0.0, angle], |[x, y]: [f64; 2]| [x, y, 0.0]);
+            let u = planar_shift(angle, p);
+            let (force, torque) = planar_pull_back(angle, p, n, m);
+            let [spatial_force, spatial_torque] = pull_back(&a, &lifted(p), &lifted(n), &[0.0, 0.0, m]);
+            let pairs = [(lifted(u), shift(&a, &lifted(p))), (lifted(force), spatial_force)];
+            for (plane, space) in pairs.into_iter().chain([([0.0, 0.0, torque], spatial_torque)]) {
+                // Some roundings of numbers up to five.
+                (0..3).for_each(|i| assert!((plane[i] - space[i]).abs() < 1e-14, "{angle}: {plane:?} {space:?}"));
             }
         }
     }

@@ -28,6 +28,8 @@ pub(super) struct Solid<const D: usize> {
     pub centre: [Taylor<f64>; D],
     /// Angular velocity in the world.
     spin: [f64; 3],
+    /// Number of the first of its directions among those that are differentiated along.
+    first: usize,
 }
 
 impl<const D: usize> Solid<D> {
@@ -45,7 +47,17 @@ impl<const D: usize> Solid<D> {
             *axis = from_fn(|i| own.axes.iter().zip(turn).map(|(e, part)| e[i].x * part).sum());
         }
         let (translations, rotations) = (translations.len(), rotations.len());
-        Solid { components, translations, axes, rotations, centre, spin: own.angular_velocity() }
+        Solid { components, translations, axes, rotations, centre, spin: own.angular_velocity(), first: 0 }
+    }
+
+    /// The same with its directions behind those of another body.
+    pub fn behind(self, other: &Self) -> Self {
+        Solid { first: other.count(), ..self }
+    }
+
+    /// Number of the first of its directions among those that are differentiated along.
+    pub fn first(&self) -> usize {
+        self.first
     }
 
     /// The position of the centre.
@@ -102,14 +114,18 @@ impl<const D: usize> Solid<D> {
     pub fn seed(&self, along: SeedDirection, frame: &Frame<Taylor<f64>, D>, out: &mut Frame<Taylor<Dual6>, D>) {
         fix(frame, out);
         for (i, velocity) in self.translations() {
-            along.level(&mut out.r[i]).eps[velocity] = 1.0;
+            along.level(&mut out.r[i]).eps[self.first + velocity] = 1.0;
         }
         let arm = sub(&frame.r, &self.centre);
         for (k, velocity) in self.rotations() {
-            self.turn((along, k, velocity), &arm, &mut out.r);
-            frame.axes.iter().zip(&mut out.axes).for_each(|(e, out)| self.turn((along, k, velocity), e, out));
+            self.turn((along, k, self.first + velocity), &arm, &mut out.r);
+            frame
+                .axes
+                .iter()
+                .zip(&mut out.axes)
+                .for_each(|(e, out)| self.turn((along, k, self.first + velocity), e, out));
             if D == 2 {
-                along.level(&mut out.turn).eps[velocity] = 1.0;
+                along.level(&mut out.turn).eps[self.first + velocity] = 1.0;
             }
         }
     }
@@ -118,32 +134,32 @@ impl<const D: usize> Solid<D> {
     #[inline]
     fn turn(
         &self,
-        (along, k, velocity): (SeedDirection, usize, usize),
+        (along, k, direction): (SeedDirection, usize, usize),
         a: &[Taylor<f64>; D],
         out: &mut [Taylor<Dual6>; D],
     ) {
         let turned = self.turned(k, &a.map(|a| a.x));
-        (0..D).for_each(|i| along.level(&mut out[i]).eps[velocity] = turned[i]);
+        (0..D).for_each(|i| along.level(&mut out[i]).eps[direction] = turned[i]);
         if along == SeedDirection::Accelerations {
             return;
         }
         let mut rate = self.turned(k, &a.map(|a| a.d));
         if along == SeedDirection::Coordinates {
             let curvature = self.turned(k, &a.map(|a| a.dd));
-            (0..D).for_each(|i| out[i].d.eps[velocity] = rate[i]);
+            (0..D).for_each(|i| out[i].d.eps[direction] = rate[i]);
             rate = curvature;
         } else {
             let spun = spun(&self.spin, &turned);
             (0..D).for_each(|i| rate[i] += spun[i]);
         }
-        (0..D).for_each(|i| out[i].dd.eps[velocity] = rate[i]);
+        (0..D).for_each(|i| out[i].dd.eps[direction] = rate[i]);
     }
 
     /// f += J^T w for a wrench at a point; `is_varied` if the derivatives are those along its own coordinates.
     pub fn pull_back(&self, is_varied: bool, at: &[Dual6; D], wrench: &Wrench<Dual6, D>, f: &mut [Dual6]) {
         let mut centre = self.centre.map(|c| Dual6::fixed(c.x));
         for (i, velocity) in self.translations() {
-            centre[i].eps[velocity] = f64::from(u8::from(is_varied));
+            centre[i].eps[self.first + velocity] = f64::from(u8::from(is_varied));
             f[velocity] += wrench.force[i];
         }
         let lever = cross(&sub(at, &centre), &wrench.force);
@@ -154,7 +170,7 @@ impl<const D: usize> Solid<D> {
                 // The axes turn too: d(u_k) = u_l x u_k.
                 let m = from_fn(|i| moment[i].re);
                 for (l, other) in self.rotations() {
-                    f[velocity].eps[other] += self.along(l, &self.turned(k, &m));
+                    f[velocity].eps[self.first + other] += self.along(l, &self.turned(k, &m));
                 }
             }
         }

@@ -3,7 +3,8 @@
 use super::coupling::{Block, Carrier, Coupling, LockedBlocks};
 use super::locked::Stiffness;
 use super::mechanism::{Mechanism, of};
-use super::variation::{SeedDirection, SeededBody};
+use super::solid::Solid;
+use super::variation::{SeedDirection, SeededBody, fix};
 use super::workspace::Workspace;
 use crate::body::{BodyState, Dual6, Frame, Wrench, twist_len};
 use crate::joint::{MOST_ROWS, markers_per_pass};
@@ -89,7 +90,9 @@ impl<const D: usize> Evaluation<'_, D> {
                 force.element.act(frames, time.map(Taylor::running), out);
             };
             self.element(coupling, &force.markers, SeedDirection::Coordinates, -1.0, act);
-            self.element(coupling, &force.markers, SeedDirection::Velocities, -1.0, act);
+            if force.element.depends_on_velocities() {
+                self.element(coupling, &force.markers, SeedDirection::Velocities, -1.0, act);
+            }
         }
     }
 
@@ -115,6 +118,9 @@ impl<const D: usize> Evaluation<'_, D> {
         wrenches: impl Fn(&Frames<D>, &mut [Wrench<Dual6, D>]),
     ) {
         let model = self.mechanism.model();
+        if let Some(pair) = self.pair(coupling) {
+            return self.both(&pair, coupling, markers, (along, sign), wrenches);
+        }
         for (column, carrier) in coupling.carriers.iter().enumerate() {
             let part = &model.bodies[carrier.body];
             for (pass, directions) in carrier.velocities.chunks(6).enumerate() {
@@ -128,8 +134,54 @@ impl<const D: usize> Evaluation<'_, D> {
                 for (row, block) in coupling.carriers.iter().zip(coupling.column(column)) {
                     let is_moved = row.body == carrier.body && along == SeedDirection::Coordinates;
                     self.pull_back(row, (row.body == carrier.body, is_moved), markers);
-                    self.add(along, block, 6 * pass, sign);
+                    self.add((along, sign), block, 6 * pass, 0);
                 }
+            }
+        }
+    }
+
+    /// The bodies of an element, if they are two rigid ones with six directions in all.
+    fn pair(&self, coupling: &Coupling) -> Option<[Solid<D>; 2]> {
+        let [a, b] = &coupling.carriers[..] else { return None };
+        let of = |carrier: &Carrier| self.mechanism.solid(carrier.body, &self.work.motion);
+        let has_room = a.velocities.len() + b.velocities.len() <= 6;
+        let (a, b) = (has_room.then(|| of(a)).flatten()?, of(b)?);
+        let b = b.behind(&a);
+        Some([a, b])
+    }
+
+    /// [`Self::element`] with respect to both of its bodies at once.
+    fn both(
+        &mut self,
+        pair: &[Solid<D>; 2],
+        coupling: &Coupling,
+        markers: &[usize],
+        (along, sign): (SeedDirection, f64),
+        wrenches: impl Fn(&Frames<D>, &mut [Wrench<Dual6, D>]),
+    ) {
+        let Workspace { varied, motion, .. } = &mut *self.work;
+        let SeededBody { gathered, acting, .. } = varied;
+        gathered.resize(markers.len(), Frame::world());
+        for (&marker, out) in markers.iter().zip(gathered.iter_mut()) {
+            let body = self.mechanism.model().markers.bodies[marker];
+            match coupling.carriers.iter().zip(pair).find(|(carrier, _)| Some(carrier.body) == body) {
+                Some((_, solid)) => solid.seed(along, &motion[marker], out),
+                None => fix(&motion[marker], out),
+            }
+        }
+        acting.clear();
+        acting.resize(markers.len(), Wrench::zero());
+        wrenches(gathered, acting);
+        let is_moved = along == SeedDirection::Coordinates;
+        for (place, (row, solid)) in coupling.carriers.iter().zip(pair).enumerate() {
+            let SeededBody { gathered, acting, f, .. } = &mut self.work.varied;
+            f.clear();
+            f.resize(row.velocities.len(), Dual6::fixed(0.0));
+            for held in &row.markers {
+                solid.pull_back(is_moved, &gathered[held.slot].r.map(|x| x.x), &acting[held.slot], f);
+            }
+            for (column, solid) in pair.iter().enumerate() {
+                self.add((along, sign), &coupling.column(column)[place], 0, solid.first());
             }
         }
     }
@@ -165,12 +217,12 @@ impl<const D: usize> Evaluation<'_, D> {
         }
     }
 
-    /// Adds the derivatives of `varied.f` to columns `first..` of a block.
-    fn add(&mut self, along: SeedDirection, block: &Block, first: usize, sign: f64) {
+    /// Adds the derivatives of `varied.f` from number `from` on to columns `first..` of a block.
+    fn add(&mut self, (along, sign): (SeedDirection, f64), block: &Block, first: usize, from: usize) {
         let values = if along == SeedDirection::Coordinates { &mut self.tangent.k } else { &mut self.tangent.c };
         let rows = values[block.first_entry..].chunks_exact_mut(block.width);
         for (row, f) in rows.zip(&self.work.varied.f) {
-            row[first..].iter_mut().zip(&f.eps).for_each(|(value, slope)| *value += sign * slope);
+            row[first..].iter_mut().zip(&f.eps[from..]).for_each(|(value, slope)| *value += sign * slope);
         }
     }
 }

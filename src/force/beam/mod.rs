@@ -18,11 +18,11 @@ pub use strain::Beam;
 
 use super::{Action, ForceKernel, Instant, Motion};
 use crate::body::{Frame, Wrench, dot};
-use crate::math::screw::{Vector, cross3, dot3, pull_back};
+use crate::math::screw::{Vector, cross3, dot3, planar_pull_back, pull_back};
 use crate::math::{Dual, Scalar, Taylor};
 use station::Carried;
 use std::array::from_fn;
-use strain::Strains;
+use strain::{Strains, components};
 
 /// A value with its rate.
 pub(crate) type Moving<S> = Dual<S, 1>;
@@ -31,18 +31,26 @@ impl<const D: usize> ForceKernel<D> for Beam {
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, _: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let [a, b] = [&frames[0], &frames[1]].map(|frame| frame.map(|x| Moving { re: x.x, eps: [x.d] }));
         let strains = Strains::between(&a, &b);
-        let strain = self.strain(&strains);
-        let elastic: [S; 6] = from_fn(|i| (strain[i].re - self.rest[i]) * self.stiffness[i]);
-        let damped = from_fn(|i| elastic[i] + strain[i].eps[0] * (self.damping * self.stiffness[i]));
-        let [first, last] = self.carried(&strains, &damped);
+        let strain = self.strain::<_, D>(&strains);
+        let (mut damped, mut twice_stored, mut power) = ([S::zero(); 6], S::zero(), S::zero());
+        for &i in components::<D>() {
+            let (stretched, rate) = (strain[i].re - self.rest[i], strain[i].eps[0]);
+            let elastic = stretched * self.stiffness[i];
+            damped[i] = elastic + rate * (self.damping * self.stiffness[i]);
+            twice_stored += elastic * stretched;
+            power += elastic * rate;
+        }
+        let [first, last] = self.carried::<_, D>(&strains, &damped);
         // The elastic forces oppose the strain.
         let [force, torque] = [last.n, last.m].map(|v| in_world(&a, &v.map(|x| -x)));
         out[1] = Wrench { force: from_fn(|i| force[i]), torque };
         out[0] = Wrench { force: from_fn(|i| -force[i]), torque: in_world(&a, &first.m) };
-        let half_work = (0..6).fold(S::zero(), |sum, i| sum + elastic[i] * (strain[i].re - self.rest[i]));
-        let power = (0..6).fold(S::zero(), |sum, i| sum + elastic[i] * strain[i].eps[0]);
-        let potential = Taylor::new(half_work * (0.5 * self.length), power * self.length, S::zero());
+        let potential = Taylor::new(twice_stored * (0.5 * self.length), power * self.length, S::zero());
         Action { potential, magnitude: damped[0] }
+    }
+
+    fn depends_on_velocities(&self) -> bool {
+        self.damping > 0.0
     }
 
     fn beam(&self) -> Option<&Beam> {
@@ -52,9 +60,14 @@ impl<const D: usize> ForceKernel<D> for Beam {
 
 impl Beam {
     /// Internal forces of the sections at both ends for these stresses, with no load on the element between them.
-    fn carried<S: Scalar>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Carried<S>; 2] {
-        let [n, m] = self.conjugate(strains, stress);
+    fn carried<S: Scalar, const D: usize>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Carried<S>; 2] {
+        let [n, m] = self.conjugate::<_, D>(strains, stress);
         let [turn, gap] = [&strains.turn, &strains.gap].map(|vector| vector.map(|x| x.re));
+        if D == 2 {
+            let ([nx, ny], torque) = planar_pull_back(turn[2], [gap[0], gap[1]], [n[0], n[1]], m[2]);
+            let (n, lever) = ([nx, ny, n[2]], gap[0] * ny - gap[1] * nx);
+            return [torque + lever, torque].map(|torque| Carried { n, m: [m[0], m[1], torque] });
+        }
         let [n, m] = pull_back(&turn, &gap, &n, &m);
         let lever = cross3(&gap, &n);
         [Carried { n, m: from_fn(|i| m[i] + lever[i]) }, Carried { n, m }]

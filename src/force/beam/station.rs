@@ -53,12 +53,12 @@ impl Beam {
     ) -> Station<S, D> {
         let [a, b] = ends.map(|frame| frame.map(|x| Moving { re: x.x, eps: [x.d] }));
         let strains = Strains::between(&a, &b);
-        let middle = self.strain(&strains);
+        let middle = self.strain::<_, D>(&strains);
         let loads = loads.each_ref().map(|load| load.map(|v| in_axes(&a, v)));
         let elastic: [S; 6] = from_fn(|i| (middle[i].re - self.rest[i]) * self.stiffness[i]);
         let viscous: [S; 6] = from_fn(|i| middle[i].eps[0] * (self.damping * self.stiffness[i]));
-        let elastic = loaded(self.carried(&strains, &elastic), &loads);
-        let viscous = self.carried(&strains, &viscous);
+        let elastic = loaded(self.carried::<_, D>(&strains, &elastic), &loads);
+        let viscous = self.carried::<_, D>(&strains, &viscous);
         let line = Line::new(self, &strains, &elastic);
         let part = x / self.length;
         let (axes, place) = line.at(part);

@@ -4,7 +4,7 @@ use super::Moving;
 use crate::body::flexible::{ReferenceLine, Section};
 use crate::body::{Frame, dot, sub};
 use crate::math::Scalar;
-use crate::math::screw::{Vector, rotation_vector, shift};
+use crate::math::screw::{Vector, planar_shift, rotation_vector, shift};
 use std::array::from_fn;
 
 /// A beam element: relaxed, its second frame lies `length` along the x axis of the first, bent by a curvature.
@@ -42,13 +42,20 @@ impl<S: Scalar> Strains<S> {
         let zero = Moving::fixed(S::zero());
         let way = sub(&b.r, &a.r);
         let gap = from_fn(|i| if i < D { dot(&a.axes[i], &way) } else { zero });
-        let turn = match D {
+        if D == 2 {
             // The angle in the plane is counted through full turns.
-            2 => [zero, zero, b.turn - a.turn],
-            _ => rotation_vector(&from_fn(|i| from_fn(|j| dot(&a.axes[i], &b.axes[j])))),
-        };
+            let angle = b.turn - a.turn;
+            let [x, y] = planar_shift(angle, [gap[0], gap[1]]);
+            return Strains { gap, turn: [zero, zero, angle], shift: [x, y, zero] };
+        }
+        let turn = rotation_vector(&from_fn(|i| from_fn(|j| dot(&a.axes[i], &b.axes[j]))));
         Strains { gap, turn, shift: shift(&turn, &gap) }
     }
+}
+
+/// The numbers of the strains that are not zero in the plane, or in space.
+pub(super) fn components<const D: usize>() -> &'static [usize] {
+    if D == 2 { &[0, 1, 5] } else { &[0, 1, 2, 3, 4, 5] }
 }
 
 impl Beam {
@@ -100,9 +107,10 @@ impl Beam {
     /// of its squared mean; a shear g of the sections adds phi g. Under the root this holds for small shear, and for
     /// any shear the line is at least as long as its chord: without that, tension above 12 EI/L^2 would rotate the
     /// sections away from it.
-    fn stretch<S: Scalar>(&self, [x, y, z]: Vector<S>) -> S {
+    fn stretch<S: Scalar, const D: usize>(&self, [x, y, z]: Vector<S>) -> S {
         let [long_y, long_z] = self.lengthening();
-        let square = x * x + y * y * long_y + z * z * long_z;
+        let square = x * x + y * y * long_y;
+        let square = if D == 2 { square } else { square + z * z * long_z };
         // Ends that coincide have no direction.
         if square.value() > 0.0 { square.sqrt() } else { x }
     }
@@ -116,26 +124,34 @@ impl Beam {
     /// by L^2 [strain, strain']/12 (Magnus): in the shift this is the shear g of [`Beam::new`], with k' L^2/12 = g x
     /// e_x; in the turn it is taken off here.
     #[inline]
-    pub(super) fn strain<S: Scalar>(&self, strains: &Strains<S>) -> [Moving<S>; 6] {
+    pub(super) fn strain<S: Scalar, const D: usize>(&self, strains: &Strains<S>) -> [Moving<S>; 6] {
         let per_length = 1.0 / self.length;
+        if D == 2 {
+            let ([x, y, zero], k) = (strains.shift, strains.turn[2] * per_length);
+            let (x, y) = (x * per_length, y * per_length);
+            return [self.stretch::<_, D>([x, y, zero]), y, zero, zero, zero, k];
+        }
         let [x, y, z] = strains.shift.map(|u| u * per_length);
         let k = strains.turn.map(|a| a * per_length);
         let (gy, gz) = (y * self.bent[0], z * self.bent[1]);
-        [self.stretch([x, y, z]), y, z, k[0] + gy * k[1] + gz * k[2], k[1] - gy * k[0], k[2] - gz * k[0]]
+        [self.stretch::<_, D>([x, y, z]), y, z, k[0] + gy * k[1] + gz * k[2], k[1] - gy * k[0], k[2] - gz * k[0]]
     }
 
     /// Force and moment conjugate to the logarithm of the motion, as the stresses are to [`strain`](Beam::strain): its
     /// transposed derivative times the stresses.
     #[inline]
-    pub(super) fn conjugate<S: Scalar>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Vector<S>; 2] {
+    pub(super) fn conjugate<S: Scalar, const D: usize>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Vector<S>; 2] {
         let per_length = 1.0 / self.length;
         let [x, y, z] = strains.shift.map(|u| u.re * per_length);
-        let k = strains.turn.map(|a| a.re * per_length);
         let [long_y, long_z] = self.lengthening();
         let [n, qy, qz, torque, my, mz] = *stress;
-        let (gy, gz) = (y * self.bent[0], z * self.bent[1]);
-        let long = self.stretch([x, y, z]);
+        let long = self.stretch::<_, D>([x, y, z]);
         let tension = if long.value() > 0.0 { n / long } else { n };
+        if D == 2 {
+            return [[x * tension, qy + y * tension * long_y, qz], [torque, my, mz]];
+        }
+        let k = strains.turn.map(|a| a.re * per_length);
+        let (gy, gz) = (y * self.bent[0], z * self.bent[1]);
         let force = [
             x * tension,
             qy + y * tension * long_y + (k[1] * torque - k[0] * my) * self.bent[0],
