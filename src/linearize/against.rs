@@ -18,9 +18,9 @@ pub struct Against {
 /// A mode, and that of the other model in its place.
 #[derive(Clone, Copy, Debug)]
 pub struct Fate {
-    /// Eigenvalue, 1/s.
+    /// Eigenvalue, 1/s, without what is [rounding](Mode::clean_value).
     pub value: Complex<f64>,
-    /// Eigenvalue in its place; none where the mode is lost.
+    /// Eigenvalue in its place, also without; none where the mode is lost.
     pub there: Option<Complex<f64>>,
     /// Modal assurance criterion of the common outputs; none with fewer than two, which do not tell modes apart.
     pub mac: Option<f64>,
@@ -29,10 +29,10 @@ pub struct Fate {
 }
 
 impl Fate {
-    /// |change| of the eigenvalue over its size; none where the mode is lost.
+    /// |change| of the eigenvalue over its size; none where the mode is lost, or zero here and not there.
     pub fn shift(&self) -> Option<f64> {
-        let size = self.value.norm().max(f64::MIN_POSITIVE);
-        self.there.map(|there| (there - self.value).norm() / size)
+        let (change, size) = (self.there.map(|there| (there - self.value).norm())?, self.value.norm());
+        if change == 0.0 { Some(0.0) } else { Some(change / size).filter(|shift| shift.is_finite()) }
     }
 }
 
@@ -70,7 +70,7 @@ pub fn against(model: &LinearModel, other: &LinearModel, time: f64) -> Against {
     let size = |k: usize| Some(largest(k)).filter(|size| *size > least).unwrap_or(f64::INFINITY);
     let sizes: Vec<f64> = (0..common.len()).map(size).collect();
     let mac = |i: usize, j: usize| (common.len() > 1).then(|| assurance(&x[i], &y[j], &sizes)).flatten();
-    let values = |modes: &[&Mode]| modes.iter().map(|mode| mode.value).collect::<Vec<_>>();
+    let values = |modes: &[&Mode]| modes.iter().map(|mode| mode.clean_value()).collect::<Vec<_>>();
     let (from, to) = (values(&modes), values(&others));
     let floor = floor(from.iter().chain(&to));
     let cost = |i: usize, j: usize| mac(i, j).map_or(0.0, |mac| 1.0 - mac) + apart(from[i], to[j], floor);

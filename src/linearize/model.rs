@@ -128,6 +128,14 @@ impl Mode {
         self.value.norm() <= self.rounding
     }
 
+    /// The eigenvalue, 1/s, zero where it is rounding, and so its real part.
+    pub fn clean_value(&self) -> Complex<f64> {
+        match self.is_zero() {
+            true => Complex::ZERO,
+            false => Complex::new(if self.clean_damping() == 0.0 { 0.0 } else { self.value.re }, self.value.im),
+        }
+    }
+
     /// The damping ratio, 0 where it is rounding.
     pub fn clean_damping(&self) -> f64 {
         Some(self.damping()).filter(|ratio| ratio.abs() > tolerances::SAME && !self.is_zero()).unwrap_or(0.0)

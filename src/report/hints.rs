@@ -1,7 +1,7 @@
 //! What looks superfluous or missing at the start, in words.
 
 use crate::error::{percent, short_list, significant};
-use crate::simplify::{Hints, Unseen};
+use crate::simplify::{Hints, Rod, Unseen};
 use crate::tolerances::report::SAME;
 
 /// Returns the hints as text; nothing where there is none.
@@ -17,7 +17,16 @@ pub fn hints_text(hints: &Hints) -> String {
     }
     hints.changes.iter().for_each(|hint| text += &format!("  {}: {}\n", hint.what, hint.why));
     text += &modes(&fast).map_or(String::new(), |modes| format!("  {modes}\n"));
+    text += &rods("only pull in small motions about the start, where ropes would do", &hints.rods, |rod| rod.least > 0.0);
+    text += &rods("are compressed at the start, where ropes would not do", &hints.rods, |rod| rod.at_start < 0.0);
     text + &modes(&slow).map_or(String::new(), |modes| format!("an output may be missing: {modes}\n"))
+}
+
+/// A line about the rods of this kind, with their forces at the start; empty where there is none.
+fn rods(what: &str, rods: &[Rod], is_of: impl Fn(&Rod) -> bool) -> String {
+    let force = |rod: &Rod| format!("{} by {} N", rod.name, significant(rod.at_start.abs(), 4));
+    let told: Vec<String> = rods.iter().filter(|rod| is_of(rod)).map(force).collect();
+    if told.is_empty() { String::new() } else { format!("rods that {what}: {}\n", short_list(&told)) }
 }
 
 fn modes(modes: &[&Unseen]) -> Option<String> {

@@ -261,6 +261,11 @@ impl Facts {
         Some(self.states.iter().map(at).fold(0.0, f64::max))
     }
 
+    /// The states: those of [`path`](Self::path).
+    pub fn states(&self) -> &[State] {
+        &self.states
+    }
+
     /// A few states along the recorded motion.
     pub fn few_states(&self) -> impl Iterator<Item = &State> {
         self.states.iter().step_by(self.states.len().div_ceil(FEW).max(1))
@@ -269,18 +274,27 @@ impl Facts {
     /// Values of the watched outputs that a model gives to a few states of the recorded motion; `None` where it has
     /// other coordinates, or no accelerations there.
     pub fn at_once(&self, model: &AnyMechanism) -> Option<Vec<Vec<f64>>> {
-        let (system, own) = (model.system(), self.prepared.system());
-        let ([other, names], watched) = ([system.names(), own.names()], Watched::new(system, &self.watched).ok()?);
-        if other.q != names.q || other.v != names.v {
-            return None;
-        }
+        let [own, other] = [self.prepared.system(), model.system()].map(MechanicalSystem::names);
+        (own.q == other.q && own.v == other.v).then(|| self.read(model, &self.watched, self.few_states())).flatten()
+    }
+
+    /// Values of outputs that a model of the same coordinates gives to states; `None` where it has no such outputs, or no
+    /// accelerations there.
+    pub fn read<'a>(
+        &'a self,
+        model: &AnyMechanism,
+        outputs: &[String],
+        states: impl Iterator<Item = &'a State>,
+    ) -> Option<Vec<Vec<f64>>> {
+        let system = model.system();
+        let watched = Watched::new(system, outputs).ok()?;
         let (mut dynamics, mut scratch) = (Dynamics::new(system), Scratch::default());
         let read = |State { t, q, v }: &State| {
             dynamics.solve(*t, q, v, |_, _| 0.0).ok()?;
             let (vdot, lambda) = (&dynamics.vdot, &dynamics.lambda);
             Some(watched.read(system, (OperatingPoint { t: *t, q, v, vdot, lambda }, &[]), &mut scratch))
         };
-        self.few_states().map(read).collect()
+        states.map(read).collect()
     }
 
     /// Work on the recorded motion of the forces that a change adds or takes away, at most over time, relative to the

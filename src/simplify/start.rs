@@ -5,6 +5,7 @@ use super::candidate::{Candidate, Proposal};
 use super::edit::carrier;
 use super::facts::{Facts, Placed, State, placed, product};
 use super::modes;
+use super::rods::{Rod, rods};
 use super::source::Source;
 use crate::error::Result;
 use crate::formulation::{Dynamics, turn};
@@ -26,6 +27,8 @@ const REACH: f64 = 0.3;
 pub struct Hints {
     /// Changes of the scene that look harmless.
     pub changes: Vec<Hint>,
+    /// Links that carry a force.
+    pub rods: Vec<Rod>,
     /// Modes that no output sees.
     pub unseen: Vec<Unseen>,
     /// Circular frequency of the slowest mode that outputs see, 1/s; none where they see none.
@@ -59,8 +62,8 @@ pub struct Unseen {
     pub moves: Vec<String>,
 }
 
-/// What the candidates propose for the start of a scene, `prepared` from `path`, alone, and the modes that no output sees. In the place of the
-/// motion, of which nothing is known, come small ones: the way on from the start, and every mode that outputs see with
+/// What the candidates propose for the start of a scene, `prepared` from `path`, alone, the forces in its rods and the
+/// modes that no output sees. In the place of the motion, of which nothing is known, come small ones: the way on from the start, and every mode that outputs see with
 /// the same kinetic energy, so that slow ones go far and fast ones do not. What is harmless in all of them need not be
 /// so in the motion: work, which grows with time, is not known at all.
 ///
@@ -94,7 +97,7 @@ pub fn hints(
     drop(dynamics);
     let facts = Facts::at_start(source, prepared, watched, states, redundant);
     let changes = candidates.iter().flat_map(|candidate| harmless(&facts, *candidate)).collect();
-    Ok(Hints { changes, unseen, slowest_seen, skipped: String::new() })
+    Ok(Hints { changes, rods: rods(&facts), unseen, slowest_seen, skipped: String::new() })
 }
 
 /// The proposals of a candidate that are possible by themselves, keep all outputs and have hardly an effect; of

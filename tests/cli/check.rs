@@ -117,6 +117,39 @@ fn a_light_link_looks_superfluous_and_a_heavy_one_does_not() {
     assert!(!of(1.0).0.contains("superfluous"));
 }
 
+/// A weight on a tie and a strut, which is a body: by statics they carry m g sqrt(2) and -m g.
+#[test]
+fn rods_that_pull_are_told_from_those_that_push() {
+    let mut scene = serde_json::json!({
+        "name": "bracket", "dimension": 2, "gravity": [0, -9.81],
+        "ground": { "markers": { "top": [0, 1], "foot": [0, 0] } },
+        "bodies": [{ "name": "weight", "type": "rigid", "mass": 2, "inertia": 0.1, "markers": { "C": [0, 0] },
+                     "initial": { "position": [1, 0] } },
+                   { "name": "strut", "type": "rigid", "mass": 1e-9, "inertia": 1e-10,
+                     "markers": { "A": [-0.5, 0], "B": [0.5, 0] }, "initial": { "position": [0.5, 0] } }],
+        "joints": [{ "name": "A", "type": "revolute", "between": ["ground.foot", "strut.A"] },
+                   { "name": "B", "type": "revolute", "between": ["strut.B", "weight.C"] },
+                   { "name": "tie", "type": "distance", "between": ["ground.top", "weight.C"], "length": "sqrt(2)" }],
+        "outputs": [{ "name": "rod", "measure": "angle", "of": "weight" }],
+        "simulation": { "t_end": 1 }
+    });
+    let place = Place::new(scene.to_string());
+    let text = place.done(&["check", "scene.json"]);
+    assert!(text.contains("ropes would do: tie by 27.75 N\n") && text.contains("not do: strut by 19.62 N\n"), "{text}");
+    let told: Value = serde_json::from_str(&place.done(&["check", "scene.json", "--json"])).unwrap();
+    let rods = told["hints"]["rods"].as_array().unwrap();
+    // The strut weighs 1e-9 of what it carries, half of which is at its end.
+    for (rod, name, force) in [(&rods[0], "tie", 19.62 * 2.0f64.sqrt()), (&rods[1], "strut", -19.62)] {
+        let found = rod["at_start"].as_f64().unwrap();
+        assert!(rod["name"] == name && (found / force - 1.0).abs() < 1e-8, "{rod}");
+    }
+    // A second tie beside the first: how they share the load is not determined.
+    scene["joints"].as_array_mut().unwrap().push(serde_json::json!(
+        { "name": "again", "type": "distance", "between": ["ground.top", "weight.C"], "length": "sqrt(2)" }));
+    let text = Place::new(scene.to_string()).done(&["check", "scene.json"]);
+    assert!(text.contains("redundant") && !text.contains("rods that"), "{text}");
+}
+
 /// Two pendulums of which one is watched: the mode of the other is seen by nothing.
 #[test]
 fn a_mode_that_no_output_sees_is_told() {

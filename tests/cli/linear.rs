@@ -189,6 +189,10 @@ fn zero_modes_have_no_frequency() {
     let cells = |line: &str| line.split_whitespace().take(5).map(str::to_string).collect::<Vec<_>>();
     assert!(text.lines().any(|line| cells(line) == ["1", "0", "0", "0", "-"]), "{text}");
     assert!(text.contains("1.1756"), "{text}");
+    let text = place.done(&["linearize", &car, "--at", "0", "--against", &car, "--figures", "none", "-o", "against"]);
+    assert!(text.lines().any(|line| cells(line) == ["0", "0", "0", "0", "0"]), "{text}");
+    let modes = place.json("against/against-0.json")["modes"].clone();
+    assert_eq!((&modes[0]["frequency_hz"], &modes[0]["shift"]), (&0.0.into(), &0.0.into()), "{modes}");
 }
 
 #[test]

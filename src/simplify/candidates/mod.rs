@@ -16,6 +16,8 @@ mod resting_body;
 mod stiff_connection;
 mod two_force_link;
 
+pub(super) use two_force_link::{Link, Pin};
+
 use super::candidate::Candidate;
 
 /// Every built-in kind, in the order of the documentation.

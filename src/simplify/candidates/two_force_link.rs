@@ -35,28 +35,30 @@ fn proposal(facts: &Facts, body: &Value) -> Option<Proposal> {
 }
 
 /// A link with its two pins.
-struct Link {
+pub struct Link {
     name: String,
-    pins: [Pin; 2],
+    /// Its ends.
+    pub pins: [Pin; 2],
     length: String,
     /// Markers of the link, with the components of their axes along the line from the first pin to the second.
     axes: Vec<(String, [f64; 3])>,
 }
 
 /// An end of a link.
-struct Pin {
+pub struct Pin {
     /// Name of the joint.
-    joint: String,
+    pub joint: String,
     /// Marker of the link.
-    own: String,
+    pub own: String,
     /// Marker of the other body.
     other: String,
     /// True if the link is the second body of the joint.
-    is_second: bool,
+    pub is_second: bool,
 }
 
 impl Link {
-    fn new(facts: &Facts, body: &Value) -> Option<Link> {
+    /// The body as a link; `None` where it is none.
+    pub fn new(facts: &Facts, body: &Value) -> Option<Link> {
         let (scene, name) = (facts.scene(), text(body, "name"));
         let is_free = text(body, "type") == "rigid" && body.get("free").is_none();
         let is_loaded = elements(scene, "forces").iter().any(|force| mentions(force, name));

@@ -1,0 +1,96 @@
+//! Links between two points: which pull, which push.
+
+use super::bench::mechanism;
+use super::candidates::{Link, Pin};
+use super::edit::{elements, text};
+use super::facts::{Facts, Placed, product};
+use crate::tolerances::SAME;
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::array::from_fn;
+
+/// Force along a link between two points, tension positive, in small motions about the start.
+#[derive(Clone, Debug, Serialize)]
+pub struct Rod {
+    /// Name of the `distance`, or of the body between two pins.
+    pub name: String,
+    /// Force at the start, N.
+    pub at_start: f64,
+    /// Least force, N.
+    pub least: f64,
+    /// Largest force, N.
+    pub most: f64,
+}
+
+/// Outputs from which the force along a link follows: their sum with weights that depend on the state.
+struct Source {
+    name: String,
+    outputs: Vec<Value>,
+    /// A row for each state.
+    weights: Vec<Vec<f64>>,
+}
+
+/// The links of a scene that carry a force at the start: each `distance`, and each rigid body without loads between two
+/// pins, whose force is the mean of those at its ends. None where constraints are redundant: their forces are then not
+/// determined by the motion.
+pub fn rods(facts: &Facts) -> Vec<Rod> {
+    if !facts.redundant.is_empty() {
+        return Vec::new();
+    }
+    let distances = elements(facts.scene(), "joints").iter().filter(|joint| text(joint, "type") == "distance");
+    let links = elements(facts.scene(), "bodies").iter().filter_map(|body| link(facts, body));
+    let sources: Vec<Source> = distances.map(|joint| distance(facts, text(joint, "name"))).chain(links).collect();
+    let mut all = forces(facts, &sources).unwrap_or_default();
+    let largest = all.iter().map(|rod| rod.most.max(-rod.least)).fold(0.0, f64::max);
+    all.retain(|rod| rod.at_start.abs() > SAME * largest);
+    all
+}
+
+fn distance(facts: &Facts, name: &str) -> Source {
+    let output = json!({ "measure": "reaction", "of": name, "component": "axial" });
+    Source { name: name.to_string(), outputs: vec![output], weights: vec![vec![1.0]; facts.states().len()] }
+}
+
+/// Half the difference of the forces on the link at its ends, along it: tension pulls it outwards at both.
+fn link(facts: &Facts, body: &Value) -> Option<Source> {
+    let (name, Link { pins, .. }) = (text(body, "name"), Link::new(facts, body)?);
+    let components = &["x", "y", "z"][..facts.dimension()];
+    let output = |(pin, component): (&Pin, &&str)| {
+        json!({ "measure": "reaction", "of": pin.joint, "component": component })
+    };
+    let outputs = pins.iter().flat_map(|pin| components.iter().map(move |component| (pin, component))).map(output);
+    let along = |(first, second): (Placed, Placed)| {
+        let gap: [f64; 3] = from_fn(|i| second.r[i] - first.r[i]);
+        let size = product(&gap, &gap).sqrt();
+        // A reaction acts on the second body of its joint.
+        let signs = [-0.5, 0.5].into_iter().zip(&pins).map(|(part, pin)| if pin.is_second { part } else { -part });
+        signs.flat_map(|sign| gap[..components.len()].iter().map(move |x| sign * x / size)).collect()
+    };
+    let weights = facts.path(&pins[0].own)?.into_iter().zip(facts.path(&pins[1].own)?).map(along).collect();
+    Some(Source { name: name.to_string(), outputs: outputs.collect(), weights })
+}
+
+fn forces(facts: &Facts, sources: &[Source]) -> Option<Vec<Rod>> {
+    let mut outputs: Vec<Value> = sources.iter().flat_map(|source| source.outputs.clone()).collect();
+    let mut scene = facts.scene().clone();
+    let mut prefix = "rod".to_string();
+    while elements(&scene, "outputs").iter().any(|output| text(output, "name").starts_with(&prefix)) {
+        prefix.push('_');
+    }
+    let names: Vec<String> = (0..outputs.len()).map(|i| format!("{prefix}{i}")).collect();
+    outputs.iter_mut().zip(&names).for_each(|(output, name)| output["name"] = json!(name));
+    scene["outputs"] = json!([elements(&scene, "outputs"), &outputs].concat());
+    let rows = facts.read(&mechanism(&facts.source, &names, &scene).ok()?, &names, facts.states().iter())?;
+    let mut first = 0;
+    let rod = |source: &Source| {
+        let own = first..first + source.outputs.len();
+        first = own.end;
+        let sum = |(row, weights): (&Vec<f64>, &Vec<f64>)| -> f64 {
+            row[own.clone()].iter().zip(weights).map(|(value, weight)| value * weight).sum()
+        };
+        let forces: Vec<f64> = rows.iter().zip(&source.weights).map(sum).collect();
+        let (least, most) = (forces.iter().copied().reduce(f64::min)?, forces.iter().copied().reduce(f64::max)?);
+        Some(Rod { name: source.name.clone(), at_start: *forces.first()?, least, most })
+    };
+    (!names.is_empty()).then(|| sources.iter().filter_map(rod).collect())
+}
