@@ -108,6 +108,7 @@ fn degrees_of_freedom_are_those_of_the_mechanisms() {
         ("spinning_top", 3),
         ("stewart_platform", 0),
         ("suspension_on_road", 2),
+        ("symmetric_gripper", 4),
         ("two_mass", 1),
         ("universal_shaft", 0),
     ];

@@ -17,7 +17,8 @@ pub fn hints_text(hints: &Hints) -> String {
     }
     hints.changes.iter().for_each(|hint| text += &format!("  {}: {}\n", hint.what, hint.why));
     text += &modes(&fast).map_or(String::new(), |modes| format!("  {modes}\n"));
-    text += &rods("only pull in small motions about the start, where ropes would do", &hints.rods, |rod| rod.least > 0.0);
+    text +=
+        &rods("only pull in small motions about the start, where ropes would do", &hints.rods, |rod| rod.least > 0.0);
     text += &rods("are compressed at the start, where ropes would not do", &hints.rods, |rod| rod.at_start < 0.0);
     text + &modes(&slow).map_or(String::new(), |modes| format!("an output may be missing: {modes}\n"))
 }

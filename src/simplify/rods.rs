@@ -55,9 +55,8 @@ fn distance(facts: &Facts, name: &str) -> Source {
 fn link(facts: &Facts, body: &Value) -> Option<Source> {
     let (name, Link { pins, .. }) = (text(body, "name"), Link::new(facts, body)?);
     let components = &["x", "y", "z"][..facts.dimension()];
-    let output = |(pin, component): (&Pin, &&str)| {
-        json!({ "measure": "reaction", "of": pin.joint, "component": component })
-    };
+    let output =
+        |(pin, component): (&Pin, &&str)| json!({ "measure": "reaction", "of": pin.joint, "component": component });
     let outputs = pins.iter().flat_map(|pin| components.iter().map(move |component| (pin, component))).map(output);
     let along = |(first, second): (Placed, Placed)| {
         let gap: [f64; 3] = from_fn(|i| second.r[i] - first.r[i]);

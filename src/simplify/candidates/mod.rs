@@ -4,7 +4,9 @@ mod branch;
 mod coarser_signal;
 mod flexible_body;
 mod geometric_stiffening;
+mod half_output;
 mod merged_bodies;
+mod mirror;
 mod negligible_force;
 mod planar;
 mod planar_output;
@@ -14,6 +16,7 @@ mod quasi_static_state;
 mod redundant_joint;
 mod resting_body;
 mod stiff_connection;
+mod symmetric_half;
 mod two_force_link;
 
 pub(super) use two_force_link::{Link, Pin};
@@ -24,6 +27,7 @@ use super::candidate::Candidate;
 pub fn registry() -> &'static [&'static dyn Candidate] {
     &[
         &planar::Planar,
+        &symmetric_half::SymmetricHalf,
         &flexible_body::FlexibleBody,
         &two_force_link::TwoForceLink,
         &branch::Branch,

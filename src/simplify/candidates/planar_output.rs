@@ -49,8 +49,8 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
     made_of(&own, &parts, offset)
 }
 
-/// The output, or an expression of its own parts: `None` where these are none, or in a unit that an expression has not.
-fn made_of(own: &Value, parts: &[(f64, Option<&str>)], offset: f64) -> Option<Vec<Value>> {
+/// The output, or an expression of its own parts, each a factor with a component, plus an offset: `None` where these are none, or in a unit that an expression has not.
+pub fn made_of(own: &Value, parts: &[(f64, Option<&str>)], offset: f64) -> Option<Vec<Value>> {
     let (name, mut all, mut sum) = (text(own, "name"), Vec::new(), Vec::new());
     for (part, component) in parts.iter().filter(|(part, _)| part.abs() > SAME) {
         let mut output = own.clone();
@@ -60,7 +60,7 @@ fn made_of(own: &Value, parts: &[(f64, Option<&str>)], offset: f64) -> Option<Ve
         if (part - 1.0).abs() < SAME && offset.abs() < SAME {
             return Some(vec![output]);
         }
-        output["name"] = json!(format!("{name}_{}", component.unwrap_or("turned")));
+        output["name"] = json!(format!("{name}_{}", component.unwrap_or("part")));
         sum.push(format!("{part}*{}", text(&output, "name")));
         all.push(output);
     }

@@ -1,5 +1,7 @@
 //! Only what a motion requires: what is left out, what stays, and that the promise is what is measured.
 
+mod halves;
+
 use crate::scenes::model;
 use holonom::prepared::Overrides;
 use holonom::simplify::{Nearby, Settings, Simplification, Source, registry, simplify};

@@ -1,0 +1,169 @@
+//! One of two symmetric halves.
+
+use super::{found, left_out, promised, scene, settings, shipped};
+use crate::scenes::model;
+use holonom::prepared::Overrides;
+use holonom::simplify::{Nearby, Run, Settings, Simplification, Source};
+use serde_json::{Value, json};
+
+/// The run of the half, if it was proposed.
+fn half(found: &Simplification) -> Option<&Run> {
+    let trial = found.trials.iter().find(|trial| trial.candidate == "symmetric_half" && trial.is_kept);
+    trial.and_then(|trial| trial.run.as_ref())
+}
+
+fn gripper() -> Value {
+    serde_json::from_str(&std::fs::read_to_string(model("symmetric_gripper")).unwrap()).unwrap()
+}
+
+/// Also with all numbers 10 % off, which both halves share.
+#[test]
+fn half_a_gripper_will_do() {
+    let nearby = Some(Nearby { by: 0.1, samples: Some(20) });
+    let source = Source::load(&model("symmetric_gripper"), &Overrides::default()).unwrap();
+    let found = found(source, &Settings { nearby, ..settings(0.001, &[]) });
+    assert_eq!(left_out(&found), ["of the two halves across y one is left"]);
+    let run = half(&found).unwrap();
+    // Both are integrated at rtol 1e-8, in as many steps: 18 of 32 unknowns.
+    assert!(run.error() < 1e-7 && run.work < 0.6 * found.richest.work, "{:?}", run.outputs);
+    assert_eq!((found.richest.velocities, found.richest.constraints), (18, 14));
+    assert_eq!((run.velocities, run.constraints, run.outputs.len()), (10, 8, 8));
+    let robustness = found.robustness.as_ref().unwrap();
+    assert_eq!((robustness.counted, robustness.kept), (20, 20));
+}
+
+/// Bodies, springs or markers that differ by 1 %, what connects the halves, gravity across: no half is proposed. Loads
+/// that differ are seen in the motion.
+#[test]
+fn what_is_not_symmetric_is_not_halved() {
+    let none = |change: &dyn Fn(&mut Value)| {
+        let mut own = gripper();
+        change(&mut own);
+        own["simulation"]["t_end"] = json!(0.1);
+        let found = scene(own, &settings(0.001, &[]));
+        let proposed = found.trials.iter().find(|trial| trial.candidate == "symmetric_half").cloned();
+        assert!(half(&found).is_none(), "{proposed:?}");
+        proposed
+    };
+    let changes: [&dyn Fn(&mut Value); 6] = [
+        &|own| own["bodies"][4]["mass"] = json!("1.01*m_jaw"),
+        &|own| own["forces"][3]["stiffness"][0] = json!("1.01*k_pad"),
+        &|own| own["ground"]["markers"]["lower"] = json!(["1.01*hinge_x", "-hinge_y"]),
+        &|own| own["gravity"] = json!([0, -9.81]),
+        &|own| {
+            let own = own["forces"].as_array_mut().unwrap();
+            own.push(json!({ "name": "band", "type": "spring_damper", "between": ["upper_jaw.tip", "lower_jaw.tip"],
+                             "stiffness": 10 }));
+        },
+        &|own| {
+            let own = own["forces"].as_array_mut().unwrap();
+            own.push(json!({ "name": "wind", "type": "applied_force", "at": "upper_jaw.tip", "force": [0, "0.1*t"] }));
+        },
+    ];
+    changes.iter().for_each(|change| assert!(none(*change).is_none(), "it is proposed"));
+    let pushed = none(&|own| own["forces"][4]["force"][1] = json!("2*sin(omega*t)"));
+    assert!(pushed.unwrap().estimated > 0.003);
+}
+
+/// With the bump of the left wheel under both, all outputs of both sides, and of the whole, follow from one.
+#[test]
+fn a_car_over_a_bump_is_half_a_car() {
+    let bump = |width: f64| [("right_bump", 0.08), ("right_time", 0.5), ("right_width", width)];
+    let same = shipped("full_axle", &bump(0.07), None, &settings(0.001, &[]));
+    let run = half(&same).unwrap();
+    // Both are integrated at rtol 1e-9: 12 of 24 unknowns, and a few steps more or less.
+    assert!(run.error() < 1e-7 && run.work < 0.6 * same.richest.work, "{:?}", run.outputs);
+    assert_eq!((run.velocities, run.constraints, run.outputs.len()), (7, 5, 13));
+    assert!(half(&shipped("full_axle", &bump(0.0707), None, &settings(0.001, &[]))).is_none());
+}
+
+/// A beam that swings in a plane beside the origin across `n`, with a wing on each side and a bob on a spring, in the
+/// plane of `f` and `g`.
+fn bird([n, f, g]: [[f64; 3]; 3], support: &Value) -> Value {
+    let at = |x: f64, y: f64, z: f64| -> [f64; 3] { std::array::from_fn(|i| x * n[i] + y * f[i] + z * g[i]) };
+    let inertia = |all: f64, [a, b]: [[f64; 3]; 2], part: f64| -> Vec<f64> {
+        let places = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+        let moment = |(i, j): (usize, usize)| part * (a[i] * b[j] + a[j] * b[i]) + if i == j { all } else { 0.0 };
+        places.map(moment).to_vec()
+    };
+    let pin = |position: [f64; 3]| json!({ "position": position, "z_axis": f, "x_axis": n });
+    let wing = |name: &str, side: f64| {
+        json!({ "name": name, "type": "rigid", "mass": "m", "inertia": inertia(0.02, [n, g], 0.004 * side),
+                "markers": { "root": pin(at(-0.25 * side, 0.0, 0.0)), "mid": at(0.0, 0.05, 0.0),
+                             "tip": at(0.3 * side, 0.0, 0.1) },
+                "initial": { "position": at(0.3 + 0.45 * side, 0.0, -0.5) } })
+    };
+    let beam = json!({ "name": "beam", "type": "rigid", "mass": 2, "inertia": inertia(0.1, [f, g], 0.02),
+        "markers": { "top": { "position": at(0.0, 0.0, 0.5), "z_axis": n, "x_axis": f }, "end": at(0.0, 0.1, -0.5),
+                     "right": pin(at(0.2, 0.0, 0.0)), "left": pin(at(-0.2, 0.0, 0.0)),
+                     "far": at(0.1, 0.0, -0.4), "near": at(-0.1, 0.0, -0.4) },
+        "initial": { "position": at(0.3, 0.0, -0.5), "angular_velocity": n.map(|x| 1.5 * x) } });
+    let bob =
+        json!({ "name": "bob", "type": "point_mass", "mass": 0.5, "initial": { "position": at(0.3, 0.1, -1.2) } });
+    let spring = |name: &str, a: &str, b: &str, length: f64| {
+        json!({ "name": name, "type": "spring_damper", "between": [a, b], "stiffness": "k", "damping": 1,
+                "free_length": length })
+    };
+    let root = |name: &str| {
+        let between = [format!("beam.{name}"), format!("{name}.root")];
+        json!({ "name": format!("{name}_root"), "type": "revolute", "between": between })
+    };
+    let mut outputs = vec![
+        json!({ "name": "beat", "measure": "angular_velocity", "of": "left", "relative_to": "beam.left", "component": "z" }),
+        json!({ "name": "pull", "measure": "force", "of": "left_muscle" }),
+        json!({ "name": "swing", "measure": "angular_velocity", "of": "beam", "component": (["x", "y", "z"][axis(n)]) }),
+        json!({ "name": "energy", "measure": "energy" }),
+        json!({ "name": "span", "measure": "distance", "between": ["left.tip", "beam.near"] }),
+        json!({ "name": "load", "measure": "force", "of": "string" }),
+    ];
+    for of in ["right.tip", "left.tip", "bob"] {
+        for component in ["x", "y", "z"] {
+            outputs
+                .push(json!({ "name": format!("{of}_{component}").replace('.', "_"), "measure": "position", "of": of,
+                                 "component": component }));
+        }
+    }
+    let mut joints = vec![root("right"), root("left")];
+    joints.extend(support["joints"].as_array().unwrap().clone());
+    let mut forces = vec![
+        spring("right_muscle", "right.mid", "beam.far", 0.3),
+        spring("left_muscle", "left.mid", "beam.near", 0.3),
+        spring("string", "beam.end", "bob", 0.15),
+    ];
+    forces.extend(support["forces"].as_array().unwrap().clone());
+    json!({ "name": "bird", "dimension": 3, "gravity": g.map(|x| -9.81 * x), "parameters": { "m": 0.4, "k": 300 },
+            "ground": { "markers": { "O": { "position": at(0.3, 0.0, 0.0), "z_axis": n, "x_axis": f },
+                                     "a": at(0.8, 0.0, 0.0), "b": at(-0.2, 0.0, 0.0) } },
+            "bodies": [beam, wing("right", 1.0), wing("left", -1.0), bob],
+            "joints": joints, "forces": forces,
+            "outputs": outputs,
+            "simulation": { "t_end": 0.5, "output_step": 0.01, "rtol": 1e-9, "atol": 1e-11 } })
+}
+
+fn axis(n: [f64; 3]) -> usize {
+    n.iter().position(|x| *x != 0.0).unwrap()
+}
+
+/// In space, across each axis, with the beam on a hinge, or on two springs: then it needs its freedoms to stay in the
+/// plane.
+#[test]
+fn halves_are_found_across_each_axis() {
+    let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let hinge = json!({ "joints": [{ "name": "hinge", "type": "revolute", "between": ["ground.O", "beam.top"] }], "forces": [] });
+    let hung = |name: &str, from: &str| json!({ "name": name, "type": "spring_damper", "between": [from, "beam.top"], "stiffness": 800, "damping": 2 });
+    let springs = json!({ "joints": [], "forces": [hung("one", "ground.a"), hung("two", "ground.b")] });
+    for axes in [[x, y, z], [y, z, x], [z, x, y]] {
+        let name = ["x", "y", "z"][axis(axes[0])];
+        for (support, sizes) in [(&hinge, [21, 15, 14, 10]), (&springs, [21, 10, 11, 5])] {
+            let own = bird(axes, support);
+            let found = scene(own, &settings(0.001, &[]));
+            let run = half(&found).unwrap_or_else(|| panic!("{name}: {:?}", found.trials));
+            // Both are integrated at rtol 1e-9; positions along the normal in the plane are zero.
+            assert!(run.error() < 1e-6, "{name}: {:?}", run.outputs);
+            assert_eq!([found.richest.velocities, found.richest.constraints, run.velocities, run.constraints], sizes);
+            assert_eq!(left_out(&found)[0], format!("of the two halves across {name} one is left"));
+        }
+    }
+    let near = promised(bird([x, y, z], &hinge), &settings(0.01, &["bob_y", "left_tip_z"]));
+    assert!(half(&near).is_some());
+}
