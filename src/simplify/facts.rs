@@ -4,7 +4,7 @@ use super::edit::{carrier, text};
 use super::run::counted;
 use super::source::Source;
 use crate::analysis::Sizes;
-use crate::body::{Frame, in_space};
+use crate::body::{Energy, Frame, in_space};
 use crate::compare::work_precision::Watched;
 use crate::error::{Failure, Result};
 use crate::formulation::Dynamics;
@@ -323,13 +323,17 @@ impl Facts {
         Some(most / self.turnover()).filter(|share| share.is_finite())
     }
 
-    /// Largest kinetic energy and largest change of the potential, J.
+    /// The larger of the swings of the kinetic energy and of the potential, J: that of a car that rolls on is turned over
+    /// by nothing.
     fn turnover(&self) -> f64 {
         let (system, mut scratch) = (self.prepared.system(), Scratch::default());
         let energy = |state: &State| system.energy(state.t, &state.q, &state.v, &mut scratch);
         let all: Vec<_> = self.states.iter().filter_map(energy).collect();
-        let first = all.first().map_or(0.0, |energy| energy.potential);
-        all.iter().fold(0.0, |most: f64, energy| most.max(energy.kinetic).max((energy.potential - first).abs()))
+        let swing = |of: fn(&Energy) -> f64| {
+            let values = || all.iter().map(of);
+            values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
+        };
+        swing(|energy| energy.kinetic).max(swing(|energy| energy.potential))
     }
 }
 

@@ -63,9 +63,9 @@ pub struct Unseen {
 }
 
 /// What the candidates propose for the start of a scene, `prepared` from `path`, alone, the forces in its rods and the
-/// modes that no output sees. In the place of the motion, of which nothing is known, come small ones: the way on from the start, and every mode that outputs see with
-/// the same kinetic energy, so that slow ones go far and fast ones do not. What is harmless in all of them need not be
-/// so in the motion: work, which grows with time, is not known at all.
+/// modes that no output sees. In the place of the motion, of which nothing is known, come small ones: the way on from the
+/// start, and every mode that outputs see with the same kinetic energy, so that slow ones go far and fast ones do not.
+/// What is harmless in all of them need not be so in the motion: work, which grows with time, is not known at all.
 ///
 /// # Errors
 /// A scene without an end time, or with more than 300 velocities; one whose modes cannot be computed.

@@ -65,6 +65,49 @@ fn what_is_not_symmetric_is_not_halved() {
     assert!(pushed.unwrap().estimated > 0.003);
 }
 
+/// Torsion springs wound against each other, bands named from either end, and drives that turn against each other; a
+/// block on the plane that stays there by its freedom.
+#[test]
+fn springs_and_drives_have_images() {
+    let crank = |name: &str, x: f64| {
+        json!({ "name": name, "type": "rigid", "mass": 1, "inertia": 0.1, "markers": { "A": [0, 0], "B": [0, 0.5] },
+                "initial": { "position": [x, 0] } })
+    };
+    let driver = |name: &str, value: &str| {
+        json!({ "name": format!("{name}_drive"), "type": "driver", "coordinate": "angle", "value": value,
+                "between": [format!("ground.{name}"), format!("{name}.A")] })
+    };
+    let pin = |name: &str| json!({ "name": format!("{name}_pin"), "type": "revolute", "between": [format!("ground.{name}"), format!("{name}.A")] });
+    let band = |name: &str, ends: [&str; 2]| json!({ "name": name, "type": "spring_damper", "between": ends, "stiffness": 100, "damping": 1, "free_length": 0.8 });
+    let coil = |name: &str, angle: f64| {
+        json!({ "name": format!("{name}_coil"), "type": "torsion_spring", "stiffness": 3, "free_angle": angle,
+                "between": [format!("ground.{name}"), format!("{name}.A")] })
+    };
+    let own = |angle: f64| {
+        json!({ "name": "press", "dimension": 2, "gravity": [0, -9.81],
+            "ground": { "markers": { "left": [-1, 0], "right": [1, 0] } },
+            "bodies": [crank("left", -1.0), crank("right", 1.0),
+                       { "name": "block", "type": "point_mass", "mass": 2, "initial": { "position": [0, 0.4] } }],
+            "joints": [pin("left"), pin("right"), driver("left", "0.3*sin(3*t)"), driver("right", "-0.3*sin(3*t)")],
+            "forces": [band("one", ["left.B", "block"]), band("two", ["block", "right.B"]),
+                       coil("left", 0.2), coil("right", angle)],
+            "outputs": [{ "name": "y", "measure": "position", "of": "block", "component": "y" },
+                        { "name": "x", "measure": "position", "of": "block", "component": "x" },
+                        { "name": "tip", "measure": "position", "of": "right.B", "component": "x" },
+                        { "name": "pull", "measure": "force", "of": "two" },
+                        { "name": "coil", "measure": "force", "of": "left_coil" },
+                        { "name": "torque", "measure": "reaction", "of": "left_drive" },
+                        { "name": "pin", "measure": "reaction", "of": "right_pin", "component": "x" }],
+            "simulation": { "t_end": 2, "output_step": 0.02, "rtol": 1e-9, "atol": 1e-11 } })
+    };
+    let found = scene(own(-0.2), &settings(0.001, &[]));
+    let run = half(&found).unwrap_or_else(|| panic!("{:?}", found.trials));
+    // Both are integrated at rtol 1e-9.
+    assert!(run.error() < 1e-7, "{:?}", run.outputs);
+    assert_eq!((run.velocities, run.constraints, run.outputs.len()), (4, 3, 7));
+    assert!(scene(own(0.2), &settings(0.001, &[])).trials.iter().all(|trial| trial.candidate != "symmetric_half"));
+}
+
 /// With the bump of the left wheel under both, all outputs of both sides, and of the whole, follow from one.
 #[test]
 fn a_car_over_a_bump_is_half_a_car() {

@@ -2,7 +2,7 @@
 
 use super::mirror::Mirror;
 use super::planar_output::made_of;
-use crate::simplify::edit::{carrier, mentions, text};
+use crate::simplify::edit::{mentions, pair, text};
 use serde_json::{Value, json};
 
 /// What became of the joints and forces.
@@ -18,61 +18,83 @@ pub struct Elements {
 /// `None` for what has no counterpart.
 pub fn half_output(mirror: &Mirror, elements: &Elements, output: &Value) -> Option<Vec<Value>> {
     let (measure, of) = (text(output, "measure"), text(output, "of"));
-    let mut own = output.clone();
     if measure == "expression" {
+        let mut own = output.clone();
         mirror.translate(&mut own["value"])?;
         return Some(vec![own]);
     }
     let is_of = |name: &str| of == name && ["force", "power", "work", "reaction"].contains(&measure);
-    if measure == "energy" || elements.halved.iter().any(|name| is_of(name)) {
-        return made_of(&own, &[(2.0, None)], 0.0);
+    let is_gone = elements.gone.iter().any(|(gone, _)| gone == of);
+    let is_about = mirror.pairs.iter().any(|[_, goes]| mentions(output, goes));
+    match measure == "energy" || elements.halved.iter().any(|name| is_of(name)) {
+        true => made_of(output, &[(2.0, None)], 0.0).filter(|_| !is_about),
+        false if is_gone || is_about => image_output(mirror, elements, output),
+        false => Some(vec![output.clone()]),
     }
-    let is_gone = |name: &str| elements.gone.iter().any(|(gone, _)| gone == name);
-    if !is_gone(of) && !mirror.pairs.iter().any(|[_, goes]| mentions(output, goes)) {
-        return Some(vec![own]);
-    }
-    let component = text(output, "component");
-    let (mut sign, mut offset) = (1.0, 0.0);
+}
+
+/// An output of what goes, or against it, by the images.
+fn image_output(mirror: &Mirror, elements: &Elements, output: &Value) -> Option<Vec<Value>> {
+    let (measure, of, component) = (text(output, "measure"), text(output, "of"), text(output, "component"));
     let base = output["relative_to"].as_str().unwrap_or("ground");
     let there = if base == "ground" { base.to_string() } else { mirror.marker_mate(base)? };
-    if let Some(axis) = ["x", "y", "z"].iter().position(|axis| component.ends_with(axis)) {
-        let is_turning = component.starts_with('m') || measure.starts_with("angular");
-        let image = axis_sign(mirror, [base, &there], axis)?;
-        sign = if is_turning { 0.0 - image } else { image };
-        if measure == "position" && base == "ground" && axis == mirror.axis {
-            offset = 2.0 * mirror.offset;
+    let axis = ["x", "y", "z"].iter().position(|axis| component.ends_with(axis));
+    let is_turning = component.starts_with('m') || measure.starts_with("ang");
+    let sign = match axis.or(is_turning.then_some(2)) {
+        Some(axis) if is_turning => 0.0 - axis_sign(mirror, [base, &there], axis)?,
+        Some(axis) => axis_sign(mirror, [base, &there], axis)?,
+        None if ["", "axial"].contains(&component) => 1.0,
+        None => return None,
+    };
+    let own = renamed(mirror, elements, output)?;
+    let offset = match (measure, axis) {
+        ("angle", _) if mirror.facts.dimension() == 3 => return None,
+        ("angle", _) => {
+            let turn = |name: &str| Some(mirror.place(name)?.turn);
+            turn(of)? - turn(base)? - sign * (turn(text(&own, "of"))? - turn(&there)?)
         }
-    } else if measure.starts_with("ang") {
-        sign = 0.0 - axis_sign(mirror, [base, &there], 2)?;
-    } else if !["", "axial"].contains(&component) {
-        return None;
+        ("position", Some(axis)) if base == "ground" && axis == mirror.axis => 2.0 * mirror.offset,
+        _ => 0.0,
+    };
+    made_of(&own, &[(sign, None)], offset)
+}
+
+/// The output of the images of the joint, force, body or markers that it is about; `None` where these go.
+fn renamed(mirror: &Mirror, elements: &Elements, output: &Value) -> Option<Value> {
+    let (mut own, of) = (output.clone(), text(output, "of"));
+    if let Some((_, image)) = elements.gone.iter().find(|(gone, _)| gone == of) {
+        own["of"] = has_image(mirror, [of, image], output).then(|| json!(image))?;
+    } else if of.is_empty() {
+        for end in own["between"].as_array_mut()? {
+            *end = json!(mirror.marker_mate(end.as_str()?)?);
+        }
+    } else {
+        own["of"] = json!(mirror.marker_mate(of)?);
     }
-    match elements.gone.iter().find(|(gone, _)| gone == of) {
-        Some(_) if !["force", "power", "work", "reaction", "distance", "distance_rate"].contains(&measure) => {
-            return None;
-        }
-        Some((_, image)) => own["of"] = json!(image),
-        None if of.is_empty() => {
-            for end in own["between"].as_array_mut()? {
-                *end = json!(mirror.marker_mate(end.as_str()?)?);
-            }
-        }
-        None => {
-            let image = mirror.marker_mate(of)?;
-            if measure == "angle" {
-                let turn = |name: &str| Some(mirror.place(name)?.turn);
-                offset = turn(of)? - turn(base)? - sign * (turn(&image)? - turn(&there)?);
-            }
-            own["of"] = json!(image);
-        }
+    if let Some(base) = output["relative_to"].as_str().filter(|base| *base != "ground") {
+        own["relative_to"] = json!(mirror.marker_mate(base)?);
     }
-    if own.get("relative_to").is_some() {
-        own["relative_to"] = json!(there);
+    let goes = |value: &Value| value.as_str().is_some_and(|name| mirror.goes(name));
+    let is_left = own["between"].as_array().into_iter().flatten().chain([&own["of"], &own["relative_to"]]).any(goes);
+    (!is_left).then_some(own)
+}
+
+/// True if what is measured at an element is measured at its image, but for the signs of axes: of a tension or a power,
+/// or of what acts on the second body, which is the second there; not of the torque of a drive or a torsion spring.
+fn has_image(mirror: &Mirror, names: [&str; 2], output: &Value) -> bool {
+    let element = |name| ["joints", "forces"].iter().find_map(|list| mirror.facts.element(list, name));
+    let [Some(own), Some(image)] = names.map(element) else { return false };
+    let is_turned = || pair(own).zip(pair(image)).is_some_and(|(own, image)| !mirror.are_images(own[0], image[0]));
+    let is_signed = || match text(own, "type") {
+        "driver" => text(own, "coordinate") != "distance",
+        kind => kind == "torsion_spring",
+    };
+    match text(output, "measure") {
+        "power" | "work" | "distance" | "distance_rate" => true,
+        "force" | "reaction" if ["", "axial"].contains(&text(output, "component")) => !is_signed(),
+        "force" | "reaction" => !is_turned(),
+        _ => false,
     }
-    let is_left = |key: &str| own[key].as_str().is_some_and(|name| mirror.goes(carrier(name)));
-    let is_whole =
-        !["of", "relative_to"].iter().any(|key| is_left(key)) && (mirror.facts.dimension() == 2 || measure != "angle");
-    is_whole.then(|| made_of(&own, &[(sign, None)], offset)).flatten()
 }
 
 /// Sign of the image of an axis of `base` in those of its own image; the ground is seen in its own axes.

@@ -2,7 +2,7 @@
 
 use super::merged_bodies::{PLACES, packed};
 use super::plane::{cross, world};
-use crate::simplify::edit::{carrier, elements, mentions, text, words};
+use crate::simplify::edit::{carrier, elements, text, words};
 use crate::simplify::facts::product;
 use crate::simplify::{Facts, Placed, Relative};
 use crate::tolerances::SAME;
@@ -70,7 +70,7 @@ fn arm(facts: &Facts, body: &Value, place: &Placed) -> Vector {
 
 impl<'a> Mirror<'a> {
     /// The plane across `axis` through the centre of mass; `None` where it is no plane of symmetry of the bodies and of
-    /// gravity. The side stays that watched outputs mention more often, else the lower one.
+    /// gravity. The lower side stays.
     pub fn new(facts: &'a Facts, axis: usize) -> Option<Self> {
         let scene = facts.scene();
         let across = match &scene["gravity"] {
@@ -98,19 +98,13 @@ impl<'a> Mirror<'a> {
             let is_before = first.centre[axis] < offset;
             mirror.pairs.push(if is_before { pair } else { [pair[1], pair[0]] });
         }
-        if mirror.preference() < 0 {
-            mirror.pairs.iter_mut().for_each(|pair| pair.reverse());
-            mirror.upper_goes = false;
-        }
         Some(mirror)
     }
 
-    /// By how many more watched outputs the first bodies of the pairs are mentioned than the second ones.
-    fn preference(&self) -> i32 {
-        let outputs = || elements(self.facts.scene(), "outputs").iter();
-        let watched = || outputs().filter(|output| self.facts.watched.iter().any(|name| name == text(output, "name")));
-        let count = |name: &str| watched().filter(|output| mentions(output, name)).count() as i32;
-        self.pairs.iter().map(|[stays, goes]| count(stays) - count(goes)).sum()
+    /// The same with the other side to stay.
+    pub fn turned(self) -> Self {
+        let pairs = self.pairs.iter().map(|[stays, goes]| [*goes, *stays]).collect();
+        Mirror { pairs, upper_goes: !self.upper_goes, ..self }
     }
 
     fn is_image(&self, one: &Solid, other: &Solid) -> bool {

@@ -49,7 +49,8 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
     made_of(&own, &parts, offset)
 }
 
-/// The output, or an expression of its own parts, each a factor with a component, plus an offset: `None` where these are none, or in a unit that an expression has not.
+/// The output, or an expression of its own parts, each a factor with a component, plus an offset: `None` where these are
+/// none, or in a unit that an expression has not.
 pub fn made_of(own: &Value, parts: &[(f64, Option<&str>)], offset: f64) -> Option<Vec<Value>> {
     let (name, mut all, mut sum) = (text(own, "name"), Vec::new(), Vec::new());
     for (part, component) in parts.iter().filter(|(part, _)| part.abs() > SAME) {

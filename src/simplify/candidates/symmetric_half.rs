@@ -11,7 +11,8 @@ use serde_json::{Value, json};
 /// Of a scene that is symmetric at the start about a plane across x, y or z, in bodies, joints, forces and gravity, one
 /// half stays. Bodies on the plane stay in it, with half their mass and inertia; forces there have half their strength.
 /// Outputs of the other half become those of the images, totals are doubled. By how far bodies leave the images of each
-/// other along the motion, where loads that are no numbers make them.
+/// other along the motion, where loads and drives make them. Not for scenes with beams, gears, equations, inputs, or an
+/// element that connects the halves.
 pub struct SymmetricHalf;
 
 impl Candidate for SymmetricHalf {
@@ -26,8 +27,14 @@ impl Candidate for SymmetricHalf {
 
 fn proposal(facts: &Facts, mirror: Mirror) -> Option<Proposal> {
     let effect = mirror.asymmetry()?.part(&facts.travel());
-    let (scene, before) = (half(&mirror)?, facts.scene().clone());
     let name = ["x", "y", "z"][mirror.axis];
+    // Of the other side where that keeps more of the watched outputs.
+    let (lower, upper) = (half(&mirror)?, half(&mirror.turned())?);
+    let kept = |scene: &Value| {
+        let is_there = |name: &&String| elements(scene, "outputs").iter().any(|output| text(output, "name") == **name);
+        facts.watched.iter().filter(is_there).count()
+    };
+    let (scene, before) = (if kept(&upper) > kept(&lower) { upper } else { lower }, facts.scene().clone());
     Some(Proposal {
         subject: "the scene".to_string(),
         what: format!("of the two halves across {name} one is left"),
@@ -50,7 +57,7 @@ fn half(mirror: &Mirror) -> Option<Value> {
         return None;
     }
     let mut found = Elements::default();
-    let held = held(mirror)?;
+    let held = held(mirror);
     for list in ["joints", "forces"] {
         let kept = kept(mirror, list, &held, &mut found)?;
         scene[list] = json!(kept);
@@ -80,32 +87,32 @@ fn kept(mirror: &Mirror, list: &str, held: &[&str], found: &mut Elements) -> Opt
     let mut kept = Vec::new();
     for element in all {
         let (name, markers) = (text(element, "name").to_string(), markers(element)?);
-        if is_image(mirror, element, element) {
-            found.halved.push(name);
-            kept.push(if list == "forces" { weaker(element)? } else { flatter(mirror, held, element) });
-            continue;
-        }
-        let images = |of: &Value| all.iter().filter(|other| is_image(mirror, of, other)).count();
-        let other = all.iter().find(|other| is_image(mirror, element, other))?;
-        if images(element) != images(other) {
-            return None;
-        }
         let goes = |marker: &&str| mirror.goes(marker);
         let is_paired = |marker: &&str| !mirror.middle.contains(&carrier(marker));
-        let is_gone = match markers.iter().any(|marker| is_paired(marker)) {
-            true => markers.iter().any(|marker| goes(marker)),
-            false => is_beyond(mirror, &markers)?,
-        };
-        if is_gone && markers.iter().any(|marker| is_paired(marker) && !goes(marker)) {
+        if markers.iter().any(goes) && markers.iter().any(|marker| is_paired(marker) && !goes(marker)) {
             return None;
         }
-        if is_gone {
-            found.gone.push((name, text(other, "name").to_string()));
+        let mut own = element.clone();
+        if is_image(mirror, element, element) {
+            own = if list == "forces" { weaker(element)? } else { flatter(mirror, held, element) };
+            found.halved.push(name);
         } else {
-            let mut own = element.clone();
-            mirror.translate(&mut own)?;
-            kept.push(own);
+            let images = |of: &Value| all.iter().filter(|other| is_image(mirror, of, other)).count();
+            let other = all.iter().find(|other| is_image(mirror, element, other))?;
+            if images(element) != images(other) {
+                return None;
+            }
+            let is_gone = match markers.iter().any(is_paired) {
+                true => markers.iter().any(goes),
+                false => is_beyond(mirror, &markers)?,
+            };
+            if is_gone {
+                found.gone.push((name, text(other, "name").to_string()));
+                continue;
+            }
         }
+        mirror.translate(&mut own)?;
+        kept.push(own);
     }
     Some(kept)
 }
@@ -114,7 +121,8 @@ fn kept(mirror: &Mirror, list: &str, held: &[&str], found: &mut Elements) -> Opt
 fn is_beyond(mirror: &Mirror, markers: &[&str]) -> Option<bool> {
     let height = |marker: &&str| Some(mirror.place(marker)?.r[mirror.axis] - mirror.offset);
     let heights: Vec<f64> = markers.iter().map(height).collect::<Option<_>>()?;
-    heights.into_iter().find(|height| *height != 0.0).map(|height| (height > 0.0) == mirror.upper_goes)
+    let least = SAME * mirror.facts.prepared.system().length();
+    heights.into_iter().find(|height| height.abs() > least).map(|height| (height > 0.0) == mirror.upper_goes)
 }
 
 /// Markers of a joint or force, by which it acts.
@@ -128,32 +136,47 @@ const LOADS: [&str; 5] = ["road", "force", "torque", "law", "value"];
 
 /// True if `other` does to the images of the bodies what `element` does to them, but for loads.
 fn is_image(mirror: &Mirror, element: &Value, other: &Value) -> bool {
-    let (Some(own), Some(there)) = (markers(element), markers(other)) else { return false };
-    let is_numbered = |key: &str| !["name", "between", "at", "reaction_on"].contains(&key) && !LOADS.contains(&key);
-    let keys = |of: &Value| of.as_object().map(|keys| keys.keys().filter(|key| is_numbered(key)).cloned().collect());
-    let keys: [Option<Vec<String>>; 2] = [keys(element), keys(other)];
-    let are_equal = |key: &String| alike(mirror.facts, &element[key], &other[key]);
+    let (Some(own), Some(mut there)) = (markers(element), markers(other)) else { return false };
+    let is_numbered =
+        |key: &str| !["name", "between", "at", "reaction_on", "free_angle"].contains(&key) && !LOADS.contains(&key);
+    let keys = [element, other].map(|of| of.as_object().into_iter().flat_map(|keys| keys.keys()));
+    let is_equal = |key: &String| !is_numbered(key) || alike(mirror.facts, &element[key], &other[key]);
     let axes: &[usize] = match (text(element, "type"), mirror.facts.dimension()) {
         ("distance" | "spherical" | "weld" | "spring_damper" | "tyre" | "applied_force" | "applied_torque", _) => &[],
         ("revolute", 2) => &[],
         ("prismatic" | "point_on_line", 2) => &[0],
         ("revolute" | "cylindrical" | "prismatic" | "planar" | "point_on_line", _) => &[2],
         ("driver", _) if text(element, "coordinate") == "distance" => &[],
-        ("driver" | "universal" | "bushing", _) => &[0, 1, 2],
+        ("driver" | "universal" | "bushing" | "torsion_spring", _) => &[0, 1, 2],
         _ => return false,
     };
     let is_turned = |markers: (&&str, &&str)| {
         let signs = mirror.signs([markers.0, markers.1]);
         signs.is_none_or(|signs| axes.iter().any(|axis| signs[*axis].is_none()))
     };
-    let is_signed = text(element, "type") == "driver" && text(element, "coordinate") != "distance";
+    if ["distance", "spring_damper"].contains(&text(element, "type")) && !mirror.are_images(own[0], there[0]) {
+        there.reverse();
+    }
     own.len() == there.len()
         && own.iter().zip(&there).all(|(own, there)| mirror.are_images(own, there))
         && (axes.is_empty() || !own.iter().zip(&there).any(is_turned))
-        && keys[0].as_ref().is_some_and(|keys| keys.iter().all(are_equal))
-        && keys[1].as_ref().is_some_and(|keys| keys.iter().all(are_equal))
-        // A prescribed coordinate may have the other sign there.
-        && (!is_signed || text(element, "name") == text(other, "name"))
+        && keys.into_iter().flatten().all(is_equal)
+        && (text(element, "type") != "torsion_spring" || is_wound(mirror, element, other).unwrap_or(false))
+}
+
+/// True if the angles of two torsion springs are those of mirror images: an angle about z is minus that about the image
+/// of z, against x axes that both are images, or both minus that.
+fn is_wound(mirror: &Mirror, element: &Value, other: &Value) -> Option<bool> {
+    let (own, there) = (pair(element)?, pair(other)?);
+    let [first, second] = [mirror.signs([own[0], there[0]])?, mirror.signs([own[1], there[1]])?];
+    let angle = |spring: &Value| {
+        if spring.get("free_angle").is_some() { mirror.facts.number(&spring["free_angle"]) } else { Some(0.0) }
+    };
+    Some(
+        first[0] == second[0]
+            && (angle(other)? + first[2]? * angle(element)?).abs() <= SAME
+            && element.get("law").is_none(),
+    )
 }
 
 /// True if two values of a scene are the same, or numbers that are.
@@ -184,7 +207,7 @@ fn halved(value: &Value) -> Value {
 fn weaker(force: &Value) -> Option<Value> {
     let keys: &[&str] = match text(force, "type") {
         "spring_damper" => &["stiffness", "damping", "preload", "law"],
-        "tyre" | "bushing" => &["stiffness", "damping"],
+        "tyre" | "bushing" | "torsion_spring" => &["stiffness", "damping"],
         "applied_force" => &["force"],
         "applied_torque" => &["torque"],
         _ => return None,
@@ -224,7 +247,7 @@ fn is_within(mirror: &Mirror, marker: &str, axis: usize) -> bool {
 }
 
 /// The ground and the bodies on the plane that joints to those already hold there.
-fn held<'a>(mirror: &Mirror<'a>) -> Option<Vec<&'a str>> {
+fn held<'a>(mirror: &Mirror<'a>) -> Vec<&'a str> {
     let mut held = vec!["ground"];
     let joints = elements(mirror.facts.scene(), "joints");
     let holds = |joint: &Value, first: &str| {
@@ -247,7 +270,7 @@ fn held<'a>(mirror: &Mirror<'a>) -> Option<Vec<&'a str>> {
             held.extend(next.and_then(|next| mirror.middle.iter().find(|own| *own == next).copied()));
         }
         if held.len() == before {
-            return Some(held);
+            return held;
         }
     }
 }
