@@ -1,8 +1,8 @@
 //! The richest model: accurately, and by a method whose own error the promise allows.
 
 use super::assembled::carried;
-use super::facts::{Recorded, record};
 use super::promise::Promise;
+use super::recorded::{Recorded, record};
 use super::run::{Run, measured};
 use super::search::{NUMERICAL, Trial};
 use super::source::{Source, write_method};

@@ -1,19 +1,15 @@
 //! What one run of the richest model tells about its parts.
 
 use super::edit::{carrier, text};
-use super::run::counted;
+use super::recorded::Recorded;
 use super::source::Source;
-use crate::analysis::Sizes;
 use crate::body::{Energy, Frame, in_space};
 use crate::compare::work_precision::Watched;
-use crate::error::{Failure, Result};
 use crate::formulation::Dynamics;
 use crate::math::Taylor;
 use crate::math::expression::Number;
 use crate::prepared::{AnyMechanism, PreparedScene};
-use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
-use crate::tolerances::SAME;
 use serde_json::{Map, Value, json};
 use std::array::from_fn;
 
@@ -74,95 +70,6 @@ impl Placed {
             2 => json!({ "position": self.r[..2], "angle": self.turn }),
             _ => json!({ "position": self.r, "z_axis": self.axes[2], "x_axis": self.axes[0] }),
         }
-    }
-}
-
-/// Reason of a run that was stopped.
-const INTERRUPTED: &str = "interrupted";
-
-/// Watched rows, states and sizes of a run.
-#[derive(Clone)]
-pub struct Recorded {
-    /// Values of the watched outputs at each time.
-    pub rows: Vec<Vec<f64>>,
-    /// Sizes of the motion.
-    pub sizes: Sizes,
-    /// Why and when it was stopped; none where it is complete.
-    pub stopped: Option<Failure>,
-    /// Counted work.
-    pub work: f64,
-    states: Vec<State>,
-    redundant: Vec<usize>,
-}
-
-impl Recorded {
-    /// Time of the last row, s.
-    pub fn end(&self) -> f64 {
-        self.states.last().map_or(f64::NEG_INFINITY, |state| state.t)
-    }
-
-    /// Forgets the last row of a run that was stopped if that is where it was stopped, between the rows of others.
-    pub fn end_on_grid(&mut self, span: Span) {
-        let rows = (self.end() - span.start) / span.output_step;
-        if self.stopped.is_some() && (rows - rows.round()).abs() > SAME {
-            self.rows.pop();
-            self.states.pop();
-        }
-    }
-}
-
-/// Runs a model by `method` over its own span, until `is_stopped`, and records it.
-///
-/// # Errors
-/// Bad input, and the failure of a run that does not complete for another reason.
-pub fn record(
-    prepared: &PreparedScene,
-    watched: &Watched,
-    method: &Method,
-    is_stopped: &dyn Fn() -> bool,
-) -> Result<Recorded> {
-    let system = prepared.system();
-    let (rows, states, redundant) = (Vec::new(), Vec::new(), Vec::new());
-    let recorded = Recorded { rows, sizes: Sizes::default(), stopped: None, work: 0.0, states, redundant };
-    let scales = system.scales();
-    let span = prepared.span()?;
-    let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, recorded, is_stopped };
-    let outcome = simulate(system, method, span, prepared.start(), &mut memory)?;
-    memory.recorded.work = counted(prepared, method, outcome.statistics);
-    match outcome.failure {
-        None => Ok(memory.recorded),
-        Some(failure) if failure.reason == INTERRUPTED => Ok(Recorded { stopped: Some(failure), ..memory.recorded }),
-        Some(failure) => {
-            Err(Failure { reason: format!("the richest model does not complete: {}", failure.reason), ..failure }
-                .into())
-        }
-    }
-}
-
-struct Memory<'a> {
-    system: &'a dyn MechanicalSystem,
-    watched: &'a Watched,
-    scratch: Scratch,
-    scales: Vec<f64>,
-    recorded: Recorded,
-    is_stopped: &'a dyn Fn() -> bool,
-}
-
-impl Sink for Memory<'_> {
-    fn accepted(&mut self, _: &Observation) {}
-
-    fn row(&mut self, state: &Observation) {
-        let Recorded { rows, sizes, states, redundant, .. } = &mut self.recorded;
-        sizes.add(self.system, state, &self.scales, &mut self.scratch);
-        states.push(State { t: state.t, q: state.q.to_vec(), v: state.v.to_vec() });
-        if state.dropped.len() > redundant.len() {
-            *redundant = state.dropped.to_vec();
-        }
-        rows.push(self.watched.read(self.system, (state.loaded(), state.works), &mut self.scratch));
-    }
-
-    fn stops(&self) -> Option<Stop> {
-        (self.is_stopped)().then(|| Stop { reason: INTERRUPTED.to_string(), hint: "give it more time".to_string() })
     }
 }
 
@@ -228,12 +135,21 @@ impl Facts {
 
     /// Placements of a marker along the motion.
     pub fn path(&self, marker: &str) -> Option<Vec<Placed>> {
+        let marker = self.marker(marker)?;
+        Some(self.placed.iter().map(|row| row[marker]).collect())
+    }
+
+    /// Placement of a marker at the start.
+    pub fn place(&self, marker: &str) -> Option<Placed> {
+        Some(self.placed.first()?[self.marker(marker)?])
+    }
+
+    fn marker(&self, name: &str) -> Option<usize> {
         let names = match &self.prepared.mechanism {
             AnyMechanism::Planar(mechanism) => &mechanism.model().markers,
             AnyMechanism::Spatial(mechanism) => &mechanism.model().markers,
         };
-        let marker = names.find(marker).ok()?;
-        Some(self.placed.iter().map(|row| row[marker]).collect())
+        names.find(name).ok()
     }
 
     /// The element of this name in a list of the scene.
@@ -404,23 +320,4 @@ fn seen<const D: usize>(mechanism: &Mechanism<D>, states: &[State]) -> Seen {
 /// a . b
 pub fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     crate::body::dot(a, b)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_run_that_was_stopped_ends_on_a_row_that_others_have() {
-        let span = Span { start: 0.0, end: 1.0, output_step: 0.1 };
-        for (times, end) in [([0.0, 0.1, 0.15], 0.1), ([0.0, 0.1, 0.2], 0.2)] {
-            let states = times.iter().map(|&t| State { t, q: Vec::new(), v: Vec::new() }).collect();
-            let stopped = Some(Failure { reason: INTERRUPTED.to_string(), hint: String::new(), t: times[2] });
-            let rows = times.iter().map(|&t| vec![t]).collect();
-            let (sizes, redundant) = (Sizes::default(), Vec::new());
-            let mut recorded = Recorded { rows, sizes, stopped, work: 0.0, states, redundant };
-            recorded.end_on_grid(span);
-            assert_eq!((recorded.end(), recorded.rows.last()), (end, Some(&vec![end])));
-        }
-    }
 }

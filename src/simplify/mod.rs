@@ -8,7 +8,7 @@
 //!    the motion, accelerations and reactions with them. What they do later would take the state-transition matrix, which
 //!    costs 10 to 100 runs of the richest model, where the search runs fewer than two models in vain; or the equations
 //!    linearized about the run, for changes that keep the coordinates: in 92 searches, of all scenes within 10 % and 1 %,
-//!    21 of these were run in vain for their effect, and 27 searches would have had to pay for the estimate.
+//!    20 of these were run in vain for their effect, and 27 searches would have had to pay for the estimate.
 //! 3. Changes are tried where they save most, all of a kind together and, where that is refused, in halves. What is run is
 //!    always the whole model with all that was kept before, so that changes which are harmless alone and wrong together
 //!    are found out. A change is kept if every watched output stays within the promise, numerical error included.
@@ -29,6 +29,7 @@ mod modes;
 mod nearby;
 mod numerics;
 mod promise;
+mod recorded;
 mod relative;
 mod rods;
 mod run;

@@ -63,8 +63,8 @@ impl Merged {
         let of =
             |name: &str| facts.element("bodies", name).filter(|body| is_free(body) && body.get("inertia").is_some());
         let [_, second] = [of(names[0])?, of(names[1])?];
-        let base = *facts.path(names[0])?.first()?;
-        let place = |marker: &str| Some(seen(&base, facts.path(marker)?.first()?));
+        let base = facts.place(names[0])?;
+        let place = |marker: &str| Some(seen(&base, &facts.place(marker)?));
         let own = second["markers"].as_object().into_iter().flatten();
         let marker = |(marker, _): (&String, &Value)| {
             let (from, to) = (format!("{}.{marker}", names[1]), format!("{}_{marker}", names[1]));

@@ -40,7 +40,7 @@ struct Solid<'a> {
 impl<'a> Solid<'a> {
     fn new(facts: &'a Facts, body: &'a Value) -> Option<Self> {
         let is_plain = ["rigid", "point_mass"].contains(&text(body, "type")) && body.get("shapes").is_none();
-        let place = is_plain.then(|| facts.path(text(body, "name"))).flatten()?.first().copied()?;
+        let place = is_plain.then(|| facts.place(text(body, "name"))).flatten()?;
         let moments = packed(&body["inertia"]).map(|all| all.map(|value| facts.number(&value)));
         let mut inertia = [[0.0; 3]; 3];
         for (&(k, l), moment) in PLACES.iter().zip(moments.iter().flatten()) {
@@ -152,7 +152,7 @@ impl<'a> Mirror<'a> {
 
     /// Placement of a marker at the start.
     pub fn place(&self, marker: &str) -> Option<Placed> {
-        self.facts.path(marker)?.first().copied()
+        self.facts.place(marker)
     }
 
     /// True if `other` is on the body of which that of `marker` is the image, and there at its image.

@@ -90,12 +90,12 @@ fn flattened(facts: &Facts, plane: &Plane) -> Option<Value> {
 }
 
 fn flat_markers(facts: &Facts, plane: &Plane, body: &str, markers: &Map<String, Value>) -> Option<Value> {
-    let frame = *facts.path(body)?.first()?;
+    let frame = facts.place(body)?;
     let axes = plane.seen_from(body, &frame);
     let zero = plane.angle(&world(&frame, &axes[0]));
     let one = |(name, marker): (&String, &Value)| -> Option<(String, Value)> {
         let position = flat(&axes, if marker.is_array() { marker } else { &marker["position"] })?;
-        let place = *facts.path(&format!("{body}.{name}"))?.first()?;
+        let place = facts.place(&format!("{body}.{name}"))?;
         let angle = plane.angle(&plane.marker(&place)?) - zero;
         let is_turned = angle.abs() > SAME;
         Some((name.clone(), if is_turned { json!({ "position": position, "angle": angle }) } else { position }))
@@ -108,7 +108,7 @@ fn flat_body(facts: &Facts, plane: &Plane, body: &Value) -> Option<Value> {
         return None;
     }
     let (mut own, name) = (body.clone(), text(body, "name"));
-    let frame = *facts.path(name)?.first()?;
+    let frame = facts.place(name)?;
     let axes = plane.seen_from(name, &frame);
     if let Some(all) = body["inertia"].as_array() {
         own["inertia"] = moment(&axes[2], all)?;
@@ -189,7 +189,7 @@ fn flat_joint(facts: &Facts, plane: &Plane, joint: &Value) -> Option<Vec<Value>>
 
 fn flat_force(facts: &Facts, plane: &Plane, force: &Value) -> Option<Value> {
     let mut own = force.clone();
-    let first = || facts.path(force["between"][0].as_str()?)?.first().map(|place| place.axes);
+    let first = || facts.place(force["between"][0].as_str()?).map(|place| place.axes);
     match text(force, "type") {
         "spring_damper" => {}
         "torsion_spring" if plane.along(&first()?[2]) == Some(1.0) => {}

@@ -25,12 +25,11 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
     let pair = pair.filter(|_| turns).and_then(super::super::edit::pair);
     // What is measured, and against what.
     let [base, end] = pair.unwrap_or([output["relative_to"].as_str().unwrap_or("ground"), of]);
-    let frame = *facts.path(base)?.first()?;
+    let frame = facts.place(base)?;
     let axis = frame.axes[["x", "y"].iter().position(|name| component.ends_with(name)).unwrap_or(2)];
     if turns || component.starts_with('m') {
-        let is_x = |name: &str| {
-            Some((product(&plane.x_of(facts, name)?, &facts.path(name)?.first()?.axes[0]) - 1.0).abs() < SAME)
-        };
+        let is_x =
+            |name: &str| Some((product(&plane.x_of(facts, name)?, &facts.place(name)?.axes[0]) - 1.0).abs() < SAME);
         let sign = plane.along(&axis)?;
         if measure == "angle" && !(is_x(base)? && is_x(end)?) {
             return None;
@@ -44,7 +43,7 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
     let x = plane.x_of(facts, base)?;
     let parts = [(product(&axis, &x), Some("x")), (product(&axis, &cross(plane.normal(), &x)), Some("y"))];
     let out = product(&axis, plane.normal());
-    let height = |name: &str| Some(product(&facts.path(name)?.first()?.r, plane.normal()));
+    let height = |name: &str| Some(product(&facts.place(name)?.r, plane.normal()));
     let offset = if measure == "position" { out * (height(end)? - height(base)?) } else { 0.0 };
     made_of(&own, &parts, offset)
 }

@@ -25,7 +25,7 @@ impl Plane {
         let size = product(&fastest, &fastest).sqrt();
         let normal = if size > 0.0 { exact(fastest.map(|x| x / size)) } else { unit(2) };
         let hinges = elements(facts.scene(), "joints").iter().filter(|joint| text(joint, "type") == "revolute");
-        let markers = hinges.filter_map(|joint| facts.path(joint["between"][0].as_str()?)?.first().copied());
+        let markers = hinges.filter_map(|joint| facts.place(joint["between"][0].as_str()?));
         let hinge = markers.map(|place| place.axes[2]).find(|z| (product(z, &normal).abs() - 1.0).abs() < SAME);
         let is_turned = hinge.map_or(normal.iter().sum::<f64>() < 0.0, |z| product(&z, &normal) < 0.0);
         let normal = if is_turned { normal.map(|x| 0.0 - x) } else { normal };
@@ -68,7 +68,7 @@ impl Plane {
 
     /// Direction at the start of the planar x axis of what has this name: the ground, a body or a marker.
     pub fn x_of(&self, facts: &Facts, name: &str) -> Option<Vector> {
-        let place = facts.path(name)?.first().copied()?;
+        let place = facts.place(name)?;
         match name.contains('.') {
             true => self.marker(&place),
             false => Some(world(&place, &self.seen_from(name, &place)[0])),

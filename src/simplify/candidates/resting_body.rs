@@ -28,10 +28,10 @@ fn proposal(facts: &Facts, body: &Value, travel: &Relative) -> Option<Proposal> 
     let mut markers = Vec::new();
     for marker in own {
         let (from, to) = (format!("{name}.{marker}"), format!("{name}_{marker}"));
-        let place = *facts.path(&from)?.first()?;
+        let place = facts.place(&from)?;
         markers.push((from, to, place.marker(facts.dimension())));
     }
-    let frame = facts.path(&name)?.first()?.marker(facts.dimension());
+    let frame = facts.place(&name)?.marker(facts.dimension());
     // The body's own frame comes last: its name begins those of the markers.
     markers.push((name.clone(), name.clone(), frame));
     Some(Proposal {

@@ -136,9 +136,13 @@ const LOADS: [&str; 5] = ["road", "force", "torque", "law", "value"];
 
 /// True if `other` does to the images of the bodies what `element` does to them, but for loads.
 fn is_image(mirror: &Mirror, element: &Value, other: &Value) -> bool {
+    if text(element, "type") != text(other, "type") {
+        return false;
+    }
     let (Some(own), Some(mut there)) = (markers(element), markers(other)) else { return false };
-    let is_numbered =
-        |key: &str| !["name", "between", "at", "reaction_on", "free_angle"].contains(&key) && !LOADS.contains(&key);
+    let is_numbered = |key: &str| {
+        !["name", "type", "between", "at", "reaction_on", "free_angle"].contains(&key) && !LOADS.contains(&key)
+    };
     let keys = [element, other].map(|of| of.as_object().into_iter().flat_map(|keys| keys.keys()));
     let is_equal = |key: &String| !is_numbered(key) || alike(mirror.facts, &element[key], &other[key]);
     let axes: &[usize] = match (text(element, "type"), mirror.facts.dimension()) {

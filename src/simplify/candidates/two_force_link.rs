@@ -156,7 +156,7 @@ impl Pin {
 
 /// Position and axes of a marker at the start.
 fn end(facts: &Facts, marker: &str) -> Option<([f64; 3], [[f64; 3]; 3])> {
-    facts.path(marker)?.first().map(|place| (place.r, place.axes))
+    facts.place(marker).map(|place| (place.r, place.axes))
 }
 
 /// Distance of two markers of a body as an expression in the numbers of the scene.
