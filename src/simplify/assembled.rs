@@ -1,7 +1,8 @@
 //! The start as assembled, in the words of the scene.
 
 use super::edit::{carrier, elements, find_mut, text};
-use super::facts::{State, initial, placed};
+use super::facts::{initial, placed};
+use super::recorded::State;
 use super::source::Source;
 use crate::prepared::PreparedScene;
 use crate::tolerances::SAME;

@@ -1,7 +1,7 @@
 //! What one run of the richest model tells about its parts.
 
 use super::edit::{carrier, text};
-use super::recorded::Recorded;
+use super::recorded::{Recorded, State};
 use super::source::Source;
 use crate::body::{Energy, Frame, in_space};
 use crate::compare::work_precision::Watched;
@@ -35,17 +35,6 @@ pub struct Facts {
     pub redundant: Vec<usize>,
     /// False where the states are small motions about the start, which tell nothing about work.
     is_motion: bool,
-}
-
-/// A state of the recorded motion.
-#[derive(Clone)]
-pub struct State {
-    /// Time, s.
-    pub t: f64,
-    /// Coordinates.
-    pub q: Vec<f64>,
-    /// Velocities.
-    pub v: Vec<f64>,
 }
 
 /// Position and axes of a marker in the world.

@@ -1,6 +1,5 @@
 //! A run of the richest model with its states.
 
-use super::facts::State;
 use super::run::counted;
 use crate::analysis::Sizes;
 use crate::compare::work_precision::Watched;
@@ -9,6 +8,17 @@ use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::{MechanicalSystem, Scratch};
 use crate::tolerances::SAME;
+
+/// A state of the recorded motion.
+#[derive(Clone)]
+pub struct State {
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub v: Vec<f64>,
+}
 
 /// Reason of a run that was stopped.
 const INTERRUPTED: &str = "interrupted";

@@ -3,8 +3,9 @@
 use super::bench::mechanism;
 use super::candidate::{Candidate, Proposal};
 use super::edit::carrier;
-use super::facts::{Facts, Placed, State, placed, product};
+use super::facts::{Facts, Placed, placed, product};
 use super::modes;
+use super::recorded::State;
 use super::rods::{Rod, rods};
 use super::source::Source;
 use crate::error::Result;
