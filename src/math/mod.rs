@@ -21,6 +21,8 @@ pub mod screw;
 #[doc(hidden)]
 pub mod signal;
 mod taylor;
+#[doc(hidden)]
+pub mod threads;
 
 pub use dual::Dual;
 #[doc(hidden)]

@@ -31,6 +31,7 @@ pub use spectrum::{SpectralMode, Spectrum};
 #[doc(hidden)]
 pub use stiffness::explicit;
 pub use stiffness::{Stiffness, stiffness};
+pub use crate::math::threads::spread;
 
 use crowd::Crowd;
 use events::{Events, Passage};

@@ -2,6 +2,7 @@
 //! formulas, all else by moving frames.
 
 use super::mechanism::{Mechanism, of};
+use super::portions::{BodyPortion, BodyTerms, JointPortion, JointsTerms};
 use super::rigid_joint::RigidJoint;
 use super::rows::JointRows;
 use super::view::gathered;
@@ -10,7 +11,8 @@ use super::{Need, Terms};
 use crate::body::{Frame, Freedom, MOST_MARKERS, MarkerId, Pose, Wrench};
 use crate::force::Force;
 use crate::joint::{ClosedForm, Lock};
-use crate::math::kkt::Analysis;
+use crate::math::kkt::{Analysis, Lever};
+use crate::math::threads::each;
 use crate::math::{Taylor, Time};
 use crate::scene::{Connection, Measure, Model, Part, Watched};
 use std::ops::Range;
@@ -38,8 +40,10 @@ pub(super) struct RigidParts<const D: usize> {
     pub rates_are_velocities: bool,
     /// The translations and rotations that each joint locks, if that is all it does.
     pub locks: Vec<Option<Lock<D>>>,
+    /// All bodies.
+    bodies: Vec<BodyPortion>,
     /// Joints with closed formulas.
-    pub joints: Vec<RigidJoint<D>>,
+    pub joints: Vec<JointPortion<D>>,
     /// Indices of all other joints.
     pub general_joints: Vec<usize>,
     /// Values of M where they are constant, else zero.
@@ -63,7 +67,6 @@ impl<const D: usize> RigidParts<D> {
                 None => general_joints.push(i),
             }
         }
-        joints.shrink_to_fit();
         let are_all_rigid = freedoms.iter().all(Option::is_some);
         let is_rate = |part: &Part<D>| part.body.turning().is_none() && part.nq == part.nv;
         let mut parts = RigidParts {
@@ -72,7 +75,8 @@ impl<const D: usize> RigidParts<D> {
             freedoms,
             locks: model.joints.iter().map(|joint| as_lock(joint.element.closed_form())).collect(),
             general_joints,
-            joints,
+            bodies: BodyPortion::all(model, masses),
+            joints: JointPortion::all(joints),
             mass: vec![0.0; masses.last().map_or(0, |last| last.end)],
             varying_masses: Vec::new(),
             weight: vec![0.0; model.bodies.last().map_or(0, |last| last.first_v + last.nv)],
@@ -94,7 +98,11 @@ impl<const D: usize> RigidParts<D> {
 
     /// What is known of the blocks of G.
     pub fn analysis(&self) -> Arc<Analysis> {
-        Arc::new(Analysis::with(self.joints.iter().flat_map(RigidJoint::levers).collect()))
+        let levers = self.joints.iter().flat_map(|portion| {
+            let levers = portion.joints.iter().flat_map(RigidJoint::levers);
+            levers.map(|lever| Lever { first_entry: portion.first_entry + lever.first_entry, ..lever })
+        });
+        Arc::new(Analysis::with(levers.collect()))
     }
 
     /// What a joint locks, if that is all it does and its bodies are rigid.
@@ -114,19 +122,18 @@ impl<const D: usize> Mechanism<D> {
         work: &mut Workspace<D>,
         terms: &mut Terms,
     ) {
-        if need.includes(Need::MASS) {
-            self.write_mass(q, terms);
-        }
-        self.move_bodies((q, v), work);
+        self.write_bodies((q, v), need, work, terms);
         if need.includes(Need::FORCE) {
-            self.own_forces((q, v), terms);
             self.forces(time, q, work, terms);
         }
-        if need.includes(Need::CONSTRAINTS) {
-            terms.phi_t.fill(0.0);
-        }
         if need.includes(Need::CONSTRAINTS) || need.includes(Need::G) {
-            self.rigid.joints.iter().for_each(|joint| joint.evaluate(&work.poses, need, terms));
+            each(JointsTerms::all(&self.rigid.joints, terms), &|JointsTerms { portions, mut terms }: JointsTerms<D>| {
+                if need.includes(Need::CONSTRAINTS) {
+                    terms.phi_t.fill(0.0);
+                }
+                let joints = portions.iter().flat_map(|portion| &portion.joints);
+                joints.for_each(|joint| joint.evaluate(&work.poses, need, &mut terms));
+            });
             self.general_joints(time, q, need, work, terms);
         }
     }
@@ -142,8 +149,8 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    /// Poses of the rigid bodies, and the frames of the markers of all others.
-    fn move_bodies(&self, (q, v): (&[f64], &[f64]), work: &mut Workspace<D>) {
+    /// M, the own forces of the bodies, the poses of the rigid ones and the frames of the markers of all others.
+    fn write_bodies(&self, (q, v): (&[f64], &[f64]), need: Need, work: &mut Workspace<D>, terms: &mut Terms) {
         let is_placed = self.rigid.are_all_rigid || work.is_at(q, v);
         if !is_placed {
             // Only some of the frames are placed.
@@ -152,11 +159,36 @@ impl<const D: usize> Mechanism<D> {
         }
         let Workspace { poses, motion, .. } = work;
         poses.resize(self.model().bodies.len() + 1, Pose::ground());
-        for ((part, freedom), pose) in self.model().bodies.iter().zip(&self.rigid.freedoms).zip(poses) {
+        let motion = if is_placed { &mut [] } else { &mut motion[..] };
+        let Terms { mass, f, .. } = &mut *terms;
+        each(BodyTerms { portions: &self.rigid.bodies, poses, motion, mass, f }, &|mut terms: BodyTerms<D>| {
+            for portion in terms.portions {
+                self.write_portion(portion, (q, v), need, &mut terms);
+            }
+        });
+        if need.includes(Need::FORCE) {
+            let bodies = self.rigid.varying_forces.iter().map(|&body| &self.model().bodies[body]);
+            terms.power = bodies.fold(0.0, |power, part| power - part.body.dissipation(of(v, part, false)));
+        }
+    }
+
+    fn write_portion(&self, portion: &BodyPortion, (q, v): (&[f64], &[f64]), need: Need, terms: &mut BodyTerms<D>) {
+        if need.includes(Need::MASS) {
+            self.write_mass(portion, q, terms.mass);
+        }
+        if need.includes(Need::FORCE) {
+            self.own_forces(portion, (q, v), terms.f);
+        }
+        let bodies = portion.bodies.clone();
+        let parts = self.model().bodies[bodies.clone()].iter().zip(&self.rigid.freedoms[bodies]);
+        for ((part, freedom), pose) in parts.zip(&mut *terms.poses) {
             match freedom {
                 Some(_) => *pose = part.body.pose(of(q, part, true), of(v, part, false)),
-                None if is_placed => {}
-                None => self.place_body(part, (q, v, &[]), motion),
+                None if terms.motion.is_empty() => {}
+                None => {
+                    let first = part.first_marker - portion.markers.start;
+                    self.place_body(part, (q, v, &[]), &mut terms.motion[first..]);
+                }
             }
         }
     }
@@ -178,21 +210,20 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    fn write_mass(&self, q: &[f64], terms: &mut Terms) {
-        terms.mass.copy_from_slice(&self.rigid.mass);
-        for &body in &self.rigid.varying_masses {
-            let part = &self.model().bodies[body];
-            part.body.mass(of(q, part, true), &mut terms.mass[self.masses[body].clone()]);
+    fn write_mass(&self, portion: &BodyPortion, q: &[f64], mass: &mut [f64]) {
+        mass.copy_from_slice(&self.rigid.mass[portion.masses.clone()]);
+        for &body in within(&self.rigid.varying_masses, &portion.bodies) {
+            let (part, Range { start, end }) = (&self.model().bodies[body], self.masses[body].clone());
+            part.body.mass(of(q, part, true), &mut mass[start - portion.masses.start..end - portion.masses.start]);
         }
     }
 
-    fn own_forces(&self, (q, v): (&[f64], &[f64]), terms: &mut Terms) {
-        terms.f.copy_from_slice(&self.rigid.weight);
-        terms.power = 0.0;
-        for part in self.rigid.varying_forces.iter().map(|&body| &self.model().bodies[body]) {
-            let (q, v, f) = (of(q, part, true), of(v, part, false), &mut terms.f[part.first_v..part.first_v + part.nv]);
-            part.body.own_forces(q, v, &self.model().gravity, f);
-            terms.power -= part.body.dissipation(v);
+    fn own_forces(&self, portion: &BodyPortion, (q, v): (&[f64], &[f64]), f: &mut [f64]) {
+        f.copy_from_slice(&self.rigid.weight[portion.v.clone()]);
+        for &body in within(&self.rigid.varying_forces, &portion.bodies) {
+            let part = &self.model().bodies[body];
+            let f = &mut f[part.first_v - portion.v.start..][..part.nv];
+            part.body.own_forces(of(q, part, true), of(v, part, false), &self.model().gravity, f);
         }
     }
 
@@ -280,4 +311,10 @@ fn as_lock<const D: usize>(form: Option<ClosedForm<D>>) -> Option<Lock<D>> {
         Some(ClosedForm::Lock(lock)) => Some(lock),
         _ => None,
     }
+}
+
+/// Those of increasing numbers that are in the range.
+fn within<'a>(numbers: &'a [usize], range: &Range<usize>) -> &'a [usize] {
+    let place = |number: usize| numbers.partition_point(|&other| other < number);
+    &numbers[place(range.start)..place(range.end)]
 }

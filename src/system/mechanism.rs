@@ -127,17 +127,20 @@ impl<const D: usize> Mechanism<D> {
     /// Evaluates all frames at (q, v), with the accelerations `vdot` or, where it is empty, those at v' = 0.
     pub(super) fn place(&self, q: &[f64], v: &[f64], vdot: &[f64], work: &mut Workspace<D>) {
         work.motion.resize(self.model.marker_count(), Frame::world());
-        self.model.bodies.iter().for_each(|part| self.place_body(part, (q, v, vdot), &mut work.motion));
+        for part in &self.model.bodies {
+            self.place_body(part, (q, v, vdot), &mut work.motion[part.first_marker..]);
+        }
         work.remember(if vdot.is_empty() { [q, v] } else { [&[]; 2] });
     }
 
+    /// Evaluates the frames of the markers of a body, the first of `motion`.
     pub(super) fn place_body(
         &self,
         part: &Part<D>,
         (q, v, vdot): (&[f64], &[f64], &[f64]),
         motion: &mut [Frame<Taylor<f64>, D>],
     ) {
-        let frames = &mut motion[part.first_marker..][..part.body.marker_count()];
+        let frames = &mut motion[..part.body.marker_count()];
         let vdot = (!vdot.is_empty()).then(|| of(vdot, part, false));
         part.body.motion(of(q, part, true), of(v, part, false), vdot, 0, frames);
     }

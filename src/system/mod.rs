@@ -15,6 +15,7 @@ mod locked;
 mod mechanism;
 mod output;
 mod output_tangent;
+mod portions;
 mod rigid_joint;
 mod rotating;
 mod rows;

@@ -16,7 +16,7 @@
 //! on B and n on A.
 
 use super::rows::JointRows;
-use super::{Need, Terms};
+use super::Need;
 use crate::body::{Frame, Freedom, MarkerId, Pose, cross, dot, in_space, sub, twist_len};
 use crate::joint::{ClosedForm, Joint, Lock};
 use crate::math::kkt::Lever;
@@ -47,6 +47,15 @@ struct Side<const D: usize> {
     turn: f64,
     freedom: Arc<Freedom>,
     is_moving: bool,
+}
+
+/// What joints write.
+pub(super) struct JointTerms<'a> {
+    pub phi: &'a mut [f64],
+    pub phi_dot: &'a mut [f64],
+    pub phi_t: &'a mut [f64],
+    pub gamma: &'a mut [f64],
+    pub g: &'a mut [f64],
 }
 
 /// A vector along the motion at v' = 0.
@@ -82,6 +91,17 @@ impl<const D: usize> RigidJoint<D> {
         Some(RigidJoint { form, rows: rows.range(), sides, first_entry: rows.first_entry(), is_point })
     }
 
+    /// Its first row, and its first entry of G.
+    pub fn places(&self) -> (usize, usize) {
+        (self.rows.start, self.first_entry)
+    }
+
+    /// Counts its places from this row and this entry on.
+    pub fn count_from(&mut self, row: usize, entry: usize) {
+        self.rows = self.rows.start - row..self.rows.end - row;
+        self.first_entry -= entry;
+    }
+
     /// The blocks of a point: its rows are e_i of the world.
     pub fn levers(&self) -> Vec<Lever> {
         let [a, b] = &self.sides;
@@ -93,7 +113,7 @@ impl<const D: usize> RigidJoint<D> {
 
     /// Writes phi, phi' and gamma, and the entries of G, as far as needed.
     #[inline]
-    pub fn evaluate(&self, poses: &[Pose<D>], need: Need, terms: &mut Terms) {
+    pub fn evaluate(&self, poses: &[Pose<D>], need: Need, terms: &mut JointTerms) {
         let poses = [&poses[self.sides[0].body], &poses[self.sides[1].body]];
         match D == 2 && self.is_point {
             true => self.point_in_plane(poses, need, terms),
@@ -102,8 +122,8 @@ impl<const D: usize> RigidJoint<D> {
     }
 
     #[inline(never)]
-    fn any(&self, poses: [&Pose<D>; 2], need: Need, terms: &mut Terms) {
-        let Terms { phi, phi_dot, gamma, g, .. } = terms;
+    fn any(&self, poses: [&Pose<D>; 2], need: Need, terms: &mut JointTerms) {
+        let JointTerms { phi, phi_dot, gamma, g, .. } = terms;
         let [a, b] = &self.sides;
         let gap = sub(&poses[1].place(&b.offset), &poses[0].place(&a.offset));
         let sizes = [a, b].map(|side| self.rows.len() * side.freedom.count());
@@ -124,7 +144,7 @@ impl<const D: usize> RigidJoint<D> {
     }
 
     /// The rows of a point in the plane: G = [-I, (a_y, -a_x), I, (-b_y, b_x)] with the arms a and b.
-    fn point_in_plane(&self, [a, b]: [&Pose<D>; 2], need: Need, terms: &mut Terms) {
+    fn point_in_plane(&self, [a, b]: [&Pose<D>; 2], need: Need, terms: &mut JointTerms) {
         let arms = [a.carried(&self.sides[0].offset), b.carried(&self.sides[1].offset)];
         if need.includes(Need::CONSTRAINTS) {
             let row = self.rows.start;

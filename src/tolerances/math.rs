@@ -221,3 +221,20 @@ pub const SERIES_OF_ROTATIONS: f64 = 0.3;
 /// Terms of the series of the exponential map and of the cotangent.
 /// Unit: `[terms]`. Why: those left out are below 1e-17 of the first. Test: `both_forms_of_the_cotangent_agree`.
 pub const SERIES_TERMS: usize = 9;
+
+/// Unknowns of a saddle-point matrix, coordinates and multipliers, for each part that it is divided in: with less than
+/// two parts it is not.
+/// Unit: `[unknowns]`. Why: measured: TODO. Test: none: results differ by round-off alone.
+pub const UNKNOWNS_OF_A_PART: usize = 10_000;
+
+/// Parts of a saddle-point matrix at most.
+/// Unit: `[parts]`. Why: TODO. Test: none: results differ by round-off alone.
+pub const MOST_PARTS: usize = 8;
+
+/// Groups of unknowns at most that the parts of a saddle-point matrix have in common.
+/// Unit: `[groups]`. Why: TODO. Test: TODO.
+pub const LARGEST_SEPARATOR: usize = 64;
+
+/// A group of unknowns that is coupled to more, and to more than four square roots of all, belongs to the separator.
+/// Unit: `[groups]`. Why: TODO. Test: TODO.
+pub const COUPLED_TO_MANY: usize = 32;

@@ -18,6 +18,7 @@ pub mod linearize;
 pub mod math;
 pub mod report;
 pub mod simulate;
+pub mod system;
 
 /// A few operations: what they leave of a coordinate, a velocity or a projection.
 /// Unit: `[1]` of the largest number that enters. Why: sixteen ulps, four operations with a factor of four to spare.

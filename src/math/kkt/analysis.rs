@@ -1,12 +1,12 @@
 //! The symbolic analysis of a saddle-point matrix, shared by all who factor it.
 
 use super::Pattern;
-use super::blocks::Layout;
+use super::parts::Plan;
 use super::redundant_rows::Alike;
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Layouts of the factors of [M G^T; G 0] for one pair of patterns, each found when it is needed first: they depend on
+/// Structures of the factors of [M G^T; G 0] for one pair of patterns, each found when it is needed first: they depend on
 /// nothing but the patterns and which coordinates are late. [`SaddlePoint::sharing`](super::SaddlePoint::sharing) takes
 /// them.
 #[derive(Default)]
@@ -14,7 +14,7 @@ pub struct Analysis {
     /// Blocks of G that are levers.
     levers: Vec<Lever>,
     is_crowded: OnceLock<bool>,
-    found: Mutex<Vec<(Vec<bool>, Arc<Layout>)>>,
+    found: Mutex<Vec<(Vec<bool>, Arc<Plan>)>>,
 }
 
 /// A block of G in the rows of a point that all translations of its body move, and that turns about the body's origin:
@@ -38,15 +38,15 @@ impl Analysis {
         *self.is_crowded.get_or_init(|| Alike::new(g).is_crowded())
     }
 
-    /// The layout with the coordinates for which `late` is true behind their multipliers.
-    pub(super) fn layout(&self, mass: &Pattern, g: &Pattern, late: &[bool]) -> Arc<Layout> {
+    /// The structure with the coordinates for which `late` is true behind their multipliers.
+    pub(super) fn plan(&self, mass: &Pattern, g: &Pattern, late: &[bool]) -> Arc<Plan> {
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, layout)) = found.iter().find(|(of, _)| of == late) {
-            return layout.clone();
+        if let Some((_, plan)) = found.iter().find(|(of, _)| of == late) {
+            return plan.clone();
         }
-        let layout = Arc::new(Layout::new(mass, g, late, &self.levers));
-        found.push((late.to_vec(), layout.clone()));
-        layout
+        let plan = Arc::new(Plan::new(mass, g, late, &self.levers));
+        found.push((late.to_vec(), plan.clone()));
+        plan
     }
 }
 

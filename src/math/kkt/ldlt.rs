@@ -1,10 +1,10 @@
 //! A factor L D L^T without pivoting, over small blocks of a frozen pattern or, where it fills, over faer's.
 
 use super::Pattern;
-use super::blocks::{Blocks, Layout};
+use super::blocks::Blocks;
+use super::parts::{Parts, Plan};
 use super::pivot::{Quality, Rule};
 use super::supernodal::Supernodal;
-use std::sync::Arc;
 
 /// Multiplications per entry of L from which faer's blocks win, and the number of products of blocks from which the
 /// memory of their list counts.
@@ -13,21 +13,24 @@ const LONGEST_LIST: usize = 30_000_000;
 
 pub(super) enum Ldlt {
     Blocks(Box<Blocks>),
+    Parts(Box<Parts>),
     Supernodal(Box<Supernodal>),
 }
 
 impl Ldlt {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
-        Self::of(Arc::new(Layout::new(mass, g, late, &[])), mass, g, late)
+        Self::of(&Plan::new(mass, g, late, &[]), mass, g, late)
     }
 
-    /// With a layout that is known.
-    pub fn of(layout: Arc<Layout>, mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
-        let is_filled = layout.operations() > FILL_FOR_FAER * layout.len || layout.targets.len() > LONGEST_LIST;
+    /// With a structure that is known.
+    pub fn of(plan: &Plan, mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
+        let [len, operations, products] = plan.sizes();
+        let is_filled = operations > FILL_FOR_FAER * len || products > LONGEST_LIST;
         let faer = if is_filled { Supernodal::new(mass, g, late) } else { None };
-        match faer {
-            Some(supernodal) => Ldlt::Supernodal(Box::new(supernodal)),
-            None => Ldlt::Blocks(Box::new(Blocks::new(layout, mass.rows))),
+        match (faer, plan) {
+            (Some(supernodal), _) => Ldlt::Supernodal(Box::new(supernodal)),
+            (None, Plan::Whole(layout)) => Ldlt::Blocks(Box::new(Blocks::new(layout.clone(), mass.rows))),
+            (None, Plan::Parts(parts)) => Ldlt::Parts(Box::new(Parts::new(parts.clone(), mass.rows))),
         }
     }
 
@@ -36,6 +39,7 @@ impl Ldlt {
         skipped.clear();
         match self {
             Ldlt::Blocks(f) => f.factor(mass, g, rule, skipped),
+            Ldlt::Parts(f) => f.factor(mass, g, rule, skipped),
             Ldlt::Supernodal(f) => f.factor(mass, g, rule, skipped),
         }
     }
@@ -44,6 +48,7 @@ impl Ldlt {
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
         match self {
             Ldlt::Blocks(f) => f.solve(top, bottom),
+            Ldlt::Parts(f) => f.solve(top, bottom),
             Ldlt::Supernodal(f) => f.solve(top, bottom),
         }
     }
@@ -53,6 +58,7 @@ impl Ldlt {
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         match self {
             Ldlt::Blocks(f) => f.smallest_ratio(collapsed),
+            Ldlt::Parts(f) => f.smallest_ratio(collapsed),
             Ldlt::Supernodal(f) => f.smallest_ratio(collapsed),
         }
     }

@@ -24,6 +24,7 @@ mod dependence;
 mod ldlt;
 mod order;
 mod orthonormal;
+mod parts;
 mod pattern;
 mod pivot;
 mod rank_revealing;

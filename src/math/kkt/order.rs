@@ -14,25 +14,69 @@ use faer::sparse::{Pair, SymbolicSparseColMat};
 /// coordinates with `late[i]` come after their multipliers.
 /// Fill-reducing (approximate minimum degree) among the early coordinates, and then in the remaining graph.
 pub(super) fn order(mass: &Pattern, g: &Pattern, late: &[bool]) -> Vec<usize> {
-    let (n, m) = (mass.rows, g.rows);
-    let mut nodes: Vec<usize> = (0..n).filter(|&i| !late[i]).collect();
-    let early = nodes.len();
-    nodes = ordered(&nodes, n + m, mass.entries.iter().copied());
-    let mut rest: Vec<usize> = (0..n).filter(|&i| late[i]).chain(n..n + m).collect();
-    let all: Vec<usize> = nodes.iter().chain(&rest).copied().collect();
-    let mut columns = columns(&lower_adjacency(mass, g, &all), early);
-    // Coordinates of a body mostly have one clique.
-    columns.dedup();
-    let cliques = columns.iter().filter(|c| c.first().is_some_and(|&parent| parent as usize >= early));
-    let cliques: Vec<Vec<usize>> = cliques.map(|c| c.iter().map(|&a| all[a as usize]).collect()).collect();
-    let mut edges: Vec<(usize, usize)> = cliques
-        .iter()
-        .flat_map(|c| c.iter().enumerate().flat_map(|(k, &a)| c[..k].iter().map(move |&b| (b, a))))
-        .collect();
-    edges.extend(edges_of(mass, g));
-    rest = ordered(&rest, n + m, edges.into_iter());
+    order_before(mass, g, late, &[])
+}
+
+/// The same for all nodes but the `last`, which come after them and couple each other all.
+pub(super) fn order_before(mass: &Pattern, g: &Pattern, late: &[bool], last: &[usize]) -> Vec<usize> {
+    let left = Left::new(mass, g, late);
+    let (n, total) = (mass.rows, mass.rows + g.rows);
+    let mut edges = left.edges(mass, g);
+    // Coupled to so many nodes that are not there, the last are not taken before the others.
+    let weights = if last.is_empty() { 0..0 } else { total..total + WEIGHTS };
+    let heavy: Vec<usize> = last.iter().copied().chain(weights.clone()).collect();
+    edges.extend(pairs(&heavy));
+    let nodes: Vec<usize> = left.rest().iter().copied().chain(weights.clone()).collect();
+    let mut rest = ordered(&nodes, weights.end.max(total), edges.into_iter());
+    let mut is_last = vec![false; weights.end.max(total)];
+    heavy.iter().for_each(|&node| is_last[node] = true);
+    rest.retain(|&node| !is_last[node]);
+    let mut nodes = left.all[..left.early].to_vec();
     nodes.extend(delayed(&rest, n, g, late));
     nodes
+}
+
+/// Number of nodes that the last ones are coupled to beside the matrix.
+const WEIGHTS: usize = 32;
+
+/// What the elimination of the early coordinates leaves.
+pub(super) struct Left {
+    /// Early coordinates in their order, then the other nodes.
+    pub all: Vec<usize>,
+    pub early: usize,
+    /// The patterns below the diagonal of the early columns of L, by positions in `all`.
+    pub columns: Vec<Vec<u32>>,
+}
+
+impl Left {
+    pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
+        let (n, m) = (mass.rows, g.rows);
+        let nodes: Vec<usize> = (0..n).filter(|&i| !late[i]).collect();
+        let early = nodes.len();
+        let mut all = ordered(&nodes, n + m, mass.entries.iter().copied());
+        all.extend((0..n).filter(|&i| late[i]).chain(n..n + m));
+        let columns = columns(&lower_adjacency(mass, g, &all), early);
+        Left { all, early, columns }
+    }
+
+    /// The other nodes.
+    pub fn rest(&self) -> &[usize] {
+        &self.all[self.early..]
+    }
+
+    /// Pairs of nodes that are coupled, all those among the other nodes.
+    pub fn edges(&self, mass: &Pattern, g: &Pattern) -> Vec<(usize, usize)> {
+        // Coordinates of a body mostly have one clique.
+        let cliques = self.columns.chunk_by(|a, b| a == b).map(|alike| &alike[0]);
+        let cliques = cliques.filter(|c| c.first().is_some_and(|&parent| parent as usize >= self.early));
+        let cliques = cliques.map(|c| c.iter().map(|&a| self.all[a as usize]).collect::<Vec<_>>());
+        cliques.flat_map(|c| pairs(&c)).chain(edges_of(mass, g)).collect()
+    }
+}
+
+/// All pairs of a clique.
+fn pairs(clique: &[usize]) -> Vec<(usize, usize)> {
+    clique.iter().enumerate().flat_map(|(k, &a)| clique[..k].iter().map(move |&b| (b, a))).collect()
 }
 
 /// The entries of the saddle-point matrix as pairs of nodes.

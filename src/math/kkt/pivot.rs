@@ -40,6 +40,15 @@ pub(super) struct Quality {
 impl Quality {
     pub const GOOD: Quality = Quality { weak: false, doubtful: false, replaced: false };
 
+    /// What is true of either of two.
+    pub fn with(self, other: Quality) -> Quality {
+        Quality {
+            weak: self.weak || other.weak,
+            doubtful: self.doubtful || other.doubtful,
+            replaced: self.replaced || other.replaced,
+        }
+    }
+
     /// Checks a pivot at node `node`, with its sign changed so that it should be positive, and returns its inverse;
     /// that of a dropped multiplier is zero. The error is the node.
     pub fn judge(

@@ -24,6 +24,16 @@ impl Groups {
         let coordinates = coordinates(mass, g, late);
         let columns = neighbours(g.rows, g.entries.iter().copied());
         let rows = alike((0..g.rows).collect(), |row| &columns[row]);
+        Self::of((mass, g), coordinates, rows, late)
+    }
+
+    /// With a partition of the coordinates and of the rows that is given.
+    pub fn of(
+        (mass, g): (&Pattern, &Pattern),
+        coordinates: Vec<Vec<usize>>,
+        rows: Vec<Vec<usize>>,
+        late: &[bool],
+    ) -> Self {
         let (of_coordinate, of_row) = (numbers(&coordinates, g.cols), numbers(&rows, g.rows));
         let pattern = |rows: usize, entries: Vec<(usize, usize)>| Pattern {
             rows,
@@ -41,9 +51,6 @@ impl Groups {
             rows,
         }
     }
-}
-
-impl Groups {
     /// The groups (those of coordinates first) in an order of elimination of single unknowns: where their first unknown
     /// is, but those of late coordinates where their last is, behind all their multipliers.
     pub fn in_order(&self, nodes: &[usize]) -> Vec<usize> {

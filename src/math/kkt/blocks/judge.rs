@@ -3,7 +3,7 @@
 use super::super::pivot::{Quality, Rule};
 
 /// How pivots are judged, and what was found so far.
-pub(super) struct Judge<'a> {
+pub(in super::super) struct Judge<'a> {
     /// Number of coordinates.
     pub n: usize,
     pub rule: Rule,

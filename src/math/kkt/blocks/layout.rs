@@ -73,24 +73,37 @@ pub struct Layout {
     pub diagonals: Vec<u32>,
     /// Length of the array.
     pub len: usize,
+    /// Number of runs before the last columns, and where these begin: position and place.
+    pub own_runs: usize,
+    pub last: (usize, usize),
 }
 
 impl Layout {
     /// For M and G with these late coordinates; `levers` are blocks of G.
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool], levers: &[Lever]) -> Self {
         let groups = Groups::new(mass, g, late);
-        let entries = find(mass, g, &groups);
-        let (first, others): (Vec<usize>, Vec<usize>) = groups
-            .in_order(&order(mass, g, late))
-            .into_iter()
-            .partition(|&group| entries.get(group).is_some_and(Option::is_some));
+        let order = groups.in_order(&order(mass, g, late));
+        Self::of((mass, g), &groups, (order, &[]), levers)
+    }
+
+    /// For groups in an order, the `last` behind the others: these have all blocks between each other.
+    pub fn of(
+        (mass, g): (&Pattern, &Pattern),
+        groups: &Groups,
+        (order, last): (Vec<usize>, &[usize]),
+        levers: &[Lever],
+    ) -> Self {
+        let entries = find(mass, g, groups);
+        let (first, mut others): (Vec<usize>, Vec<usize>) =
+            order.into_iter().partition(|&group| entries.get(group).is_some_and(Option::is_some));
+        let own = others.len();
+        others.extend(last);
         let nodes = [first.as_slice(), &others].concat();
         // Bodies fill the others' columns.
-        let below = columns(&lower_adjacency(&groups.mass, &groups.g, &nodes), nodes.len());
-        let below: Vec<Vec<u32>> = below[first.len()..]
-            .iter()
-            .map(|column| column.iter().map(|&k| k - first.len() as u32).collect())
-            .collect();
+        let below = columns(&lower_adjacency(&groups.mass, &groups.g, &nodes), first.len() + own);
+        let below = below[first.len()..].iter().map(|column| column.iter().map(|&k| k - first.len() as u32).collect());
+        let full = (own..others.len()).map(|k| (k as u32 + 1..others.len() as u32).collect());
+        let below: Vec<Vec<u32>> = below.chain(full).collect();
         let (count, n) = (groups.coordinates.len(), g.cols);
         let mut layout = Layout {
             bodies: Bodies::default(),
@@ -111,6 +124,8 @@ impl Layout {
             g_rows: vec![0; g.rows],
             diagonals: Vec::new(),
             len: 0,
+            own_runs: 0,
+            last: (0, 0),
         };
         for &group in &others {
             let first = layout.nodes.len();
@@ -134,8 +149,11 @@ impl Layout {
         let positions = layout.coordinates.iter().map(|&(_, p)| p);
         layout.late = positions.filter(|&p| p as usize >= layout.early_unknowns).collect();
         layout.slots(mass, g);
-        layout.add_bodies(mass, (&first, &groups), entries, levers);
-        layout.runs = layout.runs();
+        layout.add_bodies(mass, (&first, groups), entries, levers);
+        layout.runs = layout.runs(own);
+        layout.own_runs = layout.runs.partition_point(|run| run.columns.start < own);
+        let begin = layout.columns.get(own).map(|column| (column.first, column.diagonal));
+        layout.last = begin.unwrap_or((layout.nodes.len(), layout.len));
         layout
     }
 
@@ -259,8 +277,8 @@ impl Layout {
         block + p * width + q
     }
 
-    /// Splits the columns where their kinds change.
-    fn runs(&self) -> Vec<Run> {
+    /// Splits the columns where their kinds change, and behind the first `own`.
+    fn runs(&self, own: usize) -> Vec<Run> {
         let mut runs: Vec<Run> = Vec::new();
         for (k, column) in self.columns.iter().enumerate() {
             let widths = &self.widths[column.partners.clone()];
@@ -278,7 +296,7 @@ impl Layout {
                 is_diagonal: column.is_diagonal,
                 sign: if column.is_coordinate { 1.0 } else { -1.0 },
             };
-            match runs.last_mut().filter(|last| last.takes(&run)) {
+            match runs.last_mut().filter(|last| k != own && last.takes(&run)) {
                 Some(last) => last.extend(run),
                 None => runs.push(run),
             }
@@ -289,6 +307,11 @@ impl Layout {
     /// Place of the diagonal entry of the unknown at a position.
     pub fn diagonal(&self, position: u32) -> usize {
         self.diagonals[position as usize] as usize
+    }
+
+    /// Number of runs of early columns.
+    pub fn early_runs(&self) -> usize {
+        self.runs.partition_point(|run| run.is_early)
     }
 
     /// Multiplications of a factorization.

@@ -20,11 +20,15 @@ mod layout;
 mod schur;
 
 use super::pivot::{Quality, Rule};
+use super::system::add;
 use dense::Dense;
-use judge::Judge;
+pub(super) use groups::Groups;
+pub(super) use judge::Judge;
 use kernels::{Elimination, Solution};
+use layout::Run;
 pub(super) use layout::Layout;
 use schur::{Passage, Schur};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The factors, with the memory to make them and to solve.
@@ -39,7 +43,7 @@ pub(super) struct Blocks {
     sizes: Vec<f64>,
     x: Vec<f64>,
     /// Values of G, inverses of the masses of bodies by coordinate, and L of those whose M is not diagonal.
-    g: Vec<f64>,
+    pub g: Vec<f64>,
     inverse_masses: Vec<f64>,
     lower: Vec<f64>,
     /// Values of M that these belong to; empty if some of them were judged.
@@ -108,23 +112,46 @@ impl Blocks {
     /// early ones subtracted from it. So units of coordinates and rows cancel. The error is the node whose pivot
     /// collapsed.
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
-        let mut judge = Judge { n: self.n, rule, skipped, quality: Quality::GOOD };
-        self.invert(mass, &mut judge)?;
         self.g.clear();
         self.g.extend_from_slice(g);
+        let mut judge = self.judge(rule, skipped);
+        self.factor_own(mass, &mut judge)?;
+        self.factor_last(&mut judge)?;
+        Ok(judge.quality)
+    }
+
+    pub fn judge<'a>(&self, rule: Rule, skipped: &'a mut Vec<usize>) -> Judge<'a> {
+        Judge { n: self.n, rule, skipped, quality: Quality::GOOD }
+    }
+
+    /// Factors all but the last columns, with the values of G in place.
+    pub fn factor_own(&mut self, mass: &[f64], judge: &mut Judge) -> Result<(), usize> {
+        self.invert(mass, judge)?;
         self.work.fill(0.0);
-        let Blocks { layout, work, sizes, g: own, lower, .. } = self;
-        layout.bodies.dense.iter().for_each(|body| body.transform(lower, own));
+        let Blocks { layout, work, sizes, g, lower, .. } = self;
+        layout.bodies.dense.iter().for_each(|body| body.transform(lower, g));
         layout.mass_slots.iter().for_each(|&(entry, slot)| work[slot as usize] += mass[entry as usize]);
         layout.g_slots.iter().for_each(|&(entry, slot)| work[slot as usize] += g[entry as usize]);
         layout.coordinates.iter().for_each(|&(_, p)| sizes[p as usize] = work[layout.diagonal(p)]);
+        let (early, own) = (layout.early_runs(), layout.own_runs);
         self.reduce();
-        self.eliminate(true, &mut judge)?;
+        self.eliminate(0..early, judge)?;
         let Blocks { layout, work, sizes, .. } = self;
         layout.late.iter().for_each(|&p| sizes[p as usize] -= work[layout.diagonal(p)]);
         layout.g_rows.iter().for_each(|&p| sizes[p as usize] = -work[layout.diagonal(p)]);
-        self.eliminate(false, &mut judge)?;
-        Ok(judge.quality)
+        self.eliminate(early..own, judge)
+    }
+
+    /// Factors the last columns.
+    pub fn factor_last(&mut self, judge: &mut Judge) -> Result<(), usize> {
+        self.eliminate(self.layout.own_runs..self.layout.runs.len(), judge)
+    }
+
+    /// Adds what another part of a matrix has in the last columns, which are common to both.
+    pub fn add_last(&mut self, other: &Blocks) {
+        let [(position, place), (from, its)] = [self.layout.last, other.layout.last];
+        add(&other.work[its..], &mut self.work[place..]);
+        add(&other.sizes[from..], &mut self.sizes[position..]);
     }
 
     /// The inverse masses of bodies, unless they are known.
@@ -154,11 +181,10 @@ impl Blocks {
         }
     }
 
-    /// Eliminates the early columns, or the others.
-    fn eliminate(&mut self, early: bool, judge: &mut Judge) -> Result<(), usize> {
+    fn eliminate(&mut self, runs: Range<usize>, judge: &mut Judge) -> Result<(), usize> {
         let Blocks { layout, work, inverse, sizes, .. } = self;
         let mut part = Elimination { layout, work, inverse, sizes, judge };
-        for run in layout.runs.iter().filter(|run| run.is_early == early) {
+        for run in &layout.runs[runs] {
             by_widths!(run, part, alike, mixed)?;
         }
         Ok(())
@@ -166,21 +192,56 @@ impl Blocks {
 
     /// Solves in place; dropped multipliers are zero. 2 multiplications for each entry of L.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
-        let Blocks { layout, work, inverse, x, g, inverse_masses, lower, .. } = self;
+        self.forward(top, bottom);
+        self.solve_last();
+        self.backward(top, bottom);
+    }
+
+    /// The way forward for all but the last columns, see [`Self::last`].
+    pub fn forward(&mut self, top: &mut [f64], bottom: &[f64]) {
+        let Blocks { layout, x, g, inverse_masses, lower, .. } = self;
         layout.bodies.dense.iter().for_each(|body| body.enter(lower, top));
         layout.coordinates.iter().for_each(|&(i, p)| x[p as usize] = top[i as usize]);
-        layout.g_rows.iter().zip(&*bottom).for_each(|(&p, value)| x[p as usize] = *value);
+        layout.g_rows.iter().zip(bottom).for_each(|(&p, value)| x[p as usize] = *value);
         let mut bodies = Passage { bodies: &layout.bodies, g, inverse: inverse_masses, top, x };
         for run in &layout.bodies.runs {
             by_kinds!(run, bodies, forward_levers::<[2, 1, 3, 6], [3, 3, 6, 18]>, forward, forward_by_rows);
         }
+        self.solve_forward(0..self.layout.own_runs);
+    }
+
+    /// Both ways for the last columns.
+    pub fn solve_last(&mut self) {
+        let last = self.layout.own_runs..self.layout.runs.len();
+        self.solve_forward(last.clone());
+        self.solve_backward(last);
+    }
+
+    fn solve_forward(&mut self, runs: Range<usize>) {
+        let Blocks { layout, work, inverse, x, .. } = self;
         let mut part = Solution { layout, work, inverse, x };
-        for run in &layout.runs {
+        for run in &layout.runs[runs] {
             by_widths!(run, part, forward, forward_by_rows);
         }
-        for run in layout.runs.iter().rev() {
+    }
+
+    fn solve_backward(&mut self, runs: Range<usize>) {
+        let Blocks { layout, work, inverse, x, .. } = self;
+        let mut part = Solution { layout, work, inverse, x };
+        for run in layout.runs[runs].iter().rev() {
             by_widths!(run, part, backward, backward_by_rows);
         }
+    }
+
+    /// The right sides of the last columns after the way forward, then their solution.
+    pub fn last(&mut self) -> &mut [f64] {
+        &mut self.x[self.layout.last.0..]
+    }
+
+    /// The way back for all but the last columns.
+    pub fn backward(&mut self, top: &mut [f64], bottom: &mut [f64]) {
+        self.solve_backward(0..self.layout.own_runs);
+        let Blocks { layout, x, g, inverse_masses, lower, .. } = self;
         let mut bodies = Passage { bodies: &layout.bodies, g, inverse: inverse_masses, top, x };
         for run in &layout.bodies.runs {
             by_kinds!(run, bodies, backward_levers::<[2, 1, 3, 6], [3, 3, 6, 18]>, backward, backward_by_rows);
@@ -193,11 +254,17 @@ impl Blocks {
     /// The smallest ratio above `collapsed` of a pivot to its size before elimination, and the number of multipliers
     /// not above it. Within a joint as if the largest ratio came first, so that the order of its rows does not matter.
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
-        let mut found = (1.0, 0);
+        self.smaller_ratio((1.0, 0), &self.layout.runs, collapsed)
+    }
+
+    /// The same without the last columns, going on from what was found elsewhere.
+    pub fn smaller_own_ratio(&self, found: (f64, usize), collapsed: f64) -> (f64, usize) {
+        self.smaller_ratio(found, &self.layout.runs[..self.layout.own_runs], collapsed)
+    }
+
+    fn smaller_ratio(&self, mut found: (f64, usize), runs: &[Run], collapsed: f64) -> (f64, usize) {
         // The last joints first: their ratios are the smallest, as a rule.
-        for (run, first) in
-            self.layout.runs.iter().rev().flat_map(|run| run.firsts().rev().map(move |first| (run, first)))
-        {
+        for (run, first) in runs.iter().rev().flat_map(|run| run.firsts().rev().map(move |first| (run, first))) {
             let (positions, is_row) = (first..first + run.width, run.sign < 0.0);
             let mut ratios = [1.0; groups::LARGEST];
             for (ratio, p) in ratios.iter_mut().zip(positions) {

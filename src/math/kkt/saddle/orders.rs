@@ -52,7 +52,7 @@ impl Orders {
             let late = |(massless, hub): (&bool, &bool)| *massless || *hub && order == 0;
             let fast = factors.get_or_insert_with(|| {
                 let late: Vec<bool> = self.massless.iter().zip(&self.hubs).map(late).collect();
-                Ldlt::of(self.analysis.layout(m, j, &late), m, j, &late)
+                Ldlt::of(&self.analysis.plan(m, j, &late), m, j, &late)
             });
             match fast.factor(mass, g, Rule::STRICT, skipped) {
                 Ok(quality) => {

@@ -1,0 +1,231 @@
+//! Which unknowns and entries belong to which part.
+
+use super::super::blocks::{Groups, Layout};
+use super::super::order::{Left, order_before};
+use super::super::{Lever, Pattern};
+use super::division::{SEPARATOR, divide};
+use crate::tolerances::math as tolerances;
+use std::sync::Arc;
+
+/// The structure of the factors of a saddle-point matrix.
+pub enum Plan {
+    Whole(Arc<Layout>),
+    Parts(Arc<Vec<PartPlan>>),
+}
+
+/// One part: a saddle-point matrix of its own unknowns and, behind them, of those of the separator.
+pub struct PartPlan {
+    pub layout: Arc<Layout>,
+    /// Its numbers among those of the whole matrix.
+    pub mass: Places,
+    pub g: Places,
+    pub coordinates: Places,
+    pub rows: Places,
+}
+
+/// Numbers that are copied from a long list to a short one.
+pub struct Places {
+    /// Place in the long list of each of the short one.
+    pub of: Vec<usize>,
+    /// First places in the long and in the short list, and number.
+    pieces: Vec<(usize, usize, usize)>,
+}
+
+impl Places {
+    /// Those for which `is_copied` is true are copied.
+    fn new(of: Vec<usize>, is_copied: impl Fn(usize) -> bool) -> Self {
+        let mut pieces: Vec<(usize, usize, usize)> = Vec::new();
+        for (to, &from) in of.iter().enumerate().filter(|(_, from)| is_copied(**from)) {
+            match pieces.last_mut().filter(|(first, its, len)| (first + len, its + len) == (from, to)) {
+                Some(last) => last.2 += 1,
+                None => pieces.push((from, to, 1)),
+            }
+        }
+        Places { of, pieces }
+    }
+
+    /// Copies from the long list to the short one.
+    pub fn read(&self, all: &[f64], own: &mut [f64]) {
+        self.pieces.iter().for_each(|&(from, to, len)| own[to..][..len].copy_from_slice(&all[from..][..len]));
+    }
+
+    /// Copies from the short list to the long one.
+    pub fn write(&self, own: &[f64], all: &mut [f64]) {
+        self.pieces.iter().for_each(|&(from, to, len)| all[from..][..len].copy_from_slice(&own[to..][..len]));
+    }
+}
+
+impl Plan {
+    /// For M and G with these late coordinates; `levers` are blocks of G. Large systems are divided where that pays, by
+    /// their structure alone.
+    pub fn new(mass: &Pattern, g: &Pattern, late: &[bool], levers: &[Lever]) -> Self {
+        let parts = (g.cols + g.rows) / tolerances::UNKNOWNS_OF_A_PART;
+        let count = parts.min(tolerances::MOST_PARTS);
+        let parts = if count > 1 { Self::in_parts((mass, g), late, levers, count) } else { None };
+        match parts {
+            Some(parts) => Plan::Parts(Arc::new(parts)),
+            None => Plan::Whole(Arc::new(Layout::new(mass, g, late, levers))),
+        }
+    }
+
+    /// Number of entries of L, of multiplications of a factorization, and of products of blocks.
+    pub fn sizes(&self) -> [usize; 3] {
+        let layouts: Vec<&Layout> = match self {
+            Plan::Whole(layout) => vec![layout],
+            Plan::Parts(parts) => parts.iter().map(|part| &*part.layout).collect(),
+        };
+        let sum = |size: fn(&Layout) -> usize| layouts.iter().map(|layout| size(layout)).sum();
+        [sum(|layout| layout.len), sum(Layout::operations), sum(|layout| layout.targets.len())]
+    }
+
+    /// In this number of parts; `None` if they have too much in common.
+    pub fn in_parts(
+        (mass, g): (&Pattern, &Pattern),
+        late: &[bool],
+        levers: &[Lever],
+        count: usize,
+    ) -> Option<Vec<PartPlan>> {
+        let whole = Whole::new((mass, g), late, count)?;
+        Some((0..count as u32).map(|part| whole.part((mass, g), late, levers, part)).collect())
+    }
+}
+
+/// The groups of unknowns of the whole matrix.
+struct Whole {
+    groups: Groups,
+    /// Part of each group of coordinates, and then of rows.
+    of_group: Vec<u32>,
+    /// Part of each coordinate, and of each row.
+    of_coordinate: Vec<u32>,
+    of_row: Vec<u32>,
+    /// Groups of the separator in the order of their elimination.
+    separator: Vec<usize>,
+}
+
+impl Whole {
+    fn new((mass, g): (&Pattern, &Pattern), late: &[bool], parts: usize) -> Option<Self> {
+        let groups = Groups::new(mass, g, late);
+        let of_group = of_groups(&groups, parts)?;
+        let count = groups.coordinates.len();
+        let spread = |groups: &[Vec<usize>], of: &[u32], len: usize| {
+            let mut of_member = vec![0; len];
+            groups.iter().zip(of).for_each(|(group, part)| group.iter().for_each(|&member| of_member[member] = *part));
+            of_member
+        };
+        let (of_coordinate, of_row) =
+            (spread(&groups.coordinates, &of_group[..count], g.cols), spread(&groups.rows, &of_group[count..], g.rows));
+        // Coordinates of the separator are late: behind their multipliers.
+        let order = (count..of_group.len()).chain(0..count);
+        let separator = order.filter(|&group| of_group[group] == SEPARATOR).collect();
+        Some(Whole { groups, of_group, of_coordinate, of_row, separator })
+    }
+
+    fn part(&self, (mass, g): (&Pattern, &Pattern), late: &[bool], levers: &[Lever], part: u32) -> PartPlan {
+        let members = |of: &[u32]| (0..of.len()).filter(|&k| [part, SEPARATOR].contains(&of[k])).collect::<Vec<_>>();
+        let (coordinates, rows) = (members(&self.of_coordinate), members(&self.of_row));
+        let (place_of_coordinate, place_of_row) = (places(&coordinates, g.cols), places(&rows, g.rows));
+        // What belongs to the separator alone is in the first part.
+        let is_own = |a: u32, b: u32| a.min(b) == part || part == 0 && a.min(b) == SEPARATOR;
+        let entries = |pattern: &Pattern, of: &[u32]| -> Vec<usize> {
+            let entries = pattern.entries.iter().enumerate();
+            entries.filter(|(_, (a, b))| is_own(of[*a], self.of_coordinate[*b])).map(|(k, _)| k).collect()
+        };
+        let (of_mass, of_g) = (entries(mass, &self.of_coordinate), entries(g, &self.of_row));
+        let pattern = |all: &Pattern, own: &[usize], place: &[usize], rows: usize| Pattern {
+            rows,
+            cols: coordinates.len(),
+            entries: own.iter().map(|&k| all.entries[k]).map(|(a, b)| (place[a], place_of_coordinate[b])).collect(),
+        };
+        let own_mass = pattern(mass, &of_mass, &place_of_coordinate, coordinates.len());
+        let own_g = pattern(g, &of_g, &place_of_row, rows.len());
+        let own_late: Vec<bool> = coordinates.iter().map(|&i| late[i]).collect();
+        let place_of_entry = places(&of_g, g.entries.len());
+        let own_levers = levers.iter().filter(|lever| place_of_entry[lever.first_entry] != usize::MAX);
+        let own_levers: Vec<Lever> =
+            own_levers.map(|lever| Lever { first_entry: place_of_entry[lever.first_entry], ..*lever }).collect();
+        let layout = self.layout((&own_mass, &own_g), &own_late, &own_levers, (&place_of_coordinate, &place_of_row), part);
+        let is_known = |of: &[u32], k: usize| of[k] == part || part == 0;
+        PartPlan {
+            layout: Arc::new(layout),
+            mass: Places::new(of_mass, |_| true),
+            g: Places::new(of_g, |_| true),
+            coordinates: Places::new(coordinates, |i| is_known(&self.of_coordinate, i)),
+            rows: Places::new(rows, |row| is_known(&self.of_row, row)),
+        }
+    }
+
+    /// The layout of a part, with the separator behind.
+    fn layout(
+        &self,
+        (mass, g): (&Pattern, &Pattern),
+        late: &[bool],
+        levers: &[Lever],
+        (place_of_coordinate, place_of_row): (&[usize], &[usize]),
+        part: u32,
+    ) -> Layout {
+        let count = self.groups.coordinates.len();
+        let is_here = |group: usize| [part, SEPARATOR].contains(&self.of_group[group]);
+        let here = |first: usize, groups: &[Vec<usize>], place: &[usize]| -> Vec<Vec<usize>> {
+            let own = groups.iter().enumerate().filter(|(k, _)| is_here(first + k));
+            own.map(|(_, group)| group.iter().map(|&member| place[member]).collect()).collect()
+        };
+        let coordinates = here(0, &self.groups.coordinates, place_of_coordinate);
+        let rows = here(count, &self.groups.rows, place_of_row);
+        let of_coordinates = coordinates.len();
+        let groups = Groups::of((mass, g), coordinates, rows, late);
+        let members: Vec<usize> = (0..self.of_group.len()).filter(|&group| is_here(group)).collect();
+        let place_of_group = places(&members, self.of_group.len());
+        let last: Vec<usize> = self.separator.iter().map(|&group| place_of_group[group]).collect();
+        let nodes = last.iter().flat_map(|&group| match group < of_coordinates {
+            true => groups.coordinates[group].clone(),
+            false => groups.rows[group - of_coordinates].iter().map(|row| g.cols + row).collect(),
+        });
+        let nodes: Vec<usize> = nodes.collect();
+        let mut order = groups.in_order(&order_before(mass, g, late, &nodes));
+        order.retain(|group| !last.contains(group));
+        Layout::of((mass, g), &groups, (order, &last), levers)
+    }
+}
+
+/// The place of each of `len` numbers in a list, `usize::MAX` if it is not there.
+fn places(list: &[usize], len: usize) -> Vec<usize> {
+    let mut places = vec![usize::MAX; len];
+    list.iter().enumerate().for_each(|(place, &number)| places[number] = place);
+    places
+}
+
+/// The part of each group of coordinates and then of rows; `None` if the separator is too large.
+fn of_groups(groups: &Groups, parts: usize) -> Option<Vec<u32>> {
+    let left = Left::new(&groups.mass, &groups.g, &groups.late);
+    let (count, rest) = (groups.coordinates.len(), left.rest());
+    let total = count + groups.rows.len();
+    let place = places(rest, total);
+    let mut neighbours = vec![Vec::new(); rest.len()];
+    for (a, b) in left.edges(&groups.mass, &groups.g) {
+        let (a, b) = (place[a], place[b]);
+        if a != usize::MAX && b != usize::MAX && a != b {
+            neighbours[a].push(b as u32);
+            neighbours[b].push(a as u32);
+        }
+    }
+    neighbours.iter_mut().for_each(|list| {
+        list.sort_unstable();
+        list.dedup();
+    });
+    let division = divide(&neighbours, parts)?;
+    let mut of_group = vec![SEPARATOR; total];
+    rest.iter().zip(division).for_each(|(&group, part)| of_group[group] = part);
+    // A late coordinate comes behind all its multipliers.
+    for &(row, i) in groups.g.entries.iter().filter(|(_, i)| groups.late[*i]) {
+        if of_group[count + row] == SEPARATOR {
+            of_group[i] = SEPARATOR;
+        }
+    }
+    // Early coordinates go with all that their elimination couples, in one part and the separator.
+    for (k, column) in left.columns.iter().enumerate().rev() {
+        let coupled = column.iter().map(|&position| of_group[left.all[position as usize]]).min();
+        let anywhere = (k * parts / left.early) as u32;
+        of_group[left.all[k]] = coupled.filter(|part| *part != SEPARATOR).unwrap_or(anywhere);
+    }
+    Some(of_group)
+}

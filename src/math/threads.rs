@@ -1,0 +1,72 @@
+//! Work divided over the threads of rayon's pool.
+//!
+//! How work is divided depends on the work alone, and what is divided shares no results: they are the same to the bit
+//! for any number of threads.
+
+use std::cell::Cell;
+
+thread_local! {
+    static IS_SPREAD: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Calls `work`, in which evaluations of large systems take all threads of the pool of rayon that they run in, else of
+/// the global one (`RAYON_NUM_THREADS`). Results do not depend on it.
+///
+/// For a run that has the machine to itself. Not for one of many that run at once, as each has a thread already and
+/// would wait for parts of the others; nor where the CPU time of this thread is to be that of the run. Cheapest on a
+/// thread of the pool, by `ThreadPool::install` or `ThreadPoolBuilder::use_current_thread`, since every division
+/// from outside wakes one up.
+pub fn spread<R>(work: impl FnOnce() -> R) -> R {
+    let _before = Before(IS_SPREAD.replace(true));
+    work()
+}
+
+/// Restores the state of the thread, after a panic, too.
+struct Before(bool);
+
+impl Drop for Before {
+    fn drop(&mut self) {
+        IS_SPREAD.set(self.0);
+    }
+}
+
+/// Work that can be divided.
+pub trait Divisible: Sized + Send {
+    /// Two parts, or all of it and none.
+    fn divided(self) -> (Self, Option<Self>);
+}
+
+impl<T: Send> Divisible for &mut [T] {
+    fn divided(self) -> (Self, Option<Self>) {
+        match self.len() {
+            0 | 1 => (self, None),
+            len => {
+                let (first, second) = self.split_at_mut(len / 2);
+                (first, Some(second))
+            }
+        }
+    }
+}
+
+/// Divides `all` as far as it can be, and calls `work` for each part: over all threads within [`spread`], else one
+/// after the other.
+pub fn each<P: Divisible>(all: P, work: &(impl Fn(P) + Sync)) {
+    if IS_SPREAD.get() { at_once(all, work) } else { in_turn(all, work) }
+}
+
+fn at_once<P: Divisible>(all: P, work: &(impl Fn(P) + Sync)) {
+    match all.divided() {
+        (all, None) => work(all),
+        (first, Some(second)) => drop(rayon::join(|| at_once(first, work), || at_once(second, work))),
+    }
+}
+
+fn in_turn<P: Divisible>(all: P, work: &impl Fn(P)) {
+    match all.divided() {
+        (all, None) => work(all),
+        (first, Some(second)) => {
+            in_turn(first, work);
+            in_turn(second, work);
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Bodies and joints of large mechanisms in portions that are evaluated at once. Portions follow from the model alone,
+//! and have places of their own for all that they write.
+
+use super::Terms;
+use super::rigid_joint::{JointTerms, RigidJoint};
+use crate::body::{Frame, Pose};
+use crate::math::Taylor;
+use crate::math::threads::Divisible;
+use crate::scene::Model;
+use crate::tolerances::system::ELEMENTS_OF_A_PORTION;
+use std::ops::Range;
+
+/// Bodies in sequence, with their markers, velocities and values of M.
+pub(super) struct BodyPortion {
+    pub bodies: Range<usize>,
+    pub markers: Range<usize>,
+    pub v: Range<usize>,
+    pub masses: Range<usize>,
+}
+
+impl BodyPortion {
+    /// Divides the bodies of a model with the places of the values of M. The first portion begins at the first marker,
+    /// and the last one ends at the last.
+    pub fn all<const D: usize>(model: &Model<D>, masses: &[Range<usize>]) -> Vec<Self> {
+        let count = model.bodies.len();
+        let mut portions: Vec<BodyPortion> = Vec::new();
+        for first in (0..count).step_by(ELEMENTS_OF_A_PORTION) {
+            let bodies = first..count.min(first + ELEMENTS_OF_A_PORTION);
+            let (own, last) = (&model.bodies[first], &model.bodies[bodies.end - 1]);
+            let before = portions.last().map_or(0, |portion| portion.markers.end);
+            let markers = model.bodies.get(bodies.end).map_or(model.marker_count(), |next| next.first_marker);
+            portions.push(BodyPortion {
+                v: own.first_v..last.first_v + last.nv,
+                masses: masses[first].start..masses[bodies.end - 1].end,
+                markers: before..markers,
+                bodies,
+            });
+        }
+        portions
+    }
+}
+
+/// What is written for the bodies of some portions.
+pub(super) struct BodyTerms<'a, const D: usize> {
+    pub portions: &'a [BodyPortion],
+    pub poses: &'a mut [Pose<D>],
+    /// Empty where the frames are known, or not needed.
+    pub motion: &'a mut [Frame<Taylor<f64>, D>],
+    pub mass: &'a mut [f64],
+    pub f: &'a mut [f64],
+}
+
+impl<const D: usize> Divisible for BodyTerms<'_, D> {
+    fn divided(self) -> (Self, Option<Self>) {
+        let (portions, others) = self.portions.split_at(self.portions.len() / 2);
+        let (Some(first), Some(next)) = (portions.first(), others.first()) else { return (self, None) };
+        let poses = self.poses.split_at_mut(next.bodies.start - first.bodies.start);
+        let markers = self.motion.len().min(next.markers.start - first.markers.start);
+        let motion = self.motion.split_at_mut(markers);
+        let mass = self.mass.split_at_mut(next.masses.start - first.masses.start);
+        let f = self.f.split_at_mut(next.v.start - first.v.start);
+        let second = BodyTerms { portions: others, poses: poses.1, motion: motion.1, mass: mass.1, f: f.1 };
+        (BodyTerms { portions, poses: poses.0, motion: motion.0, mass: mass.0, f: f.0 }, Some(second))
+    }
+}
+
+/// Joints in sequence, with places counted from their first row and their first entry of G; the first portion begins
+/// with the first row and entry of all.
+pub(super) struct JointPortion<const D: usize> {
+    pub joints: Vec<RigidJoint<D>>,
+    pub first_row: usize,
+    pub first_entry: usize,
+}
+
+impl<const D: usize> JointPortion<D> {
+    /// Divides joints in the order of their rows.
+    pub fn all(joints: Vec<RigidJoint<D>>) -> Vec<Self> {
+        let mut portions: Vec<Self> = Vec::new();
+        for mut joint in joints {
+            if portions.last().is_none_or(|last| last.joints.len() >= ELEMENTS_OF_A_PORTION) {
+                let (first_row, first_entry) = if portions.is_empty() { (0, 0) } else { joint.places() };
+                portions.push(JointPortion { joints: Vec::new(), first_row, first_entry });
+            }
+            if let Some(last) = portions.last_mut() {
+                joint.count_from(last.first_row, last.first_entry);
+                last.joints.push(joint);
+            }
+        }
+        portions.iter_mut().for_each(|portion| portion.joints.shrink_to_fit());
+        portions
+    }
+}
+
+/// What is written for the joints of some portions.
+pub(super) struct JointsTerms<'a, const D: usize> {
+    pub portions: &'a [JointPortion<D>],
+    pub terms: JointTerms<'a>,
+}
+
+impl<'a, const D: usize> JointsTerms<'a, D> {
+    /// All of them.
+    pub fn all(portions: &'a [JointPortion<D>], terms: &'a mut Terms) -> Self {
+        let Terms { phi, phi_dot, phi_t, gamma, g, .. } = terms;
+        JointsTerms { portions, terms: JointTerms { phi, phi_dot, phi_t, gamma, g } }
+    }
+}
+
+impl<const D: usize> Divisible for JointsTerms<'_, D> {
+    fn divided(self) -> (Self, Option<Self>) {
+        let (portions, others) = self.portions.split_at(self.portions.len() / 2);
+        let (Some(first), Some(next)) = (portions.first(), others.first()) else { return (self, None) };
+        let (rows, entries) = (next.first_row - first.first_row, next.first_entry - first.first_entry);
+        let JointTerms { phi, phi_dot, phi_t, gamma, g } = self.terms;
+        let levels = [phi, phi_dot, phi_t, gamma].map(|level| level.split_at_mut(rows));
+        let [phi, phi_dot, phi_t, gamma] = levels;
+        let g = g.split_at_mut(entries);
+        let terms = JointTerms { phi: phi.0, phi_dot: phi_dot.0, phi_t: phi_t.0, gamma: gamma.0, g: g.0 };
+        let second = JointTerms { phi: phi.1, phi_dot: phi_dot.1, phi_t: phi_t.1, gamma: gamma.1, g: g.1 };
+        (JointsTerms { portions, terms }, Some(JointsTerms { portions: others, terms: second }))
+    }
+}
