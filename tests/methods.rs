@@ -28,4 +28,5 @@ mod stability_limits;
 mod states;
 mod step_control;
 mod stiff;
+mod threads;
 mod time_loop;

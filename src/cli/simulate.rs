@@ -8,7 +8,7 @@ use crate::error::{Error, Result, Warning};
 use crate::files::{mat, npz};
 use crate::prepared::PreparedScene;
 use crate::report::{self, Folder, RowFiles, Sealed, Summary, summarize};
-use crate::simulate::{Span, Start};
+use crate::simulate::{Span, Start, spread};
 use crate::system::{Dimensions, Scratch};
 use crate::trajectory::{Trajectory, recorded};
 use std::cell::RefCell;
@@ -73,7 +73,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let clock = Instant::now();
     let (q, v) = prepared.start();
     let start = saved.as_ref().map_or(Start::State(q, v), Start::Saved);
-    let (outcome, legs, saved) = prepared.simulate_from(&prepared.method, span, start, &mut recorder)?;
+    let (outcome, legs, saved) =
+        on_all_threads(|| prepared.simulate_from(&prepared.method, span, start, &mut recorder))?;
     let seconds = clock.elapsed().as_secs_f64();
     let record = recorder.finish();
     bar.finish_and_clear();
@@ -88,7 +89,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         true => {
             let bar = args.common.talk.progress(1000, &format!("{}: the error", prepared.name));
             let watch = (|t: f64| bar.set_position(fraction(t)), || interrupt::stop(&folder));
-            let check = check_error(&prepared, span, &record.trajectory, watch);
+            let check = on_all_threads(|| check_error(&prepared, span, &record.trajectory, watch));
             bar.finish_and_clear();
             summary.checked(check)
         }
@@ -106,6 +107,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
             ExitCode::from(1)
         }
     })
+}
+
+/// Calls `work` with all threads for large systems: this one becomes one of the pool, unless there is one.
+fn on_all_threads<R>(work: impl FnOnce() -> R) -> R {
+    // An error says that there is a pool already, and then that one serves.
+    let _ = rayon::ThreadPoolBuilder::new().use_current_thread().build_global();
+    spread(work)
 }
 
 impl Args {

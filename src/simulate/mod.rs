@@ -19,6 +19,7 @@ mod start;
 mod step;
 mod stiffness;
 
+pub use crate::math::threads::spread;
 pub use automatic::{Leg, advise, simulate_automatic};
 pub use checkpoint::{Checkpoint, Start, simulate_from};
 pub use method::Method;
@@ -31,7 +32,6 @@ pub use spectrum::{SpectralMode, Spectrum};
 #[doc(hidden)]
 pub use stiffness::explicit;
 pub use stiffness::{Stiffness, stiffness};
-pub use crate::math::threads::spread;
 
 use crowd::Crowd;
 use events::{Events, Passage};

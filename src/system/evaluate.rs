@@ -127,7 +127,9 @@ impl<const D: usize> Mechanism<D> {
             self.forces(time, q, work, terms);
         }
         if need.includes(Need::CONSTRAINTS) || need.includes(Need::G) {
-            each(JointsTerms::all(&self.rigid.joints, terms), &|JointsTerms { portions, mut terms }: JointsTerms<D>| {
+            each(JointsTerms::all(&self.rigid.joints, terms), &|JointsTerms { portions, mut terms }: JointsTerms<
+                D,
+            >| {
                 if need.includes(Need::CONSTRAINTS) {
                     terms.phi_t.fill(0.0);
                 }

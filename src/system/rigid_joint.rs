@@ -15,8 +15,8 @@
 //! force e or u on B at its marker and the opposite on A, at the marker of A, but of B if e moves with A; or a moment -n
 //! on B and n on A.
 
-use super::rows::JointRows;
 use super::Need;
+use super::rows::JointRows;
 use crate::body::{Frame, Freedom, MarkerId, Pose, cross, dot, in_space, sub, twist_len};
 use crate::joint::{ClosedForm, Joint, Lock};
 use crate::math::kkt::Lever;

@@ -30,7 +30,7 @@ impl Ldlt {
         match (faer, plan) {
             (Some(supernodal), _) => Ldlt::Supernodal(Box::new(supernodal)),
             (None, Plan::Whole(layout)) => Ldlt::Blocks(Box::new(Blocks::new(layout.clone(), mass.rows))),
-            (None, Plan::Parts(parts)) => Ldlt::Parts(Box::new(Parts::new(parts.clone(), mass.rows))),
+            (None, Plan::Parts(division)) => Ldlt::Parts(Box::new(Parts::new(division.clone()))),
         }
     }
 

@@ -16,19 +16,18 @@
 mod division;
 mod plan;
 
-pub use plan::Plan;
-use plan::PartPlan;
+pub use plan::{Division, Plan};
 
 use super::blocks::Blocks;
 use super::pivot::{Quality, Rule};
-use crate::math::threads::each;
+use super::system::add;
+use crate::math::threads::{Divisible, each};
+use plan::{PartPlan, Share};
 use std::sync::Arc;
 
 /// The factors of all parts, with the memory to make them and to solve.
 pub struct Parts {
-    plan: Arc<Vec<PartPlan>>,
-    /// Number of coordinates.
-    n: usize,
+    division: Arc<Division>,
     all: Vec<Part>,
 }
 
@@ -44,50 +43,48 @@ struct Part {
     quality: Result<Quality, usize>,
 }
 
-impl PartPlan {
-    /// Coordinate i, or n + row, of the whole matrix with n coordinates.
-    fn node(&self, own: usize, n: usize) -> usize {
-        let count = self.coordinates.of.len();
-        if own < count { self.coordinates.of[own] } else { n + self.rows.of[own - count] }
+/// Shares of a solution that are put together.
+struct Collection<'a> {
+    shares: &'a [Share],
+    top: &'a mut [f64],
+    bottom: &'a mut [f64],
+}
+
+impl Divisible for Collection<'_> {
+    fn divided(self) -> (Self, Option<Self>) {
+        let (shares, others) = self.shares.split_at(self.shares.len() / 2);
+        if shares.is_empty() {
+            return (self, None);
+        }
+        let sizes = shares.iter().map(Share::sizes).fold([0, 0], |[n, m], [own, rows]| [n + own, m + rows]);
+        let (top, bottom) = (self.top.split_at_mut(sizes[0]), self.bottom.split_at_mut(sizes[1]));
+        let second = Collection { shares: others, top: top.1, bottom: bottom.1 };
+        (Collection { shares, top: top.0, bottom: bottom.0 }, Some(second))
     }
 }
 
 impl Parts {
-    /// For a plan of a matrix with `n` coordinates.
-    pub fn new(plan: Arc<Vec<PartPlan>>, n: usize) -> Self {
-        let zeros = |len: usize| vec![0.0; len];
-        let part = |(number, plan): (usize, &PartPlan)| {
-            let mut blocks = Blocks::new(plan.layout.clone(), plan.coordinates.of.len());
-            blocks.g = zeros(plan.g.of.len());
-            Part {
-                number,
-                blocks,
-                mass: zeros(plan.mass.of.len()),
-                top: zeros(plan.coordinates.of.len()),
-                bottom: zeros(plan.rows.of.len()),
-                skipped: Vec::with_capacity(plan.rows.of.len()),
-                quality: Ok(Quality::GOOD),
-            }
-        };
-        Parts { all: plan.iter().enumerate().map(part).collect(), plan, n }
+    pub fn new(division: Arc<Division>) -> Self {
+        let all = division.parts.iter().enumerate().map(|(number, plan)| Part::new(number, plan)).collect();
+        Parts { all, division }
     }
 
     /// See [`Blocks::factor`].
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
-        let (plan, n) = (&self.plan, self.n);
-        each(&mut self.all[..], &|parts: &mut [Part]| {
-            parts.iter_mut().for_each(|part| part.factor(&plan[part.number], (mass, g), rule));
+        let Parts { division, all } = self;
+        each(&mut all[..], &|parts: &mut [Part]| {
+            parts.iter_mut().for_each(|part| part.factor(&division.parts[part.number], (mass, g), rule));
         });
         let mut quality = Quality::GOOD;
-        for (part, plan) in self.all.iter().zip(&**plan) {
-            quality = quality.with(part.quality.map_err(|node| plan.node(node, n))?);
+        for part in &*all {
+            quality = quality.with(part.quality.map_err(|node| division.node(part.number, node))?);
         }
-        let Some((first, others)) = self.all.split_first_mut() else { return Ok(quality) };
+        let Some((first, others)) = all.split_first_mut() else { return Ok(quality) };
         others.iter().for_each(|other| first.blocks.add_last(&other.blocks));
         let mut judge = first.blocks.judge(rule, &mut first.skipped);
-        first.blocks.factor_last(&mut judge).map_err(|node| plan[0].node(node, n))?;
+        first.blocks.factor_last(&mut judge).map_err(|node| division.node(0, node))?;
         quality = quality.with(judge.quality);
-        for (part, plan) in self.all.iter().zip(&**plan) {
+        for (part, plan) in all.iter().zip(&division.parts) {
             skipped.extend(part.skipped.iter().map(|&row| plan.rows.of[row]));
         }
         Ok(quality)
@@ -95,24 +92,25 @@ impl Parts {
 
     /// See [`Blocks::solve`].
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
-        let plan = &self.plan;
+        let Parts { division, all } = self;
         let given: (&[f64], &[f64]) = (top, bottom);
-        each(&mut self.all[..], &|parts: &mut [Part]| {
-            parts.iter_mut().for_each(|part| part.forward(&plan[part.number], given));
+        each(&mut all[..], &|parts: &mut [Part]| {
+            parts.iter_mut().for_each(|part| part.forward(&division.parts[part.number], given));
         });
-        let Some((first, others)) = self.all.split_first_mut() else { return };
+        let Some((first, others)) = all.split_first_mut() else { return };
         let last = first.blocks.last();
-        others.iter_mut().for_each(|other| super::system::add(other.blocks.last(), last));
+        others.iter_mut().for_each(|other| add(other.blocks.last(), last));
         first.blocks.solve_last();
         let last = first.blocks.last();
         others.iter_mut().for_each(|other| other.blocks.last().copy_from_slice(last));
-        each(&mut self.all[..], &|parts: &mut [Part]| {
+        each(&mut all[..], &|parts: &mut [Part]| {
             parts.iter_mut().for_each(|part| part.blocks.backward(&mut part.top, &mut part.bottom));
         });
-        for (part, plan) in self.all.iter().zip(&**plan) {
-            plan.coordinates.write(&part.top, top);
-            plan.rows.write(&part.bottom, bottom);
-        }
+        let all = &*all;
+        each(Collection { shares: &division.shares, top, bottom }, &|Collection { shares, top, bottom }| {
+            collect(shares.iter().flat_map(|share| &share.coordinates), |part| &all[part].top, top);
+            collect(shares.iter().flat_map(|share| &share.rows), |part| &all[part].bottom, bottom);
+        });
     }
 
     /// See [`Blocks::smallest_ratio`].
@@ -123,7 +121,36 @@ impl Parts {
     }
 }
 
+/// Copies pieces of the parts one behind the other.
+fn collect<'a, 's>(
+    pieces: impl Iterator<Item = &'s (usize, usize, usize)>,
+    of: impl Fn(usize) -> &'a Vec<f64>,
+    mut to: &mut [f64],
+) {
+    for &(part, place, len) in pieces {
+        let Some((own, rest)) = to.split_at_mut_checked(len) else { return };
+        own.copy_from_slice(&of(part)[place..][..len]);
+        to = rest;
+    }
+}
+
 impl Part {
+    fn new(number: usize, plan: &PartPlan) -> Self {
+        let zeros = |len: usize| vec![0.0; len];
+        let (n, m) = (plan.coordinates.of.len(), plan.rows.of.len());
+        let mut blocks = Blocks::new(plan.layout.clone(), n);
+        blocks.g = zeros(plan.g.of.len());
+        Part {
+            number,
+            blocks,
+            mass: zeros(plan.mass.of.len()),
+            top: zeros(n),
+            bottom: zeros(m),
+            skipped: Vec::with_capacity(m),
+            quality: Ok(Quality::GOOD),
+        }
+    }
+
     fn factor(&mut self, plan: &PartPlan, (mass, g): (&[f64], &[f64]), rule: Rule) {
         plan.mass.read(mass, &mut self.mass);
         plan.g.read(g, &mut self.blocks.g);
@@ -133,10 +160,6 @@ impl Part {
     }
 
     fn forward(&mut self, plan: &PartPlan, (top, bottom): (&[f64], &[f64])) {
-        if self.number > 0 {
-            self.top.fill(0.0);
-            self.bottom.fill(0.0);
-        }
         plan.coordinates.read(top, &mut self.top);
         plan.rows.read(bottom, &mut self.bottom);
         self.blocks.forward(&mut self.top, &self.bottom);

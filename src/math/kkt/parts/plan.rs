@@ -10,7 +10,16 @@ use std::sync::Arc;
 /// The structure of the factors of a saddle-point matrix.
 pub enum Plan {
     Whole(Arc<Layout>),
-    Parts(Arc<Vec<PartPlan>>),
+    Parts(Arc<Division>),
+}
+
+/// A saddle-point matrix in parts.
+pub struct Division {
+    /// Number of coordinates.
+    pub n: usize,
+    pub parts: Vec<PartPlan>,
+    /// Shares of the solution, as it is put together from those of the parts.
+    pub shares: Vec<Share>,
 }
 
 /// One part: a saddle-point matrix of its own unknowns and, behind them, of those of the separator.
@@ -29,6 +38,8 @@ pub struct Places {
     pub of: Vec<usize>,
     /// First places in the long and in the short list, and number.
     pieces: Vec<(usize, usize, usize)>,
+    /// Places in the short list of what is not copied.
+    others: Vec<usize>,
 }
 
 impl Places {
@@ -41,18 +52,56 @@ impl Places {
                 None => pieces.push((from, to, 1)),
             }
         }
-        Places { of, pieces }
+        let others = (0..of.len()).filter(|&place| !is_copied(of[place])).collect();
+        Places { of, pieces, others }
     }
 
-    /// Copies from the long list to the short one.
+    /// Copies from the long list to the short one, with zeros for what is not copied.
     pub fn read(&self, all: &[f64], own: &mut [f64]) {
         self.pieces.iter().for_each(|&(from, to, len)| own[to..][..len].copy_from_slice(&all[from..][..len]));
+        self.others.iter().for_each(|&place| own[place] = 0.0);
+    }
+}
+
+/// Coordinates in sequence and rows in sequence, piece by piece: the part that has it, its place there, and its length.
+pub struct Share {
+    pub coordinates: Vec<(usize, usize, usize)>,
+    pub rows: Vec<(usize, usize, usize)>,
+}
+
+impl Share {
+    /// Number of coordinates, and of rows.
+    pub fn sizes(&self) -> [usize; 2] {
+        [&self.coordinates, &self.rows].map(|pieces| pieces.iter().map(|(_, _, len)| len).sum())
     }
 
-    /// Copies from the short list to the long one.
-    pub fn write(&self, own: &[f64], all: &mut [f64]) {
-        self.pieces.iter().for_each(|&(from, to, len)| all[from..][..len].copy_from_slice(&own[to..][..len]));
+    /// Equal shares, as many as there are parts.
+    fn all(parts: &[PartPlan], [n, m]: [usize; 2]) -> Vec<Share> {
+        let coordinates = shares(parts.iter().map(|part| &part.coordinates), n, parts.len());
+        let rows = shares(parts.iter().map(|part| &part.rows), m, parts.len());
+        coordinates.into_iter().zip(rows).map(|(coordinates, rows)| Share { coordinates, rows }).collect()
     }
+}
+
+/// Pieces of `count` equal shares of a list that the parts have copies of.
+fn shares<'a>(parts: impl Iterator<Item = &'a Places>, len: usize, count: usize) -> Vec<Vec<(usize, usize, usize)>> {
+    let mut sources = vec![(0, 0); len];
+    for (number, places) in parts.enumerate() {
+        for &(from, to, len) in &places.pieces {
+            (0..len).for_each(|k| sources[from + k] = (number, to + k));
+        }
+    }
+    let share = |k: usize| {
+        let mut pieces: Vec<(usize, usize, usize)> = Vec::new();
+        for &(part, place) in &sources[k * len / count..(k + 1) * len / count] {
+            match pieces.last_mut().filter(|(its, first, len)| (*its, first + len) == (part, place)) {
+                Some(last) => last.2 += 1,
+                None => pieces.push((part, place, 1)),
+            }
+        }
+        pieces
+    };
+    (0..count).map(share).collect()
 }
 
 impl Plan {
@@ -61,9 +110,9 @@ impl Plan {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool], levers: &[Lever]) -> Self {
         let parts = (g.cols + g.rows) / tolerances::UNKNOWNS_OF_A_PART;
         let count = parts.min(tolerances::MOST_PARTS);
-        let parts = if count > 1 { Self::in_parts((mass, g), late, levers, count) } else { None };
-        match parts {
-            Some(parts) => Plan::Parts(Arc::new(parts)),
+        let division = if count > 1 { Division::new((mass, g), late, levers, count) } else { None };
+        match division {
+            Some(division) => Plan::Parts(Arc::new(division)),
             None => Plan::Whole(Arc::new(Layout::new(mass, g, late, levers))),
         }
     }
@@ -72,21 +121,26 @@ impl Plan {
     pub fn sizes(&self) -> [usize; 3] {
         let layouts: Vec<&Layout> = match self {
             Plan::Whole(layout) => vec![layout],
-            Plan::Parts(parts) => parts.iter().map(|part| &*part.layout).collect(),
+            Plan::Parts(division) => division.parts.iter().map(|part| &*part.layout).collect(),
         };
         let sum = |size: fn(&Layout) -> usize| layouts.iter().map(|layout| size(layout)).sum();
         [sum(|layout| layout.len), sum(Layout::operations), sum(|layout| layout.targets.len())]
     }
+}
 
-    /// In this number of parts; `None` if they have too much in common.
-    pub fn in_parts(
-        (mass, g): (&Pattern, &Pattern),
-        late: &[bool],
-        levers: &[Lever],
-        count: usize,
-    ) -> Option<Vec<PartPlan>> {
+impl Division {
+    /// Into this number of parts; `None` if they have too much in common.
+    pub fn new((mass, g): (&Pattern, &Pattern), late: &[bool], levers: &[Lever], count: usize) -> Option<Self> {
         let whole = Whole::new((mass, g), late, count)?;
-        Some((0..count as u32).map(|part| whole.part((mass, g), late, levers, part)).collect())
+        let parts: Vec<_> = (0..count as u32).map(|part| whole.part((mass, g), late, levers, part)).collect();
+        Some(Division { n: g.cols, shares: Share::all(&parts, [g.cols, g.rows]), parts })
+    }
+
+    /// Coordinate i, or n + row, that is this node of a part.
+    pub fn node(&self, part: usize, own: usize) -> usize {
+        let PartPlan { coordinates, rows, .. } = &self.parts[part];
+        let count = coordinates.of.len();
+        if own < count { coordinates.of[own] } else { self.n + rows.of[own - count] }
     }
 }
 
@@ -143,7 +197,8 @@ impl Whole {
         let own_levers = levers.iter().filter(|lever| place_of_entry[lever.first_entry] != usize::MAX);
         let own_levers: Vec<Lever> =
             own_levers.map(|lever| Lever { first_entry: place_of_entry[lever.first_entry], ..*lever }).collect();
-        let layout = self.layout((&own_mass, &own_g), &own_late, &own_levers, (&place_of_coordinate, &place_of_row), part);
+        let layout =
+            self.layout((&own_mass, &own_g), &own_late, &own_levers, (&place_of_coordinate, &place_of_row), part);
         let is_known = |of: &[u32], k: usize| of[k] == part || part == 0;
         PartPlan {
             layout: Arc::new(layout),

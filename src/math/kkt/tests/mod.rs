@@ -1,6 +1,7 @@
 //! Solutions against dense oracles.
 
 mod dropped;
+mod parts;
 mod pure;
 mod redundant;
 mod regular;
