@@ -8,7 +8,7 @@ use holonom::simulate::{Method, Span, simulate, spread};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::time::Instant;
 
-const ROUNDS: usize = 40;
+const ROUNDS: usize = 20;
 const STEP: f64 = 1e-3;
 /// Steps of a short and of a long run: the difference is free of what a run costs by itself.
 const STEPS: [usize; 2] = [2, 12];

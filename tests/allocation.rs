@@ -5,7 +5,8 @@ use crate::common::driven_pendulum::{self, DrivenPendulum};
 use crate::common::{adaptive, fixed};
 use holonom::math::Scalar;
 use holonom::prepared::{Overrides, PreparedScene};
-use holonom::simulate::{Method, Outcome, Span, simulate};
+use holonom::scene::{Scene, generate};
+use holonom::simulate::{Method, Outcome, Span, simulate, spread};
 use holonom::system::{Equations, MechanicalSystem, OperatingPoint, Scratch};
 use std::path::Path;
 
@@ -189,4 +190,16 @@ fn adaptive_steps_and_rows() {
         assert!(long > short);
         assert_eq!(few, many, "{integrator}");
     }
+}
+
+#[test]
+fn large_systems_on_some_threads() {
+    // Two parts of the saddle-point matrix, and portions of bodies, joints and sums.
+    let scene = Scene::parse(&generate::n_four_bar(3000).to_string(), &[]).unwrap();
+    let prepared = PreparedScene::new(scene, &Overrides::default()).unwrap();
+    let methods = [("index1", "rk4", "manifold"), ("ggl", "generalized_alpha", "none")];
+    let check = || check_methods("n_four_bar", &methods, prepared.system(), prepared.start(), 1e-4);
+    check();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
+    pool.install(|| spread(check));
 }

@@ -50,23 +50,66 @@ impl<T: Send> Divisible for &mut [T] {
 
 /// Divides `all` as far as it can be, and calls `work` for each part: over all threads within [`spread`], else one
 /// after the other.
+#[inline]
 pub fn each<P: Divisible>(all: P, work: &(impl Fn(P) + Sync)) {
-    if IS_SPREAD.get() { at_once(all, work) } else { in_turn(all, work) }
+    match all.divided() {
+        (all, None) => work(all),
+        (first, Some(second)) if IS_SPREAD.get() => both_at_once(first, second, work),
+        (first, Some(second)) => both_in_turn(first, second, work),
+    }
+}
+
+fn both_at_once<P: Divisible>(first: P, second: P, work: &(impl Fn(P) + Sync)) {
+    rayon::join(|| at_once(first, work), || at_once(second, work));
 }
 
 fn at_once<P: Divisible>(all: P, work: &(impl Fn(P) + Sync)) {
     match all.divided() {
         (all, None) => work(all),
-        (first, Some(second)) => drop(rayon::join(|| at_once(first, work), || at_once(second, work))),
+        (first, Some(second)) => both_at_once(first, second, work),
     }
 }
 
-fn in_turn<P: Divisible>(all: P, work: &impl Fn(P)) {
-    match all.divided() {
-        (all, None) => work(all),
-        (first, Some(second)) => {
-            in_turn(first, work);
-            in_turn(second, work);
+fn both_in_turn<P: Divisible>(first: P, second: P, work: &impl Fn(P)) {
+    for half in [first, second] {
+        match half.divided() {
+            (all, None) => work(all),
+            (first, Some(second)) => both_in_turn(first, second, work),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{each, spread};
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+    use std::thread::{ThreadId, current};
+
+    /// The threads that work at ten places, each some time.
+    fn threads() -> Vec<Option<ThreadId>> {
+        let mut all = [None; 10];
+        each(&mut all[..], &|part: &mut [Option<ThreadId>]| {
+            assert_eq!(part.len(), 1);
+            std::thread::sleep(std::time::Duration::from_millis(2));
+            part[0] = Some(current().id());
+        });
+        all.to_vec()
+    }
+
+    #[test]
+    fn work_is_divided_within_spread_alone() {
+        let own = Some(current().id());
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
+        assert_eq!(threads(), [own; 10]);
+        let [on_two, alone] = pool.install(|| [spread(threads), threads()]);
+        assert!(on_two.iter().all(Option::is_some) && on_two.iter().any(|thread| *thread != on_two[0]), "{on_two:?}");
+        assert_eq!(alone, [alone[0]; 10]);
+    }
+
+    #[test]
+    fn a_panic_ends_spread() {
+        let panics = catch_unwind(AssertUnwindSafe(|| spread(|| panic!("on purpose"))));
+        assert!(panics.is_err());
+        assert_eq!(threads(), [Some(current().id()); 10]);
     }
 }

@@ -5,21 +5,25 @@ use crate::tolerances::math as tolerances;
 /// The part of nodes of the separator: the last in any comparison.
 pub const SEPARATOR: u32 = u32::MAX;
 
-/// The part of each node, by the nodes that each is coupled to; `None` if the separator would be too large.
+/// The part of each node, by the nodes that each is coupled to, and the number of parts: the first of `counts` with
+/// which the separator is small enough; `None` if there is none.
 ///
 /// By halves: with nodes in the order of their distance from one at the rim, those at one distance separate the nearer
 /// from the farther ones. In chains, trees and rows of loops these are few. Nodes that are coupled to very many belong
 /// to the separator first.
-pub fn divide(neighbours: &[Vec<u32>], parts: usize) -> Option<Vec<u32>> {
+pub fn divide(neighbours: &[Vec<u32>], counts: impl Iterator<Item = usize>) -> Option<(Vec<u32>, usize)> {
     let many = tolerances::COUPLED_TO_MANY.max(4 * neighbours.len().isqrt());
-    let is_hub = |node: usize| neighbours[node].len() > many;
-    let mut graph = Graph { neighbours, part: vec![0; neighbours.len()], distance: vec![UNSEEN; neighbours.len()] };
-    let mut nodes: Vec<u32> = (0..neighbours.len() as u32).collect();
-    nodes.iter().filter(|node| is_hub(**node as usize)).for_each(|&node| graph.part[node as usize] = SEPARATOR);
-    nodes.retain(|node| !is_hub(*node as usize));
-    graph.halve(nodes, 0, parts as u32);
-    let separator = graph.part.iter().filter(|part| **part == SEPARATOR).count();
-    (separator <= tolerances::LARGEST_SEPARATOR).then_some(graph.part)
+    let (hubs, nodes): (Vec<u32>, Vec<u32>) =
+        (0..neighbours.len() as u32).partition(|&node| neighbours[node as usize].len() > many);
+    let is_small =
+        |part: &[u32]| part.iter().filter(|part| **part == SEPARATOR).count() <= tolerances::LARGEST_SEPARATOR;
+    let mut divisions = counts.map(|count| {
+        let mut graph = Graph { neighbours, part: vec![0; neighbours.len()], distance: vec![UNSEEN; neighbours.len()] };
+        hubs.iter().for_each(|&node| graph.part[node as usize] = SEPARATOR);
+        graph.halve(nodes.clone(), 0, count as u32);
+        (graph.part, count)
+    });
+    divisions.find(|(part, _)| is_small(part))
 }
 
 const UNSEEN: u32 = u32::MAX;

@@ -129,10 +129,10 @@ impl Plan {
 }
 
 impl Division {
-    /// Into this number of parts; `None` if they have too much in common.
-    pub fn new((mass, g): (&Pattern, &Pattern), late: &[bool], levers: &[Lever], count: usize) -> Option<Self> {
-        let whole = Whole::new((mass, g), late, count)?;
-        let parts: Vec<_> = (0..count as u32).map(|part| whole.part((mass, g), late, levers, part)).collect();
+    /// Into this number of parts at most; `None` if even two have too much in common.
+    pub fn new((mass, g): (&Pattern, &Pattern), late: &[bool], levers: &[Lever], most: usize) -> Option<Self> {
+        let whole = Whole::new((mass, g), late, most)?;
+        let parts: Vec<_> = (0..whole.parts as u32).map(|part| whole.part((mass, g), late, levers, part)).collect();
         Some(Division { n: g.cols, shares: Share::all(&parts, [g.cols, g.rows]), parts })
     }
 
@@ -154,12 +154,14 @@ struct Whole {
     of_row: Vec<u32>,
     /// Groups of the separator in the order of their elimination.
     separator: Vec<usize>,
+    /// Number of parts.
+    parts: usize,
 }
 
 impl Whole {
-    fn new((mass, g): (&Pattern, &Pattern), late: &[bool], parts: usize) -> Option<Self> {
+    fn new((mass, g): (&Pattern, &Pattern), late: &[bool], most: usize) -> Option<Self> {
         let groups = Groups::new(mass, g, late);
-        let of_group = of_groups(&groups, parts)?;
+        let (of_group, parts) = of_groups(&groups, most)?;
         let count = groups.coordinates.len();
         let spread = |groups: &[Vec<usize>], of: &[u32], len: usize| {
             let mut of_member = vec![0; len];
@@ -171,7 +173,7 @@ impl Whole {
         // Coordinates of the separator are late: behind their multipliers.
         let order = (count..of_group.len()).chain(0..count);
         let separator = order.filter(|&group| of_group[group] == SEPARATOR).collect();
-        Some(Whole { groups, of_group, of_coordinate, of_row, separator })
+        Some(Whole { groups, of_group, of_coordinate, of_row, separator, parts })
     }
 
     fn part(&self, (mass, g): (&Pattern, &Pattern), late: &[bool], levers: &[Lever], part: u32) -> PartPlan {
@@ -249,8 +251,9 @@ fn places(list: &[usize], len: usize) -> Vec<usize> {
     places
 }
 
-/// The part of each group of coordinates and then of rows; `None` if the separator is too large.
-fn of_groups(groups: &Groups, parts: usize) -> Option<Vec<u32>> {
+/// The part of each group of coordinates and then of rows, and the number of parts; `None` if the separator is too
+/// large even of two.
+fn of_groups(groups: &Groups, most: usize) -> Option<(Vec<u32>, usize)> {
     let left = Left::new(&groups.mass, &groups.g, &groups.late);
     let (count, rest) = (groups.coordinates.len(), left.rest());
     let total = count + groups.rows.len();
@@ -267,7 +270,8 @@ fn of_groups(groups: &Groups, parts: usize) -> Option<Vec<u32>> {
         list.sort_unstable();
         list.dedup();
     });
-    let division = divide(&neighbours, parts)?;
+    let counts = std::iter::successors(Some(most), |count| Some(count / 2)).take_while(|count| *count > 1);
+    let (division, parts) = divide(&neighbours, counts)?;
     let mut of_group = vec![SEPARATOR; total];
     rest.iter().zip(division).for_each(|(&group, part)| of_group[group] = part);
     // A late coordinate comes behind all its multipliers.
@@ -282,5 +286,5 @@ fn of_groups(groups: &Groups, parts: usize) -> Option<Vec<u32>> {
         let anywhere = (k * parts / left.early) as u32;
         of_group[left.all[k]] = coupled.filter(|part| *part != SEPARATOR).unwrap_or(anywhere);
     }
-    Some(of_group)
+    Some((of_group, parts))
 }
