@@ -11,35 +11,23 @@ struct Section<'a> {
 }
 
 impl Divisible for Section<'_> {
-    fn divided(self) -> (Self, Option<Self>) {
+    fn is_whole(&self) -> bool {
+        self.out.len() < 2 * NUMBERS_OF_A_PORTION
+    }
+
+    fn divided(self) -> [Self; 2] {
         let Section { first, out } = self;
-        if out.len() < 2 * NUMBERS_OF_A_PORTION {
-            return (Section { first, out }, None);
-        }
         let half = out.len() / 2;
         let (out, others) = out.split_at_mut(half);
-        (Section { first, out }, Some(Section { first: first + half, out: others }))
+        [Section { first, out }, Section { first: first + half, out: others }]
     }
 }
 
-/// out = y + h sum_j weights_j k_j, in the order of j, for the entries that both have, and y for the others. Four stages
-/// at a time, so that `out` is loaded and stored once for them.
+/// out = y + h sum_j weights_j k_j
 pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
-    let len = k.first().map_or(0, Vec::len).min(y.len());
-    let ((out, others), (y, rest)) = (out.split_at_mut(len), y.split_at(len));
-    others.copy_from_slice(rest);
     each(Section { first: 0, out }, &|Section { first, out }| {
-        let mut terms = terms(first, h, weights, k);
-        let (head, count) = next_four(&mut terms);
-        let y = &y[first..][..out.len()];
-        match head[..count] {
-            [a, b, c, d] => sum(out, y, [a, b, c, d]),
-            [a, b, c] => sum(out, y, [a, b, c]),
-            [a, b] => sum(out, y, [a, b]),
-            [a] => sum(out, y, [a]),
-            _ => out.copy_from_slice(y),
-        }
-        add_all(out, terms);
+        out.copy_from_slice(&y[first..][..out.len()]);
+        accumulate_from(first, out, h, weights, k);
     });
 }
 
@@ -51,60 +39,36 @@ pub(super) fn trapezoid(from: From, h: f64, powers: &[f64], to: &mut [f64]) {
     }
 }
 
-/// y += h sum_j weights_j k_j, likewise, for the entries that both have.
+/// y += h sum_j weights_j k_j, in the order of j, for the entries that both have. Four stages at a time, so that y is
+/// loaded and stored once for them.
 pub(super) fn accumulate(y: &mut [f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
-    let len = k.first().map_or(0, Vec::len).min(y.len());
-    add_all(&mut y[..len], terms(0, h, weights, k));
+    accumulate_from(0, y, h, weights, k);
 }
 
-/// A factor and what it multiplies.
-type Term<'a> = (f64, &'a [f64]);
-
-/// The terms of a sum that are not zero, from an entry on.
-fn terms<'a>(first: usize, h: f64, weights: &'a [f64], k: &'a [Vec<f64>]) -> impl Iterator<Item = Term<'a>> {
-    let stages = weights.iter().zip(k).filter(|(weight, _)| **weight != 0.0);
-    stages.map(move |(weight, k)| (h * weight, &k[first..]))
-}
-
-fn add_all<'a>(y: &mut [f64], mut terms: impl Iterator<Item = Term<'a>>) {
-    loop {
-        let (next, count) = next_four(&mut terms);
-        match next[..count] {
-            [a, b, c, d] => add(y, [a, b, c, d]),
-            [a, b, c] => add(y, [a, b, c]),
-            [a, b] => add(y, [a, b]),
-            [a] => add(y, [a]),
-            _ => {}
-        }
-        if count < 4 {
-            return;
-        }
-    }
-}
-
-/// The next four terms at most, and their number.
-#[inline]
-fn next_four<'a>(terms: &mut impl Iterator<Item = Term<'a>>) -> ([Term<'a>; 4], usize) {
-    let mut four: [Term; 4] = [(0.0, &[]); 4];
+/// The same for a part of y, the entries from `first` on.
+fn accumulate_from(first: usize, y: &mut [f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
+    let len = k.first().map_or(0, |k| k.len().saturating_sub(first)).min(y.len());
+    let y = &mut y[..len];
+    let mut terms = [(0.0, &[][..]); 4];
     let mut count = 0;
-    for (place, term) in four.iter_mut().zip(terms) {
-        *place = term;
+    for (weight, k) in weights.iter().zip(k).filter(|(weight, _)| **weight != 0.0) {
+        terms[count] = (h * weight, &k[first.min(k.len())..]);
         count += 1;
+        if count == 4 {
+            add(y, terms);
+            count = 0;
+        }
     }
-    (four, count)
+    match terms[..count] {
+        [first, second, third] => add(y, [first, second, third]),
+        [first, second] => add(y, [first, second]),
+        [first] => add(y, [first]),
+        _ => {}
+    }
 }
 
 #[inline(always)]
-fn sum<const N: usize>(out: &mut [f64], y: &[f64], terms: [Term; N]) {
-    let y = &y[..out.len()];
-    let terms = terms.map(|(factor, k)| (factor, &k[..y.len()]));
-    for (i, out) in out.iter_mut().enumerate() {
-        *out = terms.iter().fold(y[i], |sum, (factor, k)| sum + factor * k[i]);
-    }
-}
-
-#[inline(always)]
-fn add<const N: usize>(y: &mut [f64], terms: [Term; N]) {
+fn add<const N: usize>(y: &mut [f64], terms: [(f64, &[f64]); N]) {
     let terms = terms.map(|(factor, k)| (factor, &k[..y.len()]));
     for (i, y) in y.iter_mut().enumerate() {
         for (factor, k) in terms {

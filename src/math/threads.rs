@@ -32,19 +32,20 @@ impl Drop for Before {
 
 /// Work that can be divided.
 pub trait Divisible: Sized + Send {
-    /// Two parts, or all of it and none.
-    fn divided(self) -> (Self, Option<Self>);
+    /// True if it is not to be divided any more.
+    fn is_whole(&self) -> bool;
+
+    /// Its two halves.
+    fn divided(self) -> [Self; 2];
 }
 
 impl<T: Send> Divisible for &mut [T] {
-    fn divided(self) -> (Self, Option<Self>) {
-        match self.len() {
-            0 | 1 => (self, None),
-            len => {
-                let (first, second) = self.split_at_mut(len / 2);
-                (first, Some(second))
-            }
-        }
+    fn is_whole(&self) -> bool {
+        self.len() < 2
+    }
+
+    fn divided(self) -> [Self; 2] {
+        self.split_at_mut(self.len() / 2).into()
     }
 }
 
@@ -52,30 +53,27 @@ impl<T: Send> Divisible for &mut [T] {
 /// after the other.
 #[inline]
 pub fn each<P: Divisible>(all: P, work: &(impl Fn(P) + Sync)) {
-    match all.divided() {
-        (all, None) => work(all),
-        (first, Some(second)) if IS_SPREAD.get() => both_at_once(first, second, work),
-        (first, Some(second)) => both_in_turn(first, second, work),
+    if all.is_whole() {
+        work(all)
+    } else if IS_SPREAD.get() {
+        at_once(all, work)
+    } else {
+        in_turn(all, work)
     }
-}
-
-fn both_at_once<P: Divisible>(first: P, second: P, work: &(impl Fn(P) + Sync)) {
-    rayon::join(|| at_once(first, work), || at_once(second, work));
 }
 
 fn at_once<P: Divisible>(all: P, work: &(impl Fn(P) + Sync)) {
-    match all.divided() {
-        (all, None) => work(all),
-        (first, Some(second)) => both_at_once(first, second, work),
+    if all.is_whole() {
+        return work(all);
     }
+    let [first, second] = all.divided();
+    rayon::join(|| at_once(first, work), || at_once(second, work));
 }
 
-fn both_in_turn<P: Divisible>(first: P, second: P, work: &impl Fn(P)) {
-    for half in [first, second] {
-        match half.divided() {
-            (all, None) => work(all),
-            (first, Some(second)) => both_in_turn(first, second, work),
-        }
+fn in_turn<P: Divisible>(all: P, work: &impl Fn(P)) {
+    match all.is_whole() {
+        true => work(all),
+        false => all.divided().into_iter().for_each(|half| in_turn(half, work)),
     }
 }
 

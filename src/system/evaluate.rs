@@ -48,12 +48,8 @@ pub(super) struct RigidParts<const D: usize> {
     pub general_joints: Vec<usize>,
     /// Values of M where they are constant, else zero.
     mass: Vec<f64>,
-    /// Indices of the bodies whose mass matrix varies.
-    varying_masses: Vec<usize>,
     /// Own forces of the bodies where they are constant, else zero.
     weight: Vec<f64>,
-    /// Indices of the bodies whose own forces vary.
-    varying_forces: Vec<usize>,
 }
 
 impl<const D: usize> RigidParts<D> {
@@ -78,19 +74,15 @@ impl<const D: usize> RigidParts<D> {
             bodies: BodyPortion::all(model, masses),
             joints: JointPortion::all(joints),
             mass: vec![0.0; masses.last().map_or(0, |last| last.end)],
-            varying_masses: Vec::new(),
             weight: vec![0.0; model.bodies.last().map_or(0, |last| last.first_v + last.nv)],
-            varying_forces: Vec::new(),
         };
-        for (i, (part, places)) in model.bodies.iter().zip(masses).enumerate() {
+        for (part, places) in model.bodies.iter().zip(masses) {
             let (q, v) = (vec![0.0; part.nq], vec![0.0; part.nv]);
-            match part.body.has_constant_mass() {
-                true => part.body.mass(&q, &mut parts.mass[places.clone()]),
-                false => parts.varying_masses.push(i),
+            if part.body.has_constant_mass() {
+                part.body.mass(&q, &mut parts.mass[places.clone()]);
             }
-            match part.body.has_constant_forces() {
-                true => part.body.own_forces(&q, &v, &model.gravity, &mut parts.weight[part.first_v..][..part.nv]),
-                false => parts.varying_forces.push(i),
+            if part.body.has_constant_forces() {
+                part.body.own_forces(&q, &v, &model.gravity, &mut parts.weight[part.first_v..][..part.nv]);
             }
         }
         parts
@@ -169,11 +161,13 @@ impl<const D: usize> Mechanism<D> {
             }
         });
         if need.includes(Need::FORCE) {
-            let bodies = self.rigid.varying_forces.iter().map(|&body| &self.model().bodies[body]);
+            let bodies = self.rigid.bodies.iter().flat_map(|portion| &portion.varying_forces);
+            let bodies = bodies.map(|&body| &self.model().bodies[body]);
             terms.power = bodies.fold(0.0, |power, part| power - part.body.dissipation(of(v, part, false)));
         }
     }
 
+    #[inline]
     fn write_portion(&self, portion: &BodyPortion, (q, v): (&[f64], &[f64]), need: Need, terms: &mut BodyTerms<D>) {
         if need.includes(Need::MASS) {
             self.write_mass(portion, q, terms.mass);
@@ -214,7 +208,7 @@ impl<const D: usize> Mechanism<D> {
 
     fn write_mass(&self, portion: &BodyPortion, q: &[f64], mass: &mut [f64]) {
         mass.copy_from_slice(&self.rigid.mass[portion.masses.clone()]);
-        for &body in within(&self.rigid.varying_masses, &portion.bodies) {
+        for &body in &portion.varying_masses {
             let (part, Range { start, end }) = (&self.model().bodies[body], self.masses[body].clone());
             part.body.mass(of(q, part, true), &mut mass[start - portion.masses.start..end - portion.masses.start]);
         }
@@ -222,7 +216,7 @@ impl<const D: usize> Mechanism<D> {
 
     fn own_forces(&self, portion: &BodyPortion, (q, v): (&[f64], &[f64]), f: &mut [f64]) {
         f.copy_from_slice(&self.rigid.weight[portion.v.clone()]);
-        for &body in within(&self.rigid.varying_forces, &portion.bodies) {
+        for &body in &portion.varying_forces {
             let part = &self.model().bodies[body];
             let f = &mut f[part.first_v - portion.v.start..][..part.nv];
             part.body.own_forces(of(q, part, true), of(v, part, false), &self.model().gravity, f);
@@ -313,10 +307,4 @@ fn as_lock<const D: usize>(form: Option<ClosedForm<D>>) -> Option<Lock<D>> {
         Some(ClosedForm::Lock(lock)) => Some(lock),
         _ => None,
     }
-}
-
-/// Those of increasing numbers that are in the range.
-fn within<'a>(numbers: &'a [usize], range: &Range<usize>) -> &'a [usize] {
-    let place = |number: usize| numbers.partition_point(|&other| other < number);
-    &numbers[place(range.start)..place(range.end)]
 }

@@ -16,6 +16,9 @@ pub(super) struct BodyPortion {
     pub markers: Range<usize>,
     pub v: Range<usize>,
     pub masses: Range<usize>,
+    /// The bodies whose mass matrix varies, and those whose own forces do.
+    pub varying_masses: Vec<usize>,
+    pub varying_forces: Vec<usize>,
 }
 
 impl BodyPortion {
@@ -33,6 +36,8 @@ impl BodyPortion {
                 v: own.first_v..last.first_v + last.nv,
                 masses: masses[first].start..masses[bodies.end - 1].end,
                 markers: before..markers,
+                varying_masses: bodies.clone().filter(|&i| !model.bodies[i].body.has_constant_mass()).collect(),
+                varying_forces: bodies.clone().filter(|&i| !model.bodies[i].body.has_constant_forces()).collect(),
                 bodies,
             });
         }
@@ -51,16 +56,20 @@ pub(super) struct BodyTerms<'a, const D: usize> {
 }
 
 impl<const D: usize> Divisible for BodyTerms<'_, D> {
-    fn divided(self) -> (Self, Option<Self>) {
+    fn is_whole(&self) -> bool {
+        self.portions.len() < 2
+    }
+
+    fn divided(self) -> [Self; 2] {
         let (portions, others) = self.portions.split_at(self.portions.len() / 2);
-        let (Some(first), Some(next)) = (portions.first(), others.first()) else { return (self, None) };
+        let (first, next) = (&portions[0], &others[0]);
         let poses = self.poses.split_at_mut(next.bodies.start - first.bodies.start);
         let markers = self.motion.len().min(next.markers.start - first.markers.start);
         let motion = self.motion.split_at_mut(markers);
         let mass = self.mass.split_at_mut(next.masses.start - first.masses.start);
         let f = self.f.split_at_mut(next.v.start - first.v.start);
-        let second = BodyTerms { portions: others, poses: poses.1, motion: motion.1, mass: mass.1, f: f.1 };
-        (BodyTerms { portions, poses: poses.0, motion: motion.0, mass: mass.0, f: f.0 }, Some(second))
+        let own = BodyTerms { portions, poses: poses.0, motion: motion.0, mass: mass.0, f: f.0 };
+        [own, BodyTerms { portions: others, poses: poses.1, motion: motion.1, mass: mass.1, f: f.1 }]
     }
 }
 
@@ -106,16 +115,19 @@ impl<'a, const D: usize> JointsTerms<'a, D> {
 }
 
 impl<const D: usize> Divisible for JointsTerms<'_, D> {
-    fn divided(self) -> (Self, Option<Self>) {
+    fn is_whole(&self) -> bool {
+        self.portions.len() < 2
+    }
+
+    fn divided(self) -> [Self; 2] {
         let (portions, others) = self.portions.split_at(self.portions.len() / 2);
-        let (Some(first), Some(next)) = (portions.first(), others.first()) else { return (self, None) };
+        let (first, next) = (&portions[0], &others[0]);
         let (rows, entries) = (next.first_row - first.first_row, next.first_entry - first.first_entry);
         let JointTerms { phi, phi_dot, phi_t, gamma, g } = self.terms;
-        let levels = [phi, phi_dot, phi_t, gamma].map(|level| level.split_at_mut(rows));
-        let [phi, phi_dot, phi_t, gamma] = levels;
+        let [phi, phi_dot, phi_t, gamma] = [phi, phi_dot, phi_t, gamma].map(|level| level.split_at_mut(rows));
         let g = g.split_at_mut(entries);
-        let terms = JointTerms { phi: phi.0, phi_dot: phi_dot.0, phi_t: phi_t.0, gamma: gamma.0, g: g.0 };
-        let second = JointTerms { phi: phi.1, phi_dot: phi_dot.1, phi_t: phi_t.1, gamma: gamma.1, g: g.1 };
-        (JointsTerms { portions, terms }, Some(JointsTerms { portions: others, terms: second }))
+        let own = JointTerms { phi: phi.0, phi_dot: phi_dot.0, phi_t: phi_t.0, gamma: gamma.0, g: g.0 };
+        let rest = JointTerms { phi: phi.1, phi_dot: phi_dot.1, phi_t: phi_t.1, gamma: gamma.1, g: g.1 };
+        [JointsTerms { portions, terms: own }, JointsTerms { portions: others, terms: rest }]
     }
 }

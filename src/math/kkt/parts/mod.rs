@@ -51,15 +51,16 @@ struct Collection<'a> {
 }
 
 impl Divisible for Collection<'_> {
-    fn divided(self) -> (Self, Option<Self>) {
+    fn is_whole(&self) -> bool {
+        self.shares.len() < 2
+    }
+
+    fn divided(self) -> [Self; 2] {
         let (shares, others) = self.shares.split_at(self.shares.len() / 2);
-        if shares.is_empty() {
-            return (self, None);
-        }
         let sizes = shares.iter().map(Share::sizes).fold([0, 0], |[n, m], [own, rows]| [n + own, m + rows]);
         let (top, bottom) = (self.top.split_at_mut(sizes[0]), self.bottom.split_at_mut(sizes[1]));
-        let second = Collection { shares: others, top: top.1, bottom: bottom.1 };
-        (Collection { shares, top: top.0, bottom: bottom.0 }, Some(second))
+        let first = Collection { shares, top: top.0, bottom: bottom.0 };
+        [first, Collection { shares: others, top: top.1, bottom: bottom.1 }]
     }
 }
 

@@ -40,9 +40,8 @@ fn agrees(sample: &Sample, late: &[bool], levers: &[Lever], random: &mut Random)
     let (r1, r2) = right_side(sample, random);
     for count in [2, 3, 4, 8] {
         let [(expected, _), (found, _)] = both(sample, (late, levers), (&r1, &r2), (count, Rule::STRICT));
-        eprintln!("DIST {count} {:e}", distance(&found, &expected));
-        // Round-off of some hundred operations, times condition numbers of up to 1e5 in long chains.
-        assert!(distance(&found, &expected) < 1e-9, "{count}: {:e}", distance(&found, &expected));
+        // Round-off of some hundred operations in another order.
+        assert!(distance(&found, &expected) < 1e-13, "{count}: {:e}", distance(&found, &expected));
     }
 }
 
@@ -112,9 +111,8 @@ fn as_many_rows_are_dropped_in_parts() {
     for count in [2, 4] {
         let [expected, found] = both(&sample, (&[false; 360], &[]), (&r1, &r2), (count, rule));
         assert_eq!((found.1.len(), expected.1.len()), (4, 4));
-        eprintln!("DIST drop {count} {:e}", distance(&found.0[..360], &expected.0[..360]));
-        // Multipliers of dependent rows are any of many, the motion is the same.
-        assert!(distance(&found.0[..360], &expected.0[..360]) < 1e-9);
+        // Multipliers of dependent rows are any of many, the motion is the same, to round-off as above.
+        assert!(distance(&found.0[..360], &expected.0[..360]) < 1e-13);
     }
 }
 
