@@ -25,6 +25,10 @@ impl Divisible for Section<'_> {
 
 /// out = y + h sum_j weights_j k_j
 pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
+    if out.len() < 2 * NUMBERS_OF_A_PORTION {
+        out.copy_from_slice(y);
+        return accumulate(out, h, weights, k);
+    }
     each(Section { first: 0, out }, &|Section { first, out }| {
         out.copy_from_slice(&y[first..][..out.len()]);
         accumulate_from(first, out, h, weights, k);
@@ -46,6 +50,7 @@ pub(super) fn accumulate(y: &mut [f64], h: f64, weights: &[f64], k: &[Vec<f64>])
 }
 
 /// The same for a part of y, the entries from `first` on.
+#[inline(always)]
 fn accumulate_from(first: usize, y: &mut [f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
     let len = k.first().map_or(0, |k| k.len().saturating_sub(first)).min(y.len());
     let y = &mut y[..len];

@@ -125,8 +125,9 @@ impl<const D: usize> Mechanism<D> {
                 if need.includes(Need::CONSTRAINTS) {
                     terms.phi_t.fill(0.0);
                 }
-                let joints = portions.iter().flat_map(|portion| &portion.joints);
-                joints.for_each(|joint| joint.evaluate(&work.poses, need, &mut terms));
+                for portion in portions {
+                    portion.joints.iter().for_each(|joint| joint.evaluate(&work.poses, need, &mut terms));
+                }
             });
             self.general_joints(time, q, need, work, terms);
         }
@@ -161,9 +162,11 @@ impl<const D: usize> Mechanism<D> {
             }
         });
         if need.includes(Need::FORCE) {
-            let bodies = self.rigid.bodies.iter().flat_map(|portion| &portion.varying_forces);
-            let bodies = bodies.map(|&body| &self.model().bodies[body]);
-            terms.power = bodies.fold(0.0, |power, part| power - part.body.dissipation(of(v, part, false)));
+            terms.power = 0.0;
+            for portion in &self.rigid.bodies {
+                let bodies = portion.varying_forces.iter().map(|&body| &self.model().bodies[body]);
+                bodies.for_each(|part| terms.power -= part.body.dissipation(of(v, part, false)));
+            }
         }
     }
 
