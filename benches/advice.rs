@@ -172,10 +172,16 @@ fn cost(result: &WorkPrecision, legs: &[Leg]) -> Option<f64> {
     let is_known = |cell: &Cell| cell.is_explicit && cell.method.formulation.name == "index1" && cell.cost.is_some();
     let has_explicit = result.cells.iter().any(is_known);
     for Leg { method, statistics, trials, .. } in legs {
-        let is_explicit = method.integrator.name != "radau_iia";
-        for (is_explicit, work) in [(is_explicit, statistics), (!is_explicit, trials)] {
-            let is_explicit = is_explicit && has_explicit;
-            let (formulation, integrator) = if is_explicit { ("index1", "dop853") } else { ("ggl", "radau_iia") };
+        let own = [(&method.integrator.name, statistics)];
+        let tried = trials.iter().map(|trial| (&trial.integrator, &trial.statistics));
+        for (integrator, work) in own.into_iter().chain(tried) {
+            let is_implicit = ["radau_iia", "bdf"].contains(&integrator.as_str());
+            let (formulation, integrator) = match is_implicit {
+                true => ("ggl", integrator.as_str()),
+                false if has_explicit => ("index1", "dop853"),
+                false => ("ggl", "radau_iia"),
+            };
+            let is_explicit = !is_implicit && has_explicit;
             let (formulation, integrator) = (MethodSpec::named(formulation), MethodSpec::named(integrator));
             priced.cells.push(unpriced(Method { formulation, integrator, ..method.clone() }, is_explicit, *work));
         }

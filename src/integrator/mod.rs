@@ -148,6 +148,11 @@ pub trait Integrator {
         1.0
     }
 
+    /// True if an output row within a step is a step of its own.
+    fn rows_are_steps(&self) -> bool {
+        false
+    }
+
     /// The polynomial of a method that interpolates by one, through both ends of a step with their slopes. Default: none.
     fn polynomial(&mut self) -> Option<&mut Hermite> {
         None

@@ -75,7 +75,7 @@ impl Chosen {
             method: longest.map_or(&prepared.method, |(leg, _)| &leg.method).clone(),
             chosen_because: longest.map(|(leg, _)| leg.because.clone()),
             legs: if legs.len() > 1 { legs.to_vec() } else { Vec::new() },
-            trials: legs.iter().map(|leg| leg.trials).reduce(|sum, trials| sum + trials),
+            trials: legs.iter().map(Leg::tried).reduce(|sum, trials| sum + trials),
         }
     }
 

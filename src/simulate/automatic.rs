@@ -1,16 +1,17 @@
-//! `--method auto`: choice between an explicit and an implicit method during the run, by the time simulated per work.
+//! `--method auto`: choice between explicit and implicit methods during the run, by the time simulated per work.
 //!
 //! An explicit method begins. Whenever the work since the last comparison has doubled, and wherever a run stops, the
-//! other method may try from there ([`Contest`]); the better one continues. So the total cost is at most a few times
-//! that of the better method on each part of the motion. Work is counted in evaluations: a run is repeatable bit by
-//! bit. A method that takes over early begins at the start: errors of explicit steps are too small to matter, and still
-//! far from the slow motion in the norm of the stiff forces that an implicit method would have to follow.
+//! others may try from there ([`Contest`]); the best one continues. So the total cost is at most a few times that of
+//! the best method on each part of the motion. Work is counted in evaluations: a run is repeatable bit by bit. An
+//! implicit method that takes over early begins at the start: errors of explicit steps are too small to matter, and
+//! still far from the slow motion in the norm of the stiff forces that it would have to follow.
 
 use super::checkpoint::flat;
-use super::contest::{Contest, Mark, Quiet, unseen};
+use super::contest::{Contest, Mark, Quiet, View, unseen};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, short};
 use crate::formulation::Statistics;
+use crate::integrator;
 use crate::math::expression::Switch;
 use crate::method_spec::MethodSpec;
 use crate::system::MechanicalSystem;
@@ -29,8 +30,17 @@ pub struct Leg {
     pub because: String,
     /// Work of the method itself.
     pub statistics: Statistics,
-    /// Work of the other method, which was tried.
-    pub trials: Statistics,
+    /// Work of the other methods, which were tried.
+    pub trials: Vec<Trial>,
+}
+
+/// Work of a method that was tried.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Trial {
+    /// Its integrator.
+    pub integrator: String,
+    /// Work of all its trials.
+    pub statistics: Statistics,
 }
 
 const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
@@ -41,19 +51,23 @@ fn method([formulation, integrator, projection]: [&str; 3], (rtol, atol): (f64, 
     Method { formulation, integrator, projection, rtol, atol, step: None }
 }
 
-/// The implicit method, without a stability limit.
+/// The implicit method that solves whatever is given to it: L-stable, of high order.
 fn implicit(tolerances: (f64, f64)) -> Method {
-    method(["ggl", IMPLICIT, "none"], tolerances)
+    method(["ggl", "radau_iia", "none"], tolerances)
 }
 
-const IMPLICIT: &str = "radau_iia";
+/// Index of the method that a run begins with among the candidates.
+const FIRST: usize = 0;
 
-/// Index of the explicit method among the candidates.
-const EXPLICIT: usize = 0;
-
-/// The explicit method that a run begins with, and the one that may take over.
-fn candidates(system: &dyn MechanicalSystem, tolerances: (f64, f64)) -> [Method; 2] {
-    [method(["index1", explicit(system, tolerances.0), "manifold"], tolerances), implicit(tolerances)]
+/// The explicit method that a run begins with, and those that may take over: where stability limits the steps, those of
+/// `dop853` are three times as long for the same work as those of `adams`; `bdf` takes the least work a step, but
+/// oscillations that its orders 3 to 5 are not stable for shorten its steps.
+fn candidates(system: &dyn MechanicalSystem, tolerances: (f64, f64)) -> Vec<Method> {
+    let first = explicit(system, tolerances.0);
+    let explicit = |integrator| method(["index1", integrator, "manifold"], tolerances);
+    let mut all = vec![explicit(first), method(["ggl", "bdf", "none"], tolerances), implicit(tolerances)];
+    all.extend((first != "dop853").then(|| explicit("dop853")));
+    all
 }
 
 /// At tight tolerances `adams` takes half of the evaluations of `dop853`, unless it begins anew again and again, or a
@@ -78,7 +92,8 @@ pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: 
     drive.contest
 }
 
-/// The one method for a motion from (q, v) over `span`, chosen at its beginning, and the reason.
+/// The one method for a motion from (q, v) over `span`, chosen at its beginning from the explicit method that a run
+/// would begin with and `radau_iia`, and the reason.
 ///
 /// # Errors
 /// Bad input only: tolerances that are not positive.
@@ -88,12 +103,12 @@ pub fn advise(
     span: Span,
     start: (&[f64], &[f64]),
 ) -> Result<(Method, String)> {
-    let methods = candidates(system, tolerances);
-    methods[EXPLICIT].check()?;
+    let methods = [candidates(system, tolerances).swap_remove(FIRST), implicit(tolerances)];
+    methods[FIRST].check()?;
     let mut drive = Drive::new(system, &methods, unseen(span), start)?;
     if let Err(Failure { reason, .. }) = drive.run.begin(&mut Quiet(None)) {
         // Any method fails so: the run will report it at its start.
-        return Ok((methods[EXPLICIT].clone(), format!("nothing was tried: {reason}")));
+        return Ok((methods[FIRST].clone(), format!("nothing was tried: {reason}")));
     }
     drive.go(&mut Quiet(None), |drive, mark, changes| !changes && drive.is_known(mark))?;
     let Leg { method, because, .. } = drive.leg;
@@ -101,7 +116,7 @@ pub fn advise(
 }
 
 /// Integrates `system` from (q, v), which should be consistent, over `span`, with these `tolerances`: begins with an
-/// explicit method, and changes the method where the other is faster. Returns the methods in their order, and a
+/// explicit method, and changes the method where another is faster. Returns the methods in their order, and a
 /// checkpoint from which a run of the last one can be continued.
 ///
 /// # Errors
@@ -115,7 +130,7 @@ pub fn simulate_automatic(
 ) -> Result<(Outcome, Vec<Leg>, Option<Checkpoint>)> {
     span.check()?;
     let methods = candidates(system, tolerances);
-    methods[EXPLICIT].check()?;
+    methods[FIRST].check()?;
     let mut drive = Drive::new(system, &methods, span, start)?;
     let begun = drive.run.begin(sink);
     let has_begun = begun.is_ok();
@@ -131,7 +146,7 @@ pub fn simulate_automatic(
 /// A run that may change its method.
 struct Drive<'a> {
     system: &'a dyn MechanicalSystem,
-    methods: &'a [Method; 2],
+    methods: &'a [Method],
     span: Span,
     /// The flat state at the start.
     start: Vec<f64>,
@@ -141,8 +156,10 @@ struct Drive<'a> {
     stopped: usize,
     /// Work until the next comparison, in evaluations.
     window: f64,
-    /// Result of the last trial.
+    /// Result of the best of the last trials.
     contest: Option<Contest>,
+    /// Methods that are not tried at the next comparison.
+    sits_out: Vec<bool>,
     /// The legs before, and that of the present method.
     legs: Vec<Leg>,
     leg: Leg,
@@ -151,18 +168,19 @@ struct Drive<'a> {
 impl<'a> Drive<'a> {
     fn new(
         system: &'a dyn MechanicalSystem,
-        methods: &'a [Method; 2],
+        methods: &'a [Method],
         span: Span,
         (q, v): (&[f64], &[f64]),
     ) -> Result<Self> {
         let start = flat(system, q, v);
-        let run = Run::new(system, &methods[EXPLICIT], span, start.clone())?;
-        let leg = Leg::of(span.start, &methods[EXPLICIT], CALM.to_string());
-        let (carrier, stopped, window, contest, legs) = (EXPLICIT, 0, tolerances::IMPLICIT_TRIED, None, Vec::new());
-        Ok(Drive { system, methods, span, start, run, carrier, stopped, window, contest, legs, leg })
+        let run = Run::new(system, &methods[FIRST], span, start.clone())?;
+        let leg = Leg::of(span.start, &methods[FIRST], CALM.to_string());
+        let (carrier, stopped, window, contest, legs) = (FIRST, 0, tolerances::IMPLICIT_TRIED, None, Vec::new());
+        let sits_out = vec![false; methods.len()];
+        Ok(Drive { system, methods, span, start, run, carrier, stopped, window, contest, sits_out, legs, leg })
     }
 
-    /// Continues to the end, to a failure that both methods have, or until `is_enough`, which is called after each
+    /// Continues to the end, to a failure that all methods have, or until `is_enough`, which is called after each
     /// comparison with the mark from which the work is measured, and true if the method should change.
     fn go(&mut self, sink: &mut dyn Sink, is_enough: impl Fn(&Self, Mark, bool) -> bool) -> Result<Option<Failure>> {
         let (mut mark, mut failure) = (self.run.mark(), None);
@@ -180,7 +198,7 @@ impl<'a> Drive<'a> {
             }
             let wins = failure.is_none();
             failure = match next {
-                Some((next, because)) if wins && self.is_early() => self.begin_again(next, because, sink)?,
+                Some((next, because)) if wins && self.begins_again(next)? => self.begin_again(next, because, sink)?,
                 Some((next, because)) => self.change(next, because)?,
                 None => None,
             };
@@ -202,26 +220,68 @@ impl<'a> Drive<'a> {
         self.window > tolerances::ADVICE_WORK || self.run.has_shown_itself(mark)
     }
 
-    /// The other method and the reason, if it should continue: after the work since `mark`, or after a failure.
+    fn is_explicit(&self, place: usize) -> Result<bool> {
+        Ok(integrator::find(&self.methods[place].integrator)?.follows_fields())
+    }
+
+    /// Another method and the reason, if it should continue: after the work since `mark`, or after a failure.
     fn look(&mut self, mark: Mark, failure: Option<&Failure>) -> Result<Option<(usize, String)>> {
-        let place = 1 - self.carrier;
-        let [own, other] = [self.carrier, place].map(|place| &self.methods[place]);
-        let names = [own, other].map(|method| method.integrator.name.as_str());
+        let own = &self.methods[self.carrier];
         if let Some(Failure { t, reason, .. }) = failure {
             let because = format!("{} stopped at t = {} s: {reason}", own.triple(), clock(*t));
-            return Ok(Some((place, because)));
+            return Ok(Some(((self.carrier + 1) % self.methods.len(), because)));
         }
-        let Some(hindered) = self.run.hindered(mark) else { return Ok(None) };
-        let (contest, work) = self.run.contest(mark, hindered, other, self.system)?;
+        let Some((place, contest)) = self.best(mark)? else { return Ok(None) };
         self.contest = Some(contest);
-        self.leg.trials = self.leg.trials + work;
-        let wins = contest.gain
-            > if self.carrier == EXPLICIT { tolerances::IMPLICIT_WORTH } else { tolerances::EXPLICIT_WORTH };
-        let because = words(&contest, names, wins);
+        let kinds = [self.is_explicit(self.carrier)?, self.is_explicit(place)?];
+        let wins = contest.gain > if kinds[0] { tolerances::WORTH } else { tolerances::WORTH_AFTER_IMPLICIT };
+        let because = words(&contest, [own, &self.methods[place]], kinds, wins);
         if !wins && self.leg.because == CALM {
             self.leg.because.clone_from(&because);
         }
         Ok(wins.then_some((place, because)))
+    }
+
+    /// The method that comes farthest in a trial from here. An explicit method tries where the length of the steps
+    /// allows for one, and any instead of one whose steps may be limited by stability; one that was hopelessly behind
+    /// sits out the next comparison, and one that is far ahead is not compared with others before it has shown more.
+    fn best(&mut self, mark: Mark) -> Result<Option<(usize, Contest)>> {
+        if !self.run.leaves_trials(mark, 1) {
+            return Ok(None);
+        }
+        let Some(view) = self.run.view(mark) else { return Ok(None) };
+        let rivals = self.rivals(view)?;
+        if !self.run.leaves_trials(mark, rivals.len()) {
+            return Ok(None);
+        }
+        let mut best: Option<(usize, Contest)> = None;
+        for &place in &rivals {
+            let least = best.map_or(1.0, |(_, contest)| contest.gain.max(1.0));
+            if std::mem::take(&mut self.sits_out[place]) || least > tolerances::FAR_AHEAD {
+                continue;
+            }
+            let method = &self.methods[place];
+            let tried = self.run.contest(mark, view, (rivals.len(), least), method, self.system)?;
+            let Some((contest, work)) = tried else { continue };
+            self.leg.add(method, work);
+            self.sits_out[place] = contest.gain < tolerances::NO_ALTERNATIVE;
+            if best.is_none_or(|(_, best)| contest.gain > best.gain) {
+                best = Some((place, contest));
+            }
+        }
+        Ok(best)
+    }
+
+    /// The methods that may be better than the present one.
+    fn rivals(&self, view: View) -> Result<Vec<usize>> {
+        let carrier = self.is_explicit(self.carrier)?;
+        let mut rivals = Vec::new();
+        for place in (0..self.methods.len()).filter(|place| *place != self.carrier) {
+            if view.is_between || !carrier && !self.is_explicit(place)? {
+                rivals.push(place);
+            }
+        }
+        Ok(rivals)
     }
 
     /// Continues the motion with another method.
@@ -231,10 +291,11 @@ impl<'a> Drive<'a> {
         Ok(self.run.go_on(&before.problem.dynamics.dropped, before.h).err())
     }
 
-    /// True if the motion so far costs another method little: it may begin at the start, where no errors of steps of
-    /// the first method excite stiff modes, which it would have to follow.
-    fn is_early(&self) -> bool {
-        self.legs.is_empty() && self.run.t - self.span.start < tolerances::BEGINNING * (self.span.end - self.span.start)
+    /// True if the motion so far costs an implicit method little: it may begin at the start, where no errors of steps
+    /// of the first method excite stiff modes, which it would have to follow.
+    fn begins_again(&self, place: usize) -> Result<bool> {
+        let is_early = self.run.t - self.span.start < tolerances::BEGINNING * (self.span.end - self.span.start);
+        Ok(is_early && self.legs.is_empty() && !self.is_explicit(place)?)
     }
 
     /// Continues the motion with another method, which comes to the present time from the start, unseen. From the
@@ -243,7 +304,7 @@ impl<'a> Drive<'a> {
         let mut next = Run::new(self.system, &self.methods[carrier], self.span, self.start.clone())?;
         let mut quiet = Quiet(Some(sink));
         if next.begin(&mut quiet).is_err() || !next.comes_to(&self.run, &mut quiet) {
-            self.leg.trials = self.leg.trials + next.statistics();
+            self.leg.add(&self.methods[carrier], next.statistics());
             return self.change(carrier, because);
         }
         self.replace(next, carrier, format!("{because}; it began again at the start"));
@@ -275,21 +336,40 @@ impl Leg {
 
     /// A leg before any work.
     fn of(from: f64, method: &Method, because: String) -> Self {
-        let none = Statistics::default();
-        Leg { from, method: method.clone(), because, statistics: none, trials: none }
+        Leg { from, method: method.clone(), because, statistics: Statistics::default(), trials: Vec::new() }
+    }
+
+    /// Counts the work of a trial.
+    fn add(&mut self, method: &Method, work: Statistics) {
+        let integrator = &method.integrator.name;
+        match self.trials.iter_mut().find(|trial| trial.integrator == *integrator) {
+            Some(trial) => trial.statistics = trial.statistics + work,
+            None => self.trials.push(Trial { integrator: integrator.clone(), statistics: work }),
+        }
+    }
+
+    /// Work of all trials.
+    pub fn tried(&self) -> Statistics {
+        self.trials.iter().fold(Statistics::default(), |sum, trial| sum + trial.statistics)
     }
 }
 
 const FILTER: &str = ". Where only the slow motion is wanted, generalized_alpha on ggl damps the oscillation away";
 
-fn words(Contest { t, mode, step, gain }: &Contest, [own, other]: [&str; 2], wins: bool) -> String {
+fn words(
+    Contest { t, mode, step, gain }: &Contest,
+    [own, other]: [&Method; 2],
+    are_explicit: [bool; 2],
+    wins: bool,
+) -> String {
     let two = |x: f64| short(format!("{x:.1e}").parse().unwrap_or(x));
-    let kind = match (other == IMPLICIT, wins) {
-        (true, true) => "stiff",
-        (true, false) if *gain < tolerances::NO_ALTERNATIVE => "not stiff",
-        (true, false) => "fast, not stiff",
-        (_, true) => "no longer stiff",
-        _ => "stiff",
+    let [own, other] = [own, other].map(|method| &method.integrator.name);
+    let kind = match (are_explicit, wins) {
+        ([true, false], true) => "stiff",
+        ([true, _], false) if *gain < tolerances::NO_ALTERNATIVE => "not stiff",
+        ([true, _], _) => "fast, not stiff",
+        ([false, true], true) => "no longer stiff",
+        ([false, _], _) => "stiff",
     };
     let verdict = if wins { "comes" } else { "comes only" };
     let filter = if kind == "fast, not stiff" { FILTER } else { "" };

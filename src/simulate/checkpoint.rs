@@ -11,8 +11,8 @@ use crate::system::{MechanicalSystem, OperatingPoint};
 use serde::{Deserialize, Serialize};
 
 /// The values that a run carries from one accepted step to the next: the state, and the adaptive quantities. A run of
-/// the same method and span that continues from here is bit by bit the uninterrupted one; where an attempt was refused,
-/// or a step left among its rows, that of some methods within the tolerance only. JSON preserves it exactly.
+/// the same method and span that continues from here is bit by bit the uninterrupted one; a step that was left among its
+/// rows it takes again, and counts twice. JSON preserves it exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     method: Method,

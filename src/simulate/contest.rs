@@ -1,4 +1,4 @@
-//! Comparison of two methods on the same part of a motion.
+//! Comparison of methods on the same part of a motion.
 //!
 //! A spectrum does not predict the cost of a method: a mesh has modes of all speeds, some not excited, and rotating
 //! directions can limit implicit steps as much as stability limits explicit ones. A trial decides: the method that
@@ -26,6 +26,18 @@ impl Mark {
     fn pace(&self, since: Mark) -> f64 {
         (self.t - since.t) / (self.work - since.work).max(1.0)
     }
+}
+
+/// What decides whether others try.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// The fastest mode of the state, 1/s.
+    pub mode: SpectralMode,
+    /// Mean step, s.
+    pub step: f64,
+    /// True if steps are of a length at which both kinds of methods may be the better one: those of an explicit method
+    /// so long that stability may limit them, those of an implicit one no longer than many stable ones.
+    pub is_between: bool,
 }
 
 /// Result of a trial.
@@ -73,10 +85,14 @@ impl Run<'_> {
         came && self.meet_change().is_ok()
     }
 
+    /// Work of an evaluation.
+    fn price(&self) -> f64 {
+        if self.is_explicit { 1.0 } else { tolerances::IMPLICIT_WORK }
+    }
+
     pub fn mark(&self) -> Mark {
         let Statistics { steps, rhs_evaluations, rows, .. } = self.statistics();
-        let price = if self.is_explicit { 1.0 } else { tolerances::IMPLICIT_WORK };
-        let [own, rows] = [rhs_evaluations, rows.rhs_evaluations].map(|count| price * count as f64);
+        let [own, rows] = [rhs_evaluations, rows.rhs_evaluations].map(|count| self.price() * count as f64);
         Mark { t: self.t, work: own + rows, rows, steps }
     }
 
@@ -128,12 +144,13 @@ impl Run<'_> {
         (self.t - mark.t) / (self.mark().steps - mark.steps).max(1) as f64
     }
 
-    /// The fastest mode of the state and the mean step since `mark`, if the steps are long enough for the kind of
-    /// method to matter, and enough work remains.
-    pub fn hindered(&self, mark: Mark) -> Option<(SpectralMode, f64)> {
-        if tolerances::TRIAL_SHARE * self.left(mark) < tolerances::TRIAL_WORK || self.rows_decide(mark) {
-            return None;
-        }
+    /// True if enough work remains for the trials of so many methods.
+    pub fn leaves_trials(&self, mark: Mark, rivals: usize) -> bool {
+        tolerances::TRIAL_SHARE * self.left(mark) >= rivals as f64 * tolerances::TRIAL_WORK
+    }
+
+    /// The fastest mode of the state and the mean step since `mark`.
+    pub fn view(&self, mark: Mark) -> Option<View> {
         let step = self.step_since(mark);
         let (system, (q, v)) = (self.problem.dynamics.system, self.problem.split(&self.y));
         let mut dynamics = Dynamics::new(system);
@@ -143,51 +160,65 @@ impl Run<'_> {
         let limit =
             stability.as_ref().map_or(tolerances::STABLE_STEP, |stability| stability.limit(mode.decay, mode.swing));
         let part = step * mode.rate() / limit;
-        let matters =
+        let is_between =
             if self.is_explicit { part > tolerances::STABILITY_HOLDS } else { part < tolerances::EXPLICIT_AGAIN };
-        matters.then_some((mode, step))
+        Some(View { mode, step, is_between })
     }
 
-    /// True if output rows alone would cost an implicit method more than it could save.
-    fn rows_decide(&self, mark: Mark) -> bool {
-        let row = tolerances::IMPLICIT_WORK * tolerances::IMPLICIT_ROW;
-        self.is_explicit && self.span.output_step < tolerances::IMPLICIT_WORTH * row * self.mark().pace(mark)
+    /// True if output rows alone would cost the method of `rival` more than it could save.
+    fn rows_decide(&self, mark: Mark, rival: &Run) -> bool {
+        let row = if rival.integrator.rows_are_steps() { tolerances::IMPLICIT_ROW } else { 1.0 };
+        self.is_explicit && self.span.output_step < tolerances::WORTH * row * rival.price() * self.mark().pace(mark)
     }
 
     /// Time simulated since `mark` per unit of work, with steps that are `growth` times as long and with the work of
-    /// output rows that were not made: one of an implicit method is a step of its own, one of an explicit method about
-    /// an evaluation.
+    /// output rows that were not made: about an evaluation each where they are no steps of their own.
     fn pace_with_rows(&self, mark: Mark, growth: f64, output_step: f64) -> f64 {
         let now = self.mark();
         let (time, work) = (growth * (now.t - mark.t), now.work - mark.work);
-        let row = if self.is_explicit { 1.0 } else { work / (now.steps - mark.steps).max(1) as f64 };
+        let row = match self.integrator.rows_are_steps() {
+            true => work / (now.steps - mark.steps).max(1) as f64,
+            false => self.price(),
+        };
         time / (work + time / output_step * row).max(1.0)
     }
 
     /// Lets `other` try from the state of this run, whose pace since `mark` is known. Its output rows are not made, but
-    /// estimated. Returns the result and the work of the trial.
+    /// estimated. While its steps grow it goes on, up to all work so far, unless it is hopelessly behind the pace of this
+    /// run times `least`. `rivals` share the work of trials. Returns the result and the work of the trial; `None` where its output rows leave nothing to try.
     pub fn contest(
         &self,
         mark: Mark,
-        (mode, step): (SpectralMode, f64),
+        View { mode, step, .. }: View,
+        (rivals, least): (usize, f64),
         other: &Method,
         system: &dyn MechanicalSystem,
-    ) -> Result<(Contest, Statistics)> {
+    ) -> Result<Option<(Contest, Statistics)>> {
         let own = self.mark();
         let share = |work: f64| tolerances::TRIAL_SHARE * work;
-        let (budget, most) = (tolerances::TRIAL_WORK.max(share(own.work - mark.work)), share(self.left(mark)));
+        let budget = tolerances::TRIAL_WORK.max(share(own.work - mark.work) / rivals as f64);
+        let most = share(self.left(mark)).min(own.work);
         let mut rival = self.rival(other, system, unseen(self.span))?;
+        if self.rows_decide(mark, &rival) {
+            return Ok(None);
+        }
         let failure = rival.go_on(&self.problem.dynamics.dropped, self.h).err();
         let pace = |rival: &Run, since, growth| rival.pace_with_rows(since, growth, self.span.output_step);
         let is_hopeless = |rival: &Run, since: Mark, growth: f64| {
-            pace(rival, since, growth) < tolerances::NO_ALTERNATIVE * own.pace(mark)
+            pace(rival, since, growth) < tolerances::NO_ALTERNATIVE * least * own.pace(mark)
         };
         let (since, stopped) = match failure {
             None => rival.window(budget, most, &mut Quiet(None), is_hopeless),
             failure => (rival.mark(), failure),
         };
-        let theirs = if stopped.is_some() { 0.0 } else { pace(&rival, since, 1.0) };
-        let contest = Contest { t: self.t, mode, step, gain: theirs / own.pace(mark) };
-        Ok((contest, rival.statistics()))
+        // Steps of a multistep method, which begins with short ones, go on growing.
+        let growing = |run: &Run, mark| match run.integrator.begins_anew() {
+            true => (run.h / run.step_since(mark)).max(1.0),
+            false => 1.0,
+        };
+        let theirs = if stopped.is_some() { 0.0 } else { pace(&rival, since, growing(&rival, since)) };
+        let ours = growing(self, mark) * own.pace(mark);
+        let contest = Contest { t: self.t, mode, step, gain: theirs / ours };
+        Ok(Some((contest, rival.statistics())))
     }
 }

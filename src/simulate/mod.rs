@@ -20,7 +20,7 @@ mod step;
 mod stiffness;
 
 pub use crate::math::threads::spread;
-pub use automatic::{Leg, advise, simulate_automatic};
+pub use automatic::{Leg, Trial, advise, simulate_automatic};
 pub use checkpoint::{Checkpoint, Start, simulate_from};
 pub use method::Method;
 #[doc(hidden)]
@@ -226,7 +226,9 @@ impl<'a> Run<'a> {
         self.settle();
         self.drop_rows(dropped);
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
-        self.h = self.first_step().map_err(|halt| self.halted(&halt))?.max(h);
+        let first = self.first_step().map_err(|halt| self.halted(&halt))?;
+        // A multistep method doubles its first steps, and does not where one of them is refused.
+        self.h = if self.integrator.begins_anew() { first } else { first.max(h) };
         Ok(())
     }
 
@@ -259,16 +261,13 @@ impl<'a> Run<'a> {
             if !self.is_of_one_form(&mut size, &mut end)? {
                 continue;
             }
-            if let Some(theta) = self.output(size, end, sink).map_err(|halt| self.halted(&halt))? {
+            if let Some(theta) = self.output(size, end, sink)? {
                 self.problem.dynamics.statistics.rejected += 1;
                 self.cut = Some(theta * size);
                 continue;
             }
             self.accept(size, end, sink);
             self.check_joints()?;
-            if self.t >= self.span.end && self.span.row(self.rows.next - 1) < self.span.end {
-                self.ask(sink)?;
-            }
             self.propose(size, error, end.is_some() || self.cut.is_some() || size < tried)?;
             self.integrator.accepted(&self.tolerance);
             (self.growing, self.cut) = (true, None);

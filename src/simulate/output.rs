@@ -2,39 +2,41 @@
 
 use super::rows::{OutputRows, project};
 use super::{Run, Sink};
+use crate::error::Failure;
 use crate::formulation::StepError;
 use crate::integrator::From;
 use crate::tolerances::simulate as tolerances;
 
 impl Run<'_> {
     /// Writes the output rows within the step from `t` to `t + h`. Returns the fraction of the step of a row that
-    /// contradicts it, if there is one: something acts there that the stages of the step did not evaluate.
-    pub fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<Option<f64>, StepError> {
+    /// contradicts it, if there is one: something acts there that the stages of the step did not evaluate. A step may
+    /// have millions of rows: where the sink stops the run among them, the step is left, and taken again by a run that
+    /// goes on from its start.
+    pub fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<Option<f64>, Failure> {
         let end = self.end_of(h, end);
         let slack = tolerances::SAME * h;
-        let mut prepared = false;
+        let (first, mut prepared) = (self.rows.next, false);
         loop {
             let t = self.span.row(self.rows.next);
             if t > end + slack || self.rows.next > 0 && self.span.row(self.rows.next - 1) >= self.span.end {
                 return Ok(None);
             }
+            if self.rows.next > first {
+                self.ask(sink)?;
+            }
             if t > end - slack {
                 self.rows.y.copy_from_slice(&self.next);
-                self.rows.emit(t, sink)?;
+                self.rows.emit(t, sink).map_err(|halt| self.halted(&halt))?;
             } else {
                 if !std::mem::replace(&mut prepared, true) {
-                    self.prepare(h, end)?;
+                    self.prepare(h, end).map_err(|halt| self.halted(&halt))?;
                 }
-                if let Some(theta) = self.row_within(t, h, end)? {
+                if let Some(theta) = self.row_within(t, h, end).map_err(|halt| self.halted(&halt))? {
                     return Ok(Some(theta));
                 }
                 self.rows.show(t, sink);
             }
             self.rows.next += 1;
-            // A step may have millions of rows; the run ends before the next one.
-            if sink.stops().is_some() {
-                return Ok(None);
-            }
         }
     }
 

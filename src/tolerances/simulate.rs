@@ -77,19 +77,24 @@ pub const THRESHOLDS_OF_ADAMS: usize = 8;
 /// Unit: `[evaluations]`. Why: a choice: short runs try nothing. Test: none: not tried with other values.
 pub const IMPLICIT_TRIED: f64 = 200.0;
 
-/// How much farther an implicit method must come for the same work to take over.
+/// How much farther a method must come for the same work to take over from an explicit one.
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
-pub const IMPLICIT_WORTH: f64 = 1.5;
+pub const WORTH: f64 = 1.5;
 
-/// How much farther an explicit method must come for the same work to take over from an implicit one.
-/// Unit: `[1]`. Why: a choice: it takes a few long steps before stability limits them. Test: none: not tried with other
-/// values.
-pub const EXPLICIT_WORTH: f64 = 2.0;
+/// How much farther a method must come for the same work to take over from an implicit one.
+/// Unit: `[1]`. Why: a choice: an explicit method takes a few long steps before stability limits them, and bdf begins
+/// with short ones. Test: none: not tried with other values.
+pub const WORTH_AFTER_IMPLICIT: f64 = 2.0;
 
 /// Up to here a motion is begun again by a method that takes over.
 /// Unit: `[1]` of the span. Why: a choice: it costs that method no more of its work. Test:
 /// `what_takes_over_early_begins_at_the_start`.
 pub const BEGINNING: f64 = 0.1;
+
+/// What comes so much farther takes over before others have tried.
+/// Unit: `[1]`. Why: a choice: first steps that still grow do not tell which of two methods is the better one. Test: none:
+/// not tried with other values.
+pub const FAR_AHEAD: f64 = 30.0;
 
 /// What comes no farther than this is no alternative.
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
@@ -109,7 +114,7 @@ pub const ADVICE_WORK: f64 = 2e4;
 /// tried with other values.
 pub const IMPLICIT_WORK: f64 = 3.0;
 
-/// The least that an output row costs an implicit method.
+/// The least that an output row costs a method whose rows are steps.
 /// Unit: `[evaluations]`. Why: one iteration of three stages, and the row itself; 4 to 14 on the shipped scenes. Test:
 /// `dense_rows_leave_nothing_to_try`.
 pub const IMPLICIT_ROW: f64 = 4.0;
@@ -128,7 +133,7 @@ pub const EXPLICIT_AGAIN: f64 = 20.0;
 pub const STABLE_STEP: f64 = 6.1;
 
 /// Least work of a trial.
-/// Unit: `[evaluations]`. Why: the first steps of radau_iia, each up to eight times the one before. Test: none: not
+/// Unit: `[evaluations]`. Why: the first steps of radau_iia, each up to five times the one before, and of bdf, each twice. Test: none: not
 /// tried with other values.
 pub const TRIAL_WORK: f64 = 300.0;
 

@@ -286,6 +286,10 @@ impl Integrator for Adams {
         self.order = 1;
     }
 
+    fn begins_anew(&self) -> bool {
+        true
+    }
+
     /// The sums of the last step; before its end, after a refusal, the differences at its start.
     fn memory(&self) -> Vec<f64> {
         let Tried { h, order, next } = self.tried;
@@ -330,6 +334,14 @@ impl Integrator for Adams {
     /// over the step.
     fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), StepError> {
         self.end.copy_from_slice(to);
+        if h != self.tried.h {
+            // The step was cut on its dense output since the attempt.
+            self.tried.h = h;
+            self.coefficients = Coefficients::new(h, &self.past, self.tried.order + 1);
+            let mut open = std::mem::take(&mut self.open);
+            self.predict(from, h, &mut open);
+            self.open = open;
+        }
         let Adams { defect, predicted, .. } = self;
         defect.iter_mut().zip(slope).zip(&predicted[0]).for_each(|((d, slope), sum)| *d = slope - sum);
         let mut open = std::mem::take(&mut self.open);

@@ -319,7 +319,9 @@ impl Integrator for RadauIIA {
         [&self.before.a, &self.before.lambda, &self.before.w, &self.before.u]
             .into_iter()
             .for_each(|rows| memory.extend(rows[..stages].concat()));
-        if let Some((h, index)) = self.matrices.factored().filter(|_| self.is_linearized) {
+        // Those of a refused attempt serve on where they hardly change.
+        let is_kept = self.is_linearized && (!self.is_fresh || self.newton.keeps_matrix());
+        if let Some((h, index)) = self.matrices.factored().filter(|_| is_kept) {
             memory.extend([h, index as f64]);
             memory.extend(self.at.point());
         }
@@ -332,8 +334,7 @@ impl Integrator for RadauIIA {
         self.newton.recall([memory.number(), memory.number()]);
         let (h, method) = (memory.number(), memory.number() as usize);
         self.accepted = (h > 0.0 && method < self.order.len()).then_some(Step { h, method });
-        let Some(Step { method, .. }) = self.accepted else { return };
-        let stages = self.order.get(method).stages();
+        let stages = self.order.get(self.accepted.map_or(0, |step| step.method)).stages();
         [&mut self.before.a, &mut self.before.lambda, &mut self.before.w, &mut self.before.u]
             .into_iter()
             .for_each(|rows| rows[..stages].iter_mut().for_each(|row| memory.fill(row)));
@@ -348,6 +349,10 @@ impl Integrator for RadauIIA {
 
     fn last_slope(&self) -> Option<&[f64]> {
         (self.dae.velocity_index() == 2).then_some(&self.slope)
+    }
+
+    fn rows_are_steps(&self) -> bool {
+        true
     }
 
     fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), StepError> {

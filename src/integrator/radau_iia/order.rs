@@ -58,9 +58,9 @@ impl Order {
 
     /// The state of the choice and of the step control as numbers, for [`Self::recall`].
     pub fn memory(&self) -> Vec<f64> {
-        let Control { safety, grow, .. } = self.control;
+        let Control { safety, grow, retry, .. } = self.control;
         let control = self.control.memory();
-        let own = [self.current as f64, self.steady as f64, self.last_decay.unwrap_or(-1.0), safety, grow];
+        let own = [self.current as f64, self.steady as f64, self.last_decay.unwrap_or(-1.0), safety, grow, retry];
         [&own[..], &[control.len() as f64], &control].concat()
     }
 
@@ -69,7 +69,8 @@ impl Order {
         self.set((memory.number() as usize).min(self.methods.len() - 1));
         self.steady = memory.number() as usize;
         self.last_decay = Some(memory.number()).filter(|decay| *decay >= 0.0);
-        (self.control.safety, self.control.grow) = (memory.number(), memory.number());
+        let Control { safety, grow, retry, .. } = &mut self.control;
+        [safety, grow, retry].into_iter().for_each(|value| *value = memory.number());
         let control = memory.number() as usize;
         self.control.recall(memory.slice(control));
     }
