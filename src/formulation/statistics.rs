@@ -18,7 +18,8 @@ pub struct Statistics {
     pub factorizations: u64,
     /// Iterations of Newton's method.
     pub newton_iterations: u64,
-    /// Newton solutions that ended at the round-off floor instead of the tolerance.
+    /// Newton solutions that ended at the round-off floor instead of the tolerance, and steps of `bdf` whose error is
+    /// above the tolerance, but no more than round-off.
     pub stagnated: u64,
     /// Sweeps of the projection.
     pub projections: u64,

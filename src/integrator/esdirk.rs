@@ -116,8 +116,12 @@ impl Esdirk {
         let mut control = Control::new(tableau.estimate, 0.0, 0.2, 5.0).holding(tolerances::STAGE_HOLD);
         control.safety = tolerances::STAGE_SAFETY;
         let k = tableau.c.iter().map(|_| zeros(setup.len())).collect();
+        let mut stage = Stage::new(setup)?;
+        // What an iteration leaves of G v is divided by the step in the accelerations of the next one, by which its
+        // error is estimated: where a first change that vanishes at once hid a slow rate, steps shrank without end.
+        stage.least_rate = tolerances::RADAU_LEAST_RATE;
         Ok(Esdirk {
-            stage: Stage::new(setup)?,
+            stage,
             stages: Stages { tableau, k, now: guesses(), before: guesses(), last: None },
             tried: 0.0,
             is_begun: false,

@@ -1,6 +1,6 @@
 //! `summary.json`.
 
-use super::warnings::warnings;
+use super::warnings::{at_round_off, warnings};
 use super::{Origin, Table, check_error};
 use crate::analysis::{Drift, EnergyBalance, Passing, Record, Singularity};
 use crate::compare::CheckError;
@@ -125,8 +125,11 @@ pub fn summarize(
 ) -> Summary {
     // The error that ended a run may be a consequence of leaving the branch, which is reported first.
     let failure = record.singularity.failure().or(outcome.failure.clone());
+    // Fixed steps go on to round-off in any case.
+    let at_round_off = at_round_off(&outcome.statistics).filter(|_| prepared.method.step.is_none());
+    let warnings = early.iter().cloned().chain(warnings(record)).chain(at_round_off);
     Summary {
-        origin: Origin::new(&prepared.parameters, early.iter().cloned().chain(warnings(record)).collect()),
+        origin: Origin::new(&prepared.parameters, warnings.collect()),
         scene: prepared.name.clone(),
         method: Chosen::of(prepared, legs, outcome.t),
         status: if failure.is_some() { "failed" } else { "completed" },

@@ -3,6 +3,7 @@
 use crate::analysis::{Drift, EnergyBalance, Record};
 use crate::error::Warning;
 use crate::error::significant;
+use crate::formulation::Statistics;
 use crate::tolerances::report as tolerances;
 use crate::trajectory::Gap;
 
@@ -25,6 +26,15 @@ pub fn uncertain_kinds<'m>(methods: impl Iterator<Item = &'m str>) -> Option<War
     };
     (!names.is_empty())
         .then(|| Warning::new(text(), "take --method mcs, which has no spurious ones, or larger penalties and gains"))
+}
+
+/// Returns a warning if round-off, not the tolerance, limits the errors of controlled steps.
+pub fn at_round_off(&Statistics { steps, stagnated, .. }: &Statistics) -> Option<Warning> {
+    let text =
+        || format!("{stagnated} of {steps} steps end at round-off, not at the tolerance: errors are larger than that");
+    let hint = "a looser --rtol gives the same in less time; --check-error measures errors; for smaller ones choose a \
+                method of higher order, such as dop853, or radau_iia for stiff motions";
+    (stagnated as f64 > tolerances::STEPS_AT_ROUND_OFF * steps as f64).then(|| Warning::new(text(), hint))
 }
 
 fn open_joints(drift: &Drift) -> Option<Warning> {

@@ -206,3 +206,7 @@ pub const UNSEEN_MODE: f64 = 1e-3;
 /// Unit: `[1]` of the largest component. Why: the square of what rounding leaves of double eigenvalues. Test: none: not
 /// tried with other values.
 pub const NO_PHASE: f64 = 1e-6;
+
+/// Steps that end at round-off, from which on they deserve a warning.
+/// Unit: `[1]` of all steps. Why: a choice. Test: `errors_at_round_off_are_told`.
+pub const STEPS_AT_ROUND_OFF: f64 = 0.1;

@@ -53,6 +53,17 @@ fn a_tolerance_out_of_reach_is_a_warning() {
     assert_eq!(warnings(PENDULUM, &["--rtol", "1e-11", "--atol", "1e-13"]), [""; 0]);
 }
 
+/// The spin of 200 rad/s is rounded to more than the tolerated error of the other velocities; at 1e-6 it is not.
+#[test]
+fn errors_at_round_off_are_told() {
+    let scene = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/models/spinning_top.json")).unwrap();
+    let bdf = ["--formulation", "ggl", "--integrator", "bdf", "--projection", "none", "--until", "0.2"];
+    let asked = |rtol: &str, atol: &str| warnings(&scene, &[&bdf[..], &["--rtol", rtol, "--atol", atol]].concat());
+    assert_eq!(asked("1e-6", "1e-8"), [""; 0]);
+    let found = asked("1e-9", "1e-11");
+    assert!(found.len() == 1 && found[0].contains("steps end at round-off, not at the tolerance"), "{found:?}");
+}
+
 /// What is left of an energy that is nothing has no relative size.
 #[test]
 fn a_body_at_rest_has_no_relative_error() {

@@ -126,7 +126,9 @@ impl Integrator for Bdf {
         change.iter_mut().zip(to.iter().zip(&*predicted)).for_each(|(change, (to, x))| *change = to - x);
         // Extrapolation magnifies the rounding of the past states, which no shorter step reduces.
         let allowed = 1.0 + tolerances::BDF_ROUND_OFF * stage.round_off;
-        let error = error_constant(history, k, (t, h)) * tolerance.norm_between(from.y, to, change) / allowed;
+        let estimate = error_constant(history, k, (t, h)) * tolerance.norm_between(from.y, to, change);
+        let error = estimate / allowed;
+        problem.dynamics.statistics.stagnated += u64::from(estimate > 1.0 && error <= 1.0);
         let mut term = |j: usize| match j {
             _ if j == 0 || j > history.known() => f64::INFINITY,
             _ => history.derivative(j - 1, (t, h), tolerance, to, change) / allowed,

@@ -36,6 +36,8 @@ pub struct Stage {
     slowest: f64,
     /// Round-off of y in the last solution, over the tolerated errors.
     pub round_off: f64,
+    /// The least rate by which the error that an iteration leaves is estimated.
+    pub least_rate: f64,
     is_fixed: bool,
     change: Vec<f64>,
     /// v + u
@@ -76,6 +78,7 @@ impl Stage {
             newton: Monitor::default(),
             slowest: 0.0,
             round_off: 0.0,
+            least_rate: 0.0,
             is_fixed: setup.is_fixed,
             change: zeros(setup.len()),
             velocity: zeros(n.v),
@@ -155,6 +158,7 @@ impl Stage {
             round_off,
             stagnation: tolerances::RADAU_STAGNATION * stagnation,
             patience: if self.is_fixed { tolerances::RADAU_PATIENCE } else { 0 },
+            least_rate: self.least_rate,
             kept_rate: self.kept_rate(),
             ..Limits::NONE
         };
@@ -164,7 +168,9 @@ impl Stage {
             Ok::<_, StepError>(tolerance.norm(from.y, &self.change))
         });
         self.newton = newton;
-        if !converged? {
+        // Slow convergence with a matrix of a step before looks like round-off, too.
+        let is_slow = self.newton.has_stagnated && !self.matrix.is_fresh && !self.is_fixed;
+        if !converged? || is_slow {
             return Err(StepError::NotConverged);
         }
         problem.dynamics.statistics.stagnated += u64::from(self.newton.has_stagnated);
