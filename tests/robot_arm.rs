@@ -5,8 +5,22 @@
 
 use crate::common::equations::robot_arm::{END, RobotArm, START};
 use crate::common::{Run, adaptive, distance, fixed, run, until};
-use holonom::simulate::Span;
+use crate::scenes::shipped;
+use holonom::simulate::{Method, Span};
 use rayon::prelude::*;
+
+/// What Newton's method leaves of G v makes accelerations of 1e6 m/s^2 in steps of 1e-15 s, to which the error estimate
+/// shrank them, each accepted.
+#[test]
+fn steps_with_ggl_are_as_long_as_with_index1() {
+    let arm = shipped("robot_arm", &[]);
+    let steps = |formulation: &str| {
+        let method = Method { atol: 1e-7, ..adaptive(formulation, "tr_bdf2", "none", 1e-5) };
+        arm.run(&method, until(2.0)).outcome.statistics.steps
+    };
+    let [found, other] = ["ggl", "index1"].map(steps);
+    assert!(found <= other, "{found} steps, with index1 {other}");
+}
 
 const STEPS: [f64; 3] = [0.01, 0.005, 0.001];
 

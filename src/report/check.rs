@@ -5,13 +5,13 @@ use super::equilibrium::EquilibriumFile;
 use super::hints::hints_text;
 use super::summary::AssemblySummary;
 use crate::analysis::{Rank, Redundant};
-use crate::error::significant;
+use crate::error::{Failure, significant};
 use crate::initial::Assembly;
 use crate::math::largest;
 use crate::prepared::{AnyMechanism, PreparedScene};
 use crate::scene::{BeamLine, Connection, Model};
 use crate::simplify::Hints;
-use crate::simulate::SpectralMode;
+use crate::simulate::{SpectralMode, refused};
 use crate::system::{Group, OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
@@ -42,6 +42,9 @@ pub struct Check {
     pub assembly: AssemblySummary,
     /// Rates and outputs at the start.
     pub start: Start,
+    /// The reason why no simulation begins there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refused: Option<Failure>,
     /// Condition number of the equilibrated saddle-point matrix without the redundant rows.
     pub condition: f64,
     /// Rank indicator of G: the smallest sine between one of its rows and those before it, in the metric of M^-1,
@@ -118,6 +121,7 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
         redundant: found.redundant,
         assembly: (&prepared.assembly).into(),
         start: Start::of(prepared),
+        refused: prepared.span().ok().and_then(|span| refused(system, &prepared.method, span, prepared.start())),
         condition: found.condition,
         distance_to_singularity: found.distance_to_singularity,
         mass_range: found.mass_range,
@@ -278,7 +282,11 @@ impl Check {
         if assembly.moves.len() > 10 {
             text += &format!("  and {} smaller moves\n", assembly.moves.len() - 10);
         }
-        text + &self.start.text()
+        let refused = self
+            .refused
+            .as_ref()
+            .map(|Failure { reason, hint, .. }| format!("no simulation begins there: {reason}\n  help: {hint}\n"));
+        text + &refused.unwrap_or_default() + &self.start.text()
     }
 
     fn scales_text(&self) -> String {

@@ -29,6 +29,7 @@ pub use observation::{Observation, Sink, Span, Stop};
 pub(crate) use segments::Segments;
 #[doc(hidden)]
 pub use spectrum::{SpectralMode, Spectrum};
+pub use start::refused;
 #[doc(hidden)]
 pub use stiffness::explicit;
 pub use stiffness::{Stiffness, stiffness};

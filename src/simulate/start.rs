@@ -1,8 +1,11 @@
 //! Check of a singular start: whether a motion can begin there.
 
-use super::Run;
+use super::checkpoint::flat;
+use super::contest::{Quiet, unseen};
+use super::{Method, Run, Span};
 use crate::error::Failure;
 use crate::math::largest;
+use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
 
 const NO_BRANCH: &str = "the start is a singular state, with velocities that no motion through it has: constraints \
@@ -10,6 +13,16 @@ const NO_BRANCH: &str = "the start is a singular state, with velocities that no 
 const UNDETERMINED: &str = "the start is a singular state at rest, and the motion is not determined: several motions \
      meet there, and the forces push it along none of them";
 const BRANCHES: &str = "give velocities along one of the motions that meet there, or start beside it";
+
+/// The reason why no run from (q, v) begins; `None` where one does, or the method is not possible.
+pub fn refused(
+    system: &dyn MechanicalSystem,
+    method: &Method,
+    span: Span,
+    (q, v): (&[f64], &[f64]),
+) -> Option<Failure> {
+    Run::new(system, method, unseen(span), flat(system, q, v)).ok()?.begin(&mut Quiet(None)).err()
+}
 
 impl Run<'_> {
     /// Finds the rows that depend on others at the start, and drops them until they are violated. Refuses

@@ -63,6 +63,24 @@ fn check_tells_a_singular_start() {
     assert!(text.contains("redundant constraints") && !text.contains("singular state:"), "{text}");
 }
 
+/// At rest at a change point with unlike links, which no motion leaves.
+#[test]
+fn check_tells_that_no_simulation_begins() {
+    let text = include_str!("../../models/parallelogram.json").replace("\"rate0\": 12", "\"rate0\": 0");
+    let (first, second) = text.split_once("\"link2\"").unwrap();
+    let unlike = format!("{first}\"link2\"{}", second.replacen("\"m_link\"", "\"3*m_link\"", 1));
+    let refused = |scene: &str, level: &str| {
+        let place = Place::new(scene);
+        let args = ["scene.json", "--set", level];
+        let began =
+            place.run(&[&["simulate", "--until", "0.1", "--figures", "none"], &args[..]].concat()).status.success();
+        let told = place.done(&[&["check"], &args[..]].concat()).contains("no simulation begins there");
+        assert_eq!(told, !began);
+        told
+    };
+    assert!(refused(&unlike, "angle0=pi/2") && !refused(&unlike, "angle0=1") && !refused(&text, "angle0=pi/2"));
+}
+
 #[test]
 fn drift_tells_which_methods_leave_the_branch() {
     let place = Place::new(CASES[0].1);
