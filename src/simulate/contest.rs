@@ -184,8 +184,9 @@ impl Run<'_> {
     }
 
     /// Lets `other` try from the state of this run, whose pace since `mark` is known. Its output rows are not made, but
-    /// estimated. While its steps grow it goes on, up to all work so far, unless it is hopelessly behind the pace of this
-    /// run times `least`. `rivals` share the work of trials. Returns the result and the work of the trial; `None` where its output rows leave nothing to try.
+    /// estimated. While its steps grow it goes on, up to all work so far, unless it is hopelessly behind the pace of
+    /// this run times `least`. `rivals` share the work of trials. Returns the result and the work of the trial; `None`
+    /// where its output rows leave nothing to try.
     pub fn contest(
         &self,
         mark: Mark,

@@ -92,8 +92,8 @@ pub const WORTH_AFTER_IMPLICIT: f64 = 2.0;
 pub const BEGINNING: f64 = 0.1;
 
 /// What comes so much farther takes over before others have tried.
-/// Unit: `[1]`. Why: a choice: first steps that still grow do not tell which of two methods is the better one. Test: none:
-/// not tried with other values.
+/// Unit: `[1]`. Why: a choice: first steps that still grow do not tell which of two methods is the better one. Test:
+/// none: not tried with other values.
 pub const FAR_AHEAD: f64 = 30.0;
 
 /// What comes no farther than this is no alternative.
@@ -133,8 +133,8 @@ pub const EXPLICIT_AGAIN: f64 = 20.0;
 pub const STABLE_STEP: f64 = 6.1;
 
 /// Least work of a trial.
-/// Unit: `[evaluations]`. Why: the first steps of radau_iia, each up to five times the one before, and of bdf, each twice. Test: none: not
-/// tried with other values.
+/// Unit: `[evaluations]`. Why: the first steps of radau_iia, each up to five times the one before, and of bdf, each
+/// twice. Test: none: not tried with other values.
 pub const TRIAL_WORK: f64 = 300.0;
 
 /// Work of a trial, and what it is worth of what is left.
