@@ -107,6 +107,12 @@ impl Blocks {
         }
     }
 
+    /// Takes the memory for these numbers of values of M and of G at once.
+    pub fn reserve(&mut self, mass: usize, g: usize) {
+        self.mass.reserve(mass);
+        self.g.resize(g, 0.0);
+    }
+
     /// Factors. The pivot of an early coordinate is compared with its mass; that of a multiplier with (G M^-1 G^T)_jj,
     /// which is on its diagonal after elimination of the early coordinates; that of a late coordinate with what the
     /// early ones subtracted from it. So units of coordinates and rows cancel. The error is the node whose pivot

@@ -140,7 +140,7 @@ impl Part {
         let zeros = |len: usize| vec![0.0; len];
         let (n, m) = (plan.coordinates.of.len(), plan.rows.of.len());
         let mut blocks = Blocks::new(plan.layout.clone(), n);
-        blocks.g = zeros(plan.g.of.len());
+        blocks.reserve(plan.mass.of.len(), plan.g.of.len());
         Part {
             number,
             blocks,
