@@ -105,6 +105,11 @@ pub const GRADIENTS_WITHOUT_GAIN: usize = 20;
 /// on it.
 pub const NULL_VECTORS: usize = 4;
 
+/// The same where a solution is a projection itself, for other rows that are redundant.
+/// Unit: `[rows]`. Why: a choice; steps of both projections multiply, three hundred by three hundred at worst. Test:
+/// none: time alone depends on it.
+pub const NULL_VECTORS_IF_DEAR: usize = 64;
+
 /// The regularization delta of redundant rows, over the square of the rank indicator of the others.
 /// Unit: `[1]`. Why: with two solutions its square is left, 1e-16. Test: none: with a thousand times more or less the
 /// tests of its room pass.

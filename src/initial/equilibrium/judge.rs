@@ -27,10 +27,11 @@ impl Judge {
             return false;
         }
         let Some(balance) = rest.balance(&place.q) else { return false };
-        let loads = self.loads.max(largest(&rest.sizes(&balance.place)));
-        let reach = largest(&place.q).max(1.0);
-        let allowed =
-            self.stiffness.iter().map(|k| tolerances::FORCE_LEFT * loads + tolerances::COORDINATES_ROUNDED * reach * k);
+        let rounding = tolerances::COORDINATES_ROUNDED * largest(&place.q).max(1.0);
+        // Without loads, rounded springs are the loads of parts that have no spring.
+        let rounded = rounding * largest(&self.stiffness);
+        let loads = self.loads.max(largest(&rest.sizes(&balance.place))).max(rounded);
+        let allowed = self.stiffness.iter().map(|k| tolerances::FORCE_LEFT * loads + rounding * k);
         balance.force.iter().zip(allowed).all(|(force, allowed)| force.abs() <= allowed)
     }
 

@@ -52,18 +52,20 @@ impl Least {
         self.is_current = false;
     }
 
-    /// v := P v; returns the norm of the removed part. `rank_indicator`: see `Nearly`.
+    /// v := P v; returns the norm of the removed part. `rank_indicator`: see `Nearly`. A solution
+    /// is dear where it projects itself.
     pub fn project(
         &mut self,
         system: &System,
         rows: &[usize],
-        rank_indicator: f64,
+        (rank_indicator, is_dear): (f64, bool),
         solve: Solve,
         v: &mut [f64],
     ) -> f64 {
+        let most = if is_dear { tolerances::NULL_VECTORS_IF_DEAR } else { tolerances::NULL_VECTORS };
         match rows.len() {
             0 => 0.0,
-            1..=tolerances::NULL_VECTORS => self.project_directly(system, rows, solve, v),
+            count if count <= most => self.project_directly(system, rows, solve, v),
             _ => self.project_by_gradients(system, rows, rank_indicator, solve, v),
         }
     }

@@ -159,7 +159,7 @@ impl RedundantRowSolve {
     fn project(&mut self, system: &System, v: &mut [f64]) -> f64 {
         let RedundantRowSolve { factor, least, skipped, collapsed, .. } = self;
         let rank_indicator = factor.smallest_ratio(collapsed.max(tolerances::ROUND_OFF_OF_FACTORS)).0.sqrt();
-        least.project(system, skipped, rank_indicator, &mut |top, bottom| factor.solve(top, bottom), v)
+        least.project(system, skipped, (rank_indicator, false), &mut |top, bottom| factor.solve(top, bottom), v)
     }
 
     /// image = N direction, where `direction` is zero except on the dropped rows.
