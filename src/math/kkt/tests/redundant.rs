@@ -132,7 +132,7 @@ fn least_multipliers_take_few_solutions_however_many_rows_are_redundant() {
             solver.solve(top, &mut bottom[..120]).unwrap();
             bottom[120..].fill(0.0);
         };
-        Least::new(&sample.g).project(&system, &rows, rank_indicator, &mut inverse, &mut v);
+        Least::new(&sample.g).project(&system, &rows, (rank_indicator, false), &mut inverse, &mut v);
         // First N w, then N^T of the residual, and both again for each of two steps.
         assert!(solutions <= 6, "{count} rows: {solutions}");
         // The same force, and nothing along null vectors: e_j less its combination.
