@@ -42,6 +42,17 @@ pub fn drop_references(scene: &mut Value, name: &str) {
     }
 }
 
+/// Replaces all texts of a value, at any depth; `None` where `change` has none for one of them.
+pub fn change_texts(value: &mut Value, change: &impl Fn(&str) -> Option<String>) -> Option<()> {
+    match value {
+        Value::String(text) => *text = change(text)?,
+        Value::Array(all) => all.iter_mut().try_for_each(|value| change_texts(value, change))?,
+        Value::Object(keys) => keys.values_mut().try_for_each(|value| change_texts(value, change))?,
+        _ => {}
+    }
+    Some(())
+}
+
 /// The two markers of a joint or force, if it has two.
 pub fn pair(element: &Value) -> Option<[&str; 2]> {
     let between = element["between"].as_array().filter(|between| between.len() == 2)?;

@@ -143,9 +143,11 @@ impl<const D: usize> Evaluation<'_, D> {
     /// The bodies of an element, if they are two rigid ones with six directions in all.
     fn pair(&self, coupling: &Coupling) -> Option<[Solid<D>; 2]> {
         let [a, b] = &coupling.carriers[..] else { return None };
+        if a.velocities.len() + b.velocities.len() > 6 {
+            return None;
+        }
         let of = |carrier: &Carrier| self.mechanism.solid(carrier.body, &self.work.motion);
-        let has_room = a.velocities.len() + b.velocities.len() <= 6;
-        let (a, b) = (has_room.then(|| of(a)).flatten()?, of(b)?);
+        let (a, b) = (of(a)?, of(b)?);
         let b = b.behind(&a);
         Some([a, b])
     }

@@ -2,7 +2,7 @@
 
 use super::merged_bodies::{PLACES, packed};
 use super::plane::{cross, world};
-use crate::simplify::edit::{carrier, elements, text, words};
+use crate::simplify::edit::{carrier, change_texts, elements, text, words};
 use crate::simplify::facts::product;
 use crate::simplify::{Facts, Placed, Relative};
 use crate::tolerances::SAME;
@@ -189,13 +189,7 @@ impl<'a> Mirror<'a> {
     /// Quantities of bodies that go, such as `right.hub.y'`, by those of their images, in all texts of a value; `None`
     /// where one has no image.
     pub fn translate(&self, value: &mut Value) -> Option<()> {
-        match value {
-            Value::String(text) => *text = self.translated(text)?,
-            Value::Array(all) => all.iter_mut().try_for_each(|value| self.translate(value))?,
-            Value::Object(keys) => keys.values_mut().try_for_each(|value| self.translate(value))?,
-            _ => {}
-        }
-        Some(())
+        change_texts(value, &|text| self.translated(text))
     }
 
     fn translated(&self, text: &str) -> Option<String> {

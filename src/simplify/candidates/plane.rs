@@ -1,6 +1,6 @@
 //! A plane in space, and numbers of a scene seen in it.
 
-use crate::simplify::edit::{elements, text, words};
+use crate::simplify::edit::{change_texts, elements, text, words};
 use crate::simplify::facts::product;
 use crate::simplify::{Facts, Placed};
 use crate::tolerances::SAME;
@@ -103,13 +103,7 @@ impl Plane {
 
     /// Quantities of markers such as `crank.tip.z` in the plane, in all texts of a value; `None` where one has none.
     pub fn translate(&self, value: &mut Value) -> Option<()> {
-        match value {
-            Value::String(text) => *text = self.translated(text)?,
-            Value::Array(all) => all.iter_mut().try_for_each(|value| self.translate(value))?,
-            Value::Object(keys) => keys.values_mut().try_for_each(|value| self.translate(value))?,
-            _ => {}
-        }
-        Some(())
+        change_texts(value, &|text| self.translated(text))
     }
 
     fn translated(&self, text: &str) -> Option<String> {

@@ -44,6 +44,7 @@ pub struct Run {
 }
 
 /// The frozen structure of the factors.
+#[derive(Default)]
 pub struct Layout {
     pub bodies: Bodies,
     columns: Vec<Column>,
@@ -106,26 +107,10 @@ impl Layout {
         let below: Vec<Vec<u32>> = below.chain(full).collect();
         let (count, n) = (groups.coordinates.len(), g.cols);
         let mut layout = Layout {
-            bodies: Bodies::default(),
             columns: Vec::with_capacity(others.len()),
-            runs: Vec::new(),
-            counts: Vec::new(),
-            partners: Vec::new(),
-            widths: Vec::new(),
-            before: Vec::new(),
-            targets: Vec::new(),
-            nodes: Vec::new(),
             early: others.iter().filter(|&&group| group < count && !groups.late[group]).count(),
-            early_unknowns: 0,
-            mass_slots: Vec::new(),
-            g_slots: Vec::new(),
-            coordinates: Vec::new(),
-            late: Vec::new(),
             g_rows: vec![0; g.rows],
-            diagonals: Vec::new(),
-            len: 0,
-            own_runs: 0,
-            last: (0, 0),
+            ..Layout::default()
         };
         for &group in &others {
             let first = layout.nodes.len();
