@@ -21,7 +21,7 @@ pub struct Run {
     pub method: Method,
     /// CPU time, s.
     pub seconds: f64,
-    /// Counted work: see [`counted`].
+    /// Counted work: see `counted`.
     pub work: f64,
     /// Kind of the work: formulation, and integrator if that is implicit.
     #[serde(skip)]

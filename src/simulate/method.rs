@@ -130,7 +130,7 @@ impl Method {
             let others: Vec<&str> = others.filter(|other| !refuses(other)).collect();
             return Err(Error::input(format!("{} with {formulation} loses an order with {projection}", entry.name))
                 .under("projection")
-                .hint(format!("{} with {formulation} goes with {}", entry.name, others.join(", "))));
+                .hint(format!("{} with {formulation} goes with projection {}", entry.name, others.join(", "))));
         }
         for (name, value) in [("rtol", Some(self.rtol)), ("atol", Some(self.atol)), ("step", self.step)] {
             if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {

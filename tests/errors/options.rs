@@ -274,12 +274,12 @@ cases! {
             "--integrator", "generalized-alpha", "--formulation", "index3", "--step", "0.01", "--projection", "full",
         ]) => [
             "at --projection: generalized_alpha with index3 loses an order with full",
-            "generalized_alpha with index3 goes with none, position, velocity, manifold, exact",
+            "generalized_alpha with index3 goes with projection none, position, velocity, manifold, exact",
         ];
     a_projection_that_starts_bdf_anew:
         pendulum().args(&["--integrator", "bdf", "--projection", "manifold"]) => [
             "at --projection: bdf with index1 loses an order with manifold",
-            "bdf with index1 goes with none",
+            "bdf with index1 goes with projection none",
         ];
     a_step_for_a_method_that_chooses_its_own:
         pendulum().args(&["--integrator", "bdf", "--projection", "none", "--step", "0.01"]) => [

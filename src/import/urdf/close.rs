@@ -8,7 +8,7 @@ use std::str::FromStr;
 pub struct Closure {
     /// Name of the joint.
     pub name: String,
-    /// Its type in the scene: one of [`KINDS`].
+    /// Its type in the scene: one of `KINDS`.
     pub kind: &'static str,
     /// The two links, each with a point in its frame, m.
     pub ends: [(String, [f64; 3]); 2],
