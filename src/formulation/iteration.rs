@@ -74,37 +74,55 @@ pub struct Change<T> {
 
 /// A real number, or a complex one that represents itself and its conjugate.
 pub trait Number: Field + PartialEq + Add<Output = Self> + DivAssign {
-    /// Number of real parts: 1 or 2.
-    const PARTS: usize;
-    /// Real (k = 0) or imaginary (k = 1) part.
-    fn part(self, k: usize) -> f64;
-    /// Sets the real (k = 0) or imaginary (k = 1) part.
-    fn set_part(&mut self, part: f64, k: usize);
+    /// Solves [M G^T; G 0] (x, multipliers) = (x, multipliers) in place; `part` is scratch.
+    ///
+    /// # Errors
+    /// Those of [`SaddlePoint::solve`].
+    fn solve_symmetric(
+        solver: &mut SaddlePoint,
+        x: &mut [Self],
+        multipliers: &mut [Self],
+        part: &mut [Vec<f64>; 2],
+    ) -> Result<(), Singular>;
     /// Sum of the number and its conjugate; a real number itself.
     fn total(self) -> f64;
 }
 
 impl Number for f64 {
-    const PARTS: usize = 1;
-    fn part(self, _: usize) -> f64 {
-        self
+    fn solve_symmetric(
+        solver: &mut SaddlePoint,
+        x: &mut [f64],
+        multipliers: &mut [f64],
+        _: &mut [Vec<f64>; 2],
+    ) -> Result<(), Singular> {
+        solver.solve(x, multipliers)
     }
-    fn set_part(&mut self, part: f64, _: usize) {
-        *self = part;
-    }
+
     fn total(self) -> f64 {
         self
     }
 }
 
 impl Number for c64 {
-    const PARTS: usize = 2;
-    fn part(self, k: usize) -> f64 {
-        if k == 0 { self.re } else { self.im }
+    /// The real and the imaginary parts in turn.
+    fn solve_symmetric(
+        solver: &mut SaddlePoint,
+        x: &mut [c64],
+        multipliers: &mut [c64],
+        part: &mut [Vec<f64>; 2],
+    ) -> Result<(), Singular> {
+        let [top, bottom] = part;
+        let parts: [fn(&mut c64) -> &mut f64; 2] = [|x| &mut x.re, |x| &mut x.im];
+        for of in parts {
+            top.iter_mut().zip(&mut *x).for_each(|(part, x)| *part = *of(x));
+            bottom.iter_mut().zip(&mut *multipliers).for_each(|(part, row)| *part = *of(row));
+            solver.solve(top, bottom)?;
+            x.iter_mut().zip(&*top).for_each(|(x, part)| *of(x) = *part);
+            multipliers.iter_mut().zip(&*bottom).for_each(|(row, part)| *of(row) = *part);
+        }
+        Ok(())
     }
-    fn set_part(&mut self, part: f64, k: usize) {
-        if k == 0 { self.re = part } else { self.im = part }
-    }
+
     fn total(self) -> f64 {
         2.0 * self.re
     }
@@ -207,12 +225,15 @@ impl<T: Number> Iteration<T> {
     /// Sets the right side of the next [`solve`](Self::solve) to a weighted sum of residuals.
     pub fn load<'r>(&mut self, residuals: impl Iterator<Item = (T, &'r Residual)>) {
         let Change { a, lambda, w, eta, u, mu } = &mut self.change;
-        [&mut *a, lambda, w, eta, u, mu].into_iter().for_each(|sum| sum.fill(T::ZERO));
-        for (weight, residual) in residuals {
+        for (k, (weight, residual)) in residuals.enumerate() {
             let Residual { motion, lambda: rows, w: of_w, eta: of_eta, u: of_u, mu: of_mu, .. } = residual;
-            let pairs = [(&mut *a, motion), (lambda, rows), (w, of_w), (eta, of_eta), (u, of_u), (mu, of_mu)];
+            let pairs = [(&mut *a, motion), (&mut *lambda, rows), (w, of_w), (eta, of_eta), (u, of_u), (mu, of_mu)];
             for (sum, values) in pairs {
-                sum.iter_mut().zip(values).for_each(|(sum, &value)| *sum += weight * value);
+                let terms = sum.iter_mut().zip(values);
+                match k {
+                    0 => terms.for_each(|(sum, &value)| *sum = weight * value),
+                    _ => terms.for_each(|(sum, &value)| *sum += weight * value),
+                }
             }
         }
     }
@@ -230,7 +251,9 @@ impl<T: Number> Iteration<T> {
                 *row = rows.eta[rows.kind(i)].map_or(T::ZERO, |slope| (*row - slope.a[0] * lambda[i]) / slope.w[0]);
             }
             gw.copy_from_slice(eta);
-            shift(&mut at.shifts, w, eta, part)?;
+            if let Some(solver) = &mut at.shifts {
+                T::solve_symmetric(solver, w, eta, part)?;
+            }
             subtract(&structure.tangent, &at.tangent.c, slopes.w, w, a);
             subtract(&structure.tangent, &at.tangent.k, slopes.w_q, w, a);
             rows.subtract(&structure.g, &at.l, |slope| slope.w, (w, gw), lambda);
@@ -241,7 +264,9 @@ impl<T: Number> Iteration<T> {
                 *row = rows.mu[rows.kind(i)].map_or(T::ZERO, moved);
             }
             gu.copy_from_slice(mu);
-            shift(&mut at.shifts, u, mu, part)?;
+            if let Some(solver) = &mut at.shifts {
+                T::solve_symmetric(solver, u, mu, part)?;
+            }
             subtract(&structure.tangent, &at.tangent.k, slopes.u, u, a);
             rows.subtract(&structure.g, &at.l, |slope| slope.u, (u, gu), lambda);
         }
@@ -269,25 +294,6 @@ impl<T: Number> RowSlopes<T> {
             }
         }
     }
-}
-
-/// Solves [M G^T; G 0] (x, multipliers) = (x, multipliers) in place, the real and imaginary parts in turn.
-fn shift<T: Number>(
-    solver: &mut Option<SaddlePoint>,
-    x: &mut [T],
-    multipliers: &mut [T],
-    part: &mut [Vec<f64>; 2],
-) -> Result<(), StepError> {
-    let Some(solver) = solver else { return Ok(()) };
-    let [top, bottom] = part;
-    for k in 0..T::PARTS {
-        top.iter_mut().zip(&*x).for_each(|(part, x)| *part = x.part(k));
-        bottom.iter_mut().zip(&*multipliers).for_each(|(part, row)| *part = row.part(k));
-        solver.solve(top, bottom)?;
-        x.iter_mut().zip(&*top).for_each(|(x, &part)| x.set_part(part, k));
-        multipliers.iter_mut().zip(&*bottom).for_each(|(x, &part)| x.set_part(part, k));
-    }
-    Ok(())
 }
 
 /// out -= factor (K or C) x

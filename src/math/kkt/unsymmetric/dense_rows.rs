@@ -18,11 +18,11 @@ impl DenseRows {
     pub fn of<T: Field>(matrix: &Matrix<T>, n: usize) -> Option<DenseRows> {
         let size = matrix.size();
         let mut counts = vec![0_usize; size];
-        matrix.entries().for_each(|(row, ..)| counts[row] += 1);
+        matrix.entries().for_each(|(row, _)| counts[row] += 1);
         let many = (tolerances::LONG_ROW_OF_MEAN * matrix.values.len() / size.max(1)).max(tolerances::LONG_ROW);
         let is_long = |row: usize| row < n && counts[row] > many;
         let mut columns: Vec<bool> = (0..size).map(is_long).collect();
-        matrix.entries().filter(|&(row, col, _)| col >= n && is_long(row)).for_each(|(_, col, _)| columns[col] = true);
+        matrix.entries().filter(|&(row, col)| col >= n && is_long(row)).for_each(|(_, col)| columns[col] = true);
         let width = columns.iter().filter(|column| **column).count();
         let rank = |row: usize| if is_long(row) { tolerances::LAST_CHOICE } else { 1.0 };
         let is_worth_it = width > 0 && width * width <= matrix.values.len();

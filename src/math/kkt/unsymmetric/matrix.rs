@@ -51,12 +51,14 @@ impl<T: Field> Matrix<T> {
         rows.binary_search(&row).ok().map(|k| start + k)
     }
 
-    /// (row, column, place) of all entries.
-    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, usize)> {
-        let starts = self.places.col_ptr();
-        (0..self.size()).flat_map(move |col| {
-            let rows = self.places.row_idx_of_col_raw(col).iter();
-            rows.zip(starts[col]..).map(move |(&row, place)| (row, col, place))
-        })
+    /// Column, rows of its entries (ascending) and their values, in the order of the places.
+    pub fn columns(&self) -> impl Iterator<Item = (usize, &[usize], &[T])> {
+        let values = self.places.col_ptr().windows(2).map(|ends| &self.values[ends[0]..ends[1]]);
+        values.enumerate().map(|(col, values)| (col, self.places.row_idx_of_col_raw(col), values))
+    }
+
+    /// (row, column) of all entries.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.columns().flat_map(|(col, rows, _)| rows.iter().map(move |&row| (row, col)))
     }
 }

@@ -231,10 +231,14 @@ impl<T: Field> Unsymmetric<T> {
     /// Scales coordinates so that |A_ij| <= 1, and then rows of G to largest entry 1.
     fn balance(&mut self, g: &[f64]) {
         self.weight.fill(0.0);
-        for (row, col, place) in self.matrix.entries().filter(|(row, col, _)| *row < self.n && *col < self.n) {
-            let size = self.matrix.values[place].size();
-            self.weight[row] = self.weight[row].max(size);
-            self.weight[col] = self.weight[col].max(size);
+        for (col, rows, values) in self.matrix.columns().take(self.n) {
+            let mut largest = self.weight[col];
+            for (&row, value) in rows.iter().zip(values).take_while(|(row, _)| **row < self.n) {
+                let size = value.size();
+                self.weight[row] = self.weight[row].max(size);
+                largest = largest.max(size);
+            }
+            self.weight[col] = self.weight[col].max(largest);
         }
         let largest = self.weight.iter().fold(0.0, |largest: f64, x| largest.max(*x));
         let missing = if largest > 0.0 { largest } else { 1.0 };
@@ -280,8 +284,12 @@ impl<T: Field> Unsymmetric<T> {
 
     /// Factors the scaled matrix; returns false if it is singular.
     fn factor_scaled(&mut self, g: &[f64]) -> bool {
-        for (row, col, place) in self.matrix.entries() {
-            self.scaled[place] = self.matrix.values[place] * (self.rank[row] * self.scale[row] * self.scale[col]);
+        let mut scaled = self.scaled.iter_mut();
+        for (col, rows, values) in self.matrix.columns() {
+            let of_col = self.scale[col];
+            for ((&row, value), scaled) in rows.iter().zip(values).zip(&mut scaled) {
+                *scaled = *value * (self.rank[row] * self.scale[row] * of_col);
+            }
         }
         let is_out = |row: usize| self.left_out[row];
         let entries = self.g.entries.iter().zip(&self.g_places).zip(g.iter().zip(&self.coupling));
