@@ -98,8 +98,8 @@ impl Stabilizer {
             StabilizingField::Position => dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut self.dq)?,
             StabilizingField::Velocity => dynamics.kkt.solve_projection(&dynamics.terms.phi_dot, &mut self.dv)?,
             StabilizingField::Both => {
-                dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut self.dq)?;
-                dynamics.kkt.solve_projection(&dynamics.terms.phi_dot, &mut self.dv)?;
+                let levels = [&dynamics.terms.phi[..], &dynamics.terms.phi_dot];
+                dynamics.kkt.solve_projections(levels, [&mut self.dq, &mut self.dv])?;
             }
             StabilizingField::Triangular => self.triangular(dynamics)?,
             StabilizingField::Gradient => self.gradient(dynamics),

@@ -44,7 +44,7 @@ impl Tolerance {
     /// Root mean square of `change` over the tolerated errors of a step.
     pub fn norm_between(&self, from: &[f64], to: &[f64], change: &[f64]) -> f64 {
         let n = self.motion;
-        (self.squares(n, from, to, |i| change[i]) / self.tested(n) as f64).sqrt()
+        (self.squares(n, from, to, change) / self.tested(n) as f64).sqrt()
     }
 
     /// Other tolerances for the same components.
@@ -76,12 +76,20 @@ impl Tolerance {
     }
 
     /// Sum of the squares of `error` over the tolerated errors of a step, for the tested ones among the first n
-    /// components.
-    #[inline]
-    pub fn squares(&self, n: usize, from: &[f64], to: &[f64], error: impl Fn(usize) -> f64) -> f64 {
-        let add = |sum: f64, i: usize| sum + (error(i) / self.weight(from[i], to[i])).powi(2);
+    /// components; in four sums so that it vectorizes.
+    pub fn squares(&self, n: usize, from: &[f64], to: &[f64], error: &[f64]) -> f64 {
         let Range { start, end } = self.untested();
-        (end..n).fold((0..start).fold(0.0, add), add)
+        let mut sums = [0.0; 4];
+        for tested in [0..start, end..n] {
+            let [from, to, error] = [from, to, error].map(|y| y[tested.clone()].as_chunks::<4>());
+            for ((from, to), error) in from.0.iter().zip(to.0).zip(error.0) {
+                (0..4).for_each(|i| sums[i] += (error[i] / self.weight(from[i], to[i])).powi(2));
+            }
+            for (i, error) in error.1.iter().enumerate() {
+                sums[i] += (error / self.weight(from.1[i], to.1[i])).powi(2);
+            }
+        }
+        sums.iter().sum()
     }
 }
 

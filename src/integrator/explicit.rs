@@ -108,8 +108,8 @@ impl Explicit {
         let last = tolerance.motion();
         let mut square = |weights: &[f64]| {
             self.stage.fill(0.0);
-            accumulate(&mut self.stage, 1.0, weights, &self.k);
-            tolerance.squares(last, from, to, |i| h * self.stage[i])
+            accumulate(&mut self.stage, h, weights, &self.k);
+            tolerance.squares(last, from, to, &self.stage)
         };
         let n = tolerance.tested(last);
         match &self.tableau.error {

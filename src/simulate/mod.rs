@@ -369,6 +369,9 @@ impl<'a> Run<'a> {
     }
 
     fn show(&mut self, rank_indicator: Option<f64>, sink: &mut dyn Sink) {
+        if !sink.watches() {
+            return;
+        }
         let tolerated = self.fixed.is_none().then(|| self.tolerated_energy());
         let state = observation(self.t, &self.y, &self.problem, rank_indicator, &mut self.phi_ddot);
         let apart = self.fixed.map(|step| step * self.integrator.spacing());

@@ -80,8 +80,12 @@ impl Observation<'_> {
 
 /// Receives the motion while it is computed.
 pub trait Sink {
-    /// Called with every accepted step, the start included.
+    /// Called with every accepted step, the start included, if it [`watches`](Self::watches) them.
     fn accepted(&mut self, _state: &Observation) {}
+    /// False if no step needs to be shown, which saves the residuals of an observation.
+    fn watches(&self) -> bool {
+        true
+    }
     /// Called with every output row, in order.
     fn row(&mut self, _state: &Observation) {}
     /// Called before every step and after every row: returns the reason if the run should end here.
@@ -91,7 +95,11 @@ pub trait Sink {
 }
 
 /// Stores nothing.
-impl Sink for () {}
+impl Sink for () {
+    fn watches(&self) -> bool {
+        false
+    }
+}
 
 /// The reason to end a run from outside, and the remedy.
 #[derive(Clone, Debug, PartialEq)]

@@ -105,6 +105,9 @@ impl Run<'_> {
     /// start was a singular state, and they are independent elsewhere.
     fn dropped_rows_open(&self) -> bool {
         let dynamics = &self.problem.dynamics;
+        if dynamics.dropped.is_empty() {
+            return false;
+        }
         let relative = |row: usize| dynamics.terms.phi[row].abs() / self.scales[row];
         let kept = (0..self.scales.len()).filter(|row| !dynamics.dropped.contains(row)).map(relative);
         let most = tolerances::ROUND_OFF_OF_PHI + tolerances::DROPPED_ROW_OPEN_OF_OTHERS * kept.fold(0.0, f64::max);

@@ -29,32 +29,24 @@ impl Coefficients {
     /// The first `count` of them for a step of size `h`.
     pub fn new(h: f64, past: &[f64; ROOM], count: usize) -> Self {
         let mut all = Coefficients { beta: [1.0; ROOM], sigma: [1.0; ROOM + 1], ..Self::NONE };
-        // Time from the start of the step back to the point.
-        let mut back = 0.0;
+        // Time from the start of the step back to the point, and g_i = c_i1 with c_1q = 1/q, c_2q = 1/(q (q + 1)),
+        // c_iq = c_{i-1,q} - h/psi_{i-1} c_{i-1,q+1}.
+        let (mut back, mut part, mut c) = (0.0, 0.0, SECOND);
         for (i, step) in past.iter().take(count).enumerate() {
+            if i > 1 {
+                let c = &mut c[..=count - i];
+                (1..c.len()).for_each(|q| c[q - 1] -= part * c[q]);
+            }
+            all.g[i] = if i > 0 { c[0] } else { 1.0 };
             all.psi[i] = h + back;
             if i > 0 {
                 all.beta[i] = all.beta[i - 1] * all.psi[i - 1] / back;
             }
-            all.sigma[i + 1] = (i + 1) as f64 * h / all.psi[i] * all.sigma[i];
+            part = h / all.psi[i];
+            all.sigma[i + 1] = (i + 1) as f64 * part * all.sigma[i];
             back += step;
         }
-        all.integrate(h, count);
         all
-    }
-
-    /// g_i = c_i1 with c_1q = 1/q, c_2q = 1/(q (q + 1)), c_iq = c_{i-1,q} - h/psi_{i-1} c_{i-1,q+1}.
-    fn integrate(&mut self, h: f64, count: usize) {
-        let mut c: [f64; ROOM] = std::array::from_fn(|q| 1.0 / ((q + 1) * (q + 2)) as f64);
-        self.g[0] = 1.0;
-        for i in 1..count {
-            if i > 1 {
-                let part = h / self.psi[i - 1];
-                let c = &mut c[..=count - i];
-                (1..c.len()).for_each(|q| c[q - 1] -= part * c[q]);
-            }
-            self.g[i] = c[0];
-        }
     }
 
     /// Weights, by i - 1, of the first `count` differences at the end of the step in the integral of the polynomial
@@ -74,6 +66,16 @@ impl Coefficients {
         g
     }
 }
+
+/// c_2q = 1/(q (q + 1)) by q - 1.
+const SECOND: [f64; ROOM] = {
+    let (mut c, mut q) = ([0.0; ROOM], 0);
+    while q < ROOM {
+        c[q] = 1.0 / ((q + 1) * (q + 2)) as f64;
+        q += 1;
+    }
+    c
+};
 
 /// |gamma*_j|, constants of the implicit formulas of equal steps: the error of order j is |gamma*_j| h nabla^j y'.
 /// Source: Hairer, Norsett, Wanner I, III.1 (1.8): sum_{i=0..m} gamma*_i / (m + 1 - i) = 0 for m > 0, gamma*_0 = 1.

@@ -1,6 +1,7 @@
 //! Adams methods of variable order and step.
 
 mod coefficients;
+mod rows;
 
 use super::memory::Reader;
 use super::{Control, Entry, From, Integrator, Problem, Stability, Steps, Tightening, Tolerance, refuses, takes};
@@ -8,6 +9,8 @@ use crate::formulation::StepError;
 use crate::method_spec::OptionDoc;
 use crate::tolerances::integrator as tolerances;
 use coefficients::{Coefficients, MOST, ROOM, error_constants};
+use rows::{LANES, Rows, lanes, plus, store};
+use std::array::from_fn;
 
 /// ```text
 /// y~ = y + h sum_{i=1..k} g_i Phi*_i,   y_1 = y~ + h g_{k+1} (F(t_1, y~) - Phi~_1)
@@ -47,10 +50,10 @@ struct Adams {
     order: usize,
     most: usize,
     /// Phi_i of the start of the step, i = 1 to `known`; none before the first step.
-    differences: Vec<Vec<f64>>,
+    differences: Rows,
     known: usize,
     /// Sums Phi~_i of Phi*_j over j = i to k, and then Phi*_{k+1}.
-    predicted: Vec<Vec<f64>>,
+    predicted: Rows,
     /// Sizes of the steps before, the last one first.
     past: [f64; ROOM],
     /// The last attempt.
@@ -86,9 +89,9 @@ impl Adams {
         Adams {
             order: 1,
             most,
-            differences: vec![zeros(); ROOM],
+            differences: Rows::new(len),
             known: 0,
-            predicted: vec![zeros(); ROOM],
+            predicted: Rows::new(len),
             past: [0.0; ROOM],
             tried: Tried { h: 0.0, order: 1, next: 1 },
             is_accepted: false,
@@ -107,7 +110,7 @@ impl Adams {
     /// Adds y' at the start of the step to the differences, if that is the end of the last one.
     fn extend(&mut self, slope: &[f64]) {
         if self.known == 0 {
-            self.differences[0].copy_from_slice(slope);
+            self.differences.set(0, slope);
             (self.known, self.order, self.is_rising) = (1, 1, true);
         }
         if !std::mem::take(&mut self.is_accepted) {
@@ -115,13 +118,13 @@ impl Adams {
         }
         let Tried { h, order, next } = self.tried;
         std::mem::swap(&mut self.differences, &mut self.predicted);
-        let Adams { differences, defect, .. } = self;
-        defect.iter_mut().zip(slope).zip(&differences[0]).for_each(|((d, slope), sum)| *d = slope - sum);
-        let (lower, higher) = differences.split_at_mut(order);
-        lower.iter_mut().for_each(|row| row.iter_mut().zip(&*defect).for_each(|(row, d)| *row += d));
-        if let [first, second, ..] = higher {
-            second.iter_mut().zip(&*first).zip(&*defect).for_each(|((second, first), d)| *second = d - first);
-            first.copy_from_slice(defect);
+        for (b, rows) in self.differences.blocks.iter_mut().enumerate() {
+            let d = plus(lanes(slope, b), -1.0, rows[0]);
+            let (lower, higher) = rows.split_at_mut(order);
+            lower.iter_mut().for_each(|row| *row = plus(*row, 1.0, d));
+            if let [first, second, ..] = higher {
+                (*first, *second) = (d, plus(d, -1.0, *first));
+            }
         }
         self.known = if self.known > order { (order + 2).min(ROOM) } else { order + 1 };
         self.past.copy_within(..ROOM - 1, 1);
@@ -132,41 +135,59 @@ impl Adams {
     /// y~, and the sums of the differences.
     fn predict(&mut self, from: From, h: f64, to: &mut [f64]) {
         let Adams { order, differences, known, predicted, coefficients, .. } = self;
-        let k = *order;
-        to.copy_from_slice(from.y);
-        if *known > k {
-            predicted[k].iter_mut().zip(&differences[k]).for_each(|(row, x)| *row = coefficients.beta[k] * x);
-        }
-        for i in (0..k).rev() {
-            let (lower, higher) = predicted.split_at_mut(i + 1);
-            let Some(row) = lower.last_mut() else { return };
-            match higher.first().filter(|_| i + 1 < k) {
-                Some(above) => row.copy_from_slice(above),
-                None => row.fill(0.0),
+        let (k, beta) = (*order, &coefficients.beta);
+        let weights: [f64; ROOM] = from_fn(|i| h * coefficients.g[i]);
+        for (b, (rows, sums)) in differences.blocks.iter().zip(&mut predicted.blocks).enumerate() {
+            let (mut y, mut sum) = (lanes(from.y, b), [0.0; LANES]);
+            if *known > k {
+                sums[k] = rows[k].map(|x| beta[k] * x);
             }
-            add(row, to, (coefficients.beta[i], h * coefficients.g[i]), &differences[i]);
+            for i in (0..k).rev() {
+                let row = rows[i].map(|x| beta[i] * x);
+                sum = plus(sum, 1.0, row);
+                y = plus(y, weights[i], row);
+                sums[i] = sum;
+            }
+            store(to, b, y);
         }
     }
 
+    /// Corrects y~ by the difference of y' there, `defect`, to the predicted one, which is then in its place.
+    fn correct(&mut self, h: f64, to: &mut [f64]) {
+        let weight = h * self.coefficients.g[self.order];
+        for (b, sums) in self.predicted.blocks.iter().enumerate() {
+            let d = plus(lanes(&self.defect, b), -1.0, sums[0]);
+            store(&mut self.defect, b, d);
+            store(to, b, plus(lanes(to, b), weight, d));
+        }
+    }
+
+    /// Inverses of the tolerated errors of a step, times those of the root of their number.
     fn weigh(&mut self, tolerance: &Tolerance, from: &[f64], to: &[f64]) {
         let (n, untested) = (tolerance.motion(), tolerance.untested());
         let per = (tolerance.tested(n) as f64).sqrt().recip();
         for range in [0..untested.start, untested.end..n] {
-            let sizes = from[range.clone()].iter().zip(&to[range.clone()]);
-            let weights = self.weights[range].iter_mut().zip(sizes);
-            weights.for_each(|(weight, (from, to))| *weight = per / tolerance.weight(*from, *to));
+            let [from, to] = [from, to].map(|y| &y[range.clone()]);
+            let weights = &mut self.weights[range];
+            for (i, weight) in weights.iter_mut().enumerate() {
+                *weight = per / tolerance.weight(from[i], to[i]);
+            }
         }
     }
 
-    /// Norm of the defect plus `factor` times the row of the predicted differences, over the tolerated errors.
-    fn norm(&self, factor: f64, row: usize) -> f64 {
-        let Adams { weights, defect, predicted, .. } = self;
-        let sums = defect.iter().zip(&predicted[row]).map(|(d, row)| d + factor * row);
-        let mut squares = [0.0; 4];
-        for (i, (weight, sum)) in weights.iter().zip(sums).enumerate() {
-            squares[i % 4] += (weight * sum).powi(2);
+    /// Norms over the tolerated errors: of the defect, which is a difference of order k, and of those of the orders
+    /// k - 1, k - 2 and k + 1.
+    fn norms(&self) -> [f64; 4] {
+        let k = self.order;
+        let mut squares = [[0.0; LANES]; 4];
+        for (b, sums) in self.predicted.blocks.iter().enumerate() {
+            let (weight, d) = (lanes(&self.weights, b), lanes(&self.defect, b));
+            let (one, two) = (plus(d, 1.0, sums[k - 1]), plus(d, 1.0, sums[k.max(2) - 2]));
+            for (squares, of_order) in squares.iter_mut().zip([d, one, two, plus(d, -1.0, sums[k])]) {
+                *squares = from_fn(|i| squares[i] + (weight[i] * of_order[i]).powi(2));
+            }
         }
-        squares.iter().sum::<f64>().sqrt()
+        squares.map(|squares| squares.iter().sum::<f64>().sqrt())
     }
 
     /// Error of a formula of order `order` over the tolerated one, by a difference of that order and this norm.
@@ -177,17 +198,15 @@ impl Adams {
     /// Chooses the order of the next step, and returns the error of a step of that order: as long as it rises, each
     /// step raises it; then it falls where a lower order would have no larger error, and rises where the next one
     /// would have a smaller one.
-    fn choose(&mut self, own: f64) -> f64 {
+    fn choose(&mut self, [own, one, two, raised]: [f64; 4]) -> f64 {
         let k = self.order;
-        let lower = |below: usize| match k > below {
-            true => self.error_of(k - below, self.norm(1.0, k - below)),
-            false => f64::INFINITY,
-        };
-        let (one, two) = (lower(1), if k > 2 { lower(2) } else { 0.0 });
+        let own = self.error_of(k, own);
+        let one = if k > 1 { self.error_of(k - 1, one) } else { f64::INFINITY };
+        let two = if k > 2 { self.error_of(k - 2, two) } else { 0.0 };
         let falls = if k == 2 { one <= 0.5 * own } else { one.max(two) <= own };
         self.is_rising &= !falls && k < self.most;
         let rises = self.known > k && k < self.most;
-        let raised = if rises { self.error_of(k + 1, self.norm(-1.0, k)) } else { f64::INFINITY };
+        let raised = if rises { self.error_of(k + 1, raised) } else { f64::INFINITY };
         let (next, error) = match () {
             _ if self.is_rising => (k + 1, 0.0),
             _ if falls || one <= own.min(raised) => (k - 1, one),
@@ -204,9 +223,10 @@ impl Adams {
         let k = self.tried.order;
         let g = self.coefficients.interpolation(ahead, k + 1);
         let sum = ahead * g[..=k].iter().sum::<f64>();
-        out.iter_mut().zip(&self.end).zip(&self.defect).for_each(|((out, end), d)| *out = end + sum * d);
-        for (weight, row) in g[..k].iter().zip(&self.predicted) {
-            out.iter_mut().zip(row).for_each(|(out, row)| *out += ahead * weight * row);
+        for (b, sums) in self.predicted.blocks.iter().enumerate() {
+            let start = plus(lanes(&self.end, b), sum, lanes(&self.defect, b));
+            let rows = g[..k].iter().zip(sums);
+            store(out, b, rows.fold(start, |out, (weight, row)| plus(out, ahead * weight, *row)));
         }
     }
 
@@ -218,15 +238,6 @@ impl Adams {
         self.control.safety = tolerances::ADAMS_AIM.powf(self.control.exponent);
         let ratio = (tolerances::ADAMS_AIM / next.max(1e-30)).powf(power(self.tried.next));
         self.ratio = if (1.0..tolerances::ADAMS_LONGER).contains(&ratio) { 1.0 } else { ratio };
-    }
-}
-
-/// row += beta x, y += weight beta x
-fn add(row: &mut [f64], y: &mut [f64], (beta, weight): (f64, f64), x: &[f64]) {
-    for ((row, y), x) in row.iter_mut().zip(y).zip(x) {
-        let scaled = beta * x;
-        *row += scaled;
-        *y += weight * scaled;
     }
 }
 
@@ -262,13 +273,11 @@ impl Integrator for Adams {
         self.coefficients = Coefficients::new(h, &self.past, k + 1);
         self.predict(from, h, to);
         problem.derivative(from.end, to, &mut self.defect)?;
-        self.defect.iter_mut().zip(&self.predicted[0]).for_each(|(d, sum)| *d -= sum);
-        let weight = h * self.coefficients.g[k];
-        to.iter_mut().zip(&self.defect).for_each(|(y, d)| *y += weight * d);
+        self.correct(h, to);
         self.weigh(tolerance, from.y, to);
-        let norm = self.norm(0.0, 0);
-        let error = h * (self.coefficients.g[k - 1] - self.coefficients.g[k]) * norm;
-        let next = self.choose(self.error_of(k, norm));
+        let norms = self.norms();
+        let error = h * (self.coefficients.g[k - 1] - self.coefficients.g[k]) * norms[0];
+        let next = self.choose(norms);
         self.steer(next);
         Ok(Some(error))
     }
@@ -297,36 +306,39 @@ impl Integrator for Adams {
         let mut memory = numbers.map(|number| number as f64).to_vec();
         memory.push(h);
         memory.extend(self.past);
-        let rows = if self.is_accepted { &self.predicted[..=order] } else { &self.differences[..self.known] };
-        rows.iter().for_each(|row| memory.extend(row));
+        let (rows, count) =
+            if self.is_accepted { (&self.predicted, order + 1) } else { (&self.differences, self.known) };
+        (0..count).for_each(|i| memory.extend(rows.row(i)));
         memory
     }
 
     fn recall(&mut self, memory: &[f64]) {
         let mut memory = Reader(memory);
-        let [own, known, order, next, is_accepted, is_rising] = std::array::from_fn(|_| memory.number() as usize);
+        let [own, known, order, next, is_accepted, is_rising] = from_fn(|_| memory.number() as usize);
         (self.order, self.known) = (own.clamp(1, self.most), known.min(ROOM));
         self.tried = Tried { h: memory.number(), order: order.clamp(1, MOST), next: next.clamp(1, self.most) };
         (self.is_accepted, self.is_rising) = (is_accepted > 0, is_rising > 0);
         memory.fill(&mut self.past);
-        let Adams { tried, known, predicted, differences, .. } = self;
-        let rows = if is_accepted > 0 { &mut predicted[..=tried.order] } else { &mut differences[..*known] };
-        rows.iter_mut().for_each(|row| memory.fill(row));
+        let Adams { tried, known, predicted, differences, defect, .. } = self;
+        let (rows, count) = if is_accepted > 0 { (predicted, tried.order + 1) } else { (differences, *known) };
+        for i in 0..count {
+            memory.fill(defect);
+            rows.set(i, defect);
+        }
     }
 
     fn lower_order(&self, from: From, h: f64, out: &mut [f64]) -> bool {
         // Of order k: y~ with g_k in the place of g_{k+1}.
         let (k, g) = (self.tried.order, &self.coefficients.g);
-        out.copy_from_slice(from.y);
-        for (i, g) in g[..k].iter().enumerate() {
-            // Phi*_i from the sums over i and over i + 1.
-            let above = (i + 1 < k).then(|| &self.predicted[i + 1]);
-            for (j, y) in out.iter_mut().enumerate() {
-                let difference = self.predicted[i][j] - above.map_or(0.0, |above| above[j]);
-                *y += h * g * difference;
+        for (b, sums) in self.predicted.blocks.iter().enumerate() {
+            let mut y = lanes(from.y, b);
+            for i in 0..k {
+                // Phi*_i from the sums over i and over i + 1.
+                let above = if i + 1 < k { sums[i + 1] } else { [0.0; LANES] };
+                y = plus(y, h * g[i], plus(sums[i], -1.0, above));
             }
+            store(out, b, plus(y, h * g[k - 1], lanes(&self.defect, b)));
         }
-        out.iter_mut().zip(&self.defect).for_each(|(y, d)| *y += h * g[k - 1] * d);
         true
     }
 
@@ -343,7 +355,7 @@ impl Integrator for Adams {
             self.open = open;
         }
         let Adams { defect, predicted, .. } = self;
-        defect.iter_mut().zip(slope).zip(&predicted[0]).for_each(|((d, slope), sum)| *d = slope - sum);
+        defect.iter_mut().zip(slope).zip(predicted.row(0)).for_each(|((d, slope), sum)| *d = slope - sum);
         let mut open = std::mem::take(&mut self.open);
         self.follow(-h, &mut open);
         open.iter_mut().zip(from.y).for_each(|(open, y)| *open = y - *open);

@@ -97,7 +97,7 @@ impl GeneralizedAlpha {
         let (q, v) = problem.split(to);
         let n = problem.dynamics.system.dimensions();
         problem.dynamics.system.rate(q, self.motion.local_error(h), &mut self.error);
-        let sum = tolerance.squares(q.len(), from.y, q, |i| self.error[i]);
+        let sum = tolerance.squares(q.len(), from.y, q, &self.error);
         let of_state = |i: usize| self.motion.state_error(i, h) / tolerance.weight(from.y[q.len() + i], v[i]);
         let of_states: f64 = (n.moving()..n.v).map(|i| of_state(i).powi(2)).sum();
         ((sum + of_states) / (tolerance.tested(q.len()) + n.states) as f64).sqrt()

@@ -53,6 +53,14 @@ impl Ldlt {
         }
     }
 
+    /// Solves for two right sides with zero for the coordinates at once; false where that is no less work than one after
+    /// the other.
+    pub fn project(&mut self, bottoms: [&[f64]; 2], corrections: [&mut [f64]; 2]) -> bool {
+        let Ldlt::Blocks(f) = self else { return false };
+        f.project(bottoms, corrections);
+        true
+    }
+
     /// The smallest ratio above `collapsed` of a pivot to its size, and the number of multipliers whose ratio is not
     /// above it.
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {

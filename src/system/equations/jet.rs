@@ -1,7 +1,6 @@
 //! phi with phi', gamma, G and phi_t in one evaluation.
 
 use crate::math::{Scalar, Taylor, Unary, operators};
-use std::array::from_fn;
 
 /// Directions in which a [`Jet`] is differentiated.
 pub(super) const WIDTH: usize = 8;
@@ -22,8 +21,18 @@ impl Jet {
     /// The function with this value and slope at `self`.
     #[inline]
     fn chain(self, path: Taylor<f64>, slope: f64) -> Self {
-        Jet { path, slope: self.slope.map(|e| slope * e) }
+        Jet { path, slope: each(|i| slope * self.slope[i]) }
     }
+}
+
+/// A slope by its entries; a plain loop, since longer formulas are inlined with it.
+#[inline(always)]
+fn each(entry: impl Fn(usize) -> f64) -> [f64; WIDTH] {
+    let mut slope = [0.0; WIDTH];
+    for (i, place) in slope.iter_mut().enumerate() {
+        *place = entry(i);
+    }
+    slope
 }
 
 impl Scalar for Jet {
@@ -53,18 +62,18 @@ impl Scalar for Jet {
 
 operators! {
     impl[] Jet:
-    Neg neg(a) = Jet { path: -a.path, slope: a.slope.map(|e| -e) };
-    Add add(a, b: Self) = Jet { path: a.path + b.path, slope: from_fn(|i| a.slope[i] + b.slope[i]) };
-    Sub sub(a, b: Self) = Jet { path: a.path - b.path, slope: from_fn(|i| a.slope[i] - b.slope[i]) };
+    Neg neg(a) = Jet { path: -a.path, slope: each(|i| -a.slope[i]) };
+    Add add(a, b: Self) = Jet { path: a.path + b.path, slope: each(|i| a.slope[i] + b.slope[i]) };
+    Sub sub(a, b: Self) = Jet { path: a.path - b.path, slope: each(|i| a.slope[i] - b.slope[i]) };
     Mul mul(a, b: Self) = {
         let (x, y) = (a.path.x, b.path.x);
-        Jet { path: a.path * b.path, slope: from_fn(|i| a.slope[i] * y + x * b.slope[i]) }
+        Jet { path: a.path * b.path, slope: each(|i| a.slope[i] * y + x * b.slope[i]) }
     };
     Div div(a, b: Self) = {
         let (path, inverse) = (a.path / b.path, b.path.x.recip());
-        Jet { path, slope: from_fn(|i| (a.slope[i] - path.x * b.slope[i]) * inverse) }
+        Jet { path, slope: each(|i| (a.slope[i] - path.x * b.slope[i]) * inverse) }
     };
     Add add(a, x: f64) = Jet { path: a.path + x, ..a };
     Mul mul(a, x: f64) = a.chain(a.path * x, x);
-    Div div(a, x: f64) = Jet { path: a.path / x, slope: a.slope.map(|e| e / x) };
+    Div div(a, x: f64) = Jet { path: a.path / x, slope: each(|i| a.slope[i] / x) };
 }

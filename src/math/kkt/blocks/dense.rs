@@ -9,6 +9,7 @@
 
 use super::groups::LARGEST;
 use super::judge::Judge;
+use super::lanes::Lanes;
 use std::ops::Range;
 
 /// A body with its entries of M.
@@ -87,9 +88,9 @@ impl Dense {
     }
 
     /// top := L^-T top
-    pub fn leave(&self, lower: &[f64], top: &mut [f64]) {
+    pub fn leave<T: Lanes>(&self, lower: &[f64], top: &mut [T]) {
         let x = &mut top[self.first..][..self.width];
-        self.lower.iter().zip(&lower[self.places.clone()]).rev().for_each(|(&(p, q), l)| x[q] -= l * x[p]);
+        self.lower.iter().zip(&lower[self.places.clone()]).rev().for_each(|(&(p, q), l)| x[q] = x[q] - x[p] * *l);
     }
 
     fn forward(&self, lower: &[f64], x: &mut [f64]) {

@@ -2,17 +2,18 @@
 
 use super::groups::LARGEST;
 use super::judge::Judge;
+use super::lanes::Lanes;
 use super::layout::{Layout, Run};
 use std::array::from_fn;
 
 /// The first N numbers from `place` on.
 #[inline(always)]
-pub(super) fn at<const N: usize>(numbers: &[f64], place: usize) -> Option<&[f64; N]> {
+pub(super) fn at<T, const N: usize>(numbers: &[T], place: usize) -> Option<&[T; N]> {
     numbers.get(place..)?.first_chunk()
 }
 
 #[inline(always)]
-pub(super) fn at_mut<const N: usize>(numbers: &mut [f64], place: usize) -> Option<&mut [f64; N]> {
+pub(super) fn at_mut<T, const N: usize>(numbers: &mut [T], place: usize) -> Option<&mut [T; N]> {
     numbers.get_mut(place..)?.first_chunk_mut()
 }
 
@@ -51,7 +52,7 @@ impl Elimination<'_, '_> {
                     let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j * W + p] * inverse[p]));
                     for (x, &target) in xs[l..].iter().zip(targets.by_ref()) {
                         for i in 0..R {
-                            if let Some(row) = at_mut::<R>(later, target as usize + i * R) {
+                            if let Some(row) = at_mut::<_, R>(later, target as usize + i * R) {
                                 subtract(row, &from_fn(|p| x[i * W + p]), &scaled);
                             }
                         }
@@ -163,14 +164,14 @@ impl<const W: usize> Products<'_, W> {
 }
 
 /// A right side as it is solved for.
-pub(super) struct Solution<'a> {
+pub(super) struct Solution<'a, T> {
     pub layout: &'a Layout,
     pub work: &'a [f64],
     pub inverse: &'a [f64],
-    pub x: &'a mut [f64],
+    pub x: &'a mut [T],
 }
 
-impl Solution<'_> {
+impl<T: Lanes> Solution<'_, T> {
     /// x := L^-1 x for columns whose partners are R wide; WR = W R.
     pub fn forward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
         let Solution { layout, work, inverse, x } = self;
@@ -182,8 +183,8 @@ impl Solution<'_> {
             (work, partners) = (rest, others);
             let Some(mine) = solved_forward(run, own, inverse, (run.first + j * W, x)) else { return };
             for (block, &position) in own[W * W..].as_chunks::<WR>().0.iter().zip(positions) {
-                if let Some(x) = at_mut::<R>(x, position as usize) {
-                    *x = from_fn(|i| (0..W).fold(x[i], |x, p| x - block[i * W + p] * mine[p]));
+                if let Some(x) = at_mut::<_, R>(x, position as usize) {
+                    *x = from_fn(|i| (0..W).fold(x[i], |x, p| x - mine[p] * block[i * W + p]));
                 }
             }
         }
@@ -200,7 +201,7 @@ impl Solution<'_> {
             work = rest;
             let Some(mine) = solved_forward(run, block, inverse, (run.first + j * W, x)) else { return };
             for (row, position) in block[W * W..].as_chunks::<W>().0.iter().zip(own.unknowns()) {
-                x[position] = (0..W).fold(x[position], |x, p| x - row[p] * mine[p]);
+                x[position] = (0..W).fold(x[position], |x, p| x - mine[p] * row[p]);
             }
         }
     }
@@ -214,10 +215,10 @@ impl Solution<'_> {
             let (rest, own) = work.split_at(work.len() - W * W - count as usize * WR);
             let (others, positions) = partners.split_at(partners.len() - count as usize);
             (work, partners) = (rest, others);
-            let mut sum = [0.0; W];
+            let mut sum = [T::default(); W];
             for (block, &position) in own[W * W..].as_chunks::<WR>().0.iter().zip(positions) {
-                if let Some(x) = at::<R>(x, position as usize) {
-                    (0..R).for_each(|i| (0..W).for_each(|p| sum[p] += block[i * W + p] * x[i]));
+                if let Some(x) = at::<_, R>(x, position as usize) {
+                    (0..R).for_each(|i| (0..W).for_each(|p| sum[p] = sum[p] + x[i] * block[i * W + p]));
                 }
             }
             solve_backward(run, own, (inverse, &sum), (run.first + j * W, x));
@@ -233,10 +234,10 @@ impl Solution<'_> {
             let own = partners.last(count as usize);
             let (rest, block) = work.split_at(work.len() - W * W - W * own.rows());
             work = rest;
-            let mut sum = [0.0; W];
+            let mut sum = [T::default(); W];
             for (row, position) in block[W * W..].as_chunks::<W>().0.iter().zip(own.unknowns()) {
                 let x = x[position];
-                (0..W).for_each(|p| sum[p] += row[p] * x);
+                (0..W).for_each(|p| sum[p] = sum[p] + x * row[p]);
             }
             solve_backward(run, block, (inverse, &sum), (run.first + j * W, x));
         }
@@ -282,13 +283,13 @@ impl<'a> Partners<'a> {
 
 /// x := L_jj^-1 x for a column with its diagonal block ahead; returns D^-1 x.
 #[inline(always)]
-fn solved_forward<const W: usize>(
+fn solved_forward<T: Lanes, const W: usize>(
     run: &Run,
     block: &[f64],
     inverse: &[f64; W],
-    (first, x): (usize, &mut [f64]),
-) -> Option<[f64; W]> {
-    let (diagonal, x) = (block.as_chunks::<W>().0.first_chunk::<W>()?, at_mut::<W>(x, first)?);
+    (first, x): (usize, &mut [T]),
+) -> Option<[T; W]> {
+    let (diagonal, x) = (block.as_chunks::<W>().0.first_chunk::<W>()?, at_mut::<_, W>(x, first)?);
     if !run.is_diagonal {
         forward(diagonal, x);
     }
@@ -297,26 +298,26 @@ fn solved_forward<const W: usize>(
 
 /// x := L_jj^-T D^-1 (x - sum) for a column with its diagonal block ahead.
 #[inline(always)]
-fn solve_backward<const W: usize>(
+fn solve_backward<T: Lanes, const W: usize>(
     run: &Run,
     block: &[f64],
-    (inverse, sum): (&[f64; W], &[f64; W]),
-    (first, x): (usize, &mut [f64]),
+    (inverse, sum): (&[f64; W], &[T; W]),
+    (first, x): (usize, &mut [T]),
 ) {
     let diagonal = block.as_chunks::<W>().0.first_chunk::<W>();
-    let (Some(diagonal), Some(x)) = (diagonal, at_mut::<W>(x, first)) else { return };
+    let (Some(diagonal), Some(x)) = (diagonal, at_mut::<_, W>(x, first)) else { return };
     *x = from_fn(|p| (x[p] - sum[p]) * inverse[p]);
     if !run.is_diagonal {
         for p in (0..W).rev() {
-            (p + 1..W).for_each(|q| x[p] -= diagonal[q][p] * x[q]);
+            (p + 1..W).for_each(|q| x[p] = x[p] - x[q] * diagonal[q][p]);
         }
     }
 }
 
 /// x := L^-1 x with the unit lower triangle of a diagonal block.
 #[inline(always)]
-fn forward<const W: usize>(block: &[[f64; W]; W], x: &mut [f64; W]) {
+fn forward<T: Lanes, const W: usize>(block: &[[f64; W]; W], x: &mut [T; W]) {
     for p in 0..W {
-        (p + 1..W).for_each(|q| x[q] -= block[q][p] * x[p]);
+        (p + 1..W).for_each(|q| x[q] = x[q] - x[p] * block[q][p]);
     }
 }

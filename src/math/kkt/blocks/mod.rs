@@ -11,23 +11,31 @@
 //! by, for a joint one update of Gaussian elimination. Pivots are those of the scalar factorization, and are judged one
 //! by one. Rigid bodies come first, without places of their own ([`bodies`]).
 
+#[macro_use]
+mod widths;
+
 mod bodies;
 mod dense;
+mod factors;
 mod groups;
 mod judge;
 mod kernels;
+mod lanes;
 mod layout;
 mod schur;
 
 use super::pivot::{Quality, Rule};
 use super::system::add;
 use dense::Dense;
+use factors::Factors;
 pub(super) use groups::Groups;
 pub(super) use judge::Judge;
-use kernels::{Elimination, Solution};
+use kernels::{Elimination, at};
+use lanes::Pair;
 pub(super) use layout::Layout;
 use layout::Run;
-use schur::{Passage, Schur};
+use schur::Schur;
+use std::array::from_fn;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -48,45 +56,8 @@ pub(super) struct Blocks {
     lower: Vec<f64>,
     /// Values of M that these belong to; empty if some of them were judged.
     mass: Vec<f64>,
-}
-
-/// Calls a method with the widths of a run's columns and of their partners as constants, and their product: those of
-/// usual joints (one row, hinge and sphere in the plane and in space), or another method for the other runs.
-macro_rules! by_widths {
-    ($run:ident, $part:ident, $alike:ident, $mixed:ident) => {
-        match ($run.width, $run.partner_width) {
-            (1, 1) => $part.$alike::<1, 1, 1>($run),
-            (2, 1) => $part.$alike::<2, 1, 2>($run),
-            (2, 2) => $part.$alike::<2, 2, 4>($run),
-            (3, 1) => $part.$alike::<3, 1, 3>($run),
-            (3, 2) => $part.$alike::<3, 2, 6>($run),
-            (3, 3) => $part.$alike::<3, 3, 9>($run),
-            (5, 5) => $part.$alike::<5, 5, 25>($run),
-            (6, 1) => $part.$alike::<6, 1, 6>($run),
-            (6, 3) => $part.$alike::<6, 3, 18>($run),
-            (6, 5) => $part.$alike::<6, 5, 30>($run),
-            (1, _) => $part.$mixed::<1>($run),
-            (2, _) => $part.$mixed::<2>($run),
-            (3, _) => $part.$mixed::<3>($run),
-            (4, _) => $part.$mixed::<4>($run),
-            (5, _) => $part.$mixed::<5>($run),
-            (6, _) => $part.$mixed::<6>($run),
-            (7, _) => $part.$mixed::<7>($run),
-            _ => $part.$mixed::<{ groups::LARGEST }>($run),
-        }
-    };
-}
-
-/// The same for bodies, whose points with all their translations in the plane and in space are levers.
-macro_rules! by_kinds {
-    ($run:ident, $part:ident, $levers:ident::<$plane:tt, $space:tt>, $alike:ident, $mixed:ident) => {
-        match ($run.are_levers, $run.width, $run.partner_width) {
-            (true, 3, 2) => by_kinds!(@ $part.$levers $plane($run)),
-            (true, 6, 3) => by_kinds!(@ $part.$levers $space($run)),
-            _ => by_widths!($run, $part, $alike, $mixed),
-        }
-    };
-    (@ $part:ident.$levers:ident [$($n:literal),*]($run:ident)) => { $part.$levers::<$($n),*>($run) };
+    /// Right sides of [`Blocks::project`], of the coordinates and of the unknowns of the layout; empty until needed.
+    pairs: [Vec<Pair>; 2],
 }
 
 impl Blocks {
@@ -103,6 +74,7 @@ impl Blocks {
             inverse_masses: vec![0.0; n],
             lower: vec![0.0; layout.bodies.dense.last().map_or(0, Dense::end)],
             mass: Vec::new(),
+            pairs: [Vec::new(), Vec::new()],
             layout,
         }
     }
@@ -205,38 +177,18 @@ impl Blocks {
 
     /// The way forward for all but the last columns, see [`Self::last`].
     pub fn forward(&mut self, top: &mut [f64], bottom: &[f64]) {
-        let Blocks { layout, x, g, inverse_masses, lower, .. } = self;
-        layout.bodies.dense.iter().for_each(|body| body.enter(lower, top));
-        layout.coordinates.iter().for_each(|&(i, p)| x[p as usize] = top[i as usize]);
-        layout.g_rows.iter().zip(bottom).for_each(|(&p, value)| x[p as usize] = *value);
-        let mut bodies = Passage { bodies: &layout.bodies, g, inverse: inverse_masses, top, x };
-        for run in &layout.bodies.runs {
-            by_kinds!(run, bodies, forward_levers::<[2, 1, 3, 6], [3, 3, 6, 18]>, forward, forward_by_rows);
-        }
-        self.solve_forward(0..self.layout.own_runs);
+        let own = 0..self.layout.own_runs;
+        let (factors, x, _) = self.factors();
+        factors.enter(top, bottom, x);
+        factors.forward(own, x);
     }
 
     /// Both ways for the last columns.
     pub fn solve_last(&mut self) {
         let last = self.layout.own_runs..self.layout.runs.len();
-        self.solve_forward(last.clone());
-        self.solve_backward(last);
-    }
-
-    fn solve_forward(&mut self, runs: Range<usize>) {
-        let Blocks { layout, work, inverse, x, .. } = self;
-        let mut part = Solution { layout, work, inverse, x };
-        for run in &layout.runs[runs] {
-            by_widths!(run, part, forward, forward_by_rows);
-        }
-    }
-
-    fn solve_backward(&mut self, runs: Range<usize>) {
-        let Blocks { layout, work, inverse, x, .. } = self;
-        let mut part = Solution { layout, work, inverse, x };
-        for run in layout.runs[runs].iter().rev() {
-            by_widths!(run, part, backward, backward_by_rows);
-        }
+        let (factors, x, _) = self.factors();
+        factors.forward(last.clone(), x);
+        factors.backward(last, x);
     }
 
     /// The right sides of the last columns after the way forward, then their solution.
@@ -246,15 +198,31 @@ impl Blocks {
 
     /// The way back for all but the last columns.
     pub fn backward(&mut self, top: &mut [f64], bottom: &mut [f64]) {
-        self.solve_backward(0..self.layout.own_runs);
-        let Blocks { layout, x, g, inverse_masses, lower, .. } = self;
-        let mut bodies = Passage { bodies: &layout.bodies, g, inverse: inverse_masses, top, x };
-        for run in &layout.bodies.runs {
-            by_kinds!(run, bodies, backward_levers::<[2, 1, 3, 6], [3, 3, 6, 18]>, backward, backward_by_rows);
+        let own = 0..self.layout.own_runs;
+        let (factors, x, _) = self.factors();
+        factors.backward(own, x);
+        factors.leave(top, x);
+        factors.layout.g_rows.iter().zip(bottom).for_each(|(&p, value)| *value = x[p as usize]);
+    }
+
+    /// Solves [M G^T; G 0] [d; .] = [0; b] for two b at once.
+    pub fn project(&mut self, [b, c]: [&[f64]; 2], [d, e]: [&mut [f64]; 2]) {
+        let (n, len, all) = (self.n, self.layout.nodes.len(), 0..self.layout.runs.len());
+        let (factors, _, [top, x]) = self.factors();
+        for (side, len) in [(&mut *top, n), (&mut *x, len)] {
+            side.clear();
+            side.resize(len, Pair::default());
         }
-        layout.bodies.dense.iter().for_each(|body| body.leave(lower, top));
-        layout.coordinates.iter().for_each(|&(i, p)| top[i as usize] = x[p as usize]);
-        layout.g_rows.iter().zip(bottom).for_each(|(&p, value)| *value = x[p as usize]);
+        factors.layout.g_rows.iter().zip(b.iter().zip(c)).for_each(|(&p, (b, c))| x[p as usize] = Pair([*b, *c]));
+        factors.forward(all.clone(), x);
+        factors.backward(all, x);
+        factors.leave(top, x);
+        d.iter_mut().zip(e).zip(top).for_each(|((d, e), Pair(top))| [*d, *e] = *top);
+    }
+
+    fn factors(&mut self) -> (Factors<'_>, &mut [f64], &mut [Vec<Pair>; 2]) {
+        let Blocks { layout, work, inverse, x, g, inverse_masses, lower, pairs, .. } = self;
+        (Factors { layout, work, inverse, g, inverse_masses, lower }, x, pairs)
     }
 
     /// The smallest ratio above `collapsed` of a pivot to its size before elimination, and the number of multipliers
@@ -268,22 +236,34 @@ impl Blocks {
         self.smaller_ratio(found, &self.layout.runs[..self.layout.own_runs], collapsed)
     }
 
-    fn smaller_ratio(&self, mut found: (f64, usize), runs: &[Run], collapsed: f64) -> (f64, usize) {
+    fn smaller_ratio(&self, found: (f64, usize), runs: &[Run], collapsed: f64) -> (f64, usize) {
         // The last joints first: their ratios are the smallest, as a rule.
-        for (run, first) in runs.iter().rev().flat_map(|run| run.firsts().rev().map(move |first| (run, first))) {
-            let (positions, is_row) = (first..first + run.width, run.sign < 0.0);
-            let mut ratios = [1.0; groups::LARGEST];
-            for (ratio, p) in ratios.iter_mut().zip(positions) {
-                let pivot = run.sign * self.work[self.layout.diagonal(p as u32)];
-                *ratio = pivot / if is_row || run.is_early { self.sizes[p] } else { self.sizes[p] + pivot };
-            }
-            let ratios = &mut ratios[..run.width];
+        runs.iter().rev().fold(found, |found, run| match run.width {
+            1 => self.smaller_of::<1>(run, found, collapsed),
+            2 => self.smaller_of::<2>(run, found, collapsed),
+            3 => self.smaller_of::<3>(run, found, collapsed),
+            4 => self.smaller_of::<4>(run, found, collapsed),
+            5 => self.smaller_of::<5>(run, found, collapsed),
+            6 => self.smaller_of::<6>(run, found, collapsed),
+            7 => self.smaller_of::<7>(run, found, collapsed),
+            _ => self.smaller_of::<{ groups::LARGEST }>(run, found, collapsed),
+        })
+    }
+
+    fn smaller_of<const W: usize>(&self, run: &Run, mut found: (f64, usize), collapsed: f64) -> (f64, usize) {
+        let is_row = run.sign < 0.0;
+        for first in run.firsts().rev() {
+            let place = self.layout.diagonal(first as u32);
+            let Some(sizes) = at::<_, W>(&self.sizes, first) else { return found };
+            let mut ratios: [f64; W] = from_fn(|p| {
+                let pivot = run.sign * self.work[place + p * (W + 1)];
+                pivot / if is_row || run.is_early { sizes[p] } else { sizes[p] + pivot }
+            });
             // Written so that the NaN of a row of zeros has collapsed.
-            let lost = run.width - ratios.iter().filter(|ratio| **ratio > collapsed).count();
+            let lost = W - ratios.iter().filter(|ratio| **ratio > collapsed).count();
             // In any order of the rows none is smaller than the product of all.
-            let least: f64 = ratios.iter().product();
-            if is_row && lost == 0 && run.width > 1 && least < found.0 {
-                self.pivoted(first, ratios);
+            if is_row && lost == 0 && W > 1 && ratios.iter().product::<f64>() < found.0 {
+                self.pivoted(first, place, &mut ratios);
             }
             found.0 = ratios.iter().filter(|ratio| **ratio > collapsed).fold(found.0, |least: f64, x| least.min(*x));
             found.1 += if is_row { lost } else { 0 };
@@ -292,25 +272,27 @@ impl Blocks {
     }
 
     /// The ratios of a joint's pivots with the largest first, by those without, from L_jj D L_jj^T.
-    fn pivoted(&self, first: usize, ratios: &mut [f64]) {
-        let (width, place) = (ratios.len(), self.layout.diagonal(first as u32));
-        let l = |i: usize, p: usize| if i == p { 1.0 } else { self.work[place + i * width + p] };
-        let pivot = |p: usize| -self.work[place + p * (width + 1)];
-        let mut block = [[0.0; groups::LARGEST]; groups::LARGEST];
-        for (i, j) in (0..width).flat_map(|i| (0..=i).map(move |j| (i, j))) {
-            let sum: f64 = (0..=j).map(|p| l(i, p) * pivot(p) * l(j, p)).sum();
-            block[i][j] = sum / (self.sizes[first + i] * self.sizes[first + j]).sqrt();
+    fn pivoted<const W: usize>(&self, first: usize, place: usize, ratios: &mut [f64; W]) {
+        let (rows, sizes) = (self.work[place..].as_chunks::<W>().0, at::<_, W>(&self.sizes, first));
+        let (Some(rows), Some(sizes)) = (rows.first_chunk::<W>(), sizes) else { return };
+        let l = |i: usize, p: usize| if i == p { 1.0 } else { rows[i][p] };
+        let scale = sizes.map(|size| size.sqrt().recip());
+        let mut block = [[0.0; W]; W];
+        for (i, j) in (0..W).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+            let sum: f64 = (0..=j).map(|p| l(i, p) * -rows[p][p] * l(j, p)).sum();
+            block[i][j] = sum * scale[i] * scale[j];
             block[j][i] = block[i][j];
         }
-        let mut is_left = [true; groups::LARGEST];
+        let mut is_left = [true; W];
         for ratio in ratios.iter_mut() {
-            let left = (0..width).filter(|&i| is_left[i]);
+            let left = (0..W).filter(|&i| is_left[i]);
             let Some(next) = left.max_by(|&i, &j| block[i][i].total_cmp(&block[j][j])) else { return };
             is_left[next] = false;
             *ratio = block[next][next];
             let row = block[next];
-            for i in (0..width).filter(|&i| is_left[i]) {
-                (0..width).for_each(|j| block[i][j] -= row[i] * row[j] / *ratio);
+            let part = row.map(|x| x / *ratio);
+            for i in (0..W).filter(|&i| is_left[i]) {
+                (0..W).for_each(|j| block[i][j] -= row[i] * part[j]);
             }
         }
     }

@@ -3,6 +3,7 @@
 use super::bodies::{Bodies, Run, Side};
 use super::groups::LARGEST;
 use super::kernels::{at, at_mut, subtract};
+use super::lanes::Lanes;
 use std::array::from_fn;
 use std::slice::Iter;
 
@@ -27,7 +28,7 @@ impl Schur<'_> {
         let Schur { bodies, g, inverse, work } = self;
         let (mut rest, mut targets) = (&bodies.sides[run.sides.clone()], bodies.targets[run.targets.clone()].iter());
         for body in &bodies.all[run.bodies.clone()] {
-            let Some(inverse) = at::<W>(inverse, body.first as usize) else { return };
+            let Some(inverse) = at::<_, W>(inverse, body.first as usize) else { return };
             let (sides, others) = rest.split_at(body.sides as usize);
             rest = others;
             reduce(inverse, sides, &mut targets, g, work);
@@ -47,12 +48,12 @@ impl Schur<'_> {
     ) {
         self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
             for (l, side) in sides.iter().enumerate() {
-                let Some(x) = at::<TW>(g, side.entries as usize) else { return };
+                let Some(x) = at::<_, TW>(g, side.entries as usize) else { return };
                 let scaled: [[f64; T]; K] = from_fn(|p| from_fn(|j| x[j * W + T + p] * inverse[T + p]));
                 let identity: [f64; T] = from_fn(|i| side.sign * inverse[i]);
                 for (side, &target) in sides[l..].iter().zip(targets.by_ref()) {
-                    let x = at::<TW>(g, side.entries as usize);
-                    let (Some(x), Some(target)) = (x, at_mut::<TT>(work, target as usize)) else { return };
+                    let x = at::<_, TW>(g, side.entries as usize);
+                    let (Some(x), Some(target)) = (x, at_mut::<_, TT>(work, target as usize)) else { return };
                     for i in 0..T {
                         let mut row: [f64; T] = from_fn(|j| target[i * T + j]);
                         row[i] -= side.sign * identity[i];
@@ -70,12 +71,12 @@ impl Schur<'_> {
     pub fn alike<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
         self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
             for (l, side) in sides.iter().enumerate() {
-                let Some(x) = at::<WR>(g, side.entries as usize) else { return };
+                let Some(x) = at::<_, WR>(g, side.entries as usize) else { return };
                 let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j * W + p] * inverse[p]));
                 for (side, &target) in sides[l..].iter().zip(targets.by_ref()) {
-                    let Some(x) = at::<WR>(g, side.entries as usize) else { return };
+                    let Some(x) = at::<_, WR>(g, side.entries as usize) else { return };
                     for i in 0..R {
-                        if let Some(row) = at_mut::<R>(work, target as usize + i * R) {
+                        if let Some(row) = at_mut::<_, R>(work, target as usize + i * R) {
                             subtract(row, &from_fn(|p| x[i * W + p]), &scaled);
                         }
                     }
@@ -126,25 +127,25 @@ fn block<'a, const W: usize>(g: &'a [f64], side: &Side) -> &'a [[f64; W]] {
 }
 
 /// A right side as it is solved for.
-pub(super) struct Passage<'a> {
+pub(super) struct Passage<'a, N> {
     pub bodies: &'a Bodies,
     pub g: &'a [f64],
     pub inverse: &'a [f64],
     /// Right sides of the coordinates, then M^-1 times them, then the solution.
-    pub top: &'a mut [f64],
+    pub top: &'a mut [N],
     /// Those of the unknowns that are left.
-    pub x: &'a mut [f64],
+    pub x: &'a mut [N],
 }
 
-impl Passage<'_> {
+impl<N: Lanes> Passage<'_, N> {
     /// top := M^-1 top and x -= G top. `subtract` does the second for a block and the part of top of its body.
     #[inline(always)]
-    fn forward_by<const W: usize>(&mut self, run: &Run, subtract: impl Fn(&Side, &[f64], &[f64; W], &mut [f64])) {
+    fn forward_by<const W: usize>(&mut self, run: &Run, subtract: impl Fn(&Side, &[f64], &[N; W], &mut [N])) {
         let Passage { bodies, g, inverse, top, x } = self;
         let mut rest = &bodies.sides[run.sides.clone()];
         for body in &bodies.all[run.bodies.clone()] {
             let first = body.first as usize;
-            let (Some(inverse), Some(top)) = (at::<W>(inverse, first), at_mut::<W>(top, first)) else { return };
+            let (Some(inverse), Some(top)) = (at::<_, W>(inverse, first), at_mut::<_, W>(top, first)) else { return };
             *top = from_fn(|p| top[p] * inverse[p]);
             let (sides, others) = rest.split_at(body.sides as usize);
             rest = others;
@@ -154,15 +155,15 @@ impl Passage<'_> {
 
     /// top -= M^-1 G^T x. `add` adds the part of G^T x of a block.
     #[inline(always)]
-    fn backward_by<const W: usize>(&mut self, run: &Run, add: impl Fn(&Side, &[f64], &mut [f64; W], &[f64])) {
+    fn backward_by<const W: usize>(&mut self, run: &Run, add: impl Fn(&Side, &[f64], &mut [N; W], &[N])) {
         let Passage { bodies, g, inverse, top, x } = self;
         let mut rest = &bodies.sides[run.sides.clone()];
         for body in &bodies.all[run.bodies.clone()] {
             let first = body.first as usize;
-            let (Some(inverse), Some(top)) = (at::<W>(inverse, first), at_mut::<W>(top, first)) else { return };
+            let (Some(inverse), Some(top)) = (at::<_, W>(inverse, first), at_mut::<_, W>(top, first)) else { return };
             let (sides, others) = rest.split_at(body.sides as usize);
             rest = others;
-            let mut sum = [0.0; W];
+            let mut sum = [N::default(); W];
             sides.iter().for_each(|side| add(side, g, &mut sum, x));
             *top = from_fn(|p| top[p] - sum[p] * inverse[p]);
         }
@@ -171,11 +172,11 @@ impl Passage<'_> {
     /// Forwards through blocks [s I | a].
     pub fn forward_levers<const T: usize, const K: usize, const W: usize, const TW: usize>(&mut self, run: &Run) {
         self.forward_by::<W>(run, |side, g, mine, x| {
-            let block = at::<TW>(g, side.entries as usize);
-            let (Some(block), Some(x)) = (block, at_mut::<T>(x, side.position as usize)) else { return };
+            let block = at::<_, TW>(g, side.entries as usize);
+            let (Some(block), Some(x)) = (block, at_mut::<_, T>(x, side.position as usize)) else { return };
             for i in 0..T {
-                let start = x[i] - side.sign * mine[i];
-                x[i] = (0..K).fold(start, |x, p| x - block[i * W + T + p] * mine[T + p]);
+                let start = x[i] - mine[i] * side.sign;
+                x[i] = (0..K).fold(start, |x, p| x - mine[T + p] * block[i * W + T + p]);
             }
         });
     }
@@ -183,11 +184,11 @@ impl Passage<'_> {
     /// Backwards through blocks [s I | a].
     pub fn backward_levers<const T: usize, const K: usize, const W: usize, const TW: usize>(&mut self, run: &Run) {
         self.backward_by::<W>(run, |side, g, sum, x| {
-            let block = at::<TW>(g, side.entries as usize);
-            let (Some(block), Some(x)) = (block, at::<T>(x, side.position as usize)) else { return };
+            let block = at::<_, TW>(g, side.entries as usize);
+            let (Some(block), Some(x)) = (block, at::<_, T>(x, side.position as usize)) else { return };
             for i in 0..T {
-                sum[i] += side.sign * x[i];
-                (0..K).for_each(|p| sum[T + p] += block[i * W + T + p] * x[i]);
+                sum[i] = sum[i] + x[i] * side.sign;
+                (0..K).for_each(|p| sum[T + p] = sum[T + p] + x[i] * block[i * W + T + p]);
             }
         });
     }
@@ -195,18 +196,18 @@ impl Passage<'_> {
     /// Forwards through blocks of R rows; WR = W R.
     pub fn forward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
         self.forward_by::<W>(run, |side, g, mine, x| {
-            let block = at::<WR>(g, side.entries as usize);
-            let (Some(block), Some(x)) = (block, at_mut::<R>(x, side.position as usize)) else { return };
-            *x = from_fn(|i| (0..W).fold(x[i], |x, p| x - block[i * W + p] * mine[p]));
+            let block = at::<_, WR>(g, side.entries as usize);
+            let (Some(block), Some(x)) = (block, at_mut::<_, R>(x, side.position as usize)) else { return };
+            *x = from_fn(|i| (0..W).fold(x[i], |x, p| x - mine[p] * block[i * W + p]));
         });
     }
 
     /// Backwards through blocks of R rows; WR = W R.
     pub fn backward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
         self.backward_by::<W>(run, |side, g, sum, x| {
-            let block = at::<WR>(g, side.entries as usize);
-            let (Some(block), Some(x)) = (block, at::<R>(x, side.position as usize)) else { return };
-            (0..R).for_each(|i| (0..W).for_each(|p| sum[p] += block[i * W + p] * x[i]));
+            let block = at::<_, WR>(g, side.entries as usize);
+            let (Some(block), Some(x)) = (block, at::<_, R>(x, side.position as usize)) else { return };
+            (0..R).for_each(|i| (0..W).for_each(|p| sum[p] = sum[p] + x[i] * block[i * W + p]));
         });
     }
 
@@ -214,7 +215,7 @@ impl Passage<'_> {
     pub fn forward_by_rows<const W: usize>(&mut self, run: &Run) {
         self.forward_by::<W>(run, |side, g, mine, x| {
             for (row, x) in block::<W>(g, side).iter().zip(&mut x[side.position as usize..]) {
-                *x = (0..W).fold(*x, |x, p| x - row[p] * mine[p]);
+                *x = (0..W).fold(*x, |x, p| x - mine[p] * row[p]);
             }
         });
     }
@@ -223,7 +224,7 @@ impl Passage<'_> {
     pub fn backward_by_rows<const W: usize>(&mut self, run: &Run) {
         self.backward_by::<W>(run, |side, g, sum, x| {
             for (row, x) in block::<W>(g, side).iter().zip(&x[side.position as usize..]) {
-                (0..W).for_each(|p| sum[p] += row[p] * x);
+                (0..W).for_each(|p| sum[p] = sum[p] + *x * row[p]);
             }
         });
     }

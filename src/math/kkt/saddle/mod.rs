@@ -286,6 +286,18 @@ impl SaddlePoint {
         self.multipliers = lambda;
         result
     }
+    /// The same for two right sides.
+    pub fn solve_projections(&mut self, bottoms: [&[f64]; 2], [d, e]: [&mut [f64]; 2]) -> Result<(), Singular> {
+        let fits = bottoms.iter().all(|b| b.len() == self.m) && d.len() == self.n && e.len() == self.n;
+        if let (true, Way::Ldlt { refine: false }, Some(fast)) =
+            (fits, self.way, self.fast.as_mut().and_then(Orders::taken))
+            && fast.project(bottoms, [&mut *d, &mut *e])
+        {
+            return finite(d, e);
+        }
+        self.solve_projection(bottoms[0], d)?;
+        self.solve_projection(bottoms[1], e)
+    }
 }
 
 /// Solves with one step of refinement. `matrix(a, lambda, top, bottom)` subtracts the product from (top, bottom).

@@ -171,9 +171,18 @@ fn bodies_levers_and_single_entries_agree() {
             let layout = Layout::new(&sample.mass, &sample.g, &late, levers);
             let mut blocks = Blocks::new(layout.into(), n);
             blocks.factor(&sample.mass_values, &sample.g_values, Rule::STRICT, &mut vec![]).ok().unwrap();
-            let (mut a, mut lambda) = (r1.clone(), r2.clone());
-            blocks.solve(&mut a, &mut lambda);
-            [a, lambda].concat()
+            let of = |blocks: &mut Blocks, top: &[f64], bottom: &[f64]| {
+                let (mut a, mut lambda) = (top.to_vec(), bottom.to_vec());
+                blocks.solve(&mut a, &mut lambda);
+                [a, lambda]
+            };
+            // Two at once go through the same operations as one after the other.
+            let (other, mut pair): (Vec<f64>, _) = (r2.iter().rev().copied().collect(), [vec![9.0; n], vec![9.0; n]]);
+            let [first, second] = &mut pair;
+            blocks.project([&r2, &other], [first, second]);
+            let alone = [&r2, &other].map(|bottom| of(&mut blocks, &vec![0.0; n], bottom)[0].clone());
+            assert_eq!(pair, alone);
+            of(&mut blocks, &r1, &r2).concat()
         });
         // Round-off of some hundred operations, times a condition number of some hundred.
         assert!(distance(&results[0], &results[2]) < 1e-11 && distance(&results[1], &results[2]) < 1e-11);
