@@ -61,7 +61,10 @@ fn push(text: &mut Vec<u8>, value: f64) {
 /// Writes numbers under headings.
 fn write<'a>(headings: Vec<&str>, rows: impl Iterator<Item = &'a [f64]>) -> Result<Vec<u8>> {
     let mut all = header(headings)?;
-    rows.for_each(|row| line(&mut all, row));
+    for row in rows {
+        cells(&mut all, row);
+        all.push(b'\n');
+    }
     Ok(all)
 }
 
@@ -70,15 +73,14 @@ pub fn header(headings: Vec<&str>) -> Result<Vec<u8>> {
     table(headings.into_iter().map(String::from), std::iter::empty())
 }
 
-/// Appends a line of numbers.
-pub fn line(text: &mut Vec<u8>, row: &[f64]) {
+/// Appends numbers with commas between them.
+pub fn cells(text: &mut Vec<u8>, row: &[f64]) {
     for (i, value) in row.iter().enumerate() {
         if i > 0 {
             text.push(b',');
         }
         push(text, *value);
     }
-    text.push(b'\n');
 }
 
 fn failed(error: &dyn fmt::Display) -> Error {

@@ -105,11 +105,11 @@ impl Open {
         let lower = integral(&[from, to], (from.t, to.t));
         let jump: Vec<f64> = (0..to.v.len()).map(|i| to.v[i] - from.v[i] - change[i]).collect();
         let doubt: Vec<f64> = change.iter().zip(&lower).map(|(change, lower)| change - lower).collect();
-        survey.weigh(to.t, &to.q);
-        let size = survey.size(&to.v).max(survey.size(&from.v));
-        let smooth = tolerances::JUMPED * size
-            + (tolerances::JUMP_DOUBTED * survey.size(&doubt)).min(tolerances::JUMP_DOUBTED_MOST * size);
-        match survey.size(&jump) {
+        let [after, before, doubt, jump] = survey.sizes((to.t, &to.q), [&to.v, &from.v, &doubt, &jump]);
+        let size = after.max(before);
+        let smooth =
+            tolerances::JUMPED * size + (tolerances::JUMP_DOUBTED * doubt).min(tolerances::JUMP_DOUBTED_MOST * size);
+        match jump {
             _ if size <= 0.0 => Branch::Open,
             jump if (jump > smooth || jump.is_nan()) && self.may_turn => Branch::Left,
             _ => Branch::Kept,

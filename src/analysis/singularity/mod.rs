@@ -5,7 +5,6 @@ mod path;
 mod survey;
 
 use crate::error::{Failure, short_list};
-use crate::formulation::Dynamics;
 use crate::simulate::Observation;
 use crate::system::MechanicalSystem;
 use crate::tolerances::report as tolerances;
@@ -106,7 +105,7 @@ impl<'a> Watch<'a> {
     /// A watch that has seen no state.
     pub fn new(system: &'a dyn MechanicalSystem) -> Self {
         Watch {
-            survey: Survey::new(Dynamics::new(system)),
+            survey: Survey::new(system),
             moving: system.dimensions().moving(),
             last: Default::default(),
             seen: 0,

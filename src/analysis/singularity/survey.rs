@@ -4,57 +4,73 @@ use super::path::{Path, PathPoint};
 use crate::formulation::Dynamics;
 use crate::math::kkt::dependent_rows;
 use crate::math::largest;
-use crate::system::Need;
+use crate::system::{Dimensions, MechanicalSystem, Need};
 use crate::tolerances::math::TRUNCATED_RANK;
 use crate::tolerances::report as tolerances;
 
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// A system with the workspace to evaluate its constraints anywhere.
+/// A system with the workspace to evaluate its constraints anywhere, made where it is needed: far from singular states a
+/// run tells its rank indicators itself.
 pub struct Survey<'a> {
-    dynamics: Dynamics<'a>,
+    system: &'a dyn MechanicalSystem,
+    dynamics: Option<Dynamics<'a>>,
+    dropped: Vec<usize>,
+    dimensions: Dimensions,
     rest: Vec<f64>,
     nearest: (f64, Vec<f64>),
 }
 
 impl<'a> Survey<'a> {
-    pub fn new(dynamics: Dynamics<'a>) -> Self {
-        let rest = vec![0.0; dynamics.system.dimensions().v];
-        Survey { dynamics, rest, nearest: (0.0, Vec::new()) }
+    pub fn new(system: &'a dyn MechanicalSystem) -> Self {
+        let dimensions = system.dimensions();
+        let (rest, nearest) = (vec![0.0; dimensions.v], (0.0, Vec::new()));
+        Survey { system, dynamics: None, dropped: Vec::new(), dimensions, rest, nearest }
     }
 
     /// Drops rows that depend on others everywhere.
     pub fn drop_rows(&mut self, rows: &[usize]) {
-        self.dynamics.drop_rows(rows);
+        if rows != self.dropped {
+            self.dropped = rows.to_vec();
+            self.dynamics.iter_mut().for_each(|dynamics| dynamics.drop_rows(rows));
+        }
     }
 
     pub fn regular_rank(&self) -> usize {
-        self.rows() - self.dynamics.dropped.len()
-    }
-
-    fn rows(&self) -> usize {
-        self.dynamics.lambda.len()
+        self.dimensions.lambda - self.dropped.len()
     }
 
     fn unknowns(&self) -> usize {
-        self.rest.len() + self.rows()
+        self.dimensions.v + self.dimensions.lambda
     }
 
-    fn evaluate(&mut self, t: f64, q: &[f64]) {
-        self.dynamics.evaluate(t, q, &self.rest, Need::MASS | Need::CONSTRAINTS | Need::G);
+    /// The terms `need` at a position at rest.
+    fn evaluate(&mut self, t: f64, q: &[f64], need: Need) -> &mut Dynamics<'a> {
+        let dynamics = self.dynamics.get_or_insert_with(|| {
+            let mut dynamics = Dynamics::new(self.system);
+            dynamics.drop_rows(&self.dropped);
+            dynamics
+        });
+        dynamics.evaluate(t, q, &self.rest, need);
+        dynamics
+    }
+
+    /// What the rank of G, the metric of M^-1 and a projection need.
+    fn constraints(&mut self, t: f64, q: &[f64]) -> &mut Dynamics<'a> {
+        self.evaluate(t, q, Need::MASS | Need::CONSTRAINTS | Need::G)
     }
 
     /// Returns q' at a state.
     pub fn rate(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
         let mut rate = vec![0.0; q.len()];
-        self.dynamics.system.rate(q, v, &mut rate);
+        self.system.rate(q, v, &mut rate);
         rate
     }
 
     /// Returns the rank indicator at a position; zero where the matrix is singular.
     pub fn rank_indicator(&mut self, t: f64, q: &[f64]) -> f64 {
-        self.evaluate(t, q);
-        self.dynamics.factor().map_or(0.0, |()| self.dynamics.kkt.rank_indicator())
+        let dynamics = self.constraints(t, q);
+        dynamics.factor().map_or(0.0, |()| dynamics.kkt.rank_indicator())
     }
 
     fn rank_indicator_on(&mut self, path: &Path, t: f64) -> f64 {
@@ -68,8 +84,7 @@ impl<'a> Survey<'a> {
         let mut q = path.at(t);
         let (mut step, mut rate) = (vec![0.0; self.rest.len()], vec![0.0; q.len()]);
         for _ in 0..tolerances::PATH_SWEEPS {
-            self.evaluate(t, &q);
-            let dynamics = &mut self.dynamics;
+            let dynamics = self.constraints(t, &q);
             dynamics.terms.phi.iter_mut().zip(&path.phi).for_each(|(phi, drift)| *phi -= drift);
             if dynamics.factor().is_err() || dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut step).is_err() {
                 break;
@@ -129,12 +144,12 @@ impl<'a> Survey<'a> {
         if self.unknowns() > tolerances::NAMED_DEPENDENT_JOINTS {
             return (None, Vec::new());
         }
-        self.evaluate(t, q);
-        let found = dependent_rows(&self.dynamics.structure.g, &self.dynamics.terms.g, tolerance.max(TRUNCATED_RANK));
-        let new = found.rows.iter().filter(|row| !self.dynamics.dropped.contains(&row.row));
+        let dynamics = self.constraints(t, q);
+        let found = dependent_rows(&dynamics.structure.g, &dynamics.terms.g, tolerance.max(TRUNCATED_RANK));
+        let new = found.rows.iter().filter(|row| !self.dropped.contains(&row.row));
         let rows: Vec<usize> =
             new.flat_map(|row| row.combination.iter().map(|(other, _)| *other).chain([row.row])).collect();
-        let groups = self.dynamics.system.groups();
+        let groups = self.system.groups();
         let named = groups.iter().filter(|group| rows.iter().any(|row| group.rows.contains(row)));
         (Some(found.rank), named.map(|group| group.name.clone()).collect())
     }
@@ -142,22 +157,19 @@ impl<'a> Survey<'a> {
     /// Returns the drift of positions and velocities relative to the scene's scale, the latter also to the size of the
     /// velocity.
     pub fn drift(&self, state: &PathPoint) -> [f64; 2] {
-        let scale = self.dynamics.system.scales().into_iter().fold(f64::INFINITY, f64::min);
+        let scale = self.system.scales().into_iter().fold(f64::INFINITY, f64::min);
         let speed = largest(&state.v).max(f64::MIN_POSITIVE);
         [largest(&state.phi) / scale, largest(&state.phi_dot) / (scale * speed)]
     }
 
-    /// Returns sqrt(v^T M v) with the masses of the last position.
-    pub fn size(&self, v: &[f64]) -> f64 {
-        let mut momentum = vec![0.0; v.len()];
-        let mass = &self.dynamics.structure.mass;
-        mass.multiply_symmetric(&self.dynamics.terms.mass, v, &mut momentum);
-        v.iter().zip(&momentum).map(|(v, p)| v * p).sum::<f64>().max(0.0).sqrt()
-    }
-
-    /// Evaluates the masses at a position.
-    pub fn weigh(&mut self, t: f64, q: &[f64]) {
-        self.dynamics.evaluate(t, q, &self.rest, Need::MASS);
+    /// Returns sqrt(v^T M v) of each of these with the masses at a position.
+    pub fn sizes<const N: usize>(&mut self, (t, q): (f64, &[f64]), all: [&[f64]; N]) -> [f64; N] {
+        let Dynamics { structure, terms, .. } = self.evaluate(t, q, Need::MASS);
+        all.map(|v| {
+            let mut momentum = vec![0.0; v.len()];
+            structure.mass.multiply_symmetric(&terms.mass, v, &mut momentum);
+            v.iter().zip(&momentum).map(|(v, p)| v * p).sum::<f64>().max(0.0).sqrt()
+        })
     }
 
     pub fn keep_nearest(&mut self, t: f64, q: &[f64]) {
@@ -171,8 +183,7 @@ impl<'a> Survey<'a> {
             return None;
         }
         let (t, q) = std::mem::take(&mut self.nearest);
-        self.evaluate(t, &q);
-        let Dynamics { kkt, terms, .. } = &mut self.dynamics;
+        let Dynamics { kkt, terms, .. } = self.constraints(t, &q);
         Some(kkt.condition_number(&terms.mass, &terms.g)).filter(|c| c.is_finite())
     }
 }
