@@ -15,6 +15,11 @@ pub struct Analysis {
     levers: Vec<Lever>,
     is_crowded: OnceLock<bool>,
     found: Mutex<Vec<(Vec<bool>, Arc<Plan>)>>,
+    /// Where rows depend on others: without levers, which single rows are dropped from; the matrix that gives the parts in
+    /// the null space of G^T; what is known of G without the rows that were dropped last.
+    single: OnceLock<Plan>,
+    nearly: OnceLock<(Pattern, Pattern, Plan)>,
+    without: Mutex<Option<(Vec<usize>, Arc<Analysis>)>>,
 }
 
 /// A block of G in the rows of a point that all translations of its body move, and that turns about the body's origin:
@@ -47,6 +52,29 @@ impl Analysis {
         let plan = Arc::new(Plan::new(mass, g, late, &self.levers));
         found.push((late.to_vec(), plan.clone()));
         plan
+    }
+
+    /// The structure with no late coordinates, and no levers.
+    pub(super) fn single(&self, mass: &Pattern, g: &Pattern) -> &Plan {
+        self.single.get_or_init(|| Plan::new(mass, g, &vec![false; g.cols], &[]))
+    }
+
+    /// Patterns and structure of another matrix that `make` forms from the patterns.
+    pub(super) fn nearly(&self, make: impl FnOnce() -> [Pattern; 2]) -> &(Pattern, Pattern, Plan) {
+        self.nearly.get_or_init(|| {
+            let [mass, g] = make();
+            let plan = Plan::new(&mass, &g, &vec![false; g.cols], &[]);
+            (mass, g, plan)
+        })
+    }
+
+    /// The analysis of G without these rows.
+    pub(super) fn without(&self, dropped: &[usize]) -> Arc<Analysis> {
+        let mut known = self.without.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*known {
+            Some((of, analysis)) if of == dropped => analysis.clone(),
+            _ => known.insert((dropped.to_vec(), Arc::default())).1.clone(),
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The saddle-point matrix itself, for residuals and scaling.
 
-use super::Pattern;
 use super::ldlt::Ldlt;
+use super::{Analysis, Pattern};
 use crate::math::largest;
 use std::sync::Arc;
 
@@ -9,18 +9,19 @@ use std::sync::Arc;
 pub(super) struct System {
     pub mass: Arc<Pattern>,
     pub g: Arc<Pattern>,
+    pub analysis: Arc<Analysis>,
     pub mass_values: Vec<f64>,
     pub g_values: Vec<f64>,
 }
 
 impl System {
     pub fn new(mass: &Pattern, g: &Pattern) -> Self {
-        Self::of(Arc::new(mass.clone()), Arc::new(g.clone()))
+        Self::of(Arc::new(mass.clone()), Arc::new(g.clone()), Arc::default())
     }
 
-    pub fn of(mass: Arc<Pattern>, g: Arc<Pattern>) -> Self {
+    pub fn of(mass: Arc<Pattern>, g: Arc<Pattern>, analysis: Arc<Analysis>) -> Self {
         let room = |pattern: &Pattern| Vec::with_capacity(pattern.entries.len());
-        System { mass_values: room(&mass), g_values: room(&g), mass, g }
+        System { mass_values: room(&mass), g_values: room(&g), mass, g, analysis }
     }
 
     /// Stores values; lengths must be those of the patterns.

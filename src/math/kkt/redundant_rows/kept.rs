@@ -3,6 +3,7 @@
 use super::super::system::System;
 use super::super::{Pattern, SaddlePoint, Singular};
 use super::least::Least;
+use std::sync::Arc;
 
 /// A separate solver over the rows that are kept, so that dropped rows cost nothing.
 pub struct Kept {
@@ -30,9 +31,10 @@ impl Kept {
         let entries: Vec<usize> = (0..system.g.entries.len()).filter(|k| is_kept[system.g.entries[*k].0]).collect();
         let places = entries.iter().map(|k| system.g.entries[*k]).map(|(row, column)| (number[row], column));
         let g = Pattern { rows: rows.len(), cols: system.g.cols, entries: places.collect() };
+        let dropped: Vec<usize> = (0..system.g.rows).filter(|row| !is_kept[*row]).collect();
         Kept {
-            inner: SaddlePoint::new(&system.mass, &g),
-            dropped: (0..system.g.rows).filter(|row| !is_kept[*row]).collect(),
+            inner: SaddlePoint::sharing(&system.mass, &Arc::new(g), &system.analysis.without(&dropped)),
+            dropped,
             left_out: Vec::with_capacity(system.g.rows),
             g: vec![0.0; entries.len()],
             bottom: vec![0.0; rows.len()],

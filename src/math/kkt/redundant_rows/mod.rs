@@ -14,7 +14,6 @@ mod nearly;
 pub use alike::Alike;
 pub use kept::Kept;
 
-use super::Pattern;
 use super::Singular;
 use super::ldlt::Ldlt;
 use super::pivot::{Quality, Rule};
@@ -42,11 +41,11 @@ pub(super) struct RedundantRowSolve {
 }
 
 impl RedundantRowSolve {
-    pub fn new(mass: &Pattern, g: &Pattern) -> Self {
+    pub fn new(System { mass, g, analysis, .. }: &System) -> Self {
         let (n, m) = (g.cols, g.rows);
         let zeros = || vec![0.0; m];
         RedundantRowSolve {
-            factor: Ldlt::new(mass, g, &vec![false; n]),
+            factor: Ldlt::of(analysis.single(mass, g), mass, g, &vec![false; n]),
             skipped: Vec::with_capacity(m),
             replaced: false,
             collapsed: 0.0,

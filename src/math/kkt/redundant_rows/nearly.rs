@@ -34,13 +34,16 @@ pub struct Nearly {
 impl Nearly {
     pub fn new(system: &System) -> Self {
         let Pattern { rows: m, cols: n, entries } = &*system.g;
-        let beside = (0..*n).map(|i| (i, m + i));
-        let entries: Vec<_> = entries.iter().map(|&(row, column)| (column, row)).chain(beside).collect();
-        let mut g = vec![1.0; entries.len()];
-        g[..system.g.entries.len()].fill(0.0);
-        let (mass, transposed) = (Pattern::diagonal(m + n), Pattern { rows: *n, cols: m + n, entries });
+        let patterns = || {
+            let beside = (0..*n).map(|i| (i, m + i));
+            let entries = entries.iter().map(|&(row, column)| (column, row)).chain(beside).collect();
+            [Pattern::diagonal(m + n), Pattern { rows: *n, cols: m + n, entries }]
+        };
+        let (mass, transposed, plan) = system.analysis.nearly(patterns);
+        let mut g = vec![1.0; transposed.entries.len()];
+        g[..entries.len()].fill(0.0);
         Nearly {
-            factor: Ldlt::new(&mass, &transposed, &vec![false; m + n]),
+            factor: Ldlt::of(plan, mass, transposed, &vec![false; m + n]),
             mass: vec![1.0; m + n],
             g,
             skipped: Vec::with_capacity(*n),

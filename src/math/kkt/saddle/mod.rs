@@ -72,7 +72,7 @@ impl SaddlePoint {
             n,
             m,
             is_shaped,
-            system: System::of(mass.clone(), g.clone()),
+            system: System::of(mass.clone(), g.clone(), analysis.clone()),
             fast: (!analysis.is_crowded(g)).then(|| Orders::new(mass, g, analysis.clone())),
             alike: None,
             kept: None,
@@ -125,8 +125,7 @@ impl SaddlePoint {
         if is_fast && self.is_regular(part) || least * least <= tolerances::COLLAPSED {
             return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
         }
-        let System { mass, g, .. } = &self.system;
-        let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(mass, g)));
+        let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(&self.system)));
         let quality = skipping.factor(&self.system, least * least)?;
         // Coordinates with little mass of their own look the same as nearly dependent rows.
         if quality.replaced {
@@ -181,9 +180,8 @@ impl SaddlePoint {
     }
 
     fn factor_rank_revealing(&mut self) -> Result<Way, Singular> {
-        let System { mass, g, .. } = &self.system;
         let total = self.n + self.m;
-        let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(mass, g)));
+        let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(&self.system)));
         let mut quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
         if total > tolerances::DENSE_EQUATIONS && quality.doubtful && !quality.replaced {
             // Round-off in pivots of dependent rows grows with the condition of the others. Null vectors tell them.
@@ -209,7 +207,7 @@ impl SaddlePoint {
         if is_accepted {
             return Ok(Way::RedundantRowSolve);
         }
-        let dense = self.dense.get_or_insert_with(|| Box::new(NullSpace::new(mass, g)));
+        let dense = self.dense.get_or_insert_with(|| Box::new(NullSpace::new(&self.system.mass, &self.system.g)));
         dense.factor(&self.system, self.rank_tolerance)?;
         Ok(Way::Dense)
     }
