@@ -1,14 +1,16 @@
 //! The richest model: accurately, and by a method whose own error the promise allows.
 
 use super::assembled::carried;
+use super::edit::{elements, text};
 use super::promise::Promise;
 use super::recorded::{Recorded, record};
 use super::run::{Run, measured};
 use super::search::{NUMERICAL, Trial};
 use super::source::{Source, write_method};
 use super::{LEAST, Settings};
+use crate::analysis::Passing;
 use crate::compare::work_precision::{Watched, tighter};
-use crate::error::{Error, Failure, Result, Warning, clock, percent};
+use crate::error::{Error, Failure, Result, Warning, clock, percent, short_list, significant};
 use crate::integrator;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, atol_of};
@@ -192,7 +194,31 @@ pub fn doubts(accurate: &Accurate, richest: &Run) -> Vec<Warning> {
         let text = format!("the time sufficed for the motion until t = {end} s, which the promise is about");
         Warning::new(text, "give more time by --budget, or shorten the motion by --until")
     });
-    coarse.into_iter().chain(part).collect()
+    coarse.into_iter().chain(part).chain(undetermined(accurate)).collect()
+}
+
+/// A warning about the watched reactions of joints whose rows depend on each other at singular states of the motion: what
+/// the joints share there the equations do not tell, and a row may fall on such a state.
+fn undetermined(accurate: &Accurate) -> Option<Warning> {
+    let Accurate { source, recorded, promise, .. } = accurate;
+    let singular: Vec<&Passing> = recorded.singularity.passed.iter().filter(|state| state.is_singular).collect();
+    // Of large systems the joints are not known.
+    let is_of = |joint: &str| {
+        singular.iter().any(|state| state.joints.is_empty() || state.joints.iter().any(|own| own == joint))
+    };
+    let outputs = elements(&source.scene, "outputs").iter();
+    let reactions = outputs.filter(|output| text(output, "measure") == "reaction" && is_of(text(output, "of")));
+    let watched = promise.names();
+    let names = reactions.map(|output| text(output, "name").to_string()).filter(|name| watched.contains(name));
+    let names: Vec<String> = names.collect();
+    let times: Vec<String> = singular.iter().map(|state| significant(state.t, 4)).collect();
+    let text = format!(
+        "the motion passes singular states, at t = {} s, where {} {} not determined: the promise holds beside these",
+        short_list(&times),
+        short_list(&names),
+        if names.len() == 1 { "is" } else { "are" }
+    );
+    (!names.is_empty()).then(|| Warning::new(text, "name the other outputs by --outputs"))
 }
 
 /// Its tolerance, or its step, in words.

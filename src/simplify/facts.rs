@@ -134,11 +134,7 @@ impl Facts {
     }
 
     fn marker(&self, name: &str) -> Option<usize> {
-        let names = match &self.prepared.mechanism {
-            AnyMechanism::Planar(mechanism) => &mechanism.model().markers,
-            AnyMechanism::Spatial(mechanism) => &mechanism.model().markers,
-        };
-        names.find(name).ok()
+        marker(&self.prepared, name)
     }
 
     /// The element of this name in a list of the scene.
@@ -248,11 +244,8 @@ pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body:
     if !["rigid", "point_mass"].contains(&kind) || body.get("free").is_some() {
         return None;
     }
-    let (markers, dimension) = match &prepared.mechanism {
-        AnyMechanism::Planar(mechanism) => (&mechanism.model().markers, 2),
-        AnyMechanism::Spatial(mechanism) => (&mechanism.model().markers, 3),
-    };
-    let Placed { r, axes, turn, velocity, spin } = *places.get(markers.find(name).ok()?)?;
+    let dimension = if matches!(prepared.mechanism, AnyMechanism::Planar(_)) { 2 } else { 3 };
+    let Placed { r, axes, turn, velocity, spin } = *places.get(marker(prepared, name)?)?;
     let mut start = Map::new();
     start.insert("position".to_string(), json!(r[..dimension]));
     start.insert("velocity".to_string(), json!(velocity[..dimension]));
@@ -266,6 +259,14 @@ pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body:
         start.insert("angular_velocity".to_string(), json!(axes.map(|axis| product(&axis, &spin))));
     }
     Some(Value::Object(start))
+}
+
+/// Place of a marker, or of the frame of a body, among all.
+pub(super) fn marker(prepared: &PreparedScene, name: &str) -> Option<usize> {
+    match &prepared.mechanism {
+        AnyMechanism::Planar(mechanism) => mechanism.model().markers.find(name).ok(),
+        AnyMechanism::Spatial(mechanism) => mechanism.model().markers.find(name).ok(),
+    }
 }
 
 /// Placements of all markers at a state.

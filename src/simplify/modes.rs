@@ -4,6 +4,7 @@ use crate::error::{Error, Result, Warning, percent, significant};
 use crate::linearize::{Complex, Fate, LinearModel, Request, State, against, damping, frequency, linearize};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
+use crate::tolerances::report::UNSEEN_MODE;
 
 /// Velocities of the largest scene of which all modes are computed, with some 40 matrices of that size.
 const MOST: usize = 300;
@@ -32,8 +33,8 @@ pub fn at_start(prepared: &PreparedScene) -> Result<LinearModel> {
 /// excites them is another one than that of the promise.
 pub fn lost(richest: &PreparedScene, simpler: &PreparedScene) -> Vec<Warning> {
     let time = richest.span().map_or(1.0, |span| span.end - span.start);
-    let found = match at_start(richest).and_then(|own| Ok((own, at_start(simpler)?))) {
-        Ok((own, other)) => against(&own, &other, time),
+    let (found, is_at_rest) = match at_start(richest).and_then(|own| Ok((own, at_start(simpler)?))) {
+        Ok((own, other)) => (against(&own, &other, time), own.point.is_equilibrium && other.point.is_equilibrium),
         Err(error) => {
             let text = format!("whether modes are lost is not known: {error}");
             return vec![Warning::new(text, "compare by `holonom linearize --modes N --against`")];
@@ -43,15 +44,25 @@ pub fn lost(richest: &PreparedScene, simpler: &PreparedScene) -> Vec<Warning> {
         let decay = |value: Complex<f64>| 0.0 - value.re;
         damping(mode.value) > DAMPED && mode.there.is_some_and(|there| decay(there) < KEPT * decay(mode.value))
     };
-    let seen = || found.modes.iter().filter(|mode| mode.seen > SEEN);
+    // Off equilibrium eigenvalues do not tell what grows. Values are without rounding.
+    let grows = |value: Complex<f64>| is_at_rest && value.re > 0.0;
+    // What grows is seen in the end, however little of it outputs see at first.
+    let is_told = |mode: &&Fate| mode.seen > SEEN || grows(mode.value) && mode.seen > UNSEEN_MODE;
+    let seen = || found.modes.iter().filter(is_told);
     let lost: Vec<&Fate> = seen().filter(|mode| mode.there.is_none()).collect();
-    let undamped: Vec<&Fate> = seen().filter(|mode| is_undamped(mode)).collect();
+    let is_turned = |mode: &&Fate| mode.there.is_some_and(|there| grows(there) != grows(mode.value));
+    let turned: Vec<&Fate> = seen().filter(is_turned).collect();
+    let undamped: Vec<&Fate> = seen().filter(|mode| is_undamped(mode) && !is_turned(mode)).collect();
+    let word = if is_at_rest { ", unstable" } else { ", growing at the start" };
+    let share = |mode: &Fate| percent(mode.seen) + if mode.value.re > 0.0 { word } else { "" };
+    let other = |mode: &Fate| if grows(mode.value) { "no longer unstable" } else { "unstable now" }.to_string();
     let damped = |mode: &Fate| {
         let [own, there] = [Some(mode.value), mode.there].map(|value| value.map_or(0.0, damping));
         format!("damping ratio {} is {}", significant(own, 2), significant(there, 2))
     };
     [
-        warning("the simpler model has lost modes of the start", &lost, |mode| percent(mode.seen)),
+        warning("the simpler model has lost modes of the start", &lost, share),
+        warning("the simpler model differs in the stability of modes of the start", &turned, other),
         warning("the simpler model has lost damping of modes of the start", &undamped, damped),
     ]
     .into_iter()

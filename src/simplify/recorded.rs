@@ -1,7 +1,7 @@
 //! A run of the richest model with its states.
 
 use super::run::counted;
-use crate::analysis::Sizes;
+use crate::analysis::{Singularity, Sizes, Watch};
 use crate::compare::work_precision::Watched;
 use crate::error::{Failure, Result};
 use crate::prepared::PreparedScene;
@@ -38,6 +38,8 @@ pub struct Recorded {
     pub states: Vec<State>,
     /// Rows of G that were found redundant, at most.
     pub redundant: Vec<usize>,
+    /// Singular states on the way.
+    pub singularity: Singularity,
 }
 
 impl Recorded {
@@ -68,15 +70,19 @@ pub fn record(
 ) -> Result<Recorded> {
     let system = prepared.system();
     let (rows, states, redundant) = (Vec::new(), Vec::new(), Vec::new());
-    let recorded = Recorded { rows, sizes: Sizes::default(), stopped: None, work: 0.0, states, redundant };
+    let (sizes, singularity) = (Sizes::default(), Singularity::default());
+    let recorded = Recorded { rows, sizes, stopped: None, work: 0.0, states, redundant, singularity };
     let scales = system.scales();
     let span = prepared.span()?;
-    let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, recorded, is_stopped };
+    let watch = Watch::new(system);
+    let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, recorded, watch, is_stopped };
     let outcome = simulate(system, method, span, prepared.start(), &mut memory)?;
-    memory.recorded.work = counted(prepared, method, outcome.statistics);
-    match outcome.failure {
-        None => Ok(memory.recorded),
-        Some(failure) if failure.reason == INTERRUPTED => Ok(Recorded { stopped: Some(failure), ..memory.recorded }),
+    let (work, singularity) = (counted(prepared, method, outcome.statistics), memory.watch.finish());
+    let left = singularity.failure();
+    let recorded = Recorded { work, singularity, ..memory.recorded };
+    match outcome.failure.or(left) {
+        None => Ok(recorded),
+        Some(failure) if failure.reason == INTERRUPTED => Ok(Recorded { stopped: Some(failure), ..recorded }),
         Some(failure) => {
             Err(Failure { reason: format!("the richest model does not complete: {}", failure.reason), ..failure }
                 .into())
@@ -90,11 +96,14 @@ struct Memory<'a> {
     scratch: Scratch,
     scales: Vec<f64>,
     recorded: Recorded,
+    watch: Watch<'a>,
     is_stopped: &'a dyn Fn() -> bool,
 }
 
 impl Sink for Memory<'_> {
-    fn accepted(&mut self, _: &Observation) {}
+    fn accepted(&mut self, state: &Observation) {
+        self.watch.add(state);
+    }
 
     fn row(&mut self, state: &Observation) {
         let Recorded { rows, sizes, states, redundant, .. } = &mut self.recorded;
@@ -122,8 +131,8 @@ mod tests {
             let states = times.iter().map(|&t| State { t, q: Vec::new(), v: Vec::new() }).collect();
             let stopped = Some(Failure { reason: INTERRUPTED.to_string(), hint: String::new(), t: times[2] });
             let rows = times.iter().map(|&t| vec![t]).collect();
-            let (sizes, redundant) = (Sizes::default(), Vec::new());
-            let mut recorded = Recorded { rows, sizes, stopped, work: 0.0, states, redundant };
+            let (sizes, redundant, singularity) = (Sizes::default(), Vec::new(), Singularity::default());
+            let mut recorded = Recorded { rows, sizes, stopped, work: 0.0, states, redundant, singularity };
             recorded.end_on_grid(span);
             assert_eq!((recorded.end(), recorded.rows.last()), (end, Some(&vec![end])));
         }

@@ -2,12 +2,13 @@
 
 use super::bench::mechanism;
 use super::candidate::{Candidate, Proposal};
-use super::edit::carrier;
-use super::facts::{Facts, Placed, placed, product};
+use super::edit::{carrier, elements, pair, text};
+use super::facts::{Facts, Placed, marker, placed, product};
 use super::modes;
 use super::recorded::State;
 use super::rods::{Rod, rods};
 use super::source::Source;
+use crate::body::cross;
 use crate::error::Result;
 use crate::formulation::{Dynamics, turn};
 use crate::initial::{Assembly, assemble};
@@ -17,6 +18,7 @@ use crate::prepared::{Overrides, PreparedScene};
 use crate::system::{Dimensions, Need};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
+use std::array::from_fn;
 use std::path::Path;
 
 /// The largest rotation of the small motions, rad, and their largest displacement, of the length of the scene: far
@@ -88,7 +90,7 @@ pub fn hints(
     let is_seen: Vec<&Mode> =
         modes.iter().zip(&parts).filter(|(_, part)| **part >= tolerances::UNSEEN_MODE).map(|(mode, _)| *mode).collect();
     let slowest_seen = is_seen.iter().map(|mode| mode.value.norm()).reduce(f64::min);
-    let states = small_motions(&prepared, &is_seen, time);
+    let states = small_motions((&prepared, &lines(&source, &prepared)), &is_seen, time);
     let unseen = modes.iter().zip(&parts).filter(|(_, part)| **part < tolerances::UNSEEN_MODE);
     let names = prepared.system().names().v;
     let unseen = unseen.map(|(mode, part)| unseen_mode(mode, *part, &names)).collect();
@@ -139,10 +141,10 @@ fn unseen_mode(mode: &Mode, seen: f64, names: &[String]) -> Unseen {
 }
 
 /// The start, the state to which it goes on, and that at an end of each mode.
-fn small_motions(prepared: &PreparedScene, modes: &[&Mode], time: f64) -> Vec<State> {
+fn small_motions((prepared, lines): (&PreparedScene, &[Line]), modes: &[&Mode], time: f64) -> Vec<State> {
     let (t, (q, v)) = (prepared.start_time(), prepared.start());
     let start = State { t, q: q.to_vec(), v: v.to_vec() };
-    let reach = |change: &[f64]| largest_speed(prepared, change) / REACH;
+    let reach = |change: &[f64]| largest_speed(prepared, lines, change) / REACH;
     let on = way_on(prepared, reach, time);
     let energy = |state: &State| prepared.system().energy(state.t, &state.q, &state.v, &mut Default::default());
     let kinetic = on.iter().chain([&start]).filter_map(energy).map(|energy| energy.kinetic).fold(0.0, f64::max);
@@ -169,14 +171,28 @@ fn way_on(prepared: &PreparedScene, reach: impl Fn(&[f64]) -> f64, time: f64) ->
     (fastest > 0.0).then(|| beside(prepared, prepared.start_time() + ahead, &change, &on(ahead))).flatten()
 }
 
-/// The largest angular velocity of a body, rad/s, and velocity of a marker, in lengths of the scene per second, at the
-/// start with the velocities `v`.
-fn largest_speed(prepared: &PreparedScene, v: &[f64]) -> f64 {
+/// The markers at the ends of a rod without mass.
+type Line = [usize; 2];
+
+fn lines(source: &Source, prepared: &PreparedScene) -> Vec<Line> {
+    let rods = elements(&source.scene, "joints").iter().filter(|joint| text(joint, "type") == "distance");
+    let ends = |[a, b]: [&str; 2]| Some([marker(prepared, a)?, marker(prepared, b)?]);
+    rods.filter_map(|rod| pair(rod).and_then(ends)).collect()
+}
+
+/// The largest angular velocity of a body or rod, rad/s, and velocity of a marker, in lengths of the scene per second, at
+/// the start with the velocities `v`.
+fn largest_speed(prepared: &PreparedScene, lines: &[Line], v: &[f64]) -> f64 {
     let (t, q) = (prepared.start_time(), prepared.start().0.to_vec());
     let length = prepared.system().length();
     let placed = placed(prepared, &State { t, q, v: v.to_vec() });
     let speed = |place: &Placed| (norm(&place.velocity) / length).max(norm(&place.spin));
-    placed.iter().map(speed).fold(0.0, f64::max)
+    let minus = |a: &[f64; 3], b: &[f64; 3]| from_fn(|i| a[i] - b[i]);
+    let turns = |[a, b]: &Line| {
+        let gap = minus(&placed[*b].r, &placed[*a].r);
+        norm(&cross(&gap, &minus(&placed[*b].velocity, &placed[*a].velocity))) / product(&gap, &gap)
+    };
+    placed.iter().map(speed).chain(lines.iter().map(turns)).fold(0.0, f64::max)
 }
 
 fn norm(x: &[f64; 3]) -> f64 {

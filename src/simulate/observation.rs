@@ -1,6 +1,6 @@
 //! The states of a run and their receiver.
 
-use crate::error::{Error, Result, short};
+use crate::error::{Error, Result, significant};
 use crate::math::{Piece, largest};
 use crate::system::OperatingPoint;
 use serde::{Deserialize, Serialize};
@@ -113,7 +113,7 @@ pub struct Stop {
 impl Stop {
     /// Stop of a run that exceeds its time.
     pub fn deadline(allowed: Duration) -> Stop {
-        let seconds = short((1e3 * allowed.as_secs_f64()).round() / 1e3);
+        let seconds = significant(allowed.as_secs_f64(), 3);
         Stop {
             reason: format!("it takes longer than the {seconds} s that it may"),
             hint: "allow more time, or choose a looser tolerance, a longer step or another method".to_string(),

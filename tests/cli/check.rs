@@ -166,3 +166,16 @@ fn a_mode_that_no_output_sees_is_told() {
     // sqrt(g/l)
     assert!(text.contains("an output may be missing: no output sees the mode at 1.57 1/s (long)\n"), "{text}");
 }
+
+/// Those of the suspension as bodies, and without mass: the motions about the start go as far where a rod turns fast.
+#[test]
+fn rods_pull_with_and_without_mass() {
+    let pulling = |name: &str| -> Vec<String> {
+        let scene = std::fs::read_to_string(model(name)).unwrap();
+        let told: Value = serde_json::from_str(&Place::new(scene).done(&["check", "scene.json", "--json"])).unwrap();
+        let rods = told["hints"]["rods"].as_array().unwrap().iter();
+        rods.filter(|rod| rod["least"].as_f64().unwrap() > 0.0).map(|rod| rod["name"].to_string()).collect()
+    };
+    let with_mass = pulling("five_link_suspension_rods");
+    assert!(with_mass.len() == 2 && with_mass == pulling("five_link_suspension"), "{with_mass:?}");
+}

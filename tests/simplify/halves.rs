@@ -53,7 +53,7 @@ fn what_is_not_symmetric_is_not_halved() {
         &|own| {
             let own = own["forces"].as_array_mut().unwrap();
             own.push(json!({ "name": "band", "type": "spring_damper", "between": ["upper_jaw.tip", "lower_jaw.tip"],
-                             "stiffness": 10 }));
+                             "law": "10*length" }));
         },
         &|own| {
             let own = own["forces"].as_array_mut().unwrap();
@@ -209,4 +209,67 @@ fn halves_are_found_across_each_axis() {
     }
     let near = promised(bird([x, y, z], &hinge), &settings(0.01, &["bob_y", "left_tip_z"]));
     assert!(half(&near).is_some());
+}
+
+/// Two pendula that start `angle` to the outside, with a spring between their middles; the right one's frame is turned
+/// by pi.
+fn pendula(angle: f64, k: f64) -> Value {
+    let pendulum = |name: &str, [x, side]: [f64; 2]| {
+        let turned = side > 0.0;
+        let along = |s: f64| if turned { [0.0, -s] } else { [0.0, s] };
+        json!({ "name": name, "type": "rigid", "mass": 1, "inertia": 0.05,
+                "markers": { "O": along(0.5), "mid": along(0.0), "tip": along(-0.5) },
+                "initial": { "position": [x + side * 0.5 * angle.sin(), -0.5 * angle.cos()],
+                             "angle": side * angle + if turned { std::f64::consts::PI } else { 0.0 } } })
+    };
+    let output = |name: &str, measure: &str, of: &str| json!({ "name": name, "measure": measure, "of": of });
+    json!({ "name": "pendula", "dimension": 2, "gravity": [0, -9.81], "parameters": { "k": k, "l0": 0.7 },
+            "ground": { "markers": { "A": [0.1, 0], "B": [1.1, 0] } },
+            "bodies": [pendulum("left", [0.1, -1.0]), pendulum("right", [1.1, 1.0])],
+            "joints": [{ "name": "A", "type": "revolute", "between": ["ground.A", "left.O"] },
+                       { "name": "B", "type": "revolute", "between": ["right.O", "ground.B"] }],
+            "forces": [{ "name": "band", "type": "spring_damper", "between": ["right.mid", "left.mid"],
+                         "stiffness": "k", "damping": 1, "free_length": "l0" }],
+            "outputs": [output("a", "angle", "left"), output("b", "angle", "right"),
+                        output("hinge_a", "angle", "A"), output("hinge_b", "angle", "B"),
+                        output("rate_b", "angular_velocity", "B"), output("pull", "force", "band"),
+                        output("length", "distance", "band"), output("rate", "distance_rate", "band"),
+                        json!({ "name": "gap", "measure": "distance", "between": ["right.tip", "left.tip"] }),
+                        output("power", "power", "band"), json!({ "name": "energy", "measure": "energy" }),
+                        json!({ "name": "pin", "measure": "reaction", "of": "B", "component": "x" })],
+            "simulation": { "t_end": 2, "output_step": 0.01, "rtol": 1e-9, "atol": 1e-11 } })
+}
+
+/// It acts towards the plane, with twice the stiffness from half the length.
+#[test]
+fn a_spring_between_the_halves_acts_towards_the_plane() {
+    let mut own = pendula(0.3, 8.0);
+    let found = scene(own.clone(), &settings(0.001, &[]));
+    let run = half(&found).unwrap_or_else(|| panic!("{:?}", found.trials));
+    // Both are integrated at rtol 1e-9.
+    assert!(run.error() < 1e-7, "{:?}", run.outputs);
+    assert_eq!((run.velocities, run.constraints, run.outputs.len()), (3, 2, 12));
+    // Off its image it is another one.
+    own["forces"][0]["between"] = json!(["right.mid", "left.tip"]);
+    let crossed = scene(own, &settings(0.001, &[]));
+    assert!(crossed.trials.iter().all(|trial| trial.candidate != "symmetric_half"));
+}
+
+/// Upright, in equilibrium, the spring keeps them from falling apart, and not from falling together to one side.
+#[test]
+fn an_unstable_mode_that_is_lost_is_told() {
+    let upright = std::f64::consts::PI;
+    let mut own = pendula(upright, 30.0);
+    own["parameters"]["l0"] = json!(1.0);
+    own["outputs"] = json!([{ "name": "a", "measure": "angle", "of": "left" }]);
+    let push = |name: &str, side: f64| {
+        json!({ "name": format!("push_{name}"), "type": "applied_force", "at": format!("{name}.mid"),
+                "force": [format!("{side}*sin(3*t)"), 0] })
+    };
+    own["forces"].as_array_mut().unwrap().extend([push("left", -1.0), push("right", 1.0)]);
+    let found = scene(own, &settings(0.01, &[]));
+    assert!(half(&found).is_some(), "{:?}", found.trials);
+    let is_told =
+        |warning: &holonom::error::Warning| warning.text.contains("lost modes") && warning.text.contains("unstable");
+    assert!(found.warnings.iter().any(is_told), "{:?}", found.warnings);
 }

@@ -417,3 +417,20 @@ fn what_cannot_be_promised_is_refused() {
     mute["outputs"] = json!([]);
     refused(mute, settings(0.1, &[]), "no outputs");
 }
+
+/// A parallelogram passes states where its pins share the load as they like: their reactions there are none to promise.
+#[test]
+fn reactions_at_singular_states_are_not_promised() {
+    let doubts = |outputs: &[&str]| {
+        let found = shipped("parallelogram", &[], Some(0.5), &settings(0.01, outputs));
+        found
+            .warnings
+            .into_iter()
+            .map(|warning| warning.text)
+            .filter(|text| text.contains("singular"))
+            .collect::<Vec<_>>()
+    };
+    let doubts_of_pins = doubts(&["angle", "pin_A"]);
+    assert!(doubts_of_pins.len() == 1 && doubts_of_pins[0].contains("pin_A is not determined"), "{doubts_of_pins:?}");
+    assert!(doubts(&["angle"]).is_empty());
+}

@@ -1,5 +1,6 @@
 //! Outputs of a symmetric mechanism from one half of it.
 
+use super::half_spring::{HalfSpring, gap, stays};
 use super::mirror::Mirror;
 use super::planar_output::made_of;
 use crate::simplify::edit::{mentions, pair, text};
@@ -12,6 +13,10 @@ pub struct Elements {
     pub gone: Vec<(String, String)>,
     /// Names of those on the plane, which have half their strength and reaction.
     pub halved: Vec<String>,
+    /// Springs between the halves.
+    pub across: Vec<HalfSpring>,
+    /// Markers of the ground from which these act, with their places.
+    pub markers: Vec<(String, Value)>,
 }
 
 /// The output of the half, after others that it is made of: that of what goes by the image of that, totals doubled.
@@ -22,6 +27,12 @@ pub fn half_output(mirror: &Mirror, elements: &Elements, output: &Value) -> Opti
         let mut own = output.clone();
         mirror.translate(&mut own["value"])?;
         return Some(vec![own]);
+    }
+    if let Some(spring) = elements.across.iter().find(|spring| spring.name == of) {
+        return spring.output(mirror, output);
+    }
+    if let Some(marker) = pair(output).and_then(|pair| stays(mirror, pair)) {
+        return gap(mirror, output, &marker);
     }
     let is_of = |name: &str| of == name && ["force", "power", "work", "reaction"].contains(&measure);
     let is_gone = elements.gone.iter().any(|(gone, _)| gone == of);
@@ -47,11 +58,17 @@ fn image_output(mirror: &Mirror, elements: &Elements, output: &Value) -> Option<
         None => return None,
     };
     let own = renamed(mirror, elements, output)?;
+    // A hinge whose image names the bodies the other way turns as that does.
+    let sign = if is_turning && is_reversed(mirror, [of, text(&own, "of")]) { 0.0 - sign } else { sign };
     let offset = match (measure, axis) {
         ("angle", _) if mirror.facts.dimension() == 3 => return None,
         ("angle", _) => {
             let turn = |name: &str| Some(mirror.place(name)?.turn);
-            turn(of)? - turn(base)? - sign * (turn(text(&own, "of"))? - turn(&there)?)
+            let of_hinge = |name: &str| match element(mirror, name).and_then(pair) {
+                Some([first, second]) => Some(turn(second)? - turn(first)?),
+                None => turn(name),
+            };
+            of_hinge(of)? - turn(base)? - sign * (of_hinge(text(&own, "of"))? - turn(&there)?)
         }
         ("position", Some(axis)) if base == "ground" && axis == mirror.axis => 2.0 * mirror.offset,
         _ => 0.0,
@@ -80,11 +97,10 @@ fn renamed(mirror: &Mirror, elements: &Elements, output: &Value) -> Option<Value
 }
 
 /// True if what is measured at an element is measured at its image, but for the signs of axes: of a tension or a power,
-/// or of what acts on the second body, which is the second there; not of the torque of a drive or a torsion spring.
+/// of what acts on the second body, which is the second there, and of a hinge in the plane; not of the torque of a drive
+/// or a torsion spring.
 fn has_image(mirror: &Mirror, names: [&str; 2], output: &Value) -> bool {
-    let element = |name| ["joints", "forces"].iter().find_map(|list| mirror.facts.element(list, name));
-    let [Some(own), Some(image)] = names.map(element) else { return false };
-    let is_turned = || pair(own).zip(pair(image)).is_some_and(|(own, image)| !mirror.are_images(own[0], image[0]));
+    let Some(own) = element(mirror, names[0]) else { return false };
     let is_signed = || match text(own, "type") {
         "driver" => text(own, "coordinate") != "distance",
         kind => kind == "torsion_spring",
@@ -92,9 +108,22 @@ fn has_image(mirror: &Mirror, names: [&str; 2], output: &Value) -> bool {
     match text(output, "measure") {
         "power" | "work" | "distance" | "distance_rate" => true,
         "force" | "reaction" if ["", "axial"].contains(&text(output, "component")) => !is_signed(),
-        "force" | "reaction" => !is_turned(),
+        "force" | "reaction" => !is_reversed(mirror, names),
+        "angle" | "angular_velocity" | "angular_acceleration" => {
+            mirror.facts.dimension() == 2 && text(own, "type") == "revolute"
+        }
         _ => false,
     }
+}
+
+fn element<'a>(mirror: &Mirror<'a>, name: &str) -> Option<&'a Value> {
+    ["joints", "forces"].iter().find_map(|list| mirror.facts.element(list, name))
+}
+
+/// True if these are joints or forces of which the first marker of one is not at the image of that of the other.
+fn is_reversed(mirror: &Mirror, names: [&str; 2]) -> bool {
+    let [own, image] = names.map(|name| element(mirror, name).and_then(pair));
+    own.zip(image).is_some_and(|(own, image)| !mirror.are_images(own[0], image[0]))
 }
 
 /// Sign of the image of an axis of `base` in those of its own image; the ground is seen in its own axes.

@@ -5,6 +5,7 @@ mod coarser_signal;
 mod flexible_body;
 mod geometric_stiffening;
 mod half_output;
+mod half_spring;
 mod merged_bodies;
 mod mirror;
 mod negligible_force;

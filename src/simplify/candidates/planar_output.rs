@@ -49,7 +49,7 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
 }
 
 /// The output, or an expression of its own parts, each a factor with a component, plus an offset: `None` where these are
-/// none, or in a unit that an expression has not.
+/// none, in a unit that an expression has not, or an integral over the run.
 pub fn made_of(own: &Value, parts: &[(f64, Option<&str>)], offset: f64) -> Option<Vec<Value>> {
     let (name, mut all, mut sum) = (text(own, "name"), Vec::new(), Vec::new());
     for (part, component) in parts.iter().filter(|(part, _)| part.abs() > SAME) {
@@ -64,7 +64,7 @@ pub fn made_of(own: &Value, parts: &[(f64, Option<&str>)], offset: f64) -> Optio
         sum.push(format!("{part}*{}", text(&output, "name")));
         all.push(output);
     }
-    if sum.is_empty() || own.get("unit").is_some() {
+    if sum.is_empty() || own.get("unit").is_some() || text(own, "measure") == "work" {
         return None;
     }
     all.push(json!({ "name": name, "measure": "expression", "value": format!("{} + {offset}", sum.join(" + ")) }));

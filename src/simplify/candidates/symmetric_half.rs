@@ -1,6 +1,7 @@
 //! A mechanism whose two halves move as the mirror images of each other.
 
 use super::half_output::{Elements, half_output};
+use super::half_spring::HalfSpring;
 use super::mirror::Mirror;
 use crate::error::percent;
 use crate::simplify::edit::{carrier, drop_references, elements, pair, text};
@@ -9,10 +10,11 @@ use crate::tolerances::SAME;
 use serde_json::{Value, json};
 
 /// Of a scene that is symmetric at the start about a plane across x, y or z, in bodies, joints, forces and gravity, one
-/// half stays. Bodies on the plane stay in it, with half their mass and inertia; forces there have half their strength.
-/// Outputs of the other half become those of the images, totals are doubled. By how far bodies leave the images of each
-/// other along the motion, where loads and drives make them. Not for scenes with beams, gears, equations, inputs, or an
-/// element that connects the halves.
+/// half stays. Bodies on the plane stay in it, with half their mass and inertia; forces there have half their strength, and
+/// springs from a point to its image act towards the plane. Outputs of the other half become those of the images, totals
+/// are doubled. By how far bodies leave the images of each
+/// other along the motion, where loads and drives make them. Not for scenes with beams, gears, equations, inputs, or
+/// another element that connects the halves.
 pub struct SymmetricHalf;
 
 impl Candidate for SymmetricHalf {
@@ -67,6 +69,9 @@ fn half(mirror: &Mirror) -> Option<Value> {
     }
     let bodies = elements(mirror.facts.scene(), "bodies").iter();
     let stays = bodies.filter(|body| !mirror.goes(text(body, "name")));
+    for (name, place) in &found.markers {
+        scene["ground"]["markers"][name] = place.clone();
+    }
     scene["bodies"] = stays.map(|body| own_half(mirror, &held, body)).collect::<Option<_>>()?;
     let outputs = elements(mirror.facts.scene(), "outputs").iter();
     let outputs = outputs.flat_map(|output| half_output(mirror, &found, output).unwrap_or_default());
@@ -90,7 +95,12 @@ fn kept(mirror: &Mirror, list: &str, held: &[&str], found: &mut Elements) -> Opt
         let goes = |marker: &&str| mirror.goes(marker);
         let is_paired = |marker: &&str| !mirror.middle.contains(&carrier(marker));
         if markers.iter().any(goes) && markers.iter().any(|marker| is_paired(marker) && !goes(marker)) {
-            return None;
+            let spring = HalfSpring::new(mirror, element)?;
+            let (bushing, marker) = spring.bushing(mirror, element)?;
+            kept.push(bushing);
+            found.markers.push(marker);
+            found.across.push(spring);
+            continue;
         }
         let mut own = element.clone();
         if is_image(mirror, element, element) {
