@@ -43,7 +43,8 @@ impl Fate {
 /// ```
 ///
 /// with x and y the changes of the outputs that both models have, each relative to the largest by a mode of the same
-/// kinetic energy: coordinates of the two are not the same. A mode for which that leaves more than
+/// kinetic energy: coordinates of the two are not the same. Modes with one eigenvalue may be mixed at will: of these x is
+/// the part of y in their span, and the other way round. A mode for which that leaves more than
 /// [`tolerances::CHANGED_MODE`] is lost. Modes that all outputs see alike are told by their eigenvalues only; off
 /// equilibrium these belong to the charts of the models.
 pub fn against(model: &LinearModel, other: &LinearModel, time: f64) -> Against {
@@ -62,17 +63,29 @@ pub fn against(model: &LinearModel, other: &LinearModel, time: f64) -> Against {
         };
         modes.iter().map(of).collect()
     };
-    let [x, y] = [changes(&modes, 0), changes(&others, 1)];
+    let (x, y) = (changes(&modes, 0), changes(&others, 1));
     let largest = |k: usize| x.iter().chain(&y).filter_map(|x| x.get(k)).fold(0.0, |most: f64, x| most.max(x.norm()));
     // What no mode moves tells nothing: the energy at rest has no first derivative but round-off.
     let all = (0..common.len()).map(largest).fold(0.0, f64::max);
     let least = tolerances::ROUND_OFF_OF_SUMS * all;
     let size = |k: usize| Some(largest(k)).filter(|size| *size > least).unwrap_or(f64::INFINITY);
     let sizes: Vec<f64> = (0..common.len()).map(size).collect();
-    let mac = |i: usize, j: usize| (common.len() > 1).then(|| assurance(&x[i], &y[j], &sizes)).flatten();
     let values = |modes: &[&Mode]| modes.iter().map(|mode| mode.clean_value()).collect::<Vec<_>>();
     let (from, to) = (values(&modes), values(&others));
     let floor = floor(from.iter().chain(&to));
+    let scaled = |all: Vec<Vec<Complex<f64>>>| -> Vec<Vec<Complex<f64>>> {
+        all.iter().map(|own| own.iter().zip(&sizes).map(|(y, size)| y / size).collect()).collect()
+    };
+    let spans = |all: &[Vec<Complex<f64>>], values: &[Complex<f64>]| -> Vec<Vec<Vec<Complex<f64>>>> {
+        let is_one = |a: usize, b: usize| apart(values[a], values[b], floor) <= tolerances::EIGENVALUES_AGREE;
+        (0..all.len()).map(|i| basis((0..all.len()).filter(|k| is_one(i, *k)).map(|k| &all[k]))).collect()
+    };
+    let (x, y) = (scaled(x), scaled(y));
+    let [of_x, of_y] = [spans(&x, &from), spans(&y, &to)];
+    let mac = |i: usize, j: usize| {
+        let both = (part_within(&of_x[i], &y[j])?, part_within(&of_y[j], &x[i])?);
+        (common.len() > 1).then(|| both.0.max(both.1))
+    };
     let cost = |i: usize, j: usize| mac(i, j).map_or(0.0, |mac| 1.0 - mac) + apart(from[i], to[j], floor);
     let places = places(&Matrix::from_fn(from.len(), to.len(), cost));
     let parts = seen(&modes, time);
@@ -86,13 +99,32 @@ pub fn against(model: &LinearModel, other: &LinearModel, time: f64) -> Against {
     Against { modes: places.iter().enumerate().map(fate).collect(), added, outputs: common.len() }
 }
 
-/// MAC of two changes of outputs; none where one is zero.
-fn assurance(x: &[Complex<f64>], y: &[Complex<f64>], sizes: &[f64]) -> Option<f64> {
-    let part = |x: &[Complex<f64>], y: &[Complex<f64>]| -> Complex<f64> {
-        x.iter().zip(y).zip(sizes).map(|((x, y), size)| x.conj() * y / (size * size)).sum()
-    };
-    let both = part(x, x).re * part(y, y).re;
-    (both > 0.0).then(|| part(x, y).norm_sqr() / both)
+/// An orthonormal basis of these.
+fn basis<'a>(all: impl Iterator<Item = &'a Vec<Complex<f64>>>) -> Vec<Vec<Complex<f64>>> {
+    let mut basis: Vec<Vec<Complex<f64>>> = Vec::new();
+    for x in all {
+        let mut rest = x.clone();
+        for own in &basis {
+            let part = product(own, &rest);
+            rest.iter_mut().zip(own).for_each(|(rest, own)| *rest -= own * part);
+        }
+        let [size, left] = [x, &rest].map(|x| product(x, x).re.sqrt());
+        if left > tolerances::EIGENVALUES_AGREE * size {
+            basis.push(rest.iter().map(|rest| rest / left).collect());
+        }
+    }
+    basis
+}
+
+/// Part of |y|^2 in the span of a basis, the MAC where that is of one; none where one of both is zero.
+fn part_within(basis: &[Vec<Complex<f64>>], y: &[Complex<f64>]) -> Option<f64> {
+    let (parts, all) = (basis.iter().map(|own| product(own, y).norm_sqr()).sum::<f64>(), product(y, y).re);
+    (all > 0.0 && !basis.is_empty()).then(|| parts / all)
+}
+
+/// x^H y
+fn product(x: &[Complex<f64>], y: &[Complex<f64>]) -> Complex<f64> {
+    x.iter().zip(y).map(|(x, y)| x.conj() * y).sum()
 }
 
 /// |lambda - mu| / (|lambda| + |mu|), zero for two that are rounding.

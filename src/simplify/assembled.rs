@@ -10,7 +10,8 @@ use serde_json::Value;
 
 /// The scene with the start of all bodies that assembly moves. A simpler model is assembled by itself, and from
 /// the guesses of the scene it would come to another start. What assembly leaves where it is keeps its expressions.
-/// Where the start of a moved body cannot be written (`free` directions, elastic coordinates) all stays as it is.
+/// Where the start of a moved body cannot be written (elastic coordinates, an angle that is `free` in space) all stays as
+/// it is.
 pub fn carried(source: &Source, prepared: &PreparedScene) -> Source {
     let moves = &prepared.assembly.moves;
     let is_moved = |body: &&Value| moves.iter().any(|change| carrier(&change.name) == text(body, "name"));

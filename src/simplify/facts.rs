@@ -241,7 +241,7 @@ impl Facts {
 /// `initial` of a rigid body or point mass at a state with these places of markers; none of another.
 pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body: &Value) -> Option<Value> {
     let (name, kind) = (text(body, "name"), text(body, "type"));
-    if !["rigid", "point_mass"].contains(&kind) || body.get("free").is_some() {
+    if !["rigid", "point_mass"].contains(&kind) {
         return None;
     }
     let dimension = if matches!(prepared.mechanism, AnyMechanism::Planar(_)) { 2 } else { 3 };
@@ -254,8 +254,15 @@ pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body:
         start.insert("angular_velocity".to_string(), json!(spin[2]));
     } else if kind == "rigid" {
         let names = prepared.system().names().q;
-        let first = names.iter().position(|own| *own == format!("{name}.qw"))?;
-        start.insert("rotation".to_string(), json!(state.q.get(first..first + 4)?));
+        match names.iter().position(|own| *own == format!("{name}.qw")) {
+            Some(first) => drop(start.insert("rotation".to_string(), json!(state.q.get(first..first + 4)?))),
+            // The rotation from which its coordinates count.
+            None => {
+                let given = body["initial"].as_object().into_iter().flatten();
+                let kept = given.filter(|(key, _)| ["rotation", "z_axis", "x_axis"].contains(&key.as_str()));
+                start.extend(kept.map(|(key, value)| (key.clone(), value.clone())));
+            }
+        }
         start.insert("angular_velocity".to_string(), json!(axes.map(|axis| product(&axis, &spin))));
     }
     Some(Value::Object(start))

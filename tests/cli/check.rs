@@ -171,7 +171,7 @@ fn a_mode_that_no_output_sees_is_told() {
 #[test]
 fn rods_pull_with_and_without_mass() {
     let pulling = |name: &str| -> Vec<String> {
-        let scene = std::fs::read_to_string(model(name)).unwrap();
+        let scene = std::fs::read_to_string(crate::scenes::model(name)).unwrap();
         let told: Value = serde_json::from_str(&Place::new(scene).done(&["check", "scene.json", "--json"])).unwrap();
         let rods = told["hints"]["rods"].as_array().unwrap().iter();
         rods.filter(|rod| rod["least"].as_f64().unwrap() > 0.0).map(|rod| rod["name"].to_string()).collect()

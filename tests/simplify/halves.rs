@@ -273,3 +273,16 @@ fn an_unstable_mode_that_is_lost_is_told() {
         |warning: &holonom::error::Warning| warning.text.contains("lost modes") && warning.text.contains("unstable");
     assert!(found.warnings.iter().any(is_told), "{:?}", found.warnings);
 }
+
+/// Of two pendula apart from each other any two shapes are modes; one half has that of both together.
+#[test]
+fn of_two_modes_with_one_frequency_one_is_lost() {
+    let mut own = pendula(0.3, 0.0);
+    own["forces"] = json!([]);
+    own["outputs"] = json!([{ "name": "a", "measure": "angle", "of": "left" },
+                            { "name": "b", "measure": "angle", "of": "right" }]);
+    let found = scene(own, &settings(0.01, &[]));
+    assert!(half(&found).is_some(), "{:?}", found.trials);
+    let lost = found.warnings.iter().find(|warning| warning.text.contains("lost modes")).unwrap();
+    assert_eq!(lost.text.matches("Hz").count(), 1, "{}", lost.text);
+}

@@ -280,6 +280,24 @@ fn a_simpler_model_starts_where_the_richest_does() {
     assert!(rate > 0.1 && rate < 2.0, "{rate}");
 }
 
+/// A slider with one free coordinate, at (1.7, -0.5), on a rod of length 1 from (1, 0): assembly moves it to the end of
+/// that.
+#[test]
+fn a_start_along_free_directions_is_written_as_assembled() {
+    let mut joints = pin();
+    let rod = json!({ "name": "link", "type": "distance", "between": ["rod.B", "slider.C"], "length": 1 });
+    joints.as_array_mut().unwrap().push(rod);
+    let mut own = pendulum(joints, json!([]));
+    let slider = json!({ "name": "slider", "type": "rigid", "mass": 0.5, "free": ["x"], "markers": { "C": [0, 0] },
+                         "initial": { "position": [1.7, -0.5] } });
+    own["bodies"].as_array_mut().unwrap().push(slider);
+    own["assembly"] = json!({ "hold": ["rod.angle"] });
+    let found = scene(own, &settings(0.01, &[]));
+    let start = &found.simplified["bodies"][1]["initial"]["position"];
+    // As exact as assembly is.
+    assert!((start[0].as_f64().unwrap() - (1.0 + 0.75f64.sqrt())).abs() < 1e-12 && start[1] == -0.5, "{start}");
+}
+
 /// A four-bar linkage written in space, in the plane of the first two of `axes`, with hinges about the third: hinges on
 /// two closing joints too many. The frame of the coupler is turned about its line.
 fn four_bar_in_space(axes: [[f64; 3]; 3], outputs: Value) -> Value {
