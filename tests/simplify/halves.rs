@@ -227,7 +227,7 @@ fn pendula(angle: f64, k: f64) -> Value {
             "ground": { "markers": { "A": [0.1, 0], "B": [1.1, 0] } },
             "bodies": [pendulum("left", [0.1, -1.0]), pendulum("right", [1.1, 1.0])],
             "joints": [{ "name": "A", "type": "revolute", "between": ["ground.A", "left.O"] },
-                       { "name": "B", "type": "revolute", "between": ["right.O", "ground.B"] }],
+                       { "name": "B", "type": "revolute", "between": ["ground.B", "right.O"] }],
             "forces": [{ "name": "band", "type": "spring_damper", "between": ["right.mid", "left.mid"],
                          "stiffness": "k", "damping": 1, "free_length": "l0" }],
             "outputs": [output("a", "angle", "left"), output("b", "angle", "right"),
