@@ -63,7 +63,7 @@ fn andrews() {
                 variation.operate_at(state.t, &state.q, &state.v).unwrap_or_else(|error| panic!("{error}"));
                 let model = minimal(&mut variation, &chart);
                 if let (true, Ok(model)) = (with_values, &model) {
-                    std::hint::black_box(eigen(&model.a).unwrap());
+                    std::hint::black_box(eigen(&model.built.a).unwrap());
                 }
                 model.is_ok()
             };
@@ -142,7 +142,7 @@ fn differences() {
     let mut exact = Matrix::zeros(2, 2);
     let time = seconds(|| {
         variation.move_to(state.t, &state.q, &state.v).ok().unwrap();
-        exact = minimal(&mut variation, &Chart::parse("q1")).unwrap().a;
+        exact = minimal(&mut variation, &Chart::parse("q1")).unwrap().built.a;
     });
     println!("  {:<36} {:>10.1} {:>14.1e}", "exact derivatives, with B, C, D", 1e6 * time, error(&exact));
     for step in [1e-4, 1e-5, 1e-6, 1e-7] {

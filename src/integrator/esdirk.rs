@@ -227,20 +227,7 @@ impl Integrator for Esdirk {
         self.stage.recall(memory);
     }
 
-    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), StepError> {
-        self.polynomial.prepare(from, h, to, slope);
-        Ok(())
-    }
-
-    fn interpolate(
-        &mut self,
-        _: &mut Problem,
-        from: From,
-        _: f64,
-        theta: f64,
-        out: &mut [f64],
-    ) -> Result<(), StepError> {
-        self.polynomial.interpolate(theta, from.y, out);
-        Ok(())
+    fn polynomial(&mut self) -> Option<&mut Hermite> {
+        Some(&mut self.polynomial)
     }
 }

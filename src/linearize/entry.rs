@@ -1,7 +1,7 @@
 //! A method of linearization: its request, its result and its entry in the registry.
 
 use super::input_states::{InputStates, primed};
-use super::{Changes, Chart, Matrix, Variation};
+use super::{Changes, Chart, Cost, LinearModel, Matrix, Mode, Variation};
 use crate::error::Result;
 use crate::method_spec::{Listed, MethodSpec, OptionDoc};
 use crate::system::Dimensions;
@@ -61,7 +61,7 @@ impl Built {
     }
 
     /// Adds the states of the inputs to the model, as its last states, and renames its inputs to the derivatives that they are.
-    pub(super) fn add_input_states(&mut self, inputs: &mut [String]) {
+    fn add_input_states(&mut self, inputs: &mut [String]) {
         let InputStates { orders, a, c } = &self.input_states;
         let (own, added, n_u) = (self.a.nrows(), a.ncols(), orders.len());
         self.states.extend(self.input_states.states(inputs));
@@ -87,6 +87,15 @@ impl Built {
             (own..size).for_each(|i| e[(i, i)] = 1.0);
         }
         (self.a, self.b, self.c) = (whole, b, outputs);
+    }
+
+    /// The model by this method, with its modes.
+    pub(super) fn finish(mut self, variation: &Variation, method: String, modes: Vec<Mode>, cost: Cost) -> LinearModel {
+        let (mut inputs, outputs) = variation.names();
+        self.add_input_states(&mut inputs);
+        let Built { chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, .. } = self;
+        let point = variation.point.clone();
+        LinearModel { method, chart, states, inputs, orders, outputs, a, b, c, d, e, modes, point, cost }
     }
 
     /// The change of q along each velocity direction of a unit of each state; of a state xi, that of xi itself.

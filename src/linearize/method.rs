@@ -1,7 +1,6 @@
 //! The registry of methods of linearization, and the linear model by one of them.
 
-use super::entry::{Built, Entry, Request};
-use super::input_states::InputStates;
+use super::entry::{Entry, Request};
 use super::minimal::MCS;
 use super::spectrum::{Spectrum, spectrum};
 use super::unconstrained::{AUGMENTED_LAGRANGIAN, BAUMGARTE, FORCE_PROJECTION, PENALTY};
@@ -37,15 +36,11 @@ pub fn linearize(variation: &mut Variation, request: &Request) -> Result<LinearM
     refuse_large(variation.len())?;
     let clock = Instant::now();
     variation.refuse_held_drivers()?;
-    let mut built = (entry.build)(variation, request)?;
+    let built = (entry.build)(variation, request)?;
     let assembly_seconds = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
     let Spectrum { modes, conditioning, off_constraints } = spectrum(variation, &built, request)?;
     let eigen_seconds = clock.elapsed().as_secs_f64();
     let cost = Cost { assembly_seconds, eigen_seconds, conditioning, size: built.a.nrows(), off_constraints };
-    let (mut inputs, outputs) = variation.names();
-    built.add_input_states(&mut inputs);
-    let Built { chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, .. } = built;
-    let (method, point) = (request.method.to_string(), variation.point.clone());
-    Ok(LinearModel { method, chart, states, inputs, orders, outputs, a, b, c, d, e, modes, point, cost })
+    Ok(built.finish(variation, request.method.to_string(), modes, cost))
 }

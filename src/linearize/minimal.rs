@@ -5,33 +5,15 @@ use super::entry::{Built, Entry};
 use super::input_states::InputStates;
 use super::perturbation::{Parts, Perturbation};
 use super::response::observe;
-use super::{Changes, Chart, Coordinates, Matrix, Response, Variation};
+use super::{Chart, Coordinates, Matrix, Response, Variation};
 use crate::error::Result;
 
-/// The model x' = A x + B u, y = C x + D u in the n_x states x = (z, y) of a chart.
-#[derive(Clone, Debug)]
+/// The model in the states (z, y) of a chart.
 pub struct Minimal {
     /// The chart.
     pub coordinates: Coordinates,
-    /// (dq, dv) of a unit of each state.
-    pub changes: Changes,
-    /// A, n_x x n_x.
-    pub a: Matrix,
-    /// Columns of the states of inputs.
-    pub input_states: InputStates,
-    /// B, n_x x n_u, of the derivatives that are inputs of the model.
-    pub b: Matrix,
-    /// C, n_y x n_x.
-    pub c: Matrix,
-    /// D, n_y x n_u.
-    pub d: Matrix,
-}
-
-impl From<Minimal> for Built {
-    fn from(model: Minimal) -> Self {
-        let Minimal { coordinates: Coordinates { name: chart, states, .. }, changes, a, input_states, b, c, d } = model;
-        Built { chart, states, a, b, c, d, e: None, input_states, changes, infinite: 0 }
-    }
+    /// The model.
+    pub built: Built,
 }
 
 /// Minimal coordinates: see [`minimal`].
@@ -41,7 +23,7 @@ pub(super) const MCS: Entry = Entry {
     options: &[],
     build: |variation, request| {
         let chart = request.chart(variation);
-        Ok(minimal(variation, &chart)?.into())
+        Ok(minimal(variation, &chart)?.built)
     },
 };
 
@@ -80,5 +62,7 @@ pub(super) fn restrict(
     let outputs = observe(&variation.outputs()?, &perturbation, &response);
     let input_states = InputStates { orders, a: driven, c: outputs.input_states };
     let (b, c, d) = (inputs.insert_rows(0, k, 0.0), outputs.state, outputs.inputs);
-    Ok(Minimal { coordinates, changes, a, input_states, b, c, d })
+    let Coordinates { name: chart, states, .. } = coordinates.clone();
+    let built = Built { chart, states, a, b, c, d, e: None, input_states, changes, infinite: 0 };
+    Ok(Minimal { coordinates, built })
 }

@@ -42,7 +42,7 @@ pub(super) fn check(
     // A driver may move much and leave little behind.
     let driven = model.coordinates.lift.p.column(input).amax();
     let size = dq.amax().max(dv.amax() / norm.rate).max(driven);
-    if size == 0.0 || model.a.nrows() == 0 {
+    if size == 0.0 || model.built.a.nrows() == 0 {
         return Ok(None);
     }
     let n = start.v.len();
@@ -74,7 +74,7 @@ pub(super) fn check(
         norm.off((&dq, &dv), (end.columns.q.as_slice(), end.columns.v.as_slice()), *eps)
     });
     let errors_ltv: Vec<f64> = errors.collect();
-    let (lti, reached) = match model.input_states.orders[input] {
+    let (lti, reached) = match model.built.input_states.orders[input] {
         2 => (response(model, &pulse, 0.5 * width), lifted(chart, &middle.columns, (input, pulse.jet(half)[0] / size))),
         _ => (lti, last.states_of(&end.columns)),
     };
@@ -94,13 +94,14 @@ fn lifted(chart: &Coordinates, changes: &Changes, (input, u): (usize, f64)) -> M
 /// Returns the state of x' = A x + B u at the time `until` of a unit pulse from x = 0 (classical Runge-Kutta method).
 /// Where a derivative of the pulse is the input of the model, its lower ones are the states of the input.
 fn response(model: &Minimal, pulse: &Pulse, until: f64) -> Matrix {
-    let states = &model.input_states;
+    let states = &model.built.input_states;
     let (order, first) = (states.orders[pulse.input], states.orders[..pulse.input].iter().sum());
-    let b = beside([&states.a.columns(first, order).clone_owned(), &model.b.columns(pulse.input, 1).clone_owned()]);
+    let b =
+        beside([&states.a.columns(first, order).clone_owned(), &model.built.b.columns(pulse.input, 1).clone_owned()]);
     let push = |t: f64| &b * Matrix::from_column_slice(order + 1, 1, &pulse.jet(t)[..=order]);
-    let mut x = Matrix::zeros(model.a.nrows(), 1);
+    let mut x = Matrix::zeros(model.built.a.nrows(), 1);
     let h = until / tolerances::PULSE_STEPS as f64;
-    let slope = |x: &Matrix, s: f64| -> Matrix { &model.a * x + push(pulse.start + s) };
+    let slope = |x: &Matrix, s: f64| -> Matrix { &model.built.a * x + push(pulse.start + s) };
     for i in 0..tolerances::PULSE_STEPS {
         let s = i as f64 * h;
         let k1 = slope(&x, s);

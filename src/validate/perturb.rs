@@ -58,7 +58,7 @@ pub struct Speed {
 
 impl Speed {
     pub fn of(model: &Minimal) -> Result<Self> {
-        let values = eigen(&model.a).map_err(|unsolved| Error::input(unsolved.to_string()))?.values;
+        let values = eigen(&model.built.a).map_err(|unsolved| Error::input(unsolved.to_string()))?.values;
         let rates: Vec<f64> = values.iter().map(|value| value.norm()).filter(|rate| *rate > 1e-6).collect();
         let fastest = rates.iter().copied().fold(1.0, f64::max);
         let mean = rates.iter().map(|rate| rate.ln()).sum::<f64>() / rates.len().max(1) as f64;

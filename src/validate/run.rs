@@ -70,12 +70,12 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
     let mut sequences = Vec::new();
     for direction in &settings.directions {
         let x0 = direction.state(&model.coordinates, norm.rate)?;
-        if model.a.nrows() > 0 {
+        if model.built.a.nrows() > 0 {
             sequences.push(sequence(system, start, (&model, &carried, &norm), &x0, (direction.name(), followed))?);
         }
     }
     let longest = followed.min(1.0 / speed.fastest.max(f64::MIN_POSITIVE));
-    let frozen = frozen(system, start, &carried, (&model.a, &speed), longest)?;
+    let frozen = frozen(system, start, &carried, (&model.built.a, &speed), longest)?;
     let (mut inputs, mut unchecked) = (Vec::new(), Vec::new());
     for (index, Column { name, .. }) in system.inputs().into_iter().enumerate().filter(|_| settings.inputs) {
         let pulse = (index, name.clone());

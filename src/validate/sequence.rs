@@ -128,7 +128,8 @@ fn follow<'a>(
         true
     })?;
     let charts = carried.along(&states.iter().map(|(state, asked)| (state, *asked)).collect::<Vec<_>>())?;
-    let step = expm(&(&model.a * (duration / ROWS as f64))).map_err(|unsolved| Error::input(unsolved.to_string()))?;
+    let step =
+        expm(&(&model.built.a * (duration / ROWS as f64))).map_err(|unsolved| Error::input(unsolved.to_string()))?;
     let mut predicted = vec![&step * x0];
     (1..ROWS).for_each(|i| predicted.push(&step * &predicted[i - 1]));
     Ok(Followed { system, norm, epsilons, times, snapshots, charts, predicted })

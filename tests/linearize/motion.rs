@@ -19,7 +19,7 @@ fn order(label: &str, chart: &Chart, least: f64) -> f64 {
     let mut variation = Variation::new(system.as_ref(), 0.0, &start.q, &start.v).unwrap();
     let model = minimal(&mut variation, chart).unwrap();
     let measured = Chart::MassOrthogonal.at(&mut variation).unwrap();
-    let rate = model.a.amax().sqrt();
+    let rate = model.built.a.amax().sqrt();
     let steps: Vec<f64> = [1.0, 2.0, 4.0].iter().map(|x| least * x / rate).collect();
     let found = transition(system.as_ref(), &start, &Chart::MassOrthogonal, &steps).unwrap();
     let scale = |x: Matrix| {
@@ -30,7 +30,7 @@ fn order(label: &str, chart: &Chart, least: f64) -> f64 {
     };
     let error = |i: usize| {
         let x = measured.states_of(&found[i].changes);
-        scale(x - expm(&(&model.a * steps[i])).unwrap()).norm()
+        scale(x - expm(&(&model.built.a * steps[i])).unwrap()).norm()
     };
     (error(2) / error(1)).log2().min((error(1) / error(0)).log2())
 }

@@ -54,7 +54,7 @@ fn charts_have_the_spectra_of_the_references() {
             Variation::new(system.as_ref(), 0.0, &reference.vector("q"), &reference.vector("v")).unwrap();
         let mut check = |name: &str, chart: Chart, expected: &Value| {
             let found = minimal(&mut variation, &chart).unwrap();
-            let values: Vec<_> = found.a.complex_eigenvalues().iter().copied().collect();
+            let values: Vec<_> = found.built.a.complex_eigenvalues().iter().copied().collect();
             let off = distance(&values, &spectrum(expected));
             println!("{label} {name}: {off:e}");
             assert!(off < 1e-11, "{label} {name}: {off:e} {values:?}");

@@ -129,7 +129,7 @@ fn build(variation: &mut Variation, equations: &Quadratic, modal: Modal) -> Resu
 fn finish(
     variation: &mut Variation,
     found: &mut Found,
-    mut built: Built,
+    built: Built,
     [assembly_seconds, eigen_seconds]: [f64; 2],
 ) -> Result<LinearModel> {
     let t = variation.point.t;
@@ -146,11 +146,7 @@ fn finish(
     }
     let size = built.a.nrows();
     let cost = Cost { assembly_seconds, eigen_seconds, conditioning, size, off_constraints: None };
-    let (mut inputs, outputs) = variation.names();
-    built.add_input_states(&mut inputs);
-    let Built { chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, .. } = built;
-    let (method, point) = ("modal".to_string(), variation.point.clone());
-    Ok(LinearModel { method, chart, states, inputs, orders, outputs, a, b, c, d, e, modes, point, cost })
+    Ok(built.finish(variation, "modal".to_string(), modes, cost))
 }
 
 /// Returns s dq = dv - [v, dq] of each state, and s dxi, which is that of its `shapes`.

@@ -35,7 +35,7 @@ fn build(
 ) -> Result<Built> {
     if request.method.one_of("projected", &["no", "yes"])? == "yes" {
         let coordinates = request.chart(variation).at(variation)?;
-        return Ok(restrict(variation, coordinates, response)?.into());
+        return Ok(restrict(variation, coordinates, response)?.built);
     }
     let n = variation.len();
     let moving = variation.system().dimensions().moving();

@@ -69,7 +69,9 @@ fn models_in_a_constant_chart_follow_a_pulse_of_the_drive() {
         let mut variation = Variation::new(scene.system(), times[i], &all[i].q, &all[i].v).unwrap();
         let model = minimal(&mut variation, &Chart::parse("bob.angle")).unwrap();
         let [u, rate, second] = pulse.jet(times[i]);
-        model.a * x + model.input_states.a * Matrix::from_column_slice(2, 1, &[u, rate]) + model.b * second
+        model.built.a * x
+            + model.built.input_states.a * Matrix::from_column_slice(2, 1, &[u, rate])
+            + model.built.b * second
     };
     let (mut x, h) = (Matrix::zeros(2, 1), width / steps as f64);
     for i in (0..2 * steps).step_by(2) {
