@@ -96,6 +96,17 @@ impl Trajectory {
         Some(self.rows.iter().map(|row| row[index]).collect())
     }
 
+    /// What is compared of each row: the outputs, or the coordinates where there are none.
+    pub fn watched(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
+        let of = |row| if self.outputs.is_empty() { self.row_state(row).0 } else { self.row_outputs(row) };
+        self.rows.iter().map(move |row| of(row).to_vec())
+    }
+
+    /// Names and units of the outputs.
+    pub fn named_outputs(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.outputs.iter().map(|column| (column.name.as_str(), column.unit.as_str()))
+    }
+
     /// The outputs of a row.
     pub fn row_outputs<'a>(&self, row: &'a [f64]) -> &'a [f64] {
         &row[row.len() - self.outputs.len()..]

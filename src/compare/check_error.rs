@@ -92,26 +92,16 @@ fn closer(prepared: &PreparedScene) -> Method {
 }
 
 fn differences(first: &Trajectory, second: &Trajectory) -> Vec<(String, Difference)> {
-    let has_outputs = !first.outputs.is_empty();
-    let values = |of: &Trajectory, row: &[f64]| match has_outputs {
-        true => of.row_outputs(row).to_vec(),
-        false => of.row_state(row).0.to_vec(),
+    let same = first.times().zip(second.times()).take_while(|(one, other)| one == other).count();
+    let rows: Vec<(Vec<f64>, Vec<f64>)> = first.watched().zip(second.watched()).take(same).collect();
+    let named = |(i, (name, unit)): (usize, (&str, &str))| {
+        let all = || rows.iter().map(|(one, other)| (one[i] - other[i]).abs());
+        let (max, last) = (all().fold(f64::NAN, f64::max), all().next_back().unwrap_or(f64::NAN));
+        (name.to_string(), Difference { max, last, unit: unit.to_string() })
     };
-    let both = first.rows.iter().zip(&second.rows).take_while(|(one, other)| one[0] == other[0]);
-    let rows: Vec<[Vec<f64>; 2]> = both.map(|(one, other)| [values(first, one), values(second, other)]).collect();
-    let difference = |i: usize| {
-        let all = || rows.iter().map(|[one, other]| (one[i] - other[i]).abs());
-        (all().fold(f64::NAN, f64::max), all().next_back().unwrap_or(f64::NAN))
-    };
-    let named = |(i, (name, unit)): (usize, (&String, &str))| {
-        let (max, last) = difference(i);
-        (name.clone(), Difference { max, last, unit: unit.to_string() })
-    };
-    match has_outputs {
-        true => {
-            first.outputs.iter().map(|column| (&column.name, column.unit.as_str())).enumerate().map(named).collect()
-        }
-        false => first.names.q.iter().map(|name| (name, "")).enumerate().map(named).collect(),
+    match first.outputs.is_empty() {
+        true => first.names.q.iter().map(|name| (name.as_str(), "")).enumerate().map(named).collect(),
+        false => first.named_outputs().enumerate().map(named).collect(),
     }
 }
 

@@ -4,9 +4,10 @@ use super::cell::{Cell, Status};
 use super::deadline::Limits;
 use super::map::Map;
 use super::queue::{Job, Queues, What};
-use super::reference::{Reference, Search, WatchedRows};
+use super::reference::Search;
 use super::simulation::{blank, run};
 use super::subject::Subject;
+use crate::compare::work_precision::ErrorMetric;
 use crate::math::memory::at_once;
 use cpu_time::ThreadTime;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -70,7 +71,7 @@ struct Work {
 struct Slot {
     at: [usize; 3],
     motion: usize,
-    came: Mutex<(Cell, WatchedRows)>,
+    came: Mutex<(Cell, Vec<Vec<f64>>)>,
 }
 
 impl Work {
@@ -93,7 +94,7 @@ impl Work {
             });
             let blank = blank(subject, map, at);
             queues.add(&format!("{} {}", at[0], blank.method.integrator), Job::new(rank, What::Cell(index)));
-            cells.push(Slot { at, motion, came: Mutex::new((blank, WatchedRows::new())) });
+            cells.push(Slot { at, motion, came: Mutex::new((blank, Vec::new())) });
         }
         Work { cells, motions, queues: Mutex::new(queues) }
     }
@@ -154,7 +155,7 @@ impl Work {
             Search::Found(reference) => Some(reference),
             _ => None,
         };
-        let references: Vec<Option<Reference>> = self.motions.into_iter().map(found).collect();
+        let references: Vec<Option<ErrorMetric>> = self.motions.into_iter().map(found).collect();
         let judged = |slot: Slot| {
             let (cell, rows) = into_inner(slot.came);
             let reference = references[slot.motion].as_ref();

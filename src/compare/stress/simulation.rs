@@ -3,7 +3,6 @@
 use super::cell::{Cell, Status};
 use super::deadline::{Deadline, Limits};
 use super::map::Map;
-use super::reference::{WatchedRows, watched};
 use super::subject::Case;
 use super::subject::Subject;
 use crate::analysis::{Record, Recorder};
@@ -51,7 +50,7 @@ pub(super) fn run(
     map: &Map,
     at: [usize; 3],
     (limits, share): (Limits, Duration),
-) -> (Cell, WatchedRows, f64) {
+) -> (Cell, Vec<Vec<f64>>, f64) {
     let clock = Instant::now();
     let mut case = subject.base.clone();
     let changed = map.changes(at).try_for_each(|change| change.apply(&mut case));
@@ -59,11 +58,9 @@ pub(super) fn run(
     let seconds = clock.elapsed().as_secs_f64();
     let blank = Cell { seconds, reason: None, method: case.method, ..blank(subject, map, at) };
     match run {
-        Err(error) => {
-            (Cell { status: Status::Refused, reason: Some(message(&error)), ..blank }, WatchedRows::new(), 1.0)
-        }
+        Err(error) => (Cell { status: Status::Refused, reason: Some(message(&error)), ..blank }, Vec::new(), 1.0),
         Ok(run) => {
-            let (rows, part) = (watched(&run.record), run.part);
+            let (rows, part) = (run.record.trajectory.watched().collect(), run.part);
             (run.cell(blank), rows, part)
         }
     }

@@ -60,26 +60,23 @@ impl ErrorMetric {
         ErrorMetric { names, scales: scales(columns, &rows, sizes), rows }
     }
 
-    /// Returns the largest relative difference, and the name of its quantity. Missing rows make it infinite.
+    /// Returns the largest relative difference, and the name of its quantity.
     pub fn error(&self, rows: &[Vec<f64>]) -> (f64, String) {
-        if rows.len() != self.rows.len() {
-            return (f64::INFINITY, String::new());
-        }
         let errors = self.errors(rows).into_iter().zip(&self.names);
         let worst = errors.reduce(|worst, next| if next.0 > worst.0 || next.0.is_nan() { next } else { worst });
         worst.map_or((0.0, String::new()), |(error, name)| (error, name.clone()))
     }
 
-    /// Returns the largest relative difference of each quantity.
+    /// Returns the largest relative difference of each quantity; infinite where rows are missing.
     pub fn errors(&self, rows: &[Vec<f64>]) -> Vec<f64> {
         let of = |i: usize| {
-            let pairs = self.rows.iter().zip(rows);
-            pairs.fold(0.0, |most: f64, (own, other)| {
-                let difference = self.difference(i, own[i], other[i]);
-                if difference > most || difference.is_nan() { difference } else { most }
-            })
+            // Where the reference is not defined, there is nothing to compare.
+            let pairs = self.rows.iter().zip(rows).filter(|(own, _)| own[i].is_finite());
+            let differences = pairs.map(|(own, other)| self.difference(i, own[i], other[i]));
+            differences.fold(0.0, |most: f64, one| if one > most || one.is_nan() { one } else { most })
         };
-        (0..self.names.len()).map(of).collect()
+        let is_whole = rows.len() == self.rows.len();
+        (0..self.names.len()).map(|i| if is_whole { of(i) } else { f64::INFINITY }).collect()
     }
 
     /// Returns the largest and the root mean square relative difference of a quantity by its name.
