@@ -251,7 +251,8 @@ impl<const D: usize> Build<'_, D> {
         formula.function_of_time().map_err(|error| error.under(field))
     }
 
-    /// A [`formula`](Self::formula) in the equations of motion: its switching functions are added to those of the scene.
+    /// An expression over t and marker quantities, and their rates if `rates` is true, in the equations of motion: its
+    /// switching functions are added to those of the scene.
     pub fn acting(&self, field: &str, number: &Number, rates: bool) -> Result<Formula> {
         self.acting_with(field, number, rates, &[])
     }
@@ -293,11 +294,6 @@ impl<const D: usize> Build<'_, D> {
             self.turnings.borrow_mut().last_mut().into_iter().for_each(|last| last.name = name.to_string());
             turning
         })
-    }
-
-    /// An expression over t and marker quantities, and their rates if `rates` is true.
-    pub fn formula(&self, field: &str, number: &Number, rates: bool) -> Result<Formula> {
-        Formula::parse(&number.to_string(), self, usize::from(rates), &[]).map_err(|error| error.under(field))
     }
 
     /// An expression of an output, which may read accelerations too and does not act on the motion.

@@ -59,33 +59,17 @@ pub fn n_four_bar(n: usize) -> Value {
 /// 3n coordinates, 2n constraints, n degrees of freedom.
 pub fn chain(n: usize) -> Value {
     let length = 1.0 / n as f64;
-    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
-    for i in 0..n {
-        bodies.push(json!({
+    let link = |i: usize| {
+        json!({
             "name": format!("link{i}"), "type": "rigid", "mass": "m/n", "inertia": "m/n*(l/n)^2/12",
             "markers": { "A": ["-l/n/2", 0], "B": ["l/n/2", 0] },
             "initial": { "position": [(i as f64 + 0.5) * length, 0] }
-        }));
-        let before = if i == 0 { "ground.A".to_string() } else { format!("link{}.B", i - 1) };
-        let between = [before, format!("link{i}.A")];
-        joints.push(json!({ "name": format!("J{i}"), "type": "revolute", "between": between }));
-    }
-    let end = format!("link{}.B", n - 1);
-    json!({
-        "name": format!("chain_{n}"),
-        "about": format!("A chain of {n} rods, released level. {n} degrees of freedom; the motion is chaotic."),
-        "dimension": 2,
-        "parameters": { "l": 1.0, "m": 1.0, "n": n },
-        "gravity": [0, -9.81],
-        "ground": { "markers": { "A": [0, 0] } },
-        "bodies": bodies,
-        "joints": joints,
-        "outputs": [
-            { "name": "end_x", "measure": "position", "of": end, "component": "x" },
-            { "name": "end_y", "measure": "position", "of": end, "component": "y" }
-        ],
-        "simulation": { "t_end": 1.0, "output_step": 0.01, "integrator": "dopri5", "rtol": 1e-8, "atol": 1e-8 }
-    })
+        })
+    };
+    let about = format!("A chain of {n} rods, released level. {n} degrees of freedom; the motion is chaotic.");
+    let parameters = json!({ "l": 1.0, "m": 1.0, "n": n });
+    let simulation = json!({ "t_end": 1.0, "output_step": 0.01, "integrator": "dopri5", "rtol": 1e-8, "atol": 1e-8 });
+    hanging((format!("chain_{n}"), about), n, link, parameters, simulation)
 }
 
 /// Beam elements in one link of a [`flexible_chain`].
@@ -94,33 +78,47 @@ const ELEMENTS: usize = 4;
 /// A chain of n elastic beams on hinges of total length 1 m and mass 1 kg, hanging from one end and released level:
 /// each four geometrically exact elements. 15n coordinates, 2n constraints.
 pub fn flexible_chain(n: usize) -> Value {
-    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
-    for i in 0..n {
-        bodies.push(json!({
+    let link = |i: usize| {
+        json!({
             "name": format!("link{i}"), "type": "flexible_beam", "frame": "absolute", "length": "l/n", "elements": ELEMENTS,
             "stiffness": { "EA": "EA", "EI": "EI" }, "inertia": { "rhoA": "m/l", "rhoI": "m/l*EI/EA" },
             "markers": { "A": [0, 0], "B": ["l/n", 0] },
             "initial": { "position": [format!("{i}*l/n"), 0] }
-        }));
+        })
+    };
+    let about = format!("A chain of {n} elastic beams of {ELEMENTS} elements each, released level.");
+    let parameters = json!({ "l": 1.0, "m": 1.0, "n": n, "EA": 1e4, "EI": 1e-2 });
+    let simulation = json!({ "t_end": 1.0, "output_step": 0.01, "formulation": "index3",
+        "integrator": { "generalized_alpha": { "rho_inf": 0.7 } }, "step": 0.001 });
+    hanging((format!("flexible_chain_{n}"), about), n, link, parameters, simulation)
+}
+
+/// Links on hinges in a row, from the ground on; the place of the last end is watched.
+fn hanging(
+    (name, about): (String, String),
+    n: usize,
+    link: impl Fn(usize) -> Value,
+    parameters: Value,
+    simulation: Value,
+) -> Value {
+    let joint = |i: usize| {
         let before = if i == 0 { "ground.A".to_string() } else { format!("link{}.B", i - 1) };
-        let between = [before, format!("link{i}.A")];
-        joints.push(json!({ "name": format!("J{i}"), "type": "revolute", "between": between }));
-    }
+        json!({ "name": format!("J{i}"), "type": "revolute", "between": [before, format!("link{i}.A")] })
+    };
     let end = format!("link{}.B", n - 1);
     json!({
-        "name": format!("flexible_chain_{n}"),
-        "about": format!("A chain of {n} elastic beams of {ELEMENTS} elements each, released level."),
+        "name": name,
+        "about": about,
         "dimension": 2,
-        "parameters": { "l": 1.0, "m": 1.0, "n": n, "EA": 1e4, "EI": 1e-2 },
+        "parameters": parameters,
         "gravity": [0, -9.81],
         "ground": { "markers": { "A": [0, 0] } },
-        "bodies": bodies,
-        "joints": joints,
+        "bodies": (0..n).map(link).collect::<Vec<Value>>(),
+        "joints": (0..n).map(joint).collect::<Vec<Value>>(),
         "outputs": [
             { "name": "end_x", "measure": "position", "of": end, "component": "x" },
             { "name": "end_y", "measure": "position", "of": end, "component": "y" }
         ],
-        "simulation": { "t_end": 1.0, "output_step": 0.01, "formulation": "index3",
-            "integrator": { "generalized_alpha": { "rho_inf": 0.7 } }, "step": 0.001 }
+        "simulation": simulation
     })
 }
