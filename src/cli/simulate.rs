@@ -96,7 +96,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         false => summary,
     };
     let sealed = write((&prepared, &record, &summary), &mut folder, &args)?;
-    args.common.talk.conclude(folder, &sealed, || summary.text(&units(&record)))?;
+    args.common.talk.conclude(folder, &sealed, || summary.text())?;
     args.common.talk.warn(&summary.origin.warnings[early.len()..]);
     Ok(match &summary.failure {
         // What ended the second run is a warning.
@@ -161,8 +161,4 @@ fn write<'s>(
     output.figure(folder, "drift", report::drift_figure(&format!("{}: drift", prepared.name), record))?;
     output.figure(folder, "energy", report::energy_figure(&format!("{}: energy", prepared.name), record))?;
     folder.seal("summary.json", summary)
-}
-
-fn units(record: &Record) -> Vec<(String, String)> {
-    record.trajectory.outputs.iter().map(|column| (column.name.clone(), column.unit.clone())).collect()
 }

@@ -4,7 +4,7 @@ use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, tell};
 use super::linear::{ChartOptions, StateOptions};
 use crate::error::{Error, Result};
 use crate::report::cell;
-use crate::report::linear::{ValidationFile, sequence_figure};
+use crate::report::linear::{ValidationFile, validation_figure};
 use crate::validate::{Direction, Settings, validate};
 use std::process::ExitCode;
 
@@ -60,7 +60,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
                 sequence.direction
             );
             let name = if i == 0 { stem.clone() } else { format!("{stem}-{}", i + 1) };
-            args.output.figure(&mut folder, &name, sequence_figure(&title, &names, sequence))?;
+            args.output.figure(&mut folder, &name, validation_figure(&title, &names, sequence))?;
         }
         args.talk.say(&file.text(&found))?;
         if !file.is_right() {

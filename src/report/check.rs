@@ -4,6 +4,7 @@ use super::Table;
 use super::equilibrium::EquilibriumFile;
 use super::hints::hints_text;
 use super::summary::AssemblySummary;
+use super::table::OutputValues;
 use crate::analysis::{Rank, Redundant};
 use crate::error::{Failure, significant};
 use crate::initial::Assembly;
@@ -15,7 +16,6 @@ use crate::simulate::{SpectralMode, refused};
 use crate::system::{Group, OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
-use serde_json::{Map, Value};
 
 /// Size of a model, and its rank and conditioning at the start.
 #[derive(Clone, Debug, Serialize)]
@@ -83,9 +83,7 @@ pub struct Start {
     pub acceleration: f64,
     /// True if nothing moves or accelerates.
     pub is_equilibrium: bool,
-    pub outputs: Map<String, Value>,
-    #[serde(skip)]
-    units: Vec<String>,
+    pub outputs: OutputValues,
 }
 
 /// An element of the scene.
@@ -317,31 +315,19 @@ impl Start {
             velocity,
             acceleration,
             is_equilibrium: velocity == 0.0 && largest(vdot) < tolerances::RESTING_START,
-            outputs: columns
-                .iter()
-                .map(|column| column.name.clone())
-                .zip(values.into_iter().map(Value::from))
-                .collect(),
-            units: columns.into_iter().map(|column| column.unit).collect(),
+            outputs: OutputValues::new(columns, values),
         }
     }
 
     pub fn text(&self) -> String {
-        let mut text = match (self.is_equilibrium, self.velocity) {
+        let rest = match (self.is_equilibrium, self.velocity) {
             (true, _) => format!("static equilibrium: at rest, accelerations below {:.1e}\n", self.acceleration),
             (false, 0.0) => {
                 format!("at rest, accelerations up to {} m/s^2 or rad/s^2\n", significant(self.acceleration, 4))
             }
             _ => String::new(),
         };
-        if !self.outputs.is_empty() {
-            let mut table = Table::new(&["output at the start", "", ""]);
-            for ((name, value), unit) in self.outputs.iter().zip(&self.units) {
-                let value = value.as_f64().map_or("?".to_string(), |value| significant(value, 8));
-                table.row([name.clone(), value, unit.clone()]);
-            }
-            text += &format!("\n{table}\n");
-        }
-        text
+        let outputs = self.outputs.text("output at the start", 8, usize::MAX);
+        rest + &outputs + if outputs.is_empty() { "" } else { "\n" }
     }
 }

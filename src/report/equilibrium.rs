@@ -1,18 +1,17 @@
 //! The report of `check --static`.
 
-use super::Table;
+use super::table::{OutputValues, named};
 use crate::analysis::Range;
-use crate::error::significant;
-use crate::error::{Warning, clock};
+use crate::error::{Warning, clock, significant};
 use crate::initial::{Equilibrium, Stability, Way};
 use crate::prepared::PreparedScene;
-use crate::system::{OperatingPoint, Scratch};
+use crate::system::{Column, OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
 /// The static equilibrium, or the fact that none was found.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct EquilibriumFile {
     /// True if an equilibrium was found.
     pub converged: bool,
@@ -34,9 +33,9 @@ pub struct EquilibriumFile {
     #[serde(skip_serializing_if = "Map::is_empty")]
     pub states: Map<String, Value>,
     /// Multipliers by name.
-    pub lambda: Map<String, Value>,
+    pub lambda: OutputValues,
     /// Outputs by name.
-    pub outputs: Map<String, Value>,
+    pub outputs: OutputValues,
     /// True if stable. None where that is not known, or where no force acts on the coordinates in `free`.
     pub stable: Option<bool>,
     /// Class of the stability.
@@ -48,34 +47,16 @@ pub struct EquilibriumFile {
     /// Coordinates that differ from the start: name, from, to.
     #[serde(skip)]
     moves: Vec<(String, f64, f64)>,
-    #[serde(skip)]
-    units: Vec<String>,
 }
 
 const MOST_MOVES: usize = 10;
+/// Largest number of multipliers, and of outputs, in the text.
+const MOST: usize = 40;
 
 impl EquilibriumFile {
     /// The report that none was found.
     pub fn none(t: f64) -> EquilibriumFile {
-        EquilibriumFile {
-            converged: false,
-            t,
-            method: None,
-            iterations: 0,
-            steps: 0,
-            residual: None,
-            gap: None,
-            q: Map::new(),
-            states: Map::new(),
-            lambda: Map::new(),
-            outputs: Map::new(),
-            stable: None,
-            stability: None,
-            free: Vec::new(),
-            moves: Vec::new(),
-            units: Vec::new(),
-            warnings: Vec::new(),
-        }
+        EquilibriumFile { t, ..EquilibriumFile::default() }
     }
 
     /// The report of an equilibrium.
@@ -99,10 +80,10 @@ impl EquilibriumFile {
             steps: found.steps,
             residual: Some(found.residual),
             gap: Some(found.gap),
-            states: named(states.map(|(name, _)| name.clone()), &found.v[n.moving()..]),
-            q: named(names.q, &found.q),
-            lambda: named(names.lambda, &found.lambda),
-            outputs: named(columns.iter().map(|column| column.name.clone()), &outputs),
+            states: named(&names.v[n.moving()..], &found.v[n.moving()..]),
+            q: named(&names.q, &found.q),
+            lambda: OutputValues::new(without_units(names.lambda), found.lambda),
+            outputs: OutputValues::new(columns, outputs),
             stable: match found.stability {
                 Stability::Stable => Some(true),
                 Stability::Unstable => Some(false),
@@ -111,7 +92,6 @@ impl EquilibriumFile {
             stability: Some(found.stability),
             free: found.free,
             moves,
-            units: columns.into_iter().map(|column| column.unit).collect(),
             warnings: Range::warnings_at(system, found.t, &found.q),
         }
     }
@@ -143,8 +123,7 @@ impl EquilibriumFile {
         if self.moves.len() > MOST_MOVES {
             text += &format!("  and {} smaller moves\n", self.moves.len() - MOST_MOVES);
         }
-        text + &self.table("multiplier there", &self.lambda, &[])
-            + &self.table("output there", &self.outputs, &self.units)
+        text + &self.lambda.text("multiplier there", 8, MOST) + &self.outputs.text("output there", 8, MOST)
     }
 
     fn stability_text(&self, stability: Stability) -> String {
@@ -157,24 +136,8 @@ impl EquilibriumFile {
             }
         }
     }
-
-    /// Returns at most `MOST` rows of values.
-    fn table(&self, heading: &str, values: &Map<String, Value>, units: &[String]) -> String {
-        const MOST: usize = 40;
-        if values.is_empty() {
-            return String::new();
-        }
-        let mut table = Table::new(&[heading, "", ""]);
-        for (i, (name, value)) in values.iter().take(MOST).enumerate() {
-            let value = value.as_f64().map_or("?".to_string(), |value| significant(value, 8));
-            table.row([name.clone(), value, units.get(i).cloned().unwrap_or_default()]);
-        }
-        let more = values.len().saturating_sub(MOST);
-        let tail = if more > 0 { format!("  and {more} more, which --json lists\n") } else { String::new() };
-        format!("\n{table}{tail}")
-    }
 }
 
-fn named(names: impl IntoIterator<Item = String>, values: &[f64]) -> Map<String, Value> {
-    names.into_iter().zip(values.iter().map(|value| Value::from(*value))).collect()
+fn without_units(names: Vec<String>) -> Vec<Column> {
+    names.into_iter().map(|name| Column { name, unit: String::new() }).collect()
 }

@@ -1,42 +1,56 @@
 //! Figures of a run.
 
-use crate::analysis::Record;
-use crate::plot::{Figure, Panel, Series};
+use crate::analysis::{Ledger, Record};
+use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::scene::units::{Dimension, dimension_of};
 use crate::trajectory::Trajectory;
 
+/// A curve of a figure, with the name and the unit of its quantity.
+pub(super) struct Curve<'a> {
+    pub name: &'a str,
+    pub unit: &'a str,
+    pub points: Vec<(f64, f64)>,
+}
+
 /// Draws outputs over time, one panel for each unit; coordinates where the scene names no outputs. `None` without rows.
 pub fn outputs_figure(title: &str, trajectory: &Trajectory) -> Option<Figure> {
-    if trajectory.rows.len() < 2 {
-        return None;
+    let Trajectory { names, outputs, rows } = trajectory;
+    let first = trajectory.headings().len() - outputs.len();
+    let coordinates = names.q.iter().take(MOST_COORDINATES).map(|name| (name.as_str(), "m, rad"));
+    let mut shown: Vec<((&str, &str), usize)> = trajectory.named_outputs().zip(first..).collect();
+    if shown.is_empty() {
+        shown = coordinates.zip(1..).collect();
     }
-    let mut units: Vec<(&str, Vec<(&str, usize)>)> = Vec::new();
-    let first = trajectory.headings().len() - trajectory.outputs.len();
-    let mut add = |unit, name, column| match units.iter_mut().find(|(known, _)| *known == unit) {
-        Some((_, members)) => members.push((name, column)),
-        None => units.push((unit, vec![(name, column)])),
-    };
-    for (i, column) in trajectory.outputs.iter().enumerate() {
-        add(column.unit.as_str(), column.name.as_str(), first + i);
-    }
-    if trajectory.outputs.is_empty() {
-        let names = trajectory.names.q.iter().take(MOST_COORDINATES).enumerate();
-        names.for_each(|(i, name)| add("m, rad", name.as_str(), 1 + i));
-    }
-    let mut figure = Figure::new().title(title);
-    for (unit, members) in units {
-        let quantity = if members.len() == 1 { members[0].0 } else { quantity(unit) };
-        let label = if unit.is_empty() { quantity.to_string() } else { format!("{quantity} ({unit})") };
-        let mut panel = Panel::new("time (s)", label);
-        let alone = members.len() == 1;
-        for (name, column) in members {
-            let name = if alone { "" } else { name };
-            let points = trajectory.rows.iter().map(|row| (row[0], row[column])).collect();
-            panel = panel.series(Series::line(name, points));
+    let points = |column: usize| rows.iter().map(|row| (row[0], row[column])).collect();
+    let curves = shown.into_iter().map(|((name, unit), column)| Curve { name, unit, points: points(column) });
+    let panels = grouped(curves, |curve| curve.unit).into_iter().map(|group| panel("time (s)", group));
+    (rows.len() > 1).then(|| panels.fold(Figure::new().title(title), Figure::panel))
+}
+
+/// Draws curves of one unit; one alone is named by the axis, several by the legend.
+pub(super) fn panel(x: &str, curves: Vec<Curve>) -> Panel {
+    let Some(Curve { name, unit, .. }) = curves.first() else { return Panel::new(x, "") };
+    let is_alone = curves.len() == 1;
+    let panel = Panel::new(x, label(if is_alone { name } else { quantity(unit) }, unit));
+    let named = |curve: Curve| Series::line(if is_alone { "" } else { curve.name }, curve.points);
+    curves.into_iter().map(named).fold(panel, Panel::series)
+}
+
+/// Returns items of equal keys together, in the order of the first of each.
+pub(super) fn grouped<T, K: PartialEq>(items: impl IntoIterator<Item = T>, key: impl Fn(&T) -> K) -> Vec<Vec<T>> {
+    let mut groups: Vec<Vec<T>> = Vec::new();
+    for item in items {
+        match groups.iter_mut().find(|group| key(&group[0]) == key(&item)) {
+            Some(group) => group.push(item),
+            None => groups.push(vec![item]),
         }
-        figure = figure.panel(panel);
     }
-    Some(figure)
+    groups
+}
+
+/// Returns the label of an axis: a quantity with its unit, if it has one.
+pub(super) fn label(quantity: &str, unit: &str) -> String {
+    if unit.is_empty() { quantity.to_string() } else { format!("{quantity} ({unit})") }
 }
 
 /// Largest number of coordinates drawn.
@@ -62,7 +76,7 @@ pub fn drift_figure(title: &str, record: &Record) -> Option<Figure> {
         let points = times.iter().zip(&record.drift_rows).map(|(t, levels)| (*t, levels[i]));
         Series::line(*label, envelope(points, times.len(), WINDOWS))
     });
-    let y = crate::plot::AxisSpec::from("drift (m, rad; per s, s²)").log();
+    let y = AxisSpec::from("drift (m, rad; per s, s²)").log();
     let panel = series.fold(Panel::new("time (s)", y), Panel::series);
     Some(Figure::new().title(title).panel(panel))
 }
@@ -73,7 +87,7 @@ pub fn energy_figure(title: &str, record: &Record) -> Option<Figure> {
     if times.len() < 2 || record.ledger_rows.len() != times.len() {
         return None;
     }
-    let curve = |label: &str, value: fn(&crate::analysis::Ledger) -> f64| {
+    let curve = |label: &str, value: fn(&Ledger) -> f64| {
         Series::line(label, times.iter().zip(&record.ledger_rows).map(|(t, row)| (*t, value(row))).collect())
     };
     let mut energies = Panel::new("time (s)", "energy (J)")
@@ -83,7 +97,7 @@ pub fn energy_figure(title: &str, record: &Record) -> Option<Figure> {
         energies = energies.series(curve("work put in", |row| row.work));
     }
     let total = curve("total less work", |row| row.kinetic + row.potential - row.work);
-    let error = crate::plot::AxisSpec::from("error of the balance (J)").log();
+    let error = AxisSpec::from("error of the balance (J)").log();
     let errors = Panel::new("time (s)", error).series(curve("", |row| row.error.abs()).color(0));
     Some(Figure::new().title(title).panel(energies.series(total)).panel(errors))
 }

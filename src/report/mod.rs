@@ -34,7 +34,7 @@ pub use simplify::{simplify_figure, simplify_table, simplify_text};
 pub use summary::{Summary, summarize};
 pub use sweep::SweepSummary;
 pub use sweep_figure::{SweepLook, sweep_figure};
-pub use table::Table;
 pub(crate) use table::velocities;
+pub use table::{OutputValues, Table};
 pub use tables::{cell, sweep_table, table, trajectory_arrays, trajectory_table};
 pub use warnings::uncertain_kinds;

@@ -2,6 +2,7 @@
 
 use super::tradeoff::milliseconds;
 use super::{Table, cell, table, velocities};
+use crate::compare::work_precision::front;
 use crate::error::{Result, percent, short_list};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::simplify::{Norm, Robustness, Run, Simplification, Trial, Which};
@@ -159,7 +160,9 @@ pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
     let mut panel = Panel::new(x, y)
         .series(Series::dots("kept", kept))
         .series(Series::dots("not kept", refused).style(Style::Crosses))
-        .series(Series::line("front", stairs(&front(&points), right)).style(Style::Guide))
+        .series(
+            Series::line("front", stairs(&front(points.iter().copied(), |point| *point), right)).style(Style::Guide),
+        )
         .series(Series::line("promise", vec![(left, result.within), (right, result.within)]).style(Style::Dashed));
     for (run, name) in [(&result.richest, "as it is"), (&result.chosen, "chosen")] {
         let Some((seconds, error)) = point(run) else { continue };
@@ -177,17 +180,4 @@ pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
 fn stairs(front: &[(f64, f64)], end: f64) -> Vec<(f64, f64)> {
     let next = front.iter().skip(1).map(|point| point.0).chain([end]);
     front.iter().zip(next).flat_map(|(point, next)| [*point, (next, point.1)]).collect()
-}
-
-/// The points than which none is both cheaper and nearer, from cheap to dear.
-fn front(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut least = f64::INFINITY;
-    sorted.retain(|(_, error)| {
-        let is_nearer = *error < least;
-        least = least.min(*error);
-        is_nearer
-    });
-    sorted
 }

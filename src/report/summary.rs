@@ -1,5 +1,6 @@
 //! `summary.json`.
 
+use super::table::{OutputValues, named};
 use super::warnings::{at_round_off, warnings};
 use super::{Origin, Table, check_error};
 use crate::analysis::{Drift, EnergyBalance, Passing, Record, Singularity};
@@ -104,13 +105,13 @@ impl From<&Assembly> for AssemblySummary {
 }
 
 /// The last row, by names.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct FinalState {
     pub t: f64,
     pub q: Map<String, Value>,
     pub v: Map<String, Value>,
     pub lambda: Map<String, Value>,
-    pub outputs: Map<String, Value>,
+    pub outputs: OutputValues,
 }
 
 /// Work of rows is reported where it is more than this part of that of the steps.
@@ -150,26 +151,20 @@ pub fn summarize(
 
 fn final_state(record: &Record) -> FinalState {
     let trajectory = record.full();
-    let named = |names: &mut dyn Iterator<Item = &String>, values: &[f64]| -> Map<String, Value> {
-        names.zip(values).map(|(name, value)| (name.clone(), Value::from(*value))).collect()
-    };
-    let Some(row) = trajectory.rows.last() else {
-        let empty = Map::new;
-        return FinalState { t: 0.0, q: empty(), v: empty(), lambda: empty(), outputs: empty() };
-    };
+    let Some(row) = trajectory.rows.last() else { return FinalState::default() };
     let (q, v, lambda) = trajectory.row_state(row);
     FinalState {
         t: row[0],
-        q: named(&mut trajectory.names.q.iter(), q),
-        v: named(&mut trajectory.names.v.iter(), v),
-        lambda: named(&mut trajectory.names.lambda.iter(), lambda),
-        outputs: named(&mut trajectory.outputs.iter().map(|column| &column.name), trajectory.row_outputs(row)),
+        q: named(&trajectory.names.q, q),
+        v: named(&trajectory.names.v, v),
+        lambda: named(&trajectory.names.lambda, lambda),
+        outputs: OutputValues::new(trajectory.outputs.clone(), trajectory.row_outputs(row).to_vec()),
     }
 }
 
 impl Summary {
     /// Returns the summary as text.
-    pub fn text(&self, units: &[(String, String)]) -> String {
+    pub fn text(&self) -> String {
         let Method { formulation, integrator, projection, rtol, atol, step } = &self.method.method;
         let accuracy = match step {
             Some(step) => format!("step {} s", clock(*step)),
@@ -221,7 +216,7 @@ impl Summary {
                 energy.max_error
             );
         }
-        text += &self.outputs_text(units);
+        text += &self.r#final.outputs.text(&format!("at t = {} s", clock(self.r#final.t)), 12, usize::MAX);
         text + &check_error::text(&self.method.method, self.check_error.as_ref())
     }
 
@@ -242,18 +237,6 @@ impl Summary {
             significant(largest.from, 6),
             significant(largest.to, 6)
         )
-    }
-
-    fn outputs_text(&self, units: &[(String, String)]) -> String {
-        if self.r#final.outputs.is_empty() {
-            return String::new();
-        }
-        let mut table = Table::new(&[&format!("at t = {} s", clock(self.r#final.t)), "", ""]);
-        for ((name, value), (_, unit)) in self.r#final.outputs.iter().zip(units) {
-            let value = value.as_f64().map_or("?".to_string(), |value| significant(value, 12));
-            table.row([name.clone(), value, unit.clone()]);
-        }
-        format!("\n{table}")
     }
 }
 

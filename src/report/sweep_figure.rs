@@ -1,16 +1,9 @@
 //! Figure of outputs over a parameter or over one of them.
 
-use super::figures::quantity;
+use super::figures::{Curve, grouped, label, panel};
 use super::sweep::{shown, watched};
-use crate::plot::{Figure, Panel, Series};
+use crate::plot::{Figure, Panel};
 use crate::sweep::{Point, Sweep};
-
-/// A curve, with the name of its quantity.
-struct Curve<'a> {
-    name: &'a str,
-    unit: &'a str,
-    values: Vec<f64>,
-}
 
 /// Options of the figure of a sweep.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,31 +20,29 @@ pub struct SweepLook<'a> {
 /// branch are marked. `None` without a curve.
 pub fn sweep_figure(sweep: &Sweep, look: SweepLook) -> Option<Figure> {
     let SweepLook { outputs: names, against, separate } = look;
-    let curves = curves(sweep);
     let curve = sweep.curve();
+    let mut curves = curves(sweep);
     let x = against.and_then(|name| curves.iter().find(|curve| curve.name == name));
-    let abscissa: Vec<f64> = x.map_or_else(|| curve.iter().map(|point| point.value).collect(), |x| x.values.clone());
     let label = x.map_or_else(|| sweep.range.parameter.clone(), |x| label(x.name, x.unit));
-    let is_drawn = |curve: &&Curve| match names {
+    if let Some(x) = x {
+        let abscissa: Vec<f64> = x.points.iter().map(|point| point.1).collect();
+        let points = curves.iter_mut().flat_map(|curve| curve.points.iter_mut().zip(&abscissa));
+        points.for_each(|(point, x)| point.0 = *x);
+    }
+    let marks = curves.first().map_or(Vec::new(), |first| marks(sweep, &curve, &first.points));
+    curves.retain(|curve| match names {
         [] => Some(curve.name) != against,
         names => names.iter().any(|name| name == curve.name),
-    };
-    let drawn: Vec<&Curve> = curves.iter().filter(is_drawn).collect();
-    if curve.len() < 2 || drawn.is_empty() {
+    });
+    if curve.len() < 2 || curves.is_empty() {
         return None;
     }
-    let marks = marks(sweep, &curve, &abscissa);
-    let mut groups: Vec<Vec<&Curve>> = Vec::new();
-    for curve in &drawn {
-        match groups.iter_mut().find(|group| !separate && group[0].unit == curve.unit) {
-            Some(group) => group.push(curve),
-            None => groups.push(vec![curve]),
-        }
-    }
-    let panels = groups.iter().map(|group| panel(&label, group, &abscissa, &marks));
     let over = against.unwrap_or(&sweep.range.parameter);
-    let what = drawn.iter().map(|curve| curve.name).collect::<Vec<_>>().join(", ");
+    let what = curves.iter().map(|curve| curve.name).collect::<Vec<_>>().join(", ");
     let what = if names.is_empty() { "outputs" } else { &what };
+    let marked = |panel| marks.iter().fold(panel, |panel: Panel, (at, label)| panel.vertical(*at, *label));
+    let groups = grouped(curves, |curve| (curve.unit, separate.then_some(curve.name)));
+    let panels = groups.into_iter().map(|group| marked(panel(&label, group)));
     let title = Figure::new().title(format!("{}: {what} over {over}", sweep.scene));
     Some(panels.fold(title, Figure::panel))
 }
@@ -63,7 +54,7 @@ fn curves<'a>(sweep: &'a Sweep) -> Vec<Curve<'a>> {
         let unit = if unit == "rad" { "deg" } else { unit };
         let mut values: Vec<f64> = points.iter().map(|point| factor * shown(sweep, point)[i]).collect();
         cut(sweep, &points, &mut values);
-        Curve { name, unit, values }
+        Curve { name, unit, points: points.iter().map(|point| point.value).zip(values).collect() }
     };
     watched(sweep).into_iter().enumerate().map(curve).collect()
 }
@@ -78,26 +69,10 @@ fn cut(sweep: &Sweep, points: &[&Point], values: &mut [f64]) {
     points.iter().zip(values).filter(far).for_each(|(_, value)| *value = f64::NAN);
 }
 
-fn label(name: &str, unit: &str) -> String {
-    if unit.is_empty() { name.to_string() } else { format!("{name} ({unit})") }
-}
-
-/// Returns the positions of the scene's own value and of the ends of the branch on the abscissa.
-fn marks(sweep: &Sweep, curve: &[&Point], abscissa: &[f64]) -> Vec<(f64, &'static str)> {
-    let place = |point: &Point| curve.iter().position(|known| known.value == point.value).map(|i| abscissa[i]);
+/// Returns the positions of the scene's own value and of the ends of the branch among the points of a curve.
+fn marks(sweep: &Sweep, curve: &[&Point], points: &[(f64, f64)]) -> Vec<(f64, &'static str)> {
+    let place = |point: &Point| curve.iter().position(|known| known.value == point.value).map(|i| points[i].0);
     let own = sweep.own.iter().map(|point| (place(point), "design"));
     let ends = sweep.limits.iter().map(|limit| (place(&limit.point), "limit"));
     own.chain(ends).filter_map(|(at, label)| Some((at?, label))).collect()
-}
-
-fn panel(x: &str, members: &[&Curve], abscissa: &[f64], marks: &[(f64, &str)]) -> Panel {
-    let [first, others @ ..] = members else { return Panel::new(x, "") };
-    let is_alone = others.is_empty();
-    let y = label(if is_alone { first.name } else { quantity(first.unit) }, first.unit);
-    let series = members.iter().map(|curve| {
-        let points = abscissa.iter().copied().zip(curve.values.iter().copied()).collect();
-        Series::line(if is_alone { "" } else { curve.name }, points)
-    });
-    let panel = series.fold(Panel::new(x, y), Panel::series);
-    marks.iter().fold(panel, |panel, (at, label)| panel.vertical(*at, *label))
 }

@@ -1,6 +1,50 @@
 //! Text tables for terminals.
 
+use crate::error::significant;
+use crate::system::Column;
+use serde::{Serialize, Serializer};
+use serde_json::{Map, Value};
 use std::fmt;
+
+/// Returns values by their names, as files have them.
+pub(super) fn named<'n>(names: impl IntoIterator<Item = &'n String>, values: &[f64]) -> Map<String, Value> {
+    names.into_iter().zip(values).map(|(name, value)| (name.clone(), Value::from(*value))).collect()
+}
+
+/// Values of outputs; in files by their names.
+#[derive(Clone, Debug, Default)]
+pub struct OutputValues {
+    columns: Vec<Column>,
+    values: Vec<f64>,
+}
+
+impl OutputValues {
+    /// The values of these outputs.
+    pub fn new(columns: Vec<Column>, values: Vec<f64>) -> Self {
+        OutputValues { columns, values }
+    }
+
+    /// Returns a line for each of the first `most` with its unit, under a heading; nothing where there is none.
+    pub fn text(&self, heading: &str, digits: usize, most: usize) -> String {
+        if self.values.is_empty() {
+            return String::new();
+        }
+        let mut table = Table::new(&[heading, "", ""]);
+        for (column, value) in self.columns.iter().zip(&self.values).take(most) {
+            let value = if value.is_finite() { significant(*value, digits) } else { "?".to_string() };
+            table.row([column.name.clone(), value, column.unit.clone()]);
+        }
+        let more = self.values.len().saturating_sub(most);
+        let tail = if more > 0 { format!("  and {more} more, which --json lists\n") } else { String::new() };
+        format!("\n{table}{tail}")
+    }
+}
+
+impl Serialize for OutputValues {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        named(self.columns.iter().map(|column| &column.name), &self.values).serialize(serializer)
+    }
+}
 
 /// Columns under headings; the first and those of text are aligned left, the others right unless all are aligned left.
 pub struct Table {

@@ -3,10 +3,10 @@
 use super::sample::{complex, descriptor, empty, plain, prepared};
 use holonom::linearize::{Branch, Complex, Kind};
 use holonom::plot::Figure;
-use holonom::report::linear::{
-    Deviation, ErrorOrder, Response, bode_figure, frequency_figure, loci_figure, validation_figure,
-};
-use holonom::report::mechanism::{Look, View, mode_animation, mode_figure};
+use holonom::report::linear::{Response, bode_figure, frequency_figure, loci_figure, validation_figure};
+use holonom::report::mechanism::{Look, View, mode_figure};
+use holonom::system::Names;
+use holonom::validate::{Curve, PerturbationSequence, decay};
 
 fn svg(figure: Option<Figure>) -> String {
     let svg = figure.unwrap().to_svg();
@@ -124,22 +124,37 @@ fn bode_names_units_and_pairs() {
 #[test]
 fn validation_shows_orders_and_predictions() {
     let epsilons: Vec<f64> = (0..10).map(|k| 0.5f64.powi(k)).collect();
-    let ltv = epsilons.iter().map(|e| e * e).collect();
-    let order = ErrorOrder { lti: epsilons.clone(), ltv, epsilons, what: String::new() };
-    let times = [0.0, 0.1, 0.2];
-    let deviation = |name: &str, unit: &str| Deviation {
-        name: name.to_string(),
-        unit: unit.to_string(),
+    let errors_ltv: Vec<f64> = epsilons.iter().map(|e| e * e).collect();
+    let names = |names: &[&str]| {
+        let v: Vec<String> = names.iter().map(|name| name.to_string()).collect();
+        Names { q: Vec::new(), v, lambda: Vec::new() }
+    };
+    let curve = |direction: usize| Curve {
+        direction,
         simulated: vec![0.0, 1.0, 2.0],
         ltv: vec![0.0, 1.0, 2.1],
         lti: vec![0.0, 1.0, f64::NAN],
     };
-    let both = svg(validation_figure("v", &order, &times, &[deviation("a", "rad"), deviation("b", "rad")]));
-    says(&both, &["slope 2", "perturbation ε", "error of the prediction", "LTV (along the motion)", "LTI (frozen)"]);
-    says(&both, &["change of angle (rad)", "time (s)", ">a<", ">b<", "predicted, LTV", "predicted, LTI"]);
-    says(&svg(validation_figure("v", &order, &times, &[deviation("tip", "m")])), &["change of tip (m)", "simulated"]);
-    let zero = ErrorOrder { epsilons: vec![1.0], ltv: vec![0.0], ..ErrorOrder::default() };
-    assert!(validation_figure("v", &zero, &[], &[]).is_none());
+    let sequence = |curves: Vec<Curve>| PerturbationSequence {
+        direction: "random".to_string(),
+        errors_lti: epsilons.clone(),
+        order_ltv: decay(&epsilons, &errors_ltv, |_| 1.0, 0.0),
+        errors_ltv: errors_ltv.clone(),
+        epsilons: epsilons.clone(),
+        times: vec![0.0, 0.1, 0.2],
+        drift_lti: Vec::new(),
+        horizons: [None; 2],
+        curves,
+        curve_epsilon: 0.01,
+    };
+    let both = sequence(vec![curve(0), curve(1)]);
+    let both = svg(validation_figure("v", &names(&["a.angle'", "b.angle'"]), &both));
+    says(&both, &["slope 2", "perturbation ε", "error of the change", "LTV (along the motion)", "LTI (frozen)"]);
+    says(&both, &["change of angle (rad)", "time (s)", ">a.angle<", ">b.angle<", "predicted, LTV", "predicted, LTI"]);
+    let alone = svg(validation_figure("v", &names(&["tip.x'"]), &sequence(vec![curve(0)])));
+    says(&alone, &["change of tip.x (m)", "simulated"]);
+    let zero = PerturbationSequence { errors_ltv: Vec::new(), errors_lti: Vec::new(), ..sequence(Vec::new()) };
+    assert!(validation_figure("v", &names(&[]), &zero).is_none());
 }
 
 fn look() -> Look {
@@ -160,17 +175,4 @@ fn modes_without_shapes_are_not_drawn() {
     let prepared = prepared("four_bar_spring");
     says(&svg(mode_figure(&prepared, &look(), &descriptor(&prepared))), &["mode 1: −0.7984 1/s, no swing"]);
     assert!(mode_figure(&prepared, &look(), &empty(&prepared)).is_none());
-    assert!(mode_animation(&prepared, &look(), &empty(&prepared), 1).is_none());
-    assert!(mode_animation(&prepared, &look(), &plain(&prepared), 3).is_none());
-}
-
-#[test]
-fn a_mode_moves() {
-    let prepared = prepared("double_pendulum");
-    let model = plain(&prepared);
-    let animation = mode_animation(&prepared, &look(), &model, 1).unwrap();
-    let frame = |k: usize| (animation.frame)(k).to_svg();
-    assert_ne!(frame(0), frame(10));
-    says(&frame(0), &["double_pendulum, mode 1: ", "not in real time"]);
-    assert!(animation.to_gif(|_| ()).unwrap().starts_with(b"GIF89a"));
 }

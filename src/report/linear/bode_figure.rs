@@ -2,13 +2,7 @@
 
 use super::Response;
 use crate::plot::{AxisSpec, Figure, Panel, Series};
-
-/// Responses to one input in one unit.
-struct Group<'a> {
-    input: &'a str,
-    unit: String,
-    responses: Vec<&'a Response>,
-}
+use crate::report::figures::{grouped, label};
 
 /// Lines in a panel at most: as many as there are colours.
 const LINES: usize = 7;
@@ -17,22 +11,17 @@ const GROUPS: usize = 8;
 /// Width of a figure with two panels side by side, nominal pixels.
 const WIDE: f64 = 1100.0;
 
+/// Responses to one input in one unit.
+type Group<'a> = Vec<&'a Response>;
+
 /// Returns the responses by input and unit, those that are zero left out.
 fn groups(responses: &[Response]) -> Vec<Group<'_>> {
-    let mut groups: Vec<Group> = Vec::new();
-    for response in responses.iter().filter(|response| !response.is_zero()) {
-        let (input, unit) = (response.input.as_str(), response.unit());
-        match groups.iter_mut().find(|group| group.input == input && group.unit == unit) {
-            Some(group) => group.responses.push(response),
-            None => groups.push(Group { input, unit, responses: vec![response] }),
-        }
-    }
-    groups
+    grouped(responses.iter().filter(|response| !response.is_zero()), |response| (&response.input, response.unit()))
 }
 
 /// True for each group that is drawn: the first of each input, then the second of each ...
 fn drawn(groups: &[Group]) -> Vec<bool> {
-    let rank = |place: usize| groups[..place].iter().filter(|group| group.input == groups[place].input).count();
+    let rank = |place: usize| groups[..place].iter().filter(|group| group[0].input == groups[place][0].input).count();
     let mut order: Vec<usize> = (0..groups.len()).collect();
     order.sort_by_key(|&place| rank(place));
     let mut drawn = vec![false; groups.len()];
@@ -45,7 +34,7 @@ pub fn not_drawn(responses: &[Response]) -> Vec<&Response> {
     let groups = groups(responses);
     let drawn = drawn(&groups);
     let rest = groups.into_iter().zip(drawn);
-    rest.flat_map(|(group, drawn)| group.responses.into_iter().skip(if drawn { LINES } else { 0 })).collect()
+    rest.flat_map(|(group, drawn)| group.into_iter().skip(if drawn { LINES } else { 0 })).collect()
 }
 
 /// Draws magnitude and phase over frequencies in Hz, side by side for each input and unit; one response alone in one
@@ -53,19 +42,20 @@ pub fn not_drawn(responses: &[Response]) -> Vec<&Response> {
 pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response]) -> Option<Figure> {
     let groups = groups(responses);
     let first = groups.first().filter(|_| !frequencies.is_empty())?;
-    if let ([group], [only]) = (&groups[..], &first.responses[..]) {
+    if let ([group], [only]) = (&groups[..], &first[..]) {
         let [sizes, phases] = panels(group, frequencies, |_| String::new());
         let title = format!("{title}: {} over {}", only.output, only.input);
         return Some(Figure::new().title(title).panel(sizes).panel(phases));
     }
-    let has_one_input = groups.iter().all(|group| group.input == first.input);
-    let title = if has_one_input { format!("{title}: response to {}", first.input) } else { title.to_string() };
+    let input = &first[0].input;
+    let has_one_input = groups.iter().all(|group| group[0].input == *input);
+    let title = if has_one_input { format!("{title}: response to {input}") } else { title.to_string() };
     let figure = Figure::new().title(title).columns(2).width(WIDE);
     let shown = groups.iter().zip(drawn(&groups)).filter(|(_, drawn)| *drawn);
     Some(shown.fold(figure, |figure, (group, _)| {
         let [mut sizes, phases] = panels(group, frequencies, |response| response.output.clone());
         if !has_one_input {
-            sizes = sizes.title(format!("response to {}", group.input));
+            sizes = sizes.title(format!("response to {}", group[0].input));
         }
         figure.panel(sizes).panel(phases)
     }))
@@ -73,17 +63,14 @@ pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response]) -> 
 
 /// Returns the panels of magnitudes and of phases; the first has the names.
 fn panels(group: &Group, frequencies: &[f64], name: impl Fn(&Response) -> String) -> [Panel; 2] {
-    let magnitude = match group.unit.as_str() {
-        "" => "magnitude".to_string(),
-        unit => format!("magnitude ({unit})"),
-    };
+    let magnitude = label("magnitude", &group[0].unit());
     let lines = |y: AxisSpec, name: &dyn Fn(&Response) -> String, values: fn(&Response) -> Vec<f64>| {
         let line = |response: &&Response| {
             let points = frequencies.iter().copied().zip(values(response)).collect();
             Series::line(name(response), points)
         };
         let panel = Panel::new(AxisSpec::from("frequency (Hz)").log(), y);
-        group.responses.iter().take(LINES).map(line).fold(panel, Panel::series)
+        group.iter().take(LINES).map(line).fold(panel, Panel::series)
     };
     let sizes = lines(AxisSpec::from(magnitude).log(), &name, sizes);
     [sizes, lines(AxisSpec::from("phase (deg)").degrees(), &|_| String::new(), Response::phases)]

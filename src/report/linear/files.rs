@@ -4,6 +4,8 @@ use super::Linear;
 use crate::error::Result;
 use crate::files::{Array, mat};
 use crate::linearize::{Complex, Cost, Kind, LinearModel, Matrix, Mode};
+use crate::math::largest;
+use crate::report::table::named;
 use crate::report::{Folder, cell};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
@@ -167,7 +169,6 @@ impl Linear<'_> {
     pub(super) fn norms(&self) -> Norms {
         let point = &self.model.point;
         let moving = point.v.len() - point.states;
-        let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         Norms {
             phi: point.phi,
             phi_dot: point.phi_dot,
@@ -179,10 +180,6 @@ impl Linear<'_> {
 
 fn rows(matrix: &Matrix) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
-}
-
-fn named(names: &[String], values: &[f64]) -> Map<String, Value> {
-    names.iter().zip(values).map(|(name, value)| (name.clone(), Value::from(*value))).collect()
 }
 
 fn eigenvalue(model: &LinearModel, mode: &Mode) -> Eigenvalue {

@@ -1,6 +1,6 @@
 //! `loci.csv`, `loci.json`, and text on eigenvalues at many states.
 
-use super::against::LociAgainst;
+use super::against::{LociAgainst, Value};
 use crate::error::{Error, Failure, Result, significant};
 use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, damping, frequency};
 use crate::plot::AxisSpec;
@@ -98,10 +98,8 @@ pub struct BranchFile {
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct PointFile {
     pub at: f64,
-    pub re: f64,
-    pub im: f64,
-    pub frequency_hz: f64,
-    pub damping_ratio: f64,
+    #[serde(flatten)]
+    pub value: Value,
 }
 
 /// Growth by less than this part over the whole motion is not reported.
@@ -217,13 +215,7 @@ fn mode_summary(mode: String, branch: &Branch, least: f64) -> ModeSummary {
 }
 
 fn branch_file(mode: String, branch: &Branch) -> BranchFile {
-    let point = |(at, value): (f64, Complex<f64>)| PointFile {
-        at,
-        re: value.re,
-        im: value.im,
-        frequency_hz: frequency(value),
-        damping_ratio: damping(value),
-    };
+    let point = |(at, value): (f64, Complex<f64>)| PointFile { at, value: value.into() };
     let pair = finite(branch).all(|(_, value)| value.im > 0.0);
     BranchFile { mode, kind: branch.kind, pair, points: finite(branch).map(point).collect() }
 }

@@ -18,7 +18,7 @@ pub use loci_figures::{frequency_figure, loci_figure};
 pub use pair::Response;
 pub use response::{FrequencyResponse, ResponseFile};
 pub use text::comparison_text;
-pub use validation::{Deviation, ErrorOrder, ValidationFile, sequence_figure, validation_figure};
+pub use validation::{ValidationFile, validation_figure};
 
 use crate::linearize::LinearModel;
 use crate::system::Names;

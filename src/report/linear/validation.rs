@@ -3,9 +3,9 @@
 use crate::error::significant;
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::Table;
-use crate::report::figures::quantity;
+use crate::report::figures::{grouped, label, quantity};
 use crate::system::Names;
-use crate::validate::{Decay, InputCheck, PerturbationSequence, Validation, Verdict};
+use crate::validate::{Curve, Decay, InputCheck, PerturbationSequence, Validation, Verdict};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -157,90 +157,38 @@ fn direction(names: &Names, sequence: &PerturbationSequence) -> Value {
     })
 }
 
-/// Draws the errors over eps, and the curves that move most, of one direction.
-pub fn sequence_figure(title: &str, names: &Names, sequence: &PerturbationSequence) -> Option<Figure> {
-    let order = ErrorOrder {
-        epsilons: sequence.epsilons.clone(),
-        ltv: sequence.errors_ltv.clone(),
-        lti: sequence.errors_lti.clone(),
-        what: "error of the change at the end".to_string(),
-    };
-    let deviation = |curve: &crate::validate::Curve| {
-        let name = names.v[curve.direction].trim_end_matches('\'').to_string();
-        let is_turn = ["angle", "wx", "wy", "wz", "rx", "ry", "rz"].iter().any(|end| name.ends_with(end));
-        let is_place = ["x", "y", "z"].iter().any(|end| name.ends_with(&format!(".{end}")));
-        let unit = if is_turn {
-            "rad"
-        } else if is_place {
-            "m"
-        } else {
-            ""
-        };
-        Deviation {
-            name,
-            unit: unit.to_string(),
-            simulated: curve.simulated.clone(),
-            ltv: curve.ltv.clone(),
-            lti: curve.lti.clone(),
-        }
-    };
-    let deviations: Vec<Deviation> = sequence.curves.iter().map(deviation).collect();
-    validation_figure(title, &order, &sequence.times, &deviations)
+/// Draws the errors over epsilon with a line of slope 2; then, for each unit, the curves that move most over time with
+/// both predictions. `None` where there is neither.
+pub fn validation_figure(title: &str, names: &Names, sequence: &PerturbationSequence) -> Option<Figure> {
+    let name = |curve: &Curve| names.v[curve.direction].trim_end_matches('\'');
+    let curves = sequence
+        .curves
+        .iter()
+        .filter(|_| sequence.times.len() > 1)
+        .map(|curve| (name(curve), unit(name(curve)), curve));
+    let groups = grouped(curves, |(_, unit, _)| *unit);
+    let deviations = groups.iter().map(|members| deviation_panel(members, &sequence.times));
+    let panels: Vec<Panel> = order_panel(sequence).into_iter().chain(deviations).collect();
+    (!panels.is_empty()).then(|| Figure { panels, ..Figure::new().title(title) })
 }
 
-/// Errors of a prediction over the size of the perturbation, by the variational equations along the motion (LTV) and by
-/// the frozen model (LTI).
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ErrorOrder {
-    /// Sizes of the perturbation, m or rad.
-    pub epsilons: Vec<f64>,
-    /// Errors of the variational equations.
-    pub ltv: Vec<f64>,
-    /// Errors of the frozen model.
-    pub lti: Vec<f64>,
-    /// Label of the errors, such as `error of the final state`.
-    pub what: String,
-}
-
-/// Deviation of a quantity of the perturbed motion from the nominal one, simulated and predicted, at each time.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Deviation {
-    /// Name of the quantity.
-    pub name: String,
-    /// Its unit.
-    pub unit: String,
-    /// Difference of the two simulations.
-    pub simulated: Vec<f64>,
-    /// Prediction by the variational equations.
-    pub ltv: Vec<f64>,
-    /// Prediction by the frozen model.
-    pub lti: Vec<f64>,
-}
-
-/// Draws errors over epsilon with a line of slope 2; then, for each unit, deviations over time with both predictions.
-/// `None` where there is neither.
-pub fn validation_figure(title: &str, order: &ErrorOrder, times: &[f64], deviations: &[Deviation]) -> Option<Figure> {
-    let mut panels: Vec<Panel> = order_panel(order).into_iter().collect();
-    let mut units: Vec<(&str, Vec<&Deviation>)> = Vec::new();
-    for deviation in deviations.iter().filter(|_| times.len() > 1) {
-        match units.iter_mut().find(|(unit, _)| *unit == deviation.unit) {
-            Some((_, members)) => members.push(deviation),
-            None => units.push((&deviation.unit, vec![deviation])),
-        }
+/// Returns the unit of a change along a velocity direction, from its name; empty where that does not tell.
+fn unit(name: &str) -> &'static str {
+    match () {
+        _ if ["angle", "wx", "wy", "wz", "rx", "ry", "rz"].iter().any(|end| name.ends_with(end)) => "rad",
+        _ if [".x", ".y", ".z"].iter().any(|end| name.ends_with(end)) => "m",
+        _ => "",
     }
-    panels.extend(units.iter().map(|(unit, members)| deviation_panel(unit, members, times)));
-    let figure = Figure { panels, ..Figure::new().title(title) };
-    (!figure.panels.is_empty()).then_some(figure)
 }
 
-fn order_panel(order: &ErrorOrder) -> Option<Panel> {
-    let what = if order.what.is_empty() { "error of the prediction" } else { &order.what };
+fn order_panel(sequence: &PerturbationSequence) -> Option<Panel> {
     let pairs = |errors: &[f64]| -> Vec<(f64, f64)> {
-        let pairs = order.epsilons.iter().copied().zip(errors.iter().copied());
+        let pairs = sequence.epsilons.iter().copied().zip(errors.iter().copied());
         pairs.filter(|(epsilon, error)| *epsilon > 0.0 && *error > 0.0).collect()
     };
-    let (ltv, lti) = (pairs(&order.ltv), pairs(&order.lti));
-    let mut panel = Panel::new(AxisSpec::from("perturbation ε").log(), AxisSpec::from(what).log());
+    let (ltv, lti) = (pairs(&sequence.errors_ltv), pairs(&sequence.errors_lti));
+    let errors = AxisSpec::from("error of the change at the end").log();
+    let mut panel = Panel::new(AxisSpec::from("perturbation ε").log(), errors);
     // The line of slope 2 is below the errors, through the largest perturbation.
     let largest = ltv.iter().chain(&lti).map(|point| point.0).fold(0.0, f64::max);
     let smallest = ltv.iter().chain(&lti).map(|point| point.0).fold(largest, f64::min);
@@ -254,25 +202,24 @@ fn order_panel(order: &ErrorOrder) -> Option<Panel> {
     Some(panel.series(Series::line("slope 2", vec![guide(smallest), guide(largest)]).style(Style::Guide)))
 }
 
-fn deviation_panel(unit: &str, members: &[&Deviation], times: &[f64]) -> Panel {
-    let [first, others @ ..] = members else { return Panel::default() };
-    let what = if others.is_empty() { first.name.as_str() } else { quantity(unit) };
-    let label = if unit.is_empty() { format!("change of {what}") } else { format!("change of {what} ({unit})") };
-    let mut panel = Panel::new("time (s)", label);
+/// Draws the changes of one unit over time: each its name, its unit and its curve.
+fn deviation_panel(members: &[(&str, &str, &Curve)], times: &[f64]) -> Panel {
+    let (name, unit, _) = members[0];
+    let is_alone = members.len() == 1;
+    let what = if is_alone { name } else { quantity(unit) };
+    let mut panel = Panel::new("time (s)", label(&format!("change of {what}"), unit));
     let line =
-        |name: String, values: &[f64]| Series::line(name, times.iter().copied().zip(values.iter().copied()).collect());
-    let is_alone = others.is_empty();
-    for (i, member) in members.iter().enumerate() {
-        let name = if is_alone { "simulated".to_string() } else { member.name.clone() };
-        panel = panel.series(line(name, &member.simulated).color(i));
+        |name: &str, values: &[f64]| Series::line(name, times.iter().copied().zip(values.iter().copied()).collect());
+    for (i, (name, _, curve)) in members.iter().enumerate() {
+        panel = panel.series(line(if is_alone { "simulated" } else { name }, &curve.simulated).color(i));
     }
-    for (i, member) in members.iter().enumerate() {
+    for (i, (_, _, curve)) in members.iter().enumerate() {
         // The styles mean the same for all members: one legend entry for each is enough.
-        let once = |name: &str| if i == 0 { name.to_string() } else { String::new() };
+        let once = |name: &'static str| if i == 0 { name } else { "" };
         let colors = if is_alone { [1, 2] } else { [i, i] };
         panel = panel
-            .series(line(once("predicted, LTV"), &member.ltv).style(Style::Dashed).color(colors[0]))
-            .series(line(once("predicted, LTI"), &member.lti).style(Style::Dotted).color(colors[1]));
+            .series(line(once("predicted, LTV"), &curve.ltv).style(Style::Dashed).color(colors[0]))
+            .series(line(once("predicted, LTI"), &curve.lti).style(Style::Dotted).color(colors[1]));
     }
     panel
 }

@@ -21,7 +21,7 @@ mod traces;
 mod view;
 
 pub use figures::{Look, animation, mechanism_figure, stroboscope_figure};
-pub use modes::{mode_animation, mode_figure};
+pub use modes::mode_figure;
 pub use motion::{Motion, State};
 pub use snapshot::up;
 pub use traces::{Trace, find_trace, output_traces};

@@ -5,12 +5,10 @@ use super::glyphs::Course;
 use super::motion::State;
 use super::snapshot::{Snapshot, snapshot};
 use super::view::{along, length, less};
-use crate::error::short;
-use crate::error::significant;
+use crate::error::{short, significant};
 use crate::formulation::turn;
 use crate::linearize::{Complex, Kind, LinearModel, Mode, Pair, pairs};
-use crate::plot::{Animation, Figure, Item, Tint};
-
+use crate::plot::{Figure, Item, Tint};
 use crate::prepared::PreparedScene;
 use std::f64::consts::TAU;
 
@@ -64,36 +62,6 @@ pub fn mode_figure(prepared: &PreparedScene, look: &Look, model: &LinearModel) -
         1 => Some(figure),
         _ => Some(figure.columns(2).width(WIDE)),
     }
-}
-
-/// Draws one mode in motion: `number` counts the physical modes from one, each conjugate pair once, as in the text.
-/// `None` where there is no such mode with a shape.
-pub fn mode_animation<'a>(
-    prepared: &'a PreparedScene,
-    look: &Look,
-    model: &'a LinearModel,
-    number: usize,
-) -> Option<Animation<impl Fn(usize) -> Figure + Sync + use<'a>>> {
-    const FRAMES: usize = 50;
-    let (_, pair) = shaped(model).into_iter().find(|(known, _)| *known == number)?;
-    let rest = at_rest(prepared, model);
-    let swing = Swing::new(prepared, model, pair.mode, &rest);
-    let course = course(&rest);
-    let ground = supports(look, std::slice::from_ref(&rest));
-    let ends: Vec<Item> = [0.0, 0.25, 0.5, 0.75]
-        .iter()
-        .flat_map(|part| picture(look, &swing.snapshot(TAU * part), &course, 0.0))
-        .collect();
-    let empty = panel(look, &rest, [ends.as_slice(), ground.as_slice()].into_iter(), &[]).title("not in real time");
-    let (look, name) = (look.clone(), format!("{}, mode {number}: {}", prepared.name, title(&pair)));
-    let pale: Vec<Item> = picture(&look, &rest, &course, REST).map(grey).collect();
-    let frame = move |k: usize| {
-        let scene = swing.snapshot(TAU * k as f64 / FRAMES as f64);
-        let moving = picture(&look, &scene, &course, 0.0);
-        let items = ground.iter().cloned().chain(pale.iter().cloned()).chain(moving);
-        Figure::new().title(name.clone()).panel(empty.clone().items(items))
-    };
-    Some(Animation { frame, count: FRAMES, per_second: 25.0 })
 }
 
 /// Returns the physical modes with a shape, with their numbers.
