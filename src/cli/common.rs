@@ -267,14 +267,14 @@ impl Talk {
 
     /// Returns a result with its origin: the command line, the scene's parameters and the warnings so far.
     pub fn repeatable<T>(&self, prepared: &PreparedScene, result: T) -> Repeatable<T> {
-        let origin = self.origin(&prepared.parameters);
-        Repeatable { origin, simulation: Some(prepared.method.clone()), result }
+        Repeatable { simulation: Some(prepared.method.clone()), ..self.of_no_method(&prepared.parameters, result) }
     }
 
-    /// Returns the origin of a result: the command line, the scene's parameters and the warnings so far.
-    pub fn origin(&self, parameters: &Parameters) -> Origin {
+    /// Returns a result of several methods, or of none, with its origin.
+    pub fn of_no_method<T>(&self, parameters: &Parameters, result: T) -> Repeatable<T> {
         let warnings = self.said.borrow().clone();
-        Origin { command: std::env::args().collect(), ..Origin::new(parameters, warnings) }
+        let origin = Origin { command: std::env::args().collect(), ..Origin::new(parameters, warnings) };
+        Repeatable { origin, simulation: None, result }
     }
 
     /// Moves results into place and tells what they replace.

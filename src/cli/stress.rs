@@ -5,7 +5,7 @@ use crate::compare::stress::{Axis, Limits, Map, Quantity, Stressed, Subject, kno
 use crate::error::{Error, Result};
 use crate::math::expression::{Number, Parameters};
 use crate::report::stress::{MapFile, StressFile, gain_table, sentences, stress_figure, stress_page, stress_table};
-use crate::report::{Folder, Repeatable, Table};
+use crate::report::{Folder, Table};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -69,8 +69,7 @@ fn run_one(args: &Args, path: &Path) -> Result<ExitCode> {
     let mut folder = args.output.folder(&subject.name)?;
     let (file, stressed) = simulate(args, &subject, maps, begin);
     write(args, &mut folder, std::slice::from_ref(&file), &[], |_, map| format!("stress-{map}"), &stressed)?;
-    let origin = args.talk.origin(&subject.values);
-    let sealed = folder.seal("stress.json", Repeatable { origin, simulation: None, result: &file })?;
+    let sealed = folder.seal("stress.json", args.talk.of_no_method(&subject.values, &file))?;
     args.talk.conclude(folder, &sealed, || text(&file, &stressed))?;
     Ok(ExitCode::SUCCESS)
 }
@@ -92,8 +91,8 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
         }
     }
     write(args, &mut folder, &files, &unread, |scene, map| format!("{scene}-{map}"), &all)?;
-    let (is_empty, origin) = (files.is_empty(), args.talk.origin(&Parameters::default()));
-    let all = Repeatable { origin, simulation: None, result: All { scenes: files } };
+    let is_empty = files.is_empty();
+    let all = args.talk.of_no_method(&Parameters::default(), All { scenes: files });
     let sealed = folder.seal("stress.json", all)?;
     args.talk.conclude(folder, &sealed, String::new)?;
     Ok(ExitCode::from(u8::from(is_empty)))

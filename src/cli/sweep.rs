@@ -3,7 +3,7 @@
 use super::common::{Output, SceneOptions, Talk, tell};
 use crate::error::{Result, find};
 use crate::prepared::Overrides;
-use crate::report::{Repeatable, SweepLook, SweepSummary, sweep_figure, sweep_table};
+use crate::report::{SweepLook, SweepSummary, sweep_figure, sweep_table};
 use crate::sweep::{Family, Range, Sweep};
 use crate::system::Column;
 use std::process::ExitCode;
@@ -61,7 +61,6 @@ fn write(args: &Args, family: &Family, sweep: &Sweep, summary: &SweepSummary) ->
     folder.write("sweep.csv", &sweep_table(sweep)?)?;
     let look = SweepLook { outputs: &args.outputs, against: args.against.as_deref(), separate: args.separate };
     args.output.figure(&mut folder, "sweep", sweep_figure(sweep, look))?;
-    let origin = args.talk.origin(&family.scene()?.parameters);
-    let sealed = folder.seal("sweep.json", Repeatable { origin, simulation: None, result: summary })?;
+    let sealed = folder.seal("sweep.json", args.talk.of_no_method(&family.scene()?.parameters, summary))?;
     args.talk.conclude(folder, &sealed, || summary.text())
 }

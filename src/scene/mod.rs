@@ -198,15 +198,12 @@ fn name_element(error: Error, json: &Value) -> Error {
 /// Adds file, line and column.
 pub(crate) fn place(error: Error, path: &Path, text: &str) -> Error {
     let error = error.in_file(path);
-    let place = match &error {
+    match &error {
         Error::Input(input) if input.file.as_deref() == Some(path) && !input.path.is_empty() => {
-            locate::locate(text, &input.path)
+            let place = locate::locate(text, &input.path);
+            error.placed(place)
         }
-        _ => None,
-    };
-    match place {
-        Some(place) => error.placed(place),
-        None => error,
+        _ => error,
     }
 }
 

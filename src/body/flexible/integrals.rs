@@ -49,31 +49,13 @@ impl IntegrationPoint {
 
 /// The mass integrals of the line over all samples.
 pub fn piece<const D: usize>(dofs: Vec<usize>, samples: &[IntegrationPoint]) -> Piece<D> {
-    let n = dofs.len();
-    let mut piece = Piece {
-        dofs,
-        mass: 0.0,
-        moments: vec![[0.0; D]; 1 + n],
-        products: vec![[[0.0; D]; D]; (1 + n) * (1 + n)],
-        second: vec![Vec::new(); n],
-    };
+    let mut piece = Piece::massless(dofs);
     for sample in samples {
         let displacements = sample.shapes.iter().map(|shape| shape.displacement);
         let psi: Vec<_> = once(sample.rest.1).chain(displacements).collect();
-        add_point(&mut piece, &psi, sample.weight * sample.section.rho_a);
+        piece.add_point(&psi, sample.weight * sample.section.rho_a);
     }
     piece
-}
-
-fn add_point<const D: usize>(piece: &mut Piece<D>, psi: &[[f64; 3]], mass: f64) {
-    piece.mass += mass;
-    for (a, left) in psi.iter().enumerate() {
-        (0..D).for_each(|k| piece.moments[a][k] += mass * left[k]);
-        for (b, right) in psi.iter().enumerate() {
-            let product = &mut piece.products[a * psi.len() + b];
-            (0..D).for_each(|k| (0..D).for_each(|m| product[k][m] += mass * left[k] * right[m]));
-        }
-    }
 }
 
 /// Discs of the sections at all samples; those that do not rotate are summed to one.

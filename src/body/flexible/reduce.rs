@@ -199,13 +199,7 @@ fn project<const D: usize>(mesh: Mesh<D>, nodal: Elastic<D>, modes: Modes, short
 /// sum over the pieces of E^T P E with E = diag(1, basis of the piece's coordinates).
 fn project_pieces<const D: usize>(pieces: &[Piece<D>], basis: &Mat<f64>) -> Piece<D> {
     let n = 1 + basis.ncols();
-    let mut sum = Piece {
-        dofs: (0..basis.ncols()).collect(),
-        mass: 0.0,
-        moments: vec![[0.0; D]; n],
-        products: vec![[[0.0; D]; D]; n * n],
-        second: vec![Vec::new(); n - 1],
-    };
+    let mut sum = Piece::massless((0..basis.ncols()).collect());
     for piece in pieces {
         let local = 1 + piece.dofs.len();
         let factor = |i: usize, a: usize| match (i, a) {

@@ -53,6 +53,27 @@ pub struct Piece<const D: usize> {
     pub second: Vec<Vec<Second<D>>>,
 }
 
+impl<const D: usize> Piece<D> {
+    /// A piece of these coordinates without mass.
+    pub fn massless(dofs: Vec<usize>) -> Self {
+        let n = 1 + dofs.len();
+        let (moments, products) = (vec![[0.0; D]; n], vec![[[0.0; D]; D]; n * n]);
+        Piece { dofs, mass: 0.0, moments, products, second: vec![Vec::new(); n - 1] }
+    }
+
+    /// Adds a point mass with its displacement functions psi_a, 1 + n of them.
+    pub fn add_point<const E: usize>(&mut self, psi: &[[f64; E]], mass: f64) {
+        self.mass += mass;
+        for (a, left) in psi.iter().enumerate() {
+            (0..D).for_each(|k| self.moments[a][k] += mass * left[k]);
+            for (b, right) in psi.iter().enumerate() {
+                let product = &mut self.products[a * psi.len() + b];
+                (0..D).for_each(|k| (0..D).for_each(|m| product[k][m] += mass * left[k] * right[m]));
+            }
+        }
+    }
+}
+
 /// Integrals of psi_ij, equal to those of psi_ji.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Second<const D: usize> {

@@ -1,5 +1,6 @@
 //! Vectors and matrices of the plane or of space; angular quantities have three components in both.
 
+use crate::body::dot;
 use crate::math::Scalar;
 use std::array::from_fn;
 use std::ops::Mul;
@@ -52,17 +53,7 @@ pub(super) fn swung<S: Scalar, const D: usize>(m: &Matrix<S, D>, w: &[S; 3]) -> 
 /// int (w x u) . (w x v) from m = int u v^T: w.w tr(m) - w.m w.
 #[inline]
 pub(super) fn whirled<S: Scalar, const D: usize>(m: &Matrix<S, D>, w: &[S; 3]) -> S {
-    dot3(w, &swung(m, w))
-}
-
-#[inline]
-pub(super) fn dot3<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> S {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline]
-pub(super) fn cross3<S: Scalar>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
-    spin(a, b)
+    dot(w, &swung(m, w))
 }
 
 #[inline]

@@ -13,7 +13,7 @@
 use super::algebra::*;
 use super::moving::{Moving, symmetric};
 use super::{Floating, frame, frame_coordinates, frame_velocities, turn_velocity, turns};
-use crate::body::{Energy, Frame, dot};
+use crate::body::{Energy, Frame, cross, dot};
 use crate::math::Scalar;
 use std::array::from_fn;
 
@@ -98,12 +98,12 @@ impl<const D: usize> Floating<D> {
                 add_matrix(&mut p, moving.q[dof], &weighed);
                 add_matrix(&mut flow, moving.v[dof], &weighed);
                 let centrifugal = whirled(&weighed, &w);
-                let coriolis = 2.0 * dot3(&w, &axial(&moving.rated(moving.v, i)));
+                let coriolis = 2.0 * dot(&w, &axial(&moving.rated(moving.v, i)));
                 f[frame_velocities(D) + dof] += centrifugal - coriolis - dot(&moving.mu(i), &lift);
             }
-            let gyroscopic = cross3(&w, &swung(&symmetric(&p), &w));
+            let gyroscopic = cross(&w, &swung(&symmetric(&p), &w));
             let stretching = swung(&transposed(&flow), &w);
-            let hanging = crate::body::cross(&s, &lift);
+            let hanging = cross(&s, &lift);
             turns(D)
                 .for_each(|k| f[turn_velocity(D, k)] -= hanging[k] + gyroscopic[k] + 2.0 * stretching[k] + swerve[k]);
         }
@@ -123,7 +123,7 @@ impl<const D: usize> Floating<D> {
             let mut twice = dot(&speed, &speed) * moving.piece.mass
                 + dot(&speed, &drift) * 2.0
                 + whirled(&moving.p(), &w)
-                + dot3(&w, &axial(&moving.flow(moving.v))) * 2.0;
+                + dot(&w, &axial(&moving.flow(moving.v))) * 2.0;
             for (i, &dof) in moving.piece.dofs.iter().enumerate() {
                 twice += moving.v[dof] * trace(&moving.rated(moving.v, i));
             }

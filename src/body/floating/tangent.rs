@@ -85,7 +85,7 @@ impl<const D: usize> Floating<D> {
             let (first, second, third) = (spin(&e, &spin(w, &s)), spin(w, &spin(&e, &s)), spin(&e, &rate));
             let force = world(&motion.own, &from_fn(|i| first[i] + second[i] + 2.0 * third[i]));
             (0..D).for_each(|i| c[self.layout.frame(i, column)] += force[i]);
-            let (first, second, third) = (cross3(&e, &swung(&p, w)), cross3(w, &swung(&p, &e)), swung(&q, &e));
+            let (first, second, third) = (cross(&e, &swung(&p, w)), cross(w, &swung(&p, &e)), swung(&q, &e));
             turns(D).for_each(|i| {
                 c[self.layout.frame(turn_velocity(D, i), column)] += first[i] + second[i] + 2.0 * third[i];
             });
@@ -108,7 +108,7 @@ impl<const D: usize> Floating<D> {
         let (curving, curved) = (moving.curved(moving.v, j), moving.curved(motion.vdot, j));
         let grown: Matrix<f64, D> = from_fn(|a| from_fn(|b| weighed[a][b] + weighed[b][a]));
         let (lever, swing, gyroscopic) =
-            (cross(&mu, &motion.a), swung(&grown, &motion.alpha), cross3(w, &swung(&grown, w)));
+            (cross(&mu, &motion.a), swung(&grown, &motion.alpha), cross(w, &swung(&grown, w)));
         let flow: Matrix<f64, D> = from_fn(|a| from_fn(|b| rated[a][b] + curving[b][a]));
         let (stretching, push, push_on) = (swung(&flow, w), axial(&moving.rated(motion.vdot, j)), axial(&curved));
         let (moving_out, swerving) = (swung(&transposed(&weighed), w), axial(&curving));
@@ -139,12 +139,12 @@ impl<const D: usize> Floating<D> {
             // int rho psi_j psi_i^T
             let product = &moving.piece.products[(j + 1) * (n + 1) + i + 1];
             let turned = axial(product);
-            k[places[i * n + j]] += dot3(&motion.alpha, &turned) - whirled(product, &motion.w);
-            c[places[i * n + j]] += 2.0 * dot3(&motion.w, &turned);
+            k[places[i * n + j]] += dot(&motion.alpha, &turned) - whirled(product, &motion.w);
+            c[places[i * n + j]] += 2.0 * dot(&motion.w, &turned);
         }
         for second in &moving.piece.second[j] {
             let place = places[second.other * n + j];
-            let swing = dot3(&motion.alpha, &axial(&second.product)) - whirled(&second.product, &motion.w);
+            let swing = dot(&motion.alpha, &axial(&second.product)) - whirled(&second.product, &motion.w);
             k[place] += dot(&second.moment, &motion.a) + swing;
         }
     }

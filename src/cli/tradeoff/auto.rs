@@ -1,10 +1,10 @@
 //! Models that `simplify` finds, each by many methods.
 
-use super::Args;
+use super::{Args, Question};
 use crate::cli::common::tell;
 use crate::cli::interrupt;
-use crate::compare::work_precision::{Motion, Plan, Runner, Watched, WorkPrecision, grid};
-use crate::error::{Error, Result, percent};
+use crate::compare::work_precision::{Motion, Runner, WorkPrecision};
+use crate::error::{Result, percent};
 use crate::prepared::PreparedScene;
 use crate::report::tradeoff::{MeasuredModel, ModelsAndMethods, auto_figure, auto_table};
 use crate::simplify::{Settings, Simplification, Source, registry, simplify};
@@ -79,19 +79,9 @@ fn models(args: &Args, prepared: &PreparedScene, bar: &ProgressBar) -> Result<Ve
 /// Methods on a model, their errors against its own motion.
 fn measure(args: &Args, prepared: &PreparedScene, budget: Duration) -> Result<WorkPrecision> {
     let span = prepared.span()?;
-    let watched = Watched::new(prepared.system(), &args.outputs).map_err(|error: Error| error.under("--outputs"))?;
-    let rows = usize::from(args.rows);
-    let plan = Plan {
-        triples: grid(&args.filter())?,
-        budget,
-        repeats: usize::from(args.repeats),
-        rows,
-        digits: args.digits,
-        is_exhaustive: args.exhaustive,
-        given: None,
-    };
+    let Question { watched, plan } = args.question(prepared, budget, None)?;
     let motion = Motion::of(prepared, span, &interrupt::is_asked);
-    let mut measured = WorkPrecision::fresh(&prepared.name, (span.start, span.end), rows);
+    let mut measured = WorkPrecision::fresh(&prepared.name, (span.start, span.end), plan.rows);
     Runner::new(motion, &plan, watched, |_: &WorkPrecision, _: &str| ()).run(&mut measured)?;
     Ok(measured)
 }

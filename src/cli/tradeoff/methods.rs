@@ -1,18 +1,15 @@
 //! Work-precision measurements of all methods, and recommendations.
 
-use super::Args;
+use super::{Args, Question};
 use crate::cli::common::tell;
 use crate::cli::interrupt;
-use crate::compare::work_precision::{Filter, Given, Lack, Motion, Plan, Runner, Watched, WorkPrecision, grid};
+use crate::compare::work_precision::{Given, Lack, Motion, Runner, WorkPrecision};
 use crate::error::{Error, Result};
 use crate::files;
 use crate::prepared::PreparedScene;
 use crate::report::tradeoff::{Summary, tradeoff_figure, tradeoff_table};
-use crate::report::{Folder, Repeatable, write_whole};
+use crate::report::{Folder, write_whole};
 use crate::scene;
-use crate::system::MechanicalSystem;
-use crate::trajectory::recorded;
-use crate::{formulation, projection};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -22,7 +19,8 @@ use std::time::{Duration, Instant};
 const SAVED: Duration = Duration::from_secs(5);
 
 pub fn run(args: &Args, prepared: &PreparedScene) -> Result<ExitCode> {
-    let question = Question::new(args, prepared)?;
+    let given = args.reference(prepared).as_deref().map(Given::read).transpose()?;
+    let question = args.question(prepared, args.budget, given)?;
     let folder = args.output.folder(&prepared.name)?;
     let place = args.output.path(&prepared.name).join("tradeoff.json");
     let mut measured = question.begin(args, prepared, &place)?;
@@ -30,33 +28,7 @@ pub fn run(args: &Args, prepared: &PreparedScene) -> Result<ExitCode> {
     report(args, prepared, &measured, folder)
 }
 
-/// The measurement: quantities, methods and times.
-struct Question {
-    watched: Watched,
-    plan: Plan,
-}
-
 impl Question {
-    fn new(args: &Args, prepared: &PreparedScene) -> Result<Self> {
-        let span = prepared.span()?;
-        let given = args.reference(prepared).as_deref().map(Given::read).transpose()?;
-        let outputs = args.outputs(prepared, given.as_ref());
-        let watched = Watched::new(prepared.system(), &outputs).map_err(|error| error.under("--outputs"))?;
-        let rows = usize::from(args.rows);
-        let rows = given.as_ref().map_or(Ok(rows), |given| given.parts((span.start, span.end), rows))?;
-        args.check_choices(prepared.system())?;
-        let plan = Plan {
-            triples: grid(&args.filter())?,
-            budget: args.budget,
-            repeats: usize::from(args.repeats),
-            rows,
-            digits: args.digits,
-            is_exhaustive: args.exhaustive,
-            given,
-        };
-        Ok(Question { watched, plan })
-    }
-
     /// Returns the results so far: none, or those that `--resume` finds.
     fn begin(&self, args: &Args, prepared: &PreparedScene, place: &Path) -> Result<WorkPrecision> {
         let (span, rows) = (prepared.span()?, self.plan.rows);
@@ -92,8 +64,7 @@ fn report(args: &Args, prepared: &PreparedScene, measured: &WorkPrecision, mut f
     folder.write("tradeoff.csv", &tradeoff_table(measured)?)?;
     args.output.figure(&mut folder, "tradeoff", tradeoff_figure(measured, args.digits))?;
     // Methods and tolerances are those of the cells.
-    let origin = args.talk.origin(&prepared.parameters);
-    let sealed = folder.seal("tradeoff.json", Repeatable { origin, simulation: None, result: &summary })?;
+    let sealed = folder.seal("tradeoff.json", args.talk.of_no_method(&prepared.parameters, &summary))?;
     args.talk.conclude(folder, &sealed, || summary.text(args.digits))?;
     match (interrupt::is_asked(), measured.lacks(args.digits)) {
         (true, _) => tell("error: interrupted\n  help: go on with --resume"),
@@ -108,34 +79,6 @@ impl Args {
     fn reference(&self, prepared: &PreparedScene) -> Option<PathBuf> {
         let own = || Some(scene::folder(Some(&self.scene.path)).join(prepared.reference.as_ref()?));
         self.reference.clone().or_else(own)
-    }
-
-    /// Returns the outputs to compare; by default all that a table has.
-    fn outputs(&self, prepared: &PreparedScene, given: Option<&Given>) -> Vec<String> {
-        let known = recorded(prepared.system());
-        let has = |name: &&str| known.iter().any(|column| column.name == **name);
-        match given {
-            Some(given) if self.outputs.is_empty() => given.names().filter(has).map(str::to_string).collect(),
-            _ => self.outputs.clone(),
-        }
-    }
-
-    /// Returns the methods that are named.
-    pub(super) fn filter(&self) -> Filter {
-        let [formulations, integrators, projections] =
-            [&self.formulation, &self.integrator, &self.projection].map(Clone::clone);
-        Filter { formulations, integrators, projections }
-    }
-
-    /// Refuses unknown options of the named methods, before anything is run.
-    pub(super) fn check_choices(&self, system: &dyn MechanicalSystem) -> Result<()> {
-        for spec in &self.formulation {
-            formulation::make(spec, system).map_err(|error| error.under("--formulation"))?;
-        }
-        for spec in &self.projection {
-            projection::make(spec, system).map_err(|error| error.under("--projection"))?;
-        }
-        Ok(())
     }
 
     /// Returns the scene as on the command line, with its changes.

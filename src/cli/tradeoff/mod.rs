@@ -5,9 +5,13 @@ mod methods;
 mod models;
 
 use super::common::{Output, SceneOptions, Talk, duration, number};
+use crate::compare::work_precision::{Filter, Given, Plan, Watched, grid};
 use crate::error::Result;
 use crate::method_spec::MethodSpec;
-use crate::prepared::Overrides;
+use crate::prepared::{Overrides, PreparedScene};
+use crate::system::MechanicalSystem;
+use crate::trajectory::recorded;
+use crate::{formulation, projection};
 use clap::ValueEnum;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -85,7 +89,60 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
 }
 
+/// Quantities, methods and times of a measurement.
+struct Question {
+    watched: Watched,
+    plan: Plan,
+}
+
 impl Args {
+    /// Returns what to measure of a scene within `budget`; against these values, if they are given.
+    fn question(&self, prepared: &PreparedScene, budget: Duration, given: Option<Given>) -> Result<Question> {
+        let (span, system, rows) = (prepared.span()?, prepared.system(), usize::from(self.rows));
+        let outputs = self.outputs(prepared, given.as_ref());
+        let watched = Watched::new(system, &outputs).map_err(|error| error.under("--outputs"))?;
+        let rows = given.as_ref().map_or(Ok(rows), |given| given.parts((span.start, span.end), rows))?;
+        self.check_choices(system)?;
+        let plan = Plan {
+            triples: grid(&self.filter())?,
+            budget,
+            repeats: usize::from(self.repeats),
+            rows,
+            digits: self.digits,
+            is_exhaustive: self.exhaustive,
+            given,
+        };
+        Ok(Question { watched, plan })
+    }
+
+    /// Returns the outputs to compare; by default all that a table has.
+    fn outputs(&self, prepared: &PreparedScene, given: Option<&Given>) -> Vec<String> {
+        let known = recorded(prepared.system());
+        let has = |name: &&str| known.iter().any(|column| column.name == **name);
+        match given {
+            Some(given) if self.outputs.is_empty() => given.names().filter(has).map(str::to_string).collect(),
+            _ => self.outputs.clone(),
+        }
+    }
+
+    /// Returns the methods that are named.
+    fn filter(&self) -> Filter {
+        let [formulations, integrators, projections] =
+            [&self.formulation, &self.integrator, &self.projection].map(Clone::clone);
+        Filter { formulations, integrators, projections }
+    }
+
+    /// Refuses unknown options of the named methods, before anything is run.
+    fn check_choices(&self, system: &dyn MechanicalSystem) -> Result<()> {
+        for spec in &self.formulation {
+            formulation::make(spec, system).map_err(|error| error.under("--formulation"))?;
+        }
+        for spec in &self.projection {
+            projection::make(spec, system).map_err(|error| error.under("--projection"))?;
+        }
+        Ok(())
+    }
+
     fn overrides(&self) -> Overrides {
         Overrides { set: self.scene.set.clone(), until: self.until, ..Overrides::default() }
     }

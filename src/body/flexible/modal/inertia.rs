@@ -11,17 +11,10 @@ use std::array::from_fn;
 
 /// Mass integrals of point masses with known motion in the modes: exact in every term.
 pub fn of_lumped<const D: usize>(masses: &[Lumped<Array>], n: usize) -> Result<Piece<D>> {
-    let mut piece = empty(n);
+    let mut piece = Piece::massless((0..n).collect());
     for (i, lumped) in masses.iter().enumerate() {
         let (mass, psi) = lumped_shapes::<D>(lumped, n).map_err(|error| error.under(format!("lumped[{i}]")))?;
-        piece.mass += mass;
-        for (a, left) in psi.iter().enumerate() {
-            (0..D).for_each(|k| piece.moments[a][k] += mass * left[k]);
-            for (b, right) in psi.iter().enumerate() {
-                let product = &mut piece.products[a * (1 + n) + b];
-                (0..D).for_each(|k| (0..D).for_each(|m| product[k][m] += mass * left[k] * right[m]));
-            }
-        }
+        piece.add_point(&psi, mass);
     }
     Ok(piece)
 }
@@ -37,22 +30,12 @@ fn lumped_shapes<const D: usize>(lumped: &Lumped<Array>, n: usize) -> Result<(f6
     Ok((mass, std::iter::once(from_fn(|k| position[k])).chain(modes).collect()))
 }
 
-fn empty<const D: usize>(n: usize) -> Piece<D> {
-    Piece {
-        dofs: (0..n).collect(),
-        mass: 0.0,
-        moments: vec![[0.0; D]; 1 + n],
-        products: vec![[[0.0; D]; D]; (1 + n) * (1 + n)],
-        second: vec![Vec::new(); n],
-    }
-}
-
 /// Mass integrals from the rigid inertia, the modal mass M and the momenta m_i, h_i of the modes. These determine the
 /// antisymmetric part of P_0i, by h_i = int rho psi_0 x psi_i, and the trace M_ij of P_ij. The rest is assumed
 /// isotropic: P_0i without a symmetric part, P_ij = M_ij/D times the identity.
 pub fn of_couplings<const D: usize>(data: &ModalData<Array>, mass: &Mat<f64>) -> Result<Piece<D>> {
     let n = mass.nrows();
-    let mut piece = empty::<D>(n);
+    let mut piece = Piece::<D>::massless((0..n).collect());
     rigid(&mut piece, data)?;
     let turns = if D == 2 { 1 } else { 3 };
     let zeros = vec![0.0; 3 * n];
