@@ -107,59 +107,52 @@ impl Error {
         Error::Unwritten { path: path.into(), problem: problem.to_string() }
     }
 
-    /// Adds the remedy, unless there is one already.
-    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+    /// Changes what is said of bad input; other errors stay.
+    pub(crate) fn changed(mut self, change: impl FnOnce(&mut Input)) -> Self {
         if let Error::Input(input) = &mut self {
-            input.hint.get_or_insert(hint.into());
+            change(input);
         }
         self
+    }
+
+    /// Adds the remedy, unless there is one already.
+    pub fn hint(self, hint: impl Into<String>) -> Self {
+        self.changed(|input| _ = input.hint.get_or_insert(hint.into()))
     }
 
     /// Adds the name of the element, unless one closer to the fault is known.
-    pub fn element(mut self, name: impl Into<String>) -> Self {
-        if let Error::Input(input) = &mut self {
-            input.element.get_or_insert(name.into());
-        }
-        self
+    pub fn element(self, name: impl Into<String>) -> Self {
+        self.changed(|input| _ = input.element.get_or_insert(name.into()))
     }
 
     /// Puts `segment` in front of the path: `under("joints[2]")` makes `between` into `joints[2].between`.
-    pub fn under(mut self, segment: impl AsRef<str>) -> Self {
-        if let Error::Input(input) = &mut self {
-            let joined = match input.path.chars().next() {
+    pub fn under(self, segment: impl AsRef<str>) -> Self {
+        self.changed(|input| {
+            input.path = match input.path.chars().next() {
                 None => segment.as_ref().to_string(),
                 Some('[') => format!("{}{}", segment.as_ref(), input.path),
                 Some(_) => format!("{}.{}", segment.as_ref(), input.path),
-            };
-            input.path = joined;
-        }
-        self
+            }
+        })
     }
 
     /// Replaces the path.
-    pub fn at(mut self, path: impl Into<String>) -> Self {
-        if let Error::Input(input) = &mut self {
-            input.path = path.into();
-        }
-        self
+    pub fn at(self, path: impl Into<String>) -> Self {
+        self.changed(|input| input.path = path.into())
     }
 
     /// Adds line and column in the file.
-    pub fn placed(mut self, place: (usize, usize)) -> Self {
-        if let Error::Input(input) = &mut self {
-            input.place.get_or_insert(place);
-        }
-        self
+    pub fn placed(self, place: (usize, usize)) -> Self {
+        self.changed(|input| _ = input.place.get_or_insert(place))
     }
 
     /// Adds the file that was read, unless an option of the command line is at fault.
-    pub fn in_file(mut self, path: impl Into<PathBuf>) -> Self {
-        if let Error::Input(input) = &mut self
-            && !input.path.starts_with('-')
-        {
-            input.file.get_or_insert(path.into());
-        }
-        self
+    pub fn in_file(self, path: impl Into<PathBuf>) -> Self {
+        self.changed(|input| {
+            if !input.path.starts_with('-') {
+                input.file.get_or_insert(path.into());
+            }
+        })
     }
 
     /// Exit code of the program: 2 for bad input or a file that cannot be read, 1 for all else.

@@ -1,5 +1,6 @@
 //! Drift of the constraints.
 
+use crate::math::{largest, largest_in};
 use crate::simulate::Observation;
 use serde::Serialize;
 
@@ -40,13 +41,9 @@ impl Drift {
 
 impl DriftLevel {
     fn add(&mut self, rows: &[f64], scales: &[f64]) {
-        self.last = largest(rows.iter().copied());
-        self.relative_final = largest(rows.iter().zip(scales).map(|(row, scale)| row / scale));
+        self.last = largest(rows);
+        self.relative_final = largest_in(scales, rows);
         self.max = self.max.max(self.last);
         self.relative_max = self.relative_max.max(self.relative_final);
     }
-}
-
-pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }

@@ -1,10 +1,11 @@
 //! A sink that records a run.
 
-use super::drift::{Drift, largest};
+use super::drift::Drift;
 use super::energy::{EnergyBalance, EnergyMeter, Ledger};
 use super::range::Range;
 use super::singularity::{Singularity, Watch};
 use super::thinned::thin;
+use crate::math::largest;
 use crate::simulate::{Observation, Sink, Stop};
 use crate::system::{MechanicalSystem, Scratch};
 use crate::trajectory::{Gap, Trajectory};
@@ -138,7 +139,7 @@ impl Sink for Recorder<'_> {
 
     fn row(&mut self, state: &Observation) {
         self.record.drift.add(state, &self.scales);
-        let levels = [state.phi, state.phi_dot, state.phi_ddot].map(|rows| largest(rows.iter().copied()));
+        let levels = [state.phi, state.phi_dot, state.phi_ddot].map(largest);
         let ledger = self.meter.ledger(self.system, state, &mut self.scratch);
         let record = &mut self.record;
         record.rows += 1;

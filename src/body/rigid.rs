@@ -219,12 +219,8 @@ impl Rigid {
                 .hint("keep one of them"));
         }
         let made_of = MassProperties::of(shapes, build)?;
-        inertia::physical(&made_of.inertia).map_err(|error| match error {
-            Error::Input(input) => {
-                Error::input(input.message).under("shapes").hint("put holes within what they are cut from")
-            }
-            other => other,
-        })?;
+        let hint = || Some("put holes within what they are cut from".to_string());
+        inertia::physical(&made_of.inertia).map_err(|error| error.at("shapes").changed(|input| input.hint = hint()))?;
         Ok((made_of.mass, Some(made_of)))
     }
 
@@ -322,7 +318,7 @@ impl Rigid {
 /// Refuses an initial velocity that is given along what is not free: components that are not zero, and not those with
 /// which the free coordinates move the body's origin.
 fn refuse_locked(field: &str, given: &[f64], moves: &[f64]) -> Result<()> {
-    let scale = given.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let scale = crate::math::largest(given);
     let differs = |(x, own): (&f64, &f64)| *x != 0.0 && (x - own).abs() > tolerances::SAME * scale;
     match given.iter().zip(moves).any(differs) {
         false => Ok(()),

@@ -183,11 +183,11 @@ pub fn assignment(text: &str) -> Result<(String, Number), String> {
 
 /// Attributes an error in a parameter to the option that set it, in the place of `--set`.
 pub fn set_by(error: Error, option: &str) -> Error {
-    let Error::Input(mut input) = error else { return error };
-    if input.path == "--set" {
-        input.path = option.to_string();
-    }
-    Error::Input(input)
+    error.changed(|input| {
+        if input.path == "--set" {
+            input.path = option.to_string();
+        }
+    })
 }
 
 impl Common {

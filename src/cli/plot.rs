@@ -4,9 +4,10 @@ use super::common::{Common, Format, Output, number, positive, set_by, tell};
 use super::interrupt;
 use crate::analysis::Recorder;
 use crate::error::{Error, Failure, Result, Warning, clock, significant};
+use crate::linearize::State;
 use crate::prepared::{AnyMechanism, Overrides, PreparedScene};
 use crate::report::mechanism::{
-    Look, Motion, State, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
+    Look, Motion, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
 use crate::report::{FinishedRun, Folder, Repeatable, Written, outputs_figure};
 use crate::simulate::Span;
@@ -250,8 +251,7 @@ impl Args {
             self.seal(folder, "stroboscope", prepared, drawn)?;
         } else if self.animate.is_none() && !self.outputs || !self.at.is_empty() {
             let t = self.at.first().map_or(prepared.start_time(), |t| t.min(motion.reach().1));
-            let (q, v) = prepared.start();
-            let state = if self.at.is_empty() { State { t, q: q.to_vec(), v: v.to_vec() } } else { motion.state(t) };
+            let state = if self.at.is_empty() { State::start(prepared) } else { motion.state(t) };
             drawn.times = vec![t];
             self.output.figure(folder, "mechanism", Some(mechanism_figure(prepared, look, &state)))?;
             self.seal(folder, "mechanism", prepared, drawn)?;

@@ -17,7 +17,7 @@ use crate::error::{Error, Result, short};
 use crate::formulation::{Dynamics, StepError};
 use crate::math::expression::Switch;
 use crate::math::kkt::{Pattern, SaddlePoint};
-use crate::math::{Rate, largest_in};
+use crate::math::{Rate, largest, largest_in};
 use crate::scene::INITIAL;
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Structure, Terms};
 use crate::tolerances::initial as tolerances;
@@ -167,8 +167,8 @@ impl<'a> Metric<'a> {
                 .under("joints")
                 .hint("begin where its expressions are defined and smooth (no division by zero, `floor` and `mod` up to 2^29), and no distance is zero"));
         }
-        let largest = self.terms.mass.iter().fold(0.0f64, |largest, mass| largest.max(mass.abs()));
-        let unit = if largest > 0.0 { largest } else { 1.0 };
+        let most = largest(&self.terms.mass);
+        let unit = if most > 0.0 { most } else { 1.0 };
         self.weights.copy_from_slice(&self.terms.mass);
         self.system.add_stiffness(&mut self.weights);
         for (weight, (i, j)) in self.weights.iter_mut().zip(&self.mass.entries) {

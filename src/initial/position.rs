@@ -2,6 +2,7 @@
 
 use super::Metric;
 use crate::error::{Error, Result, short};
+use crate::math::largest;
 use crate::tolerances::initial as tolerances;
 
 /// Sequential quadratic programming: [W G^T; G 0] [d; .] = [-W (q - q_0); -phi]. The first part pulls back towards the
@@ -21,8 +22,8 @@ pub fn close_moved(metric: &mut Metric, t: f64, q: &mut [f64], mut moved: Vec<f6
         metric.at(t, q, &still)?;
         let residual = metric.worst(&metric.terms.phi);
         let pulled = step(metric, Some(&moved))?;
-        let size = pulled.iter().fold(0.0f64, |size, d| size.max(d.abs()));
-        let settled = size <= 1e-12 * (1.0 + moved.iter().fold(0.0f64, |size, d| size.max(d.abs())));
+        let size = largest(&pulled);
+        let settled = size <= 1e-12 * (1.0 + largest(&moved));
         // Once closed, the residual is rounding, and the way to the nearest state counts.
         let falls = residual < 0.9 * best || (residual < tolerances::CLOSED && size < 0.9 * smallest);
         stalled = if falls { 0 } else { stalled + 1 };
@@ -54,7 +55,7 @@ pub fn close_moved(metric: &mut Metric, t: f64, q: &mut [f64], mut moved: Vec<f6
 
 /// An error if a held coordinate moved: one that contradicts the joints is met half way, step by step.
 fn kept(metric: &Metric, moved: &[f64]) -> Result<()> {
-    let most = moved.iter().fold(1.0f64, |most, d| most.max(d.abs()));
+    let most = largest(moved).max(1.0);
     let Some(&held) = metric.held.iter().find(|&&held| moved[held].abs() > tolerances::SAME * most) else {
         return Ok(());
     };

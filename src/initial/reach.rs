@@ -27,11 +27,7 @@ pub fn reach(alone: &mut Metric, all: &mut Metric, t: f64, q: &mut [f64]) -> Res
         ))
         .under(INITIAL)
         .hint("give the bodies a guess on the branch that is meant, or values that the joints come to")),
-        Err(Error::Input(mut input)) => {
-            input.message += &ended;
-            Err(Error::Input(input))
-        }
-        closed => closed,
+        closed => closed.map_err(|error| error.changed(|input| input.message += &ended)),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::Metric;
 use crate::error::{Error, Result, short};
+use crate::math::largest;
 use crate::tolerances::initial as tolerances;
 
 pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> {
@@ -15,10 +16,10 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
         v.iter_mut().zip(&change).for_each(|(v, change)| *v += change);
     }
     metric.at(t, q, v)?;
-    let largest = v.iter().chain(&given).chain(&metric.terms.phi_t).fold(0.0f64, |largest, x| largest.max(x.abs()));
+    let asked = largest(&given).max(largest(&metric.terms.phi_t));
+    let largest = largest(v).max(asked);
     let is_met = metric.worst(&metric.terms.phi_dot) <= tolerances::SAME * largest.max(f64::MIN_POSITIVE);
     // Beside a dead centre a rate is met by velocities beyond all bounds.
-    let asked = given.iter().chain(&metric.terms.phi_t).fold(0.0f64, |largest, x| largest.max(x.abs()));
     if is_met && metric.has_initial() && asked < tolerances::DEAD_CENTRE * largest {
         let message =
             format!("the rates in `initial` take velocities of {largest:.1e}: the joints are at a dead centre");

@@ -106,7 +106,7 @@ impl Rattle {
     /// Refuses a mass matrix that changed by more than round-off.
     fn compare(&mut self, mass: &[f64]) -> Result<(), StepError> {
         let known = self.mass.get_or_insert_with(|| mass.to_vec());
-        let largest = known.iter().fold(0.0, |largest: f64, m| largest.max(m.abs()));
+        let largest = largest(known);
         let same = known.iter().zip(mass).all(|(known, m)| (known - m).abs() <= 1e-12 * largest);
         let reason = "rattle needs a constant mass matrix, and it changed";
         let hint = "use generalized_alpha, or phem56 with index2: they take any mass matrix";

@@ -62,3 +62,8 @@ pub fn largest(x: &[f64]) -> f64 {
 pub fn largest_in(units: &[f64], x: &[f64]) -> f64 {
     x.iter().zip(units).fold(0.0, |largest, (x, unit)| f64::max(largest, (x / unit).abs()))
 }
+
+/// The least and the largest of some values, NaN ignored; infinity and minus infinity without any.
+pub(crate) fn bounds(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+}

@@ -2,6 +2,7 @@
 
 use super::figures::{Curve, grouped, label, panel};
 use super::sweep::{shown, watched};
+use crate::math::bounds;
 use crate::plot::{Figure, Panel};
 use crate::sweep::{Point, Sweep};
 
@@ -62,8 +63,8 @@ fn curves<'a>(sweep: &'a Sweep) -> Vec<Curve<'a>> {
 /// Removes extreme values at an end of the branch, where forces and speeds may grow without bounds.
 fn cut(sweep: &Sweep, points: &[&Point], values: &mut [f64]) {
     let is_end = |point: &Point| sweep.limits.iter().any(|limit| limit.point.value == point.value);
-    let others = || points.iter().zip(values.iter()).filter(|(point, _)| !is_end(point)).map(|(_, value)| *value);
-    let (low, high) = others().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), value| (l.min(value), h.max(value)));
+    let others = points.iter().zip(values.iter()).filter(|(point, _)| !is_end(point)).map(|(_, value)| *value);
+    let (low, high) = bounds(others);
     let wide = low - (high - low)..=high + (high - low);
     let far = |(point, value): &(&&Point, &mut f64)| low < high && is_end(point) && !wide.contains(*value);
     points.iter().zip(values).filter(far).for_each(|(_, value)| *value = f64::NAN);

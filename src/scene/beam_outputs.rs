@@ -2,7 +2,7 @@
 
 use super::measures::{MeasureKind, OutputSpec};
 use super::model::{BeamLine, Combination, Connection, Measure, Reading};
-use super::outputs::{Elements, find, missing, wrong_component};
+use super::outputs::{Elements, find, missing, named_component};
 use super::place::{Cut, Place};
 use crate::body::flexible::{Line, Stretch};
 use crate::body::{Bent, Build, Marker, MarkerId};
@@ -214,8 +214,7 @@ fn place<const D: usize>(spec: &OutputSpec, length: f64, build: &Build<D>) -> Re
 }
 
 fn component(spec: &OutputSpec, default: &str, known: &[&str]) -> Result<usize> {
-    let name = spec.component.as_deref().unwrap_or(default);
-    known.iter().position(|known| *known == name).ok_or_else(|| wrong_component(name, known))
+    named_component(spec.component.as_deref().unwrap_or(default), known)
 }
 
 /// Quantity of a section that an output asks for.

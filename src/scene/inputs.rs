@@ -2,7 +2,7 @@
 
 use super::format::InputSpec;
 use super::model::{Connection, Input, Target};
-use super::outputs::{find, missing, wrong_component};
+use super::outputs::{find, missing, named_component};
 use crate::body::{Build, Formula, MOST_MARKERS};
 use crate::error::{Error, Result};
 use crate::force::{self, Force, InputKind};
@@ -59,13 +59,7 @@ fn input<const D: usize>(spec: &InputSpec, (joints, forces): (&Joints<D>, &Force
 
 /// Index of the element of this name.
 fn named<E>(what: &str, key: &str, name: &str, all: &[Connection<E>]) -> Result<usize> {
-    find(what, name, all.iter().map(|known| known.name.as_str())).map_err(|error| match error {
-        Error::Input(mut input) => {
-            input.path = key.to_string();
-            Error::Input(input)
-        }
-        other => other,
-    })
+    find(what, name, all.iter().map(|known| known.name.as_str())).map_err(|error| error.at(key))
 }
 
 /// Error: the element is of a type that the key does not go with.
@@ -88,7 +82,7 @@ fn component<const D: usize>(name: &str, axis: Option<&str>, forces: &Forces<D>)
     let component = match axis {
         None if D == 2 && element.is_torque() => 2,
         None => return Err(missing("component", &format!("choose one of {}", axes.join(", ")))),
-        Some(axis) => axes.iter().position(|known| *known == axis).ok_or_else(|| wrong_component(axis, axes))?,
+        Some(axis) => named_component(axis, axes)?,
     };
     Ok((Target::Component { force, component }, if element.is_torque() { "N m" } else { "N" }))
 }

@@ -3,7 +3,7 @@
 use super::format::SceneFile;
 use super::measures::{MeasureKind, OutputSpec};
 use super::model::Connection;
-use super::outputs::{missing, wrong_component};
+use super::outputs::{missing, named_component};
 use crate::body::{Build, MarkerId, NamedOutput, NamedOutputs, Probe, Quantity, TurnAxes, Turned, in_space};
 use crate::error::{Error, Result, suggest};
 use crate::joint::{ClosedForm, JointCoordinate};
@@ -140,8 +140,7 @@ impl<const D: usize> Reader<'_, D> {
     }
 
     fn component(&self, default: &str, known: &[&str]) -> Result<usize> {
-        let name = self.spec.component.as_deref().unwrap_or(default);
-        known.iter().position(|axis| *axis == name).ok_or_else(|| wrong_component(name, known))
+        named_component(self.spec.component.as_deref().unwrap_or(default), known)
     }
 
     fn position(&self, order: usize) -> Result<Probe> {
@@ -197,8 +196,7 @@ impl<const D: usize> Reader<'_, D> {
             _ if has(JointCoordinate::FirstPin) => {
                 let about = self.spec.component.as_deref();
                 let about = about.ok_or_else(|| missing("component", "x or y: the pin on the first or second body"))?;
-                let pin = ["x", "y"].iter().position(|axis| *axis == about);
-                let term = universal([a, b], pin.ok_or_else(|| wrong_component(about, &["x", "y"]))?);
+                let term = universal([a, b], named_component(about, &["x", "y"])?);
                 Ok(self.turn(term, None, order))
             }
             _ if has(JointCoordinate::Angle) => {

@@ -25,14 +25,14 @@ pub fn markers<const D: usize>(
 fn marker<const D: usize>(value: &Value, build: &Build<D>) -> Result<Marker<D>> {
     if value.is_array() {
         let position: Vec<Number> = parse(value)?;
-        return Ok(Marker::point(vector(&position, build)?));
+        return Ok(Marker::point(build.vector("", &position)?));
     }
     if !value.is_object() {
         return Err(Error::input(format!("expected a position, found {}", show(value)))
             .hint("write [x, y], [x, y, z] or {\"position\": [...], ...}"));
     }
     let given: OrientedMarker = parse(value)?;
-    let mut marker = Marker::point(vector(&given.position, build).map_err(|error| error.under("position"))?);
+    let mut marker = Marker::point(build.vector("position", &given.position)?);
     let OrientedMarker { rotation, z_axis, x_axis, .. } = &given;
     let orientation = Orientation { rotation, z_axis, x_axis };
     if D == 2 && orientation.given().is_some() {
@@ -51,16 +51,6 @@ fn marker<const D: usize>(value: &Value, build: &Build<D>) -> Result<Marker<D>> 
         marker.axes = from_fn(|i| from_fn(|j| axes[i][j]));
     }
     Ok(marker)
-}
-
-fn vector<const D: usize>(numbers: &[Number], build: &Build<D>) -> Result<[f64; D]> {
-    build.vector::<D>("", numbers).map_err(|error| match error {
-        Error::Input(mut input) => {
-            input.path = input.path.trim_start_matches('.').to_string();
-            Error::Input(input)
-        }
-        other => other,
-    })
 }
 
 fn turn<const D: usize>(marker: &mut Marker<D>, angle: f64) {

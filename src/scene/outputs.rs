@@ -158,6 +158,11 @@ pub(super) fn wrong_component(found: &str, known: &[&str]) -> Error {
         .hint(format!("choose one of {}", known.join(", ")))
 }
 
+/// Index of a component among the `known` ones.
+pub(super) fn named_component(name: &str, known: &[&str]) -> Result<usize> {
+    known.iter().position(|known| *known == name).ok_or_else(|| wrong_component(name, known))
+}
+
 pub(super) fn find<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Result<usize> {
     crate::error::find(what, name, known).map_err(|error| error.under("of"))
 }

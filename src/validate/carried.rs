@@ -1,6 +1,7 @@
 //! The chart of a linear model along the motion that it is compared with.
 
 use crate::error::{Error, Result};
+use crate::linearize::flow::{Bundle, Snapshot, flow};
 use crate::linearize::{Chart, Coordinates, Matrix, State, Variation, parallel};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
@@ -30,12 +31,28 @@ impl<'a> Carried<'a> {
         Ok(Carried { system: variation.system(), start, from: from.clone(), rate })
     }
 
+    /// Returns the motions of a bundle at these times (increasing, after the start), with the chart at each.
+    ///
+    /// # Errors
+    /// A basis that rotates too fast, a motion that cannot go on, a state at which the chart does not exist.
+    pub fn flow(&self, bundle: &Bundle, times: &[f64]) -> Result<(Vec<Snapshot>, Vec<Coordinates>)> {
+        let all = self.times(times)?;
+        let (mut snapshots, mut states) = (Vec::new(), Vec::new());
+        flow(self.system, bundle, &all.iter().map(|(t, _)| *t).collect::<Vec<f64>>(), |snapshot| {
+            let is_asked = all[states.len()].1;
+            snapshots.extend(is_asked.then(|| snapshot.clone()));
+            states.push((snapshot.motion.clone(), is_asked));
+            true
+        })?;
+        Ok((snapshots, self.along(&states)?))
+    }
+
     /// Returns the times (increasing, after the start) with the intermediate ones that the transport of the chart
     /// needs; true marks the requested times.
     ///
     /// # Errors
     /// A basis that rotates too fast.
-    pub fn times(&self, times: &[f64]) -> Result<Vec<(f64, bool)>> {
+    fn times(&self, times: &[f64]) -> Result<Vec<(f64, bool)>> {
         let Some(rate) = self.rate else { return Ok(times.iter().map(|t| (*t, true)).collect()) };
         let before = [self.from.t].into_iter().chain(times.iter().copied());
         let pairs = |from: f64, to: f64| {
@@ -59,13 +76,13 @@ impl<'a> Carried<'a> {
     ///
     /// # Errors
     /// A state at which the chart does not exist.
-    pub fn along(&self, states: &[(&State, bool)]) -> Result<Vec<Coordinates>> {
+    fn along(&self, states: &[(State, bool)]) -> Result<Vec<Coordinates>> {
         if self.rate.is_none() {
             return Ok(states.iter().map(|_| self.start.clone()).collect());
         }
         let (mut charts, mut last) = (Vec::new(), Basis::at(self.system, &self.from, &self.start.r)?);
         for pair in states.chunks_exact(2) {
-            last = last.step(self.system, [pair[0].0, pair[1].0])?;
+            last = last.step(self.system, [&pair[0].0, &pair[1].0])?;
             if pair[1].1 {
                 charts.push(last.chart.clone());
             }

@@ -4,10 +4,9 @@ use super::carried::Carried;
 use super::perturb::Speed;
 use super::{Decay, decay};
 use crate::error::{Error, Result};
-use crate::linearize::flow::{Bundle, flow};
+use crate::linearize::flow::Bundle;
 use crate::linearize::{Matrix, State};
 use crate::math::eigen::expm;
-use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
@@ -27,29 +26,15 @@ pub struct Frozen {
 ///
 /// # Errors
 /// A motion that cannot go on.
-pub fn frozen(
-    system: &dyn MechanicalSystem,
-    start: &State,
-    carried: &Carried,
-    (a, speed): (&Matrix, &Speed),
-    longest: f64,
-) -> Result<Frozen> {
+pub fn frozen(start: &State, carried: &Carried, (a, speed): (&Matrix, &Speed), longest: f64) -> Result<Frozen> {
     let rate = speed.usual;
     let steps: Vec<f64> = (0..14).rev().map(|i| longest / f64::from(1 << i)).collect();
     let times: Vec<f64> = steps.iter().map(|h| start.t + h).collect();
     let mut errors = Vec::new();
-    let times = carried.times(&times)?;
-    let columns = carried.start.changes();
-    let mut found = Vec::new();
-    let all: Vec<f64> = times.iter().map(|(t, _)| *t).collect();
-    flow(system, &Bundle { columns, ..Bundle::of(start) }, &all, |snapshot| {
-        found.push((snapshot.motion.clone(), snapshot.columns.clone()));
-        true
-    })?;
-    let states: Vec<_> = found.iter().zip(&times).map(|((state, _), (_, asked))| (state, *asked)).collect();
-    let asked = found.iter().zip(&times).filter(|(_, (_, asked))| *asked).map(|((_, changes), _)| changes);
-    for ((changes, chart), h) in asked.zip(carried.along(&states)?).zip(&steps) {
-        let exact = alike(chart.states_of(changes), chart.freedom(), rate);
+    let bundle = Bundle { columns: carried.start.changes(), ..Bundle::of(start) };
+    let (snapshots, charts) = carried.flow(&bundle, &times)?;
+    for ((snapshot, chart), h) in snapshots.iter().zip(charts).zip(&steps) {
+        let exact = alike(chart.states_of(&snapshot.columns), chart.freedom(), rate);
         let predicted =
             alike(expm(&(a * *h)).map_err(|unsolved| Error::input(unsolved.to_string()))?, chart.freedom(), rate);
         errors.push((&exact - predicted).norm() / exact.norm());

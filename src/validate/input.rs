@@ -4,7 +4,7 @@ use super::carried::Carried;
 use super::perturb::{EPSILONS, Norm, difference, floor};
 use super::{Decay, decay};
 use crate::error::Result;
-use crate::linearize::flow::{Bundle, Pulse, flow};
+use crate::linearize::flow::{Bundle, Pulse};
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, beside};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
@@ -57,18 +57,8 @@ pub(super) fn check(
         start: start.clone(),
     };
     let half = start.t + 0.5 * width;
-    let all = carried.times(&[half, start.t + width])?;
-    let (mut asked, mut states) = (Vec::new(), Vec::new());
-    flow(system, &bundle, &all.iter().map(|(t, _)| *t).collect::<Vec<f64>>(), |snapshot| {
-        if all[states.len()].1 {
-            asked.push(snapshot.clone());
-        }
-        states.push(snapshot.motion.clone());
-        true
-    })?;
-    let states: Vec<_> = states.iter().zip(&all).map(|(state, (_, asked))| (state, *asked)).collect();
-    let charts = carried.along(&states)?;
-    let ([middle, end], [chart, last]) = (&asked[..], &charts[..]) else { return Ok(None) };
+    let (snapshots, charts) = carried.flow(&bundle, &[half, start.t + width])?;
+    let ([middle, end], [chart, last]) = (&snapshots[..], &charts[..]) else { return Ok(None) };
     let errors = end.members.iter().zip(&EPSILONS).map(|(member, eps)| {
         let [dq, dv] = difference(system, &end.motion, member);
         norm.off((&dq, &dv), (end.columns.q.as_slice(), end.columns.v.as_slice()), *eps)

@@ -1,5 +1,6 @@
 //! Observed orders of convergence.
 
+use crate::math::bounds;
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
@@ -25,7 +26,7 @@ pub fn decay(sizes: &[f64], errors: &[f64], largest: impl Fn(f64) -> f64, floor:
     });
     let logs: Vec<(f64, f64)> = points.map(|(size, error)| (size.log10(), error.log10())).collect();
     let is_exact = is_exact(sizes, errors, tolerances::ABOVE_ROUNDING * floor);
-    let (low, high) = logs.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), (x, _)| (a.min(*x), b.max(*x)));
+    let (low, high) = bounds(logs.iter().map(|(x, _)| *x));
     let enough = logs.len() >= tolerances::SLOPE_POINTS;
     Decay {
         order: enough.then(|| slope(&logs)),

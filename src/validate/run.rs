@@ -75,7 +75,7 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
         }
     }
     let longest = followed.min(1.0 / speed.fastest.max(f64::MIN_POSITIVE));
-    let frozen = frozen(system, start, &carried, (&model.built.a, &speed), longest)?;
+    let frozen = frozen(start, &carried, (&model.built.a, &speed), longest)?;
     let (mut inputs, mut unchecked) = (Vec::new(), Vec::new());
     for (index, Column { name, .. }) in system.inputs().into_iter().enumerate().filter(|_| settings.inputs) {
         let pulse = (index, name.clone());

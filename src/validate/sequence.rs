@@ -4,7 +4,7 @@ use super::carried::Carried;
 use super::perturb::{EPSILONS, Norm, difference, floor, moved};
 use super::{Decay, decay, horizon};
 use crate::error::{Error, Result};
-use crate::linearize::flow::{Bundle, Snapshot, flow};
+use crate::linearize::flow::{Bundle, Snapshot};
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State};
 use crate::math::eigen::expm;
 use crate::system::MechanicalSystem;
@@ -118,16 +118,7 @@ fn follow<'a>(
     let columns = coordinates.changes_of(x0);
     let bundle = Bundle { columns, members, ..Bundle::of(start) };
     let times: Vec<f64> = (1..=ROWS).map(|i| duration * i as f64 / ROWS as f64).collect();
-    let mut snapshots: Vec<Snapshot> = Vec::new();
-    let all = carried.times(&times.iter().map(|t| start.t + t).collect::<Vec<f64>>())?;
-    let (mut states, mut asked) = (Vec::new(), all.iter().map(|(_, asked)| *asked));
-    flow(system, &bundle, &all.iter().map(|(t, _)| *t).collect::<Vec<f64>>(), |snapshot| {
-        let is_asked = asked.next().unwrap_or(true);
-        states.push((snapshot.motion.clone(), is_asked));
-        snapshots.extend(is_asked.then(|| snapshot.clone()));
-        true
-    })?;
-    let charts = carried.along(&states.iter().map(|(state, asked)| (state, *asked)).collect::<Vec<_>>())?;
+    let (snapshots, charts) = carried.flow(&bundle, &times.iter().map(|t| start.t + t).collect::<Vec<f64>>())?;
     let step =
         expm(&(&model.built.a * (duration / ROWS as f64))).map_err(|unsolved| Error::input(unsolved.to_string()))?;
     let mut predicted = vec![&step * x0];

@@ -187,9 +187,8 @@ fn figures_show_them() {
         SceneBuilder::new("bead", 2).body("bead", "point_mass", json!({ "initial": { "position": START }, "mass": 1 }));
     let bare = PreparedScene::new(bare.build(&Elements::default()).unwrap(), &Default::default()).unwrap();
     let areas = |prepared: &PreparedScene| {
-        let (q, v) = prepared.start();
-        let state = mechanism::State { t: 0.0, q: q.to_vec(), v: v.to_vec() };
-        mechanism::mechanism_figure(prepared, &mechanism::Look::plain(&prepared.mechanism), &state).to_svg().len()
+        let look = mechanism::Look::plain(&prepared.mechanism);
+        mechanism::mechanism_figure(prepared, &look, &State::start(prepared)).to_svg().len()
     };
     assert!(areas(&prepared) > areas(&bare) + 100, "{} {}", areas(&prepared), areas(&bare));
 }

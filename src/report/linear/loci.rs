@@ -3,6 +3,7 @@
 use super::against::{LociAgainst, Value};
 use crate::error::{Error, Failure, Result, significant};
 use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, damping, frequency};
+use crate::math::bounds;
 use crate::plot::AxisSpec;
 use crate::report::{Table, cell, table};
 use crate::tolerances::linearize as tolerances;
@@ -197,8 +198,8 @@ fn failure(at: f64, error: &Error) -> FailureFile {
 
 fn mode_summary(mode: String, branch: &Branch, least: f64) -> ModeSummary {
     let extent = |of: fn(Complex<f64>) -> f64| {
-        let values = finite(branch).map(|(_, value)| of(value));
-        Extent { min: values.clone().fold(f64::INFINITY, f64::min), max: values.fold(f64::NEG_INFINITY, f64::max) }
+        let (min, max) = bounds(finite(branch).map(|(_, value)| of(value)));
+        Extent { min, max }
     };
     let mut growing: Vec<Stretch> = Vec::new();
     let mut goes_on = false;

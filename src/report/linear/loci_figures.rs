@@ -2,6 +2,7 @@
 
 use crate::error::short;
 use crate::linearize::{Branch, Complex, Kind, are_conjugate};
+use crate::math::{bounds, largest};
 use crate::plot::{AxisSpec, ColorSeries, Figure, Panel, Series, Style, Tint};
 use crate::tolerances::linearize as tolerances;
 use std::collections::BTreeMap;
@@ -105,14 +106,10 @@ fn are_mirrored(branches: &[Branch]) -> bool {
 fn window<'a>(branches: impl Iterator<Item = &'a Branch>, is_upper: bool) -> Option<Window> {
     let mut values: Vec<Complex<f64>> = points(branches).map(|(_, value)| value).collect();
     // Outliers are large in modulus: a rare real part may still be small compared to the others' imaginary parts.
-    let (_, largest) = robust(values.iter().map(|value| value.norm()))?;
-    values.retain(|value| value.norm() <= largest);
-    let extent = |part: fn(&Complex<f64>) -> f64| {
-        let parts = values.iter().map(part);
-        (parts.clone().fold(f64::INFINITY, f64::min), parts.fold(f64::NEG_INFINITY, f64::max))
-    };
-    let (re, im) = (extent(|value| value.re), extent(|value| value.im));
-    let size = [re.0, re.1, im.0, im.1].into_iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let (_, most) = robust(values.iter().map(|value| value.norm()))?;
+    values.retain(|value| value.norm() <= most);
+    let (re, im) = (bounds(values.iter().map(|value| value.re)), bounds(values.iter().map(|value| value.im)));
+    let size = largest(&[re.0, re.1, im.0, im.1]);
     let least = if size > 0.0 { LEAST * size } else { 1.0 };
     let re = with_zero(re, 2.0 * least);
     let im = if is_upper { (0.0, im.1.max(0.0)) } else { with_zero(im, 2.0 * least) };
@@ -221,12 +218,8 @@ fn values(lines: &[Series]) -> Vec<f64> {
 
 /// True if values are all above zero and of different sizes.
 fn are_wide(values: &[f64]) -> bool {
-    let (low, high) = bounds(values);
+    let (low, high) = bounds(values.iter().copied());
     low > 0.0 && high > WIDE * low
-}
-
-fn bounds(values: &[f64]) -> (f64, f64) {
-    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)))
 }
 
 /// Returns the axis and a note on values outside it.
@@ -247,7 +240,7 @@ fn frequency_axis(values: Vec<f64>) -> Option<(AxisSpec, String)> {
 
 fn damping_axis(values: Vec<f64>) -> AxisSpec {
     let axis = AxisSpec::from("damping ratio");
-    let (low, high) = bounds(&values);
+    let (low, high) = bounds(values.iter().copied());
     match high - low {
         span if span < tolerances::EIGENVALUES_AGREE => {
             let (low, high) = padded((low, high), 0.0, LEAST_DAMPING);

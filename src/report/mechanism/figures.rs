@@ -2,13 +2,14 @@
 
 use super::canvas::Canvas;
 use super::glyphs::Course;
-use super::motion::{Motion, State};
+use super::motion::Motion;
 use super::snapshot::{Link, Snapshot, snapshot, up};
 use super::traces::{Trace, curves};
 use super::view::{View, direction, dot, length, less, unit};
 use super::{bodies, glyphs, ground};
 use crate::error::significant;
 use crate::joint::Axis;
+use crate::linearize::State;
 use crate::plot::{Align, Animation, Figure, Item, Panel, Place, Series, Spot, Tint};
 use crate::prepared::{AnyMechanism, PreparedScene};
 

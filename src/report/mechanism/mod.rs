@@ -22,7 +22,7 @@ mod view;
 
 pub use figures::{Look, animation, mechanism_figure, stroboscope_figure};
 pub use modes::mode_figure;
-pub use motion::{Motion, State};
+pub use motion::Motion;
 pub use snapshot::up;
 pub use traces::{Trace, find_trace, output_traces};
 pub use view::View;

@@ -2,12 +2,12 @@
 
 use super::figures::{Look, labelled, lengths, panel, picture, supports};
 use super::glyphs::Course;
-use super::motion::State;
 use super::snapshot::{Snapshot, snapshot};
 use super::view::{along, length, less};
 use crate::error::{short, significant};
 use crate::formulation::turn;
-use crate::linearize::{Complex, Kind, LinearModel, Mode, Pair, pairs};
+use crate::linearize::{Complex, Kind, LinearModel, Mode, Pair, State, pairs};
+use crate::math::bounds;
 use crate::plot::{Figure, Item, Tint};
 use crate::prepared::PreparedScene;
 use std::f64::consts::TAU;
@@ -169,9 +169,7 @@ fn travel(from: &Snapshot, to: &Snapshot) -> f64 {
 /// Returns the longest side of a box around all points; 1 m where they coincide.
 fn size(scene: &Snapshot) -> f64 {
     let side = |i: usize| {
-        let (low, high) = places(scene)
-            .map(|place| place[i])
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let (low, high) = bounds(places(scene).map(|place| place[i]));
         high - low
     };
     let longest = (0..3).map(side).fold(0.0, f64::max);

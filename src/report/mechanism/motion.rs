@@ -1,21 +1,11 @@
 //! Interpolation between the rows of a trajectory.
 
 use crate::error::{Warning, clock};
+use crate::linearize::State;
 use crate::prepared::PreparedScene;
 use crate::system::MechanicalSystem;
 use crate::tolerances::report as tolerances;
 use crate::trajectory::Trajectory;
-
-/// Coordinates and velocities at a time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct State {
-    /// Time, s.
-    pub t: f64,
-    /// Coordinates, n_q.
-    pub q: Vec<f64>,
-    /// Velocities, n_v.
-    pub v: Vec<f64>,
-}
 
 /// A computed motion.
 pub struct Motion<'a> {
@@ -75,8 +65,7 @@ impl<'a> Motion<'a> {
         let rows = &self.trajectory.rows;
         let after = rows.partition_point(|row| row[0] < t);
         let (Some(b), a) = (rows.get(after).or(rows.last()), rows.get(after.wrapping_sub(1))) else {
-            let (q, v) = self.prepared.start();
-            return State { t, q: q.to_vec(), v: v.to_vec() };
+            return State { t, ..State::start(self.prepared) };
         };
         let (q, v, _) = self.trajectory.row_state(b);
         match a {

@@ -1,10 +1,10 @@
 //! Positions of bodies, joints and forces at one time, in space for planar and spatial scenes alike.
 
-use super::motion::State;
 use super::view::{along, cross, direction, dot, length, less, straight};
 use crate::body::{Bent, Frame, Marker, Wrench, in_space, twist_len};
 use crate::force::Wheel;
 use crate::joint::{Axis, Joint, JointOver, MOST_ROWS, markers_per_pass};
+use crate::linearize::State;
 use crate::math::{Regime, Taylor, Time};
 use crate::prepared::AnyMechanism;
 use crate::scene::{BeamLine, Connection, Model, Part};

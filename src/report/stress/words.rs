@@ -4,6 +4,7 @@ use crate::compare::stress::{
     Axis, Best, Bound, GainVerdict, Level, Reason, Side, Status, StepVerdict, Stressed, Verdict,
 };
 use crate::error::short;
+use crate::math::bounds;
 use crate::report::Table;
 use crate::tolerances::report::WRONG_MOTION;
 
@@ -24,9 +25,8 @@ fn two(value: f64) -> String {
     short(format!("{value:.1e}").parse().unwrap_or(value))
 }
 
-fn span(values: impl Iterator<Item = f64> + Clone) -> Option<String> {
-    let low = values.clone().fold(f64::INFINITY, f64::min);
-    let high = values.fold(f64::NEG_INFINITY, f64::max);
+fn span(values: impl Iterator<Item = f64>) -> Option<String> {
+    let (low, high) = bounds(values);
     match low.total_cmp(&high) {
         std::cmp::Ordering::Less => Some(format!("{} to {}", two(low), two(high))),
         std::cmp::Ordering::Equal => Some(two(low)),
