@@ -1,7 +1,7 @@
 //! `holonom bode SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, positive};
-use super::linear::{ModelOptions, StateOptions};
+use super::common::positive;
+use super::linear::{AtStates, ModelOptions};
 use crate::error::{Error, Result, Warning, clock, find, short};
 use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_response};
 use crate::prepared::PreparedScene;
@@ -16,9 +16,7 @@ use std::process::ExitCode;
   holonom bode models/quarter_car.json --equilibrium --from 0.1 --to 100 --points 200")]
 pub struct Args {
     #[command(flatten)]
-    scene: SceneOptions,
-    #[command(flatten)]
-    states: StateOptions,
+    at: AtStates,
     /// Lowest frequency, Hz (default: a tenth of that of the slowest mode)
     #[arg(long, value_name = "F", value_parser = positive, allow_negative_numbers = true)]
     from: Option<f64>,
@@ -36,12 +34,6 @@ pub struct Args {
     outputs: Vec<String>,
     #[command(flatten)]
     model: ModelOptions,
-    #[command(flatten)]
-    run: MethodOptions,
-    #[command(flatten)]
-    talk: Talk,
-    #[command(flatten)]
-    files: Output,
 }
 
 /// Default number of frequencies.
@@ -54,9 +46,9 @@ struct Chosen {
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let in_file = |error: Error| error.in_file(&args.scene.path);
+    let in_file = args.at.in_file();
     let request = args.model.request()?;
-    let prepared = args.run.load_tight(&args.scene, &args.talk)?;
+    let prepared = args.at.load()?;
     let (inputs, outputs) = (prepared.system().inputs(), prepared.system().columns());
     let chosen = Chosen {
         inputs: choose("input", &args.inputs, &inputs).map_err(in_file)?,
@@ -64,19 +56,16 @@ pub fn run(args: Args) -> Result<ExitCode> {
             .map_err(|error| accumulated(&args.outputs, &prepared.system().works()).unwrap_or(error))
             .map_err(in_file)?,
     };
-    let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
-    let mut folder = args.files.folder(&prepared.name)?;
-    let mut files = Vec::new();
-    for state in &places {
+    args.at.conclude(&prepared, |state, folder| {
         let model = linearize::linearize(&mut state.variation().map_err(in_file)?, &request).map_err(in_file)?;
-        args.talk.warn(&moving(&model));
+        args.at.talk.warn(&moving(&model));
         let frequencies = frequencies(&args, &model)?;
         let response = respond(&prepared, &model, &chosen, frequencies);
         let text = response.text();
-        files.push(write(&args, &prepared, response, &mut folder)?);
-        args.talk.say(&text)?;
-    }
-    args.talk.conclude_all(folder, &files)?;
+        let file = write(&args, &prepared, response, folder)?;
+        args.at.talk.say(&text)?;
+        Ok(file)
+    })?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -165,6 +154,6 @@ fn write(
     let stem = format!("bode-{}", cell(response.t));
     folder.write(&format!("{stem}.csv"), &response.table()?)?;
     let title = format!("{} at t = {} s", response.scene, short(response.t));
-    args.files.figure(folder, &stem, bode_figure(&title, &response.frequencies, &response.responses))?;
-    folder.seal(&format!("{stem}.json"), args.talk.repeatable(prepared, response.file()))
+    args.at.output.figure(folder, &stem, bode_figure(&title, &response.frequencies, &response.responses))?;
+    folder.seal(&format!("{stem}.json"), args.at.talk.repeatable(prepared, response.file()))
 }

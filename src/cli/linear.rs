@@ -1,11 +1,13 @@
 //! Options and functions of the commands that make linear models.
 
-use super::common::{MethodOptions, SceneOptions, Talk, number};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, number};
 use crate::analysis::Range;
 use crate::error::{Error, Result};
 use crate::linearize::{Chart, Operating, Request, State, at_rest, kinks, registry, states, tighten};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
+use crate::report::Folder;
+use serde::Serialize;
 
 /// Which linear model.
 #[derive(clap::Args)]
@@ -38,6 +40,43 @@ pub struct StateOptions {
     /// Find the static equilibrium that belongs to the state first
     #[arg(long)]
     equilibrium: bool,
+}
+
+/// What the commands share that have a result for each of some states.
+#[derive(clap::Args)]
+pub struct AtStates {
+    #[command(flatten)]
+    pub scene: SceneOptions,
+    #[command(flatten)]
+    pub states: StateOptions,
+    #[command(flatten)]
+    pub run: MethodOptions,
+    #[command(flatten)]
+    pub talk: Talk,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+impl AtStates {
+    pub fn load(&self) -> Result<PreparedScene> {
+        self.run.load_tight(&self.scene, &self.talk)
+    }
+
+    pub fn in_file(&self) -> impl Fn(Error) -> Error + Copy {
+        |error| error.in_file(&self.scene.path)
+    }
+
+    /// Writes and prints the result at each state.
+    pub fn conclude<R: Serialize>(
+        &self,
+        prepared: &PreparedScene,
+        mut result: impl FnMut(&Operating, &mut Folder) -> Result<R>,
+    ) -> Result<()> {
+        let places = self.states.states(prepared, &self.talk).map_err(self.in_file())?;
+        let mut folder = self.output.folder(&prepared.name)?;
+        let results = places.iter().map(|place| result(place, &mut folder)).collect::<Result<Vec<R>>>()?;
+        self.talk.conclude_all(folder, &results)
+    }
 }
 
 impl ChartOptions {

@@ -1,7 +1,7 @@
 //! `holonom linearize SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, number};
-use super::linear::{ChartOptions, StateOptions};
+use super::common::{SceneOptions, number};
+use super::linear::{AtStates, ChartOptions};
 use crate::error::{Error, Result, Warning};
 use crate::linearize::{
     self, Chart, Comparison, Complex, Kind, LinearModel, Operating, Request, Variation, against, compare,
@@ -21,9 +21,7 @@ use std::process::ExitCode;
   holonom linearize models/quarter_car.json --equilibrium --method all")]
 pub struct Args {
     #[command(flatten)]
-    scene: SceneOptions,
-    #[command(flatten)]
-    states: StateOptions,
+    at: AtStates,
     /// mcs, rcs, baumgarte, penalty, augmented_lagrangian or force_projection, with options as in baumgarte:alpha=5; or
     /// all, to compare them
     #[arg(long, default_value = "mcs")]
@@ -40,35 +38,25 @@ pub struct Args {
     /// Another scene of the mechanism, such as simplified.json: which modes it has lost, and how far others shift
     #[arg(long, value_name = "SCENE")]
     against: Option<PathBuf>,
-    #[command(flatten)]
-    run: MethodOptions,
-    #[command(flatten)]
-    talk: Talk,
-    #[command(flatten)]
-    output: Output,
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let in_file = |error: Error| error.in_file(&args.scene.path);
-    let prepared = args.run.load_tight(&args.scene, &args.talk)?;
+    let (prepared, in_file) = (args.at.load()?, args.at.in_file());
     let requests = requests(&args).map_err(|error| error.under("--method"))?;
-    let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
     let other = args.against.as_ref().map(|path| other(&args, path)).transpose()?;
     let strangers = other.as_ref().map(|scene| unlike(&prepared, scene)).transpose()?.flatten();
-    args.talk.warn(&strangers);
-    let mut folder = args.output.folder(&prepared.name)?;
-    let (mut results, mut told) = (Vec::new(), Vec::new());
-    for state in &places {
+    args.at.talk.warn(&strangers);
+    let mut told = Vec::new();
+    args.at.conclude(&prepared, |state, folder| {
         let mut variation = state.variation().map_err(in_file)?;
         let models = models(&args, &requests, &mut variation).map_err(in_file)?;
         let uncertain = models.iter().filter(|model| model.has_uncertain_kinds()).map(|model| model.method.clone());
         let new: Vec<String> = uncertain.filter(|method| !told.contains(method)).collect();
-        args.talk.warn(&report::uncertain_kinds(new.iter().map(String::as_str)));
+        args.at.talk.warn(&report::uncertain_kinds(new.iter().map(String::as_str)));
         told.extend(new);
         let compared = other.as_ref().map(|scene| compared(&args, &prepared, scene, (state, &models[0]), &requests));
-        results.push(report(&args, &prepared, (&models, compared.transpose()?), &mut folder)?);
-    }
-    args.talk.conclude_all(folder, &results)?;
+        report(&args, &prepared, (&models, compared.transpose()?), folder)
+    })?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -85,7 +73,7 @@ fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Resul
                 match linearize::linearize(variation, request) {
                     Ok(model) => models.push(model),
                     Err(error) if models.is_empty() => return Err(error),
-                    Err(error) => args.talk.warn(&without_model(request, error)),
+                    Err(error) => args.at.talk.warn(&without_model(request, error)),
                 }
             }
             Ok(models)
@@ -148,7 +136,7 @@ struct Compared {
 
 fn other(args: &Args, path: &Path) -> Result<PreparedScene> {
     let scene = SceneOptions { path: path.to_path_buf(), set: Vec::new() };
-    args.run.load_tight(&scene, &args.talk)
+    args.at.run.load_tight(&scene, &args.at.talk)
 }
 
 /// A warning where a scene to compare with has no body, or no output, of the first.
@@ -190,7 +178,7 @@ fn compared(
     (own, model): (&Operating, &LinearModel),
     requests: &[Request],
 ) -> Result<AgainstFile> {
-    let places = args.states.at(scene, &args.talk, own.state.t)?;
+    let places = args.at.states.at(scene, &args.at.talk, own.state.t)?;
     let other = models(args, &requests[..1], &mut places.variation()?)?;
     let time = prepared.span().map_or(1.0, |span| span.end - span.start);
     Ok(AgainstFile::new(own.state.t, &scene.name, &against(model, &other[0], time)))
@@ -208,12 +196,12 @@ fn report(
     let stem = linear_stem(first.point.t, None);
     linear.write(folder, &stem)?;
     let figure = mode_figure(prepared, &Look::plain(&prepared.mechanism), first);
-    args.output.figure(folder, &stem.replace("linear", "modes"), figure)?;
-    let one = folder.seal(&format!("{stem}.json"), args.talk.repeatable(prepared, linear.file()))?;
-    args.talk.say(&linear.text())?;
+    args.at.output.figure(folder, &stem.replace("linear", "modes"), figure)?;
+    let one = folder.seal(&format!("{stem}.json"), args.at.talk.repeatable(prepared, linear.file()))?;
+    args.at.talk.say(&linear.text())?;
     if let Some(against) = against {
-        args.talk.say(&format!("\n{}", against.text()))?;
-        let all = args.talk.repeatable(prepared, against);
+        args.at.talk.say(&format!("\n{}", against.text()))?;
+        let all = args.at.talk.repeatable(prepared, against);
         let against = folder.seal(&format!("{}.json", stem.replace("linear", "against")), all)?;
         return Ok(Printed::Against(Box::new(Compared { linear: one, against })));
     }
@@ -222,7 +210,7 @@ fn report(
     }
     let exact = first.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.value);
     let rows = compare(models, &exact.collect::<Vec<_>>());
-    args.talk.say(&format!("\n{}", comparison_text(&rows, first.point.is_equilibrium)))?;
-    let all = args.talk.repeatable(prepared, Methods { t: first.point.t, methods: rows });
+    args.at.talk.say(&format!("\n{}", comparison_text(&rows, first.point.is_equilibrium)))?;
+    let all = args.at.talk.repeatable(prepared, Methods { t: first.point.t, methods: rows });
     folder.seal(&format!("{}.json", stem.replace("linear", "methods")), all).map(|all| Printed::All(Box::new(all)))
 }

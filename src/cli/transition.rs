@@ -1,9 +1,8 @@
 //! `holonom transition SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, positive};
-use super::linear::StateOptions;
-use crate::error::significant;
-use crate::error::{Error, Result};
+use super::common::positive;
+use super::linear::AtStates;
+use crate::error::{Result, significant};
 use crate::linearize::{Defect, Floquet, Lyapunov, Operating, State, floquet, lyapunov};
 use crate::plot::{Figure, Panel, Series};
 use crate::prepared::PreparedScene;
@@ -19,56 +18,43 @@ use std::process::ExitCode;
   holonom transition models/pendulum.json --lyapunov 1 --json")]
 pub struct Args {
     #[command(flatten)]
-    scene: SceneOptions,
-    #[command(flatten)]
-    states: StateOptions,
+    at: AtStates,
     /// Period of the motion from the state, s: its Floquet multipliers and stability
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true, group = "what")]
     period: Option<f64>,
     /// Average growth of small changes over a time, s: the Lyapunov exponents
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true, group = "what")]
     lyapunov: Option<f64>,
-    #[command(flatten)]
-    run: MethodOptions,
-    #[command(flatten)]
-    talk: Talk,
-    #[command(flatten)]
-    output: Output,
 }
 
 /// Number of times that columns are made orthonormal.
 const RENEWALS: f64 = 500.0;
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let in_file = |error: Error| error.in_file(&args.scene.path);
-    let prepared = args.run.load_tight(&args.scene, &args.talk)?;
-    let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
-    let mut folder = args.output.folder(&prepared.name)?;
-    let mut results = Vec::new();
-    for place in &places {
+    let (prepared, in_file) = (args.at.load()?, args.at.in_file());
+    args.at.conclude(&prepared, |place, folder| {
         let state = &place.state;
         let mut result = json!({ "scene": prepared.name, "t": state.t });
         if let Some(period) = args.period {
             let found = floquet(place.system(), state, period).map_err(in_file)?;
             let defects = found.defects(tolerances::MULTIPLIER_OUTSIDE)?;
-            args.talk.say(&floquet_text(&prepared, state, &found, &defects))?;
+            args.at.talk.say(&floquet_text(&prepared, state, &found, &defects))?;
             result["floquet"] = floquet_json(&found, &defects);
         }
         if let Some(duration) = args.lyapunov {
             let found = exponents(&args, &prepared.name, place, duration).map_err(in_file)?;
-            args.talk.say(&lyapunov_text(&prepared, state, &found))?;
-            args.output.figure(&mut folder, &format!("lyapunov-{}", cell(state.t)), figure(&prepared, &found))?;
+            args.at.talk.say(&lyapunov_text(&prepared, state, &found))?;
+            args.at.output.figure(folder, &format!("lyapunov-{}", cell(state.t)), figure(&prepared, &found))?;
             result["lyapunov"] = json!({ "times": found.times, "exponents": found.exponents });
         }
-        let result = args.talk.repeatable(&prepared, result);
-        results.push(folder.seal(&format!("transition-{}.json", cell(state.t)), result)?);
-    }
-    args.talk.conclude_all(folder, &results)?;
+        let result = args.at.talk.repeatable(&prepared, result);
+        folder.seal(&format!("transition-{}.json", cell(state.t)), result)
+    })?;
     Ok(ExitCode::SUCCESS)
 }
 
 fn exponents(args: &Args, name: &str, place: &Operating, duration: f64) -> Result<Lyapunov> {
-    let bar = args.talk.progress(1000, name);
+    let bar = args.at.talk.progress(1000, name);
     let progress = |t: f64| bar.set_position((1000.0 * t / duration) as u64);
     let found = lyapunov(place.system(), &place.state, (duration, duration / RENEWALS), progress);
     bar.finish_and_clear();

@@ -1,8 +1,8 @@
 //! `holonom validate SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, positive, tell};
-use super::linear::{ChartOptions, StateOptions};
-use crate::error::{Error, Result};
+use super::common::{positive, tell};
+use super::linear::{AtStates, ChartOptions};
+use crate::error::Result;
 use crate::report::cell;
 use crate::report::linear::{ValidationFile, validation_figure};
 use crate::validate::{Direction, Settings, validate};
@@ -14,9 +14,7 @@ use std::process::ExitCode;
   holonom validate models/pendulum.json --along random:7 --horizon 0.1")]
 pub struct Args {
     #[command(flatten)]
-    scene: SceneOptions,
-    #[command(flatten)]
-    states: StateOptions,
+    at: AtStates,
     /// Directions of the perturbation: random[:SEED] or names of states of the chart (default: random:1)
     #[arg(long, value_name = "DIRECTION[,DIRECTION...]", value_delimiter = ',')]
     along: Vec<String>,
@@ -28,28 +26,19 @@ pub struct Args {
     no_inputs: bool,
     #[command(flatten)]
     chart: ChartOptions,
-    #[command(flatten)]
-    run: MethodOptions,
-    #[command(flatten)]
-    talk: Talk,
-    #[command(flatten)]
-    output: Output,
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let in_file = |error: Error| error.in_file(&args.scene.path);
-    let prepared = args.run.load_tight(&args.scene, &args.talk)?;
+    let prepared = args.at.load()?;
     let default = Settings::default();
     let directions = match args.along.as_slice() {
         [] => default.directions,
         names => names.iter().map(|name| Direction::parse(name)).collect(),
     };
     let settings = Settings { chart: args.chart.chart(), directions, horizon: args.horizon, inputs: !args.no_inputs };
-    let places = args.states.states(&prepared, &args.talk).map_err(in_file)?;
-    let mut folder = args.output.folder(&prepared.name)?;
-    let (names, mut files, mut complaints) = (prepared.system().names(), Vec::new(), Vec::new());
-    for place in &places {
-        let found = validate(place.system(), &place.state, &settings).map_err(in_file)?;
+    let (names, mut complaints) = (prepared.system().names(), Vec::new());
+    args.at.conclude(&prepared, |place, folder| {
+        let found = validate(place.system(), &place.state, &settings).map_err(args.at.in_file())?;
         let file = ValidationFile::new(&prepared.name, &names, &found);
         let stem = format!("validation-{}", cell(place.state.t));
         for (i, sequence) in found.sequences.iter().enumerate() {
@@ -60,15 +49,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
                 sequence.direction
             );
             let name = if i == 0 { stem.clone() } else { format!("{stem}-{}", i + 1) };
-            args.output.figure(&mut folder, &name, validation_figure(&title, &names, sequence))?;
+            args.at.output.figure(folder, &name, validation_figure(&title, &names, sequence))?;
         }
-        args.talk.say(&file.text(&found))?;
+        args.at.talk.say(&file.text(&found))?;
         if !file.is_right() {
             complaints.push(file.complaint());
         }
-        files.push(folder.seal(&format!("{stem}.json"), args.talk.repeatable(&prepared, file))?);
-    }
-    args.talk.conclude_all(folder, &files)?;
+        folder.seal(&format!("{stem}.json"), args.at.talk.repeatable(&prepared, file))
+    })?;
     for complaint in &complaints {
         tell(format!("error: {complaint}"));
     }

@@ -54,10 +54,6 @@ impl<S: Scalar, const D: usize> ForceOver<S, D> for Added<D>
 where
     dyn Force<D>: ForceOver<S, D>,
 {
-    fn act(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        self.driven(&[Taylor::fixed(S::zero()); 3], frames, time, out)
-    }
-
     fn driven(
         &self,
         input: &[Taylor<S>; 3],

@@ -137,7 +137,9 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
 /// A force over one scalar, as the model calls it.
 pub trait ForceOver<S: Scalar, const D: usize> {
     /// Wrenches with all inputs zero; `out` is zero on entry.
-    fn act(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S>;
+    fn act(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+        self.driven(&[Taylor::fixed(S::zero()); 3], frames, time, out)
+    }
     /// Wrenches with inputs, as [`ForceKernel::driven`] takes them.
     fn driven(
         &self,
@@ -149,10 +151,6 @@ pub trait ForceOver<S: Scalar, const D: usize> {
 }
 
 impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
-    fn act(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        ForceKernel::act(self, frames, time, out)
-    }
-
     fn driven(
         &self,
         input: &[Taylor<S>; 3],
