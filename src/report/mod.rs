@@ -36,5 +36,5 @@ pub use sweep::SweepSummary;
 pub use sweep_figure::{SweepLook, sweep_figure};
 pub(crate) use table::velocities;
 pub use table::{OutputValues, Table};
-pub use tables::{cell, sweep_table, table, trajectory_arrays, trajectory_table};
+pub use tables::{cell, sweep_table, table, trajectory_arrays};
 pub use warnings::uncertain_kinds;

@@ -8,12 +8,7 @@ use crate::trajectory::Trajectory;
 use std::borrow::Borrow;
 use std::fmt;
 
-/// Returns `t`, coordinates, velocities, multipliers, outputs: one row per output time, at full precision.
-pub fn trajectory_table(trajectory: &Trajectory) -> Result<Vec<u8>> {
-    write(trajectory.headings(), trajectory.rows.iter().map(Vec::as_slice))
-}
-
-/// Returns the same as arrays for Python and MATLAB: `rows`, a matrix, and the names of its `columns`; NaN where there
+/// Returns a trajectory as arrays for Python and MATLAB: `rows`, a matrix, and the names of its `columns`; NaN where there
 /// is no value.
 pub fn trajectory_arrays(trajectory: &Trajectory) -> [(&'static str, Array); 2] {
     let headings = trajectory.headings();
@@ -28,12 +23,11 @@ pub fn sweep_table(sweep: &Sweep) -> Result<Vec<u8>> {
     let outputs = sweep.outputs.iter().map(|output| output.name.as_str());
     let parameter = heading(&sweep.range.parameter, sweep.outputs.iter().map(|output| output.name.as_str()));
     let own = [parameter.as_str()].into_iter().chain(q.iter().chain(lambda).map(String::as_str));
-    let rows: Vec<Vec<f64>> = sweep
-        .points
-        .iter()
-        .map(|point| [&[point.value], &point.q[..], &point.lambda, &point.outputs].concat())
-        .collect();
-    write(own.chain(outputs).collect(), rows.iter().map(Vec::as_slice))
+    let mut all = header(own.chain(outputs).collect())?;
+    for point in &sweep.points {
+        line(&mut all, &[&[point.value], &point.q[..], &point.lambda, &point.outputs].concat());
+    }
+    Ok(all)
 }
 
 /// Returns the heading of a parameter: `parameters.NAME` where another column has its name.
@@ -56,16 +50,6 @@ fn push(text: &mut Vec<u8>, value: f64) {
         let digits = buffer.format_finite(value);
         text.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
     }
-}
-
-/// Writes numbers under headings.
-fn write<'a>(headings: Vec<&str>, rows: impl Iterator<Item = &'a [f64]>) -> Result<Vec<u8>> {
-    let mut all = header(headings)?;
-    for row in rows {
-        cells(&mut all, row);
-        all.push(b'\n');
-    }
-    Ok(all)
 }
 
 /// Returns the line of headings.

@@ -4,7 +4,7 @@ use holonom::analysis::{Record, Recorder};
 use holonom::error::{Error, Result};
 use holonom::linearize::{Request, State, linearize};
 use holonom::prepared::{Overrides, PreparedScene};
-use holonom::report::{check, summarize, trajectory_table};
+use holonom::report::{cell, check, summarize, table};
 use holonom::simulate::{Stop, simulate};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -101,7 +101,9 @@ fn run(prepared: &PreparedScene) -> Result<Ending, String> {
 fn rows_are_sound(record: &Record) -> Result<(), String> {
     let times: Vec<f64> = record.trajectory.times().collect();
     sound(times.windows(2).all(|pair| pair[0] < pair[1]), "rows without order")?;
-    let table = trajectory_table(&record.trajectory).map_err(|error| error.to_string())?;
+    let headings = record.trajectory.headings().into_iter().map(String::from);
+    let cells = record.trajectory.rows.iter().map(|row| row.iter().map(|value| cell(*value)).collect());
+    let table = table(headings, cells).map_err(|error| error.to_string())?;
     let text = String::from_utf8_lossy(&table);
     // An output may have no value.
     let is_number = |cell: &str| cell.is_empty() || cell.parse::<f64>().is_ok_and(f64::is_finite);
