@@ -48,7 +48,7 @@ pub trait Listed: Send + Sync + Sized + 'static {
 }
 
 /// An option of a method.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct OptionDoc {
     /// Key of the option.
     pub name: &'static str,

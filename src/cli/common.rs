@@ -299,7 +299,8 @@ impl Talk {
         }
     }
 
-    /// Returns a progress bar of `length` steps on a terminal; a hidden one in a pipe.
+    /// Returns a progress bar of `length` steps on a terminal; a hidden one in a pipe. It is cleared
+    /// when it is dropped.
     pub fn progress(&self, length: u64, what: &str) -> ProgressBar {
         if self.quiet {
             return ProgressBar::hidden();

@@ -131,9 +131,8 @@ impl StateOptions {
         let times = if self.at.is_empty() { vec![prepared.start_time()] } else { self.at.clone() };
         if !self.equilibrium {
             let bar = talk.progress(times.len() as u64, &prepared.name);
-            let found = states(prepared, &times, |_| bar.inc(1));
-            bar.finish_and_clear();
-            return Ok(found?.into_iter().map(|state| Operating::moving(prepared, state)).collect());
+            let found = states(prepared, &times, |_| bar.inc(1))?;
+            return Ok(found.into_iter().map(|state| Operating::moving(prepared, state)).collect());
         }
         times.into_iter().map(|t| at_rest(prepared, &State { t, ..State::start(prepared) })).collect()
     }

@@ -127,9 +127,7 @@ fn other(args: &Args, own: &PreparedScene, path: &Path, request: &Request) -> Re
 fn along(args: &Args, prepared: &PreparedScene, request: &Request) -> Result<Loci> {
     let times = times(args, prepared)?;
     let bar = args.talk.progress(times.len() as u64, &prepared.name);
-    let loci = loci_along(prepared, request, &times, || bar.inc(1));
-    bar.finish_and_clear();
-    Ok(loci)
+    Ok(loci_along(prepared, request, &times, || bar.inc(1)))
 }
 
 fn times(args: &Args, prepared: &PreparedScene) -> Result<Vec<f64>> {
@@ -167,9 +165,7 @@ fn over(args: &Args, scene: &SceneOptions, prepared: &PreparedScene, range: &Ran
     let family = Family::load(&scene.path, &overrides)?;
     let variants = Variants { family: &family, overrides: &overrides, range };
     let bar = args.talk.progress(range.count as u64, &range.parameter);
-    let loci = loci_over(&variants, at, request, || bar.inc(1)).map_err(|error| error.under("--sweep"))?;
-    bar.finish_and_clear();
-    Ok(loci)
+    loci_over(&variants, at, request, || bar.inc(1)).map_err(|error| error.under("--sweep"))
 }
 
 /// Handles the case that no state has eigenvalues: wrong input, or a failure everywhere.

@@ -3,8 +3,7 @@
 use super::common::{print, to_json};
 use crate::error::Result;
 use crate::integrator::{self, Entry};
-use crate::method_spec::MethodSpec;
-use crate::method_spec::OptionDoc;
+use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::report::Table;
 use crate::simulate::check_pair;
 use crate::{formulation, projection};
@@ -41,13 +40,7 @@ struct Item {
     name: &'static str,
     about: &'static str,
     r#for: &'static str,
-    options: Vec<Opt>,
-}
-
-#[derive(Serialize)]
-struct Opt {
-    name: &'static str,
-    about: &'static str,
+    options: &'static [OptionDoc],
 }
 
 /// An accepted triple with its proven orders.
@@ -97,10 +90,7 @@ fn methods(pairs: &[Pair]) -> Methods {
             Triple { formulation, integrator, projection, q: order, v: order, lambda: order }
         })
     });
-    let item = |name, about, options: &'static [OptionDoc]| {
-        let options = options.iter().map(|option| Opt { name: option.name, about: option.about }).collect();
-        Item { name, about, r#for: purpose(name), options }
-    };
+    let item = |name, about, options| Item { name, about, r#for: purpose(name), options };
     let formulations = formulation::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.1 == entry.name));
     let integrators = integrator::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.0.name == entry.name));
     Methods {

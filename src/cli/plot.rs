@@ -237,9 +237,7 @@ impl Args {
             .with_progress(|t| bar.set_position(fraction(t)))
             .with_stop(|| interrupt::stop(folder));
         let (outcome, _) = prepared.simulate(&prepared.method, Span { output_step, ..span }, &mut recorder)?;
-        let record = recorder.finish();
-        bar.finish_and_clear();
-        Ok((record.trajectory, outcome.failure))
+        Ok((recorder.finish().trajectory, outcome.failure))
     }
 
     fn draw(&self, motion: &Motion, look: &Look, folder: &mut Folder, drawn: &mut Drawn) -> Result<()> {
@@ -313,7 +311,6 @@ impl Args {
             Moving::Gif => {
                 let bar = self.common.talk.progress(film.frames as u64, "frames");
                 let bytes = animation.to_gif(|done| bar.set_position(done as u64)).map_err(Error::input)?;
-                bar.finish_and_clear();
                 folder.write("animation.gif", &bytes)?;
             }
         }

@@ -89,9 +89,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         true => {
             let bar = args.common.talk.progress(1000, &format!("{}: the error", prepared.name));
             let watch = (|t: f64| bar.set_position(fraction(t)), || interrupt::stop(&folder));
-            let check = on_all_threads(|| check_error(&prepared, span, &record.trajectory, watch));
-            bar.finish_and_clear();
-            summary.checked(check)
+            summary.checked(on_all_threads(|| check_error(&prepared, span, &record.trajectory, watch)))
         }
         false => summary,
     };

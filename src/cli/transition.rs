@@ -56,9 +56,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 fn exponents(args: &Args, name: &str, place: &Operating, duration: f64) -> Result<Lyapunov> {
     let bar = args.at.talk.progress(1000, name);
     let progress = |t: f64| bar.set_position((1000.0 * t / duration) as u64);
-    let found = lyapunov(place.system(), &place.state, (duration, duration / RENEWALS), progress);
-    bar.finish_and_clear();
-    found
+    lyapunov(place.system(), &place.state, (duration, duration / RENEWALS), progress)
 }
 
 fn floquet_json(found: &Floquet, defects: &[Defect]) -> Value {

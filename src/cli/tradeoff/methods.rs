@@ -53,9 +53,7 @@ impl Question {
             }
         };
         let motion = Motion::of(prepared, span, &interrupt::is_asked);
-        let result = Runner::new(motion, &self.plan, self.watched, watch).run(measured);
-        bar.finish_and_clear();
-        result
+        Runner::new(motion, &self.plan, self.watched, watch).run(measured)
     }
 }
 
