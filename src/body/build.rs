@@ -285,12 +285,12 @@ impl<const D: usize> Build<'_, D> {
         all.len().saturating_sub(1)
     }
 
-    /// Counted angle of these terms that begins near `start`: one that is there already, or a new one of this `name`.
-    pub(crate) fn turning_named(&self, name: &str, term: Turned, start: f64) -> usize {
-        let known = |turning: &Turning| turning.terms == [term] && turning.start == start;
+    /// Counted angle of these terms that begins near zero: one that is there already, or a new one of this `name`.
+    pub(crate) fn turning_named(&self, name: &str, term: Turned) -> usize {
+        let known = |turning: &Turning| turning.terms == [term] && turning.start == 0.0;
         let found = self.turnings.borrow().iter().position(known);
         found.unwrap_or_else(|| {
-            let turning = self.turning(vec![term], start);
+            let turning = self.turning(vec![term], 0.0);
             self.turnings.borrow_mut().last_mut().into_iter().for_each(|last| last.name = name.to_string());
             turning
         })

@@ -193,7 +193,7 @@ fn report(
     let names = prepared.system().names();
     let first = &models[0];
     let linear = Linear { scene: &prepared.name, names: &names, model: first };
-    let stem = linear_stem(first.point.t, None);
+    let stem = linear_stem(first.point.t);
     linear.write(folder, &stem)?;
     let figure = mode_figure(prepared, &Look::plain(&prepared.mechanism), first);
     args.at.output.figure(folder, &stem.replace("linear", "modes"), figure)?;

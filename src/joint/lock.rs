@@ -28,8 +28,6 @@ pub const ALL_BUT_Z: &[(usize, usize)] = &[(2, 0), (2, 1)];
 /// Pairs that leave no rotation free.
 pub const ALL: &[(usize, usize)] = &[(2, 0), (2, 1), (0, 1)];
 pub const NONE: &[(usize, usize)] = &[];
-/// In the plane one row locks the angle.
-pub const ALL_IN_PLANE: &[(usize, usize)] = &[(0, 1)];
 
 const TRANSLATIONS: [&str; 3] = ["x", "y", "z"];
 

@@ -10,12 +10,19 @@
 
 mod added;
 mod coordinates;
+mod cylindrical;
 mod distance;
 mod driver;
 mod equation;
 mod gear;
 mod lock;
-mod locks;
+mod planar;
+mod point_on_line;
+mod prismatic;
+mod revolute;
+mod spherical;
+mod universal;
+mod weld;
 
 use crate::body::{Build, Dual6, ElementKind, Frame, MOST_MARKERS, MarkerId, mistaken, parse_among, twist_len};
 use crate::error::Result;
@@ -212,15 +219,15 @@ pub fn kind<T: JointSpec, const D: usize>() -> JointKind<D> {
 /// Every built-in kind of joint, in the order of the documentation.
 pub fn registry<const D: usize>() -> Vec<JointKind<D>> {
     vec![
-        kind::<locks::Revolute, D>(),
-        kind::<locks::Prismatic, D>(),
-        kind::<locks::Cylindrical, D>(),
-        kind::<locks::Universal, D>(),
-        kind::<locks::Spherical, D>(),
-        kind::<locks::Planar, D>(),
-        kind::<locks::Weld, D>(),
+        kind::<revolute::Revolute, D>(),
+        kind::<prismatic::Prismatic, D>(),
+        kind::<cylindrical::Cylindrical, D>(),
+        kind::<universal::Universal, D>(),
+        kind::<spherical::Spherical, D>(),
+        kind::<planar::Planar, D>(),
+        kind::<weld::Weld, D>(),
         kind::<distance::Distance, D>(),
-        kind::<locks::PointOnLine, D>(),
+        kind::<point_on_line::PointOnLine, D>(),
         kind::<gear::Gear, D>(),
         kind::<driver::Driver, D>(),
         kind::<equation::Equation, D>(),

@@ -223,7 +223,7 @@ impl<const D: usize> Reader<'_, D> {
     fn turn(&self, term: Turned, spring: Option<&str>, order: usize) -> Probe {
         let own = spring.map(|name| format!("force.{name}.turn"));
         let known = self.build.turnings.borrow().iter().position(|turning| Some(&turning.name) == own.as_ref());
-        let named = || self.build.turning_named(&format!("output.{}.turn", self.spec.name), term, 0.0);
+        let named = || self.build.turning_named(&format!("output.{}.turn", self.spec.name), term);
         let turning = known.unwrap_or_else(named);
         let start = self.build.turnings.borrow().get(turning).map_or(0.0, |turning| turning.start);
         let Turned { of, to, factor, axes } = term;

@@ -106,12 +106,9 @@ pub struct Norms {
     pub vdot: f64,
 }
 
-/// Returns the name of a model's files without extension: `linear-0.01`, and `linear-0.01-rcs-form-index2` where
-/// several methods are requested together.
-pub fn linear_stem(t: f64, method: Option<&str>) -> String {
-    let plain = |c: char| if c.is_ascii_alphanumeric() || ['_', '.', '-'].contains(&c) { c } else { '-' };
-    let end = method.map(|method| format!("-{}", method.chars().map(plain).collect::<String>()));
-    format!("linear-{}{}", cell(t), end.unwrap_or_default())
+/// Returns the name of a model's files without extension, such as `linear-0.01`.
+pub fn linear_stem(t: f64) -> String {
+    format!("linear-{}", cell(t))
 }
 
 impl Linear<'_> {
