@@ -25,7 +25,8 @@ pub fn sweep_table(sweep: &Sweep) -> Result<Vec<u8>> {
     let own = [parameter.as_str()].into_iter().chain(q.iter().chain(lambda).map(String::as_str));
     let mut all = header(own.chain(outputs).collect())?;
     for point in &sweep.points {
-        line(&mut all, &[&[point.value], &point.q[..], &point.lambda, &point.outputs].concat());
+        cells(&mut all, &[&[point.value], &point.q[..], &point.lambda, &point.outputs].concat());
+        all.push(b'\n');
     }
     Ok(all)
 }
