@@ -9,7 +9,7 @@ use crate::formulation::StepError;
 use crate::method_spec::OptionDoc;
 use crate::tolerances::integrator as tolerances;
 use coefficients::{Coefficients, MOST, ROOM, error_constants};
-use rows::{LANES, Rows, lanes, plus, store};
+use rows::{QUAD, Rows, plus, quad, store};
 use std::array::from_fn;
 
 /// ```text
@@ -119,7 +119,7 @@ impl Adams {
         let Tried { h, order, next } = self.tried;
         std::mem::swap(&mut self.differences, &mut self.predicted);
         for (b, rows) in self.differences.blocks.iter_mut().enumerate() {
-            let d = plus(lanes(slope, b), -1.0, rows[0]);
+            let d = plus(quad(slope, b), -1.0, rows[0]);
             let (lower, higher) = rows.split_at_mut(order);
             lower.iter_mut().for_each(|row| *row = plus(*row, 1.0, d));
             if let [first, second, ..] = higher {
@@ -138,7 +138,7 @@ impl Adams {
         let (k, beta) = (*order, &coefficients.beta);
         let weights: [f64; ROOM] = from_fn(|i| h * coefficients.g[i]);
         for (b, (rows, sums)) in differences.blocks.iter().zip(&mut predicted.blocks).enumerate() {
-            let (mut y, mut sum) = (lanes(from.y, b), [0.0; LANES]);
+            let (mut y, mut sum) = (quad(from.y, b), [0.0; QUAD]);
             if *known > k {
                 sums[k] = rows[k].map(|x| beta[k] * x);
             }
@@ -156,9 +156,9 @@ impl Adams {
     fn correct(&mut self, h: f64, to: &mut [f64]) {
         let weight = h * self.coefficients.g[self.order];
         for (b, sums) in self.predicted.blocks.iter().enumerate() {
-            let d = plus(lanes(&self.defect, b), -1.0, sums[0]);
+            let d = plus(quad(&self.defect, b), -1.0, sums[0]);
             store(&mut self.defect, b, d);
-            store(to, b, plus(lanes(to, b), weight, d));
+            store(to, b, plus(quad(to, b), weight, d));
         }
     }
 
@@ -179,9 +179,9 @@ impl Adams {
     /// k - 1, k - 2 and k + 1.
     fn norms(&self) -> [f64; 4] {
         let k = self.order;
-        let mut squares = [[0.0; LANES]; 4];
+        let mut squares = [[0.0; QUAD]; 4];
         for (b, sums) in self.predicted.blocks.iter().enumerate() {
-            let (weight, d) = (lanes(&self.weights, b), lanes(&self.defect, b));
+            let (weight, d) = (quad(&self.weights, b), quad(&self.defect, b));
             let (one, two) = (plus(d, 1.0, sums[k - 1]), plus(d, 1.0, sums[k.max(2) - 2]));
             for (squares, of_order) in squares.iter_mut().zip([d, one, two, plus(d, -1.0, sums[k])]) {
                 *squares = from_fn(|i| squares[i] + (weight[i] * of_order[i]).powi(2));
@@ -224,7 +224,7 @@ impl Adams {
         let g = self.coefficients.interpolation(ahead, k + 1);
         let sum = ahead * g[..=k].iter().sum::<f64>();
         for (b, sums) in self.predicted.blocks.iter().enumerate() {
-            let start = plus(lanes(&self.end, b), sum, lanes(&self.defect, b));
+            let start = plus(quad(&self.end, b), sum, quad(&self.defect, b));
             let rows = g[..k].iter().zip(sums);
             store(out, b, rows.fold(start, |out, (weight, row)| plus(out, ahead * weight, *row)));
         }
@@ -331,13 +331,13 @@ impl Integrator for Adams {
         // Of order k: y~ with g_k in the place of g_{k+1}.
         let (k, g) = (self.tried.order, &self.coefficients.g);
         for (b, sums) in self.predicted.blocks.iter().enumerate() {
-            let mut y = lanes(from.y, b);
+            let mut y = quad(from.y, b);
             for i in 0..k {
                 // Phi*_i from the sums over i and over i + 1.
-                let above = if i + 1 < k { sums[i + 1] } else { [0.0; LANES] };
+                let above = if i + 1 < k { sums[i + 1] } else { [0.0; QUAD] };
                 y = plus(y, h * g[i], plus(sums[i], -1.0, above));
             }
-            store(out, b, plus(y, h * g[k - 1], lanes(&self.defect, b)));
+            store(out, b, plus(y, h * g[k - 1], quad(&self.defect, b)));
         }
         true
     }

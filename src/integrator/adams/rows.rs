@@ -3,22 +3,22 @@
 use super::coefficients::ROOM;
 
 /// Components that stand together: sums over the rows stay in registers for them.
-pub const LANES: usize = 4;
+pub const QUAD: usize = 4;
 
 /// Neighbouring components of one row.
-pub type Lanes = [f64; LANES];
+pub type Quad = [f64; QUAD];
 
 /// [`ROOM`] rows of equal length. The numbers of all rows for a few components stand together.
 #[derive(Clone)]
 pub struct Rows {
     len: usize,
-    pub blocks: Vec<[Lanes; ROOM]>,
+    pub blocks: Vec<[Quad; ROOM]>,
 }
 
 impl Rows {
     /// Rows of zeros.
     pub fn new(len: usize) -> Self {
-        Rows { len, blocks: vec![[[0.0; LANES]; ROOM]; len.div_ceil(LANES)] }
+        Rows { len, blocks: vec![[[0.0; QUAD]; ROOM]; len.div_ceil(QUAD)] }
     }
 
     /// The numbers of row `i`.
@@ -28,7 +28,7 @@ impl Rows {
 
     /// Sets the numbers of row `i`.
     pub fn set(&mut self, i: usize, numbers: &[f64]) {
-        for (block, numbers) in self.blocks.iter_mut().zip(numbers.chunks(LANES)) {
+        for (block, numbers) in self.blocks.iter_mut().zip(numbers.chunks(QUAD)) {
             block[i] = padded(numbers);
         }
     }
@@ -36,30 +36,30 @@ impl Rows {
 
 /// The components of the block with this number, with zeros behind the last.
 #[inline(always)]
-pub fn lanes(x: &[f64], block: usize) -> Lanes {
-    let x = &x[block * LANES..];
+pub fn quad(x: &[f64], block: usize) -> Quad {
+    let x = &x[block * QUAD..];
     x.first_chunk().copied().unwrap_or_else(|| padded(x))
 }
 
-fn padded(x: &[f64]) -> Lanes {
-    let mut lanes = [0.0; LANES];
-    let count = x.len().min(LANES);
-    lanes[..count].copy_from_slice(&x[..count]);
-    lanes
+fn padded(x: &[f64]) -> Quad {
+    let mut quad = [0.0; QUAD];
+    let count = x.len().min(QUAD);
+    quad[..count].copy_from_slice(&x[..count]);
+    quad
 }
 
 /// Sets the components of the block with this number.
 #[inline(always)]
-pub fn store(x: &mut [f64], block: usize, lanes: Lanes) {
-    let x = &mut x[block * LANES..];
+pub fn store(x: &mut [f64], block: usize, quad: Quad) {
+    let x = &mut x[block * QUAD..];
     match x.first_chunk_mut() {
-        Some(place) => *place = lanes,
-        None => x.iter_mut().zip(lanes).for_each(|(x, lane)| *x = lane),
+        Some(place) => *place = quad,
+        None => x.iter_mut().zip(quad).for_each(|(x, component)| *x = component),
     }
 }
 
 /// x + factor y
 #[inline(always)]
-pub fn plus(x: Lanes, factor: f64, y: Lanes) -> Lanes {
+pub fn plus(x: Quad, factor: f64, y: Quad) -> Quad {
     std::array::from_fn(|i| x[i] + factor * y[i])
 }
