@@ -129,7 +129,7 @@ fn pendulum_for_ten_seconds() {
 #[test]
 fn constrained_robot_arm() {
     ROBOT_ARM.check(&[
-        ("index1 dop853 manifold", Tolerances(&[(1e-4, 1.7, 2000), (1e-8, 4.8, 5400), (1e-12, 8.9, 15000)])),
+        ("index1 dop853 manifold", Tolerances(&[(1e-4, 1.6, 2000), (1e-8, 4.8, 5400), (1e-12, 8.9, 15000)])),
         ("index1 adams manifold", Tolerances(&[(1e-8, 4.2, 3100), (1e-10, 6.3, 4300)])),
         ("index1 dopri5 manifold", Tolerances(&[(1e-6, 2.7, 3600), (1e-8, 5.1, 7000), (1e-10, 7.1, 18000)])),
         ("index2 phem56 none", Tolerances(&[(1e-6, 2.5, 2700), (1e-8, 5.7, 5300), (1e-10, 7.6, 13000)])),
@@ -146,7 +146,7 @@ fn constrained_robot_arm() {
 fn flexible_crank() {
     CRANK.check(&[
         // At 1e-2 the stability of the steps decides: 1.5 to 4.5 digits at tolerances a thousandth apart.
-        ("index1 dop853 manifold", Tolerances(&[(1e-2, 1.4, 8700), (1e-7, 6.8, 40000), (1e-10, 9.3, 74000)])),
+        ("index1 dop853 manifold", Tolerances(&[(1e-2, 1.4, 8700), (1e-7, 6.8, 40000), (1e-10, 9.2, 74000)])),
         ("index1 dopri5 manifold", Tolerances(&[(1e-4, 2.7, 21000), (1e-6, 4.7, 45000)])),
         ("index2 phem56 none", Tolerances(&[(1e-4, 2.7, 18000), (1e-6, 4.7, 39000)])),
         ("index3 generalized_alpha none", Steps(&[(2e-5, 2.0, 33_000), (1e-5, 2.4, 72_000)])),
