@@ -122,15 +122,15 @@ impl Tightening {
     }
 }
 
-/// h_new = h safety err^-expo err_old^beta within [shrink, grow] h. Source: Hairer, Norsett, Wanner, Solving Ordinary
-/// Differential Equations I, II.4 and the codes DOPRI5 and DOP853. Predictive, for implicit methods: not more than
-/// h_new = h safety (h/h_old) (err_old/err^2)^expo. Source: Hairer, Wanner II, IV.8 (8.25), after Gustafsson.
+/// h_new = h safety err^-expo within [shrink, grow] h, which aims at an error below the tolerated one at once. Where the
+/// error is near that, h_new = h safety err^(-expo/2): half the gain keeps errors that rise and fall with an oscillation
+/// from swinging the steps, a quarter of which were refused before. Source: on the gain, Soederlind, ACM TOMS 29 (2003)
+/// 1-26. Predictive, for implicit methods: the whole gain, but not more than h_new = h safety (h/h_old)
+/// (err_old/err^2)^expo. Source: Hairer, Wanner II, IV.8 (8.25), after Gustafsson.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
     /// expo, on the error of the step.
     pub exponent: f64,
-    /// beta, on the error of the last accepted step.
-    pub beta: f64,
     /// Least h_new/h.
     pub shrink: f64,
     /// Greatest h_new/h.
@@ -141,26 +141,21 @@ pub struct Control {
     pub retry: f64,
     /// A step that would grow by less than this stays as it is, so that its matrix serves on: 1 for any growth.
     hold: f64,
-    /// max(err, 1e-4) of the last accepted step.
-    last: f64,
     /// Size and error of the last accepted step, for the predictive control.
     before: Option<(f64, f64)>,
     is_predictive: bool,
 }
 
 impl Control {
-    /// The exponent is 1/order - 0.75 beta: `order` of the solution where the estimate is of one less, and `beta` zero
-    /// or about 0.04, which damps oscillations of the step size.
-    pub fn new(order: f64, beta: f64, shrink: f64, grow: f64) -> Self {
+    /// The exponent is 1/order, of the solution where the estimate is of one less.
+    pub fn new(order: f64, shrink: f64, grow: f64) -> Self {
         Control {
-            exponent: 1.0 / order - 0.75 * beta,
-            beta,
+            exponent: 1.0 / order,
             shrink,
             grow,
             safety: 0.9,
             retry: 0.25,
             hold: 1.0,
-            last: 1e-4,
             before: None,
             is_predictive: false,
         }
@@ -168,7 +163,7 @@ impl Control {
 
     /// Predictive control for an error estimate of this order.
     pub fn predictive(order: f64, shrink: f64, grow: f64) -> Self {
-        Control { is_predictive: true, ..Control::new(order, 0.0, shrink, grow) }
+        Control { is_predictive: true, ..Control::new(order, shrink, grow) }
     }
 
     /// The same, but steps that would grow by less than `hold` stay as they are.
@@ -178,38 +173,40 @@ impl Control {
 
     /// The next step after one of size `h` with error `error`; `growing` is false right after a rejection.
     pub fn accept(&mut self, h: f64, error: f64, growing: bool) -> f64 {
-        let mut factor = self.safety * error.max(1e-16).powf(-self.exponent) * self.last.powf(self.beta);
-        self.last = error.max(1e-4);
-        if self.is_predictive {
-            // An error below 1e-2 is a poor measure of its trend.
-            let error = error.max(1e-2);
-            if let Some((size, old)) = self.before {
-                factor = factor.min(self.safety * h / size * (old / (error * error)).powf(self.exponent));
-            }
-            self.before = Some((h, error));
-        }
+        let whole = error.max(1e-16).powf(-self.exponent);
+        let factor = self.safety
+            * if self.is_predictive { whole.min(self.predicted(h, error)) } else { damped(whole, self.exponent) };
         let factor = factor.clamp(self.shrink, if growing { self.grow } else { 1.0 });
         if (1.0..self.hold).contains(&factor) { h } else { h * factor }
     }
 
+    /// (h/h_old) (err_old/err^2)^expo.
+    fn predicted(&mut self, h: f64, error: f64) -> f64 {
+        // An error below 1e-2 is a poor measure of its trend.
+        let error = error.max(1e-2);
+        let before = self.before.replace((h, error));
+        before.map_or(f64::INFINITY, |(size, old)| h / size * (old / (error * error)).powf(self.exponent))
+    }
+
     /// The values carried from step to step, for [`Self::recall`].
     pub fn memory(&self) -> Vec<f64> {
-        let (size, error) = self.before.unzip();
-        [Some(self.last), size, error].into_iter().flatten().collect()
+        self.before.map_or_else(Vec::new, |(size, error)| vec![size, error])
     }
 
     /// Restores the values of [`Self::memory`].
     pub fn recall(&mut self, memory: &[f64]) {
-        if let Some((last, before)) = memory.split_first() {
-            self.last = *last;
-            self.before = before.first().copied().zip(before.get(1).copied());
-        }
+        self.before = memory.first().copied().zip(memory.get(1).copied());
     }
 
     /// The step to try again after the error was too large.
     pub fn reject(&self, h: f64, error: f64) -> f64 {
         h * (self.safety * error.powf(-self.exponent)).clamp(self.shrink, 1.0)
     }
+}
+
+/// Growth by half the gain where that of the whole one, err^-expo, is near 1, and by all of it beyond.
+fn damped(whole: f64, exponent: f64) -> f64 {
+    whole.sqrt().max(whole * tolerances::FAR_BELOW.powf(0.5 * exponent))
 }
 
 /// Round-off of changes of y, over the tolerated errors; with `divisor`, s, where v is found from q by a division by

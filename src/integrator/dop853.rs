@@ -26,5 +26,5 @@ static TABLEAU: Tableau = Tableau {
     b: &B,
     error: ErrorEstimate::Pair { fifth: &E5, third: &E3 },
     dense: &[&D[0], &D[1], &D[2], &D[3]],
-    control: || Control::new(8.0, 0.0, 0.333, 6.0),
+    control: || Control::new(8.0, 0.333, 6.0),
 };

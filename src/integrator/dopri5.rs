@@ -3,8 +3,8 @@
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
 use super::{Control, Entry, Steps, Tightening, refuses, takes};
 
-/// Source: Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19-26; interpolation of order 4 and step control as in
-/// Hairer's DOPRI5. Order 5 in q and v (and lambda); six evaluations a step, and one more after a projection, which
+/// Source: Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19-26; interpolation of order 4 as in Hairer's
+/// DOPRI5. Order 5 in q and v (and lambda); six evaluations a step, and one more after a projection, which
 /// moves the state at which the last stage was evaluated.
 pub const ENTRY: Entry = Entry {
     name: "dopri5",
@@ -50,10 +50,5 @@ pub(super) static TABLEAU: Tableau = Tableau {
         -1453857185.0 / 822651844.0,
         69997945.0 / 29380423.0,
     ]],
-    control,
+    control: || Control::new(5.0, 0.2, 10.0),
 };
-
-/// Step control of Hairer's DOPRI5.
-pub(super) fn control() -> Control {
-    Control::new(5.0, 0.04, 0.2, 10.0)
-}

@@ -113,7 +113,7 @@ impl Esdirk {
         let zeros = |n: usize| vec![0.0; n];
         let guesses = || tableau.c.iter().map(|_| Guess { a: zeros(n.v), lambda: zeros(n.lambda) }).collect();
         let of_v = |j: usize| tableau.a.iter().zip(tableau.error).map(|(row, e)| e * row.get(j).unwrap_or(&0.0)).sum();
-        let mut control = Control::new(tableau.estimate, 0.0, 0.2, 5.0).holding(tolerances::STAGE_HOLD);
+        let mut control = Control::new(tableau.estimate, 0.2, 5.0).holding(tolerances::STAGE_HOLD);
         control.safety = tolerances::STAGE_SAFETY;
         let k = tableau.c.iter().map(|_| zeros(setup.len())).collect();
         let mut stage = Stage::new(setup)?;
@@ -207,18 +207,15 @@ impl Integrator for Esdirk {
         widest_gap(self.stages.tableau.c).0
     }
 
-    fn memory(&self) -> Vec<f64> {
-        let control = self.control.memory();
-        let mut memory = [&[control.len() as f64][..], &control, &[self.stages.last.unwrap_or(0.0)]].concat();
+    fn memory(&self) -> Option<Vec<f64>> {
+        let mut memory = vec![self.stages.last.unwrap_or(0.0)];
         self.stages.before.iter().for_each(|Guess { a, lambda }| memory.extend(a.iter().chain(lambda)));
         memory.extend(self.stage.memory());
-        memory
+        Some(memory)
     }
 
     fn recall(&mut self, memory: &[f64]) {
         let mut memory = Reader(memory);
-        let control = memory.number() as usize;
-        self.control.recall(memory.slice(control));
         self.stages.last = Some(memory.number()).filter(|last| *last > 0.0);
         for Guess { a, lambda } in &mut self.stages.before {
             memory.fill(a);

@@ -141,12 +141,9 @@ impl Integrator for Explicit {
         &mut self.control
     }
 
-    fn memory(&self) -> Vec<f64> {
-        self.control.memory()
-    }
-
-    fn recall(&mut self, memory: &[f64]) {
-        self.control.recall(memory);
+    /// A step knows its start alone.
+    fn memory(&self) -> Option<Vec<f64>> {
+        Some(Vec::new())
     }
 
     fn stability(&self) -> Option<Stability> {

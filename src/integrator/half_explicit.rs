@@ -223,12 +223,9 @@ impl Integrator for HalfExplicit {
         &mut self.control
     }
 
-    fn memory(&self) -> Vec<f64> {
-        self.control.memory()
-    }
-
-    fn recall(&mut self, memory: &[f64]) {
-        self.control.recall(memory);
+    /// A step knows its start alone.
+    fn memory(&self) -> Option<Vec<f64>> {
+        Some(Vec::new())
     }
 
     /// Along the free directions the stages are those of an explicit method.

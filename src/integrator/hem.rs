@@ -38,7 +38,7 @@ static THIRD: Tableau = Tableau {
     explicit: None,
     constraint: &[&[1.0 / 3.0], &[-1.0, 2.0], &[0.0, 0.75, 0.25]],
     nodes: &[1.0 / 3.0, 1.0, 1.0],
-    control: || Control::new(3.0, 0.0, 0.2, 5.0),
+    control: || Control::new(3.0, 0.2, 5.0),
 };
 
 /// sqrt 6
@@ -55,7 +55,7 @@ static FOURTH: Tableau = Tableau {
         &[0.0, 0.0, (16.0 - R) / 36.0, (16.0 + R) / 36.0, 1.0 / 9.0],
     ],
     nodes: &[0.3, (4.0 - R) / 10.0, (4.0 + R) / 10.0, 1.0, 1.0],
-    control: || Control::new(4.0, 0.0, 0.2, 5.0),
+    control: || Control::new(4.0, 0.2, 5.0),
 };
 
 static FIFTH: Tableau = Tableau {
@@ -88,5 +88,5 @@ static FIFTH: Tableau = Tableau {
         ],
     ],
     nodes: &[0.1, 0.15, 0.3614787346573635, 0.08535584335486351, 0.5, 0.8, 1.0, 1.0],
-    control: || Control::new(5.0, 0.0, 0.2, 5.0),
+    control: || Control::new(5.0, 0.2, 5.0),
 };

@@ -24,5 +24,5 @@ static TABLEAU: Tableau = Tableau {
     b: &[0.5, 0.5],
     error: ErrorEstimate::None,
     dense: &[],
-    control: || Control::new(2.0, 0.0, 0.2, 5.0),
+    control: || Control::new(2.0, 0.2, 5.0),
 };

@@ -124,9 +124,9 @@ pub trait Integrator {
     fn moved(&mut self) {}
 
     /// The values that the method carries from step to step besides y and y', as numbers for [`Self::recall`], such as
-    /// the last error of the control. Empty for a method that starts anew when a run is continued, which is reported.
-    fn memory(&self) -> Vec<f64> {
-        Vec::new()
+    /// the stages of the last one. None for a method that starts anew when a run is continued, which is reported.
+    fn memory(&self) -> Option<Vec<f64>> {
+        None
     }
 
     /// Restores the values of [`Self::memory`], at a state at which the problem is evaluated before the next step.

@@ -2,7 +2,7 @@
 
 use super::dopri5;
 use super::half_explicit::{HalfExplicit, Tableau};
-use super::{Entry, Steps, Tightening, refuses, takes};
+use super::{Control, Entry, Steps, Tightening, refuses, takes};
 
 /// Source: Murua, BIT 37 (1997) 641-662 (PHEM56): the stages of DOPRI5, each with a constraint of its own. Order 5 in
 /// q, v and lambda; six solutions a step: the first stage, which is also the end of the step before, uses the
@@ -35,5 +35,5 @@ static TABLEAU: Tableau = Tableau {
         &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
     ],
     nodes: &[0.0, 3.0 / 10.0, 3.0 / 8.0, 5.0 / 7.0, 1.0, 1.0],
-    control: dopri5::control,
+    control: || Control::new(5.0, 0.2, 10.0),
 };

@@ -54,7 +54,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         dv: zeros(n.v),
         rows: zeros(n.lambda),
         slope: zeros(setup.len()),
-        control: Control::new(2.0, 0.0, 0.2, 5.0),
+        control: Control::new(2.0, 0.2, 5.0),
         polynomial: Hermite::new(setup.len(), 0),
     }))
 }
@@ -239,9 +239,9 @@ impl Integrator for Rattle {
         (self.is_ahead, self.is_ready) = (false, false);
     }
 
-    fn memory(&self) -> Vec<f64> {
+    fn memory(&self) -> Option<Vec<f64>> {
         let mass = self.mass.iter().flatten().copied();
-        std::iter::once(f64::from(self.is_ready)).chain(mass).collect()
+        Some(std::iter::once(f64::from(self.is_ready)).chain(mass).collect())
     }
 
     /// The problem is evaluated at the state from which a run continues, as at the end of a step.

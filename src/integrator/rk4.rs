@@ -23,5 +23,5 @@ static TABLEAU: Tableau = Tableau {
     b: &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
     error: ErrorEstimate::None,
     dense: &[],
-    control: || Control::new(4.0, 0.0, 0.2, 5.0),
+    control: || Control::new(4.0, 0.2, 5.0),
 };

@@ -34,7 +34,7 @@ pub struct Checkpoint {
     approach: SingularPassage,
     dense_reference: f64,
     formulation: Vec<f64>,
-    integrator: Vec<f64>,
+    integrator: Option<Vec<f64>>,
     h: f64,
     growing: bool,
     cut: Option<f64>,
@@ -102,7 +102,7 @@ impl Checkpoint {
     /// True if the method continues with the values it carried; else it begins anew, and the run is the same within the
     /// tolerance only.
     pub fn is_exact(&self) -> bool {
-        !self.integrator.is_empty()
+        self.integrator.is_some()
     }
 
     /// True if the dimensions agree with those of the system.
@@ -190,7 +190,7 @@ impl Run<'_> {
     fn recall(&mut self, saved: &Checkpoint) -> Result<(), Failure> {
         self.problem.formulation.recall(&saved.formulation);
         self.rows.problem.formulation.recall(&saved.formulation);
-        self.integrator.recall(&saved.integrator);
+        self.integrator.recall(saved.integrator.as_deref().unwrap_or_default());
         (self.approach, self.crowd, self.divided) = (saved.approach, saved.crowd, saved.divided);
         (self.h, self.growing, self.cut) = (saved.h, saved.growing, saved.cut);
         (self.progress, self.factored) = (saved.progress, saved.factored);

@@ -112,6 +112,11 @@ pub const RADAU_GROWTH: f64 = 5.0;
 /// `turning_stiff_directions_do_not_limit_steps`.
 pub const RADAU_RETRIED: [f64; 2] = [0.25, 0.8];
 
+/// Error below which the next step is chosen with the whole gain.
+/// Unit: `[tolerated errors]`. Why: from there steps double and more, as at a start. With 1e-3 evaluations are as many,
+/// with 0.1 there are a tenth more. Test: none: time alone depends on it.
+pub const FAR_BELOW: f64 = 1e-2;
+
 /// The shortest step of adams over one that was refused.
 /// Unit: `[1]`. Why: a choice: the error tells the length, but not over a kink. Test: none: time alone depends on it.
 pub const ADAMS_SHRINK: f64 = 0.2;

@@ -98,7 +98,7 @@ impl Adams {
             is_rising: true,
             coefficients: Coefficients::NONE,
             constants: error_constants(),
-            control: Control::new(1.0, 0.0, tolerances::ADAMS_SHRINK, 2.0),
+            control: Control::new(1.0, tolerances::ADAMS_SHRINK, 2.0),
             ratio: 1.0,
             weights: zeros(),
             defect: zeros(),
@@ -300,7 +300,7 @@ impl Integrator for Adams {
     }
 
     /// The sums of the last step; before its end, after a refusal, the differences at its start.
-    fn memory(&self) -> Vec<f64> {
+    fn memory(&self) -> Option<Vec<f64>> {
         let Tried { h, order, next } = self.tried;
         let numbers = [self.order, self.known, order, next, usize::from(self.is_accepted), usize::from(self.is_rising)];
         let mut memory = numbers.map(|number| number as f64).to_vec();
@@ -309,7 +309,7 @@ impl Integrator for Adams {
         let (rows, count) =
             if self.is_accepted { (&self.predicted, order + 1) } else { (&self.differences, self.known) };
         (0..count).for_each(|i| memory.extend(rows.row(i)));
-        memory
+        Some(memory)
     }
 
     fn recall(&mut self, memory: &[f64]) {

@@ -71,7 +71,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         scales: setup.system.scales(),
         stages: [zeros(n.q), zeros(n.q), zeros(n.q)],
         slope: zeros(setup.len()),
-        control: Control::new(2.0, 0.0, 0.2, 5.0),
+        control: Control::new(2.0, 0.2, 5.0),
         polynomial: Hermite::new(setup.len(), 0),
     }))
 }
@@ -262,8 +262,8 @@ impl Integrator for Ali3p {
         self.is_started = true;
     }
 
-    fn memory(&self) -> Vec<f64> {
-        [&[f64::from(self.is_started)], &self.a[..], &self.lambda_start].concat()
+    fn memory(&self) -> Option<Vec<f64>> {
+        Some([&[f64::from(self.is_started)], &self.a[..], &self.lambda_start].concat())
     }
 
     fn recall(&mut self, memory: &[f64]) {

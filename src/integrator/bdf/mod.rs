@@ -154,9 +154,9 @@ impl Integrator for Bdf {
         true
     }
 
-    fn memory(&self) -> Vec<f64> {
+    fn memory(&self) -> Option<Vec<f64>> {
         let is_begun = [f64::from(self.is_begun)];
-        [&is_begun[..], &self.order.memory(), &self.history.memory(), &self.stage.memory()].concat()
+        Some([&is_begun[..], &self.order.memory(), &self.history.memory(), &self.stage.memory()].concat())
     }
 
     fn recall(&mut self, memory: &[f64]) {

@@ -34,7 +34,7 @@ impl Order {
     pub fn new() -> Self {
         Order {
             k: 1,
-            control: Control::new(2.0, 0.0, 0.25, 2.0),
+            control: Control::new(2.0, 0.25, 2.0),
             is_starting: true,
             steady: 0,
             last: 0.0,

@@ -16,8 +16,9 @@ pub struct Collocation {
     /// d_i of the error estimate h (gamma_0 y'_0 + sum d_i Y'_i), the difference to a formula of order s that also uses
     /// y'_0; gamma_0 is the real eigenvalue. Source: the same, (8.17).
     pub error: Vec<f64>,
-    /// Weights over the stages of the Legendre coefficients of degree s - 1, s - 2 and s - 3.
-    pub tail: [Vec<f64>; 3],
+    /// The same where the polynomial of the stages is one through its values at the nodes of s - 2 stages: gamma_0 times
+    /// the difference of y'_0 to that at 0.
+    pub lower_error: Vec<f64>,
     /// 1 / prod_{j != i} (x_i - x_j) over the points 0, c_1 ... c_s of the continuous solution.
     barycentric: Vec<f64>,
 }
@@ -80,16 +81,24 @@ impl Collocation {
         let matrix = DMatrix::from_fn(s, s, |i, j| a[i][j]);
         let (real, pairs) = modes(&matrix);
         let error = weights(DVector::from_fn(s, |k, _| -real.value * legendre(s, 0.0)[k]));
-        let coefficient = |k: usize| {
-            let weight = |i: usize| (2.0 * k as f64 + 1.0) * a[s - 1][i] * legendre(s, nodes[i])[k];
-            (0..s).map(weight).collect::<Vec<f64>>()
-        };
-        let tail = [coefficient(s - 1), coefficient(s - 2), coefficient(s - 3)];
         let points: Vec<f64> = [0.0].iter().chain(&nodes).copied().collect();
         let others = |i: usize| (0..=s).filter(move |&j| j != i);
         let product = |i: usize| others(i).map(|j| points[i] - points[j]).product::<f64>();
         let barycentric = (0..=s).map(|i| 1.0 / product(i)).collect();
-        Collocation { a, real, pairs, error: error.iter().copied().collect(), tail, barycentric, nodes }
+        let error = error.iter().copied().collect();
+        let mut method = Collocation { a, real, pairs, error, lower_error: Vec::new(), barycentric, nodes };
+        method.lower_error = method.error_through(&self::nodes(s - 2));
+        method
+    }
+
+    /// Weights over the stages of -gamma_0 times the polynomial at 0 that has their values at `nodes`.
+    fn error_through(&self, nodes: &[f64]) -> Vec<f64> {
+        let at_zero = |j: usize| {
+            let others = nodes.iter().enumerate().filter(|(m, _)| *m != j);
+            others.map(|(_, node)| node / (node - nodes[j])).product::<f64>()
+        };
+        let weight = |i: usize| (0..nodes.len()).map(|j| at_zero(j) * self.stage_lagrange(i, nodes[j])).sum::<f64>();
+        (0..self.stages()).map(|i| -self.real.value * weight(i)).collect()
     }
 
     pub fn stages(&self) -> usize {
@@ -183,6 +192,12 @@ mod tests {
                 }
                 let rest = if k == 0 { method.real.value } else { 0.0 };
                 assert!((moment(&method.error, k) + rest).abs() < 1e-14, "error, {s} stages, degree {k}");
+                let lower = (moment(&method.lower_error, k) + rest).abs();
+                assert_eq!(
+                    lower < 1e-14,
+                    k < s as i32 - 2,
+                    "error of two stages less, {s} stages, degree {k}: {lower}"
+                );
             }
             for mode in &method.pairs {
                 let product = |i: usize| -> c64 { (0..s).map(|j| mode.right[j] * method.a[i][j]).sum() };

@@ -18,6 +18,7 @@ use crate::math::newton::Monitor;
 use crate::method_spec::OptionDoc;
 use crate::system::OperatingPoint;
 use crate::tolerances::integrator as tolerances;
+use collocation::Collocation;
 use matrices::Matrices;
 use order::{Order, Seen, internal};
 use stages::{Stages, Unknowns};
@@ -40,8 +41,8 @@ use system::{System, most};
 /// contracts by thirty thousand with them. s evaluations and (s + 1)/2 back-substitutions per iteration, s more of the
 /// saddle-point matrix for each shift. Constantly redundant constraints are dropped from the matrices. Error: the
 /// difference to a formula of order s, damped along stiff directions; velocities that phi = 0 determines, of index 2,
-/// are weighted by h, lambda is not tested. Steps and stages are chosen by it, by the decay of the Legendre
-/// coefficients over the step and by the contraction of Newton's method, which is slower for large rotations in a step.
+/// are weighted by h, lambda is not tested. Steps and stages are chosen by it, by what it would be with two stages
+/// less and by the contraction of Newton's method, which is slower for large rotations in a step.
 /// An output row inside a step is a step of its own, since the collocation polynomial has order s only.
 ///
 /// Limits: with index3 round-off of phi over h is an error of v, and with index3 and ggl round-off along nearly
@@ -88,7 +89,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         error_v: vec![0.0; n.v],
         error: vec![0.0; setup.len()],
         slope: vec![0.0; setup.len()],
-        seen: Seen { error: 1.0, decay: 1.0, theta: 1.0 },
+        seen: Seen { error: 1.0, lower: 1.0, theta: 1.0 },
         order,
         is_fixed: setup.is_fixed,
     }))
@@ -206,26 +207,26 @@ impl RadauIIA {
         collocation.solve(newton, problem, tolerance, from, h)
     }
 
-    /// The difference to a formula of order s, damped along the stiff directions, over the tolerated errors.
+    /// An error estimate h (gamma y'_0 + sum d_i Y'_i), damped along the stiff directions, over the tolerated errors.
     fn estimate(
         &mut self,
         problem: &Problem,
         tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &[f64],
+        (from, h, to): (From, f64, &[f64]),
+        weights: impl Fn(&Collocation) -> &[f64],
     ) -> Result<f64, StepError> {
         let method = self.order.method();
+        let d = weights(method);
         let (x, v) = (&mut self.error_x, &mut self.error_v);
         let ((q0, v0), (_, vdot0)) = (problem.split(from.y), problem.split(from.slope));
         let (nq, gamma) = (q0.len(), method.real.value);
         for k in 0..v0.len() {
-            let stages = self.stages.y.iter().zip(&method.error);
+            let stages = self.stages.y.iter().zip(d);
             x[k] = h * (gamma * v0[k] + stages.map(|(y, d)| d * y[nq + k]).sum::<f64>());
         }
         v.iter_mut().zip(vdot0).for_each(|(v, vdot)| *v = h * gamma * vdot);
-        accumulate(v, h, &method.error, &self.stages.unknowns.a);
-        accumulate(v, h, &method.error, &self.stages.unknowns.w);
+        accumulate(v, h, d, &self.stages.unknowns.a);
+        accumulate(v, h, d, &self.stages.unknowns.w);
         self.matrices.real.damp(&self.at, h, x, v, &problem.dynamics)?;
         let (dq, dv) = self.error.split_at_mut(nq);
         problem.dynamics.system.rate(q0, x, dq);
@@ -285,9 +286,9 @@ impl Integrator for RadauIIA {
         self.order.limit(&self.newton, most(s, self.is_fixed), self.stages.turned());
         to.copy_from_slice(&self.stages.y[s - 1]);
         let tolerance = self.tolerance;
-        let error = self.estimate(problem, &tolerance, from, h, to)?;
-        self.seen =
-            Seen { error, decay: self.stages.decay(self.order.method(), &tolerance, from), theta: self.newton.rate };
+        let error = self.estimate(problem, &tolerance, (from, h, to), |method| &method.error)?;
+        let lower = self.estimate(problem, &tolerance, (from, h, to), |method| &method.lower_error)?;
+        self.seen = Seen { error, lower, theta: self.newton.rate };
         if self.dae.velocity_index() == 2 && (self.is_fixed || error <= 1.0) {
             velocity::project(problem, from.t + h, to)?;
             velocity::slope(problem, from.t + h, to, &mut self.slope)?;
@@ -310,7 +311,7 @@ impl Integrator for RadauIIA {
         widest_gap(&self.order.method().nodes).0
     }
 
-    fn memory(&self) -> Vec<f64> {
+    fn memory(&self) -> Option<Vec<f64>> {
         let mut memory = self.order.memory();
         memory.extend(self.newton.memory());
         let Step { h, method } = self.accepted.unwrap_or(Step { h: 0.0, method: 0 });
@@ -325,7 +326,7 @@ impl Integrator for RadauIIA {
             memory.extend([h, index as f64]);
             memory.extend(self.at.point());
         }
-        memory
+        Some(memory)
     }
 
     fn recall(&mut self, memory: &[f64]) {

@@ -10,23 +10,23 @@ use crate::tolerances::integrator as tolerances;
 
 /// The methods with 3, 5 and 7 stages, and the one in use.
 ///
-/// The error of s + 2 stages is estimated by that of s times the square of the ratio of the last two Legendre
-/// coefficients; from it follows the step size of each method, and the method with the least work per second is chosen.
+/// The error of s - 2 stages is estimated from the stages of a step, that of s + 2 by the same ratio again; from it
+/// follows the step size of each method, and the method with the least work per second is chosen.
 pub struct Order {
     methods: Vec<Collocation>,
     current: usize,
     pub control: Control,
     /// Accepted steps since the last change.
     steady: usize,
-    last_decay: Option<f64>,
+    last_fall: Option<f64>,
 }
 
 /// Measures of an accepted step.
 pub struct Seen {
     /// Error in units of the internal tolerance.
     pub error: f64,
-    /// Ratio of the last two Legendre coefficients.
-    pub decay: f64,
+    /// What the error of two stages less would be with the same real eigenvalue.
+    pub lower: f64,
     /// Contraction of the Newton iteration.
     pub theta: f64,
 }
@@ -47,7 +47,7 @@ impl Order {
         };
         let methods = stages.into_iter().map(Collocation::new).collect();
         let control = Control::predictive(4.0, 0.125, tolerances::RADAU_GROWTH);
-        let mut order = Order { methods, current: 0, control, steady: 0, last_decay: None };
+        let mut order = Order { methods, current: 0, control, steady: 0, last_fall: None };
         order.set(0);
         Ok(order)
     }
@@ -60,7 +60,7 @@ impl Order {
     pub fn memory(&self) -> Vec<f64> {
         let Control { safety, grow, retry, .. } = self.control;
         let control = self.control.memory();
-        let own = [self.current as f64, self.steady as f64, self.last_decay.unwrap_or(-1.0), safety, grow, retry];
+        let own = [self.current as f64, self.steady as f64, self.last_fall.unwrap_or(-1.0), safety, grow, retry];
         [&own[..], &[control.len() as f64], &control].concat()
     }
 
@@ -68,7 +68,7 @@ impl Order {
     pub fn recall(&mut self, memory: &mut Reader) {
         self.set((memory.number() as usize).min(self.methods.len() - 1));
         self.steady = memory.number() as usize;
-        self.last_decay = Some(memory.number()).filter(|decay| *decay >= 0.0);
+        self.last_fall = Some(memory.number()).filter(|fall| *fall >= 0.0);
         let Control { safety, grow, retry, .. } = &mut self.control;
         [safety, grow, retry].into_iter().for_each(|value| *value = memory.number());
         let control = memory.number() as usize;
@@ -95,20 +95,21 @@ impl Order {
     fn set(&mut self, index: usize) {
         self.current = index;
         self.steady = 0;
-        self.last_decay = None;
+        self.last_fall = None;
         self.control.exponent = 1.0 / (self.method().stages() as f64 + 1.0);
     }
 
     /// Chooses the method of the next step, for the user's tolerance.
     pub fn accepted(&mut self, tolerance: &Tolerance, seen: &Seen) {
         self.steady += 1;
-        let decay = seen.decay * self.last_decay.unwrap_or(seen.decay);
-        self.last_decay = Some(seen.decay);
+        let own = if seen.lower > 0.0 { seen.error / seen.lower } else { 0.0 };
+        let fall = (own * self.last_fall.unwrap_or(own)).sqrt();
+        self.last_fall = Some(own);
         if self.steady < tolerances::RADAU_STEADY {
             return;
         }
         let (best, gain) = self.neighbours().fold((self.current, 1.0), |best, index| {
-            let gain = self.gain(index, tolerance, seen, decay.sqrt());
+            let gain = self.gain(index, tolerance, seen, fall);
             if gain > best.1 { (index, gain) } else { best }
         });
         if best != self.current && gain > tolerances::RADAU_GAIN {
@@ -121,11 +122,15 @@ impl Order {
         [current.checked_sub(1), Some(current + 1)].into_iter().flatten().filter(move |index| *index < count)
     }
 
-    /// Time stepped over per unit of work, relative to the method in use.
-    fn gain(&self, index: usize, tolerance: &Tolerance, seen: &Seen, decay: f64) -> f64 {
-        let (old, new) = (self.method().stages(), self.methods[index].stages());
-        let scale = internal(tolerance, old).rtol / internal(tolerance, new).rtol;
-        let error = (seen.error * scale * decay.powi(new as i32 - old as i32)).max(1e-16);
+    /// Time stepped over per unit of work, relative to the method in use, where two stages more make the error `fall`
+    /// times as large.
+    fn gain(&self, index: usize, tolerance: &Tolerance, seen: &Seen, fall: f64) -> f64 {
+        let [before, after] = [self.method(), &self.methods[index]];
+        let (old, new) = (before.stages(), after.stages());
+        let scale =
+            internal(tolerance, old).rtol / internal(tolerance, new).rtol * after.real.value / before.real.value;
+        let fall = if new > old { fall } else { 1.0 / fall.max(f64::MIN_POSITIVE) };
+        let error = (seen.error * scale * fall).max(1e-16);
         let step = |error: f64, s: usize| error.powf(-1.0 / (s as f64 + 1.0));
         let ratio = step(error, new) / step(seen.error.max(1e-16), old);
         // A larger step contracts less.

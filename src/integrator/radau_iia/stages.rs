@@ -55,15 +55,19 @@ impl Unknowns {
 
     /// Extrapolates all but eta and mu from the polynomials over the stages of another step by `method`, to the places
     /// `at` of that step, none of them its start.
-    pub fn predict(&mut self, before: &Unknowns, method: &Collocation, at: impl Iterator<Item = f64> + Clone) {
+    pub fn predict(&mut self, before: &Unknowns, method: &Collocation, at: impl Iterator<Item = f64>) {
         let Unknowns { a, lambda, w, eta, u, mu } = self;
-        for (stages, before) in [(a, &before.a), (lambda, &before.lambda), (w, &before.w), (u, &before.u)] {
-            for (stage, x) in stages.iter_mut().zip(at.clone()) {
-                stage.fill(0.0);
-                for (j, before) in before.iter().enumerate().take(method.stages()) {
-                    let weight = method.stage_lagrange(j, x);
-                    stage.iter_mut().zip(before).for_each(|(stage, before)| *stage += weight * before);
-                }
+        for (i, x) in at.enumerate() {
+            [&mut a[i], &mut lambda[i], &mut w[i], &mut u[i]].into_iter().for_each(|stage| stage.fill(0.0));
+            for j in 0..method.stages() {
+                let weight = method.stage_lagrange(j, x);
+                let add = |stages: &mut [Vec<f64>], before: &[Vec<f64>]| {
+                    stages[i].iter_mut().zip(&before[j]).for_each(|(stage, before)| *stage += weight * before);
+                };
+                add(a, &before.a);
+                add(lambda, &before.lambda);
+                add(w, &before.w);
+                add(u, &before.u);
             }
         }
         // Their equations are linear, and components along dependent rows would grow by extrapolation.
@@ -166,18 +170,6 @@ impl Stages {
     /// Round-off of the changes of a stage, over the tolerated errors: see [`round_off`].
     pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, divisor: Option<f64>) -> f64 {
         round_off(problem, tolerance, from.y, divisor, &mut self.next[0])
-    }
-
-    /// Ratio of successive Legendre coefficients of V' over the step, the last two to the two before so that even and
-    /// odd parts count: the rate at which the polynomials of more stages converge.
-    pub fn decay(&mut self, method: &Collocation, tolerance: &Tolerance, from: From) -> f64 {
-        let [last, before, first] = [0, 1, 2].map(|k| {
-            let sum = &mut self.next[0];
-            sum.fill(0.0);
-            accumulate(&mut sum[self.n.q..self.n.q + self.n.v], 1.0, &method.tail[k], &self.unknowns.a);
-            tolerance.norm(from.y, sum)
-        });
-        if before + first > 0.0 { last.hypot(before) / before.hypot(first) } else { 0.0 }
     }
 
     /// The residuals of all stages of a step from (t, y) by `h`. One evaluation per stage.
