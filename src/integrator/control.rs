@@ -123,9 +123,9 @@ impl Tightening {
 }
 
 /// h_new = h safety err^-expo within [shrink, grow] h, which aims at an error below the tolerated one at once. Where the
-/// error is near that, h_new = h safety err^(-expo/2): half the gain keeps errors that rise and fall with an oscillation
-/// from swinging the steps, a quarter of which were refused before. Source: on the gain, Soederlind, ACM TOMS 29 (2003)
-/// 1-26. Predictive, for implicit methods: the whole gain, but not more than h_new = h safety (h/h_old)
+/// error is near that, h_new = h safety err^(-expo/2): with half the gain errors that rise and fall with an oscillation
+/// do not swing the steps, of which many would be refused. Source: on the gain, Soederlind, ACM TOMS 29 (2003) 1-26.
+/// Predictive, for implicit methods: the whole gain, but not more than h_new = h safety (h/h_old)
 /// (err_old/err^2)^expo. Source: Hairer, Wanner II, IV.8 (8.25), after Gustafsson.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
@@ -174,9 +174,11 @@ impl Control {
     /// The next step after one of size `h` with error `error`; `growing` is false right after a rejection.
     pub fn accept(&mut self, h: f64, error: f64, growing: bool) -> f64 {
         let whole = error.max(1e-16).powf(-self.exponent);
-        let factor = self.safety
-            * if self.is_predictive { whole.min(self.predicted(h, error)) } else { damped(whole, self.exponent) };
-        let factor = factor.clamp(self.shrink, if growing { self.grow } else { 1.0 });
+        let aim = match self.is_predictive {
+            true => whole.min(self.predicted(h, error)),
+            false => damped(whole, self.exponent),
+        };
+        let factor = (self.safety * aim).clamp(self.shrink, if growing { self.grow } else { 1.0 });
         if (1.0..self.hold).contains(&factor) { h } else { h * factor }
     }
 
@@ -271,5 +273,16 @@ mod tests {
         let reached = |rtol: f64| Tightening { factor: 10.0, power: 1.5 }.reached(&asked(rtol));
         assert!((reached(1e-6) / 1e-6 - 1.0).abs() < 1e-12 && (reached(1e-10) / 1e-8 - 1.0).abs() < 1e-12);
         assert_eq!(Tightening::NONE.of_steps(&asked(1e-8)), asked(1e-8));
+    }
+
+    #[test]
+    fn half_the_gain_near_the_tolerated_error_and_all_of_it_far_below() {
+        let next = |error: f64| Control::new(2.0, 0.1, 100.0).accept(1.0, error, true);
+        let close = |found: f64, exact: f64| assert!((found / exact - 1.0).abs() < 1e-12, "{found} {exact}");
+        close(next(1.0), 0.9);
+        close(next(0.0625), 1.8);
+        close(next(1e-2), 0.9 * 10f64.sqrt());
+        close(next(1e-4) / next(1e-2), 10.0);
+        assert_eq!(Control::new(2.0, 0.1, 100.0).accept(1.0, 1e-4, false), 1.0);
     }
 }

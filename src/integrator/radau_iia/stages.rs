@@ -22,7 +22,7 @@ pub struct Stages {
     rotations: Rotations,
 }
 
-/// The unknowns, stage by stage: see [`formulation::Unknowns`].
+/// The unknowns, stage by stage, those of shifts that the equations do not have empty: see [`formulation::Unknowns`].
 pub struct Unknowns {
     pub a: Vec<Vec<f64>>,
     pub lambda: Vec<Vec<f64>>,
@@ -33,16 +33,16 @@ pub struct Unknowns {
 }
 
 impl Unknowns {
-    pub fn new(most: usize, n: Dimensions) -> Self {
-        let rows = |width: usize| vec![vec![0.0; width]; most];
-        let [of_v, of_rows] = [n.v, n.lambda];
+    pub fn new(most: usize, n: Dimensions, dae: &Dae) -> Self {
+        let rows = |is_there: bool, width: usize| vec![vec![0.0; if is_there { width } else { 0 }]; most];
+        let [of_w, of_u] = [dae.eta.is_some(), dae.mu.is_some()];
         Unknowns {
-            a: rows(of_v),
-            lambda: rows(of_rows),
-            w: rows(of_v),
-            eta: rows(of_rows),
-            u: rows(of_v),
-            mu: rows(of_rows),
+            a: rows(true, n.v),
+            lambda: rows(true, n.lambda),
+            w: rows(of_w, n.v),
+            eta: rows(of_w, n.lambda),
+            u: rows(of_u, n.v),
+            mu: rows(of_u, n.lambda),
         }
     }
 
@@ -84,11 +84,11 @@ impl Unknowns {
 
 impl Stages {
     /// Memory for states of length `len`.
-    pub fn new(most: usize, system: &dyn MechanicalSystem, len: usize) -> Self {
+    pub fn new(most: usize, system: &dyn MechanicalSystem, len: usize, dae: &Dae) -> Self {
         let n = system.dimensions();
         let rows = |width: usize| vec![vec![0.0; width]; most];
         Stages {
-            unknowns: Unknowns::new(most, n),
+            unknowns: Unknowns::new(most, n, dae),
             y: rows(len),
             residuals: vec![Residual::new(n); most],
             n,
@@ -122,8 +122,8 @@ impl Stages {
         for sweep in 1..=sweeps {
             for i in 0..s {
                 let (q, v) = self.next[i].split_at(nq);
-                let sum = v.iter().zip(&self.unknowns.u[i]).map(|(v, shift)| v + shift);
-                self.velocity.iter_mut().zip(sum).for_each(|(place, sum)| *place = sum);
+                self.velocity.copy_from_slice(&v[..nv]);
+                self.velocity.iter_mut().zip(&self.unknowns.u[i]).for_each(|(place, shift)| *place += shift);
                 // N does not depend on the angles that count full turns: they follow in the last sweep.
                 match sweep == sweeps {
                     true => system.rate(q, &self.velocity, &mut self.qdot[i]),
