@@ -125,7 +125,7 @@ impl Tightening {
 /// h_new = h safety err^-expo within [shrink, grow] h, which aims at an error below the tolerated one at once. Where the
 /// error is near that, h_new = h safety err^(-expo/2): with half the gain errors that rise and fall with an oscillation
 /// do not swing the steps, of which many would be refused. Source: on the gain, Soederlind, ACM TOMS 29 (2003) 1-26.
-/// Predictive, for implicit methods: the whole gain, but not more than h_new = h safety (h/h_old)
+/// Steps that are held have the whole gain. Predictive, for implicit methods: the whole gain, but not more than h_new = h safety (h/h_old)
 /// (err_old/err^2)^expo. Source: Hairer, Wanner II, IV.8 (8.25), after Gustafsson.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
@@ -139,47 +139,51 @@ pub struct Control {
     pub safety: f64,
     /// h_new/h after a step that failed without an error.
     pub retry: f64,
-    /// A step that would grow by less than this stays as it is, so that its matrix serves on: 1 for any growth.
-    hold: f64,
+    gain: Gain,
     /// Size and error of the last accepted step, for the predictive control.
     before: Option<(f64, f64)>,
-    is_predictive: bool,
+}
+
+/// How the next step follows from the error of one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Gain {
+    /// By half the gain near the tolerated error.
+    Half,
+    /// By the whole gain; a step that would grow by less than this stays as it is, so that its matrix serves on.
+    Held(f64),
+    /// By the whole gain, but not beyond what the trend of the errors predicts.
+    Predictive,
 }
 
 impl Control {
     /// The exponent is 1/order, of the solution where the estimate is of one less.
     pub fn new(order: f64, shrink: f64, grow: f64) -> Self {
-        Control {
-            exponent: 1.0 / order,
-            shrink,
-            grow,
-            safety: 0.9,
-            retry: 0.25,
-            hold: 1.0,
-            before: None,
-            is_predictive: false,
-        }
+        Control { exponent: 1.0 / order, shrink, grow, safety: 0.9, retry: 0.25, gain: Gain::Half, before: None }
     }
 
     /// Predictive control for an error estimate of this order.
     pub fn predictive(order: f64, shrink: f64, grow: f64) -> Self {
-        Control { is_predictive: true, ..Control::new(order, shrink, grow) }
+        Control { gain: Gain::Predictive, ..Control::new(order, shrink, grow) }
     }
 
-    /// The same, but steps that would grow by less than `hold` stay as they are.
-    pub fn holding(self, hold: f64) -> Self {
-        Control { hold, ..self }
+    /// Control of steps that stay as they are where they would grow by less than `hold`.
+    pub fn holding(order: f64, shrink: f64, grow: f64, hold: f64) -> Self {
+        Control { gain: Gain::Held(hold), ..Control::new(order, shrink, grow) }
     }
 
     /// The next step after one of size `h` with error `error`; `growing` is false right after a rejection.
     pub fn accept(&mut self, h: f64, error: f64, growing: bool) -> f64 {
         let whole = error.max(1e-16).powf(-self.exponent);
-        let aim = match self.is_predictive {
-            true => whole.min(self.predicted(h, error)),
-            false => damped(whole, self.exponent),
+        let aim = match self.gain {
+            Gain::Half => damped(whole, self.exponent),
+            Gain::Held(_) => whole,
+            Gain::Predictive => whole.min(self.predicted(h, error)),
         };
         let factor = (self.safety * aim).clamp(self.shrink, if growing { self.grow } else { 1.0 });
-        if (1.0..self.hold).contains(&factor) { h } else { h * factor }
+        match self.gain {
+            Gain::Held(hold) if (1.0..hold).contains(&factor) => h,
+            _ => h * factor,
+        }
     }
 
     /// (h/h_old) (err_old/err^2)^expo.

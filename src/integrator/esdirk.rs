@@ -113,7 +113,7 @@ impl Esdirk {
         let zeros = |n: usize| vec![0.0; n];
         let guesses = || tableau.c.iter().map(|_| Guess { a: zeros(n.v), lambda: zeros(n.lambda) }).collect();
         let of_v = |j: usize| tableau.a.iter().zip(tableau.error).map(|(row, e)| e * row.get(j).unwrap_or(&0.0)).sum();
-        let mut control = Control::new(tableau.estimate, 0.2, 5.0).holding(tolerances::STAGE_HOLD);
+        let mut control = Control::holding(tableau.estimate, 0.2, 5.0, tolerances::STAGE_HOLD);
         control.safety = tolerances::STAGE_SAFETY;
         let k = tableau.c.iter().map(|_| zeros(setup.len())).collect();
         let mut stage = Stage::new(setup)?;

@@ -55,8 +55,8 @@ fn andrews_squeezer() {
     ANDREWS.check(&[
         ("index1 dop853 manifold", Tolerances(&[(1e-4, 3.9, 450), (1e-8, 8.3, 1300), (1e-12, 13.0, 3400)])),
         ("index1 adams manifold", Tolerances(&[(1e-4, 3.3, 270), (1e-8, 7.0, 600), (1e-10, 8.8, 820)])),
-        ("index1 dop853 exact", Tolerances(&[(1e-4, 3.9, 400), (1e-8, 8.3, 1300), (1e-12, 13.0, 3400)])),
-        ("index1 dop853 none", Tolerances(&[(1e-4, 2.8, 400), (1e-8, 7.0, 1300), (1e-12, 11.0, 3400)])),
+        ("index1 dop853 exact", Tolerances(&[(1e-4, 3.9, 440), (1e-8, 8.3, 1300), (1e-12, 13.0, 3400)])),
+        ("index1 dop853 none", Tolerances(&[(1e-4, 2.8, 440), (1e-8, 7.0, 1300), (1e-12, 11.0, 3400)])),
         ("index1 dopri5 manifold", Tolerances(&[(1e-4, 3.7, 390), (1e-7, 7.0, 1400), (1e-10, 10.2, 4800)])),
         ("index2 phem56 none", Tolerances(&[(1e-4, 1.5, 250), (1e-7, 5.4, 740), (1e-10, 8.3, 2600)])),
         ("index2 phem56 manifold", Tolerances(&[(1e-4, 1.5, 280), (1e-7, 6.5, 840), (1e-10, 10.0, 3000)])),
@@ -114,7 +114,7 @@ fn car_on_a_bump() {
 #[test]
 fn pendulum_for_ten_seconds() {
     PENDULUM.check(&[
-        ("index1 dop853 manifold", Tolerances(&[(1e-4, 2.2, 620), (1e-8, 6.1, 1700), (1e-12, 10.6, 4600)])),
+        ("index1 dop853 manifold", Tolerances(&[(1e-4, 2.2, 620), (1e-8, 6.1, 1700), (1e-12, 10.6, 4800)])),
         ("index1 adams manifold", Tolerances(&[(1e-4, 1.5, 420), (1e-8, 5.4, 850), (1e-10, 7.3, 1200)])),
         ("index1 dopri5 manifold", Tolerances(&[(1e-4, 1.5, 610), (1e-7, 4.4, 2300), (1e-10, 7.5, 8600)])),
         ("index2 phem56 none", Tolerances(&[(1e-4, 2.0, 520), (1e-7, 4.3, 1600), (1e-10, 7.4, 6000)])),
@@ -129,7 +129,7 @@ fn pendulum_for_ten_seconds() {
 #[test]
 fn constrained_robot_arm() {
     ROBOT_ARM.check(&[
-        ("index1 dop853 manifold", Tolerances(&[(1e-4, 1.6, 2000), (1e-8, 4.8, 5400), (1e-12, 8.9, 15000)])),
+        ("index1 dop853 manifold", Tolerances(&[(1e-4, 1.5, 2000), (1e-8, 4.8, 5400), (1e-12, 8.9, 15000)])),
         ("index1 adams manifold", Tolerances(&[(1e-8, 4.2, 3100), (1e-10, 6.3, 4300)])),
         ("index1 dopri5 manifold", Tolerances(&[(1e-6, 2.7, 3600), (1e-8, 5.1, 7000), (1e-10, 7.1, 18000)])),
         ("index2 phem56 none", Tolerances(&[(1e-6, 2.5, 2700), (1e-8, 5.7, 5300), (1e-10, 7.6, 13000)])),
@@ -176,7 +176,7 @@ fn flexible_crank() {
 #[test]
 fn flexible_crank_from_the_published_start() {
     PUBLISHED_CRANK.check(&[
-        ("index1 dop853 velocity", Tolerances(&[(1e-4, 3.3, 13000), (1e-7, 6.8, 40000), (1e-10, 9.3, 74000)])),
+        ("index1 dop853 velocity", Tolerances(&[(1e-4, 3.3, 14000), (1e-7, 6.8, 40000), (1e-10, 9.3, 74000)])),
         ("index2 phem56 none", Tolerances(&[(1e-4, 2.7, 18000), (1e-6, 4.7, 39000)])),
         (
             "index2 radau_iia none",
