@@ -18,7 +18,7 @@ pub static MIDPOINT: Entry = Entry {
     options: &[],
     make: |setup| {
         let n = setup.len();
-        let control = Control::new(2.0, 0.0, 0.2, 5.0);
+        let control = Control::new(2.0, 0.2, 5.0);
         Ok(Box::new(Midpoint { middle: vec![0.0; n], slope: vec![0.0; n], control, dense: Hermite::new(n, 0) }))
     },
 };

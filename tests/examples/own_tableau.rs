@@ -26,7 +26,7 @@ static TABLEAU: Tableau = Tableau {
     // b minus the weights of order 2; the last weight is that of y' at the new state.
     error: ErrorEstimate::Embedded(&[-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0]),
     dense: &[],
-    control: || Control::new(3.0, 0.0, 0.2, 5.0),
+    control: || Control::new(3.0, 0.2, 5.0),
 };
 
 #[test]
