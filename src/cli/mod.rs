@@ -89,8 +89,8 @@ enum Command {
     /// The least model and the cheapest method that keep the watched outputs within a bound, as a scene
     ///
     /// The scene is the richest model. What a change does is estimated from one run of it, then measured: the model with all
-    /// that was left out is run whole on the same motion. Beams with fewer elements or modes or rigid, links and branches
-    /// without mass, bodies at rest, stiff springs and bushings, redundant joints, forces that hardly do any work.
+    /// that was left out is run whole on the same motion. Beams with fewer elements or modes or rigid, links, sliders
+    /// and branches without mass, bodies at rest, stiff springs and bushings, redundant joints, forces that hardly do any work.
     Simplify(simplify::Args),
     /// Print a scalable scene
     Generate(generate::Args),

@@ -1,6 +1,6 @@
 //! Both kinds of beams where deformations are small: they differ by the square of the load, and by the mesh.
 
-use crate::flexible::beams::{FLOATING, Rod, THEORIES, at_rest, largest, place_outputs, scene};
+use crate::flexible::beams::{EI, FLOATING, GA, LENGTH, Rod, THEORIES, at_rest, largest, place_outputs, scene};
 use crate::flexible::brief;
 use crate::scenes::{Run, parse};
 
@@ -48,6 +48,29 @@ fn cantilevers_agree_to_the_square_of_the_load() {
             assert!(gaps[0] < 3e-4, "{gaps:?}");
             assert!(gaps.windows(2).all(|pair| (pair[0] / pair[1] - 4.0).abs() < 0.2), "{gaps:?}");
         }
+    }
+}
+
+/// Static modes alone are exact under loads at markers: F L^3/(3 EI), with F L/GA of the shear.
+#[test]
+fn static_modes_bend_as_at_rest() {
+    let (load, length) = (1e-4, LENGTH);
+    for (frame, theory) in FLOATING.into_iter().flat_map(|frame| THEORIES.map(|theory| (frame, theory))) {
+        let rod = Rod { dimension: 2, frame, theory, elements: 4, stiffness: 1.0, more: r#""modes": 0,"# }.json();
+        let rest = format!(
+            r#""joints": [ {{ "name": "clamp", "type": "weld", "between": ["ground.wall", "rod.root"] }} ],
+            "forces": [ {{ "name": "load", "type": "applied_force", "at": "rod.tip", "force": [0, {load}] }} ],
+            "outputs": [ {} ]"#,
+            place_outputs(2, "rod.tip")
+        );
+        let ready = parse(&scene(2, &rod, &rest));
+        // Three coordinates of the frame, and those of the two markers that it does not stand at.
+        assert_eq!(ready.system().dimensions().v, 9, "{frame}");
+        let shear = if theory == "timoshenko" { load * length / GA[0] } else { 0.0 };
+        let exact = load * length.powi(3) / (3.0 * EI[1]) + shear;
+        let found = at_rest(&ready, &["y"])[0];
+        // Rotations of 7e-7 leave their squares.
+        assert!((found / exact - 1.0).abs() < 1e-9, "{frame} {theory}: {found:e} {exact:e}");
     }
 }
 

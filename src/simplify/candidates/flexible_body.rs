@@ -1,18 +1,29 @@
-//! A flexible beam with fewer elements, a few modes, or rigid.
+//! A flexible beam with fewer elements, a few modes, quasi-static, or rigid.
 
+use super::beam_spring::massless;
 use crate::error::percent;
 use crate::simplify::edit::{carrier, elements, find_mut, mentions, pair, remove, text};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use serde_json::{Map, Value, json};
 
-/// Numbers of modes that are tried.
-const MODES: [u32; 3] = [1, 2, 4];
+/// Numbers of fixed-interface modes that are tried.
+const MODES: [u32; 4] = [0, 1, 2, 4];
 /// Deflection by length that is assumed where the beam does not tell it.
 const ASSUMED: f64 = 0.1;
+/// Part of the bending moment by its own inertia or weight that a supported beam lacks without fixed-interface modes: the
+/// parabola of its ends' rotations has q L^2/12 where the beam has q L^2/8 in its middle.
+const LACKING: f64 = 1.0 / 3.0;
 
-/// A `flexible_beam` becomes rigid (straight and uniform ones), keeps a few Craig-Bampton modes in a floating frame, or has a half, a quarter
-/// or an eighth of its elements. Its deflection by its length says how much a rigid one may be off, which falls with the
-/// fourth power of the number of elements or modes.
+/// A `flexible_beam` becomes rigid (straight and uniform ones), keeps a few Craig-Bampton modes in a floating frame, or
+/// none but the static ones, moves as it is in such a frame, or has a half, a quarter or an eighth of its elements. Its
+/// deflection by its length says how much a rigid one may be off, which falls with the fourth power of the number of
+/// elements or modes; small displacements in a frame err by its square, and static modes in what its own inertia bends,
+/// for which its share of the kinetic energy stands.
+///
+/// Static modes alone (Guyan, Reduction of stiffness and mass matrices, AIAA Journal 3, 1965) are the quasi-static
+/// deflection: the beam bends under loads at its markers as at rest, exactly, and takes its own inertia with that shape,
+/// so that the equations keep their form. Without inertia at all a deflection is an algebraic unknown, but for a
+/// straight beam between two pins at its ends, which is a spring EA/L then: by its share of the kinetic energy.
 pub struct FlexibleBody;
 
 impl Candidate for FlexibleBody {
@@ -44,6 +55,9 @@ fn alternatives(facts: &Facts, beam: &Value) -> Vec<Proposal> {
         })
     };
     let finer = |n: u32| deflection / f64::from(n).powi(4);
+    // Small displacements in a floating frame err by the square of the deflection.
+    let is_absolute = text(beam, "frame") == "absolute";
+    let nonlinear = if is_absolute { deflection.powi(2) } else { 0.0 };
     let count = |key: &str| facts.number(&beam[key]).map(|n| n as u32);
     let (mesh, modes) = (count("elements"), count("modes"));
     let mut all: Vec<Proposal> = Vec::new();
@@ -57,19 +71,27 @@ fn alternatives(facts: &Facts, beam: &Value) -> Vec<Proposal> {
         let effect = between_pins(facts, &name_of).unwrap_or(deflection);
         all.push(proposal("becomes rigid".to_string(), effect, Box::new(edit)));
     }
+    let floating = |keep: Option<Edit>| -> Edit {
+        let name = name.clone();
+        Box::new(move |scene| {
+            find_mut(scene, "bodies", &name)?["frame"] = json!("floating");
+            keep.as_ref().map_or(Ok(()), |keep| keep(scene))
+        })
+    };
     if mesh.is_some() {
-        // Small displacements in a floating frame err by the square of the deflection.
-        let nonlinear = if text(beam, "frame") == "floating" { 0.0 } else { deflection.powi(2) };
         let fewer = MODES.into_iter().filter(|k| modes.is_none_or(|modes| *k < modes));
         all.extend(fewer.map(|k| {
-            let (keep, name) = (set("modes", k), name.clone());
-            let edit = move |scene: &mut Value| {
-                find_mut(scene, "bodies", &name)?["frame"] = json!("floating");
-                keep(scene)
+            let (what, lost) = match k {
+                0 => ("deflects as at rest".to_string(), LACKING * deflection * facts.kinetic_share(&name)),
+                k => (format!("keeps {k} of its modes"), finer(1 + k)),
             };
-            proposal(format!("keeps {k} of its modes"), nonlinear + finer(1 + k), Box::new(edit))
+            proposal(what, nonlinear + lost, floating(Some(set("modes", k))))
         }));
     }
+    if is_absolute {
+        all.push(proposal("bends in a floating frame".to_string(), nonlinear, floating(None)));
+    }
+    all.extend(massless(facts, beam));
     if let (Some(n), None) = (mesh, modes) {
         let fewer = [8, 4, 2].map(|part| n / part).into_iter().filter(|n| *n > 0);
         all.extend(fewer.map(|k| proposal(format!("has {k} of its {n} elements"), finer(k), set("elements", k))));
@@ -137,23 +159,28 @@ fn densities(beam: &Value, dimension: usize) -> Option<[String; 2]> {
         return Some([line, spin]);
     }
     let (density, section) = (expression(&beam["material"]["rho"])?, &beam["section"]);
-    let (area, gyration) = match (&section["rectangle"], &section["circle"]) {
+    let (area, gyration) = area(section)?;
+    Some([format!("{density}*{area}"), format!("{density}*{area}*{gyration}")])
+}
+
+/// Area of a section, and the square of its polar radius of gyration.
+pub fn area(section: &Value) -> Option<(String, String)> {
+    match (&section["rectangle"], &section["circle"]) {
         (Value::Object(sides), _) => {
             let [height, width] = [expression(sides.get("height")?)?, expression(sides.get("width")?)?];
-            (format!("{height}*{width}"), format!("({height}^2 + {width}^2)/12"))
+            Some((format!("{height}*{width}"), format!("({height}^2 + {width}^2)/12")))
         }
         (_, Value::Object(circle)) => {
             let outer = expression(circle.get("radius")?)?;
             let inner = circle.get("inner_radius").map_or(Some("0".to_string()), expression)?;
-            (format!("pi*({outer}^2 - {inner}^2)"), format!("({outer}^2 + {inner}^2)/2"))
+            Some((format!("pi*({outer}^2 - {inner}^2)"), format!("({outer}^2 + {inner}^2)/2")))
         }
-        _ => return None,
-    };
-    Some([format!("{density}*{area}"), format!("{density}*{area}*{gyration}")])
+        _ => None,
+    }
 }
 
 /// A number of the scene as a part of an expression.
-fn expression(number: &Value) -> Option<String> {
+pub fn expression(number: &Value) -> Option<String> {
     match number {
         Value::String(text) => Some(format!("({text})")),
         Value::Number(number) => Some(number.to_string()),

@@ -1,11 +1,13 @@
 //! The built-in kinds of simplification, a file each.
 
+mod beam_spring;
 mod branch;
 mod coarser_signal;
 mod flexible_body;
 mod geometric_stiffening;
 mod half_output;
 mod half_spring;
+mod massless_slider;
 mod merged_bodies;
 mod mirror;
 mod negligible_force;
@@ -16,10 +18,12 @@ mod point_mass;
 mod quasi_static_state;
 mod redundant_joint;
 mod resting_body;
+mod series_springs;
 mod stiff_connection;
 mod symmetric_half;
 mod two_force_link;
 
+pub(super) use plane::Plane;
 pub(super) use two_force_link::{Link, Pin};
 
 use super::candidate::Candidate;
@@ -31,6 +35,8 @@ pub fn registry() -> &'static [&'static dyn Candidate] {
         &symmetric_half::SymmetricHalf,
         &flexible_body::FlexibleBody,
         &two_force_link::TwoForceLink,
+        &massless_slider::MasslessSlider,
+        &series_springs::SeriesSprings,
         &branch::Branch,
         &resting_body::RestingBody,
         &merged_bodies::MergedBodies,

@@ -39,7 +39,8 @@ pub struct Link {
     name: String,
     /// Its ends.
     pub pins: [Pin; 2],
-    length: String,
+    /// Its length as an expression.
+    pub length: String,
     /// Markers of the link, with the components of their axes along the line from the first pin to the second.
     axes: Vec<(String, [f64; 3])>,
 }
@@ -57,10 +58,15 @@ pub struct Pin {
 }
 
 impl Link {
-    /// The body as a link; `None` where it is none.
+    /// The rigid body as a link; `None` where it is none.
     pub fn new(facts: &Facts, body: &Value) -> Option<Link> {
-        let (scene, name) = (facts.scene(), text(body, "name"));
         let is_free = text(body, "type") == "rigid" && body.get("free").is_none();
+        is_free.then(|| Link::between_pins(facts, body)).flatten()
+    }
+
+    /// What two pins hold as a link; `None` where anything else acts on it.
+    pub fn between_pins(facts: &Facts, body: &Value) -> Option<Link> {
+        let (scene, name) = (facts.scene(), text(body, "name"));
         let is_loaded = elements(scene, "forces").iter().any(|force| mentions(force, name));
         let joints: Vec<&Value> = elements(scene, "joints").iter().filter(|joint| mentions(joint, name)).collect();
         let kinds: Vec<&str> = joints.iter().map(|joint| text(joint, "type")).collect();
@@ -68,7 +74,7 @@ impl Link {
             2 => kinds == ["revolute", "revolute"],
             _ => matches!(kinds[..], ["spherical", "spherical" | "universal"] | ["universal", "spherical"]),
         };
-        if !is_free || is_loaded || !are_pins {
+        if is_loaded || !are_pins {
             return None;
         }
         let pins = [Pin::new(joints[0], name)?, Pin::new(joints[1], name)?];
@@ -88,7 +94,16 @@ impl Link {
         })
     }
 
-    fn replace(&self, scene: &mut Value) -> Result<(), String> {
+    /// Markers of the other bodies at its ends.
+    pub fn others(&self) -> [&str; 2] {
+        self.pins.each_ref().map(|pin| pin.other.as_str())
+    }
+
+    /// Puts a distance in its place.
+    ///
+    /// # Errors
+    /// It is no longer what it was.
+    pub fn replace(&self, scene: &mut Value) -> Result<(), String> {
         let [first, second] = &self.pins;
         let there = elements(scene, "joints").iter().filter(|joint| self.owns(text(joint, "name"))).count();
         if there != 2 {
@@ -103,7 +118,7 @@ impl Link {
         if let Some(joints) = scene["joints"].as_array_mut() {
             joints.retain(|joint| text(joint, "name") != second.joint);
             for joint in joints.iter_mut().filter(|joint| text(joint, "name") == first.joint) {
-                *joint = json!({ "name": self.name, "type": "distance", "between": [first.other, second.other],
+                *joint = json!({ "name": self.name, "type": "distance", "between": self.others(),
                                  "length": self.length });
             }
         }
