@@ -32,7 +32,7 @@ pub struct Args {
     /// Time for all of it, such as 20s or 5min (default: no limit)
     #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
     budget: Option<Duration>,
-    /// Keep the promise on motions nearby, too: parameters, and velocities at the start, moved by up to so much
+    /// Keep the promise on motions nearby, too: parameters, inputs, signals and the start, moved by up to so much
     #[arg(long, value_name = "P%", value_parser = percentage, allow_hyphen_values = true)]
     robust: Option<f64>,
     /// Number of motions nearby (default: from 20 to 60, by the work of a run)

@@ -94,8 +94,14 @@ fn near(robustness: &Robustness, within: f64) -> String {
         0 => String::new(),
         count => format!("; on {count} the {name} model does not complete"),
     };
-    let velocities = robustness.velocities.then(|| "the velocities at the start".to_string());
-    let parameters = (!robustness.parameters.is_empty()).then(|| short_list(&robustness.parameters));
+    let start = match (robustness.positions, robustness.velocities) {
+        (true, true) => Some("the positions and velocities at the start"),
+        (true, false) => Some("the positions at the start"),
+        (false, true) => Some("the velocities at the start"),
+        (false, false) => None,
+    };
+    let [parameters, inputs] =
+        [&robustness.parameters, &robustness.inputs].map(|names| (!names.is_empty()).then(|| short_list(names)));
     format!(
         "\n  within {} on {kept} of {counted} motions nearby, off by {} at most{}{}\n  moved by up to {}: {}\n",
         percent(within),
@@ -103,7 +109,7 @@ fn near(robustness: &Robustness, within: f64) -> String {
         left(Which::Simplified, "simplified"),
         left(Which::Richest, "richest"),
         percent(*by),
-        parameters.into_iter().chain(velocities).collect::<Vec<_>>().join(" and "),
+        parameters.into_iter().chain(start.map(str::to_string)).chain(inputs).collect::<Vec<_>>().join(", "),
     )
 }
 

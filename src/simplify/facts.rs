@@ -226,7 +226,7 @@ impl Facts {
 
     /// The larger of the swings of the kinetic energy and of the potential, J: that of a car that rolls on is turned over
     /// by nothing.
-    fn turnover(&self) -> f64 {
+    pub(super) fn turnover(&self) -> f64 {
         let (system, mut scratch) = (self.prepared.system(), Scratch::default());
         let energy = |state: &State| system.energy(state.t, &state.q, &state.v, &mut scratch);
         let all: Vec<_> = self.states.iter().filter_map(energy).collect();

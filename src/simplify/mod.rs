@@ -11,7 +11,8 @@
 //!    20 of these were run in vain for their effect, and 27 searches would have had to pay for the estimate.
 //! 3. Changes are tried where they save most, all of a kind together and, where that is refused, in halves. What is run is
 //!    always the whole model with all that was kept before, so that changes which are harmless alone and wrong together
-//!    are found out. A change is kept if every watched output stays within the promise, numerical error included.
+//!    are found out. A change is kept if every watched output stays within the promise, numerical error included. Where it
+//!    is not, what was measured corrects what is expected of its alternatives, and the doubtful ones come last.
 //! 4. Methods and tolerances are tried on the model that is found: their own error is to be a tenth of the promise.
 //! 5. With [`Nearby`] a change, or a method, is kept only if it keeps the promise on motions near the given one, too.
 //!
@@ -23,9 +24,11 @@ mod base;
 mod bench;
 mod candidate;
 mod candidates;
+mod displaced;
 mod edit;
 mod facts;
 mod modes;
+mod moved;
 mod nearby;
 mod numerics;
 mod promise;
@@ -162,7 +165,8 @@ pub fn simplify(
         watch("the richest model on motions nearby", runs);
     }
     let is_near_long = || is_asked() || !is_within(NEARBY);
-    let near = |nearby| Neighbourhood::new(&base, &promise, nearby, richest.work, [&is_near_long, is_stopped]);
+    let near =
+        |nearby| Neighbourhood::new((&base, &facts), &promise, nearby, richest.work, [&is_near_long, is_stopped]);
     let neighbourhood = settings.nearby.map(near).transpose()?;
     warnings.extend(neighbourhood.as_ref().and_then(Neighbourhood::doubt));
     let neighbours = neighbourhood.as_ref().filter(|near| !near.is_empty());

@@ -1,6 +1,8 @@
 //! Only what a motion requires: what is left out, what stays, and that the promise is what is measured.
 
 mod halves;
+mod light_bodies;
+mod nearby;
 
 use crate::scenes::model;
 use holonom::prepared::Overrides;
@@ -385,23 +387,6 @@ fn what_is_too_fast_or_too_fine_goes() {
     let gone = left_out(&found);
     assert!(gone[0] == "sensed follows at once" && gone[1].starts_with("road has "), "{gone:?}");
     assert_eq!((found.richest.velocities, found.chosen.velocities), (2, 1));
-}
-
-/// The same samples in every run; a parameter that is a number of elements is not moved.
-#[test]
-fn a_promise_is_tried_on_motions_nearby() {
-    let nearby = Some(Nearby { by: 0.1, samples: Some(6) });
-    let forces = json!([damper("weak", 0.01)]);
-    let near = || {
-        let settings = Settings { nearby, ..settings(0.05, &[]) };
-        scene(pendulum(pin(), forces.clone()), &settings).robustness.unwrap()
-    };
-    let (first, again) = (near(), near());
-    let errors =
-        |near: &holonom::simplify::Robustness| near.motions.iter().map(|m| m.worst.clone()).collect::<Vec<_>>();
-    assert_eq!((first.counted, first.kept, &first.parameters[..]), (6, 6, &["m".to_string(), "k".to_string()][..]));
-    assert!(errors(&first)[0] != errors(&first)[1]);
-    assert_eq!(first.motions.len(), again.motions.len());
 }
 
 /// Heun's method at 10 ms errs by more than a tenth of 0.1 %: a shorter step takes its place.

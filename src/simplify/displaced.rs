@@ -1,0 +1,90 @@
+//! Places of bodies that start elsewhere.
+
+use super::edit::{elements, text};
+use super::facts::{Facts, Placed, product};
+use crate::math::rotation::{axes_from_quaternion, quaternion_from_axes, quaternion_from_vector, quaternion_product};
+use crate::math::screw::quaternion;
+use serde_json::{Value, json};
+use std::array::from_fn;
+use std::f64::consts::{PI, TAU};
+
+/// How far the bodies have gone at each state, as part of what they do at most.
+pub fn progress(facts: &Facts) -> Vec<f64> {
+    let travel = facts.travel();
+    let mut most = vec![0.0f64; facts.states().len()];
+    let part = |own: f64, all: f64| if all > 0.0 { own / all } else { 0.0 };
+    let bodies = elements(facts.scene(), "bodies").iter();
+    for path in bodies.filter_map(|body| facts.path(text(body, "name"))) {
+        for (most, place) in most.iter_mut().zip(&path) {
+            let gap: [f64; 3] = from_fn(|i| place.r[i] - path[0].r[i]);
+            let turn = rotation(&path[0], place);
+            let [shift, turn] = [&gap, &turn].map(|x| product(x, x).sqrt());
+            *most = most.max(part(shift, travel.shift)).max(part(turn, travel.turn));
+        }
+    }
+    most
+}
+
+/// True if a body is where its frame is: no other place strains it.
+pub fn is_rigid(body: &Value) -> bool {
+    ["rigid", "point_mass"].contains(&text(body, "type"))
+}
+
+/// Writes the start of a body. One in space with freedoms of its own keeps the rotation from which they count.
+pub fn start_at(body: &mut Value, place: &Placed, dimension: usize) {
+    if !is_rigid(body) {
+        return;
+    }
+    let (is_point, is_guided) = (text(body, "type") == "point_mass", body.get("free").is_some());
+    if !body["initial"].is_object() {
+        body["initial"] = json!({});
+    }
+    let initial = &mut body["initial"];
+    initial["position"] = json!(place.r[..dimension]);
+    initial["velocity"] = json!(place.velocity[..dimension]);
+    if dimension == 2 && !is_point {
+        (initial["angle"], initial["angular_velocity"]) = (json!(place.turn), json!(place.spin[2]));
+    } else if !is_point && !is_guided {
+        let keys = initial.as_object_mut().into_iter();
+        keys.for_each(|keys| keys.retain(|key, _| !["z_axis", "x_axis"].contains(&key.as_str())));
+        initial["rotation"] = json!(quaternion_from_axes(&place.axes));
+        initial["angular_velocity"] = json!(place.axes.map(|axis| product(&axis, &place.spin)));
+    }
+}
+
+/// A place moved by a part of the displacement from `first` to `now`.
+pub fn further(place: &Placed, first: &Placed, now: &Placed, part: f64) -> Placed {
+    let turned = quaternion_from_vector(&rotation(first, now).map(|x| part * x));
+    Placed {
+        r: from_fn(|i| place.r[i] + part * (now.r[i] - first.r[i])),
+        axes: axes_from_quaternion(&quaternion_product(&turned, &quaternion_from_axes(&place.axes))),
+        turn: place.turn + part * wrapped(now.turn - first.turn),
+        ..*place
+    }
+}
+
+/// Rotation vector from one place to another, in the world.
+fn rotation(first: &Placed, now: &Placed) -> [f64; 3] {
+    // R[i][j] = sum of now_k[i] first_k[j] over the axes k.
+    let matrix = from_fn(|i| from_fn(|j| (0..3).map(|k| now.axes[k][i] * first.axes[k][j]).sum()));
+    let (w, x) = quaternion(&matrix);
+    let half = product(&x, &x).sqrt();
+    let angle = 2.0 * half.atan2(w.abs());
+    x.map(|x| if half > 0.0 { w.signum() * angle * x / half } else { 0.0 })
+}
+
+/// Angle of the second of two markers against the first, about its z axis.
+pub fn angle([one, other]: &[Placed; 2]) -> f64 {
+    product(&one.axes[1], &other.axes[0]).atan2(product(&one.axes[0], &other.axes[0]))
+}
+
+/// Displacement of the second of two markers along an axis of the first.
+pub fn slide([one, other]: &[Placed; 2], axis: usize) -> f64 {
+    let gap: [f64; 3] = from_fn(|i| other.r[i] - one.r[i]);
+    product(&one.axes[axis], &gap)
+}
+
+/// An angle between -pi and pi.
+pub fn wrapped(angle: f64) -> f64 {
+    angle - TAU * ((angle + PI) / TAU).floor()
+}

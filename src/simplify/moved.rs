@@ -1,0 +1,310 @@
+//! What is moved in a motion nearby.
+
+use super::candidates::Plane;
+use super::displaced::{angle, further, is_rigid, progress, slide, start_at, wrapped};
+use super::edit::{elements, find_mut, mentions, pair, text};
+use super::facts::{Facts, Placed, placed, product};
+use super::recorded::State;
+use super::source::Source;
+use crate::prepared::PreparedScene;
+use crate::system::Scratch;
+use crate::tolerances::SAME;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use std::array::from_fn;
+
+/// What of the richest model can be moved.
+pub struct Movable<'a> {
+    source: &'a Source,
+    facts: &'a Facts,
+    /// Numbers among its parameters.
+    pub parameters: Vec<String>,
+    /// True if it has velocities at the start.
+    pub velocities: bool,
+    /// True if it can start elsewhere.
+    pub positions: bool,
+    /// Inputs with values, and signals.
+    pub inputs: Vec<String>,
+    /// Points of the signals that are in files.
+    points: Vec<(String, Value)>,
+    /// How far the bodies have gone by each state, as part of what they do at most.
+    progress: Vec<f64>,
+}
+
+/// How far it is moved.
+#[derive(Default)]
+pub struct Move {
+    parameters: Vec<f64>,
+    velocities: f64,
+    inputs: f64,
+    /// Change of each joint coordinate that the scene gives at the start.
+    joints: Vec<(String, f64)>,
+    /// Start of each body as assembled; none where positions stay.
+    starts: Vec<(String, Placed)>,
+}
+
+impl<'a> Movable<'a> {
+    /// What the model can be built with at both ends of its range.
+    pub fn new(source: &'a Source, facts: &'a Facts, by: f64) -> Movable<'a> {
+        let scene = &source.scene;
+        let points = elements(scene, "signals").iter().filter_map(|signal| points(facts, signal)).collect();
+        let (velocities, progress) = (facts.prepared.start().1.iter().any(|v| *v != 0.0), progress(facts));
+        let mut all = Movable {
+            source,
+            facts,
+            parameters: Vec::new(),
+            velocities,
+            positions: false,
+            inputs: Vec::new(),
+            points,
+            progress,
+        };
+        all.parameters = all.movable_parameters(by);
+        let given = elements(scene, "inputs").iter().filter(|input| input.get("value").is_some());
+        let names = given.chain(elements(scene, "signals")).map(|element| text(element, "name").to_string());
+        all.inputs = names.collect();
+        let inputs = |inputs: f64| Move { inputs, ..Move::default() };
+        if !all.inputs.is_empty() && ![by, -by].iter().all(|u| all.builds(&inputs(*u))) {
+            all.inputs.clear();
+        }
+        // Assembly closes joints by what gives way: beams would start strained.
+        all.positions = elements(scene, "bodies").iter().all(is_rigid)
+            && [by, -by].iter().all(|u| all.restarted(scene, Move::default(), *u).is_ok());
+        all
+    }
+
+    /// True if there is nothing.
+    pub fn is_empty(&self) -> bool {
+        self.parameters.is_empty() && !self.velocities && !self.positions && self.inputs.is_empty()
+    }
+
+    fn builds(&self, change: &Move) -> bool {
+        self.source.prepare(&self.moved(&self.source.scene, change)).is_ok()
+    }
+
+    /// Numbers of elements and modes stay.
+    fn movable_parameters(&self, by: f64) -> Vec<String> {
+        let scene = &self.source.scene;
+        let numbers = scene["parameters"].as_object().into_iter().flatten();
+        let numbers =
+            numbers.filter(|(_, value)| value.as_f64().is_some_and(|value| value != 0.0)).map(|(name, _)| name);
+        let counts = |name: &str| {
+            let bodies = elements(scene, "bodies").iter();
+            bodies.flat_map(|body| [&body["elements"], &body["modes"]]).any(|count| mentions(count, name))
+        };
+        let builds = |name: &str, u: f64| {
+            let mut scene = scene.clone();
+            move_parameter(&mut scene, name, u);
+            self.source.prepare(&scene).is_ok()
+        };
+        let is_possible = |name: &&String| !counts(name) && builds(name, by) && builds(name, -by);
+        numbers.collect::<Vec<_>>().into_par_iter().filter(is_possible).cloned().collect()
+    }
+
+    /// The motion of this number, and the scene of the richest model.
+    ///
+    /// # Errors
+    /// Reason why that cannot start so.
+    pub fn draw(&self, sample: u64, by: f64) -> Result<(Move, Value), String> {
+        let mut random = Random(1 + sample);
+        let mut next = || by * random.next();
+        let parameters = self.parameters.iter().map(|_| next()).collect();
+        let [velocities, start, inputs] = [next(), next(), next()];
+        let change = Move { parameters, velocities, inputs, ..Move::default() };
+        match self.positions {
+            true => self.restarted(&self.source.scene, change, start),
+            false => {
+                let scene = self.moved(&self.source.scene, &change);
+                Ok((change, scene))
+            }
+        }
+    }
+
+    /// The change with a start that is `u` of the way further, and the scene of the richest model with both.
+    fn restarted(&self, scene: &Value, mut change: Move, u: f64) -> Result<(Move, Value), String> {
+        let start = |scene: &Value| self.source.prepare(scene).map_err(|error| error.to_string());
+        let first = start(&self.moved(scene, &change))?;
+        let before = self.places(&first);
+        let (state, part) = self.ahead(u).ok_or("nothing moves")?;
+        change.joints = self.joints(state, part).ok_or("a coordinate at the start cannot be moved")?;
+        let ahead = |(name, place): (String, Placed)| {
+            let path = self.facts.path(&name)?;
+            let place = further(&place, &path[0], path.get(state)?, part);
+            Some((name, place))
+        };
+        change.starts = before.clone().into_iter().filter_map(ahead).collect();
+        let there = start(&self.moved(scene, &change))?;
+        // Assembly closes joints, and may strain springs by that.
+        let energies = potential(&first).zip(potential(&there));
+        if energies.is_some_and(|(first, there)| (there - first).abs() > self.facts.turnover()) {
+            return Err("springs would be strained".to_string());
+        }
+        // As assembled, so that every model starts there.
+        change.starts = self.places(&there);
+        let near = |own: &[f64; 3], other: &[f64; 3]| own.iter().zip(other).all(|(x, y)| (x - y).abs() <= SAME);
+        let is_there = |((_, own), (_, other)): (&(String, Placed), &(String, Placed))| {
+            near(&own.r, &other.r) && own.axes.iter().zip(&other.axes).all(|(own, other)| near(own, other))
+        };
+        if before.iter().zip(&change.starts).all(is_there) {
+            return Err("the joints do not let it move".to_string());
+        }
+        let scene = self.moved(scene, &change);
+        Ok((change, scene))
+    }
+
+    /// Start of the bodies.
+    fn places(&self, prepared: &PreparedScene) -> Vec<(String, Placed)> {
+        let (q, v) = prepared.start();
+        let all = placed(prepared, &State { t: prepared.start_time(), q: q.to_vec(), v: v.to_vec() });
+        let names = elements(&self.source.scene, "bodies").iter().map(|body| text(body, "name"));
+        names.filter_map(|name| Some((name.to_string(), *all.get(super::facts::marker(prepared, name)?)?))).collect()
+    }
+
+    /// The first state at which the bodies have gone that far, and the part of the way there; less than 0 for back.
+    fn ahead(&self, u: f64) -> Option<(usize, f64)> {
+        let state = self.progress.iter().position(|part| *part > 0.0 && *part >= u.abs())?;
+        Some((state, u / self.progress[state]))
+    }
+
+    /// Change of the joint coordinates that the scene gives at the start, by a part of that until a state; `None` where
+    /// it is not known.
+    fn joints(&self, state: usize, part: f64) -> Option<Vec<(String, f64)>> {
+        let given = self.source.scene["initial"].as_object().into_iter().flatten().map(|(key, _)| key);
+        let change = |key: &String| {
+            let (joint, coordinate) = key.split_once('.')?;
+            let joint = self.facts.element("joints", joint).filter(|joint| joint.get("axis").is_none())?;
+            let [one, other] = pair(joint)?.map(|marker| self.facts.path(marker));
+            let (one, other) = (one?, other?);
+            let (first, now) = ([one[0], other[0]], [*one.get(state)?, *other.get(state)?]);
+            let along = if self.facts.dimension() == 2 && coordinate == "position" { 0 } else { 2 };
+            let change = match coordinate {
+                "angle" => wrapped(angle(&now) - angle(&first)),
+                "position" => slide(&now, along) - slide(&first, along),
+                _ => return None,
+            };
+            Some((key.clone(), part * change))
+        };
+        given.filter(|key| !key.ends_with('\'')).map(change).collect()
+    }
+
+    /// A scene, the richest or a simpler one, so moved.
+    pub fn moved(&self, scene: &Value, change: &Move) -> Value {
+        let mut scene = scene.clone();
+        for (name, u) in self.parameters.iter().zip(&change.parameters) {
+            move_parameter(&mut scene, name, *u);
+        }
+        faster(&mut scene, 1.0 + change.velocities);
+        if change.inputs != 0.0 {
+            self.scale_inputs(&mut scene, 1.0 + change.inputs);
+        }
+        for (key, change) in &change.joints {
+            if let Some(value) = scene.get_mut("initial").and_then(|initial| initial.get_mut(key)) {
+                let given = value.as_str().map_or_else(|| value.to_string(), str::to_string);
+                *value = json!(format!("({given}) + {change}"));
+            }
+        }
+        let dimension = if scene["dimension"] == 2 { 2 } else { 3 };
+        for (name, place) in &change.starts {
+            let place = self.seen(name, place, dimension);
+            if let (Ok(body), Some(place)) = (find_mut(&mut scene, "bodies", name), place) {
+                start_at(body, &place, dimension);
+            }
+        }
+        scene
+    }
+
+    /// The place of a body in a scene of so many dimensions: in the plane that a mechanism in space moves in.
+    fn seen(&self, body: &str, place: &Placed, dimension: usize) -> Option<Placed> {
+        if dimension == self.facts.dimension() {
+            return Some(*place);
+        }
+        let (plane, start) = (Plane::new(self.facts), self.facts.place(body)?);
+        let own = plane.seen_from(body, &start)[0];
+        let flat = |vector: &[f64; 3]| plane.axes.map(|axis| product(&axis, vector));
+        let direction = |place: &Placed| -> [f64; 3] { from_fn(|i| (0..3).map(|k| own[k] * place.axes[k][i]).sum()) };
+        let [before, now] = [&start, place].map(|place| plane.angle(&direction(place)));
+        Some(Placed {
+            r: flat(&place.r),
+            turn: before + wrapped(now - before),
+            velocity: flat(&place.velocity),
+            spin: flat(&place.spin),
+            ..*place
+        })
+    }
+
+    fn scale_inputs(&self, scene: &mut Value, factor: f64) {
+        for input in scene.get_mut("inputs").and_then(Value::as_array_mut).into_iter().flatten() {
+            input.get_mut("value").map(|value| scale(value, factor)).unwrap_or_default();
+        }
+        for signal in scene.get_mut("signals").and_then(Value::as_array_mut).into_iter().flatten() {
+            if let Some((_, points)) = self.points.iter().find(|(name, _)| *name == text(signal, "name"))
+                && signal.get("points").is_none()
+            {
+                signal["points"] = points.clone();
+                let keys = signal.as_object_mut().into_iter();
+                keys.for_each(|keys| keys.retain(|key, _| !["file", "columns"].contains(&key.as_str())));
+            }
+            let points = signal.get_mut("points").and_then(Value::as_array_mut).into_iter().flatten();
+            points.filter_map(|point| point.get_mut(1)).for_each(|value| scale(value, factor));
+        }
+    }
+}
+
+/// Potential energy at the start, J.
+fn potential(prepared: &PreparedScene) -> Option<f64> {
+    let ((q, v), t) = (prepared.start(), prepared.start_time());
+    Some(prepared.system().energy(t, q, v, &mut Scratch::default())?.potential)
+}
+
+/// Points of a signal that is in a file.
+fn points(facts: &Facts, signal: &Value) -> Option<(String, Value)> {
+    let (name, _) = (text(signal, "name"), signal.get("file")?);
+    let signal = facts.prepared.parameters.signals().iter().find(|signal| signal.name() == name)?;
+    let points: Vec<[f64; 2]> = signal.knots().iter().map(|x| [*x, signal.apply(*x)]).collect();
+    Some((name.to_string(), json!(points)))
+}
+
+fn move_parameter(scene: &mut Value, name: &str, u: f64) {
+    let value = scene["parameters"][name].as_f64().unwrap_or(0.0);
+    scene["parameters"][name] = json!(value * (1.0 + u));
+}
+
+const VELOCITIES: [&str; 3] = ["velocity", "angular_velocity", "elastic_velocity"];
+
+/// Multiplies all velocities at the start.
+fn faster(scene: &mut Value, factor: f64) {
+    if factor == 1.0 {
+        return;
+    }
+    let bodies = scene.get_mut("bodies").and_then(Value::as_array_mut).into_iter().flatten();
+    for initial in bodies.filter_map(|body| body.get_mut("initial")) {
+        VELOCITIES.iter().filter_map(|key| initial.get_mut(key).map(|value| scale(value, factor))).for_each(drop);
+    }
+    let of_joints = scene.get_mut("initial").and_then(Value::as_object_mut).into_iter().flatten();
+    of_joints.filter(|(name, _)| name.ends_with('\'')).for_each(|(_, value)| scale(value, factor));
+}
+
+/// Multiplies all numbers of a value.
+fn scale(value: &mut Value, factor: f64) {
+    match value {
+        Value::Number(number) => *value = json!(factor * number.as_f64().unwrap_or(0.0)),
+        Value::String(text) => *text = format!("{factor}*({text})"),
+        Value::Array(all) => all.iter_mut().for_each(|value| scale(value, factor)),
+        Value::Object(keys) => keys.values_mut().for_each(|value| scale(value, factor)),
+        _ => {}
+    }
+}
+
+/// Numbers evenly distributed between -1 and 1 (splitmix64, Steele, Lea, Flood 2014).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^= z >> 31;
+        (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
