@@ -6,7 +6,8 @@ use super::run::Run;
 use super::search::{Found, NUMERICAL, Trial};
 use super::source::write_method;
 use crate::error::percent;
-use crate::simulate::Method;
+use crate::method_spec::MethodSpec;
+use crate::simulate::{Method, known_methods};
 
 /// The loosest tolerance that is tried.
 const LOOSEST: f64 = 0.01;
@@ -16,40 +17,47 @@ const FIRST: f64 = 0.01;
 const TIGHTER: f64 = 0.1;
 const LONGER: f64 = 2.0;
 /// Tolerances of one method.
-const TOLERANCES: usize = 3;
+const TOLERANCES: usize = 4;
 /// A method is taken if it costs so much less.
 const CHEAPER: f64 = 0.9;
 /// At so many times the cost of the best one a method is given up.
 const DEARER: f64 = 1.5;
-/// Methods that are tried beside the scene's own: those that cost least on most motions, without and with fast modes at
-/// rest.
-const METHODS: [&str; 2] = ["index1 + dop853 + manifold", "ggl + radau_iia"];
-
-/// Tries methods and tolerances on the model that is found, and takes the cheapest that keeps the promise.
+/// Tries methods and tolerances on the model that is found, and takes the cheapest that keeps the promise: the scene's own
+/// method, those that an automatic choice knows, and the best of them without its projection.
 pub fn cheapest(bench: &mut Bench, found: &mut Found) {
     let own = found.run.method.clone();
     let exact = found.run.rows.clone();
     try_method(bench, found, &exact, own.clone());
-    for method in METHODS.iter().filter_map(|name| name.parse::<Method>().ok()) {
-        if method.triple() != own.triple() {
-            try_method(bench, found, &exact, Method { step: None, rtol: own.rtol, atol: own.atol, ..method });
-        }
+    let system = bench.mechanism(&found.scene);
+    let known = system.map(|model| known_methods(model.system(), (first(bench, &own), own.atol))).unwrap_or_default();
+    for method in known.into_iter().filter(|method| method.triple() != own.triple()) {
+        try_method(bench, found, &exact, Method { rtol: own.rtol, atol: own.atol, ..method });
     }
+    let none = MethodSpec::named("none");
+    let bare = Method { projection: none, ..found.run.method.clone() };
+    if bare != found.run.method && bare.triple() != own.triple() && !bench.is_over(0) {
+        attempt(bench, found, &exact, &bare);
+    }
+}
+
+/// The first tolerance that is tried.
+fn first(bench: &Bench, own: &Method) -> f64 {
+    (FIRST * bench.promise.within).clamp(own.rtol, LOOSEST)
 }
 
 /// From a loose tolerance to tighter ones until one will do; where the first does, to looser ones.
 fn try_method(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], own: Method) {
     let mut method = match own.step {
         Some(step) => Method { step: Some(LONGER * step), ..own.clone() },
-        None => at(&own, (FIRST * bench.promise.within).clamp(own.rtol, LOOSEST)),
+        None => at(&own, first(bench, &own)),
     };
-    let mut first = None;
+    let mut known = None;
     for _ in 0..TOLERANCES {
         if method == found.run.method || bench.is_over(0) {
             return;
         }
         let verdict = attempt(bench, found, exact, &method);
-        if verdict == Verdict::Dear || *first.get_or_insert(verdict) != verdict {
+        if verdict == Verdict::Dear || *known.get_or_insert(verdict) != verdict {
             return;
         }
         method = match (verdict, method.step) {

@@ -62,7 +62,7 @@ const FIRST: usize = 0;
 /// The explicit method that a run begins with, and those that may take over: where stability limits the steps, those of
 /// `dop853` are three times as long for the same work as those of `adams`; `bdf` takes the least work a step, but
 /// oscillations that its orders 3 to 5 are not stable for shorten its steps.
-fn candidates(system: &dyn MechanicalSystem, tolerances: (f64, f64)) -> Vec<Method> {
+pub fn known_methods(system: &dyn MechanicalSystem, tolerances: (f64, f64)) -> Vec<Method> {
     let first = explicit(system, tolerances.0);
     let explicit = |integrator| method(["index1", integrator, "manifold"], tolerances);
     let mut all = vec![explicit(first), method(["ggl", "bdf", "none"], tolerances), implicit(tolerances)];
@@ -103,7 +103,7 @@ pub fn advise(
     span: Span,
     start: (&[f64], &[f64]),
 ) -> Result<(Method, String)> {
-    let methods = [candidates(system, tolerances).swap_remove(FIRST), implicit(tolerances)];
+    let methods = [known_methods(system, tolerances).swap_remove(FIRST), implicit(tolerances)];
     methods[FIRST].check()?;
     let mut drive = Drive::new(system, &methods, unseen(span), start)?;
     if let Err(Failure { reason, .. }) = drive.run.begin(&mut Quiet(None)) {
@@ -129,7 +129,7 @@ pub fn simulate_automatic(
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Vec<Leg>, Option<Checkpoint>)> {
     span.check()?;
-    let methods = candidates(system, tolerances);
+    let methods = known_methods(system, tolerances);
     methods[FIRST].check()?;
     let mut drive = Drive::new(system, &methods, span, start)?;
     let begun = drive.run.begin(sink);

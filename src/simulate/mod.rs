@@ -20,6 +20,7 @@ mod step;
 mod stiffness;
 
 pub use crate::math::threads::spread;
+pub(crate) use automatic::known_methods;
 pub use automatic::{Leg, Trial, advise, simulate_automatic};
 pub use checkpoint::{Checkpoint, Start, simulate_from};
 pub use method::Method;
