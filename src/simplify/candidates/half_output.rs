@@ -58,8 +58,9 @@ fn image_output(mirror: &Mirror, elements: &Elements, output: &Value) -> Option<
         None => return None,
     };
     let own = renamed(mirror, elements, output)?;
-    // A hinge whose image names the bodies the other way turns as that does.
-    let sign = if is_turning && is_reversed(mirror, [of, text(&own, "of")]) { 0.0 - sign } else { sign };
+    // Of a joint whose image names the bodies the other way the angle is minus that, and so is what acts on the second.
+    let is_signed = is_turning || axis.is_some() && ["reaction", "force"].contains(&measure);
+    let sign = if is_signed && is_reversed(mirror, [of, text(&own, "of")]) { 0.0 - sign } else { sign };
     let offset = match (measure, axis) {
         ("angle", _) if mirror.facts.dimension() == 3 => return None,
         ("angle", _) => {
@@ -97,8 +98,7 @@ fn renamed(mirror: &Mirror, elements: &Elements, output: &Value) -> Option<Value
 }
 
 /// True if what is measured at an element is measured at its image, but for the signs of axes: of a tension or a power,
-/// of what acts on the second body, which is the second there, and of a hinge in the plane; not of the torque of a drive
-/// or a torsion spring.
+/// of what acts on the second body, and of a hinge in the plane; not of the torque of a drive or a torsion spring.
 fn has_image(mirror: &Mirror, names: [&str; 2], output: &Value) -> bool {
     let Some(own) = element(mirror, names[0]) else { return false };
     let is_signed = || match text(own, "type") {
@@ -108,7 +108,8 @@ fn has_image(mirror: &Mirror, names: [&str; 2], output: &Value) -> bool {
     match text(output, "measure") {
         "power" | "work" | "distance" | "distance_rate" => true,
         "force" | "reaction" if ["", "axial"].contains(&text(output, "component")) => !is_signed(),
-        "force" | "reaction" => !is_reversed(mirror, names),
+        // Moments are about the marker of the body that they act on.
+        "force" | "reaction" => !is_reversed(mirror, names) || !text(output, "component").starts_with('m'),
         "angle" | "angular_velocity" | "angular_acceleration" => {
             mirror.facts.dimension() == 2 && text(own, "type") == "revolute"
         }

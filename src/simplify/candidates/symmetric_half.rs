@@ -168,7 +168,9 @@ fn is_image(mirror: &Mirror, element: &Value, other: &Value) -> bool {
         let signs = mirror.signs([markers.0, markers.1]);
         signs.is_none_or(|signs| axes.iter().any(|axis| signs[*axis].is_none()))
     };
-    if ["distance", "spring_damper"].contains(&text(element, "type")) && !mirror.are_images(own[0], there[0]) {
+    // What names its bodies the other way is the same; a torque or an angle of it has another sign.
+    let symmetric = ["distance", "spring_damper", "revolute", "spherical", "weld"];
+    if symmetric.contains(&text(element, "type")) && !mirror.are_images(own[0], there[0]) {
         there.reverse();
     }
     own.len() == there.len()
