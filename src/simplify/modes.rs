@@ -15,6 +15,8 @@ const TOLD: usize = 3;
 /// A mode has lost its damping where it keeps a smaller part of its decay rate, if its damping ratio was above `DAMPED`.
 const KEPT: f64 = 0.5;
 const DAMPED: f64 = 0.01;
+/// Relative difference of eigenvalues of which one is the image of the other; damping keeps them from being it exactly.
+const OPPOSITE: f64 = 0.1;
 
 /// The linear model of the start.
 ///
@@ -49,7 +51,9 @@ pub fn lost(richest: &PreparedScene, simpler: &PreparedScene) -> Vec<Warning> {
     // What grows is seen in the end, however little of it outputs see at first.
     let is_told = |mode: &&Fate| mode.seen > SEEN || grows(mode.value) && mode.seen > UNSEEN_MODE;
     let seen = || found.modes.iter().filter(is_told);
-    let lost: Vec<&Fate> = seen().filter(|mode| mode.there.is_none()).collect();
+    // Of a mode that grows and its image that decays as fast, as of what stands upright, the first is told.
+    let is_image = |mode: &Fate| mode.value.re < 0.0 && seen().any(|other| is_opposite(other.value, mode.value));
+    let lost: Vec<&Fate> = seen().filter(|mode| mode.there.is_none() && !is_image(mode)).collect();
     let is_turned = |mode: &&Fate| mode.there.is_some_and(|there| grows(there) != grows(mode.value));
     let turned: Vec<&Fate> = seen().filter(is_turned).collect();
     let undamped: Vec<&Fate> = seen().filter(|mode| is_undamped(mode) && !is_turned(mode)).collect();
@@ -68,6 +72,11 @@ pub fn lost(richest: &PreparedScene, simpler: &PreparedScene) -> Vec<Warning> {
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// True if one is minus the other, both real.
+fn is_opposite(one: Complex<f64>, other: Complex<f64>) -> bool {
+    one.im == 0.0 && other.im == 0.0 && (one.re + other.re).abs() <= OPPOSITE * one.re.abs()
 }
 
 /// A warning about these modes, with a remark on each; none where there is none.
