@@ -67,7 +67,11 @@ impl Bench<'_> {
         let left = (COUNTED * self.at_most as f64 - self.cost).max(0.0) * self.richest.seconds;
         let allowed = Duration::from_secs_f64(seconds.min(left)) + TICKS;
         let run = measured(&prepared, self.promise, allowed, self.is_stopped).map_err(impossible)?;
-        self.cost += run.work / self.richest.work;
+        // What was stopped by the clock has taken that time, whatever it counts by then.
+        self.cost += match run.is_too_slow {
+            true => run.seconds / self.richest.seconds,
+            false => run.work / self.richest.work,
+        };
         self.enter(&run);
         Ok(run)
     }

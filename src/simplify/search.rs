@@ -18,8 +18,10 @@ const HOPELESS: f64 = 3.0;
 const TOO_MUCH: f64 = 0.5;
 /// A model that takes so much more work is not simpler.
 const DEARER: f64 = 1.1;
-/// A model may take so many times the CPU time of the richest.
-const SLOWER: f64 = 3.0;
+/// A model may take so many times the CPU time of the richest: more than the clock of a busy machine errs by.
+const SLOWER: f64 = 2.0;
+/// An alternative with less than this part of the estimated effect is another matter.
+const ALIKE: f64 = 0.5;
 
 /// A change that was proposed, or several together.
 #[derive(Clone, Debug, Serialize)]
@@ -70,6 +72,8 @@ impl Found {
 struct Idea {
     candidate: &'static str,
     proposal: Proposal,
+    /// Expected effect: the estimate, until an alternative is measured.
+    expected: f64,
     size: usize,
 }
 
@@ -139,7 +143,8 @@ impl Search<'_, '_> {
         };
         let known = self.ideas.len();
         let dimensions = mechanism.map(|mechanism| mechanism.system().dimensions());
-        self.ideas.push(Idea { candidate, proposal, size: dimensions.map_or(0, |n| n.v + n.lambda) });
+        let (expected, size) = (proposal.effect, dimensions.map_or(0, |n| n.v + n.lambda));
+        self.ideas.push(Idea { candidate, proposal, expected, size });
         if let Some(reason) = refusal {
             let trial = self.trial(&[known], None, reason);
             self.found.trials.push(trial);
@@ -163,10 +168,9 @@ impl Search<'_, '_> {
                 None => groups.push(Group(vec![i])),
             }
         }
-        let within = self.bench.promise.within;
         let key = |group: &Group| {
             let saved = group.0.iter().map(|i| self.ideas[*i].size).min().unwrap_or(0);
-            (self.effect(&group.0) > within, saved)
+            (self.is_doubtful(group), saved)
         };
         groups.sort_by_key(key);
         groups.into()
@@ -174,6 +178,23 @@ impl Search<'_, '_> {
 
     fn effect(&self, group: &[usize]) -> f64 {
         group.iter().map(|i| self.ideas[*i].proposal.effect).fold(0.0, f64::max)
+    }
+
+    /// True if a group is expected to break the promise.
+    fn is_doubtful(&self, Group(members): &Group) -> bool {
+        members.iter().any(|i| self.ideas[*i].expected > self.bench.promise.within)
+    }
+
+    /// Corrects what is expected of the alternatives of a change by what was measured of that, where they are estimated
+    /// alike: of those much better by the estimate it tells nothing.
+    fn correct(&mut self, of: usize, measured: f64) {
+        let Idea { candidate, proposal: Proposal { subject, effect, .. }, .. } = &self.ideas[of];
+        let (candidate, subject, effect) = (*candidate, subject.clone(), *effect);
+        for Idea { candidate: kind, proposal, expected, .. } in &mut self.ideas {
+            if *kind == candidate && proposal.subject == subject && proposal.effect >= ALIKE * effect {
+                *expected = expected.max(proposal.effect * measured / effect);
+            }
+        }
     }
 
     /// Tries what a group has left; one that is refused is tried in halves, those of the smaller effects first.
@@ -186,7 +207,15 @@ impl Search<'_, '_> {
         if group.is_empty() {
             return;
         }
+        let later = Group(group.clone());
+        if self.is_doubtful(&later) && queue.iter().any(|other| !self.is_doubtful(other)) {
+            queue.push_back(later);
+            return;
+        }
         let trial = self.run(&group);
+        if let ([own], Some(worst), false) = (&group[..], trial.run.as_ref().and_then(Run::worst), trial.is_kept) {
+            self.correct(*own, worst.error);
+        }
         if trial.is_kept {
             let subject = |i: &usize| (self.ideas[*i].candidate, self.ideas[*i].proposal.subject.clone());
             self.settled.extend(group.iter().map(subject));
