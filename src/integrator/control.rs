@@ -140,7 +140,7 @@ pub struct Control {
     /// h_new/h after a step that failed without an error.
     pub retry: f64,
     gain: Gain,
-    /// Size and error of the last accepted step, for the predictive control.
+    /// Size and error of the last accepted step, for the controls that know it.
     before: Option<(f64, f64)>,
 }
 
@@ -151,6 +151,8 @@ enum Gain {
     Half,
     /// By the whole gain; a step that would grow by less than this stays as it is, so that its matrix serves on.
     Held(f64),
+    /// By the whole gain and, to this power, the error of the step before: h_new = h safety err^-expo err_old^beta.
+    Proportional(f64),
     /// By the whole gain, but not beyond what the trend of the errors predicts.
     Predictive,
 }
@@ -166,6 +168,12 @@ impl Control {
         Control { gain: Gain::Predictive, ..Control::new(order, shrink, grow) }
     }
 
+    /// Control by the last two errors: exponent 1/order - 0.75 beta, after the codes DOPRI5 and DOP853.
+    pub fn proportional(order: f64, beta: f64, shrink: f64, grow: f64) -> Self {
+        let control = Control::new(order, shrink, grow);
+        Control { exponent: control.exponent - 0.75 * beta, gain: Gain::Proportional(beta), ..control }
+    }
+
     /// Control of steps that stay as they are where they would grow by less than `hold`.
     pub fn holding(order: f64, shrink: f64, grow: f64, hold: f64) -> Self {
         Control { gain: Gain::Held(hold), ..Control::new(order, shrink, grow) }
@@ -177,6 +185,7 @@ impl Control {
         let aim = match self.gain {
             Gain::Half => damped(whole, self.exponent),
             Gain::Held(_) => whole,
+            Gain::Proportional(beta) => whole * self.last(h, error).powf(beta),
             Gain::Predictive => whole.min(self.predicted(h, error)),
         };
         let factor = (self.safety * aim).clamp(self.shrink, if growing { self.grow } else { 1.0 });
@@ -184,6 +193,11 @@ impl Control {
             Gain::Held(hold) if (1.0..hold).contains(&factor) => h,
             _ => h * factor,
         }
+    }
+
+    /// Error of the step before.
+    fn last(&mut self, h: f64, error: f64) -> f64 {
+        self.before.replace((h, error.max(1e-4))).map_or(1e-4, |(_, old)| old)
     }
 
     /// (h/h_old) (err_old/err^2)^expo.

@@ -77,7 +77,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         motion: Motion::new(Scheme::new(r), n, &dae),
         newton,
         error: vec![0.0; n.q],
-        control: Control::new(3.0, 0.2, 2.0),
+        control: Control::proportional(3.0, 0.13, 0.2, 2.0),
         polynomial: Hermite::new(setup.len(), 0),
     }))
 }
@@ -142,11 +142,14 @@ impl Integrator for GeneralizedAlpha {
     }
 
     fn memory(&self) -> Option<Vec<f64>> {
-        Some([self.motion.memory(), self.newton.memory()].concat())
+        let control = self.control.memory();
+        Some([&[control.len() as f64][..], &control, &self.motion.memory(), &self.newton.memory()].concat())
     }
 
     fn recall(&mut self, memory: &[f64]) {
         let mut memory = Reader(memory);
+        let control = memory.number() as usize;
+        self.control.recall(memory.slice(control));
         self.motion.recall(&mut memory);
         self.newton.recall(memory);
     }

@@ -1,6 +1,6 @@
 //! A beam between two pins as a spring.
 
-use super::flexible_body::{area, expression};
+use super::section::{area, expression};
 use super::two_force_link::Link;
 use crate::error::percent;
 use crate::simplify::edit::{elements, remove, text};

@@ -1,6 +1,7 @@
 //! A flexible beam with fewer elements, a few modes, quasi-static, or rigid.
 
 use super::beam_spring::massless;
+use super::section::{area, expression};
 use crate::error::percent;
 use crate::simplify::edit::{carrier, elements, find_mut, mentions, pair, remove, text};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
@@ -161,31 +162,6 @@ fn densities(beam: &Value, dimension: usize) -> Option<[String; 2]> {
     let (density, section) = (expression(&beam["material"]["rho"])?, &beam["section"]);
     let (area, gyration) = area(section)?;
     Some([format!("{density}*{area}"), format!("{density}*{area}*{gyration}")])
-}
-
-/// Area of a section, and the square of its polar radius of gyration.
-pub fn area(section: &Value) -> Option<(String, String)> {
-    match (&section["rectangle"], &section["circle"]) {
-        (Value::Object(sides), _) => {
-            let [height, width] = [expression(sides.get("height")?)?, expression(sides.get("width")?)?];
-            Some((format!("{height}*{width}"), format!("({height}^2 + {width}^2)/12")))
-        }
-        (_, Value::Object(circle)) => {
-            let outer = expression(circle.get("radius")?)?;
-            let inner = circle.get("inner_radius").map_or(Some("0".to_string()), expression)?;
-            Some((format!("pi*({outer}^2 - {inner}^2)"), format!("({outer}^2 + {inner}^2)/2")))
-        }
-        _ => None,
-    }
-}
-
-/// A number of the scene as a part of an expression.
-pub fn expression(number: &Value) -> Option<String> {
-    match number {
-        Value::String(text) => Some(format!("({text})")),
-        Value::Number(number) => Some(number.to_string()),
-        _ => None,
-    }
 }
 
 /// Removes the outputs of a beam that a rigid body has not.

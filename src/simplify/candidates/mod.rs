@@ -18,6 +18,7 @@ mod point_mass;
 mod quasi_static_state;
 mod redundant_joint;
 mod resting_body;
+mod section;
 mod series_springs;
 mod stiff_connection;
 mod symmetric_half;
