@@ -1,7 +1,9 @@
 //! Residual of the equations at a state.
 
 use super::{Dae, Dynamics, Row, StepError};
+use crate::math::threads::each;
 use crate::system::{Dimensions, Need};
+use crate::tolerances::system::NUMBERS_OF_A_PORTION;
 
 /// The unknowns of [`Dae`] other than q and v: n_v and n_c numbers in turn. Empty for shifts that the equations do not
 /// have, or whose own equations are met exactly.
@@ -43,6 +45,13 @@ pub struct Residual {
     pub powers: Vec<f64>,
 }
 
+/// M x + G^T multipliers.
+struct Product<'a> {
+    x: &'a [f64],
+    multipliers: &'a [f64],
+    out: &'a mut [f64],
+}
+
 impl Residual {
     /// All zero, for these dimensions.
     pub fn new(n: Dimensions) -> Self {
@@ -76,18 +85,27 @@ impl Residual {
     pub fn of_terms(&mut self, dae: &Dae, unknowns: Unknowns, dynamics: &Dynamics) {
         let (terms, structure) = (&dynamics.terms, &dynamics.structure);
         let Unknowns { a, lambda, w, eta, u, mu, stiffness } = unknowns;
-        let inertia = |x: &[f64], multipliers: &[f64], out: &mut [f64]| {
-            out.fill(0.0);
-            structure.mass.multiply_symmetric(&terms.mass, x, out);
-            structure.g.multiply_transposed(&terms.g, multipliers, out);
+        let product = |product: &mut Product| {
+            product.out.fill(0.0);
+            structure.mass.multiply_symmetric(&terms.mass, product.x, product.out);
+            structure.g.multiply_transposed(&terms.g, product.multipliers, product.out);
         };
-        let shifts = [(dae.eta, w, eta, &mut self.w), (dae.mu, u, mu, &mut self.u)];
-        for (_, x, multipliers, out) in shifts.into_iter().filter(|(row, x, ..)| row.is_some() && !x.is_empty()) {
-            inertia(x, multipliers, out);
+        let of = |is_there: bool, x, multipliers, out| is_there.then_some(Product { x, multipliers, out });
+        let mut products = [
+            of(true, a, lambda, &mut self.motion[..]),
+            of(dae.eta.is_some() && !w.is_empty(), w, eta, &mut self.w[..]),
+            of(dae.mu.is_some() && !u.is_empty(), u, mu, &mut self.u[..]),
+        ];
+        match a.len() < NUMBERS_OF_A_PORTION {
+            true => products.iter_mut().flatten().for_each(product),
+            false => {
+                each(&mut products[..], &|some: &mut [Option<Product>]| some.iter_mut().flatten().for_each(product))
+            }
+        }
+        for Product { x, out, .. } in products[1..].iter_mut().flatten() {
             out.iter_mut().zip(x.iter().zip(stiffness)).for_each(|(out, (x, stiffness))| *out += stiffness * x);
             out.iter_mut().for_each(|left| *left = -*left);
         }
-        inertia(a, lambda, &mut self.motion);
         self.motion.iter_mut().zip(&terms.f).for_each(|(left, f)| *left = f - *left);
         if dae.holds(2) {
             self.phi_ddot.iter_mut().zip(&terms.gamma).for_each(|(row, gamma)| *row = -gamma);

@@ -243,6 +243,11 @@ pub const MOST_PARTS: usize = 8;
 /// to each other, is some per cent of that of two parts. Test: `what_is_coupled_everywhere_is_not_divided`.
 pub const LARGEST_SEPARATOR: usize = 32;
 
+/// Unknowns at most that the parts of a matrix of an implicit step have in common.
+/// Unit: `[unknowns]`. Why: a choice: as many as are in the groups of [`LARGEST_SEPARATOR`], of eight at most. Test: none:
+/// results differ by round-off alone.
+pub const LARGEST_CORE: usize = 256;
+
 /// A group of unknowns that is coupled to more, and to more than four square roots of all, belongs to the separator.
 /// Unit: `[groups]`. Why: as for coordinates that come behind their multipliers: eliminated before them it would make
 /// one dense block of all. Test: `a_hub_and_separate_mechanisms_are_divided`.

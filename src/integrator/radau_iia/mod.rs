@@ -287,7 +287,10 @@ impl Integrator for RadauIIA {
         to.copy_from_slice(&self.stages.y[s - 1]);
         let tolerance = self.tolerance;
         let error = self.estimate(problem, &tolerance, (from, h, to), |method| &method.error)?;
-        let lower = self.estimate(problem, &tolerance, (from, h, to), |method| &method.lower_error)?;
+        let lower = match self.order.len() {
+            1 => 0.0,
+            _ => self.estimate(problem, &tolerance, (from, h, to), |method| &method.lower_error)?,
+        };
         self.seen = Seen { error, lower, theta: self.newton.rate };
         if self.dae.velocity_index() == 2 && (self.is_fixed || error <= 1.0) {
             velocity::project(problem, from.t + h, to)?;

@@ -25,7 +25,7 @@ pub struct Order {
 pub struct Seen {
     /// Error in units of the internal tolerance.
     pub error: f64,
-    /// What the error of two stages less would be with the same real eigenvalue.
+    /// What the error of two stages less would be with the same real eigenvalue; 0 where the number is fixed.
     pub lower: f64,
     /// Contraction of the Newton iteration.
     pub theta: f64,

@@ -5,18 +5,18 @@ use crate::tolerances::math as tolerances;
 /// The part of nodes of the separator: the last in any comparison.
 pub const SEPARATOR: u32 = u32::MAX;
 
-/// The part of each node, by the nodes that each is coupled to, and the number of parts: the first of `counts` with
-/// which the separator is small enough; `None` if there is none.
+/// The part of each node, by the nodes that each is coupled to, and the number of parts: `most` of them, or half as many
+/// and so on, until at most `largest` nodes are in the separator; `None` if even two parts have more.
 ///
 /// By halves: with nodes in the order of their distance from one at the rim, those at one distance separate the nearer
 /// from the farther ones. In chains, trees and rows of loops these are few. Nodes that are coupled to very many belong
 /// to the separator first.
-pub fn divide(neighbours: &[Vec<u32>], counts: impl Iterator<Item = usize>) -> Option<(Vec<u32>, usize)> {
+pub fn divide(neighbours: &[Vec<u32>], most: usize, largest: usize) -> Option<(Vec<u32>, usize)> {
     let many = tolerances::COUPLED_TO_MANY.max(4 * neighbours.len().isqrt());
     let (hubs, nodes): (Vec<u32>, Vec<u32>) =
         (0..neighbours.len() as u32).partition(|&node| neighbours[node as usize].len() > many);
-    let is_small =
-        |part: &[u32]| part.iter().filter(|part| **part == SEPARATOR).count() <= tolerances::LARGEST_SEPARATOR;
+    let is_small = |part: &[u32]| part.iter().filter(|part| **part == SEPARATOR).count() <= largest;
+    let counts = std::iter::successors(Some(most), |count| Some(count / 2)).take_while(|count| *count > 1);
     let mut divisions = counts.map(|count| {
         let mut graph = Graph { neighbours, part: vec![0; neighbours.len()], distance: vec![UNSEEN; neighbours.len()] };
         hubs.iter().for_each(|&node| graph.part[node as usize] = SEPARATOR);

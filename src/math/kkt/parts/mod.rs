@@ -16,6 +16,7 @@
 mod division;
 mod plan;
 
+pub use division::{SEPARATOR, divide};
 pub use plan::{Division, Plan};
 
 use super::blocks::Blocks;

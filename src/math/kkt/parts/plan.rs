@@ -270,8 +270,7 @@ fn of_groups(groups: &Groups, most: usize) -> Option<(Vec<u32>, usize)> {
         list.sort_unstable();
         list.dedup();
     });
-    let counts = std::iter::successors(Some(most), |count| Some(count / 2)).take_while(|count| *count > 1);
-    let (division, parts) = divide(&neighbours, counts)?;
+    let (division, parts) = divide(&neighbours, most, tolerances::LARGEST_SEPARATOR)?;
     let mut of_group = vec![SEPARATOR; total];
     rest.iter().zip(division).for_each(|(&group, part)| of_group[group] = part);
     // A late coordinate comes behind all its multipliers.

@@ -9,6 +9,7 @@ pub trait Field:
     ComplexField
     + Copy
     + Send
+    + Sync
     + AddAssign
     + SubAssign
     + Sub<Output = Self>

@@ -2,6 +2,7 @@
 
 use crate::tolerances::math as tolerances;
 
+mod columns;
 mod dense;
 mod dense_rows;
 mod field;
