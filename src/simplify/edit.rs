@@ -1,10 +1,15 @@
 //! Changes of a scene as JSON.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// The elements of a list of the scene, such as `bodies`; none where it is missing.
 pub fn elements<'a>(scene: &'a Value, list: &str) -> &'a [Value] {
     scene[list].as_array().map_or(&[], Vec::as_slice)
+}
+
+/// The elements of a list of the scene, to change them.
+pub fn elements_mut<'a>(scene: &'a mut Value, list: &str) -> impl Iterator<Item = &'a mut Value> {
+    scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten()
 }
 
 /// Text at a key of an element; empty where there is none.
@@ -17,9 +22,16 @@ pub fn text<'a>(element: &'a Value, key: &str) -> &'a str {
 /// # Errors
 /// There is none, as after an earlier change.
 pub fn find_mut<'a>(scene: &'a mut Value, list: &str, name: &str) -> Result<&'a mut Value, String> {
-    let all = scene.get_mut(list).and_then(Value::as_array_mut);
-    let found = all.and_then(|all| all.iter_mut().find(|element| text(element, "name") == name));
+    let found = elements_mut(scene, list).find(|element| text(element, "name") == name);
     found.ok_or_else(|| format!("`{name}` is no longer there"))
+}
+
+/// Adds an element to a list of the scene.
+pub fn add(scene: &mut Value, list: &str, element: Value) {
+    match scene[list].as_array_mut() {
+        Some(all) => all.push(element),
+        None => scene[list] = json!([element]),
+    }
 }
 
 /// Removes the elements of a list for which `is_gone` is true.
@@ -27,6 +39,24 @@ pub fn remove(scene: &mut Value, list: &str, is_gone: impl Fn(&Value) -> bool) {
     if let Some(all) = scene.get_mut(list).and_then(Value::as_array_mut) {
         all.retain(|element| !is_gone(element));
     }
+}
+
+/// Removes the elements of a list for which `is_gone` is true, with what refers to them.
+pub fn remove_all(scene: &mut Value, list: &str, is_gone: impl Fn(&Value) -> bool) {
+    let gone = elements(scene, list).iter().filter(|element| is_gone(element));
+    let names: Vec<String> = gone.map(|element| text(element, "name").to_string()).collect();
+    remove(scene, list, is_gone);
+    names.iter().for_each(|name| drop_references(scene, name));
+}
+
+/// Removes the element of this name, with what refers to it.
+///
+/// # Errors
+/// There is none, as after an earlier change.
+pub fn remove_named(scene: &mut Value, list: &str, name: &str) -> Result<(), String> {
+    find_mut(scene, list, name)?;
+    remove_all(scene, list, |element| text(element, "name") == name);
+    Ok(())
 }
 
 /// Removes outputs, inputs and entries of `hold` and `initial` that refer to an element that is gone.
@@ -67,13 +97,36 @@ pub fn carrier(marker: &str) -> &str {
 /// True if a text of `value` refers to the element `name`, or to a marker or coordinate of it; its own name and type
 /// do not count.
 pub fn mentions(value: &Value, name: &str) -> bool {
+    !all_words(value, &|word| carrier(word) != name)
+}
+
+/// True if all that `value` says of a body is about these markers of it, or their coordinates.
+pub fn is_about(value: &Value, body: &str, markers: &[String]) -> bool {
+    let is_one = |name: &str| markers.iter().any(|marker| marker == name);
+    let is_coordinate = |word: &str| {
+        word.rsplit_once('.').is_some_and(|(marker, name)| ["x", "y", "z"].contains(&name) && is_one(marker))
+    };
+    all_words(value, &|word| carrier(word) != body || is_one(word) || is_coordinate(word))
+}
+
+fn all_words(value: &Value, is_such: &impl Fn(&str) -> bool) -> bool {
     match value {
-        Value::String(text) => words(text).any(|word| carrier(word) == name),
-        Value::Array(all) => all.iter().any(|value| mentions(value, name)),
-        Value::Object(keys) => keys
-            .iter()
-            .any(|(key, value)| !["name", "type", "measure"].contains(&key.as_str()) && mentions(value, name)),
-        _ => false,
+        Value::String(text) => words(text).all(is_such),
+        Value::Array(all) => all.iter().all(|value| all_words(value, is_such)),
+        Value::Object(keys) => keys.iter().all(|(key, value)| is_own(key) || all_words(value, is_such)),
+        _ => true,
+    }
+}
+
+/// True of keys that tell what an element is, not what it refers to.
+fn is_own(key: &str) -> bool {
+    ["name", "type", "measure"].contains(&key)
+}
+
+/// Replaces the marker or body `from` by `to` in what is on bodies, and what is measured there.
+pub fn rename_in_scene(scene: &mut Value, from: &str, to: &str) {
+    for list in ["joints", "forces", "states", "outputs"] {
+        elements_mut(scene, list).for_each(|element| rename(element, from, to));
     }
 }
 
@@ -83,8 +136,7 @@ pub fn rename(value: &mut Value, from: &str, to: &str) {
         Value::String(text) => *text = renamed(text, from, to),
         Value::Array(all) => all.iter_mut().for_each(|value| rename(value, from, to)),
         Value::Object(keys) => {
-            let values = keys.iter_mut().filter(|(key, _)| !["name", "type", "measure"].contains(&key.as_str()));
-            values.for_each(|(_, value)| rename(value, from, to));
+            keys.iter_mut().filter(|(key, _)| !is_own(key)).for_each(|(_, value)| rename(value, from, to));
         }
         _ => {}
     }

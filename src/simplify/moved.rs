@@ -2,7 +2,7 @@
 
 use super::candidates::Plane;
 use super::displaced::{angle, further, is_rigid, progress, slide, start_at, wrapped};
-use super::edit::{elements, find_mut, mentions, pair, text};
+use super::edit::{elements, elements_mut, find_mut, mentions, pair, text};
 use super::facts::{Facts, Placed, placed, product};
 use super::recorded::State;
 use super::source::Source;
@@ -233,10 +233,10 @@ impl<'a> Movable<'a> {
     }
 
     fn scale_inputs(&self, scene: &mut Value, factor: f64) {
-        for input in scene.get_mut("inputs").and_then(Value::as_array_mut).into_iter().flatten() {
+        for input in elements_mut(scene, "inputs") {
             input.get_mut("value").map(|value| scale(value, factor)).unwrap_or_default();
         }
-        for signal in scene.get_mut("signals").and_then(Value::as_array_mut).into_iter().flatten() {
+        for signal in elements_mut(scene, "signals") {
             if let Some((_, points)) = self.points.iter().find(|(name, _)| *name == text(signal, "name"))
                 && signal.get("points").is_none()
             {
@@ -244,8 +244,7 @@ impl<'a> Movable<'a> {
                 let keys = signal.as_object_mut().into_iter();
                 keys.for_each(|keys| keys.retain(|key, _| !["file", "columns"].contains(&key.as_str())));
             }
-            let points = signal.get_mut("points").and_then(Value::as_array_mut).into_iter().flatten();
-            points.filter_map(|point| point.get_mut(1)).for_each(|value| scale(value, factor));
+            elements_mut(signal, "points").filter_map(|point| point.get_mut(1)).for_each(|value| scale(value, factor));
         }
     }
 }
@@ -276,8 +275,7 @@ fn faster(scene: &mut Value, factor: f64) {
     if factor == 1.0 {
         return;
     }
-    let bodies = scene.get_mut("bodies").and_then(Value::as_array_mut).into_iter().flatten();
-    for initial in bodies.filter_map(|body| body.get_mut("initial")) {
+    for initial in elements_mut(scene, "bodies").filter_map(|body| body.get_mut("initial")) {
         VELOCITIES.iter().filter_map(|key| initial.get_mut(key).map(|value| scale(value, factor))).for_each(drop);
     }
     let of_joints = scene.get_mut("initial").and_then(Value::as_object_mut).into_iter().flatten();

@@ -1,9 +1,10 @@
 //! Links between two points: which pull, which push.
 
 use super::bench::mechanism;
-use super::candidates::{Link, Pin};
+use super::candidates::Link;
 use super::edit::{elements, text};
 use super::facts::{Facts, Placed, product};
+use super::held::Tie;
 use crate::tolerances::SAME;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -56,7 +57,7 @@ fn link(facts: &Facts, body: &Value) -> Option<Source> {
     let (name, Link { pins, .. }) = (text(body, "name"), Link::new(facts, body)?);
     let components = &["x", "y", "z"][..facts.dimension()];
     let output =
-        |(pin, component): (&Pin, &&str)| json!({ "measure": "reaction", "of": pin.joint, "component": component });
+        |(pin, component): (&Tie, &&str)| json!({ "measure": "reaction", "of": pin.name(), "component": component });
     let outputs = pins.iter().flat_map(|pin| components.iter().map(move |component| (pin, component))).map(output);
     let along = |(first, second): (Placed, Placed)| {
         let gap: [f64; 3] = from_fn(|i| second.r[i] - first.r[i]);

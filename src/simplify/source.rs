@@ -1,5 +1,6 @@
 //! The richest model as JSON, from which poorer ones are made.
 
+use super::edit::elements_mut;
 use crate::error::{Error, Result};
 use crate::prepared::{Overrides, PreparedScene};
 use crate::scene::{self, Elements};
@@ -82,8 +83,7 @@ impl Source {
             place(reference);
         }
         for list in ["bodies", "signals"] {
-            let elements = scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
-            elements.filter_map(|element| element.get_mut("file")).for_each(place);
+            elements_mut(&mut scene, list).filter_map(|element| element.get_mut("file")).for_each(place);
         }
         scene
     }

@@ -3,7 +3,7 @@
 use super::section::{area, expression};
 use super::two_force_link::Link;
 use crate::error::percent;
-use crate::simplify::edit::{elements, remove, text};
+use crate::simplify::edit::{add, elements, elements_mut, remove, text};
 use crate::simplify::{Facts, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
@@ -62,20 +62,14 @@ fn as_spring(scene: &mut Value, spring: &Value, tensions: Vec<Value>) {
     // Components in the world are those on the second body of a pin.
     let is_gone = |output: &Value| is_reaction(output) && !["", "axial"].contains(&text(output, "component"));
     remove(scene, "outputs", is_gone);
-    let outputs = scene.get_mut("outputs").and_then(Value::as_array_mut);
-    if let Some(outputs) = outputs {
-        outputs.extend(tensions);
-        let is_tension = |output: &&mut Value| {
-            is_reaction(output) || text(output, "measure") == "axial_force" && text(output, "of") == name
-        };
-        for output in outputs.iter_mut().filter(is_tension) {
-            let unit = output.get("unit").cloned();
-            *output = json!({ "name": output["name"], "measure": "force", "of": name });
-            unit.into_iter().for_each(|unit| output["unit"] = unit);
-        }
+    tensions.into_iter().for_each(|tension| add(scene, "outputs", tension));
+    let is_tension = |output: &&mut Value| {
+        is_reaction(output) || text(output, "measure") == "axial_force" && text(output, "of") == name
+    };
+    for output in elements_mut(scene, "outputs").filter(is_tension) {
+        let unit = output.get("unit").cloned();
+        *output = json!({ "name": output["name"], "measure": "force", "of": name });
+        unit.into_iter().for_each(|unit| output["unit"] = unit);
     }
-    match scene["forces"].as_array_mut() {
-        Some(forces) => forces.push(spring.clone()),
-        None => scene["forces"] = json!([spring]),
-    }
+    add(scene, "forces", spring.clone());
 }

@@ -1,7 +1,8 @@
 //! Bodies on which nothing depends.
 
 use crate::error::{percent, short_list};
-use crate::simplify::edit::{drop_references, elements, find_mut, mentions, remove, text};
+use crate::simplify::edit::{elements, mentions, text};
+use crate::simplify::held::remove_body;
 use crate::simplify::{Candidate, Facts, Proposal};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -84,23 +85,6 @@ fn proposal(facts: &Facts, bodies: &BTreeSet<&str>) -> Proposal {
         what: format!("{list} {verb} left out, with all that acts there"),
         why: format!("nothing depends on that but {} of the kinetic energy", percent(effect)),
         effect,
-        edit: Box::new(move |scene| {
-            names.iter().try_for_each(|name| find_mut(scene, "bodies", name).map(|_| ()))?;
-            names.iter().for_each(|name| leave_out(scene, name));
-            Ok(())
-        }),
+        edit: Box::new(move |scene| names.iter().try_for_each(|name| remove_body(scene, name))),
     }
-}
-
-/// Removes a body with its joints, forces and outputs.
-fn leave_out(scene: &mut Value, body: &str) {
-    remove(scene, "bodies", |element| text(element, "name") == body);
-    for list in ["joints", "forces"] {
-        let is_gone = |element: &&Value| mentions(element, body);
-        let gone: Vec<String> =
-            elements(scene, list).iter().filter(is_gone).map(|element| text(element, "name").to_string()).collect();
-        remove(scene, list, |element| gone.iter().any(|name| name == text(element, "name")));
-        gone.iter().for_each(|name| drop_references(scene, name));
-    }
-    drop_references(scene, body);
 }

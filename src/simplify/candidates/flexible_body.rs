@@ -3,7 +3,8 @@
 use super::beam_spring::massless;
 use super::section::{area, expression};
 use crate::error::percent;
-use crate::simplify::edit::{carrier, elements, find_mut, mentions, pair, remove, text};
+use crate::simplify::edit::{elements, find_mut, remove, text};
+use crate::simplify::held::{Tie, acting};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use serde_json::{Map, Value, json};
 
@@ -111,7 +112,7 @@ fn bend(facts: &Facts, beam: &Value) -> Option<f64> {
 /// Change of the distance between the two pins of a beam, by that distance, which is all that bodies beside it see of how
 /// it bends; `None` where anything else acts on it.
 fn between_pins(facts: &Facts, name: &str) -> Option<f64> {
-    let acts = |list| elements(facts.scene(), list).iter().filter(|element| mentions(element, name));
+    let acts = |list| acting(facts.scene(), list, name);
     let joints: Vec<&Value> = acts("joints").collect();
     let elastic = acts("outputs").any(|output| facts.watched.iter().any(|watched| watched == text(output, "name")));
     let [first, second] = joints[..] else { return None };
@@ -119,9 +120,8 @@ fn between_pins(facts: &Facts, name: &str) -> Option<f64> {
         ["spherical", "universal"].contains(&text(joint, "type"))
             || facts.dimension() == 2 && text(joint, "type") == "revolute"
     };
-    let own = |joint| pair(joint)?.into_iter().find(|marker| carrier(marker) == name);
     let is_link = is_pin(first) && is_pin(second) && acts("forces").next().is_none() && !elastic;
-    let [least, mean, most] = facts.lengths([own(first)?, own(second)?])?;
+    let [least, mean, most] = facts.lengths([&Tie::new(first, name)?.own, &Tie::new(second, name)?.own])?;
     is_link.then(|| (most - least) / mean)
 }
 

@@ -1,10 +1,9 @@
 //! A slider without mass.
 
 use crate::error::percent;
-use crate::simplify::edit::{
-    carrier, drop_references, elements, find_mut, mentions, pair, remove, rename, text, words,
-};
+use crate::simplify::edit::{add, carrier, elements, elements_mut, is_about, mentions, rename, text};
 use crate::simplify::facts::product;
+use crate::simplify::held::{Tie, acting, are_all, remove_body};
 use crate::simplify::{Candidate, Facts, Placed, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Map, Value, json};
@@ -40,12 +39,10 @@ fn proposal(facts: &Facts, body: &Value) -> Option<Proposal> {
 
 struct Slider {
     name: String,
-    /// Joints that go, the pin last.
-    joints: Vec<Value>,
-    /// True if the slider is the second body of each.
-    is_second: Vec<bool>,
-    /// Marker of the body that moves it.
-    other: String,
+    /// The joint that guides it; none where one freedom does.
+    guide: Option<Tie>,
+    /// The joint to the body that moves it.
+    pin: Tie,
     /// Names of its own markers at the pin, its frame last.
     at: Vec<String>,
     /// The joint that comes.
@@ -59,103 +56,84 @@ struct Slider {
 impl Slider {
     fn new(facts: &Facts, body: &Value) -> Option<Slider> {
         let (scene, name) = (facts.scene(), text(body, "name"));
-        let acts = |list| elements(scene, list).iter().filter(|element| mentions(element, name));
         let pin_kind = if facts.dimension() == 2 { "revolute" } else { "spherical" };
-        let joints: Vec<&Value> = acts("joints").collect();
-        let pin = *joints.iter().find(|joint| text(joint, "type") == pin_kind)?;
-        let guides: Vec<&Value> = joints.into_iter().filter(|joint| *joint != pin).collect();
-        let [own, other] = ends(pin, name)?;
-        let mut joint = json!({ "name": pin["name"], "type": "point_on_line" });
-        let (base, line) = match (guides[..].first(), guides.len()) {
-            (Some(guide), 1) if text(guide, "type") == "prismatic" && body.get("free").is_none() => {
-                joint["name"] = guide["name"].clone();
-                if let Some(axis) = guide.get("axis") {
-                    joint["axis"] = axis.clone();
-                }
-                (ends(guide, name)?[1].to_string(), None)
+        let (pins, guides): (Vec<_>, Vec<_>) =
+            acting(scene, "joints", name).partition(|joint| text(joint, "type") == pin_kind);
+        let [pin] = pins[..] else { return None };
+        let pin = Tie::new(pin, name)?;
+        let (guide, base, line) = match guides[..] {
+            [guide] => {
+                let guide =
+                    Tie::new(guide, name).filter(|guide| is_guide(facts, body, guide, &pin).unwrap_or(false))?;
+                let base = guide.other.clone();
+                (Some(guide), base, None)
             }
-            (None, _) => ground_line(facts, body, own)?,
+            [] => {
+                let (base, line) = ground_line(facts, body, &pin.own)?;
+                (None, base, Some(line))
+            }
             _ => return None,
         };
-        joint["between"] = json!([base, other]);
-        let own_place = facts.place(own)?;
-        let is_on_line = line.is_some() || is_on(facts, &facts.place(&base)?, &own_place, guides[0].get("axis"))?;
-        let markers = body["markers"].as_object().into_iter().flatten().map(|(marker, _)| format!("{name}.{marker}"));
-        let length = SAME * facts.prepared.system().length();
-        let is_there = |marker: &String| facts.lengths([own, marker]).is_some_and(|[.., most]| most <= length);
-        let at: Vec<String> = markers.chain([name.to_string()]).filter(is_there).collect();
-        let joints: Vec<Value> = guides.into_iter().chain([pin]).cloned().collect();
-        let is_second = joints.iter().map(|joint| ends(joint, name).is_some_and(|ends| joint["between"][1] == ends[0]));
-        let is_second = is_second.collect();
-        let is_loaded = acts("forces").next().is_some();
+        let at = at(facts, body, &pin.own);
         let is_moved = |force: &Value| {
             ["applied_force", "spring_damper"].contains(&text(force, "type"))
                 && text(force, "axes") != "marker"
                 && is_about(force, name, &at)
         };
-        let acts_at_pin = acts("forces").all(is_moved) && acts("states").all(|state| is_about(state, name, &at));
-        let is_plain = text(body, "type") == "rigid" && carrier(&base) != carrier(other);
-        (is_on_line && acts_at_pin && is_plain).then(|| Slider {
-            name: name.to_string(),
-            joints,
-            is_second,
-            other: other.to_string(),
-            at,
-            joint,
-            line,
-            is_loaded,
-        })
+        let acts_at_pin = acting(scene, "forces", name).all(is_moved)
+            && acting(scene, "states", name).all(|state| is_about(state, name, &at));
+        let is_plain = text(body, "type") == "rigid" && carrier(&base) != carrier(&pin.other);
+        let joint = point_on_line(guide.as_ref(), &base, &pin);
+        let is_loaded = acting(scene, "forces", name).next().is_some();
+        (acts_at_pin && is_plain).then(|| Slider { name: name.to_string(), guide, pin, at, joint, line, is_loaded })
+    }
+
+    fn joints(&self) -> impl Iterator<Item = &Tie> + Clone {
+        self.guide.iter().chain([&self.pin])
     }
 
     fn replace(&self, scene: &mut Value) -> Result<(), String> {
         let name = &self.name;
-        let there = elements(scene, "joints").iter().filter(|joint| mentions(joint, name)).count();
-        if there != self.joints.len() || !self.joints.iter().all(|joint| elements(scene, "joints").contains(joint)) {
+        if !are_all(self.joints(), scene, "joints", name) {
             return Err(format!("`{name}` no longer has its joints"));
         }
-        find_mut(scene, "bodies", name)?;
         let outputs: Vec<Value> = elements(scene, "outputs").iter().filter_map(|output| self.output(output)).collect();
         for list in ["forces", "states"] {
-            let all = scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
-            all.filter(|element| mentions(element, name)).for_each(|element| self.to_other(element));
+            let all = elements_mut(scene, list).filter(|element| mentions(element, name));
+            all.for_each(|element| self.to_other(element));
         }
-        remove(scene, "bodies", |body| text(body, "name") == name);
-        remove(scene, "joints", |joint| self.joints.contains(joint));
-        self.joints.iter().for_each(|joint| drop_references(scene, text(joint, "name")));
-        drop_references(scene, name);
+        remove_body(scene, name)?;
         scene["outputs"] = json!(outputs);
         if let Some((marker, place)) = &self.line {
             scene["ground"]["markers"][marker] = place.clone();
         }
-        if let Some(joints) = scene["joints"].as_array_mut() {
-            joints.push(self.joint.clone());
-        }
+        add(scene, "joints", self.joint.clone());
         Ok(())
     }
 
     /// What is at the pin, of the body there.
     fn to_other(&self, element: &mut Value) {
-        self.at.iter().for_each(|marker| rename(element, marker, &self.other));
+        self.at.iter().for_each(|marker| rename(element, marker, &self.pin.other));
     }
 
     /// The output without the slider; `None` where it has none.
     fn output(&self, output: &Value) -> Option<Value> {
         let (measure, of) = (text(output, "measure"), text(output, "of"));
         let mut own = output.clone();
-        if let Some(i) = self.joints.iter().position(|joint| text(joint, "name") == of) {
+        if let Some(tie) = self.joints().find(|tie| tie.name() == of) {
             // What the line does to the other body it did to the slider, and that, if nothing else acts on it, to the
             // body at the pin.
-            let is_pin = i + 1 == self.joints.len();
+            let is_pin = tie.name() == self.pin.name();
             let is_vector = ["x", "y", "z"].contains(&text(output, "component"));
             let is_known = measure == "reaction" && is_vector && output.get("on").is_none();
             own["of"] = self.joint["name"].clone();
-            if is_pin == self.is_second[i] {
+            if is_pin == tie.is_second {
                 own["on"] = json!("first");
             }
             return (is_known && !mentions(&output["relative_to"], &self.name) && !(is_pin && self.is_loaded))
                 .then_some(own);
         }
-        let joints = self.joints.iter().any(|joint| mentions(output, text(joint, "name")));
+        let joints = self.joints().any(|tie| mentions(output, tie.name()));
         if joints || !mentions(output, &self.name) {
             return (!joints).then_some(own);
         }
@@ -166,14 +144,34 @@ impl Slider {
     }
 }
 
-/// Markers of a joint: that of the body, and that of the other one.
-fn ends<'a>(joint: &'a Value, body: &str) -> Option<[&'a str; 2]> {
-    let [a, b] = pair(joint)?;
-    Some(if carrier(a) == body { [a, b] } else { [b, a] })
+/// True if a joint lets the body slide along a line through the pin.
+fn is_guide(facts: &Facts, body: &Value, guide: &Tie, pin: &Tie) -> Option<bool> {
+    let is_slider = text(&guide.element, "type") == "prismatic" && body.get("free").is_none();
+    let (base, place) = (facts.place(&guide.other)?, facts.place(&pin.own)?);
+    Some(is_slider && is_on(facts, &base, &place, guide.element.get("axis")))
+}
+
+/// Markers of the body that stay at its pin.
+fn at(facts: &Facts, body: &Value, pin: &str) -> Vec<String> {
+    let name = text(body, "name");
+    let markers = body["markers"].as_object().into_iter().flatten().map(|(marker, _)| format!("{name}.{marker}"));
+    let length = SAME * facts.prepared.system().length();
+    let is_there = |marker: &String| facts.lengths([pin, marker]).is_some_and(|[.., most]| most <= length);
+    markers.chain([name.to_string()]).filter(is_there).collect()
+}
+
+/// The pin as a point on the line through `base`, with the axis of the guide.
+fn point_on_line(guide: Option<&Tie>, base: &str, pin: &Tie) -> Value {
+    let mut joint = json!({ "name": guide.unwrap_or(pin).name(), "type": "point_on_line" });
+    if let Some(axis) = guide.and_then(|guide| guide.element.get("axis")) {
+        joint["axis"] = axis.clone();
+    }
+    joint["between"] = json!([base, pin.other]);
+    joint
 }
 
 /// A marker of the ground on the line along which a body may move by one freedom, at its pin.
-fn ground_line(facts: &Facts, body: &Value, pin: &str) -> Option<(String, Option<(String, Value)>)> {
+fn ground_line(facts: &Facts, body: &Value, pin: &str) -> Option<(String, (String, Value))> {
     let free = body["free"].as_array().filter(|free| free.len() == 1)?[0].as_str()?;
     let axis = ["x", "y", "z"].iter().position(|name| *name == free)?;
     let name = format!("{}_line", text(body, "name"));
@@ -189,11 +187,11 @@ fn ground_line(facts: &Facts, body: &Value, pin: &str) -> Option<(String, Option
         _ => marker.insert("z_axis".to_string(), json!(from_fn::<f64, 3, _>(|i| f64::from(u8::from(i == axis))))),
     };
     let line = format!("ground.{name}");
-    facts.place(&line).is_none().then_some((line, Some((name, Value::Object(marker)))))
+    facts.place(&line).is_none().then_some((line, (name, Value::Object(marker))))
 }
 
 /// True if a place is on the line through another along its axis.
-fn is_on(facts: &Facts, base: &Placed, place: &Placed, axis: Option<&Value>) -> Option<bool> {
+fn is_on(facts: &Facts, base: &Placed, place: &Placed, axis: Option<&Value>) -> bool {
     let own = |i: usize| match axis {
         Some(axis) => facts.number(&axis[i]).unwrap_or(0.0),
         None => f64::from(u8::from(i == if facts.dimension() == 2 { 0 } else { 2 })),
@@ -202,23 +200,5 @@ fn is_on(facts: &Facts, base: &Placed, place: &Placed, axis: Option<&Value>) -> 
     let gap: [f64; 3] = from_fn(|i| place.r[i] - base.r[i]);
     let part = product(&along, &gap) / product(&along, &along);
     let off: [f64; 3] = from_fn(|i| gap[i] - part * along[i]);
-    Some(product(&off, &off).sqrt() <= SAME * facts.prepared.system().length())
-}
-
-/// True if all that an element says of a body is about these markers of it, or their coordinates.
-fn is_about(element: &Value, body: &str, markers: &[String]) -> bool {
-    let is_one = |name: &str| markers.iter().any(|marker| marker == name);
-    let is_coordinate = |word: &str| {
-        word.rsplit_once('.').is_some_and(|(marker, name)| ["x", "y", "z"].contains(&name) && is_one(marker))
-    };
-    let is_known = |word: &str| carrier(word) != body || is_one(word) || is_coordinate(word);
-    match element {
-        Value::String(text) => words(text).all(is_known),
-        Value::Array(all) => all.iter().all(|value| is_about(value, body, markers)),
-        Value::Object(keys) => {
-            let values = keys.iter().filter(|(key, _)| !["name", "type", "measure"].contains(&key.as_str()));
-            values.map(|(_, value)| value).all(|value| is_about(value, body, markers))
-        }
-        _ => true,
-    }
+    product(&off, &off).sqrt() <= SAME * facts.prepared.system().length()
 }

@@ -1,9 +1,10 @@
 //! Two bodies that hardly move against each other.
 
+use super::absorbed::{Absorbed, absorb, markers};
 use super::plane::combined;
 use crate::error::percent;
 use crate::math::expression::{Number, Parameters};
-use crate::simplify::edit::{carrier, drop_references, elements, find_mut, pair, remove, rename, text};
+use crate::simplify::edit::{carrier, elements, find_mut, pair, remove, text};
 use crate::simplify::facts::product;
 use crate::simplify::{Candidate, Facts, Placed, Proposal, Relative};
 use serde_json::{Value, json};
@@ -50,8 +51,8 @@ struct Merged {
     second: Value,
     /// Place of the second in the frame of the first.
     place: Placed,
-    /// Markers of the second with their new names and places, its own frame last.
-    markers: Vec<(String, String, Value)>,
+    /// Markers of the second.
+    markers: Vec<Absorbed>,
     dimension: usize,
     /// Numbers of the scene.
     parameters: Parameters,
@@ -65,20 +66,12 @@ impl Merged {
         let [_, second] = [of(names[0])?, of(names[1])?];
         let base = facts.place(names[0])?;
         let place = |marker: &str| Some(seen(&base, &facts.place(marker)?));
-        let own = second["markers"].as_object().into_iter().flatten();
-        let marker = |(marker, _): (&String, &Value)| {
-            let (from, to) = (format!("{}.{marker}", names[1]), format!("{}_{marker}", names[1]));
-            let place = place(&from)?.marker(facts.dimension());
-            Some((from, to, place))
-        };
-        let mut markers: Vec<_> = own.map(marker).collect::<Option<_>>()?;
-        let place = place(names[1])?;
-        markers.push((names[1].to_string(), names[1].to_string(), place.marker(facts.dimension())));
+        let markers = markers(second, |marker| Some(place(marker)?.marker(facts.dimension())))?;
         Some(Merged {
             first: names[0].to_string(),
             initial: facts.initial(names[0])?,
             second: second.clone(),
-            place,
+            place: place(names[1])?,
             markers,
             dimension: facts.dimension(),
             parameters: facts.prepared.parameters.clone(),
@@ -95,20 +88,7 @@ impl Merged {
         let mass = self.add(own, &total).ok_or_else(|| format!("`{first}` is no longer what it was"))?;
         scene["parameters"][total] = mass;
         remove(scene, "bodies", |body| text(body, "name") == second);
-        for (from, to, _) in &self.markers {
-            for list in ["joints", "forces", "states", "outputs"] {
-                let elements = scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
-                elements.for_each(|element| rename(element, from, &format!("{first}.{to}")));
-            }
-        }
-        for list in ["joints", "forces"] {
-            let is_inner =
-                |element: &&Value| pair(element).is_some_and(|pair| pair.iter().all(|m| carrier(m) == *first));
-            let inner = elements(scene, list).iter().filter(is_inner);
-            let gone: Vec<String> = inner.map(|element| text(element, "name").to_string()).collect();
-            remove(scene, list, |element| gone.iter().any(|name| name == text(element, "name")));
-            gone.iter().for_each(|name| drop_references(scene, name));
-        }
+        absorb(scene, &self.markers, first);
         Ok(())
     }
 }
@@ -150,7 +130,7 @@ impl Merged {
         own["origin"] = (0..self.dimension).map(centre).collect();
         own["mass"] = json!(total);
         own["initial"] = self.initial.clone();
-        self.markers.iter().for_each(|(_, to, place)| own["markers"][to] = place.clone());
+        self.markers.iter().for_each(|marker| own["markers"][&marker.name] = marker.place.clone());
         Some(json!(format!("{own_mass} + {other_mass}")))
     }
 }

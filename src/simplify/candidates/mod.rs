@@ -1,5 +1,6 @@
 //! The built-in kinds of simplification, a file each.
 
+mod absorbed;
 mod beam_spring;
 mod branch;
 mod coarser_signal;
@@ -25,7 +26,7 @@ mod symmetric_half;
 mod two_force_link;
 
 pub(super) use plane::Plane;
-pub(super) use two_force_link::{Link, Pin};
+pub(super) use two_force_link::Link;
 
 use super::candidate::Candidate;
 

@@ -1,7 +1,7 @@
 //! Forces, dampers and gravity that hardly do any work.
 
 use crate::error::percent;
-use crate::simplify::edit::{drop_references, elements, find_mut, remove, text};
+use crate::simplify::edit::{elements, find_mut, remove_named, text};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use serde_json::Value;
 
@@ -44,12 +44,7 @@ type Change = (String, String, Edit);
 
 fn without(name: &str) -> Edit {
     let name = name.to_string();
-    Box::new(move |scene| {
-        find_mut(scene, "forces", &name)?;
-        remove(scene, "forces", |force| text(force, "name") == name);
-        drop_references(scene, &name);
-        Ok(())
-    })
+    Box::new(move |scene| remove_named(scene, "forces", &name))
 }
 
 fn undamped(list: &'static str, element: &Value) -> Option<Change> {

@@ -3,7 +3,7 @@
 use super::planar_output::flat_output;
 use super::plane::{Plane, combined, flat, world};
 use crate::error::percent;
-use crate::simplify::edit::{elements, text};
+use crate::simplify::edit::{elements, elements_mut, text};
 use crate::simplify::facts::product;
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use crate::tolerances::SAME;
@@ -78,8 +78,7 @@ fn flattened(facts: &Facts, plane: &Plane) -> Option<Value> {
     scene["forces"] = map("forces", &|force| one(flat_force(facts, plane, force)))?;
     scene["outputs"] = map("outputs", &|output| Some(flat_output(facts, plane, output).unwrap_or_default()))?;
     for list in ["states", "inputs"] {
-        let all = scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
-        for element in all {
+        for element in elements_mut(&mut scene, list) {
             plane.translate(element)?;
             if let Some(component) = element.get_mut("component") {
                 *component = json!(plane.component(component.as_str()?)?);

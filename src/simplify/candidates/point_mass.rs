@@ -2,7 +2,7 @@
 
 use super::merged_bodies::{PLACES, packed};
 use crate::error::percent;
-use crate::simplify::edit::{elements, find_mut, mentions, rename, text};
+use crate::simplify::edit::{elements, elements_mut, find_mut, mentions, rename, rename_in_scene, text};
 use crate::simplify::facts::product;
 use crate::simplify::{Candidate, Facts, Proposal};
 use crate::tolerances::SAME;
@@ -81,14 +81,11 @@ fn reduce(scene: &mut Value, name: &str, markers: &[String]) -> Result<(), Strin
     }
     *body = point;
     let is_spatial = scene["dimension"] == 3;
-    for joint in scene.get_mut("joints").and_then(Value::as_array_mut).into_iter().flatten() {
+    for joint in elements_mut(scene, "joints") {
         if is_spatial && mentions(joint, name) && ["revolute", "universal"].contains(&text(joint, "type")) {
             joint["type"] = json!("spherical");
         }
     }
-    for list in ["joints", "forces", "states", "outputs"] {
-        let elements = scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
-        elements.for_each(|element| markers.iter().for_each(|marker| rename(element, marker, name)));
-    }
+    markers.iter().for_each(|marker| rename_in_scene(scene, marker, name));
     Ok(())
 }

@@ -2,10 +2,10 @@
 
 use crate::error::percent;
 use crate::formulation::Dynamics;
-use crate::simplify::edit::{elements, remove, rename, text};
+use crate::simplify::edit::{elements, elements_mut, remove, rename, text};
 use crate::simplify::{Candidate, Facts, Proposal};
 use crate::system::{OperatingPoint, Tangent};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 /// A state whose rate falls with it, and fast, as that of a filter, becomes the value at which its rate is zero: of a
 /// rate a + b x that is -a/b. By the largest lag |x'/b| behind that, relative to the range of the state.
@@ -73,11 +73,9 @@ fn settle(scene: &mut Value, name: &str) -> Result<(), String> {
     remove(scene, "states", |state| text(state, "name") == name);
     let keys = [("states", "rate"), ("outputs", "value"), ("forces", "force"), ("forces", "torque"), ("forces", "law")];
     for (list, key) in keys {
-        let elements = scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
-        elements.filter_map(|element| element.get_mut(key)).for_each(|text| rename(text, name, &value));
-    }
-    if elements(scene, "states").is_empty() {
-        scene["states"] = json!([]);
+        elements_mut(scene, list)
+            .filter_map(|element| element.get_mut(key))
+            .for_each(|text| rename(text, name, &value));
     }
     Ok(())
 }

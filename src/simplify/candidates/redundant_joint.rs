@@ -1,6 +1,6 @@
 //! Joints that lock what others lock already.
 
-use crate::simplify::edit::{drop_references, find_mut, remove, text};
+use crate::simplify::edit::{find_mut, remove_named};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use crate::system::Group;
 use serde_json::{Value, json};
@@ -39,12 +39,7 @@ fn proposal(facts: &Facts, group: &Group) -> Option<Proposal> {
 
 fn without(name: &str) -> Edit {
     let name = name.to_string();
-    Box::new(move |scene| {
-        find_mut(scene, "joints", &name)?;
-        remove(scene, "joints", |joint| text(joint, "name") == name);
-        drop_references(scene, &name);
-        Ok(())
-    })
+    Box::new(move |scene| remove_named(scene, "joints", &name))
 }
 
 /// The joint as another kind, free along `axis` if that is given.

@@ -1,7 +1,9 @@
 //! A body that hardly moves.
 
+use super::absorbed::{Absorbed, absorb, markers};
 use crate::error::percent;
-use crate::simplify::edit::{carrier, drop_references, elements, find_mut, mentions, pair, remove, rename, text};
+use crate::simplify::edit::{elements, find_mut, remove, text};
+use crate::simplify::held::acting;
 use crate::simplify::{Candidate, Facts, Proposal, Relative};
 use serde_json::Value;
 
@@ -24,16 +26,7 @@ impl Candidate for RestingBody {
 fn proposal(facts: &Facts, body: &Value, travel: &Relative) -> Option<Proposal> {
     let name = text(body, "name").to_string();
     let effect = facts.relative(["ground", &name])?.part(travel);
-    let own = body["markers"].as_object().into_iter().flatten().map(|(marker, _)| marker.as_str());
-    let mut markers = Vec::new();
-    for marker in own {
-        let (from, to) = (format!("{name}.{marker}"), format!("{name}_{marker}"));
-        let place = facts.place(&from)?;
-        markers.push((from, to, place.marker(facts.dimension())));
-    }
-    let frame = facts.place(&name)?.marker(facts.dimension());
-    // The body's own frame comes last: its name begins those of the markers.
-    markers.push((name.clone(), name.clone(), frame));
+    let markers = markers(body, |marker| Some(facts.place(marker)?.marker(facts.dimension())))?;
     Some(Proposal {
         subject: name.clone(),
         what: format!("{name} becomes a part of the ground"),
@@ -43,32 +36,13 @@ fn proposal(facts: &Facts, body: &Value, travel: &Relative) -> Option<Proposal> 
     })
 }
 
-fn ground(scene: &mut Value, body: &str, markers: &[(String, String, Value)]) -> Result<(), String> {
+fn ground(scene: &mut Value, body: &str, markers: &[Absorbed]) -> Result<(), String> {
     find_mut(scene, "bodies", body)?;
     remove(scene, "bodies", |element| text(element, "name") == body);
-    for (from, to, place) in markers {
-        scene["ground"]["markers"][to] = place.clone();
-        for list in ["joints", "forces", "states", "outputs"] {
-            let elements = scene.get_mut(list).and_then(Value::as_array_mut).into_iter().flatten();
-            elements.for_each(|element| rename(element, from, &format!("ground.{to}")));
-        }
-    }
-    for list in ["joints", "forces"] {
-        let gone: Vec<String> = elements(scene, list).iter().filter(|element| is_still(element)).map(name_of).collect();
-        remove(scene, list, |element| gone.contains(&name_of(element)));
-        gone.iter().for_each(|name| drop_references(scene, name));
-    }
-    match elements(scene, "joints").iter().find(|joint| mentions(joint, body)) {
+    markers.iter().for_each(|marker| scene["ground"]["markers"][&marker.name] = marker.place.clone());
+    absorb(scene, markers, "ground");
+    match acting(scene, "joints", body).next() {
         Some(joint) => Err(format!("the joint `{}` is not between two markers", text(joint, "name"))),
         None => Ok(()),
     }
-}
-
-fn name_of(element: &Value) -> String {
-    text(element, "name").to_string()
-}
-
-/// True if both markers are on the ground.
-fn is_still(element: &Value) -> bool {
-    pair(element).is_some_and(|pair| pair.iter().all(|marker| carrier(marker) == "ground"))
 }

@@ -1,7 +1,7 @@
 //! Springs and bushings that hardly give way.
 
 use crate::error::percent;
-use crate::simplify::edit::{elements, find_mut, pair, remove, text};
+use crate::simplify::edit::{add, elements, elements_mut, find_mut, pair, remove, text};
 use crate::simplify::{Candidate, Facts, Proposal, Relative};
 use serde_json::{Value, json};
 
@@ -59,17 +59,14 @@ fn proposal(force: &Value, kind: &str, mut joint: Value, component: &'static str
         edit: Box::new(move |scene| {
             find_mut(scene, "forces", &name)?;
             remove(scene, "forces", |force| text(force, "name") == name);
-            let outputs = scene.get_mut("outputs").and_then(Value::as_array_mut).into_iter().flatten();
+            let outputs = elements_mut(scene, "outputs");
             for output in outputs.filter(|output| text(output, "measure") == "force" && text(output, "of") == name) {
                 output["measure"] = json!("reaction");
                 if !component.is_empty() {
                     output["component"] = json!(component);
                 }
             }
-            match scene["joints"].as_array_mut() {
-                Some(joints) => joints.push(joint.clone()),
-                None => scene["joints"] = json!([joint]),
-            }
+            add(scene, "joints", joint.clone());
             Ok(())
         }),
     }

@@ -4,7 +4,7 @@ use super::half_output::{Elements, half_output};
 use super::half_spring::HalfSpring;
 use super::mirror::Mirror;
 use crate::error::percent;
-use crate::simplify::edit::{carrier, drop_references, elements, pair, text};
+use crate::simplify::edit::{carrier, drop_references, elements, elements_mut, pair, text};
 use crate::simplify::{Candidate, Facts, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
@@ -80,7 +80,7 @@ fn half(mirror: &Mirror) -> Option<Value> {
     scene["outputs"] = json!([]);
     gone.for_each(|name| drop_references(&mut scene, name));
     scene["outputs"] = json!(outputs);
-    for state in scene.get_mut("states").and_then(Value::as_array_mut).into_iter().flatten() {
+    for state in elements_mut(&mut scene, "states") {
         mirror.translate(state)?;
     }
     Some(scene)

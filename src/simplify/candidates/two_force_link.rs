@@ -1,8 +1,9 @@
 //! A link between two pins, without mass.
 
 use crate::error::percent;
-use crate::simplify::edit::{carrier, drop_references, elements, mentions, pair, remove, text};
+use crate::simplify::edit::{carrier, drop_references, elements, mentions, remove, text};
 use crate::simplify::facts::product;
+use crate::simplify::held::{Tie, acting};
 use crate::simplify::{Candidate, Facts, Proposal};
 use serde_json::{Value, json};
 use std::array::from_fn;
@@ -38,23 +39,11 @@ fn proposal(facts: &Facts, body: &Value) -> Option<Proposal> {
 pub struct Link {
     name: String,
     /// Its ends.
-    pub pins: [Pin; 2],
+    pub pins: [Tie; 2],
     /// Its length as an expression.
     pub length: String,
     /// Markers of the link, with the components of their axes along the line from the first pin to the second.
     axes: Vec<(String, [f64; 3])>,
-}
-
-/// An end of a link.
-pub struct Pin {
-    /// Name of the joint.
-    pub joint: String,
-    /// Marker of the link.
-    pub own: String,
-    /// Marker of the other body.
-    other: String,
-    /// True if the link is the second body of the joint.
-    pub is_second: bool,
 }
 
 impl Link {
@@ -67,24 +56,23 @@ impl Link {
     /// What two pins hold as a link; `None` where anything else acts on it.
     pub fn between_pins(facts: &Facts, body: &Value) -> Option<Link> {
         let (scene, name) = (facts.scene(), text(body, "name"));
-        let is_loaded = elements(scene, "forces").iter().any(|force| mentions(force, name));
-        let joints: Vec<&Value> = elements(scene, "joints").iter().filter(|joint| mentions(joint, name)).collect();
+        let joints: Vec<&Value> = acting(scene, "joints", name).collect();
         let kinds: Vec<&str> = joints.iter().map(|joint| text(joint, "type")).collect();
         let are_pins = match facts.dimension() {
             2 => kinds == ["revolute", "revolute"],
             _ => matches!(kinds[..], ["spherical", "spherical" | "universal"] | ["universal", "spherical"]),
         };
-        if is_loaded || !are_pins {
+        if !are_pins || acting(scene, "forces", name).next().is_some() {
             return None;
         }
-        let pins = [Pin::new(joints[0], name)?, Pin::new(joints[1], name)?];
-        let ends = [end(facts, &pins[0].own)?, end(facts, &pins[1].own)?];
-        let gap: [f64; 3] = from_fn(|i| ends[1].0[i] - ends[0].0[i]);
+        let pins = [Tie::new(joints[0], name)?, Tie::new(joints[1], name)?];
+        let [first, second] = [facts.place(&pins[0].own)?, facts.place(&pins[1].own)?];
+        let gap: [f64; 3] = from_fn(|i| second.r[i] - first.r[i]);
         let size = product(&gap, &gap).sqrt();
         let along = |axes: [[f64; 3]; 3]| axes.map(|axis| product(&axis, &gap) / size);
         let markers = body["markers"].as_object()?.keys().map(|marker| format!("{name}.{marker}"));
         let axes =
-            markers.map(|marker| Some((marker.clone(), along(end(facts, &marker)?.1)))).collect::<Option<_>>()?;
+            markers.map(|marker| Some((marker.clone(), along(facts.place(&marker)?.axes)))).collect::<Option<_>>()?;
         let length = length(body, [&pins[0].own, &pins[1].own])?;
         (size > 0.0 && carrier(&pins[0].other) != carrier(&pins[1].other)).then(|| Link {
             name: name.to_string(),
@@ -116,8 +104,8 @@ impl Link {
         drop_references(scene, &self.name);
         scene["outputs"] = json!(outputs);
         if let Some(joints) = scene["joints"].as_array_mut() {
-            joints.retain(|joint| text(joint, "name") != second.joint);
-            for joint in joints.iter_mut().filter(|joint| text(joint, "name") == first.joint) {
+            joints.retain(|joint| text(joint, "name") != second.name());
+            for joint in joints.iter_mut().filter(|joint| text(joint, "name") == first.name()) {
                 *joint = json!({ "name": self.name, "type": "distance", "between": self.others(),
                                  "length": self.length });
             }
@@ -126,7 +114,7 @@ impl Link {
     }
 
     fn owns(&self, joint: &str) -> bool {
-        self.pins.iter().any(|pin| pin.joint == joint)
+        self.pins.iter().any(|pin| pin.name() == joint)
     }
 
     /// The output without the link; `None` where that has none.
@@ -140,7 +128,7 @@ impl Link {
         output["of"] = json!(self.name);
         let Some(component) = output.get("component").and_then(Value::as_str) else { return Some(output) };
         let index = ["x", "y", "z"].iter().position(|axis| *axis == component)?;
-        let is_at_second = of == self.pins[1].joint;
+        let is_at_second = of == self.pins[1].name();
         let pin = &self.pins[usize::from(is_at_second)];
         if carrier(axes) != self.name {
             // The reaction of the distance is on the body at the second pin: minus that on the link there, and equal to
@@ -158,21 +146,6 @@ impl Link {
 
 /// Cosine to 1 of the angle between the line of the link and the axis of a force along it.
 const ALIGNED: f64 = crate::tolerances::SAME;
-
-impl Pin {
-    fn new(joint: &Value, link: &str) -> Option<Pin> {
-        let [a, b] = pair(joint)?;
-        let is_second = carrier(b) == link;
-        let (own, other) = if is_second { (b, a) } else { (a, b) };
-        let name = text(joint, "name").to_string();
-        Some(Pin { joint: name, own: own.to_string(), other: other.to_string(), is_second })
-    }
-}
-
-/// Position and axes of a marker at the start.
-fn end(facts: &Facts, marker: &str) -> Option<([f64; 3], [[f64; 3]; 3])> {
-    facts.place(marker).map(|place| (place.r, place.axes))
-}
 
 /// Distance of two markers of a body as an expression in the numbers of the scene.
 fn length(body: &Value, markers: [&str; 2]) -> Option<String> {
