@@ -1,6 +1,7 @@
 //! A kind of simplification.
 
 use super::facts::Facts;
+use crate::error::percent;
 use serde_json::Value;
 
 /// A change of the scene; an error says why it is not possible, as after other changes.
@@ -78,4 +79,18 @@ pub struct Proposal {
     pub effect: f64,
     /// The change.
     pub edit: Edit,
+}
+
+impl Proposal {
+    /// A change that takes away the mass of a body, by its share of the kinetic energy.
+    pub(super) fn without_mass(facts: &Facts, body: &str, what: &str, edit: Edit) -> Proposal {
+        let effect = facts.kinetic_share(body);
+        Proposal {
+            subject: body.to_string(),
+            what: format!("{body} {what}"),
+            why: format!("it has {} of the kinetic energy", percent(effect)),
+            effect,
+            edit,
+        }
+    }
 }

@@ -2,7 +2,6 @@
 
 use super::section::{area, expression};
 use super::two_force_link::Link;
-use crate::error::percent;
 use crate::simplify::edit::{add, elements, elements_mut, remove, text};
 use crate::simplify::{Facts, Proposal};
 use crate::tolerances::SAME;
@@ -10,7 +9,7 @@ use serde_json::{Value, json};
 
 /// A straight beam between pins at its two ends as a spring without mass.
 pub fn massless(facts: &Facts, beam: &Value) -> Option<Proposal> {
-    let name = text(beam, "name").to_string();
+    let name = text(beam, "name");
     let link = Link::between_pins(facts, beam).filter(|_| beam.get("curvature").is_none())?;
     let ends = link.pins.each_ref().map(|pin| on_line(facts, beam, &pin.own));
     let stiffness = format!("{}/({})", axial_stiffness(beam)?, link.length);
@@ -22,22 +21,16 @@ pub fn massless(facts: &Facts, beam: &Value) -> Option<Proposal> {
     if let Some(beta) = expression(&beam["damping"]["rayleigh"]["stiffness"]) {
         spring["damping"] = json!(format!("{beta}*{stiffness}"));
     }
-    let effect = facts.kinetic_share(&name);
-    Some(Proposal {
-        subject: name.clone(),
-        what: format!("{name} becomes a spring without mass"),
-        why: format!("it has {} of the kinetic energy", percent(effect)),
-        effect,
-        edit: Box::new(move |scene| {
-            let axial = |output: &Value| text(output, "measure") == "axial_force" && text(output, "of") == name;
-            let tensions: Vec<Value> =
-                elements(scene, "outputs").iter().filter(|output| axial(output)).cloned().collect();
-            link.replace(scene)?;
-            as_spring(scene, &spring, tensions);
-            Ok(())
-        }),
-    })
-    .filter(|_| (gap - length).abs() <= SAME * length)
+    let edit = move |scene: &mut Value| {
+        let axial =
+            |output: &&Value| text(output, "measure") == "axial_force" && text(output, "of") == text(&spring, "name");
+        let tensions: Vec<Value> = elements(scene, "outputs").iter().filter(axial).cloned().collect();
+        link.replace(scene)?;
+        as_spring(scene, &spring, tensions);
+        Ok(())
+    };
+    let is_whole = (gap - length).abs() <= SAME * length;
+    is_whole.then(|| Proposal::without_mass(facts, name, "becomes a spring without mass", Box::new(edit)))
 }
 
 /// Place of a marker along a beam; `None` where it is beside the line.

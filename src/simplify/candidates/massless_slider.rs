@@ -1,6 +1,5 @@
 //! A slider without mass.
 
-use crate::error::percent;
 use crate::simplify::edit::{add, carrier, elements, elements_mut, is_about, mentions, rename, text};
 use crate::simplify::facts::product;
 use crate::simplify::held::{Tie, acting, are_all, remove_body};
@@ -27,14 +26,8 @@ impl Candidate for MasslessSlider {
 
 fn proposal(facts: &Facts, body: &Value) -> Option<Proposal> {
     let slider = Slider::new(facts, body)?;
-    let effect = facts.kinetic_share(&slider.name);
-    Some(Proposal {
-        subject: slider.name.clone(),
-        what: format!("{} becomes a point on a line without mass", slider.name),
-        why: format!("it has {} of the kinetic energy", percent(effect)),
-        effect,
-        edit: Box::new(move |scene| slider.replace(scene)),
-    })
+    let edit = Box::new(move |scene: &mut Value| slider.replace(scene));
+    Some(Proposal::without_mass(facts, text(body, "name"), "becomes a point on a line without mass", edit))
 }
 
 struct Slider {

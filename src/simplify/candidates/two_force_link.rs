@@ -1,6 +1,5 @@
 //! A link between two pins, without mass.
 
-use crate::error::percent;
 use crate::simplify::edit::{carrier, drop_references, elements, mentions, remove, text};
 use crate::simplify::facts::product;
 use crate::simplify::held::{Tie, acting};
@@ -25,14 +24,8 @@ impl Candidate for TwoForceLink {
 
 fn proposal(facts: &Facts, body: &Value) -> Option<Proposal> {
     let link = Link::new(facts, body)?;
-    let effect = facts.kinetic_share(&link.name);
-    Some(Proposal {
-        subject: link.name.clone(),
-        what: format!("{} becomes a distance without mass", link.name),
-        why: format!("it has {} of the kinetic energy", percent(effect)),
-        effect,
-        edit: Box::new(move |scene| link.replace(scene)),
-    })
+    let edit = Box::new(move |scene: &mut Value| link.replace(scene));
+    Some(Proposal::without_mass(facts, text(body, "name"), "becomes a distance without mass", edit))
 }
 
 /// A link with its two pins.
