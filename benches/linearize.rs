@@ -181,7 +181,7 @@ fn chains() {
         let time = 1e3 * seconds(|| found = Some(modal(&mut variation, 20, few()).unwrap_or_else(|e| panic!("{e}"))));
         let values: Vec<Complex<f64>> =
             found.iter().flat_map(|model| model.modes.iter().map(|mode| mode.value)).collect();
-        print!("  {:<28} {time:>14.1}", variation.len());
+        print!("  {:<28} {time:>14.1}", variation.velocities());
         if !with_all {
             println!("   {} modes from {:.4} to {:.4} rad/s", values.len() / 2, values[0].norm(), values[39].norm());
             continue;

@@ -184,7 +184,8 @@ fn by_points<const D: usize>(cloud: &Cloud<D>, state: &State<D>) -> Vec<f64> {
         let force = std::array::from_fn(|k| mass * (frame.r[k].dd - state.gravity[k]));
         let support = cloud.body.support(i + 1);
         let mut f = vec![0.0; support.len()];
-        BodyOver::<f64, D>::pull_back(&cloud.body, i + 1, &state.q, &frame.map(|x| x.x), &Wrench::force(force), &mut f);
+        let wrench = Wrench { force, ..Wrench::zero() };
+        BodyOver::<f64, D>::pull_back(&cloud.body, i + 1, &state.q, &frame.map(|x| x.x), &wrench, &mut f);
         support.iter().zip(f).for_each(|(&velocity, f)| r[velocity] += f);
     }
     r

@@ -161,11 +161,6 @@ impl<S: Scalar, const D: usize> Wrench<S, D> {
         Wrench { force: [S::zero(); D], torque: [S::zero(); 3] }
     }
 
-    /// A force without a torque.
-    pub fn force(force: [S; D]) -> Self {
-        Wrench { force, torque: [S::zero(); 3] }
-    }
-
     /// From the components in the order of a twist: (fx, fy, m) in the plane, force and torque in space.
     #[inline]
     pub fn from_twist_order(components: &[S]) -> Self {

@@ -147,7 +147,7 @@ const LONGEST: Duration = Duration::from_secs(1_000_000_000);
 /// Simulates the maps, each with its share of the remaining time.
 fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begin: Instant) -> (StressFile, Vec<Stressed>) {
     let (budget, cell, count) = (args.budget(), args.limit.min(LONGEST), maps.len());
-    let bar = args.talk.progress(maps.iter().map(|map| map.len() as u64).sum(), &subject.name);
+    let bar = args.talk.progress(maps.iter().map(|map| map.cell_count() as u64).sum(), &subject.name);
     let one = |(k, map): (usize, Map)| {
         let left = budget.saturating_sub(begin.elapsed());
         // The first maps are the most informative and have the largest share.

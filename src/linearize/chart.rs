@@ -42,7 +42,7 @@ impl Chart {
     /// Names that do not exist, too many or too few, or not independent at this state; `intrinsic` for equations that
     /// do not say how M changes.
     pub fn at(&self, variation: &mut Variation) -> Result<Coordinates> {
-        refuse_all_modes(variation.len(), COPIES)?;
+        refuse_all_modes(variation.velocities(), COPIES)?;
         let z = variation.free_directions()?;
         match self {
             Chart::Intrinsic => parallel(variation, z),
@@ -58,7 +58,7 @@ impl Chart {
 
     /// Returns `Intrinsic` where the equations allow it, else `MassOrthogonal`.
     pub fn preferred(variation: &mut Variation) -> Self {
-        let mut connection = LeviCivita::new(variation.len());
+        let mut connection = LeviCivita::new(variation.velocities());
         if levi_civita(variation, &mut connection) { Chart::Intrinsic } else { Chart::MassOrthogonal }
     }
 }

@@ -136,7 +136,7 @@ pub(super) fn frozen(variation: &mut Variation, z: Matrix) -> Result<Coordinates
 /// # Errors
 /// Equations that do not say how M changes; a singular state.
 pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
-    let mut connection = LeviCivita::new(variation.len());
+    let mut connection = LeviCivita::new(variation.velocities());
     if !levi_civita(variation, &mut connection) {
         return Err(Error::input("the intrinsic chart needs a mass matrix whose change along the motion is known")
             .under("--chart")

@@ -21,7 +21,7 @@ impl Variation<'_> {
     pub(super) fn excited(&mut self) -> Excited {
         let rows = self.driven_rows();
         let orders = self.orders();
-        let mut forces = [0; 2].map(|_| Matrix::zeros(self.len(), orders.len()));
+        let mut forces = [0; 2].map(|_| Matrix::zeros(self.velocities(), orders.len()));
         let (system, scratch) = (self.dynamics.system, &mut self.dynamics.scratch);
         let (t, q, v) = (self.point.t, &self.point.q, &self.point.v);
         if !orders.is_empty() {

@@ -33,7 +33,7 @@ pub fn refuse_large(velocities: usize) -> Result<()> {
 /// An unknown method or option; a chart that does not exist there; eigenvalues that cannot be computed.
 pub fn linearize(variation: &mut Variation, request: &Request) -> Result<LinearModel> {
     let entry = request.method.entry(registry())?;
-    refuse_large(variation.len())?;
+    refuse_large(variation.velocities())?;
     let clock = Instant::now();
     variation.refuse_held_drivers()?;
     let built = (entry.build)(variation, request)?;

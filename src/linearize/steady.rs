@@ -111,7 +111,7 @@ fn is_same_all_around(axes: &Rotating, prepared: &PreparedScene, state: &State) 
 /// Returns M v'.
 fn inertia(variation: &Variation) -> Vec<f64> {
     let (structure, terms) = (&variation.dynamics.structure, &variation.dynamics.terms);
-    let mut inertia = vec![0.0; variation.len()];
+    let mut inertia = vec![0.0; variation.velocities()];
     structure.mass.multiply_symmetric(&terms.mass, &variation.point.vdot, &mut inertia);
     inertia
 }
@@ -120,7 +120,7 @@ fn inertia(variation: &Variation) -> Vec<f64> {
 fn directions(variation: &mut Variation) -> Result<Matrix> {
     // Multiples of the golden ratio and of similar numbers are evenly spread (Weyl).
     let spread = |i: usize, j: usize| ((i + 1) as f64 * (0.618_033_988_75 + 0.1 * j as f64)).fract() - 0.5;
-    let any = Matrix::from_fn(variation.len(), tolerances::STEADY_DIRECTIONS, spread);
+    let any = Matrix::from_fn(variation.velocities(), tolerances::STEADY_DIRECTIONS, spread);
     let correction = variation.correct(&variation.g_times(&any))?;
     Ok(any - correction)
 }

@@ -136,18 +136,14 @@ impl<'a> Variation<'a> {
     }
 
     /// Returns n_v.
-    pub fn len(&self) -> usize {
+    pub fn velocities(&self) -> usize {
         self.dynamics.vdot.len()
-    }
-
-    /// True if the system has no velocities.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// Returns -K dq - C dv, a column each.
     pub fn force(&self, changes: &Changes) -> Matrix {
-        let (pattern, mut force) = (&self.dynamics.structure.tangent, Matrix::zeros(self.len(), changes.q.ncols()));
+        let (pattern, mut force) =
+            (&self.dynamics.structure.tangent, Matrix::zeros(self.velocities(), changes.q.ncols()));
         add_product(pattern, &self.tangent.k, &changes.q, -1.0, &mut force);
         add_product(pattern, &self.tangent.c, &changes.v, -1.0, &mut force);
         force
@@ -190,7 +186,7 @@ impl<'a> Variation<'a> {
     /// Returns M x, a column each.
     pub fn mass_times(&self, x: &Matrix) -> Matrix {
         let Dynamics { structure, terms, .. } = &self.dynamics;
-        let (n, mut momenta) = (self.len().max(1), Matrix::zeros(x.nrows(), x.ncols()));
+        let (n, mut momenta) = (self.velocities().max(1), Matrix::zeros(x.nrows(), x.ncols()));
         for (x, momenta) in x.as_slice().chunks_exact(n).zip(momenta.as_mut_slice().chunks_exact_mut(n)) {
             structure.mass.multiply_symmetric(&terms.mass, x, momenta);
         }
@@ -204,7 +200,7 @@ impl<'a> Variation<'a> {
 
     /// Returns [v, x], a column each.
     pub fn bracket_of(&self, v: &[f64], x: &Matrix) -> Matrix {
-        let (n, mut turned) = (self.len().max(1), Matrix::zeros(x.nrows(), x.ncols()));
+        let (n, mut turned) = (self.velocities().max(1), Matrix::zeros(x.nrows(), x.ncols()));
         for (from, to) in x.as_slice().chunks_exact(n).zip(turned.as_mut_slice().chunks_exact_mut(n)) {
             self.dynamics.system.bracket(v, from, to);
         }
@@ -228,7 +224,7 @@ impl<'a> Variation<'a> {
 
     /// Returns the smallest change d in the mass metric with G d = `rows`, for each column.
     pub fn correct(&mut self, rows: &Matrix) -> Result<Matrix> {
-        let (mut corrections, mut rows) = (Matrix::zeros(self.len(), rows.ncols()), rows.clone());
+        let (mut corrections, mut rows) = (Matrix::zeros(self.velocities(), rows.ncols()), rows.clone());
         self.push_all(&mut corrections, &mut rows).map_err(|halt| at_state(self.point.t, &halt))?;
         Ok(corrections)
     }
@@ -264,7 +260,7 @@ impl<'a> Variation<'a> {
     /// Returns M, n_v x n_v.
     pub fn mass(&self) -> Matrix {
         let Dynamics { structure, terms, .. } = &self.dynamics;
-        let mut mass = Matrix::zeros(self.len(), self.len());
+        let mut mass = Matrix::zeros(self.velocities(), self.velocities());
         for (&(i, j), value) in structure.mass.entries.iter().zip(&terms.mass) {
             mass[(i, j)] += value;
             if i != j {
@@ -294,11 +290,6 @@ impl<'a> Variation<'a> {
         dense(&self.dynamics.structure.g, &self.dynamics.terms.l)
     }
 
-    /// Returns Gdd = d(phi'')/dq.
-    pub fn gdd(&self) -> Matrix {
-        dense(&self.dynamics.structure.g, &self.gdd)
-    }
-
     /// Returns the rows of G that do not depend on others at the state.
     pub fn independent_rows(&self) -> Vec<usize> {
         let left_out = self.dynamics.kkt.left_out();
@@ -307,7 +298,7 @@ impl<'a> Variation<'a> {
 
     /// Returns the matrix of [v, .] at a velocity.
     pub fn bracket(&self, v: &[f64]) -> Matrix {
-        self.bracket_of(v, &Matrix::identity(self.len(), self.len()))
+        self.bracket_of(v, &Matrix::identity(self.velocities(), self.velocities()))
     }
 }
 

@@ -99,10 +99,4 @@ impl ColorSeries {
     pub fn new(label: impl Into<String>, points: Vec<(f64, f64, f64)>) -> Self {
         Self { label: label.into(), points, scale: Scale::Linear }
     }
-
-    /// Sets a logarithmic colour scale.
-    pub fn log(mut self) -> Self {
-        self.scale = Scale::Log;
-        self
-    }
 }

@@ -82,12 +82,6 @@ impl Sweep {
         curve.dedup_by(|a, b| a.value == b.value);
         curve
     }
-
-    /// An output along [`curve`](Self::curve).
-    pub fn output(&self, name: &str) -> Option<Vec<f64>> {
-        let index = self.outputs.iter().position(|output| output.name == name)?;
-        Some(self.curve().iter().map(|point| point.outputs[index]).collect())
-    }
 }
 
 /// An assembled state.

@@ -195,12 +195,7 @@ impl Map {
     }
 
     /// Number of cells.
-    pub fn len(&self) -> usize {
+    pub fn cell_count(&self) -> usize {
         self.x.entries.len() * self.y.entries.len() * self.methods.len()
-    }
-
-    /// True if the map has no cells.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 }

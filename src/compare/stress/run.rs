@@ -76,7 +76,7 @@ struct Slot {
 
 impl Work {
     fn new(subject: &Subject, map: &Map) -> Self {
-        let mut order: Vec<usize> = (0..map.len()).collect();
+        let mut order: Vec<usize> = (0..map.cell_count()).collect();
         let distance = |index: &usize| map.eccentricity(map.place(*index));
         order.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
         let mut ranks = vec![0; order.len()];

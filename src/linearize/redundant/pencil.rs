@@ -26,7 +26,7 @@ struct Kind {
 /// Returns (E, A), B, C and D in x = (dq, dv, dlambda), followed by deta and dmu where the equations have them.
 pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
     let kept = variation.independent_rows();
-    let (n, m) = (variation.len(), kept.len());
+    let (n, m) = (variation.velocities(), kept.len());
     let kept_rows = |rows: Matrix| rows.select_rows(&kept);
     let mut parts = Parts {
         k: variation.k(),
@@ -83,7 +83,7 @@ fn observe(
     (kept, perturbation): (&[usize], &Perturbation),
     (e, a, driven, b): (Matrix, Matrix, Matrix, Matrix),
 ) -> Result<Built> {
-    let (n, size) = (variation.len(), a.nrows());
+    let (n, size) = (variation.velocities(), a.nrows());
     let outputs = variation.outputs()?;
     let mut c = Matrix::zeros(outputs.q.nrows(), size);
     put(&mut c, (0, 0), &outputs.q);

@@ -91,7 +91,7 @@ impl Quadratic {
 
 /// Returns W, column by column, where the velocity of the state rotates anything.
 fn turn(variation: &Variation) -> Sparse {
-    let (n, system, v) = (variation.len(), variation.system(), &variation.point.v);
+    let (n, system, v) = (variation.velocities(), variation.system(), &variation.point.v);
     let mut turn = Sparse { pattern: Pattern { rows: n, cols: n, entries: Vec::new() }, values: Vec::new() };
     // Along no axis, so that every rotation shows.
     let (any, mut out): (Vec<f64>, _) = ((0..n).map(|i| (i as f64 + 1.0).sqrt()).collect(), vec![0.0; n]);

@@ -37,7 +37,7 @@ fn build(
         let coordinates = request.chart(variation).at(variation)?;
         return Ok(restrict(variation, coordinates, response)?.built);
     }
-    let n = variation.len();
+    let n = variation.velocities();
     let moving = variation.system().dimensions().moving();
     let changes = Changes::all(n, moving);
     let perturbation = Perturbation::new(variation, &changes, |_, _| None);

@@ -136,7 +136,7 @@ fn rigid_bodies<const D: usize>(model: Model<D>) {
                 let mut random = numbers(5 * 7).into_iter();
                 let mut number =
                     || Dual6 { re: random.next().unwrap(), eps: from_fn(|_| random.next().unwrap_or(0.3)) };
-                let mut wrench = Wrench::force(from_fn(|_| number()));
+                let mut wrench = Wrench { force: from_fn(|_| number()), ..Wrench::zero() };
                 if part.body.oriented() {
                     wrench.torque[2] = number();
                 }
