@@ -72,17 +72,6 @@ pub fn drop_references(scene: &mut Value, name: &str) {
     }
 }
 
-/// Replaces all texts of a value, at any depth; `None` where `change` has none for one of them.
-pub fn change_texts(value: &mut Value, change: &impl Fn(&str) -> Option<String>) -> Option<()> {
-    match value {
-        Value::String(text) => *text = change(text)?,
-        Value::Array(all) => all.iter_mut().try_for_each(|value| change_texts(value, change))?,
-        Value::Object(keys) => keys.values_mut().try_for_each(|value| change_texts(value, change))?,
-        _ => {}
-    }
-    Some(())
-}
-
 /// The two markers of a joint or force, if it has two.
 pub fn pair(element: &Value) -> Option<[&str; 2]> {
     let between = element["between"].as_array().filter(|between| between.len() == 2)?;
@@ -132,32 +121,41 @@ pub fn rename_in_scene(scene: &mut Value, from: &str, to: &str) {
 
 /// Replaces the marker or body `from`, also where a quantity of it follows, by `to` in all texts of `value`.
 pub fn rename(value: &mut Value, from: &str, to: &str) {
+    change_words(value, &|word, primes| match word.strip_prefix(from) {
+        Some(tail) if tail.is_empty() || tail.starts_with('.') => Some(format!("{to}{tail}{primes}")),
+        _ => Some(format!("{word}{primes}")),
+    });
+}
+
+/// Changes each name in the texts of `value`, with the primes that follow it; `None` where `change` has none for one.
+pub fn change_words(value: &mut Value, change: &impl Fn(&str, &str) -> Option<String>) -> Option<()> {
     match value {
-        Value::String(text) => *text = renamed(text, from, to),
-        Value::Array(all) => all.iter_mut().for_each(|value| rename(value, from, to)),
+        Value::String(text) => *text = changed(text, change)?,
+        Value::Array(all) => all.iter_mut().try_for_each(|value| change_words(value, change))?,
         Value::Object(keys) => {
-            keys.iter_mut().filter(|(key, _)| !is_own(key)).for_each(|(_, value)| rename(value, from, to));
+            let mut others = keys.iter_mut().filter(|(key, _)| !is_own(key));
+            others.try_for_each(|(_, value)| change_words(value, change))?;
         }
         _ => {}
     }
+    Some(())
 }
 
-fn renamed(text: &str, from: &str, to: &str) -> String {
+fn changed(text: &str, change: &impl Fn(&str, &str) -> Option<String>) -> Option<String> {
     let (mut result, mut rest) = (String::new(), text);
     while let Some(word) = words(rest).next() {
         let at = word.as_ptr() as usize - rest.as_ptr() as usize;
         result += &rest[..at];
-        match word.strip_prefix(from) {
-            Some(tail) if tail.is_empty() || tail.starts_with('.') => result += &format!("{to}{tail}"),
-            _ => result += word,
-        }
         rest = &rest[at + word.len()..];
+        let primes = rest.len() - rest.trim_start_matches('\'').len();
+        result += &change(word, &rest[..primes])?;
+        rest = &rest[primes..];
     }
-    result + rest
+    Some(result + rest)
 }
 
 /// Names in a text, such as `rod.A.x` and `sin`.
-pub fn words(text: &str) -> impl Iterator<Item = &str> {
+fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.')).filter(|word| !word.is_empty())
 }
 

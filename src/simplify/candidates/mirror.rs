@@ -2,7 +2,7 @@
 
 use super::merged_bodies::{PLACES, packed};
 use super::plane::{cross, world};
-use crate::simplify::edit::{carrier, change_texts, elements, text, words};
+use crate::simplify::edit::{carrier, change_words, elements, text};
 use crate::simplify::facts::product;
 use crate::simplify::{Facts, Placed, Relative};
 use crate::tolerances::SAME;
@@ -189,28 +189,16 @@ impl<'a> Mirror<'a> {
     /// Quantities of bodies that go, such as `right.hub.y'`, by those of their images, in all texts of a value; `None`
     /// where one has no image.
     pub fn translate(&self, value: &mut Value) -> Option<()> {
-        change_texts(value, &|text| self.translated(text))
-    }
-
-    fn translated(&self, text: &str) -> Option<String> {
-        let (mut result, mut rest) = (String::new(), text);
-        while let Some(word) = words(rest).next() {
-            let at = word.as_ptr() as usize - rest.as_ptr() as usize;
-            result += &rest[..at];
-            rest = &rest[at + word.len()..];
+        change_words(value, &|word, primes| {
             if !self.goes(word) {
-                result += word;
-                continue;
+                return Some(format!("{word}{primes}"));
             }
-            let rates = rest.len() - rest.trim_start_matches('\'').len();
             let (of, name) = word.rsplit_once('.')?;
             let axis = ["x", "y", "z"].iter().position(|own| *own == name)?;
-            let own = format!("{}.{name}{}", self.marker_mate(of)?, &rest[..rates]);
-            rest = &rest[rates..];
-            let offset = if rates == 0 { 2.0 * self.offset } else { 0.0 };
-            result += &if axis == self.axis { format!("({offset} - {own})") } else { own };
-        }
-        Some(result + rest)
+            let own = format!("{}.{name}{primes}", self.marker_mate(of)?);
+            let offset = if primes.is_empty() { 2.0 * self.offset } else { 0.0 };
+            Some(if axis == self.axis { format!("({offset} - {own})") } else { own })
+        })
     }
 
     /// How far bodies along the motion are from the images of each other.

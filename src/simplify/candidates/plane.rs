@@ -1,6 +1,6 @@
 //! A plane in space, and numbers of a scene seen in it.
 
-use crate::simplify::edit::{change_texts, elements, text, words};
+use crate::simplify::edit::{change_words, elements, text};
 use crate::simplify::facts::product;
 use crate::simplify::{Facts, Placed};
 use crate::tolerances::SAME;
@@ -103,22 +103,11 @@ impl Plane {
 
     /// Quantities of markers such as `crank.tip.z` in the plane, in all texts of a value; `None` where one has none.
     pub fn translate(&self, value: &mut Value) -> Option<()> {
-        change_texts(value, &|text| self.translated(text))
-    }
-
-    fn translated(&self, text: &str) -> Option<String> {
-        let (mut result, mut rest) = (String::new(), text);
-        while let Some(word) = words(rest).next() {
-            let at = word.as_ptr() as usize - rest.as_ptr() as usize;
-            result += &rest[..at];
-            result += &match word.rsplit_once('.') {
-                Some((of, name @ ("x" | "y" | "z"))) => format!("{of}.{}", self.component(name)?),
-                Some((_, "wx" | "wy" | "wz")) => return None,
-                _ => word.to_string(),
-            };
-            rest = &rest[at + word.len()..];
-        }
-        Some(result + rest)
+        change_words(value, &|word, primes| match word.rsplit_once('.') {
+            Some((of, name @ ("x" | "y" | "z"))) => Some(format!("{of}.{}{primes}", self.component(name)?)),
+            Some((_, "wx" | "wy" | "wz")) => None,
+            _ => Some(format!("{word}{primes}")),
+        })
     }
 }
 
