@@ -5,7 +5,7 @@ use super::interrupt;
 use crate::analysis::Recorder;
 use crate::error::{Error, Failure, Result, Warning, clock, significant};
 use crate::linearize::State;
-use crate::prepared::{AnyMechanism, Overrides, PreparedScene};
+use crate::prepared::{Overrides, PreparedScene};
 use crate::report::mechanism::{
     Look, Motion, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
@@ -180,7 +180,7 @@ impl Args {
 
     /// Returns the options of the figures.
     fn look(&self, prepared: &PreparedScene) -> Result<Look> {
-        let is_planar = matches!(prepared.mechanism, AnyMechanism::Planar(_));
+        let is_planar = prepared.mechanism.dimension() == 2;
         let plain = Look::plain(&prepared.mechanism);
         let view = match &self.view {
             None => plain.view,

@@ -9,6 +9,7 @@ pub use schema::schema;
 use doubts::{doubts, explained, of_scene};
 use rest::at_rest;
 
+use crate::body::MarkerTable;
 use crate::error::{Error, Result, Warning, clock};
 use crate::initial::{self, Assembly};
 use crate::integrator::{self, Steps};
@@ -51,6 +52,19 @@ impl AnyMechanism {
             AnyMechanism::Planar(mechanism) => mechanism,
             AnyMechanism::Spatial(mechanism) => mechanism,
         }
+    }
+
+    /// Its markers.
+    pub fn markers(&self) -> &MarkerTable {
+        match self {
+            AnyMechanism::Planar(mechanism) => &mechanism.model().markers,
+            AnyMechanism::Spatial(mechanism) => &mechanism.model().markers,
+        }
+    }
+
+    /// 2 in the plane, 3 in space.
+    pub fn dimension(&self) -> usize {
+        if matches!(self, AnyMechanism::Planar(_)) { 2 } else { 3 }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::edit::{carrier, elements, find_mut, text};
 use super::facts::{initial, placed};
-use super::recorded::State;
 use super::source::Source;
+use crate::linearize::State;
 use crate::prepared::PreparedScene;
 use crate::tolerances::SAME;
 use serde_json::Value;
@@ -19,8 +19,7 @@ pub fn carried(source: &Source, prepared: &PreparedScene) -> Source {
     if moved.is_empty() {
         return source.clone();
     }
-    let (q, v) = prepared.start();
-    let start = State { t: prepared.start_time(), q: q.to_vec(), v: v.to_vec() };
+    let start = State::start(prepared);
     let places = placed(prepared, &start);
     let own = |body: &&Value| Some((text(body, "name").to_string(), initial(prepared, &start, &places, body)?));
     let Some(starts) = moved.iter().map(own).collect::<Option<Vec<_>>>() else { return source.clone() };
@@ -33,7 +32,7 @@ pub fn carried(source: &Source, prepared: &PreparedScene) -> Source {
     let near = |own: &[f64], other: &[f64]| {
         own.len() == other.len() && own.iter().zip(other).all(|(x, y)| (x - y).abs() <= SAME * (1.0 + x.abs()))
     };
-    let is_same = |again: PreparedScene| near(q, again.start().0) && near(v, again.start().1);
+    let is_same = |again: PreparedScene| near(&start.q, again.start().0) && near(&start.v, again.start().1);
     match source.prepare(&scene).is_ok_and(is_same) {
         true => Source { scene, ..source.clone() },
         false => source.clone(),

@@ -1,11 +1,12 @@
 //! What one run of the richest model tells about its parts.
 
 use super::edit::{carrier, text};
-use super::recorded::{Recorded, State};
+use super::recorded::Recorded;
 use super::source::Source;
 use crate::body::{Energy, Frame, in_space};
 use crate::compare::work_precision::Watched;
 use crate::formulation::Dynamics;
+use crate::linearize::State;
 use crate::math::Taylor;
 use crate::math::expression::Number;
 use crate::prepared::{AnyMechanism, PreparedScene};
@@ -93,7 +94,7 @@ impl Facts {
 
     /// 2 in the plane, 3 in space.
     pub fn dimension(&self) -> usize {
-        if matches!(self.prepared.mechanism, AnyMechanism::Planar(_)) { 2 } else { 3 }
+        self.prepared.mechanism.dimension()
     }
 
     /// Value of a number of the scene.
@@ -103,7 +104,7 @@ impl Facts {
 
     /// Largest kinetic energy of a body, nodes of an absolute beam taken together, relative to that of all.
     pub fn kinetic_share(&self, body: &str) -> f64 {
-        let names = self.body_names();
+        let names = &self.prepared.mechanism.markers().body_names;
         let own: Vec<bool> = names.iter().map(|name| carrier(name) == body).collect();
         let of = |row: &Vec<f64>| row.iter().zip(&own).filter(|(_, own)| **own).map(|(energy, _)| energy).sum();
         let all = self.kinetic_energy();
@@ -113,13 +114,6 @@ impl Facts {
     /// Largest kinetic energy of all bodies, J.
     pub fn kinetic_energy(&self) -> f64 {
         self.kinetic.iter().map(|row| row.iter().sum()).fold(0.0, f64::max)
-    }
-
-    fn body_names(&self) -> Vec<String> {
-        match &self.prepared.mechanism {
-            AnyMechanism::Planar(mechanism) => mechanism.model().markers.body_names.clone(),
-            AnyMechanism::Spatial(mechanism) => mechanism.model().markers.body_names.clone(),
-        }
     }
 
     /// Placements of a marker along the motion.
@@ -244,7 +238,7 @@ pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body:
     if !["rigid", "point_mass"].contains(&kind) {
         return None;
     }
-    let dimension = if matches!(prepared.mechanism, AnyMechanism::Planar(_)) { 2 } else { 3 };
+    let dimension = prepared.mechanism.dimension();
     let Placed { r, axes, turn, velocity, spin } = *places.get(marker(prepared, name)?)?;
     let mut start = Map::new();
     start.insert("position".to_string(), json!(r[..dimension]));
@@ -270,10 +264,7 @@ pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body:
 
 /// Place of a marker, or of the frame of a body, among all.
 pub(super) fn marker(prepared: &PreparedScene, name: &str) -> Option<usize> {
-    match &prepared.mechanism {
-        AnyMechanism::Planar(mechanism) => mechanism.model().markers.find(name).ok(),
-        AnyMechanism::Spatial(mechanism) => mechanism.model().markers.find(name).ok(),
-    }
+    prepared.mechanism.markers().find(name).ok()
 }
 
 /// Placements of all markers at a state.

@@ -46,7 +46,6 @@ pub use candidates::registry;
 pub use facts::{Facts, Placed};
 pub use nearby::{Nearby, NearbyMotion, Robustness, Which};
 pub use promise::{Norm, Promise};
-pub use recorded::State;
 pub use relative::Relative;
 pub use rods::Rod;
 pub use run::{Difference, Run};

@@ -4,8 +4,8 @@ use super::candidates::Plane;
 use super::displaced::{angle, further, is_rigid, progress, slide, start_at, wrapped};
 use super::edit::{elements, elements_mut, find_mut, mentions, pair, text};
 use super::facts::{Facts, Placed, placed, product};
-use super::recorded::State;
 use super::source::Source;
+use crate::linearize::State;
 use crate::prepared::PreparedScene;
 use crate::system::Scratch;
 use crate::tolerances::SAME;
@@ -154,8 +154,7 @@ impl<'a> Movable<'a> {
 
     /// Start of the bodies.
     fn places(&self, prepared: &PreparedScene) -> Vec<(String, Placed)> {
-        let (q, v) = prepared.start();
-        let all = placed(prepared, &State { t: prepared.start_time(), q: q.to_vec(), v: v.to_vec() });
+        let all = placed(prepared, &State::start(prepared));
         let names = elements(&self.source.scene, "bodies").iter().map(|body| text(body, "name"));
         names.filter_map(|name| Some((name.to_string(), *all.get(super::facts::marker(prepared, name)?)?))).collect()
     }

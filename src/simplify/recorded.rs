@@ -4,21 +4,11 @@ use super::run::counted;
 use crate::analysis::{Singularity, Sizes, Watch};
 use crate::compare::work_precision::Watched;
 use crate::error::{Failure, Result};
+use crate::linearize::State;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::{MechanicalSystem, Scratch};
 use crate::tolerances::SAME;
-
-/// A state of the recorded motion.
-#[derive(Clone)]
-pub struct State {
-    /// Time, s.
-    pub t: f64,
-    /// Coordinates.
-    pub q: Vec<f64>,
-    /// Velocities.
-    pub v: Vec<f64>,
-}
 
 /// Reason of a run that was stopped.
 const INTERRUPTED: &str = "interrupted";

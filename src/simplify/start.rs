@@ -5,14 +5,13 @@ use super::candidate::{Candidate, Proposal};
 use super::edit::{carrier, elements, pair, text};
 use super::facts::{Facts, Placed, marker, placed, product};
 use super::modes;
-use super::recorded::State;
 use super::rods::{Rod, rods};
 use super::source::Source;
 use crate::body::cross;
 use crate::error::Result;
 use crate::formulation::{Dynamics, turn};
 use crate::initial::{Assembly, assemble};
-use crate::linearize::{Complex, Kind, Mode, amplitude, pairs, seen};
+use crate::linearize::{Complex, Kind, Mode, State, amplitude, pairs, seen};
 use crate::math::largest;
 use crate::prepared::{Overrides, PreparedScene};
 use crate::system::{Dimensions, Need};
@@ -142,8 +141,7 @@ fn unseen_mode(mode: &Mode, seen: f64, names: &[String]) -> Unseen {
 
 /// The start, the state to which it goes on, and that at an end of each mode.
 fn small_motions((prepared, lines): (&PreparedScene, &[Line]), modes: &[&Mode], time: f64) -> Vec<State> {
-    let (t, (q, v)) = (prepared.start_time(), prepared.start());
-    let start = State { t, q: q.to_vec(), v: v.to_vec() };
+    let start = State::start(prepared);
     let reach = |change: &[f64]| largest_speed(prepared, lines, change) / REACH;
     let on = way_on(prepared, reach, time);
     let energy = |state: &State| prepared.system().energy(state.t, &state.q, &state.v, &mut Default::default());
@@ -154,7 +152,7 @@ fn small_motions((prepared, lines): (&PreparedScene, &[Line]), modes: &[&Mode], 
     let speed = if kinetic > 0.0 { (2.0 * kinetic).sqrt() } else { 1.0 / farthest };
     let moved = ends.iter().filter_map(|[change, rate]| {
         let times = |all: &[f64], factor: f64| all.iter().map(|x| factor * x).collect::<Vec<_>>();
-        beside(prepared, t, &times(change, 1.0 / farthest), &times(rate, speed))
+        beside(prepared, start.t, &times(change, 1.0 / farthest), &times(rate, speed))
     });
     let moved: Vec<State> = moved.collect();
     [start].into_iter().chain(on).chain(moved).collect()
@@ -183,9 +181,8 @@ fn lines(source: &Source, prepared: &PreparedScene) -> Vec<Line> {
 /// The largest angular velocity of a body or rod, rad/s, and velocity of a marker, in lengths of the scene per second, at
 /// the start with the velocities `v`.
 fn largest_speed(prepared: &PreparedScene, lines: &[Line], v: &[f64]) -> f64 {
-    let (t, q) = (prepared.start_time(), prepared.start().0.to_vec());
     let length = prepared.system().length();
-    let placed = placed(prepared, &State { t, q, v: v.to_vec() });
+    let placed = placed(prepared, &State { v: v.to_vec(), ..State::start(prepared) });
     let speed = |place: &Placed| (norm(&place.velocity) / length).max(norm(&place.spin));
     let minus = |a: &[f64; 3], b: &[f64; 3]| from_fn(|i| a[i] - b[i]);
     let turns = |[a, b]: &Line| {

@@ -26,10 +26,10 @@ impl Trace {
     }
 }
 
-fn parts(mechanism: &AnyMechanism) -> (&MarkerTable, &[Watched]) {
+fn outputs(mechanism: &AnyMechanism) -> &[Watched] {
     match mechanism {
-        AnyMechanism::Planar(mechanism) => (&mechanism.model().markers, &mechanism.model().outputs),
-        AnyMechanism::Spatial(mechanism) => (&mechanism.model().markers, &mechanism.model().outputs),
+        AnyMechanism::Planar(mechanism) => &mechanism.model().outputs,
+        AnyMechanism::Spatial(mechanism) => &mechanism.model().outputs,
     }
 }
 
@@ -38,15 +38,14 @@ fn parts(mechanism: &AnyMechanism) -> (&MarkerTable, &[Watched]) {
 /// # Errors
 /// There is none; the error names the most similar ones.
 pub fn find_trace(mechanism: &AnyMechanism, name: &str) -> Result<Trace> {
-    let (table, _) = parts(mechanism);
+    let table = mechanism.markers();
     Ok(Trace::new(table, table.find(name)?))
 }
 
 /// Returns the markers whose positions relative to the ground are outputs of the scene.
 pub fn output_traces(mechanism: &AnyMechanism) -> Vec<Trace> {
-    let (table, outputs) = parts(mechanism);
-    let mut traces: Vec<Trace> = Vec::new();
-    for output in outputs {
+    let (table, mut traces) = (mechanism.markers(), Vec::<Trace>::new());
+    for output in outputs(mechanism) {
         if let Measure::Probe(Probe { of, to, quantity: Quantity::Position(_), order: 0 }) = output.measure
             && to.is_none_or(|to| table.bodies[to].is_none())
             && table.bodies[of].is_some()
