@@ -73,7 +73,7 @@ fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Resul
                 match linearize::linearize(variation, request) {
                     Ok(model) => models.push(model),
                     Err(error) if models.is_empty() => return Err(error),
-                    Err(error) => args.at.talk.warn(&without_model(request, error)),
+                    Err(error) => args.at.talk.warn([&without_model(request, error)]),
                 }
             }
             Ok(models)
@@ -82,10 +82,10 @@ fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Resul
 }
 
 /// Warning for a method that is left out of the comparison.
-fn without_model(request: &Request, error: Error) -> Option<Warning> {
-    let Error::Input(input) = error else { return Some(Warning::new(error.to_string(), "take another time")) };
+fn without_model(request: &Request, error: Error) -> Warning {
+    let Error::Input(input) = error else { return Warning::new(error.to_string(), "take another time") };
     let text = format!("no model by {}: {}", request.method, input.message);
-    Some(Warning::new(text, input.hint.unwrap_or_default()))
+    Warning::new(text, input.hint.unwrap_or_default())
 }
 
 fn requests(args: &Args) -> Result<Vec<Request>> {

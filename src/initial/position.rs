@@ -34,13 +34,13 @@ pub fn close_moved(metric: &mut Metric, t: f64, q: &mut [f64], mut moved: Vec<f6
         if stalled > 40 {
             break;
         }
-        let taken = advance(metric, t, q, &pulled, residual)?;
+        let taken = advance(metric, t, q, &pulled, residual);
         let (factor, direction) = match taken {
             Some(factor) => (factor, pulled),
             None => {
                 metric.at(t, q, &still)?;
                 let newton = step(metric, None)?;
-                match advance(metric, t, q, &newton, residual)? {
+                match advance(metric, t, q, &newton, residual) {
                     Some(factor) => (factor, newton),
                     None if residual < tolerances::CLOSED => return kept(metric, &moved),
                     None => break,
@@ -76,7 +76,7 @@ pub(super) fn step(metric: &mut Metric, moved: Option<&[f64]>) -> Result<Vec<f64
 }
 
 /// Moves q along `step`, halved until the residual does not grow; `None` if it does, with q unchanged.
-fn advance(metric: &mut Metric, t: f64, q: &mut [f64], step: &[f64], residual: f64) -> Result<Option<f64>> {
+fn advance(metric: &mut Metric, t: f64, q: &mut [f64], step: &[f64], residual: f64) -> Option<f64> {
     let start = q.to_vec();
     let mut rate = vec![0.0; q.len()];
     let mut factor = 1.0;
@@ -87,12 +87,12 @@ fn advance(metric: &mut Metric, t: f64, q: &mut [f64], step: &[f64], residual: f
         metric.system.normalize(q);
         let now = metric.level(t, q, &scaled).phi;
         if now.is_finite() && (now < residual * (1.0 - 0.1 * factor) || now < tolerances::CLOSED) {
-            return Ok(Some(factor));
+            return Some(factor);
         }
         factor *= 0.5;
     }
     q.copy_from_slice(&start);
-    Ok(None)
+    None
 }
 
 fn open(metric: &Metric) -> Error {

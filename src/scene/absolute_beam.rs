@@ -92,7 +92,7 @@ impl<const D: usize> AbsoluteBeam<D> {
             let markers = frames.chain(here().map(|(_, _, marker)| *marker)).map(from_centre).collect();
             let names = here().map(|(_, name, _)| name.clone()).collect();
             let (q, v) = self.start.at(self.abscissae[node], mass.shift(), &self.line);
-            (names, Built { body: self.body(&mass, &q, markers), q, v })
+            (names, Built { body: body(&mass, &q, markers), q, v })
         };
         (0..self.abscissae.len()).map(node).collect()
     }
@@ -112,15 +112,15 @@ impl<const D: usize> AbsoluteBeam<D> {
         let AbsoluteBeam { name, profile, abscissae, .. } = self;
         BeamLine { name, first_body, first_force, elements, halves, abscissae, profile }
     }
+}
 
-    fn body(&self, node: &NodeMass, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {
-        let (mass, [y, z]) = (node.mass(), node.about());
-        match D {
-            2 => Box::new(RigidPlanar::new(mass, z, from_fn(|i| q[i]), &[0, 1, 2], markers)),
-            _ => {
-                let inertia = [[y + z, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];
-                Box::new(RigidSpatial { mass, inertia, markers })
-            }
+fn body<const D: usize>(node: &NodeMass, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {
+    let (mass, [y, z]) = (node.mass(), node.about());
+    match D {
+        2 => Box::new(RigidPlanar::new(mass, z, from_fn(|i| q[i]), &[0, 1, 2], markers)),
+        _ => {
+            let inertia = [[y + z, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];
+            Box::new(RigidSpatial { mass, inertia, markers })
         }
     }
 }

@@ -151,7 +151,7 @@ impl<const D: usize> Reader<'_, D> {
             }
             Of::Element(joint) => {
                 let (Some(ClosedForm::Lock(lock)), Some([a, b])) = (&joint.form, joint.ends) else {
-                    return Err(self.immeasurable(joint, "position"));
+                    return Err(immeasurable(joint, "position"));
                 };
                 let translation = |(_, coordinate)| match coordinate {
                     JointCoordinate::Translation(axis) => Some(axis),
@@ -159,7 +159,7 @@ impl<const D: usize> Reader<'_, D> {
                 };
                 let free: Vec<usize> = lock.coordinates().into_iter().filter_map(translation).collect();
                 let names: Vec<&str> = free.iter().map(|&axis| AXES[axis]).collect();
-                let Some(first) = names.first() else { return Err(self.immeasurable(joint, "position")) };
+                let Some(first) = names.first() else { return Err(immeasurable(joint, "position")) };
                 let axis = free[self.component(first, &names)?];
                 let along = |triad: &[[f64; D]; D]| Quantity::Along(in_space(&triad[axis]));
                 let quantity = lock.triad.as_ref().map_or(Quantity::Position(axis), along);
@@ -185,7 +185,7 @@ impl<const D: usize> Reader<'_, D> {
 
     /// Angle of the second marker against the first about the axis of the element.
     fn angle_of(&self, element: &Placed<D>, order: usize) -> Result<Probe> {
-        let none = || self.immeasurable(element, "angle");
+        let none = || immeasurable(element, "angle");
         let Some([a, b]) = element.ends else { return Err(none()) };
         if element.kind == "torsion_spring" {
             return Ok(self.between([a, b], (None, Some(&element.name)), order));
@@ -236,7 +236,7 @@ impl<const D: usize> Reader<'_, D> {
                 [self.build.marker("between[0]", &names[0])?, self.build.marker("between[1]", &names[1])?]
             }
             (None, Some(name)) => match self.elements.iter().find(|element| element.name == *name) {
-                Some(element) => element.ends.ok_or_else(|| self.immeasurable(element, "length"))?,
+                Some(element) => element.ends.ok_or_else(|| immeasurable(element, "length"))?,
                 None => {
                     let known = self.elements.iter().filter(|element| element.ends.is_some());
                     let hint = suggest(name, known.map(|element| element.name.as_str()));
@@ -247,12 +247,12 @@ impl<const D: usize> Reader<'_, D> {
         };
         Ok(Probe::new(ends[1], ends[0], Quantity::Distance, order))
     }
+}
 
-    fn immeasurable(&self, element: &Placed<D>, what: &str) -> Error {
-        Error::input(format!("the {} `{}` has no {what} of its own", element.kind, element.name))
-            .under("of")
-            .hint("name a joint that leaves it free, or a marker, with `relative_to` another one")
-    }
+fn immeasurable<const D: usize>(element: &Placed<D>, what: &str) -> Error {
+    Error::input(format!("the {} `{}` has no {what} of its own", element.kind, element.name))
+        .under("of")
+        .hint("name a joint that leaves it free, or a marker, with `relative_to` another one")
 }
 
 /// Rotation of the cross of a universal joint about x of the first marker (`pin` 0), or of the second marker against

@@ -1,7 +1,7 @@
 //! M, f, phi, phi', gamma and G at one state: rigid bodies by their poses and the joints between them by closed
 //! formulas, all else by moving frames.
 
-use super::mechanism::{Mechanism, of};
+use super::mechanism::{Mechanism, of, place_body};
 use super::portions::{BodyPortion, BodyTerms, JointPortion, JointsTerms};
 use super::rigid_joint::RigidJoint;
 use super::rows::JointRows;
@@ -186,7 +186,7 @@ impl<const D: usize> Mechanism<D> {
                 None if terms.motion.is_empty() => {}
                 None => {
                     let first = part.first_marker - portion.markers.start;
-                    self.place_body(part, (q, v, &[]), &mut terms.motion[first..]);
+                    place_body(part, (q, v, &[]), &mut terms.motion[first..]);
                 }
             }
         }

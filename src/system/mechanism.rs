@@ -128,21 +128,9 @@ impl<const D: usize> Mechanism<D> {
     pub(super) fn place(&self, q: &[f64], v: &[f64], vdot: &[f64], work: &mut Workspace<D>) {
         work.motion.resize(self.model.marker_count(), Frame::world());
         for part in &self.model.bodies {
-            self.place_body(part, (q, v, vdot), &mut work.motion[part.first_marker..]);
+            place_body(part, (q, v, vdot), &mut work.motion[part.first_marker..]);
         }
         work.remember(if vdot.is_empty() { [q, v] } else { [&[]; 2] });
-    }
-
-    /// Evaluates the frames of the markers of a body, the first of `motion`.
-    pub(super) fn place_body(
-        &self,
-        part: &Part<D>,
-        (q, v, vdot): (&[f64], &[f64], &[f64]),
-        motion: &mut [Frame<Taylor<f64>, D>],
-    ) {
-        let frames = &mut motion[..part.body.marker_count()];
-        let vdot = (!vdot.is_empty()).then(|| of(vdot, part, false));
-        part.body.motion(of(q, part, true), of(v, part, false), vdot, 0, frames);
     }
 
     /// A joint with its rows.
@@ -158,6 +146,17 @@ impl<const D: usize> Mechanism<D> {
     pub(super) fn placed_joints(&self) -> impl Iterator<Item = PlacedJoint<'_, D>> {
         (0..self.joints.len()).map(|joint| self.placed_joint(joint))
     }
+}
+
+/// Evaluates the frames of the markers of a body, the first of `motion`.
+pub(super) fn place_body<const D: usize>(
+    part: &Part<D>,
+    (q, v, vdot): (&[f64], &[f64], &[f64]),
+    motion: &mut [Frame<Taylor<f64>, D>],
+) {
+    let frames = &mut motion[..part.body.marker_count()];
+    let vdot = (!vdot.is_empty()).then(|| of(vdot, part, false));
+    part.body.motion(of(q, part, true), of(v, part, false), vdot, 0, frames);
 }
 
 /// Name of a coordinate or velocity of a body; a state has its own.
