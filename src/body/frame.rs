@@ -191,6 +191,12 @@ pub fn unit_axes<S: Scalar, const D: usize>() -> [[S; D]; D] {
     from_fn(|i| from_fn(|j| if i == j { S::one() } else { S::zero() }))
 }
 
+/// Unit vector along axis k.
+#[inline]
+pub fn unit(k: usize) -> [f64; 3] {
+    from_fn(|i| if i == k { 1.0 } else { 0.0 })
+}
+
 /// a . b
 #[inline]
 pub fn dot<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> S {

@@ -34,7 +34,7 @@ pub use formula::{Formula, NamedOutput, NamedOutputs};
 pub(crate) use frame::turned;
 pub use frame::{Frame, Marker, Wrench, cross, dot, norm, scale, sub};
 #[doc(hidden)]
-pub use frame::{in_space, twist_len, unit_axes};
+pub use frame::{in_space, twist_len, unit, unit_axes};
 #[doc(hidden)]
 pub use kernel::MOST_COORDINATES;
 pub use kind::ElementKind;

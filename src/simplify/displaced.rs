@@ -1,7 +1,8 @@
 //! Places of bodies that start elsewhere.
 
 use super::edit::{elements, text};
-use super::facts::{Facts, Placed, product};
+use super::facts::{Facts, Placed};
+use crate::body::{dot, norm, sub};
 use crate::math::rotation::{axes_from_quaternion, quaternion_from_axes, quaternion_from_vector, quaternion_product};
 use crate::math::screw::quaternion;
 use serde_json::{Value, json};
@@ -16,9 +17,9 @@ pub fn progress(facts: &Facts) -> Vec<f64> {
     let bodies = elements(facts.scene(), "bodies").iter();
     for path in bodies.filter_map(|body| facts.path(text(body, "name"))) {
         for (most, place) in most.iter_mut().zip(&path) {
-            let gap: [f64; 3] = from_fn(|i| place.r[i] - path[0].r[i]);
+            let gap = sub(&place.r, &path[0].r);
             let turn = rotation(&path[0], place);
-            let [shift, turn] = [&gap, &turn].map(|x| product(x, x).sqrt());
+            let [shift, turn] = [&gap, &turn].map(norm);
             *most = most.max(part(shift, travel.shift)).max(part(turn, travel.turn));
         }
     }
@@ -48,7 +49,7 @@ pub fn start_at(body: &mut Value, place: &Placed, dimension: usize) {
         let keys = initial.as_object_mut().into_iter();
         keys.for_each(|keys| keys.retain(|key, _| !["z_axis", "x_axis"].contains(&key.as_str())));
         initial["rotation"] = json!(quaternion_from_axes(&place.axes));
-        initial["angular_velocity"] = json!(place.axes.map(|axis| product(&axis, &place.spin)));
+        initial["angular_velocity"] = json!(place.axes.map(|axis| dot(&axis, &place.spin)));
     }
 }
 
@@ -66,22 +67,21 @@ pub fn further(place: &Placed, first: &Placed, now: &Placed, part: f64) -> Place
 /// Rotation vector from one place to another, in the world.
 fn rotation(first: &Placed, now: &Placed) -> [f64; 3] {
     // R[i][j] = sum of now_k[i] first_k[j] over the axes k.
-    let matrix = from_fn(|i| from_fn(|j| (0..3).map(|k| now.axes[k][i] * first.axes[k][j]).sum()));
+    let matrix: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| (0..3).map(|k| now.axes[k][i] * first.axes[k][j]).sum()));
     let (w, x) = quaternion(&matrix);
-    let half = product(&x, &x).sqrt();
+    let half = norm(&x);
     let angle = 2.0 * half.atan2(w.abs());
     x.map(|x| if half > 0.0 { w.signum() * angle * x / half } else { 0.0 })
 }
 
 /// Angle of the second of two markers against the first, about its z axis.
 pub fn angle([one, other]: &[Placed; 2]) -> f64 {
-    product(&one.axes[1], &other.axes[0]).atan2(product(&one.axes[0], &other.axes[0]))
+    dot(&one.axes[1], &other.axes[0]).atan2(dot(&one.axes[0], &other.axes[0]))
 }
 
 /// Displacement of the second of two markers along an axis of the first.
 pub fn slide([one, other]: &[Placed; 2], axis: usize) -> f64 {
-    let gap: [f64; 3] = from_fn(|i| other.r[i] - one.r[i]);
-    product(&one.axes[axis], &gap)
+    dot(&one.axes[axis], &sub(&other.r, &one.r))
 }
 
 /// An angle between -pi and pi.

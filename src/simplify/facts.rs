@@ -3,7 +3,7 @@
 use super::edit::{carrier, text};
 use super::recorded::Recorded;
 use super::source::Source;
-use crate::body::{Energy, Frame, in_space};
+use crate::body::{Energy, Frame, dot, in_space};
 use crate::compare::work_precision::Watched;
 use crate::formulation::Dynamics;
 use crate::linearize::State;
@@ -257,7 +257,7 @@ pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body:
                 start.extend(kept.map(|(key, value)| (key.clone(), value.clone())));
             }
         }
-        start.insert("angular_velocity".to_string(), json!(axes.map(|axis| product(&axis, &spin))));
+        start.insert("angular_velocity".to_string(), json!(axes.map(|axis| dot(&axis, &spin))));
     }
     Some(Value::Object(start))
 }
@@ -303,9 +303,4 @@ fn seen<const D: usize>(mechanism: &Mechanism<D>, states: &[State]) -> Seen {
     };
     let kinetic = states.iter().map(kinetic).collect();
     (states.iter().map(|state| places(mechanism, state, &mut scratch)).collect(), kinetic)
-}
-
-/// a . b
-pub fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    crate::body::dot(a, b)
 }

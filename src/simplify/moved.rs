@@ -3,8 +3,9 @@
 use super::candidates::Plane;
 use super::displaced::{angle, further, is_rigid, progress, slide, start_at, wrapped};
 use super::edit::{elements, elements_mut, find_mut, mentions, pair, text};
-use super::facts::{Facts, Placed, placed, product};
+use super::facts::{Facts, Placed, placed};
 use super::source::Source;
+use crate::body::dot;
 use crate::linearize::State;
 use crate::prepared::PreparedScene;
 use crate::system::Scratch;
@@ -219,7 +220,7 @@ impl<'a> Movable<'a> {
         }
         let (plane, start) = (Plane::new(self.facts), self.facts.place(body)?);
         let own = plane.seen_from(body, &start)[0];
-        let flat = |vector: &[f64; 3]| plane.axes.map(|axis| product(&axis, vector));
+        let flat = |vector: &[f64; 3]| plane.axes.map(|axis| dot(&axis, vector));
         let direction = |place: &Placed| -> [f64; 3] { from_fn(|i| (0..3).map(|k| own[k] * place.axes[k][i]).sum()) };
         let [before, now] = [&start, place].map(|place| plane.angle(&direction(place)));
         Some(Placed {

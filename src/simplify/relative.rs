@@ -1,7 +1,8 @@
 //! Motions of markers against each other.
 
 use super::edit::{elements, text};
-use super::facts::{Facts, Placed, product};
+use super::facts::{Facts, Placed};
+use crate::body::{dot, norm, sub};
 use crate::math::largest;
 use std::array::from_fn;
 
@@ -29,17 +30,17 @@ impl Facts {
     pub fn relative(&self, [a, b]: [&str; 2]) -> Option<Relative> {
         let pairs: Vec<(Placed, Placed)> = self.path(a)?.into_iter().zip(self.path(b)?).collect();
         let local = |(a, b): &(Placed, Placed)| {
-            let gap: [f64; 3] = from_fn(|i| b.r[i] - a.r[i]);
-            let rotation: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| product(&a.axes[j], &b.axes[i])));
-            (a.axes.map(|axis| product(&axis, &gap)), rotation)
+            let gap = sub(&b.r, &a.r);
+            let rotation: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| dot(&a.axes[j], &b.axes[i])));
+            (a.axes.map(|axis| dot(&axis, &gap)), rotation)
         };
         let start = local(pairs.first()?);
         let mut most = Relative::default();
         for now in pairs.iter().map(local) {
-            let shift: [f64; 3] = from_fn(|i| now.0[i] - start.0[i]);
-            let cosines: [f64; 3] = from_fn(|i| product(&now.1[i], &start.1[i]));
+            let shift = sub(&now.0, &start.0);
+            let cosines: [f64; 3] = from_fn(|i| dot(&now.1[i], &start.1[i]));
             let trace: f64 = cosines.iter().sum();
-            most.shift = most.shift.max(product(&shift, &shift).sqrt());
+            most.shift = most.shift.max(norm(&shift));
             most.tilt = most.tilt.max(cosines[2].clamp(-1.0, 1.0).acos());
             most.turn = most.turn.max((0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos());
         }
@@ -49,10 +50,7 @@ impl Facts {
     /// Length between two markers along the motion: least, mean and largest, m.
     pub fn lengths(&self, [a, b]: [&str; 2]) -> Option<[f64; 3]> {
         let pairs = self.path(a)?.into_iter().zip(self.path(b)?);
-        let length = |(a, b): (Placed, Placed)| {
-            let gap: [f64; 3] = from_fn(|i| b.r[i] - a.r[i]);
-            product(&gap, &gap).sqrt()
-        };
+        let length = |(a, b): (Placed, Placed)| norm(&sub(&b.r, &a.r));
         let all: Vec<f64> = pairs.map(length).collect();
         let least = all.iter().copied().fold(f64::INFINITY, f64::min);
         Some([least, all.iter().sum::<f64>() / all.len().max(1) as f64, largest(&all)])

@@ -3,12 +3,12 @@
 use super::bench::mechanism;
 use super::candidates::Link;
 use super::edit::{elements, text};
-use super::facts::{Facts, Placed, product};
+use super::facts::{Facts, Placed};
 use super::held::Tie;
+use crate::body::{norm, sub};
 use crate::tolerances::SAME;
 use serde::Serialize;
 use serde_json::{Value, json};
-use std::array::from_fn;
 
 /// Force along a link between two points, tension positive, in small motions about the start.
 #[derive(Clone, Debug, Serialize)]
@@ -60,8 +60,8 @@ fn link(facts: &Facts, body: &Value) -> Option<Source> {
         |(pin, component): (&Tie, &&str)| json!({ "measure": "reaction", "of": pin.name(), "component": component });
     let outputs = pins.iter().flat_map(|pin| components.iter().map(move |component| (pin, component))).map(output);
     let along = |(first, second): (Placed, Placed)| {
-        let gap: [f64; 3] = from_fn(|i| second.r[i] - first.r[i]);
-        let size = product(&gap, &gap).sqrt();
+        let gap = sub(&second.r, &first.r);
+        let size = norm(&gap);
         // A reaction acts on the second body of its joint.
         let signs = [-0.5, 0.5].into_iter().zip(&pins).map(|(part, pin)| if pin.is_second { part } else { -part });
         signs.flat_map(|sign| gap[..components.len()].iter().map(move |x| sign * x / size)).collect()

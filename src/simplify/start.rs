@@ -3,11 +3,11 @@
 use super::bench::mechanism;
 use super::candidate::{Candidate, Proposal};
 use super::edit::{carrier, elements, pair, text};
-use super::facts::{Facts, Placed, marker, placed, product};
+use super::facts::{Facts, Placed, marker, placed};
 use super::modes;
 use super::rods::{Rod, rods};
 use super::source::Source;
-use crate::body::cross;
+use crate::body::{cross, dot, norm, sub};
 use crate::error::Result;
 use crate::formulation::{Dynamics, turn};
 use crate::initial::{Assembly, assemble};
@@ -17,7 +17,6 @@ use crate::prepared::{Overrides, PreparedScene};
 use crate::system::{Dimensions, Need};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
-use std::array::from_fn;
 use std::path::Path;
 
 /// The largest rotation of the small motions, rad, and their largest displacement, of the length of the scene: far
@@ -184,16 +183,11 @@ fn largest_speed(prepared: &PreparedScene, lines: &[Line], v: &[f64]) -> f64 {
     let length = prepared.system().length();
     let placed = placed(prepared, &State { v: v.to_vec(), ..State::start(prepared) });
     let speed = |place: &Placed| (norm(&place.velocity) / length).max(norm(&place.spin));
-    let minus = |a: &[f64; 3], b: &[f64; 3]| from_fn(|i| a[i] - b[i]);
     let turns = |[a, b]: &Line| {
-        let gap = minus(&placed[*b].r, &placed[*a].r);
-        norm(&cross(&gap, &minus(&placed[*b].velocity, &placed[*a].velocity))) / product(&gap, &gap)
+        let gap = sub(&placed[*b].r, &placed[*a].r);
+        norm(&cross(&gap, &sub(&placed[*b].velocity, &placed[*a].velocity))) / dot(&gap, &gap)
     };
     placed.iter().map(speed).chain(lines.iter().map(turns)).fold(0.0, f64::max)
-}
-
-fn norm(x: &[f64; 3]) -> f64 {
-    product(x, x).sqrt()
 }
 
 /// Displacement and velocity of each phase of a mode at a unit of twice the kinetic energy.

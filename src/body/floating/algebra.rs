@@ -73,9 +73,3 @@ where
 {
     sum.iter_mut().zip(matrix).for_each(|(sum, row)| add_scaled(sum, factor, row));
 }
-
-/// Unit vector along axis k.
-#[inline]
-pub(super) fn unit(k: usize) -> [f64; 3] {
-    from_fn(|i| if i == k { 1.0 } else { 0.0 })
-}

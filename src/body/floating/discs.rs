@@ -16,7 +16,7 @@ use super::inertia::angular_velocity;
 use super::small_turn::SmallTurn;
 use super::{Floating, frame_coordinates, frame_velocities, turn_velocity, turns};
 use crate::body::flexible::Disc;
-use crate::body::{BodyState, cross, dot};
+use crate::body::{BodyState, cross, dot, unit};
 use crate::math::{Dual, Scalar};
 use std::array::from_fn;
 
@@ -81,7 +81,7 @@ impl Mass {
             return Mass { frame: about_z, mixed: about_z, own: about_z };
         }
         let small = SmallTurn::of(turn(disc, q));
-        let units: Matrix3 = from_fn(super::algebra::unit);
+        let units: Matrix3 = from_fn(unit);
         let [back, rate] = [units.map(|e| small.back(&e)), units.map(|e| small.rate(&e))];
         let [turned, pushed] = [&back, &rate].map(|columns| columns.map(|column| times(inertia, &column)));
         let product = |a: &Matrix3, b: &Matrix3| from_fn(|i| from_fn(|j| dot(&a[i], &b[j])));
@@ -158,7 +158,7 @@ impl<const D: usize> Floating<D> {
             let slopes = Turning::of::<D>(disc, at.q, at.v, at.vdot).slopes(&disc.inertia);
             for l in 0..3 {
                 let column = turn_velocity(D, l);
-                let (frame, own) = slopes.along(2, &super::algebra::unit(l));
+                let (frame, own) = slopes.along(2, &unit(l));
                 turns(D).for_each(|i| c[self.layout.frame(turn_velocity(D, i), column)] += frame[i]);
                 let rows = disc.dofs.iter().zip(&disc.rotation);
                 rows.for_each(|(&dof, turn)| c[self.layout.row(dof, column)] += dot(turn, &own));

@@ -13,7 +13,7 @@
 use super::algebra::*;
 use super::moving::{Moving, symmetric};
 use super::{Floating, frame, frame_coordinates, frame_velocities, turn_velocity, turns};
-use crate::body::{Energy, Frame, cross, dot};
+use crate::body::{Energy, Frame, cross, dot, unit};
 use crate::math::Scalar;
 use std::array::from_fn;
 

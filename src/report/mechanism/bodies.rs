@@ -3,7 +3,8 @@
 use super::canvas::{BOLD, Canvas, Layer, THIN};
 use super::hull::{hull, rounded};
 use super::snapshot::{Limb, Pose};
-use super::view::{along, dot, length, less, straight};
+use super::view::{along, straight};
+use crate::body::{dot, norm, sub};
 use crate::plot::{Spot, Tint};
 
 /// Distance of the outline of a body from its markers, pixels.
@@ -112,7 +113,7 @@ fn block(pen: &mut Canvas, pose: &Pose, color: usize) {
 /// Draws a ring with a spoke around a straight body in space, to show its rotation about its own axis.
 fn spin(pen: &mut Canvas, limb: &Limb, color: usize) {
     let Some(axis) = straight(&limb.points) else { return };
-    let hint = limb.centre.axes.iter().copied().min_by(|a, b| dot(*a, axis).abs().total_cmp(&dot(*b, axis).abs()));
+    let hint = limb.centre.axes.iter().copied().min_by(|a, b| dot(a, &axis).abs().total_cmp(&dot(b, &axis).abs()));
     let plane = [axis, hint.unwrap_or(axis)];
     let ring = pen.arc(limb.centre.r, plane, (0.0, std::f64::consts::TAU), (0.0, SPIN));
     let tint = pen.color(color, 0.0);
@@ -147,9 +148,9 @@ pub fn centre(pen: &mut Canvas, limb: &Limb, color: usize) {
 /// Returns the point of a bar nearest to a point.
 fn foot(points: &[[f64; 3]], r: [f64; 3]) -> Option<[f64; 3]> {
     let axis = straight(points)?;
-    let place = |point: [f64; 3]| dot(axis, less(point, points[0]));
+    let place = |point: [f64; 3]| dot(&axis, &sub(&point, &points[0]));
     let places = points.iter().map(|point| place(*point));
     let (low, high) = places.fold((0.0f64, 0.0f64), |(low, high), at| (low.min(at), high.max(at)));
     let foot = along(points[0], axis, place(r).clamp(low, high));
-    (length(less(foot, r)) > 1e-6 * (high - low)).then_some(foot)
+    (norm(&sub(&foot, &r)) > 1e-6 * (high - low)).then_some(foot)
 }

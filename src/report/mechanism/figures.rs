@@ -5,8 +5,9 @@ use super::glyphs::Course;
 use super::motion::Motion;
 use super::snapshot::{Link, Snapshot, snapshot, up};
 use super::traces::{Trace, curves};
-use super::view::{View, direction, dot, length, less, unit};
+use super::view::{View, direction};
 use super::{bodies, glyphs, ground};
+use crate::body::{dot, norm, sub, unit};
 use crate::error::significant;
 use crate::joint::Axis;
 use crate::linearize::State;
@@ -230,7 +231,7 @@ fn course(motion: &Motion) -> Course {
     let mechanism = &motion.prepared.mechanism;
     let slides = |link: &Link| ["prismatic", "cylindrical", "point_on_line"].contains(&link.kind);
     let place = |link: &Link| match link.axis {
-        Some(Axis::Along(axis)) if slides(link) => Some(dot(direction(axis)?, less(link.ends[1].r, link.ends[0].r))),
+        Some(Axis::Along(axis)) if slides(link) => Some(dot(&direction(axis)?, &sub(&link.ends[1].r, &link.ends[0].r))),
         _ => None,
     };
     let first = snapshot(mechanism, &motion.state(motion.reach().0));
@@ -249,7 +250,7 @@ fn course(motion: &Motion) -> Course {
 
 pub(super) fn lengths(scene: &Snapshot) -> Vec<f64> {
     let distance = |link: &Link| match link.ends.as_slice() {
-        [a, b, ..] => length(less(b.r, a.r)),
+        [a, b, ..] => norm(&sub(&b.r, &a.r)),
         _ => 0.0,
     };
     scene.forces.iter().map(distance).collect()

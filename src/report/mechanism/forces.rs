@@ -3,7 +3,8 @@
 use super::canvas::{BOLD, Canvas, Layer, THIN};
 use super::joints::turn;
 use super::snapshot::{Link, Sight};
-use super::view::{along, cross, direction, dot, less, unit};
+use super::view::{along, direction};
+use crate::body::{cross, dot, sub, unit};
 use crate::plot::{Spot, Tint};
 use std::f64::consts::TAU;
 
@@ -20,12 +21,12 @@ const COILS: usize = 16;
 const WIDTH: (f64, f64) = (3.0, 0.018);
 
 fn zigzag(pen: &mut Canvas, [a, b]: [[f64; 3]; 2], start: f64) {
-    let (x, y) = pen.view.flat(less(b, a));
+    let (x, y) = pen.view.flat(sub(&b, &a));
     let size = x.hypot(y);
     let (nx, ny) = if size > 1e-12 { (-y / size, x / size) } else { (0.0, 1.0) };
     // A fifth of the length at both ends is straight.
     let at = |part: f64, out: f64| {
-        let (x, y) = pen.view.flat(along(a, less(b, a), part));
+        let (x, y) = pen.view.flat(along(a, sub(&b, &a), part));
         let wide = out * WIDTH.1 * start;
         Spot::data(x + wide * nx, y + wide * ny).moved(out * WIDTH.0 * nx, out * WIDTH.0 * ny)
     };
@@ -97,7 +98,7 @@ pub fn tyre(pen: &mut Canvas, link: &Link, sight: &Sight) {
     let Some(wheel) = link.wheel else { return };
     let (hub, up) = (&link.ends[0], unit(if sight.is_planar { 1 } else { 2 }));
     // In space its axle is the horizontal part of the marker's y axis.
-    let level = |axis: [f64; 3]| direction(along(axis, up, -dot(axis, up)));
+    let level = |axis: [f64; 3]| direction(along(axis, up, -dot(&axis, &up)));
     let axle = if sight.is_planar { unit(2) } else { level(hub.axes[1]).unwrap_or(unit(1)) };
     let circle = pen.arc(hub.r, [axle, up], (0.0, TAU), (wheel.radius, 0.0));
     let ink = pen.ink(0.35);
@@ -106,8 +107,8 @@ pub fn tyre(pen: &mut Canvas, link: &Link, sight: &Sight) {
         pen.area(circle.clone(), Tint::Ink(0.0), 0.08);
     }
     pen.line(circle, ink, 3.0);
-    let below = along(hub.r, up, wheel.road - dot(up, hub.r));
-    let forward = cross(axle, up);
+    let below = along(hub.r, up, wheel.road - dot(&up, &hub.r));
+    let forward = cross(&axle, &up);
     let end = |part: f64| along(below, forward, part * wheel.radius);
     let road = vec![pen.spot(end(-1.3)), pen.spot(end(1.3))];
     pen.layer = Layer::Ground;

@@ -2,7 +2,8 @@
 
 use super::canvas::{Canvas, Layer, THIN};
 use super::snapshot::{Link, Snapshot};
-use super::view::{along, direction, length, less};
+use super::view::{along, direction};
+use crate::body::{norm, sub};
 use crate::plot::Spot;
 
 /// Kinds that pull at the ground along a line: their wall is perpendicular to it, unless its direction changes.
@@ -21,12 +22,12 @@ pub fn draw(pen: &mut Canvas, pictures: &[Snapshot]) {
     for link in all(first) {
         for (end, _) in link.ends.iter().zip(&link.carriers).filter(|(_, body)| body.is_none()) {
             let at = end.r;
-            if BARE.contains(&link.kind) || done.iter().any(|known| length(less(*known, at)) < 1e-9) {
+            if BARE.contains(&link.kind) || done.iter().any(|known| norm(&sub(known, &at)) < 1e-9) {
                 continue;
             }
             done.push(at);
             let way = mean(pictures, at).unwrap_or([0.0; 3]);
-            let is_wall = PULLING.contains(&link.kind) && length(way) > STEADY;
+            let is_wall = PULLING.contains(&link.kind) && norm(&way) > STEADY;
             let way = pen.view.flat(way);
             support(pen, at, way, is_wall);
         }
@@ -43,9 +44,9 @@ fn mean(pictures: &[Snapshot], at: [f64; 3]) -> Option<[f64; 3]> {
                 .ends
                 .iter()
                 .zip(&link.carriers)
-                .any(|(end, body)| body.is_none() && length(less(end.r, at)) < 1e-9);
+                .any(|(end, body)| body.is_none() && norm(&sub(&end.r, &at)) < 1e-9);
             for body in link.carriers.iter().flatten().filter(|_| here) {
-                let way = less(scene.limbs[*body].centre.r, at);
+                let way = sub(&scene.limbs[*body].centre.r, &at);
                 sum = along(sum, direction(way).unwrap_or([0.0; 3]), 1.0);
                 count += 1.0;
             }

@@ -2,7 +2,8 @@
 
 use super::canvas::{BOLD, Canvas, Layer, THIN};
 use super::snapshot::{Link, Pose, Sight};
-use super::view::{along, cross, direction, dot, length, less};
+use super::view::{along, direction};
+use crate::body::{cross, dot, norm, sub};
 use crate::joint::Axis;
 use crate::plot::Tint;
 use std::f64::consts::{PI, TAU};
@@ -35,7 +36,7 @@ pub fn revolute(pen: &mut Canvas, link: &Link, _: &Sight) {
 fn slot(pen: &mut Canvas, link: &Link, sight: &Sight) {
     let Some(axis) = axis(link) else { return };
     let (foot, point) = (link.ends[0].r, link.ends[1].r);
-    let place = dot(axis, less(point, foot));
+    let place = dot(&axis, &sub(&point, &foot));
     let (low, high) = sight.travel.unwrap_or((place, place));
     // The rails pass through the point even if the joint has drifted.
     let at = |s: f64| along(point, axis, s - place);
@@ -140,7 +141,7 @@ pub fn driver(pen: &mut Canvas, link: &Link, _: &Sight) {
         None => {
             let spots = vec![pen.spot(link.ends[0].r), pen.spot(at)];
             pen.dashes(spots, ink, BOLD);
-            let way = direction(less(at, link.ends[0].r)).unwrap_or([0.0; 3]);
+            let way = direction(sub(&at, &link.ends[0].r)).unwrap_or([0.0; 3]);
             let step = |size: f64| pen.beside((at, way.map(|x| x * size)));
             pen.arrow(vec![step(-10.0), step(-4.0)], ink, BOLD);
         }
@@ -150,7 +151,7 @@ pub fn driver(pen: &mut Canvas, link: &Link, _: &Sight) {
 /// Draws an arrow of about three quarters of a revolution about an axis.
 pub fn turn(pen: &mut Canvas, at: [f64; 3], axis: [f64; 3], radius: f64, ink: Tint) {
     let Some(axis) = direction(axis) else { return };
-    let hint = cross(axis, [0.3, -0.4, 0.8]);
+    let hint = cross(&axis, &[0.3, -0.4, 0.8]);
     let spots = pen.arc(at, [axis, hint], (0.15 * PI, 1.6 * PI), (0.0, radius));
     pen.arrow(spots, ink, BOLD);
 }
@@ -161,13 +162,13 @@ pub fn gear(pen: &mut Canvas, link: &Link, _: &Sight) {
     let [turn_a, turn_b, ..] = link.turns[..] else { return };
     let [a, b] = [&link.ends[0], &link.ends[1]];
     let [za, zb] = [turn_a.abs(), turn_b.abs()];
-    let gap = less(b.r, a.r);
+    let gap = sub(&b.r, &a.r);
     // Both circles meet: the gap is the sum of the two radii, which are proportional to the numbers of teeth.
-    let out = |axis: [f64; 3], way: [f64; 3]| direction(along(way, axis, -dot(axis, way))).unwrap_or([0.0; 3]);
+    let out = |axis: [f64; 3], way: [f64; 3]| direction(along(way, axis, -dot(&axis, &way))).unwrap_or([0.0; 3]);
     let inner = if turn_a * turn_b < 0.0 { -1.0 } else { 1.0 };
-    let towards = less(out(a.axes[2], gap).map(|x| za * x), out(b.axes[2], gap.map(|x| -x)).map(|x| inner * zb * x));
-    let module = dot(gap, towards) / dot(towards, towards);
-    if !module.is_finite() || length(gap) == 0.0 {
+    let towards = sub(&out(a.axes[2], gap).map(|x| za * x), &out(b.axes[2], gap.map(|x| -x)).map(|x| inner * zb * x));
+    let module = dot(&gap, &towards) / dot(&towards, &towards);
+    if !module.is_finite() || norm(&gap) == 0.0 {
         return;
     }
     pen.layer = Layer::Rod;

@@ -3,7 +3,8 @@
 use super::figures::{Look, labelled, lengths, panel, picture, supports};
 use super::glyphs::Course;
 use super::snapshot::{Snapshot, snapshot};
-use super::view::{along, length, less};
+use super::view::along;
+use crate::body::{norm, sub};
 use crate::error::{short, significant};
 use crate::formulation::turn;
 use crate::linearize::{Complex, Kind, LinearModel, Mode, Pair, State, pairs};
@@ -136,8 +137,8 @@ impl<'a> Swing<'a> {
     fn bend(&self, rest: &Snapshot) -> f64 {
         let (one, other) = (self.snapshot(0.0), self.snapshot(0.5 * TAU));
         let ends = || places(&one).zip(places(&other));
-        let middle = ends().zip(places(rest)).map(|((a, b), r)| length(less(along(a.map(|x| 0.5 * x), b, 0.5), r)));
-        let apart = ends().map(|(a, b)| length(less(b, a))).fold(f64::MIN_POSITIVE, f64::max);
+        let middle = ends().zip(places(rest)).map(|((a, b), r)| norm(&sub(&along(a.map(|x| 0.5 * x), b, 0.5), &r)));
+        let apart = ends().map(|(a, b)| norm(&sub(&b, &a))).fold(f64::MIN_POSITIVE, f64::max);
         2.0 * middle.fold(0.0, f64::max) / apart
     }
 
@@ -163,7 +164,7 @@ fn places(scene: &Snapshot) -> impl Iterator<Item = [f64; 3]> + '_ {
 }
 
 fn travel(from: &Snapshot, to: &Snapshot) -> f64 {
-    places(from).zip(places(to)).map(|(a, b)| length(less(b, a))).fold(0.0, f64::max)
+    places(from).zip(places(to)).map(|(a, b)| norm(&sub(&b, &a))).fold(0.0, f64::max)
 }
 
 /// Returns the longest side of a box around all points; 1 m where they coincide.

@@ -1,7 +1,7 @@
 //! Positions of bodies, joints and forces at one time, in space for planar and spatial scenes alike.
 
-use super::view::{along, cross, direction, dot, length, less, straight};
-use crate::body::{Bent, Frame, Marker, Wrench, in_space, twist_len};
+use super::view::{along, direction, straight};
+use crate::body::{Bent, Frame, Marker, Wrench, cross, dot, in_space, norm, sub, twist_len};
 use crate::force::Wheel;
 use crate::joint::{Axis, Joint, JointOver, MOST_ROWS, markers_per_pass};
 use crate::linearize::State;
@@ -146,7 +146,7 @@ fn turns<const D: usize>(joint: &dyn Joint<D>, frames: &[Frame<Taylor<f64>, D>],
         JointOver::<f64, D>::gradient(joint, frames, time, i / markers_per_pass(D), rows);
         let row = rows.first().copied().unwrap_or_default();
         match &row[i % markers_per_pass(D) * twist_len(D)..] {
-            [_, _, _, x, y, z, ..] if D == 3 => dot([*x, *y, *z], pose(frame).axes[2]),
+            [_, _, _, x, y, z, ..] if D == 3 => dot(&[*x, *y, *z], &pose(frame).axes[2]),
             [_, _, turn, ..] => *turn,
             _ => 0.0,
         }
@@ -185,7 +185,7 @@ fn may_spin(limb: &Limb, body: usize, joints: &[Link]) -> bool {
     let Some(line) = straight(&limb.points) else { return false };
     let mut own = joints.iter().filter(|joint| joint.carriers.contains(&Some(body)));
     own.all(|joint| match joint.axis {
-        Some(Axis::Along(axis)) => length(cross(line, axis)) < 1e-3 * length(axis),
+        Some(Axis::Along(axis)) => norm(&cross(&line, &axis)) < 1e-3 * norm(&axis),
         _ => true,
     })
 }
@@ -206,7 +206,7 @@ fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
             add(&mut points, poses[id].r);
         }
     }
-    let size = points.iter().map(|point| length(less(*point, points[0]))).fold(0.0, f64::max);
+    let size = points.iter().map(|point| norm(&sub(point, &points[0]))).fold(0.0, f64::max);
     if points.len() < 2 || distance(&points, r) > FAR * size {
         add(&mut points, r);
     }
@@ -246,7 +246,7 @@ fn line<const D: usize>(part: &Part<D>, own: &Frame<Taylor<f64>, D>, q: &[f64]) 
 }
 
 fn add(points: &mut Vec<[f64; 3]>, point: [f64; 3]) {
-    if points.iter().all(|known| length(less(*known, point)) > 1e-9 * (1.0 + length(point))) {
+    if points.iter().all(|known| norm(&sub(known, &point)) > 1e-9 * (1.0 + norm(&point))) {
         points.push(point);
     }
 }
@@ -254,9 +254,9 @@ fn add(points: &mut Vec<[f64; 3]>, point: [f64; 3]) {
 /// Returns the distance of a point from the nearest line between two of the others.
 fn distance(points: &[[f64; 3]], r: [f64; 3]) -> f64 {
     let to_segment = |a: [f64; 3], b: [f64; 3]| {
-        let way = direction(less(b, a)).unwrap_or([0.0; 3]);
-        let place = dot(way, less(r, a)).clamp(0.0, length(less(b, a)));
-        length(less(r, along(a, way, place)))
+        let way = direction(sub(&b, &a)).unwrap_or([0.0; 3]);
+        let place = dot(&way, &sub(&r, &a)).clamp(0.0, norm(&sub(&b, &a)));
+        norm(&sub(&r, &along(a, way, place)))
     };
     let pairs = points.iter().flat_map(|a| points.iter().map(move |b| to_segment(*a, *b)));
     pairs.fold(f64::INFINITY, f64::min)

@@ -1,5 +1,6 @@
 //! Projection from space to the plane of a figure.
 
+use crate::body::{cross, dot, norm, sub, unit};
 use crate::error::{Error, Result, suggest};
 
 /// A parallel projection, in which parallel lines stay parallel and lengths comparable.
@@ -31,7 +32,7 @@ impl View {
     pub fn parse(text: &str, up: usize) -> Result<Self> {
         let name = text.trim().to_lowercase();
         let plane = |i: usize, j: usize| View {
-            axes: [unit(i), unit(j), cross(unit(i), unit(j))],
+            axes: [unit(i), unit(j), cross(&unit(i), &unit(j))],
             names: Some([["x", "y", "z"][i], ["x", "y", "z"][j]]),
         };
         let (first, second) = ((up + 1) % 3, (up + 2) % 3);
@@ -81,12 +82,12 @@ impl View {
 
     /// Returns the components to the right and up in the figure.
     pub fn flat(&self, vector: [f64; 3]) -> (f64, f64) {
-        (dot(self.axes[0], vector), dot(self.axes[1], vector))
+        (dot(&self.axes[0], &vector), dot(&self.axes[1], &vector))
     }
 
     /// Returns the component towards the viewer.
     pub fn depth(&self, vector: [f64; 3]) -> f64 {
-        dot(self.axes[2], vector)
+        dot(&self.axes[2], &vector)
     }
 
     /// Returns the labels of the figure's axes.
@@ -98,52 +99,32 @@ impl View {
     }
 }
 
-pub fn unit(i: usize) -> [f64; 3] {
-    std::array::from_fn(|k| if k == i { 1.0 } else { 0.0 })
-}
-
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 /// Returns a + factor b.
 pub fn along(a: [f64; 3], b: [f64; 3], factor: f64) -> [f64; 3] {
     std::array::from_fn(|i| a[i] + factor * b[i])
 }
 
-pub fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    along(a, b, -1.0)
-}
-
-pub fn length(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
-}
-
 /// Returns the unit vector along a vector; none for zero.
 pub fn direction(a: [f64; 3]) -> Option<[f64; 3]> {
-    let size = length(a);
+    let size = norm(&a);
     (size > 1e-12).then(|| a.map(|x| x / size))
 }
 
 /// Returns two unit vectors perpendicular to `axis` and to each other, the first as near to `hint` as possible.
 pub fn square_to(axis: [f64; 3], hint: [f64; 3]) -> [[f64; 3]; 2] {
     let least = (0..3).min_by(|i, j| axis[*i].abs().total_cmp(&axis[*j].abs())).unwrap_or(0);
-    let upright = |vector: [f64; 3]| along(vector, axis, -dot(axis, vector));
+    let upright = |vector: [f64; 3]| along(vector, axis, -dot(&axis, &vector));
     let first = direction(upright(hint)).or_else(|| direction(upright(unit(least)))).unwrap_or(unit(least));
-    [first, cross(axis, first)]
+    [first, cross(&axis, &first)]
 }
 
 /// Returns the direction of points if they lie on a line.
 pub fn straight(points: &[[f64; 3]]) -> Option<[f64; 3]> {
     let from = *points.first()?;
-    let far = points.iter().copied().max_by(|a, b| length(less(*a, from)).total_cmp(&length(less(*b, from))))?;
-    let axis = direction(less(far, from))?;
-    let off = points.iter().map(|point| length(cross(axis, less(*point, from)))).fold(0.0, f64::max);
-    (off < 1e-6 * length(less(far, from))).then_some(axis)
+    let far = points.iter().copied().max_by(|a, b| norm(&sub(a, &from)).total_cmp(&norm(&sub(b, &from))))?;
+    let axis = direction(sub(&far, &from))?;
+    let off = points.iter().map(|point| norm(&cross(&axis, &sub(point, &from)))).fold(0.0, f64::max);
+    (off < 1e-6 * norm(&sub(&far, &from))).then_some(axis)
 }
 
 #[cfg(test)]
@@ -184,7 +165,7 @@ mod tests {
             let sizes = [0, 1, 2].map(|i| view.flat(unit(i))).map(|(x, y)| x.hypot(y));
             assert!(sizes.iter().all(|size| (size - (2.0f64 / 3.0).sqrt()).abs() < 1e-12), "{sizes:?}");
             assert!(near(view.flat(unit(up)), (0.0, (2.0f64 / 3.0).sqrt())));
-            assert!(dot(cross(view.axes[0], view.axes[1]), view.axes[2]) > 0.999);
+            assert!(dot(&cross(&view.axes[0], &view.axes[1]), &view.axes[2]) > 0.999);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A slider without mass.
 
+use crate::body::{dot, norm, sub};
 use crate::simplify::edit::{add, carrier, elements, elements_mut, is_about, mentions, rename, text};
-use crate::simplify::facts::product;
 use crate::simplify::held::{Tie, acting, are_all, remove_body};
 use crate::simplify::{Candidate, Facts, Placed, Proposal};
 use crate::tolerances::SAME;
@@ -190,8 +190,8 @@ fn is_on(facts: &Facts, base: &Placed, place: &Placed, axis: Option<&Value>) -> 
         None => f64::from(u8::from(i == if facts.dimension() == 2 { 0 } else { 2 })),
     };
     let along: [f64; 3] = from_fn(|i| (0..3).map(|k| own(k) * base.axes[k][i]).sum());
-    let gap: [f64; 3] = from_fn(|i| place.r[i] - base.r[i]);
-    let part = product(&along, &gap) / product(&along, &along);
+    let gap = sub(&place.r, &base.r);
+    let part = dot(&along, &gap) / dot(&along, &along);
     let off: [f64; 3] = from_fn(|i| gap[i] - part * along[i]);
-    product(&off, &off).sqrt() <= SAME * facts.prepared.system().length()
+    norm(&off) <= SAME * facts.prepared.system().length()
 }

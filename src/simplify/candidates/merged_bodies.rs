@@ -2,10 +2,10 @@
 
 use super::absorbed::{Absorbed, absorb, markers};
 use super::plane::combined;
+use crate::body::{dot, sub};
 use crate::error::percent;
 use crate::math::expression::{Number, Parameters};
 use crate::simplify::edit::{carrier, elements, find_mut, pair, remove, text};
-use crate::simplify::facts::product;
 use crate::simplify::{Candidate, Facts, Placed, Proposal, Relative};
 use serde_json::{Value, json};
 use std::array::from_fn;
@@ -107,7 +107,7 @@ impl Merged {
             origin(own).map(|x| 0.0 - x),
             from_fn(|i| self.place.r[i] - (0..3).map(|k| arm[k] * axes[k][i]).sum::<f64>()),
         ];
-        let gap: [f64; 3] = from_fn(|i| centres[1][i] - centres[0][i]);
+        let gap = sub(&centres[1], &centres[0]);
         let [own_mass, other_mass] =
             masses.each_ref().map(|mass| mass.as_str().map_or_else(|| mass.to_string(), str::to_string));
         // Of no mass at all there is no centre.
@@ -120,7 +120,7 @@ impl Merged {
                 let part = axes[k][i] * axes[l][j];
                 if k == l { part } else { part + axes[l][i] * axes[k][j] }
             });
-            let square = if i == j { product(&gap, &gap) } else { 0.0 };
+            let square = if i == j { dot(&gap, &gap) } else { 0.0 };
             let parts = [&[1.0][..], &turned, &[square - gap[i] * gap[j]]].concat();
             let values = [&[inertias[0][place].clone()][..], &inertias[1], &[json!(reduced)]].concat();
             combined(&parts, &json!(values))
@@ -149,11 +149,6 @@ pub fn packed(inertia: &Value) -> Option<[Value; 6]> {
 
 /// A placement in the axes of another and from its origin.
 fn seen(base: &Placed, place: &Placed) -> Placed {
-    let local = |vector: [f64; 3]| base.axes.map(|axis| product(&axis, &vector));
-    Placed {
-        r: local(from_fn(|i| place.r[i] - base.r[i])),
-        axes: place.axes.map(local),
-        turn: place.turn - base.turn,
-        ..*place
-    }
+    let local = |vector: [f64; 3]| base.axes.map(|axis| dot(&axis, &vector));
+    Placed { r: local(sub(&place.r, &base.r)), axes: place.axes.map(local), turn: place.turn - base.turn, ..*place }
 }

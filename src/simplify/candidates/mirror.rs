@@ -1,9 +1,9 @@
 //! The mirror image of a scene in a plane across an axis of the world.
 
 use super::merged_bodies::{PLACES, packed};
-use super::plane::{cross, world};
+use super::plane::world;
+use crate::body::{cross, dot, norm, sub};
 use crate::simplify::edit::{carrier, change_words, elements, text};
-use crate::simplify::facts::product;
 use crate::simplify::{Facts, Placed, Relative};
 use crate::tolerances::SAME;
 use serde_json::Value;
@@ -56,8 +56,8 @@ impl<'a> Solid<'a> {
             body,
             mass: facts.number(&body["mass"])?,
             inertia,
-            centre: from_fn(|i| place.r[i] - arm[i]),
-            velocity: from_fn(|i| place.velocity[i] - lever[i]),
+            centre: sub(&place.r, &arm),
+            velocity: sub(&place.velocity, &lever),
             spin: place.spin,
         })
     }
@@ -110,7 +110,7 @@ impl<'a> Mirror<'a> {
     fn is_image(&self, one: &Solid, other: &Solid) -> bool {
         let length = self.facts.prepared.system().length();
         let near = |a: Vector, b: Vector, size: f64| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * size);
-        let size = |x: Vector| 1.0 + product(&x, &x).sqrt();
+        let size = |x: Vector| 1.0 + norm(&x);
         let moments = one.inertia.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
         let turned: [Vector; 3] = from_fn(|i| {
             let row = self.flip(one.inertia[i]);
@@ -159,15 +159,14 @@ impl<'a> Mirror<'a> {
     pub fn are_images(&self, marker: &str, other: &str) -> bool {
         let (Some(place), Some(there)) = (self.place(marker), self.place(other)) else { return false };
         let gap: Vector = from_fn(|i| self.image(place.r)[i] - there.r[i]);
-        self.mate(carrier(marker)) == Some(carrier(other))
-            && product(&gap, &gap).sqrt() <= SAME * self.facts.prepared.system().length()
+        self.mate(carrier(marker)) == Some(carrier(other)) && norm(&gap) <= SAME * self.facts.prepared.system().length()
     }
 
     /// 1 or -1 for each axis of a marker that is the image, or minus the image, of that of another.
     pub fn signs(&self, [marker, other]: [&str; 2]) -> Option<[Option<f64>; 3]> {
         let (place, there) = (self.place(marker)?, self.place(other)?);
         let sign = |k: usize| {
-            let part = product(&self.flip(place.axes[k]), &there.axes[k]);
+            let part = dot(&self.flip(place.axes[k]), &there.axes[k]);
             ((part.abs() - 1.0).abs() < SAME).then(|| part.signum())
         };
         Some(from_fn(sign))
@@ -214,10 +213,10 @@ impl<'a> Mirror<'a> {
                     let image = self.flip(rotation[i]);
                     let image = if i == self.axis { image.map(|x| 0.0 - x) } else { image };
                     let gap: Vector = from_fn(|j| image[j] - turned[i][j]);
-                    product(&gap, &gap)
+                    dot(&gap, &gap)
                 });
                 let half_sine = (rows.sum::<f64>() / 8.0).sqrt();
-                most.shift = most.shift.max(product(&gap, &gap).sqrt());
+                most.shift = most.shift.max(norm(&gap));
                 most.turn = most.turn.max(2.0 * half_sine.min(1.0).asin());
             }
         }
@@ -231,7 +230,7 @@ impl<'a> Mirror<'a> {
         let at = |place: &Placed| {
             let arm = arm(self.facts, element, place);
             let rotation = from_fn(|i| from_fn(|j| (0..3).map(|k| place.axes[k][i] * start[k][j]).sum()));
-            (from_fn(|i| place.r[i] - arm[i]), rotation)
+            (sub(&place.r, &arm), rotation)
         };
         Some(path.iter().map(at).collect())
     }

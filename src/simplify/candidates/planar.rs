@@ -2,9 +2,9 @@
 
 use super::planar_output::flat_output;
 use super::plane::{Plane, combined, flat, world};
+use crate::body::dot;
 use crate::error::percent;
 use crate::simplify::edit::{elements, elements_mut, text};
-use crate::simplify::facts::product;
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Map, Value, json};
@@ -29,10 +29,10 @@ fn proposal(facts: &Facts) -> Option<Proposal> {
     for body in elements(facts.scene(), "bodies") {
         let path = facts.path(text(body, "name"))?;
         let start = path.first()?;
-        let normal = start.axes.map(|axis| product(&axis, plane.normal()));
+        let normal = start.axes.map(|axis| dot(&axis, plane.normal()));
         let (mut out, mut tilt) = (0.0f64, 0.0f64);
         for place in &path {
-            let height = |r: &[f64; 3]| product(r, plane.normal());
+            let height = |r: &[f64; 3]| dot(r, plane.normal());
             let cosine: f64 = (0..3).map(|i| normal[i] * height(&place.axes[i])).sum();
             out = out.max((height(&place.r) - height(&start.r)).abs());
             tilt = tilt.max(cosine.clamp(-1.0, 1.0).acos());
@@ -177,7 +177,7 @@ fn flat_joint(facts: &Facts, plane: &Plane, joint: &Value) -> Option<Vec<Value>>
     };
     let first = joint["between"][0].as_str()?;
     let slides = ["prismatic", "point_on_line"].contains(&kind);
-    if slides && product(&plane.x_of(facts, first)?, &z) < 1.0 - SAME {
+    if slides && dot(&plane.x_of(facts, first)?, &z) < 1.0 - SAME {
         return None;
     }
     let mut own = joint.clone();

@@ -1,9 +1,9 @@
 //! Outputs of a mechanism in space in the plane that it moves in.
 
-use super::plane::{Plane, cross};
+use super::plane::Plane;
+use crate::body::{cross, dot};
 use crate::simplify::Facts;
 use crate::simplify::edit::text;
-use crate::simplify::facts::product;
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
 
@@ -28,8 +28,7 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
     let frame = facts.place(base)?;
     let axis = frame.axes[["x", "y"].iter().position(|name| component.ends_with(name)).unwrap_or(2)];
     if turns || component.starts_with('m') {
-        let is_x =
-            |name: &str| Some((product(&plane.x_of(facts, name)?, &facts.place(name)?.axes[0]) - 1.0).abs() < SAME);
+        let is_x = |name: &str| Some((dot(&plane.x_of(facts, name)?, &facts.place(name)?.axes[0]) - 1.0).abs() < SAME);
         let sign = plane.along(&axis)?;
         if measure == "angle" && !(is_x(base)? && is_x(end)?) {
             return None;
@@ -41,9 +40,9 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
         return made_of(&own, &[(sign, None)], 0.0);
     }
     let x = plane.x_of(facts, base)?;
-    let parts = [(product(&axis, &x), Some("x")), (product(&axis, &cross(plane.normal(), &x)), Some("y"))];
-    let out = product(&axis, plane.normal());
-    let height = |name: &str| Some(product(&facts.place(name)?.r, plane.normal()));
+    let parts = [(dot(&axis, &x), Some("x")), (dot(&axis, &cross(plane.normal(), &x)), Some("y"))];
+    let out = dot(&axis, plane.normal());
+    let height = |name: &str| Some(dot(&facts.place(name)?.r, plane.normal()));
     let offset = if measure == "position" { out * (height(end)? - height(base)?) } else { 0.0 };
     made_of(&own, &parts, offset)
 }

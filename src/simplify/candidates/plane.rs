@@ -1,7 +1,7 @@
 //! A plane in space, and numbers of a scene seen in it.
 
+use crate::body::{cross, dot, norm, unit};
 use crate::simplify::edit::{change_words, elements, text};
-use crate::simplify::facts::product;
 use crate::simplify::{Facts, Placed};
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
@@ -21,13 +21,13 @@ impl Plane {
     pub fn new(facts: &Facts) -> Plane {
         let bodies = elements(facts.scene(), "bodies").iter();
         let spins = bodies.filter_map(|body| facts.path(text(body, "name"))).flatten().map(|place| place.spin);
-        let fastest = spins.max_by(|a, b| product(a, a).total_cmp(&product(b, b))).unwrap_or_default();
-        let size = product(&fastest, &fastest).sqrt();
+        let fastest = spins.max_by(|a, b| dot(a, a).total_cmp(&dot(b, b))).unwrap_or_default();
+        let size = norm(&fastest);
         let normal = if size > 0.0 { exact(fastest.map(|x| x / size)) } else { unit(2) };
         let hinges = elements(facts.scene(), "joints").iter().filter(|joint| text(joint, "type") == "revolute");
         let markers = hinges.filter_map(|joint| facts.place(joint["between"][0].as_str()?));
-        let hinge = markers.map(|place| place.axes[2]).find(|z| (product(z, &normal).abs() - 1.0).abs() < SAME);
-        let is_turned = hinge.map_or(normal.iter().sum::<f64>() < 0.0, |z| product(&z, &normal) < 0.0);
+        let hinge = markers.map(|place| place.axes[2]).find(|z| (dot(z, &normal).abs() - 1.0).abs() < SAME);
+        let is_turned = hinge.map_or(normal.iter().sum::<f64>() < 0.0, |z| dot(&z, &normal) < 0.0);
         let normal = if is_turned { normal.map(|x| 0.0 - x) } else { normal };
         // Of a coordinate plane its own axes.
         let axis = (0..3).find(|i| normal[*i].abs() == 1.0);
@@ -42,18 +42,18 @@ impl Plane {
 
     /// 1 or -1 where a direction is along the normal.
     pub fn along(&self, direction: &Vector) -> Option<f64> {
-        let part = product(direction, self.normal());
+        let part = dot(direction, self.normal());
         ((part.abs() - 1.0).abs() < SAME).then(|| part.signum())
     }
 
     /// True if a direction lies in the plane.
     pub fn contains(&self, direction: &Vector) -> bool {
-        product(direction, self.normal()).abs() < SAME
+        dot(direction, self.normal()).abs() < SAME
     }
 
     /// Angle of a direction in the plane.
     pub fn angle(&self, direction: &Vector) -> f64 {
-        product(&self.axes[1], direction).atan2(product(&self.axes[0], direction))
+        dot(&self.axes[1], direction).atan2(dot(&self.axes[0], direction))
     }
 
     /// Direction in the world of the planar x axis of a marker: its x axis where its z axis is along the normal, else
@@ -82,7 +82,7 @@ impl Plane {
 
     /// The axes of the plane as a body at `place` sees them: its own x axis first, if that lies in the plane.
     fn seen_by(&self, place: &Placed) -> [Vector; 3] {
-        basis(exact(place.axes.map(|axis| product(&axis, self.normal()))))
+        basis(exact(place.axes.map(|axis| dot(&axis, self.normal()))))
     }
 
     /// A vector of the world in the plane.
@@ -98,7 +98,7 @@ impl Plane {
     /// The name in the plane of a component x, y or z of the world; `None` where it is no axis of the plane.
     pub fn component(&self, name: &str) -> Option<&'static str> {
         let axis = unit(["x", "y", "z"].iter().position(|own| *own == name)?);
-        ["x", "y"].into_iter().zip(&self.axes).find(|(_, own)| product(own, &axis) == 1.0).map(|(name, _)| name)
+        ["x", "y"].into_iter().zip(&self.axes).find(|(_, own)| dot(own, &axis) == 1.0).map(|(name, _)| name)
     }
 
     /// Quantities of markers such as `crank.tip.z` in the plane, in all texts of a value; `None` where one has none.
@@ -109,14 +109,6 @@ impl Plane {
             _ => Some(format!("{word}{primes}")),
         })
     }
-}
-
-fn unit(i: usize) -> Vector {
-    from_fn(|j| if i == j { 1.0 } else { 0.0 })
-}
-
-pub fn cross(a: &Vector, b: &Vector) -> Vector {
-    from_fn(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
 }
 
 /// A direction of a body in the world.
@@ -132,8 +124,8 @@ fn exact(direction: Vector) -> Vector {
 /// Axes across and along `normal`: the first is the part of x, or of y where that is along the normal.
 fn basis(normal: Vector) -> [Vector; 3] {
     let from = unit(usize::from((normal[0].abs() - 1.0).abs() < SAME));
-    let part: Vector = from_fn(|i| from[i] - product(&from, &normal) * normal[i]);
-    let size = product(&part, &part).sqrt();
+    let part: Vector = from_fn(|i| from[i] - dot(&from, &normal) * normal[i]);
+    let size = norm(&part);
     let first = exact(part.map(|x| x / size));
     [first, exact(cross(&normal, &first)), normal]
 }

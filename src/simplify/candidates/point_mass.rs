@@ -1,9 +1,9 @@
 //! A body whose rotation does not matter.
 
 use super::merged_bodies::{PLACES, packed};
+use crate::body::dot;
 use crate::error::percent;
 use crate::simplify::edit::{elements, elements_mut, find_mut, mentions, rename, rename_in_scene, text};
-use crate::simplify::facts::product;
 use crate::simplify::{Candidate, Facts, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
@@ -58,7 +58,7 @@ fn rotation(facts: &Facts, body: &Value) -> Option<f64> {
     let moments: Vec<f64> = inertia.iter().map(|moment| facts.number(moment)).collect::<Option<_>>()?;
     let path = facts.path(text(body, "name"))?;
     let energies = path.iter().map(|place| {
-        let spin = place.axes.map(|axis| product(&axis, &place.spin));
+        let spin = place.axes.map(|axis| dot(&axis, &place.spin));
         let terms = PLACES.iter().zip(&moments).map(|((i, j), moment)| {
             let part = 0.5 * moment * spin[*i] * spin[*j];
             if i == j { part } else { 2.0 * part }

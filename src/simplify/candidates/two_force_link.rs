@@ -1,11 +1,10 @@
 //! A link between two pins, without mass.
 
+use crate::body::{dot, norm, sub};
 use crate::simplify::edit::{carrier, drop_references, elements, mentions, remove, text};
-use crate::simplify::facts::product;
 use crate::simplify::held::{Tie, acting};
 use crate::simplify::{Candidate, Facts, Proposal};
 use serde_json::{Value, json};
-use std::array::from_fn;
 
 /// A rigid body that only two pins hold (`revolute` in the plane; in space `spherical`, or one of them `universal`), on
 /// which nothing else acts, becomes a `distance` without mass, by its share of the kinetic energy. Reactions of its pins
@@ -60,9 +59,9 @@ impl Link {
         }
         let pins = [Tie::new(joints[0], name)?, Tie::new(joints[1], name)?];
         let [first, second] = [facts.place(&pins[0].own)?, facts.place(&pins[1].own)?];
-        let gap: [f64; 3] = from_fn(|i| second.r[i] - first.r[i]);
-        let size = product(&gap, &gap).sqrt();
-        let along = |axes: [[f64; 3]; 3]| axes.map(|axis| product(&axis, &gap) / size);
+        let gap = sub(&second.r, &first.r);
+        let size = norm(&gap);
+        let along = |axes: [[f64; 3]; 3]| axes.map(|axis| dot(&axis, &gap) / size);
         let markers = body["markers"].as_object()?.keys().map(|marker| format!("{name}.{marker}"));
         let axes =
             markers.map(|marker| Some((marker.clone(), along(facts.place(&marker)?.axes)))).collect::<Option<_>>()?;
