@@ -15,7 +15,7 @@ use crate::tolerances::linearize as tolerances;
 ///
 /// # Errors
 /// Too many degrees of freedom, a motion that cannot go on, or one that `goes_on` ends.
-pub fn amplification(
+fn amplification(
     system: &dyn MechanicalSystem,
     start: &State,
     times: &[f64],
@@ -47,10 +47,11 @@ pub fn amplification(
     Ok(least_norm(&found.into_iter().collect::<Result<Vec<Matrix>>>()?, at_start.freedom()))
 }
 
-/// Returns the [`amplification`] of a scene's motion.
+/// Returns the largest growth of any small change of the start by a scene's motion. `goes_on` is called with times of it.
 ///
 /// # Errors
-/// As [`amplification`]; modes that are too fast for the explicit method that integrates small changes.
+/// Too many degrees of freedom, a motion that cannot go on, or one that `goes_on` ends; modes that are too fast for the
+/// explicit method that integrates small changes.
 pub fn amplified(prepared: &PreparedScene, span: Span, goes_on: impl FnMut(f64) -> bool) -> Result<f64> {
     let start = State::start(prepared);
     let state = OperatingPoint {

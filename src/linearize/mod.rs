@@ -43,7 +43,7 @@ pub use along::{State, states};
 #[doc(hidden)]
 pub use along::{tighten, within_run};
 #[doc(hidden)]
-pub use amplification::{amplification, amplified};
+pub use amplification::amplified;
 #[doc(hidden)]
 pub use changes::Changes;
 pub(crate) use changes::beside;

@@ -72,8 +72,6 @@ pub struct Scene {
     pub about: String,
     /// Sources of its data and known results.
     pub references: Vec<String>,
-    /// 2 for a planar scene, 3 for a spatial one.
-    pub dimension: usize,
     /// Values of the named parameters, overrides applied.
     pub parameters: Parameters,
     /// Bodies, joints, forces, outputs and inputs.

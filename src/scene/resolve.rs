@@ -24,15 +24,14 @@ pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)
     check_scene_name(&file.name)?;
     let mut parameters = markers::resolve(&file.parameters, overrides)?;
     signals::add(&file, folder, &mut parameters)?;
-    let (dimension, (model, held, q, v)) = match file.dimension {
-        Dimension::Two => (2, models(&file, &elements.planar, &parameters, folder, AnyModel::Planar)?),
-        Dimension::Three => (3, models(&file, &elements.spatial, &parameters, folder, AnyModel::Spatial)?),
+    let (model, held, q, v) = match file.dimension {
+        Dimension::Two => models(&file, &elements.planar, &parameters, folder, AnyModel::Planar)?,
+        Dimension::Three => models(&file, &elements.spatial, &parameters, folder, AnyModel::Spatial)?,
     };
     Ok(Scene {
         name: file.name,
         about: file.about.unwrap_or_default(),
         references: file.references,
-        dimension,
         parameters,
         model,
         held,

@@ -23,7 +23,6 @@ mod tests;
 
 pub use beam::elastic_beam;
 pub use gauss::{gauss_legendre, on_interval};
-pub use integrals::mass_matrix;
 pub use profile::Profile;
 pub use reference::{ReferenceLine, curvature};
 pub use section::Section;

@@ -35,9 +35,9 @@ pub use map::Map;
 pub use map::{Axis, AxisPlace};
 #[doc(hidden)]
 pub use maps::{MapEntry, known, maps, pair};
-pub use parameters::{StressParameter, registry};
 #[doc(hidden)]
-pub use parameters::{find, sequence};
+pub use parameters::find;
+pub use parameters::{StressParameter, registry};
 pub use run::{Stressed, stress};
 pub use subject::Subject;
 #[doc(hidden)]

@@ -9,7 +9,8 @@ mod npy;
 mod strains;
 
 use super::eigen::{Modes, dense};
-use super::{Elastic, FlexibleBeam, Piece, elastic_beam, mass_matrix};
+use super::integrals::mass_matrix;
+use super::{Elastic, FlexibleBeam, Piece, elastic_beam};
 use crate::body::{Build, MarkerTable, cross};
 use crate::error::Result;
 use crate::math::expression::{Number, Parameters};
