@@ -2,11 +2,12 @@
 
 use super::Table;
 use super::figures::MOST_COORDINATES;
+use super::table::named;
 use crate::error::significant;
 use crate::sweep::{self, Nearest, Point, Sweep};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 /// Summary of a sweep.
 #[derive(Clone, Debug, Serialize)]
@@ -194,14 +195,13 @@ fn hint(sweep: &Sweep) -> String {
 }
 
 fn limit_summary(sweep: &Sweep, limit: &sweep::Limit) -> LimitSummary {
-    let names = sweep.outputs.iter().map(|output| output.name.clone());
     LimitSummary {
         value: limit.point.value,
         within: limit.within,
         unreached: limit.unreached,
         reason: limit.reason.clone(),
         rank_indicator: limit.point.rank_indicator,
-        outputs: names.zip(limit.point.outputs.iter().map(|value| json!(value))).collect(),
+        outputs: named(sweep.outputs.iter().map(|output| &output.name), &limit.point.outputs),
     }
 }
 
