@@ -220,6 +220,27 @@ fn a_small_pivot_leads_to_partial_pivoting() {
     }
 }
 
+/// Large matrices are factored and solved in parts.
+#[test]
+fn a_long_chain_is_divided() {
+    divided::<f64>();
+    divided::<c64>();
+}
+
+fn divided<T: Made>() {
+    let chain = chain(8000, 0);
+    let mut system = chain.system::<T>(false).for_corrections();
+    let numbers = |n: usize| (0..n).map(|k| T::made(arbitrary(k), arbitrary(k + 5))).collect::<Vec<_>>();
+    let (a, lambda) = (numbers(chain.g.cols), numbers(chain.g.rows));
+    chain.put(&mut system);
+    system.factor(&chain.g, &chain.rows).unwrap();
+    assert!(system.is_unpivoted && system.unpivoted.as_ref().is_some_and(|factors| factors.parts.len() == 4));
+    let (mut top, mut bottom) = chain.multiply(&a, &lambda);
+    system.solve(&mut top, &mut bottom).unwrap();
+    // Ten digits less what the condition of the chain takes.
+    assert!(top.iter().zip(&a).all(|(found, exact)| (*found * 1.0 + *exact * -1.0).size() < 1e-9));
+}
+
 #[test]
 fn what_does_not_fit_is_refused() {
     let chain = chain(3, 0);

@@ -13,13 +13,13 @@ use faer::sparse::SymbolicSparseColMat;
 /// h^2 K and h C change that little. Where a pivot is small beside the numbers whose difference it is, the matrix is not
 /// factored. Large matrices are divided as in [`parts`](super::super::parts), by their structure alone.
 pub(super) struct Unpivoted<T> {
-    parts: Vec<Part<T>>,
+    pub parts: Vec<Part<T>>,
     /// The separator, with what the elimination of all parts leaves of it.
     last: Part<T>,
 }
 
 /// Unknowns that are eliminated together, and behind them those of the separator.
-struct Part<T> {
+pub(super) struct Part<T> {
     /// Node (coordinate, or n + row of G) of each unknown that is eliminated.
     nodes: Vec<usize>,
     /// Values of the matrix that it has, with their slots.
