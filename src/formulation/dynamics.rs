@@ -23,8 +23,6 @@ pub enum StepError {
     NotConverged,
     /// A projection does not satisfy the constraints.
     Open,
-    /// The error of a step stays above the tolerance.
-    TooInaccurate,
     /// The method does not fit these equations, whatever the step.
     Unsuitable {
         /// The reason, for the message.
@@ -66,7 +64,6 @@ impl fmt::Display for StepError {
             StepError::Singular(singular) => write!(out, "{singular}"),
             StepError::NotConverged => write!(out, "Newton's method does not converge"),
             StepError::Open => write!(out, "the projection does not close the joints: its residual no longer falls"),
-            StepError::TooInaccurate => write!(out, "the error of a step stays above the tolerance"),
             StepError::Unsuitable { reason, .. } => write!(out, "{reason}"),
         }
     }
@@ -207,12 +204,6 @@ impl<'a> Dynamics<'a> {
             self.kkt.drop_rows(rows);
             self.dropped = rows.to_vec();
         }
-    }
-
-    /// Takes over the dropped rows and the pieces of functions of another one.
-    pub fn follow(&mut self, other: &Dynamics) {
-        self.drop_rows(&other.dropped);
-        self.scratch.pieces.clone_from(&other.scratch.pieces);
     }
 
     /// Sets the reference values of the rank indicators.

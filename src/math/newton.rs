@@ -119,11 +119,6 @@ impl Monitor {
         self.rate <= self.limits.kept_rate
     }
 
-    /// Estimate of the remaining error, in the unit of changes.
-    pub fn error(&self) -> f64 {
-        self.contraction * self.size
-    }
-
     fn judge(&mut self, change: f64) -> Verdict {
         let verdict = self.watch(change);
         match verdict {
@@ -234,7 +229,7 @@ mod tests {
         let mut monitor = Monitor::default();
         // 1, 0.1, 0.01, 0.001: what is left of the third change is a ninth of it.
         assert_eq!(run(&mut monitor, LIMITS, 0.1, 0.0), (true, 4));
-        assert!((monitor.error() / (1e-3 / 9.0) - 1.0).abs() < 1e-12 && !monitor.keeps_matrix());
+        assert!((monitor.contraction * monitor.size / (1e-3 / 9.0) - 1.0).abs() < 1e-12 && !monitor.keeps_matrix());
     }
 
     #[test]

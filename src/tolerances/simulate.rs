@@ -53,6 +53,11 @@ pub const SINGULAR_ROW_SWEEPS: usize = 4;
 /// pass.
 pub const FAR_CORRECTION: f64 = 10.0;
 
+/// Change of the energy balance in a step near a singular state that refuses it.
+/// Unit: `[1]` of that by the tolerated errors of the state. Why: steps of n_four_bar change it by a thousandth, and by
+/// 0.1 to 10 where their end is 100 to 5000 tolerances off. Test: `flat_states_are_passed_at_any_tolerance`.
+pub const SINGULAR_ENERGY: f64 = 0.1;
+
 /// Round-off of a projection above which a state is too near to a singular one.
 /// Unit: `[tolerated errors]`. Why: a choice. Test:
 /// `from_rest_at_a_change_point_it_goes_where_it_is_pushed_or_says_why_not`.

@@ -1,7 +1,7 @@
 //! A link between two pins, without mass.
 
 use crate::body::{dot, norm, sub};
-use crate::simplify::edit::{carrier, drop_references, elements, mentions, remove, text};
+use crate::simplify::edit::{carrier, drop_references, elements, mentions, remove_named, text};
 use crate::simplify::held::{Tie, acting};
 use crate::simplify::{Candidate, Facts, Proposal};
 use serde_json::{Value, json};
@@ -92,8 +92,8 @@ impl Link {
         let outputs: Vec<Value> =
             elements(scene, "outputs").iter().filter_map(|output| self.translated(output)).collect();
         scene["outputs"] = json!([]);
-        remove(scene, "bodies", |body| text(body, "name") == self.name);
-        drop_references(scene, &self.name);
+        remove_named(scene, "bodies", &self.name)?;
+        self.pins.iter().for_each(|pin| drop_references(scene, pin.name()));
         scene["outputs"] = json!(outputs);
         if let Some(joints) = scene["joints"].as_array_mut() {
             joints.retain(|joint| text(joint, "name") != second.name());

@@ -23,11 +23,6 @@ impl SaddlePoint {
         }
     }
 
-    /// True if a row is dropped by [`Self::drop_rows`].
-    pub fn is_dropped(&self, row: usize) -> bool {
-        self.dropped[row]
-    }
-
     /// The rank of G: m on the fast path, 0 without a factorization.
     pub fn rank(&self) -> usize {
         match self.way {

@@ -31,7 +31,7 @@ fn dropped_rows_leave_the_motion_of_the_others() {
         solver.solve(&mut top, &mut r2).unwrap();
         assert!(distance(&top, &a) < 1e-10, "{off:e}: {:e}", distance(&top, &a));
         assert_eq!((solver.rank(), solver.inconsistency()), (20, 0.0), "{off:e}");
-        assert!(solver.is_rank_deficient() && solver.is_dropped(20) && !solver.is_dropped(3));
+        assert!(solver.is_rank_deficient());
         let mut left_out = solver.left_out().to_vec();
         left_out.sort_unstable();
         assert_eq!(left_out, [20, 21]);
