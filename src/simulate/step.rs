@@ -155,12 +155,10 @@ impl Run<'_> {
         Ok(Some(self.tolerance.norm_between(&self.y, &self.next, &self.change) / self.allowed()))
     }
 
-    /// Change of the energy balance in the step to `t`, over the largest that is accepted: a part of that by the tolerated
-    /// errors, more where round-off leaves more. Where stages are off along nearly dependent rows, the solutions of both
-    /// orders may be wrong alike; their energy is not.
+    /// Change of the energy balance in the step to `t`, over the largest that is accepted. Where stages are off along
+    /// nearly dependent rows, the solutions of both orders may be wrong alike; their energy is not.
     fn energy_lost(&mut self, t: f64) -> f64 {
-        let round_off = self.allowed().min(tolerances::FAR_CORRECTION);
-        let accepted = tolerances::SINGULAR_ENERGY * round_off * self.tolerated_energy();
+        let accepted = tolerances::SINGULAR_ENERGY * self.tolerated_energy();
         let Run { problem, y, next, .. } = self;
         let Dimensions { q: nq, v: nv, .. } = problem.dynamics.system.dimensions();
         let mut balance = |t: f64, y: &[f64]| {
