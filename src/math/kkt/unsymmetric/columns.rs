@@ -110,7 +110,7 @@ impl<T: Field> Columns<T> {
         let (pivot, own) = (self.diagonal[j], self.column(j));
         let inverse = T::real(1.0) / pivot;
         self.diagonal[j] = inverse;
-        self.entries[own].iter_mut().for_each(|[l, _]| *l = *l * inverse);
+        self.entries[own].iter_mut().for_each(|[l, _]| *l *= inverse);
         // Written so that a NaN is refused.
         pivot.size() > tolerances::UNPIVOTED * self.largest[j]
     }
