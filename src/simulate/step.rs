@@ -5,7 +5,8 @@ use super::rows::project;
 use crate::formulation::StepError;
 use crate::integrator::From;
 use crate::math::largest;
-use crate::system::Dimensions;
+use crate::system::{Dimensions, Energy};
+use crate::tolerances::report::ENERGY_ROUND_OFF;
 use crate::tolerances::simulate as tolerances;
 
 /// True if an error in units of the tolerance refuses a step.
@@ -158,16 +159,18 @@ impl Run<'_> {
     /// Change of the energy balance in the step to `t`, over the largest that is accepted. Where stages are off along
     /// nearly dependent rows, the solutions of both orders may be wrong alike; their energy is not.
     fn energy_lost(&mut self, t: f64) -> f64 {
-        let accepted = tolerances::SINGULAR_ENERGY * self.tolerated_energy();
+        let tolerated = tolerances::SINGULAR_ENERGY * self.tolerated_energy();
         let Run { problem, y, next, .. } = self;
         let Dimensions { q: nq, v: nv, .. } = problem.dynamics.system.dimensions();
+        // The balance, and the size of the energies, whose rounding changes it.
         let mut balance = |t: f64, y: &[f64]| {
             let (q, v) = problem.split(y);
-            let energy = problem.dynamics.system.energy(t, q, v, &mut problem.dynamics.scratch)?;
-            Some(energy.kinetic + energy.potential - y[nq + nv])
+            let Energy { kinetic, potential } =
+                problem.dynamics.system.energy(t, q, v, &mut problem.dynamics.scratch)?;
+            Some((kinetic + potential - y[nq + nv], kinetic + potential.abs() + y[nq + nv].abs()))
         };
         let balances = balance(self.t, y).zip(balance(t, next));
-        balances.map_or(0.0, |(start, end)| (end - start).abs() / accepted)
+        balances.map_or(0.0, |((start, _), (end, size))| (end - start).abs() / (tolerated + ENERGY_ROUND_OFF * size))
     }
 
     /// The error to be accepted, in units of the tolerance. Round-off of the largest coordinate moves all parts that
