@@ -1,6 +1,7 @@
 //! Basis of the directions in which a mechanism is free to move, for matrices of a few hundred rows.
 
 use super::Dynamics;
+use crate::math::dot;
 use crate::math::kkt::Pattern;
 use crate::system::Dimensions;
 use crate::tolerances::initial as tolerances;
@@ -144,10 +145,6 @@ impl Rest<'_, '_> {
         let shares = values.zip(&self.whole).map(|(x, whole)| if *whole > 0.0 { x / whole } else { 0.0 });
         shares.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Z^T M Z

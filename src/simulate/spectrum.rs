@@ -2,7 +2,7 @@
 
 use crate::error::short;
 use crate::formulation::{Dynamics, free_directions, reduce};
-use crate::math::largest;
+use crate::math::{dot, largest, norm};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use crate::tolerances::initial::DENSE_EIGENVALUES;
 use crate::tolerances::simulate as tolerances;
@@ -203,14 +203,6 @@ fn fit(y0: &[f64], y1: &[f64], y2: &[f64]) -> Vec<SpectralMode> {
         true => vec![SpectralMode { decay: 0.5 * p, swing: root }],
         false => [-1.0, 1.0].map(|sign| SpectralMode { decay: 0.5 * p + sign * root.copysign(p), swing: 0.0 }).to_vec(),
     }
-}
-
-fn norm(x: &[f64]) -> f64 {
-    dot(x, x).sqrt()
-}
-
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
 /// Eigenvalues of [0 s; -K/s -C], with s the size of the frequencies, so that all entries have one unit.

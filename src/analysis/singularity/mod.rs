@@ -186,6 +186,7 @@ impl<'a> Watch<'a> {
     }
 
     fn look_at_dip(&mut self) {
+        self.survey.refer_to(self.largest);
         let rates = self.last.each_ref().map(|sample| self.survey.rate(&sample.q, &sample.v));
         let path = Path::new(&self.last, &rates);
         let indicators = [self.last[0].rank_indicator, self.last[2].rank_indicator];

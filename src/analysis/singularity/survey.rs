@@ -18,6 +18,7 @@ pub struct Survey<'a> {
     dropped: Vec<usize>,
     dimensions: Dimensions,
     rest: Vec<f64>,
+    largest: f64,
     nearest: (f64, Vec<f64>),
 }
 
@@ -25,7 +26,7 @@ impl<'a> Survey<'a> {
     pub fn new(system: &'a dyn MechanicalSystem) -> Self {
         let dimensions = system.dimensions();
         let (rest, nearest) = (vec![0.0; dimensions.v], (0.0, Vec::new()));
-        Survey { system, dynamics: None, dropped: Vec::new(), dimensions, rest, nearest }
+        Survey { system, dynamics: None, dropped: Vec::new(), dimensions, rest, largest: 0.0, nearest }
     }
 
     /// Drops rows that depend on others everywhere.
@@ -78,15 +79,24 @@ impl<'a> Survey<'a> {
         self.rank_indicator(t, &q)
     }
 
+    /// Sets the largest rank indicator seen, below a part of which a projection leaves out rows that nearly depend on
+    /// others.
+    pub fn refer_to(&mut self, largest: f64) {
+        self.largest = largest;
+    }
+
     /// Returns the position near an interpolated one that has the drift of the middle state, which interpolation does
-    /// not preserve.
+    /// not preserve, but for nearly dependent rows: to move a position along these takes a division by almost nothing.
     pub fn position(&mut self, path: &Path, t: f64) -> Vec<f64> {
         let mut q = path.at(t);
         let (mut step, mut rate) = (vec![0.0; self.rest.len()], vec![0.0; q.len()]);
+        let largest = self.largest;
         for _ in 0..tolerances::PATH_SWEEPS {
             let dynamics = self.constraints(t, &q);
+            dynamics.kkt.rank_reference = largest;
             dynamics.terms.phi.iter_mut().zip(&path.phi).for_each(|(phi, drift)| *phi -= drift);
-            if dynamics.factor().is_err() || dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut step).is_err() {
+            let factored = dynamics.factor_truncated().is_ok();
+            if !factored || dynamics.kkt.solve_projection(&dynamics.terms.phi, &mut step).is_err() {
                 break;
             }
             dynamics.system.rate(&q, &step, &mut rate);

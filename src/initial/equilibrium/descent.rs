@@ -2,8 +2,8 @@
 
 use super::newton::{Policy, newton};
 use super::system::{Balance, Change, EquilibriumSystem, Place};
-use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
+use crate::math::{dot, largest, norm};
 use crate::tolerances::initial as tolerances;
 
 /// Limits of the return to phi = 0, in units of the scene's scale: round-off, also of nearly dependent rows.
@@ -38,10 +38,10 @@ pub(super) enum End {
 pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
     let Some(mut at) = rest.balance(q) else { return (End::Stuck(Place { q: q.to_vec(), lambda: Vec::new() }), 0) };
     let mut shift = largest(&at.force) / tolerances::DESCENT_FIRST;
-    let (most, mut tried) = (tolerances::DESCENT_STIFFEST * shift, length(&at.force));
+    let (most, mut tried) = (tolerances::DESCENT_STIFFEST * shift, norm(&at.force));
     for step in 0..tolerances::DESCENT_STEPS {
-        if length(&at.force) <= tolerances::DESCENT_FALL * tried {
-            tried = length(&at.force);
+        if norm(&at.force) <= tolerances::DESCENT_FALL * tried {
+            tried = norm(&at.force);
             if let Some((place, true)) = newton(rest, at.place.clone(), None, Policy::NEAR) {
                 return (End::Equilibrium(place), step);
             }
@@ -82,7 +82,7 @@ pub(super) fn gone(now: &[f64], start: &[f64]) -> Option<usize> {
 /// One step with the present factors; `None` where it goes up or does not return to phi = 0.
 fn advance(rest: &mut EquilibriumSystem, at: &Balance, shift: f64) -> Option<(Balance, f64)> {
     let change = rest.solve(&at.force)?;
-    let size = length(&change.q);
+    let size = norm(&change.q);
     let before = dot(&at.force, &change.q);
     // Work of a force along dq that decreases by K dq: force . dq - dq K dq / 2.
     let predicted = 0.5 * (before + shift * size * size);
@@ -90,7 +90,7 @@ fn advance(rest: &mut EquilibriumSystem, at: &Balance, shift: f64) -> Option<(Ba
         return None;
     }
     let (mut next, mut way) = (onward(rest, &at.place, &change, size)?, change.q);
-    relax(rest, &mut next, &mut way, shift, length(&at.force))?;
+    relax(rest, &mut next, &mut way, shift, norm(&at.force))?;
     let gain = 0.5 * (dot(&at.force, &way) + dot(&next.force, &way)) / predicted;
     (gain > tolerances::DESCENT_TAKEN_BACK).then_some((next, gain))
 }
@@ -108,7 +108,7 @@ fn relax(rest: &mut EquilibriumSystem, at: &mut Balance, way: &mut [f64], shift:
     let mut last = f64::INFINITY;
     for _ in 0..tolerances::RELAXATIONS {
         let left: Vec<f64> = at.force.iter().zip(&*way).map(|(force, way)| force - shift * way).collect();
-        let size = length(&left);
+        let size = norm(&left);
         if size <= enough {
             return Some(());
         }
@@ -119,7 +119,7 @@ fn relax(rest: &mut EquilibriumSystem, at: &mut Balance, way: &mut [f64], shift:
         rest.factor(&at.place, shift);
         let change = rest.solve(&left)?;
         way.iter_mut().zip(&change.q).for_each(|(way, dq)| *way += dq);
-        *at = onward(rest, &at.place, &change, length(way))?;
+        *at = onward(rest, &at.place, &change, norm(way))?;
     }
     None
 }
@@ -130,19 +130,11 @@ fn close(rest: &mut EquilibriumSystem, place: Place, size: f64) -> Option<Vec<f6
     let closed: Result<bool, ()> = Monitor::default().solve(CLOSING, |_| {
         if std::mem::replace(&mut is_evaluated, true) {
             let change = rest.closing().ok_or(())?;
-            way += length(&change.q);
+            way += norm(&change.q);
             at = rest.moved(&at, &change, 1.0);
         }
         rest.evaluate(&at.q);
         if way > 0.5 * size { Err(()) } else { Ok(rest.gap()) }
     });
     (closed == Ok(true)).then_some(at.q)
-}
-
-fn length(x: &[f64]) -> f64 {
-    dot(x, x).sqrt()
-}
-
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
 }

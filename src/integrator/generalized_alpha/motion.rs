@@ -211,20 +211,22 @@ impl Motion {
         self.end.a.iter().zip(&self.a).fold(0.0, |largest, (end, start)| largest.max((end - start).abs()))
     }
 
-    /// a_1 for the present v'_1.
-    fn a_end(&self, i: usize) -> f64 {
-        let Scheme { alpha_m, alpha_f, .. } = self.scheme;
-        let mean = (1.0 - alpha_f) * self.end.vdot[i] + alpha_f * self.start.vdot[i];
-        (mean - alpha_m * self.a[i]) / (1.0 - alpha_m)
+    /// Sets a_1 for the present v'_1.
+    fn set_end(&mut self) {
+        let (Scheme { alpha_m, alpha_f, .. }, Carried { a: ends, vdot, .. }) = (&self.scheme, &mut self.end);
+        let known = vdot.iter().zip(&self.start.vdot).zip(&self.a);
+        for (end, ((vdot, before), a)) in ends.iter_mut().zip(known) {
+            *end = ((1.0 - alpha_f) * vdot + alpha_f * before - alpha_m * a) / (1.0 - alpha_m);
+        }
     }
 
     fn predict(&mut self, problem: &Problem, from: From, h: f64) {
-        let (q0, v0) = problem.split(from.y);
-        let beta = self.scheme.beta;
-        for (i, v) in v0.iter().enumerate() {
-            let a = self.a_end(i);
-            self.a_predicted[i] = a;
-            self.predicted[i] = h * v + h * h * ((0.5 - beta) * self.a[i] + beta * a);
+        self.set_end();
+        self.a_predicted.copy_from_slice(&self.end.a);
+        let ((q0, v0), beta) = (problem.split(from.y), self.scheme.beta);
+        let known = v0.iter().zip(self.a.iter().zip(&self.end.a));
+        for (predicted, (v, (a, end))) in self.predicted.iter_mut().zip(known) {
+            *predicted = h * v + h * h * ((0.5 - beta) * a + beta * end);
         }
         if let Some(between) = &mut self.between {
             turn(problem.dynamics.system, &mut self.stages, q0, &self.predicted, between);
@@ -233,14 +235,17 @@ impl Motion {
 
     /// a_1, v_1 and q_1 for the present v'_1 and shifts.
     pub fn advance(&mut self, problem: &Problem, from: From, h: f64, to: &mut [f64]) {
+        self.set_end();
         let (q0, v0) = problem.split(from.y);
         let (q, v) = problem.split_mut(to);
         let Scheme { gamma, beta, .. } = self.scheme;
-        for i in 0..v.len() {
-            let a = self.a_end(i);
-            self.end.a[i] = a;
-            v[i] = v0[i] + h * ((1.0 - gamma) * self.a[i] + gamma * a) + self.w[i];
-            self.change[i] = h * h * beta * (a - self.a_predicted[i]) + self.u[i];
+        let known = v0.iter().zip(self.a.iter().zip(&self.end.a)).zip(&self.w);
+        for (v, ((v0, (a, end)), w)) in v.iter_mut().zip(known) {
+            *v = v0 + h * ((1.0 - gamma) * a + gamma * end) + w;
+        }
+        let known = self.end.a.iter().zip(&self.a_predicted).zip(&self.u);
+        for (change, ((end, predicted), u)) in self.change.iter_mut().zip(known) {
+            *change = h * h * beta * (end - predicted) + u;
         }
         let start = self.between.as_deref().unwrap_or_else(|| {
             self.change.iter_mut().zip(&self.predicted).for_each(|(change, predicted)| *change += predicted);

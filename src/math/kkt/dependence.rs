@@ -1,7 +1,8 @@
 //! Linearly dependent rows of a matrix.
 
 use super::Pattern;
-use super::system::{add_scaled, dot};
+use super::system::add_scaled;
+use crate::math::{dot, norm};
 use crate::tolerances::math as tolerances;
 
 /// The rank of a matrix, and its dependent rows.
@@ -34,7 +35,7 @@ pub fn dependent_rows(g: &Pattern, values: &[f64], tolerance: f64) -> Dependence
     let mut basis = Basis { members: Vec::new() };
     let mut result = Dependence::default();
     for (row, v) in rows.into_iter().enumerate() {
-        let length = dot(&v, &v).sqrt();
+        let length = norm(&v);
         if length == 0.0 {
             result.rows.push(DependentRow { row, combination: vec![] });
         } else if !length.is_finite() {
@@ -73,7 +74,7 @@ impl Basis {
         for _ in 0..3 {
             let before = left;
             self.subtract(&mut v, &mut along);
-            left = dot(&v, &v).sqrt();
+            left = norm(&v);
             if left > 0.5 * before {
                 break;
             }

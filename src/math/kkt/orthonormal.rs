@@ -1,6 +1,7 @@
 //! Gram and Schmidt's method against orthonormal vectors that stand one after the other.
 
-use super::system::{add_scaled, dot};
+use super::system::add_scaled;
+use crate::math::{dot, norm};
 
 /// Removes the part of a vector along these; returns the norm of the part.
 pub(super) fn project_out(basis: &[f64], v: &mut [f64]) -> f64 {
@@ -18,12 +19,12 @@ pub(super) fn orthogonalize(basis: &[f64], v: &mut [f64]) -> f64 {
     for _ in 0..2 {
         project_out(basis, v);
     }
-    dot(v, v).sqrt()
+    norm(v)
 }
 
 /// Scales a vector to length one.
 pub(super) fn normalize(v: &mut [f64]) {
-    let length = dot(v, v).sqrt();
+    let length = norm(v);
     v.iter_mut().for_each(|x| *x /= length);
 }
 

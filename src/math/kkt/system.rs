@@ -111,20 +111,6 @@ pub(super) fn add(x: &[f64], y: &mut [f64]) {
     }
 }
 
-/// x^T y, in four sums so that it vectorizes.
-#[inline]
-pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let ((xs, x_rest), (ys, y_rest)) = (x.as_chunks::<4>(), y.as_chunks::<4>());
-    let rest: f64 = x_rest.iter().zip(y_rest).map(|(x, y)| x * y).sum();
-    let mut sums = [0.0; 4];
-    for (x, y) in xs.iter().zip(ys) {
-        for k in 0..4 {
-            sums[k] += x[k] * y[k];
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
-}
-
 /// y += factor x.
 pub(super) fn add_scaled(factor: f64, x: &[f64], y: &mut [f64]) {
     for (y, x) in y.iter_mut().zip(x) {

@@ -8,8 +8,9 @@ pub use chart::Chart;
 pub use reduced::Reduced;
 
 use super::orthonormal::{normalize, orthonormalize, project_out};
-use super::system::{System, add, dot, index_of_largest};
+use super::system::{System, add, index_of_largest};
 use super::{Pattern, Singular};
+use crate::math::norm;
 use crate::tolerances::math as tolerances;
 use pivoted::{PivotedCholesky, PivotedQr};
 
@@ -218,10 +219,9 @@ fn scaled_rows(
     for (&(j, i), value) in g.entries.iter().zip(g_values) {
         columns[j * n + i] += value * scale[i];
     }
-    for (column, norm) in columns.chunks_exact_mut(n.max(1)).zip(norms) {
-        let length = dot(column, column).sqrt();
-        *norm = if length > 0.0 { length } else { 1.0 };
-        column.iter_mut().for_each(|v| *v /= *norm);
+    for (column, length) in columns.chunks_exact_mut(n.max(1)).zip(norms) {
+        *length = Some(norm(column)).filter(|length| *length > 0.0).unwrap_or(1.0);
+        column.iter_mut().for_each(|v| *v /= *length);
     }
 }
 

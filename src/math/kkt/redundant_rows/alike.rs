@@ -2,7 +2,7 @@
 
 use super::super::Pattern;
 use super::super::orthonormal::orthogonalize;
-use super::super::system::dot;
+use crate::math::norm;
 use std::collections::HashMap;
 
 /// Groups of rows over the same coordinates. Finding dependent rows in a group costs rows x coordinates^2 without fill,
@@ -69,7 +69,7 @@ impl Alike {
                 self.row.clear();
                 self.row.resize(group.columns, 0.0);
                 row.entries.iter().for_each(|&(entry, column)| self.row[column] += values[entry]);
-                let length = dot(&self.row, &self.row).sqrt();
+                let length = norm(&self.row);
                 self.row.iter_mut().for_each(|x| *x /= length);
                 let left = orthogonalize(&self.basis, &mut self.row);
                 // Written so that the NaN of a row of zeros is dependent.

@@ -9,8 +9,9 @@
 
 use super::super::Pattern;
 use super::super::orthonormal::{orthonormalize, project_out};
-use super::super::system::{System, add, add_scaled, dot};
+use super::super::system::{System, add, add_scaled};
 use super::nearly::Nearly;
+use crate::math::{dot, norm};
 use crate::tolerances::math as tolerances;
 
 /// Solves the system without the dropped rows, whose right sides are ignored and whose multipliers are zero.
@@ -117,7 +118,7 @@ impl Least {
         let (mut product, mut least, mut waited) = (0.0, f64::INFINITY, 0);
         self.direction.fill(0.0);
         for _ in 0..tolerances::GRADIENTS {
-            let size = dot(&self.residual, &self.residual).sqrt();
+            let size = norm(&self.residual);
             (least, waited) = if size < 0.5 * least { (size, 0) } else { (least, waited + 1) };
             if waited > tolerances::GRADIENTS_WITHOUT_GAIN || size <= tolerance || size.is_nan() {
                 break;
@@ -135,7 +136,7 @@ impl Least {
             product = next;
         }
         add_scaled(-1.0, &self.weights, v);
-        dot(&self.weights, &self.weights).sqrt()
+        norm(&self.weights)
     }
 
     /// Sets the next direction; returns r^T z with the preconditioned residual z. `last` is that of the last step.

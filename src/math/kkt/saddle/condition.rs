@@ -1,7 +1,8 @@
 //! Condition number of the saddle-point matrix, for reports.
 
-use super::super::system::{System, add, balance, dot};
+use super::super::system::{System, add, balance};
 use super::{SaddlePoint, Singular};
+use crate::math::norm;
 use crate::tolerances::math as tolerances;
 use faer::{Mat, Side};
 
@@ -73,16 +74,16 @@ fn by_eigenvalues(system: &System, scale: &[f64]) -> f64 {
 fn power(scale: &[f64], e: impl Fn(&f64) -> f64, mut apply: impl FnMut(&[f64], &mut [f64]) -> bool) -> f64 {
     let mut x: Vec<f64> = (0..scale.len()).map(|i| (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin()).collect();
     let mut y = x.clone();
-    let mut norm = 0.0;
+    let mut stretch = 0.0;
     for _ in 0..tolerances::CONDITION_STEPS {
-        let length = dot(&x, &x).sqrt();
+        let length = norm(&x);
         x.iter_mut().zip(scale).for_each(|(x, s)| *x *= e(s) / length);
         if !apply(&x, &mut y) {
             return f64::INFINITY;
         }
         y.iter_mut().zip(scale).for_each(|(y, s)| *y *= e(s));
-        norm = dot(&y, &y).sqrt();
+        stretch = norm(&y);
         std::mem::swap(&mut x, &mut y);
     }
-    norm
+    stretch
 }

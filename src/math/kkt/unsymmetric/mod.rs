@@ -34,8 +34,8 @@ use unpivoted::Unpivoted;
 /// with A = M + c C + k K, each on its own pattern, and L (zero unless given) on that of G, all real (`T` = `f64`) or
 /// complex (`c64`); G is real. LU with partial pivoting (faer), dense or sparse by the density of the matrix; nothing
 /// allocates once the fill has been seen. With [`Unsymmetric::for_corrections`] sparse factors have their pivots on the
-/// diagonal while that is stable, and only else partial pivoting. Rows and columns are scaled alike so that A and the rows of G are of unit
-/// size and pivots are comparable.
+/// diagonal while that is stable, and only else partial pivoting. Rows and columns are scaled alike so that A and the
+/// rows of G are of unit size and pivots are comparable.
 ///
 /// Dropped rows of G have lambda zero, and r2 there is not read: those that [`Unsymmetric::drop_rows`] names,
 /// else, if the matrix of all rows is singular, those that are dependent in the current values. That solves
@@ -325,9 +325,13 @@ impl<T: Field> Unsymmetric<T> {
         if self.state != State::Factored || top.len() != self.n || bottom.len() != self.g.rows {
             return Err(Singular::NotFactored);
         }
-        let given = top.iter().chain(bottom.iter());
-        let scale = self.scale.iter().zip(&self.rank).map(|(scale, rank)| scale * rank);
-        self.right.iter_mut().zip(given.zip(scale)).for_each(|(right, (x, scale))| *right = *x * scale);
+        let (of_top, of_bottom) = self.right.split_at_mut(self.n);
+        for (right, given, first) in [(of_top, &*top, 0), (of_bottom, &*bottom, self.n)] {
+            let scale = self.scale[first..].iter().zip(&self.rank[first..]);
+            for (right, (x, (scale, rank))) in right.iter_mut().zip(given.iter().zip(scale)) {
+                *right = *x * (scale * rank);
+            }
+        }
         let rows = self.right[self.n..].iter_mut().zip(&self.left_out);
         rows.filter(|(_, out)| **out).for_each(|(right, _)| *right = T::ZERO);
         match (&mut self.factors, &mut self.unpivoted) {
@@ -335,8 +339,10 @@ impl<T: Field> Unsymmetric<T> {
             (Factors::Dense(factors), _) => factors.solve(&mut self.right),
             (Factors::Sparse(factors), _) => factors.solve(&mut self.right),
         }
-        let found = top.iter_mut().chain(bottom);
-        found.zip(self.right.iter().zip(&self.scale)).for_each(|(x, (right, scale))| *x = *right * *scale);
+        for (found, first) in [(top, 0), (bottom, self.n)] {
+            let solution = self.right[first..].iter().zip(&self.scale[first..]);
+            found.iter_mut().zip(solution).for_each(|(x, (right, scale))| *x = *right * *scale);
+        }
         match self.right.iter().all(|x| x.size().is_finite()) {
             true => Ok(()),
             false => Err(Singular::NotFinite),
