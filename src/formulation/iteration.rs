@@ -254,7 +254,8 @@ impl<T: Number> Iteration<T> {
             if let Some(solver) = &mut at.shifts {
                 T::solve_symmetric(solver, w, eta, part)?;
             }
-            at.subtract(&structure.tangent, [slopes.w, slopes.w_q], w, a);
+            subtract(&structure.tangent, &at.tangent.c, slopes.w, w, a);
+            subtract(&structure.tangent, &at.tangent.k, slopes.w_q, w, a);
             rows.subtract(&structure.g, &at.l, |slope| slope.w, (w, gw), lambda);
         }
         if !mu.is_empty() {
@@ -266,7 +267,7 @@ impl<T: Number> Iteration<T> {
             if let Some(solver) = &mut at.shifts {
                 T::solve_symmetric(solver, u, mu, part)?;
             }
-            at.subtract(&structure.tangent, [T::ZERO, slopes.u], u, a);
+            subtract(&structure.tangent, &at.tangent.k, slopes.u, u, a);
             rows.subtract(&structure.g, &at.l, |slope| slope.u, (u, gu), lambda);
         }
         Ok(matrix.solve(a, lambda)?)
@@ -287,7 +288,7 @@ impl<T: Number> RowSlopes<T> {
         for (i, gx) in gx.iter().enumerate() {
             lambda[i] -= factors[self.kind(i)][0] * *gx;
         }
-        if self.dae.needs_l() {
+        if self.dae.needs_l() && factors.iter().any(|[_, l]| *l != T::ZERO) {
             for (&(i, j), &l) in pattern.entries.iter().zip(l) {
                 lambda[i] -= factors[self.kind(i)][1] * x[j] * l;
             }
@@ -295,15 +296,11 @@ impl<T: Number> RowSlopes<T> {
     }
 }
 
-impl Linearized {
-    /// out -= (c C + k K) x
-    fn subtract<T: Number>(&self, pattern: &Pattern, [c, k]: [T; 2], x: &[T], out: &mut [T]) {
-        let [of_c, of_k] = &self.acting;
-        for (values, acting, factor) in [(&self.tangent.c, of_c, c), (&self.tangent.k, of_k, k)] {
-            for &index in if factor == T::ZERO { &[][..] } else { acting } {
-                let ((i, j), value) = (pattern.entries[index as usize], values[index as usize]);
-                out[i] -= factor * x[j] * value;
-            }
+/// out -= factor (K or C) x
+fn subtract<T: Number>(pattern: &Pattern, values: &[f64], factor: T, x: &[T], out: &mut [T]) {
+    if factor != T::ZERO {
+        for (&(i, j), &value) in pattern.entries.iter().zip(values) {
+            out[i] -= factor * x[j] * value;
         }
     }
 }

@@ -17,8 +17,6 @@ pub struct Linearized {
     pub(super) g: Vec<f64>,
     pub(super) l: Vec<f64>,
     pub(super) tangent: Tangent,
-    /// Indices of the entries of C and of K that are not zero, in which shifts act on the equations of motion.
-    pub(super) acting: [Vec<u32>; 2],
     pub(super) shifts: Option<SaddlePoint>,
     metric: Metric,
     dropped: Vec<usize>,
@@ -33,10 +31,8 @@ impl Linearized {
         let zeros = |pattern: &Pattern| vec![0.0; pattern.entries.len()];
         let metric = Metric::new(system);
         let shifts = dae.has_shifts().then(|| SaddlePoint::new(&metric.pattern, &structure.g));
-        let room = if dae.has_shifts() { structure.tangent.entries.len() } else { 0 };
         Linearized {
             dae,
-            acting: [0; 2].map(|_| Vec::with_capacity(room)),
             mass: zeros(&structure.mass),
             g: zeros(&structure.g),
             l: zeros(&structure.g),
@@ -83,11 +79,6 @@ impl Linearized {
             return Err(NO_TANGENT);
         }
         dynamics.statistics.jacobian_evaluations += 1;
-        if self.dae.has_shifts() {
-            let [of_c, of_k] = &mut self.acting;
-            find_acting(&self.tangent.c, of_c);
-            find_acting(&self.tangent.k, of_k);
-        }
         let terms = &dynamics.terms;
         self.mass.copy_from_slice(&terms.mass);
         self.g.copy_from_slice(&terms.g);
@@ -159,12 +150,6 @@ impl Metric {
         values.clear();
         values.extend(mass.iter().copied().chain(diagonal.iter().map(|&i| stiffness[i])));
     }
-}
-
-/// Finds the values that are not zero.
-fn find_acting(values: &[f64], acting: &mut Vec<u32>) {
-    acting.clear();
-    acting.extend((0..).zip(values).filter(|(_, value)| **value != 0.0).map(|(index, _)| index));
 }
 
 /// The diagonal of a matrix.

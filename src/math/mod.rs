@@ -51,7 +51,7 @@ pub fn all_finite(x: &[f64]) -> bool {
     sums.iter().sum::<f64>() + rest.iter().map(|x| 0.0 * x).sum::<f64>() == 0.0
 }
 
-/// x^T y, in four sums so that it vectorizes.
+/// x^T y of equal lengths, in four sums so that it vectorizes.
 #[inline]
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     let ((xs, x_rest), (ys, y_rest)) = (x.as_chunks::<4>(), y.as_chunks::<4>());
