@@ -8,6 +8,7 @@ mod adams;
 mod ali3p;
 mod bdf;
 mod control;
+mod diffsol;
 mod dop853;
 mod dop853_tableau;
 mod dopri5;
@@ -76,6 +77,17 @@ pub trait Integrator {
     /// Stability limit of the steps; `None` for a method without a limit.
     fn stability(&self) -> Option<Stability> {
         None
+    }
+
+    /// True for a method that chooses its steps itself, by [`Self::lead`].
+    fn leads(&self) -> bool {
+        false
+    }
+
+    /// Makes the next step of such a method, not beyond `from.end`, and returns its size, s; `h` is that of the first
+    /// one. Attempts are then parts of this step.
+    fn lead(&mut self, _: &mut Problem, _: &Tolerance, _from: From, h: f64) -> Result<f64, StepError> {
+        Ok(h)
     }
 
     /// Tries a step from (t, y), where y' is `slope`, and writes the new state. Returns the error estimate in units of
@@ -310,6 +322,8 @@ pub fn registry() -> &'static [Entry] {
         bdf::ENTRY,
         tr_bdf2::ENTRY,
         esdirk34::ENTRY,
+        diffsol::ANY,
+        diffsol::TSIT45,
     ]
 }
 

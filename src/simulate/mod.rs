@@ -257,6 +257,9 @@ impl<'a> Run<'a> {
             self.ask(sink)?;
             self.check_progress()?;
             let stop = self.next_stop();
+            if self.integrator.leads() {
+                self.lead(stop)?;
+            }
             let (mut size, mut end) = self.fit(stop);
             let tried = size;
             let Some(error) = self.try_step(size, end)? else { continue };

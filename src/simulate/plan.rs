@@ -3,8 +3,9 @@
 
 use super::Run;
 use super::events::Events;
+use crate::error::Failure;
 use crate::formulation::StepError;
-use crate::integrator::first_step;
+use crate::integrator::{From, first_step};
 use crate::tolerances::simulate as tolerances;
 
 /// A time at which a step must end.
@@ -52,13 +53,30 @@ impl Run<'_> {
         }
     }
 
+    /// Takes the next step from a method that chooses it itself, unless a smaller one is to be tried.
+    pub fn lead(&mut self, stop: NextStop) -> Result<(), Failure> {
+        let limit = self.events.resolved(self.t, self.h.min(stop.t - self.t), stop.t);
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.t + limit };
+        let size = match self.integrator.lead(&mut self.problem, &self.tolerance, from, self.h) {
+            Ok(size) => size,
+            Err(halt) if halt.is_fatal() => return Err(self.halted(&halt)),
+            Err(halt) => return Err(self.too_small(format!("{halt}, however small the step"), halt.hint())),
+        };
+        self.h = if self.growing { size } else { size.min(self.h) };
+        Ok(())
+    }
+
     /// The step to try, adjusted and stretched or cut so that it meets the stop, or a point of the grid of fixed steps,
     /// and resolves all functions of time; and the time at which it ends, if that is given.
     pub fn fit(&mut self, stop: NextStop) -> (f64, Option<f64>) {
         if let Some(size) = self.cut {
             return (size, None);
         }
-        let (placed, left) = (self.place(self.h), stop.t - self.t);
+        let left = stop.t - self.t;
+        if self.integrator.leads() {
+            return if self.h >= left { (left, Some(stop.t)) } else { (self.h, None) };
+        }
+        let placed = self.place(self.h);
         // A fixed step meets the grid up to the rounding of the step and of the time.
         let stretched = match self.fixed {
             Some(_) => placed * (1.0 + 1e-9) + 4.0 * f64::EPSILON * stop.t.abs(),

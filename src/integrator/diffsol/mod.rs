@@ -1,0 +1,253 @@
+//! BDF, diagonally implicit Runge-Kutta methods and Tsitouras' method by diffsol.
+//!
+//! diffsol chooses its own steps. [`Integrator::lead`] makes one and tells its size to the time loop, which cuts it at
+//! thresholds and rows by the polynomial of the step. Where the equations change their form, the solver begins again.
+//!
+//! Source: M. Robinson et al., diffsol, <https://github.com/martinjrobins/diffsol>.
+
+mod directions;
+mod equations;
+mod lu;
+mod rows;
+mod solver;
+
+use super::{Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance, refuses, takes};
+use crate::error::{self, Error};
+use crate::formulation::{self, Dae, Dynamics, StepError};
+use crate::method_spec::{MethodSpec, OptionDoc};
+use crate::system::MechanicalSystem;
+use diffsol::VectorCommon;
+use directions::Directions;
+use equations::Equations;
+use rows::Rows;
+use solver::{Counters, Frame, Scheme};
+
+/// A method of diffsol on the equations of a run.
+struct Diffsol<'s> {
+    scheme: Scheme,
+    system: &'s dyn MechanicalSystem,
+    formulation: &'s MethodSpec,
+    dae: Option<Dae>,
+    order: usize,
+    frame: Option<Frame<'s>>,
+    /// Rows that the equations of the frame do not contain.
+    dropped: Vec<usize>,
+    /// True if the solver begins again at the next step.
+    begins: bool,
+    /// True if the end of the last step was moved.
+    is_moved: bool,
+    /// Work of the present solver that is already counted.
+    counted: Counters,
+    control: Control,
+}
+
+/// Error of the steps of diffsol, which refuses larger ones itself and does not tell.
+const ACCEPTED: f64 = 0.5;
+
+const TOO_LARGE: StepError =
+    StepError::Unsuitable { reason: "there is not enough memory for a matrix of this size", hint: formulation::SPARSE };
+
+const NOT_BEGUN: StepError =
+    StepError::Unsuitable { reason: "the step has no solver", hint: "this is a mistake in holonom: please report it" };
+
+impl<'s> Diffsol<'s> {
+    fn make(scheme: Scheme, order: usize, setup: &Setup<'s>) -> error::Result<Box<dyn Integrator + 's>> {
+        let Setup { integrator, formulation, system, .. } = *setup;
+        let refused = || Error::input(format!("{} cannot integrate {}", integrator.name, formulation.name));
+        let dae = match scheme {
+            Scheme::Tsit45 => None,
+            _ => Some(formulation::dae(formulation)?.ok_or_else(refused)?),
+        };
+        if dae.is_some() && Directions::new(system).is_none() {
+            let text = format!("{} needs coordinates whose rates are velocities, or unit quaternions", integrator.name);
+            return Err(Error::input(text).hint("use radau_iia, or implement MechanicalSystem::rotations"));
+        }
+        // Bad options of the formulation are refused here.
+        formulation::make(formulation, system)?;
+        Ok(Box::new(Diffsol {
+            scheme,
+            system,
+            formulation,
+            dae,
+            order,
+            frame: None,
+            dropped: Vec::new(),
+            begins: true,
+            is_moved: false,
+            counted: Counters::default(),
+            control: Control::new(order as f64 + 1.0, 0.2, 5.0),
+        }))
+    }
+
+    /// The equations of a run at present: with the rows, pieces and constants of its problem.
+    fn equations(&self, problem: &Problem) -> Result<Equations<'s>, StepError> {
+        let formulation = formulation::make(self.formulation, self.system).map_err(|_| TOO_LARGE)?;
+        let mut own = Problem::new(Dynamics::new(self.system), formulation);
+        own.dynamics.drop_rows(&problem.dynamics.dropped);
+        own.dynamics.wants_least = false;
+        let n = self.system.dimensions();
+        let rows = self.dae.and_then(|dae| Rows::new(dae, &own.dynamics, own.len() - n.q - n.v));
+        Equations::new(own, rows).ok_or(TOO_LARGE)
+    }
+
+    /// Lets the solver begin again, or continue from a state that was moved, where that is needed.
+    fn meet(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<(), StepError> {
+        let lambda = &problem.dynamics.lambda;
+        match &mut self.frame {
+            Some(frame) if self.dropped == problem.dynamics.dropped => {
+                if self.begins {
+                    frame.equations().follow(problem);
+                    let x = frame.equations().start(from, lambda);
+                    frame.restart(self.scheme, (from, &x), h)?;
+                    self.counted = Counters::default();
+                } else if self.is_moved {
+                    frame.with_mut(|solver| solver.go_on_from(from, h));
+                }
+            }
+            _ => {
+                let equations = self.equations(problem)?;
+                equations.follow(problem);
+                let x = equations.start(from, lambda);
+                self.frame = Some(Frame::new(self.scheme, equations, tolerance, (from, &x), h)?);
+                self.dropped.clone_from(&problem.dynamics.dropped);
+                self.counted = Counters::default();
+            }
+        }
+        (self.begins, self.is_moved) = (false, false);
+        Ok(())
+    }
+
+    /// Makes steps up to `t`, none of which ends after `from.end`.
+    fn advance(&mut self, problem: &mut Problem, from: From, t: f64) -> Result<(), StepError> {
+        let frame = self.frame.as_mut().ok_or(NOT_BEGUN)?;
+        while frame.with(|solver| solver.t()) < t {
+            frame.equations().begin_step(problem, from)?;
+            let stepped = frame.with_mut(|solver| solver.step(from.end));
+            let failure = frame.equations().take_failure();
+            frame.equations().count(&mut problem.dynamics.statistics);
+            let counters = frame.with(|solver| solver.counters());
+            counters.add_since(std::mem::replace(&mut self.counted, counters), &mut problem.dynamics.statistics);
+            if stepped.is_err() {
+                return Err(failure.unwrap_or(StepError::NotConverged));
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the differential variables at `t`.
+    fn write(&self, t: f64, out: &mut [f64]) -> Result<(), StepError> {
+        let frame = self.frame.as_ref().ok_or(NOT_BEGUN)?;
+        let mut x = frame.equations().vector(|_| 0.0);
+        frame.with(|solver| solver.write(t, &mut x)).map_err(|_| StepError::NotConverged)?;
+        out.copy_from_slice(&x.inner().col_as_slice(0)[..out.len()]);
+        Ok(())
+    }
+}
+
+impl Integrator for Diffsol<'_> {
+    fn order(&self) -> usize {
+        self.order
+    }
+
+    fn control(&mut self) -> &mut Control {
+        &mut self.control
+    }
+
+    fn stability(&self) -> Option<Stability> {
+        let tableau = self.scheme.tableau().filter(|_| self.dae.is_none())?;
+        let b = tableau.b().as_slice();
+        let rows: Vec<Vec<f64>> = (0..b.len()).map(|i| (0..i).map(|j| tableau.a(i, j)).collect()).collect();
+        Some(Stability::of(|i| &rows[i], b))
+    }
+
+    fn leads(&self) -> bool {
+        true
+    }
+
+    fn lead(&mut self, problem: &mut Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<f64, StepError> {
+        self.meet(problem, tolerance, from, h)?;
+        let round_off = 4.0 * f64::EPSILON * from.t.abs();
+        self.advance(problem, from, (from.t + round_off).next_up())?;
+        Ok(self.frame.as_ref().map_or(h, |frame| frame.with(|solver| solver.t()) - from.t))
+    }
+
+    fn attempt(
+        &mut self,
+        problem: &mut Problem,
+        tolerance: &Tolerance,
+        from: From,
+        h: f64,
+        to: &mut [f64],
+    ) -> Result<Option<f64>, StepError> {
+        self.meet(problem, tolerance, from, h)?;
+        self.advance(problem, from, from.end)?;
+        self.write(from.end, to)?;
+        Ok(Some(ACCEPTED))
+    }
+
+    fn propose(&mut self, h: f64, _: f64, _: bool) -> f64 {
+        self.frame.as_ref().map_or(h, |frame| frame.with(|solver| solver.h()))
+    }
+
+    fn restart(&mut self) {
+        self.begins = true;
+    }
+
+    fn begins_anew(&self) -> bool {
+        self.scheme == Scheme::Bdf
+    }
+
+    fn moved(&mut self) {
+        // Without projections only rounding moves a state, and BDF would begin again at order 1.
+        self.is_moved = self.scheme != Scheme::Bdf;
+    }
+
+    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), StepError> {
+        Ok(())
+    }
+
+    fn interpolate(
+        &mut self,
+        _: &mut Problem,
+        from: From,
+        h: f64,
+        theta: f64,
+        out: &mut [f64],
+    ) -> Result<(), StepError> {
+        self.write(from.t + theta * h, out)
+    }
+}
+
+/// True for formulations in which lambda follows from accelerations, or q is moved to phi = 0 by multipliers of its
+/// own: with phi' = 0 or phi = 0 alone these methods lose orders.
+fn solves(formulation: &formulation::Entry) -> bool {
+    formulation.default_dae().is_some_and(|dae| dae.holds(2) || dae.mu.is_some())
+}
+
+pub(super) const ANY: Entry = Entry {
+    name: "diffsol",
+    about: "methods of diffsol",
+    order: 5,
+    steps: Steps::Own,
+    tightening: Tightening::NONE,
+    solves,
+    refuses: refuses::none,
+    options: &[OptionDoc { name: "method", about: "bdf, tr_bdf2, esdirk34" }],
+    make: |setup| match setup.integrator.one_of("method", &["bdf", "tr_bdf2", "esdirk34"])? {
+        "tr_bdf2" => Diffsol::make(Scheme::TrBdf2, 2, setup),
+        "esdirk34" => Diffsol::make(Scheme::Esdirk34, 3, setup),
+        _ => Diffsol::make(Scheme::Bdf, 2, setup),
+    },
+};
+
+pub(super) const TSIT45: Entry = Entry {
+    name: "tsit45",
+    about: "explicit, order 5 (Tsitouras), by diffsol; chooses its steps",
+    order: 5,
+    steps: Steps::Own,
+    tightening: Tightening::NONE,
+    solves: takes::vector_fields,
+    refuses: refuses::none,
+    options: &[],
+    make: |setup| Diffsol::make(Scheme::Tsit45, 5, setup),
+};
