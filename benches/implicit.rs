@@ -95,10 +95,7 @@ fn measure(study: &Study) -> Vec<Measured> {
         let times = least_times(&mut done.iter().map(|(name, _)| case(name)).collect::<Vec<Case>>());
         for ((name, (q, steps, evaluations)), cpu) in done.into_iter().zip(times) {
             let error = q.iter().zip(&reference).fold(0.0f64, |most, (q, exact)| most.max((q - exact).abs())) / largest;
-            println!(
-                "  {name:<24} {tolerance:>8.0e} {error:>10.1e} {steps:>8} {evaluations:>9} {:>10.2}",
-                1e3 * cpu
-            );
+            println!("  {name:<24} {tolerance:>8.0e} {error:>10.1e} {steps:>8} {evaluations:>9} {:>10.2}", 1e3 * cpu);
             measured.push(Measured { method: name, error, cpu });
         }
     }

@@ -125,7 +125,7 @@ impl Tightening {
 /// h_new = h safety err^-expo within [shrink, grow] h, which aims at an error below the tolerated one at once. Where the
 /// error is near that, h_new = h safety err^(-expo/2): with half the gain errors that rise and fall with an oscillation
 /// do not swing the steps, of which many would be refused. Source: on the gain, Soederlind, ACM TOMS 29 (2003) 1-26.
-/// Steps that are held have the whole gain. Predictive, for implicit methods: the whole gain, but not more than h_new = h safety (h/h_old)
+/// Predictive, for implicit methods: the whole gain, but not more than h_new = h safety (h/h_old)
 /// (err_old/err^2)^expo. Source: Hairer, Wanner II, IV.8 (8.25), after Gustafsson.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
@@ -149,8 +149,6 @@ pub struct Control {
 enum Gain {
     /// By half the gain near the tolerated error.
     Half,
-    /// By the whole gain; a step that would grow by less than this stays as it is, so that its matrix serves on.
-    Held(f64),
     /// By the whole gain and, to this power, the error of the step before: h_new = h safety err^-expo err_old^beta.
     Proportional(f64),
     /// By the whole gain, but not beyond what the trend of the errors predicts.
@@ -174,25 +172,15 @@ impl Control {
         Control { exponent: control.exponent - 0.75 * beta, gain: Gain::Proportional(beta), ..control }
     }
 
-    /// Control of steps that stay as they are where they would grow by less than `hold`.
-    pub fn holding(order: f64, shrink: f64, grow: f64, hold: f64) -> Self {
-        Control { gain: Gain::Held(hold), ..Control::new(order, shrink, grow) }
-    }
-
     /// The next step after one of size `h` with error `error`; `growing` is false right after a rejection.
     pub fn accept(&mut self, h: f64, error: f64, growing: bool) -> f64 {
         let whole = error.max(1e-16).powf(-self.exponent);
         let aim = match self.gain {
             Gain::Half => damped(whole, self.exponent),
-            Gain::Held(_) => whole,
             Gain::Proportional(beta) => whole * self.last(h, error).powf(beta),
             Gain::Predictive => whole.min(self.predicted(h, error)),
         };
-        let factor = (self.safety * aim).clamp(self.shrink, if growing { self.grow } else { 1.0 });
-        match self.gain {
-            Gain::Held(hold) if (1.0..hold).contains(&factor) => h,
-            _ => h * factor,
-        }
+        h * (self.safety * aim).clamp(self.shrink, if growing { self.grow } else { 1.0 })
     }
 
     /// Error of the step before.

@@ -12,8 +12,6 @@ mod diffsol;
 mod dop853;
 mod dop853_tableau;
 mod dopri5;
-mod esdirk;
-mod esdirk34;
 mod explicit;
 mod generalized_alpha;
 mod half_explicit;
@@ -28,10 +26,8 @@ mod rattle;
 mod refuses;
 mod rk4;
 mod stability;
-mod stage;
 mod sums;
 mod takes;
-mod tr_bdf2;
 
 use control::round_off;
 pub use control::{Control, Tightening, Tolerance, first_step};
@@ -320,10 +316,10 @@ pub fn registry() -> &'static [Entry] {
         generalized_alpha::ENTRY,
         ali3p::ENTRY,
         bdf::ENTRY,
-        tr_bdf2::ENTRY,
-        esdirk34::ENTRY,
-        diffsol::ANY,
+        diffsol::TR_BDF2,
+        diffsol::ESDIRK34,
         diffsol::TSIT45,
+        diffsol::DIFFSOL,
     ]
 }
 

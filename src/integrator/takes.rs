@@ -21,3 +21,9 @@ pub(super) fn velocity_rows(formulation: &Entry) -> bool {
 pub(super) fn positions(formulation: &Entry) -> bool {
     formulation.default_dae().is_some_and(|dae| dae.holds(0))
 }
+
+/// Rows in which lambda follows from accelerations, or q is moved to phi = 0 by multipliers of its own: with phi' = 0 or
+/// phi = 0 alone, multistep and diagonally implicit methods lose orders.
+pub(super) fn accelerations_or_positions(formulation: &Entry) -> bool {
+    formulation.default_dae().is_some_and(|dae| dae.holds(2) || dae.mu.is_some())
+}

@@ -150,32 +150,23 @@ pub const FIRST_STEP_SHORTER: usize = 20;
 /// that rises there is seen early, if at all. Test: `a_load_that_grows_from_zero_moves_what_is_at_rest`.
 pub const FIRST_STEP_OF_SPAN: f64 = 1e-3;
 
-/// Error that Newton's method may leave of a stage, and of a step of bdf.
+/// Error that Newton's method may leave of a step of bdf.
 /// Unit: `[1]` of the tolerated error of a step. Why: what it leaves of the constraints is drift. Test:
 /// `ggl_holds_both_constraints_and_runs_repeat_bit_by_bit`.
 pub const STAGE_ERROR: f64 = 0.01;
 
-/// Corrections at most of a stage, and of a step of bdf.
+/// Corrections at most of a step of bdf.
 /// Unit: `[iterations]`. Why: more cost as much as a shorter step. Test: none: time alone depends on it.
 pub const STAGE_ITERATIONS: usize = 7;
 
-/// Rate of convergence up to which the matrix of a stage serves the next step too.
+/// Rate of convergence up to which the matrix of bdf serves the next step too.
 /// Unit: `[1]`. Why: a choice: an iteration more costs an evaluation, a matrix about four. Test: none: time alone
 /// depends on it.
 pub const STAGE_MATRIX_KEPT: f64 = 0.1;
 
-/// The factors of a stage serve steps up to this factor longer or shorter.
+/// The factors of bdf serve steps up to this factor longer or shorter.
 /// Unit: `[1]`. Why: stiff directions contract by 1 - 1/1.1^2 with them. Test: none: time alone depends on it.
 pub const STAGE_BAND: f64 = 1.1;
-
-/// Steps of a diagonally implicit method that would grow by less than this stay as they are.
-/// Unit: `[1]`. Why: as in RADAU5, the factors of the matrix serve on. Test: none: time alone depends on it.
-pub const STAGE_HOLD: f64 = 1.2;
-
-/// Safety factor on the steps of diagonally implicit methods.
-/// Unit: `[1]`. Why: the damped error is half to a third of that of the step where nothing is stiff. Test:
-/// `links_without_mass_swing_as_rods_do`.
-pub const STAGE_SAFETY: f64 = 0.7;
 
 /// Error of a step below which bdf doubles the next one at the beginning of a motion.
 /// Unit: `[1]` of the tolerated error of a step. Why: twice the step with the same order has four times the error.

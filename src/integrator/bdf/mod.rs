@@ -1,16 +1,18 @@
 //! Backward differentiation formulas.
 
 mod history;
+mod matrix;
 mod order;
+mod stage;
 
 use super::memory::Reader;
-use super::stage::{self, Stage};
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses};
+use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
 use crate::error;
 use crate::formulation::StepError;
 use crate::tolerances::integrator as tolerances;
 use history::History;
 use order::Order;
+use stage::Stage;
 
 /// ```text
 /// x'_1 = x'_P + (alpha/h) (x_1 - x_P),   alpha = 1 + 1/2 + ... + 1/k,   x'_1 = F(t_1, x_1)
@@ -34,7 +36,7 @@ pub const ENTRY: Entry = Entry {
     steps: Steps::Own,
     // At order 5, which tight tolerances select; errors over a motion were 9 rtol^(5/6) on long ones.
     tightening: Tightening { factor: 0.07, power: 1.2 },
-    solves: stage::solves,
+    solves: takes::accelerations_or_positions,
     refuses: refuses::all,
     options: &[],
     make,

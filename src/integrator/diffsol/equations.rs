@@ -4,8 +4,8 @@ use super::rows::Rows;
 use crate::formulation::{Statistics, StepError};
 use crate::integrator::{From, Problem};
 use diffsol::{
-    ConstantOp, FaerContext, FaerSparseMat, FaerVec, LinearOp, Matrix, NonLinearOp, NonLinearOpJacobian,
-    OdeEquations, OdeEquationsRef, Op, UnitCallable, Vector, VectorCommon,
+    ConstantOp, FaerContext, FaerSparseMat, FaerVec, LinearOp, Matrix, NonLinearOp, NonLinearOpJacobian, OdeEquations,
+    OdeEquationsRef, Op, UnitCallable, Vector, VectorCommon,
 };
 use faer::sparse::{Pair, SymbolicSparseColMat};
 use std::cell::RefCell;
@@ -197,7 +197,8 @@ impl NonLinearOp for Operator<'_, '_> {
 /// dF/dx
 impl NonLinearOpJacobian for Operator<'_, '_> {
     fn jac_mul_inplace(&self, x: &FaerVec<f64>, t: f64, v: &FaerVec<f64>, out: &mut FaerVec<f64>) {
-        let mut jacobian = FaerSparseMat::new_from_sparsity(self.0.len, self.0.len, self.jacobian_sparsity(), *self.context());
+        let mut jacobian =
+            FaerSparseMat::new_from_sparsity(self.0.len, self.0.len, self.jacobian_sparsity(), *self.context());
         self.jacobian_inplace(x, t, &mut jacobian);
         jacobian.gemv(1.0, v, 0.0, out);
     }

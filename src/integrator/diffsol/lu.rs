@@ -47,13 +47,8 @@ impl Factors {
         self.is_factored = matrix.val().iter().all(|value| value.is_finite());
         if self.is_factored {
             let stack = MemStack::new(&mut self.factor_memory);
-            let factored = self.symbolic.factorize_numeric_lu(
-                &mut self.numeric,
-                matrix.rb(),
-                Par::Seq,
-                stack,
-                Default::default(),
-            );
+            let factored =
+                self.symbolic.factorize_numeric_lu(&mut self.numeric, matrix.rb(), Par::Seq, stack, Default::default());
             self.is_factored = factored.is_ok();
         }
     }
@@ -92,6 +87,8 @@ impl LinearSolver<FaerSparseMat<f64>> for SparseLu {
     }
 
     fn solve_transpose_in_place(&self, _: &mut FaerVec<f64>) -> Result<(), LaError> {
-        Err(LaError::Other("transposed systems arise in adjoint sensitivities only, which are not computed".to_string()))
+        Err(LaError::Other(
+            "transposed systems arise in adjoint sensitivities only, which are not computed".to_string(),
+        ))
     }
 }

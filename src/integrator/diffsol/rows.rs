@@ -26,6 +26,8 @@ pub struct Rows {
     tangent: Tangent,
     /// d(phi'')/dq along the directions of v.
     gradient: Vec<f64>,
+    /// Entries of G by constraint.
+    by_constraint: Vec<Vec<usize>>,
 }
 
 /// Ranges of the parts of x; those of shifts that the equations do not have are empty.
@@ -81,6 +83,8 @@ impl Rows {
     pub fn new(dae: Dae, dynamics: &Dynamics, works: usize) -> Option<Self> {
         let (system, structure) = (dynamics.system, &dynamics.structure);
         let n = system.dimensions();
+        let mut by_constraint = vec![Vec::new(); n.lambda];
+        structure.g.entries.iter().enumerate().for_each(|(entry, (row, _))| by_constraint[*row].push(entry));
         Some(Rows {
             dae,
             n,
@@ -91,6 +95,7 @@ impl Rows {
             velocity: vec![0.0; n.v],
             tangent: Tangent::new(&structure.tangent),
             gradient: vec![0.0; structure.g.entries.len()],
+            by_constraint,
         })
     }
 
@@ -210,8 +215,8 @@ impl Rows {
         if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
             return Err(NO_TANGENT);
         }
-        let has_gradient = self.dae.holds(2)
-            && dynamics.system.acceleration_gradient(at, &mut self.gradient, &mut dynamics.scratch);
+        let has_gradient =
+            self.dae.holds(2) && dynamics.system.acceleration_gradient(at, &mut self.gradient, &mut dynamics.scratch);
         if !has_gradient {
             self.gradient.fill(0.0);
         }
@@ -268,11 +273,9 @@ impl Rows {
     /// ```
     fn visit_rows(&self, structure: &Structure, at: &Matrices, mut put: impl FnMut(usize, usize, f64)) {
         let Places { q, v, a, .. } = &self.places;
-        let mut by_constraint = vec![Vec::new(); self.n.lambda];
-        structure.g.entries.iter().enumerate().for_each(|(entry, (row, _))| by_constraint[*row].push(entry));
         self.each_row(|row, place, constraint| {
             let Some(Row { position, velocity, acceleration }) = row else { return put(place, place, -1.0) };
-            for &entry in &by_constraint[constraint] {
+            for &entry in &self.by_constraint[constraint] {
                 let j = structure.g.entries[entry].1;
                 let (g, l, gradient) = (at.g[entry], at.l[entry], at.gradient[entry]);
                 let of_q = position * g + velocity * l + acceleration * gradient;

@@ -1,4 +1,4 @@
-//! The Newton matrix of stages, kept from step to step.
+//! The Newton matrix, kept from step to step.
 
 use crate::formulation::{Dae, Iteration, Linearized, Slopes, StepError};
 use crate::integrator::memory::Reader;

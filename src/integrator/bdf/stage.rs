@@ -1,24 +1,21 @@
-//! One implicit stage, of singly diagonally implicit and of multistep methods.
+//! The implicit equations of a step.
 
-mod matrix;
-
-use super::memory::Reader;
-use super::{From, Problem, Setup, Tolerance, round_off};
+use super::matrix::Matrix;
 use crate::error::{self, Error};
 use crate::formulation::{self, Change, Dae, Residual, StepError};
+use crate::integrator::memory::Reader;
+use crate::integrator::{From, Problem, Setup, Tolerance, round_off};
 use crate::math::newton::{Limits, Monitor};
 use crate::system::{Dimensions, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
-use matrix::Matrix;
 
 /// ```text
 /// v = v* + g (a + w),   q = q* + g N (v + u),   M a + G^T lambda = f
 /// ```
 ///
-/// with the rows of the formulation's [`Dae`] and its shifts u and w: one stage of a diagonally implicit Runge-Kutta
-/// method, with g = gamma h, or a step of a backward differentiation formula, with g = h/alpha. q and v are eliminated,
-/// so that Newton's method has one matrix of n_v + n_c unknowns, dense or sparse, from exact K, C, G and L. It is kept
-/// while it converges. One evaluation and a back-substitution an iteration, with shifts one more each.
+/// with the rows of the formulation's [`Dae`], its shifts u and w, and g = h/alpha. q and v are eliminated: Newton's
+/// method has one matrix of n_v + n_c unknowns, dense or sparse, from exact K, C, G and L. It is kept while it
+/// converges. One evaluation and a back-substitution an iteration, with shifts one more each.
 pub struct Stage {
     dae: Dae,
     n: Dimensions,
@@ -36,18 +33,9 @@ pub struct Stage {
     slowest: f64,
     /// Round-off of y in the last solution, over the tolerated errors.
     pub round_off: f64,
-    /// The least rate by which the error that an iteration leaves is estimated.
-    pub least_rate: f64,
-    is_fixed: bool,
     change: Vec<f64>,
     /// v + u
     velocity: Vec<f64>,
-}
-
-/// True for formulations in which lambda follows from accelerations, or q is moved to phi = 0 by multipliers of its
-/// own: with phi' = 0 or phi = 0 alone these methods lose orders.
-pub fn solves(formulation: &formulation::Entry) -> bool {
-    formulation.default_dae().is_some_and(|dae| dae.holds(2) || dae.mu.is_some())
 }
 
 impl Stage {
@@ -78,8 +66,6 @@ impl Stage {
             newton: Monitor::default(),
             slowest: 0.0,
             round_off: 0.0,
-            least_rate: 0.0,
-            is_fixed: setup.is_fixed,
             change: zeros(setup.len()),
             velocity: zeros(n.v),
         })
@@ -141,25 +127,16 @@ impl Stage {
         t: f64,
         g: f64,
     ) -> Result<(), StepError> {
-        let tolerance = match self.is_fixed {
-            true => Tolerance::exact(problem.split(from.y).0, problem.dynamics.system),
-            false => *tolerance,
-        };
         self.leave_out();
         self.y.copy_from_slice(&self.known);
         self.advance(problem, g);
-        let mut round_off = |divisor| round_off(problem, &tolerance, from.y, divisor, &mut self.change);
-        // A fixed step goes on to where changes no longer fall, which stiff forces may raise.
-        let (round_off, stagnation) = (round_off(None), round_off(Some(g).filter(|_| self.is_fixed)));
-        self.round_off = round_off;
+        self.round_off = round_off(problem, tolerance, from.y, None, &mut self.change);
         let limits = Limits {
-            most: if self.is_fixed { tolerances::FIXED_STEP_ITERATIONS } else { tolerances::STAGE_ITERATIONS },
-            tolerance: if self.is_fixed { 0.0 } else { tolerances::STAGE_ERROR },
-            round_off,
-            stagnation: tolerances::RADAU_STAGNATION * stagnation,
-            patience: if self.is_fixed { tolerances::RADAU_PATIENCE } else { 0 },
-            least_rate: self.least_rate,
-            kept_rate: self.kept_rate(),
+            most: tolerances::STAGE_ITERATIONS,
+            tolerance: tolerances::STAGE_ERROR,
+            round_off: self.round_off,
+            stagnation: tolerances::RADAU_STAGNATION * self.round_off,
+            kept_rate: tolerances::STAGE_MATRIX_KEPT,
             ..Limits::NONE
         };
         let mut newton = std::mem::take(&mut self.newton);
@@ -169,7 +146,7 @@ impl Stage {
         });
         self.newton = newton;
         // Slow convergence with a matrix of a step before looks like round-off, too.
-        let is_slow = self.newton.has_stagnated && !self.matrix.is_fresh && !self.is_fixed;
+        let is_slow = self.newton.has_stagnated && !self.matrix.is_fresh;
         if !converged? || is_slow {
             return Err(StepError::NotConverged);
         }
@@ -236,20 +213,9 @@ impl Stage {
         dropped.for_each(|(lambda, _)| *lambda = 0.0);
     }
 
-    /// Damps raw errors along the stiff directions: see [`crate::formulation::Iteration::damp`].
-    pub fn damp(&mut self, h: f64, x: &mut [f64], v: &mut [f64], problem: &Problem) -> Result<(), StepError> {
-        self.matrix.iteration.damp(&self.matrix.at, h, x, v, &problem.dynamics)
-    }
-
     /// Ends a step, and keeps the matrix as long as Newton's method converges well.
     pub fn accepted(&mut self) {
-        self.matrix.accepted(self.slowest <= self.kept_rate());
-    }
-
-    /// Rate of convergence up to which the matrix serves the next step too. Iterations of fixed steps end at round-off,
-    /// which slow convergence looks like.
-    fn kept_rate(&self) -> f64 {
-        if self.is_fixed { tolerances::RADAU_MATRIX_KEPT } else { tolerances::STAGE_MATRIX_KEPT }
+        self.matrix.accepted(self.slowest <= tolerances::STAGE_MATRIX_KEPT);
     }
 
     /// Discards the matrix: the equations change their form.
