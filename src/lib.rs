@@ -107,6 +107,8 @@ pub mod body;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+#[doc(hidden)]
+pub mod clock;
 pub mod compare;
 pub mod error;
 #[doc(hidden)]

@@ -9,6 +9,5 @@ mod robustness;
 mod scenes;
 mod simplify;
 mod stress;
-mod stress_budget;
 mod stress_truth;
 mod tradeoff;

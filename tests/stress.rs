@@ -1,7 +1,8 @@
 //! Maps over extremes: the verdict of the robot arm on Baumgarte's gains, and what cells are called.
 
 use crate::common::equations::robot_arm::{RobotArm, START};
-use crate::common::{fixed, until};
+use crate::common::{fixed, readings, until};
+use holonom::clock::{self, Stopwatch, TICK};
 use holonom::compare::stress::{
     Axis, AxisPlace, Cell, Change, Level, Limits, Map, Quantity, Status, StepVerdict, StressParameter, Stressed,
     Subject, find, maps, pair, stress,
@@ -9,10 +10,12 @@ use holonom::compare::stress::{
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::Overrides;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::sync::Mutex;
+use std::time::Duration;
 
-fn limits(seconds: f64) -> Limits {
-    Limits { cell: Duration::from_secs_f64(seconds), end: Instant::now() + Duration::from_secs(120) }
+/// So many steps and rows for each cell, and no limit for all of them.
+fn limits(cell: u32) -> Limits {
+    Limits { cell: readings(cell), all: Duration::MAX }
 }
 
 fn parameter(name: &str) -> &'static StressParameter {
@@ -20,6 +23,7 @@ fn parameter(name: &str) -> &'static StressParameter {
 }
 
 fn scene(name: &str, overrides: Overrides) -> Subject<'static> {
+    clock::count_readings();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(name).with_extension("json");
     Subject::load(&path, &overrides).unwrap()
 }
@@ -35,6 +39,7 @@ fn all(stressed: &Stressed, what: impl Fn(&Cell) -> bool) -> bool {
 /// The numbers of the theory: equations in two angles, with the gains of the literature.
 #[test]
 fn the_verdict_on_baumgarte_in_numbers() {
+    clock::count_readings();
     let method = fixed("index1", "rk4", "none", 0.01);
     let subject = Subject::of_equations("arm", &RobotArm, method, until(10.0), START.motion()).unwrap();
     let row = |formulation: &str, projection: &str| {
@@ -51,7 +56,7 @@ fn the_verdict_on_baumgarte_in_numbers() {
     let integrator = |name: &str| AxisPlace::named(name, vec![Change::Integrator(MethodSpec::named(name))]);
     let methods = ["heun", "rk4"].map(integrator).to_vec();
     let map = Map { methods, ..pair(&subject, x, y, Quantity::Velocity) };
-    let stressed = stress(&subject, map, limits(20.0), &|| {});
+    let stressed = stress(&subject, map, limits(200_000), &|| {});
     let expected: [(usize, usize, [f64; 3]); 5] = [
         (0, 0, [5.12e-1, 5.17e-2, 6.02e-4]),
         (0, 2, [6.21e-2, 3.82e-3, 5.59e-5]),
@@ -77,7 +82,7 @@ fn the_verdict_on_baumgarte_of_the_scene() {
     let mut map = named(&subject, "gain");
     let steps = vec![0.001, 0.002, 0.005, 0.01, 0.02, 0.05];
     map.x = Axis::of(parameter("step"), steps);
-    let stressed = stress(&subject, map, limits(20.0), &|| {});
+    let stressed = stress(&subject, map, limits(200_000), &|| {});
     let gains = stressed.gains();
     let verdict = |method: &str, quantity: Quantity| {
         gains.iter().find(|verdict| verdict.method == method && verdict.quantity == quantity).unwrap()
@@ -110,18 +115,18 @@ fn ends_are_told_apart() {
     let own = |x: Axis, y: Axis| pair(&subject, x, y, Quantity::Velocity);
     let axis = |text: &str| Axis::parse(text, &subject).unwrap();
     // Large steps without stabilization, and with a gain far beyond the stable ones.
-    let wild = stress(&subject, own(axis("step=0.1..0.2:2"), axis("gain=1e3..1e4:2:log")), limits(20.0), &|| {});
+    let wild = stress(&subject, own(axis("step=0.1..0.2:2"), axis("gain=1e3..1e4:2:log")), limits(200_000), &|| {});
     assert!(all(&wild, |cell| cell.status == Status::Diverged && cell.reason.is_some()), "{:?}", wild.cells);
     // Masses that are zero have no accelerations.
-    let massless = stress(&subject, own(axis("m=0..36:2"), axis("tolerance=1e-6..1e-8:2")), limits(20.0), &|| {});
+    let massless = stress(&subject, own(axis("m=0..36:2"), axis("tolerance=1e-6..1e-8:2")), limits(200_000), &|| {});
     assert!(all(&massless, |cell| (cell.status == Status::Completed) == (cell.column == 1)), "{:?}", massless.cells);
     let refused_or_failed = |cell: &Cell| matches!(cell.status, Status::Completed | Status::Failed | Status::Refused);
     assert!(all(&massless, refused_or_failed));
     // A deadline.
-    let slow = stress(&subject, own(axis("step=1e-7..2e-7:2"), axis("height=1..2:2")), limits(0.05), &|| {});
+    let slow = stress(&subject, own(axis("step=1e-7..2e-7:2"), axis("height=1..2:2")), limits(500), &|| {});
     assert!(all(&slow, |cell| cell.status == Status::TooSlow && cell.t > 0.0 && cell.t < 2.0), "{:?}", slow.cells);
     // No time at all.
-    let over = Limits { end: Instant::now(), ..limits(1.0) };
+    let over = Limits { all: Duration::ZERO, ..limits(10_000) };
     let none = stress(&subject, own(axis("step=1e-3..1e-2:2"), axis("height=1..2:2")), over, &|| {});
     assert!(all(&none, |cell| cell.status == Status::LeftOut && cell.drift.is_none()));
     // An adaptive method has no fixed step in implicit codes of other libraries.
@@ -129,7 +134,7 @@ fn ends_are_told_apart() {
     let [formulation, none] = ["ggl", "none"].map(MethodSpec::named);
     let bdf = vec![Change::Integrator(MethodSpec::named("bdf")), Change::Stabilization(formulation, none)];
     refused.methods = vec![AxisPlace::named("bdf", bdf)];
-    let refused = stress(&subject, refused, limits(20.0), &|| {});
+    let refused = stress(&subject, refused, limits(200_000), &|| {});
     assert!(all(&refused, |cell| cell.status == Status::Refused && cell.steps == 0), "{:?}", refused.cells);
 }
 
@@ -139,7 +144,7 @@ fn maps_are_repeatable() {
     let subject = scene("slider_crank", Overrides { until: Some(0.2), ..Overrides::default() });
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let stressed = pool.install(|| stress(&subject, named(&subject, "start"), limits(20.0), &|| {}));
+        let stressed = pool.install(|| stress(&subject, named(&subject, "start"), limits(200_000), &|| {}));
         let timeless = |cell: &Cell| serde_json::to_string(&Cell { seconds: 0.0, ..cell.clone() }).unwrap();
         stressed.cells.iter().map(timeless).collect::<Vec<_>>()
     };
@@ -152,8 +157,8 @@ fn light_bodies_do_not_hang_the_recorder() {
     let subject = scene("robot_arm", Overrides { rtol: Some(1e-8), atol: Some(1e-8), ..Overrides::default() });
     let [x, y] = [("mass_ratio", vec![1e-8, 1.0]), ("tolerance", vec![1e-8])]
         .map(|(name, values)| Axis::of(parameter(name), values));
-    let stressed = stress(&subject, pair(&subject, x, y, Quantity::Velocity), limits(2.0), &|| {});
-    assert!(all(&stressed, |cell| cell.seconds < 5.0), "{:?}", stressed.cells);
+    let stressed = stress(&subject, pair(&subject, x, y, Quantity::Velocity), limits(20_000), &|| {});
+    assert!(all(&stressed, |cell| cell.steps <= 20_000), "{:?}", stressed.cells);
     assert_eq!(stressed.cells[1].status, Status::Completed);
 }
 
@@ -193,7 +198,7 @@ fn every_stress_parameter_changes_some_scene() {
             ),
             _ => pair(&subject, Axis::of(parameter(name), values.to_vec()), y, Quantity::Velocity),
         };
-        let stressed = stress(&subject, map, limits(20.0), &|| {});
+        let stressed = stress(&subject, map, limits(200_000), &|| {});
         let [a, b] = &stressed.cells[..] else { panic!("two cells") };
         assert!([a, b].iter().all(|cell| cell.status == Status::Completed), "{name} {model}: {a:?} {b:?}");
         let drift = |cell: &Cell| cell.drift.clone().unwrap();
@@ -211,4 +216,26 @@ fn scenes_get_the_maps_that_make_sense() {
     assert_eq!(names("four_bar_spring"), ["gain", "start", "stiffness", "damping", "speed", "time"]);
     assert_eq!(names("slider_crank"), ["gain", "start", "mass", "speed", "geometry", "time"]);
     assert_eq!(names("n_four_bar"), ["gain", "start", "mass", "speed", "links", "time"]);
+}
+
+/// Less time than all cells take is spent on cells of all methods, from the scene's own values on, and no more than that.
+#[test]
+fn no_corner_and_no_method_takes_the_budget_of_others() {
+    for name in ["quarter_car", "five_link_suspension"] {
+        let subject = scene(name, Overrides::default());
+        let budget = Limits { cell: readings(10_000), all: readings(80_000) };
+        // Read on the thread that works, after each cell.
+        let watch: Mutex<Option<Stopwatch>> = Mutex::new(None);
+        let spent = Mutex::new(Duration::ZERO);
+        let progress = || *spent.lock().unwrap() = watch.lock().unwrap().get_or_insert_with(Stopwatch::start).wall();
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let stressed = one.install(|| stress(&subject, named(&subject, "stiffness"), budget, &progress));
+        assert!(*spent.lock().unwrap() <= budget.all + 10 * TICK, "{name}: {spent:?}");
+        assert!(stressed.cells.iter().any(|cell| cell.status == Status::LeftOut), "{name}: the budget binds");
+        for verdict in stressed.verdicts() {
+            assert!(verdict.completed >= 5, "{name}: {verdict:?}");
+        }
+        // The scene's own mass, at stiffnesses about its own.
+        assert!((0..2).all(|method| stressed.cell(method, 4, 3).unwrap().status == Status::Completed), "{name}");
+    }
 }

@@ -1,5 +1,7 @@
 //! What maps over extremes say is so: what was left out is not called failed, and what completes is not called right.
 
+use crate::common::readings;
+use holonom::clock;
 use holonom::compare::stress::{
     Axis, Cell, Limits, Map, Quantity, Status, Stressed, Subject, find, maps, pair, stress,
 };
@@ -8,9 +10,10 @@ use holonom::prepared::Overrides;
 use holonom::report::stress::{sentences, stress_figure};
 use holonom::tolerances::report::WRONG_MOTION;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 fn scene(name: &str, overrides: Overrides) -> Subject<'static> {
+    clock::count_readings();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(name).with_extension("json");
     Subject::load(&path, &overrides).unwrap()
 }
@@ -19,8 +22,9 @@ fn map(subject: &Subject, name: &str) -> Map {
     maps(subject, &[name.to_string()]).unwrap().remove(0)
 }
 
-fn within(seconds: f64) -> Limits {
-    Limits { cell: Duration::from_secs(20), end: Instant::now() + Duration::from_secs_f64(seconds) }
+/// As many steps and rows for each cell as it takes.
+fn within(all: Duration) -> Limits {
+    Limits { cell: readings(200_000), all }
 }
 
 /// The map of gains of Heun's method at these steps, whole.
@@ -29,7 +33,7 @@ fn gains(name: &str, steps: [f64; 4]) -> Stressed {
     let mut map = map(&subject, "gain");
     map.methods.retain(|method| method.label == "heun");
     map.x = Axis::of(find("step").unwrap(), steps.to_vec());
-    stress(&subject, map, within(300.0), &|| {})
+    stress(&subject, map, within(Duration::MAX), &|| {})
 }
 
 fn robot_arm() -> Stressed {
@@ -82,7 +86,7 @@ fn what_was_left_out_has_not_failed() {
 fn an_empty_map_says_so() {
     for (name, map_name) in [("robot_arm", "gain"), ("quarter_car", "stiffness")] {
         let subject = scene(name, Overrides::default());
-        let stressed = stress(&subject, map(&subject, map_name), within(0.0), &|| {});
+        let stressed = stress(&subject, map(&subject, map_name), within(Duration::ZERO), &|| {});
         assert!(stressed.is_empty() && stress_figure(name, &stressed).is_none());
         let said = sentences(&stressed).join("\n");
         assert!(said.contains("there is no figure"), "{said}");
@@ -139,7 +143,7 @@ fn what_is_zero_by_physics_spoils_no_errors() {
         let dopri5 = Some(MethodSpec::named("dopri5"));
         let subject = scene(name, Overrides { integrator: dopri5, step: None, ..Overrides::default() });
         let [x, y] = [("tolerance", 1e-6), ("time", time)].map(|(name, at)| Axis::of(find(name).unwrap(), vec![at]));
-        let stressed = stress(&subject, pair(&subject, x, y, Quantity::Error), within(60.0), &|| {});
+        let stressed = stress(&subject, pair(&subject, x, y, Quantity::Error), within(Duration::MAX), &|| {});
         let cell = &stressed.cells[0];
         assert!(cell.error.is_some_and(|error| error > 0.0 && error < 1e-3), "{name}: {cell:?}");
     }
@@ -153,7 +157,7 @@ fn corners_have_references() {
         let mut map = map(&subject, "stiffness");
         map.x = Axis::of(find("stiffness").unwrap(), vec![1e2, 1e5]);
         map.y = Axis::of(find("mass_ratio").unwrap(), vec![1.0, 100.0]);
-        let stressed = stress(&subject, map, within(120.0), &|| {});
+        let stressed = stress(&subject, map, within(Duration::MAX), &|| {});
         for cell in &stressed.cells {
             assert!(cell.error.is_some_and(|error| error > 0.0 && error < 1e-4), "{name}: {cell:?}");
         }

@@ -1,6 +1,7 @@
 //! `holonom stress SCENE`
 
 use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, duration, pick, print};
+use crate::clock::Stopwatch;
 use crate::compare::stress::{Axis, Limits, Map, Quantity, Stressed, Subject, known, maps, pair, registry, stress};
 use crate::error::{Error, Result};
 use crate::math::expression::{Number, Parameters};
@@ -8,7 +9,7 @@ use crate::report::stress::{MapFile, StressFile, gain_table, sentences, stress_f
 use crate::report::{Folder, Table};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -64,10 +65,10 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 fn run_one(args: &Args, path: &Path) -> Result<ExitCode> {
-    let begin = Instant::now();
+    let begun = Stopwatch::start();
     let (subject, maps) = prepare(args, path)?;
     let mut folder = args.output.folder(&subject.name)?;
-    let (file, stressed) = simulate(args, &subject, maps, begin);
+    let (file, stressed) = simulate(args, &subject, maps, begun);
     write(args, &mut folder, std::slice::from_ref(&file), &[], |_, map| format!("stress-{map}"), &stressed)?;
     let sealed = folder.seal("stress.json", args.talk.of_no_method(&subject.values, &file))?;
     args.talk.conclude(folder, &sealed, || text(&file, &stressed))?;
@@ -79,11 +80,11 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
     let mut folder = args.output.folder("stress")?;
     let (mut files, mut unread, mut all) = (Vec::new(), Vec::new(), Vec::new());
     for scene in scenes {
-        let begin = Instant::now();
+        let begun = Stopwatch::start();
         match prepare(args, &scene) {
             Err(error) => unread.push((scene.display().to_string(), error.to_string())),
             Ok((subject, maps)) => {
-                let (file, stressed) = simulate(args, &subject, maps, begin);
+                let (file, stressed) = simulate(args, &subject, maps, begun);
                 args.talk.say(&text(&file, &stressed))?;
                 files.push(file);
                 all.extend(stressed);
@@ -141,18 +142,18 @@ impl Args {
     }
 }
 
-/// Limit of times, so that deadlines do not overflow.
+/// Limit of times, so that multiples of them do not overflow.
 const LONGEST: Duration = Duration::from_secs(1_000_000_000);
 
 /// Simulates the maps, each with its share of the remaining time.
-fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begin: Instant) -> (StressFile, Vec<Stressed>) {
+fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begun: Stopwatch) -> (StressFile, Vec<Stressed>) {
     let (budget, cell, count) = (args.budget(), args.limit.min(LONGEST), maps.len());
     let bar = args.talk.progress(maps.iter().map(|map| map.cell_count() as u64).sum(), &subject.name);
     let one = |(k, map): (usize, Map)| {
-        let left = budget.saturating_sub(begin.elapsed());
+        let left = budget.saturating_sub(begun.wall());
         // The first maps are the most informative and have the largest share.
-        let end = Instant::now() + 2 * left / (count - k + 1) as u32;
-        stress(subject, map, Limits { cell, end }, &|| bar.inc(1))
+        let all = 2 * left / (count - k + 1) as u32;
+        stress(subject, map, Limits { cell, all }, &|| bar.inc(1))
     };
     let stressed: Vec<Stressed> = maps.into_iter().enumerate().map(one).collect();
     bar.finish_and_clear();
@@ -161,7 +162,7 @@ fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begin: Instant) -> (
         method: subject.base.method.clone(),
         typical_step: subject.base.typical.step,
         typical_period: subject.base.typical.period,
-        wall_seconds: begin.elapsed().as_secs_f64(),
+        wall_seconds: begun.wall().as_secs_f64(),
         maps: stressed.iter().map(MapFile::from).collect(),
     };
     (file, stressed)

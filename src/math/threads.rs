@@ -81,15 +81,23 @@ fn in_turn<P: Divisible>(all: P, work: &impl Fn(P)) {
 mod tests {
     use super::{each, spread};
     use std::panic::{AssertUnwindSafe, catch_unwind};
+    use std::sync::{Condvar, Mutex};
     use std::thread::{ThreadId, current};
+    use std::time::Duration;
 
-    /// The threads that work at ten places, each some time.
-    fn threads() -> Vec<Option<ThreadId>> {
-        let mut all = [None; 10];
+    /// The threads that work at ten places. Each waits at its first place until so many have come.
+    fn threads(count: usize) -> Vec<Option<ThreadId>> {
+        let (mut all, came, more) = ([None; 10], Mutex::new(Vec::new()), Condvar::new());
         each(&mut all[..], &|part: &mut [Option<ThreadId>]| {
             assert_eq!(part.len(), 1);
-            std::thread::sleep(std::time::Duration::from_millis(2));
             part[0] = Some(current().id());
+            let mut came = came.lock().unwrap();
+            if !came.contains(&part[0]) {
+                came.push(part[0]);
+                more.notify_all();
+            }
+            // Those that never come are missed by the test.
+            drop(more.wait_timeout_while(came, Duration::from_secs(60), |came| came.len() < count).unwrap());
         });
         all.to_vec()
     }
@@ -98,8 +106,8 @@ mod tests {
     fn work_is_divided_within_spread_alone() {
         let own = Some(current().id());
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
-        assert_eq!(threads(), [own; 10]);
-        let [on_two, alone] = pool.install(|| [spread(threads), threads()]);
+        assert_eq!(threads(1), [own; 10]);
+        let [on_two, alone] = pool.install(|| [spread(|| threads(2)), threads(1)]);
         assert!(on_two.iter().all(Option::is_some) && on_two.iter().any(|thread| *thread != on_two[0]), "{on_two:?}");
         assert_eq!(alone, [alone[0]; 10]);
     }
@@ -108,6 +116,6 @@ mod tests {
     fn a_panic_ends_spread() {
         let panics = catch_unwind(AssertUnwindSafe(|| spread(|| panic!("on purpose"))));
         assert!(panics.is_err());
-        assert_eq!(threads(), [Some(current().id()); 10]);
+        assert_eq!(threads(1), [Some(current().id()); 10]);
     }
 }

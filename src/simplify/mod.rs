@@ -53,13 +53,14 @@ pub use search::Trial;
 pub use source::Source;
 pub use start::{Hint, Hints, Unseen, hints};
 
+use crate::clock::Stopwatch;
 use crate::error::{Result, Warning, percent};
 use base::{Accurate, Base, METHOD, doubts};
 use bench::Bench;
 use nearby::Neighbourhood;
 use serde::Serialize;
 use serde_json::{Value, json};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What is promised, and how much it may cost to find the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -151,8 +152,8 @@ pub fn simplify(
     is_stopped: &(dyn Fn() -> bool + Sync),
     watch: &mut dyn FnMut(&str, usize),
 ) -> Result<Simplification> {
-    let begun = Instant::now();
-    let is_within = |part: u32| settings.budget.is_none_or(|budget| begun.elapsed() < budget / part);
+    let begun = Stopwatch::start();
+    let is_within = |part: u32| settings.budget.is_none_or(|budget| begun.wall() < budget / part);
     let (is_asked, is_spent) = (is_stopped, || is_stopped() || !is_within(1));
     let is_stopped: &(dyn Fn() -> bool + Sync) = &is_spent;
     let is_long = || is_asked() || !is_within(RICHEST);

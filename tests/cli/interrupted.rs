@@ -6,6 +6,7 @@ use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
 /// Hours of computing, with few rows.
@@ -24,23 +25,60 @@ fn signal(child: &Child, name: &str) {
 
 /// Whether this process, and so ours, has HUP ignored, as nohup does.
 fn is_sheltered() -> bool {
-    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    is_ignored(std::process::id(), 1)
+}
+
+/// Whether a process has a signal ignored; false where the system does not tell.
+fn is_ignored(process: u32, signal: u32) -> bool {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0) & 1 != 0
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0) & 1 << (signal - 1) != 0
 }
 
-/// Waits until the run steps: it listens by then.
-fn interrupted(place: &Place, args: &[&str], with: &str) -> Output {
-    end(start(place, args), with)
-}
-
-fn end(child: Child, with: &str) -> Output {
-    std::thread::sleep(Duration::from_millis(500));
-    signal(&child, with);
+/// Waits for a condition.
+fn until(is_so: impl Fn() -> bool) {
     let clock = Instant::now();
-    let output = child.wait_with_output().unwrap();
-    assert!(clock.elapsed() < Duration::from_secs(5), "it ended after {:?}", clock.elapsed());
-    output
+    while !is_so() {
+        assert!(clock.elapsed() < FOREVER);
+        std::thread::sleep(Duration::from_micros(200));
+    }
+}
+
+/// A run that does not end by then hangs.
+const FOREVER: Duration = Duration::from_secs(120);
+/// How an interrupted command ends that has no part of a result to write, and any that has not begun to step.
+const AT_ONCE: Option<i32> = Some(130);
+
+/// Sends a signal to a run that `begin` starts and waits for its end.
+///
+/// When a run listens cannot be seen from outside. So the signal is sent until the run ends. Where that was too early, or
+/// twice, it is begun again, with twice the time between signals; `begin` is called with that time.
+fn interrupted(begin: impl Fn(Duration) -> Child, with: &str, is_heard: impl Fn(&Output) -> bool) -> Output {
+    let mut pause = Duration::from_millis(100);
+    loop {
+        let mut child = begin(pause);
+        let clock = Instant::now();
+        while child.try_wait().unwrap().is_none() {
+            assert!(clock.elapsed() < FOREVER, "it does not hear {with}");
+            std::thread::sleep(pause);
+            signal(&child, with);
+        }
+        let output = child.wait_with_output().unwrap();
+        if is_heard(&output) || 8 * pause > FOREVER {
+            return output;
+        }
+        pause *= 2;
+    }
+}
+
+/// A run that writes what it has.
+fn has_ended_itself(output: &Output) -> bool {
+    output.status.code().is_some_and(|code| Some(code) != AT_ONCE)
+}
+
+/// A command that has nothing to write.
+fn has_ended_at_once(output: &Output) -> bool {
+    output.status.code().is_some()
 }
 
 #[test]
@@ -48,7 +86,8 @@ fn an_interrupted_run_writes_what_it_has() {
     let signals = if is_sheltered() { &["INT", "TERM"][..] } else { &["INT", "TERM", "HUP"] };
     for with in signals {
         let place = Place::new(PENDULUM);
-        let output = interrupted(&place, &[&["simulate"], &ENDLESS[..], &["here"]].concat(), with);
+        let args = [&["simulate"], &ENDLESS[..], &["here"]].concat();
+        let output = interrupted(|_| start(&place, &args), with, has_ended_itself);
         let message = err(&output);
         assert_eq!(output.status.code(), Some(1), "{message}");
         for piece in ["error: stopped at t = ", ": interrupted\n", "what was computed until then is in here"] {
@@ -74,8 +113,8 @@ fn start_ignoring(place: &Place, ignored: &str, args: &[&str]) -> Child {
 fn signals_are_heard_under_nohup_and_in_the_background() {
     for (ignored, with) in [("HUP", "TERM"), ("HUP", "INT"), ("INT QUIT", "INT"), ("INT QUIT HUP", "TERM")] {
         let place = Place::new(PENDULUM);
-        let child = start_ignoring(&place, ignored, &[&["simulate"], &ENDLESS[..], &["here"]].concat());
-        let output = end(child, with);
+        let args = [&["simulate"], &ENDLESS[..], &["here"]].concat();
+        let output = interrupted(|_| start_ignoring(&place, ignored, &args), with, has_ended_itself);
         let message = err(&output);
         assert_eq!(output.status.code(), Some(1), "{ignored}, {with}: {message}");
         assert!(message.contains(": interrupted\n"), "{message}");
@@ -92,8 +131,8 @@ fn every_command_hears_signals_in_the_background() {
     ];
     for args in commands {
         let place = Place::new(PENDULUM);
-        let output = end(start_ignoring(&place, "INT QUIT HUP", args), "INT");
-        assert_eq!((output.status.code(), err(&output).as_str()), (Some(130), "interrupted\n"), "{args:?}");
+        let output = interrupted(|_| start_ignoring(&place, "INT QUIT HUP", args), "INT", has_ended_at_once);
+        assert_eq!((output.status.code(), err(&output).as_str()), (AT_ONCE, "interrupted\n"), "{args:?}");
     }
 }
 
@@ -101,18 +140,26 @@ fn every_command_hears_signals_in_the_background() {
 #[cfg(target_os = "linux")]
 fn nohup_keeps_a_run_from_hanging_up() {
     let place = Place::new(PENDULUM);
-    let mut child = start_ignoring(&place, "HUP", &[&["simulate"], &ENDLESS[..], &["here"]].concat());
-    std::thread::sleep(Duration::from_millis(500));
-    signal(&child, "HUP");
-    std::thread::sleep(Duration::from_millis(300));
-    assert_eq!(child.try_wait().unwrap(), None);
-    assert_eq!(end(child, "TERM").status.code(), Some(1));
+    let args = [&["simulate"], &ENDLESS[..], &["here"]].concat();
+    let ends = AtomicU32::new(0);
+    let begin = |pause: Duration| {
+        let mut child = start_ignoring(&place, "HUP", &args);
+        until(|| is_ignored(child.id(), 1));
+        signal(&child, "HUP");
+        std::thread::sleep(pause);
+        ends.fetch_add(u32::from(child.try_wait().unwrap().is_some()), Ordering::Relaxed);
+        child
+    };
+    // Had it been heard, TERM would be the second signal.
+    assert_eq!(interrupted(begin, "TERM", has_ended_itself).status.code(), Some(1));
+    assert_eq!(ends.into_inner(), 0, "HUP ends it");
 }
 
 #[test]
 fn all_stabilizations_are_interrupted_together() {
     let place = Place::new(PENDULUM);
-    let output = interrupted(&place, &[&["drift"], &ENDLESS[..], &["here"]].concat(), "INT");
+    let args = [&["drift"], &ENDLESS[..], &["here"]].concat();
+    let output = interrupted(|_| start(&place, &args), "INT", has_ended_itself);
     assert_eq!(output.status.code(), Some(1), "{}", err(&output));
     assert!(err(&output).contains(": interrupted\n"), "{}", err(&output));
     assert_whole(&place.path("here"));
@@ -122,34 +169,29 @@ fn all_stabilizations_are_interrupted_together() {
 #[test]
 fn an_interrupted_command_that_has_no_part_of_a_result_writes_none() {
     let place = Place::new(PENDULUM);
-    let output = interrupted(&place, &["validate", "scene.json", "--horizon", "1e6", "-o", "here"], "INT");
-    assert_eq!((output.status.code(), err(&output).as_str()), (Some(130), "interrupted\n"));
+    let args = ["validate", "scene.json", "--horizon", "1e6", "-o", "here"];
+    let output = interrupted(|_| start(&place, &args), "INT", has_ended_at_once);
+    assert_eq!((output.status.code(), err(&output).as_str()), (AT_ONCE, "interrupted\n"));
     assert_eq!(place.files("here"), [""; 0]);
 }
 
-/// The second signal does not wait for anything.
+/// The second signal does not wait for anything: both arrive at once, in a run with much to write.
 #[test]
 fn the_second_signal_ends_at_once() {
     let place = Place::new(PENDULUM);
-    // Between two signals so near to each other 300 000 rows cannot be written, but on a busy machine they may be.
-    let ends_at_once = || {
+    let endless = MUCH.map(|word| if word == "5" { "1e5" } else { word });
+    let begin = |pause| {
         let _ = fs::remove_dir_all(place.path("here"));
-        let mut child = start(&place, &MUCH.map(|word| if word == "5" { "30" } else { word }));
-        std::thread::sleep(Duration::from_millis(300));
-        while child.try_wait().unwrap().is_none() {
-            signal(&child, "INT");
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        let output = child.wait_with_output().unwrap();
-        output.status.code() == Some(130) && err(&output).ends_with("interrupted\n")
+        let child = start(&place, &endless);
+        std::thread::sleep(pause);
+        ["STOP", "INT", "TERM", "CONT"].iter().for_each(|with| signal(&child, with));
+        child
     };
-    assert!((0..5).any(|_| ends_at_once()));
+    let is_heard = |output: &Output| err(output).lines().count() == 2;
+    let output = interrupted(begin, "INT", is_heard);
+    let said = "interrupted: the results so far are written; again to end at once\ninterrupted\n";
+    assert_eq!((output.status.code(), err(&output).as_str()), (AT_ONCE, said));
     assert!(!place.path("here/summary.json").exists());
-}
-
-/// A deterministic spread of moments: fractions of the golden ratio.
-fn moments(count: u32) -> impl Iterator<Item = f64> {
-    (1..=count).map(|k| (f64::from(k) * 0.618_033_988_749_895).fract())
 }
 
 fn hidden(folder: &Path) -> Vec<std::path::PathBuf> {
@@ -157,21 +199,31 @@ fn hidden(folder: &Path) -> Vec<std::path::PathBuf> {
     entries.filter(|path| path.file_name().unwrap().to_string_lossy().starts_with('.')).collect()
 }
 
+/// Kills a run as soon as it writes this file, or at once without a name.
+fn killed(place: &Place, file: &str) {
+    let (mut child, folder) = (start(place, &MUCH), place.path("here"));
+    while !file.is_empty()
+        && child.try_wait().unwrap().is_none()
+        && !hidden(&folder).iter().any(|path| path.join(file).exists())
+    {
+        std::thread::sleep(Duration::from_micros(200));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
 #[test]
 fn a_killed_run_leaves_whole_files() {
     let place = Place::new(PENDULUM);
-    place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
+    place.done(&[&MUCH[..7], &["whole"]].concat());
+    let names = [vec![String::new()], place.files("whole")].concat();
+    let run = || place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
+    run();
     let old = place.json("here/summary.json");
-    let clock = Instant::now();
-    place.done(&[&MUCH[..7], &["timed"]].concat());
-    let usual = clock.elapsed();
     let (mut before, mut after, mut left) = (0, 0, 0);
-    for part in moments(25) {
-        let mut child = start(&place, &MUCH);
-        // Beyond the usual time too, so that some runs come to their end.
-        std::thread::sleep(usual.mul_f64(1.2 * part));
-        child.kill().unwrap();
-        child.wait().unwrap();
+    // On a busy machine a run may have come to its end before it is killed.
+    for name in names.iter().cycle().take(20 * names.len()) {
+        killed(&place, name);
         left += usize::from(!hidden(&place.path("here")).is_empty());
         assert_whole(&place.path("here"));
         match place.path("here/summary.json").exists().then(|| place.json("here/summary.json")) {
@@ -181,9 +233,12 @@ fn a_killed_run_leaves_whole_files() {
             None => {}
         }
         fs::remove_dir_all(place.path("here")).unwrap();
-        place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
+        run();
+        if before + after >= 2 * names.len() && before >= 5 && left >= 5 {
+            return;
+        }
     }
-    assert!(before >= 5, "{before} killed before, {after} after the end, {left} left something behind");
+    panic!("{before} killed before, {after} after the end, {left} left something behind");
 }
 
 #[test]
@@ -191,14 +246,8 @@ fn what_a_killed_run_left_behind_is_removed() {
     let place = Place::new(PENDULUM);
     let folder = place.path("here");
     // The middle of writing is where the hidden folder is.
-    let is_caught = (0..20).any(|_| {
-        let mut child = start(&place, &MUCH);
-        while child.try_wait().unwrap().is_none() && !hidden(&folder).iter().any(|path| path.join("drift.csv").exists())
-        {
-            std::thread::sleep(Duration::from_micros(200));
-        }
-        child.kill().unwrap();
-        child.wait().unwrap();
+    let is_caught = (0..100).any(|_| {
+        killed(&place, "drift.csv");
         !hidden(&folder).is_empty()
     });
     assert!(is_caught && !folder.join("summary.json").exists());

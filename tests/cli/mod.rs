@@ -97,9 +97,10 @@ impl Place {
         self.0.path().join(name)
     }
 
+    /// The program, of which budgets are counted in steps and rows, 10 000 for a second.
     fn command(&self, args: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_holonom"));
-        command.args(args).current_dir(self.0.path());
+        command.args(args).current_dir(self.0.path()).env("HOLONOM_CLOCK", "readings");
         command
     }
 

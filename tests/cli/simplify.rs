@@ -53,7 +53,7 @@ fn a_scene_is_not_written_over() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// A motion that takes minutes, in two seconds: the promise is about its first part, and the scene stays as long as it
+/// A motion that takes minutes, in two seconds of counted time: the promise is about its first part, and the scene stays as long as it
 /// was.
 #[test]
 fn a_budget_is_kept() {
@@ -63,10 +63,12 @@ fn a_budget_is_kept() {
             .replace(r#""mass": 1,"#, r#""mass": "m","#)
             .replacen('{', r#"{ "parameters": { "m": 1 },"#, 1),
     );
-    let clock = std::time::Instant::now();
     let output = place.run(&["simplify", "scene.json", "--within", "5%", "--budget", "2s", "-o", "here"]);
-    assert!(clock.elapsed().as_secs_f64() < 20.0 && output.status.code() == Some(0), "{}", err(&output));
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     assert!(err(&output).contains("the time sufficed for the motion until t = "), "{}", err(&output));
+    // Far less than the 9 million rows of the motion: a quarter of 20 000 steps and rows.
+    let told = place.json("here/simplify.json");
+    assert!(told["richest"]["seconds"].as_f64().unwrap() < 0.5, "{}", told["richest"]);
     assert_eq!(place.json("here/simplified.json")["simulation"]["t_end"], 9e4);
     // Motions nearby for which there is no time are told, and are no error.
     let output =

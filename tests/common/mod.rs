@@ -13,10 +13,18 @@ pub mod stiff;
 pub mod unconstrained;
 
 use holonom::analysis::{Record, Recorder};
+use holonom::clock;
 use holonom::integrator::{self, Tightening};
 use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Outcome, Span, simulate};
 use holonom::system::MechanicalSystem;
+use std::time::Duration;
+
+/// Time for so many steps and rows: from now on the clock is counted, so that no test depends on the machine.
+pub fn readings(count: u32) -> Duration {
+    clock::count_readings();
+    clock::TICK * count
+}
 
 /// A method by its names as on the command line.
 pub fn method(formulation: &str, integrator: &str, projection: &str) -> Method {

@@ -18,6 +18,9 @@ const COMMANDS: [&[&str]; 8] = [
     &["check", "--json"],
 ];
 
+/// A run is asked to end after this time.
+const LONG: Duration = Duration::from_secs(2);
+
 /// How the program ended: its code, or what is wrong with it.
 fn ends(number: u64, scene: &Path) -> Result<i32, String> {
     let command = COMMANDS[(number % COMMANDS.len() as u64) as usize];
@@ -44,11 +47,11 @@ fn ends(number: u64, scene: &Path) -> Result<i32, String> {
 /// How the program ended, and whether it had to be asked to. A run of tiny steps rightly takes long, but must hear that.
 fn wait(mut child: Child) -> Option<(ExitStatus, bool)> {
     let (clock, mut is_asked) = (Instant::now(), false);
-    while clock.elapsed() < watch::LONGEST {
+    while clock.elapsed() < watch::FOREVER / 2 {
         if let Some(status) = child.try_wait().unwrap() {
             return Some((status, is_asked));
         }
-        if !is_asked && clock.elapsed() > watch::LONGEST / 2 {
+        if !is_asked && clock.elapsed() > LONG {
             is_asked = Command::new("kill").arg(child.id().to_string()).status().is_ok();
         }
         std::thread::sleep(Duration::from_millis(2));

@@ -5,11 +5,14 @@ mod light_bodies;
 mod nearby;
 
 use crate::scenes::model;
+use holonom::clock;
 use holonom::prepared::Overrides;
 use holonom::simplify::{Nearby, Settings, Simplification, Source, registry, simplify};
 use serde_json::{Value, json};
 
+/// Counted time decides which models and methods are too slow.
 fn settings(within: f64, outputs: &[&str]) -> Settings {
+    clock::count_readings();
     let outputs = outputs.iter().map(|name| name.to_string()).collect();
     Settings { within, outputs, ..Settings::default() }
 }

@@ -9,12 +9,11 @@ fn near(json: Value, within: f64) -> Robustness {
     scene(json, &Settings { nearby, ..settings(within, &[]) }).robustness.unwrap()
 }
 
-/// The same samples in every run; a parameter that is a number of elements is not moved. Of so short a motion the clock
-/// may choose the method, which has errors of its own: of eight runs those by the same one are compared.
+/// The same samples in every run; a parameter that is a number of elements is not moved.
 #[test]
 fn a_promise_is_tried_on_motions_nearby() {
     let nearby = Some(Nearby { by: 0.1, samples: Some(6) });
-    let own = |_| {
+    let own = || {
         let found = scene(pendulum(pin(), json!([damper("weak", 0.01)])), &Settings { nearby, ..settings(0.05, &[]) });
         let near = found.robustness.unwrap();
         assert_eq!((near.counted, near.kept, &near.parameters[..]), (6, 6, &["m".to_string(), "k".to_string()][..]));
@@ -23,11 +22,7 @@ fn a_promise_is_tried_on_motions_nearby() {
         assert!(errors[0] != errors[1]);
         (found.simplified, errors)
     };
-    let all: Vec<_> = (0..8).map(own).collect();
-    let pairs = (0..8).flat_map(|i| (0..i).map(move |j| (i, j)));
-    let alike: Vec<_> = pairs.filter(|(i, j)| all[*i].0 == all[*j].0).collect();
-    assert!(!alike.is_empty());
-    alike.iter().for_each(|(i, j)| assert_eq!(all[*i].1, all[*j].1));
+    assert_eq!(own(), own());
 }
 
 /// A cart on a spring that follows a road, pushed by an input: both are moved. Where a driver says where it is, its start

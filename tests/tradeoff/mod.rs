@@ -5,7 +5,7 @@ mod models;
 mod reference;
 mod scale;
 
-use crate::common::method;
+use crate::common::{method, readings};
 use crate::scenes::{Ready, shipped};
 use holonom::compare::work_precision::{
     Cell, Filter, Motion, Outcome, Plan, RunSample, Runner, Watched, WorkPrecision, cheapest_by_method, grid, sample,
@@ -36,10 +36,11 @@ pub fn filter(formulations: &[&str], integrators: &[&str], projections: &[&str])
     Filter { formulations, integrators, projections: choices(projections) }
 }
 
-pub fn plan(filter: &Filter, seconds: f64) -> Plan {
+/// Within a budget of so many steps and rows.
+pub fn plan(filter: &Filter, budget: u32) -> Plan {
     Plan {
         triples: grid(filter).unwrap(),
-        budget: Duration::from_secs_f64(seconds),
+        budget: readings(budget),
         repeats: 3,
         rows: ROWS,
         digits: 6,
@@ -65,7 +66,7 @@ pub fn run(motion: &Motion, outputs: &[&str], method: &Method) -> RunSample {
     let watched = Watched::new(motion.system, &outputs).unwrap();
     let (start, end) = motion.between;
     let span = Span { start, end, output_step: (end - start) / ROWS as f64 };
-    sample(motion, &watched, method, span, Duration::from_secs(60)).unwrap()
+    sample(motion, &watched, method, span, Duration::MAX).unwrap()
 }
 
 /// x1 = 0.1 cos 5t: the errors that are told are those against the closed form.
@@ -74,7 +75,7 @@ fn errors_are_those_against_the_closed_form() {
     let scene = shipped("two_mass", &[]);
     let motion = motion(&scene, 5.0);
     let result =
-        measured(motion, &plan(&filter(&["index1", "ggl"], &["rk4", "dopri5", "radau_iia"], &[]), 40.0), &["x1"]);
+        measured(motion, &plan(&filter(&["index1", "ggl"], &["rk4", "dopri5", "radau_iia"], &[]), 400_000), &["x1"]);
     let reference = result.reference.as_ref().unwrap();
     let exact = |row: usize| 0.1 * (5.0 * 5.0 * row as f64 / ROWS as f64).cos();
     let largest = (1..=ROWS).fold(0.0f64, |most, row| most.max(exact(row).abs()));
@@ -97,7 +98,7 @@ fn errors_are_those_against_the_closed_form() {
 #[test]
 fn recommendations_are_the_best_of_what_was_measured() {
     let scene = shipped("four_bar_spring", &[]);
-    let result = measured(motion(&scene, 1.0), &plan(&filter(&["index1", "index2", "index3"], &[], &[]), 8.0), &[]);
+    let result = measured(motion(&scene, 1.0), &plan(&filter(&["index1", "index2", "index3"], &[], &[]), 80_000), &[]);
     let all = result.recommendations();
     assert!(all.len() >= 6 && all.iter().zip(1..).all(|(advice, digits)| advice.digits == digits), "{all:?}");
     let cost = |place: usize| result.cells[place].cost.unwrap();
@@ -138,7 +139,7 @@ fn recommendations_are_the_best_of_what_was_measured() {
 fn implicit_methods_win_where_the_rod_is_flexible() {
     let scene = shipped("flexible_slider_crank_fe", &[]);
     let filter = filter(&["index1", "ggl"], &["rk4", "dopri5", "dop853", "radau_iia"], &["none"]);
-    let result = measured(motion(&scene, 0.01), &plan(&filter, 40.0), &["x3", "deflection", "moment"]);
+    let result = measured(motion(&scene, 0.01), &plan(&filter, 400_000), &["x3", "deflection", "moment"]);
     let advice = result.recommend(4).unwrap();
     assert_eq!(result.cells[advice.best].method.integrator.name, "radau_iia");
     let [explicit, implicit] = [advice.explicit, advice.implicit].map(|place| &result.cells[place.unwrap()]);
@@ -149,27 +150,22 @@ fn implicit_methods_win_where_the_rod_is_flexible() {
     let ratio = explicit_work as f64 / implicit_work as f64;
     // Measured: 29, 38972 evaluations of dopri5, which follows the fastest mode, against 992 with 365 factorizations.
     assert!(ratio > 20.0, "{explicit_work} {implicit_work}");
-    // In CPU time it is 12 to 18 without rows, and 5 to 6 with 200: the 73 steps of radau_iia take 20 ms, but each row
-    // between them is a step of its own, solved for it, which takes 40 ms more and is counted beside them.
-    let ratio = explicit.cost.unwrap() / implicit.cost.unwrap();
-    assert!(ratio > 4.0, "{ratio}");
 }
 
 /// What a method cannot do, and what takes too long, stays with its reason.
 #[test]
 fn failures_stay_with_their_reason() {
     let scene = shipped("spinning_top", &[]);
-    let mut hasty = plan(&filter(&["index3", "index1"], &["rattle", "heun", "dop853"], &["none"]), 16.0);
+    let mut hasty = plan(&filter(&["index3", "index1"], &["rattle", "heun", "dop853"], &["none"]), 160_000);
     hasty.is_exhaustive = true;
     let result = measured(motion(&scene, 1.0), &hasty, &[]);
     let of = |name: &'static str| result.cells.iter().filter(move |cell| cell.method.integrator.name == name);
-    let left_out = result.left_out.clone().unwrap_or_default();
-    assert!(of("rattle").count() > 0 || left_out.contains("budget"));
+    assert!(of("rattle").count() > 0);
     for cell in of("rattle") {
         assert!(cell.reason().unwrap().contains("rattle cannot integrate coordinates"), "{:?}", cell.outcome);
     }
     let slow: Vec<&Cell> = of("heun").filter(|cell| matches!(cell.outcome, Outcome::TooSlow { .. })).collect();
-    assert!(!slow.is_empty() || left_out.contains("budget"), "{left_out}");
+    assert!(!slow.is_empty(), "{:?}", result.left_out);
     assert!(slow.iter().all(|cell| cell.reason().unwrap().starts_with("would take about ")));
     assert!(of("dop853").any(|cell| cell.reason().is_none()));
 }
@@ -179,7 +175,7 @@ fn failures_stay_with_their_reason() {
 fn a_measurement_is_continued() {
     let scene = shipped("two_mass", &[]);
     let motion = motion(&scene, 5.0);
-    let plan = plan(&filter(&["index1"], &["dopri5", "dop853"], &[]), 4.0);
+    let plan = plan(&filter(&["index1"], &["dopri5", "dop853"], &[]), 40_000);
     let whole = measured(motion, &plan, &[]);
     let text = serde_json::to_string(&whole).unwrap();
     let mut half: WorkPrecision = serde_json::from_str(&text).unwrap();
@@ -188,7 +184,7 @@ fn a_measurement_is_continued() {
     let kept = half.cells.iter().filter(|cell| cell.reason().is_none()).count();
     Runner::new(motion, &plan, Watched::new(motion.system, &[]).unwrap(), |_, _| ()).run(&mut half).unwrap();
     assert!(kept < half.cells.len() && half.seconds > whole.seconds);
-    // Which finer runs are worth making is up to the clock; those of both measurements are compared.
+    // Which finer runs are worth making depends on what others cost; those of both measurements are compared.
     let pairs = whole.cells.iter().filter_map(|cell| {
         let again = half.cells.iter().find(|again| again.decades == cell.decades && again.is_of(&cell.method))?;
         (cell.reason().is_none() && again.reason().is_none()).then_some((cell, again))

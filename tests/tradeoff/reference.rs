@@ -39,7 +39,7 @@ fn equations_of_ones_own_have_a_reference_too() {
         counts_start: false,
         is_stopped: &|| false,
     };
-    let result = measured(motion, &plan(&filter(&["index1"], &["dop853"], &["none"]), 3.0), &[]);
+    let result = measured(motion, &plan(&filter(&["index1"], &["dop853"], &["none"]), 30_000), &[]);
     let reference = result.reference.unwrap();
     assert!(reference.is_independent && reference.error < 1e-10, "{} {:e}", reference.checked_by, reference.error);
     for (row, k) in reference.values.rows.iter().zip(1..) {
@@ -57,7 +57,7 @@ fn a_table_of_values_is_compared_with() {
     let measure = |given: Given| {
         let rows = given.parts((0.0, 5.0), ROWS).unwrap();
         assert_eq!(rows, 1);
-        let plan = Plan { given: Some(given), rows, ..plan(&filter(&["index1"], &["dop853"], &["manifold"]), 2.0) };
+        let plan = Plan { given: Some(given), rows, ..plan(&filter(&["index1"], &["dop853"], &["manifold"]), 20_000) };
         let watched = Watched::new(motion.system, &["x1".to_string()]).unwrap();
         let mut result = fresh(&motion);
         result.rows = rows;

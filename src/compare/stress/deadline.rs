@@ -1,36 +1,65 @@
 //! Deadlines of runs.
 
-use cpu_time::ThreadTime;
-use std::time::{Duration, Instant};
+use crate::clock::Stopwatch;
+use std::time::Duration;
 
 /// Limits of the computation time.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// CPU time of each cell.
     pub cell: Duration,
-    /// End of all cells: those not begun by then are skipped, and runs end.
-    pub end: Instant,
+    /// Time for all cells: those not begun by then are skipped, and runs end.
+    pub all: Duration,
+}
+
+/// The time of one of the threads that share the cells.
+#[derive(Clone, Copy)]
+pub(super) struct Shift {
+    /// CPU time of each cell.
+    pub cell: Duration,
+    all: Duration,
+    watch: Stopwatch,
+}
+
+impl Shift {
+    pub fn begin(Limits { cell, all }: Limits) -> Self {
+        Shift { cell, all, watch: Stopwatch::start() }
+    }
+
+    /// Returns the time that is left for all cells.
+    pub fn left(&self) -> Duration {
+        self.all.saturating_sub(self.watch.wall())
+    }
 }
 
 /// Deadline of a run that has begun.
 pub(super) struct Deadline {
-    begun: (Instant, ThreadTime),
     share: Duration,
-    end: Instant,
+    left: Duration,
+    watch: Stopwatch,
+}
+
+/// The time that is over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Over {
+    /// The run's own share.
+    Share,
+    /// That for all cells.
+    All,
 }
 
 impl Deadline {
-    /// The deadline after the CPU time `share`, or at the end of all.
-    pub fn new(share: Duration, limits: Limits) -> Self {
-        Deadline { begun: (Instant::now(), ThreadTime::now()), share, end: limits.end }
+    /// The deadline after the CPU time `share`, or at the end of the shift.
+    pub fn new(share: Duration, shift: Shift) -> Self {
+        Deadline { share, left: shift.left(), watch: Stopwatch::start() }
     }
 
-    pub fn is_over(&self) -> bool {
-        self.is_used_up() || Instant::now() > self.end
-    }
-
-    /// True if the run has used its own share. The clock of CPU time is slow to read.
-    pub fn is_used_up(&self) -> bool {
-        self.begun.0.elapsed() > self.share && self.begun.1.elapsed() > self.share
+    /// Returns the time that is over, if any. The clock of CPU time is slow to read.
+    pub fn over(&self) -> Option<Over> {
+        let waited = self.watch.wall();
+        if waited > self.share && self.watch.cpu() > self.share {
+            return Some(Over::Share);
+        }
+        (waited > self.left).then_some(Over::All)
     }
 }

@@ -1,13 +1,13 @@
 //! The motion that errors are measured against.
 
-use super::deadline::Limits;
+use super::deadline::Shift;
 use super::subject::Case;
 use super::subject::Subject;
 use crate::compare::work_precision::{Allowed, ErrorMetric, Motion, Watched, sample};
 use crate::method_spec::MethodSpec;
 use crate::simulate::Method;
 use crate::tolerances::report as tolerances;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Result of the search for a reference.
 pub(super) enum Search {
@@ -24,7 +24,7 @@ const METHODS: [[&str; 3]; 2] = [["index1", "dop853", "manifold"], ["ggl", "rada
 
 impl Search {
     /// Simulates the motion of the case, by the first method that completes it within the CPU time allowed to each.
-    pub fn run(subject: &Subject, case: &Case, allowed: Duration, limits: Limits) -> Self {
+    pub fn run(subject: &Subject, case: &Case, allowed: Duration, shift: Shift) -> Self {
         let mut search = Search::Hopeless;
         for names in METHODS {
             let [formulation, integrator, projection] = names.map(MethodSpec::named);
@@ -36,7 +36,7 @@ impl Search {
                 atol: tolerances::REFERENCE_RTOL,
                 step: None,
             };
-            match Self::by(subject, Case { method, ..case.clone() }, allowed, limits) {
+            match Self::by(subject, Case { method, ..case.clone() }, allowed, shift) {
                 Search::Hopeless => {}
                 Search::Pending(part) => search = Search::Pending(part.max(search.part())),
                 found => return found,
@@ -49,12 +49,12 @@ impl Search {
         if let Search::Pending(part) = self { *part } else { 0.0 }
     }
 
-    fn by(subject: &Subject, case: Case, cpu: Duration, limits: Limits) -> Self {
+    fn by(subject: &Subject, case: Case, cpu: Duration, shift: Shift) -> Self {
         let found = subject.with(&case, |system, span, start| {
             let (between, is_stopped) = ((span.start, span.end), &|| false);
             let motion = Motion { system, start, between, ratio: 1.0, counts_start: true, is_stopped };
             let watched = Watched::new(system, &[])?;
-            let wall = limits.end.saturating_duration_since(Instant::now());
+            let wall = shift.left();
             let run = sample(&motion, &watched, &case.method, span, Allowed { cpu, wall })?;
             Ok(match run.failure {
                 None => Search::Found(ErrorMetric::new(&watched.columns, run.rows, &run.sizes)),

@@ -1,17 +1,17 @@
 //! All cells of a map, in parallel, each under its deadline.
 
 use super::cell::{Cell, Status};
-use super::deadline::Limits;
+use super::deadline::{Limits, Shift};
 use super::map::Map;
 use super::queue::{Job, Queues, What};
 use super::reference::Search;
 use super::simulation::{blank, run};
 use super::subject::Subject;
+use crate::clock::Stopwatch;
 use crate::compare::work_precision::ErrorMetric;
 use crate::math::memory::at_once;
-use cpu_time::ThreadTime;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Memory of a cell relative to the peak of the process after one run of the subject; implicit methods take more.
 const MEMORY: f64 = 2.0;
@@ -50,7 +50,7 @@ pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn()
     // Cells run in parallel: matrix operations on other threads would wait for them.
     faer::set_global_parallelism(faer::Par::Seq);
     let work = Work::new(subject, &map);
-    let one = || work.run(subject, &map, limits, progress);
+    let one = || work.run(subject, &map, Shift::begin(limits), progress);
     let threads = at_once(MEMORY).min(rayon::current_num_threads());
     match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
         Ok(pool) => drop(pool.broadcast(|_| one())),
@@ -100,29 +100,29 @@ impl Work {
     }
 
     /// Runs jobs until all are done or the time is over.
-    fn run(&self, subject: &Subject, map: &Map, limits: Limits, progress: &(impl Fn() + Sync)) {
+    fn run(&self, subject: &Subject, map: &Map, shift: Shift, progress: &(impl Fn() + Sync)) {
         loop {
-            let next = locked(&self.queues).take(limits.cell);
-            let Some((queue, job)) = next.filter(|_| Instant::now() < limits.end) else { return };
-            let clock = ThreadTime::now();
-            let cut = self.attempt(subject, map, job, limits);
+            let next = locked(&self.queues).take(shift.cell);
+            let Some((queue, job)) = next.filter(|_| !shift.left().is_zero()) else { return };
+            let watch = Stopwatch::start();
+            let cut = self.attempt(subject, map, job, shift);
             if cut.is_none() && matches!(job.what, What::Cell(_)) {
                 progress();
             }
-            let came = (clock.elapsed(), cut);
-            locked(&self.queues).give_back((queue, job), limits.cell, came, self.neighbours(map, job.what));
+            let came = (watch.cpu(), cut);
+            locked(&self.queues).give_back((queue, job), shift.cell, came, self.neighbours(map, job.what));
         }
     }
 
     /// Makes an attempt; returns the part of the motion completed if it was stopped.
-    fn attempt(&self, subject: &Subject, map: &Map, job: Job, limits: Limits) -> Option<f64> {
-        let share = job.share(limits.cell);
+    fn attempt(&self, subject: &Subject, map: &Map, job: Job, shift: Shift) -> Option<f64> {
+        let share = job.share(shift.cell);
         match job.what {
             What::Motion(index) => {
                 let (at, found) = &self.motions[index];
-                let search = search(subject, map, *at, (limits, share));
+                let search = search(subject, map, *at, (shift, share));
                 let cut = match search {
-                    Search::Pending(part) if share < limits.cell => Some(part),
+                    Search::Pending(part) if share < shift.cell => Some(part),
                     _ => None,
                 };
                 *locked(found) = search;
@@ -130,7 +130,7 @@ impl Work {
             }
             What::Cell(index) => {
                 let slot = &self.cells[index];
-                let (cell, rows, part) = run(subject, map, slot.at, (limits, share));
+                let (cell, rows, part) = run(subject, map, slot.at, (shift, share));
                 let cut = (cell.status == Status::LeftOut).then_some(part);
                 *locked(&slot.came) = (cell, rows);
                 cut
@@ -180,12 +180,12 @@ fn into_inner<T>(mutex: Mutex<T>) -> T {
 }
 
 /// Searches for the reference of a cell.
-fn search(subject: &Subject, map: &Map, at: [usize; 3], (limits, share): (Limits, Duration)) -> Search {
+fn search(subject: &Subject, map: &Map, at: [usize; 3], (shift, share): (Shift, Duration)) -> Search {
     let mut case = subject.base.clone();
     let mut changes = map.changes(at).filter(|change| !change.keeps_motion());
     if changes.try_for_each(|change| change.apply(&mut case)).is_err() {
         return Search::Hopeless;
     }
-    let is_last = share == limits.cell;
-    Search::run(subject, &case, if is_last { REFERENCE * share } else { share }, limits)
+    let is_last = share == shift.cell;
+    Search::run(subject, &case, if is_last { share.saturating_mul(REFERENCE) } else { share }, shift)
 }

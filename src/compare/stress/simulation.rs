@@ -1,11 +1,12 @@
 //! One simulation.
 
 use super::cell::{Cell, Status};
-use super::deadline::{Deadline, Limits};
+use super::deadline::{Deadline, Over, Shift};
 use super::map::Map;
 use super::subject::Case;
 use super::subject::Subject;
 use crate::analysis::{Record, Recorder};
+use crate::clock::Stopwatch;
 use crate::error::{Error, Result, short};
 use crate::formulation::StepError;
 use crate::simulate::{Outcome, Stop, simulate};
@@ -13,7 +14,7 @@ use crate::tolerances::report as tolerances;
 use serde_json::Value;
 use std::cell::Cell as Flag;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Returns the cell without a result. Its scene is not copied, since there would be many.
 pub(super) fn blank(subject: &Subject, map: &Map, [panel, row, column]: [usize; 3]) -> Cell {
@@ -49,13 +50,13 @@ pub(super) fn run(
     subject: &Subject,
     map: &Map,
     at: [usize; 3],
-    (limits, share): (Limits, Duration),
+    (shift, share): (Shift, Duration),
 ) -> (Cell, Vec<Vec<f64>>, f64) {
-    let clock = Instant::now();
+    let watch = Stopwatch::start();
     let mut case = subject.base.clone();
     let changed = map.changes(at).try_for_each(|change| change.apply(&mut case));
-    let run = changed.and_then(|()| simulated(subject, &case, limits, share));
-    let seconds = clock.elapsed().as_secs_f64();
+    let run = changed.and_then(|()| simulated(subject, &case, shift, share));
+    let seconds = watch.wall().as_secs_f64();
     let blank = Cell { seconds, reason: None, method: case.method, ..blank(subject, map, at) };
     match run {
         Err(error) => (Cell { status: Status::Refused, reason: Some(message(&error)), ..blank }, Vec::new(), 1.0),
@@ -79,16 +80,14 @@ struct Run {
     part: f64,
 }
 
-fn simulated(subject: &Subject, case: &Case, limits: Limits, share: Duration) -> Result<Run> {
+fn simulated(subject: &Subject, case: &Case, shift: Shift, share: Duration) -> Result<Run> {
     subject.with(case, |system, span, start| {
-        let (deadline, stopped) = (Deadline::new(share, limits), Flag::new(None));
+        let (deadline, stopped) = (Deadline::new(share, shift), Flag::new(None));
         let stop = || {
-            let is_slow = share == limits.cell && deadline.is_used_up();
-            let status = if is_slow { Status::TooSlow } else { Status::LeftOut };
-            (is_slow || deadline.is_over()).then(|| {
-                stopped.set(Some(status));
-                Stop::deadline(limits.cell)
-            })
+            let over = deadline.over()?;
+            let is_slow = over == Over::Share && share == shift.cell;
+            stopped.set(Some(if is_slow { Status::TooSlow } else { Status::LeftOut }));
+            Some(Stop::deadline(shift.cell))
         };
         let mut recorder = Recorder::new(system).with_stop(stop);
         let outcome = simulate(system, &case.method, span, start, &mut recorder)?;

@@ -1,6 +1,7 @@
 //! The subject of a map: a scene, or own equations.
 
 use crate::analysis::Recorder;
+use crate::clock::Stopwatch;
 use crate::error::{Result, Warning};
 use crate::math::expression::{Number, Parameters};
 use crate::prepared::{Overrides, PreparedScene};
@@ -10,7 +11,7 @@ use crate::system::{Dimensions, MechanicalSystem};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The scene of a cell as JSON, with its method.
 #[derive(Clone, Debug)]
@@ -214,8 +215,8 @@ impl Random {
 
 impl Typical {
     fn of(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Result<Self> {
-        let clock = Instant::now();
-        let stop = || (clock.elapsed() > PATIENCE).then(|| Stop::deadline(PATIENCE));
+        let watch = Stopwatch::start();
+        let stop = || (watch.wall() > PATIENCE).then(|| Stop::deadline(PATIENCE));
         let mut recorder = Recorder::new(system).with_stop(stop);
         let duration = span.end - span.start;
         let Dimensions { q, v, lambda, .. } = system.dimensions();

@@ -3,13 +3,14 @@
 use super::error_metric::{ErrorMetric, Watched};
 use super::grid::Triple;
 use super::sample::{Allowed, Motion, RunSample, sample};
+use crate::clock::Stopwatch;
 use crate::error::{Failure, Result};
 use crate::formulation;
 use crate::integrator;
 use crate::method_spec::MethodSpec;
 use crate::simulate::{Method, Span, atol_of};
 use std::panic::resume_unwind;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Sequence of rtol, from loose to tight.
 const LADDER: [f64; 6] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13];
@@ -66,23 +67,23 @@ impl Rung {
 /// Bad input.
 pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (f64, Duration)) -> Result<Vec<Line>> {
     let mut lines: Vec<Line> = FAMILIES.iter().map(|_| Line::default()).collect();
-    let clock = Instant::now();
+    let begun = Stopwatch::start();
     for part in PARTS.into_iter().chain([LAST]) {
         let error = check(&lines, watched).map_or(f64::INFINITY, |checked| checked.error.0);
         if error <= if part == LAST { 0.1 } else { wanted } {
             break;
         }
         let (is_last, part) = (part == LAST, budget.mul_f64(part));
-        let waited = budget.mul_f64(WAITED[usize::from(is_last)]);
+        let waited = budget.mul_f64(WAITED[usize::from(is_last)]).saturating_sub(begun.wall());
         let least =
             lines.iter().map(|line| line.forecast(motion)).filter(|time| *time > 0.0).fold(f64::INFINITY, f64::min);
         let up = &|(line, names): (&mut Line, &[&str; 3])| -> Result<()> {
             if is_last && line.forecast(motion) > QUICK * least {
                 return Ok(());
             }
-            let mut cpu = part;
+            let (watch, mut cpu) = (Stopwatch::start(), part);
             while !(motion.is_stopped)() && !cpu.is_zero() {
-                let wall = waited.saturating_sub(clock.elapsed());
+                let wall = waited.saturating_sub(watch.wall());
                 let (is_more, seconds) = line.step(motion, watched, span, (*names, Allowed { cpu, wall }))?;
                 cpu = cpu.saturating_sub(Duration::from_secs_f64(seconds));
                 if !is_more {

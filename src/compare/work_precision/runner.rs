@@ -7,10 +7,11 @@ use super::given::Given;
 use super::grid::Triple;
 use super::reference::Reference;
 use super::sample::{Allowed, Motion, RunSample, sample};
+use crate::clock::Stopwatch;
 use crate::error::Result;
 use crate::simulate::{Method, Span};
 use crate::tolerances::report as tolerances;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Plan of a measurement.
 #[derive(Clone, Debug)]
@@ -37,7 +38,7 @@ pub struct Runner<'a> {
     pub(super) motion: Motion<'a>,
     pub(super) plan: &'a Plan,
     watched: Watched,
-    pub(super) clock: Instant,
+    pub(super) begun: Stopwatch,
     /// Called before every run with its description.
     watch: Box<Watch<'a>>,
 }
@@ -59,7 +60,7 @@ impl<'a> Runner<'a> {
         watched: Watched,
         watch: impl FnMut(&WorkPrecision, &str) + 'a,
     ) -> Self {
-        Runner { motion, plan, watched, clock: Instant::now(), watch: Box::new(watch) }
+        Runner { motion, plan, watched, begun: Stopwatch::start(), watch: Box::new(watch) }
     }
 
     /// Continues from `result` until all is measured, the budget is spent, or the user stops it.
@@ -68,7 +69,7 @@ impl<'a> Runner<'a> {
     /// A motion that no method completes; bad input.
     pub fn run(mut self, result: &mut WorkPrecision) -> Result<()> {
         let before = result.seconds;
-        (result.left_out, self.clock) = (None, Instant::now());
+        (result.left_out, self.begun) = (None, Stopwatch::start());
         if result.reference.is_none() {
             (self.watch)(result, "reference");
             let plan = (self.plan.digits, self.plan.budget);
@@ -86,7 +87,7 @@ impl<'a> Runner<'a> {
         let paused = self.climb(result)?;
         result.price();
         let left_out = self.leave_out(result, paused.as_ref());
-        result.seconds = before + self.clock.elapsed().as_secs_f64();
+        result.seconds = before + self.begun.wall().as_secs_f64();
         let name = |cell: &Cell| {
             let Method { formulation, integrator, projection, .. } = &cell.method;
             self.plan.triples.iter().position(|triple| {
@@ -110,7 +111,7 @@ impl<'a> Runner<'a> {
     }
 
     pub(super) fn left(&self) -> Duration {
-        self.plan.budget.saturating_sub(self.clock.elapsed())
+        self.plan.budget.saturating_sub(self.begun.wall())
     }
 
     /// Announces the next run; returns a reason to stop, if any.

@@ -2,13 +2,13 @@
 
 use super::error_metric::Watched;
 use crate::analysis::{Drift, Sizes};
+use crate::clock::Stopwatch;
 use crate::error::{Failure, Result};
 use crate::formulation::Statistics;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::{MechanicalSystem, Scratch};
-use cpu_time::ThreadTime;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The motion that is measured.
 #[derive(Clone, Copy)]
@@ -88,7 +88,7 @@ pub struct Allowed {
 
 impl From<Duration> for Allowed {
     fn from(cpu: Duration) -> Allowed {
-        Allowed { cpu, wall: BUSY * cpu }
+        Allowed { cpu, wall: cpu.saturating_mul(BUSY) }
     }
 }
 
@@ -117,7 +117,7 @@ pub fn sample(
         sizes: Sizes::default(),
         drift: Drift::default(),
         allowed,
-        clocks: (ThreadTime::now(), Instant::now()),
+        watch: Stopwatch::start(),
     };
     let (outcome, seconds) = cpu_seconds(|| simulate(system, method, span, motion.start, &mut sink));
     let outcome = outcome?;
@@ -129,9 +129,9 @@ pub fn sample(
 
 /// Returns the CPU time of `work` on this thread, s.
 pub fn cpu_seconds<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let clock = ThreadTime::now();
+    let watch = Stopwatch::start();
     let result = work();
-    (result, clock.elapsed().as_secs_f64())
+    (result, watch.cpu().as_secs_f64())
 }
 
 struct Sampler<'a> {
@@ -144,7 +144,7 @@ struct Sampler<'a> {
     sizes: Sizes,
     drift: Drift,
     allowed: Allowed,
-    clocks: (ThreadTime, Instant),
+    watch: Stopwatch,
 }
 
 /// Limit of the wall-clock time of a run on a busy machine, in CPU time limits.
@@ -167,9 +167,8 @@ impl Sink for Sampler<'_> {
             return Some(Stop { reason: "interrupted".to_string(), hint: "begin again".to_string() });
         }
         // The clock of CPU time is slow to read, and never ahead of the other.
-        let (cpu, wall) = self.clocks;
-        let (waited, Allowed { cpu: most, wall: longest }) = (wall.elapsed(), self.allowed);
-        let is_over = waited > longest || waited > most && cpu.elapsed() > most;
+        let (waited, Allowed { cpu: most, wall: longest }) = (self.watch.wall(), self.allowed);
+        let is_over = waited > longest || waited > most && self.watch.cpu() > most;
         is_over.then(|| Stop::deadline(most))
     }
 }

@@ -59,7 +59,7 @@ impl<'a> Runner<'a> {
     ) -> Result<Option<Pause>> {
         for triple in self.pending(result, (decades, is_fine), allowed) {
             let method = self.method(result, triple, decades);
-            let pause = match self.clock.elapsed() > self.plan.budget.mul_f64(GRID) {
+            let pause = match self.begun.wall() > self.plan.budget.mul_f64(GRID) {
                 true => Some(Pause::Budget),
                 false => self.pauses(result, &method.triple()),
             };

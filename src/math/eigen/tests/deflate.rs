@@ -1,7 +1,6 @@
 use super::super::{Deflation, Matrix, Unsolved, deflate, dense, eigen, finite};
 use super::samples::{Form, Mechanism, Random, chain, distance, random, residual, two_mass};
 use crate::tolerances::math::RANK_OF_PENCIL;
-use std::time::Instant;
 
 const WAYS: [Deflation; 2] = [Deflation::NullSpace, Deflation::Gsvd];
 const FORMS: [Form; 4] = [Form::Index3, Form::Index2, Form::Index1, Form::Ggl];
@@ -122,23 +121,19 @@ fn scaling_of_rows_columns_and_time_does_not_matter() {
 }
 
 #[test]
-fn chains_finish_fast() {
+fn chains_are_deflated() {
     for links in [9, 20, 40] {
         for form in FORMS {
             let mechanism = chain(links);
             let (a, e, infinite, zeros) = mechanism.pencil(&form);
             for way in WAYS {
-                let start = Instant::now();
                 let deflated = deflate(&a, &e, way, RANK_OF_PENCIL).unwrap();
-                let seconds = start.elapsed().as_secs_f64();
                 let error = distance(&eigen(&deflated.rate).unwrap().values, &mechanism.values(), zeros);
-                eprintln!("{way:?} n = {}: {:.1} ms, {error:.1e}, gap {:.1e}", a.nrows(), seconds * 1e3, deflated.gap);
+                eprintln!("{way:?} n = {}: {error:.1e}, gap {:.1e}", a.nrows(), deflated.gap);
                 assert_eq!(deflated.infinite(), infinite);
-                assert!(error < 1e-9 && seconds < 5.0);
+                assert!(error < 1e-9);
             }
-            let start = Instant::now();
-            finite(&a, &e, Deflation::NullSpace).unwrap();
-            eprintln!("finite n = {}: {:.1} ms", a.nrows(), start.elapsed().as_secs_f64() * 1e3);
+            assert_eq!(finite(&a, &e, Deflation::NullSpace).unwrap().values.len(), a.nrows() - infinite);
         }
     }
 }

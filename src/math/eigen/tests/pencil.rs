@@ -1,6 +1,5 @@
 use super::super::{Matrix, Unsolved, generalized};
 use super::samples::{Form, Random, chain, distance, random, residual, two_mass};
-use std::time::Instant;
 
 #[test]
 fn finite_eigenvalues_are_those_of_the_projection() {
@@ -32,18 +31,15 @@ fn conjugates_are_exact() {
 }
 
 #[test]
-fn many_infinite_eigenvalues_cost_milliseconds() {
+fn many_infinite_eigenvalues_are_told_apart() {
     for links in [9, 12, 15, 20] {
         for form in [Form::Index3, Form::Index1] {
             let mechanism = chain(links);
             let (a, e, infinite, zeros) = mechanism.pencil(&form);
-            let start = Instant::now();
             let found = generalized(&a, &e).unwrap();
-            let seconds = start.elapsed().as_secs_f64();
             let split = found.split(infinite).unwrap();
             let error = distance(&split.values, &mechanism.values(), zeros);
-            eprintln!("QZ n = {}: {:.1} ms, error {error:.1e}, gap {:.1e}", a.nrows(), seconds * 1e3, split.gap);
-            assert!(seconds < 2.0);
+            eprintln!("QZ n = {}: error {error:.1e}, gap {:.1e}", a.nrows(), split.gap);
             assert!(error < 1e-9);
         }
     }
