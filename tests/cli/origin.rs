@@ -7,7 +7,7 @@ const COMMANDS: [(&[&str], &str); 12] = [
     (&["simulate"], "summary.json"),
     (&["drift"], "stabilizations.json"),
     (&["sweep", "l=1..2:3"], "sweep.json"),
-    (&["tradeoff", "--integrator", "rk4", "--digits", "3", "--rows", "3"], "tradeoff.json"),
+    (&["tradeoff", "--integrator", "rk4", "--digits", "3", "--rows", "3", "--budget", "1s"], "tradeoff.json"),
     (&["tradeoff", "--variants", "scene.json:l=1", "--repeats", "1"], "models.json"),
     (&["stress", "--map", "time", "--limit", "0.01"], "stress.json"),
     (&["plot", "--stroboscope"], "stroboscope.json"),

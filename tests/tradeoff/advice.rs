@@ -9,7 +9,7 @@ use holonom::compare::work_precision::{Filter, Outcome, Plan, WorkPrecision};
 fn a_budget_is_kept_and_spent_on_what_is_cheap() {
     let scene = shipped("spin_up_beam", &[]);
     let end = scene.0.span().unwrap().end;
-    let plan = plan(&Filter::default(), 100_000);
+    let plan = plan(&Filter::default(), 20_000);
     let result = measured(motion(&scene, end), &plan, &[]);
     assert!(result.recommend(4).is_some(), "{:?}", result.recommendations());
     // All methods would take far longer. A run that has begun is stopped.
@@ -23,7 +23,7 @@ fn a_budget_is_kept_and_spent_on_what_is_cheap() {
 fn a_short_budget_gives_something() {
     let scene = shipped("five_link_suspension", &[]);
     let end = scene.0.span().unwrap().end;
-    let result = measured(motion(&scene, end), &plan(&Filter::default(), 20_000), &[]);
+    let result = measured(motion(&scene, end), &plan(&Filter::default(), 10_000), &[]);
     assert!(result.recommend(3).is_some(), "{:?}", result.reference);
 }
 
@@ -56,7 +56,7 @@ fn advice_does_not_depend_on_the_load() {
     for (name, end) in [("slider_crank", 0.5), ("five_link_suspension", 0.5), ("andrews", 0.03)] {
         let scene = shipped(name, &[]);
         let formulations = ["index1", "baumgarte:alpha=5,beta=5", "force_projection:position=1,velocity=1"];
-        let plan: Plan = plan(&filter(&formulations, &["rk4", "dopri5", "dop853"], &[]), 200_000);
+        let plan: Plan = plan(&filter(&formulations, &["rk4", "dopri5", "dop853"], &[]), 60_000);
         let idle = measured(motion(&scene, end), &plan, &[]);
         for seed in 0..10 {
             let (mut busy, mut random) = (idle.clone(), fastrand::Rng::with_seed(seed));
