@@ -6,6 +6,7 @@ use holonom::linearize::{
 };
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
+use holonom::scene::Scene;
 use holonom::sweep::{Family, Range};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -246,6 +247,28 @@ fn descriptor_and_minimal_models_answer_alike() {
             assert_eq!(a.ncols(), inputs);
             let off = (a - b).camax();
             assert!(off < 1e-9 * a.camax().max(1e-6 * largest), "{scene}: {off} of {}", a.camax());
+        }
+    }
+}
+
+/// At the hanging pendulum neither energy nor the size of the reaction changes with the torque, to first order.
+#[test]
+fn what_cancels_to_round_off_does_not_respond() {
+    let text = r#"{ "name": "pendulum", "dimension": 2, "gravity": [0, -9.81], "ground": { "markers": { "O": [0, 0] } },
+        "bodies": [{ "name": "rod", "type": "rigid", "mass": 1, "inertia": "1/12", "markers": { "A": ["-1/2", 0] },
+            "initial": { "position": [0.3, -0.4], "angle": -0.9 } }],
+        "joints": [{ "name": "h", "type": "revolute", "between": ["ground.O", "rod.A"] }],
+        "forces": [{ "name": "m", "type": "applied_torque", "at": "rod.A", "torque": 0 }],
+        "inputs": [{ "name": "m", "force": "m" }],
+        "outputs": [
+            { "name": "angle", "measure": "angle", "of": "rod" }, { "name": "energy", "measure": "energy" },
+            { "name": "pin", "measure": "reaction", "of": "h" }] }"#;
+    let prepared = PreparedScene::new(Scene::parse(text, &[]).unwrap(), &Overrides::default()).unwrap();
+    let state = at_rest(&prepared, &State::start(&prepared)).unwrap().state;
+    for method in ["mcs", "rcs", "rcs:form=index2", "baumgarte"] {
+        for response in frequency_response(&model(&prepared, &state, method), &frequencies()) {
+            let [angle, energy, pin] = [0, 1, 2].map(|i| response.as_ref().unwrap()[(i, 0)]);
+            assert!(angle.norm() > 0.0 && (energy, pin) == (c(0.0, 0.0), c(0.0, 0.0)), "{method}: {energy} {pin}");
         }
     }
 }

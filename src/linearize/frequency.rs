@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 /// Returns H(i w) = (C (i w E - A)^-1 B + D) (i w)^r at frequencies in Hz, each n_y x n_u; none at a pole. Where an input
 /// of the model is the derivative of order r of an input of the system, this is the response to the latter. What is below
-/// round-off of the sum C x is zero.
+/// round-off of the sum C x + D is zero.
 ///
 /// Without E, A is brought to Hessenberg form once, and a frequency takes n^2 operations for each input (Laub, IEEE
 /// Trans. Autom. Control 26, 1981); descriptor forms take an LU decomposition each.
@@ -67,10 +67,13 @@ impl Reduced {
         };
         let states = states?;
         let mut response = &self.c * &states + &self.d;
-        for (mut column, x) in response.column_iter_mut().zip(states.column_iter()) {
-            let size = tolerances::ROUND_OFF_OF_FACTORS * x.norm();
-            let entries = column.iter_mut().zip(&self.sizes);
-            entries.filter(|(value, c)| value.norm() < *c * size).for_each(|(value, _)| *value = Complex::ZERO);
+        let sizes = states.column_iter().map(|x| x.norm());
+        for ((mut column, x), d) in response.column_iter_mut().zip(sizes).zip(self.d.column_iter()) {
+            for ((value, c), d) in column.iter_mut().zip(&self.sizes).zip(d.iter()) {
+                if value.norm() < tolerances::ROUND_OFF_OF_FACTORS * (c * x + d.norm()) {
+                    *value = Complex::ZERO;
+                }
+            }
         }
         response.column_iter_mut().zip(&self.orders).for_each(|(mut column, r)| column *= s.powu(*r as u32));
         response.iter().all(|x| x.re.is_finite() && x.im.is_finite()).then_some(response)

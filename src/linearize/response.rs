@@ -5,6 +5,7 @@ use super::variation::at_state;
 use super::{Matrix, Variation};
 use crate::error::Result;
 use crate::system::OutputTangent;
+use crate::tolerances::linearize as tolerances;
 
 /// dv' and dlambda of a formulation, one column for each change of a [`Perturbation`].
 #[derive(Clone, Debug)]
@@ -30,10 +31,22 @@ impl Response {
     }
 }
 
-/// Returns dy of each change.
+/// Returns dy of each change. What is round-off of the products that add up to it is zero.
 pub(super) fn observe(outputs: &OutputTangent, perturbation: &Perturbation, response: &Response) -> Parts {
     let OutputTangent { q, v, vdot, lambda, u, udot } = outputs;
     let Perturbation { changes, u: [du, rate, _], .. } = perturbation;
-    let states = q * &changes.q + v * &changes.v + vdot * &response.vdot + lambda * &response.lambda;
-    perturbation.split(&(states + u * du + udot * rate))
+    let products =
+        [(q, &changes.q), (v, &changes.v), (vdot, &response.vdot), (lambda, &response.lambda), (u, du), (udot, rate)];
+    let mut dy = Matrix::zeros(q.nrows(), changes.q.ncols());
+    let mut sizes = dy.clone();
+    for (rows, columns) in products {
+        dy += rows * columns;
+        let lengths: Vec<f64> = columns.column_iter().map(|column| column.norm()).collect();
+        for (i, row) in rows.row_iter().enumerate() {
+            let size = row.norm();
+            sizes.row_mut(i).iter_mut().zip(&lengths).for_each(|(sum, length)| *sum += size * length);
+        }
+    }
+    let clean = |value: f64, size: f64| if value.abs() < tolerances::ROUND_OFF_OF_FACTORS * size { 0.0 } else { value };
+    perturbation.split(&dy.zip_map(&sizes, clean))
 }
