@@ -5,7 +5,7 @@ use super::linear::{AtStates, ModelOptions};
 use crate::error::{Error, Result, Warning, clock, find, short};
 use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_response};
 use crate::prepared::PreparedScene;
-use crate::report::linear::{FrequencyResponse, Response, ResponseFile, bode_figure};
+use crate::report::linear::{FrequencyResponse, Magnitude, Response, ResponseFile, bode_figure};
 use crate::report::{Folder, Repeatable, Sealed, cell};
 use crate::system::Column;
 use std::process::ExitCode;
@@ -32,6 +32,9 @@ pub struct Args {
     /// Outputs (default: all)
     #[arg(long = "output", value_name = "NAME[,NAME...]", value_delimiter = ',')]
     outputs: Vec<String>,
+    /// Magnitudes in the figure in their unit on a logarithmic axis, as in the files (default: in dB of it)
+    #[arg(long)]
+    absolute: bool,
     #[command(flatten)]
     model: ModelOptions,
 }
@@ -154,6 +157,8 @@ fn write(
     let stem = format!("bode-{}", cell(response.t));
     folder.write(&format!("{stem}.csv"), &response.table()?)?;
     let title = format!("{} at t = {} s", response.scene, short(response.t));
-    args.at.output.figure(folder, &stem, bode_figure(&title, &response.frequencies, &response.responses))?;
+    let magnitude = if args.absolute { Magnitude::Absolute } else { Magnitude::Decibel };
+    let figure = bode_figure(&title, &response.frequencies, &response.responses, magnitude);
+    args.at.output.figure(folder, &stem, figure)?;
     folder.seal(&format!("{stem}.json"), args.at.talk.repeatable(prepared, response.file()))
 }

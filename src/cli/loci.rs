@@ -7,9 +7,9 @@ use crate::error::{Error, Result, short};
 use crate::linearize::{At, Gap, Kind, Loci, Request, Variants, loci_along, loci_over, refuse_large, within_run};
 use crate::prepared::PreparedScene;
 use crate::report::linear::{
-    LociAgainst, LociFile, LociSummary, frequency_figure, loci_figure, loci_table, with_others,
+    LociAgainst, LociFile, LociSummary, frequency_figure, loci_figure, loci_table, motion_figure, speeds, with_others,
 };
-use crate::report::uncertain_kinds;
+use crate::report::{Folder, uncertain_kinds};
 use crate::sweep::{Family, Range};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -17,7 +17,7 @@ use std::process::ExitCode;
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   holonom loci models/pendulum.json --until 1 --every 0.1
-  holonom loci models/four_bar_spring.json --sweep k1=10..1000:10:log --equilibrium")]
+  holonom loci models/four_bar_spring.json --sweep k1=10..1000:10:log --unit N/m --equilibrium")]
 pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
@@ -31,6 +31,10 @@ pub struct Args {
     /// start of each scene unless --at or --equilibrium says otherwise
     #[arg(long, value_name = "NAME=A..B[:N][:log]")]
     sweep: Option<Range>,
+    /// With --sweep: unit of the parameter, such as N/m; rad/s, deg/s, rev/s or rpm is that of a speed of rotation, which
+    /// excites once and twice a turn: a Campbell diagram (default: that of a steady rotation by --equilibrium, else none)
+    #[arg(long, value_name = "UNIT", requires = "sweep")]
+    unit: Option<String>,
     /// With --sweep: at this time of each motion, s
     #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true, requires = "sweep")]
     at: Option<f64>,
@@ -66,20 +70,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
         return none(&args, &loci);
     }
     args.talk.warn(&loci.doubts);
-    let mut summary = LociSummary::new(&prepared.name, &loci);
+    let mut summary = LociSummary::new(&prepared.name, &loci, args.unit.as_deref());
     let other = args.against.as_ref().map(|path| other(&args, &prepared, path, &request)).transpose()?;
     summary.against = other.as_ref().map(|(name, other)| LociAgainst::new(&loci, name, other));
     folder.write("loci.csv", &loci_table(&loci)?)?;
-    let title = match &args.sweep {
-        Some(range) => format!("{}: eigenvalues over {}", prepared.name, range.parameter),
-        None => format!("{}: eigenvalues along the motion", prepared.name),
-    };
-    let mut plane = loci_figure(&title, summary.axis(), &loci.branches);
-    if let Some((name, other)) = &other {
-        plane = with_others(plane, name, other);
-    }
-    args.output.figure(&mut folder, "loci", plane)?;
-    args.output.figure(&mut folder, "loci_modes", frequency_figure(&title, summary.axis(), &loci.branches))?;
+    figures(&args, &mut folder, &summary, &loci, other.as_ref().map(|(name, other)| (name.as_str(), other)))?;
     let uncertain = loci.branches.iter().filter(|branch| branch.kind == Kind::Uncertain);
     args.talk.warn(&uncertain_kinds(uncertain.map(|_| loci.method.as_str())));
     folder.seal("loci.json", args.talk.repeatable(&prepared, LociFile::new(summary.clone(), &loci)))?;
@@ -97,6 +92,31 @@ pub fn run(args: Args) -> Result<ExitCode> {
         None => tell(format!("error: {}", gap.error)),
     }
     Ok(ExitCode::from(1))
+}
+
+/// Draws the modes; over a parameter also the complex plane, where a motion would leave loose dots.
+fn figures(
+    args: &Args,
+    folder: &mut Folder,
+    summary: &LociSummary,
+    loci: &Loci,
+    other: Option<(&str, &Loci)>,
+) -> Result<()> {
+    let Some(range) = &args.sweep else {
+        let title = format!("{}: eigenvalues along the motion", summary.scene);
+        let other = other.map(|(name, other)| (name, other.branches.as_slice()));
+        return args.output.figure(folder, "loci_modes", motion_figure(&title, &loci.branches, other));
+    };
+    let axes = if loci.reached.iter().any(|state| state.turning.is_some()) { ", in axes that turn along" } else { "" };
+    let title = format!("{}: eigenvalues over {}{axes}", summary.scene, range.parameter);
+    let speeds = speeds(loci, &summary.along.unit);
+    let mut plane = loci_figure(&title, summary.axis(), &loci.branches, &speeds);
+    if let Some((name, other)) = other {
+        plane = with_others(plane, name, other);
+    }
+    args.output.figure(folder, "loci", plane)?;
+    let modes = frequency_figure(&title, summary.axis(), &loci.branches, &speeds);
+    args.output.figure(folder, "loci_modes", modes)
 }
 
 /// The gap that makes the loci incomplete: any value of a parameter; of a motion the end.

@@ -55,6 +55,9 @@ pub struct Reached {
     pub at: f64,
     /// True if the state is an equilibrium.
     pub equilibrium: bool,
+    /// Speed of a steady rotation, in whose axes the state is an equilibrium, rad/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turning: Option<f64>,
 }
 
 /// A time or value without a linear model, and the reason.
@@ -95,6 +98,7 @@ struct Found {
     method: String,
     chart: String,
     is_equilibrium: bool,
+    turning: Option<f64>,
     doubt: Option<Warning>,
 }
 
@@ -225,9 +229,10 @@ fn found_by(variation: &mut Variation, operating: &Operating, at: f64, request: 
     let model = linearize(variation, request)?;
     let mass: Matrix = variation.mass();
     let is_equilibrium = model.point.is_equilibrium;
+    let turning = model.point.axes.map(|spin| spin.speed());
     let sample = LociPoint { at, modes: model.modes, mass };
     let (state, doubt) = (operating.state.clone(), operating.doubt.clone());
-    Ok(Found { state, sample, method: model.method, chart: model.chart, is_equilibrium, doubt })
+    Ok(Found { state, sample, method: model.method, chart: model.chart, is_equilibrium, turning, doubt })
 }
 
 /// Returns states between two, as many as it takes to match the modes.
@@ -270,7 +275,7 @@ fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found,
     for ((at, outcome), more) in outcomes.into_iter().zip(more.into_iter().chain([Vec::new()])) {
         match outcome {
             Ok(found) => {
-                reached.push(Reached { at, equilibrium: found.is_equilibrium });
+                reached.push(Reached { at, equilibrium: found.is_equilibrium, turning: found.turning });
                 doubts.extend(found.doubt.filter(|_| doubts.is_empty()));
                 samples.push(found.sample);
             }

@@ -25,7 +25,10 @@ pub fn refused(place: &Place, args: &[&str], parts: &[&str]) {
 fn along_the_motion() {
     let place = model("two_mass");
     let text = place.done(&["loci", "scene.json", "-o", "here"]);
-    assert_eq!(place.files("here"), ["loci.csv", "loci.json", "loci.svg", "loci_modes.svg"]);
+    // A motion is drawn over time: 61 eigenvalues in the complex plane would be loose dots.
+    assert_eq!(place.files("here"), ["loci.csv", "loci.json", "loci_modes.svg"]);
+    let figure = place.text("here/loci_modes.svg");
+    assert!(figure.contains("time (s)") && figure.contains("frequency Im λ/2π (Hz)"), "{figure}");
     assert!(text.contains("61 of 61 states") && text.contains("mode1  0.79577") && text.contains("written to here"));
     let csv = place.text("here/loci.csv");
     assert!(csv.starts_with("t,mode1.re,mode1.im,mode1.frequency_hz,mode1.damping_ratio\n0,"), "{csv}");
@@ -56,6 +59,41 @@ fn over_a_parameter() {
         let json = place.json("here/loci.json");
         assert_eq!((&json["along"]["name"], &json["along"]["log"]), (&"k1".into(), &true.into()));
     }
+}
+
+/// A mass on a spring along an arm that turns: w^2 = k/m - W^2.
+const ARM: &str = r#"{ "name": "arm", "dimension": 2, "parameters": { "speed": 2 }, "ground": { "markers": { "O": [0, 0] } },
+    "bodies": [
+        { "name": "hub", "type": "rigid", "mass": 1, "inertia": 1, "markers": { "O": [0, 0] } },
+        { "name": "mass", "type": "point_mass", "mass": 1, "initial": { "position": [1, 0] } }],
+    "joints": [
+        { "name": "bearing", "type": "revolute", "between": ["ground.O", "hub.O"] },
+        { "name": "drive", "type": "driver", "between": ["ground.O", "hub.O"], "coordinate": "angle", "value": "speed*t" },
+        { "name": "arm", "type": "point_on_line", "between": ["hub.O", "mass"] }],
+    "forces": [{ "name": "spring", "type": "spring_damper", "between": ["hub.O", "mass"], "stiffness": 100, "free_length": 1 }],
+    "simulation": { "t_end": 1 } }"#;
+
+#[test]
+fn a_campbell_diagram_knows_the_unit_of_its_speed() {
+    let place = Place::new(ARM);
+    let text = place.done(&["loci", "scene.json", "--sweep", "speed=0..6:4", "--equilibrium", "-o", "here"]);
+    assert!(text.contains("speed from 0 to 6 rad/s") && text.contains("growing at speed (rad/s)"), "{text}");
+    let csv = place.text("here/loci.csv");
+    for (speed, im) in numbers(&csv, "speed").into_iter().zip(numbers(&csv, "mode1.im")) {
+        assert!((im - (100.0 - speed * speed).sqrt()).abs() < 1e-9, "{csv}");
+    }
+    let json = place.json("here/loci.json");
+    assert_eq!((&json["along"]["unit"], &json["states"][3]["turning"]), (&"rad/s".into(), &6.0.into()));
+    let figure = place.text("here/loci_modes.svg");
+    let parts = [">speed (rad/s)<", ">1×<", ">2×<", "in axes that turn along"];
+    parts.iter().for_each(|part| assert!(figure.contains(part), "{part}: {figure}"));
+    // Where no steady rotation tells it, the unit is given.
+    let given = ["loci", "scene.json", "--sweep", "speed=60..120:4", "--unit", "rpm", "-o", "given"];
+    place.done(&given);
+    let figure = place.text("given/loci_modes.svg");
+    assert!(figure.contains(">speed (rpm)<") && figure.contains(">2×<"), "{figure}");
+    place.done(&["loci", "scene.json", "--sweep", "speed=1..2:3", "-o", "bare"]);
+    assert!(!place.text("bare/loci_modes.svg").contains(">1×<"));
 }
 
 #[test]
@@ -93,7 +131,7 @@ fn values_without_a_model_are_gaps_with_their_reason() {
 #[test]
 fn bad_loci_are_refused() {
     let place = model("two_mass");
-    let table: [(&[&str], &[&str]); 9] = [
+    let table: [(&[&str], &[&str]); 10] = [
         (&["--sweep", "k1=10..1000:1"], &["the number of values is 1"]),
         (&["--sweep", "k1=0..1000:5:log"], &["there is no constant factor"]),
         (&["--sweep", "k2=10..1000:5"], &["unknown parameter `k2`", "did you mean"]),
@@ -103,6 +141,7 @@ fn bad_loci_are_refused() {
         (&["--method", "msc"], &["at --method", "did you mean `mcs`"]),
         (&["--independent", "first.y"], &["there is no coordinate `first.y`"]),
         (&["--equilibrium"], &["--sweep"]),
+        (&["--unit", "N/m"], &["--sweep"]),
     ];
     for (options, parts) in table {
         refused(&place, &[&["loci", "scene.json"], options].concat(), parts);
@@ -166,5 +205,5 @@ fn loci_of_a_simpler_model_are_drawn_and_matched() {
     // Linear: the same at all times.
     assert!((shift - (2.0f64.sqrt() / slow - 1.0)).abs() < 1e-7, "{shift}");
     assert!(told["against"]["modes"][1]["there"].is_null());
-    assert!(place.text("here/loci.svg").contains(">one<"));
+    assert!(place.text("here/loci_modes.svg").contains(">one<"));
 }

@@ -2,11 +2,14 @@
 
 use super::sample::{complex, descriptor, empty, plain, prepared};
 use holonom::linearize::{Branch, Complex, Kind};
-use holonom::plot::Figure;
-use holonom::report::linear::{Response, bode_figure, frequency_figure, loci_figure, validation_figure};
+use holonom::plot::{AxisSpec, Figure, Item, Panel, Place, Scale, Style};
+use holonom::report::linear::{
+    Magnitude, Response, bode_figure, frequency_figure, loci_figure, motion_figure, validation_figure,
+};
 use holonom::report::mechanism::{Look, View, mode_figure};
 use holonom::system::Names;
 use holonom::validate::{Curve, PerturbationSequence, decay};
+use std::f64::consts::TAU;
 
 fn svg(figure: Option<Figure>) -> String {
     let svg = figure.unwrap().to_svg();
@@ -31,7 +34,7 @@ fn pair(kind: Kind, value: impl Fn(f64) -> Complex<f64>) -> [Branch; 2] {
 
 #[test]
 fn loci_show_the_upper_half_of_pairs() {
-    let svg = svg(loci_figure("loci", "time (s)", &pair(Kind::Physical, |t| complex(-1.0 - t, 5.0 + t))));
+    let svg = svg(loci_figure("loci", "time (s)", &pair(Kind::Physical, |t| complex(-1.0 - t, 5.0 + t)), &[]));
     says(&svg, &["real part (1/s)", "imaginary part (rad/s)", "time (s)", "ζ = "]);
     assert!(!svg.contains("−5") && !svg.contains("outside") && !svg.contains("spurious"), "{svg}");
 }
@@ -39,20 +42,20 @@ fn loci_show_the_upper_half_of_pairs() {
 #[test]
 fn loci_show_both_halves_of_what_is_not_mirrored() {
     let alone = branch(Kind::Physical, |t| complex(-1.0 - t, -5.0 - t));
-    says(&svg(loci_figure("loci", "time (s)", &[alone])), &["−6"]);
+    says(&svg(loci_figure("loci", "time (s)", &[alone], &[])), &["−6"]);
 }
 
 #[test]
 fn loci_follow_the_physical_eigenvalues() {
     let mut branches = pair(Kind::Physical, |t| complex(-1.0 - t, 5.0 + t)).to_vec();
     branches.extend(pair(Kind::Spurious, |t| complex(-1e7, 1e8 * (1.0 + t))));
-    says(&svg(loci_figure("loci", "time (s)", &branches)), &["50 spurious points lie outside", "spurious</text>"]);
+    says(&svg(loci_figure("loci", "time (s)", &branches, &[])), &["50 spurious points lie outside", "spurious</text>"]);
     branches[0].points[7].1 = complex(-1e9, 1.0);
     branches[1].points[7].1 = complex(-1e9, -1.0);
-    says(&svg(loci_figure("loci", "time (s)", &branches)), &["1 physical and 50 spurious points lie outside"]);
+    says(&svg(loci_figure("loci", "time (s)", &branches, &[])), &["1 physical and 50 spurious points lie outside"]);
     branches[0].points[7].1 = complex(f64::INFINITY, f64::NAN);
     branches[1].points[7].1 = complex(f64::INFINITY, f64::NAN);
-    says(&svg(loci_figure("loci", "time (s)", &branches)), &[">50 spurious points lie outside"]);
+    says(&svg(loci_figure("loci", "time (s)", &branches, &[])), &[">50 spurious points lie outside"]);
 }
 
 /// What may be physical lies within the axes, and looks unlike what is spurious.
@@ -61,54 +64,196 @@ fn uncertain_eigenvalues_are_told_from_spurious_ones() {
     let mut branches = pair(Kind::Physical, |t| complex(-1.0 - t, 5.0 + t)).to_vec();
     branches.extend(pair(Kind::Uncertain, |t| complex(-30.0, 60.0 + t)));
     branches.extend(pair(Kind::Spurious, |t| complex(-40.0, 50.0 + t)));
-    let both = svg(loci_figure("loci", "time (s)", &branches));
+    let both = svg(loci_figure("loci", "time (s)", &branches, &[]));
     says(&both, &["uncertain</text>", "spurious</text>"]);
     assert!(!both.contains("uncertain points lie outside"), "{both}");
     branches.truncate(4);
-    let without = svg(loci_figure("loci", "time (s)", &branches));
+    let without = svg(loci_figure("loci", "time (s)", &branches, &[]));
     let vermilion = |svg: &str| svg.to_lowercase().matches("#d55e00").count();
     branches.truncate(2);
-    assert!(vermilion(&without) > vermilion(&svg(loci_figure("loci", "time (s)", &branches))));
+    assert!(vermilion(&without) > vermilion(&svg(loci_figure("loci", "time (s)", &branches, &[]))));
 }
 
 #[test]
 fn loci_without_much_to_show() {
-    assert!(loci_figure("loci", "time (s)", &[]).is_none() && frequency_figure("f", "time (s)", &[]).is_none());
+    assert!(loci_figure("loci", "time (s)", &[], &[]).is_none() && frequency_figure("f", "k1", &[], &[]).is_none());
     let infinite = branch(Kind::Infinite, |_| complex(f64::INFINITY, 0.0));
-    assert!(loci_figure("loci", "time (s)", &[infinite]).is_none());
+    assert!(loci_figure("loci", "time (s)", &[infinite], &[]).is_none());
     let zero = [branch(Kind::Physical, |_| complex(0.0, 0.0))];
-    svg(loci_figure("loci", "time (s)", &zero));
-    svg(frequency_figure("f", "time (s)", &zero));
+    svg(loci_figure("loci", "time (s)", &zero, &[]));
+    svg(frequency_figure("f", "k1", &zero, &[]));
+    svg(motion_figure("f", &zero, None));
+    assert!(motion_figure("f", &[], None).is_none());
     let spurious = [branch(Kind::Spurious, |t| complex(-1.0, t))];
-    svg(loci_figure("loci", "time (s)", &spurious));
-    assert!(frequency_figure("f", "time (s)", &spurious).is_none());
+    svg(loci_figure("loci", "time (s)", &spurious, &[]));
+    assert!(frequency_figure("f", "k1", &spurious, &[]).is_none());
 }
 
 #[test]
 fn forty_branches_and_real_ones() {
     let real = |k: i32| branch(Kind::Physical, move |t| complex(f64::from(k) + t, 0.0));
     let branches: Vec<Branch> = (-20..20).map(real).collect();
-    says(&svg(loci_figure("loci", "k1 (N/m)", &branches)), &["k1 (N/m)"]);
-    let curves = svg(frequency_figure("modes", "k1 (N/m)", &branches));
+    says(&svg(loci_figure("loci", "k1 (N/m)", &branches, &[])), &["k1 (N/m)"]);
+    let curves = svg(frequency_figure("modes", "k1 (N/m)", &branches, &[]));
     says(&curves, &["frequency |λ|/2π (Hz)", "damping ratio", "k1 (N/m)"]);
-    assert!(!curves.contains("mode 1"));
-    says(&svg(frequency_figure("modes", "k1 (N/m)", &branches[..3])), &["mode 1", "mode 3"]);
+    says(&curves, &["12 slowest of 40 modes", ">mode 21<"]);
+    assert!(!curves.contains(">mode 1<"));
+    says(&svg(frequency_figure("modes", "k1 (N/m)", &branches[..3], &[])), &["mode 1", "mode 3"]);
+}
+
+/// Each part of the eigenvalues fills its axis, whatever the size of the other.
+#[test]
+fn the_plane_is_scaled_to_each_part() {
+    let mut branches = pair(Kind::Physical, |t| complex(-0.5 + 0.6 * t, 900.0 + 100.0 * t)).to_vec();
+    branches.extend(pair(Kind::Physical, |t| complex(-0.3, 300.0 + t)));
+    let panel = only(loci_figure("loci", "k1 (N/m)", &branches, &[]));
+    let (re, im) = (panel.x.range.unwrap(), panel.y.range.unwrap());
+    assert!((-0.6..-0.5).contains(&re.0) && (0.088..0.2).contains(&re.1), "{re:?}");
+    assert!((-100.0..=0.0).contains(&im.0) && (998.0..1100.0).contains(&im.1), "{im:?}");
+    // Round-off of real parts does not fill an axis.
+    let undamped = pair(Kind::Physical, |t| complex(1e-13 * (t - 0.5), 10.0 + t));
+    let re = only(loci_figure("loci", "k1 (N/m)", &undamped, &[])).x.range.unwrap();
+    assert!(re.1 - re.0 > 0.1, "{re:?}");
 }
 
 #[test]
-fn bode_names_units_and_pairs() {
-    let response = |output: &str, unit: &str| Response {
+fn the_half_plane_of_growth_is_shaded_and_zero_is_a_thin_line() {
+    let panel = only(loci_figure("loci", "k1 (N/m)", &pair(Kind::Physical, |t| complex(t - 0.5, 10.0 + t)), &[]));
+    let (re, im) = (panel.x.range.unwrap(), panel.y.range.unwrap());
+    assert_eq!(shaded(&panel), [(0.0, im.0), (re.1, im.0), (re.1, im.1), (0.0, im.1)]);
+    let up = panel.series.iter().find(|line| line.points == [(0.0, im.0), (0.0, im.1)]).unwrap();
+    assert_eq!(up.style, Style::Thin);
+    let stable = only(loci_figure("loci", "k1 (N/m)", &pair(Kind::Physical, |t| complex(-500.0 - t, 10.0 + t)), &[]));
+    assert!(stable.items.is_empty());
+}
+
+#[test]
+fn growth_outside_the_axes_is_told() {
+    let mut branches = pair(Kind::Physical, |t| complex(-1.0 - t, 5.0 + t)).to_vec();
+    branches.iter_mut().for_each(|branch| branch.points[7].1.re = 3e4);
+    says(
+        &svg(loci_figure("loci", "k1 (N/m)", &branches, &[])),
+        &["1 physical point lies outside, real parts up to 3.00e4 1/s"],
+    );
+}
+
+/// A pair that becomes two real eigenvalues, one of which grows.
+fn buckling(t: f64) -> [Complex<f64>; 2] {
+    let square = 1.0 - 2.0 * t;
+    let root = square.abs().sqrt();
+    if square > 0.0 { [complex(0.0, root), complex(0.0, -root)] } else { [complex(root, 0.0), complex(-root, 0.0)] }
+}
+
+#[test]
+fn a_motion_has_frequency_and_growth_over_time() {
+    let branches = [0, 1].map(|i| branch(Kind::Physical, move |t| buckling(t)[i]));
+    let figure = motion_figure("loci", &branches, None).unwrap();
+    let [swing, growth] = &figure.panels[..] else { panic!("{figure:?}") };
+    assert_eq!([&swing.x.label, &growth.x.label], ["time (s)"; 2]);
+    assert_eq!([swing.y.label.as_str(), growth.y.label.as_str()], ["frequency Im λ/2π (Hz)", "real part (1/s)"]);
+    assert_eq!(growth.series.iter().map(|line| line.label.as_str()).collect::<Vec<_>>(), ["mode 1", "mode 2"]);
+    let last = |panel: &Panel, i: usize| panel.series[i].points[49].1;
+    assert_eq!((last(swing, 0), last(swing, 1)), (0.0, 0.0));
+    assert!(last(growth, 0) > 0.9 && last(growth, 1) < -0.9);
+    assert!(shaded(growth)[0].1 == 0.0 && shaded(growth)[2].1 == growth.y.range.unwrap().1);
+    assert_eq!(figure.panels.iter().map(|panel| panel.color_series.len()).sum::<usize>(), 0);
+    let other = pair(Kind::Physical, |_| complex(-0.1, 2.0));
+    let both = motion_figure("loci", &branches, Some(("simple", &other))).unwrap();
+    assert!(
+        both.panels.iter().all(|panel| panel.series[2].label == "simple" && panel.series[2].style == Style::Dashed)
+    );
+}
+
+#[test]
+fn a_campbell_diagram_has_lines_of_excitation() {
+    let mut branches: Vec<Branch> = Vec::new();
+    for k in 1..=9 {
+        branches.extend(pair(Kind::Physical, move |t| complex(-0.1, 20.0 * f64::from(k) * (1.0 + 0.1 * t))));
+    }
+    let speeds: Vec<(f64, f64)> = branches[0].points.iter().map(|(at, _)| (*at, 50.0 * at)).collect();
+    let figure = frequency_figure("modes", "speed (rad/s)", &branches, &speeds).unwrap();
+    let panel = &figure.panels[0];
+    assert_eq!(
+        (panel.x.label.as_str(), panel.y.scale, panel.y.range.unwrap().0),
+        ("speed (rad/s)", Scale::Linear, 0.0)
+    );
+    let guides: Vec<(f64, f64)> =
+        panel.series.iter().filter(|line| line.style == Style::Guide).map(|line| line.points[49]).collect();
+    let fastest = 50.0 * 0.98 / TAU;
+    assert!((guides[0].1 - fastest).abs() < 1e-9 && (guides[1].1 - 2.0 * fastest).abs() < 1e-9, "{guides:?}");
+    assert_eq!(panel.annotations.iter().map(|note| note.text.as_str()).collect::<Vec<_>>(), ["1×", "2×"]);
+    // Modes that twice a turn may meet: below 1.5 * 2 * 49 rad/s.
+    let mut names = panel.series.iter().map(|line| line.label.as_str()).filter(|label| !label.is_empty());
+    assert_eq!(names.next_back(), Some("mode 7"));
+    says(&panel.title, &["the 7 slowest of 9 modes"]);
+    // Without a rotation there are none.
+    let plain = frequency_figure("modes", "k1 (N/m)", &branches, &[]).unwrap();
+    assert!(
+        plain.panels[0].series.iter().all(|line| line.style != Style::Guide) && plain.panels[0].annotations.is_empty()
+    );
+}
+
+/// A mode has the name that it has in the files, also where slower ones begin later.
+#[test]
+fn modes_keep_their_names_where_some_are_left_out() {
+    let branches: Vec<Branch> =
+        (0..14).map(|k| branch(Kind::Physical, move |t| complex(-1.0, 20.0 - f64::from(k) + t))).collect();
+    let figure = frequency_figure("modes", "k1 (N/m)", &branches, &[]).unwrap();
+    assert_eq!(figure.panels[0].series[0].label, "mode 3");
+}
+
+fn only(figure: Option<Figure>) -> Panel {
+    let mut panels = figure.unwrap().panels;
+    assert_eq!(panels.len(), 1);
+    panels.remove(0)
+}
+
+/// Corners of the shaded part of a panel.
+fn shaded(panel: &Panel) -> Vec<(f64, f64)> {
+    let [Item::Area { spots, .. }] = &panel.items[..] else { panic!("{:?}", panel.items) };
+    let corner = |place: &Place| match place {
+        Place::Data(x, y) => (*x, *y),
+        Place::Frame(..) => panic!("{place:?}"),
+    };
+    spots.iter().map(|spot| corner(&spot.at)).collect()
+}
+
+fn response(output: &str, unit: &str) -> Response {
+    Response {
         input: "motor".to_string(),
         output: output.to_string(),
         input_unit: "N m".to_string(),
         output_unit: unit.to_string(),
         values: (0..100).map(|k| complex(1.0, 0.1 * f64::from(k)).powi(-2)).collect(),
+    }
+}
+
+#[test]
+fn bode_magnitudes_are_in_decibel_or_in_their_unit() {
+    let frequencies: Vec<f64> = (0..100).map(|k| 10f64.powf(0.02 * f64::from(k))).collect();
+    let responses = [response("a", "m/s^2")];
+    let panel = |magnitude| bode_figure("arm", &frequencies, &responses, magnitude).unwrap().panels[0].clone();
+    let [decibel, absolute] = [Magnitude::Decibel, Magnitude::Absolute].map(panel);
+    assert_eq!((decibel.y.label.as_str(), decibel.y.scale), ("magnitude (dB re m/s²/(N·m))", Scale::Linear));
+    assert_eq!((absolute.y.label.as_str(), absolute.y.scale), ("magnitude (m/s²/(N·m))", Scale::Log));
+    for (in_db, size) in decibel.series[0].points.iter().zip(&absolute.series[0].points) {
+        assert!((in_db.1 - 20.0 * size.1.log10()).abs() < 1e-12);
+    }
+    let bare = Response { input_unit: String::new(), ..response("gain", "") };
+    let bare = bode_figure("arm", &frequencies, &[bare], Magnitude::Decibel).unwrap();
+    assert_eq!(bare.panels[0].y, AxisSpec::from("magnitude (dB)"));
+}
+
+#[test]
+fn bode_names_units_and_pairs() {
+    let bode_figure = |title: &str, frequencies: &[f64], responses: &[Response]| {
+        bode_figure(title, frequencies, responses, Magnitude::Absolute)
     };
     let frequencies: Vec<f64> = (0..100).map(|k| 10f64.powf(0.02 * f64::from(k))).collect();
     let one = svg(bode_figure("arm", &frequencies, &[response("theta", "rad")]));
-    says(&one, &["frequency (Hz)", "magnitude (rad/(N m))", "phase (deg)", "arm: theta over motor", "−120<", "−90<"]);
+    says(&one, &["frequency (Hz)", "magnitude (rad/(N·m))", "phase (deg)", "arm: theta over motor", "−120<", "−90<"]);
     let two = svg(bode_figure("arm", &frequencies, &[response("theta", "rad"), response("tip", "m")]));
-    says(&two, &["response to motor", ">theta<", ">tip<", "magnitude (rad/(N m))", "magnitude (m/(N m))"]);
+    says(&two, &["response to motor", ">theta<", ">tip<", "magnitude (rad/(N·m))", "magnitude (m/(N·m))"]);
     let mut none = response("tip", "m");
     none.values.fill(complex(0.0, 0.0));
     let rest = svg(bode_figure("arm", &frequencies, &[response("theta", "rad"), none]));

@@ -1,8 +1,19 @@
 //! The figure of a frequency response.
 
 use super::Response;
+use super::phase::phases;
+use super::unit::written;
 use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::report::figures::{grouped, label};
+
+/// How a figure shows magnitudes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Magnitude {
+    /// 20 log10 |H| of |H| in units of the output per unit of the input.
+    Decibel,
+    /// |H| on a logarithmic axis.
+    Absolute,
+}
 
 /// Lines in a panel at most: as many as there are colours.
 const LINES: usize = 7;
@@ -39,11 +50,11 @@ pub fn not_drawn(responses: &[Response]) -> Vec<&Response> {
 
 /// Draws magnitude and phase over frequencies in Hz, side by side for each input and unit; one response alone in one
 /// column. `None` without a response that is not zero.
-pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response]) -> Option<Figure> {
+pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response], magnitude: Magnitude) -> Option<Figure> {
     let groups = groups(responses);
     let first = groups.first().filter(|_| !frequencies.is_empty())?;
     if let ([group], [only]) = (&groups[..], &first[..]) {
-        let [sizes, phases] = panels(group, frequencies, |_| String::new());
+        let [sizes, phases] = panels(group, frequencies, magnitude, |_| String::new());
         let title = format!("{title}: {} over {}", only.output, only.input);
         return Some(Figure::new().title(title).panel(sizes).panel(phases));
     }
@@ -53,7 +64,7 @@ pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response]) -> 
     let figure = Figure::new().title(title).columns(2).width(WIDE);
     let shown = groups.iter().zip(drawn(&groups)).filter(|(_, drawn)| *drawn);
     Some(shown.fold(figure, |figure, (group, _)| {
-        let [mut sizes, phases] = panels(group, frequencies, |response| response.output.clone());
+        let [mut sizes, phases] = panels(group, frequencies, magnitude, |response| response.output.clone());
         if !has_one_input {
             sizes = sizes.title(format!("response to {}", group[0].input));
         }
@@ -62,9 +73,8 @@ pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response]) -> 
 }
 
 /// Returns the panels of magnitudes and of phases; the first has the names.
-fn panels(group: &Group, frequencies: &[f64], name: impl Fn(&Response) -> String) -> [Panel; 2] {
-    let magnitude = label("magnitude", &group[0].unit());
-    let lines = |y: AxisSpec, name: &dyn Fn(&Response) -> String, values: fn(&Response) -> Vec<f64>| {
+fn panels(group: &Group, frequencies: &[f64], magnitude: Magnitude, name: impl Fn(&Response) -> String) -> [Panel; 2] {
+    let lines = |y: AxisSpec, name: &dyn Fn(&Response) -> String, values: &dyn Fn(&Response) -> Vec<f64>| {
         let line = |response: &&Response| {
             let points = frequencies.iter().copied().zip(values(response)).collect();
             Series::line(name(response), points)
@@ -72,11 +82,28 @@ fn panels(group: &Group, frequencies: &[f64], name: impl Fn(&Response) -> String
         let panel = Panel::new(AxisSpec::from("frequency (Hz)").log(), y);
         group.iter().take(LINES).map(line).fold(panel, Panel::series)
     };
-    let sizes = lines(AxisSpec::from(magnitude).log(), &name, sizes);
-    [sizes, lines(AxisSpec::from("phase (deg)").degrees(), &|_| String::new(), Response::phases)]
+    let sizes = lines(magnitude.axis(&group[0].unit()), &name, &|response| magnitude.of(response));
+    let phases = |response: &Response| phases(frequencies, &response.values);
+    [sizes, lines(AxisSpec::from("phase (deg)").degrees(), &|_| String::new(), &phases)]
 }
 
-/// Returns magnitudes; zero has no place on a logarithmic axis and becomes NaN.
-fn sizes(response: &Response) -> Vec<f64> {
-    response.values.iter().map(|value| value.norm()).map(|size| if size > 0.0 { size } else { f64::NAN }).collect()
+impl Magnitude {
+    fn axis(self, unit: &str) -> AxisSpec {
+        let unit = written(unit);
+        match self {
+            Magnitude::Decibel if unit.is_empty() => AxisSpec::from("magnitude (dB)"),
+            Magnitude::Decibel => AxisSpec::from(format!("magnitude (dB re {unit})")),
+            Magnitude::Absolute => AxisSpec::from(label("magnitude", &unit)).log(),
+        }
+    }
+
+    /// Returns magnitudes; zero has no place on either axis and becomes NaN.
+    fn of(self, response: &Response) -> Vec<f64> {
+        let size = |size: f64| match self {
+            _ if size <= 0.0 => f64::NAN,
+            Magnitude::Decibel => 20.0 * size.log10(),
+            Magnitude::Absolute => size,
+        };
+        response.values.iter().map(|value| size(value.norm())).collect()
+    }
 }

@@ -1,10 +1,13 @@
 //! `loci.csv`, `loci.json`, and text on eigenvalues at many states.
 
 use super::against::{LociAgainst, Value};
+use super::turning::unit_of_speed;
+use super::unit::written;
 use crate::error::{Error, Failure, Result, significant};
 use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, damping, frequency};
 use crate::math::bounds;
 use crate::plot::AxisSpec;
+use crate::report::figures::label;
 use crate::report::{Table, cell, table};
 use crate::tolerances::linearize as tolerances;
 use crate::tolerances::report::SAME;
@@ -38,7 +41,8 @@ pub struct LociSummary {
 #[derive(Clone, Debug, Serialize)]
 pub struct AlongFile {
     pub name: String,
-    pub unit: &'static str,
+    /// Unit of time; of a parameter the one that is given, or that of the speed of a steady rotation; else empty.
+    pub unit: String,
     pub from: f64,
     pub to: f64,
     pub count: usize,
@@ -107,15 +111,17 @@ pub struct PointFile {
 const LITTLE: f64 = 0.01;
 
 impl LociSummary {
-    /// The summary of loci.
-    pub fn new(scene: &str, loci: &Loci) -> Self {
+    /// The summary of loci; `unit` is that of the parameter, if it is known.
+    pub fn new(scene: &str, loci: &Loci, unit: Option<&str>) -> Self {
         let ends = [loci.places.first(), loci.places.last()].map(|place| place.copied().unwrap_or(0.0));
         let (name, unit, log, least) = match &loci.along {
-            LociVariable::Time => ("t".to_string(), "s", false, LITTLE / (ends[1] - ends[0])),
+            LociVariable::Time => ("t".to_string(), Some("s"), false, LITTLE / (ends[1] - ends[0])),
             LociVariable::Parameter(range) => {
-                (range.parameter.clone(), "", range.is_log, tolerances::EIGENVALUES_AGREE)
+                let unit = unit.or_else(|| unit_of_speed(loci));
+                (range.parameter.clone(), unit, range.is_log, tolerances::EIGENVALUES_AGREE)
             }
         };
+        let unit = unit.unwrap_or_default().to_string();
         LociSummary {
             scene: scene.to_string(),
             method: loci.method.clone(),
@@ -129,9 +135,9 @@ impl LociSummary {
         }
     }
 
-    /// Returns the axis of time or parameter.
+    /// Returns the axis of the parameter, with its unit if that is known.
     pub fn axis(&self) -> AxisSpec {
-        let axis = AxisSpec::from(if self.along.unit.is_empty() { self.along.name.as_str() } else { "time (s)" });
+        let axis = AxisSpec::from(label(&self.along.name, &written(&self.along.unit)));
         if self.along.log { axis.log() } else { axis }
     }
 }
@@ -250,7 +256,7 @@ impl LociSummary {
         }
         let against =
             self.against.as_ref().map_or(String::new(), |against| "\n".to_string() + &against.text(&along.name));
-        text + "\n" + &self.table(&unit) + &against
+        text + "\n" + &self.table() + &against
     }
 
     /// Returns the meaning of the real parts.
@@ -277,8 +283,8 @@ impl LociSummary {
         found
     }
 
-    fn table(&self, unit: &str) -> String {
-        let growing = format!("growing at {}{}", self.along.name, unit.replace(" s", " (s)"));
+    fn table(&self) -> String {
+        let growing = label(&format!("growing at {}", self.along.name), &self.along.unit);
         let mut table = Table::new(&["mode", "frequency (Hz)", "damping ratio", &growing]).words(1).words(2).words(3);
         let of = |kind: Kind| self.modes.iter().filter(move |mode| mode.kind == kind);
         of(Kind::Physical).take(MOST_LINES).for_each(|mode| table.row(mode_cells(mode)));

@@ -2,22 +2,31 @@
 
 mod against;
 mod bode_figure;
+mod drawn;
 mod files;
 mod loci;
-mod loci_figures;
+mod mode_figures;
 mod pair;
+mod phase;
+mod plane;
+mod ranges;
+mod rays;
 mod response;
 mod text;
+mod turning;
+mod unit;
 mod validation;
 
 pub use against::{AgainstFile, LociAgainst, with_others};
-pub use bode_figure::bode_figure;
+pub use bode_figure::{Magnitude, bode_figure};
 pub use files::{LinearFile, OperatingPointFile, linear_stem};
 pub use loci::{LociFile, LociSummary, loci_table};
-pub use loci_figures::{frequency_figure, loci_figure};
+pub use mode_figures::{frequency_figure, motion_figure};
 pub use pair::Response;
+pub use plane::loci_figure;
 pub use response::{FrequencyResponse, ResponseFile};
 pub use text::comparison_text;
+pub use turning::speeds;
 pub use validation::{ValidationFile, validation_figure};
 
 use crate::linearize::LinearModel;

@@ -54,7 +54,8 @@ impl FrequencyResponse {
     /// # Errors
     /// A table that cannot be written.
     pub fn table(&self) -> Result<Vec<u8>> {
-        let columns: Vec<(String, Vec<Option<f64>>)> = self.responses.iter().flat_map(Response::columns).collect();
+        let columns: Vec<(String, Vec<Option<f64>>)> =
+            self.responses.iter().flat_map(|response| response.columns(&self.frequencies)).collect();
         let names = columns.iter().map(|(name, _)| name.clone());
         let rows = self.frequencies.iter().enumerate().map(|(i, frequency)| {
             let cells = columns.iter().map(|(_, values)| values[i].map_or(String::new(), cell));
@@ -72,11 +73,12 @@ impl FrequencyResponse {
     /// Returns the contents of `bode-T.json`.
     pub fn file(mut self) -> ResponseFile {
         let poles_hz = self.poles();
+        let responses = take(&mut self.responses);
         let pair = |of: Response| {
-            let [re, im, magnitude, phase_deg] = of.parts();
+            let [re, im, magnitude, phase_deg] = of.parts(&self.frequencies);
             PairFile { of, re, im, magnitude, phase_deg }
         };
-        let responses = take(&mut self.responses).into_iter().map(pair).collect();
+        let responses = responses.into_iter().map(pair).collect();
         ResponseFile { of: self, poles_hz, responses }
     }
 

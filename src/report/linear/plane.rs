@@ -1,0 +1,175 @@
+//! Eigenvalues over a parameter in the complex plane.
+
+use super::drawn;
+use super::ranges::{VERMILION, fitted, notes, robust, shaded};
+use super::rays::{Ray, rays};
+use crate::error::{short, significant};
+use crate::linearize::{Branch, Complex, Kind, are_conjugate};
+use crate::plot::{AxisSpec, ColorSeries, Figure, Panel, Series, Style, Tint};
+use std::collections::BTreeMap;
+
+/// Colour of the axes, as an index in the palette.
+const BLACK: usize = 6;
+/// Approximate size of the plane in pixels.
+const PIXELS: (f64, f64) = (440.0, 400.0);
+
+/// Ranges of real and imaginary parts.
+#[derive(Clone, Copy, Debug)]
+struct Window {
+    re: (f64, f64),
+    im: (f64, f64),
+}
+
+/// Draws the eigenvalues in the complex plane, coloured by a parameter, which `along` names with its unit. Only the
+/// upper half is drawn where the lower one is its mirror image. Each axis fits the parts of the physical and uncertain
+/// eigenvalues; the half in which modes grow is shaded. With `speeds` the modes are those of a Campbell diagram, see
+/// [`frequency_figure`](super::frequency_figure). `None` without finite eigenvalues.
+pub fn loci_figure(
+    title: &str,
+    along: impl Into<AxisSpec>,
+    branches: &[Branch],
+    speeds: &[(f64, f64)],
+) -> Option<Figure> {
+    let along = along.into();
+    let (drawn, left_out) = drawn::branches(branches, drawn::count(branches, speeds));
+    let is_upper = are_mirrored(&drawn);
+    let shown: Vec<Branch> = drawn.iter().map(|branch| finite(branch, is_upper)).collect();
+    let of = |kind: Kind| shown.iter().filter(move |branch| branch.kind == kind);
+    let physical = || of(Kind::Physical).chain(of(Kind::Uncertain));
+    let window = window(physical()).or_else(|| window(of(Kind::Spurious)))?;
+    let axis = |label: &str, (low, high): (f64, f64)| AxisSpec::from(label).range(low, high);
+    let mut panel = Panel::new(axis("real part (1/s)", window.re), axis("imaginary part (rad/s)", window.im))
+        .height(PIXELS.1)
+        .title(notes([left_out, outside_note(&shown, &window)]));
+    let data: Vec<Complex<f64>> = points(shown.iter()).map(|(_, value)| value).collect();
+    let shaded = shaded(panel, (window.re.0.max(0.0), window.re.1), window.im);
+    panel = frame_lines(shaded, &window, is_upper, &data);
+    for (kind, name, style) in
+        [(Kind::Spurious, "spurious", Style::Crosses), (Kind::Uncertain, "uncertain", Style::Dots)]
+    {
+        let others = points(of(kind)).map(|(_, value)| (value.re, value.im)).collect::<Vec<_>>();
+        if !others.is_empty() {
+            panel = panel.series(Series::dots(name, others).style(style).color(VERMILION));
+        }
+    }
+    panel = panel.series(Series::line("", joined(of(Kind::Physical))).style(Style::Thin).color(BLACK));
+    let colored: Vec<(f64, f64, f64)> =
+        points(of(Kind::Physical)).map(|(at, value)| (value.re, value.im, at)).collect();
+    if !colored.is_empty() {
+        panel = panel.color_series(ColorSeries { scale: along.scale, ..ColorSeries::new(along.label, colored) });
+    }
+    Some(Figure::new().title(title).panel(panel))
+}
+
+/// Returns the finite points of a branch; those below the real axis become gaps where only the upper half is drawn.
+fn finite(branch: &Branch, is_upper: bool) -> Branch {
+    let is_shown = |value: Complex<f64>| {
+        value.re.is_finite() && value.im.is_finite() && !(is_upper && value.im < 0.0) && branch.kind != Kind::Infinite
+    };
+    let gap = Complex::new(f64::NAN, f64::NAN);
+    let points = branch.points.iter().map(|(at, value)| (*at, if is_shown(*value) { *value } else { gap }));
+    Branch { kind: branch.kind, points: points.collect() }
+}
+
+fn points<'a>(branches: impl Iterator<Item = &'a Branch>) -> impl Iterator<Item = (f64, Complex<f64>)> {
+    branches.flat_map(|branch| &branch.points).copied().filter(|(_, value)| value.re.is_finite())
+}
+
+/// Returns the branches as one line with gaps. Between two states a pair becomes real at the axis, not on the way to
+/// it.
+fn joined<'a>(branches: impl Iterator<Item = &'a Branch>) -> Vec<(f64, f64)> {
+    let mut line = Vec::new();
+    for branch in branches {
+        for (i, (_, value)) in branch.points.iter().enumerate() {
+            let before = i.checked_sub(1).map_or(*value, |before| branch.points[before].1);
+            if (before.im == 0.0) != (value.im == 0.0) {
+                line.push((if value.im == 0.0 { before.re } else { value.re }, 0.0));
+            }
+            line.push((value.re, value.im));
+        }
+        line.push((f64::NAN, f64::NAN));
+    }
+    line
+}
+
+/// True if every eigenvalue below the real axis has its conjugate at the same value of the parameter.
+fn are_mirrored(branches: &[&Branch]) -> bool {
+    let mut upper: BTreeMap<u64, Vec<Complex<f64>>> = BTreeMap::new();
+    let all = || branches.iter().flat_map(|branch| &branch.points);
+    all()
+        .filter(|(_, value)| value.im > 0.0)
+        .for_each(|(at, value)| upper.entry(at.to_bits()).or_default().push(*value));
+    let has_partner = |at: f64, value: Complex<f64>| {
+        upper.get(&at.to_bits()).is_some_and(|list| list.iter().any(|other| are_conjugate(*other, value)))
+    };
+    all().filter(|(_, value)| value.im < 0.0).all(|(at, value)| has_partner(*at, *value))
+}
+
+/// Returns the axes that fit eigenvalues, each part by itself; few far ones may be outside.
+fn window<'a>(branches: impl Iterator<Item = &'a Branch>) -> Option<Window> {
+    let mut values: Vec<Complex<f64>> = points(branches).map(|(_, value)| value).collect();
+    let (_, size) = robust(values.iter().map(|value| value.norm()), 0.0)?;
+    values.retain(|value| value.norm() <= size);
+    let re = fitted(values.iter().map(|value| value.re), size)?;
+    let im = fitted(values.iter().map(|value| value.im), size)?;
+    Some(Window { re, im })
+}
+
+/// Adds the axes of the plane and lines of constant damping, their names away from the data.
+fn frame_lines(panel: Panel, window: &Window, is_upper: bool, data: &[Complex<f64>]) -> Panel {
+    let Window { re, im } = *window;
+    let across = Series::line("", vec![(re.0, 0.0), (re.1, 0.0)]).style(Style::Thin).color(BLACK);
+    let up = Series::line("", vec![(0.0, im.0), (0.0, im.1)]).style(Style::Thin).color(BLACK);
+    let pixels = (PIXELS.0 / (re.1 - re.0), PIXELS.1 / (im.1 - im.0));
+    let rays = rays(re.0, im.1, pixels);
+    let (origin, gap) = ((0.0, 0.0), (f64::NAN, f64::NAN));
+    let line = |ray: &Ray| {
+        let lower = if is_upper { gap } else { (ray.end.0, -ray.end.1) };
+        [ray.end, origin, lower, gap]
+    };
+    let guide = Series::line("", rays.iter().flat_map(line).collect()).style(Style::Guide);
+    let panel = panel.series(guide).series(across).series(up);
+    rays.iter().fold(panel, |panel, ray| {
+        let (x, y) = free_place(ray, data, pixels);
+        panel.annotate_in(Tint::Ink(0.4), x, y, format!("ζ = {}", short(ray.ratio)))
+    })
+}
+
+/// Places of a name along its ray, as parts of its length, and the distance from data that is enough, pixels.
+const ALONG: [f64; 4] = [0.93, 0.8, 0.65, 0.5];
+const ENOUGH: f64 = 100.0;
+
+/// Returns the first place along a ray that is far enough from the data, else the farthest.
+fn free_place(ray: &Ray, data: &[Complex<f64>], pixels: (f64, f64)) -> (f64, f64) {
+    let place = |part: f64| (part * ray.end.0, part * ray.end.1);
+    let distance = |part: f64| {
+        let (x, y) = place(part);
+        let apart = data.iter().map(|value| (pixels.0 * (value.re - x)).hypot(pixels.1 * (value.im - y)));
+        apart.fold(ENOUGH, f64::min)
+    };
+    let nearer = |one: f64, other: f64| if distance(other) > distance(one) { other } else { one };
+    place(ALONG.into_iter().reduce(nearer).unwrap_or(1.0))
+}
+
+/// Returns a note on the number of points outside the axes, and on growth among them.
+fn outside_note(shown: &[Branch], window: &Window) -> String {
+    let is_outside = |value: Complex<f64>| {
+        !(window.re.0..=window.re.1).contains(&value.re) || !(window.im.0..=window.im.1).contains(&value.im)
+    };
+    let outside = |kind: Kind| {
+        points(shown.iter().filter(move |branch| branch.kind == kind))
+            .map(|(_, value)| value)
+            .filter(|value| is_outside(*value))
+    };
+    let kinds = [(Kind::Physical, "physical"), (Kind::Uncertain, "uncertain"), (Kind::Spurious, "spurious")];
+    let counts = kinds.map(|(kind, name)| (outside(kind).count(), name));
+    let words: Vec<String> =
+        counts.iter().filter(|(count, _)| *count > 0).map(|(count, kind)| format!("{count} {kind}")).collect();
+    let lie = match counts.iter().map(|(count, _)| count).sum::<usize>() {
+        0 => return String::new(),
+        1 => format!("{} point lies outside", words.join(" and ")),
+        _ => format!("{} points lie outside", words.join(" and ")),
+    };
+    let growth = outside(Kind::Physical).map(|value| value.re).fold(0.0, f64::max);
+    if growth > window.re.1.max(0.0) { format!("{lie}, real parts up to {} 1/s", significant(growth, 3)) } else { lie }
+}
