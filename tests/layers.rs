@@ -300,7 +300,7 @@ fn only_the_command_line_prints() {
 }
 
 /// Where small numbers are no thresholds: figures.
-const DRAWN: &[&str] = &["src/plot", "src/report/mechanism", "src/report/stress/figure.rs"];
+const DRAWN: &[&str] = &["src/plot", "src/report/mechanism", "src/report/figures", "src/report/stress/figure.rs"];
 
 /// The value of `const NAME: f64 = 1e-9;`.
 fn bare_number(text: &str) -> Option<f64> {

@@ -2,6 +2,7 @@
 
 use crate::math::{largest, largest_in};
 use crate::simulate::Observation;
+use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
 /// Constraint drift at the three levels: phi, phi' = G v + phi_t and phi'' = G v' - gamma.
@@ -36,6 +37,12 @@ impl Drift {
         self.position.add(state.phi, scales);
         self.velocity.add(state.phi_dot, scales);
         self.acceleration.add(state.phi_ddot, scales);
+    }
+
+    /// True if the joints came apart so far that the motion means nothing.
+    pub fn has_open_joints(&self) -> bool {
+        let open = self.position.relative_max;
+        open.is_nan() || open > tolerances::MEANINGLESS
     }
 }
 

@@ -56,6 +56,11 @@ pub struct Ledger {
 }
 
 impl EnergyBalance {
+    /// True if the error is of the size of the energies that were converted: the motion means nothing.
+    pub fn is_lost(&self) -> bool {
+        self.relative_max_error.is_some_and(|part| part.is_nan() || part > tolerances::BLOWN_UP)
+    }
+
     /// True if the balance has an error larger than the tolerance, or the order of a method, makes likely.
     pub fn is_open(&self) -> bool {
         let Some(part) =

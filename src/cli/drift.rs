@@ -39,7 +39,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let rows = drift_under_stabilizations(&prepared, || interrupt::stop(&folder), || bar.inc(1))?;
     bar.finish_and_clear();
     folder.write("stabilizations.csv", &stabilizations_table(&rows)?)?;
-    args.output.figure(&mut folder, "stabilizations", stabilizations_figure(&prepared.name, &rows))?;
+    let figure = stabilizations_figure(&prepared.name, &rows, prepared.system().length());
+    args.output.figure(&mut folder, "stabilizations", figure)?;
     let result = args.common.talk.repeatable(&prepared, DriftFile { scene: &prepared.name, runs: &rows });
     let sealed = folder.seal("stabilizations.json", result)?;
     args.common.talk.conclude(folder, &sealed, || drift_text(&prepared, &rows))?;

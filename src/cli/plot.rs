@@ -9,7 +9,7 @@ use crate::prepared::{Overrides, PreparedScene};
 use crate::report::mechanism::{
     Look, Motion, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
-use crate::report::{FinishedRun, Folder, Repeatable, Written, outputs_figure};
+use crate::report::{Ending, FinishedRun, Folder, Repeatable, Shown, Written, outputs_figure};
 use crate::simulate::Span;
 use crate::trajectory::Trajectory;
 use serde::Serialize;
@@ -49,6 +49,9 @@ pub struct Args {
     /// Outputs over time, or coordinates where the scene has none
     #[arg(long)]
     outputs: bool,
+    /// One panel an output (default: one for those of a unit whose ranges are alike)
+    #[arg(long, requires = "outputs")]
+    separate: bool,
     /// Draw a finished run in the place of a new one: its folder, such as out/NAME, whose parameters it takes
     #[arg(long, value_name = "DIR", conflicts_with_all = ["set", "equilibrium", "method", "formulation", "integrator",
           "projection", "rtol", "atol", "step", "until", "output_step"])]
@@ -111,15 +114,18 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let prepared = args.load(finished.as_ref())?;
     let look = args.look(&prepared)?;
     let failed = finished.as_ref().and_then(|run| run.failure.clone());
+    let ending = finished.as_ref().map_or(Ending::Completed, |run| run.ending);
     let finished = finished.map(|run| run.trajectory(prepared.system())).transpose()?;
     let span = args.span(&prepared, finished.as_ref())?;
     args.check(&prepared, span)?;
     let mut folder = args.output.folder(&prepared.name)?;
-    let (trajectory, failure) = match (finished, span) {
-        (Some(trajectory), _) => (trajectory, None),
+    let (mut trajectory, ending, failure) = match (finished, span) {
+        (Some(trajectory), _) => (trajectory, ending, None),
         (None, Some(span)) => args.simulate(&prepared, span, &folder)?,
-        (None, None) => (Trajectory::new(prepared.system()), None),
+        (None, None) => (Trajectory::new(prepared.system()), ending, None),
     };
+    let shown = Shown::of_trajectory(ending, &trajectory);
+    trajectory.rows.truncate(shown.rows);
     let mut drawn = Drawn {
         scene: prepared.name.clone(),
         status: if failure.is_some() || failed.is_some() { "failed" } else { "completed" },
@@ -128,9 +134,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
         animation: None,
         files: Vec::new(),
     };
-    let motion = Motion::new(&prepared, &trajectory);
+    let motion = Motion::new(&prepared, &trajectory).titled(shown.title(&prepared.name));
     args.common.talk.warn(&motion.sparse().filter(|_| args.from.is_some() && args.is_in_motion()));
-    args.draw(&motion, &look, &mut folder, &mut drawn)?;
+    args.draw((&motion, &shown), &look, &mut folder, &mut drawn)?;
     let written = args.common.talk.finish(folder)?;
     drawn.files = written.paths();
     args.common.talk.print(&drawn, || drawn.text(&written))?;
@@ -225,7 +231,12 @@ impl Args {
     }
 
     /// Runs the scene, with rows close enough to interpolate the states between them.
-    fn simulate(&self, prepared: &PreparedScene, span: Span, folder: &Folder) -> Result<(Trajectory, Option<Failure>)> {
+    fn simulate(
+        &self,
+        prepared: &PreparedScene,
+        span: Span,
+        folder: &Folder,
+    ) -> Result<(Trajectory, Ending, Option<Failure>)> {
         let length = span.end - span.start;
         let wanted = (length / span.output_step).clamp(ROWS.0, ROWS.1);
         // Evenly chosen times are times of rows.
@@ -237,10 +248,18 @@ impl Args {
             .with_progress(|t| bar.set_position(fraction(t)))
             .with_stop(|| interrupt::stop(folder));
         let (outcome, _) = prepared.simulate(&prepared.method, Span { output_step, ..span }, &mut recorder)?;
-        Ok((recorder.finish().trajectory, outcome.failure))
+        let record = recorder.finish();
+        let ending = Ending::of(outcome.failure.as_ref(), &record.drift, record.energy.as_ref());
+        Ok((record.trajectory, ending, outcome.failure))
     }
 
-    fn draw(&self, motion: &Motion, look: &Look, folder: &mut Folder, drawn: &mut Drawn) -> Result<()> {
+    fn draw(
+        &self,
+        (motion, shown): (&Motion, &Shown),
+        look: &Look,
+        folder: &mut Folder,
+        drawn: &mut Drawn,
+    ) -> Result<()> {
         let prepared = motion.prepared;
         if self.stroboscope {
             drawn.times = self.times(motion);
@@ -255,7 +274,8 @@ impl Args {
             self.seal(folder, "mechanism", prepared, drawn)?;
         }
         if self.outputs {
-            self.output.figure(folder, "plot-outputs", outputs_figure(&prepared.name, motion.trajectory()))?;
+            let figure = outputs_figure(&prepared.name, motion.trajectory(), shown, self.separate);
+            self.output.figure(folder, "plot-outputs", figure)?;
             self.seal(folder, "plot-outputs", prepared, drawn)?;
         }
         match self.animate {

@@ -7,7 +7,7 @@ use crate::compare::check_error;
 use crate::error::{Error, Result, Warning};
 use crate::files::{mat, npz};
 use crate::prepared::PreparedScene;
-use crate::report::{self, Folder, RowFiles, Sealed, Summary, summarize};
+use crate::report::{self, Ending, Folder, RowFiles, Sealed, Shown, Summary, summarize};
 use crate::simulate::{Span, Start, spread};
 use crate::system::{Dimensions, Scratch};
 use crate::trajectory::{Trajectory, recorded};
@@ -31,6 +31,9 @@ pub struct Args {
     /// Leave coordinates, velocities and multipliers out of the trajectory
     #[arg(long)]
     outputs_only: bool,
+    /// One panel an output in its figure (default: one for those of a unit whose ranges are alike)
+    #[arg(long)]
+    separate: bool,
     /// Run again at a tenth of the tolerance, or half the step, and tell by how much each output differs
     #[arg(long)]
     check_error: bool,
@@ -154,9 +157,11 @@ fn write<'s>(
             Format::Mat => folder.write("trajectory.mat", &mat::write(&arrays())?)?,
         }
     }
-    let output = &args.output;
-    output.figure(folder, "outputs", report::outputs_figure(&prepared.name, &record.trajectory))?;
-    output.figure(folder, "drift", report::drift_figure(&format!("{}: drift", prepared.name), record))?;
-    output.figure(folder, "energy", report::energy_figure(&format!("{}: energy", prepared.name), record))?;
+    let (output, name, length) = (&args.output, &prepared.name, prepared.system().length());
+    let shown =
+        Shown::of_run(Ending::of(summary.failure.as_ref(), &record.drift, record.energy.as_ref()), record, length);
+    output.figure(folder, "outputs", report::outputs_figure(name, &record.trajectory, &shown, args.separate))?;
+    output.figure(folder, "drift", report::drift_figure(name, record, &shown, length))?;
+    output.figure(folder, "energy", report::energy_figure(name, record, &shown))?;
     folder.seal("summary.json", summary)
 }

@@ -24,7 +24,7 @@ pub struct Args {
     /// Output along the horizontal axis of the figure, in the place of the parameter
     #[arg(long, value_name = "NAME")]
     against: Option<String>,
-    /// One panel an output (default: a unit)
+    /// One panel an output (default: one for those of a unit whose ranges are alike)
     #[arg(long)]
     separate: bool,
     #[command(flatten)]

@@ -5,6 +5,8 @@ use crate::error::{Error, Failure, Result, significant};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Outcome, Stop, simulate};
+use crate::system::Names;
+use crate::trajectory::Trajectory;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::time::Instant;
@@ -131,7 +133,8 @@ fn one(
     let wall_seconds = clock.elapsed().as_secs_f64();
     let mut record = recorder.finish();
     // Only the times of the motion are shown, and there are many records.
-    record.trajectory.rows.iter_mut().for_each(|row| *row = vec![row[0]]);
+    let rows = record.trajectory.times().map(|t| vec![t]).collect();
+    record.trajectory = Trajectory { names: Names::default(), outputs: Vec::new(), rows };
     Ok(StabilizedRun {
         method: match (formulation.name.as_str(), projection.name.as_str()) {
             ("index1", "none") => formulation.to_string(),

@@ -1,6 +1,7 @@
 //! Maps of coloured cells.
 
 use super::axis::{Axis, Extent};
+use super::item::Tint;
 use super::panel::Scale;
 use super::shape::Rect;
 
@@ -15,6 +16,8 @@ pub struct HeatMap {
     pub y: Vec<f64>,
     /// Rows of cells; a cell without a value is grey.
     pub values: Vec<Vec<Option<f64>>>,
+    /// (column, row, colour): colours of cells without a value that are not grey.
+    pub fills: Vec<(usize, usize, Tint)>,
     /// (column, row, text): short texts on cells, like "fail", in a size that fits.
     pub words: Vec<(usize, usize, String)>,
     /// Scale of the colour.
@@ -49,6 +52,11 @@ impl HeatMap {
         }
     }
 
+    /// Sets the colour of a cell without a value.
+    pub fn fill(&mut self, column: usize, row: usize, tint: Tint) {
+        self.fills.push((column, row, tint));
+    }
+
     /// Writes a text on a cell.
     pub fn mark(&mut self, column: usize, row: usize, word: impl Into<String>) {
         self.words.push((column, row, word.into()));
@@ -57,6 +65,11 @@ impl HeatMap {
     /// Returns the value of a cell, if it is a finite number.
     pub(super) fn value(&self, column: usize, row: usize) -> Option<f64> {
         self.values.get(row)?.get(column)?.filter(|value| value.is_finite())
+    }
+
+    /// Returns the colour of a cell without a value; none if it is grey.
+    pub(super) fn tint(&self, column: usize, row: usize) -> Option<Tint> {
+        self.fills.iter().find(|fill| (fill.0, fill.1) == (column, row)).map(|fill| fill.2)
     }
 
     /// Adds the outer borders of the cells to the extents.

@@ -6,7 +6,7 @@ use super::axes;
 use super::clip;
 use super::color_bar::ColorBar;
 use super::layout::Placed;
-use super::palette::{Look, MARKER_RADIUS, NO_VALUE, TICK_SIZE, ink_on, scale_color};
+use super::palette::{Look, MARKER_RADIUS, NO_VALUE, TICK_SIZE, ink_on, scale_color, tint};
 use super::series::{Series, Style};
 use super::shape::{Align, Color, Drawing, Marker, Pt, Rect, Shape, Text};
 use super::text;
@@ -137,7 +137,10 @@ pub(super) fn cells(drawing: &mut Drawing, placed: &Placed) {
     };
     let cells: Vec<(usize, usize, Rect)> =
         map.cells(&placed.x, &placed.y).into_iter().map(|cell| (cell.0, cell.1, placed.rect(&cell.2))).collect();
-    let color = |column, row| map.value(column, row).and_then(|value| bar.color(value)).unwrap_or(NO_VALUE);
+    let color = |column, row| {
+        let value = map.value(column, row).and_then(|value| bar.color(value));
+        value.or_else(|| map.tint(column, row).map(tint)).unwrap_or(NO_VALUE)
+    };
     let mut groups: BTreeMap<(u8, u8, u8), Vec<Rect>> = BTreeMap::new();
     for (column, row, rect) in &cells {
         let Color(red, green, blue) = color(*column, *row);

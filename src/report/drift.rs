@@ -1,6 +1,6 @@
 //! Text, table and figure of `drift`.
 
-use super::figures::envelope;
+use super::figures::{Ending, Floor, Shown, envelope};
 use super::{Table, cell, table};
 use crate::analysis::Drift;
 use crate::compare::StabilizedRun;
@@ -62,15 +62,25 @@ fn legend(method: &str) -> String {
     method.replace("alpha", "α").replace("beta", "β").replace("gamma", "γ").replace(':', " ").replace(',', ", ")
 }
 
-/// Draws the drift of positions and of velocities over time, a curve for each stabilization.
-pub fn stabilizations_figure(name: &str, rows: &[StabilizedRun]) -> Option<Figure> {
+/// Returns the rows before the end that a divergence spoilt.
+fn shown(row: &StabilizedRun, length: f64) -> Shown {
+    let ending = Ending::of(row.failure.as_ref(), &row.drift, row.energy.as_ref());
+    Shown::of_run(ending, &row.record, length)
+}
+
+/// Draws the drift of positions and of velocities over time down to the round-off of `length`, that of the mechanism in
+/// m: a curve for each stabilization, up to where its run diverged.
+pub fn stabilizations_figure(name: &str, rows: &[StabilizedRun], length: f64) -> Option<Figure> {
+    let all: Vec<Shown> = rows.iter().map(|row| shown(row, length)).collect();
     let panel = |level: usize, label: &str| {
-        rows.iter().fold(Panel::new("time (s)", AxisSpec::from(label).log()), |panel, row| {
-            let times = row.record.trajectory.times();
+        let panel = Panel::new("time (s)", AxisSpec::from(label).log());
+        let panel = rows.iter().zip(&all).fold(panel, |panel, (row, shown)| {
+            let times = row.record.trajectory.times().take(shown.rows);
             let points = times.zip(&row.record.drift_rows).map(|(t, levels)| (t, levels[level]));
-            let curve = envelope(points, row.record.drift_rows.len(), WINDOWS);
-            panel.series(Series::line(legend(&row.method), curve))
-        })
+            let curve = envelope(points, shown.rows, WINDOWS);
+            panel.series(Series::line(shown.title(&legend(&row.method)), curve))
+        });
+        Floor::of(length).cut(panel)
     };
     let figure = Figure::new().title(format!("{name}: drift under every stabilization"));
     Some(figure.panel(panel(0, "position drift |φ| (m, rad)")).panel(panel(1, "velocity drift |φ′| (m/s, rad/s)")))

@@ -1,6 +1,7 @@
 //! A finished run, read back from its folder.
 
-use crate::analysis::thin;
+use super::figures::Ending;
+use crate::analysis::{Drift, DriftLevel, EnergyBalance, thin};
 use crate::error::{Error, Failure, Result, suggest};
 use crate::files;
 use crate::math::expression::Number;
@@ -16,6 +17,8 @@ pub struct FinishedRun {
     pub parameters: Vec<(String, Number)>,
     /// Reason of a failed run.
     pub failure: Option<Failure>,
+    /// How it ended.
+    pub ending: Ending,
     path: PathBuf,
     headings: Vec<String>,
     rows: Vec<Vec<f64>>,
@@ -27,6 +30,36 @@ struct Saved {
     parameters: Map<String, Value>,
     failure: Option<Failure>,
     files: Vec<String>,
+    drift: SavedDrift,
+    energy: Option<SavedEnergy>,
+}
+
+#[derive(Deserialize)]
+struct SavedDrift {
+    position: SavedLevel,
+}
+
+/// Null is what is not finite.
+#[derive(Deserialize)]
+struct SavedLevel {
+    relative_max: Option<f64>,
+}
+
+#[derive(Deserialize)]
+struct SavedEnergy {
+    relative_max_error: Option<f64>,
+}
+
+impl Saved {
+    fn ending(&self) -> Ending {
+        let relative_max = self.drift.position.relative_max.unwrap_or(f64::NAN);
+        let drift = Drift { position: DriftLevel { relative_max, ..DriftLevel::default() }, ..Drift::default() };
+        let balance = |saved: &SavedEnergy| EnergyBalance {
+            relative_max_error: saved.relative_max_error,
+            ..EnergyBalance::default()
+        };
+        Ending::of(self.failure.as_ref(), &drift, self.energy.as_ref().map(balance).as_ref())
+    }
 }
 
 type Rows = (Vec<String>, Vec<Vec<f64>>);
@@ -54,8 +87,9 @@ impl FinishedRun {
         let read = if *name == known[0] { read_table(&path, is_thinned) } else { read_arrays(&path) };
         let (headings, rows) = read.map_err(|error| error.in_file(&path))?;
         let number = |(name, value): (String, Value)| Some((name, Number::Value(value.as_f64()?)));
+        let ending = saved.ending();
         let parameters = saved.parameters.into_iter().filter_map(number).collect();
-        Ok(FinishedRun { parameters, failure: saved.failure, path, headings, rows })
+        Ok(FinishedRun { parameters, failure: saved.failure, ending, path, headings, rows })
     }
 
     /// Returns the motion of the system; with time and outputs alone where that is all that was written.

@@ -25,7 +25,7 @@ mod warnings;
 pub use check::{Check, check};
 pub use drift::{drift_text, stabilizations_figure, stabilizations_table};
 pub use equilibrium::EquilibriumFile;
-pub use figures::{MOST_COORDINATES, drift_figure, energy_figure, outputs_figure};
+pub use figures::{Ending, MOST_COORDINATES, Shown, drift_figure, energy_figure, outputs_figure};
 pub use files::{Folder, Written, write_whole};
 pub use finished::FinishedRun;
 pub use origin::{Origin, Repeatable, Sealed};

@@ -1,6 +1,6 @@
 //! Figure of outputs over a parameter or over one of them.
 
-use super::figures::{Curve, grouped, label, panel};
+use super::figures::{Curve, label, stacked};
 use super::sweep::{shown, watched};
 use crate::math::bounds;
 use crate::plot::{Figure, Panel};
@@ -13,7 +13,7 @@ pub struct SweepLook<'a> {
     pub outputs: &'a [String],
     /// Output along the horizontal axis, instead of the parameter.
     pub against: Option<&'a str>,
-    /// True for one panel per output, false for one per unit.
+    /// True for one panel per output, false for one per unit and size of the range.
     pub separate: bool,
 }
 
@@ -42,8 +42,7 @@ pub fn sweep_figure(sweep: &Sweep, look: SweepLook) -> Option<Figure> {
     let what = curves.iter().map(|curve| curve.name).collect::<Vec<_>>().join(", ");
     let what = if names.is_empty() { "outputs" } else { &what };
     let marked = |panel| marks.iter().fold(panel, |panel: Panel, (at, label)| panel.vertical(*at, *label));
-    let groups = grouped(curves, |curve| (curve.unit, separate.then_some(curve.name)));
-    let panels = groups.into_iter().map(|group| marked(panel(&label, group)));
+    let panels = stacked(curves, separate).map(|stack| marked(stack.panel(&label)));
     let title = Figure::new().title(format!("{}: {what} over {over}", sweep.scene));
     Some(panels.fold(title, Figure::panel))
 }

@@ -88,7 +88,7 @@ impl Dimensions {
 }
 
 /// Names of the columns of a trajectory.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     /// Coordinates, n_q.
     pub q: Vec<String>,

@@ -10,7 +10,6 @@ use crate::clock::Stopwatch;
 use crate::error::{Error, Result, short};
 use crate::formulation::StepError;
 use crate::simulate::{Outcome, Stop, simulate};
-use crate::tolerances::report as tolerances;
 use serde_json::Value;
 use std::cell::Cell as Flag;
 use std::sync::Arc;
@@ -123,16 +122,11 @@ impl Run {
     }
 
     fn status(&self) -> Status {
-        let open = self.record.drift.position.relative_max;
-        let is_open = open.is_nan() || open > tolerances::MEANINGLESS;
+        let is_open = self.record.drift.has_open_joints();
         let Some(failure) = &self.outcome.failure else {
             return if is_open { Status::Diverged } else { Status::Completed };
         };
-        let is_blown = self
-            .record
-            .energy
-            .and_then(|energy| energy.relative_max_error)
-            .is_some_and(|part| part.is_nan() || part > tolerances::BLOWN_UP);
+        let is_blown = self.record.energy.is_some_and(|energy| energy.is_lost());
         match self.stopped {
             Some(status) => status,
             None if is_open || is_blown || failure.reason.contains(&StepError::NotFinite.to_string()) => {

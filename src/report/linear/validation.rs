@@ -1,9 +1,10 @@
 //! The linear model against perturbed simulations: `validation-T.json`, its text and its figure.
 
 use crate::error::significant;
+use crate::math::largest;
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::Table;
-use crate::report::figures::{grouped, label, quantity};
+use crate::report::figures::{Floor, grouped, label, quantity};
 use crate::system::Names;
 use crate::validate::{Curve, Decay, InputCheck, PerturbationSequence, Validation, Verdict};
 use serde::Serialize;
@@ -158,7 +159,7 @@ fn direction(names: &Names, sequence: &PerturbationSequence) -> Value {
 }
 
 /// Draws the errors over epsilon with a line of slope 2; then, for each unit, the curves that move most over time with
-/// both predictions. `None` where there is neither.
+/// both predictions, and how far these are off. `None` where there is neither.
 pub fn validation_figure(title: &str, names: &Names, sequence: &PerturbationSequence) -> Option<Figure> {
     let name = |curve: &Curve| names.v[curve.direction].trim_end_matches('\'');
     let curves = sequence
@@ -167,7 +168,7 @@ pub fn validation_figure(title: &str, names: &Names, sequence: &PerturbationSequ
         .filter(|_| sequence.times.len() > 1)
         .map(|curve| (name(curve), unit(name(curve)), curve));
     let groups = grouped(curves, |(_, unit, _)| *unit);
-    let deviations = groups.iter().map(|members| deviation_panel(members, &sequence.times));
+    let deviations = groups.iter().flat_map(|members| deviation_panels(members, &sequence.times));
     let panels: Vec<Panel> = order_panel(sequence).into_iter().chain(deviations).collect();
     (!panels.is_empty()).then(|| Figure { panels, ..Figure::new().title(title) })
 }
@@ -202,24 +203,64 @@ fn order_panel(sequence: &PerturbationSequence) -> Option<Panel> {
     Some(panel.series(Series::line("slope 2", vec![guide(smallest), guide(largest)]).style(Style::Guide)))
 }
 
-/// Draws the changes of one unit over time: each its name, its unit and its curve.
-fn deviation_panel(members: &[(&str, &str, &Curve)], times: &[f64]) -> Panel {
+/// The change along one direction: its name, its unit and its curves.
+type Member<'a> = (&'a str, &'static str, &'a Curve);
+
+/// Largest difference of two lines, as a part of their size, at which one hides the other: the width of a line is about
+/// a hundredth of the height of its panel.
+const HIDES: f64 = 0.01;
+
+/// Draws the changes of one unit over time, and below how far the predictions are off. Of directions whose changes hide
+/// each other the first is drawn for all, with the differences of the others from it below.
+fn deviation_panels(members: &[Member], times: &[f64]) -> [Panel; 2] {
     let (name, unit, _) = members[0];
     let is_alone = members.len() == 1;
+    let time = "time since the state (s)";
     let what = if is_alone { name } else { quantity(unit) };
-    let mut panel = Panel::new("time (s)", label(&format!("change of {what}"), unit));
-    let line =
-        |name: &str, values: &[f64]| Series::line(name, times.iter().copied().zip(values.iter().copied()).collect());
-    for (i, (name, _, curve)) in members.iter().enumerate() {
-        panel = panel.series(line(if is_alone { "simulated" } else { name }, &curve.simulated).color(i));
+    let mut changes = Panel::new(time, label(&format!("change of {what}"), unit));
+    let mut errors = Panel::new(time, AxisSpec::from(label("difference", unit)).log());
+    let line = |name: String, values: Vec<f64>| Series::line(name, times.iter().copied().zip(values).collect());
+    let mut drawn: Vec<(&Member, Vec<&Member>)> = Vec::new();
+    for member in members {
+        match drawn.iter_mut().find(|(first, _)| hides(first.2, member.2)) {
+            Some((_, hidden)) => hidden.push(member),
+            None => drawn.push((member, Vec::new())),
+        }
     }
-    for (i, (_, _, curve)) in members.iter().enumerate() {
+    for (i, (first, hidden)) in drawn.iter().enumerate() {
+        let names: Vec<&str> = [*first].iter().chain(hidden).map(|member| member.0).collect();
+        let name = if is_alone { "simulated".to_string() } else { names.join(", ") };
+        changes = changes.series(line(name, first.2.simulated.clone()).color(i));
+    }
+    for (i, (first, hidden)) in drawn.iter().enumerate() {
         // The styles mean the same for all members: one legend entry for each is enough.
-        let once = |name: &'static str| if i == 0 { name } else { "" };
-        let colors = if is_alone { [1, 2] } else { [i, i] };
-        panel = panel
-            .series(line(once("predicted, LTV"), &curve.ltv).style(Style::Dashed).color(colors[0]))
-            .series(line(once("predicted, LTI"), &curve.lti).style(Style::Dotted).color(colors[1]));
+        let once = |name: &str| if i == 0 { name.to_string() } else { String::new() };
+        let colors = if drawn.len() == 1 { [1, 2] } else { [i, i] };
+        let Curve { simulated, ltv, lti, .. } = first.2;
+        for (name, values, style, color) in
+            [("LTV", ltv, Style::Dashed, colors[0]), ("LTI", lti, Style::Dotted, colors[1])]
+        {
+            let look = |series: Series| series.style(style).color(color);
+            changes = changes.series(look(line(once(&format!("predicted, {name}")), values.clone())));
+            errors = errors.series(look(line(once(&format!("{name} − simulated")), difference(values, simulated))));
+        }
+        for (name, _, curve) in hidden {
+            let values = difference(&curve.simulated, simulated);
+            errors = errors.series(line(format!("{name} − {}", first.0), values).style(Style::Thin).color(i));
+        }
     }
-    panel
+    let size = members.iter().map(|member| largest(&member.2.simulated)).fold(0.0, f64::max);
+    [changes, Floor::of(size).cut(errors)]
+}
+
+/// Returns |a - b| at each time.
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).collect()
+}
+
+/// True if all lines of one direction hide those of another.
+fn hides(a: &Curve, b: &Curve) -> bool {
+    let most = HIDES * largest(&a.simulated);
+    let pairs = [(&a.simulated, &b.simulated), (&a.ltv, &b.ltv), (&a.lti, &b.lti)];
+    pairs.into_iter().all(|(a, b)| largest(&difference(a, b)) <= most)
 }

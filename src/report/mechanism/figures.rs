@@ -69,7 +69,7 @@ pub fn stroboscope_figure(motion: &Motion, look: &Look, times: &[f64]) -> Figure
     let mut panel = panel(look, full, [items.as_slice()].into_iter(), &series).items(items);
     panel.series = series;
     panel.keys = keys(times, paleness);
-    Figure::new().title(prepared.name.clone()).panel(labelled(look, full, panel))
+    Figure::new().title(motion.title.clone()).panel(labelled(look, full, panel))
 }
 
 /// Largest number of times in the legend.
@@ -109,7 +109,7 @@ pub fn animation(
         .collect();
     let all = moving.iter().map(Vec::as_slice).chain([fixed.as_slice()]);
     let empty = few.first().map(|scene| panel(look, scene, all, &series)).unwrap_or_default();
-    let (count, look, mechanism, name) = (times.len(), look.clone(), &prepared.mechanism, prepared.name.clone());
+    let (count, look, mechanism, name) = (times.len(), look.clone(), &prepared.mechanism, motion.title.clone());
     let states: Vec<State> = times.iter().map(|t| motion.state(*t)).collect();
     let step = times.windows(2).map(|pair| pair[1] - pair[0]).next().unwrap_or(1.0);
     let decimals = (-step.log10()).ceil().clamp(0.0, 9.0) as usize;

@@ -11,13 +11,20 @@ use crate::trajectory::Trajectory;
 pub struct Motion<'a> {
     /// The scene.
     pub prepared: &'a PreparedScene,
+    /// Title of its figures.
+    pub title: String,
     trajectory: &'a Trajectory,
 }
 
 impl<'a> Motion<'a> {
     /// The motion of a trajectory with at least one row.
     pub fn new(prepared: &'a PreparedScene, trajectory: &'a Trajectory) -> Self {
-        Motion { prepared, trajectory }
+        Motion { prepared, title: prepared.name.clone(), trajectory }
+    }
+
+    /// Sets the title of its figures, by default the name of the scene.
+    pub fn titled(self, title: String) -> Self {
+        Motion { title, ..self }
     }
 
     /// The rows.

@@ -1,0 +1,220 @@
+//! Curves stacked in panels, so that the course of each can be seen.
+
+use super::{grouped, label, quantity, typeset};
+use crate::error::significant;
+use crate::math::{bounds, largest};
+use crate::plot::{Panel, Series};
+
+/// A curve of a figure, with the name and the unit of its quantity.
+pub(in crate::report) struct Curve<'a> {
+    pub name: &'a str,
+    pub unit: &'a str,
+    pub points: Vec<(f64, f64)>,
+}
+
+/// The curves of one panel.
+pub(in crate::report) struct Stack<'a> {
+    pub curves: Vec<Curve<'a>>,
+    /// True if the change of each curve since its beginning, x₀, is drawn.
+    pub is_change: bool,
+}
+
+/// Ratio of two ranges above which curves do not share a panel.
+/// Unit: [1]. Why: at a tenth of a panel, some 20 pixels, the course of a curve can just be read. Test:
+/// `ranges_that_differ_tenfold_are_drawn_apart`.
+const APART: f64 = 10.0;
+/// A curve that uses less of its panel, because the curves lie far from each other, is drawn as its change.
+/// Unit: [1] of the panel. Why: half of what `APART` allows. Test: `curves_far_from_each_other_are_drawn_as_changes`.
+const LITTLE: f64 = 0.05;
+/// Changes that are smaller would need marks of five digits and more.
+/// Unit: [1] of the largest value. Why: marks of four digits are the longest that are read at a glance. Test:
+/// `what_is_nearly_constant_is_drawn_as_its_change`.
+const NEARLY_CONSTANT: f64 = 1e-4;
+/// A curve whose range is smaller is a constant beside the others: it gets no panel for its round-off.
+/// Unit: [1] of the largest range. Why: below the tolerance of nearly all runs. Test:
+/// `round_off_gets_no_panel_of_its_own`.
+const FLAT: f64 = 1e-9;
+/// Changes that are smaller are rounding: the value tells all.
+/// Unit: [1] of the value. Why: rounding adds up in outputs. Test: `what_is_nearly_constant_is_drawn_as_its_change`.
+const CONSTANT: f64 = 1e-13;
+/// A constant joins a panel if it becomes no higher than this.
+/// Unit: [1] of its height without. Why: the others keep half of the panel. Test: `a_constant_joins_what_is_near`.
+const WIDER: f64 = 2.0;
+
+impl Curve<'_> {
+    fn values(&self) -> impl Iterator<Item = f64> {
+        self.points.iter().map(|point| point.1).filter(|value| value.is_finite())
+    }
+
+    /// Returns the first value, x₀; 0 without one.
+    fn start(&self) -> f64 {
+        self.values().next().unwrap_or(0.0)
+    }
+
+    /// Returns the difference of the largest and the smallest value; 0 if that is rounding.
+    fn range(&self) -> f64 {
+        let (low, high) = bounds(self.values());
+        if high - low > CONSTANT * largest(&[low, high]) { high - low } else { 0.0 }
+    }
+}
+
+/// Returns the curves by panels: those of one unit together if their ranges are alike; with `separate` one a panel.
+pub(in crate::report) fn stacked<'a>(
+    curves: impl IntoIterator<Item = Curve<'a>>,
+    separate: bool,
+) -> impl Iterator<Item = Stack<'a>> {
+    let groups = grouped(curves, |curve| (curve.unit, separate.then_some(curve.name)));
+    groups.into_iter().flat_map(apart).map(|curves| Stack { is_change: is_change(&curves), curves })
+}
+
+/// Splits curves of one unit whose ranges differ by more than [`APART`].
+fn apart(curves: Vec<Curve>) -> Vec<Vec<Curve>> {
+    let ranges: Vec<f64> = curves.iter().map(Curve::range).collect();
+    let flat = FLAT * largest(&ranges);
+    let mut sorted: Vec<f64> = ranges.iter().copied().filter(|range| *range > flat).collect();
+    sorted.sort_by(|a, b| b.total_cmp(a));
+    // The largest range of each panel.
+    let mut tops: Vec<f64> = Vec::new();
+    sorted.into_iter().for_each(|range| match tops.last() {
+        Some(top) if APART * range >= *top => {}
+        _ => tops.push(range),
+    });
+    let panel_of = |range: f64| tops.iter().rposition(|top| range > flat && range <= *top);
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); tops.len()];
+    let mut constant = Vec::new();
+    for (place, range) in ranges.iter().enumerate() {
+        panel_of(*range).map_or(&mut constant, |panel| &mut members[panel]).push(place);
+    }
+    let mut alone = Vec::new();
+    for place in constant {
+        let near = members.iter_mut().find(|members| is_near(&curves, members, place));
+        near.unwrap_or(&mut alone).push(place);
+    }
+    members.push(alone);
+    in_order(curves, members)
+}
+
+/// True if a constant does not make the panel of some curves much higher.
+fn is_near(curves: &[Curve], members: &[usize], constant: usize) -> bool {
+    let values = || members.iter().flat_map(|place| curves[*place].values());
+    let ((low, high), (all_low, all_high)) = (bounds(values()), bounds(values().chain(curves[constant].values())));
+    all_high - all_low <= WIDER * (high - low)
+}
+
+/// Returns the curves of each panel in their order, and the panels in that of their first curves.
+fn in_order<'a>(curves: Vec<Curve<'a>>, mut members: Vec<Vec<usize>>) -> Vec<Vec<Curve<'a>>> {
+    members.retain(|members| !members.is_empty());
+    members.iter_mut().for_each(|members| members.sort_unstable());
+    members.sort_unstable();
+    let mut curves: Vec<Option<Curve>> = curves.into_iter().map(Some).collect();
+    members.into_iter().map(|members| members.into_iter().filter_map(|place| curves[place].take()).collect()).collect()
+}
+
+/// True if the changes of the curves are seen, and their values not.
+fn is_change(curves: &[Curve]) -> bool {
+    let (low, high) = bounds(curves.iter().flat_map(Curve::values));
+    let (height, size) = (high - low, largest(&[low, high]));
+    if height <= CONSTANT * size {
+        return false;
+    }
+    let ranges: Vec<f64> = curves.iter().map(Curve::range).collect();
+    let flat = FLAT * largest(&ranges);
+    let smallest = ranges.into_iter().filter(|range| *range > flat).fold(f64::INFINITY, f64::min);
+    let (low, high) = bounds(curves.iter().flat_map(|curve| curve.values().map(|value| value - curve.start())));
+    height < NEARLY_CONSTANT * size || smallest < LITTLE * height && WIDER * (high - low) <= height
+}
+
+impl Stack<'_> {
+    /// Draws the curves; one alone is named by the axis, several by the legend.
+    pub fn panel(self, x: &str) -> Panel {
+        let Stack { curves, is_change } = self;
+        let Some(Curve { name, unit, .. }) = curves.first() else { return Panel::new(x, "") };
+        let is_alone = curves.len() == 1;
+        let what = if is_alone { name } else { quantity(unit) };
+        let what = if is_change { format!("{what} − x₀") } else { what.to_string() };
+        let mut panel = Panel::new(x, label(&what, unit));
+        if is_alone && is_change {
+            panel = panel.title(start(&curves[0]));
+        }
+        for curve in curves {
+            let name = match (is_alone, is_change) {
+                (true, _) => String::new(),
+                (false, false) => curve.name.to_string(),
+                (false, true) => format!("{}, {}", curve.name, start(&curve)),
+            };
+            let origin = if is_change { curve.start() } else { 0.0 };
+            panel = panel.series(Series::line(name, curve.points.iter().map(|(x, y)| (*x, y - origin)).collect()));
+        }
+        panel
+    }
+}
+
+/// Returns the value that a curve begins with, in words.
+fn start(curve: &Curve) -> String {
+    let value = significant(curve.start(), 6).replace('-', "−");
+    format!("x₀ = {value} {}", typeset(curve.unit)).trim_end().to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A curve that swings `count` times between `middle` - `half` and `middle` + `half`.
+    fn swing(name: &str, middle: f64, half: f64) -> Curve<'_> {
+        let point = |k: i32| (0.01 * f64::from(k), middle + half * (0.1 * f64::from(k)).sin());
+        Curve { name, unit: "m", points: (0..200).map(point).collect() }
+    }
+
+    fn names(curves: Vec<Curve>, separate: bool) -> Vec<Vec<String>> {
+        let of = |stack: Stack| stack.curves.iter().map(|curve| curve.name.to_string()).collect();
+        stacked(curves, separate).map(of).collect()
+    }
+
+    #[test]
+    fn ranges_that_differ_tenfold_are_drawn_apart() {
+        let curves = || vec![swing("a", 0.0, 1.0), swing("b", 0.0, 0.02), swing("c", 0.0, 0.5), swing("d", 0.0, 0.01)];
+        assert_eq!(names(curves(), false), [["a", "c"], ["b", "d"]]);
+        assert_eq!(names(curves(), true), [["a"], ["b"], ["c"], ["d"]]);
+        assert_eq!(names(vec![swing("a", 0.0, 1.0), swing("b", 0.0, 0.11)], false), [["a", "b"]]);
+        assert!(stacked(curves(), false).all(|stack| !stack.is_change));
+    }
+
+    #[test]
+    fn round_off_gets_no_panel_of_its_own() {
+        let curves = vec![swing("a", 0.0, 1.0), swing("none", 0.0, 1e-17), swing("b", 0.0, 1e-4)];
+        assert_eq!(names(curves, false), [vec!["a", "none"], vec!["b"]]);
+    }
+
+    #[test]
+    fn a_constant_joins_what_is_near() {
+        let curves = || vec![swing("goal", 1.5, 0.0), swing("x", 0.0, 1.0), swing("far", 50.0, 0.0)];
+        assert_eq!(names(curves(), false), [vec!["goal", "x"], vec!["far"]]);
+        let nothing = Curve { name: "nothing", unit: "m", points: vec![(0.0, f64::NAN); 3] };
+        assert_eq!(
+            names(curves().into_iter().chain([nothing]).collect(), false),
+            [vec!["goal", "x", "nothing"], vec!["far"]]
+        );
+    }
+
+    #[test]
+    fn curves_far_from_each_other_are_drawn_as_changes() {
+        let panel = |curves| stacked(curves, false).next().unwrap().panel("time (s)");
+        let far = panel(vec![swing("a", 1.0, 0.1), swing("b", 20.0, -0.1)]);
+        assert_eq!(far.y.label, "position − x₀ (m)");
+        assert_eq!([&far.series[0].label, &far.series[1].label], ["a, x₀ = 1 m", "b, x₀ = 20 m"]);
+        assert!(far.series.iter().all(|series| series.points[0].1 == 0.0));
+        let near = panel(vec![swing("a", 1.0, 0.1), swing("b", 1.5, -0.1)]);
+        assert_eq!((near.y.label.as_str(), near.series[0].points[0].1), ("position (m)", 1.0));
+    }
+
+    #[test]
+    fn what_is_nearly_constant_is_drawn_as_its_change() {
+        let panel = |curve| stacked([curve], false).next().unwrap().panel("time (s)");
+        let change = panel(swing("height", -19.62, 1e-9));
+        assert_eq!((change.y.label.as_str(), change.title.as_str()), ("height − x₀ (m)", "x₀ = −19.62 m"));
+        assert!(change.series[0].points.iter().all(|point| point.1.abs() <= 1.001e-9));
+        for whole in [swing("height", 19.62, 0.0), swing("height", 19.62, 1e-13), swing("height", 19.62, 0.01)] {
+            assert_eq!(panel(whole).y.label, "height (m)");
+        }
+    }
+}
