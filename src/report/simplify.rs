@@ -4,6 +4,7 @@ use super::tradeoff::milliseconds;
 use super::{Table, cell, table, velocities};
 use crate::compare::work_precision::front;
 use crate::error::{Result, percent, short_list};
+use crate::math::bounds;
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::simplify::{Norm, Robustness, Run, Simplification, Trial, Which};
 
@@ -146,23 +147,29 @@ const MARGIN: f64 = 2.0;
 /// Colour of the richest model, as index in the palette: black.
 const BLACK: usize = 6;
 
+/// Errors so many times below the promise are drawn there: they are as good as none.
+const NEGLIGIBLE: f64 = 1e4;
+/// Times that differ by less have a linear axis, since one of powers of ten would have a single mark.
+const ALIKE: f64 = 10.0;
+
 /// Draws the error of every model that was run against its CPU time: those that were kept, those that were not, the
-/// front of all, and the promise; the richest and the chosen one are named.
+/// front of all, and the promise; the richest and the chosen one are named. The axis has the errors of models that were
+/// tried, and the richest one, whose error is its method's, at its end.
 pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
-    let point = |run: &Run| run.worst().map(|worst| (run.seconds, worst.error)).filter(|(_, error)| *error > 0.0);
+    let exact = |run: &Run| run.worst().map(|worst| (run.seconds, worst.error)).filter(|(_, error)| *error > 0.0);
+    let tried: Vec<(f64, f64)> = result.trials.iter().filter_map(|trial| trial.run.as_ref().and_then(exact)).collect();
+    let least = least_error(tried.iter().map(|point| point.1), result.within);
+    let point = |run: &Run| exact(run).map(|(seconds, error)| (seconds, error.max(least)));
     let of = |is_kept: bool| -> Vec<(f64, f64)> {
         let trials = result.trials.iter().filter(|trial| trial.is_kept == is_kept);
         trials.filter_map(|trial| trial.run.as_ref().and_then(point)).collect()
     };
     let [kept, refused] = [true, false].map(of);
     let points: Vec<(f64, f64)> = kept.iter().chain(&refused).copied().chain(point(&result.richest)).collect();
-    let bounds = |of: fn(&(f64, f64)) -> f64| {
-        points.iter().map(of).fold((f64::INFINITY, 0.0f64), |(least, most), x| (least.min(x), most.max(x)))
-    };
-    let ((left, right), (low, high)) = (bounds(|point| point.0), bounds(|point| point.1));
-    let (left, right, top) = (left / MARGIN, MARGIN * right, MARGIN * high.max(result.within));
-    let x = AxisSpec::from("CPU time (s)").log().range(left, right);
-    let y = AxisSpec::from("largest difference (relative)").log().range(low / MARGIN, top);
+    let (x, right) = time_axis(points.iter().map(|point| point.0));
+    let top = MARGIN * points.iter().map(|point| point.1).fold(result.within, f64::max);
+    let y = AxisSpec::from("largest difference (relative)").log().range(least / MARGIN, top);
+    let left = x.range.map_or(0.0, |range| range.0);
     let mut panel = Panel::new(x, y)
         .series(Series::dots("kept", kept))
         .series(Series::dots("not kept", refused).style(Style::Crosses))
@@ -171,19 +178,58 @@ pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
         )
         .series(Series::line("promise", vec![(left, result.within), (right, result.within)]).style(Style::Dashed));
     for (run, name) in [(&result.richest, "as it is"), (&result.chosen, "chosen")] {
-        let Some((seconds, error)) = point(run) else { continue };
-        panel = panel.series(Series::dots("", vec![(seconds, error)]).color(BLACK)).annotate(
-            seconds,
-            error,
-            format!("{name}: {}", velocities(run.velocities)),
-        );
+        let Some(((seconds, error), exact)) = point(run).zip(exact(run)) else { continue };
+        let below = if exact.1 < least { format!(", off by {}", percent(exact.1)) } else { String::new() };
+        let text = format!("{name}: {}{below}", velocities(run.velocities));
+        panel = panel.series(Series::dots("", vec![(seconds, error)]).color(BLACK)).annotate(seconds, error, text);
     }
-    let title = format!("{}: within {}", result.scene, percent(result.within));
+    let hidden = tried.iter().any(|point| point.1 < least);
+    let note = if hidden { format!(" (below {} drawn there)", percent(least)) } else { String::new() };
+    let title = format!("{}: within {}{note}", result.scene, percent(result.within));
     (points.len() > 1).then(|| Figure::new().title(title).panel(panel.height(360.0)))
+}
+
+/// Returns the error at which smaller ones are drawn: the least of the models that were tried, unless that is
+/// negligible beside the promise.
+fn least_error(tried: impl Iterator<Item = f64>, within: f64) -> f64 {
+    tried.fold(within, f64::min).max(within / NEGLIGIBLE)
+}
+
+/// Returns an axis of times, and its end.
+fn time_axis(times: impl Iterator<Item = f64>) -> (AxisSpec, f64) {
+    let (least, most) = bounds(times);
+    let axis = AxisSpec::from("CPU time (s)");
+    if most < ALIKE * least {
+        let end = 1.1 * most;
+        (axis.range(0.0, end), end)
+    } else {
+        (axis.log().range(least / MARGIN, MARGIN * most), MARGIN * most)
+    }
 }
 
 /// The least error at each cost, as a line.
 fn stairs(front: &[(f64, f64)], end: f64) -> Vec<(f64, f64)> {
     let next = front.iter().skip(1).map(|point| point.0).chain([end]);
     front.iter().zip(next).flat_map(|(point, next)| [*point, (next, point.1)]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::Scale;
+
+    #[test]
+    fn the_axis_is_that_of_the_models() {
+        assert_eq!(least_error([3e-3, 2e-2, 0.4].into_iter(), 0.05), 3e-3);
+        assert_eq!(least_error([2e-12, 2e-2].into_iter(), 0.05), 5e-6);
+        assert_eq!(least_error(std::iter::empty(), 0.05), 0.05);
+    }
+
+    #[test]
+    fn times_that_are_alike_have_marks() {
+        let (alike, end) = time_axis([4e-3, 6e-3, 25e-3].into_iter());
+        assert_eq!((alike.scale, alike.range, end), (Scale::Linear, Some((0.0, 1.1 * 25e-3)), 1.1 * 25e-3));
+        let (far, end) = time_axis([4e-3, 4.0].into_iter());
+        assert_eq!((far.scale, far.range, end), (Scale::Log, Some((2e-3, 8.0)), 8.0));
+    }
 }

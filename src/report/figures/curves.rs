@@ -1,7 +1,7 @@
 //! Curves stacked in panels, so that the course of each can be seen.
 
 use super::{grouped, label, quantity, typeset};
-use crate::error::significant;
+use crate::error::clock;
 use crate::math::{bounds, largest};
 use crate::plot::{Panel, Series};
 
@@ -151,7 +151,8 @@ impl Stack<'_> {
 
 /// Returns the value that a curve begins with, in words.
 fn start(curve: &Curve) -> String {
-    let value = significant(curve.start(), 6).replace('-', "−");
+    let six_digits = format!("{:.5e}", curve.start()).parse().unwrap_or(curve.start());
+    let value = clock(six_digits).replace('-', "−");
     format!("x₀ = {value} {}", typeset(curve.unit)).trim_end().to_string()
 }
 

@@ -111,7 +111,7 @@ pub(super) struct Floor {
 impl Floor {
     /// The floor of numbers that are sums of such a size; at least that of the smallest sizes with an exponent.
     pub fn of(size: f64) -> Self {
-        Floor { exponent: (f64::EPSILON * size).max(f64::MIN_POSITIVE).log10().ceil() as i32 }
+        Floor { exponent: (f64::EPSILON * size).max(f64::MIN_POSITIVE).log10().round() as i32 }
     }
 
     /// Moves smaller values to the floor, and says so.
@@ -136,4 +136,73 @@ pub fn envelope(points: impl Iterator<Item = (f64, f64)>, rows: usize, windows: 
         window.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(_, value)| (window[window.len() / 2].0, value))
     };
     points.chunks(width).filter_map(largest).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::{Drift, Range, Singularity};
+    use crate::system::{Column, Names};
+
+    /// Rows at times of 0.01 s with one constraint and the energies of a motion without work.
+    fn record(drift: impl Fn(f64) -> f64, kinetic: impl Fn(f64) -> f64, potential: impl Fn(f64) -> f64) -> Record {
+        let times: Vec<f64> = (0..100).map(|k| 0.01 * f64::from(k)).collect();
+        let names = Names { lambda: vec!["rod".into()], ..Names::default() };
+        let rows = times.iter().map(|t| vec![*t, 0.0]).collect();
+        let ledger = |t: &f64| {
+            let (kinetic, potential) = (kinetic(*t), potential(*t));
+            Ledger { kinetic, potential, work: 0.0, error: kinetic + potential - 100.0 }
+        };
+        Record {
+            trajectory: Trajectory { names, outputs: Vec::new(), rows },
+            last: None,
+            rows: times.len(),
+            gaps: Vec::new(),
+            drift: Drift::default(),
+            energy: None,
+            singularity: Singularity::default(),
+            range: Range::default(),
+            drift_rows: times.iter().map(|t| [drift(*t); 3]).collect(),
+            ledger_rows: times.iter().map(ledger).collect(),
+        }
+    }
+
+    #[test]
+    fn units_are_typeset() {
+        let column = |name: &str, unit: &str| Column { name: name.into(), unit: unit.into() };
+        let outputs = vec![column("a", "m/s^2"), column("b", "m/s^2"), column("alpha", "rad/s^2")];
+        let rows = vec![vec![0.0, 1.0, 2.0, 3.0], vec![1.0, 2.0, 3.0, 4.0]];
+        let run = Trajectory { names: Names::default(), outputs, rows };
+        let figure = outputs_figure("run", &run, &Shown::all(&run), false).unwrap();
+        let labels: Vec<&str> = figure.panels.iter().map(|panel| panel.y.label.as_str()).collect();
+        assert_eq!(labels, ["acceleration (m/s²)", "alpha (rad/s²)"]);
+        let apart = outputs_figure("run", &run, &Shown::all(&run), true).unwrap();
+        let labels: Vec<&str> = apart.panels.iter().map(|panel| panel.y.label.as_str()).collect();
+        assert_eq!(labels, ["a (m/s²)", "b (m/s²)", "alpha (rad/s²)"]);
+    }
+
+    #[test]
+    fn drift_axes_end_at_round_off() {
+        let record = record(|t| if t < 0.5 { 0.0 } else { 1e-12 * t }, |_| 1.0, |_| 99.0);
+        let figure = drift_figure("run", &record, &Shown::all(&record.trajectory), 0.05).unwrap();
+        let panel = &figure.panels[0];
+        let values = || panel.series.iter().flat_map(|series| series.points.iter().map(|point| point.1));
+        assert_eq!(values().fold(f64::INFINITY, f64::min), 1e-17);
+        assert_eq!(panel.title, "round-off: values below 10⁻¹⁷ are drawn at 10⁻¹⁷");
+        assert!(values().any(|value| value > 9e-13));
+    }
+
+    #[test]
+    fn energies_far_from_zero_are_drawn_as_changes() {
+        let swing = |t: f64| 1.0 - (9.0 * t).cos();
+        let high = record(|_| 0.0, swing, |t| 1e6 - swing(t));
+        let figure = energy_figure("run", &high, &Shown::all(&high.trajectory)).unwrap();
+        assert_eq!((figure.panels.len(), figure.panels[0].y.label.as_str()), (2, "energy − x₀ (J)"));
+        let names: Vec<&str> = figure.panels[0].series.iter().map(|series| series.label.as_str()).collect();
+        assert_eq!(names, ["kinetic, x₀ = 0 J", "potential, x₀ = 1e6 J"]);
+        let low = record(|_| 0.0, swing, |t| -swing(t));
+        let figure = energy_figure("run", &low, &Shown::all(&low.trajectory)).unwrap();
+        let names: Vec<&str> = figure.panels[0].series.iter().map(|series| series.label.as_str()).collect();
+        assert_eq!(names, ["kinetic", "potential", "total less work"]);
+    }
 }

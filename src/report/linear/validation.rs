@@ -6,6 +6,7 @@ use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::Table;
 use crate::report::figures::{Floor, grouped, label, quantity};
 use crate::system::Names;
+use crate::tolerances::report as tolerances;
 use crate::validate::{Curve, Decay, InputCheck, PerturbationSequence, Validation, Verdict};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -210,47 +211,58 @@ type Member<'a> = (&'a str, &'static str, &'a Curve);
 /// a hundredth of the height of its panel.
 const HIDES: f64 = 0.01;
 
-/// Draws the changes of one unit over time, and below how far the predictions are off. Of directions whose changes hide
-/// each other the first is drawn for all, with the differences of the others from it below.
+/// Draws the changes of one unit over time, and below how far the predictions are off.
 fn deviation_panels(members: &[Member], times: &[f64]) -> [Panel; 2] {
     let (name, unit, _) = members[0];
-    let is_alone = members.len() == 1;
+    let what = if members.len() == 1 { name } else { quantity(unit) };
     let time = "time since the state (s)";
-    let what = if is_alone { name } else { quantity(unit) };
+    let line = |name: String, values: &[f64]| Series::line(name, times.iter().copied().zip(values.to_vec()).collect());
     let mut changes = Panel::new(time, label(&format!("change of {what}"), unit));
     let mut errors = Panel::new(time, AxisSpec::from(label("difference", unit)).log());
-    let line = |name: String, values: Vec<f64>| Series::line(name, times.iter().copied().zip(values).collect());
-    let mut drawn: Vec<(&Member, Vec<&Member>)> = Vec::new();
-    for member in members {
-        match drawn.iter_mut().find(|(first, _)| hides(first.2, member.2)) {
-            Some((_, hidden)) => hidden.push(member),
-            None => drawn.push((member, Vec::new())),
-        }
-    }
+    let drawn = drawn(members);
     for (i, (first, hidden)) in drawn.iter().enumerate() {
-        let names: Vec<&str> = [*first].iter().chain(hidden).map(|member| member.0).collect();
-        let name = if is_alone { "simulated".to_string() } else { names.join(", ") };
-        changes = changes.series(line(name, first.2.simulated.clone()).color(i));
+        let name = if members.len() == 1 { "simulated".to_string() } else { names(first, hidden) };
+        changes = changes.series(line(name, &first.2.simulated).color(i));
     }
-    for (i, (first, hidden)) in drawn.iter().enumerate() {
+    for (i, ((name, _, curve), hidden)) in drawn.iter().enumerate() {
         // The styles mean the same for all members: one legend entry for each is enough.
-        let once = |name: &str| if i == 0 { name.to_string() } else { String::new() };
+        let once = |name: String| if i == 0 { name } else { String::new() };
         let colors = if drawn.len() == 1 { [1, 2] } else { [i, i] };
-        let Curve { simulated, ltv, lti, .. } = first.2;
-        for (name, values, style, color) in
-            [("LTV", ltv, Style::Dashed, colors[0]), ("LTI", lti, Style::Dotted, colors[1])]
-        {
-            let look = |series: Series| series.style(style).color(color);
-            changes = changes.series(look(line(once(&format!("predicted, {name}")), values.clone())));
-            errors = errors.series(look(line(once(&format!("{name} − simulated")), difference(values, simulated))));
+        let predictions =
+            [("LTV", &curve.ltv, Style::Dashed, colors[0]), ("LTI", &curve.lti, Style::Dotted, colors[1])];
+        for (method, values, style, color) in predictions {
+            let off = line(once(format!("|{method} − simulated|")), &difference(values, &curve.simulated));
+            changes = changes.series(line(once(format!("predicted, {method}")), values).style(style).color(color));
+            errors = errors.series(off.style(style).color(color));
         }
-        for (name, _, curve) in hidden {
-            let values = difference(&curve.simulated, simulated);
-            errors = errors.series(line(format!("{name} − {}", first.0), values).style(Style::Thin).color(i));
+        for (other, _, hidden) in hidden.iter().filter(|hidden| !are_equal(curve, hidden.2)) {
+            let off = line(format!("|{other} − {name}|"), &difference(&hidden.simulated, &curve.simulated));
+            errors = errors.series(off.style(Style::Thin).color(i));
         }
     }
     let size = members.iter().map(|member| largest(&member.2.simulated)).fold(0.0, f64::max);
     [changes, Floor::of(size).cut(errors)]
+}
+
+/// Returns the members that are drawn, each with those that it hides.
+fn drawn<'m>(members: &'m [Member<'m>]) -> Vec<(&'m Member<'m>, Vec<&'m Member<'m>>)> {
+    let mut drawn: Vec<(&Member, Vec<&Member>)> = Vec::new();
+    for member in members {
+        match drawn.iter_mut().find(|(first, _)| are_within(HIDES, first.2, member.2)) {
+            Some((_, hidden)) => hidden.push(member),
+            None => drawn.push((member, Vec::new())),
+        }
+    }
+    drawn
+}
+
+/// Returns the names of a member and of those that it hides, as `a = b` if they are equal.
+fn names(first: &Member, hidden: &[&Member]) -> String {
+    let name = |member: &&Member| {
+        let sign = if are_equal(first.2, member.2) { " = " } else { ", " };
+        format!("{sign}{}", member.0)
+    };
+    first.0.to_string() + &hidden.iter().map(name).collect::<String>()
 }
 
 /// Returns |a - b| at each time.
@@ -258,9 +270,13 @@ fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).collect()
 }
 
-/// True if all lines of one direction hide those of another.
-fn hides(a: &Curve, b: &Curve) -> bool {
-    let most = HIDES * largest(&a.simulated);
+/// True if all lines of two directions differ by this part of their size at most.
+fn are_within(part: f64, a: &Curve, b: &Curve) -> bool {
+    let most = part * largest(&a.simulated);
     let pairs = [(&a.simulated, &b.simulated), (&a.ltv, &b.ltv), (&a.lti, &b.lti)];
     pairs.into_iter().all(|(a, b)| largest(&difference(a, b)) <= most)
+}
+
+fn are_equal(a: &Curve, b: &Curve) -> bool {
+    are_within(tolerances::SAME, a, b)
 }

@@ -7,6 +7,10 @@ use crate::tolerances::report::WRONG_MOTION;
 
 /// Height of a row of cells, in nominal pixels.
 const ROW: f64 = 21.0;
+/// Widths of a letter, of the gap between two labels, and of all beside the cells, in nominal pixels.
+const LETTER: f64 = 10.0;
+const GAP: f64 = 16.0;
+const BESIDE: f64 = 270.0;
 /// Smaller values have the colour of this one: they are round-off.
 const ROUND_OFF: f64 = 1e-16;
 
@@ -27,7 +31,15 @@ pub fn stress_figure(scene: &str, stressed: &Stressed) -> Option<Figure> {
     let keys = keys(stressed);
     let panels =
         (0..map.methods.len()).map(|method| Panel { keys: keys.clone(), ..panel(stressed, method, (low, high)) });
-    Some(panels.fold(Figure::new().title(title.replace('_', " ")), Figure::panel))
+    let figure = Figure::new().title(title.replace('_', " ")).width(width(&map.x));
+    Some(panels.fold(figure, Figure::panel))
+}
+
+/// Returns a width in nominal pixels at which every column has room for its label.
+fn width(axis: &Axis) -> f64 {
+    let longest = axis.entries.iter().map(|entry| entry.label.chars().count()).max().unwrap_or(0);
+    let columns = axis.entries.len() as f64 * (LETTER * longest as f64 + GAP);
+    (BESIDE + columns).max(Figure::default().width)
 }
 
 fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
