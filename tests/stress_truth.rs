@@ -95,6 +95,28 @@ fn an_empty_map_says_so() {
     }
 }
 
+/// Every row and column has its label. What the budget left out looks unlike what diverged, as the legend says.
+#[test]
+fn the_figure_names_its_cells() {
+    let whole = gains("robot_arm", [0.05, 0.005, 0.01, 0.02]);
+    let part = without(&whole, |cell| cell.column == 1);
+    let figure = stress_figure("robot_arm", &part).unwrap();
+    let (panel, map) = (&figure.panels[0], figure.panels[0].heat_map.as_ref().unwrap());
+    assert_eq!(panel.x.names, ["0.005", "0.01", "0.02", "0.05"]);
+    let rows: Vec<&String> = part.map.y.entries.iter().map(|entry| &entry.label).collect();
+    assert_eq!(panel.y.names.iter().collect::<Vec<_>>(), rows);
+    let tint = |word: &str| panel.keys.iter().find(|(label, _)| label == word).unwrap().1;
+    let (left_out, diverged) = (tint("– left out"), tint("∞ diverged"));
+    assert_ne!(left_out, diverged);
+    let fill = |column: usize, row: usize| map.fills.iter().find(|fill| (fill.0, fill.1) == (column, row));
+    assert!((0..rows.len()).all(|row| fill(0, row).unwrap().2 == left_out));
+    for cell in part.cells.iter().filter(|cell| cell.status == Status::Diverged) {
+        let column = [3, 0, 1, 2][cell.column];
+        assert_eq!(fill(column, cell.row).unwrap().2, diverged);
+        assert!(map.words.contains(&(column, cell.row, "∞".to_string())));
+    }
+}
+
 #[test]
 fn what_completes_need_not_be_right() {
     for (whole, most, step) in [(robot_arm(), "0.002", "0.005"), (slider_crank(), "0.005", "0.01")] {

@@ -78,7 +78,7 @@ pub fn stabilizations_figure(name: &str, rows: &[StabilizedRun], length: f64) ->
             let times = row.record.trajectory.times().take(shown.rows);
             let points = times.zip(&row.record.drift_rows).map(|(t, levels)| (t, levels[level]));
             let curve = envelope(points, shown.rows, WINDOWS);
-            panel.series(Series::line(shown.title(&legend(&row.method)), curve))
+            panel.series(Series::line(shown.legend(&legend(&row.method)), curve))
         });
         Floor::of(length).cut(panel)
     };

@@ -195,6 +195,41 @@ fn figures_come_as_asked() {
     }
 }
 
+#[test]
+fn outputs_are_drawn_apart_where_asked() {
+    let other = r#""outputs": [ { "name": "again", "measure": "angle", "of": "rod" },"#;
+    let place = Place::new(PENDULUM.replace(r#""outputs": ["#, other));
+    for command in [&["simulate", "scene.json"][..], &["plot", "scene.json", "--outputs"]] {
+        let name = if command[0] == "plot" { "plot-outputs" } else { "outputs" };
+        place.done(&[command, &["-o", "here", "--quiet"]].concat());
+        let together = place.text(&format!("here/{name}.svg"));
+        assert!([">angle (rad)<", ">theta<", ">again<"].iter().all(|text| together.contains(text)), "{together}");
+        place.done(&[command, &["--separate", "-o", "here", "--quiet"]].concat());
+        let apart = place.text(&format!("here/{name}.svg"));
+        assert!([">theta (rad)<", ">again (rad)<"].iter().all(|text| apart.contains(text)), "{apart}");
+    }
+}
+
+/// The joint opens with each step, from one the rod to eighty: a figure ends before.
+#[test]
+fn what_a_divergence_spoils_is_not_drawn() {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/pendulum.json").display().to_string();
+    let place = Place::new("");
+    let gains = ["--formulation", "baumgarte:alpha=150,beta=150", "--projection", "none", "--integrator", "rk4"];
+    let steps = ["--step", "0.02", "--output-step", "0.02", "--quiet", "-o", "here"];
+    let run = place.run(&[&["simulate", &scene], &gains[..], &steps].concat());
+    assert_eq!(run.status.code(), Some(1));
+    for name in ["outputs", "drift", "energy"] {
+        let svg = place.text(&format!("here/{name}.svg"));
+        assert!(svg.contains("not drawn: t ≥ 0.18 s, where the run diverged"), "{svg}");
+        assert!(!svg.contains(">0.20<"), "{svg}");
+    }
+    place.done(&["plot", &scene, "--from", "here", "-o", "drawn", "--outputs", "--stroboscope", "--quiet"]);
+    for name in ["plot-outputs", "stroboscope"] {
+        assert!(place.text(&format!("drawn/{name}.svg")).contains(", where the run diverged"), "{name}");
+    }
+}
+
 /// Every element that opens closes, in the right order, and text has no stray signs.
 fn assert_well_formed(svg: &str) {
     let mut open: Vec<&str> = Vec::new();

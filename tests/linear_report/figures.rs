@@ -274,11 +274,11 @@ fn validation_shows_orders_and_predictions() {
         let v: Vec<String> = names.iter().map(|name| name.to_string()).collect();
         Names { q: Vec::new(), v, lambda: Vec::new() }
     };
-    let curve = |direction: usize| Curve {
+    let curve = |direction: usize, size: f64| Curve {
         direction,
-        simulated: vec![0.0, 1.0, 2.0],
-        ltv: vec![0.0, 1.0, 2.1],
-        lti: vec![0.0, 1.0, f64::NAN],
+        simulated: vec![0.0, size, 2.0 * size],
+        ltv: vec![0.0, size, 2.1 * size],
+        lti: vec![0.0, size, f64::NAN],
     };
     let sequence = |curves: Vec<Curve>| PerturbationSequence {
         direction: "random".to_string(),
@@ -292,11 +292,34 @@ fn validation_shows_orders_and_predictions() {
         curves,
         curve_epsilon: 0.01,
     };
-    let both = sequence(vec![curve(0), curve(1)]);
-    let both = svg(validation_figure("v", &names(&["a.angle'", "b.angle'"]), &both));
+    let angles = names(&["a.angle'", "b.angle'"]);
+    let both = |size: f64| validation_figure("v", &angles, &sequence(vec![curve(0, 1.0), curve(1, size)])).unwrap();
+    let labels = |figure: &Figure, panel: usize| -> Vec<String> {
+        figure.panels[panel].series.iter().map(|series| series.label.clone()).collect()
+    };
+    // Lines that hide each other are drawn once, with their difference below.
+    assert_eq!(labels(&both(1.0), 1), ["a.angle = b.angle", "predicted, LTV", "predicted, LTI"]);
+    assert_eq!(labels(&both(1.0), 2), ["|LTV − simulated|", "|LTI − simulated|"]);
+    assert_eq!(labels(&both(1.001), 1)[0], "a.angle, b.angle");
+    let hidden = &both(1.001).panels[2].series[2];
+    assert_eq!(hidden.label, "|b.angle − a.angle|");
+    assert!((hidden.points[2].1 - 0.002).abs() < 1e-12);
+    let off = &both(1.0).panels[2].series[0];
+    assert!((off.points[2].1 - 0.1).abs() < 1e-12 && off.points[1].1 == 1e-15);
+    let both = svg(Some(both(2.0)));
     says(&both, &["slope 2", "perturbation ε", "error of the change", "LTV (along the motion)", "LTI (frozen)"]);
-    says(&both, &["change of angle (rad)", "time (s)", ">a.angle<", ">b.angle<", "predicted, LTV", "predicted, LTI"]);
-    let alone = svg(validation_figure("v", &names(&["tip.x'"]), &sequence(vec![curve(0)])));
+    says(
+        &both,
+        &[
+            "change of angle (rad)",
+            "time since the state (s)",
+            ">a.angle<",
+            ">b.angle<",
+            "predicted, LTV",
+            "predicted, LTI",
+        ],
+    );
+    let alone = svg(validation_figure("v", &names(&["tip.x'"]), &sequence(vec![curve(0, 1.0)])));
     says(&alone, &["change of tip.x (m)", "simulated"]);
     let zero = PerturbationSequence { errors_ltv: Vec::new(), errors_lti: Vec::new(), ..sequence(Vec::new()) };
     assert!(validation_figure("v", &names(&[]), &zero).is_none());

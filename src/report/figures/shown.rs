@@ -33,7 +33,16 @@ impl Ending {
 pub struct Shown {
     /// Number of rows.
     pub rows: usize,
-    note: Option<String>,
+    cut: Option<Cut>,
+}
+
+/// Where and why a run is not drawn to its end.
+#[derive(Clone, Debug, PartialEq)]
+struct Cut {
+    /// Time of the first row that is not drawn, s; none if all are drawn, since the first alone is sound.
+    t: Option<f64>,
+    /// `diverged` or `failed`.
+    word: &'static str,
 }
 
 /// Rows at the end of a run are spoilt where values are so many times as large as all in the first half of the others.
@@ -48,7 +57,7 @@ const GROWS: f64 = 3.0;
 impl Shown {
     /// All rows of a trajectory.
     pub fn all(trajectory: &Trajectory) -> Self {
-        Shown { rows: trajectory.rows.len(), note: None }
+        Shown { rows: trajectory.rows.len(), cut: None }
     }
 
     /// The rows of a run; `length` is that of the mechanism, m.
@@ -79,17 +88,29 @@ impl Shown {
         match trajectory.rows.get(rows) {
             None => Shown::all(trajectory),
             // A single row is no curve.
-            Some(_) if rows < 2 => Shown { rows: count, note: Some(format!("the run {word} at once")) },
-            Some(row) => {
-                let t = significant(row[0], 4);
-                Shown { rows, note: Some(format!("not drawn: t ≥ {t} s, where the run {word}")) }
-            }
+            Some(_) if rows < 2 => Shown { rows: count, cut: Some(Cut { t: None, word }) },
+            Some(row) => Shown { rows, cut: Some(Cut { t: Some(row[0]), word }) },
         }
     }
 
     /// Returns the title with a note on what is not drawn.
     pub fn title(&self, title: &str) -> String {
-        self.note.as_ref().map_or(title.to_string(), |note| format!("{title} ({note})"))
+        match &self.cut {
+            None => title.to_string(),
+            Some(Cut { t: None, word }) => format!("{title} (the run {word} at once)"),
+            Some(Cut { t: Some(t), word }) => {
+                format!("{title} (not drawn: t ≥ {} s, where the run {word})", significant(*t, 4))
+            }
+        }
+    }
+
+    /// Returns the name of a curve with the same note, short enough for a legend.
+    pub fn legend(&self, name: &str) -> String {
+        match &self.cut {
+            Some(Cut { t: Some(t), word }) => format!("{name} ({word} at {} s)", significant(*t, 4)),
+            Some(Cut { t: None, word }) => format!("{name} ({word} at once)"),
+            None => name.to_string(),
+        }
     }
 }
 
@@ -158,6 +179,7 @@ mod tests {
             assert_eq!(shown.rows, 80, "{ending:?}");
             let word = if ending == Ending::Failed { "failed" } else { "diverged" };
             assert_eq!(shown.title("run"), format!("run (not drawn: t ≥ 0.8 s, where the run {word})"));
+            assert_eq!(shown.legend("exact"), format!("exact ({word} at 0.8 s)"));
         }
         assert_eq!(Shown::of_trajectory(Ending::Completed, &run), Shown::all(&run));
         assert_eq!(Shown::all(&run).title("run"), "run");
