@@ -122,17 +122,6 @@ impl Axis {
     pub fn values(&self) -> Option<Vec<f64>> {
         self.entries.iter().map(|entry| entry.value).collect()
     }
-
-    /// True if the ratio of neighbouring values is about constant.
-    pub fn is_log(&self) -> bool {
-        let values = self.values().unwrap_or_default();
-        let is_positive = values.iter().all(|value| *value > 0.0);
-        is_positive
-            && values
-                .first()
-                .zip(values.last())
-                .is_some_and(|(first, last)| last / first >= 30.0 || first / last >= 30.0)
-    }
 }
 
 /// Reads a range like `sweep`, with fewer values by default.

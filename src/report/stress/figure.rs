@@ -83,9 +83,9 @@ fn look(status: Status) -> Option<(&'static str, Tint)> {
         Status::Completed => return None,
         Status::Diverged => ("∞", Tint::Body(1, 0.5)),
         Status::Failed => ("×", Tint::Body(4, 0.35)),
-        Status::Refused => ("no", Tint::Ink(0.55)),
-        Status::TooSlow => ("slow", Tint::Ink(0.75)),
-        Status::LeftOut => ("–", Tint::Ink(0.93)),
+        Status::Refused => ("no", Tint::Ink(0.5)),
+        Status::TooSlow => ("slow", Tint::Ink(0.7)),
+        Status::LeftOut => ("–", Tint::Ink(0.88)),
     })
 }
 

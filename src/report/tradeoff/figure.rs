@@ -2,6 +2,7 @@
 
 use crate::compare::work_precision::{Cell, Held, WorkPrecision, cheapest_by_method, front};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
+use crate::report::figures::Floor;
 
 /// Number of methods in colour; the others are crosses.
 const NAMED: usize = 6;
@@ -19,11 +20,12 @@ pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> 
     let drift = |cell: &Cell| cell.drift().map(Held::largest);
     let panel = |x: Quantity, y: Quantity| panel(measured, &named, x, y);
     let error = || Quantity("error (relative)", &Cell::error);
+    let drifts = panel(Quantity("CPU time (s)", &cost), Quantity("drift of φ, φ′ (relative)", &drift));
     let figure = Figure::new().title(format!("{}: speed for accuracy", measured.scene)).columns(2).width(WIDTH);
     Some(
         figure
             .panel(panel(Quantity("CPU time (s)", &cost), error()))
-            .panel(panel(Quantity("CPU time (s)", &cost), Quantity("drift of φ, φ′ (relative)", &drift)))
+            .panel(Floor::of(1.0).cut(drifts))
             .panel(panel(Quantity("evaluations of the equations of motion", &evaluations), error()))
             .panel(panel(Quantity("factorizations", &factorizations), error())),
     )
