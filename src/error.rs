@@ -57,6 +57,9 @@ pub struct Failure {
     pub hint: String,
 }
 
+/// Reason of the failure of a run that the user interrupted.
+pub const INTERRUPTED: &str = "interrupted";
+
 /// A reason to doubt a result, with a remedy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Warning {

@@ -3,7 +3,7 @@
 use super::common::{Common, MethodOptions, Output};
 use super::interrupt;
 use crate::compare::{StabilizedRun, drift_under_stabilizations, stabilizations};
-use crate::error::{Error, Failure, Result};
+use crate::error::{Error, Failure, INTERRUPTED, Result};
 use crate::integrator;
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
@@ -78,6 +78,6 @@ fn load(common: &Common) -> Result<PreparedScene> {
 /// failed run.
 fn fatal(rows: &[StabilizedRun]) -> Option<&Failure> {
     let failures: Vec<&Failure> = rows.iter().filter_map(|row| row.failure.as_ref()).collect();
-    let interrupted = failures.iter().find(|failure| failure.reason == interrupt::REASON);
+    let interrupted = failures.iter().find(|failure| failure.reason == INTERRUPTED);
     interrupted.or(failures.last().filter(|_| failures.len() == rows.len())).copied()
 }

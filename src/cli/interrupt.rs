@@ -1,6 +1,7 @@
 //! Interruption by Ctrl-C and similar signals.
 
 use super::terminal::tell;
+use crate::error::INTERRUPTED;
 use crate::report::Folder;
 use crate::simulate::Stop;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,9 +9,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// IS_HEARD: a command polls for interruption. IS_ASKED_FOR: a signal has arrived.
 static IS_HEARD: AtomicBool = AtomicBool::new(false);
 static IS_ASKED_FOR: AtomicBool = AtomicBool::new(false);
-
-/// Reason in the failure of an interrupted run.
-pub const REASON: &str = "interrupted";
 
 /// Exit code of shells for a process ended by Ctrl-C.
 const ENDED: i32 = 130;
@@ -60,7 +58,7 @@ fn handle(then: impl Fn() + Send + 'static) -> Result<(), ctrlc::Error> {
 /// [`Recorder::with_stop`](crate::analysis::Recorder::with_stop). A command that polls also writes its results so far.
 pub fn stop(folder: &Folder) -> Option<Stop> {
     is_asked().then(|| Stop {
-        reason: REASON.to_string(),
+        reason: INTERRUPTED.to_string(),
         hint: format!("what was computed until then is in {}", folder.path().display()),
     })
 }

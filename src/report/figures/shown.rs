@@ -1,14 +1,14 @@
 //! Rows of a run that are drawn: those before its end is spoilt.
 
 use crate::analysis::{Drift, EnergyBalance, Record};
-use crate::error::{Failure, significant};
+use crate::error::{Failure, INTERRUPTED, significant};
 use crate::math::largest;
 use crate::trajectory::Trajectory;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ending {
-    /// At its end time.
+    /// At its end time, or where the user interrupted it.
     #[default]
     Completed,
     /// With an error.
@@ -22,8 +22,17 @@ impl Ending {
     pub fn of(failure: Option<&Failure>, drift: &Drift, energy: Option<&EnergyBalance>) -> Self {
         match failure {
             _ if drift.has_open_joints() || energy.is_some_and(EnergyBalance::is_lost) => Ending::Diverged,
-            Some(_) => Ending::Failed,
-            None => Ending::Completed,
+            Some(failure) if failure.reason != INTERRUPTED => Ending::Failed,
+            _ => Ending::Completed,
+        }
+    }
+
+    /// Returns what a run did, and what it did from the first row on that is not drawn.
+    fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Ending::Completed => ("completed", ""),
+            Ending::Failed => ("failed", "where values grow until the run fails"),
+            Ending::Diverged => ("diverged", "where the run diverged"),
         }
     }
 }
@@ -37,12 +46,11 @@ pub struct Shown {
 }
 
 /// Where and why a run is not drawn to its end.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Cut {
     /// Time of the first row that is not drawn, s; none if all are drawn, since the first alone is sound.
     t: Option<f64>,
-    /// `diverged` or `failed`.
-    word: &'static str,
+    ending: Ending,
 }
 
 /// Rows at the end of a run are spoilt where values are so many times as large as all in the first half of the others.
@@ -84,32 +92,31 @@ impl Shown {
             .chain(others.iter().cloned())
             .filter(|(sizes, _)| sizes.len() == count && (ending == Ending::Diverged || is_growing(sizes)));
         let rows = blown_up.map(|(sizes, floor)| sound(&sizes, floor)).min().unwrap_or(count);
-        let word = if ending == Ending::Diverged { "diverged" } else { "failed" };
         match trajectory.rows.get(rows) {
             None => Shown::all(trajectory),
             // A single row is no curve.
-            Some(_) if rows < 2 => Shown { rows: count, cut: Some(Cut { t: None, word }) },
-            Some(row) => Shown { rows, cut: Some(Cut { t: Some(row[0]), word }) },
+            Some(_) if rows < 2 => Shown { rows: count, cut: Some(Cut { t: None, ending }) },
+            Some(row) => Shown { rows, cut: Some(Cut { t: Some(row[0]), ending }) },
         }
     }
 
     /// Returns the title with a note on what is not drawn.
     pub fn title(&self, title: &str) -> String {
-        match &self.cut {
-            None => title.to_string(),
-            Some(Cut { t: None, word }) => format!("{title} (the run {word} at once)"),
-            Some(Cut { t: Some(t), word }) => {
-                format!("{title} (not drawn: t ≥ {} s, where the run {word})", significant(*t, 4))
-            }
+        let Some(Cut { t, ending }) = self.cut else { return title.to_string() };
+        let (word, from) = ending.words();
+        match t {
+            None => format!("{title} (the run {word} at once)"),
+            Some(t) => format!("{title} (not drawn: t ≥ {} s, {from})", significant(t, 4)),
         }
     }
 
     /// Returns the name of a curve with the same note, short enough for a legend.
     pub fn legend(&self, name: &str) -> String {
-        match &self.cut {
-            Some(Cut { t: Some(t), word }) => format!("{name} ({word} at {} s)", significant(*t, 4)),
-            Some(Cut { t: None, word }) => format!("{name} ({word} at once)"),
-            None => name.to_string(),
+        let Some(Cut { t, ending }) = self.cut else { return name.to_string() };
+        let (word, _) = ending.words();
+        match t {
+            None => format!("{name} ({word} at once)"),
+            Some(t) => format!("{name} ({word} from {} s on)", significant(t, 4)),
         }
     }
 }
@@ -157,6 +164,7 @@ fn sound(sizes: &[f64], floor: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::DriftLevel;
     use crate::system::{Column, Names};
 
     /// Rows of one force at times of 0.01 s.
@@ -177,9 +185,8 @@ mod tests {
         for ending in [Ending::Diverged, Ending::Failed] {
             let shown = Shown::of_trajectory(ending, &run);
             assert_eq!(shown.rows, 80, "{ending:?}");
-            let word = if ending == Ending::Failed { "failed" } else { "diverged" };
-            assert_eq!(shown.title("run"), format!("run (not drawn: t ≥ 0.8 s, where the run {word})"));
-            assert_eq!(shown.legend("exact"), format!("exact ({word} at 0.8 s)"));
+            assert_eq!(shown.title("run"), format!("run (not drawn: t ≥ 0.8 s, {})", ending.words().1));
+            assert_eq!(shown.legend("exact"), format!("exact ({} from 0.8 s on)", ending.words().0));
         }
         assert_eq!(Shown::of_trajectory(Ending::Completed, &run), Shown::all(&run));
         assert_eq!(Shown::all(&run).title("run"), "run");
@@ -188,6 +195,18 @@ mod tests {
         assert_eq!(Shown::of_trajectory(Ending::Diverged, &not_finite).rows, 80);
         let infinite = force(|t| if t > 0.795 { f64::INFINITY } else { divergence(t) });
         assert_eq!(Shown::of_trajectory(Ending::Diverged, &infinite).rows, 80);
+    }
+
+    #[test]
+    fn an_interrupted_run_is_drawn_whole() {
+        let failure = |reason: &str| Failure { t: 1.0, reason: reason.into(), hint: String::new() };
+        let ending = |reason, open: f64| {
+            let position = DriftLevel { relative_max: open, ..DriftLevel::default() };
+            Ending::of(Some(&failure(reason)), &Drift { position, ..Drift::default() }, None)
+        };
+        assert_eq!(ending(INTERRUPTED, 1e-9), Ending::Completed);
+        assert_eq!(ending("the step became too small", 1e-9), Ending::Failed);
+        assert_eq!([ending(INTERRUPTED, 2.0), ending("no more steps", f64::NAN)], [Ending::Diverged; 2]);
     }
 
     #[test]
