@@ -1,193 +1,164 @@
-//! Map from values to positions along an axis.
+//! The axis of all charts: a coordinate of plotters with a scale, limits, marks and their labels.
 
 use super::panel::{AxisSpec, Scale};
+use super::ticks::Ticks;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
 /// Values beyond this are drawn at it, so that differences of values stay finite.
 const LARGEST: f64 = 1e300;
-/// Limit of positions outside the axis, in lengths of the axis.
-const FAR: f64 = 1e6;
-/// Smaller differences count as zero.
+/// Smaller differences count as zero, and so do those below this part of the values themselves.
 const SMALLEST: f64 = 1e-290;
-/// Differences below this part of the values themselves are rounding noise.
 const NOISE: f64 = 1e-13;
+/// Limit of positions outside the axis, in lengths of the axis; for plotters these are whole numbers of 32 bits.
+const FAR: f64 = 1e6;
+const FAR_DRAWN: f64 = 20.0;
 
 /// Range of the values along one axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     low: f64,
     high: f64,
     least_positive: f64,
-    negative: bool,
-    not_positive: bool,
 }
 
 impl Default for Extent {
     fn default() -> Self {
-        let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
-        Self { low, high, least_positive: f64::INFINITY, negative: false, not_positive: false }
+        Self { low: f64::INFINITY, high: f64::NEG_INFINITY, least_positive: f64::INFINITY }
     }
 }
 
 impl Extent {
     pub fn add(&mut self, value: f64) {
-        if !value.is_finite() {
-            return;
-        }
-        let value = value.clamp(-LARGEST, LARGEST);
-        self.low = self.low.min(value);
-        self.high = self.high.max(value);
-        self.negative |= value < 0.0;
-        self.not_positive |= value <= 0.0;
-        if value > 0.0 {
-            self.least_positive = self.least_positive.min(value);
+        if value.is_finite() {
+            let value = value.clamp(-LARGEST, LARGEST);
+            (self.low, self.high) = (self.low.min(value), self.high.max(value));
+            self.least_positive = if value > 0.0 { self.least_positive.min(value) } else { self.least_positive };
         }
     }
 
-    pub fn merge(&mut self, other: &Self) {
-        self.low = self.low.min(other.low);
-        self.high = self.high.max(other.high);
-        self.least_positive = self.least_positive.min(other.least_positive);
-        self.negative |= other.negative;
-        self.not_positive |= other.not_positive;
+    /// Returns the exponent of a floor one decade below the smallest positive value, if there is anything to draw at it.
+    fn floor(&self) -> Option<i32> {
+        // Without a positive value any floor will do; this one is near the rounding of numbers of size one.
+        let least = if self.least_positive.is_finite() { self.least_positive } else { 1e-15 };
+        (self.low <= 0.0).then(|| least.log10().floor() as i32 - 1)
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.low > self.high
+    /// Returns the limits of a linear axis.
+    fn linear(&self, margin: f64) -> (f64, f64) {
+        if self.low > self.high {
+            return (0.0, 1.0);
+        }
+        let (span, middle) = (self.high - self.low, 0.5 * self.low + 0.5 * self.high);
+        if span > least_span(self.low, self.high) {
+            return (self.low - margin * span, self.high + margin * span);
+        }
+        let half = if middle.abs() < SMALLEST { 1.0 } else { 0.1 * middle.abs() };
+        (middle - half, middle + half)
+    }
+
+    /// Returns the decimal logarithms of the limits, with at least two labelled decades.
+    fn decades(&self, margin: f64) -> (f64, f64) {
+        let (low, high) = match self.floor().map(f64::from) {
+            _ if self.low > self.high => (0.0, 1.0),
+            Some(floor) if self.high <= 0.0 => (floor, floor + 2.0),
+            Some(floor) => (floor, self.high.log10()),
+            None => (self.low.log10(), self.high.log10()),
+        };
+        let (low, high) = match ((low + 1e-9).floor(), (high - 1e-9).ceil()) {
+            _ if high.floor() - low.ceil() >= 1.0 => (low, high),
+            (down, up) if up > down => (down, up),
+            (down, up) => (down - 1.0, up + 1.0),
+        };
+        (low - margin * (high - low), high + margin * (high - low))
     }
 }
 
-/// Margin between the data and the ends of an axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Slack {
-    /// No margin.
-    Exact,
-    /// No margin, but limits very near to round numbers are moved there.
-    Round,
-    /// This part of the length on both sides.
-    Part(f64),
+fn least_span(low: f64, high: f64) -> f64 {
+    SMALLEST.max(NOISE * low.abs().max(high.abs()))
 }
 
-impl Slack {
-    fn part(self) -> f64 {
-        if let Self::Part(part) = self { part } else { 0.0 }
-    }
-}
-
-/// A scale with its limits; those of a logarithmic one are decimal logarithms.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A scale with its limits and marks; limits of a logarithmic one are decimal logarithms.
+#[derive(Clone, Debug)]
 pub(super) struct Axis {
-    pub scale: Scale,
+    pub spec: AxisSpec,
     pub low: f64,
     pub high: f64,
-    pub floor: Option<Floor>,
-    /// True for angles in degrees.
-    pub is_angle: bool,
-}
-
-/// The floor of a logarithmic axis, at which zero and negative values are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Floor {
-    pub exponent: i32,
-    /// True if some of these values are negative, not only zero.
-    pub negative: bool,
+    /// Exponent of the floor of a logarithmic axis, at which zero and negative values are drawn.
+    pub floor: Option<i32>,
+    pub ticks: Ticks,
 }
 
 impl Axis {
-    /// An axis that shows all values.
-    pub fn new(spec: &AxisSpec, extent: &Extent, slack: Slack) -> Self {
-        match spec.scale {
-            Scale::Linear => Self { is_angle: spec.is_angle, ..Self::linear(spec.range, extent, slack) },
-            Scale::Log => Self::log(spec.range, extent, slack),
-        }
-    }
-
-    fn linear(range: Option<(f64, f64)>, extent: &Extent, slack: Slack) -> Self {
-        let usable = |(low, high): &(f64, f64)| {
-            low.abs() <= LARGEST && high.abs() <= LARGEST && high - low > minimum_span(*low, *high)
+    /// An axis that shows all values, with a margin in parts of its length, without marks.
+    pub fn new(spec: &AxisSpec, extent: &Extent, margin: f64) -> Self {
+        let fixed = spec.range.filter(|(low, high)| low.abs() <= LARGEST && high.abs() <= LARGEST);
+        let (limits, floor) = match (spec.scale, fixed) {
+            (Scale::Linear, Some((low, high))) if high - low > least_span(low, high) => ((low, high), None),
+            (Scale::Linear, _) => (extent.linear(margin), None),
+            (Scale::Log, Some((low, high))) if low > 0.0 && high > 1.003 * low => ((low.log10(), high.log10()), None),
+            (Scale::Log, _) => (extent.decades(margin), extent.floor()),
         };
-        let fixed = range.filter(usable);
-        let (low, high) = fixed.unwrap_or_else(|| linear_limits(extent, slack));
-        Self { scale: Scale::Linear, low, high, floor: None, is_angle: false }
-    }
-
-    fn log(range: Option<(f64, f64)>, extent: &Extent, slack: Slack) -> Self {
-        let usable = |(low, high): &(f64, f64)| *low > 0.0 && *high <= LARGEST && high.log10() - low.log10() > 1e-3;
-        if let Some((low, high)) = range.filter(usable) {
-            return Self { scale: Scale::Log, low: low.log10(), high: high.log10(), floor: None, is_angle: false };
-        }
-        let floor = floor_below(extent);
-        let (low, high) = log_limits(extent, floor);
-        let margin = slack.part() * (high - low);
-        Self { scale: Scale::Log, low: low - margin, high: high + margin, floor, is_angle: false }
+        Self { spec: spec.clone(), low: limits.0, high: limits.1, floor, ticks: Ticks::default() }
     }
 
     /// Returns the position of a value: 0 at the lower limit, 1 at the upper one; none for NaN and infinities.
     pub fn place(&self, value: f64) -> Option<f64> {
-        if !value.is_finite() {
-            return None;
-        }
-        let value = match self.scale {
+        let on_scale = match self.spec.scale {
             Scale::Linear => value.clamp(-LARGEST, LARGEST),
             Scale::Log if value > 0.0 => value.log10(),
-            Scale::Log => self.floor.map_or(self.low, |floor| f64::from(floor.exponent)),
+            Scale::Log => self.floor.map_or(self.low, f64::from),
         };
-        Some(((value - self.low) / (self.high - self.low)).clamp(-FAR, FAR))
+        value.is_finite().then(|| ((on_scale - self.low) / (self.high - self.low)).clamp(-FAR, FAR))
     }
 
-    /// Returns the value in the middle.
-    pub fn middle(&self) -> f64 {
-        let middle = 0.5 * self.low + 0.5 * self.high;
-        if self.scale == Scale::Log { 10f64.powf(middle) } else { middle }
+    /// Returns the value at a position.
+    pub fn value(&self, place: f64) -> f64 {
+        let value = self.low + place * (self.high - self.low);
+        if self.spec.scale == Scale::Log { 10f64.powf(value) } else { value }
+    }
+
+    /// Widens the limits of a linear axis to a span.
+    pub fn widen(&mut self, span: f64) {
+        let more = 0.5 * (span - (self.high - self.low));
+        if more > 0.0 && more.is_finite() {
+            (self.low, self.high) = (self.low - more, self.high + more);
+        }
+    }
+
+    /// Returns a note on the values that a logarithmic axis draws at its floor.
+    pub fn note(&self, name: &str, drawn: &str) -> Option<String> {
+        self.floor.map(|floor| format!("{name} ≤ 0 {drawn} 10^{floor}"))
     }
 }
 
-fn minimum_span(low: f64, high: f64) -> f64 {
-    SMALLEST.max(NOISE * low.abs().max(high.abs()))
-}
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
 
-fn linear_limits(extent: &Extent, slack: Slack) -> (f64, f64) {
-    if extent.is_empty() {
-        return (0.0, 1.0);
+    fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
+        let place = self.place(*value).unwrap_or(0.0).clamp(-FAR_DRAWN, FAR_DRAWN);
+        from + (f64::from(to - from) * place).round() as i32
     }
-    let (low, high) = (extent.low, extent.high);
-    if high - low > minimum_span(low, high) {
-        let margin = slack.part() * (high - low);
-        return if slack == Slack::Round { near_round(low, high) } else { (low - margin, high + margin) };
+
+    /// Returns the labelled marks, or the minor ones if 0 labels are asked for. Only the first have grid lines.
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        match (hint.weight().allow_light_points(), hint.bold_points()) {
+            (true, _) => Vec::new(),
+            (false, 0) => self.ticks.minor.clone(),
+            (false, _) => self.ticks.major.iter().map(|tick| tick.0).collect(),
+        }
     }
-    let middle = 0.5 * low + 0.5 * high;
-    let half = if middle.abs() < SMALLEST { 1.0 } else { 0.1 * middle.abs() };
-    (middle - half, middle + half)
-}
 
-/// Moves limits outwards to round numbers that are very near: data up to 9.995 get an axis up to 10.
-fn near_round(low: f64, high: f64) -> (f64, f64) {
-    let step = 10f64.powf((high - low).log10().floor()) / 2.0;
-    let near = 0.012 * (high - low);
-    let (down, up) = ((low / step).floor() * step, (high / step).ceil() * step);
-    (if low - down < near { down } else { low }, if up - high < near { up } else { high })
-}
-
-/// Returns a floor one decade below the smallest positive value, if there is anything to draw at it.
-fn floor_below(extent: &Extent) -> Option<Floor> {
-    // Without a positive value any floor will do; this one is near the rounding of numbers of size one.
-    let least = if extent.least_positive.is_finite() { extent.least_positive } else { 1e-15 };
-    let exponent = least.log10().floor() as i32 - 1;
-    extent.not_positive.then_some(Floor { exponent, negative: extent.negative })
-}
-
-/// Returns the decimal logarithms of the limits, with at least two labelled decades.
-fn log_limits(extent: &Extent, floor: Option<Floor>) -> (f64, f64) {
-    let (low, high) = match floor {
-        _ if extent.is_empty() => (0.0, 1.0),
-        Some(floor) if extent.high <= 0.0 => (f64::from(floor.exponent), f64::from(floor.exponent + 2)),
-        Some(floor) => (f64::from(floor.exponent), extent.high.log10()),
-        None => (extent.least_positive.log10(), extent.high.log10()),
-    };
-    if high.floor() - low.ceil() >= 1.0 {
-        return (low, high);
+    fn range(&self) -> std::ops::Range<f64> {
+        self.value(0.0)..self.value(1.0)
     }
-    let (low, high) = ((low + 1e-9).floor(), (high - 1e-9).ceil());
-    if high > low { (low, high) } else { (low - 1.0, high + 1.0) }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, value: &f64) -> String {
+        let tick = self.ticks.major.iter().find(|tick| tick.0 == *value);
+        tick.map_or_else(String::new, |tick| tick.1.clone())
+    }
 }
 
 #[cfg(test)]
@@ -197,22 +168,24 @@ mod tests {
     fn axis(spec: AxisSpec, values: &[f64]) -> Axis {
         let mut extent = Extent::default();
         values.iter().for_each(|value| extent.add(*value));
-        Axis::new(&spec, &extent, Slack::Exact)
+        Axis::new(&spec, &extent, 0.0)
     }
 
     #[test]
-    fn values_map_to_the_unit_interval() {
+    fn values_map_to_the_unit_interval_and_back() {
         let linear = axis("x".into(), &[2.0, 4.0]);
-        assert_eq!(linear.place(3.0), Some(0.5));
+        assert_eq!((linear.place(3.0), linear.value(0.5)), (Some(0.5), 3.0));
         assert_eq!(linear.place(f64::NAN), None);
         let log = axis(AxisSpec::from("x").log(), &[1e-4, 1.0]);
-        assert_eq!(log.place(1e-2), Some(0.5));
+        assert_eq!((log.place(1e-2), log.value(0.5)), (Some(0.5), 1e-2));
+        assert_eq!([log.map(&1e-2, (100, 300)), log.map(&1.0, (300, 100))], [200, 100]);
+        assert_eq!(linear.map(&1e300, (0, 60_000)), 1_200_000);
     }
 
     #[test]
     fn zeros_on_a_log_axis_lie_below_all_positive_values() {
         let log = axis(AxisSpec::from("x").log(), &[0.0, 3e-9, 1.0]);
-        assert_eq!(log.floor, Some(Floor { exponent: -10, negative: false }));
+        assert_eq!(log.floor, Some(-10));
         assert_eq!(log.place(0.0), Some(0.0));
         assert!(log.place(3e-9) > Some(0.1));
     }

@@ -1,116 +1,105 @@
 //! Drawing of a figure as shapes.
 
-use super::axes;
-use super::figure::Figure;
-use super::item;
-use super::layout::{self, Placed};
-use super::legend::{self, Block, LegendEntry, Taken};
-use super::marks::{self, Budget};
-use super::notes;
-use super::palette::{EDGE, FRAME, LABEL_SIZE, NOTE_INK, TITLE_SIZE};
-use super::shape::{Align, Drawing, Rect, Shape, Text};
-use super::text::{self, LINE_HEIGHT};
+use super::data::Budget;
+use super::legend::{Block, LegendEntry};
+use super::*;
+use plotters::drawing::IntoDrawingArea;
+use std::{cell::RefCell, rc::Rc};
 
-const PANEL_GAP: f64 = 16.0;
-const LEGEND_GAP: f64 = 2.0;
+const PANEL_GAP: f64 = 12.0;
 
 /// Draws the whole figure.
 pub(super) fn figure(figure: &Figure) -> Drawing {
-    let (width, mut panels) = layout::place(figure);
+    let (width, panels) = layout::place(figure);
     let title = figure.title.clone().unwrap_or_default();
-    let mut drawing = Drawing { width, title: title.clone(), ..Drawing::default() };
-    let mut top = EDGE + 2.0 + heading(&mut drawing, &title);
+    let drawing = Rc::new(RefCell::new(Drawing { width, title, ..Drawing::default() }));
+    // A sketch refuses nothing, so that there is always a page.
+    let bottom = page(figure, panels, width, &Sketch(drawing.clone())).unwrap_or_default();
+    drawing.borrow_mut().height = (bottom + EDGE).ceil();
+    drawing.take()
+}
+
+/// Draws title, panels and legends from top to bottom, and returns the lower end.
+fn page(figure: &Figure, mut panels: Vec<Placed>, width: f64, sketch: &Sketch) -> Done<f64> {
+    let page = sketch.clone().into_drawing_area();
+    let columns = layout::columns(figure);
+    let mut top = (EDGE + 2.0 + heading(&page, figure.title.as_deref().unwrap_or_default(), width)?).round();
     let shared = shared_legend(&panels);
-    let series = figure.panels.iter().map(|panel| panel.series.len() + panel.color_series.len()).sum();
-    for (row, side_by_side) in panels.chunks_mut(layout::columns(figure)).enumerate() {
+    for (row, side_by_side) in panels.chunks_mut(columns).enumerate() {
         top += if row > 0 { PANEL_GAP } else { 0.0 };
         let mut bottom = top;
-        for placed in side_by_side {
-            let entries = if shared.is_some() { Vec::new() } else { legend::entries(placed) };
-            bottom = bottom.max(panel(&mut drawing, placed, top, &entries, Budget::new(series)));
+        for (column, placed) in side_by_side.iter_mut().enumerate() {
+            let (left, size) = (width / columns as f64 * column as f64, (width / columns as f64, placed.height()));
+            let area = page.clone().shrink(units((left, top)), units(size));
+            let entries = if shared.is_empty() { legend::entries(placed) } else { Vec::new() };
+            let outside = panel(sketch, &page, &area, placed, entries, Budget::new(figure))?;
+            bottom = bottom.max(legend_below(&page, &outside, placed, top + size.1, width)?);
         }
         top = bottom;
     }
-    if let (Some(entries), Some(placed)) = (shared, panels.last()) {
-        top = below(&mut drawing, &entries, &placed.frame, top);
-    }
-    drawing.height = (top + EDGE).ceil();
-    drawing
+    panels.last().map_or(Ok(top), |placed| legend_below(&page, &shared, placed, top, width))
 }
 
 /// Draws the title and returns its height.
-fn heading(drawing: &mut Drawing, title: &str) -> f64 {
-    let lines = text::wrap(title, TITLE_SIZE, drawing.width - 2.0 * EDGE, 3);
-    for (row, line) in lines.iter().enumerate() {
-        let y = EDGE + TITLE_SIZE * (0.85 + LINE_HEIGHT * row as f64);
-        drawing.text(axes::text((0.5 * drawing.width, y), line, TITLE_SIZE, Align::Middle));
-    }
-    if lines.is_empty() { 0.0 } else { LINE_HEIGHT * TITLE_SIZE * lines.len() as f64 + 5.0 }
+fn heading(page: &Page, title: &str, width: f64) -> Done<f64> {
+    let title = Label::new(title, TITLE_SIZE, width - 2.0 * EDGE, 3);
+    let middle = (0.5 * width, EDGE - 2.0 + 0.5 * title.height());
+    page.draw_text(&title.text, &font(title.size, INK, Align::Middle), units(middle))?;
+    Ok(if title.text.is_empty() { 0.0 } else { title.height() + 5.0 })
 }
 
 /// Returns the entries of the panels' legends if there are several panels and all have the same.
-fn shared_legend(panels: &[Placed]) -> Option<Vec<LegendEntry>> {
-    let mut all = panels.iter().map(legend::entries);
-    let first = all.next().filter(|entries| !entries.is_empty() && panels.len() > 1)?;
-    all.all(|entries| entries == first).then_some(first)
+fn shared_legend(panels: &[Placed]) -> Vec<LegendEntry> {
+    let all: Vec<_> = panels.iter().map(legend::entries).collect();
+    let is_shared = all.len() > 1 && all.windows(2).all(|pair| pair[0] == pair[1]);
+    all.into_iter().next().filter(|_| is_shared).unwrap_or_default()
 }
 
-/// Draws a panel from `top` on and returns its lower end.
-fn panel(drawing: &mut Drawing, placed: &mut Placed, top: f64, entries: &[LegendEntry], budget: Budget) -> f64 {
-    let height = placed.frame.height();
-    placed.frame.top = (top + placed.above()).round() + 0.5;
-    placed.frame.bottom = placed.frame.top + height;
-    let data = marks::shapes(placed, budget);
-    let mut taken = Taken::default();
-    taken.add(&data);
-    if placed.panel.heat_map.is_none() {
-        axes::grid(drawing, placed);
+/// Draws a panel on its area, and returns the entries for which there is no space inside.
+fn panel(
+    sketch: &Sketch,
+    page: &Page,
+    area: &Page,
+    placed: &mut Placed,
+    entries: Vec<LegendEntry>,
+    budget: Budget,
+) -> Done<Vec<LegendEntry>> {
+    let mut chart = chart::build(area, placed)?;
+    data::bands(&chart, placed)?;
+    chart::grid(&mut chart, placed)?;
+    heat::cells(&mut chart, page, placed)?;
+    let first = sketch.seal();
+    notes::verticals(&chart, placed)?;
+    let after_verticals = sketch.seal();
+    data::series(&chart, placed, budget)?;
+    let items = sketch.seal();
+    item::draw(page, placed)?;
+    let last = sketch.seal();
+    sketch.0.borrow_mut().items = items..last;
+    let mut taken = Taken::new(&sketch.0.borrow().shapes[first..last]);
+    chart::axes(&mut chart, placed)?;
+    chart::texts(page, placed)?;
+    placed.bar.iter().try_for_each(|bar| bar.draw(area, placed))?;
+    item::inset(page, placed, &mut taken)?;
+    notes::texts(page, placed, &mut taken)?;
+    if after_verticals == last && placed.panel.heat_map.is_none() {
+        page.draw_text("no data", &font(LABEL_SIZE, NOTE_INK, Align::Middle), units(placed.frame.at(0.5, 0.5)))?;
     }
-    marks::cells(drawing, placed);
-    let lines = notes::verticals(drawing, placed);
-    taken.add(&lines);
-    let items = item::shapes(placed);
-    taken.add(&items);
-    let empty = data.is_empty() && items.is_empty() && placed.panel.heat_map.is_none();
-    drawing.shapes.extend(data);
-    let first = drawing.shapes.len();
-    drawing.shapes.extend(items);
-    drawing.items = first..drawing.shapes.len();
-    drawing.shapes.push(Shape::Path { points: placed.frame.outline(), stroke: FRAME });
-    axes::axes(drawing, placed);
-    item::inset(drawing, placed, &mut taken);
-    notes::texts(drawing, placed, &mut taken);
-    if empty {
-        drawing
-            .text(Text { color: NOTE_INK, ..axes::text(placed.frame.center(), "no data", LABEL_SIZE, Align::Middle) });
-    }
-    explain(drawing, placed, entries, &taken)
-}
-
-/// Draws legend and colour bar and returns the lower end of the panel.
-fn explain(drawing: &mut Drawing, placed: &Placed, entries: &[LegendEntry], taken: &Taken) -> f64 {
-    if let Some(bar) = &placed.bar {
-        bar.draw(drawing, &placed.frame);
-    }
-    let bottom = placed.frame.bottom + placed.below();
-    if entries.is_empty() {
-        return bottom;
-    }
-    let free = if placed.panel.heat_map.is_none() { legend::inside(entries, &placed.frame, taken) } else { None };
-    match free {
-        Some((block, left, top)) => {
-            block.draw(drawing, left, top, true);
-            bottom
-        }
-        None => below(drawing, entries, &placed.frame, bottom),
+    match legend::inside(&entries, placed, &taken) {
+        Some((block, corner)) => block.draw(page, corner, true).map(|()| Vec::new()),
+        None => Ok(entries),
     }
 }
 
 /// Draws a legend below a panel and returns its lower end.
-fn below(drawing: &mut Drawing, entries: &[LegendEntry], frame: &Rect, top: f64) -> f64 {
-    let block = Block::wide(entries, drawing.width - 2.0 * EDGE);
-    let most = (drawing.width - EDGE - block.width()).max(EDGE);
-    let left = (frame.center().0 - 0.5 * block.width()).clamp(EDGE, most);
-    block.draw(drawing, left, top + LEGEND_GAP, false);
-    top + LEGEND_GAP + block.height()
+fn legend_below(page: &Page, entries: &[LegendEntry], placed: &Placed, top: f64, width: f64) -> Done<f64> {
+    if entries.is_empty() {
+        return Ok(top);
+    }
+    let block = Block::wide(entries, width - 2.0 * EDGE);
+    let (block_width, height) = block.size();
+    let most = (width - EDGE - block_width).max(EDGE);
+    let left = (placed.frame.at(0.5, 0.0).0 - 0.5 * block_width).clamp(EDGE, most);
+    block.draw(page, (left, top), false)?;
+    Ok(top + height)
 }

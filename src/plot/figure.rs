@@ -1,16 +1,10 @@
-//! A whole figure, and its file formats.
+//! A whole figure or animation, and its file formats.
 
-use std::path::Path;
-
+use super::*;
 use crate::error::{Error, Result};
 use crate::files::write_whole;
-
-use super::panel::Panel;
-use super::shape::Drawing;
-use super::{draw, raster, svg};
-
-/// Width of one journal column in nominal pixels.
-const COLUMN_WIDTH: f64 = 640.0;
+use rayon::prelude::*;
+use std::path::Path;
 
 /// One or several panels, stacked. Panels with the same x axis share it: the limits are common and only the
 /// last one is labelled. A legend that is the same in all panels is drawn once.
@@ -28,7 +22,7 @@ pub struct Figure {
 
 impl Default for Figure {
     fn default() -> Self {
-        Self { title: None, panels: Vec::new(), columns: 1, width: COLUMN_WIDTH }
+        Self { title: None, panels: Vec::new(), columns: 1, width: 640.0 }
     }
 }
 
@@ -39,9 +33,8 @@ impl Figure {
     }
 
     /// Sets the title.
-    pub fn title(mut self, title: impl Into<String>) -> Self {
-        self.title = Some(title.into());
-        self
+    pub fn title(self, title: impl Into<String>) -> Self {
+        Self { title: Some(title.into()), ..self }
     }
 
     /// Adds a panel below the others.
@@ -51,15 +44,13 @@ impl Figure {
     }
 
     /// Sets the number of panels side by side.
-    pub fn columns(mut self, columns: usize) -> Self {
-        self.columns = columns;
-        self
+    pub fn columns(self, columns: usize) -> Self {
+        Self { columns, ..self }
     }
 
     /// Sets the width in nominal pixels (640 is one journal column); text keeps its size.
-    pub fn width(mut self, width: f64) -> Self {
-        self.width = width;
-        self
+    pub fn width(self, width: f64) -> Self {
+        Self { width, ..self }
     }
 
     /// Writes the figure as SVG or PNG, by the extension of the path. The file is replaced in one step.
@@ -80,7 +71,7 @@ impl Figure {
 
     /// Returns the figure as SVG text.
     pub fn to_svg(&self) -> String {
-        svg::render(&self.drawing())
+        svg::render(&draw::figure(self))
     }
 
     /// Returns the bytes of a PNG file.
@@ -88,10 +79,46 @@ impl Figure {
     /// # Errors
     /// It has more pixels than the limit; the feature `figures` is off.
     pub fn to_png(&self) -> Result<Vec<u8>, String> {
-        raster::png(&self.drawing())
+        #[cfg(feature = "figures")]
+        return raster::png(&draw::figure(self));
+        #[cfg(not(feature = "figures"))]
+        Err("holonom is built without PNG: the feature `figures`".into())
+    }
+}
+
+/// Pictures that differ in the items of one panel only. Their axes have fixed ranges, so that nothing else changes.
+pub struct Animation<F: Fn(usize) -> Figure + Sync> {
+    /// Returns the picture of a frame by its index.
+    pub frame: F,
+    /// Number of frames.
+    pub count: usize,
+    /// Frames per second.
+    pub per_second: f64,
+}
+
+impl<F: Fn(usize) -> Figure + Sync> Animation<F> {
+    /// Returns the animation as SVG text.
+    pub fn to_svg(&self) -> String {
+        let frames: Vec<Vec<Shape>> = (0..self.count).into_par_iter().map(|k| self.parts(k).1).collect();
+        svg::animate(&self.parts(0).0, &frames, 1.0 / self.per_second)
     }
 
-    pub(super) fn drawing(&self) -> Drawing {
-        draw::figure(self)
+    /// Returns the bytes of a GIF file; calls `done` with the number of frames drawn.
+    ///
+    /// # Errors
+    /// The frames are larger than a GIF can be; the feature `figures` is off.
+    #[cfg_attr(not(feature = "figures"), expect(unused_variables))]
+    pub fn to_gif(&self, done: impl FnMut(usize)) -> Result<Vec<u8>, String> {
+        #[cfg(feature = "figures")]
+        return raster::gif(&self.parts(0).0, self.count, self.per_second, &|k| self.parts(k).1, done);
+        #[cfg(not(feature = "figures"))]
+        Err("holonom is built without GIF: the feature `figures`".into())
+    }
+
+    /// Returns the constant part and the items of a frame.
+    fn parts(&self, k: usize) -> (Drawing, Vec<Shape>) {
+        let mut still = draw::figure(&(self.frame)(k));
+        let moving = still.shapes.drain(still.items.clone()).collect();
+        (still, moving)
     }
 }

@@ -1,9 +1,6 @@
 //! Maps of coloured cells.
 
-use super::axis::{Axis, Extent};
-use super::item::Tint;
-use super::panel::Scale;
-use super::shape::Rect;
+use super::*;
 
 /// Cells coloured by a value, each around one x and one y.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,42 +59,57 @@ impl HeatMap {
         self.words.push((column, row, word.into()));
     }
 
-    /// Returns the value of a cell, if it is a finite number.
-    pub(super) fn value(&self, column: usize, row: usize) -> Option<f64> {
-        self.values.get(row)?.get(column)?.filter(|value| value.is_finite())
-    }
-
-    /// Returns the colour of a cell without a value; none if it is grey.
-    pub(super) fn tint(&self, column: usize, row: usize) -> Option<Tint> {
-        self.fills.iter().find(|fill| (fill.0, fill.1) == (column, row)).map(|fill| fill.2)
-    }
-
     /// Adds the outer borders of the cells to the extents.
     pub(super) fn extend(&self, x: &mut Extent, y: &mut Extent, scales: (Scale, Scale)) {
         edges(&self.x, scales.0).into_iter().for_each(|edge| x.add(edge));
         edges(&self.y, scales.1).into_iter().for_each(|edge| y.add(edge));
     }
 
-    /// Returns the cells to draw: column, row and rectangle between the axes (0 to 1, y up).
-    pub(super) fn cells(&self, x: &Axis, y: &Axis) -> Vec<(usize, usize, Rect)> {
-        let columns = bands(&self.x, x);
-        let rows = bands(&self.y, y);
-        let cell = |row: (usize, f64, f64), column: (usize, f64, f64)| {
-            (column.0, row.0, Rect { left: column.1, right: column.2, top: row.1, bottom: row.2 })
-        };
-        rows.iter().flat_map(|row| columns.iter().map(|column| cell(*row, *column))).collect()
+    /// Returns the step of a cell on the colour scale, if it has a finite value.
+    fn step(&self, placed: &Placed, column: usize, row: usize) -> Option<usize> {
+        placed.bar.as_ref()?.step((*self.values.get(row)?.get(column)?)?)
     }
 }
 
-/// Returns (index, begin, end) along an axis, clipped to it.
-fn bands(middles: &[f64], axis: &Axis) -> Vec<(usize, f64, f64)> {
-    let places: Vec<Option<f64>> = edges(middles, axis.scale).into_iter().map(|edge| axis.place(edge)).collect();
-    let band = |(index, pair): (usize, &[Option<f64>])| {
-        let (begin, end) = (pair[0]?, pair[1]?);
-        let (begin, end) = (begin.min(end).max(0.0), begin.max(end).min(1.0));
-        (end > begin).then_some((index, begin, end))
-    };
-    places.windows(2).enumerate().filter_map(band).collect()
+/// Returns (column, row, rectangle in the picture) of each cell, clipped to the frame.
+fn rects(map: &HeatMap, placed: &Placed) -> Vec<(usize, usize, Rect)> {
+    let (columns, rows) = (edges(&map.x, placed.x.spec.scale), edges(&map.y, placed.y.spec.scale));
+    let place = |axis: &Axis, value: f64| Some(axis.place(value)?.clamp(0.0, 1.0));
+    let mut all = Vec::new();
+    for (column, x) in columns.windows(2).enumerate() {
+        for (row, y) in rows.windows(2).enumerate() {
+            let places =
+                [place(&placed.x, x[0]), place(&placed.x, x[1]), place(&placed.y, y[0]), place(&placed.y, y[1])];
+            let [Some(begin), Some(end), Some(low), Some(high)] = places else { continue };
+            let ((left, bottom), (right, top)) = (placed.frame.at(begin, low), placed.frame.at(end, high));
+            if begin < end && low < high {
+                all.push((column, row, Rect { left, top, right, bottom }));
+            }
+        }
+    }
+    all
+}
+
+/// Draws the cells of the map, those of a colour together, and the texts on them in a size that fits.
+pub(super) fn cells(chart: &mut Chart, page: &Page, placed: &Placed) -> Done {
+    let Some(map) = &placed.panel.heat_map else { return Ok(()) };
+    let mut cells = rects(map, placed);
+    let color = |column, row| map.step(placed, column, row).map_or(NO_VALUE, scale_color);
+    cells.sort_by_key(|(column, row, _)| map.step(placed, *column, *row));
+    chart.draw_series(cells.iter().map(|(column, row, rect)| {
+        Rectangle::new(rect.corners().map(|corner| placed.values(corner)), color(*column, *row).filled())
+    }))?;
+    let least =
+        |part: fn((f64, f64)) -> f64| cells.iter().map(|cell| part(cell.2.size())).fold(f64::INFINITY, f64::min);
+    let widest = map.words.iter().map(|(_, _, word)| text::width(word, 1.0)).fold(0.1, f64::max);
+    let size = TICK_SIZE.min(0.88 * least(|size| size.0) / widest).min(0.8 * least(|size| size.1));
+    for (column, row, word) in &map.words {
+        if let Some((_, _, rect)) = cells.iter().find(|cell| (cell.0, cell.1) == (*column, *row)) {
+            let style = font(size, ink_on(color(*column, *row)), Align::Middle);
+            page.draw_text(word, &style, units(rect.at(0.5, 0.5)))?;
+        }
+    }
+    Ok(())
 }
 
 /// Returns the borders halfway between the centres on the scale; one more than there are centres.

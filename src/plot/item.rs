@@ -1,10 +1,8 @@
 //! Items drawn freely in a panel, at positions in data coordinates with sizes in pixels.
 
-use super::axes;
-use super::layout::Placed;
-use super::legend::Taken;
-use super::palette::{DASHED, NOTE_SIZE, tint};
-use super::shape::{Align, Drawing, Marker, Pt, Rect, Shape, Stroke};
+use super::data::Marker;
+use super::*;
+use plotters_backend::BackendCoord;
 
 /// Position of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,55 +104,59 @@ impl Item {
         })
     }
 
-    /// Returns its shape, by a function that gives the position of each point; none if one has none.
-    fn shape(&self, put: &impl Fn(&Spot) -> Option<Pt>) -> Option<Shape> {
-        let all = |spots: &[Spot]| spots.iter().map(put).collect::<Option<Vec<Pt>>>();
-        Some(match self {
-            Self::Line { spots, tint: color, width, dashed } => {
-                let dash = if *dashed { DASHED } else { &[] };
-                Shape::Path { points: all(spots)?, stroke: Stroke { color: tint(*color), width: *width, dash } }
+    /// Draws it within a rectangle, by a function that gives the position of each point; not if one has none.
+    fn draw(&self, page: &Page, put: &impl Fn(&Spot) -> Option<Pt>, within: &Rect) -> Done {
+        let Some(points) = self.spots().iter().map(put).collect::<Option<Vec<Pt>>>() else { return Ok(()) };
+        let spots = |points: Vec<Pt>| points.into_iter().map(units).collect::<Vec<BackendCoord>>();
+        let center = points.iter().copied().filter(|point| within.contains(*point)).take(1);
+        match self {
+            Self::Line { tint: color, width, dashed, .. } => {
+                let stroke = Stroke { color: tint(*color), width: *width, dash: if *dashed { DASHED } else { &[] } };
+                let mut parts = clip::polyline(&points, within).into_iter();
+                parts.try_for_each(|part| page.draw(&Curve(spots(part), stroke)))
             }
-            Self::Area { spots, tint: color, opacity } => {
-                let mut points = all(spots)?;
-                points.extend(points.first().copied());
-                Shape::Area { points, fill: tint(*color), opacity: *opacity }
+            Self::Area { tint: color, opacity, .. } => {
+                page.draw(&Polygon::new(spots(clip::polygon(&points, within)), tint(*color).mix(*opacity)))
             }
-            Self::Disc { spot, radius, tint: color } => {
-                Shape::Marks { at: vec![put(spot)?], marker: Marker::Circle, radius: *radius, color: tint(*color) }
+            Self::Disc { radius, tint: color, .. } => {
+                Marker::Circle.draw(page, center.map(units), *radius, tint(*color))
             }
-            Self::Text { spot, text, align } => Shape::Text(axes::text(put(spot)?, text, NOTE_SIZE, *align)),
-        })
+            Self::Text { text, align, .. } => {
+                let mut middle = center.map(|(x, y)| units((x, y - HALF_DIGIT * NOTE_SIZE)));
+                middle.try_for_each(|at| page.draw_text(text, &font(NOTE_SIZE, INK, *align), at))
+            }
+        }
     }
 }
 
-/// Returns the items of a panel as shapes.
-pub(super) fn shapes(placed: &Placed) -> Vec<Shape> {
-    let frame = placed.frame;
-    let put = |spot: &Spot| {
-        let (x, y) = match spot.at {
-            Place::Data(x, y) => placed.at(x, y)?,
-            Place::Frame(x, y) => (frame.left + x * frame.width(), frame.bottom - y * frame.height()),
-        };
-        Some((x + spot.step.0, y - spot.step.1))
-    };
-    placed.panel.items.iter().filter_map(|item| item.shape(&put)).collect()
-}
-
+/// How far items may reach beyond the frame, nominal pixels.
+const BEYOND: f64 = 24.0;
 /// Half the side of the square that an inset needs.
 const INSET: f64 = 42.0;
 
+/// Draws the items of a panel.
+pub(super) fn draw(page: &Page, placed: &Placed) -> Done {
+    let put = |spot: &Spot| {
+        let (x, y) = match spot.at {
+            Place::Data(x, y) => placed.at(x, y)?,
+            Place::Frame(x, y) => placed.frame.at(x, y),
+        };
+        Some((x + spot.step.0, y - spot.step.1)).filter(|at| at.0.is_finite() && at.1.is_finite())
+    };
+    placed.panel.items.iter().try_for_each(|item| item.draw(page, &put, &placed.frame.grown(BEYOND)))
+}
+
 /// Draws the inset in the corner where it hides least.
-pub(super) fn inset(drawing: &mut Drawing, placed: &Placed, taken: &mut Taken) {
+pub(super) fn inset(page: &Page, placed: &Placed, taken: &mut Taken) -> Done {
     if placed.panel.inset.is_empty() {
-        return;
+        return Ok(());
     }
-    let inner = placed.frame.grown(-INSET);
-    let corners =
-        [(inner.left, inner.bottom), (inner.right, inner.bottom), (inner.left, inner.top), (inner.right, inner.top)];
-    let square = |(x, y): Pt| Rect::new(x, y, 0.0, 0.0).grown(INSET);
-    let free = corners.into_iter().min_by_key(|corner| taken.cover(&square(*corner), 0.0));
-    let center = free.unwrap_or(corners[0]);
-    taken.rects.push(square(center));
-    let put = |spot: &Spot| Some((center.0 + spot.step.0, center.1 - spot.step.1));
-    drawing.shapes.extend(placed.panel.inset.iter().filter_map(|item| item.shape(&put)));
+    let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)];
+    let centers = corners.map(|(right, up)| placed.frame.grown(-INSET).at(right, up));
+    let square = |center: Pt| Rect::new(center, (0.0, 0.0)).grown(INSET);
+    let free = centers.into_iter().min_by_key(|center| taken.cover(&square(*center), 0.0));
+    let (x, y) = free.unwrap_or(centers[0]);
+    taken.rects.push(square((x, y)));
+    let put = |spot: &Spot| Some((x + spot.step.0, y - spot.step.1));
+    placed.panel.inset.iter().try_for_each(|item| item.draw(page, &put, &square((x, y)).grown(INSET)))
 }

@@ -1,135 +1,149 @@
-//! Layout: limits, tick marks, and the rectangle of each panel.
+//! Layout: limits and marks of the axes, and the size of each panel.
 
-use super::axes::{STRIP, floor_note};
-use super::axis::{Axis, Extent, Slack};
-use super::color_bar::ColorBar;
-use super::figure::Figure;
-use super::item::Item;
-use super::marks;
-use super::palette::{EDGE, LABEL_SIZE, Look, NOTE_SIZE, TICK_LENGTH, TICK_SIZE, look};
-use super::panel::{AxisSpec, Panel, Scale};
-use super::shape::{Pt, Rect};
-use super::text::{self, LINE_HEIGHT, Label};
+use super::chart::ColorBar;
+use super::panel::Scale;
 use super::ticks::{Room, Ticks};
+use super::*;
 
 const LABEL_GAP: f64 = 6.0;
+/// Height of the strip above a frame with factors and notes.
+const STRIP: f64 = 22.0;
+/// Height of the marks below a frame without labels.
+const MARKS: f64 = 6.0;
 /// Limits of the width and the height that can be set.
 const WIDTHS: (f64, f64) = (240.0, 4000.0);
 const HEIGHTS: (f64, f64) = (60.0, 4000.0);
 
-/// A panel with its axes, marks and position.
+/// A panel with its axes, and the room that it needs.
 #[derive(Clone, Debug)]
 pub(super) struct Placed<'a> {
     pub panel: &'a Panel,
     pub x: Axis,
     pub y: Axis,
-    pub x_ticks: Ticks,
-    pub y_ticks: Ticks,
     pub x_label: Label,
     pub y_label: Label,
-    /// Baseline of the last line of the y label, the same in all panels.
-    pub y_label_at: f64,
     pub bar: Option<ColorBar>,
     pub looks: Vec<Look>,
+    /// The rectangle between the axes; before it is drawn only its size counts.
     pub frame: Rect,
+    /// Distances of the frame from the left and right ends of its column, the same in all panels.
+    pub margins: (f64, f64),
     /// True if the x axis is labelled here, not at a panel below.
     pub shows_x: bool,
-    /// Font size of texts on cells.
-    pub word_size: f64,
 }
 
-impl Placed<'_> {
-    /// Returns the position of a point in the picture; none if it is not a number.
-    pub fn at(&self, x: f64, y: f64) -> Option<Pt> {
-        let (x, y) = (self.x.place(x)?, self.y.place(y)?);
-        Some((self.frame.left + x * self.frame.width(), self.frame.bottom - y * self.frame.height()))
+impl<'a> Placed<'a> {
+    fn new(panel: &'a Panel, (x, x_margin): (Extent, f64), shows_x: bool) -> Self {
+        let count = panel.series.iter().filter(|series| series.is_counted()).count();
+        let (_, y) = extents(std::slice::from_ref(panel));
+        Self {
+            panel,
+            x: Axis::new(&panel.x, &x, x_margin),
+            y: Axis::new(&panel.y, &y, if panel.heat_map.is_some() { 0.0 } else { x_margin.max(0.06) }),
+            x_label: Label::default(),
+            y_label: Label::default(),
+            bar: ColorBar::new(panel),
+            looks: panel.series.iter().enumerate().map(|(index, series)| look(series, index, count)).collect(),
+            frame: Rect::default(),
+            margins: (80.0, 20.0),
+            shows_x,
+        }
     }
 
-    /// Returns a rectangle between the axes (0 to 1, y up) in the picture.
-    pub fn rect(&self, unit: &Rect) -> Rect {
-        let (x, y) = (self.frame.left, self.frame.bottom);
-        let (width, height) = (self.frame.width(), self.frame.height());
-        let (left, right) = (x + unit.left * width, x + unit.right * width);
-        Rect { left, right, top: y - unit.bottom * height, bottom: y - unit.top * height }
+    /// Returns the position of a point in the picture; none if it is not a number.
+    pub fn at(&self, x: f64, y: f64) -> Option<Pt> {
+        Some(self.frame.at(self.x.place(x)?, self.y.place(y)?))
+    }
+
+    /// Returns the values at a position in the picture.
+    pub fn values(&self, (x, y): Pt) -> (f64, f64) {
+        let (width, height) = self.frame.size();
+        (self.x.value((x - self.frame.left) / width), self.y.value((self.frame.bottom - y) / height))
     }
 
     /// Returns the notes on values drawn at the floor.
     pub fn note(&self) -> String {
-        let notes = [
-            floor_note(&self.x, "x", "drawn at"),
-            floor_note(&self.y, "", "drawn at"),
-            self.bar.as_ref().and_then(ColorBar::note),
-        ];
+        let bar = self.bar.as_ref().and_then(|bar| bar.axis.note("values", "coloured as"));
+        let notes = [self.x.note("x", "drawn at"), self.y.note("y", "drawn at"), bar];
         notes.into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
 
     /// Returns the height of the strip above the frame for factors and notes.
     pub fn strip(&self) -> f64 {
-        let needed = !self.y_ticks.factor.is_empty()
-            || !self.note().is_empty()
-            || self.bar.as_ref().is_some_and(ColorBar::has_factor);
-        if needed { STRIP } else { 0.0 }
+        let bar = self.bar.as_ref().map_or("", |bar| &bar.axis.ticks.factor);
+        if [&self.y.ticks.factor, &self.note(), bar].iter().all(|text| text.is_empty()) { 0.0 } else { STRIP }
     }
 
     /// Returns the height of the strip and the panel's title above it.
     pub fn above(&self) -> f64 {
-        let title = if self.panel.title.trim().is_empty() { 0.0 } else { LINE_HEIGHT * TICK_SIZE + 2.0 };
-        self.strip() + title
+        self.strip() + if self.panel.title.trim().is_empty() { 0.0 } else { 22.0 }
     }
 
     /// Returns the height of the marks and labels below the frame.
     pub fn below(&self) -> f64 {
-        if !self.shows_x {
-            return 0.0;
+        let factor = if self.x.ticks.factor.is_empty() { 0.0 } else { LINE_HEIGHT * LABEL_SIZE };
+        let label = (LABEL_DISTANCE + LINE_HEIGHT * TICK_SIZE + self.x_label.height().max(factor)).round();
+        if self.shows_x { label } else { MARKS }
+    }
+
+    pub fn height(&self) -> f64 {
+        self.above() + self.frame.size().1 + self.below()
+    }
+
+    /// Returns the margins that this panel needs.
+    fn needed(&self) -> (f64, f64) {
+        let left = EDGE + self.y_label.height() + LABEL_GAP + self.y.ticks.widest() + LABEL_DISTANCE;
+        let last = self.x.ticks.major.last().filter(|_| self.shows_x);
+        let overhang = last.map_or(0.0, |(value, label)| {
+            let place = self.x.place(*value).unwrap_or(1.0);
+            0.5 * text::width(label, TICK_SIZE) - (1.0 - place) * self.frame.size().0
+        });
+        (left, EDGE + overhang.max(2.0).max(self.bar.as_ref().map_or(0.0, ColorBar::width)))
+    }
+
+    /// Chooses marks and breaks labels for a frame of this size.
+    fn fit(&mut self, width: f64, height: f64) {
+        self.frame = Rect::new((0.0, 0.0), (width, height));
+        if self.panel.equal_aspect && [&self.x, &self.y].iter().all(|axis| axis.spec.scale == Scale::Linear) {
+            self.equalize();
         }
-        let factor = if self.x_ticks.factor.is_empty() { 0.0 } else { LINE_HEIGHT * LABEL_SIZE };
-        TICK_LENGTH + 1.35 * TICK_SIZE + self.x_label.height().max(factor) + 2.0
+        let height = self.frame.size().1;
+        self.x.ticks = Ticks::new(&self.x, Room::Along(width));
+        self.y.ticks = Ticks::new(&self.y, Room::Upwards(height));
+        self.x_label = Label::new(&self.panel.x.label, LABEL_SIZE, width, 2);
+        self.y_label = Label::new(&self.panel.y.label, LABEL_SIZE, 1.08 * height, 3);
+        self.bar.iter_mut().for_each(|bar| bar.fit(height));
     }
 
-    /// Returns the distance from the y label to the frame.
-    fn label_distance(&self) -> f64 {
-        LABEL_GAP + self.y_ticks.widest(TICK_SIZE) + 4.0 + TICK_LENGTH
-    }
-
-    fn left_margin(&self, distance: f64) -> f64 {
-        EDGE + self.y_label.height() + distance
-    }
-
-    fn right_margin(&self, width: f64) -> f64 {
-        let overhang = |ticks: &Ticks| {
-            let last = ticks.major.last();
-            last.map_or(0.0, |tick| 0.5 * text::width(&tick.label, TICK_SIZE) - (1.0 - tick.at) * width)
-        };
-        EDGE + overhang(&self.x_ticks).max(2.0).max(self.bar.as_ref().map_or(0.0, ColorBar::width))
+    /// Makes units equally long: by the height of the frame if none is set and it stays moderate, and by wider limits
+    /// otherwise.
+    fn equalize(&mut self) {
+        let (x, y) = (self.x.high - self.x.low, self.y.high - self.y.low);
+        let (width, height) = self.frame.size();
+        let natural = (width * (y / x)).max(0.3 * width).min(height).round();
+        if self.panel.height.is_none() {
+            self.frame.bottom = natural;
+        }
+        let unit = (x / width).max(y / self.frame.size().1);
+        self.x.widen(unit * width);
+        self.y.widen(unit * self.frame.size().1);
     }
 }
 
-/// Lays out all panels with frames of the same left and right border; tops and bottoms are set one by one when drawing.
+/// Returns the width of the figure and its panels, whose frames have the same left and right margins.
 pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
-    let whole = if figure.width.is_finite() { figure.width.clamp(WIDTHS.0, WIDTHS.1) } else { WIDTHS.0 };
-    let columns = columns(figure);
-    let total = whole / columns as f64;
-    let shared = columns == 1 && shares_x(&figure.panels);
-    let mut all = prepare(figure, shared);
-    let (mut left, mut right, mut distance) = (80.0, 20.0, 0.0);
+    let whole = if figure.width.is_finite() { figure.width.clamp(WIDTHS.0, WIDTHS.1).round() } else { WIDTHS.0 };
+    let total = whole / columns(figure) as f64;
+    let mut all = panels(figure);
+    let (mut left, mut right) = (80.0, 20.0);
     // Marks depend on the space for them, and the space on their labels; three rounds settle it.
     for _ in 0..3 {
         let width = (total - left - right).max(60.0);
-        for placed in &mut all {
-            let height = frame_height(placed.panel, figure.panels.len(), width);
-            fit(placed, Rect::new(left, 0.0, width, height));
-        }
-        distance = all.iter().map(Placed::label_distance).fold(0.0, f64::max);
-        left = all.iter().map(|placed| placed.left_margin(distance)).fold(40.0, f64::max).min(0.45 * total).ceil();
-        right = all.iter().map(|placed| placed.right_margin(width)).fold(0.0, f64::max).min(0.4 * total).ceil();
+        all.iter_mut().for_each(|placed| placed.fit(width, frame_height(placed.panel, figure.panels.len(), width)));
+        let needed = all.iter().map(Placed::needed).fold((40.0f64, 0.0f64), |a, b| (a.0.max(b.0), b.1.max(a.1)));
+        (left, right) = (needed.0.min(0.45 * total).ceil(), needed.1.min(0.4 * total).ceil());
     }
-    for (index, placed) in all.iter_mut().enumerate() {
-        let begin = (total * (index % columns) as f64).round();
-        placed.frame.left = begin + left + 0.5;
-        placed.y_label_at = begin + left - distance - 0.22 * LABEL_SIZE;
-        placed.frame.right = begin + (total - right).round() - 0.5;
-        placed.word_size = marks::word_size(placed);
-    }
+    all.iter_mut().for_each(|placed| placed.margins = (left, right));
     (whole, all)
 }
 
@@ -138,83 +152,52 @@ pub(super) fn columns(figure: &Figure) -> usize {
     figure.columns.clamp(1, figure.panels.len().max(1))
 }
 
-/// True if the panels have the same x axis.
-fn shares_x(panels: &[Panel]) -> bool {
-    let same = |a: &Panel, b: &Panel| a.x.scale == b.x.scale && a.x.range == b.x.range && a.x.label == b.x.label;
-    panels.windows(2).all(|pair| same(&pair[0], &pair[1])) && !panels.iter().any(|panel| panel.equal_aspect)
-}
-
-fn prepare(figure: &Figure, shared: bool) -> Vec<Placed<'_>> {
-    let mut extents: Vec<(Extent, Extent)> = figure.panels.iter().map(extents).collect();
-    let mut slacks: Vec<Slack> = figure.panels.iter().map(|panel| slack(panel).0).collect();
-    if shared {
-        let mut common = Extent::default();
-        extents.iter().for_each(|(x, _)| common.merge(x));
-        extents.iter_mut().for_each(|(x, _)| *x = common);
-        // A panel with markers needs room at the ends, and then all have it.
-        let wide = slacks.iter().copied().find(|slack| matches!(slack, Slack::Part(_)));
-        let common = wide.or(slacks.first().copied()).unwrap_or(Slack::Exact);
-        slacks.fill(common);
+/// Returns the panels with their axes. Panels one above another with the same x axis share its limits.
+fn panels(figure: &Figure) -> Vec<Placed<'_>> {
+    let panels = &figure.panels[..];
+    let same = |a: &Panel, b: &Panel| (a.x.scale, a.x.range, &a.x.label) == (b.x.scale, b.x.range, &b.x.label);
+    let is_shared = columns(figure) == 1
+        && panels.windows(2).all(|pair| same(&pair[0], &pair[1]))
+        && !panels.iter().any(|panel| panel.equal_aspect);
+    // A panel with markers needs room at the ends, and then all have it.
+    let x = |panels: &[Panel]| (extents(panels).0, panels.iter().map(margin).fold(0.0, f64::max));
+    let all = panels.iter().enumerate();
+    if is_shared {
+        return all.map(|(index, panel)| Placed::new(panel, x(panels), index + 1 == panels.len())).collect();
     }
-    let last = figure.panels.len().saturating_sub(1);
-    let whole = figure.panels.iter().enumerate().zip(extents.iter().zip(slacks));
-    whole.map(|((index, panel), (extent, margin))| one(panel, extent, margin, !shared || index == last)).collect()
-}
-
-fn one<'a>(panel: &'a Panel, (x, y): &(Extent, Extent), x_slack: Slack, shows_x: bool) -> Placed<'a> {
-    let count = panel.series.iter().filter(|series| series.is_counted()).count();
-    Placed {
-        panel,
-        x: Axis::new(&panel.x, x, x_slack),
-        y: Axis::new(&panel.y, y, slack(panel).1),
-        x_ticks: Ticks::default(),
-        y_ticks: Ticks::default(),
-        x_label: Label::default(),
-        y_label: Label::default(),
-        y_label_at: 0.0,
-        bar: ColorBar::new(panel),
-        looks: panel.series.iter().enumerate().map(|(index, series)| look(series, index, count)).collect(),
-        frame: Rect::default(),
-        shows_x,
-        word_size: NOTE_SIZE,
-    }
+    all.map(|(index, panel)| Placed::new(panel, x(&panels[index..=index]), true)).collect()
 }
 
 /// Returns the ranges that the axes must show. A point counts only if both of its coordinates are numbers.
-fn extents(panel: &Panel) -> (Extent, Extent) {
+fn extents(panels: &[Panel]) -> (Extent, Extent) {
     let (mut x, mut y) = (Extent::default(), Extent::default());
-    let points = panel.series.iter().flat_map(|series| series.points.iter().copied());
-    let colored = panel.color_series.iter().flat_map(|series| series.points.iter().map(|point| (point.0, point.1)));
-    let items = panel.items.iter().flat_map(Item::data);
-    let texts = panel.annotations.iter().map(|note| (note.x, note.y));
-    let whole =
-        points.chain(colored).chain(texts).chain(items).filter(|point| point.0.is_finite() && point.1.is_finite());
-    for (at_x, at_y) in whole {
-        x.add(at_x);
-        y.add(at_y);
-    }
-    let shown = |at: &f64| panel.x.scale == Scale::Linear || *at > 0.0;
-    panel.verticals.iter().map(|line| line.0).filter(shown).for_each(|at| x.add(at));
-    if let Some(map) = &panel.heat_map {
-        map.extend(&mut x, &mut y, (panel.x.scale, panel.y.scale));
+    for panel in panels {
+        let points = panel.series.iter().flat_map(|series| series.points.iter().copied());
+        let colored = panel.color_series.iter().flat_map(|series| series.points.iter().map(|point| (point.0, point.1)));
+        let bands = panel.bands.iter().flat_map(|band| &band.points).flat_map(|at| [(at.0, at.1), (at.0, at.2)]);
+        let texts = panel.annotations.iter().map(|note| (note.x, note.y));
+        let whole = points.chain(colored).chain(bands).chain(texts).chain(panel.items.iter().flat_map(Item::data));
+        for (at_x, at_y) in whole.filter(|point| point.0.is_finite() && point.1.is_finite()) {
+            x.add(at_x);
+            y.add(at_y);
+        }
+        let shown = |at: &f64| panel.x.scale == Scale::Linear || *at > 0.0;
+        panel.verticals.iter().map(|line| line.0).filter(shown).for_each(|at| x.add(at));
+        let map = panel.heat_map.iter();
+        map.for_each(|map| map.extend(&mut x, &mut y, (panel.x.scale, panel.y.scale)));
     }
     (x, y)
 }
 
-/// Returns the margins of the axes. Functions of x fill the width, as time series do.
-fn slack(panel: &Panel) -> (Slack, Slack) {
-    if panel.heat_map.is_some() {
-        return (Slack::Exact, Slack::Exact);
-    }
-    if !panel.items.is_empty() {
-        return (Slack::Part(0.08), Slack::Part(0.08));
-    }
+/// Returns the margin of the x axis. Functions of x fill the width, as time series do.
+fn margin(panel: &Panel) -> f64 {
     let only_functions = panel.color_series.is_empty()
         && panel.series.iter().all(|series| !series.style.has_markers() && series.is_function());
-    if only_functions && !panel.equal_aspect {
-        (Slack::Round, Slack::Part(0.06))
-    } else {
-        (Slack::Part(0.05), Slack::Part(0.06))
+    match panel.heat_map {
+        Some(_) => 0.0,
+        None if !panel.items.is_empty() => 0.08,
+        None if only_functions && !panel.equal_aspect => 0.0,
+        None => 0.05,
     }
 }
 
@@ -227,45 +210,4 @@ fn frame_height(panel: &Panel, count: usize, width: f64) -> f64 {
         _ => 190.0,
     };
     panel.height.filter(|height| height.is_finite()).unwrap_or(usual).clamp(HEIGHTS.0, HEIGHTS.1).round()
-}
-
-/// Chooses marks and breaks labels for a frame.
-fn fit(placed: &mut Placed, frame: Rect) {
-    placed.frame = frame;
-    if placed.panel.equal_aspect && placed.x.scale == Scale::Linear && placed.y.scale == Scale::Linear {
-        equalize(placed);
-    }
-    let (width, height) = (placed.frame.width(), placed.frame.height());
-    placed.x_ticks = ticks(&placed.x, &placed.panel.x, Room { length: width, size: TICK_SIZE, along: true });
-    placed.y_ticks = ticks(&placed.y, &placed.panel.y, Room { length: height, size: TICK_SIZE, along: false });
-    placed.x_label = Label::new(&placed.panel.x.label, LABEL_SIZE, width, 2);
-    placed.y_label = Label::new(&placed.panel.y.label, LABEL_SIZE, 1.08 * height, 3);
-    if let Some(bar) = &mut placed.bar {
-        bar.fit(height);
-    }
-}
-
-fn ticks(axis: &Axis, spec: &AxisSpec, room: Room) -> Ticks {
-    if spec.names.is_empty() { Ticks::new(axis, room) } else { Ticks::named(axis, &spec.names, room) }
-}
-
-/// Makes units equally long: by the height of the frame if none is set and it stays moderate, and by wider limits
-/// otherwise.
-fn equalize(placed: &mut Placed) {
-    let (x, y) = (placed.x.high - placed.x.low, placed.y.high - placed.y.low);
-    let (width, height) = (placed.frame.width(), placed.frame.height());
-    if placed.panel.height.is_none() {
-        let natural = (width * (y / x)).clamp(0.3 * width, height);
-        placed.frame.bottom = placed.frame.top + if natural.is_finite() { natural.round() } else { height };
-    }
-    let unit = (x / width).max(y / placed.frame.height());
-    widen(&mut placed.x, unit * width);
-    widen(&mut placed.y, unit * placed.frame.height());
-}
-
-fn widen(axis: &mut Axis, span: f64) {
-    let more = 0.5 * (span - (axis.high - axis.low));
-    if more > 0.0 && more.is_finite() {
-        (axis.low, axis.high) = (axis.low - more, axis.high + more);
-    }
 }

@@ -1,25 +1,22 @@
 //! Figures from data, as SVG or PNG files. This module does not depend on mechanics.
 //!
-//! A [`Figure`] stacks one or several [`Panel`]s. [`Figure::save`] lays them out into a flat list of shapes,
-//! then writes that list as SVG or has tiny-skia draw it as PNG, so that both show the same picture. Text is
-//! measured with the embedded DejaVu Sans; no font or library of the system is needed.
+//! A [`Figure`] stacks one or several [`Panel`]s. plotters draws them as charts, on a backend that records shapes in
+//! hundredths of a nominal pixel. The shapes are written as SVG, or drawn by tiny-skia as PNG and GIF, so that all
+//! show the same picture. Text is measured with the embedded DejaVu Sans; no font of the system is needed.
 //!
 //! Sizes are in nominal pixels. A figure is 640 of them wide by default and meant to be printed 85 mm wide
 //! (one journal column), where its text is 6 to 7 pt high.
 
-mod animation;
-mod axes;
 mod axis;
+mod chart;
 mod clip;
-mod color_bar;
+mod data;
 mod draw;
 mod figure;
-mod font;
 mod heat;
 mod item;
 mod layout;
 mod legend;
-mod marks;
 mod notes;
 mod palette;
 mod panel;
@@ -27,44 +24,29 @@ mod panel;
 mod raster;
 mod series;
 mod shape;
+mod sketch;
 mod svg;
 mod text;
 mod thin;
 mod ticks;
 
-pub use animation::Animation;
-pub use figure::Figure;
+pub use figure::{Animation, Figure};
 pub use heat::HeatMap;
 pub use item::{Item, Place, Spot, Tint};
 pub use panel::{Annotation, AxisSpec, Panel, Scale};
-pub use series::{ColorSeries, Series, Style};
+pub use series::{Band, ColorSeries, Series, Style};
 pub use shape::Align;
+
+// Names that the files of this folder share.
+use axis::{Axis, Extent};
+use layout::Placed;
+use notes::Taken;
+use palette::*;
+use plotters::element::{Polygon, Rectangle};
+use plotters::style::Color as _;
+use shape::{Color, Drawing, Paint, Pt, Rect, Shape, Stroke, Text};
+use sketch::{Chart, Curve, Done, Page, Sketch, font, pixels, units};
+use text::{HALF_DIGIT, LINE_HEIGHT, Label};
 
 #[cfg(all(test, feature = "figures"))]
 mod tests;
-
-/// Replaces the raster formats where the libraries that draw them are not compiled in.
-#[cfg(not(feature = "figures"))]
-mod raster {
-    use super::shape::{Drawing, Shape};
-
-    type Picture = Result<Vec<u8>, String>;
-
-    fn none(what: &str) -> Picture {
-        Err(format!("holonom is built without {what}: the feature `figures`"))
-    }
-
-    pub(super) fn png(_: &Drawing) -> Picture {
-        none("PNG")
-    }
-
-    pub(super) fn gif(
-        _: &Drawing,
-        _: usize,
-        _: f64,
-        _: &impl Fn(usize) -> Vec<Shape>,
-        _: impl FnMut(usize),
-    ) -> Picture {
-        none("GIF")
-    }
-}

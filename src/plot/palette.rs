@@ -1,14 +1,16 @@
 //! Colours, dashes, markers and sizes.
 
-use super::item::Tint;
-use super::series::{Series, Style};
-use super::shape::{Color, Marker, Stroke};
+use super::data::Marker;
+use super::*;
+use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 
 pub(super) const TITLE_SIZE: f64 = 19.0;
 pub(super) const LABEL_SIZE: f64 = 18.0;
 pub(super) const TICK_SIZE: f64 = 16.0;
 pub(super) const NOTE_SIZE: f64 = 14.5;
-pub(super) const TICK_LENGTH: f64 = 6.0;
+/// Distance of tick labels from the frame, twice the length of a mark, and length of a minor mark.
+pub(super) const LABEL_DISTANCE: f64 = 11.0;
+pub(super) const MINOR_LENGTH: f64 = 3.0;
 pub(super) const MARKER_RADIUS: f64 = 4.2;
 /// Free border around the figure.
 pub(super) const EDGE: f64 = 8.0;
@@ -16,12 +18,12 @@ pub(super) const EDGE: f64 = 8.0;
 pub(super) const INK: Color = Color(26, 26, 26);
 pub(super) const NOTE_INK: Color = Color(85, 85, 85);
 pub(super) const PAPER: Color = Color(255, 255, 255);
-pub(super) const GRID: Color = Color(228, 228, 228);
 const GREY: Color = Color(130, 130, 130);
 pub(super) const NO_VALUE: Color = Color(214, 214, 214);
 
 pub(super) const FRAME: Stroke = Stroke { color: Color(51, 51, 51), width: 1.4, dash: &[] };
-pub(super) const GRID_LINE: Stroke = Stroke { color: GRID, width: 1.0, dash: &[] };
+pub(super) const GRID: Stroke = Stroke { color: Color(228, 228, 228), width: 1.0, dash: &[] };
+pub(super) const ZERO: Stroke = Stroke { color: Color(150, 150, 150), width: 1.0, dash: &[] };
 pub(super) const REFERENCE: Stroke = Stroke { color: Color(95, 95, 95), width: 1.5, dash: &[7.0, 4.0] };
 pub(super) const DASHED: &[f64] = &[5.0, 4.0];
 const LINE_WIDTH: f64 = 2.3;
@@ -89,27 +91,10 @@ fn mix(from: Color, to: Color, share: f64) -> Color {
 /// Number of colours of a colour scale: enough to look continuous, few enough to group by.
 pub(super) const COLOR_STEPS: usize = 128;
 
-/// Evenly spaced colours of Viridis (van der Walt and Smith).
-const VIRIDIS: [Color; 8] = [
-    Color(68, 1, 84),
-    Color(70, 50, 127),
-    Color(54, 92, 141),
-    Color(39, 127, 143),
-    Color(31, 162, 136),
-    Color(74, 194, 110),
-    Color(160, 219, 57),
-    Color(254, 232, 37),
-];
-
-/// Returns Viridis at `step` of [`COLOR_STEPS`]. Its last yellow is cut off, being hard to see on white.
+/// Returns Viridis (van der Walt and Smith) at `step` of [`COLOR_STEPS`]. Its last yellow is cut off, being hard to see
+/// on white.
 pub(super) fn scale_color(step: usize) -> Color {
-    let at = 0.96 * 7.0 * step.min(COLOR_STEPS - 1) as f64 / (COLOR_STEPS - 1) as f64;
-    mix(VIRIDIS[at as usize], VIRIDIS[at as usize + 1], at.fract())
-}
-
-/// Returns the step of a position between 0 and 1 on a colour scale.
-pub(super) fn color_step(unit: f64) -> usize {
-    ((unit.clamp(0.0, 1.0) * COLOR_STEPS as f64) as usize).min(COLOR_STEPS - 1)
+    ViridisRGB.get_color(0.96 * step.min(COLOR_STEPS - 1) as f64 / (COLOR_STEPS - 1) as f64)
 }
 
 /// Returns black or white, whichever is legible on `fill`.

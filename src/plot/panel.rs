@@ -2,7 +2,7 @@
 
 use super::heat::HeatMap;
 use super::item::{Item, Tint};
-use super::series::{ColorSeries, Series};
+use super::series::{Band, ColorSeries, Series};
 
 /// Map from values to lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub enum Scale {
 /// Label, scale and limits of an axis. Made from its label: `"time (s)".into()`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AxisSpec {
-    /// Quantity and unit, like `"position drift (m)"`. Superscript characters (`m/s²`) are set as superscripts.
+    /// Quantity and unit, like `"position drift (m)"`. Numbers after `^` are set as superscripts.
     pub label: String,
     /// Linear or logarithmic.
     pub scale: Scale,
@@ -95,6 +95,10 @@ pub struct Panel {
     pub color_series: Vec<ColorSeries>,
     /// A map of cells below everything else; it shares the colour bar.
     pub heat_map: Option<HeatMap>,
+    /// Coloured areas below the series.
+    pub bands: Vec<Band>,
+    /// True if thin lines are drawn through zero.
+    pub zero_lines: bool,
     /// Dashed vertical lines: x and label, which may be empty.
     pub verticals: Vec<(f64, String)>,
     /// Texts at points.
@@ -132,6 +136,18 @@ impl Panel {
     /// Adds points coloured by a third value.
     pub fn color_series(mut self, series: ColorSeries) -> Self {
         self.color_series.push(series);
+        self
+    }
+
+    /// Adds a coloured area below the series.
+    pub fn band(mut self, band: Band) -> Self {
+        self.bands.push(band);
+        self
+    }
+
+    /// Draws thin lines through zero.
+    pub fn zero_lines(mut self) -> Self {
+        self.zero_lines = true;
         self
     }
 

@@ -3,12 +3,10 @@
 use super::text::Rich;
 use std::ops::Range;
 
+pub(super) use plotters::style::RGBColor as Color;
+
 /// A point of the picture.
 pub(super) type Pt = (f64, f64);
-
-/// An opaque colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Color(pub u8, pub u8, pub u8);
 
 /// A rectangle parallel to the axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,20 +18,22 @@ pub(super) struct Rect {
 }
 
 impl Rect {
-    pub fn new(left: f64, top: f64, width: f64, height: f64) -> Self {
+    pub fn new((left, top): Pt, (width, height): (f64, f64)) -> Self {
         Self { left, top, right: left + width, bottom: top + height }
     }
 
-    pub fn width(&self) -> f64 {
-        self.right - self.left
+    pub fn size(&self) -> (f64, f64) {
+        (self.right - self.left, self.bottom - self.top)
     }
 
-    pub fn height(&self) -> f64 {
-        self.bottom - self.top
+    /// Returns the point at parts of its width and height from the lower left corner.
+    pub fn at(&self, right: f64, up: f64) -> Pt {
+        let (width, height) = self.size();
+        (self.left + right * width, self.bottom - up * height)
     }
 
-    pub fn center(&self) -> Pt {
-        (0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom))
+    pub fn corners(&self) -> [Pt; 2] {
+        [(self.left, self.top), (self.right, self.bottom)]
     }
 
     pub fn contains(&self, (x, y): Pt) -> bool {
@@ -48,16 +48,6 @@ impl Rect {
     pub fn overlaps(&self, other: &Self) -> bool {
         self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
     }
-
-    pub fn holds(&self, other: &Self) -> bool {
-        self.contains((other.left, other.top)) && self.contains((other.right, other.bottom))
-    }
-
-    /// Returns the outline, closed.
-    pub fn outline(&self) -> Vec<Pt> {
-        let corners = [(self.left, self.top), (self.right, self.top), (self.right, self.bottom)];
-        corners.into_iter().chain([(self.left, self.bottom), (self.left, self.top)]).collect()
-    }
 }
 
 /// Colour, width and dashes of a line.
@@ -69,17 +59,6 @@ pub(super) struct Stroke {
     pub dash: &'static [f64],
 }
 
-/// Shape of a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Marker {
-    Circle,
-    Square,
-    Triangle,
-    Diamond,
-    TriangleDown,
-    Cross,
-}
-
 /// Alignment of a text at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
@@ -89,6 +68,13 @@ pub enum Align {
     Middle,
     /// The text ends there.
     End,
+}
+
+impl Align {
+    /// Returns the part of a text before its position.
+    pub(super) fn part(self) -> f64 {
+        [0.0, 0.5, 1.0][self as usize]
+    }
 }
 
 /// A line of text; `at` is on its baseline.
@@ -104,51 +90,31 @@ pub(super) struct Text {
 }
 
 impl Text {
-    /// Returns the start of the text along its baseline, relative to its position.
-    pub fn start(&self) -> f64 {
-        let part = match self.align {
-            Align::Start => 0.0,
-            Align::Middle => -0.5,
-            Align::End => -1.0,
-        };
-        part * self.rich.width(self.size)
-    }
-
     /// Returns the box around the text, as measured with the embedded font.
     pub fn bounds(&self) -> Rect {
-        let (start, width) = (self.start(), self.rich.width(self.size));
-        let (above, below) = (0.78 * self.size, 0.22 * self.size);
-        let (x, y) = self.at;
+        let (width, (x, y)) = (self.rich.width(self.size), self.at);
+        let (before, above) = (self.align.part() * width, 0.78 * self.size);
         if self.turned {
-            return Rect { left: x - above, right: x + below, top: y - start - width, bottom: y - start };
+            return Rect::new((x - above, y + before - width), (self.size, width));
         }
-        Rect { left: x + start, right: x + start + width, top: y - above, bottom: y + below }
+        Rect::new((x - before, y - above), (width, self.size))
     }
+}
+
+/// Style of a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Paint {
+    Line(Stroke),
+    /// A polygon; crisp ones leave no seam between neighbours.
+    Area(Color, f64, bool),
+    /// A disc of a radius around each point.
+    Disc(Color, f64),
 }
 
 /// A shape to draw.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shape {
-    Path {
-        points: Vec<Pt>,
-        stroke: Stroke,
-    },
-    /// A convex polygon, transparent by its opacity.
-    Area {
-        points: Vec<Pt>,
-        fill: Color,
-        opacity: f64,
-    },
-    Rects {
-        rects: Vec<Rect>,
-        fill: Color,
-    },
-    Marks {
-        at: Vec<Pt>,
-        marker: Marker,
-        radius: f64,
-        color: Color,
-    },
+    Drawn(Paint, Vec<Vec<Pt>>),
     Text(Text),
 }
 
@@ -162,41 +128,20 @@ pub(super) struct Drawing {
     pub shapes: Vec<Shape>,
     /// Range of the panels' items among the shapes: the moving part of an animation.
     pub items: Range<usize>,
+    /// Number of shapes to which nothing is added.
+    pub sealed: usize,
 }
 
 impl Drawing {
-    pub fn line(&mut self, from: Pt, to: Pt, stroke: Stroke) {
-        self.shapes.push(Shape::Path { points: vec![from, to], stroke });
-    }
-
-    pub fn fill(&mut self, rect: Rect, fill: Color) {
-        self.shapes.push(Shape::Rects { rects: vec![rect], fill });
-    }
-
-    /// Adds a text, unless it is empty.
-    pub fn text(&mut self, text: Text) {
-        if !text.rich.runs.is_empty() {
-            self.shapes.push(Shape::Text(text));
-        }
-    }
-}
-
-impl Marker {
-    /// Returns the line width of the marker made of strokes; the others are filled.
-    pub fn stroke_width(self, radius: f64) -> Option<f64> {
-        (self == Self::Cross).then_some(0.42 * radius)
-    }
-
-    /// Returns its lines or filled outlines around a point. Areas are about equal; the circle is drawn as such.
-    pub fn outlines(self, (x, y): Pt, radius: f64) -> Vec<Vec<Pt>> {
-        let at = |points: &[Pt]| points.iter().map(|p| (x + radius * p.0, y + radius * p.1)).collect::<Vec<Pt>>();
-        match self {
-            Self::Circle => Vec::new(),
-            Self::Square => vec![Rect::new(x, y, 0.0, 0.0).grown(0.89 * radius).outline()],
-            Self::Triangle => vec![at(&[(0.0, -1.3), (1.2, 0.85), (-1.2, 0.85), (0.0, -1.3)])],
-            Self::TriangleDown => vec![at(&[(0.0, 1.3), (1.2, -0.85), (-1.2, -0.85), (0.0, 1.3)])],
-            Self::Diamond => vec![at(&[(0.0, -1.35), (1.15, 0.0), (0.0, 1.35), (-1.15, 0.0), (0.0, -1.35)])],
-            Self::Cross => vec![at(&[(-0.9, -0.9), (0.9, 0.9)]), at(&[(-0.9, 0.9), (0.9, -0.9)])],
+    /// Adds a line to the shape of the same style before it, or as a new one. Texts between them hide nothing.
+    pub fn add(&mut self, paint: Paint, line: Vec<Pt>) {
+        let mut open = self.shapes[self.sealed..].iter_mut().rev();
+        match open.find(|shape| matches!(shape, Shape::Drawn(..))) {
+            // What is transparent is seen through.
+            Some(Shape::Drawn(same, lines)) if *same == paint && !matches!(paint, Paint::Area(_, ..1.0, _)) => {
+                lines.push(line)
+            }
+            _ => self.shapes.push(Shape::Drawn(paint, vec![line])),
         }
     }
 }

@@ -3,8 +3,7 @@
 //! Text stays text, so it can be searched and edited; fonts of nearly the same widths are named for viewers without
 //! DejaVu Sans.
 
-use super::font;
-use super::shape::{Align, Color, Drawing, Marker, Pt, Shape, Text};
+use super::*;
 use std::fmt::Write;
 
 const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-serif";
@@ -31,50 +30,38 @@ fn opening(drawing: &Drawing) -> String {
 }
 
 fn shape(out: &mut String, shape: &Shape) {
-    match shape {
-        Shape::Path { points, stroke } => {
-            let dash: Vec<String> = stroke.dash.iter().map(|length| number(*length)).collect();
-            let dash =
-                if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{}\"", dash.join(" ")) };
-            let joined = if points.len() > 2 { " stroke-linejoin=\"round\"" } else { "" };
-            path(out, &format!("{}{dash}{joined}", line(stroke.color, stroke.width)), |out| outline(out, points));
-        }
-        Shape::Area { points, fill, opacity } => {
-            let opacity = number(*opacity);
-            path(out, &format!("fill=\"{}\" fill-opacity=\"{opacity}\"", hex(*fill)), |out| outline(out, points));
-        }
-        Shape::Rects { rects, fill } => {
-            let color = hex(*fill);
-            // A thin border of the same colour: without it, viewers show bright seams between cells.
-            path(out, &format!("fill=\"{color}\" stroke=\"{color}\" stroke-width=\".4\""), |out| {
-                rects.iter().for_each(|rect| outline(out, &rect.outline()))
-            });
-        }
-        Shape::Marks { at, marker: Marker::Circle, radius, color } => {
-            path(out, &format!("{} stroke-linecap=\"round\"", line(*color, 2.0 * radius)), |out| dots(out, at));
-        }
-        Shape::Marks { at, marker, radius, color } => {
-            let lines = at.iter().flat_map(|center| marker.outlines(*center, *radius));
-            let width = marker.stroke_width(*radius);
-            let paint = width.map_or_else(|| format!("fill=\"{}\"", hex(*color)), |width| line(*color, width));
-            path(out, &paint, |out| lines.for_each(|line| outline(out, &line)));
-        }
-        Shape::Text(line) => text(out, line),
+    let (paint, lines) = match shape {
+        Shape::Text(line) => return text(out, line),
+        Shape::Drawn(paint, lines) => (paint, lines),
+    };
+    *out += &format!("<path {} d=\"", style(paint, lines));
+    if let Paint::Disc(..) = paint {
+        dots(out, lines.iter().flatten())
+    } else {
+        lines.iter().for_each(|line| outline(out, line))
     }
-}
-
-/// Writes a path; `data` writes its lines.
-fn path(out: &mut String, paint: &str, data: impl FnOnce(&mut String)) {
-    *out += "<path ";
-    *out += paint;
-    *out += " d=\"";
-    data(out);
     *out += "\"/>\n";
 }
 
-/// Returns the attributes of a line.
-fn line(color: Color, width: f64) -> String {
-    format!("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"", hex(color), number(width))
+/// Returns the attributes of a path.
+fn style(paint: &Paint, lines: &[Vec<Pt>]) -> String {
+    let line = |color: &Color, width: f64| {
+        format!("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"", hex(color), number(width))
+    };
+    match paint {
+        Paint::Line(Stroke { color, width, dash }) => {
+            let dash: Vec<String> = dash.iter().map(|length| number(*length)).collect();
+            let dash =
+                if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{}\"", dash.join(" ")) };
+            let joined = if lines.iter().any(|line| line.len() > 2) { " stroke-linejoin=\"round\"" } else { "" };
+            line(color, *width) + &dash + joined
+        }
+        // A thin border of the same colour: without it, viewers show bright seams between cells.
+        Paint::Area(color, _, true) => format!("fill=\"{0}\" stroke=\"{0}\" stroke-width=\".4\"", hex(color)),
+        Paint::Area(color, 1.0, _) => format!("fill=\"{}\"", hex(color)),
+        Paint::Area(color, opacity, _) => format!("fill=\"{}\" fill-opacity=\"{}\"", hex(color), number(*opacity)),
+        Paint::Disc(color, radius) => line(color, 2.0 * radius) + " stroke-linecap=\"round\"",
+    }
 }
 
 /// Returns an animation of which `frames` are shown in a loop, each for `delay` seconds.
@@ -105,25 +92,18 @@ pub(super) fn animate(still: &Drawing, frames: &[Vec<Shape>], delay: f64) -> Str
 }
 
 fn text(out: &mut String, text: &Text) {
-    let anchor = match text.align {
-        Align::Start => "start",
-        Align::Middle => "middle",
-        Align::End => "end",
-    };
+    let anchor = ["start", "middle", "end"][text.align as usize];
     let (x, y) = (number(text.at.0), number(text.at.1));
-    let place = if text.turned {
-        format!("transform=\"translate({x} {y}) rotate(-90)\"")
-    } else {
-        format!("x=\"{x}\" y=\"{y}\"")
-    };
-    let (size, color) = (number(text.size), hex(text.color));
+    let upright = format!("x=\"{x}\" y=\"{y}\"");
+    let place = if text.turned { format!("transform=\"translate({x} {y}) rotate(-90)\"") } else { upright };
+    let (size, color) = (number(text.size), hex(&text.color));
     *out += &format!("<text {place} font-size=\"{size}\" fill=\"{color}\" text-anchor=\"{anchor}\">");
     let (mut level, mut gap) = (0.0, 0.0);
-    for run in &text.rich.runs {
-        let (size, down) = run.level.metrics(text.size);
+    for (run_level, run) in &text.rich.0 {
+        let (size, down) = run_level.metrics(text.size);
         // Viewers drop spaces next to a superscript, so these become offsets.
-        let inner = run.text.trim_start_matches(' ');
-        gap += spaces(run.text.len() - inner.len(), size);
+        let inner = run.trim_start_matches(' ');
+        gap += text::width(&run[..run.len() - inner.len()], size);
         let word = inner.trim_end_matches(' ');
         if size == text.size && down == level && gap == 0.0 {
             *out += &escape(word);
@@ -131,14 +111,9 @@ fn text(out: &mut String, text: &Text) {
             let (right, step, size) = (number(gap), number(down - level), number(size));
             *out += &format!("<tspan dx=\"{right}\" dy=\"{step}\" font-size=\"{size}\">{}</tspan>", escape(word));
         }
-        (level, gap) = (down, spaces(inner.len() - word.len(), size));
+        (level, gap) = (down, text::width(&inner[word.len()..], size));
     }
     out.push_str("</text>\n");
-}
-
-/// Returns the width of `count` spaces.
-fn spaces(count: usize, size: f64) -> f64 {
-    count as f64 * font::width(" ") * size
 }
 
 /// Writes path data: absolute start, then steps in tenths of a pixel that add up without drift.
@@ -161,7 +136,7 @@ fn outline(out: &mut String, points: &[Pt]) {
 }
 
 /// Writes discs as strokes a tenth of a pixel long with round ends: a quarter of the bytes of circles.
-fn dots(out: &mut String, at: &[Pt]) {
+fn dots<'a>(out: &mut String, at: impl Iterator<Item = &'a Pt>) {
     let mut pen = (0, 0);
     for (x, y) in at {
         let next = (tenths(*x), tenths(*y));
@@ -203,7 +178,7 @@ fn number(value: f64) -> String {
     if short == "-0" { "0".to_string() } else { short.to_string() }
 }
 
-fn hex(color: Color) -> String {
+fn hex(color: &Color) -> String {
     format!("#{:02x}{:02x}{:02x}", color.0, color.1, color.2)
 }
 

@@ -3,7 +3,6 @@
 use std::fs;
 use std::path::PathBuf;
 
-use super::shape::{Color, Drawing, Rect, Shape};
 use super::text::Rich;
 use super::*;
 
@@ -17,11 +16,14 @@ fn texts(drawing: &Drawing) -> Vec<Rect> {
 }
 
 fn assert_readable(name: &str, figure: &Figure) {
-    let drawing = figure.drawing();
-    let page = Rect::new(0.0, 0.0, drawing.width, drawing.height);
+    let drawing = draw::figure(figure);
+    let page = Rect::new((0.0, 0.0), (drawing.width, drawing.height));
     let texts = texts(&drawing);
     for (index, text) in texts.iter().enumerate() {
-        assert!(page.holds(text), "{name}: text {text:?} leaves the page {page:?}");
+        assert!(
+            text.corners().iter().all(|corner| page.contains(*corner)),
+            "{name}: text {text:?} leaves the page {page:?}"
+        );
         let hit = texts[..index].iter().find(|other| other.grown(-1.5).overlaps(&text.grown(-1.5)));
         assert_eq!(hit, None, "{name}: texts overlap at {text:?}");
     }
@@ -51,13 +53,13 @@ fn named_map() -> Panel {
 
 #[test]
 fn maps_share_colours_and_have_words_along_an_axis() {
-    let drawing = Figure::new().panel(named_map()).drawing();
+    let drawing = draw::figure(&Figure::new().panel(named_map()));
     let words =
         drawing.shapes.iter().filter(|shape| matches!(shape, Shape::Text(text) if text.rich == Rich::new("manifold")));
     assert_eq!(words.count(), 1);
-    let fill = |shape: &Shape| if let Shape::Rects { fill, .. } = shape { Some(*fill) } else { None };
+    let fill = |shape: &Shape| if let Shape::Drawn(Paint::Area(fill, ..), _) = shape { Some(*fill) } else { None };
     let fills: Vec<Color> = drawing.shapes.iter().filter_map(fill).collect();
-    let ends = [0, super::palette::COLOR_STEPS - 1].map(super::palette::scale_color);
+    let ends = [0, COLOR_STEPS - 1].map(scale_color);
     assert!(ends.iter().all(|end| fills.contains(end)), "{fills:?}");
 }
 
@@ -160,11 +162,7 @@ fn assert_sound(drawing: &Drawing) {
     let finite = |(x, y): &(f64, f64)| x.abs() < 1e5 && y.abs() < 1e5;
     for shape in &drawing.shapes {
         let sound = match shape {
-            Shape::Path { points, .. } | Shape::Area { points, .. } => points.iter().all(finite),
-            Shape::Marks { at, .. } => at.iter().all(finite),
-            Shape::Rects { rects, .. } => {
-                rects.iter().all(|r| finite(&(r.left, r.top)) && finite(&(r.right, r.bottom)))
-            }
+            Shape::Drawn(_, lines) => lines.iter().flatten().all(finite),
             Shape::Text(text) => finite(&text.at),
         };
         assert!(sound, "{shape:?}");
@@ -176,13 +174,160 @@ fn odd_data_never_panic() {
     let mut seed = 7;
     for round in 0..200 {
         let figure = Figure::new().width(odd_number(&mut seed)).panel(odd_panel(&mut seed)).panel(odd_panel(&mut seed));
-        assert_sound(&figure.drawing());
+        assert_sound(&draw::figure(&figure));
         let svg = figure.to_svg();
         assert!(svg.len() < 300_000 && !svg.contains("NaN") && !svg.contains("inf"), "round {round}");
         if round % 40 == 0 {
-            assert!(raster::png(&figure.drawing()).is_ok());
+            assert!(figure.to_png().is_ok());
         }
     }
+}
+
+type Points = Vec<(f64, f64)>;
+
+/// Returns data of a kind: none, one point, equal ones, huge ones, with gaps, usual ones.
+fn kinds_of_data() -> Vec<(&'static str, Points)> {
+    let wild = |value: f64| (0..40).map(|k| (f64::from(k), if k % 3 == 1 { value } else { f64::from(k) })).collect();
+    vec![
+        ("empty", Vec::new()),
+        ("single", vec![(1.0, 2.0)]),
+        ("equal", vec![(3.0, 3.0); 20]),
+        ("huge", wild(1e300)),
+        ("huge negative", wild(-1e300)),
+        ("nan", wild(f64::NAN)),
+        ("infinite", wild(f64::INFINITY)),
+        ("nothing but nan", vec![(f64::NAN, f64::NAN); 3]),
+        ("usual", wave(300, 1.0)),
+    ]
+}
+
+fn spots(points: &Points) -> Vec<Spot> {
+    points.iter().map(|(x, y)| Spot::data(*x, *y).moved(3.0, -2.0)).collect()
+}
+
+/// Returns the items of a mechanism at these points.
+fn mechanism(points: &Points) -> Panel {
+    let line = Item::Line { spots: spots(points), tint: Tint::Body(1, 0.3), width: 1.5, dashed: true };
+    let area = Item::Area { spots: spots(points), tint: Tint::Paper, opacity: 0.5 };
+    let discs = spots(points).into_iter().map(|spot| Item::Disc { spot, radius: 4.0, tint: Tint::Ink(0.0) });
+    let text = |spot| Item::Text { spot, text: "body".into(), align: Align::Start };
+    let corner = Spot { at: Place::Frame(1.0, 1.0), step: (0.0, 9.0) };
+    let texts = spots(points).into_iter().chain([corner]).map(text);
+    let mut panel = Panel::new("x (m)", "y (m)").equal_aspect().items(discs.chain([area, line]).chain(texts));
+    let axis = vec![corner, corner.moved(20.0, 0.0)];
+    panel.inset = vec![Item::Line { spots: axis, tint: Tint::Ink(0.0), width: 1.0, dashed: false }];
+    panel.keys = vec![("t = 0 s".into(), Tint::Ink(0.5))];
+    panel
+}
+
+/// Returns a figure of each kind that the program draws, of the same data.
+fn kinds_of_figures(points: &Points) -> Vec<(&'static str, Figure)> {
+    let line = |style: Style| Series::line("a", points.clone()).style(style);
+    let log = |label: &str| AxisSpec::from(label).log();
+    let colors = || points.iter().map(|(x, y)| (*x, *y, *y)).collect();
+    let band = Band::around(0, points.iter().map(|(x, y)| (*x, y - 1.0, *y)).collect());
+    let mut map = HeatMap::new("drift (m)", points.iter().map(|point| point.0).collect(), vec![1.0, 2.0]).log();
+    points.iter().enumerate().for_each(|(column, (_, value))| map.set(column, 1, *value));
+    map.mark(0, 1, "fail");
+    let lines = Panel::new("time (s)", "angle (rad)").series(line(Style::Line)).series(line(Style::Dashed)).band(band);
+    let loci =
+        Panel::new("real part (1/s)", "imaginary part (rad/s)").color_series(ColorSeries::new("t (s)", colors()));
+    let loci = loci.series(line(Style::Crosses)).series(line(Style::Guide)).band(Band::shade(0.0, f64::INFINITY));
+    let work = Panel::new(log("CPU time (s)"), log("error")).series(line(Style::LineDots)).annotate(1.0, 1.0, "1e-6");
+    let magnitude = Panel::new(log("frequency (rad/s)"), log("magnitude")).series(line(Style::Line));
+    let phase = Panel::new(log("frequency (rad/s)"), AxisSpec::from("phase (°)").degrees()).series(line(Style::Thin));
+    let campbell =
+        Panel::new("speed (rad/s)", "frequency (rad/s)").series(line(Style::Dotted)).vertical(1.0, "unstable");
+    let sweep = Panel::new("stiffness (N/m)", "steps").series(line(Style::Dots));
+    let names = AxisSpec::from("projection").names(["none", "manifold"].map(String::from));
+    vec![
+        ("lines", Figure::new().title("Lines").panel(lines.clone())),
+        ("loci", Figure::new().panel(loci.zero_lines())),
+        ("work", Figure::new().panel(work.clone()).panel(work).columns(2)),
+        ("stability", Figure::new().panel(Panel::new(log("h (s)"), names).heat_map(map))),
+        ("outputs", Figure::new().panel(lines.clone()).panel(lines.clone()).panel(lines)),
+        ("bode", Figure::new().panel(magnitude).panel(phase)),
+        ("campbell", Figure::new().panel(campbell)),
+        ("sweep", Figure::new().panel(sweep)),
+        ("mechanism", Figure::new().panel(mechanism(points))),
+        ("modes", Figure::new().panel(mechanism(points).title("mode 1")).panel(mechanism(points)).columns(2)),
+    ]
+}
+
+/// Returns the range of the shapes that data made: between the grid and the frame, which have styles of their own.
+fn data_shapes(drawing: &Drawing) -> &[Shape] {
+    let is = |shape: &Shape, stroke| matches!(shape, Shape::Drawn(Paint::Line(same), _) if *same == stroke);
+    let first = drawing.shapes.iter().position(|shape| is(shape, GRID)).map_or(0, |grid| grid + 1);
+    let last = drawing.shapes.iter().position(|shape| is(shape, FRAME)).unwrap_or(first);
+    &drawing.shapes[first.min(last)..last]
+}
+
+#[test]
+fn each_kind_of_figure_takes_any_data() {
+    for (data, points) in kinds_of_data() {
+        for (kind, figure) in kinds_of_figures(&points) {
+            let drawing = draw::figure(&figure);
+            assert_sound(&drawing);
+            let frame = drawing.shapes.iter().find_map(|shape| match shape {
+                Shape::Drawn(Paint::Line(stroke), lines) if *stroke == FRAME => {
+                    lines.iter().find(|line| line.len() == 5)
+                }
+                _ => None,
+            });
+            let frame = frame.unwrap_or_else(|| panic!("{kind} of {data} data has no frame"));
+            let reach = if ["mechanism", "modes"].contains(&kind) { 30.0 } else { 1.0 };
+            let inside = Rect { left: frame[0].0, top: frame[0].1, right: frame[2].0, bottom: frame[2].1 }.grown(reach);
+            if figure.panels.len() == 1 {
+                for shape in data_shapes(&drawing) {
+                    let Shape::Drawn(paint, lines) = shape else { continue };
+                    let outlying = lines.iter().flatten().find(|point| !inside.contains(**point));
+                    // Markers reach beyond the frame by their size.
+                    let is_marker = matches!(paint, Paint::Area(..)) && lines.iter().all(|line| line.len() < 6);
+                    assert!(outlying.is_none() || is_marker, "{kind} of {data} data: {outlying:?} outside {inside:?}");
+                }
+            }
+            let svg = figure.to_svg();
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{kind} of {data} data");
+            assert!(figure.to_png().is_ok(), "{kind} of {data} data");
+        }
+    }
+}
+
+#[test]
+fn animations_take_any_data() {
+    for (data, points) in kinds_of_data() {
+        let frame = |k: usize| Figure::new().panel(mechanism(&points).title(format!("{k}")));
+        let animation = Animation { frame, count: 3, per_second: 25.0 };
+        let (svg, mut drawn) = (animation.to_svg(), 0);
+        assert!(svg.matches("<animate ").count() == 3 && !svg.contains("NaN"), "{data}");
+        let gif = animation.to_gif(|count| drawn = count).expect("a GIF");
+        assert!(gif.starts_with(b"GIF89a") && drawn == 3, "{data}");
+    }
+}
+
+/// A value far outside a fixed range is cut off, and does not become a peak at the frame.
+#[test]
+fn spikes_are_cut_off_at_the_frame() {
+    let points = vec![(0.0, 0.5), (1.0, 0.5), (2.0, 1e300), (3.0, 0.5), (4.0, f64::NAN), (5.0, 0.5), (6.0, 0.5)];
+    let panel = Panel::new("x", AxisSpec::from("y").range(0.0, 1.0)).series(Series::line("", points));
+    let drawing = draw::figure(&Figure::new().panel(panel));
+    let lines = data_shapes(&drawing).iter().find_map(|shape| match shape {
+        Shape::Drawn(Paint::Line(stroke), lines) if *stroke != FRAME => Some(lines),
+        _ => None,
+    });
+    let lines = lines.expect("the line");
+    // Before the spike, after it, and after the gap; the spike is as narrow as it is high, so that no peak is seen at 2.
+    let ends: Vec<[f64; 2]> = lines.iter().map(|line| [line[0].0, line[line.len() - 1].0]).collect();
+    let [before, after, last] = ends[..] else { panic!("{lines:?}") };
+    let unit = last[1] - last[0];
+    assert!((before[1] - before[0] - unit).abs() < 0.1 && (after[0] - before[1] - 2.0 * unit).abs() < 0.1, "{lines:?}");
+    assert!((after[1] - after[0]).abs() < 0.1 && last[0] - after[1] > 1.9 * unit, "{lines:?}");
+}
+
+#[test]
+fn units_are_set_with_superscripts() {
+    let svg = Figure::new().panel(panel("time (s)", "acceleration (m/s^2)")).to_svg();
+    assert!(!svg.contains('^') && svg.contains(">2</tspan>"), "{svg}");
 }
 
 #[test]
@@ -244,7 +389,7 @@ fn files_are_what_their_names_say_and_always_the_same() {
     let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().expect("a PNG");
     let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
     let info = reader.next_frame(&mut pixels).expect("pixels");
-    assert_eq!((info.width, bytes), (1280, raster::png(&figure.drawing()).expect("the same")));
+    assert_eq!((info.width, bytes), (1280, figure.to_png().expect("the same")));
     assert!(pixels.iter().any(|value| *value < 60) && pixels.contains(&255));
     assert_eq!(folder.names().len(), 2, "no temporary file is left");
 }

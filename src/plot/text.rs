@@ -1,27 +1,39 @@
-//! Lines of text with superscripts and subscripts: measuring, breaking, shortening.
+//! Lines of text with superscripts and subscripts: measuring with the embedded font, breaking, shortening.
 
-use super::font;
-
-/// Size of a superscript or subscript relative to its line.
-pub(super) const SCRIPT: f64 = 0.72;
-/// Rise of a superscript, in em of the line.
-pub(super) const RAISE: f64 = 0.40;
-/// Drop of a subscript, in em of the line.
-pub(super) const LOWER: f64 = 0.16;
+use ab_glyph::{Font, FontRef, GlyphId};
+use std::sync::LazyLock;
 
 /// Distance of lines of text in em.
 pub(super) const LINE_HEIGHT: f64 = 1.22;
 /// Half the height of a digit in em.
 pub(super) const HALF_DIGIT: f64 = 0.365;
+/// Units of the font in an em.
+pub(super) const EM: f64 = 2048.0;
 
-/// Part of a line on one level.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Run {
-    pub text: String,
-    pub level: Level,
+/// The font; none would be a broken build, which a test checks.
+pub(super) static DEJAVU: LazyLock<Option<FontRef>> =
+    LazyLock::new(|| FontRef::try_from_slice(include_bytes!("fonts/DejaVuSans.ttf")).ok());
+
+/// Returns the glyphs of a text, each with its start, and the end of the text; in em, with kerning.
+pub(super) fn glyphs(font: &FontRef, text: &str) -> (Vec<(GlyphId, f64)>, f64) {
+    let (mut end, mut before) = (0.0, None);
+    let mut place = |character| {
+        let glyph = font.glyph_id(character);
+        let start = end + before.map_or(0.0, |before| font.kern_unscaled(before, glyph));
+        end = start + font.h_advance_unscaled(glyph);
+        before = Some(glyph);
+        (glyph, f64::from(start) / EM)
+    };
+    let placed = text.chars().map(&mut place).collect();
+    (placed, f64::from(end) / EM)
 }
 
-/// Vertical level of a part.
+/// Returns the width of a text at a font size.
+pub(super) fn width(text: &str, size: f64) -> f64 {
+    Rich::new(text).width(size)
+}
+
+/// Vertical level of a part of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Level {
     Base,
@@ -34,98 +46,101 @@ impl Level {
     pub fn metrics(self, size: f64) -> (f64, f64) {
         match self {
             Self::Base => (size, 0.0),
-            Self::Raised => (SCRIPT * size, -RAISE * size),
-            Self::Lowered => (SCRIPT * size, LOWER * size),
+            Self::Raised => (0.72 * size, -0.40 * size),
+            Self::Lowered => (0.72 * size, 0.16 * size),
         }
     }
 }
 
-/// A line of text.
+/// A line of text in parts, each on a level.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Rich {
-    pub runs: Vec<Run>,
-}
+pub(super) struct Rich(pub Vec<(Level, String)>);
 
 impl Rich {
-    /// Reads a text; superscript and subscript characters become raised and lowered parts, which look the same in every
-    /// font, and control characters become spaces.
+    /// Reads a text. Superscript and subscript characters become raised and lowered parts, which look the same in
+    /// every font, and so does a whole number after "^": `m/s^2`. Control characters become spaces.
     pub fn new(text: &str) -> Self {
-        if !text.is_empty() && text.bytes().all(|byte| byte == b' ' || byte.is_ascii_graphic()) {
-            return Self { runs: vec![Run { text: text.to_string(), level: Level::Base }] };
-        }
         let mut rich = Self::default();
-        text.chars().for_each(|character| {
-            let (level, plain) = classify(character);
-            rich.push(level, plain);
-        });
+        for (index, part) in text.split('^').enumerate() {
+            let (number, rest) = part.split_at(if index > 0 { number_length(part) } else { 0 });
+            if index > 0 && number.is_empty() {
+                rich.push(Level::Base, '^');
+            }
+            number.chars().for_each(|digit| rich.push(Level::Raised, if digit == '-' { '−' } else { digit }));
+            for character in rest.chars() {
+                let (level, plain) = classify(character);
+                rich.push(level, plain);
+            }
+        }
         rich
     }
 
     fn push(&mut self, level: Level, character: char) {
-        match self.runs.last_mut() {
-            Some(run) if run.level == level => run.text.push(character),
-            _ => self.runs.push(Run { text: character.to_string(), level }),
+        match self.0.last_mut() {
+            Some((same, text)) if *same == level => text.push(character),
+            _ => self.0.push((level, character.to_string())),
         }
     }
 
     /// Returns the width at a font size.
     pub fn width(&self, size: f64) -> f64 {
-        self.runs.iter().map(|run| font::width(&run.text) * run.level.metrics(size).0).sum()
+        let width = |text: &str| DEJAVU.as_ref().map_or(0.0, |font| glyphs(font, text).1);
+        self.0.iter().map(|(level, text)| width(text) * level.metrics(size).0).sum()
     }
+}
+
+/// Returns the length of the whole number, maybe with a sign, at the beginning of a text.
+fn number_length(text: &str) -> usize {
+    let digits = text.strip_prefix(['-', '−']).unwrap_or(text);
+    let rest = digits.trim_start_matches(|character: char| character.is_ascii_digit());
+    if rest.len() < digits.len() { text.len() - rest.len() } else { 0 }
 }
 
 fn classify(character: char) -> (Level, char) {
     const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾";
     const LOWERED: &str = "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎";
-    const PLAIN: &str = "0123456789+−=()";
-    let plain = |list: &str| list.chars().zip(PLAIN.chars()).find(|pair| pair.0 == character).map(|pair| pair.1);
-    if let Some(plain) = plain(RAISED) {
-        return (Level::Raised, plain);
+    if character.is_ascii_graphic() {
+        return (Level::Base, character);
     }
-    if let Some(plain) = plain(LOWERED) {
-        return (Level::Lowered, plain);
-    }
-    (Level::Base, if character.is_control() { ' ' } else { character })
-}
-
-/// Returns the width of a text at a font size.
-pub(super) fn width(text: &str, size: f64) -> f64 {
-    Rich::new(text).width(size)
-}
-
-/// Breaks a text at spaces into at most `most` lines of width `room`; a text that does not fit ends in "…".
-pub(super) fn wrap(text: &str, size: f64, room: f64, most: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        let full = lines.len() == most;
-        let joined = lines.last().map(|line| format!("{line} {word}"));
-        match (lines.last_mut(), joined) {
-            (Some(line), Some(joined)) if full || width(&joined, size) <= room => *line = joined,
-            _ => lines.push(word.to_string()),
+    for (list, level) in [(RAISED, Level::Raised), (LOWERED, Level::Lowered)] {
+        if let Some((_, plain)) = list.chars().zip("0123456789+−=()".chars()).find(|pair| pair.0 == character) {
+            return (level, plain);
         }
     }
-    lines.iter().map(|line| shorten(line, size, room)).collect()
+    (Level::Base, if character.is_control() { ' ' } else { character })
 }
 
 /// A text broken into lines, smaller if it would not fit otherwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Label {
-    pub lines: Vec<String>,
+    /// The text with its line breaks.
+    pub text: String,
     pub size: f64,
 }
 
 impl Label {
     /// Breaks a text; units come last in labels, so a smaller size is better than a lost end.
     pub fn new(text: &str, size: f64, room: f64, most: usize) -> Self {
-        let at = |size: f64| Self { lines: wrap(text, size, room, most), size };
-        let whole = |label: &Self| !label.lines.iter().any(|line| line.ends_with('…'));
-        let sizes = [size, 0.9 * size, 0.8 * size];
-        sizes.into_iter().map(at).find(whole).unwrap_or_else(|| at(0.8 * size))
+        let at = |part: f64| Self { text: wrap(text, part * size, room, most).join("\n"), size: part * size };
+        [1.0, 0.9, 0.8].into_iter().map(at).find(|label| !label.text.contains('…')).unwrap_or_else(|| at(0.8))
     }
 
     pub fn height(&self) -> f64 {
-        LINE_HEIGHT * self.size * self.lines.len() as f64
+        LINE_HEIGHT * self.size * self.text.lines().count() as f64
     }
+}
+
+/// Breaks a text at spaces into at most `most` lines of width `room`; a text that does not fit ends in "…".
+fn wrap(text: &str, size: f64, room: f64, most: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let is_full = lines.len() == most;
+        match lines.last_mut() {
+            Some(line) if is_full || width(&format!("{line} {word}"), size) <= room => *line += &format!(" {word}"),
+            _ => lines.push(word.to_string()),
+        }
+    }
+    lines.iter().map(|line| shorten(line, size, room)).collect()
 }
 
 /// Returns the text, or the beginning that fits, followed by "…".
@@ -135,14 +150,9 @@ pub(super) fn shorten(text: &str, size: f64, room: f64) -> String {
     if text.chars().nth(most).is_none() && width(text, size) <= room {
         return text.to_string();
     }
-    let letters: Vec<char> = text.chars().take(most).collect();
-    let cut = |count: usize| letters[..count].iter().collect::<String>().trim_end().to_string() + "…";
-    let (mut fits, mut too_long) = (0, letters.len() + 1);
-    while too_long - fits > 1 {
-        let middle = (fits + too_long) / 2;
-        if width(&cut(middle), size) <= room { fits = middle } else { too_long = middle }
-    }
-    if fits == 0 { String::new() } else { cut(fits) }
+    let cut = |count| text.chars().take(count).collect::<String>().trim_end().to_string() + "…";
+    let fitting = (1..=most).rev().map(cut).find(|cut| width(cut, size) <= room);
+    fitting.unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -150,10 +160,24 @@ mod tests {
     use super::*;
 
     #[test]
+    fn widths_are_those_of_the_font() {
+        let font = DEJAVU.as_ref().expect("the font");
+        assert_eq!(font.units_per_em().map(f64::from), Some(EM));
+        // Read from the same file with fontTools: advances of A and V, and the kerning of their pair.
+        assert_eq!([width("A", 1.0), width("V", 1.0)], [1401.0 / EM, 1401.0 / EM]);
+        assert!(width("AV", 1.0) < width("A", 1.0) + width("V", 1.0) && width("mm", 1.0) > width("ll", 1.0));
+    }
+
+    #[test]
     fn superscripts_are_raised() {
         let rich = Rich::new("10⁻¹²");
-        assert_eq!(rich.runs.len(), 2);
-        assert_eq!(rich.runs[1], Run { text: "−12".into(), level: Level::Raised });
+        assert_eq!(rich.0.len(), 2);
+        assert_eq!(rich.0[1], (Level::Raised, "−12".into()));
+        assert_eq!(Rich::new("10^-12"), rich);
+        assert_eq!(Rich::new("a (m/s^2) b^3"), Rich::new("a (m/s²) b³"));
+        let texts: Vec<String> = Rich::new("x^n^2-1^").0.into_iter().map(|part| part.1).collect();
+        assert_eq!(texts, ["x^n", "2", "-1^"]);
+        assert!(Rich::new("").0.is_empty());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Shapes drawn with soft edges by tiny-skia.
 
-use crate::plot::font::{self, DEJAVU, EM};
-use crate::plot::shape::{Color, Drawing, Marker, Pt, Rect, Shape, Stroke, Text};
+use super::super::shape::{Color, Drawing, Paint as Style, Pt, Shape, Stroke, Text};
+use super::super::text::{DEJAVU, EM, glyphs};
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
 use tiny_skia::{FillRule, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, StrokeDash, Transform};
 
@@ -39,17 +39,24 @@ impl RasterCanvas {
 
     fn shape(&mut self, shape: &Shape) {
         match shape {
-            Shape::Path { points, stroke } => self.stroke(lines([points]), stroke),
-            Shape::Area { points, fill, opacity } => self.fill(lines([points]), &paint(*fill, *opacity)),
-            Shape::Rects { rects, fill } => self.rectangles(rects, *fill),
-            Shape::Marks { at, marker, radius, color } => self.markers(at, *marker, *radius, *color),
-            Shape::Text(text) => self.fill(letters(text), &paint(text.color, 1.0)),
+            Shape::Text(text) => self.fill(letters(text), text.color, 1.0, true),
+            Shape::Drawn(Style::Line(stroke), lines) => self.stroke(outline(lines), stroke),
+            // Whole pixels, so that crisp areas leave no seam between them.
+            Shape::Drawn(Style::Area(color, opacity, crisp), lines) => {
+                self.fill(outline(lines), *color, *opacity, !crisp)
+            }
+            Shape::Drawn(Style::Disc(color, radius), points) => {
+                let mut path = PathBuilder::new();
+                points.iter().flatten().for_each(|(x, y)| path.push_circle(*x as f32, *y as f32, *radius as f32));
+                self.fill(path, *color, 1.0, true);
+            }
         }
     }
 
-    fn fill(&mut self, path: PathBuilder, paint: &Paint) {
+    fn fill(&mut self, path: PathBuilder, color: Color, opacity: f64, anti_alias: bool) {
         if let Some(path) = path.finish() {
-            self.pixels.fill_path(&path, paint, FillRule::Winding, self.scale, None);
+            let paint = Paint { anti_alias, ..paint(color, opacity) };
+            self.pixels.fill_path(&path, &paint, FillRule::Winding, self.scale, None);
         }
     }
 
@@ -61,24 +68,6 @@ impl RasterCanvas {
             self.pixels.stroke_path(&path, &paint(stroke.color, 1.0), &style, self.scale, None);
         }
     }
-
-    /// Fills whole pixels, so that cells leave no seam between them.
-    fn rectangles(&mut self, rects: &[Rect], fill: Color) {
-        let outlines: Vec<_> = rects.iter().map(Rect::outline).collect();
-        self.fill(lines(&outlines), &Paint { anti_alias: false, ..paint(fill, 1.0) });
-    }
-
-    fn markers(&mut self, at: &[Pt], marker: Marker, radius: f64, color: Color) {
-        let outlines: Vec<_> = at.iter().flat_map(|center| marker.outlines(*center, radius)).collect();
-        let mut path = lines(&outlines);
-        if marker == Marker::Circle {
-            at.iter().for_each(|(x, y)| path.push_circle(*x as f32, *y as f32, radius as f32));
-        }
-        match marker.stroke_width(radius) {
-            Some(width) => self.stroke(path, &Stroke { color, width, dash: &[] }),
-            None => self.fill(path, &paint(color, 1.0)),
-        }
-    }
 }
 
 fn paint(Color(red, green, blue): Color, opacity: f64) -> Paint<'static> {
@@ -88,7 +77,7 @@ fn paint(Color(red, green, blue): Color, opacity: f64) -> Paint<'static> {
 }
 
 /// Returns lines through points, closed where they end at their start.
-fn lines<'a>(lines: impl IntoIterator<Item = &'a Vec<Pt>>) -> PathBuilder {
+fn outline(lines: &[Vec<Pt>]) -> PathBuilder {
     let mut path = PathBuilder::new();
     for points in lines {
         points.iter().take(1).for_each(|(x, y)| path.move_to(*x as f32, *y as f32));
@@ -104,14 +93,14 @@ fn lines<'a>(lines: impl IntoIterator<Item = &'a Vec<Pt>>) -> PathBuilder {
 fn letters(text: &Text) -> PathBuilder {
     let mut path = PathBuilder::new();
     let Some(font) = DEJAVU.as_ref() else { return path };
-    let mut along = text.start();
-    for run in &text.rich.runs {
-        let (size, down) = run.level.metrics(text.size);
-        let (glyphs, end) = font::glyphs(font, &run.text);
+    let mut along = -text.align.part() * text.rich.width(text.size);
+    for (level, run) in &text.rich.0 {
+        let (size, down) = level.metrics(text.size);
+        let (glyphs, end) = glyphs(font, run);
         for (glyph, start) in glyphs {
             let place = |point: Point| {
-                let (right, below) =
-                    (along + (start + f64::from(point.x) / EM) * size, down - f64::from(point.y) / EM * size);
+                let right = along + (start + f64::from(point.x) / EM) * size;
+                let below = down - f64::from(point.y) / EM * size;
                 let (x, y) = if text.turned { (below, -right) } else { (right, below) };
                 ((text.at.0 + x) as f32, (text.at.1 + y) as f32)
             };
@@ -126,20 +115,16 @@ fn letters(text: &Text) -> PathBuilder {
 fn letter(path: &mut PathBuilder, font: &FontRef, glyph: GlyphId, place: impl Fn(Point) -> (f32, f32)) {
     let mut pen = None;
     for curve in font.outline(glyph).map_or_else(Vec::new, |outline| outline.curves) {
-        let (from, to) = match curve {
-            OutlineCurve::Line(a, b) | OutlineCurve::Quad(a, _, b) | OutlineCurve::Cubic(a, _, _, b) => (a, b),
-        };
-        let (start, end) = (place(from), place(to));
+        let (OutlineCurve::Line(from, to) | OutlineCurve::Quad(from, _, to) | OutlineCurve::Cubic(from, _, _, to)) =
+            curve;
+        let (start, (x, y)) = (place(from), place(to));
         if pen != Some(from) {
             path.move_to(start.0, start.1);
         }
         match curve {
-            OutlineCurve::Line(..) => path.line_to(end.0, end.1),
-            OutlineCurve::Quad(_, a, _) => path.quad_to(place(a).0, place(a).1, end.0, end.1),
-            OutlineCurve::Cubic(_, a, b, _) => {
-                let (a, b) = (place(a), place(b));
-                path.cubic_to(a.0, a.1, b.0, b.1, end.0, end.1);
-            }
+            OutlineCurve::Line(..) => path.line_to(x, y),
+            OutlineCurve::Quad(_, a, _) => path.quad_to(place(a).0, place(a).1, x, y),
+            OutlineCurve::Cubic(_, a, b, _) => path.cubic_to(place(a).0, place(a).1, place(b).0, place(b).1, x, y),
         }
         pen = Some(to);
     }

@@ -1,7 +1,7 @@
 //! GIF files: one palette for all frames, and of each frame only the difference from the one before.
 
+use super::super::shape::{Drawing, Shape};
 use super::canvas::RasterCanvas;
-use crate::plot::shape::{Drawing, Shape};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use rayon::prelude::*;
 
@@ -22,7 +22,7 @@ const DENSITY: usize = 1;
 
 /// Returns the file of `count` frames; `moving` gives the items of a frame, drawn on the constant `still`, and `done`
 /// is called with the number of frames drawn.
-pub(in crate::plot) fn gif(
+pub(in super::super) fn gif(
     still: &Drawing,
     count: usize,
     per_second: f64,

@@ -1,0 +1,227 @@
+//! Marks of an axis: multiples of 1, 2, 2.5 or 5 times a power of ten, powers of ten, or names.
+
+use super::panel::Scale;
+use super::{Axis, TICK_SIZE, text};
+
+/// Largest number of significant digits; longer labels are written relative to an offset.
+const MOST_DIGITS: f64 = 6.0;
+/// Steps of angles, degrees.
+const ANGLES: [f64; 8] = [5.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720.0];
+/// Numbers of decades between labels.
+const STRIDES: [i32; 13] = [1, 2, 3, 4, 5, 10, 15, 20, 25, 50, 100, 200, 500];
+/// Least length of a decade, in pixels, for marks within it and for marks between labels.
+const ROOM_FOR_MINOR: f64 = 30.0;
+const ROOM_FOR_DECADE: f64 = 4.0;
+/// Powers of ten that numbers of the machine reach.
+const POWERS: (i32, i32) = (-307, 307);
+
+/// The marks of an axis.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Ticks {
+    /// Values with their labels.
+    pub major: Vec<(f64, String)>,
+    /// Values without one.
+    pub minor: Vec<f64>,
+    /// Factor or offset of all labels, like "×10^-6"; may be empty.
+    pub factor: String,
+}
+
+/// Length of an axis, with labels in a row along it (as on x) or one above another (as on y).
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Room {
+    Along(f64),
+    Upwards(f64),
+}
+
+impl Room {
+    fn length(self) -> f64 {
+        let (Self::Along(length) | Self::Upwards(length)) = self;
+        length
+    }
+
+    /// Returns the least distance of marks at which these labels do not touch.
+    fn spacing(self, ticks: &Ticks) -> f64 {
+        match self {
+            Self::Along(_) => ticks.widest().max(TICK_SIZE) + 0.9 * TICK_SIZE,
+            Self::Upwards(_) => 2.2 * TICK_SIZE,
+        }
+    }
+}
+
+impl Ticks {
+    /// Chooses the marks of an axis.
+    pub fn new(axis: &Axis, room: Room) -> Self {
+        match axis.spec.scale {
+            _ if !axis.spec.names.is_empty() => named(axis, room),
+            Scale::Linear => linear(axis.low, axis.high, room, axis.spec.is_angle),
+            Scale::Log => log(axis.low, axis.high, room),
+        }
+    }
+
+    fn labelled(major: impl Iterator<Item = (f64, String)>) -> Self {
+        Self { major: major.collect(), ..Self::default() }
+    }
+
+    /// Returns the width of the widest label.
+    pub fn widest(&self) -> f64 {
+        self.major.iter().map(|tick| text::width(&tick.1, TICK_SIZE)).fold(0.0, f64::max)
+    }
+}
+
+/// Sets texts at 0, 1, 2 ..., thinned where there is no space.
+fn named(axis: &Axis, room: Room) -> Ticks {
+    let place = |value: f64| axis.place(value).unwrap_or(0.0);
+    let all = || axis.spec.names.iter().enumerate().map(|(k, name)| (k as f64, name.clone()));
+    let least = if let Room::Along(_) = room { room.spacing(&Ticks::labelled(all())) } else { 1.05 * TICK_SIZE };
+    let stride = (least / (room.length() * (place(1.0) - place(0.0))).max(1e-9)).ceil().clamp(1.0, 1e6) as usize;
+    Ticks::labelled(all().step_by(stride).filter(|tick| (0.0..=1.0).contains(&place(tick.0))))
+}
+
+/// Returns the finest marks whose labels have space.
+fn linear(low: f64, high: f64, room: Room, is_angle: bool) -> Ticks {
+    let span = high - low;
+    let finest = span / if let Room::Along(_) = room { 8.0 } else { 7.0 };
+    let angles = ANGLES.into_iter().filter(|step| is_angle && (finest..=0.5 * span).contains(step));
+    let power = finest.log10().floor() as i32;
+    let decimal = (power..power + 3).flat_map(|power| [1.0, 2.0, 2.5, 5.0].map(|digit| digit * 10f64.powi(power)));
+    let mut best = Ticks::default();
+    for step in angles.chain(decimal.filter(|step| *step >= finest * (1.0 - 1e-9))) {
+        let ticks = multiples(low, high, step);
+        let fits = room.length() * step / span >= room.spacing(&ticks);
+        if ticks.major.len() >= 2 || best.major.is_empty() {
+            best = ticks;
+        }
+        if fits {
+            break;
+        }
+    }
+    best
+}
+
+/// Returns marks at the multiples of a step.
+fn multiples(low: f64, high: f64, step: f64) -> Ticks {
+    // A mark exactly at the limit must not be lost to rounding.
+    let (first, last) = ((low / step - 1e-6).ceil(), (high / step + 1e-6).floor());
+    let values: Vec<f64> = (0..50).map(|k| (first + f64::from(k)) * step).take_while(|v| *v <= last * step).collect();
+    let largest = |offset: f64| values.iter().map(|value| (value - offset).abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let is_long = largest(0.0).log10().floor() - step.log10().floor() >= MOST_DIGITS;
+    let (offset, text) = if is_long { roundest(first * step, last * step, step) } else { (0.0, String::new()) };
+    let exponent = (largest(offset).log10() + 1e-9).floor() as i32;
+    let has_factor = exponent >= 5 || exponent <= -4 || decimals(step, 0) > 4;
+    let factor = if has_factor && largest(offset) >= 0.5 * step { 3 * exponent.div_euclid(3) } else { 0 };
+    let label = |value: f64| plain((value - offset) / 10f64.powi(factor), decimals(step, factor));
+    let power = if factor == 0 { String::new() } else { format!("×10^{factor} ") };
+    let factor = (power + &text).trim_end().to_string();
+    Ticks { factor, ..Ticks::labelled(values.iter().map(|value| (*value, label(*value)))) }
+}
+
+/// Returns a number with so many digits after the point and a true minus sign.
+fn plain(value: f64, places: usize) -> String {
+    let text = format!("{value:.places$}");
+    let is_zero = !text.contains(|digit| ('1'..='9').contains(&digit));
+    text.replace('-', if is_zero { "" } else { "−" })
+}
+
+/// Returns the number of digits after the point that multiples of a step need, in units of a power of ten.
+fn decimals(step: f64, power: i32) -> usize {
+    let scaled = |digits: i32| step / 10f64.powi(power - digits);
+    let is_whole = |digits: &i32| (scaled(*digits) - scaled(*digits).round()).abs() < 1e-6 * scaled(*digits);
+    (0..330).find(is_whole).unwrap_or(0) as usize
+}
+
+/// Returns the number from `first` to `last` with the most zeros at its end, and its text with a sign.
+fn roundest(first: f64, last: f64, step: f64) -> (f64, String) {
+    let (top, end) = (first.abs().max(last.abs()).log10().ceil() as i32, step.log10().floor() as i32 - 1);
+    let multiple = |power: i32| (power, (last / 10f64.powi(power) + 1e-6).floor() * 10f64.powi(power));
+    let inside = (end..=top).rev().map(multiple).find(|(_, number)| *number >= first - 1e-6 * step);
+    let (power, number) = inside.unwrap_or((end, first));
+    let size = number.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
+    let (unit, factor) = if (-4..7).contains(&size) { (0, String::new()) } else { (size, format!("×10^{size}")) };
+    let digits = plain(number.abs() / 10f64.powi(unit), (unit - power).max(0) as usize);
+    (number, format!("{} {digits}{factor}", if number < 0.0 { "−" } else { "+" }))
+}
+
+/// Returns marks at powers of ten between 10^low and 10^high, thinned so that their labels do not touch.
+fn log(low: f64, high: f64, room: Room) -> Ticks {
+    let decade = room.length() / (high - low);
+    let powers = ((low - 1e-9).ceil() as i32).max(POWERS.0)..=((high + 1e-9).floor() as i32).min(POWERS.1);
+    let at = |power: i32| (10f64.powi(power), format!("10^{power}"));
+    let needed = room.spacing(&Ticks::labelled([*powers.start(), *powers.end()].into_iter().map(at)));
+    let stride = STRIDES.into_iter().find(|stride| f64::from(*stride) * decade >= needed).unwrap_or(1000);
+    let (labelled, between): (Vec<i32>, Vec<i32>) = powers.partition(|power| power.rem_euclid(stride) == 0);
+    let minor = match stride {
+        1 if decade >= ROOM_FOR_MINOR => {
+            let decades = (low.floor() as i32).max(POWERS.0)..=(high.floor() as i32).min(POWERS.1);
+            let within = decades.flat_map(|power| (2..10).map(move |digit| f64::from(digit) * 10f64.powi(power)));
+            within.filter(|value| (low..high).contains(&value.log10())).collect()
+        }
+        2.. if decade >= ROOM_FOR_DECADE => between.into_iter().map(|power| 10f64.powi(power)).collect(),
+        _ => Vec::new(),
+    };
+    Ticks { minor, ..Ticks::labelled(labelled.into_iter().map(at)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROOM: Room = Room::Along(500.0);
+    const UPWARDS: Room = Room::Upwards(200.0);
+
+    fn labels(ticks: &Ticks) -> Vec<&str> {
+        ticks.major.iter().map(|tick| tick.1.as_str()).collect()
+    }
+
+    #[test]
+    fn labels_are_short_and_exact() {
+        let at = |low, high| linear(low, high, ROOM, false);
+        assert_eq!(labels(&at(0.0, 0.6)), ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6"]);
+        assert_eq!(labels(&at(0.0, 0.03)), ["0.000", "0.005", "0.010", "0.015", "0.020", "0.025", "0.030"]);
+        assert_eq!(labels(&at(-1.0, 1.0)), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
+        assert_eq!([plain(-0.0, 1), plain(-0.025, 3), plain(700.0, 0)], ["0.0", "−0.025", "700"]);
+        assert_eq!([decimals(2.5, 0), decimals(0.02, 0), decimals(2e-9, -9), decimals(500.0, 3)], [1, 2, 0, 1]);
+    }
+
+    #[test]
+    fn angles_are_marked_at_parts_of_turns() {
+        let at = |low, high| linear(low, high, Room::Upwards(240.0), true);
+        assert_eq!(labels(&at(-370.0, 10.0)), ["−360", "−270", "−180", "−90", "0"]);
+        assert_eq!(labels(&at(-95.0, 3.0)), ["−90", "−75", "−60", "−45", "−30", "−15", "0"]);
+        assert_eq!(labels(&at(0.0, 1.0)), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+    }
+
+    #[test]
+    fn tiny_and_huge_values_share_a_factor() {
+        let tiny = linear(0.0, 5e-7, ROOM, false);
+        assert_eq!((labels(&tiny)[1], tiny.factor.as_str()), ("100", "×10^-9"));
+        let huge = linear(0.0, 1e300, ROOM, false);
+        assert_eq!((labels(&huge).last(), huge.factor.as_str()), (Some(&"1.0"), "×10^300"));
+    }
+
+    #[test]
+    fn small_changes_of_a_large_value_get_an_offset() {
+        let ticks = linear(19.62, 19.62 + 3e-9, ROOM, false);
+        assert!(labels(&ticks).iter().all(|label| label.chars().count() <= 4), "{ticks:?}");
+        assert_eq!(ticks.factor, "×10^-9 + 19.62");
+        assert_eq!(roundest(196_199_980.0, 196_200_020.0, 10.0), (196_200_000.0, "+ 1.962×10^8".into()));
+        assert_eq!(roundest(-1_234_567.0, -1_234_561.0, 1.0), (-1_234_561.0, "− 1234561".into()));
+    }
+
+    #[test]
+    fn marks_lie_on_their_values() {
+        for (value, label) in linear(0.05, 0.95, ROOM, false).major {
+            assert!((label.parse::<f64>().expect("a number") - value).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn decades_are_thinned_to_multiples_of_a_stride() {
+        let ticks = log(-17.3, -1.8, UPWARDS);
+        assert_eq!(labels(&ticks), ["10^-15", "10^-12", "10^-9", "10^-6", "10^-3"]);
+        assert_eq!(ticks.minor.len(), 11);
+        let few = log(-2.0, 1.0, UPWARDS);
+        assert_eq!((few.major.len(), few.minor.len()), (4, 24));
+        let extreme = log(-300.0, 300.0, UPWARDS);
+        assert!((3..10).contains(&extreme.major.len()), "{}", extreme.major.len());
+    }
+}
