@@ -3,7 +3,7 @@
 use super::panel::AxisSpec;
 use super::ticks::{Room, Ticks};
 use super::*;
-use plotters::chart::ChartBuilder;
+use plotters::chart::{ChartBuilder, MeshStyle};
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::style::ShapeStyle;
 
@@ -56,33 +56,26 @@ pub(super) fn grid(chart: &mut Chart, placed: &Placed) -> Done {
     lines.map(|(_, points)| Curve(points, ZERO)).try_for_each(|zero| chart.plotting_area().draw(&zero))
 }
 
+/// Returns a style of marks of a length on the axes, with labels, and descriptions in a size.
+fn marks<'a, 'b>(chart: &'b mut Chart<'a>, mark: f64, size: f64) -> MeshStyle<'a, 'b, Axis, Axis, Sketch> {
+    let mut mesh = chart.configure_mesh();
+    mesh.disable_mesh().axis_style(line(FRAME)).set_all_tick_mark_size(length(mark));
+    mesh.label_style(font(TICK_SIZE, INK, Align::Middle)).axis_desc_style(font(size, INK, Align::Middle));
+    mesh
+}
+
 /// Draws marks, labels and the frame.
 pub(super) fn axes(chart: &mut Chart, placed: &Placed) -> Done {
     let blank = |_: &f64| String::new();
     let x_text = |value: &f64| if placed.shows_x { placed.x.format_ext(value) } else { String::new() };
-    let labels = font(TICK_SIZE, INK, Align::Middle);
-    chart
-        .configure_mesh()
-        .disable_mesh()
-        .axis_style(line(FRAME))
-        .set_all_tick_mark_size(length(0.5 * LABEL_DISTANCE))
-        .label_style(labels.clone())
-        .x_label_formatter(&x_text)
-        .x_desc(if placed.shows_x { placed.x_label.text.as_str() } else { "" })
-        .axis_desc_style(font(placed.x_label.size, INK, Align::Middle))
-        .draw()?;
-    chart
-        .configure_mesh()
-        .disable_mesh()
-        .axis_style(line(FRAME))
+    let x_label = if placed.shows_x { placed.x_label.text.as_str() } else { "" };
+    marks(chart, 0.5 * LABEL_DISTANCE, placed.x_label.size).x_label_formatter(&x_text).x_desc(x_label).draw()?;
+    marks(chart, MINOR_LENGTH, placed.y_label.size)
         .x_labels(0)
         .y_labels(0)
-        .set_all_tick_mark_size(length(MINOR_LENGTH))
-        .label_style(labels)
         .x_label_formatter(&blank)
         .y_label_formatter(&blank)
         .y_desc(placed.y_label.text.as_str())
-        .axis_desc_style(font(placed.y_label.size, INK, Align::Middle))
         .draw()?;
     frame(chart)
 }
@@ -169,16 +162,8 @@ impl ColorBar {
             let ends = [(0.0, self.axis.value(step as f64 / COLOR_STEPS as f64)), (1.0, self.axis.value(1.0))];
             Rectangle::new(ends, scale_color(step).filled())
         }))?;
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .disable_x_axis()
-            .axis_style(line(FRAME))
-            .set_all_tick_mark_size(length(0.5 * LABEL_DISTANCE))
-            .label_style(font(TICK_SIZE, INK, Align::Middle))
-            .y_desc(self.label.text.as_str())
-            .axis_desc_style(font(self.label.size, INK, Align::Middle))
-            .draw()?;
+        let label = self.label.text.as_str();
+        marks(&mut chart, 0.5 * LABEL_DISTANCE, self.label.size).disable_x_axis().y_desc(label).draw()?;
         frame(&chart)
     }
 }

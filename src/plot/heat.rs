@@ -31,15 +31,13 @@ impl HeatMap {
     }
 
     /// Sets a logarithmic colour scale.
-    pub fn log(mut self) -> Self {
-        self.scale = Scale::Log;
-        self
+    pub fn log(self) -> Self {
+        Self { scale: Scale::Log, ..self }
     }
 
     /// Sets fixed limits of the colours.
-    pub fn range(mut self, low: f64, high: f64) -> Self {
-        self.range = Some((low, high));
-        self
+    pub fn range(self, low: f64, high: f64) -> Self {
+        Self { range: Some((low, high)), ..self }
     }
 
     /// Sets the value of a cell; cells outside the map are ignored.

@@ -43,27 +43,23 @@ impl From<String> for AxisSpec {
 
 impl AxisSpec {
     /// Makes the axis logarithmic.
-    pub fn log(mut self) -> Self {
-        self.scale = Scale::Log;
-        self
+    pub fn log(self) -> Self {
+        Self { scale: Scale::Log, ..self }
     }
 
     /// Makes the axis one of angles in degrees.
-    pub fn degrees(mut self) -> Self {
-        self.is_angle = true;
-        self
+    pub fn degrees(self) -> Self {
+        Self { is_angle: true, ..self }
     }
 
     /// Sets texts at 0, 1, 2 ... that replace numbers.
-    pub fn names(mut self, names: impl IntoIterator<Item = String>) -> Self {
-        self.names = names.into_iter().collect();
-        self
+    pub fn names(self, names: impl IntoIterator<Item = String>) -> Self {
+        Self { names: names.into_iter().collect(), ..self }
     }
 
     /// Sets fixed limits.
-    pub fn range(mut self, low: f64, high: f64) -> Self {
-        self.range = Some((low, high));
-        self
+    pub fn range(self, low: f64, high: f64) -> Self {
+        Self { range: Some((low, high)), ..self }
     }
 }
 
@@ -122,9 +118,8 @@ impl Panel {
     }
 
     /// Sets the title.
-    pub fn title(mut self, title: impl Into<String>) -> Self {
-        self.title = title.into();
-        self
+    pub fn title(self, title: impl Into<String>) -> Self {
+        Self { title: title.into(), ..self }
     }
 
     /// Adds a series.
@@ -146,15 +141,13 @@ impl Panel {
     }
 
     /// Draws thin lines through zero.
-    pub fn zero_lines(mut self) -> Self {
-        self.zero_lines = true;
-        self
+    pub fn zero_lines(self) -> Self {
+        Self { zero_lines: true, ..self }
     }
 
     /// Sets the map of cells.
-    pub fn heat_map(mut self, map: HeatMap) -> Self {
-        self.heat_map = Some(map);
-        self
+    pub fn heat_map(self, map: HeatMap) -> Self {
+        Self { heat_map: Some(map), ..self }
     }
 
     /// Adds a dashed vertical line at `x`.
@@ -181,14 +174,12 @@ impl Panel {
     }
 
     /// Makes one unit of x as long as one unit of y.
-    pub fn equal_aspect(mut self) -> Self {
-        self.equal_aspect = true;
-        self
+    pub fn equal_aspect(self) -> Self {
+        Self { equal_aspect: true, ..self }
     }
 
     /// Sets the height between the axes, in nominal pixels.
-    pub fn height(mut self, height: f64) -> Self {
-        self.height = Some(height);
-        self
+    pub fn height(self, height: f64) -> Self {
+        Self { height: Some(height), ..self }
     }
 }

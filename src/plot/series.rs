@@ -62,15 +62,13 @@ impl Series {
     }
 
     /// Sets the style.
-    pub fn style(mut self, style: Style) -> Self {
-        self.style = style;
-        self
+    pub fn style(self, style: Style) -> Self {
+        Self { style, ..self }
     }
 
     /// Sets the colour by its index in the palette.
-    pub fn color(mut self, color: usize) -> Self {
-        self.color = Some(color);
-        self
+    pub fn color(self, color: usize) -> Self {
+        Self { color: Some(color), ..self }
     }
 
     /// True if it is one of the lines that are distinguished by colours and, where they are many, by dashes.

@@ -10,23 +10,20 @@ const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-ser
 
 /// Returns the whole file.
 pub(super) fn render(drawing: &Drawing) -> String {
-    let mut out = opening(drawing);
-    drawing.shapes.iter().for_each(|one| shape(&mut out, one));
-    out.push_str("</svg>\n");
-    out
+    opening(drawing) + "</svg>\n"
 }
 
-/// Returns the root element with title and paper.
+/// Returns the file without its end.
 fn opening(drawing: &Drawing) -> String {
-    let (width, height) = (number(drawing.width), number(drawing.height));
+    let (width, height, title) = (number(drawing.width), number(drawing.height), escape(&drawing.title));
+    let title = if title.is_empty() { title } else { format!("<title>{title}</title>\n") };
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"{FONTS}\">\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
+         role=\"img\" font-family=\"{FONTS}\" stroke-linejoin=\"round\">\n{title}\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
     );
-    if !drawing.title.is_empty() {
-        out += &format!("<title>{}</title>\n", escape(&drawing.title));
-    }
-    out + &format!("<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n")
+    drawing.shapes.iter().for_each(|one| shape(&mut out, one));
+    out
 }
 
 fn shape(out: &mut String, shape: &Shape) {
@@ -34,7 +31,7 @@ fn shape(out: &mut String, shape: &Shape) {
         Shape::Text(line) => return text(out, line),
         Shape::Drawn(paint, lines) => (paint, lines),
     };
-    *out += &format!("<path {} d=\"", style(paint, lines));
+    *out += &format!("<path {} d=\"", style(paint));
     if let Paint::Disc(..) = paint {
         dots(out, lines.iter().flatten())
     } else {
@@ -44,17 +41,13 @@ fn shape(out: &mut String, shape: &Shape) {
 }
 
 /// Returns the attributes of a path.
-fn style(paint: &Paint, lines: &[Vec<Pt>]) -> String {
-    let line = |color: &Color, width: f64| {
-        format!("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"", hex(color), number(width))
-    };
+fn style(paint: &Paint) -> String {
+    let line = |color, width| format!("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"", hex(color), number(width));
     match paint {
+        Paint::Line(Stroke { color, width, dash: [] }) => line(color, *width),
         Paint::Line(Stroke { color, width, dash }) => {
             let dash: Vec<String> = dash.iter().map(|length| number(*length)).collect();
-            let dash =
-                if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{}\"", dash.join(" ")) };
-            let joined = if lines.iter().any(|line| line.len() > 2) { " stroke-linejoin=\"round\"" } else { "" };
-            line(color, *width) + &dash + joined
+            format!("{} stroke-dasharray=\"{}\"", line(color, *width), dash.join(" "))
         }
         // A thin border of the same colour: without it, viewers show bright seams between cells.
         Paint::Area(color, _, true) => format!("fill=\"{0}\" stroke=\"{0}\" stroke-width=\".4\"", hex(color)),
@@ -67,28 +60,19 @@ fn style(paint: &Paint, lines: &[Vec<Pt>]) -> String {
 /// Returns an animation of which `frames` are shown in a loop, each for `delay` seconds.
 pub(super) fn animate(still: &Drawing, frames: &[Vec<Shape>], delay: f64) -> String {
     let mut out = opening(still);
-    still.shapes.iter().for_each(|one| shape(&mut out, one));
-    let (count, whole) = (frames.len(), delay * frames.len() as f64);
+    let (count, whole) = (frames.len() as f64, delay * frames.len() as f64);
     for (k, frame) in frames.iter().enumerate() {
-        let (from, to) = (k as f64 / count as f64, (k + 1) as f64 / count as f64);
+        let (from, to) = (k as f64 / count, (k + 1) as f64 / count);
         // Viewers without animation show the first frame.
-        let (first, values, times) = match k {
-            0 => ("inline", "inline;none".to_string(), format!("0;{to:.6}")),
-            _ if k + 1 == count => ("none", "none;inline".to_string(), format!("0;{from:.6}")),
-            _ => ("none", "none;inline;none".to_string(), format!("0;{from:.6};{to:.6}")),
-        };
-        out += &format!("<g display=\"{first}\">\n");
-        if count > 1 {
-            out += &format!(
-                "<animate attributeName=\"display\" calcMode=\"discrete\" values=\"{values}\" keyTimes=\"{times}\" \
-                 dur=\"{whole:.4}s\" repeatCount=\"indefinite\"/>\n"
-            );
-        }
+        let first = if k == 0 { "inline" } else { "none" };
+        out += &format!(
+            "<g display=\"{first}\">\n<animate attributeName=\"display\" calcMode=\"discrete\" values=\"none;inline;none\" \
+             keyTimes=\"0;{from:.6};{to:.6}\" dur=\"{whole:.4}s\" repeatCount=\"indefinite\"/>\n"
+        );
         frame.iter().for_each(|one| shape(&mut out, one));
         out.push_str("</g>\n");
     }
-    out.push_str("</svg>\n");
-    out
+    out + "</svg>\n"
 }
 
 fn text(out: &mut String, text: &Text) {

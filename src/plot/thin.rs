@@ -23,18 +23,16 @@ pub(super) fn line(points: &[Pt], most: usize) -> Vec<Pt> {
 /// Returns first, lowest, highest and last of each group of consecutive points in the same column.
 fn columns(points: &[Pt], width: f64) -> Vec<Pt> {
     let column = |point: &Pt| (point.0 / width).floor();
-    let groups = points.chunk_by(|a, b| column(a) == column(b));
-    groups.flat_map(group_extremes).collect()
-}
-
-fn group_extremes(group: &[Pt]) -> impl Iterator<Item = Pt> {
-    let extreme = |better: fn(f64, f64) -> bool| {
-        (0..group.len()).fold(0, |best, i| if better(group[i].1, group[best].1) { i } else { best })
-    };
-    let mut places = [0, extreme(|a, b| a > b), extreme(|a, b| a < b), group.len() - 1];
-    places.sort_unstable();
-    let repeated = move |k: usize| k > 0 && places[k] == places[k - 1];
-    (0..4).filter(move |k| !repeated(*k)).map(move |k| group[places[k]])
+    let mut kept = Vec::new();
+    for group in points.chunk_by(|a, b| column(a) == column(b)) {
+        let by_height = |a: &usize, b: &usize| group[*a].1.total_cmp(&group[*b].1);
+        let extremes = [(0..group.len()).max_by(by_height), (0..group.len()).min_by(by_height)];
+        let mut places = [0, extremes[0].unwrap_or(0), extremes[1].unwrap_or(0), group.len() - 1];
+        places.sort_unstable();
+        let is_new = |k: &usize| *k == 0 || places[*k] != places[k - 1];
+        kept.extend((0..4).filter(is_new).map(|k| group[places[k]]));
+    }
+    kept
 }
 
 /// Drops points that lie within `tolerance` of the line between two kept ones (Ramer; Douglas and Peucker).
@@ -66,20 +64,15 @@ pub(super) fn dots(points: &[Pt], most: usize) -> Vec<usize> {
     let mut kept: Vec<usize> = (0..points.len()).collect();
     let mut cell = 0.7;
     for _ in 0..12 {
-        kept = one_per_cell(points, kept, cell);
+        let key = |i: &usize| ((points[*i].0 / cell).floor() as i64, (points[*i].1 / cell).floor() as i64);
+        // By order of data the kept points would all be on one side of their cells and form stripes.
+        kept.sort_by_key(|i| (key(i), scattered(*i)));
+        kept.dedup_by_key(|i| key(i));
         if kept.len() <= most {
             break;
         }
         cell *= 1.5;
     }
-    kept
-}
-
-fn one_per_cell(points: &[Pt], mut kept: Vec<usize>, cell: f64) -> Vec<usize> {
-    let key = |i: &usize| ((points[*i].0 / cell).floor() as i64, (points[*i].1 / cell).floor() as i64);
-    // By order of data the kept points would all be on one side of their cells and form stripes.
-    kept.sort_by_key(|i| (key(i), scattered(*i)));
-    kept.dedup_by_key(|i| key(i));
     kept.sort_unstable();
     kept
 }
