@@ -1,6 +1,6 @@
 //! The chart of a panel: grid, marks, labels, frame, colour bar, and the texts above it.
 
-use super::panel::AxisSpec;
+use super::panel::{AxisSpec, Scale};
 use super::ticks::{Room, Ticks};
 use super::*;
 use plotters::chart::{ChartBuilder, MeshStyle};
@@ -26,13 +26,15 @@ pub(super) fn line(stroke: Stroke) -> ShapeStyle {
 /// Builds the chart of a panel on an area as high as the panel, and sets its frame.
 pub(super) fn build<'a>(area: &Page, placed: &mut Placed) -> Done<Chart<'a>> {
     let start = pixels(area.get_base_pixel()).0;
+    let (left, right, distance) = placed.margins;
     // The frame lies in the middle of pixels, where its lines are sharp.
-    let left = (start + placed.margins.0).round() + 0.5 - start;
+    let left = (start + left).round() + 0.5 - start;
+    let label_area = (distance + placed.y_label.height()).min(left);
     let chart = ChartBuilder::on(area)
-        .margin_left(length(EDGE))
-        .margin_right(length(placed.margins.1 + 0.5))
+        .margin_left(length(left) - length(label_area))
+        .margin_right(length(right + 0.5))
         .margin_top(length(placed.above() + 0.5))
-        .y_label_area_size(length(left - EDGE))
+        .y_label_area_size(length(label_area))
         .x_label_area_size(length(placed.below() - 0.5))
         .build_cartesian_2d(placed.x.clone(), placed.y.clone())?;
     let (across, down) = chart.plotting_area().get_pixel_range();
@@ -49,7 +51,8 @@ pub(super) fn grid(chart: &mut Chart, placed: &Placed) -> Done {
     }
     chart.configure_mesh().disable_axes().bold_line_style(line(GRID)).draw()?;
     let ends = |axis: &Axis| [axis.value(0.0), axis.value(1.0)];
-    let has_zero = |axis: &Axis| placed.panel.zero_lines && axis.low * axis.high < 0.0 && axis.value(0.5) != 0.0;
+    let has_zero =
+        |axis: &Axis| placed.panel.zero_lines && axis.spec.scale == Scale::Linear && axis.low < 0.0 && axis.high > 0.0;
     let upright = ends(&placed.y).map(|y| (0.0, y)).to_vec();
     let level = ends(&placed.x).map(|x| (x, 0.0)).to_vec();
     let lines = [(&placed.x, upright), (&placed.y, level)].into_iter().filter(|(axis, _)| has_zero(axis));

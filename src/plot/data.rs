@@ -54,21 +54,6 @@ impl Marker {
     }
 }
 
-/// Points of one series when a figure has several.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Budget {
-    line: usize,
-    dots: usize,
-}
-
-impl Budget {
-    pub fn new(figure: &Figure) -> Self {
-        let count =
-            figure.panels.iter().map(|panel| panel.series.len() + panel.color_series.len()).sum::<usize>().max(1);
-        Self { line: (LINE_POINTS / count).max(200), dots: (DOTS / count).max(60) }
-    }
-}
-
 /// Draws bands, cut off at the frame; infinite values lie beyond it.
 pub(super) fn bands(chart: &Chart, placed: &Placed) -> Done {
     let place = |axis: &Axis, value: f64| axis.place(value).unwrap_or(value.signum()).clamp(-1.0, 2.0);
@@ -83,11 +68,12 @@ pub(super) fn bands(chart: &Chart, placed: &Placed) -> Done {
     Ok(())
 }
 
-/// Draws lines and points of a panel: restless lines below calm ones, then markers, then coloured points.
-pub(super) fn series(chart: &Chart, placed: &Placed, budget: Budget) -> Done {
+/// Draws lines and points of a panel, in a figure of `count` series: restless lines below calm ones, then markers, then
+/// coloured points.
+pub(super) fn series(chart: &Chart, placed: &Placed, count: usize) -> Done {
     let series = placed.panel.series.iter().zip(&placed.looks);
     let all: Vec<(&Series, &Look, Vec<Vec<Pt>>)> = series.map(|(one, look)| (one, look, runs(placed, one))).collect();
-    let lines = all.iter().filter_map(|(_, look, runs)| Some(lines(placed, look.line?, runs, budget)));
+    let lines = all.iter().filter_map(|(_, look, runs)| Some(lines(placed, look.line?, runs, count)));
     let (restless, calm): (Vec<_>, Vec<_>) = lines.partition(|(is_restless, ..)| *is_restless);
     for (_, stroke, parts) in restless.into_iter().chain(calm) {
         for part in parts {
@@ -95,7 +81,7 @@ pub(super) fn series(chart: &Chart, placed: &Placed, budget: Budget) -> Done {
             chart.plotting_area().draw(&Curve(points, stroke))?;
         }
     }
-    all.iter().try_for_each(|(series, look, runs)| markers(chart, placed, series, look, runs, budget))?;
+    all.iter().try_for_each(|(series, look, runs)| markers(chart, placed, series, look, runs, count))?;
     colored(chart, placed)
 }
 
@@ -107,10 +93,10 @@ fn runs(placed: &Placed, series: &Series) -> Vec<Vec<Pt>> {
 
 /// Returns the lines of a series with their stroke, and true if they are restless: these are thin, since at full width
 /// they would be one blot.
-fn lines(placed: &Placed, mut stroke: Stroke, runs: &[Vec<Pt>], budget: Budget) -> (bool, Stroke, Vec<Vec<Pt>>) {
+fn lines(placed: &Placed, mut stroke: Stroke, runs: &[Vec<Pt>], count: usize) -> (bool, Stroke, Vec<Vec<Pt>>) {
     let full = runs.iter().map(Vec::len).sum::<usize>().max(1);
-    let share = |run: &[Pt]| (budget.line * run.len() / full).max(8);
-    let thinned = runs.iter().map(|run| clip::polyline(&thin::line(run, share(run)), &placed.frame));
+    let most = |run: &[Pt]| ((LINE_POINTS / count).max(200) * run.len() / full).max(8);
+    let thinned = runs.iter().map(|run| clip::polyline(&thin::line(run, most(run)), &placed.frame));
     let parts: Vec<Vec<Pt>> = thinned.flatten().collect();
     let is_restless = parts.iter().map(|part| turns(part)).sum::<usize>() as f64 > placed.frame.size().0 / RESTLESS;
     stroke.width *= if is_restless { 0.5 } else { 1.0 };
@@ -124,13 +110,13 @@ fn turns(points: &[Pt]) -> usize {
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-fn markers(chart: &Chart, placed: &Placed, series: &Series, look: &Look, runs: &[Vec<Pt>], budget: Budget) -> Done {
+fn markers(chart: &Chart, placed: &Placed, series: &Series, look: &Look, runs: &[Vec<Pt>], count: usize) -> Done {
     // A single point between two gaps has no line; a dot of the line's width would be missed.
     let marked = runs.iter().filter(|run| look.marker.is_some() || run.len() == 1);
     let points: Vec<Pt> = marked.flatten().copied().filter(|point| placed.frame.contains(*point)).collect();
     let kept = match series.style {
         Style::LineDots => spaced(&points),
-        _ => thin::dots(&points, budget.dots).into_iter().map(|i| points[i]).collect(),
+        _ => thin::dots(&points, (DOTS / count).max(60)).into_iter().map(|i| points[i]).collect(),
     };
     let crowd = usize::from(kept.len() > 150) + usize::from(kept.len() > 2000);
     let radius = if look.marker.is_some() { MARKER_RADIUS * [1.0, 0.6, 0.35][crowd] } else { DOT_RADIUS };

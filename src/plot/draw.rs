@@ -1,6 +1,5 @@
 //! Drawing of a figure as shapes.
 
-use super::data::Budget;
 use super::legend::{Block, LegendEntry};
 use super::*;
 use plotters::drawing::IntoDrawingArea;
@@ -25,6 +24,7 @@ fn page(figure: &Figure, mut panels: Vec<Placed>, width: f64, sketch: &Sketch) -
     let columns = layout::columns(figure);
     let mut top = (EDGE + 2.0 + heading(&page, figure.title.as_deref().unwrap_or_default(), width)?).round();
     let shared = shared_legend(&panels);
+    let count: usize = figure.panels.iter().map(|panel| panel.series.len() + panel.color_series.len()).sum();
     for (row, side_by_side) in panels.chunks_mut(columns).enumerate() {
         top += if row > 0 { PANEL_GAP } else { 0.0 };
         let mut bottom = top;
@@ -32,10 +32,10 @@ fn page(figure: &Figure, mut panels: Vec<Placed>, width: f64, sketch: &Sketch) -
             let (left, size) = (width / columns as f64 * column as f64, (width / columns as f64, placed.height()));
             let area = page.clone().shrink(units((left, top)), units(size));
             let entries = if shared.is_empty() { legend::entries(placed) } else { Vec::new() };
-            let outside = panel(sketch, &page, &area, placed, entries, Budget::new(figure))?;
+            let outside = panel(sketch, &page, &area, placed, entries, count.max(1))?;
             bottom = bottom.max(legend_below(&page, &outside, placed, top + size.1, width)?);
         }
-        top = bottom;
+        top = bottom.round();
     }
     panels.last().map_or(Ok(top), |placed| legend_below(&page, &shared, placed, top, width))
 }
@@ -62,7 +62,7 @@ fn panel(
     area: &Page,
     placed: &mut Placed,
     entries: Vec<LegendEntry>,
-    budget: Budget,
+    count: usize,
 ) -> Done<Vec<LegendEntry>> {
     let mut chart = chart::build(area, placed)?;
     data::bands(&chart, placed)?;
@@ -71,7 +71,7 @@ fn panel(
     let first = sketch.seal();
     notes::verticals(&chart, placed)?;
     let after_verticals = sketch.seal();
-    data::series(&chart, placed, budget)?;
+    data::series(&chart, placed, count)?;
     let items = sketch.seal();
     item::draw(page, placed)?;
     let last = sketch.seal();

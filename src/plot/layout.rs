@@ -26,8 +26,9 @@ pub(super) struct Placed<'a> {
     pub looks: Vec<Look>,
     /// The rectangle between the axes; before it is drawn only its size counts.
     pub frame: Rect,
-    /// Distances of the frame from the left and right ends of its column, the same in all panels.
-    pub margins: (f64, f64),
+    /// Distances of the frame from the left and right ends of its column, and from the label of the y axis, the same in
+    /// all panels.
+    pub margins: (f64, f64, f64),
     /// True if the x axis is labelled here, not at a panel below.
     pub shows_x: bool,
 }
@@ -45,7 +46,7 @@ impl<'a> Placed<'a> {
             bar: ColorBar::new(panel),
             looks: panel.series.iter().enumerate().map(|(index, series)| look(series, index, count)).collect(),
             frame: Rect::default(),
-            margins: (80.0, 20.0),
+            margins: (0.0, 0.0, 0.0),
             shows_x,
         }
     }
@@ -90,15 +91,14 @@ impl<'a> Placed<'a> {
         self.above() + self.frame.size().1 + self.below()
     }
 
-    /// Returns the margins that this panel needs.
-    fn needed(&self) -> (f64, f64) {
-        let left = EDGE + self.y_label.height() + LABEL_GAP + self.y.ticks.widest() + LABEL_DISTANCE;
+    /// Returns the margin that this panel needs at the right.
+    fn right(&self) -> f64 {
         let last = self.x.ticks.major.last().filter(|_| self.shows_x);
         let overhang = last.map_or(0.0, |(value, label)| {
             let place = self.x.place(*value).unwrap_or(1.0);
             0.5 * text::width(label, TICK_SIZE) - (1.0 - place) * self.frame.size().0
         });
-        (left, EDGE + overhang.max(2.0).max(self.bar.as_ref().map_or(0.0, ColorBar::width)))
+        EDGE + overhang.max(2.0).max(self.bar.as_ref().map_or(0.0, ColorBar::width))
     }
 
     /// Chooses marks and breaks labels for a frame of this size.
@@ -135,15 +135,17 @@ pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
     let whole = if figure.width.is_finite() { figure.width.clamp(WIDTHS.0, WIDTHS.1).round() } else { WIDTHS.0 };
     let total = whole / columns(figure) as f64;
     let mut all = panels(figure);
-    let (mut left, mut right) = (80.0, 20.0);
+    let (mut left, mut right, mut distance) = (80.0, 20.0, 0.0);
     // Marks depend on the space for them, and the space on their labels; three rounds settle it.
     for _ in 0..3 {
         let width = (total - left - right).max(60.0);
         all.iter_mut().for_each(|placed| placed.fit(width, frame_height(placed.panel, figure.panels.len(), width)));
-        let needed = all.iter().map(Placed::needed).fold((40.0f64, 0.0f64), |a, b| (a.0.max(b.0), b.1.max(a.1)));
-        (left, right) = (needed.0.min(0.45 * total).ceil(), needed.1.min(0.4 * total).ceil());
+        let largest = |part: fn(&Placed) -> f64| all.iter().map(part).fold(0.0, f64::max);
+        distance = LABEL_GAP + largest(|placed| placed.y.ticks.widest()) + LABEL_DISTANCE;
+        left = (EDGE + largest(|placed| placed.y_label.height()) + distance).max(40.0).min(0.45 * total).ceil();
+        right = largest(|placed| placed.right()).min(0.4 * total).ceil();
     }
-    all.iter_mut().for_each(|placed| placed.margins = (left, right));
+    all.iter_mut().for_each(|placed| placed.margins = (left, right, distance));
     (whole, all)
 }
 
