@@ -58,6 +58,9 @@
 //! Features, both on by default: `cli`, the module of that name and the program; `figures`, PNG and GIF beside SVG. `cli`
 //! includes `npz`, NumPy's archives, and `urdf`, the module `import`.
 //!
+//! Figures are charts of the plotters crate. They are drawn once, as a list of shapes. These are written as SVG, or
+//! drawn by tiny-skia as PNG and GIF. Both are much smaller and finer than with the backends of plotters.
+//!
 //! # Own parts
 //!
 //! All that has a registry may come from outside the crate. Examples to copy, run by the tests, are in `tests/examples`:

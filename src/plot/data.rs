@@ -59,7 +59,8 @@ pub(super) fn bands(chart: &Chart, placed: &Placed) -> Done {
     let place = |axis: &Axis, value: f64| axis.place(value).unwrap_or(value.signum()).clamp(-1.0, 2.0);
     let at = |x: f64, y: f64| placed.frame.at(place(&placed.x, x), place(&placed.y, y));
     for band in &placed.panel.bands {
-        let known = || band.points.iter().filter(|point| !(point.0 + point.1.abs() + point.2.abs()).is_nan());
+        let known =
+            || band.points.iter().filter(|point| ![point.0, point.1, point.2].iter().any(|value| value.is_nan()));
         let upper = known().rev().map(|point| at(point.0, point.2));
         let outline: Vec<Pt> = known().map(|point| at(point.0, point.1)).chain(upper).collect();
         let corners = clip::polygon(&outline, &placed.frame).into_iter().map(|corner| placed.values(corner));

@@ -10,27 +10,20 @@ use canvas::RasterCanvas;
 
 /// Output pixels per nominal pixel: 1280 pixels in 85 mm.
 const DENSITY: usize = 2;
-/// Largest number of pixels; beyond, the picture is drawn coarser.
+/// Largest number of pixels.
 const MOST_PIXELS: f64 = 5.0e7;
 /// Printed width of 640 nominal pixels.
 const COLUMN_METRES: f64 = 0.085;
 
-/// Returns the bytes of a PNG file, or the reason why there is none.
+/// Returns the bytes of a PNG file, or the reason why there is none. Pictures of unusual size are drawn coarser.
 pub(super) fn png(drawing: &Drawing) -> Result<Vec<u8>, String> {
-    let density = density(drawing)?;
+    let (width, height) = (drawing.width.ceil(), drawing.height.ceil());
+    let fits = |density: &usize| width * height * density.pow(2) as f64 <= MOST_PIXELS;
+    let too_many = || format!("{width:.0} x {height:.0} pixels are too many; save it as SVG");
+    let density = [DENSITY, 1].into_iter().find(fits).ok_or_else(too_many)?;
     let mut canvas = RasterCanvas::new(drawing, density).ok_or("a figure without pixels")?;
     canvas.draw(&drawing.shapes);
     encode(&canvas, density).map_err(|error| error.to_string())
-}
-
-/// Returns the density, reduced for pictures of unusual size.
-fn density(drawing: &Drawing) -> Result<usize, String> {
-    let area = drawing.width.ceil() * drawing.height.ceil();
-    let fits = |density: &usize| area * density.pow(2) as f64 <= MOST_PIXELS;
-    [DENSITY, 1]
-        .into_iter()
-        .find(fits)
-        .ok_or_else(|| format!("{:.0} x {:.0} pixels are too many; save it as SVG", drawing.width, drawing.height))
 }
 
 fn encode(canvas: &RasterCanvas, density: usize) -> Result<Vec<u8>, png::EncodingError> {
