@@ -44,13 +44,14 @@ impl Extent {
     }
 
     /// Returns the limits of a linear axis.
-    fn linear(&self, margin: f64) -> (f64, f64) {
+    fn linear(&self, margin: Option<f64>) -> (f64, f64) {
         if self.low > self.high {
             return (0.0, 1.0);
         }
         let (span, middle) = (self.high - self.low, 0.5 * self.low + 0.5 * self.high);
         if span > least_span(self.low, self.high) {
-            return (self.low - margin * span, self.high + margin * span);
+            let wide = |margin: f64| (self.low - margin * span, self.high + margin * span);
+            return margin.map_or_else(|| near_round(self.low, self.high), wide);
         }
         let half = if middle.abs() < SMALLEST { 1.0 } else { 0.1 * middle.abs() };
         (middle - half, middle + half)
@@ -73,6 +74,14 @@ impl Extent {
     }
 }
 
+/// Moves limits outwards to round numbers that are very near: data up to 9.995 get an axis up to 10.
+fn near_round(low: f64, high: f64) -> (f64, f64) {
+    let step = 10f64.powf((high - low).log10().floor()) / 2.0;
+    let near = 0.012 * (high - low);
+    let (down, up) = ((low / step).floor() * step, (high / step).ceil() * step);
+    (if low - down < near { down } else { low }, if up - high < near { up } else { high })
+}
+
 fn least_span(low: f64, high: f64) -> f64 {
     SMALLEST.max(NOISE * low.abs().max(high.abs()))
 }
@@ -89,14 +98,15 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// An axis that shows all values, with a margin in parts of its length, without marks.
-    pub fn new(spec: &AxisSpec, extent: &Extent, margin: f64) -> Self {
+    /// An axis that shows all values, without marks. Without a margin, in parts of its length, it ends at round numbers
+    /// that are very near.
+    pub fn new(spec: &AxisSpec, extent: &Extent, margin: Option<f64>) -> Self {
         let fixed = spec.range.filter(|(low, high)| low.abs() <= LARGEST && high.abs() <= LARGEST);
         let (limits, floor) = match (spec.scale, fixed) {
             (Scale::Linear, Some((low, high))) if high - low > least_span(low, high) => ((low, high), None),
             (Scale::Linear, _) => (extent.linear(margin), None),
             (Scale::Log, Some((low, high))) if low > 0.0 && high > 1.003 * low => ((low.log10(), high.log10()), None),
-            (Scale::Log, _) => (extent.decades(margin), extent.floor()),
+            (Scale::Log, _) => (extent.decades(margin.unwrap_or(0.0)), extent.floor()),
         };
         Self { spec: spec.clone(), low: limits.0, high: limits.1, floor, ticks: Ticks::default() }
     }
@@ -168,7 +178,7 @@ mod tests {
     fn axis(spec: AxisSpec, values: &[f64]) -> Axis {
         let mut extent = Extent::default();
         values.iter().for_each(|value| extent.add(*value));
-        Axis::new(&spec, &extent, 0.0)
+        Axis::new(&spec, &extent, Some(0.0))
     }
 
     #[test]

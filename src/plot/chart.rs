@@ -128,7 +128,7 @@ impl ColorBar {
         cells.chain(points).for_each(|value| extent.add(*value));
         let range = panel.heat_map.as_ref().and_then(|map| map.range);
         let spec = AxisSpec { label: label.clone(), scale, range, ..AxisSpec::default() };
-        Some(Self { axis: Axis::new(&spec, &extent, 0.0), label: Label::default() })
+        Some(Self { axis: Axis::new(&spec, &extent, None), label: Label::default() })
     }
 
     /// Chooses marks and breaks the label for a height.
@@ -159,7 +159,7 @@ impl ColorBar {
             .margin_top(length(placed.above() + 0.5))
             .margin_bottom(length(placed.below() - 0.5))
             .right_y_label_area_size(length(right - EDGE))
-            .build_cartesian_2d(Axis::new(&AxisSpec::default(), &Extent::default(), 0.0), self.axis.clone())?;
+            .build_cartesian_2d(Axis::new(&AxisSpec::default(), &Extent::default(), None), self.axis.clone())?;
         chart.draw_series((0..COLOR_STEPS).map(|step| {
             // Each step reaches up to the end of the bar, so that no seam shows between two.
             let ends = [(0.0, self.axis.value(step as f64 / COLOR_STEPS as f64)), (1.0, self.axis.value(1.0))];

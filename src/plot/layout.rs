@@ -34,13 +34,17 @@ pub(super) struct Placed<'a> {
 }
 
 impl<'a> Placed<'a> {
-    fn new(panel: &'a Panel, (x, x_margin): (Extent, f64), shows_x: bool) -> Self {
+    fn new(panel: &'a Panel, (x, margin): (Extent, Option<f64>), shows_x: bool) -> Self {
         let count = panel.series.iter().filter(|series| series.is_counted()).count();
         let (_, y) = extents(std::slice::from_ref(panel));
         Self {
             panel,
-            x: Axis::new(&panel.x, &x, x_margin),
-            y: Axis::new(&panel.y, &y, if panel.heat_map.is_some() { 0.0 } else { x_margin.max(0.06) }),
+            x: Axis::new(&panel.x, &x, margin),
+            y: Axis::new(
+                &panel.y,
+                &y,
+                Some(if panel.heat_map.is_some() { 0.0 } else { margin.unwrap_or(0.0).max(0.06) }),
+            ),
             x_label: Label::default(),
             y_label: Label::default(),
             bar: ColorBar::new(panel),
@@ -162,7 +166,7 @@ fn panels(figure: &Figure) -> Vec<Placed<'_>> {
         && panels.windows(2).all(|pair| same(&pair[0], &pair[1]))
         && !panels.iter().any(|panel| panel.equal_aspect);
     // A panel with markers needs room at the ends, and then all have it.
-    let x = |panels: &[Panel]| (extents(panels).0, panels.iter().map(margin).fold(0.0, f64::max));
+    let x = |panels: &[Panel]| (extents(panels).0, panels.iter().filter_map(margin).reduce(f64::max));
     let all = panels.iter().enumerate();
     if is_shared {
         return all.map(|(index, panel)| Placed::new(panel, x(panels), index + 1 == panels.len())).collect();
@@ -192,14 +196,14 @@ fn extents(panels: &[Panel]) -> (Extent, Extent) {
 }
 
 /// Returns the margin of the x axis. Functions of x fill the width, as time series do.
-fn margin(panel: &Panel) -> f64 {
+fn margin(panel: &Panel) -> Option<f64> {
     let only_functions = panel.color_series.is_empty()
         && panel.series.iter().all(|series| !series.style.has_markers() && series.is_function());
     match panel.heat_map {
-        Some(_) => 0.0,
-        None if !panel.items.is_empty() => 0.08,
-        None if only_functions && !panel.equal_aspect => 0.0,
-        None => 0.05,
+        Some(_) => Some(0.0),
+        None if !panel.items.is_empty() => Some(0.08),
+        None if only_functions && !panel.equal_aspect => None,
+        None => Some(0.05),
     }
 }
 
