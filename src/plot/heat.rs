@@ -63,6 +63,11 @@ impl HeatMap {
         edges(&self.y, scales.1).into_iter().for_each(|edge| y.add(edge));
     }
 
+    /// Returns the colour of a cell without a value; none if it is grey.
+    fn tint(&self, column: usize, row: usize) -> Option<Color> {
+        self.fills.iter().find(|fill| (fill.0, fill.1) == (column, row)).map(|fill| tint(fill.2))
+    }
+
     /// Returns the step of a cell on the colour scale, if it has a finite value.
     fn step(&self, placed: &Placed, column: usize, row: usize) -> Option<usize> {
         placed.bar.as_ref()?.step((*self.values.get(row)?.get(column)?)?)
@@ -92,8 +97,14 @@ fn rects(map: &HeatMap, placed: &Placed) -> Vec<(usize, usize, Rect)> {
 pub(super) fn cells(chart: &mut Chart, page: &Page, placed: &Placed) -> Done {
     let Some(map) = &placed.panel.heat_map else { return Ok(()) };
     let mut cells = rects(map, placed);
-    let color = |column, row| map.step(placed, column, row).map_or(NO_VALUE, scale_color);
-    cells.sort_by_key(|(column, row, _)| map.step(placed, *column, *row));
+    let color = |column, row| {
+        let value = map.step(placed, column, row).map(scale_color);
+        value.or_else(|| map.tint(column, row)).unwrap_or(NO_VALUE)
+    };
+    cells.sort_by_key(|(column, row, _)| {
+        let Color(red, green, blue) = color(*column, *row);
+        (red, green, blue)
+    });
     chart.draw_series(cells.iter().map(|(column, row, rect)| {
         Rectangle::new(rect.corners().map(|corner| placed.values(corner)), color(*column, *row).filled())
     }))?;
