@@ -1,4 +1,4 @@
-//! bdf, tr_bdf2 and esdirk34: orders by tolerances, stiff motions, rotations, what they refuse; and a table beside others.
+//! bdf, and tr_bdf2, esdirk34 and a second bdf by diffsol: orders by tolerances, stiff motions, rotations, what they refuse; and a table beside others.
 
 use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::stiff::{STIFF, slow_position};
@@ -15,7 +15,7 @@ use std::time::Instant;
 const END: f64 = 1.5;
 
 fn implicit() -> impl Iterator<Item = &'static Entry> {
-    registry().iter().filter(|entry| ["bdf", "tr_bdf2", "esdirk34"].contains(&entry.name))
+    registry().iter().filter(|entry| ["bdf", "tr_bdf2", "esdirk34", "diffsol"].contains(&entry.name))
 }
 
 /// Every accepted triple.
@@ -52,10 +52,11 @@ fn errors(rows: &[Vec<f64>], reference: &[Vec<f64>]) -> [f64; 3] {
 fn every_triple_has_its_order() {
     let (_, reference) = solve(&adaptive("index1", "dop853", "exact", 1e-13));
     let triples = triples();
-    // Four formulations: two methods with all projections, and bdf with none.
-    assert_eq!(triples.len(), 52);
+    // Four formulations: two methods with all projections, and two with none.
+    assert_eq!(triples.len(), 56);
     for (entry, formulation, projection) in triples {
-        let (coarse, fine, off) = if entry.name == "bdf" { (1e-6, 1e-11, 1.3) } else { (1e-5, 1e-9, 0.3) };
+        let (coarse, fine, off) =
+            if ["bdf", "diffsol"].contains(&entry.name) { (1e-6, 1e-11, 1.3) } else { (1e-5, 1e-9, 0.3) };
         // Gains that are no faster than the motion.
         let formulation = if formulation == "baumgarte" { "baumgarte:alpha=1" } else { formulation };
         let found = [coarse, fine].map(|tolerance| {

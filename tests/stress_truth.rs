@@ -51,7 +51,7 @@ fn without(whole: &Stressed, left_out: impl Fn(&Cell) -> bool) -> Stressed {
         false => cell.clone(),
     };
     let cells = whole.cells.iter().map(blank).collect();
-    Stressed { map: whole.map.clone(), watched: whole.watched.clone(), cells }
+    Stressed { map: whole.map.clone(), watched: whole.watched.clone(), second_opinion: None, cells }
 }
 
 fn row(stressed: &Stressed, label: &str) -> usize {

@@ -198,6 +198,8 @@ fn purpose(name: &str) -> &'static str {
         "bdf" => "smooth and damped stiff motions over long times",
         "tr_bdf2" => "stiff motions at two or three digits",
         "esdirk34" => "stiff motions at three to five digits, oscillating ones too",
+        "tsit45" => "a second opinion on explicit methods, with which it shares no code",
+        "diffsol" => "a second opinion on implicit methods, with which it shares no code",
         "none" => "formulations that hold phi and phi' themselves, and to see how far the others drift",
         "position" => "loops that must close while velocities are someone else's",
         "velocity" => "velocities that must fit while small gaps do not matter",

@@ -1,5 +1,7 @@
 //! Error of a run, by comparison with a more accurate one.
 
+use super::work_precision::{Allowed, Motion, Watched};
+use super::{SecondOpinion, second_opinion};
 use crate::analysis::Recorder;
 use crate::error::Failure;
 use crate::integrator::{Tightening, Tolerance, find};
@@ -9,6 +11,7 @@ use crate::simulate::{Method, Span, Stop};
 use crate::tolerances::simulate as tolerances;
 use crate::trajectory::Trajectory;
 use serde::{Serialize, Serializer};
+use std::time::Duration;
 
 /// Difference of a run from the same one with smaller steps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -22,6 +25,8 @@ pub struct CheckError {
     /// Differences over the common rows; of coordinates where the scene has no outputs.
     #[serde(serialize_with = "by_name")]
     pub outputs: Vec<(String, Difference)>,
+    /// The difference of the second run from a run of diffsol; none where the second run ended early.
+    pub second_opinion: Option<SecondOpinion>,
     /// Factor by which the motion amplifies small changes of its start, or the reason why it is not known.
     #[serde(serialize_with = "if_known")]
     pub amplification: Result<f64, String>,
@@ -47,7 +52,7 @@ pub fn check_error(
     prepared: &PreparedScene,
     span: Span,
     first: &Trajectory,
-    (show, stop): (impl Fn(f64), impl Fn() -> Option<Stop>),
+    (show, stop): (impl Fn(f64), impl Fn() -> Option<Stop> + Sync),
 ) -> CheckError {
     let method = closer(prepared);
     let mut recorder = Recorder::new(prepared.system()).with_progress(&show).with_stop(&stop);
@@ -57,6 +62,10 @@ pub fn check_error(
         Ok((outcome, _)) => second.singularity.failure().or(outcome.failure),
         Err(error) => Some(Failure { t: span.start, reason: error.to_string(), hint: String::new() }),
     };
+    let opinion = failure
+        .is_none()
+        .then(|| confirm(prepared, span, (&second.trajectory, &method), &|| stop().is_some()))
+        .flatten();
     let amplification = amplified(prepared, span, |t| {
         show(t);
         stop().is_none()
@@ -67,9 +76,24 @@ pub fn check_error(
         atol,
         step,
         outputs: differences(first, &second.trajectory),
+        second_opinion: opinion,
         amplification: amplification.map_err(|error| error.to_string()),
         failure,
     }
+}
+
+/// Compares the run of `method` with one of diffsol.
+fn confirm(
+    prepared: &PreparedScene,
+    span: Span,
+    (trajectory, method): (&Trajectory, &Method),
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<SecondOpinion> {
+    let motion = Motion { counts_start: true, ..Motion::of(prepared, span, is_stopped) };
+    let watched = Watched::new(prepared.system(), &[]).ok()?;
+    let rows: Vec<Vec<f64>> = trajectory.watched().collect();
+    let allowed = Allowed { cpu: Duration::MAX, wall: Duration::MAX };
+    Some(second_opinion(&motion, &watched, span, (&rows, method), allowed))
 }
 
 /// Returns the same method with a tenth of the tolerance, or half the step. Where the steps of the run are at their

@@ -34,7 +34,8 @@ fn differences(check: &CheckError) -> String {
         }
         Err(cause) => format!("how much the motion itself amplifies small changes is not known: {cause}"),
     };
-    format!("{table}  {amplified}\n")
+    let opinion = check.second_opinion.iter().map(|opinion| format!("  {opinion}\n")).collect::<String>();
+    format!("{table}{opinion}  {amplified}\n")
 }
 
 fn with(check: &CheckError) -> String {
@@ -76,6 +77,7 @@ mod tests {
                 atol: 1e-11,
                 step: None,
                 outputs: Vec::new(),
+                second_opinion: None,
                 amplification,
                 failure: Some(failure),
             };

@@ -58,9 +58,11 @@ fn outcome(result: &Simplification) -> String {
     };
     let farthest =
         chosen.worst().map_or(String::new(), |worst| format!("{} is off by {}", worst.name, percent(worst.error)));
+    let confirmed = result.second_opinion.iter().map(|opinion| format!("  the richest model is {opinion}\n"));
+    let confirmed: String = confirmed.collect();
     let [before, after] = [richest, chosen].map(|run| format!("{} in {}", size(run), milliseconds(run.seconds)));
     text + &format!(
-        "  {after}, the richest {before}\n  {farthest}, all others by less\n  found by {runs} runs, with the work of {:.1} of the richest\n",
+        "  {after}, the richest {before}\n  {farthest}, all others by less\n{confirmed}  found by {runs} runs, with the work of {:.1} of the richest\n",
         result.cost
     )
 }

@@ -9,7 +9,8 @@ use super::search::{NUMERICAL, Trial};
 use super::source::{Source, write_method};
 use super::{LEAST, Settings};
 use crate::analysis::Passing;
-use crate::compare::work_precision::{Watched, tighter};
+use crate::compare::work_precision::{Motion, Watched, tighter};
+use crate::compare::{SecondOpinion, second_opinion};
 use crate::error::{Error, Failure, Result, Warning, clock, percent, short_list, significant};
 use crate::integrator;
 use crate::prepared::PreparedScene;
@@ -25,6 +26,8 @@ pub const METHOD: &str = "method";
 const FEWEST_ROWS: usize = 10;
 /// CPU time that the richest model may take.
 const ALLOWED: Duration = Duration::from_secs(3600);
+/// The run of diffsol may take one of so many parts of the budget.
+const CONFIRMED: u32 = 10;
 /// A tighter method is to have this part of the error that is allowed: predictions are rough.
 const AIM: f64 = 0.5;
 /// Number of tighter methods that are tried.
@@ -90,6 +93,15 @@ impl Accurate {
         let prepared = source.prepare(&source.scene)?;
         let Accurate { recorded, promise, is_shorter, .. } = self;
         Ok(Accurate { source, prepared, recorded: recorded.clone(), promise: promise.clone(), is_shorter: *is_shorter })
+    }
+
+    /// Compares the accurate run with one of diffsol, for which a part of the budget is allowed.
+    pub fn confirmed(&self, settings: &Settings, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<SecondOpinion> {
+        let span = self.prepared.span().ok()?;
+        let motion = Motion { counts_start: true, ..Motion::of(&self.prepared, span, is_stopped) };
+        let watched = Watched::new(self.prepared.system(), &settings.outputs).ok()?;
+        let allowed = settings.budget.map_or(ALLOWED, |budget| budget / CONFIRMED);
+        Some(second_opinion(&motion, &watched, span, (&self.recorded.rows, &self.prepared.method), allowed.into()))
     }
 
     /// Runs the model by its own method.
@@ -179,6 +191,13 @@ impl Base {
         let (runs, work) = (self.runs + if is_known { 1 } else { 2 }, self.work + again + richest.work);
         Ok(Base { accurate, richest, trials: vec![trial], runs, work })
     }
+}
+
+/// A warning if diffsol differs from the accurate run by more than a promise allows for numerical errors.
+pub fn contradicted(opinion: &SecondOpinion, within: f64) -> Option<Warning> {
+    let difference = opinion.difference.filter(|difference| *difference > NUMERICAL * within)?;
+    let text = format!("diffsol, by {}, differs from the accurate run by {}", opinion.method, percent(difference));
+    Some(Warning::new(text, "give the scene a tighter rtol and atol: one of the two runs is wrong by that"))
 }
 
 /// What is doubtful about the richest model.

@@ -54,8 +54,9 @@ pub use source::Source;
 pub use start::{Hint, Hints, Unseen, hints};
 
 use crate::clock::Stopwatch;
+use crate::compare::SecondOpinion;
 use crate::error::{Result, Warning, percent};
-use base::{Accurate, Base, METHOD, doubts};
+use base::{Accurate, Base, METHOD, contradicted, doubts};
 use bench::Bench;
 use nearby::Neighbourhood;
 use serde::Serialize;
@@ -100,6 +101,8 @@ pub struct Simplification {
     pub outputs: Vec<String>,
     /// Run of the richest model by its own method.
     pub richest: Run,
+    /// The difference of the accurate run of the richest model from a run of diffsol.
+    pub second_opinion: Option<SecondOpinion>,
     /// All changes in the order in which they were tried; the last ones of kind `method`.
     pub trials: Vec<Trial>,
     /// Run of the model that is chosen.
@@ -159,6 +162,9 @@ pub fn simplify(
     let is_long = || is_asked() || !is_within(RICHEST);
     let Base { accurate, richest, trials, runs, work } = Base::new(source, settings, &is_long, is_stopped, watch)?;
     let mut warnings = doubts(&accurate, &richest);
+    watch("the richest model by diffsol", runs);
+    let opinion = accurate.confirmed(settings, is_stopped);
+    warnings.extend(opinion.as_ref().and_then(|opinion| contradicted(opinion, settings.within)));
     let Accurate { source: base, prepared, recorded, promise, .. } = accurate;
     let (scene, names) = (prepared.name.clone(), promise.names());
     let facts = Facts::new(base.clone(), prepared, names.clone(), recorded);
@@ -197,6 +203,7 @@ pub fn simplify(
         norm: settings.norm,
         outputs: names,
         richest: richest.clone(),
+        second_opinion: opinion,
         trials: found.trials,
         chosen: found.run,
         runs,

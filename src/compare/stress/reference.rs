@@ -4,6 +4,7 @@ use super::deadline::Shift;
 use super::subject::Case;
 use super::subject::Subject;
 use crate::compare::work_precision::{Allowed, ErrorMetric, Motion, Watched, sample};
+use crate::compare::{SecondOpinion, second_opinion};
 use crate::method_spec::MethodSpec;
 use crate::simulate::Method;
 use crate::tolerances::report as tolerances;
@@ -13,8 +14,8 @@ use std::time::Duration;
 pub(super) enum Search {
     /// It takes more time; the part of the motion completed.
     Pending(f64),
-    /// The watched quantities along an accurate solution.
-    Found(ErrorMetric),
+    /// The watched quantities along an accurate solution, and its method.
+    Found(ErrorMetric, Method),
     /// No method completes the motion.
     Hopeless,
 }
@@ -57,11 +58,28 @@ impl Search {
             let wall = shift.left();
             let run = sample(&motion, &watched, &case.method, span, Allowed { cpu, wall })?;
             Ok(match run.failure {
-                None => Search::Found(ErrorMetric::new(&watched.columns, run.rows, &run.sizes)),
+                None => Search::Found(ErrorMetric::new(&watched.columns, run.rows, &run.sizes), case.method.clone()),
                 Some(failure) if run.is_too_slow => Search::Pending((failure.t - span.start) / case.duration),
                 Some(_) => Search::Hopeless,
             })
         });
         found.unwrap_or(Search::Hopeless)
     }
+}
+
+/// Compares a reference with a run of diffsol within the CPU time allowed.
+pub(super) fn confirmed(
+    subject: &Subject,
+    case: &Case,
+    reference: &ErrorMetric,
+    cpu: Duration,
+) -> Option<SecondOpinion> {
+    let compared = subject.with(case, |system, span, start| {
+        let (between, is_stopped) = ((span.start, span.end), &|| false);
+        let motion = Motion { system, start, between, ratio: 1.0, counts_start: true, is_stopped };
+        let watched = Watched::new(system, &[])?;
+        let allowed = Allowed { cpu, wall: cpu.saturating_mul(2) };
+        Ok(second_opinion(&motion, &watched, span, (&reference.rows, &case.method), allowed))
+    });
+    compared.ok()
 }

@@ -4,10 +4,11 @@ use super::cell::{Cell, Status};
 use super::deadline::{Limits, Shift};
 use super::map::Map;
 use super::queue::{Job, Queues, What};
-use super::reference::Search;
+use super::reference::{self, Search};
 use super::simulation::{blank, run};
-use super::subject::Subject;
+use super::subject::{Case, Subject};
 use crate::clock::Stopwatch;
+use crate::compare::SecondOpinion;
 use crate::compare::work_precision::ErrorMetric;
 use crate::math::memory::at_once;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -24,6 +25,8 @@ pub struct Stressed {
     pub map: Map,
     /// Names of the quantities whose errors the cells give.
     pub watched: Vec<String>,
+    /// The difference of the reference in the middle of the map from a run of diffsol; none without such a reference.
+    pub second_opinion: Option<SecondOpinion>,
     /// Cells, columns fastest.
     pub cells: Vec<Cell>,
 }
@@ -56,7 +59,8 @@ pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn()
         Ok(pool) => drop(pool.broadcast(|_| one())),
         Err(_) => one(),
     }
-    work.finish(map)
+    let opinion = work.confirm(subject, &map, limits);
+    Stressed { second_opinion: opinion, ..work.finish(map) }
 }
 
 /// The runs to make, and their results.
@@ -150,9 +154,17 @@ impl Work {
         })
     }
 
+    /// Compares the first reference, in the middle of the map, with a run of diffsol.
+    fn confirm(&self, subject: &Subject, map: &Map, limits: Limits) -> Option<SecondOpinion> {
+        let (at, search) = self.motions.first()?;
+        let Search::Found(reference, method) = &*locked(search) else { return None };
+        let case = Case { method: method.clone(), ..case(subject, map, *at)? };
+        reference::confirmed(subject, &case, reference, limits.cell.saturating_mul(REFERENCE))
+    }
+
     fn finish(self, map: Map) -> Stressed {
         let found = |(_, search): ([usize; 3], Mutex<Search>)| match into_inner(search) {
-            Search::Found(reference) => Some(reference),
+            Search::Found(reference, _) => Some(reference),
             _ => None,
         };
         let references: Vec<Option<ErrorMetric>> = self.motions.into_iter().map(found).collect();
@@ -166,7 +178,7 @@ impl Work {
         };
         let cells = self.cells.into_iter().map(judged).collect();
         let watched = references.iter().flatten().next().map_or(Vec::new(), |reference| reference.names.clone());
-        Stressed { map, watched, cells }
+        Stressed { map, watched, second_opinion: None, cells }
     }
 }
 
@@ -179,13 +191,16 @@ fn into_inner<T>(mutex: Mutex<T>) -> T {
     mutex.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Searches for the reference of a cell.
-fn search(subject: &Subject, map: &Map, at: [usize; 3], (shift, share): (Shift, Duration)) -> Search {
+/// Returns the motion of a cell; none where its changes do not apply.
+fn case(subject: &Subject, map: &Map, at: [usize; 3]) -> Option<Case> {
     let mut case = subject.base.clone();
     let mut changes = map.changes(at).filter(|change| !change.keeps_motion());
-    if changes.try_for_each(|change| change.apply(&mut case)).is_err() {
-        return Search::Hopeless;
-    }
+    changes.try_for_each(|change| change.apply(&mut case)).ok().map(|()| case)
+}
+
+/// Searches for the reference of a cell.
+fn search(subject: &Subject, map: &Map, at: [usize; 3], (shift, share): (Shift, Duration)) -> Search {
+    let Some(case) = case(subject, map, at) else { return Search::Hopeless };
     let is_last = share == shift.cell;
     Search::run(subject, &case, if is_last { share.saturating_mul(REFERENCE) } else { share }, shift)
 }

@@ -4,6 +4,7 @@ use super::error_metric::{ErrorMetric, Watched};
 use super::grid::Triple;
 use super::sample::{Allowed, Motion, RunSample, sample};
 use crate::clock::Stopwatch;
+use crate::compare::second_opinion::{self, SecondOpinion};
 use crate::error::{Failure, Result};
 use crate::formulation;
 use crate::integrator;
@@ -14,14 +15,15 @@ use std::time::Duration;
 
 /// Sequence of rtol, from loose to tight.
 const LADDER: [f64; 6] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13];
-/// Explicit and implicit methods, one in minimal coordinates, one half-explicit.
-const FAMILIES: [[&str; 3]; 6] = [
+/// Explicit and implicit methods, one in minimal coordinates, one half-explicit, two of diffsol.
+const FAMILIES: [[&str; 3]; 7] = [
     ["index1", "dop853", "exact"],
     ["ggl", "radau_iia", "none"],
     ["null_space", "dopri5", "none"],
     ["index2", "phem56", "manifold"],
-    ["index1", "dopri5", "exact"],
     ["index2", "radau_iia", "none"],
+    second_opinion::METHODS[0],
+    second_opinion::METHODS[1],
 ];
 /// Parts of the budget in CPU time for each method, one after the other: short runs show which methods complete the
 /// motion, and longer ones follow where these are not accurate enough.
@@ -168,6 +170,21 @@ pub fn check<'l>(lines: &'l [Line], watched: &Watched) -> Option<Checked<'l>> {
     let nearest = checked.min_by(|a, b| a.0.0.total_cmp(&b.0.0));
     let (error, by) = nearest.map_or(((1.0, String::new()), None), |(error, by)| (error, Some(by)));
     Some(Checked { best, by, error, values })
+}
+
+/// The difference of the nearest run of diffsol from the values of `checked`; none where diffsol completed none, or is
+/// the best itself.
+pub fn confirmed(lines: &[Line], checked: &Checked) -> Option<SecondOpinion> {
+    let is_confirming = |rung: &Rung| {
+        let Method { formulation, integrator, .. } = &rung.method;
+        second_opinion::METHODS.iter().any(|names| names[..2] == [formulation.name.as_str(), integrator.name.as_str()])
+    };
+    if is_confirming(checked.best) {
+        return None;
+    }
+    let theirs = lines.iter().filter_map(|line| line.rungs.last()).filter(|rung| is_confirming(rung));
+    let compared = theirs.map(|rung| SecondOpinion::of(rung.name(), checked.values.error(&rung.run.rows)));
+    compared.min_by(|a, b| a.difference.unwrap_or(f64::INFINITY).total_cmp(&b.difference.unwrap_or(f64::INFINITY)))
 }
 
 /// True if both are runs of one method.

@@ -1,9 +1,10 @@
 //! The reference of accuracy.
 
-use super::climb::{Checked, Line, Rung, check, climb, nothing, same};
+use super::climb::{Checked, Line, Rung, check, climb, confirmed, nothing, same};
 use super::error_metric::{ErrorMetric, Watched};
 use super::given::Given;
 use super::sample::Motion;
+use crate::compare::SecondOpinion;
 use crate::error::Result;
 use crate::simulate::Span;
 use crate::tolerances::report as tolerances;
@@ -23,6 +24,9 @@ pub struct Reference {
     pub error: f64,
     /// The quantity with this difference.
     pub worst: String,
+    /// The difference from a run of diffsol; none where it completed none.
+    #[serde(default)]
+    pub second_opinion: Option<SecondOpinion>,
     /// Steps from which those of fixed-step methods are chosen.
     pub pace: Pace,
     /// The values, with the sizes of the quantities.
@@ -63,8 +67,10 @@ impl Reference {
         let from = given.map_or_else(|| checked.best.name(), |given| given.name.clone());
         let checked_by = checked.by.map_or("nothing".to_string(), Rung::name);
         let is_independent = checked.by.is_some_and(|by| given.is_some() || !same(by, checked.best));
+        let second_opinion = confirmed(&lines, &checked);
         let (error, worst) = checked.error;
-        let reference = Reference { from, checked_by, is_independent, error, worst, pace, values: checked.values };
+        let values = checked.values;
+        let reference = Reference { from, checked_by, is_independent, error, worst, second_opinion, pace, values };
         Ok((reference, lines.into_iter().flat_map(|line| line.rungs).collect()))
     }
 

@@ -192,17 +192,11 @@ fn problem<'s>(eqn: Equations<'s>, tolerance: &Tolerance, h0: f64) -> Owner<'s> 
         ode_options: OdeSolverOptions {
             // A lifetime total, of which long runs have many.
             max_nonlinear_solver_failures: usize::MAX,
-            nonlinear_solver_tolerance: std::env::var("NEWTON").ok().and_then(|x| x.parse().ok()).unwrap_or(NEWTON),
+            nonlinear_solver_tolerance: NEWTON,
             // The time loop has a limit of its own, relative to the span.
             min_timestep: f64::MIN_POSITIVE,
-            update_jacobian_after_steps: std::env::var("JACOBIAN")
-                .ok()
-                .and_then(|x| x.parse().ok())
-                .unwrap_or(JACOBIAN),
-            update_rhs_jacobian_after_steps: std::env::var("JACOBIAN")
-                .ok()
-                .and_then(|x| x.parse().ok())
-                .unwrap_or(JACOBIAN),
+            update_jacobian_after_steps: JACOBIAN,
+            update_rhs_jacobian_after_steps: JACOBIAN,
             ..Default::default()
         },
     }

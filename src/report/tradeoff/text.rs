@@ -52,6 +52,9 @@ fn head(measured: &WorkPrecision) -> String {
     let _ =
         writeln!(text, "  compared at {} times of the motion, each relative to its size in it: {names}", measured.rows);
     let _ = writeln!(text, "  reference: {from}; differs from {checked_by} by {error:.0e} ({worst})");
+    if let Some(opinion) = &reference.second_opinion {
+        let _ = writeln!(text, "  {opinion}");
+    }
     if !is_independent {
         text += "  no second method came as far: the reference's error is only its change with the tolerance\n";
     }

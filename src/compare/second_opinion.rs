@@ -1,0 +1,67 @@
+//! Confirmation of reference values by diffsol.
+
+use super::work_precision::{Allowed, ErrorMetric, Motion, Watched, sample};
+use crate::integrator;
+use crate::method_spec::MethodSpec;
+use crate::simulate::{Method, Span};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Methods of diffsol that confirm others, which share no code with them: for motions that are not stiff, and for stiff
+/// ones.
+pub(super) const METHODS: [[&str; 3]; 2] = [["index1", "tsit45", "exact"], ["ggl", "diffsol", "none"]];
+
+/// Difference of a run of diffsol from reference values.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SecondOpinion {
+    /// The method of diffsol with its tolerance.
+    pub method: String,
+    /// Largest relative difference; none where the run did not complete.
+    pub difference: Option<f64>,
+    /// Quantity with the largest difference, or the reason why the run did not complete.
+    pub about: String,
+}
+
+impl SecondOpinion {
+    /// The difference of a completed run.
+    pub(super) fn of(method: String, (difference, worst): (f64, String)) -> Self {
+        SecondOpinion { method, difference: Some(difference), about: worst }
+    }
+}
+
+/// Compares `rows`, values of the watched quantities along the motion that `of` computed, with a run of diffsol at its
+/// tolerance: by an explicit method where `of` is one.
+pub(crate) fn second_opinion(
+    motion: &Motion,
+    watched: &Watched,
+    span: Span,
+    (rows, of): (&[Vec<f64>], &Method),
+    allowed: Allowed,
+) -> SecondOpinion {
+    let is_explicit = integrator::find(&of.integrator).is_ok_and(|entry| entry.follows_fields());
+    let [formulation, integrator, projection] = METHODS[usize::from(!is_explicit)].map(MethodSpec::named);
+    let Method { rtol, atol, .. } = if of.step.is_some() { Method::default() } else { of.clone() };
+    let method = Method { formulation, integrator, projection, rtol, atol, step: None };
+    let name = format!("{}, rtol {rtol:e}", method.triple());
+    let failed = |reason: String| SecondOpinion { method: name.clone(), difference: None, about: reason };
+    match sample(motion, watched, &method, span, allowed) {
+        Ok(run) => match run.failure {
+            Some(failure) => failed(failure.reason),
+            None => SecondOpinion::of(name, ErrorMetric::new(&watched.columns, run.rows, &run.sizes).error(rows)),
+        },
+        Err(error) => failed(error.to_string()),
+    }
+}
+
+impl fmt::Display for SecondOpinion {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let SecondOpinion { method, difference, about } = self;
+        match difference {
+            Some(difference) => write!(
+                out,
+                "confirmed by diffsol, which shares no code with it: {method} differs by {difference:.0e} ({about})"
+            ),
+            None => write!(out, "not confirmed by diffsol: {method} did not complete: {about}"),
+        }
+    }
+}
