@@ -16,12 +16,14 @@ type Sparsity = SymbolicSparseColMat<usize>;
 /// [I 0; 0 0] x' = F(t, x)
 /// ```
 ///
-/// with I of the differential variables, which come first: the rows of a formulation, or its vector field, where all
-/// variables are differential.
+/// with I of the differential variables, which come first: the rows of a formulation, whose works are integrals beside
+/// x, or its vector field, where all variables are differential and the works are among them.
 pub struct Equations<'s> {
     context: FaerContext,
     len: usize,
     differential: usize,
+    /// Number of works beside x.
+    works: usize,
     /// Pattern of dF/dx, and the place of each entry among its values; empty for a vector field.
     pattern: Sparsity,
     places: Vec<usize>,
@@ -51,22 +53,40 @@ impl<'s> Equations<'s> {
     /// The rows `rows` of a formulation, or without them its vector field; `None` if there is not enough memory for the
     /// matrix.
     pub fn new(problem: Problem<'s>, rows: Option<Rows>) -> Option<Self> {
-        let differential = problem.len();
-        let len = rows.as_ref().map_or(differential, Rows::len);
+        let all = problem.len();
+        let len = rows.as_ref().map_or(all, Rows::len);
+        let differential = rows.as_ref().map_or(all, Rows::differential);
         let entries = rows.as_ref().map_or_else(Vec::new, |rows| rows.pattern(&problem.dynamics));
         let (pattern, places) = pattern(len, &entries)?;
         let state = RefCell::new(State { problem, rows, failure: None });
-        Some(Equations { context: FaerContext::new(), len, differential, pattern, places, state })
-    }
-
-    /// Number of variables, and of the differential ones.
-    pub fn dimensions(&self) -> (usize, usize) {
-        (self.len, self.differential)
+        Some(Equations {
+            context: FaerContext::new(),
+            len,
+            differential,
+            works: all - differential,
+            pattern,
+            places,
+            state,
+        })
     }
 
     /// A vector of x.
     pub fn vector(&self, values: impl Fn(usize) -> f64) -> FaerVec<f64> {
-        FaerVec::from_vec((0..self.len).map(values).collect(), self.context)
+        self.of_length(self.len, values)
+    }
+
+    /// A vector of the works beside x.
+    pub fn works(&self, values: impl Fn(usize) -> f64) -> FaerVec<f64> {
+        self.of_length(self.works, values)
+    }
+
+    fn of_length(&self, len: usize, values: impl Fn(usize) -> f64) -> FaerVec<f64> {
+        FaerVec::from_vec((0..len).map(values).collect(), self.context)
+    }
+
+    /// Number of differential variables, after which the works beside x follow in y.
+    pub fn differential(&self) -> usize {
+        self.differential
     }
 
     /// x at the start of a step.
@@ -130,7 +150,10 @@ impl<'s> Equations<'s> {
     }
 }
 
-/// The equations as any of the operators that diffsol asks for.
+/// The powers whose integrals are the works beside x.
+pub struct Powers<'e, 's>(&'e Equations<'s>);
+
+/// The equations as any other of the operators that diffsol asks for.
 pub struct Operator<'e, 's>(&'e Equations<'s>);
 
 fn values(vector: &FaerVec<f64>) -> &[f64] {
@@ -184,6 +207,38 @@ impl Op for Operator<'_, '_> {
 
     fn nparams(&self) -> usize {
         0
+    }
+}
+
+impl Op for Powers<'_, '_> {
+    type T = f64;
+    type V = FaerVec<f64>;
+    type M = FaerSparseMat<f64>;
+    type C = FaerContext;
+
+    fn context(&self) -> &FaerContext {
+        &self.0.context
+    }
+
+    fn nstates(&self) -> usize {
+        self.0.len
+    }
+
+    fn nout(&self) -> usize {
+        self.0.works
+    }
+
+    fn nparams(&self) -> usize {
+        0
+    }
+}
+
+impl NonLinearOp for Powers<'_, '_> {
+    fn call_inplace(&self, x: &FaerVec<f64>, t: f64, out: &mut FaerVec<f64>) {
+        let State { problem, rows, .. } = &mut *self.0.state.borrow_mut();
+        if let Some(rows) = rows {
+            rows.powers(&mut problem.dynamics, t, values(x), values_mut(out));
+        }
     }
 }
 
@@ -242,7 +297,7 @@ impl<'e, 's> OdeEquationsRef<'e> for Equations<'s> {
     type Mass = Operator<'e, 's>;
     type Init = Operator<'e, 's>;
     type Root = UnitCallable<FaerSparseMat<f64>>;
-    type Out = UnitCallable<FaerSparseMat<f64>>;
+    type Out = Powers<'e, 's>;
     type Reset = UnitCallable<FaerSparseMat<f64>>;
 }
 
@@ -257,6 +312,10 @@ impl<'s> OdeEquations for Equations<'s> {
 
     fn init(&self) -> Operator<'_, 's> {
         Operator(self)
+    }
+
+    fn out(&self) -> Option<Powers<'_, 's>> {
+        (self.works > 0).then_some(Powers(self))
     }
 
     fn set_params(&mut self, _: &FaerVec<f64>) {}

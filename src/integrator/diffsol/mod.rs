@@ -18,8 +18,6 @@ use crate::error::{self, Error};
 use crate::formulation::{self, Dae, Dynamics, StepError};
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
-use diffsol::VectorCommon;
-use directions::Directions;
 use equations::Equations;
 use rows::Rows;
 use solver::{Counters, Frame, Scheme};
@@ -60,10 +58,6 @@ impl<'s> Diffsol<'s> {
             Scheme::Tsit45 => None,
             _ => Some(formulation::dae(formulation)?.ok_or_else(refused)?),
         };
-        if dae.is_some() && Directions::new(system).is_none() {
-            let text = format!("{} needs coordinates whose rates are velocities, or unit quaternions", integrator.name);
-            return Err(Error::input(text).hint("use radau_iia, or implement MechanicalSystem::rotations"));
-        }
         // Bad options of the formulation are refused here.
         formulation::make(formulation, system)?;
         Ok(Box::new(Diffsol {
@@ -87,8 +81,7 @@ impl<'s> Diffsol<'s> {
         let mut own = Problem::new(Dynamics::new(self.system), formulation);
         own.dynamics.drop_rows(&problem.dynamics.dropped);
         own.dynamics.wants_least = false;
-        let n = self.system.dimensions();
-        let rows = self.dae.and_then(|dae| Rows::new(dae, &own.dynamics, own.len() - n.q - n.v));
+        let rows = self.dae.map(|dae| Rows::new(dae, &own.dynamics));
         Equations::new(own, rows).ok_or(TOO_LARGE)
     }
 
@@ -139,10 +132,7 @@ impl<'s> Diffsol<'s> {
     /// Writes the differential variables at `t`.
     fn write(&self, t: f64, out: &mut [f64]) -> Result<(), StepError> {
         let frame = self.frame.as_ref().ok_or(NOT_BEGUN)?;
-        let mut x = frame.equations().vector(|_| 0.0);
-        frame.with(|solver| solver.write(t, &mut x)).map_err(|_| StepError::NotConverged)?;
-        out.copy_from_slice(&x.inner().col_as_slice(0)[..out.len()]);
-        Ok(())
+        frame.with(|solver| solver.write(t, out)).map_err(|_| StepError::NotConverged)
     }
 }
 

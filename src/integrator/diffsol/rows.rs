@@ -7,13 +7,13 @@ use crate::system::{Dimensions, Need, OperatingPoint, Structure, Tangent};
 use std::ops::Range;
 
 /// ```text
-/// q' = N (v + u),   v' = a + w,   work' = power
+/// q' = N (v + u),   v' = a + w
 /// 0 = f - M a - G^T lambda,   0 = M w + G^T eta,   0 = M u + G^T mu
 /// 0 = the rows of lambda, eta and mu
 /// ```
 ///
-/// the equations of [`Dae`] in x = (q, v, work, a, lambda, w, eta, u, mu), without the shifts that they do not have.
-/// Rows that are dropped, and rows of mu for nonholonomic constraints, set their multiplier to zero.
+/// the equations of [`Dae`] in x = (q, v, a, lambda, w, eta, u, mu), without the shifts that they do not have. Rows that
+/// are dropped, and rows of mu for nonholonomic constraints, set their multiplier to zero.
 pub struct Rows {
     dae: Dae,
     n: Dimensions,
@@ -34,7 +34,6 @@ pub struct Rows {
 struct Places {
     q: Range<usize>,
     v: Range<usize>,
-    work: Range<usize>,
     a: Range<usize>,
     lambda: Range<usize>,
     w: Range<usize>,
@@ -44,7 +43,7 @@ struct Places {
 }
 
 impl Places {
-    fn new(dae: Dae, n: Dimensions, works: usize) -> Self {
+    fn new(dae: Dae, n: Dimensions) -> Self {
         let mut end = 0;
         let mut next = |len: usize| {
             end += len;
@@ -55,7 +54,6 @@ impl Places {
         Places {
             q: next(n.q),
             v: next(n.v),
-            work: next(works),
             a: next(n.v),
             lambda: next(n.lambda),
             w: next(of(has_w, n.v)),
@@ -78,25 +76,24 @@ struct Matrices<'m> {
 }
 
 impl Rows {
-    /// Memory for `dae` on the system of `dynamics`, of which these rows are dropped; `None` where coordinates are
-    /// neither integrals of velocities nor unit quaternions.
-    pub fn new(dae: Dae, dynamics: &Dynamics, works: usize) -> Option<Self> {
+    /// Memory for `dae` on the system of `dynamics`, with the rows that are dropped there.
+    pub fn new(dae: Dae, dynamics: &Dynamics) -> Self {
         let (system, structure) = (dynamics.system, &dynamics.structure);
         let n = system.dimensions();
         let mut by_constraint = vec![Vec::new(); n.lambda];
         structure.g.entries.iter().enumerate().for_each(|(entry, (row, _))| by_constraint[*row].push(entry));
-        Some(Rows {
+        Rows {
             dae,
             n,
-            places: Places::new(dae, n, works),
+            places: Places::new(dae, n),
             dropped: dynamics.dropped.clone(),
             residual: Residual::new(n),
-            directions: Directions::new(system)?,
+            directions: Directions::new(system),
             velocity: vec![0.0; n.v],
             tangent: Tangent::new(&structure.tangent),
             gradient: vec![0.0; structure.g.entries.len()],
             by_constraint,
-        })
+        }
     }
 
     /// Number of variables.
@@ -104,10 +101,15 @@ impl Rows {
         self.places.mu.end
     }
 
-    /// x at the start of a step, given its differential part with the rate, and lambda.
+    /// Number of differential variables, q and v.
+    pub fn differential(&self) -> usize {
+        self.places.v.end
+    }
+
+    /// x at the start of a step, given (q, v, works) with the rate, and lambda.
     pub fn start(&self, y: &[f64], slope: &[f64], lambda: &[f64]) -> Vec<f64> {
-        let mut x = vec![0.0; self.len()];
-        x[..y.len()].copy_from_slice(y);
+        let (mut x, motion) = (vec![0.0; self.len()], self.differential());
+        x[..motion].copy_from_slice(&y[..motion]);
         x[self.places.a.clone()].copy_from_slice(&slope[self.places.v.clone()]);
         x[self.places.lambda.clone()].copy_from_slice(lambda);
         self.dropped.iter().for_each(|row| x[self.places.lambda.start + row] = 0.0);
@@ -137,9 +139,8 @@ impl Rows {
         dynamics.system.rate(q, velocity, &mut out[places.q.clone()]);
         out[places.v.clone()].copy_from_slice(unknowns.a);
         add(&mut out[places.v.clone()], unknowns.w);
-        let Residual { motion, w, u, lambda, eta, mu, powers, .. } = &*residual;
+        let Residual { motion, w, u, lambda, eta, mu, .. } = &*residual;
         let of_rows = [
-            (&places.work, powers),
             (&places.a, motion),
             (&places.lambda, lambda),
             (&places.w, w),
@@ -157,6 +158,14 @@ impl Rows {
             }
         });
         Ok(())
+    }
+
+    /// Writes the powers whose integrals are the works. One evaluation of forces and constraints.
+    pub fn powers(&self, dynamics: &mut Dynamics, t: f64, x: &[f64], out: &mut [f64]) {
+        let Places { q, v, lambda, .. } = &self.places;
+        dynamics.statistics.rhs_evaluations += 1;
+        dynamics.evaluate(t, &x[q.clone()], &x[v.clone()], Need::FORCE | Need::CONSTRAINTS);
+        out.iter_mut().zip(dynamics.powers(&x[lambda.clone()])).for_each(|(out, power)| *out = power);
     }
 
     /// Calls `see` with each row of multipliers, its place, and its constraint; without a row where the multiplier is
@@ -181,8 +190,8 @@ impl Rows {
         let structure = &dynamics.structure;
         let zeros = |pattern: &Pattern| vec![0.0; pattern.entries.len()];
         let (mass, g) = (zeros(&structure.mass), zeros(&structure.g));
-        let mut q = vec![0.0; self.n.q];
-        self.directions.unit(&mut q);
+        // The values do not count.
+        let q = vec![1.0; self.n.q];
         let at = Matrices {
             mass: &mass,
             g: &g,
@@ -223,6 +232,7 @@ impl Rows {
         dynamics.statistics.jacobian_evaluations += 1;
         self.velocity.copy_from_slice(at.v);
         add(&mut self.velocity, part(u));
+        self.directions.update(dynamics.system, at.q);
         let terms = &dynamics.terms;
         let at = Matrices {
             mass: &terms.mass,
@@ -237,8 +247,8 @@ impl Rows {
         Ok(())
     }
 
-    /// Passes all entries of dF/dx to `put`: row, column, value. The works are not differentiated: no row depends on
-    /// them. M u + G^T mu and M w + G^T eta are, at u = w = 0.
+    /// Passes all entries of dF/dx to `put`: row, column, value. M u + G^T mu and M w + G^T eta are differentiated at
+    /// u = w = 0.
     fn visit(&self, structure: &Structure, at: &Matrices, mut put: impl FnMut(usize, usize, f64)) {
         let Places { q, v, a, lambda, w, eta, u, mu, .. } = &self.places;
         for shift in [v, u].into_iter().filter(|part| !part.is_empty()) {

@@ -45,8 +45,8 @@ pub trait Steps {
     fn h(&self) -> f64;
     /// Makes a step that does not end after `limit`.
     fn step(&mut self, limit: f64) -> Result<(), DiffsolError>;
-    /// Writes x within the last step, or at its end.
-    fn write(&self, t: f64, x: &mut FaerVec<f64>) -> Result<(), DiffsolError>;
+    /// Writes y = (q, v, works) within the last step, or at its end.
+    fn write(&self, t: f64, y: &mut [f64]) -> Result<(), DiffsolError>;
     /// Continues from the differential variables `from.y` at `from.t`, with steps of size `h` at first.
     fn go_on_from(&mut self, from: From, h: f64);
     fn counters(&self) -> Counters;
@@ -70,14 +70,25 @@ impl<'p, 's, S: OdeSolverMethod<'p, Equations<'s>>> Steps for Solver<'p, 's, S> 
         self.0.step().map(|_| ())
     }
 
-    fn write(&self, t: f64, x: &mut FaerVec<f64>) -> Result<(), DiffsolError> {
-        self.0.interpolate_inplace(t.min(self.t()), x)
+    fn write(&self, t: f64, y: &mut [f64]) -> Result<(), DiffsolError> {
+        let equations = &self.0.problem().eqn;
+        let (t, (motion, works)) = (t.min(self.t()), y.split_at_mut(equations.differential()));
+        motion.copy_from_slice(&self.0.interpolate(t)?.inner().col_as_slice(0)[..motion.len()]);
+        if !works.is_empty() {
+            let mut at = equations.works(|_| 0.0);
+            self.0.interpolate_out_inplace(t, &mut at)?;
+            works.copy_from_slice(at.inner().col_as_slice(0));
+        }
+        Ok(())
     }
 
     fn go_on_from(&mut self, from: From, h: f64) {
+        let differential = self.0.problem().eqn.differential();
         let state = self.0.state_mut();
-        for (vector, values) in [(state.y, from.y), (state.dy, from.slope)] {
-            vector.inner_mut().col_as_slice_mut(0)[..values.len()].copy_from_slice(values);
+        for (vector, works, values) in [(state.y, state.g, from.y), (state.dy, state.dg, from.slope)] {
+            let (motion, others) = values.split_at(differential);
+            vector.inner_mut().col_as_slice_mut(0)[..differential].copy_from_slice(motion);
+            works.inner_mut().col_as_slice_mut(0).copy_from_slice(others);
         }
         (*state.t, *state.h) = (from.t, h);
     }
@@ -170,7 +181,8 @@ impl<'s> Frame<'s> {
 /// Tolerances of the norm of diffsol, the root mean square over all variables: those of the time loop's norm, which is
 /// over the tested ones.
 fn problem<'s>(eqn: Equations<'s>, tolerance: &Tolerance, h0: f64) -> Owner<'s> {
-    let (len, _) = eqn.dimensions();
+    let len = diffsol::Op::nstates(&eqn);
+    let integrate_out = diffsol::OdeEquations::out(&eqn).is_some();
     let motion = tolerance.motion();
     let share = (tolerance.tested(motion) as f64 / len as f64).sqrt();
     let is_tested = |i: usize| i < motion && !tolerance.untested().contains(&i);
@@ -181,7 +193,7 @@ fn problem<'s>(eqn: Equations<'s>, tolerance: &Tolerance, h0: f64) -> Owner<'s> 
         atol,
         t0: 0.0,
         h0,
-        integrate_out: false,
+        integrate_out,
         sens_rtol: None,
         sens_atol: None,
         out_rtol: None,
@@ -220,12 +232,13 @@ fn begin<'p, 's>(
 }
 
 fn state<S: OdeSolverState<FaerVec<f64>>>(problem: &Owner, (from, x): (From, &[f64]), h: f64) -> S {
-    let empty = || FaerVec::from_vec(Vec::new(), Default::default());
+    let (eqn, empty) = (&problem.eqn, || FaerVec::from_vec(Vec::new(), Default::default()));
+    let motion = eqn.differential();
     S::new_from_common(StateCommon {
-        y: problem.eqn.vector(|i| x[i]),
-        dy: problem.eqn.vector(|i| from.slope.get(i).copied().unwrap_or(0.0)),
-        g: empty(),
-        dg: empty(),
+        y: eqn.vector(|i| x[i]),
+        dy: eqn.vector(|i| if i < motion { from.slope[i] } else { 0.0 }),
+        g: eqn.works(|i| from.y[motion + i]),
+        dg: eqn.works(|i| from.slope[motion + i]),
         s: empty(),
         ds: empty(),
         sg: empty(),
