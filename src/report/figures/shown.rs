@@ -6,10 +6,9 @@ use crate::math::largest;
 use crate::trajectory::Trajectory;
 
 /// How a run ended.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
     /// At its end time, or where the user interrupted it.
-    #[default]
     Completed,
     /// With an error.
     Failed,
