@@ -135,11 +135,13 @@ fn frame_lines(panel: Panel, window: &Window, is_upper: bool, data: &[Complex<f6
     })
 }
 
-/// Places of a name along its ray, as parts of its length, and the distance from data that is enough, pixels.
-const ALONG: [f64; 4] = [0.93, 0.8, 0.65, 0.5];
+/// Usual place of a name along its ray, as a part of its length, and others with room on both sides.
+const USUAL: f64 = 0.93;
+const OTHERS: [f64; 3] = [0.8, 0.65, 0.5];
+/// Distance from the data that leaves room for a name, pixels.
 const ENOUGH: f64 = 100.0;
 
-/// Returns the first place along a ray that is far enough from the data, else the farthest.
+/// Returns the place of the name along a ray: the usual one unless that is near the data.
 fn free_place(ray: &Ray, data: &[Complex<f64>], pixels: (f64, f64)) -> (f64, f64) {
     let place = |part: f64| (part * ray.end.0, part * ray.end.1);
     let distance = |part: f64| {
@@ -147,8 +149,8 @@ fn free_place(ray: &Ray, data: &[Complex<f64>], pixels: (f64, f64)) -> (f64, f64
         let apart = data.iter().map(|value| (pixels.0 * (value.re - x)).hypot(pixels.1 * (value.im - y)));
         apart.fold(ENOUGH, f64::min)
     };
-    let nearer = |one: f64, other: f64| if distance(other) > distance(one) { other } else { one };
-    place(ALONG.into_iter().reduce(nearer).unwrap_or(1.0))
+    let farther = |one: f64, other: f64| if distance(other) > distance(one) { other } else { one };
+    if distance(USUAL) >= ENOUGH { place(USUAL) } else { place(OTHERS.into_iter().fold(OTHERS[0], farther)) }
 }
 
 /// Returns a note on the number of points outside the axes, and on growth among them.
