@@ -127,14 +127,6 @@ impl Axis {
         if self.spec.scale == Scale::Log { 10f64.powf(value) } else { value }
     }
 
-    /// Widens the limits of a linear axis to a span.
-    pub fn widen(&mut self, span: f64) {
-        let more = 0.5 * (span - (self.high - self.low));
-        if more > 0.0 && more.is_finite() {
-            (self.low, self.high) = (self.low - more, self.high + more);
-        }
-    }
-
     /// Returns a note on the values that a logarithmic axis draws at its floor.
     pub fn note(&self, name: &str, drawn: &str) -> Option<String> {
         self.floor.map(|floor| format!("{name} ≤ 0 {drawn} 10^{floor}"))

@@ -129,8 +129,13 @@ impl<'a> Placed<'a> {
             self.frame.bottom = natural;
         }
         let unit = (x / width).max(y / self.frame.size().1);
-        self.x.widen(unit * width);
-        self.y.widen(unit * self.frame.size().1);
+        let height = self.frame.size().1;
+        for (axis, span) in [(&mut self.x, unit * width), (&mut self.y, unit * height)] {
+            let more = (0.5 * (span - (axis.high - axis.low))).max(0.0);
+            if more.is_finite() {
+                (axis.low, axis.high) = (axis.low - more, axis.high + more);
+            }
+        }
     }
 }
 

@@ -83,8 +83,8 @@ fn text(out: &mut String, text: &Text) {
     let (size, color) = (number(text.size), hex(&text.color));
     *out += &format!("<text {place} font-size=\"{size}\" fill=\"{color}\" text-anchor=\"{anchor}\">");
     let (mut level, mut gap) = (0.0, 0.0);
-    for (run_level, run) in &text.rich.0 {
-        let (size, down) = run_level.metrics(text.size);
+    for (rise, run) in &text.rich.0 {
+        let (size, down) = text::metrics(*rise, text.size);
         // Viewers drop spaces next to a superscript, so these become offsets.
         let inner = run.trim_start_matches(' ');
         gap += text::width(&run[..run.len() - inner.len()], size);

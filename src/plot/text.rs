@@ -33,28 +33,18 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
     Rich::new(text).width(size)
 }
 
-/// Vertical level of a part of a line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Level {
-    Base,
-    Raised,
-    Lowered,
+/// Rise of superscripts and subscripts in em of the line.
+const RAISED: f64 = 0.40;
+const LOWERED: f64 = -0.16;
+
+/// Returns size and downward shift of a part with a rise, in a line of the given size.
+pub(super) fn metrics(rise: f64, size: f64) -> (f64, f64) {
+    (if rise == 0.0 { size } else { 0.72 * size }, -rise * size)
 }
 
-impl Level {
-    /// Returns size and downward shift of this level in a line of the given size.
-    pub fn metrics(self, size: f64) -> (f64, f64) {
-        match self {
-            Self::Base => (size, 0.0),
-            Self::Raised => (0.72 * size, -0.40 * size),
-            Self::Lowered => (0.72 * size, 0.16 * size),
-        }
-    }
-}
-
-/// A line of text in parts, each on a level.
+/// A line of text in parts, each with its rise in em.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Rich(pub Vec<(Level, String)>);
+pub(super) struct Rich(pub Vec<(f64, String)>);
 
 impl Rich {
     /// Reads a text. Superscript and subscript characters become raised and lowered parts, which look the same in
@@ -64,28 +54,28 @@ impl Rich {
         for (index, part) in text.split('^').enumerate() {
             let (number, rest) = part.split_at(if index > 0 { number_length(part) } else { 0 });
             if index > 0 && number.is_empty() {
-                rich.push(Level::Base, '^');
+                rich.push(0.0, '^');
             }
-            number.chars().for_each(|digit| rich.push(Level::Raised, if digit == '-' { '−' } else { digit }));
+            number.chars().for_each(|digit| rich.push(RAISED, if digit == '-' { '−' } else { digit }));
             for character in rest.chars() {
-                let (level, plain) = classify(character);
-                rich.push(level, plain);
+                let (rise, plain) = classify(character);
+                rich.push(rise, plain);
             }
         }
         rich
     }
 
-    fn push(&mut self, level: Level, character: char) {
+    fn push(&mut self, rise: f64, character: char) {
         match self.0.last_mut() {
-            Some((same, text)) if *same == level => text.push(character),
-            _ => self.0.push((level, character.to_string())),
+            Some((same, text)) if *same == rise => text.push(character),
+            _ => self.0.push((rise, character.to_string())),
         }
     }
 
     /// Returns the width at a font size.
     pub fn width(&self, size: f64) -> f64 {
         let width = |text: &str| DEJAVU.as_ref().map_or(0.0, |font| glyphs(font, text).1);
-        self.0.iter().map(|(level, text)| width(text) * level.metrics(size).0).sum()
+        self.0.iter().map(|(rise, text)| width(text) * metrics(*rise, size).0).sum()
     }
 }
 
@@ -96,18 +86,18 @@ fn number_length(text: &str) -> usize {
     if rest.len() < digits.len() { text.len() - rest.len() } else { 0 }
 }
 
-fn classify(character: char) -> (Level, char) {
-    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾";
-    const LOWERED: &str = "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎";
+/// Returns the rise of a character, and the one to draw.
+fn classify(character: char) -> (f64, char) {
     if character.is_ascii_graphic() {
-        return (Level::Base, character);
+        return (0.0, character);
     }
-    for (list, level) in [(RAISED, Level::Raised), (LOWERED, Level::Lowered)] {
+    for (list, rise) in [("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾", RAISED), ("₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎", LOWERED)]
+    {
         if let Some((_, plain)) = list.chars().zip("0123456789+−=()".chars()).find(|pair| pair.0 == character) {
-            return (level, plain);
+            return (rise, plain);
         }
     }
-    (Level::Base, if character.is_control() { ' ' } else { character })
+    (0.0, if character.is_control() { ' ' } else { character })
 }
 
 /// A text broken into lines, smaller if it would not fit otherwise.
@@ -172,7 +162,7 @@ mod tests {
     fn superscripts_are_raised() {
         let rich = Rich::new("10⁻¹²");
         assert_eq!(rich.0.len(), 2);
-        assert_eq!(rich.0[1], (Level::Raised, "−12".into()));
+        assert_eq!(rich.0[1], (RAISED, "−12".into()));
         assert_eq!(Rich::new("10^-12"), rich);
         assert_eq!(Rich::new("a (m/s^2) b^3"), Rich::new("a (m/s²) b³"));
         let texts: Vec<String> = Rich::new("x^n^2-1^").0.into_iter().map(|part| part.1).collect();

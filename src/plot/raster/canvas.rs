@@ -1,7 +1,7 @@
 //! Shapes drawn with soft edges by tiny-skia.
 
 use super::super::shape::{Color, Drawing, Paint as Style, Pt, Shape, Stroke, Text};
-use super::super::text::{DEJAVU, EM, glyphs};
+use super::super::text::{DEJAVU, EM, glyphs, metrics};
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
 use tiny_skia::{FillRule, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, StrokeDash, Transform};
 
@@ -94,8 +94,8 @@ fn letters(text: &Text) -> PathBuilder {
     let mut path = PathBuilder::new();
     let Some(font) = DEJAVU.as_ref() else { return path };
     let mut along = -text.align.part() * text.rich.width(text.size);
-    for (level, run) in &text.rich.0 {
-        let (size, down) = level.metrics(text.size);
+    for (rise, run) in &text.rich.0 {
+        let (size, down) = metrics(*rise, text.size);
         let (glyphs, end) = glyphs(font, run);
         for (glyph, start) in glyphs {
             let place = |point: Point| {
