@@ -66,9 +66,9 @@ fn a_budget_is_kept() {
     let output = place.run(&["simplify", "scene.json", "--within", "5%", "--budget", "2s", "-o", "here"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     assert!(err(&output).contains("the time sufficed for the motion until t = "), "{}", err(&output));
-    // Far less than the 9 million rows of the motion: a quarter of 20 000 steps and rows.
+    // The whole motion has 9 million rows, which would take 900 s.
     let told = place.json("here/simplify.json");
-    assert!(told["richest"]["seconds"].as_f64().unwrap() < 0.5, "{}", told["richest"]);
+    assert!(told["richest"]["seconds"].as_f64().unwrap() < 2.0, "{}", told["richest"]);
     assert_eq!(place.json("here/simplified.json")["simulation"]["t_end"], 9e4);
     // Motions nearby for which there is no time are told, and are no error.
     let output =
