@@ -7,7 +7,9 @@ use crate::integrator::{From, Tolerance};
 use diffsol::error::DiffsolError;
 use diffsol::ode_solver::OdeSolverStatistics;
 use diffsol::ode_solver::state::StateCommon;
-use diffsol::{FaerVec, OdeSolverMethod, OdeSolverOptions, OdeSolverProblem, OdeSolverState, Tableau, Vector};
+use diffsol::{
+    FaerVec, OdeSolverMethod, OdeSolverOptions, OdeSolverProblem, OdeSolverState, Tableau, Vector, VectorCommon,
+};
 use self_cell::self_cell;
 use std::marker::PhantomData;
 
