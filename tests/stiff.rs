@@ -277,3 +277,78 @@ fn the_work_is_that_of_the_motion() {
         assert!(rows < 1e3 * tolerance, "{integrator}: {rows:e}");
     }
 }
+
+/// Methods by diffsol.
+const BY_DIFFSOL: [(&str, &str); 4] =
+    [("ggl", "tr_bdf2"), ("ggl", "esdirk34"), ("ggl", "diffsol:method=bdf"), ("index1", "tsit45")];
+
+/// A chain of 1000 links has 10,000 unknowns in the rows of `ggl`; explicit methods say where it is.
+#[test]
+fn ten_thousand_unknowns() {
+    let chain = parse(&holonom::scene::generate::chain(1000).to_string());
+    let exact = chain.run(&adaptive("index1", "dop853", "manifold", 1e-10), until(2e-3));
+    for (formulation, integrator) in BY_DIFFSOL {
+        let run = chain.run(&adaptive(formulation, integrator, "none", 1e-5), until(2e-3));
+        let [found, exact] = [&run, &exact].map(|run| run.record.trajectory.rows.last().unwrap()[1..2001].to_vec());
+        let error = distance(&found, &exact);
+        assert!(error < 1e-6, "{integrator}: {error:e}");
+    }
+}
+
+/// A force that leaves its domain during the motion, and a start at which a row of G vanishes: errors with their cause.
+#[test]
+fn what_cannot_be_evaluated_is_named() {
+    let scene = |force: &str, start: &str| {
+        format!(
+            r#"{{ "name": "bob", "dimension": 2, "ground": {{ "markers": {{ "O": [0, 0] }} }},
+            "bodies": [{{ "name": "bob", "type": "point_mass", "mass": 1, "initial": {{ "position": {start}, "velocity": [0, 1] }} }}],
+            "joints": [{{ "name": "rod", "type": "distance", "between": ["ground.O", "bob"], "length": 1 }}],
+            "forces": [{{ "name": "push", "type": "applied_force", "at": "bob", "force": ["{force}", 0] }}],
+            "simulation": {{ "t_end": 1 }} }}"#
+        )
+    };
+    let ready = parse(&scene("sqrt(0.5 - t)", "[1, 0]"));
+    for (formulation, integrator) in BY_DIFFSOL {
+        let outcome = ready.run(&adaptive(formulation, integrator, "none", 1e-6), until(1.0)).outcome;
+        let failure = outcome.failure.unwrap_or_else(|| panic!("{integrator} ends at {}", outcome.t));
+        assert!(failure.reason.contains("infinite or not a number"), "{integrator}: {}", failure.reason);
+        assert!((failure.t - 0.5).abs() < 1e-3, "{integrator}: {}", failure.t);
+    }
+}
+
+/// Singular states: a run by diffsol passes them or says why it ends, and the rows before are kept.
+#[test]
+fn singular_states_end_no_run_without_a_word() {
+    for name in ["slider_crank_singular", "slider_crank_singular_2", "bricard"] {
+        let ready = shipped(name, &[]);
+        for (formulation, integrator) in BY_DIFFSOL {
+            let run = ready.run(&adaptive(formulation, integrator, "none", 1e-5), ready.span());
+            let rows = &run.record.trajectory.rows;
+            assert!(rows.iter().flatten().all(|x| x.is_finite()) && rows.len() > 1, "{name} {integrator}");
+            if let Some(failure) = &run.outcome.failure {
+                assert!(!failure.reason.is_empty() && !failure.hint.is_empty(), "{name} {integrator}: {failure:?}");
+            }
+        }
+    }
+}
+
+/// tsit45 on every vector field, with every projection that does not close more than its steps leave: order 5 in q, v and
+/// lambda, by the power of the mean step that the error falls with.
+#[test]
+fn tsit45_has_order_5() {
+    let entry = registry().iter().find(|entry| entry.name == "tsit45").unwrap();
+    let (_, reference) = solve(&adaptive("index1", "dop853", "exact", 1e-13));
+    for formulation in entry.accepts() {
+        for projection in projections() {
+            let found = [1e-5, 1e-9].map(|tolerance| {
+                let gentle = crate::common::orders::gentle(formulation);
+                let (steps, rows) = solve(&adaptive(&gentle, "tsit45", projection.name, tolerance));
+                (steps as f64, errors(&rows, &reference))
+            });
+            for level in 0..3 {
+                let order = (found[0].1[level] / found[1].1[level]).ln() / (found[1].0 / found[0].0).ln();
+                assert!((order - 5.0).abs() < 0.6, "{formulation} + {}: {order:.2}, {found:?}", projection.name);
+            }
+        }
+    }
+}

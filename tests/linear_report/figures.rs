@@ -234,8 +234,8 @@ fn bode_magnitudes_are_in_decibel_or_in_their_unit() {
     let responses = [response("a", "m/s^2")];
     let panel = |magnitude| bode_figure("arm", &frequencies, &responses, magnitude).unwrap().panels[0].clone();
     let [decibel, absolute] = [Magnitude::Decibel, Magnitude::Absolute].map(panel);
-    assert_eq!((decibel.y.label.as_str(), decibel.y.scale), ("magnitude (dB re m/s²/(N·m))", Scale::Linear));
-    assert_eq!((absolute.y.label.as_str(), absolute.y.scale), ("magnitude (m/s²/(N·m))", Scale::Log));
+    assert_eq!((decibel.y.label.as_str(), decibel.y.scale), ("magnitude (dB re m/s²/(N m))", Scale::Linear));
+    assert_eq!((absolute.y.label.as_str(), absolute.y.scale), ("magnitude (m/s²/(N m))", Scale::Log));
     for (in_db, size) in decibel.series[0].points.iter().zip(&absolute.series[0].points) {
         assert!((in_db.1 - 20.0 * size.1.log10()).abs() < 1e-12);
     }
@@ -251,9 +251,9 @@ fn bode_names_units_and_pairs() {
     };
     let frequencies: Vec<f64> = (0..100).map(|k| 10f64.powf(0.02 * f64::from(k))).collect();
     let one = svg(bode_figure("arm", &frequencies, &[response("theta", "rad")]));
-    says(&one, &["frequency (Hz)", "magnitude (rad/(N·m))", "phase (deg)", "arm: theta over motor", "−120<", "−90<"]);
+    says(&one, &["frequency (Hz)", "magnitude (rad/(N m))", "phase (deg)", "arm: theta over motor", "−120<", "−90<"]);
     let two = svg(bode_figure("arm", &frequencies, &[response("theta", "rad"), response("tip", "m")]));
-    says(&two, &["response to motor", ">theta<", ">tip<", "magnitude (rad/(N·m))", "magnitude (m/(N·m))"]);
+    says(&two, &["response to motor", ">theta<", ">tip<", "magnitude (rad/(N m))", "magnitude (m/(N m))"]);
     let mut none = response("tip", "m");
     none.values.fill(complex(0.0, 0.0));
     let rest = svg(bode_figure("arm", &frequencies, &[response("theta", "rad"), none]));

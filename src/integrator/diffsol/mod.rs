@@ -44,6 +44,9 @@ struct Diffsol<'s> {
 /// Error of the steps of diffsol, which refuses larger ones itself and does not tell.
 const ACCEPTED: f64 = 0.5;
 
+/// Part of the time that is round-off.
+const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
+
 const TOO_LARGE: StepError =
     StepError::Unsuitable { reason: "there is not enough memory for a matrix of this size", hint: formulation::SPARSE };
 
@@ -117,12 +120,15 @@ impl<'s> Diffsol<'s> {
         let frame = self.frame.as_mut().ok_or(NOT_BEGUN)?;
         while frame.with(|solver| solver.t()) < t {
             frame.equations().begin_step(problem, from)?;
+            let before = frame.with(|solver| solver.t());
             let stepped = frame.with_mut(|solver| solver.step(from.end));
             let failure = frame.equations().take_failure();
             frame.equations().count(&mut problem.dynamics.statistics);
             let counters = frame.with(|solver| solver.counters());
             counters.add_since(std::mem::replace(&mut self.counted, counters), &mut problem.dynamics.statistics);
-            if stepped.is_err() {
+            // Near a state that cannot be evaluated steps become so small that time stands still.
+            let advanced = frame.with(|solver| solver.t()) - before;
+            if stepped.is_err() || advanced <= ROUND_OFF * before.abs() {
                 return Err(failure.unwrap_or(StepError::NotConverged));
             }
         }
@@ -158,8 +164,7 @@ impl Integrator for Diffsol<'_> {
 
     fn lead(&mut self, problem: &mut Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<f64, StepError> {
         self.meet(problem, tolerance, from, h)?;
-        let round_off = 4.0 * f64::EPSILON * from.t.abs();
-        self.advance(problem, from, (from.t + round_off).next_up())?;
+        self.advance(problem, from, (from.t + ROUND_OFF * from.t.abs()).next_up())?;
         Ok(self.frame.as_ref().map_or(h, |frame| frame.with(|solver| solver.t()) - from.t))
     }
 

@@ -2,8 +2,8 @@
 
 use super::Response;
 use super::phase::phases;
-use super::unit::written;
 use crate::plot::{AxisSpec, Figure, Panel, Series};
+use crate::report::figures::typeset;
 use crate::report::figures::{grouped, label};
 
 /// How a figure shows magnitudes.
@@ -89,7 +89,7 @@ fn panels(group: &Group, frequencies: &[f64], magnitude: Magnitude, name: impl F
 
 impl Magnitude {
     fn axis(self, unit: &str) -> AxisSpec {
-        let unit = written(unit);
+        let unit = typeset(unit);
         match self {
             Magnitude::Decibel if unit.is_empty() => AxisSpec::from("magnitude (dB)"),
             Magnitude::Decibel => AxisSpec::from(format!("magnitude (dB re {unit})")),

@@ -2,12 +2,12 @@
 
 use super::against::{LociAgainst, Value};
 use super::turning::unit_of_speed;
-use super::unit::written;
 use crate::error::{Error, Failure, Result, significant};
 use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, damping, frequency};
 use crate::math::bounds;
 use crate::plot::AxisSpec;
 use crate::report::figures::label;
+use crate::report::figures::typeset;
 use crate::report::{Table, cell, table};
 use crate::tolerances::linearize as tolerances;
 use crate::tolerances::report::SAME;
@@ -137,7 +137,7 @@ impl LociSummary {
 
     /// Returns the axis of the parameter, with its unit if that is known.
     pub fn axis(&self) -> AxisSpec {
-        let axis = AxisSpec::from(label(&self.along.name, &written(&self.along.unit)));
+        let axis = AxisSpec::from(label(&self.along.name, &typeset(&self.along.unit)));
         if self.along.log { axis.log() } else { axis }
     }
 }

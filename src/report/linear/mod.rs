@@ -14,7 +14,6 @@ mod rays;
 mod response;
 mod text;
 mod turning;
-mod unit;
 mod validation;
 
 pub use against::{AgainstFile, LociAgainst, with_others};
