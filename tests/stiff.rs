@@ -309,7 +309,8 @@ fn what_cannot_be_evaluated_is_named() {
     };
     let ready = parse(&scene("sqrt(0.5 - t)", "[1, 0]"));
     for (formulation, integrator) in BY_DIFFSOL {
-        let outcome = ready.run(&adaptive(formulation, integrator, "none", 1e-6), until(1.0)).outcome;
+        let method = adaptive(formulation, integrator, "none", 1e-6);
+        let outcome = run(ready.system(), &method, until(1.0), ready.0.start()).outcome;
         let failure = outcome.failure.unwrap_or_else(|| panic!("{integrator} ends at {}", outcome.t));
         assert!(failure.reason.contains("infinite or not a number"), "{integrator}: {}", failure.reason);
         assert!((failure.t - 0.5).abs() < 1e-3, "{integrator}: {}", failure.t);
@@ -322,7 +323,8 @@ fn singular_states_end_no_run_without_a_word() {
     for name in ["slider_crank_singular", "slider_crank_singular_2", "bricard"] {
         let ready = shipped(name, &[]);
         for (formulation, integrator) in BY_DIFFSOL {
-            let run = ready.run(&adaptive(formulation, integrator, "none", 1e-5), ready.span());
+            let method = adaptive(formulation, integrator, "none", 1e-5);
+            let run = run(ready.system(), &method, ready.span(), ready.0.start());
             let rows = &run.record.trajectory.rows;
             assert!(rows.iter().flatten().all(|x| x.is_finite()) && rows.len() > 1, "{name} {integrator}");
             if let Some(failure) = &run.outcome.failure {
@@ -340,7 +342,7 @@ fn tsit45_has_order_5() {
     let (_, reference) = solve(&adaptive("index1", "dop853", "exact", 1e-13));
     for formulation in entry.accepts() {
         for projection in projections() {
-            let found = [1e-5, 1e-9].map(|tolerance| {
+            let found = [1e-7, 1e-11].map(|tolerance| {
                 let gentle = crate::common::orders::gentle(formulation);
                 let (steps, rows) = solve(&adaptive(&gentle, "tsit45", projection.name, tolerance));
                 (steps as f64, errors(&rows, &reference))

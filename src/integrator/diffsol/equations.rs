@@ -178,8 +178,9 @@ impl Op for Equations<'_> {
         self.len
     }
 
+    /// Length of the integrals beside x, where there are any.
     fn nout(&self) -> usize {
-        self.len
+        if self.works > 0 { self.works } else { self.len }
     }
 
     fn nparams(&self) -> usize {

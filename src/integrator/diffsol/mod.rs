@@ -36,6 +36,8 @@ struct Diffsol<'s> {
     begins: bool,
     /// True if the end of the last step was moved.
     is_moved: bool,
+    /// The reason why steps became so small.
+    cause: Option<StepError>,
     /// Work of the present solver that is already counted.
     counted: Counters,
     control: Control,
@@ -44,8 +46,9 @@ struct Diffsol<'s> {
 /// Error of the steps of diffsol, which refuses larger ones itself and does not tell.
 const ACCEPTED: f64 = 0.5;
 
-/// Part of the time that is round-off.
+/// Part of the time that is round-off, and steps up to which a failed evaluation is the reason for their size.
 const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
+const CREEPING: f64 = 1e-9;
 
 const TOO_LARGE: StepError =
     StepError::Unsuitable { reason: "there is not enough memory for a matrix of this size", hint: formulation::SPARSE };
@@ -73,6 +76,7 @@ impl<'s> Diffsol<'s> {
             dropped: Vec::new(),
             begins: true,
             is_moved: false,
+            cause: None,
             counted: Counters::default(),
             control: Control::new(order as f64 + 1.0, 0.2, 5.0),
         }))
@@ -122,14 +126,15 @@ impl<'s> Diffsol<'s> {
             frame.equations().begin_step(problem, from)?;
             let before = frame.with(|solver| solver.t());
             let stepped = frame.with_mut(|solver| solver.step(from.end));
+            let advanced = frame.with(|solver| solver.t()) - before;
             let failure = frame.equations().take_failure();
+            self.cause = failure.or(self.cause.take().filter(|_| advanced <= CREEPING * before.abs()));
             frame.equations().count(&mut problem.dynamics.statistics);
             let counters = frame.with(|solver| solver.counters());
             counters.add_since(std::mem::replace(&mut self.counted, counters), &mut problem.dynamics.statistics);
             // Near a state that cannot be evaluated steps become so small that time stands still.
-            let advanced = frame.with(|solver| solver.t()) - before;
             if stepped.is_err() || advanced <= ROUND_OFF * before.abs() {
-                return Err(failure.unwrap_or(StepError::NotConverged));
+                return Err(self.cause.take().unwrap_or(StepError::NotConverged));
             }
         }
         Ok(())
