@@ -13,7 +13,7 @@ pub const BALANCE_SWEEPS: usize = 100;
 pub const RANK_GAP: f64 = 10.0;
 
 /// Singular values of a balanced pencil that are zero.
-/// Unit: `[1]` of the largest. Why: rounding leaves about 1e-15; a choice above. Test: `chains_finish_fast`.
+/// Unit: `[1]` of the largest. Why: rounding leaves about 1e-15; a choice above. Test: `chains_are_deflated`.
 pub const RANK_OF_PENCIL: f64 = 1e-10;
 
 /// Norm of A above which the powers of A that choose the order of approximation are not formed.

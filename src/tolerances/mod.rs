@@ -32,7 +32,7 @@ pub const ROUNDED_ZERO: f64 = 1e-15;
 
 /// Sums of some tens of terms, such as forces that balance, products with a matrix, a residual, coordinates of an
 /// iteration that no longer falls.
-/// Unit: `[1]` of the largest term. Why: some fifty ulps. Test: `chains_finish_fast`.
+/// Unit: `[1]` of the largest term. Why: some fifty ulps. Test: `chains_are_deflated`.
 pub const ROUND_OFF_OF_SUMS: f64 = 1e-14;
 
 /// Pivots and residuals of a matrix after its factorization: a pivot below is no pivot.
