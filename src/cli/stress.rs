@@ -198,6 +198,8 @@ fn text(file: &StressFile, stressed: &[Stressed]) -> String {
     for stressed in stressed {
         text += &format!("\n{}: {}\n", stressed.map.name, stressed.map.about);
         text.extend(sentences(stressed).iter().map(|sentence| format!("  {sentence}\n")));
+        let opinion = stressed.second_opinion.iter();
+        text.extend(opinion.map(|opinion| format!("  the reference in the middle of the map is {opinion}\n")));
         text.extend(
             stressed
                 .gains()

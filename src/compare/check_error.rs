@@ -1,7 +1,6 @@
 //! Error of a run, by comparison with a more accurate one.
 
-use super::work_precision::{Allowed, Motion, Watched};
-use super::{SecondOpinion, second_opinion};
+use super::work_precision::{Allowed, Motion, SecondOpinion, Watched, second_opinion};
 use crate::analysis::Recorder;
 use crate::error::Failure;
 use crate::integrator::{Tightening, Tolerance, find};

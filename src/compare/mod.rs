@@ -3,7 +3,6 @@
 
 mod check_error;
 mod drift;
-mod second_opinion;
 pub mod stress;
 pub mod work_precision;
 
@@ -11,5 +10,3 @@ pub use check_error::{CheckError, Difference, check_error};
 #[doc(hidden)]
 pub use drift::stabilizations;
 pub use drift::{StabilizedRun, drift_under_stabilizations};
-pub use second_opinion::SecondOpinion;
-pub(crate) use second_opinion::second_opinion;

@@ -212,7 +212,7 @@ impl<'a> Dynamics<'a> {
     }
 
     /// The reason why the terms have no solution, with names.
-    pub(super) fn halt(&self, singular: Singular) -> StepError {
+    pub(crate) fn halt(&self, singular: Singular) -> StepError {
         match singular {
             Singular::Undetermined { coordinate } => StepError::Undetermined(self.coordinate(coordinate)),
             Singular::NotFinite => self.infinite_term().map_or(StepError::NotFinite, StepError::Term),

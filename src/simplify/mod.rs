@@ -54,7 +54,7 @@ pub use source::Source;
 pub use start::{Hint, Hints, Unseen, hints};
 
 use crate::clock::Stopwatch;
-use crate::compare::SecondOpinion;
+use crate::compare::work_precision::SecondOpinion;
 use crate::error::{Result, Warning, percent};
 use base::{Accurate, Base, METHOD, contradicted, doubts};
 use bench::Bench;

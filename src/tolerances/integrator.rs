@@ -213,3 +213,13 @@ pub const STRIDE_TO_LIMIT: f64 = 0.01;
 /// acceleration. Why: ten times ROUND_OFF_OF_FACTORS; above, as of accelerations at rest under load, the stage is
 /// factored. Test: `the_velocity_constraint_is_held_to_round_off`.
 pub const STAGE_STAGNATION: f64 = 1e-12;
+
+/// Steps of diffsol up to which a failed evaluation is told as the reason for their size.
+/// Unit: `[1]` of the time. Why: a choice: steps that shrink without end come there, others do not. Test:
+/// `what_cannot_be_evaluated_is_named`.
+pub const CREEPING_STEP: f64 = 1e-9;
+
+/// Distance of a moved state from the polynomial of its steps from which the bdf of diffsol begins again.
+/// Unit: `[1]` of the tolerated error of a step. Why: below that its order serves, and the state is as accurate. Test:
+/// `coordinates_are_told_from_states`.
+pub const BDF_APART: f64 = 0.3;

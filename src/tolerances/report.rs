@@ -210,3 +210,8 @@ pub const NO_PHASE: f64 = 1e-6;
 /// Steps that end at round-off, from which on they deserve a warning.
 /// Unit: `[1]` of all steps. Why: a choice. Test: `errors_at_round_off_are_told`.
 pub const STEPS_AT_ROUND_OFF: f64 = 0.1;
+
+/// Steps of the phase that are so near to 180 degrees are those of an undamped response.
+/// Unit: `[deg]`. Why: a choice: ten digits of a response of a damped one are farther away. Test: none: not tried with
+/// other values.
+pub const UNDAMPED_PHASE: f64 = 1e-3;

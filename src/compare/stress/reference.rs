@@ -3,8 +3,7 @@
 use super::deadline::Shift;
 use super::subject::Case;
 use super::subject::Subject;
-use crate::compare::work_precision::{Allowed, ErrorMetric, Motion, Watched, sample};
-use crate::compare::{SecondOpinion, second_opinion};
+use crate::compare::work_precision::{Allowed, ErrorMetric, Motion, SecondOpinion, Watched, sample, second_opinion};
 use crate::method_spec::MethodSpec;
 use crate::simulate::Method;
 use crate::tolerances::report as tolerances;

@@ -3,8 +3,8 @@
 use super::error_metric::{ErrorMetric, Watched};
 use super::grid::Triple;
 use super::sample::{Allowed, Motion, RunSample, sample};
+use super::second_opinion::{self, SecondOpinion};
 use crate::clock::Stopwatch;
-use crate::compare::second_opinion::{self, SecondOpinion};
 use crate::error::{Failure, Result};
 use crate::formulation;
 use crate::integrator;

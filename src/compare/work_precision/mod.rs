@@ -22,6 +22,7 @@ pub mod models;
 mod reference;
 mod runner;
 mod sample;
+mod second_opinion;
 mod sequence;
 mod work;
 
@@ -45,6 +46,8 @@ pub use runner::{Plan, Runner};
 pub use sample::Motion;
 #[doc(hidden)]
 pub use sample::{Allowed, RunSample, cpu_seconds, sample};
+pub use second_opinion::SecondOpinion;
+pub(crate) use second_opinion::second_opinion;
 #[doc(hidden)]
 pub use work::Worker;
 

@@ -4,7 +4,7 @@ use super::climb::{Checked, Line, Rung, check, climb, confirmed, nothing, same};
 use super::error_metric::{ErrorMetric, Watched};
 use super::given::Given;
 use super::sample::Motion;
-use crate::compare::SecondOpinion;
+use super::second_opinion::SecondOpinion;
 use crate::error::Result;
 use crate::simulate::Span;
 use crate::tolerances::report as tolerances;

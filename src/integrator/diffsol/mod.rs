@@ -18,6 +18,7 @@ use crate::error::{self, Error};
 use crate::formulation::{self, Dae, Dynamics, StepError};
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
+use crate::tolerances::integrator as tolerances;
 use equations::Equations;
 use rows::Rows;
 use solver::{Counters, Frame, Scheme};
@@ -46,9 +47,8 @@ struct Diffsol<'s> {
 /// Error of the steps of diffsol, which refuses larger ones itself and does not tell.
 const ACCEPTED: f64 = 0.5;
 
-/// Part of the time that is round-off, and steps up to which a failed evaluation is the reason for their size.
+/// Part of the time that is round-off.
 const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
-const CREEPING: f64 = 1e-9;
 
 const TOO_LARGE: StepError =
     StepError::Unsuitable { reason: "there is not enough memory for a matrix of this size", hint: formulation::SPARSE };
@@ -95,6 +95,10 @@ impl<'s> Diffsol<'s> {
     /// Lets the solver begin again, or continue from a state that was moved, where that is needed.
     fn meet(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<(), StepError> {
         let lambda = &problem.dynamics.lambda;
+        if self.is_moved && self.scheme == Scheme::Bdf {
+            self.begins = self.begins || self.frame.is_none() || self.is_apart(tolerance, from)?;
+            self.is_moved = false;
+        }
         match &mut self.frame {
             Some(frame) if self.dropped == problem.dynamics.dropped => {
                 if self.begins {
@@ -119,6 +123,15 @@ impl<'s> Diffsol<'s> {
         Ok(())
     }
 
+    /// True if a moved state is so far from the polynomial of the steps that BDF must begin again at order 1, as where
+    /// coordinates are brought back to unit length again and again.
+    fn is_apart(&self, tolerance: &Tolerance, from: From) -> Result<bool, StepError> {
+        let mut change = vec![0.0; from.y.len()];
+        self.write(from.t, &mut change)?;
+        change.iter_mut().zip(from.y).for_each(|(change, y)| *change -= y);
+        Ok(tolerance.norm(from.y, &change) > tolerances::BDF_APART)
+    }
+
     /// Makes steps up to `t`, none of which ends after `from.end`.
     fn advance(&mut self, problem: &mut Problem, from: From, t: f64) -> Result<(), StepError> {
         let frame = self.frame.as_mut().ok_or(NOT_BEGUN)?;
@@ -128,7 +141,7 @@ impl<'s> Diffsol<'s> {
             let stepped = frame.with_mut(|solver| solver.step(from.end));
             let advanced = frame.with(|solver| solver.t()) - before;
             let failure = frame.equations().take_failure();
-            self.cause = failure.or(self.cause.take().filter(|_| advanced <= CREEPING * before.abs()));
+            self.cause = failure.or(self.cause.take().filter(|_| advanced <= tolerances::CREEPING_STEP * before.abs()));
             frame.equations().count(&mut problem.dynamics.statistics);
             let counters = frame.with(|solver| solver.counters());
             counters.add_since(std::mem::replace(&mut self.counted, counters), &mut problem.dynamics.statistics);
@@ -200,8 +213,7 @@ impl Integrator for Diffsol<'_> {
     }
 
     fn moved(&mut self) {
-        // Without projections only rounding moves a state, and BDF would begin again at order 1.
-        self.is_moved = self.scheme != Scheme::Bdf;
+        self.is_moved = true;
     }
 
     fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), StepError> {

@@ -2,7 +2,8 @@
 
 use super::directions::Directions;
 use crate::formulation::{Dae, Dynamics, NO_TANGENT, Residual, Row, StepError, Unknowns};
-use crate::math::kkt::Pattern;
+use crate::math::all_finite;
+use crate::math::kkt::{Pattern, Singular};
 use crate::system::{Dimensions, Need, OperatingPoint, Structure, Tangent};
 use std::ops::Range;
 
@@ -119,7 +120,7 @@ impl Rows {
     /// Writes F(t, x). One evaluation.
     ///
     /// # Errors
-    /// A state that is not finite.
+    /// A state or a term that is not finite.
     pub fn evaluate(&mut self, dynamics: &mut Dynamics, t: f64, x: &[f64], out: &mut [f64]) -> Result<(), StepError> {
         let Rows { dae, places, residual, velocity, .. } = self;
         let part = |range: &Range<usize>| &x[range.clone()];
@@ -157,7 +158,10 @@ impl Rows {
                 out[multiplier] = -x[multiplier];
             }
         });
-        Ok(())
+        match all_finite(out) {
+            true => Ok(()),
+            false => Err(dynamics.halt(Singular::NotFinite)),
+        }
     }
 
     /// Writes the powers whose integrals are the works. One evaluation of forces and constraints.

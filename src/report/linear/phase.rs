@@ -25,8 +25,6 @@ pub(super) fn phases(frequencies: &[f64], values: &[Complex<f64>]) -> Vec<f64> {
 
 /// Largest power of the frequency that a response is taken to begin with.
 const STEEPEST: f64 = 4.0;
-/// Steps of the phase within this of 180 degrees are those of an undamped response.
-const UNDAMPED: f64 = 1e-3;
 
 /// Returns the phase at the first known value, by the power of the frequency with which the response begins.
 fn first(frequencies: &[f64], values: &[Complex<f64>], known: &[usize]) -> f64 {
@@ -45,7 +43,7 @@ fn first(frequencies: &[f64], values: &[Complex<f64>], known: &[usize]) -> f64 {
 /// turns.
 fn step(values: &[Complex<f64>], known: &[usize], k: usize, turn: f64) -> f64 {
     let step = turn - 360.0 * (turn / 360.0).round();
-    if step.abs() < 180.0 - UNDAMPED {
+    if step.abs() < 180.0 - tolerances::UNDAMPED_PHASE {
         return step;
     }
     // Between the two values the response is infinite or zero: towards a pole it grows, from it it falls.

@@ -2,6 +2,7 @@
 
 use super::words::sentences;
 use crate::compare::stress::{Axis, Cell, GainVerdict, Quantity, Stressed, Verdict};
+use crate::compare::work_precision::SecondOpinion;
 use crate::error::Result;
 use crate::report::cell as full;
 use crate::report::tables::{Column, by_columns, optional};
@@ -44,6 +45,8 @@ pub struct MapFile {
     pub is_empty: bool,
     /// Verdicts in sentences.
     pub words: Vec<String>,
+    /// The difference of the reference in the middle of the map from a run of diffsol.
+    pub second_opinion: Option<SecondOpinion>,
     /// Summary of each method.
     pub verdicts: Vec<Verdict>,
     /// Results of Baumgarte's gains; empty for other maps.
@@ -84,6 +87,7 @@ impl From<&Stressed> for MapFile {
             methods: map.methods.iter().map(|method| method.label.clone()).collect(),
             is_empty: stressed.is_empty(),
             words: sentences(stressed),
+            second_opinion: stressed.second_opinion.clone(),
             verdicts: stressed.verdicts(),
             gains: stressed.gains(),
             cells: stressed.cells.clone(),

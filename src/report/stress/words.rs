@@ -15,9 +15,6 @@ pub fn sentences(stressed: &Stressed) -> Vec<String> {
         true => stressed.verdicts().iter().map(|verdict| general(stressed, verdict)).collect(),
         false => gains.iter().map(gain).collect(),
     };
-    all.extend(
-        stressed.second_opinion.iter().map(|opinion| format!("The reference in the middle of the map is {opinion}.")),
-    );
     if stressed.is_empty() {
         all.push(format!("No cell has a value of {}: there is no figure.", stressed.map.quantity.label()));
     }

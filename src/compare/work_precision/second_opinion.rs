@@ -1,6 +1,7 @@
 //! Confirmation of reference values by diffsol.
 
-use super::work_precision::{Allowed, ErrorMetric, Motion, Watched, sample};
+use super::error_metric::{ErrorMetric, Watched};
+use super::sample::{Allowed, Motion, sample};
 use crate::integrator;
 use crate::method_spec::MethodSpec;
 use crate::simulate::{Method, Span};
