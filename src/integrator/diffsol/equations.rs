@@ -10,6 +10,9 @@ use diffsol::{
 use faer::sparse::{Pair, SymbolicSparseColMat};
 use std::cell::RefCell;
 
+/// A rate so large that no step is accepted, and its square is a number.
+const REFUSED_RATE: f64 = 1e100;
+
 type Sparsity = SymbolicSparseColMat<usize>;
 
 /// ```text
@@ -126,9 +129,10 @@ impl<'s> Equations<'s> {
             Some(rows) => rows.evaluate(&mut problem.dynamics, t, x, out),
             None => problem.derivative(t, x, out),
         };
-        // Newton's method does not converge to what is not a number, and diffsol takes a smaller step.
+        // Newton's method does not converge to what is not a number, and the error of an explicit step is too large: diffsol
+        // takes a smaller step. An error that is not a number would leave it without a step.
         if let Err(error) = evaluated {
-            out.fill(f64::NAN);
+            out.fill(if rows.is_some() { f64::NAN } else { REFUSED_RATE });
             *failure = Some(error);
         }
     }
