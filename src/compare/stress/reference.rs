@@ -14,7 +14,7 @@ pub(super) enum Search {
     /// It takes more time; the part of the motion completed.
     Pending(f64),
     /// The watched quantities along an accurate solution, and its method.
-    Found(ErrorMetric, Method),
+    Found(Box<(ErrorMetric, Method)>),
     /// No method completes the motion.
     Hopeless,
 }
@@ -57,7 +57,10 @@ impl Search {
             let wall = shift.left();
             let run = sample(&motion, &watched, &case.method, span, Allowed { cpu, wall })?;
             Ok(match run.failure {
-                None => Search::Found(ErrorMetric::new(&watched.columns, run.rows, &run.sizes), case.method.clone()),
+                None => {
+                    let reference = ErrorMetric::new(&watched.columns, run.rows, &run.sizes);
+                    Search::Found(Box::new((reference, case.method.clone())))
+                }
                 Some(failure) if run.is_too_slow => Search::Pending((failure.t - span.start) / case.duration),
                 Some(_) => Search::Hopeless,
             })

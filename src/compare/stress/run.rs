@@ -156,14 +156,16 @@ impl Work {
     /// Compares the first reference, in the middle of the map, with a run of diffsol.
     fn confirm(&self, subject: &Subject, map: &Map, limits: Limits) -> Option<SecondOpinion> {
         let (at, search) = self.motions.first()?;
-        let Search::Found(reference, method) = &*locked(search) else { return None };
+        let search = locked(search);
+        let Search::Found(found) = &*search else { return None };
+        let (reference, method) = &**found;
         let case = Case { method: method.clone(), ..case(subject, map, *at)? };
         reference::confirmed(subject, &case, reference, limits.cell.saturating_mul(REFERENCE))
     }
 
     fn finish(self, map: Map) -> Stressed {
         let found = |(_, search): ([usize; 3], Mutex<Search>)| match into_inner(search) {
-            Search::Found(reference, _) => Some(reference),
+            Search::Found(found) => Some(found.0),
             _ => None,
         };
         let references: Vec<Option<ErrorMetric>> = self.motions.into_iter().map(found).collect();

@@ -65,6 +65,9 @@ impl Places {
     }
 }
 
+/// The row of one kind of multipliers; none where the equations do not have it.
+type RowOf = fn(Dae) -> Option<Row>;
+
 /// Values of the matrices of the Jacobian at one state.
 struct Matrices<'m> {
     mass: &'m [f64],
@@ -176,7 +179,7 @@ impl Rows {
     /// zero.
     fn each_row(&self, mut see: impl FnMut(Option<Row>, usize, usize)) {
         let both = [self.dae, self.dae.nonholonomic()];
-        let of: [(&Range<usize>, fn(Dae) -> Option<Row>); 3] = [
+        let of: [(&Range<usize>, RowOf); 3] = [
             (&self.places.lambda, |dae| Some(dae.lambda)),
             (&self.places.eta, |dae| dae.eta),
             (&self.places.mu, |dae| dae.mu),
