@@ -73,7 +73,7 @@
 //! | own code | in the place of | reason |
 //! |---|---|---|
 //! | L D L^T of the saddle-point matrix, [`math::kkt`] | L D L^T and LU of faer | dense, of size 16: 0.43 us for 0.48 and 1.0 us; sparse, of size 1000: 14 us for 22 and 71 us. It also finds dependent rows |
-//! | `bdf` | BDF of diffsol | 0.4 to 0.6 times the time at equal errors of 1e-5 to 1e-7 on chains: `cargo bench --bench implicit` |
+//! | `bdf` | BDF of diffsol | 0.4 to 0.6 times the time at equal errors of 1e-5 and 1e-6 on chains of 10 and 100 links: `cargo bench --bench implicit` |
 //! | Krylov-Schur method, `math::eigen` | `partial_eigen` of faer | that gives vectors only, which coincide where an eigenvalue is defective |
 //! | recording backend of figures, `plot` | backends of plotters | these draw lines without antialiasing, at whole pixels, and SVG files two to seven times as large |
 //! | palette of GIF files, `plot` | GIF backend of plotters | one palette serves all frames, of which only the differences are written |

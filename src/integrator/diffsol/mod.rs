@@ -283,7 +283,7 @@ pub const TSIT45: Entry = Entry {
     about: "explicit, for smooth motions at three to eight digits; by diffsol; chooses its steps",
     order: 5,
     steps: Steps::Own,
-    // Errors over a motion are those of `dopri5` at equal tolerances of the steps.
+    // As of `dopri5`, which has the same orders.
     tightening: Tightening { factor: 0.1, power: 1.0 },
     solves: takes::vector_fields,
     refuses: refuses::none,
@@ -293,7 +293,7 @@ pub const TSIT45: Entry = Entry {
 
 /// Numerical differentiation formulas of order 1 to 5, on backward differences of equal steps. Source: Shampine,
 /// Reichelt, SIAM J. Sci. Comput. 18 (1997) 1-22. One sparse matrix of all variables, kept for some steps. Orders 3 to 5
-/// are not stable for fast undamped oscillations. At equal errors it took 1.3 to 2.7 times the time of `bdf` on chains
+/// are not stable for fast undamped oscillations. At equal errors it took 1.7 to 2.7 times the time of `bdf` on chains
 /// (`cargo bench --bench implicit`), with which it shares no code: it confirms the other implicit methods. Projections
 /// are refused: after one the differences do not fit. It takes no fixed steps, and a continued run agrees within the
 /// tolerance only.

@@ -125,12 +125,10 @@ self_cell!(
 /// A solver of diffsol on the equations of a run.
 pub struct Frame<'s>(Pair<'s>);
 
-/// Newton's iteration ends at this part of the tolerated error: at 0.2, the default of diffsol, lambda is not accurate
-/// enough for the accelerations, and steps are refused.
+/// Newton's iteration ends at this part of the tolerated error: what it leaves of the constraints is drift.
 const NEWTON: f64 = 0.01;
 
-/// Steps after which the Jacobian is evaluated again. Measured in chains of 10 to 1000 links: with more, the iteration
-/// of index-2 equations fails before, and steps are refused; with one, the factorizations cost most of the time.
+/// Steps after which the Jacobian is evaluated again. It is evaluated before where the iteration does not converge.
 const JACOBIAN: usize = 10;
 
 /// Tolerance of variables that take no part in the error test.
