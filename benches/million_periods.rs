@@ -105,7 +105,7 @@ fn main() {
     let text = format!("{ABOUT}{phase}{}{}", table("Energy error, relative", &all, energy), work(&all));
     println!("{text}");
     std::fs::write(place("million_periods.md"), text).unwrap_or_else(|error| panic!("{error}"));
-    let figure = Figure::new().title("A pendulum over a million periods").columns(2).width(1000.0);
+    let figure = Figure { columns: 2, width: 1000.0, ..Figure::new().title("A pendulum over a million periods") };
     let figure = figure.panel(panel("phase", "error (periods)", &all, |_, mark| mark.phase));
     let figure = figure.panel(panel("energy", "relative error", &all, energy));
     figure.save(place("million_periods.png")).unwrap_or_else(|error| panic!("{error}"));

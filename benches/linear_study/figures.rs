@@ -23,7 +23,8 @@ pub fn gains(curves: &[Curves]) -> Figure {
 
 /// Equilibria on the left, moving states on the right.
 pub fn penalties(curves: &[Curves]) -> Figure {
-    let figure = Figure::new().title("Penalties: error of the physical eigenvalues").columns(2).width(1000.0);
+    let figure =
+        Figure { columns: 2, width: 1000.0, ..Figure::new().title("Penalties: error of the physical eigenvalues") };
     let (equilibria, moving) = curves.split_at(curves.len() / 2);
     let both = equilibria.iter().zip(moving).flat_map(|(left, right)| [left, right]);
     both.fold(figure, |figure, curves| figure.panel(panel("penalty", curves, (1e2, 1e14))))

@@ -1,7 +1,8 @@
-//! The axis of all charts: a coordinate of plotters with a scale, limits, marks and their labels.
+//! The axis of all charts: a coordinate of plotters with a scale, limits, marks, their labels, and a title.
 
 use super::panel::{AxisSpec, Scale};
-use super::ticks::Ticks;
+use super::ticks::{Room, Ticks};
+use super::{LABEL_SIZE, Label};
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
 /// Values beyond this are drawn at it, so that differences of values stay finite.
@@ -9,45 +10,34 @@ const LARGEST: f64 = 1e300;
 /// Smaller differences count as zero, and so do those below this part of the values themselves.
 const SMALLEST: f64 = 1e-290;
 const NOISE: f64 = 1e-13;
-/// Limit of positions outside the axis, in lengths of the axis; for plotters these are whole numbers of 32 bits.
+/// Limit of positions outside the axis, in lengths of the axis.
 const FAR: f64 = 1e6;
-const FAR_DRAWN: f64 = 20.0;
 
 /// Range of the values along one axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     low: f64,
     high: f64,
-    least_positive: f64,
 }
 
 impl Default for Extent {
     fn default() -> Self {
-        Self { low: f64::INFINITY, high: f64::NEG_INFINITY, least_positive: f64::INFINITY }
+        Self { low: f64::INFINITY, high: f64::NEG_INFINITY }
     }
 }
 
 impl Extent {
-    pub fn add(&mut self, value: f64) {
-        if value.is_finite() {
+    /// Adds a value, unless it has no place on the scale of the axis.
+    pub fn add(&mut self, value: f64, spec: &AxisSpec) {
+        if value.is_finite() && (spec.scale == Scale::Linear || value > 0.0) {
             let value = value.clamp(-LARGEST, LARGEST);
             (self.low, self.high) = (self.low.min(value), self.high.max(value));
-            self.least_positive = if value > 0.0 { self.least_positive.min(value) } else { self.least_positive };
         }
     }
 
-    /// Returns the exponent of a floor one decade below the smallest positive value, if there is anything to draw at it.
-    fn floor(&self) -> Option<i32> {
-        // Without a positive value any floor will do; this one is near the rounding of numbers of size one.
-        let least = if self.least_positive.is_finite() { self.least_positive } else { 1e-15 };
-        (self.low <= 0.0).then(|| least.log10().floor() as i32 - 1)
-    }
-
-    /// Returns the limits of a linear axis.
+    /// Returns the limits of a linear axis with a margin in parts of its length; without, it ends at round numbers that
+    /// are very near.
     fn linear(&self, margin: Option<f64>) -> (f64, f64) {
-        if self.low > self.high {
-            return (0.0, 1.0);
-        }
         let (span, middle) = (self.high - self.low, 0.5 * self.low + 0.5 * self.high);
         if span > least_span(self.low, self.high) {
             let wide = |margin: f64| (self.low - margin * span, self.high + margin * span);
@@ -59,12 +49,7 @@ impl Extent {
 
     /// Returns the decimal logarithms of the limits, with at least two labelled decades.
     fn decades(&self, margin: f64) -> (f64, f64) {
-        let (low, high) = match self.floor().map(f64::from) {
-            _ if self.low > self.high => (0.0, 1.0),
-            Some(floor) if self.high <= 0.0 => (floor, floor + 2.0),
-            Some(floor) => (floor, self.high.log10()),
-            None => (self.low.log10(), self.high.log10()),
-        };
+        let (low, high) = (self.low.log10(), self.high.log10());
         let (low, high) = match ((low + 1e-9).floor(), (high - 1e-9).ceil()) {
             _ if high.floor() - low.ceil() >= 1.0 => (low, high),
             (down, up) if up > down => (down, up),
@@ -92,31 +77,43 @@ pub(super) struct Axis {
     pub spec: AxisSpec,
     pub low: f64,
     pub high: f64,
-    /// Exponent of the floor of a logarithmic axis, at which zero and negative values are drawn.
-    pub floor: Option<i32>,
     pub ticks: Ticks,
+    pub label: Label,
 }
 
 impl Axis {
-    /// An axis that shows all values, without marks. Without a margin, in parts of its length, it ends at round numbers
-    /// that are very near.
+    /// An axis that shows all values, without marks.
     pub fn new(spec: &AxisSpec, extent: &Extent, margin: Option<f64>) -> Self {
         let fixed = spec.range.filter(|(low, high)| low.abs() <= LARGEST && high.abs() <= LARGEST);
-        let (limits, floor) = match (spec.scale, fixed) {
-            (Scale::Linear, Some((low, high))) if high - low > least_span(low, high) => ((low, high), None),
-            (Scale::Linear, _) => (extent.linear(margin), None),
-            (Scale::Log, Some((low, high))) if low > 0.0 && high > 1.003 * low => ((low.log10(), high.log10()), None),
-            (Scale::Log, _) => (extent.decades(margin.unwrap_or(0.0)), extent.floor()),
+        let (low, high) = match (spec.scale, fixed) {
+            (Scale::Linear, Some((low, high))) if high - low > least_span(low, high) => (low, high),
+            (Scale::Log, Some((low, high))) if low > 0.0 && high > 1.003 * low => (low.log10(), high.log10()),
+            _ if extent.low > extent.high => (0.0, 1.0),
+            (Scale::Linear, _) => extent.linear(margin),
+            (Scale::Log, _) => extent.decades(margin.unwrap_or(0.0)),
         };
-        Self { spec: spec.clone(), low: limits.0, high: limits.1, floor, ticks: Ticks::default() }
+        Self { spec: spec.clone(), low, high, ticks: Ticks::default(), label: Label::default() }
+    }
+
+    /// Chooses the marks for a length, and breaks the title.
+    pub fn fit(&mut self, room: Room) {
+        self.ticks = Ticks::new(self, room);
+        let (part, lines) = if room.is_upright { (1.08, 3) } else { (1.0, 2) };
+        self.label = Label::new(&self.spec.label, LABEL_SIZE, part * room.length, lines);
+    }
+
+    /// Removes all texts where a panel below has them.
+    pub fn hide_texts(&mut self) {
+        self.ticks.major.iter_mut().for_each(|tick| tick.1.clear());
+        self.ticks.factor.clear();
+        self.label = Label::default();
     }
 
     /// Returns the position of a value: 0 at the lower limit, 1 at the upper one; none for NaN and infinities.
     pub fn place(&self, value: f64) -> Option<f64> {
         let on_scale = match self.spec.scale {
             Scale::Linear => value.clamp(-LARGEST, LARGEST),
-            Scale::Log if value > 0.0 => value.log10(),
-            Scale::Log => self.floor.map_or(self.low, f64::from),
+            Scale::Log => value.max(f64::MIN_POSITIVE).log10(),
         };
         value.is_finite().then(|| ((on_scale - self.low) / (self.high - self.low)).clamp(-FAR, FAR))
     }
@@ -126,11 +123,6 @@ impl Axis {
         let value = self.low + place * (self.high - self.low);
         if self.spec.scale == Scale::Log { 10f64.powf(value) } else { value }
     }
-
-    /// Returns a note on the values that a logarithmic axis draws at its floor.
-    pub fn note(&self, name: &str, drawn: &str) -> Option<String> {
-        self.floor.map(|floor| format!("{name} ≤ 0 {drawn} 10^{floor}"))
-    }
 }
 
 impl Ranged for Axis {
@@ -138,8 +130,7 @@ impl Ranged for Axis {
     type ValueType = f64;
 
     fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
-        let place = self.place(*value).unwrap_or(0.0).clamp(-FAR_DRAWN, FAR_DRAWN);
-        from + (f64::from(to - from) * place).round() as i32
+        from + (f64::from(to - from) * self.place(*value).unwrap_or(0.0).clamp(0.0, 1.0)).round() as i32
     }
 
     /// Returns the labelled marks, or the minor ones if 0 labels are asked for. Only the first have grid lines.
@@ -169,7 +160,7 @@ mod tests {
 
     fn axis(spec: AxisSpec, values: &[f64]) -> Axis {
         let mut extent = Extent::default();
-        values.iter().for_each(|value| extent.add(*value));
+        values.iter().for_each(|value| extent.add(*value, &spec));
         Axis::new(&spec, &extent, Some(0.0))
     }
 
@@ -181,15 +172,13 @@ mod tests {
         let log = axis(AxisSpec::from("x").log(), &[1e-4, 1.0]);
         assert_eq!((log.place(1e-2), log.value(0.5)), (Some(0.5), 1e-2));
         assert_eq!([log.map(&1e-2, (100, 300)), log.map(&1.0, (300, 100))], [200, 100]);
-        assert_eq!(linear.map(&1e300, (0, 60_000)), 1_200_000);
     }
 
     #[test]
-    fn zeros_on_a_log_axis_lie_below_all_positive_values() {
-        let log = axis(AxisSpec::from("x").log(), &[0.0, 3e-9, 1.0]);
-        assert_eq!(log.floor, Some(-10));
-        assert_eq!(log.place(0.0), Some(0.0));
-        assert!(log.place(3e-9) > Some(0.1));
+    fn zeros_on_a_log_axis_lie_far_below_all_positive_values() {
+        let log = axis(AxisSpec::from("x").log(), &[0.0, -1.0, 3e-9, 1.0]);
+        assert_eq!(log.place(3e-9), Some(0.0));
+        assert!(log.place(0.0) < Some(-30.0) && log.place(-1.0) == log.place(0.0));
     }
 
     #[test]

@@ -43,30 +43,6 @@ fn segment(from: Pt, to: Pt, inside: &Rect) -> Option<(Pt, Pt)> {
     (enter <= leave).then_some((start, end))
 }
 
-/// Returns the part of a polygon inside a rectangle (Sutherland and Hodgman).
-pub(super) fn polygon(points: &[Pt], inside: &Rect) -> Vec<Pt> {
-    let sides: [&dyn Fn(Pt) -> f64; 4] =
-        [&|point| point.0 - inside.left, &|point| inside.right - point.0, &|point| point.1 - inside.top, &|point| {
-            inside.bottom - point.1
-        }];
-    let mut kept = points.to_vec();
-    for room in sides {
-        let corners = std::mem::take(&mut kept);
-        for (k, to) in corners.iter().enumerate() {
-            let from = corners[(k + corners.len() - 1) % corners.len()];
-            let (before, after) = (room(from), room(*to));
-            if (before < 0.0) != (after < 0.0) {
-                let part = before / (before - after);
-                kept.push((from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1)));
-            }
-            if after >= 0.0 {
-                kept.push(*to);
-            }
-        }
-    }
-    kept
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -76,18 +52,6 @@ mod tests {
         let square = Rect::new((0.0, 0.0), (10.0, 10.0));
         let parts = polyline(&[(-5.0, 5.0), (5.0, 5.0), (5.0, 15.0), (8.0, 15.0), (8.0, 8.0)], &square);
         assert_eq!(parts, [vec![(0.0, 5.0), (5.0, 5.0), (5.0, 10.0)], vec![(8.0, 10.0), (8.0, 8.0)]]);
-    }
-
-    #[test]
-    fn polygons_are_cut_at_the_border() {
-        let square = Rect::new((0.0, 0.0), (10.0, 10.0));
-        let cut = polygon(&[(-5.0, 2.0), (5.0, 2.0), (5.0, 20.0), (-5.0, 20.0)], &square);
-        assert_eq!(cut.len(), 4);
-        assert!(
-            [(0.0, 2.0), (5.0, 2.0), (5.0, 10.0), (0.0, 10.0)].iter().all(|corner| cut.contains(corner)),
-            "{cut:?}"
-        );
-        assert!(polygon(&[(11.0, 0.0), (12.0, 0.0), (12.0, 5.0)], &square).is_empty());
     }
 
     #[test]

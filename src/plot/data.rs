@@ -1,9 +1,7 @@
-//! The data of a panel: lines, points, coloured points and bands.
+//! The data of a panel: lines, points and coloured points.
 
 use super::*;
-use plotters::coord::CoordTranslate;
-use plotters::drawing::DrawingArea;
-use plotters::element::{Circle, Cross, EmptyElement};
+use plotters::element::{Circle, EmptyElement};
 
 /// Largest number of points of one figure, so that its file stays small.
 const LINE_POINTS: usize = 16_000;
@@ -17,73 +15,44 @@ const DOT_RADIUS: f64 = 2.7;
 /// is restless.
 const RESTLESS: f64 = 4.0;
 
-/// Shape of a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Shape of a point; polygons have their corners in radii.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Marker {
     Circle,
-    Square,
-    Triangle,
-    Diamond,
-    TriangleDown,
     Cross,
+    Polygon(&'static [Pt]),
 }
 
 impl Marker {
-    /// Draws markers on an area, at points of its coordinates. Areas of all shapes are about equal.
-    pub fn draw<CT: CoordTranslate>(
-        self,
-        area: &DrawingArea<Sketch, CT>,
-        at: impl IntoIterator<Item = CT::From>,
-        radius: f64,
-        color: Color,
-    ) -> Done {
-        let corners: &[Pt] = match self {
-            Self::Circle | Self::Cross => &[],
-            Self::Square => &[(-0.89, -0.89), (0.89, -0.89), (0.89, 0.89), (-0.89, 0.89)],
-            Self::Triangle => &[(0.0, -1.3), (1.2, 0.85), (-1.2, 0.85)],
-            Self::TriangleDown => &[(0.0, 1.3), (1.2, -0.85), (-1.2, -0.85)],
-            Self::Diamond => &[(0.0, -1.35), (1.15, 0.0), (0.0, 1.35), (-1.15, 0.0)],
-        };
-        let polygon = || corners.iter().map(|(x, y)| units((radius * x, radius * y))).collect::<Vec<_>>();
-        let (size, width) = units((radius, 0.42 * radius));
-        at.into_iter().try_for_each(|point| match self {
-            Self::Circle => area.draw(&Circle::new(point, size, color.filled())),
-            Self::Cross => area.draw(&Cross::new(point, size * 9 / 10, color.stroke_width(width as u32))),
-            _ => area.draw(&(EmptyElement::at(point) + Polygon::new(polygon(), color))),
-        })
+    pub fn draw(self, page: &Page, at: Pt, radius: f64, color: Color) -> Done {
+        let from = |(x, y): Pt| units((radius * x, radius * y));
+        match self {
+            Self::Circle => page.draw(&Circle::new(units(at), from((1.0, 0.0)).0, color.filled())),
+            Self::Polygon(corners) => {
+                let corners: Vec<_> = corners.iter().copied().map(from).collect();
+                page.draw(&(EmptyElement::at(units(at)) + Polygon::new(corners, color)))
+            }
+            Self::Cross => [0.9, -0.9].into_iter().try_for_each(|side| {
+                let end = |part: f64| (at.0 + part * 0.9 * radius, at.1 + part * side * radius);
+                let stroke = Stroke { color, width: 0.42 * radius, dash: &[] };
+                page.draw(&Curve::new(vec![end(-1.0), end(1.0)], stroke))
+            }),
+        }
     }
-}
-
-/// Draws bands, cut off at the frame; infinite values lie beyond it.
-pub(super) fn bands(chart: &Chart, placed: &Placed) -> Done {
-    let place = |axis: &Axis, value: f64| axis.place(value).unwrap_or(value.signum()).clamp(-1.0, 2.0);
-    let at = |x: f64, y: f64| placed.frame.at(place(&placed.x, x), place(&placed.y, y));
-    for band in &placed.panel.bands {
-        let known =
-            || band.points.iter().filter(|point| ![point.0, point.1, point.2].iter().any(|value| value.is_nan()));
-        let upper = known().rev().map(|point| at(point.0, point.2));
-        let outline: Vec<Pt> = known().map(|point| at(point.0, point.1)).chain(upper).collect();
-        let corners = clip::polygon(&outline, &placed.frame).into_iter().map(|corner| placed.values(corner));
-        chart.plotting_area().draw(&Polygon::new(corners.collect::<Vec<_>>(), tint(band.tint)))?;
-    }
-    Ok(())
 }
 
 /// Draws lines and points of a panel, in a figure of `count` series: restless lines below calm ones, then markers, then
 /// coloured points.
-pub(super) fn series(chart: &Chart, placed: &Placed, count: usize) -> Done {
+pub(super) fn series(page: &Page, placed: &Placed, count: usize) -> Done {
     let series = placed.panel.series.iter().zip(&placed.looks);
     let all: Vec<(&Series, &Look, Vec<Vec<Pt>>)> = series.map(|(one, look)| (one, look, runs(placed, one))).collect();
     let lines = all.iter().filter_map(|(_, look, runs)| Some(lines(placed, look.line?, runs, count)));
     let (restless, calm): (Vec<_>, Vec<_>) = lines.partition(|(is_restless, ..)| *is_restless);
     for (_, stroke, parts) in restless.into_iter().chain(calm) {
-        for part in parts {
-            let points = part.into_iter().map(|point| placed.values(point)).collect();
-            chart.plotting_area().draw(&Curve(points, stroke))?;
-        }
+        parts.into_iter().try_for_each(|part| page.draw(&Curve::new(part, stroke)))?;
     }
-    all.iter().try_for_each(|(series, look, runs)| markers(chart, placed, series, look, runs, count))?;
-    colored(chart, placed)
+    all.iter().try_for_each(|(series, look, runs)| markers(page, placed, series.style, look, runs, count))?;
+    colored(page, placed)
 }
 
 /// Returns the points in the picture, split where one of them is not a number.
@@ -111,18 +80,18 @@ fn turns(points: &[Pt]) -> usize {
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-fn markers(chart: &Chart, placed: &Placed, series: &Series, look: &Look, runs: &[Vec<Pt>], count: usize) -> Done {
+fn markers(page: &Page, placed: &Placed, style: Style, look: &Look, runs: &[Vec<Pt>], count: usize) -> Done {
     // A single point between two gaps has no line; a dot of the line's width would be missed.
     let marked = runs.iter().filter(|run| look.marker.is_some() || run.len() == 1);
     let points: Vec<Pt> = marked.flatten().copied().filter(|point| placed.frame.contains(*point)).collect();
-    let kept = match series.style {
+    let kept = match style {
         Style::LineDots => spaced(&points),
         _ => thin::dots(&points, (DOTS / count).max(60)).into_iter().map(|i| points[i]).collect(),
     };
     let crowd = usize::from(kept.len() > 150) + usize::from(kept.len() > 2000);
     let radius = if look.marker.is_some() { MARKER_RADIUS * [1.0, 0.6, 0.35][crowd] } else { DOT_RADIUS };
-    let at = kept.into_iter().map(|point| placed.values(point));
-    look.marker.unwrap_or(Marker::Circle).draw(chart.plotting_area(), at, radius, look.color)
+    let marker = look.marker.unwrap_or(Marker::Circle);
+    kept.into_iter().try_for_each(|at| marker.draw(page, at, radius, look.color))
 }
 
 /// Returns points at least [`MARKER_DISTANCE`] from the one before.
@@ -137,16 +106,14 @@ fn spaced(points: &[Pt]) -> Vec<Pt> {
 }
 
 /// Draws points coloured by value, in their order, so that later ones stay on top.
-fn colored(chart: &Chart, placed: &Placed) -> Done {
-    let points = placed.panel.color_series.iter().flat_map(|series| &series.points);
-    let step = |value: f64| placed.bar.as_ref()?.step(value);
-    let known = points.filter_map(|point| Some((placed.at(point.0, point.1)?, step(point.2)?)));
+fn colored(page: &Page, placed: &Placed) -> Done {
+    let points = placed.panel.colored.iter();
+    let known = points.filter_map(|point| Some((placed.at(point.0, point.1)?, placed.step(point.2)?)));
     let (places, steps): (Vec<Pt>, Vec<usize>) = known.filter(|(point, _)| placed.frame.contains(*point)).unzip();
     let mut kept = thin::dots(&places, COLORED);
     if kept.chunk_by(|a, b| steps[*a] == steps[*b]).count() > COLORED / 4 {
         // Colours without order: grouping them all keeps the file small, and which is on top is arbitrary anyway.
         kept.sort_by_key(|i| steps[*i]);
     }
-    let dot = |i: usize| ([placed.values(places[i])], DOT_RADIUS, scale_color(steps[i]));
-    kept.into_iter().map(dot).try_for_each(|(at, r, color)| Marker::Circle.draw(chart.plotting_area(), at, r, color))
+    kept.into_iter().try_for_each(|i| Marker::Circle.draw(page, places[i], DOT_RADIUS, scale_color(steps[i])))
 }

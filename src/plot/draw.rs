@@ -10,8 +10,7 @@ const PANEL_GAP: f64 = 12.0;
 /// Draws the whole figure.
 pub(super) fn figure(figure: &Figure) -> Drawing {
     let (width, panels) = layout::place(figure);
-    let title = figure.title.clone().unwrap_or_default();
-    let drawing = Rc::new(RefCell::new(Drawing { width, title, ..Drawing::default() }));
+    let drawing = Rc::new(RefCell::new(Drawing { width, title: figure.title.clone(), ..Drawing::default() }));
     // A sketch refuses nothing, so that there is always a page.
     let bottom = page(figure, panels, width, &Sketch(drawing.clone())).unwrap_or_default();
     drawing.borrow_mut().height = (bottom + EDGE).ceil();
@@ -22,18 +21,22 @@ pub(super) fn figure(figure: &Figure) -> Drawing {
 fn page(figure: &Figure, mut panels: Vec<Placed>, width: f64, sketch: &Sketch) -> Done<f64> {
     let page = sketch.clone().into_drawing_area();
     let columns = layout::columns(figure);
-    let mut top = (EDGE + 2.0 + heading(&page, figure.title.as_deref().unwrap_or_default(), width)?).round();
+    let mut top = (EDGE + 2.0 + heading(&page, &figure.title, width)?).round();
     let shared = shared_legend(&panels);
-    let count: usize = figure.panels.iter().map(|panel| panel.series.len() + panel.color_series.len()).sum();
+    let count = figure.panels.iter().map(|panel| panel.series.len() + 1).sum();
     for (row, side_by_side) in panels.chunks_mut(columns).enumerate() {
         top += if row > 0 { PANEL_GAP } else { 0.0 };
         let mut bottom = top;
         for (column, placed) in side_by_side.iter_mut().enumerate() {
-            let (left, size) = (width / columns as f64 * column as f64, (width / columns as f64, placed.height()));
-            let area = page.clone().shrink(units((left, top)), units(size));
-            let entries = if shared.is_empty() { legend::entries(placed) } else { Vec::new() };
-            let outside = panel(sketch, &page, &area, placed, entries, count.max(1))?;
-            bottom = bottom.max(legend_below(&page, &outside, placed, top + size.1, width)?);
+            let size = (width / columns as f64, placed.height());
+            let area = page.clone().shrink(units((size.0 * column as f64, top)), units(size));
+            let mut entries = if shared.is_empty() { legend::entries(placed) } else { Vec::new() };
+            let taken = panel(sketch, &page, &area, placed, count)?;
+            if let Some((block, corner)) = legend::inside(&entries, placed, &taken) {
+                block.draw(&page, corner, true)?;
+                entries.clear();
+            }
+            bottom = bottom.max(legend_below(&page, &entries, placed, top + size.1, width)?);
         }
         top = bottom.round();
     }
@@ -55,23 +58,15 @@ fn shared_legend(panels: &[Placed]) -> Vec<LegendEntry> {
     all.into_iter().next().filter(|_| is_shared).unwrap_or_default()
 }
 
-/// Draws a panel on its area, and returns the entries for which there is no space inside.
-fn panel(
-    sketch: &Sketch,
-    page: &Page,
-    area: &Page,
-    placed: &mut Placed,
-    entries: Vec<LegendEntry>,
-    count: usize,
-) -> Done<Vec<LegendEntry>> {
+/// Draws a panel on its area, and returns what a legend must not hide.
+fn panel(sketch: &Sketch, page: &Page, area: &Page, placed: &mut Placed, count: usize) -> Done<Taken> {
     let mut chart = chart::build(area, placed)?;
-    data::bands(&chart, placed)?;
-    chart::grid(&mut chart, placed)?;
-    heat::cells(&mut chart, page, placed)?;
+    if placed.panel.cells.is_empty() {
+        chart::grid(&mut chart)?;
+    }
+    heat::draw(page, placed)?;
     let first = sketch.seal();
-    notes::verticals(&chart, placed)?;
-    let after_verticals = sketch.seal();
-    data::series(&chart, placed, count)?;
+    data::series(page, placed, count)?;
     let items = sketch.seal();
     item::draw(page, placed)?;
     let last = sketch.seal();
@@ -79,16 +74,13 @@ fn panel(
     let mut taken = Taken::new(&sketch.0.borrow().shapes[first..last]);
     chart::axes(&mut chart, placed)?;
     chart::texts(page, placed)?;
-    placed.bar.iter().try_for_each(|bar| bar.draw(area, placed))?;
+    chart::bar(area, placed)?;
     item::inset(page, placed, &mut taken)?;
-    notes::texts(page, placed, &mut taken)?;
-    if after_verticals == last && placed.panel.heat_map.is_none() {
+    notes::draw(page, placed, &mut taken)?;
+    if first == last && placed.panel.cells.is_empty() {
         page.draw_text("no data", &font(LABEL_SIZE, NOTE_INK, Align::Middle), units(placed.frame.at(0.5, 0.5)))?;
     }
-    match legend::inside(&entries, placed, &taken) {
-        Some((block, corner)) => block.draw(page, corner, true).map(|()| Vec::new()),
-        None => Ok(entries),
-    }
+    Ok(taken)
 }
 
 /// Draws a legend below a panel and returns its lower end.

@@ -10,8 +10,8 @@ use std::path::Path;
 /// last one is labelled. A legend that is the same in all panels is drawn once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Title above the panels.
-    pub title: Option<String>,
+    /// Title above the panels; may be empty.
+    pub title: String,
     /// Panels from top to bottom, or row by row.
     pub panels: Vec<Panel>,
     /// Number of panels side by side.
@@ -22,7 +22,7 @@ pub struct Figure {
 
 impl Default for Figure {
     fn default() -> Self {
-        Self { title: None, panels: Vec::new(), columns: 1, width: 640.0 }
+        Self { title: String::new(), panels: Vec::new(), columns: 1, width: 640.0 }
     }
 }
 
@@ -34,23 +34,13 @@ impl Figure {
 
     /// Sets the title.
     pub fn title(self, title: impl Into<String>) -> Self {
-        Self { title: Some(title.into()), ..self }
+        Self { title: title.into(), ..self }
     }
 
     /// Adds a panel below the others.
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
         self
-    }
-
-    /// Sets the number of panels side by side.
-    pub fn columns(self, columns: usize) -> Self {
-        Self { columns, ..self }
-    }
-
-    /// Sets the width in nominal pixels (640 is one journal column); text keeps its size.
-    pub fn width(self, width: f64) -> Self {
-        Self { width, ..self }
     }
 
     /// Writes the figure as SVG or PNG, by the extension of the path. The file is replaced in one step.

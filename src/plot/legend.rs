@@ -1,6 +1,5 @@
 //! Legends.
 
-use super::data::Marker;
 use super::*;
 
 /// Width of the samples when some have a line, and when all are markers.
@@ -11,8 +10,6 @@ const ROW: f64 = 20.5;
 const COLUMN_GAP: f64 = 18.0;
 const PADDING: f64 = 7.0;
 const SIZE: f64 = 15.5;
-/// Longer legends should not be one column below a panel.
-const LONG: usize = 5;
 /// Distance from the frame.
 const INSET: f64 = 8.0;
 /// Largest part of its panel that a legend inside covers.
@@ -26,39 +23,35 @@ pub(super) type LegendEntry = (String, Look);
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Block {
     columns: Vec<(Vec<LegendEntry>, f64)>,
-    text_size: f64,
     sample: f64,
 }
 
 /// Returns the entries of a panel's legend.
 pub(super) fn entries(placed: &Placed) -> Vec<LegendEntry> {
     let series = placed.panel.series.iter().zip(&placed.looks).map(|(series, look)| (series.label.clone(), *look));
-    let key = |color| Look { line: None, marker: Some(Marker::Square), color: tint(color) };
+    let key = |color| Look { line: None, marker: Some(SQUARE), color: tint(color) };
     let keys = placed.panel.keys.iter().map(|(label, color)| (label.clone(), key(*color)));
     series.filter(|entry| !entry.0.trim().is_empty()).chain(keys).collect()
 }
 
 impl Block {
-    fn new(entries: &[LegendEntry], columns: usize, room: f64, size: f64) -> Self {
+    fn new(entries: &[LegendEntry], columns: usize, room: f64) -> Self {
         let rows = entries.len().div_ceil(columns.max(1)).max(1);
         let sample = if entries.iter().any(|entry| entry.1.line.is_some()) { LINE_SAMPLE } else { MARKER_SAMPLE };
         let label_room = (room - sample - SAMPLE_GAP - 2.0 * PADDING).max(20.0);
-        let shortened = |entry: &LegendEntry| (text::shorten(&entry.0, size, label_room), entry.1);
+        let shortened = |entry: &LegendEntry| (text::shorten(&entry.0, SIZE, label_room), entry.1);
         let column = |part: &[LegendEntry]| {
             let part: Vec<LegendEntry> = part.iter().map(shortened).collect();
-            let widest = part.iter().map(|entry| text::width(&entry.0, size)).fold(0.0, f64::max);
+            let widest = part.iter().map(|entry| text::width(&entry.0, SIZE)).fold(0.0, f64::max);
             (part, sample + SAMPLE_GAP + widest)
         };
-        Self { columns: entries.chunks(rows).map(column).collect(), text_size: size, sample }
+        Self { columns: entries.chunks(rows).map(column).collect(), sample }
     }
 
-    /// A block of as many columns as fit into a width, with smaller text if that splits a long column in two.
+    /// A block of as many columns as fit into a width.
     pub fn wide(entries: &[LegendEntry], room: f64) -> Self {
-        let least = if entries.len() > LONG { 2 } else { 1 };
-        let columns = (least..=entries.len().clamp(1, 6)).rev();
-        let sizes = [SIZE, 0.9 * SIZE, 0.8 * SIZE].into_iter();
-        let mut all = sizes.flat_map(|size| columns.clone().map(move |count| Self::new(entries, count, room, size)));
-        all.find(|block| block.size().0 <= room).unwrap_or_else(|| Self::new(entries, 1, room, SIZE))
+        let mut blocks = (1..=entries.len().min(6)).rev().map(|columns| Self::new(entries, columns, room));
+        blocks.find(|block| block.size().0 <= room).unwrap_or_else(|| Self::new(entries, 1, room))
     }
 
     pub fn size(&self) -> (f64, f64) {
@@ -78,14 +71,13 @@ impl Block {
         for (entries, width) in &self.columns {
             for (row, (label, look)) in entries.iter().enumerate() {
                 let y = corner.1 + PADDING - 1.0 + ROW * (row as f64 + 0.5);
-                let at = |right: f64| units((left + right, y));
-                let line = look.line.map(|stroke| Curve(vec![at(0.0), at(self.sample)], stroke));
-                line.iter().try_for_each(|line| page.draw(line))?;
-                let marker = look.marker.iter();
-                marker
-                    .into_iter()
-                    .try_for_each(|one| one.draw(page, [at(0.5 * self.sample)], MARKER_RADIUS, look.color))?;
-                page.draw_text(label, &font(self.text_size, INK, Align::Start), at(self.sample + SAMPLE_GAP))?;
+                let at = |right: f64| (left + right, y);
+                let mut line = look.line.into_iter().map(|stroke| Curve::new(vec![at(0.0), at(self.sample)], stroke));
+                line.try_for_each(|line| page.draw(&line))?;
+                let mut marker = look.marker.into_iter();
+                marker.try_for_each(|marker| marker.draw(page, at(0.5 * self.sample), MARKER_RADIUS, look.color))?;
+                let style = font(SIZE, INK, Align::Start);
+                page.draw_text(label, &style, units(at(self.sample + SAMPLE_GAP)))?;
             }
             left += width + COLUMN_GAP;
         }
@@ -95,23 +87,18 @@ impl Block {
 
 /// Returns a block inside the frame that hides nothing, and its corner; none if there is no space.
 pub(super) fn inside(entries: &[LegendEntry], placed: &Placed, taken: &Taken) -> Option<(Block, Pt)> {
-    let (frame, most) = (placed.frame, if placed.panel.heat_map.is_none() { entries.len().min(4) } else { 0 });
-    let (frame_width, frame_height) = frame.size();
-    let room = frame.grown(-INSET);
-    for block in (1..=most).map(|columns| Block::new(entries, columns, 0.8 * frame_width, SIZE)) {
+    // Corners first, then the middles of the sides; parts of the room that is left.
+    const SIDES: [(f64, f64); 8] =
+        [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (0.0, 0.5), (0.5, 1.0), (0.5, 0.0)];
+    let most = if placed.panel.cells.is_empty() { entries.len().min(4) } else { 0 };
+    let (room, frame) = (placed.frame.grown(-INSET), placed.frame.size());
+    (1..=most).find_map(|columns| {
+        let block = Block::new(entries, columns, 0.8 * frame.0);
         let (width, height) = block.size();
-        let fits = width <= room.size().0 && height <= room.size().1;
-        let free = |corner: &Pt| taken.cover(&Rect::new(*corner, (width, height)), 5.0) == 0;
-        if fits && width * height <= MOST_AREA * frame_width * frame_height {
-            // Corners first, then the middles of the sides; parts of the room that is left.
-            let (across, down) = (room.size().0 - width, room.size().1 - height);
-            let sides =
-                [(1.0, 0.0), (0.0, 0.0), (1.0, 1.0), (0.0, 1.0), (1.0, 0.5), (0.0, 0.5), (0.5, 0.0), (0.5, 1.0)];
-            let corners = sides.map(|(x, y)| (room.left + x * across, room.top + y * down));
-            if let Some(corner) = corners.into_iter().find(free) {
-                return Some((block, corner));
-            }
-        }
-    }
-    None
+        let (across, down) = (room.size().0 - width, room.size().1 - height);
+        let is_small = across >= 0.0 && down >= 0.0 && width * height <= MOST_AREA * frame.0 * frame.1;
+        let corners = SIDES.map(|(right, up)| (room.left + right * across, room.bottom - height - up * down));
+        let free = |corner: &Pt| is_small && taken.cover(&Rect::new(*corner, (width, height)), 5.0) == 0;
+        Some((block, corners.into_iter().find(free)?))
+    })
 }

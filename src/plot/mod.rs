@@ -31,10 +31,10 @@ mod thin;
 mod ticks;
 
 pub use figure::{Animation, Figure};
-pub use heat::HeatMap;
-pub use item::{Item, Place, Spot, Tint};
-pub use panel::{Annotation, AxisSpec, Panel, Scale};
-pub use series::{Band, ColorSeries, Series, Style};
+pub use heat::Cell;
+pub use item::{Form, Item, Place, Spot, Tint};
+pub use panel::{AxisSpec, Panel, Scale};
+pub use series::{Series, Style};
 pub use shape::Align;
 
 // Names that the files of this folder share.

@@ -1,48 +1,28 @@
-//! Vertical lines, annotations, and where texts hide least.
+//! Notes, and where texts hide least.
 
+use super::item::Form;
 use super::*;
 
-/// Returns the position of a vertical line at a part of its height, if it lies within the frame.
-fn on_line(placed: &Placed, x: f64, up: f64) -> Option<Pt> {
-    let place = placed.x.place(x).filter(|place| (0.0..=1.0).contains(place))?;
-    Some(placed.frame.at(place, up))
-}
-
-/// Draws the vertical lines.
-pub(super) fn verticals(chart: &Chart, placed: &Placed) -> Done {
-    let ends = [placed.y.value(0.0), placed.y.value(1.0)];
-    let shown = placed.panel.verticals.iter().filter(|(x, _)| on_line(placed, *x, 0.5).is_some());
-    let mut lines = shown.map(|(x, _)| Curve(ends.map(|end| (*x, end)).to_vec(), REFERENCE));
-    lines.try_for_each(|line| chart.plotting_area().draw(&line))
-}
-
-/// Draws the labels of vertical lines and annotations, each where it hides least.
-pub(super) fn texts(page: &Page, placed: &Placed, taken: &mut Taken) -> Done {
-    for (x, label) in placed.panel.verticals.iter().filter(|line| !line.1.trim().is_empty()) {
-        let heights = [0.96, 0.04, 0.5, 0.83, 0.17, 0.7, 0.3, 0.6, 0.4];
-        let at = heights.into_iter().filter_map(|up| on_line(placed, *x, up)).flat_map(|at| around(at, 6.0));
-        settle(page, placed, label, &at.collect::<Vec<_>>(), NOTE_INK, taken)?;
-    }
-    for note in &placed.panel.annotations {
-        if let Some(at) = placed.at(note.x, note.y).filter(|at| placed.frame.contains(*at)) {
-            let near_and_far = [around(at, 9.0), around(at, 18.0)].concat();
-            settle(page, placed, &note.text, &near_and_far, tint(note.tint), taken)?;
-        }
+/// Draws the notes of a panel, each where it hides least.
+pub(super) fn draw(page: &Page, placed: &Placed, taken: &mut Taken) -> Done {
+    for item in &placed.panel.items {
+        let (Form::Note(text), [spot]) = (&item.form, &item.spots[..]) else { continue };
+        let Some(at) = spot.put(placed).filter(|at| placed.frame.contains(*at)) else { continue };
+        let is_free = matches!(spot.at, Place::Data(_, y) if y.is_infinite());
+        settle(page, placed, text, &if is_free { along(placed, at.0) } else { beside(at) }, tint(item.tint), taken)?;
     }
     Ok(())
 }
 
-/// Draws a text at the place where it hides least, the first of equals, in a box of paper colour.
-fn settle(page: &Page, placed: &Placed, text: &str, at: &[(Pt, Align)], color: Color, taken: &mut Taken) -> Done {
-    let width = text::width(text, NOTE_SIZE);
-    let bounds =
-        |((x, y), align): &(Pt, Align)| Rect::new((x - align.part() * width, y - 0.42 * NOTE_SIZE), (width, NOTE_SIZE));
-    let inside = at.iter().filter(|place| bounds(place).corners().iter().all(|corner| placed.frame.contains(*corner)));
-    let best = inside.min_by_key(|place| taken.cover(&bounds(place), 2.0)).or(at.first());
-    let Some(best) = best else { return Ok(()) };
-    taken.rects.push(bounds(best));
-    page.draw(&Rectangle::new(bounds(best).grown(1.5).corners().map(units), PAPER.filled()))?;
-    page.draw_text(text, &font(NOTE_SIZE, color, best.1), units(best.0))
+/// Returns positions at the sides of a point, near ones first.
+fn beside(at: Pt) -> Vec<(Pt, Align)> {
+    [around(at, 9.0), around(at, 18.0)].concat()
+}
+
+/// Returns positions beside a vertical line, those at its ends first.
+fn along(placed: &Placed, x: f64) -> Vec<(Pt, Align)> {
+    let heights = [0.96, 0.04, 0.5, 0.83, 0.17, 0.7, 0.3].map(|up| placed.frame.at(0.0, up).1);
+    heights.into_iter().flat_map(|y| around((x, y), 6.0)).collect()
 }
 
 /// Returns positions at a distance from a point, those at its sides first.
@@ -59,6 +39,21 @@ fn around((x, y): Pt, distance: f64) -> Vec<(Pt, Align)> {
     ];
     let place = |(right, down, align)| ((x + distance * right, y + (distance + 0.4 * NOTE_SIZE) * down), align);
     SIDES.map(place).to_vec()
+}
+
+/// Draws a text at the place where it hides least, the first of equals, in a box of paper colour.
+fn settle(page: &Page, placed: &Placed, text: &str, at: &[(Pt, Align)], color: Color, taken: &mut Taken) -> Done {
+    let width = text::width(text, NOTE_SIZE);
+    let bounds =
+        |((x, y), align): &(Pt, Align)| Rect::new((x - align.part() * width, y - 0.42 * NOTE_SIZE), (width, NOTE_SIZE));
+    let inside = at.iter().filter(|place| bounds(place).corners().iter().all(|corner| placed.frame.contains(*corner)));
+    let best = inside.min_by_key(|place| taken.cover(&bounds(place), 2.0)).or(at.first());
+    let Some(best) = best.filter(|_| !text.trim().is_empty()) else { return Ok(()) };
+    taken.rects.push(bounds(best));
+    let room = placed.frame.grown(-1.0);
+    let corners = bounds(best).grown(1.5).corners().map(|corner| units(room.nearest(corner)));
+    page.draw(&Rectangle::new(corners, PAPER.filled()))?;
+    page.draw_text(text, &font(NOTE_SIZE, color, best.1), units(best.0))
 }
 
 /// Parts of a panel that must not be hidden.

@@ -19,19 +19,16 @@ pub(super) const INK: Color = Color(26, 26, 26);
 pub(super) const NOTE_INK: Color = Color(85, 85, 85);
 pub(super) const PAPER: Color = Color(255, 255, 255);
 const GREY: Color = Color(130, 130, 130);
-pub(super) const NO_VALUE: Color = Color(214, 214, 214);
 
 pub(super) const FRAME: Stroke = Stroke { color: Color(51, 51, 51), width: 1.4, dash: &[] };
 pub(super) const GRID: Stroke = Stroke { color: Color(228, 228, 228), width: 1.0, dash: &[] };
-pub(super) const ZERO: Stroke = Stroke { color: Color(150, 150, 150), width: 1.0, dash: &[] };
-pub(super) const REFERENCE: Stroke = Stroke { color: Color(95, 95, 95), width: 1.5, dash: &[7.0, 4.0] };
 pub(super) const DASHED: &[f64] = &[5.0, 4.0];
 const LINE_WIDTH: f64 = 2.3;
 const THIN_WIDTH: f64 = 1.2;
 
 /// Okabe and Ito's colours, those with the most contrast on white first, black last. Their yellow is omitted: a thin
 /// yellow line on white cannot be seen.
-const COLORS: [Color; 7] = [
+pub(super) const COLORS: [Color; 7] = [
     Color(0, 114, 178),
     Color(213, 94, 0),
     Color(0, 158, 115),
@@ -41,7 +38,15 @@ const COLORS: [Color; 7] = [
     Color(0, 0, 0),
 ];
 const DASHES: [&[f64]; 4] = [&[], &[9.0, 4.0], &[2.4, 3.2], &[10.0, 3.5, 2.4, 3.5]];
-const MARKERS: [Marker; 5] = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond, Marker::TriangleDown];
+pub(super) const SQUARE: Marker = Marker::Polygon(&[(-0.89, -0.89), (0.89, -0.89), (0.89, 0.89), (-0.89, 0.89)]);
+/// Their areas are about equal.
+const MARKERS: [Marker; 5] = [
+    Marker::Circle,
+    SQUARE,
+    Marker::Polygon(&[(0.0, -1.3), (1.2, 0.85), (-1.2, 0.85)]),
+    Marker::Polygon(&[(0.0, -1.35), (1.15, 0.0), (0.0, 1.35), (-1.15, 0.0)]),
+    Marker::Polygon(&[(0.0, 1.3), (1.2, -0.85), (-1.2, -0.85)]),
+];
 
 /// Appearance of one series, in the panel and in the legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,13 +82,12 @@ pub(super) fn tint(tint: Tint) -> Color {
     let (full, paleness) = match tint {
         Tint::Ink(paleness) => (INK, paleness),
         Tint::Body(place, paleness) => (COLORS[place % COLORS.len()], paleness),
-        Tint::Paper => (PAPER, 0.0),
     };
     mix(full, PAPER, paleness.clamp(0.0, 1.0))
 }
 
 /// Returns the colour at `share` of the way from one to another.
-fn mix(from: Color, to: Color, share: f64) -> Color {
+pub(super) fn mix(from: Color, to: Color, share: f64) -> Color {
     let part = |from: u8, to: u8| (f64::from(from) * (1.0 - share) + f64::from(to) * share).round() as u8;
     Color(part(from.0, to.0), part(from.1, to.1), part(from.2, to.2))
 }

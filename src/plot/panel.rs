@@ -1,8 +1,6 @@
 //! One panel: axes, and the data drawn between them.
 
-use super::heat::HeatMap;
-use super::item::{Item, Tint};
-use super::series::{Band, ColorSeries, Series};
+use super::{Cell, Form, Item, Series, Spot, Tint};
 
 /// Map from values to lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -10,7 +8,7 @@ pub enum Scale {
     /// Equal lengths for equal differences.
     #[default]
     Linear,
-    /// Equal lengths for equal ratios. Zero and negative values are drawn at a floor, which the figure states.
+    /// Equal lengths for equal ratios. Zero and negative values lie below the frame.
     Log,
 }
 
@@ -29,15 +27,9 @@ pub struct AxisSpec {
     pub names: Vec<String>,
 }
 
-impl From<&str> for AxisSpec {
-    fn from(label: &str) -> Self {
-        Self { label: label.to_string(), ..Self::default() }
-    }
-}
-
-impl From<String> for AxisSpec {
-    fn from(label: String) -> Self {
-        Self { label, ..Self::default() }
+impl<T: Into<String>> From<T> for AxisSpec {
+    fn from(label: T) -> Self {
+        Self { label: label.into(), ..Self::default() }
     }
 }
 
@@ -47,33 +39,10 @@ impl AxisSpec {
         Self { scale: Scale::Log, ..self }
     }
 
-    /// Makes the axis one of angles in degrees.
-    pub fn degrees(self) -> Self {
-        Self { is_angle: true, ..self }
-    }
-
-    /// Sets texts at 0, 1, 2 ... that replace numbers.
-    pub fn names(self, names: impl IntoIterator<Item = String>) -> Self {
-        Self { names: names.into_iter().collect(), ..self }
-    }
-
     /// Sets fixed limits.
     pub fn range(self, low: f64, high: f64) -> Self {
         Self { range: Some((low, high)), ..self }
     }
-}
-
-/// A text near a point in data coordinates.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Annotation {
-    /// x of the point.
-    pub x: f64,
-    /// y of the point.
-    pub y: f64,
-    /// The text.
-    pub text: String,
-    /// Its colour.
-    pub tint: Tint,
 }
 
 /// Axes and the data drawn between them.
@@ -87,18 +56,12 @@ pub struct Panel {
     pub y: AxisSpec,
     /// Lines and points.
     pub series: Vec<Series>,
-    /// Points coloured by a third value; all of a panel share one colour bar.
-    pub color_series: Vec<ColorSeries>,
-    /// A map of cells below everything else; it shares the colour bar.
-    pub heat_map: Option<HeatMap>,
-    /// Coloured areas below the series.
-    pub bands: Vec<Band>,
-    /// True if thin lines are drawn through zero.
-    pub zero_lines: bool,
-    /// Dashed vertical lines: x and label, which may be empty.
-    pub verticals: Vec<(f64, String)>,
-    /// Texts at points.
-    pub annotations: Vec<Annotation>,
+    /// The axis of the colour bar, of which values beyond the limits have the colour of the limit.
+    pub colors: AxisSpec,
+    /// Points coloured by a third value on the colour bar.
+    pub colored: Vec<(f64, f64, f64)>,
+    /// Cells coloured by a value on the colour bar, in the place of a grid.
+    pub cells: Vec<Cell>,
     /// Items drawn on top of the series, in this order.
     pub items: Vec<Item>,
     /// A small drawing around (0, 0), placed in the corner where it hides least.
@@ -128,54 +91,23 @@ impl Panel {
         self
     }
 
-    /// Adds points coloured by a third value.
-    pub fn color_series(mut self, series: ColorSeries) -> Self {
-        self.color_series.push(series);
-        self
-    }
-
-    /// Adds a coloured area below the series.
-    pub fn band(mut self, band: Band) -> Self {
-        self.bands.push(band);
-        self
-    }
-
-    /// Draws thin lines through zero.
-    pub fn zero_lines(self) -> Self {
-        Self { zero_lines: true, ..self }
-    }
-
-    /// Sets the map of cells.
-    pub fn heat_map(self, map: HeatMap) -> Self {
-        Self { heat_map: Some(map), ..self }
-    }
-
-    /// Adds a dashed vertical line at `x`.
-    pub fn vertical(mut self, x: f64, label: impl Into<String>) -> Self {
-        self.verticals.push((x, label.into()));
-        self
-    }
-
-    /// Adds a text at a point.
-    pub fn annotate(self, x: f64, y: f64, text: impl Into<String>) -> Self {
-        self.annotate_in(Tint::Ink(0.0), x, y, text)
-    }
-
     /// Adds items to draw.
     pub fn items(mut self, items: impl IntoIterator<Item = Item>) -> Self {
         self.items.extend(items);
         self
     }
 
-    /// Adds a text in a colour at a point.
-    pub fn annotate_in(mut self, tint: Tint, x: f64, y: f64, text: impl Into<String>) -> Self {
-        self.annotations.push(Annotation { x, y, text: text.into(), tint });
+    /// Adds a text at the side of a point where it hides least.
+    pub fn note(mut self, tint: Tint, x: f64, y: f64, text: impl Into<String>) -> Self {
+        self.items.push(Item { spots: vec![Spot::data(x, y)], tint, form: Form::Note(text.into()) });
         self
     }
 
-    /// Makes one unit of x as long as one unit of y.
-    pub fn equal_aspect(self) -> Self {
-        Self { equal_aspect: true, ..self }
+    /// Adds a dashed vertical line with a text.
+    pub fn vertical(mut self, x: f64, text: impl Into<String>) -> Self {
+        let spots = [f64::NEG_INFINITY, f64::INFINITY].map(|y| Spot::data(x, y)).to_vec();
+        self.items.push(Item { spots, tint: Tint::Ink(0.3), form: Form::Line(1.5, true) });
+        self.note(Tint::Ink(0.25), x, f64::INFINITY, text)
     }
 
     /// Sets the height between the axes, in nominal pixels.

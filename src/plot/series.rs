@@ -1,7 +1,4 @@
-//! The data of a panel.
-
-use super::item::Tint;
-use super::panel::Scale;
+//! Lines and points of a panel.
 
 /// Style of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,45 +76,5 @@ impl Series {
     /// True if x never decreases, as in a function of time.
     pub(super) fn is_function(&self) -> bool {
         self.points.windows(2).all(|pair| pair[1].0 >= pair[0].0)
-    }
-}
-
-/// Points coloured by a third value, explained by a colour bar.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ColorSeries {
-    /// Title of the colour bar, with the unit.
-    pub label: String,
-    /// (x, y, value).
-    pub points: Vec<(f64, f64, f64)>,
-    /// Scale of the colour.
-    pub scale: Scale,
-}
-
-impl ColorSeries {
-    /// Points on a linear colour scale.
-    pub fn new(label: impl Into<String>, points: Vec<(f64, f64, f64)>) -> Self {
-        Self { label: label.into(), points, scale: Scale::Linear }
-    }
-}
-
-/// An area between two curves, below the series. Infinite values lie beyond the frame.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Band {
-    /// (x, lower y, upper y).
-    pub points: Vec<(f64, f64, f64)>,
-    /// Its colour, opaque and therefore pale.
-    pub tint: Tint,
-}
-
-impl Band {
-    /// A band around a line of a colour of the palette.
-    pub fn around(color: usize, points: Vec<(f64, f64, f64)>) -> Self {
-        Self { points, tint: Tint::Body(color, 0.8) }
-    }
-
-    /// A grey part of the frame from one x to another, such as a half plane.
-    pub fn shade(from: f64, to: f64) -> Self {
-        let points = [from, to].map(|x| (x, f64::NEG_INFINITY, f64::INFINITY)).to_vec();
-        Self { points, tint: Tint::Ink(0.93) }
     }
 }

@@ -40,6 +40,11 @@ impl Rect {
         x >= self.left && x <= self.right && y >= self.top && y <= self.bottom
     }
 
+    /// Returns its point nearest to another.
+    pub fn nearest(&self, (x, y): Pt) -> Pt {
+        (x.max(self.left).min(self.right), y.max(self.top).min(self.bottom))
+    }
+
     /// Returns this rectangle, larger on every side.
     pub fn grown(&self, by: f64) -> Self {
         Self { left: self.left - by, top: self.top - by, right: self.right + by, bottom: self.bottom + by }

@@ -140,11 +140,7 @@ impl DrawingBackend for Sketch {
             (FontTransform::Rotate90, VPos::Top) => (true, VPos::Bottom),
             (_, anchor) => (true, anchor),
         };
-        let align = match style.anchor().h_pos {
-            HPos::Left => Align::Start,
-            HPos::Center => Align::Middle,
-            HPos::Right => Align::End,
-        };
+        let align = [Align::Start, Align::End, Align::Middle][style.anchor().h_pos as usize];
         let last = LINE_HEIGHT * text.lines().count().saturating_sub(1) as f64;
         let first = match anchor {
             VPos::Top => 0.78,
@@ -166,18 +162,24 @@ impl DrawingBackend for Sketch {
 }
 
 /// A line that may be dashed, of which styles of plotters know nothing.
-pub(super) struct Curve<C>(pub Vec<C>, pub Stroke);
+pub(super) struct Curve(Vec<BackendCoord>, Stroke);
 
-impl<'a, C> PointCollection<'a, C> for &'a Curve<C> {
-    type Point = &'a C;
-    type IntoIter = &'a [C];
+impl Curve {
+    pub fn new(points: Vec<Pt>, stroke: Stroke) -> Self {
+        Self(points.into_iter().map(units).collect(), stroke)
+    }
+}
+
+impl<'a> PointCollection<'a, BackendCoord> for &'a Curve {
+    type Point = &'a BackendCoord;
+    type IntoIter = &'a [BackendCoord];
 
     fn point_iter(self) -> Self::IntoIter {
         &self.0
     }
 }
 
-impl<C> Drawable<Sketch> for Curve<C> {
+impl Drawable<Sketch> for Curve {
     fn draw<I: Iterator<Item = BackendCoord>>(&self, points: I, backend: &mut Sketch, _: (u32, u32)) -> Drawn {
         backend.add(Paint::Line(self.1), points.map(pixels).collect())
     }

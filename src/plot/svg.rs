@@ -4,7 +4,6 @@
 //! DejaVu Sans.
 
 use super::*;
-use std::fmt::Write;
 
 const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-serif";
 
@@ -19,7 +18,7 @@ fn opening(drawing: &Drawing) -> String {
     let title = if title.is_empty() { title } else { format!("<title>{title}</title>\n") };
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
-         role=\"img\" font-family=\"{FONTS}\" stroke-linejoin=\"round\">\n{title}\
+         role=\"img\" xml:space=\"preserve\" font-family=\"{FONTS}\" stroke-linejoin=\"round\">\n{title}\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
     );
     drawing.shapes.iter().for_each(|one| shape(&mut out, one));
@@ -82,37 +81,25 @@ fn text(out: &mut String, text: &Text) {
     let place = if text.turned { format!("transform=\"translate({x} {y}) rotate(-90)\"") } else { upright };
     let (size, color) = (number(text.size), hex(&text.color));
     *out += &format!("<text {place} font-size=\"{size}\" fill=\"{color}\" text-anchor=\"{anchor}\">");
-    let (mut level, mut gap) = (0.0, 0.0);
+    let mut level = 0.0;
     for (rise, run) in &text.rich.0 {
         let (size, down) = text::metrics(*rise, text.size);
-        // Viewers drop spaces next to a superscript, so these become offsets.
-        let inner = run.trim_start_matches(' ');
-        gap += text::width(&run[..run.len() - inner.len()], size);
-        let word = inner.trim_end_matches(' ');
-        if size == text.size && down == level && gap == 0.0 {
-            *out += &escape(word);
-        } else {
-            let (right, step, size) = (number(gap), number(down - level), number(size));
-            *out += &format!("<tspan dx=\"{right}\" dy=\"{step}\" font-size=\"{size}\">{}</tspan>", escape(word));
-        }
-        (level, gap) = (down, text::width(&inner[word.len()..], size));
+        let (step, size, run) = (number(down - level), number(size), escape(run));
+        let is_plain = *rise == 0.0 && level == 0.0;
+        *out += &if is_plain { run } else { format!("<tspan dy=\"{step}\" font-size=\"{size}\">{run}</tspan>") };
+        level = down;
     }
     out.push_str("</text>\n");
 }
 
 /// Writes path data: absolute start, then steps in tenths of a pixel that add up without drift.
 fn outline(out: &mut String, points: &[Pt]) {
-    let grid = |point: &Pt| (tenths(point.0), tenths(point.1));
-    let Some(first) = points.first() else { return };
-    let mut at = grid(first);
-    out.push('M');
-    step(out, at, false);
-    out.push('l');
-    let mut leading = true;
-    for point in &points[1..] {
-        let next = grid(point);
-        step(out, (next.0 - at.0, next.1 - at.1), !leading);
-        (at, leading) = (next, false);
+    let mut at = (0, 0);
+    for (k, (x, y)) in points.iter().enumerate() {
+        let next = (tenths(*x), tenths(*y));
+        *out += ["M", "l", ""][k.min(2)];
+        step(out, (next.0 - at.0, next.1 - at.1), k > 1);
+        at = next;
     }
     if points.len() > 2 && points.first() == points.last() {
         out.push('z');
@@ -138,28 +125,19 @@ fn tenths(value: f64) -> i64 {
 /// Writes a pair of numbers in tenths, the first after a space if it needs one as a separator.
 fn step(out: &mut String, (x, y): (i64, i64), follows: bool) {
     for (value, follows) in [(x, follows), (y, true)] {
-        if value < 0 {
-            out.push('-');
-        } else if follows {
-            out.push(' ');
-        }
-        let (whole, rest) = (value.unsigned_abs() / 10, value.unsigned_abs() % 10);
-        if whole > 0 || rest == 0 {
-            // Writing to a string cannot fail.
-            let _ = write!(out, "{whole}");
-        }
-        if rest > 0 {
-            out.push('.');
-            out.push(char::from(b'0' + rest as u8));
-        }
+        *out += if follows && value >= 0 { " " } else { "" };
+        *out += &number(value as f64 / 10.0);
     }
 }
 
-/// Returns a number with at most two digits after the point, none when they are zero.
+/// Returns a number with at most two digits after the point, and no zeros that say nothing.
 fn number(value: f64) -> String {
     let text = format!("{value:.2}");
-    let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" { "0".to_string() } else { short.to_string() }
+    match text.trim_end_matches('0').trim_end_matches('.') {
+        "-0" => "0".to_string(),
+        short if value.abs() < 1.0 => short.replacen("0.", ".", 1),
+        short => short.to_string(),
+    }
 }
 
 fn hex(color: &Color) -> String {

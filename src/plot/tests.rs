@@ -33,27 +33,24 @@ fn panel(x: &str, y: &str) -> Panel {
     Panel::new(x, y).series(Series::line("a", wave(500, 1.0)))
 }
 
-fn map() -> HeatMap {
-    let mut map = HeatMap::new("largest drift (m)", vec![1.0, 2.0, 3.0], vec![1.0, 2.0]).log();
-    map.set(0, 0, 1e-9);
-    map.set(1, 0, 1e-3);
-    map.set(2, 1, 0.0);
-    map.mark(1, 1, "fail");
-    map
-}
-
-/// A panel with texts along y, and colours from 1e-12 to 1.
-fn named_map() -> Panel {
-    let mut map = HeatMap::new("drift (m)", vec![1.0, 2.0, 3.0], vec![0.0, 1.0]).log().range(1e-12, 1.0);
-    map.set(0, 0, 1e-20);
-    map.set(1, 1, 1e3);
-    let names = ["none", "manifold"].map(String::from);
-    Panel::new("h (s)", AxisSpec::from("projection").names(names)).heat_map(map)
+/// A panel with texts along both axes, and colours from 1e-12 to 1.
+fn map() -> Panel {
+    let cell = |(column, row, value, word): (usize, usize, Option<f64>, &str)| {
+        let word = word.to_string();
+        Cell { column, row, value, tint: Tint::Ink(0.8), word }
+    };
+    let cells = [(0, 0, Some(1e-20), ""), (1, 1, Some(1e3), ""), (2, 1, Some(0.0), ""), (0, 1, None, "fail")];
+    let named = |label: &str, names: [&str; 3]| AxisSpec { names: names.map(String::from).to_vec(), ..label.into() };
+    let mut panel =
+        Panel::new(named("h (s)", ["0.1", "0.2", "0.4"]), named("projection", ["none", "manifold", "both"]));
+    panel.colors = AxisSpec::from("largest drift (m)").log().range(1e-12, 1.0);
+    panel.cells = cells.map(cell).to_vec();
+    panel
 }
 
 #[test]
 fn maps_share_colours_and_have_words_along_an_axis() {
-    let drawing = draw::figure(&Figure::new().panel(named_map()));
+    let drawing = draw::figure(&Figure::new().panel(map()));
     let words =
         drawing.shapes.iter().filter(|shape| matches!(shape, Shape::Text(text) if text.rich == Rich::new("manifold")));
     assert_eq!(words.count(), 1);
@@ -71,23 +68,30 @@ fn samples() -> Vec<(&'static str, Figure)> {
     for k in 0..23 {
         many = many.series(Series::line(format!("series {k} {long}"), wave(300, k as f64)));
     }
-    let colors =
-        ColorSeries::new("time (s)", (0..900).map(|k| (f64::from(k), f64::from(k % 7), 1e-8 * f64::from(k))).collect());
+    let mut colors = Panel { equal_aspect: true, ..Panel::new("re (1/s)", "im (1/s)") };
+    colors.colors = "time (s)".into();
+    colors.colored = (0..900).map(|k| (f64::from(k), f64::from(k % 7), 1e-8 * f64::from(k))).collect();
     vec![
         ("plain", Figure::new().title("Plain").panel(panel("time (s)", "angle (rad)"))),
         ("factor", Figure::new().panel(factor(1e-8)).panel(factor(1e8)).panel(log)),
         ("long", Figure::new().title(long.clone()).panel(panel(&long, &long)).panel(panel(&long, &long))),
         ("many", Figure::new().panel(many)),
-        ("color", Figure::new().panel(Panel::new("re (1/s)", "im (1/s)").color_series(colors).equal_aspect())),
-        ("map", Figure::new().panel(Panel::new("h (s)", "gain").heat_map(map()))),
-        ("shared map", Figure::new().panel(named_map()).panel(named_map())),
+        ("color", Figure::new().panel(colors)),
+        ("map", Figure::new().panel(map())),
+        ("shared map", Figure::new().panel(map()).panel(map())),
         (
             "lines",
-            Figure::new().panel(panel("x", "y").vertical(0.5, "limit").vertical(2.0, "impact").annotate(1.0, 0.0, "A")),
+            Figure::new().panel(panel("x", "y").vertical(0.5, "limit").vertical(2.0, "impact").note(
+                Tint::Ink(0.0),
+                1.0,
+                0.0,
+                "A",
+            )),
         ),
         (
             "narrow",
-            Figure::new().width(300.0).title("Narrow").panel(panel("time (s)", "a rather long label (kg m²/s²)")),
+            Figure { width: 300.0, ..Figure::new().title("Narrow") }
+                .panel(panel("time (s)", "a rather long label (kg m²/s²)")),
         ),
         (
             "tiny time",
@@ -142,18 +146,16 @@ fn odd_panel(seed: &mut u64) -> Panel {
         let points = (0..count).map(|_| (odd_number(seed), odd_number(seed))).collect();
         panel = panel.series(Series::line(format!("s{count}"), points).style(style));
     }
-    let colored = (0..4).map(|_| (odd_number(seed), odd_number(seed), odd_number(seed))).collect();
-    panel = panel.color_series(ColorSeries::new("c", colored));
+    panel.colored = (0..4).map(|_| (odd_number(seed), odd_number(seed), odd_number(seed))).collect();
+    panel.colors = axis(seed, "c");
     panel = panel.vertical(odd_number(seed), "h").vertical(odd_number(seed), "v");
-    panel = panel.annotate(odd_number(seed), odd_number(seed), "note");
+    panel = panel.note(Tint::Ink(1.0), odd_number(seed), odd_number(seed), "note");
     panel.equal_aspect = *seed & (1 << 50) == 0;
     panel.height = (*seed & (1 << 51) == 0).then(|| odd_number(seed)).filter(|height| *height < 1e3);
     if *seed & (1 << 52) == 0 {
-        let mut map = HeatMap::new("m", vec![odd_number(seed), odd_number(seed)], vec![odd_number(seed)]);
-        map.set(0, 0, odd_number(seed));
-        map.mark(7, 7, "outside");
-        map.mark(1, 0, "fail");
-        panel.heat_map = Some(map);
+        let cell =
+            |column| Cell { column, row: 0, value: Some(odd_number(seed)), tint: Tint::Ink(1.0), word: "fail".into() };
+        panel.cells = [0, 1, 7].map(cell).to_vec();
     }
     panel
 }
@@ -173,7 +175,7 @@ fn assert_sound(drawing: &Drawing) {
 fn odd_data_never_panic() {
     let mut seed = 7;
     for round in 0..200 {
-        let mut figure = Figure::new().width(odd_number(&mut seed)).columns([1, 1, 2, 40][round % 4]);
+        let mut figure = Figure { width: odd_number(&mut seed), columns: [1, 1, 2, 40][round % 4], ..Figure::new() };
         (0..if round % 4 == 3 { 40 } else { 2 }).for_each(|_| figure.panels.push(odd_panel(&mut seed)));
         assert_sound(&draw::figure(&figure));
         let svg = figure.to_svg();
@@ -211,15 +213,17 @@ fn spots(points: &Points) -> Vec<Spot> {
 
 /// Returns the items of a mechanism at these points.
 fn mechanism(points: &Points) -> Panel {
-    let line = Item::Line { spots: spots(points), tint: Tint::Body(1, 0.3), width: 1.5, dashed: true };
-    let area = Item::Area { spots: spots(points), tint: Tint::Paper, opacity: 0.5 };
-    let discs = spots(points).into_iter().map(|spot| Item::Disc { spot, radius: 4.0, tint: Tint::Ink(0.0) });
-    let text = |spot| Item::Text { spot, text: "body".into(), align: Align::Start };
+    let item = |spots, form| Item { spots, tint: Tint::Body(1, 0.3), form };
+    let line = item(spots(points), Form::Line(1.5, true));
+    let area = item(spots(points), Form::Area(0.5));
+    let discs = spots(points).into_iter().map(|spot| item(vec![spot], Form::Disc(4.0)));
+    let text = |spot| item(vec![spot], Form::Text("body".into(), Align::Start));
     let corner = Spot { at: Place::Frame(1.0, 1.0), step: (0.0, 9.0) };
     let texts = spots(points).into_iter().chain([corner]).map(text);
-    let mut panel = Panel::new("x (m)", "y (m)").equal_aspect().items(discs.chain([area, line]).chain(texts));
+    let mut panel =
+        Panel { equal_aspect: true, ..Panel::new("x (m)", "y (m)") }.items(discs.chain([area, line]).chain(texts));
     let axis = vec![corner, corner.moved(20.0, 0.0)];
-    panel.inset = vec![Item::Line { spots: axis, tint: Tint::Ink(0.0), width: 1.0, dashed: false }];
+    panel.inset = vec![item(axis, Form::Line(1.0, false))];
     panel.keys = vec![("t = 0 s".into(), Tint::Ink(0.5))];
     panel
 }
@@ -228,33 +232,42 @@ fn mechanism(points: &Points) -> Panel {
 fn kinds_of_figures(points: &Points) -> Vec<(&'static str, Figure)> {
     let line = |style: Style| Series::line("a", points.clone()).style(style);
     let log = |label: &str| AxisSpec::from(label).log();
-    let colors = || points.iter().map(|(x, y)| (*x, *y, *y)).collect();
-    let band = Band::around(0, points.iter().map(|(x, y)| (*x, y - 1.0, *y)).collect());
-    let mut map = HeatMap::new("drift (m)", points.iter().map(|point| point.0).collect(), vec![1.0, 2.0]).log();
-    points.iter().enumerate().for_each(|(column, (_, value))| map.set(column, 1, *value));
-    map.mark(0, 1, "fail");
-    let lines = Panel::new("time (s)", "angle (rad)").series(line(Style::Line)).series(line(Style::Dashed)).band(band);
-    let loci =
-        Panel::new("real part (1/s)", "imaginary part (rad/s)").color_series(ColorSeries::new("t (s)", colors()));
-    let loci = loci.series(line(Style::Crosses)).series(line(Style::Guide)).band(Band::shade(0.0, f64::INFINITY));
-    let work = Panel::new(log("CPU time (s)"), log("error")).series(line(Style::LineDots)).annotate(1.0, 1.0, "1e-6");
+    let lines = Panel::new("time (s)", "angle (rad)").series(line(Style::Line)).series(line(Style::Dashed));
+    let mut loci = Panel::new("real part (1/s)", "imaginary part (rad/s)");
+    loci.colored = points.iter().map(|(x, y)| (*x, *y, *y)).collect();
+    let loci = loci.series(line(Style::Crosses)).series(line(Style::Guide));
+    let work = Panel::new(log("CPU time (s)"), log("error")).series(line(Style::LineDots)).note(
+        Tint::Ink(0.0),
+        1.0,
+        1.0,
+        "1e-6",
+    );
     let magnitude = Panel::new(log("frequency (rad/s)"), log("magnitude")).series(line(Style::Line));
-    let phase = Panel::new(log("frequency (rad/s)"), AxisSpec::from("phase (°)").degrees()).series(line(Style::Thin));
+    let phase = Panel::new(log("frequency (rad/s)"), AxisSpec { is_angle: true, ..AxisSpec::from("phase (°)") })
+        .series(line(Style::Thin));
     let campbell =
         Panel::new("speed (rad/s)", "frequency (rad/s)").series(line(Style::Dotted)).vertical(1.0, "unstable");
     let sweep = Panel::new("stiffness (N/m)", "steps").series(line(Style::Dots));
-    let names = AxisSpec::from("projection").names(["none", "manifold"].map(String::from));
+    let cell = |(row, (_, value)): (usize, &(f64, f64))| {
+        let (value, word) = (Some(*value), "fail".to_string());
+        Cell { column: 1, row, value, tint: Tint::Ink(1.0), word }
+    };
+    let mut map = map();
+    map.cells = points.iter().enumerate().map(cell).collect();
     vec![
         ("lines", Figure::new().title("Lines").panel(lines.clone())),
-        ("loci", Figure::new().panel(loci.zero_lines())),
-        ("work", Figure::new().panel(work.clone()).panel(work).columns(2)),
-        ("stability", Figure::new().panel(Panel::new(log("h (s)"), names).heat_map(map))),
+        ("loci", Figure::new().panel(loci)),
+        ("work", Figure { columns: 2, ..Figure::new().panel(work.clone()).panel(work) }),
+        ("stability", Figure::new().panel(map)),
         ("outputs", Figure::new().panel(lines.clone()).panel(lines.clone()).panel(lines)),
         ("bode", Figure::new().panel(magnitude).panel(phase)),
         ("campbell", Figure::new().panel(campbell)),
         ("sweep", Figure::new().panel(sweep)),
         ("mechanism", Figure::new().panel(mechanism(points))),
-        ("modes", Figure::new().panel(mechanism(points).title("mode 1")).panel(mechanism(points)).columns(2)),
+        (
+            "modes",
+            Figure { columns: 2, ..Figure::new().panel(mechanism(points).title("mode 1")).panel(mechanism(points)) },
+        ),
     ]
 }
 

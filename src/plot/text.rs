@@ -50,16 +50,17 @@ impl Rich {
     /// Reads a text. Superscript and subscript characters become raised and lowered parts, which look the same in
     /// every font, and so does a whole number after "^": `m/s^2`. Control characters become spaces.
     pub fn new(text: &str) -> Self {
-        let mut rich = Self::default();
-        for (index, part) in text.split('^').enumerate() {
-            let (number, rest) = part.split_at(if index > 0 { number_length(part) } else { 0 });
-            if index > 0 && number.is_empty() {
-                rich.push(0.0, '^');
-            }
-            number.chars().for_each(|digit| rich.push(RAISED, if digit == '-' { '−' } else { digit }));
-            for character in rest.chars() {
-                let (rise, plain) = classify(character);
-                rich.push(rise, plain);
+        let (mut rich, mut is_exponent) = (Self::default(), false);
+        let chars: Vec<char> = text.chars().collect();
+        let is_digit = |k: usize| chars.get(k).is_some_and(char::is_ascii_digit);
+        for (k, character) in chars.iter().enumerate() {
+            let is_signed = matches!(chars.get(k + 1), Some('-' | '−'));
+            let begins = *character == '^' && (is_digit(k + 1) || is_signed && is_digit(k + 2));
+            is_exponent = begins || is_exponent && (is_digit(k) || chars[k - 1] == '^');
+            match classify(*character) {
+                _ if begins => {}
+                _ if is_exponent => rich.push(RAISED, if *character == '-' { '−' } else { *character }),
+                (rise, plain) => rich.push(rise, plain),
             }
         }
         rich
@@ -77,13 +78,6 @@ impl Rich {
         let width = |text: &str| DEJAVU.as_ref().map_or(0.0, |font| glyphs(font, text).1);
         self.0.iter().map(|(rise, text)| width(text) * metrics(*rise, size).0).sum()
     }
-}
-
-/// Returns the length of the whole number, maybe with a sign, at the beginning of a text.
-fn number_length(text: &str) -> usize {
-    let digits = text.strip_prefix(['-', '−']).unwrap_or(text);
-    let rest = digits.trim_start_matches(|character: char| character.is_ascii_digit());
-    if rest.len() < digits.len() { text.len() - rest.len() } else { 0 }
 }
 
 /// Returns the rise of a character, and the one to draw.

@@ -27,10 +27,10 @@ fn columns(points: &[Pt], width: f64) -> Vec<Pt> {
     for group in points.chunk_by(|a, b| column(a) == column(b)) {
         let by_height = |a: &usize, b: &usize| group[*a].1.total_cmp(&group[*b].1);
         let extremes = [(0..group.len()).max_by(by_height), (0..group.len()).min_by(by_height)];
-        let mut places = [0, extremes[0].unwrap_or(0), extremes[1].unwrap_or(0), group.len() - 1];
+        let mut places = vec![0, extremes[0].unwrap_or(0), extremes[1].unwrap_or(0), group.len() - 1];
         places.sort_unstable();
-        let is_new = |k: &usize| *k == 0 || places[*k] != places[k - 1];
-        kept.extend((0..4).filter(is_new).map(|k| group[places[k]]));
+        places.dedup();
+        kept.extend(places.into_iter().map(|k| group[k]));
     }
     kept
 }

@@ -26,25 +26,17 @@ pub(super) struct Ticks {
     pub factor: String,
 }
 
-/// Length of an axis, with labels in a row along it (as on x) or one above another (as on y).
+/// Length of an axis in pixels; true if its labels stand one above another, as on y.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Room {
-    Along(f64),
-    Upwards(f64),
+pub(super) struct Room {
+    pub length: f64,
+    pub is_upright: bool,
 }
 
 impl Room {
-    fn length(self) -> f64 {
-        let (Self::Along(length) | Self::Upwards(length)) = self;
-        length
-    }
-
     /// Returns the least distance of marks at which these labels do not touch.
     fn spacing(self, ticks: &Ticks) -> f64 {
-        match self {
-            Self::Along(_) => ticks.widest().max(TICK_SIZE) + 0.9 * TICK_SIZE,
-            Self::Upwards(_) => 2.2 * TICK_SIZE,
-        }
+        if self.is_upright { 2.2 * TICK_SIZE } else { ticks.widest().max(TICK_SIZE) + 0.9 * TICK_SIZE }
     }
 }
 
@@ -72,30 +64,22 @@ impl Ticks {
 fn named(axis: &Axis, room: Room) -> Ticks {
     let place = |value: f64| axis.place(value).unwrap_or(0.0);
     let all = || axis.spec.names.iter().enumerate().map(|(k, name)| (k as f64, name.clone()));
-    let least = if let Room::Along(_) = room { room.spacing(&Ticks::labelled(all())) } else { 1.05 * TICK_SIZE };
-    let stride = (least / (room.length() * (place(1.0) - place(0.0))).max(1e-9)).ceil().clamp(1.0, 1e6) as usize;
+    let label = if room.is_upright { 1.05 * TICK_SIZE } else { Ticks::labelled(all()).widest() + TICK_SIZE };
+    let stride = (label / (room.length * (place(1.0) - place(0.0))).max(1e-9)).ceil().clamp(1.0, 1e6) as usize;
     Ticks::labelled(all().step_by(stride).filter(|tick| (0.0..=1.0).contains(&place(tick.0))))
 }
 
 /// Returns the finest marks whose labels have space.
 fn linear(low: f64, high: f64, room: Room, is_angle: bool) -> Ticks {
     let span = high - low;
-    let finest = span / if let Room::Along(_) = room { 8.0 } else { 7.0 };
-    let angles = ANGLES.into_iter().filter(|step| is_angle && (finest..=0.5 * span).contains(step));
+    let finest = span / if room.is_upright { 7.0 } else { 8.0 };
+    let angles = ANGLES.into_iter().filter(|step| is_angle && *step <= 0.5 * span);
     let power = finest.log10().floor() as i32;
-    let decimal = (power..power + 3).flat_map(|power| [1.0, 2.0, 2.5, 5.0].map(|digit| digit * 10f64.powi(power)));
-    let mut best = Ticks::default();
-    for step in angles.chain(decimal.filter(|step| *step >= finest * (1.0 - 1e-9))) {
-        let ticks = multiples(low, high, step);
-        let fits = room.length() * step / span >= room.spacing(&ticks);
-        if ticks.major.len() >= 2 || best.major.is_empty() {
-            best = ticks;
-        }
-        if fits {
-            break;
-        }
-    }
-    best
+    let decimal = (power..power + 2).flat_map(|power| [1.0, 2.0, 2.5, 5.0].map(|digit| digit * 10f64.powi(power)));
+    let steps = angles.chain(decimal).filter(|step| *step >= finest * (1.0 - 1e-9));
+    let mut marks = steps.map(|step| (room.length * step / span, multiples(low, high, step)));
+    let first = marks.find(|(distance, ticks)| ticks.major.len() < 3 || *distance >= room.spacing(ticks));
+    first.map_or_else(|| multiples(low, high, 0.5 * span), |(_, ticks)| ticks)
 }
 
 /// Returns marks at the multiples of a step.
@@ -105,7 +89,8 @@ fn multiples(low: f64, high: f64, step: f64) -> Ticks {
     let values: Vec<f64> = (0..50).map(|k| (first + f64::from(k)) * step).take_while(|v| *v <= last * step).collect();
     let largest = |offset: f64| values.iter().map(|value| (value - offset).abs()).fold(f64::MIN_POSITIVE, f64::max);
     let is_long = largest(0.0).log10().floor() - step.log10().floor() >= MOST_DIGITS;
-    let (offset, text) = if is_long { roundest(first * step, last * step, step) } else { (0.0, String::new()) };
+    let offset = if is_long { first * step } else { 0.0 };
+    let text = if is_long { signed(offset, step) } else { String::new() };
     let exponent = (largest(offset).log10() + 1e-9).floor() as i32;
     let has_factor = exponent >= 5 || exponent <= -4 || decimals(step, 0) > 4;
     let factor = if has_factor && largest(offset) >= 0.5 * step { 3 * exponent.div_euclid(3) } else { 0 };
@@ -129,21 +114,18 @@ fn decimals(step: f64, power: i32) -> usize {
     (0..330).find(is_whole).unwrap_or(0) as usize
 }
 
-/// Returns the number from `first` to `last` with the most zeros at its end, and its text with a sign.
-fn roundest(first: f64, last: f64, step: f64) -> (f64, String) {
-    let (top, end) = (first.abs().max(last.abs()).log10().ceil() as i32, step.log10().floor() as i32 - 1);
-    let multiple = |power: i32| (power, (last / 10f64.powi(power) + 1e-6).floor() * 10f64.powi(power));
-    let inside = (end..=top).rev().map(multiple).find(|(_, number)| *number >= first - 1e-6 * step);
-    let (power, number) = inside.unwrap_or((end, first));
-    let size = number.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
+/// Returns an offset with its sign and the digits that its step needs.
+fn signed(offset: f64, step: f64) -> String {
+    let size = offset.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
     let (unit, factor) = if (-4..7).contains(&size) { (0, String::new()) } else { (size, format!("×10^{size}")) };
-    let digits = plain(number.abs() / 10f64.powi(unit), (unit - power).max(0) as usize);
-    (number, format!("{} {digits}{factor}", if number < 0.0 { "−" } else { "+" }))
+    let digits = plain(offset.abs() / 10f64.powi(unit), decimals(step, unit));
+    let short = if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { &digits };
+    format!("{} {short}{factor}", if offset < 0.0 { "−" } else { "+" })
 }
 
 /// Returns marks at powers of ten between 10^low and 10^high, thinned so that their labels do not touch.
 fn log(low: f64, high: f64, room: Room) -> Ticks {
-    let decade = room.length() / (high - low);
+    let decade = room.length / (high - low);
     let powers = ((low - 1e-9).ceil() as i32).max(POWERS.0)..=((high + 1e-9).floor() as i32).min(POWERS.1);
     let at = |power: i32| (10f64.powi(power), format!("10^{power}"));
     let needed = room.spacing(&Ticks::labelled([*powers.start(), *powers.end()].into_iter().map(at)));
@@ -165,8 +147,8 @@ fn log(low: f64, high: f64, room: Room) -> Ticks {
 mod tests {
     use super::*;
 
-    const ROOM: Room = Room::Along(500.0);
-    const UPWARDS: Room = Room::Upwards(200.0);
+    const ROOM: Room = Room { length: 500.0, is_upright: false };
+    const UPWARDS: Room = Room { length: 200.0, is_upright: true };
 
     fn labels(ticks: &Ticks) -> Vec<&str> {
         ticks.major.iter().map(|tick| tick.1.as_str()).collect()
@@ -184,7 +166,7 @@ mod tests {
 
     #[test]
     fn angles_are_marked_at_parts_of_turns() {
-        let at = |low, high| linear(low, high, Room::Upwards(240.0), true);
+        let at = |low, high| linear(low, high, Room { length: 240.0, is_upright: true }, true);
         assert_eq!(labels(&at(-370.0, 10.0)), ["−360", "−270", "−180", "−90", "0"]);
         assert_eq!(labels(&at(-95.0, 3.0)), ["−90", "−75", "−60", "−45", "−30", "−15", "0"]);
         assert_eq!(labels(&at(0.0, 1.0)), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
@@ -203,8 +185,7 @@ mod tests {
         let ticks = linear(19.62, 19.62 + 3e-9, ROOM, false);
         assert!(labels(&ticks).iter().all(|label| label.chars().count() <= 4), "{ticks:?}");
         assert_eq!(ticks.factor, "×10^-9 + 19.62");
-        assert_eq!(roundest(196_199_980.0, 196_200_020.0, 10.0), (196_200_000.0, "+ 1.962×10^8".into()));
-        assert_eq!(roundest(-1_234_567.0, -1_234_561.0, 1.0), (-1_234_561.0, "− 1234561".into()));
+        assert_eq!([signed(196_200_000.0, 10.0), signed(-1_234_567.0, 1.0)], ["+ 1.962×10^8", "− 1234567"]);
     }
 
     #[test]

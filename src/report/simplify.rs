@@ -5,7 +5,7 @@ use super::{Table, cell, table, velocities};
 use crate::compare::work_precision::front;
 use crate::error::{Result, percent, short_list};
 use crate::math::bounds;
-use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
+use crate::plot::{AxisSpec, Figure, Panel, Series, Style, Tint};
 use crate::simplify::{Norm, Robustness, Run, Simplification, Trial, Which};
 
 /// Returns the result as text.
@@ -183,7 +183,12 @@ pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
         let Some(((seconds, error), exact)) = point(run).zip(exact(run)) else { continue };
         let below = if exact.1 < least { format!(", off by {}", percent(exact.1)) } else { String::new() };
         let text = format!("{name}: {}{below}", velocities(run.velocities));
-        panel = panel.series(Series::dots("", vec![(seconds, error)]).color(BLACK)).annotate(seconds, error, text);
+        panel = panel.series(Series::dots("", vec![(seconds, error)]).color(BLACK)).note(
+            Tint::Ink(0.0),
+            seconds,
+            error,
+            text,
+        );
     }
     let hidden = tried.iter().any(|point| point.1 < least);
     let note = if hidden { format!(" (below {} drawn there)", percent(least)) } else { String::new() };

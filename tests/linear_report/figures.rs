@@ -2,7 +2,7 @@
 
 use super::sample::{complex, descriptor, empty, plain, prepared};
 use holonom::linearize::{Branch, Complex, Kind};
-use holonom::plot::{AxisSpec, Figure, Item, Panel, Place, Scale, Style};
+use holonom::plot::{AxisSpec, Figure, Form, Item, Panel, Place, Scale, Style};
 use holonom::report::linear::{
     Magnitude, Response, bode_figure, frequency_figure, loci_figure, motion_figure, validation_figure,
 };
@@ -156,7 +156,7 @@ fn a_motion_has_frequency_and_growth_over_time() {
     assert_eq!((last(swing, 0), last(swing, 1)), (0.0, 0.0));
     assert!(last(growth, 0) > 0.9 && last(growth, 1) < -0.9);
     assert!(shaded(growth)[0].1 == 0.0 && shaded(growth)[2].1 == growth.y.range.unwrap().1);
-    assert_eq!(figure.panels.iter().map(|panel| panel.color_series.len()).sum::<usize>(), 0);
+    assert_eq!(figure.panels.iter().map(|panel| panel.colored.len()).sum::<usize>(), 0);
     let other = pair(Kind::Physical, |_| complex(-0.1, 2.0));
     let both = motion_figure("loci", &branches, Some(("simple", &other))).unwrap();
     assert!(
@@ -181,16 +181,14 @@ fn a_campbell_diagram_has_lines_of_excitation() {
         panel.series.iter().filter(|line| line.style == Style::Guide).map(|line| line.points[49]).collect();
     let fastest = 50.0 * 0.98 / TAU;
     assert!((guides[0].1 - fastest).abs() < 1e-9 && (guides[1].1 - 2.0 * fastest).abs() < 1e-9, "{guides:?}");
-    assert_eq!(panel.annotations.iter().map(|note| note.text.as_str()).collect::<Vec<_>>(), ["1×", "2×"]);
+    assert_eq!(panel.items.iter().map(|item| &item.form).collect::<Vec<_>>(), [&note("1×"), &note("2×")]);
     // Modes that twice a turn may meet: below 1.5 * 2 * 49 rad/s.
     let mut names = panel.series.iter().map(|line| line.label.as_str()).filter(|label| !label.is_empty());
     assert_eq!(names.next_back(), Some("mode 7"));
     says(&panel.title, &["the 7 slowest of 9 modes"]);
     // Without a rotation there are none.
     let plain = frequency_figure("modes", "k1 (N/m)", &branches, &[]).unwrap();
-    assert!(
-        plain.panels[0].series.iter().all(|line| line.style != Style::Guide) && plain.panels[0].annotations.is_empty()
-    );
+    assert!(plain.panels[0].series.iter().all(|line| line.style != Style::Guide) && plain.panels[0].items.is_empty());
 }
 
 /// A mode has the name that it has in the files, also where slower ones begin later.
@@ -208,9 +206,14 @@ fn only(figure: Option<Figure>) -> Panel {
     panels.remove(0)
 }
 
+fn note(text: &str) -> Form {
+    Form::Note(text.into())
+}
+
 /// Corners of the shaded part of a panel.
 fn shaded(panel: &Panel) -> Vec<(f64, f64)> {
-    let [Item::Area { spots, .. }] = &panel.items[..] else { panic!("{:?}", panel.items) };
+    let mut areas = panel.items.iter().filter(|item| matches!(item.form, Form::Area(_)));
+    let (Some(Item { spots, .. }), None) = (areas.next(), areas.next()) else { panic!("{:?}", panel.items) };
     let corner = |place: &Place| match place {
         Place::Data(x, y) => (*x, *y),
         Place::Frame(..) => panic!("{place:?}"),
@@ -234,8 +237,8 @@ fn bode_magnitudes_are_in_decibel_or_in_their_unit() {
     let responses = [response("a", "m/s^2")];
     let panel = |magnitude| bode_figure("arm", &frequencies, &responses, magnitude).unwrap().panels[0].clone();
     let [decibel, absolute] = [Magnitude::Decibel, Magnitude::Absolute].map(panel);
-    assert_eq!((decibel.y.label.as_str(), decibel.y.scale), ("magnitude (dB re m/s²/(N m))", Scale::Linear));
-    assert_eq!((absolute.y.label.as_str(), absolute.y.scale), ("magnitude (m/s²/(N m))", Scale::Log));
+    assert_eq!((decibel.y.label.as_str(), decibel.y.scale), ("magnitude (dB re m/s^2/(N m))", Scale::Linear));
+    assert_eq!((absolute.y.label.as_str(), absolute.y.scale), ("magnitude (m/s^2/(N m))", Scale::Log));
     for (in_db, size) in decibel.series[0].points.iter().zip(&absolute.series[0].points) {
         assert!((in_db.1 - 20.0 * size.1.log10()).abs() < 1e-12);
     }

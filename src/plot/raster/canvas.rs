@@ -2,8 +2,8 @@
 
 use super::super::shape::{Color, Drawing, Paint as Style, Pt, Shape, Stroke, Text};
 use super::super::text::{DEJAVU, EM, glyphs, metrics};
-use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
-use tiny_skia::{FillRule, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, StrokeDash, Transform};
+use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve};
+use tiny_skia::{FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, PremultipliedColorU8, StrokeDash, Transform};
 
 /// A picture.
 #[derive(Clone)]
@@ -39,7 +39,7 @@ impl RasterCanvas {
 
     fn shape(&mut self, shape: &Shape) {
         match shape {
-            Shape::Text(text) => self.fill(letters(text), text.color, 1.0, true),
+            Shape::Text(text) => self.text(text),
             Shape::Drawn(Style::Line(stroke), lines) => self.stroke(outline(lines), stroke),
             // Whole pixels, so that crisp areas leave no seam between them.
             Shape::Drawn(Style::Area(color, opacity, crisp), lines) => {
@@ -50,6 +50,25 @@ impl RasterCanvas {
                 points.iter().flatten().for_each(|(x, y)| path.push_circle(*x as f32, *y as f32, *radius as f32));
                 self.fill(path, *color, 1.0, true);
             }
+        }
+    }
+
+    fn text(&mut self, text: &Text) {
+        let Some(font) = DEJAVU.as_ref() else { return };
+        let turn = Transform::from_rotate(if text.turned { -90.0 } else { 0.0 });
+        let start = self.scale.pre_translate(text.at.0 as f32, text.at.1 as f32).pre_concat(turn);
+        let mut along = -text.align.part() * text.rich.width(text.size);
+        for (rise, run) in &text.rich.0 {
+            let (size, down) = metrics(*rise, text.size);
+            let (glyphs, end) = glyphs(font, run);
+            for (glyph, right) in glyphs {
+                let place = start.pre_translate((along + right * size) as f32, down as f32);
+                let place = place.pre_scale((size / EM) as f32, (-size / EM) as f32);
+                if let Some(path) = letter(font, glyph) {
+                    self.pixels.fill_path(&path, &paint(text.color, 1.0), FillRule::Winding, place, None);
+                }
+            }
+            along += end * size;
         }
     }
 
@@ -89,43 +108,21 @@ fn outline(lines: &[Vec<Pt>]) -> PathBuilder {
     path
 }
 
-/// Returns the outlines of a text's letters.
-fn letters(text: &Text) -> PathBuilder {
-    let mut path = PathBuilder::new();
-    let Some(font) = DEJAVU.as_ref() else { return path };
-    let mut along = -text.align.part() * text.rich.width(text.size);
-    for (rise, run) in &text.rich.0 {
-        let (size, down) = metrics(*rise, text.size);
-        let (glyphs, end) = glyphs(font, run);
-        for (glyph, start) in glyphs {
-            let place = |point: Point| {
-                let right = along + (start + f64::from(point.x) / EM) * size;
-                let below = down - f64::from(point.y) / EM * size;
-                let (x, y) = if text.turned { (below, -right) } else { (right, below) };
-                ((text.at.0 + x) as f32, (text.at.1 + y) as f32)
-            };
-            letter(&mut path, font, glyph, place);
-        }
-        along += end * size;
-    }
-    path
-}
-
-/// Adds a glyph; `place` returns where a point of the font is in the picture.
-fn letter(path: &mut PathBuilder, font: &FontRef, glyph: GlyphId, place: impl Fn(Point) -> (f32, f32)) {
-    let mut pen = None;
-    for curve in font.outline(glyph).map_or_else(Vec::new, |outline| outline.curves) {
+/// Returns the outline of a glyph in units of the font; none for spaces.
+fn letter(font: &FontRef, glyph: GlyphId) -> Option<Path> {
+    let (mut path, mut pen) = (PathBuilder::new(), None);
+    for curve in font.outline(glyph)?.curves {
         let (OutlineCurve::Line(from, to) | OutlineCurve::Quad(from, _, to) | OutlineCurve::Cubic(from, _, _, to)) =
             curve;
-        let (start, (x, y)) = (place(from), place(to));
         if pen != Some(from) {
-            path.move_to(start.0, start.1);
+            path.move_to(from.x, from.y);
         }
         match curve {
-            OutlineCurve::Line(..) => path.line_to(x, y),
-            OutlineCurve::Quad(_, a, _) => path.quad_to(place(a).0, place(a).1, x, y),
-            OutlineCurve::Cubic(_, a, b, _) => path.cubic_to(place(a).0, place(a).1, place(b).0, place(b).1, x, y),
+            OutlineCurve::Line(..) => path.line_to(to.x, to.y),
+            OutlineCurve::Quad(_, a, _) => path.quad_to(a.x, a.y, to.x, to.y),
+            OutlineCurve::Cubic(_, a, b, _) => path.cubic_to(a.x, a.y, b.x, b.y, to.x, to.y),
         }
         pen = Some(to);
     }
+    path.finish()
 }

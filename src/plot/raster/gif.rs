@@ -1,19 +1,14 @@
 //! GIF files: one palette for all frames, and of each frame only the difference from the one before.
 
+use super::super::palette::{COLORS, INK, PAPER, mix};
+use super::super::shape::Color;
 use super::super::shape::{Drawing, Shape};
 use super::canvas::RasterCanvas;
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use rayon::prelude::*;
 
-/// Number of frames from which the palette is taken.
-const SAMPLES: usize = 6;
-/// Number of colours, and the index of an unchanged pixel.
-const COLORS: usize = 255;
+/// Index of an unchanged pixel.
 const SAME: u8 = 255;
-/// Number of the most frequent colours that are always in the palette, such as those of areas.
-const FREQUENT: usize = 64;
-/// Colours nearer than this to a more frequent one are added only after all others.
-const NEAR: i32 = 14;
 /// Number of frames drawn at once.
 const BATCH: usize = 8;
 
@@ -38,15 +33,19 @@ pub(in super::super) fn gif(
         frame.rgb()
     };
     let side = |pixels: u32| u16::try_from(pixels).map_err(|_| format!("{pixels} pixels are too many for a GIF"));
-    let samples: Vec<usize> = (0..SAMPLES.min(count)).map(|k| k * (count - 1) / (SAMPLES - 1).max(1)).collect();
-    let palette = Palette::new(&samples.into_par_iter().map(&draw).collect::<Vec<_>>());
+    let palette = palette();
+    let nearest = nearest(&palette);
+    let mut bytes: Vec<u8> = palette.iter().flat_map(|color| [color.0, color.1, color.2]).collect();
+    bytes.resize(768, 0);
     let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, side(width)?, side(height)?, &palette.bytes()).map_err(text)?;
+    let mut encoder = Encoder::new(&mut file, side(width)?, side(height)?, &bytes).map_err(text)?;
     encoder.set_repeat(Repeat::Infinite).map_err(text)?;
     let mut before: Vec<u8> = Vec::new();
     for first in (0..count).step_by(BATCH) {
         let batch: Vec<usize> = (first..count.min(first + BATCH)).collect();
-        let drawn = batch.into_par_iter().map(|k| palette.indices(&draw(k)));
+        let drawn = batch
+            .into_par_iter()
+            .map(|k| draw(k).chunks_exact(3).map(|color| nearest[bin(color)]).collect::<Vec<u8>>());
         for (k, indices) in drawn.collect::<Vec<_>>().into_iter().enumerate() {
             let mut frame = difference(&before, &indices, width as usize);
             frame.delay = delay(first + k, per_second);
@@ -91,64 +90,37 @@ fn difference(before: &[u8], now: &[u8], width: usize) -> Frame<'static> {
     }
 }
 
-type Rgb = [u8; 3];
+/// Shades of each colour of figures: those towards paper, and those towards ink.
+const PALE: usize = 24;
+const DARK: usize = 11;
+/// Colours of five bits per channel.
+const BINS: usize = 1 << 15;
 
-/// At most [`COLORS`] colours, with the index of the nearest for each colour of five bits per channel.
-struct Palette {
-    colors: Vec<Rgb>,
-    nearest: Vec<u8>,
+/// Returns the colours of figures, mixed with paper and with ink as at soft edges.
+fn palette() -> Vec<Color> {
+    let pale = |color: &Color, k: usize| mix(*color, PAPER, k as f64 / PALE as f64);
+    let dark = |color: &Color, k: usize| mix(*color, INK, k as f64 / DARK as f64);
+    let shades = |color| (0..PALE).map(move |k| pale(color, k)).chain((1..DARK).map(move |k| dark(color, k)));
+    [PAPER].into_iter().chain(COLORS.iter().flat_map(shades)).collect()
 }
 
-const BINS: usize = 1 << 15;
+/// Returns the index of the nearest colour for each colour of five bits per channel.
+fn nearest(palette: &[Color]) -> Vec<u8> {
+    let near = |bin: usize| {
+        let part = |shift: usize| (bin >> shift & 31) as i32 * 33 / 4;
+        let distance = |Color(red, green, blue): Color| {
+            [(red, part(10)), (green, part(5)), (blue, part(0))]
+                .map(|(a, b)| (i32::from(a) - b).pow(2))
+                .iter()
+                .sum::<i32>()
+        };
+        (0..palette.len()).min_by_key(|k| distance(palette[*k])).unwrap_or(0) as u8
+    };
+    (0..BINS).into_par_iter().map(near).collect()
+}
 
 fn bin(color: &[u8]) -> usize {
     usize::from(color[0] >> 3) << 10 | usize::from(color[1] >> 3) << 5 | usize::from(color[2] >> 3)
-}
-
-impl Palette {
-    /// The most frequent colours, those far from each other first.
-    fn new(pictures: &[Vec<u8>]) -> Self {
-        let mut sums = vec![[0u64; 4]; BINS];
-        for color in pictures.iter().flat_map(|pixels| pixels.chunks_exact(3)) {
-            let sum = &mut sums[bin(color)];
-            sum[0] += 1;
-            (0..3).for_each(|k| sum[k + 1] += u64::from(color[k]));
-        }
-        let mut found: Vec<[u64; 4]> = sums.iter().copied().filter(|sum| sum[0] > 0).collect();
-        found.sort_by_key(|sum| std::cmp::Reverse(sum[0]));
-        let mean = |sum: &[u64; 4]| [1, 2, 3].map(|k| ((sum[k] + sum[0] / 2) / sum[0]) as u8);
-        let (mut colors, mut near): (Vec<Rgb>, Vec<Rgb>) = (vec![[255; 3]], Vec::new());
-        for (k, color) in found.iter().map(mean).enumerate() {
-            let is_near = colors.iter().any(|known| distance(*known, color) < NEAR * NEAR);
-            if is_near && k >= FREQUENT { near.push(color) } else { colors.push(color) }
-        }
-        colors.extend(near);
-        colors.truncate(COLORS);
-        let center = |bin: usize| [bin >> 10, bin >> 5 & 31, bin & 31].map(|part| (8 * part + 4) as u8);
-        let own = |bin: usize| if sums[bin][0] > 0 { mean(&sums[bin]) } else { center(bin) };
-        let nearest = (0..BINS).into_par_iter().map(|bin| closest(&colors, own(bin))).collect();
-        Self { colors, nearest }
-    }
-
-    fn indices(&self, pixels: &[u8]) -> Vec<u8> {
-        pixels.chunks_exact(3).map(|color| self.nearest[bin(color)]).collect()
-    }
-
-    /// Returns the palette padded with black, with an entry for [`SAME`].
-    fn bytes(&self) -> Vec<u8> {
-        let mut bytes = self.colors.concat();
-        bytes.resize(3 * (COLORS + 1), 0);
-        bytes
-    }
-}
-
-fn closest(colors: &[Rgb], color: Rgb) -> u8 {
-    let place = (0..colors.len()).min_by_key(|k| distance(colors[*k], color));
-    place.unwrap_or(0) as u8
-}
-
-fn distance(a: Rgb, b: Rgb) -> i32 {
-    (0..3).map(|k| (i32::from(a[k]) - i32::from(b[k])).pow(2)).sum()
 }
 
 #[cfg(test)]
@@ -169,15 +141,5 @@ mod tests {
         assert_eq!((change.left, change.top, change.width, change.height), (1, 1, 2, 1));
         assert_eq!(change.buffer[..], [1, 2]);
         assert_eq!(difference(&now, &now, 4).buffer[..], [SAME]);
-    }
-
-    #[test]
-    fn rare_colors_have_a_place() {
-        let mut picture = [255; 3].repeat(10_000);
-        (0..200u8).for_each(|k| picture.extend([200, k, k].repeat(20)));
-        picture.extend([0, 114, 178]);
-        let palette = Palette::new(&[picture]);
-        assert_eq!(palette.colors[usize::from(palette.indices(&[0, 114, 178])[0])], [0, 114, 178]);
-        assert_eq!(palette.colors[usize::from(palette.indices(&[255, 255, 255])[0])], [255; 3]);
     }
 }

@@ -1,6 +1,6 @@
 //! Curves stacked in panels, so that the course of each can be seen.
 
-use super::{grouped, label, quantity, typeset};
+use super::{grouped, label, quantity};
 use crate::error::clock;
 use crate::math::{bounds, largest};
 use crate::plot::{Panel, Series};
@@ -153,7 +153,7 @@ impl Stack<'_> {
 fn start(curve: &Curve) -> String {
     let six_digits = format!("{:.5e}", curve.start()).parse().unwrap_or(curve.start());
     let value = clock(six_digits).replace('-', "−");
-    format!("x₀ = {value} {}", typeset(curve.unit)).trim_end().to_string()
+    format!("x₀ = {value} {}", curve.unit).trim_end().to_string()
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 use super::Response;
 use super::phase::phases;
 use crate::plot::{AxisSpec, Figure, Panel, Series};
-use crate::report::figures::typeset;
 use crate::report::figures::{grouped, label};
 
 /// How a figure shows magnitudes.
@@ -61,7 +60,7 @@ pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response], mag
     let input = &first[0].input;
     let has_one_input = groups.iter().all(|group| group[0].input == *input);
     let title = if has_one_input { format!("{title}: response to {input}") } else { title.to_string() };
-    let figure = Figure::new().title(title).columns(2).width(WIDE);
+    let figure = Figure { columns: 2, width: WIDE, ..Figure::new().title(title) };
     let shown = groups.iter().zip(drawn(&groups)).filter(|(_, drawn)| *drawn);
     Some(shown.fold(figure, |figure, (group, _)| {
         let [mut sizes, phases] = panels(group, frequencies, magnitude, |response| response.output.clone());
@@ -84,16 +83,15 @@ fn panels(group: &Group, frequencies: &[f64], magnitude: Magnitude, name: impl F
     };
     let sizes = lines(magnitude.axis(&group[0].unit()), &name, &|response| magnitude.of(response));
     let phases = |response: &Response| phases(frequencies, &response.values);
-    [sizes, lines(AxisSpec::from("phase (deg)").degrees(), &|_| String::new(), &phases)]
+    [sizes, lines(AxisSpec { is_angle: true, ..AxisSpec::from("phase (deg)") }, &|_| String::new(), &phases)]
 }
 
 impl Magnitude {
     fn axis(self, unit: &str) -> AxisSpec {
-        let unit = typeset(unit);
         match self {
             Magnitude::Decibel if unit.is_empty() => AxisSpec::from("magnitude (dB)"),
             Magnitude::Decibel => AxisSpec::from(format!("magnitude (dB re {unit})")),
-            Magnitude::Absolute => AxisSpec::from(label("magnitude", &unit)).log(),
+            Magnitude::Absolute => AxisSpec::from(label("magnitude", unit)).log(),
         }
     }
 

@@ -7,7 +7,6 @@ use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, dampi
 use crate::math::bounds;
 use crate::plot::AxisSpec;
 use crate::report::figures::label;
-use crate::report::figures::typeset;
 use crate::report::{Table, cell, table};
 use crate::tolerances::linearize as tolerances;
 use crate::tolerances::report::SAME;
@@ -137,7 +136,7 @@ impl LociSummary {
 
     /// Returns the axis of the parameter, with its unit if that is known.
     pub fn axis(&self) -> AxisSpec {
-        let axis = AxisSpec::from(label(&self.along.name, &typeset(&self.along.unit)));
+        let axis = AxisSpec::from(label(&self.along.name, &self.along.unit));
         if self.along.log { axis.log() } else { axis }
     }
 }

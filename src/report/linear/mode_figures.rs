@@ -103,7 +103,7 @@ fn excitation(panel: Panel, speeds: &[(f64, f64)], top: f64) -> Panel {
         let inside = points.iter().copied().filter(|point| point.1 < 0.95 * top);
         let end = inside.max_by(|a, b| a.1.total_cmp(&b.1));
         let panel = panel.series(Series::line("", points).style(Style::Guide));
-        end.into_iter().fold(panel, |panel, (x, y)| panel.annotate_in(Tint::Ink(0.4), x, y, format!("{order}×")))
+        end.into_iter().fold(panel, |panel, (x, y)| panel.note(Tint::Ink(0.4), x, y, format!("{order}×")))
     })
 }
 

@@ -5,7 +5,7 @@ use super::ranges::{VERMILION, fitted, notes, robust, shaded};
 use super::rays::{Ray, rays};
 use crate::error::{short, significant};
 use crate::linearize::{Branch, Complex, Kind, are_conjugate};
-use crate::plot::{AxisSpec, ColorSeries, Figure, Panel, Series, Style, Tint};
+use crate::plot::{AxisSpec, Figure, Panel, Series, Style, Tint};
 use std::collections::BTreeMap;
 
 /// Colour of the axes, as an index in the palette.
@@ -30,7 +30,6 @@ pub fn loci_figure(
     branches: &[Branch],
     speeds: &[(f64, f64)],
 ) -> Option<Figure> {
-    let along = along.into();
     let (drawn, left_out) = drawn::branches(branches, drawn::count(branches, speeds));
     let is_upper = are_mirrored(&drawn);
     let shown: Vec<Branch> = drawn.iter().map(|branch| finite(branch, is_upper)).collect();
@@ -53,11 +52,8 @@ pub fn loci_figure(
         }
     }
     panel = panel.series(Series::line("", joined(of(Kind::Physical))).style(Style::Thin).color(BLACK));
-    let colored: Vec<(f64, f64, f64)> =
-        points(of(Kind::Physical)).map(|(at, value)| (value.re, value.im, at)).collect();
-    if !colored.is_empty() {
-        panel = panel.color_series(ColorSeries { scale: along.scale, ..ColorSeries::new(along.label, colored) });
-    }
+    panel.colored = points(of(Kind::Physical)).map(|(at, value)| (value.re, value.im, at)).collect();
+    panel.colors = along.into();
     Some(Figure::new().title(title).panel(panel))
 }
 
@@ -131,7 +127,7 @@ fn frame_lines(panel: Panel, window: &Window, is_upper: bool, data: &[Complex<f6
     let panel = panel.series(guide).series(across).series(up);
     rays.iter().fold(panel, |panel, ray| {
         let (x, y) = free_place(ray, data, pixels);
-        panel.annotate_in(Tint::Ink(0.4), x, y, format!("ζ = {}", short(ray.ratio)))
+        panel.note(Tint::Ink(0.4), x, y, format!("ζ = {}", short(ray.ratio)))
     })
 }
 

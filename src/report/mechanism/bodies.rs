@@ -79,7 +79,7 @@ fn fill(pen: &mut Canvas, spots: Vec<Spot>, color: usize) {
         return;
     }
     // A layer of paper colour below, so that this picture stands out from earlier ones.
-    pen.area(spots.clone(), Tint::Paper, PAPER);
+    pen.area(spots.clone(), Tint::Ink(1.0), PAPER);
     pen.shape(spots, edge, BOLD, (inner, OPACITY));
 }
 
@@ -135,7 +135,7 @@ pub fn centre(pen: &mut Canvas, limb: &Limb, color: usize) {
     }
     let ink = pen.color(color, 0.0);
     pen.disc(at, CENTRE, ink);
-    pen.disc(at, CENTRE - 1.2, Tint::Paper);
+    pen.disc(at, CENTRE - 1.2, Tint::Ink(1.0));
     for from in [0.0, std::f64::consts::PI] {
         let step = |i: usize| {
             let angle = from + std::f64::consts::FRAC_PI_2 * i as f64 / 4.0;

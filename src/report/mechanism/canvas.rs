@@ -1,7 +1,7 @@
 //! A canvas in space, seen from a view: collects items with their depths.
 
 use super::view::{View, along, square_to};
-use crate::plot::{Align, Item, Spot, Tint};
+use crate::plot::{Align, Form, Item, Spot, Tint};
 
 /// Order of items of equal depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -62,34 +62,34 @@ impl<'a> Canvas<'a> {
         self.spot(r).moved(right, up)
     }
 
-    fn push(&mut self, item: Item) {
-        self.items.push((self.depth, self.layer, item));
+    fn push(&mut self, spots: Vec<Spot>, tint: Tint, form: Form) {
+        self.items.push((self.depth, self.layer, Item { spots, tint, form }));
     }
 
     pub fn line(&mut self, spots: Vec<Spot>, tint: Tint, width: f64) {
-        self.push(Item::Line { spots, tint, width, dashed: false });
+        self.push(spots, tint, Form::Line(width, false));
     }
 
     pub fn dashes(&mut self, spots: Vec<Spot>, tint: Tint, width: f64) {
-        self.push(Item::Line { spots, tint, width, dashed: true });
+        self.push(spots, tint, Form::Line(width, true));
     }
 
     pub fn area(&mut self, spots: Vec<Spot>, tint: Tint, opacity: f64) {
-        self.push(Item::Area { spots, tint, opacity });
+        self.push(spots, tint, Form::Area(opacity));
     }
 
     pub fn disc(&mut self, spot: Spot, radius: f64, tint: Tint) {
-        self.push(Item::Disc { spot, radius, tint });
+        self.push(vec![spot], tint, Form::Disc(radius));
     }
 
     /// Draws a small text centred at a point.
     pub fn text(&mut self, spot: Spot, text: &str) {
-        self.push(Item::Text { spot, text: text.to_string(), align: Align::Middle });
+        self.push(vec![spot], Tint::Ink(0.0), Form::Text(text.to_string(), Align::Middle));
     }
 
     pub fn ring(&mut self, spot: Spot, radius: f64, tint: Tint) {
         self.disc(spot, radius + 0.5 * THIN, tint);
-        self.disc(spot, radius - 0.5 * THIN, Tint::Paper);
+        self.disc(spot, radius - 0.5 * THIN, Tint::Ink(1.0));
     }
 
     /// Draws a filled outline.

@@ -11,7 +11,7 @@ use crate::body::{dot, norm, sub, unit};
 use crate::error::significant;
 use crate::joint::Axis;
 use crate::linearize::State;
-use crate::plot::{Align, Animation, Figure, Item, Panel, Place, Series, Spot, Tint};
+use crate::plot::{Align, Animation, AxisSpec, Figure, Form, Item, Panel, Place, Series, Spot, Tint};
 use crate::prepared::{AnyMechanism, PreparedScene};
 
 /// Options of a figure of the mechanism.
@@ -86,7 +86,7 @@ fn keys(times: &[f64], paleness: impl Fn(usize) -> f64) -> Vec<(String, Tint)> {
 fn dot_on_path(look: &Look, scene: &Snapshot, trace: &Trace, paleness: f64) -> Item {
     let (x, y) = look.view.flat(scene.markers[trace.marker].r);
     let tint = trace.body.map_or(Tint::Ink(paleness), |body| Tint::Body(body, 0.6 * paleness));
-    Item::Disc { spot: Spot::data(x, y), radius: 3.4, tint }
+    Item { spots: vec![Spot::data(x, y)], tint, form: Form::Disc(3.4) }
 }
 
 /// Draws the mechanism in motion at `times`, `per_second` of them in a second.
@@ -121,16 +121,20 @@ pub fn animation(
         if look.labels {
             items.extend(scene.limbs.iter().map(|limb| {
                 let (x, y) = look.view.flat(limb.centre.r);
-                Item::Text { spot: Spot::data(x, y).moved(9.0, 9.0), text: limb.name.clone(), align: Align::Start }
+                text(Spot::data(x, y).moved(9.0, 9.0), limb.name.clone(), Align::Start)
             }));
         }
-        let above = |x: f64, text: String, align| Item::Text { spot: corner(x, 1.0).moved(0.0, 8.0), text, align };
-        items.push(above(1.0, format!("t = {:.decimals$} s", states[k].t), Align::End));
-        items.push(above(0.0, speed.clone(), Align::Start));
+        let above = |x: f64| corner(x, 1.0).moved(0.0, 8.0);
+        items.push(text(above(1.0), format!("t = {:.decimals$} s", states[k].t), Align::End));
+        items.push(text(above(0.0), speed.clone(), Align::Start));
         let panel = Panel { series: series.clone(), ..empty.clone() };
         Figure::new().title(name.clone()).panel(panel.items(items))
     };
     Animation { frame, count, per_second }
+}
+
+fn text(spot: Spot, text: String, align: Align) -> Item {
+    Item { spots: vec![spot], tint: Tint::Ink(0.0), form: Form::Text(text, align) }
 }
 
 fn corner(x: f64, y: f64) -> Spot {
@@ -183,9 +187,9 @@ pub(super) fn panel<'a>(
     let span = (high[0] - low[0]).max(high[1] - low[1]);
     let room = if span > 0.0 { ROOM * span } else { 0.5 };
     let [x, y] = look.view.labels();
-    let axis = |i: usize, label: String| crate::plot::AxisSpec::from(label).range(low[i] - room, high[i] + room);
-    let panel = Panel::new(axis(0, x), axis(1, y)).equal_aspect();
-    if scene.is_planar { panel } else { Panel { inset: triad(&look.view), ..panel } }
+    let axis = |i: usize, label: String| AxisSpec::from(label).range(low[i] - room, high[i] + room);
+    let inset = if scene.is_planar { Vec::new() } else { triad(&look.view) };
+    Panel { equal_aspect: true, inset, ..Panel::new(axis(0, x), axis(1, y)) }
 }
 
 /// Margin at both ends, as a part of the longer side.
@@ -218,7 +222,7 @@ pub(super) fn labelled(look: &Look, scene: &Snapshot, mut panel: Panel) -> Panel
             let count = limb.points.len().max(1) as f64;
             let flat = limb.points.iter().map(|point| look.view.flat(*point));
             let (x, y) = flat.fold((0.0, 0.0), |sum, point| (sum.0 + point.0, sum.1 + point.1));
-            panel = panel.annotate_in(Tint::Body(color, 0.0), x / count, y / count, limb.name.clone());
+            panel = panel.note(Tint::Body(color, 0.0), x / count, y / count, limb.name.clone());
         }
     }
     panel

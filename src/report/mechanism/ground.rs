@@ -70,7 +70,7 @@ fn support(pen: &mut Canvas, at: [f64; 3], (x, y): (f64, f64), is_wall: bool) {
     let base = if is_wall { 0.0 } else { 14.0 };
     if !is_wall {
         let triangle: Vec<Spot> = vec![corner(0.0, 0.0), corner(8.5, base), corner(-8.5, base)];
-        pen.shape(triangle, ink, THIN, (crate::plot::Tint::Paper, 1.0));
+        pen.shape(triangle, ink, THIN, (crate::plot::Tint::Ink(1.0), 1.0));
     }
     pen.line(vec![corner(-14.0, base), corner(14.0, base)], ink, THIN);
     for k in 0..6 {

@@ -61,7 +61,7 @@ pub fn mode_figure(prepared: &PreparedScene, look: &Look, model: &LinearModel) -
     match figure.panels.len() {
         0 => None,
         1 => Some(figure),
-        _ => Some(figure.columns(2).width(WIDE)),
+        _ => Some(Figure { columns: 2, width: WIDE, ..figure }),
     }
 }
 
@@ -102,13 +102,8 @@ fn picture_of(prepared: &PreparedScene, look: &Look, model: &LinearModel, mode: 
 
 /// Returns an item without the colours of bodies.
 fn grey(item: Item) -> Item {
-    let grey = |tint: Tint| if let Tint::Body(_, paleness) = tint { Tint::Ink(paleness) } else { tint };
-    match item {
-        Item::Line { spots, tint, width, dashed } => Item::Line { spots, tint: grey(tint), width, dashed },
-        Item::Area { spots, tint, opacity } => Item::Area { spots, tint: grey(tint), opacity },
-        Item::Disc { spot, radius, tint } => Item::Disc { spot, radius, tint: grey(tint) },
-        text => text,
-    }
+    let tint = if let Tint::Body(_, paleness) = item.tint { Tint::Ink(paleness) } else { item.tint };
+    Item { tint, ..item }
 }
 
 impl<'a> Swing<'a> {

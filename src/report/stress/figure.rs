@@ -1,8 +1,7 @@
 //! Figure of a map.
 
 use crate::compare::stress::{Axis, Cell, Status, Stressed};
-use crate::plot::{AxisSpec, Figure, HeatMap, Panel, Tint};
-use crate::report::figures::typeset;
+use crate::plot::{self, AxisSpec, Figure, Panel, Tint};
 use crate::tolerances::report::WRONG_MOTION;
 
 /// Height of a row of cells, in nominal pixels.
@@ -31,7 +30,7 @@ pub fn stress_figure(scene: &str, stressed: &Stressed) -> Option<Figure> {
     let keys = keys(stressed);
     let panels =
         (0..map.methods.len()).map(|method| Panel { keys: keys.clone(), ..panel(stressed, method, (low, high)) });
-    let figure = Figure::new().title(title.replace('_', " ")).width(width(&map.x));
+    let figure = Figure { width: width(&map.x), ..Figure::new().title(title.replace('_', " ")) };
     Some(panels.fold(figure, Figure::panel))
 }
 
@@ -45,30 +44,24 @@ fn width(axis: &Axis) -> f64 {
 fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
     let map = &stressed.map;
     let (columns, rows) = (order(&map.x), order(&map.y));
-    let places = |entries: &[usize]| (0..entries.len()).map(|k| k as f64).collect();
-    let mut cells = HeatMap::new(map.quantity.label(), places(&columns), places(&rows)).log().range(low, high);
+    let mut panel = Panel::new(axis(&map.x, &columns), axis(&map.y, &rows))
+        .title(map.methods[method].label.clone())
+        .height(ROW * rows.len().max(4) as f64);
+    panel.colors = AxisSpec::from(map.quantity.label()).log().range(low, high);
     for (row, from_row) in rows.iter().enumerate() {
         for (column, from_column) in columns.iter().enumerate() {
-            let Some(cell) = stressed.cell(method, *from_row, *from_column) else { continue };
-            if let Some(value) = map.quantity.of(cell) {
-                cells.set(column, row, value);
-            }
-            match look(cell.status) {
-                Some((symbol, tint)) => {
-                    cells.fill(column, row, tint);
-                    cells.mark(column, row, symbol);
-                }
-                None if is_wrong(cell) => cells.mark(column, row, WRONG),
-                None => {}
-            }
+            let cell = stressed.cell(method, *from_row, *from_column);
+            let mark = if cell.is_some_and(is_wrong) { WRONG } else { "" };
+            let (word, tint) = cell.and_then(|cell| look(cell.status)).unwrap_or((mark, NO_VALUE));
+            let value = cell.and_then(|cell| map.quantity.of(cell));
+            panel.cells.push(plot::Cell { column, row, value, tint, word: word.into() });
         }
     }
-    Panel::new(axis(&map.x, &columns), axis(&map.y, &rows))
-        .title(map.methods[method].label.clone())
-        .heat_map(cells)
-        .height(ROW * rows.len().max(4) as f64)
+    panel
 }
 
+/// Colour of cells of which nothing is known.
+const NO_VALUE: Tint = Tint::Ink(0.82);
 /// Mark of cells that completed with a wrong motion.
 const WRONG: &str = "!";
 
@@ -109,8 +102,9 @@ fn order(axis: &Axis) -> Vec<usize> {
 
 /// Returns the axis with the label of each entry.
 fn axis(axis: &Axis, order: &[usize]) -> AxisSpec {
-    let label = typeset(&axis.label());
+    let label = axis.label();
     let has_others = !axis.unit.is_empty() && axis.values().is_none();
     let label = if has_others { format!("{label}, or method") } else { label };
-    AxisSpec::from(label).names(order.iter().map(|k| axis.entries[*k].label.clone()))
+    let names = order.iter().map(|k| axis.entries[*k].label.clone()).collect();
+    AxisSpec { names, ..AxisSpec::from(label) }
 }

@@ -21,7 +21,8 @@ pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> 
     let panel = |x: Quantity, y: Quantity| panel(measured, &named, x, y);
     let error = || Quantity("error (relative)", &Cell::error);
     let drifts = panel(Quantity("CPU time (s)", &cost), Quantity("drift of φ, φ′ (relative)", &drift));
-    let figure = Figure::new().title(format!("{}: speed for accuracy", measured.scene)).columns(2).width(WIDTH);
+    let figure =
+        Figure { columns: 2, width: WIDTH, ..Figure::new().title(format!("{}: speed for accuracy", measured.scene)) };
     Some(
         figure
             .panel(panel(Quantity("CPU time (s)", &cost), error()))

@@ -3,7 +3,7 @@
 use super::milliseconds;
 use crate::compare::work_precision::models::{Finer, ModelCost, ModelCosts};
 use crate::error::{Result, percent};
-use crate::plot::{AxisSpec, Figure, Panel, Series};
+use crate::plot::{AxisSpec, Figure, Panel, Series, Tint};
 use crate::report::tables::optional;
 use crate::report::{Table, table};
 use serde::Serialize;
@@ -172,7 +172,7 @@ pub fn models_figure(title: &str, costs: &ModelCosts) -> Option<Figure> {
         if let (Some(seconds), Some(error)) = (model.seconds(), model.error().filter(|error| *error > 0.0)) {
             // The part of the name that differs is enough.
             let name = model.name.rsplit_once(':').map_or(model.name.as_str(), |(_, set)| set);
-            panel = panel.annotate(seconds, error, name);
+            panel = panel.note(Tint::Ink(0.0), seconds, error, name);
         }
     }
     (!panel.series.is_empty()).then(|| Figure::new().title(title).panel(panel.height(360.0)))
