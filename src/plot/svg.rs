@@ -5,6 +5,8 @@
 
 use super::*;
 
+/// Discs are strokes of this length, in pixels, with round ends: a quarter of the bytes of circles.
+const DOT: f64 = 0.1;
 const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-serif";
 
 /// Returns the whole file.
@@ -30,13 +32,10 @@ fn shape(out: &mut String, shape: &Shape) {
         Shape::Text(line) => return text(out, line),
         Shape::Drawn(paint, lines) => (paint, lines),
     };
-    *out += &format!("<path {} d=\"", style(paint));
-    if let Paint::Disc(..) = paint {
-        dots(out, lines.iter().flatten())
-    } else {
-        lines.iter().for_each(|line| outline(out, line))
-    }
-    *out += "\"/>\n";
+    let dot = |(x, y): &Pt| vec![(*x, *y), (x + DOT, *y)];
+    let dots = || lines.iter().flatten().map(dot).collect::<Vec<_>>();
+    let data = if let Paint::Disc(..) = paint { data(&dots()) } else { data(lines) };
+    *out += &format!("<path {} d=\"{data}\"/>\n", style(paint));
 }
 
 /// Returns the attributes of a path.
@@ -92,42 +91,36 @@ fn text(out: &mut String, text: &Text) {
     out.push_str("</text>\n");
 }
 
-/// Writes path data: absolute start, then steps in tenths of a pixel that add up without drift.
-fn outline(out: &mut String, points: &[Pt]) {
-    let mut at = (0, 0);
-    for (k, (x, y)) in points.iter().enumerate() {
-        let next = (tenths(*x), tenths(*y));
-        *out += ["M", "l", ""][k.min(2)];
-        step(out, (next.0 - at.0, next.1 - at.1), k > 1);
-        at = next;
+/// Returns path data: steps in tenths of a pixel that add up without drift, without letters that repeat.
+fn data(lines: &[Vec<Pt>]) -> String {
+    let (mut out, mut pen) = (String::new(), [0, 0]);
+    for line in lines {
+        let mut last = ' ';
+        for (x, y) in line {
+            let next = [x, y].map(|value| (10.0 * value).round() as i64);
+            let step = [next[0] - pen[0], next[1] - pen[1]];
+            let (letter, values) = match step {
+                _ if last == ' ' => ('m', &step[..]),
+                [_, 0] => ('h', &step[..1]),
+                [0, _] => ('v', &step[1..]),
+                _ => ('l', &step[..]),
+            };
+            // Pairs that follow a move are lines.
+            let repeats = letter == last || (last, letter) == ('m', 'l');
+            if !repeats {
+                out.push(letter);
+            }
+            for (k, value) in values.iter().enumerate() {
+                out += if (repeats || k > 0) && *value >= 0 { " " } else { "" };
+                out += &number(*value as f64 / 10.0);
+            }
+            (last, pen) = (letter, next);
+        }
+        if line.len() > 2 && line.first() == line.last() {
+            out.push('z');
+        }
     }
-    if points.len() > 2 && points.first() == points.last() {
-        out.push('z');
-    }
-}
-
-/// Writes discs as strokes a tenth of a pixel long with round ends: a quarter of the bytes of circles.
-fn dots<'a>(out: &mut String, at: impl Iterator<Item = &'a Pt>) {
-    let mut pen = (0, 0);
-    for (x, y) in at {
-        let next = (tenths(*x), tenths(*y));
-        out.push('m');
-        step(out, (next.0 - pen.0, next.1 - pen.1), false);
-        *out += "h.1";
-        pen = (next.0 + 1, next.1);
-    }
-}
-
-fn tenths(value: f64) -> i64 {
-    (10.0 * value).round() as i64
-}
-
-/// Writes a pair of numbers in tenths, the first after a space if it needs one as a separator.
-fn step(out: &mut String, (x, y): (i64, i64), follows: bool) {
-    for (value, follows) in [(x, follows), (y, true)] {
-        *out += if follows && value >= 0 { " " } else { "" };
-        *out += &number(value as f64 / 10.0);
-    }
+    out
 }
 
 /// Returns a number with at most two digits after the point, and no zeros that say nothing.
@@ -160,9 +153,8 @@ mod tests {
 
     #[test]
     fn paths_are_short() {
-        let mut data = String::new();
-        outline(&mut data, &[(1.0, 2.0), (1.5, 1.0), (0.0, 3.25)]);
-        assert_eq!(data, "M1 2l.5-1-1.5 2.3");
+        assert_eq!(data(&[vec![(1.0, 2.0), (1.5, 1.0), (0.0, 3.25)]]), "m1 2 .5-1-1.5 2.3");
+        assert_eq!(data(&[vec![(1.0, 1.0), (3.0, 1.0), (3.0, 0.0), (4.0, 1.0), (1.0, 1.0)]]), "m1 1h2v-1l1 1h-3z");
         assert_eq!(number(-0.001), "0");
         assert_eq!(escape("a<b & \u{1}\u{ffff}"), "a&lt;b &amp;  \u{fffd}");
     }
