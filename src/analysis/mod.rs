@@ -3,6 +3,7 @@
 
 mod drift;
 mod energy;
+mod extremes;
 mod range;
 mod rank;
 mod recorder;
@@ -14,6 +15,7 @@ pub use drift::{Drift, DriftLevel};
 pub use energy::EnergyBalance;
 #[doc(hidden)]
 pub use energy::{EnergyMeter, Ledger};
+pub use extremes::Extremes;
 #[doc(hidden)]
 pub use range::{LargestDeformation, Range};
 pub use rank::Rank;

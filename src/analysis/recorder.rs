@@ -2,13 +2,14 @@
 
 use super::drift::Drift;
 use super::energy::{EnergyBalance, EnergyMeter, Ledger};
+use super::extremes::Extremes;
 use super::range::Range;
 use super::singularity::{Singularity, Watch};
 use super::thinned::thin;
 use crate::math::largest;
 use crate::simulate::{Observation, Sink, Stop};
 use crate::system::{MechanicalSystem, Scratch};
-use crate::trajectory::{Gap, Trajectory};
+use crate::trajectory::{Gap, Trajectory, recorded};
 
 /// Trajectory, drift and energy of a run.
 pub struct Record {
@@ -20,6 +21,8 @@ pub struct Record {
     pub rows: usize,
     /// Outputs without a finite value at some rows.
     pub gaps: Vec<Gap>,
+    /// Least, greatest and mean values of the outputs over the rows.
+    pub extremes: Vec<Extremes>,
     /// Constraint drift.
     pub drift: Drift,
     /// `None` where the system defines no potential.
@@ -74,6 +77,7 @@ impl<'a> Recorder<'a> {
                 last: None,
                 rows: 0,
                 gaps: Vec::new(),
+                extremes: recorded(system).iter().map(Extremes::of).collect(),
                 drift: Drift::default(),
                 energy: None,
                 singularity: Singularity::default(),
@@ -154,6 +158,7 @@ impl Sink for Recorder<'_> {
             }
         }
         record.note_gaps(state.t);
+        record.note_extremes(state.t);
         if let Some(pass) = &mut self.pass {
             let all = record.last.as_ref().filter(|_| !self.outputs_only).unwrap_or(&record.trajectory);
             if let Some(values) = all.rows.last() {
@@ -172,6 +177,12 @@ impl Record {
     /// The last row with all columns that the run has.
     pub fn full(&self) -> &Trajectory {
         self.last.as_ref().unwrap_or(&self.trajectory)
+    }
+
+    fn note_extremes(&mut self, t: f64) {
+        let Record { trajectory, extremes, .. } = self;
+        let Some(row) = trajectory.rows.last() else { return };
+        extremes.iter_mut().zip(trajectory.row_outputs(row)).for_each(|(extremes, value)| extremes.add(t, *value));
     }
 
     /// Counts the outputs that have no value at the last row.

@@ -274,7 +274,7 @@ impl Args {
             self.seal(folder, "mechanism", prepared, drawn)?;
         }
         if self.outputs {
-            let figure = outputs_figure(&prepared.name, motion.trajectory(), shown, self.separate);
+            let figure = outputs_figure(&prepared.name, (motion.trajectory(), None), shown, self.separate);
             self.output.figure(folder, "plot-outputs", figure)?;
             self.seal(folder, "plot-outputs", prepared, drawn)?;
         }

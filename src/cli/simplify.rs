@@ -103,6 +103,12 @@ fn report(
         tell("error: interrupted\n  help: the model is the least one until then");
         return Ok(ExitCode::from(1));
     }
+    if let Some(broken) = found.broken() {
+        tell(format!(
+            "error: {broken}\n  help: give the scene a tighter rtol and atol, or a shorter motion by --until"
+        ));
+        return Ok(ExitCode::from(1));
+    }
     Ok(ExitCode::SUCCESS)
 }
 

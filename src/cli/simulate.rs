@@ -3,7 +3,7 @@
 use super::common::{Common, Output, tell};
 use super::{interrupt, restart};
 use crate::analysis::{Record, Recorder};
-use crate::compare::check_error;
+use crate::compare::{Completed, error_bars};
 use crate::error::{Error, Result, Warning};
 use crate::files::{mat, npz};
 use crate::prepared::PreparedScene;
@@ -34,7 +34,7 @@ pub struct Args {
     /// One panel an output in its figure (default: one for those of a unit whose ranges are alike)
     #[arg(long)]
     separate: bool,
-    /// Run again at a tenth of the tolerance, or half the step, and tell by how much each output differs
+    /// Give each output an error bar, from a second run with ten times the tolerance or twice the step
     #[arg(long)]
     check_error: bool,
     /// Go on from the end of another run of this scene, its summary.json, to a later --until
@@ -92,7 +92,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
         true => {
             let bar = args.common.talk.progress(1000, &format!("{}: the error", prepared.name));
             let watch = (|t: f64| bar.set_position(fraction(t)), || interrupt::stop(&folder));
-            summary.checked(on_all_threads(|| check_error(&prepared, span, &record.trajectory, watch)))
+            let run = Completed { span, trajectory: &record.trajectory, legs: &legs, statistics: outcome.statistics };
+            summary.checked(on_all_threads(|| error_bars(&prepared, run, watch)))
         }
         false => summary,
     };
@@ -149,7 +150,7 @@ fn write<'s>(
     folder: &mut Folder,
     args: &Args,
 ) -> Result<Sealed<&'s Summary>> {
-    let arrays = || report::trajectory_arrays(&record.trajectory);
+    let arrays = || report::trajectory_arrays(&record.trajectory, summary.error.as_ref());
     for format in &args.format {
         match format {
             Format::Csv => {}
@@ -160,7 +161,8 @@ fn write<'s>(
     let (output, name, length) = (&args.output, &prepared.name, prepared.system().length());
     let shown =
         Shown::of_run(Ending::of(summary.failure.as_ref(), &record.drift, record.energy.as_ref()), record, length);
-    output.figure(folder, "outputs", report::outputs_figure(name, &record.trajectory, &shown, args.separate))?;
+    let outputs = report::outputs_figure(name, (&record.trajectory, summary.error.as_ref()), &shown, args.separate);
+    output.figure(folder, "outputs", outputs)?;
     output.figure(folder, "drift", report::drift_figure(name, record, &shown, length))?;
     output.figure(folder, "energy", report::energy_figure(name, record, &shown))?;
     folder.seal("summary.json", summary)

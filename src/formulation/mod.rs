@@ -37,6 +37,7 @@ pub use iteration::{Change, Iteration, Number, Slopes};
 #[doc(hidden)]
 pub use linearized::{Linearized, NO_TANGENT};
 #[doc(hidden)]
+pub(crate) use penalty::softer;
 pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};
 pub use residual::Residual;
 #[doc(hidden)]

@@ -33,11 +33,23 @@ pub const ENTRY: Entry = Entry {
 /// Option `penalty` of penalty and augmented-Lagrangian formulations.
 pub const PENALTY: OptionDoc =
     OptionDoc { name: "penalty", about: "mass on the constraints over that of the mechanism (default 1e7)" };
+/// Default of [`PENALTY`].
+const DEFAULT_PENALTY: f64 = 1e7;
 /// Option `omega` of penalty and augmented-Lagrangian formulations.
 pub const OMEGA: OptionDoc =
     OptionDoc { name: "omega", about: "frequency at which phi is pulled back, 1/s (default 10)" };
 /// Option `xi` of penalty and augmented-Lagrangian formulations.
 pub const XI: OptionDoc = OptionDoc { name: "xi", about: "damping ratio of phi (default 1)" };
+
+/// The formulation with a tenth of its penalty, whose error O(1/penalty) is ten times as large; any other as it is.
+pub(crate) fn softer(formulation: &MethodSpec) -> MethodSpec {
+    match formulation.positive(PENALTY.name, DEFAULT_PENALTY) {
+        Ok(penalty) if formulation.name == ENTRY.name => {
+            formulation.clone().with(PENALTY.name, &format!("{:e}", 0.1 * penalty))
+        }
+        _ => formulation.clone(),
+    }
+}
 
 /// Saddle-point form with a slack s = (lambda_i - lambda)/a, solved `iterations` times from lambda_0 = 0:
 ///
@@ -69,7 +81,7 @@ impl Penalty {
         (mass.rows, mass.cols, g.cols) = (n.v + n.lambda, n.v + n.lambda, n.v + n.lambda);
         Ok(Penalty {
             iterations,
-            penalty: spec.positive("penalty", 1e7)?,
+            penalty: spec.positive(PENALTY.name, DEFAULT_PENALTY)?,
             omega: spec.not_negative("omega", 10.0)?,
             xi: spec.not_negative("xi", 1.0)?,
             weight: None,

@@ -1,9 +1,9 @@
 //! Results as files and text.
 
 mod check;
-mod check_error;
 mod drift;
 mod equilibrium;
+mod error_bar;
 mod figures;
 mod files;
 mod finished;

@@ -2,15 +2,15 @@
 
 use super::table::{OutputValues, named};
 use super::warnings::{at_round_off, warnings};
-use super::{Origin, Table, check_error};
-use crate::analysis::{Drift, EnergyBalance, Passing, Record, Singularity};
-use crate::compare::CheckError;
+use super::{Origin, Table, error_bar};
+use crate::analysis::{Drift, EnergyBalance, Extremes, Passing, Record, Singularity};
+use crate::compare::ErrorBars;
 use crate::error::{Failure, Warning, clock, short_list, significant};
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
 use crate::prepared::PreparedScene;
 use crate::simulate::{Checkpoint, Leg, Method, Outcome, Stiffness};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
 /// Summary of a run.
@@ -43,8 +43,11 @@ pub struct Summary {
     pub stiffness: Option<Stiffness>,
     /// Changes of the start by assembly.
     pub assembly: AssemblySummary,
-    /// Error by a second run, if requested.
-    pub check_error: Option<CheckError>,
+    /// Error bars of the outputs, if requested.
+    pub error: Option<ErrorBars>,
+    /// Extremes of each output over the rows, by its name.
+    #[serde(serialize_with = "by_name")]
+    pub outputs: Vec<Extremes>,
     /// Values of the last row.
     pub r#final: FinalState,
     /// State from which `--start` continues; none where the run could not begin.
@@ -143,7 +146,8 @@ pub fn summarize(
         singularity: record.singularity.clone(),
         stiffness,
         assembly: (&prepared.assembly).into(),
-        check_error: None,
+        error: None,
+        outputs: record.extremes.clone(),
         r#final: final_state(record),
         restart: None,
     }
@@ -216,14 +220,31 @@ impl Summary {
                 energy.max_error
             );
         }
-        text += &self.r#final.outputs.text(&format!("at t = {} s", clock(self.r#final.t)), 12, usize::MAX);
-        text + &check_error::text(&self.method.method, self.check_error.as_ref())
+        text += &self.outputs_text();
+        text + &error_bar::text(&self.method.method, self.error.as_ref())
     }
 
-    /// Returns the summary with the error by a second run.
-    pub fn checked(mut self, check: CheckError) -> Self {
-        self.origin.warnings.extend(check_error::cut_short(&check));
-        self.check_error = Some(check);
+    /// Returns a line for each output with its last value and its extremes; nothing where there is none.
+    fn outputs_text(&self) -> String {
+        if self.outputs.is_empty() {
+            return String::new();
+        }
+        let last = format!("at t = {} s", clock(self.r#final.t));
+        let mut table = Table::new(&["output", &last, "min", "at s", "max", "at s", "rms", ""]).words(7);
+        for (output, last) in self.outputs.iter().zip(self.r#final.outputs.values()) {
+            let Extremes { name, unit, min, t_min, max, t_max, rms, .. } = output;
+            let cell = |value: Option<f64>, digits| value.map_or("?".to_string(), |value| significant(value, digits));
+            let last = cell(Some(*last).filter(|last| last.is_finite()), 12);
+            let extremes = [min, t_min, max, t_max, rms].map(|value| cell(*value, 5));
+            table.row([name.clone(), last].into_iter().chain(extremes).chain([unit.clone()]));
+        }
+        format!("\n{table}")
+    }
+
+    /// Returns the summary with error bars.
+    pub fn checked(mut self, bars: ErrorBars) -> Self {
+        self.origin.warnings.extend(error_bar::cut_short(&bars));
+        self.error = Some(bars);
         self
     }
 
@@ -281,4 +302,8 @@ fn singular_text(found: &Singularity) -> String {
         };
     }
     text + "\n"
+}
+
+fn by_name<S: Serializer>(outputs: &[Extremes], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(outputs.iter().map(|output| (&output.name, output)))
 }

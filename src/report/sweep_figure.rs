@@ -54,7 +54,7 @@ fn curves<'a>(sweep: &'a Sweep) -> Vec<Curve<'a>> {
         let unit = if unit == "rad" { "deg" } else { unit };
         let mut values: Vec<f64> = points.iter().map(|point| factor * shown(sweep, point)[i]).collect();
         cut(sweep, &points, &mut values);
-        Curve { name, unit, points: points.iter().map(|point| point.value).zip(values).collect() }
+        Curve { name, unit, points: points.iter().map(|point| point.value).zip(values).collect(), bar: &[] }
     };
     watched(sweep).into_iter().enumerate().map(curve).collect()
 }

@@ -24,6 +24,11 @@ impl OutputValues {
         OutputValues { columns, values }
     }
 
+    /// The values.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
     /// Returns a line for each of the first `most` with its unit, under a heading; nothing where there is none.
     pub fn text(&self, heading: &str, digits: usize, most: usize) -> String {
         if self.values.is_empty() {

@@ -1,5 +1,6 @@
 //! Comma-separated tables for Python, MATLAB and spreadsheets.
 
+use crate::compare::ErrorBars;
 use crate::error::{Error, Result};
 use crate::files::Array;
 use crate::sweep::Sweep;
@@ -10,11 +11,22 @@ use std::fmt;
 
 /// Returns a trajectory as arrays for Python and MATLAB: `rows`, a matrix, and the names of its `columns`; NaN where there
 /// is no value.
-pub fn trajectory_arrays(trajectory: &Trajectory) -> [(&'static str, Array); 2] {
+pub fn trajectory_arrays(trajectory: &Trajectory, bars: Option<&ErrorBars>) -> Vec<(&'static str, Array)> {
     let headings = trajectory.headings();
     let values = trajectory.rows.iter().flatten().map(|value| if value.is_finite() { *value } else { f64::NAN });
     let rows = Array::Real { shape: vec![trajectory.rows.len(), headings.len()], values: values.collect() };
-    [("columns", Array::Texts(headings.into_iter().map(String::from).collect())), ("rows", rows)]
+    let mut arrays = vec![("columns", Array::Texts(headings.into_iter().map(String::from).collect())), ("rows", rows)];
+    arrays.extend(bars.into_iter().flat_map(|bars| error_arrays(bars, trajectory.rows.len())));
+    arrays
+}
+
+/// The error bars at each row, with the names of their quantities; NaN at rows that the companion did not reach.
+fn error_arrays(bars: &ErrorBars, rows: usize) -> [(&'static str, Array); 2] {
+    let names = bars.outputs.iter().map(|(name, _)| name.clone()).collect();
+    let row = |row: usize| bars.outputs.iter().map(move |(_, bar)| bar.rows.get(row).copied().unwrap_or(f64::NAN));
+    let values = (0..rows).flat_map(row).collect();
+    let shape = vec![rows, bars.outputs.len()];
+    [("error_columns", Array::Texts(names)), ("error_rows", Array::Real { shape, values })]
 }
 
 /// Returns the parameter by its name, coordinates, multipliers, outputs: one row per value that was reached.
@@ -116,7 +128,7 @@ mod tests {
         let names = Names { q: vec!["x".into()], v: vec!["x'".into()], lambda: Vec::new() };
         let outputs = vec![Column { name: "φ".into(), unit: "rad".into() }];
         let rows = vec![vec![0.0, 1.0, 2.0, f64::INFINITY], vec![0.5, 0.1, -1e-9, 3.0]];
-        let [columns, rows] = trajectory_arrays(&Trajectory { names, outputs, rows });
+        let [columns, rows] = trajectory_arrays(&Trajectory { names, outputs, rows }, None).try_into().unwrap();
         assert_eq!(columns, ("columns", Array::Texts(["t", "x", "x'", "φ"].map(String::from).to_vec())));
         let ("rows", Array::Real { shape, values }) = rows else { panic!("{rows:?}") };
         assert_eq!(

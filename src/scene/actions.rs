@@ -1,6 +1,6 @@
 //! Outputs of joints and forces: what they exert, and its power.
 
-use super::measures::{OutputSpec, Side};
+use super::measures::{On, OutputSpec, Side};
 use super::model::{Connection, FORCE_SIZE, Measure, TORQUE_SIZE};
 use super::outputs::{Elements, find, wrong_component};
 use crate::body::Build;
@@ -41,6 +41,8 @@ pub fn reaction<const D: usize>(
     let Some(name) = spec.component.as_deref() else {
         return Ok(match given.kind {
             "driver" => Measure::Push { joint },
+            "equation" if spec.on.is_none() => Measure::Multiplier { joint },
+            "equation" => Measure::Reaction { joint, slot: slot(spec, given, build)?, component: FORCE_SIZE, axes },
             // A joint that fixes an angle alone has a torque and no force.
             _ if holds == ["angle"] => Measure::Reaction { joint, slot: second(given), component: TORQUE_SIZE, axes },
             _ => Measure::Reaction { joint, slot: second(given), component: FORCE_SIZE, axes },
@@ -48,14 +50,33 @@ pub fn reaction<const D: usize>(
     };
     let holds_length = holds == ["length"];
     if name == "axial" && holds_length {
-        return Ok(Measure::Tension { joint });
+        return Ok(Measure::Multiplier { joint });
     }
     let component = component::<D>(name, holds_length.then_some("axial"))?;
-    let slot = match spec.on {
-        Some(Side::First) => 0,
-        Some(Side::Second) | None => second(given),
+    Ok(Measure::Reaction { joint, slot: slot(spec, given, build)?, component, axes })
+}
+
+/// Place, among the markers of a joint, of that on whose body a reaction acts.
+fn slot<const D: usize>(spec: &OutputSpec, given: &Connection<Box<dyn Joint<D>>>, build: &Build<D>) -> Result<usize> {
+    let name = match &spec.on {
+        Some(On::Side(Side::First)) => return Ok(0),
+        Some(On::Side(Side::Second)) => return Ok(second(given)),
+        // The order of the terms of an expression says nothing.
+        None if given.kind == "equation" && given.markers.len() > 1 => {
+            let error = Error::input(format!("`{}` acts on {} markers", given.name, given.markers.len()));
+            return Err(error.under("on").hint("name the body on which the force is meant"));
+        }
+        None => return Ok(second(given)),
+        Some(On::Body(name)) => name,
     };
-    Ok(Measure::Reaction { joint, slot, component, axes })
+    let marker = build.marker("on", name)?;
+    let bodies = &build.markers.bodies;
+    let same_body = || given.markers.iter().position(|&own| bodies[own] == bodies[marker]);
+    given.markers.iter().position(|&own| own == marker).or_else(same_body).ok_or_else(|| {
+        Error::input(format!("`{}` does not act on `{name}`", given.name))
+            .under("on")
+            .hint("name one of its bodies, or first or second")
+    })
 }
 
 /// Place of the second marker, or of the only one.
@@ -77,12 +98,17 @@ pub fn force<const D: usize>(spec: &OutputSpec, of: &str, elements: Elements<D>,
     build.oriented("relative_to", &[axes])?;
     let given = &elements.forces[force];
     let acted = given.element.acted(given.markers.len());
-    let slot = match spec.on {
-        Some(Side::Second) if acted < 2 => {
+    let slot = match &spec.on {
+        Some(On::Body(_)) => {
+            return Err(Error::input("a force names its body by first or second")
+                .under("on")
+                .hint("write first or second"));
+        }
+        Some(On::Side(Side::Second)) if acted < 2 => {
             return Err(Error::input(format!("`{of}` acts on one marker alone")).under("on").hint("remove it"));
         }
-        Some(Side::Second) => 1,
-        Some(Side::First) => 0,
+        Some(On::Side(Side::Second)) => 1,
+        Some(On::Side(Side::First)) => 0,
         // An applied force is given as it acts at its own marker.
         None if given.element.input() == InputKind::Component => 0,
         None => 1.min(acted - 1),

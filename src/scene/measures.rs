@@ -22,12 +22,14 @@ pub struct OutputSpec {
     /// x, y, z; for reactions and forces also mx, my, mz, and for reactions, where the joint holds a length, axial: the
     /// force in the rod, tension positive (default: the size of the force; of a gear, of the torque; of a driver, its
     /// force or torque along its own coordinate, positive where that grows: so the torque of a motor is the reaction of
-    /// its driver); x or y for the angles of a universal joint; kinetic, potential or total for energy.
+    /// its driver; of an equation, its multiplier lambda, in J over the unit of its expression); x or y for the angles
+    /// of a universal joint; kinetic, potential or total for energy.
     pub component: Option<String>,
     /// For components of reactions and forces: the body on which they act, that of the first or the second marker of
-    /// `between`, or of `at` and `reaction_on`. Moments are about the origin of that marker. Default: second; of an
-    /// applied force or torque first.
-    pub on: Option<Side>,
+    /// `between`, or of `at` and `reaction_on`; of a reaction also by the name of the body, as for the markers of an
+    /// equation, where the size of the force goes with it, too. Moments are about the origin of that marker. Default:
+    /// second; of an applied force or torque first.
+    pub on: Option<On>,
     /// On a beam: from its left end, m.
     pub at: Option<Number>,
     /// On a beam, for the strain of a fibre: y, or [y, z] in space, from the centre line, m. Default: zero.
@@ -35,8 +37,8 @@ pub struct OutputSpec {
     /// The expression.
     pub value: Option<Number>,
     /// Unit of its values wherever they are shown, such as deg, rpm, mm, kN or N m; those of linear models and of a
-    /// reference table too. In expressions an output by its name is in SI units. Of an expression: any word, for axes
-    /// alone. Default: that of the SI.
+    /// reference table too. Expressions, and outputs in them, are in SI units: one in rad with the unit deg is shown in
+    /// degrees. A word that is no known unit of an expression stands on axes alone. Default: that of the SI.
     pub unit: Option<String>,
     #[serde(rename = "repeat")]
     pub _repeat: Option<Repeat>,
@@ -93,6 +95,16 @@ pub enum MeasureKind {
     /// `value`, over t, marker quantities such as `crank.tip.x`, with `'` for velocities and `''` for accelerations,
     /// and other outputs by their names
     Expression,
+}
+
+/// The body that a reaction or a force acts on.
+#[derive(Deserialize, JsonSchema, Clone, PartialEq, Eq, Debug)]
+#[serde(untagged)]
+pub enum On {
+    /// By the order of the markers.
+    Side(Side),
+    /// By its name.
+    Body(String),
 }
 
 /// One of the two bodies that a joint or force is between.

@@ -170,8 +170,9 @@ pub enum Measure {
         /// Index of the driver among the joints.
         joint: usize,
     },
-    /// Force in a joint that fixes a length, N, tension positive.
-    Tension {
+    /// Multiplier of a joint with one row: of a length the force in it, N, tension positive; of an equation in the unit
+    /// of energy over that of its expression.
+    Multiplier {
         /// Index of the joint in the model.
         joint: usize,
     },
@@ -221,7 +222,7 @@ impl Measure {
             Measure::Formula(formula) => formula.probes.iter().any(|probe| probe.feels(1)),
             Measure::Probe(probe) => probe.feels(1),
             Measure::Elastic(_) => false,
-            Measure::Reaction { .. } | Measure::Push { .. } | Measure::Tension { .. } => false,
+            Measure::Reaction { .. } | Measure::Push { .. } | Measure::Multiplier { .. } => false,
             _ => true,
         }
     }

@@ -1,10 +1,10 @@
 //! Outputs of a scene.
 
 use super::kinematics::Placed;
-use super::measures::{MeasureKind, OutputSpec};
+use super::measures::{MeasureKind, On, OutputSpec};
 use super::model::{BeamLine, Connection, EnergyPart, Measure, Part, TORQUE_SIZE, Watched};
 use super::place::Cut;
-use super::units::{Dimension, Unit};
+use super::units::{Dimension, Unit, dimension_of};
 use super::{actions, beam_outputs, kinematics};
 use crate::body::Build;
 use crate::error::{Error, Result};
@@ -44,7 +44,9 @@ fn refuse_idle_keys(spec: &OutputSpec) -> Result<()> {
     // A size and the force along a rod are the same in all axes.
     let is_size = matches!(spec.measure, MeasureKind::Reaction | MeasureKind::Force)
         && matches!(component.as_deref(), None | Some("axial"));
-    let used = spec.measure.keys().iter().filter(|key| !(is_size && ["relative_to", "on"].contains(key)));
+    let names_body = matches!(on, Some(On::Body(_)));
+    let is_idle = |key: &str| is_size && (key == "relative_to" || key == "on" && !names_body);
+    let used = spec.measure.keys().iter().filter(|key| !is_idle(key));
     let used: Vec<&str> = used.copied().collect();
     match given.iter().find(|(key, given)| *given && !used.contains(key)) {
         None => Ok(()),
@@ -121,8 +123,11 @@ impl<const D: usize> Reader<'_, D> {
     }
 }
 
-/// Physical dimension of an output; none for an expression, whose unit its author gives.
+/// Physical dimension of an output; none for an expression and the multiplier of one, whose unit their author gives.
 fn dimension<const D: usize>(kind: MeasureKind, measure: &Measure, elements: Elements<D>) -> Option<Dimension> {
+    if matches!(*measure, Measure::Multiplier { joint } if elements.joints[joint].kind == "equation") {
+        return None;
+    }
     match kind.dimensions() {
         [force, torque] => Some(if is_torque(measure, elements) { *torque } else { *force }),
         others => others.first().copied(),
@@ -144,7 +149,12 @@ fn unit(spec: &OutputSpec, dimension: Option<Dimension>) -> Result<Unit> {
     match (dimension, &spec.unit) {
         (Some(dimension), Some(name)) => dimension.unit(name),
         (Some(dimension), None) => Ok(dimension.si()),
-        (None, name) => Ok(Unit { name: name.clone().unwrap_or_default(), per_si: 1.0 }),
+        (None, Some(name)) => match dimension_of(name) {
+            Some(dimension) => dimension.unit(name),
+            // A word of the author's own.
+            None => Ok(Unit { name: name.clone(), per_si: 1.0 }),
+        },
+        (None, None) => Ok(Unit { name: String::new(), per_si: 1.0 }),
     }
 }
 

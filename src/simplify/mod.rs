@@ -127,6 +127,12 @@ impl Simplification {
         self.left_out().next().is_some()
     }
 
+    /// What the chosen run is off by, if that is more than was promised: no method that was tried keeps the promise.
+    pub fn broken(&self) -> Option<String> {
+        let Simplification { chosen, within, .. } = self;
+        chosen.refusal(*within).map(|reason| format!("no run keeps within {}: {reason}", percent(*within)))
+    }
+
     /// The changes of the model that were kept, without those of the method.
     pub fn left_out(&self) -> impl Iterator<Item = &Trial> {
         self.trials.iter().filter(|trial| trial.is_kept && trial.candidate != METHOD)
@@ -231,10 +237,13 @@ fn described(mut scene: Value, result: &Simplification) -> Value {
     // What the scene says of itself may no longer be so.
     let about = scene["about"].as_str().map_or(String::new(), |about| format!(" About {}: {about}", result.scene));
     let left_out = if changes.is_empty() { "nothing can be left out".to_string() } else { changes.join("; ") };
-    // Where the richest model's own error is larger nobody knows.
-    let promise = match result.warnings.is_empty() {
-        true => format!(", within {} in {}", percent(result.within), result.outputs.join(", ")),
-        false => String::new(),
+    let promise = match result.broken() {
+        Some(broken) => format!(" ({broken})"),
+        None if result.warnings.is_empty() => {
+            format!(", within {} in {}", percent(result.within), result.outputs.join(", "))
+        }
+        // Where the richest model's own error is larger nobody knows.
+        None => String::new(),
     };
     scene["about"] = json!(format!("Simplified from {}{promise}: {left_out}.{about}", result.scene));
     scene["name"] = json!(format!("{}_simplified", result.scene));

@@ -85,7 +85,7 @@ impl<const D: usize> Mechanism<D> {
             // phi is coordinate - value: -G^T lambda acts on the second body along the growing coordinate.
             Measure::Push { joint } => -view.lambda(self.rows_of_joint(*joint).start),
             // phi is l - length: -G^T lambda pulls the second body towards the first.
-            Measure::Tension { joint } => view.lambda(self.rows_of_joint(*joint).start),
+            Measure::Multiplier { joint } => view.lambda(self.rows_of_joint(*joint).start),
             Measure::Elastic(combination) => combination.at(|coordinate| view.q(coordinate)),
             Measure::Station(place) => place.read(&model.gravity, |marker| view.frame(marker)),
             Measure::Section { cut, component } => self.section(&model.cuts[*cut], view)[*component],

@@ -244,7 +244,7 @@ impl<const D: usize> Mechanism<D> {
             }
             Measure::DrivePower { joint } => on(&model.joints[*joint].markers),
             Measure::Energy(_) => model.bodies.iter().enumerate().map(|(index, part)| whole(index, part)).collect(),
-            Measure::Tension { .. } | Measure::Push { .. } => Vec::new(),
+            Measure::Multiplier { .. } | Measure::Push { .. } => Vec::new(),
         }
     }
 
@@ -252,7 +252,7 @@ impl<const D: usize> Mechanism<D> {
     fn joints_of(&self, measure: &Measure) -> Vec<usize> {
         match measure {
             Measure::Reaction { joint, .. }
-            | Measure::Tension { joint }
+            | Measure::Multiplier { joint }
             | Measure::Push { joint }
             | Measure::DrivePower { joint } => vec![*joint],
             Measure::Formula(formula) => self.outputs_of(formula).flat_map(|measure| self.joints_of(measure)).collect(),

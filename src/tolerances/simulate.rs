@@ -292,11 +292,14 @@ pub const LEAST_ATOL: f64 = 1e-16;
 /// its room pass.
 pub const ERROR_OF_MOTION: f64 = 10.0;
 
-/// Steps of a second run that are controlled by more than this part of the tolerance of the first say nothing of its
-/// error.
-/// Unit: `[1]`. Why: a choice; the steps of both are at their tightest there. Test:
-/// `steps_at_their_tightest_are_compared_with_tighter_ones`.
-pub const FINER_STEPS: f64 = 0.5;
+/// Tolerance of a companion's steps over that of the run's steps, at least.
+/// Unit: `[1]`. Why: half of the tenfold tolerance that a companion has. Test:
+/// `steps_at_their_tightest_have_a_companion_with_longer_ones`.
+pub const COARSER_STEPS: f64 = 5.0;
+
+/// Part of the largest value of an output that its error bar is not smaller than.
+/// Unit: `[1]` of the value. Why: round-off of some fifty operations. Test: `an_error_bar_is_not_below_round_off`.
+pub const ROUND_OFF_OF_ROWS: f64 = 1e-14;
 
 /// A step that is undecided about a threshold is not made shorter than so many of those that make no sense.
 /// Unit: `[1]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.

@@ -1,4 +1,4 @@
-//! `simulate --check-error`: what is said is the error.
+//! `simulate --check-error`: error bars hold the error.
 
 use super::*;
 
@@ -16,49 +16,75 @@ fn error_of(place: &Place, name: &str, [own, exact]: [&str; 2]) -> [f64; 2] {
     [errors.iter().fold(0.0, |most, error| error.max(most)), errors[errors.len() - 1]]
 }
 
-/// A tenth of the tolerance leaves about a tenth of the error, half the step of rk4 a sixteenth: the difference is the error
-/// but for that.
+/// The true error lies within the bar, and the bar is not much wider: ten times the tolerance leaves about ten times the
+/// error, twice the step of rk4 sixteen times.
 #[test]
-fn the_difference_is_the_error() {
+fn the_bar_holds_the_error() {
     let place = Place::new(PENDULUM);
     let exact = ["--rtol", "1e-12", "--atol", "1e-12", "-o", "exact"];
     place.done(&[&["simulate", "scene.json", "--quiet", "--until", "5"], &exact[..]].concat());
-    for (method, tenth) in [
-        (&["--rtol", "1e-6", "--atol", "1e-8", "--integrator", "dopri5"][..], 0.3),
-        (&["--integrator", "rk4", "--step", "0.01"], 0.1),
+    for method in [
+        &["--rtol", "1e-6", "--atol", "1e-8", "--integrator", "dopri5"][..],
+        &["--rtol", "1e-6", "--atol", "1e-8", "--integrator", "dop853"],
+        &["--rtol", "1e-6", "--atol", "1e-8", "--method", "auto"],
+        &["--integrator", "rk4", "--step", "0.01"],
     ] {
         let args = ["simulate", "scene.json", "--until", "5", "-o", "own", "--check-error"];
         let text = place.done(&[&args[..], method].concat());
-        assert!(text.contains("difference to ") && !text.contains("--check-error"), "{text}");
-        let check = &place.json("own/summary.json")["check_error"];
-        assert_eq!(keys(&check["outputs"]), ["theta", "pin"]);
-        assert_eq!((&check["failure"], &check["outputs"]["pin"]["unit"]), (&Value::Null, &Value::from("N")));
+        assert!(text.contains("error bar") && !text.contains("--check-error"), "{text}");
+        let error = &place.json("own/summary.json")["error"];
+        assert_eq!(keys(&error["outputs"]), ["theta", "pin"]);
+        assert_eq!((&error["failure"], &error["outputs"]["pin"]["unit"]), (&Value::Null, &Value::from("N")));
         for name in ["theta", "pin"] {
             let [max, last] = error_of(&place, name, ["own", "exact"]);
-            let told = |key: &str| check["outputs"][name][key].as_f64().unwrap();
-            assert!((told("max") / max - 1.0).abs() < tenth, "{name}: {check} beside {max:e}");
-            assert!((told("final") - last).abs() < tenth * max, "{name}: {check} beside {last:e}");
+            let told = |key: &str| error["outputs"][name][key].as_f64().unwrap();
+            assert!(told("max") >= max && told("max") < 30.0 * max, "{name}: {error} beside {max:e}");
+            assert!(told("final") >= last, "{name}: {error} beside {last:e}");
         }
         // The period grows with the amplitude: small changes grow with time, not exponentially.
-        let amplified = check["amplification"].as_f64().unwrap();
+        let amplified = error["amplification"].as_f64().unwrap();
         assert!((1.0..20.0).contains(&amplified), "{amplified}");
+        assert!(error["work"].as_f64().unwrap() < 0.75, "{error}");
     }
-    assert_eq!(place.json("own/summary.json")["check_error"]["step"], 0.005);
+    assert_eq!(place.json("own/summary.json")["error"]["step"], 0.02);
 }
 
-/// The steps of a run at 1e-9 and of one at a tenth of that are controlled alike, by 1e-11: their difference would be none.
+/// The steps of a run at 1e-9 and of one at ten times that are controlled alike, by 1e-11: their difference would be
+/// none.
 #[test]
-fn steps_at_their_tightest_are_compared_with_tighter_ones() {
+fn steps_at_their_tightest_have_a_companion_with_longer_ones() {
     let place = Place::new(PENDULUM);
     let exact = ["--rtol", "1e-13", "--atol", "1e-15", "-o", "exact"];
     place.done(&[&["simulate", "scene.json", "--quiet"], &exact[..]].concat());
     let args = ["simulate", "scene.json", "--integrator", "esdirk34", "--projection", "none", "--check-error"];
-    let text = place.done(&[&args[..], &["--rtol", "1e-9", "--atol", "1e-11", "-o", "own"]].concat());
-    assert!(text.contains("difference to rtol 1e-12, atol 1e-14"), "{text}");
+    place.done(&[&args[..], &["--rtol", "1e-9", "--atol", "1e-11", "-o", "own"]].concat());
     let [max, _] = error_of(&place, "theta", ["own", "exact"]);
-    let told = place.json("own/summary.json")["check_error"]["outputs"]["theta"]["max"].as_f64().unwrap();
-    // Of order 3, a tenth of the tolerance leaves a fifth of the error.
-    assert!(told > 0.3 * max && told < 2.0 * max, "{told:e} beside {max:e}");
+    let error = &place.json("own/summary.json")["error"];
+    assert!(error["rtol"].as_f64().unwrap() > 5e-8, "{error}");
+    let told = error["outputs"]["theta"]["max"].as_f64().unwrap();
+    assert!(told >= max && told < 100.0 * max, "{told:e} beside {max:e}");
+}
+
+/// At 1e-13 the difference of two runs may be less than round-off.
+#[test]
+fn an_error_bar_is_not_below_round_off() {
+    let place = Place::new(PENDULUM);
+    let method = ["--rtol", "1e-13", "--atol", "1e-15", "--until", "0.1", "--output-step", "0.1"];
+    place.done(&[&["simulate", "scene.json", "--check-error", "-o", "own"], &method[..]].concat());
+    let summary = place.json("own/summary.json");
+    let (most, bar) = (&summary["outputs"]["pin"]["max"], &summary["error"]["outputs"]["pin"]["max"]);
+    assert!(bar.as_f64().unwrap() >= 1e-14 * most.as_f64().unwrap(), "{summary}");
+}
+
+/// Arrays have the bar of each output at each row.
+#[test]
+fn arrays_have_the_error_bars() {
+    let place = Place::new(PENDULUM);
+    let format = ["--format", "npz,csv", "-o", "own", "--rtol", "1e-4", "--atol", "1e-6"];
+    place.done(&[&["simulate", "scene.json", "--check-error"], &format[..]].concat());
+    let archive = std::fs::File::open(place.path("own/trajectory.npz")).unwrap();
+    let names: Vec<String> = zip::ZipArchive::new(archive).unwrap().file_names().map(String::from).collect();
+    assert!(names.contains(&"error_rows.npy".to_string()) && names.contains(&"error_columns.npy".to_string()));
 }
 
 #[test]
@@ -66,8 +92,8 @@ fn without_outputs_coordinates_are_compared() {
     let place = Place::new(parallelogram());
     let text =
         place.done(&["simulate", "scene.json", "-o", "here", "--check-error", "--rtol", "1e-6", "--atol", "1e-8"]);
-    assert!(text.contains("difference to rtol 1e-7, atol 1e-9"), "{text}");
-    let check = &place.json("here/summary.json")["check_error"];
+    assert!(text.contains("from a companion with rtol 0.0001, atol 1e-6"), "{text}");
+    let check = &place.json("here/summary.json")["error"];
     assert_eq!(check["outputs"]["beam.angle"]["unit"], "");
     assert!(check["outputs"]["beam.x"]["max"].as_f64().unwrap() < 1e-5, "{check}");
 }
@@ -80,32 +106,34 @@ fn without_the_option_it_is_said_that_nobody_has_measured() {
         text.contains(PENDULUM_RTOL) && text.contains("errors are estimated of single steps only: --check-error"),
         "{text}"
     );
-    assert_eq!(place.json("here/summary.json")["check_error"], Value::Null);
+    assert_eq!(place.json("here/summary.json")["error"], Value::Null);
     let fixed = place.done(&["simulate", "scene.json", "-o", "here", "--integrator", "rk4", "--step", "0.01"]);
     assert!(fixed.contains("nothing estimates the errors of fixed steps"), "{fixed}");
     let penalty = place.done(&["simulate", "scene.json", "-o", "here", "--formulation", "penalty"]);
-    assert!(penalty.contains("the limit is the penalty, whose error O(1/penalty)"), "{penalty}");
+    assert!(penalty.contains("no tolerance or step takes away the error O(1/penalty)"), "{penalty}");
 }
 
-/// A tolerance that goes over a singular state, and a tenth of it that is too near to round-off there: the bound is at
-/// about 1e-14.
+/// At twice the step rk4 is beyond its limit of stability, 2.8 / |s|: a run at half the step takes its place.
 #[test]
-fn a_second_run_that_fails_is_said_and_the_first_is_kept() {
-    let mut scene: Value = serde_json::from_str(include_str!("../../models/n_four_bar.json")).unwrap();
-    scene["simulation"] = serde_json::json!({ "t_end": 1, "output_step": 0.1, "integrator": "dop853" });
-    let place = Place::new(scene.to_string());
-    let output =
-        place.run(&["simulate", "scene.json", "-o", "here", "--rtol", "5e-14", "--atol", "5e-14", "--check-error"]);
-    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-    let message = err(&output);
-    assert!(
-        message.starts_with("warning: the second run, with rtol 5e-15, atol 5e-15, ended at t = 0.72"),
-        "{message}"
-    );
-    let summary = place.json("here/summary.json");
-    assert_eq!((&summary["status"], summary["final"]["t"].as_f64()), (&"completed".into(), Some(1.0)));
-    assert!(summary["check_error"]["failure"]["reason"].is_string(), "{summary}");
-    assert_eq!(place.text("here/trajectory.csv").lines().count(), 12);
+fn a_coarser_run_that_fails_is_replaced_by_a_finer_one() {
+    let place = Place::new(include_str!("../../models/quarter_car.json"));
+    let fixed = ["--set", "c_strut=5e4", "--integrator", "rk4", "--until", "0.5", "--check-error", "-o", "here"];
+    let text = place.done(&[&["simulate", "scene.json", "--step", "0.0016"][..], &fixed].concat());
+    let error = &place.json("here/summary.json")["error"];
+    assert_eq!((&error["step"], &error["failure"]), (&Value::from(0.0008), &Value::Null), "{text}");
+}
+
+/// The companion has a tenth of the penalty, too: its bar holds the error of the penalty, which no tolerance has.
+#[test]
+fn the_bar_holds_the_error_of_a_penalty() {
+    let place = Place::new(PENDULUM);
+    let tight = ["--until", "2", "--rtol", "1e-10", "--atol", "1e-10"];
+    place.done(&[&["simulate", "scene.json", "--quiet", "-o", "exact"], &tight[..]].concat());
+    let penalty = ["--formulation", "penalty:penalty=1e4", "--projection", "none", "--integrator", "dopri5"];
+    place.done(&[&["simulate", "scene.json", "--check-error", "-o", "own"], &tight[..], &penalty].concat());
+    let [max, _] = error_of(&place, "theta", ["own", "exact"]);
+    let told = place.json("own/summary.json")["error"]["outputs"]["theta"]["max"].as_f64().unwrap();
+    assert!(max > 1e-8 && told >= max && told < 30.0 * max, "{told:e} beside {max:e}");
 }
 
 /// Small changes of a stiff motion cannot be carried by an explicit method.
@@ -116,5 +144,5 @@ fn an_amplification_that_is_not_known_has_a_cause() {
     let args = ["simulate", "scene.json", "--set", "c_strut=2e5", "--check-error", "-o", "here"];
     let text = place.done(&[&args[..], &method].concat());
     assert!(text.contains("amplifies small changes is not known: the fastest mode of the start"), "{text}");
-    assert_eq!(place.json("here/summary.json")["check_error"]["amplification"], Value::Null);
+    assert_eq!(place.json("here/summary.json")["error"]["amplification"], Value::Null);
 }

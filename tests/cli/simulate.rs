@@ -70,7 +70,7 @@ fn the_summary_has_the_promised_keys() {
         "energy",
         "final",
     ];
-    assert_keys(&summary, &top, &["assembly", "check_error", "files", "restart", "singularity", "stiffness"]);
+    assert_keys(&summary, &top, &["assembly", "error", "files", "outputs", "restart", "singularity", "stiffness"]);
     assert_eq!(summary["warnings"], serde_json::json!([]));
     assert_keys(&summary["method"], &["formulation", "integrator", "projection", "rtol", "atol", "step"], &[]);
     let counters = ["steps", "rejected", "rhs_evaluations", "jacobian_evaluations", "factorizations"];
@@ -404,7 +404,7 @@ fn without_coordinates_the_trajectory_has_the_outputs_and_the_summary_the_state(
     assert_eq!(place.text("few/outputs.svg"), place.text("all/outputs.svg"));
     let [all, few] = ["all", "few"].map(|folder| place.json(&format!("{folder}/summary.json")));
     assert_eq!([&all["final"], &all["restart"]], [&few["final"], &few["restart"]]);
-    assert!(few["check_error"]["outputs"]["theta"]["max"].is_number());
+    assert!(few["error"]["outputs"]["theta"]["max"].is_number());
     let bare = Place::new(parallelogram());
     let refused = bare.run(&["simulate", "scene.json", "--outputs-only"]);
     assert_eq!(refused.status.code(), Some(2));

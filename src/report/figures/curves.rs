@@ -3,13 +3,15 @@
 use super::{grouped, label, quantity};
 use crate::error::clock;
 use crate::math::{bounds, largest};
-use crate::plot::{Panel, Series};
+use crate::plot::{Form, Item, Panel, Series, Spot, Tint};
 
 /// A curve of a figure, with the name and the unit of its quantity.
 pub(in crate::report) struct Curve<'a> {
     pub name: &'a str,
     pub unit: &'a str,
     pub points: Vec<(f64, f64)>,
+    /// Error bar at each point; none where the error is not known.
+    pub bar: &'a [f64],
 }
 
 /// The curves of one panel.
@@ -37,6 +39,9 @@ const FLAT: f64 = 1e-9;
 /// Changes that are smaller are rounding: the value tells all.
 /// Unit: [1] of the value. Why: rounding adds up in outputs. Test: `what_is_nearly_constant_is_drawn_as_its_change`.
 const CONSTANT: f64 = 1e-13;
+/// A band of error bars that is narrower is hidden by its curve.
+/// Unit: [1] of the range of the curve. Why: half the width of a line. Test: `an_error_bar_that_is_seen_is_a_band`.
+const SEEN: f64 = 2e-3;
 /// A constant joins a panel if it becomes no higher than this.
 /// Unit: [1] of its height without. Why: the others keep half of the panel. Test: `a_constant_joins_what_is_near`.
 const WIDER: f64 = 2.0;
@@ -143,10 +148,27 @@ impl Stack<'_> {
                 (false, true) => format!("{}, {}", curve.name, start(&curve)),
             };
             let origin = if is_change { curve.start() } else { 0.0 };
+            if largest(curve.bar) > SEEN * curve.range() {
+                let color = panel.series.len();
+                panel = panel.items([band(&curve, origin, color)]);
+            }
             panel = panel.series(Series::line(name, curve.points.iter().map(|(x, y)| (*x, y - origin)).collect()));
         }
         panel
     }
+}
+
+/// Number of points of a band on each side; its file stays small.
+const BAND_POINTS: usize = 400;
+
+/// Returns the area between a curve less and plus its error bar.
+fn band(curve: &Curve, origin: f64, color: usize) -> Item {
+    let stride = curve.points.len().div_ceil(BAND_POINTS);
+    let points = curve.points.iter().zip(curve.bar).filter(|((_, y), bar)| y.is_finite() && bar.is_finite());
+    let points: Vec<_> = points.step_by(stride).map(|((x, y), bar)| (*x, y - origin, *bar)).collect();
+    let upper = points.iter().map(|(x, y, bar)| Spot::data(*x, y + bar));
+    let lower = points.iter().rev().map(|(x, y, bar)| Spot::data(*x, y - bar));
+    Item { spots: upper.chain(lower).collect(), tint: Tint::Body(color, 0.0), form: Form::Area(0.25) }
 }
 
 /// Returns the value that a curve begins with, in words.
@@ -163,7 +185,7 @@ mod tests {
     /// A curve that swings `count` times between `middle` - `half` and `middle` + `half`.
     fn swing(name: &str, middle: f64, half: f64) -> Curve<'_> {
         let point = |k: i32| (0.01 * f64::from(k), middle + half * (0.1 * f64::from(k)).sin());
-        Curve { name, unit: "m", points: (0..200).map(point).collect() }
+        Curve { name, unit: "m", points: (0..200).map(point).collect(), bar: &[] }
     }
 
     fn names(curves: Vec<Curve>, separate: bool) -> Vec<Vec<String>> {
@@ -190,11 +212,23 @@ mod tests {
     fn a_constant_joins_what_is_near() {
         let curves = || vec![swing("goal", 1.5, 0.0), swing("x", 0.0, 1.0), swing("far", 50.0, 0.0)];
         assert_eq!(names(curves(), false), [vec!["goal", "x"], vec!["far"]]);
-        let nothing = Curve { name: "nothing", unit: "m", points: vec![(0.0, f64::NAN); 3] };
+        let nothing = Curve { name: "nothing", unit: "m", points: vec![(0.0, f64::NAN); 3], bar: &[] };
         assert_eq!(
             names(curves().into_iter().chain([nothing]).collect(), false),
             [vec!["goal", "x", "nothing"], vec!["far"]]
         );
+    }
+
+    #[test]
+    fn an_error_bar_that_is_seen_is_a_band() {
+        let panel = |size: f64| {
+            let bar = vec![size; 200];
+            stacked([Curve { bar: &bar, ..swing("a", 5.0, 1.0) }], false).next().unwrap().panel("time (s)")
+        };
+        assert!(panel(1e-3).items.is_empty());
+        let seen = panel(0.1);
+        let corners: Vec<_> = seen.items[0].data().collect();
+        assert_eq!((corners[0], corners[corners.len() - 1]), ((0.0, 5.1), (0.0, 4.9)));
     }
 
     #[test]

@@ -7,14 +7,20 @@ pub(super) use curves::{Curve, Stack, stacked};
 pub use shown::{Ending, Shown};
 
 use crate::analysis::{Ledger, Record};
+use crate::compare::ErrorBars;
 use crate::math::largest;
 use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::scene::units::{Dimension, dimension_of};
 use crate::trajectory::Trajectory;
 
 /// Draws outputs over time, one panel for those of one unit and of similar ranges, or one each; coordinates where the
-/// scene names no outputs. `None` without rows.
-pub fn outputs_figure(name: &str, trajectory: &Trajectory, shown: &Shown, separate: bool) -> Option<Figure> {
+/// scene names no outputs; with error bars as bands. `None` without rows.
+pub fn outputs_figure(
+    name: &str,
+    (trajectory, bars): (&Trajectory, Option<&ErrorBars>),
+    shown: &Shown,
+    separate: bool,
+) -> Option<Figure> {
     let Trajectory { names, outputs, rows } = trajectory;
     let rows = &rows[..shown.rows.min(rows.len())];
     let first = trajectory.headings().len() - outputs.len();
@@ -24,7 +30,9 @@ pub fn outputs_figure(name: &str, trajectory: &Trajectory, shown: &Shown, separa
         drawn = coordinates.zip(1..).collect();
     }
     let points = |column: usize| rows.iter().map(|row| (row[0], row[column])).collect();
-    let curves = drawn.into_iter().map(|((name, unit), column)| Curve { name, unit, points: points(column) });
+    let bar = |i: usize| bars.and_then(|bars| bars.outputs.get(i)).map_or(&[][..], |(_, bar)| &bar.rows[..]);
+    let curve = |(i, ((name, unit), column))| Curve { name, unit, points: points(column), bar: bar(i) };
+    let curves = drawn.into_iter().enumerate().map(curve);
     let panels = stacked(curves, separate).map(|stack| stack.panel("time (s)"));
     (rows.len() > 1).then(|| panels.fold(Figure::new().title(shown.title(name)), Figure::panel))
 }
@@ -83,7 +91,7 @@ pub fn energy_figure(name: &str, record: &Record, shown: &Shown) -> Option<Figur
     }
     let rows = &record.ledger_rows[..times.len()];
     let points = |value: fn(&Ledger) -> f64| times.iter().zip(rows).map(|(t, row)| (*t, value(row))).collect();
-    let curve = |name, value| Curve { name, unit: "J", points: points(value) };
+    let curve = |name, value| Curve { name, unit: "J", points: points(value), bar: &[] };
     let mut curves = vec![curve("kinetic", |row| row.kinetic), curve("potential", |row| row.potential)];
     if rows.iter().any(|row| row.work != 0.0) {
         curves.push(curve("work put in", |row| row.work));
@@ -171,10 +179,10 @@ mod tests {
         let outputs = vec![column("a", "m/s^2"), column("b", "m/s^2"), column("alpha", "rad/s^2")];
         let rows = vec![vec![0.0, 1.0, 2.0, 3.0], vec![1.0, 2.0, 3.0, 4.0]];
         let run = Trajectory { names: Names::default(), outputs, rows };
-        let figure = outputs_figure("run", &run, &Shown::all(&run), false).unwrap();
+        let figure = outputs_figure("run", (&run, None), &Shown::all(&run), false).unwrap();
         let labels: Vec<&str> = figure.panels.iter().map(|panel| panel.y.label.as_str()).collect();
         assert_eq!(labels, ["acceleration (m/s^2)", "alpha (rad/s^2)"]);
-        let apart = outputs_figure("run", &run, &Shown::all(&run), true).unwrap();
+        let apart = outputs_figure("run", (&run, None), &Shown::all(&run), true).unwrap();
         let labels: Vec<&str> = apart.panels.iter().map(|panel| panel.y.label.as_str()).collect();
         assert_eq!(labels, ["a (m/s^2)", "b (m/s^2)", "alpha (rad/s^2)"]);
     }

@@ -1,56 +1,57 @@
 //! Text on the error of a run.
 
 use super::Table;
-use crate::compare::CheckError;
+use crate::compare::ErrorBars;
 use crate::error::significant;
-use crate::error::{Warning, clock, short};
+use crate::error::{Warning, clock, percent, short};
 use crate::simulate::Method;
 
 const UNCHECKED: &str = "errors are estimated of single steps only: --check-error measures what they add up to";
 const UNCHECKED_STEP: &str = "nothing estimates the errors of fixed steps: --check-error measures them";
 const PENALIZED: &str =
-    "the limit is the penalty, whose error O(1/penalty) no tolerance or step takes away: compare with a larger one";
+    "no tolerance or step takes away the error O(1/penalty): take a larger penalty for a smaller one";
 
-/// Returns the differences to a second run, or a note that the error is not known.
-pub fn text(method: &Method, check: Option<&CheckError>) -> String {
-    let found = match (check, method.step) {
-        (Some(check), _) => differences(check),
+/// Returns the error bars, or a note that the error is not known.
+pub fn text(method: &Method, bars: Option<&ErrorBars>) -> String {
+    let found = match (bars, method.step) {
+        (Some(bars), _) => table(bars),
         (None, Some(_)) => format!("  {UNCHECKED_STEP}\n"),
         (None, None) => format!("  {UNCHECKED}\n"),
     };
-    let is_penalized = method.formulation.name == "penalty";
-    format!("\n{found}{}", if is_penalized { format!("  {PENALIZED}\n") } else { String::new() })
+    let penalized = if method.formulation.name == "penalty" { format!("  {PENALIZED}\n") } else { String::new() };
+    format!("\n{found}{penalized}")
 }
 
-fn differences(check: &CheckError) -> String {
-    let mut table = Table::new(&[&format!("difference to {}", with(check)), "max", "final", ""]).words(3);
-    for (name, difference) in &check.outputs {
-        let [max, last] = [difference.max, difference.last].map(|value| format!("{value:.1e}"));
-        table.row([name.clone(), max, last, difference.unit.clone()]);
+fn table(bars: &ErrorBars) -> String {
+    let mut table = Table::new(&["error bar", "max", "final", ""]).words(3);
+    for (name, bar) in &bars.outputs {
+        let [max, last] = [bar.max, bar.last].map(|value| format!("±{value:.1e}"));
+        table.row([name.clone(), max, last, bar.unit.clone()]);
     }
-    let amplified = match &check.amplification {
+    let amplified = match &bars.amplification {
         Ok(factor) => {
             format!("the motion itself amplifies small changes of its start {} times", significant(*factor, 2))
         }
         Err(cause) => format!("how much the motion itself amplifies small changes is not known: {cause}"),
     };
-    let opinion = check.second_opinion.iter().map(|opinion| format!("  {opinion}\n")).collect::<String>();
-    format!("{table}{opinion}  {amplified}\n")
+    let opinion: String = bars.second_opinion.iter().map(|opinion| format!("  {opinion}\n")).collect();
+    let work = percent(bars.work);
+    format!("{table}  from a companion with {}, for {work} of the work\n{opinion}  {amplified}\n", of_companion(bars))
 }
 
-fn with(check: &CheckError) -> String {
-    match check.step {
+fn of_companion(bars: &ErrorBars) -> String {
+    match bars.step {
         Some(step) => format!("step {} s", clock(step)),
-        None => format!("rtol {}, atol {}", short(check.rtol), short(check.atol)),
+        None => format!("rtol {}, atol {}", short(bars.rtol), short(bars.atol)),
     }
 }
 
-/// Returns a warning if the second run ended early.
-pub fn cut_short(check: &CheckError) -> Option<Warning> {
-    let failure = check.failure.as_ref()?;
+/// Returns a warning if the companion ended early.
+pub fn cut_short(bars: &ErrorBars) -> Option<Warning> {
+    let failure = bars.failure.as_ref()?;
     let text = format!(
-        "the second run, with {}, ended at t = {} s: {}; its differences are those up to there",
-        with(check),
+        "the companion of the run, with {}, ended at t = {} s: {}; error bars are those up to there",
+        of_companion(bars),
         clock(failure.t),
         failure.reason
     );
@@ -71,17 +72,17 @@ mod tests {
     fn the_hint_is_that_of_the_failure() {
         let hint = |hint: &str| {
             let failure = Failure { t: 1.0, reason: "interrupted".to_string(), hint: hint.to_string() };
-            let amplification = Err(String::new());
-            let check = CheckError {
+            let bars = ErrorBars {
                 rtol: 1e-9,
                 atol: 1e-11,
                 step: None,
+                work: 0.5,
                 outputs: Vec::new(),
                 second_opinion: None,
-                amplification,
+                amplification: Err(String::new()),
                 failure: Some(failure),
             };
-            cut_short(&check).map(|warning| warning.hint)
+            cut_short(&bars).map(|warning| warning.hint)
         };
         assert_eq!(hint("it is in here"), Some("it is in here".to_string()));
         assert!(hint("").is_some_and(|hint| hint.starts_with("compare with")));

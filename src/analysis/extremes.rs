@@ -1,0 +1,88 @@
+//! Least, greatest and mean values of the outputs over the rows of a run.
+
+use crate::system::Column;
+use serde::Serialize;
+
+/// Extremes of one output over the rows where it has a value.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Extremes {
+    /// Name of the output.
+    #[serde(skip)]
+    pub name: String,
+    /// Its unit; empty where it is not known.
+    pub unit: String,
+    /// Least value; none where the output has no value at any row.
+    pub min: Option<f64>,
+    /// Time of the first row with the least value, s.
+    pub t_min: Option<f64>,
+    /// Greatest value.
+    pub max: Option<f64>,
+    /// Time of the first row with the greatest value, s.
+    pub t_max: Option<f64>,
+    /// Root of the mean square over time, of a curve that is linear between the rows.
+    pub rms: Option<f64>,
+    /// The last row with a value.
+    #[serde(skip)]
+    last: Option<(f64, f64)>,
+    /// Integral of the square, and the time it covers, s.
+    #[serde(skip)]
+    squares: (f64, f64),
+}
+
+impl Extremes {
+    /// Before the first row.
+    pub fn of(column: &Column) -> Self {
+        let (name, unit) = (column.name.clone(), column.unit.clone());
+        Self { name, unit, min: None, t_min: None, max: None, t_max: None, rms: None, last: None, squares: (0.0, 0.0) }
+    }
+
+    /// Adds the value at a row. One that is not finite ends the interval before it.
+    pub fn add(&mut self, t: f64, value: f64) {
+        if !value.is_finite() {
+            self.last = None;
+            return;
+        }
+        if self.min.is_none_or(|min| value < min) {
+            self.min = Some(value);
+            self.t_min = Some(t);
+        }
+        if self.max.is_none_or(|max| value > max) {
+            self.max = Some(value);
+            self.t_max = Some(t);
+        }
+        if let Some((before, from)) = self.last {
+            self.squares.0 += (t - before) * (from * from + from * value + value * value) / 3.0;
+            self.squares.1 += t - before;
+        }
+        self.last = Some((t, value));
+        let (sum, covered) = self.squares;
+        self.rms = Some(if covered > 0.0 { (sum / covered).sqrt() } else { value.abs() });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn extremes(values: &[(f64, f64)]) -> Extremes {
+        let mut extremes = Extremes::of(&Column { name: "x".to_string(), unit: "m".to_string() });
+        values.iter().for_each(|&(t, value)| extremes.add(t, value));
+        extremes
+    }
+
+    /// The mean square of t from -1 to 2 is 1.
+    #[test]
+    fn a_line_has_its_closed_form() {
+        let found = extremes(&[(-1.0, -1.0), (0.5, 0.5), (2.0, 2.0)]);
+        assert_eq!((found.min, found.t_min, found.max, found.t_max), (Some(-1.0), Some(-1.0), Some(2.0), Some(2.0)));
+        assert!(found.rms.is_some_and(|rms| (rms - 1.0).abs() < 1e-15), "{found:?}");
+    }
+
+    #[test]
+    fn rows_without_a_value_are_left_out() {
+        let found = extremes(&[(0.0, f64::NAN), (1.0, 3.0), (2.0, f64::INFINITY), (3.0, -4.0), (4.0, -4.0)]);
+        assert_eq!((found.min, found.t_min, found.max, found.rms), (Some(-4.0), Some(3.0), Some(3.0), Some(4.0)));
+        assert_eq!(extremes(&[(0.0, f64::NAN)]).rms, None);
+        assert_eq!(extremes(&[(0.0, -2.0)]).rms, Some(2.0));
+    }
+}
