@@ -142,11 +142,11 @@ fn case(paths: &[PathBuf], random: &mut fastrand::Rng) -> Option<Case> {
 fn truth(case: &Case, path: &Path) -> Option<[Run; 2]> {
     let with = |formulation: &str, integrator: &str, projection: &str, rtol: f64| {
         let set = case.prepared.parameters.iter().map(|(name, value)| (name.to_string(), value.into())).collect();
-        let prepared = PreparedScene::load(path, &Overrides { set, ..Overrides::default() }).ok()?;
+        let mut prepared = PreparedScene::load(path, &Overrides { set, ..Overrides::default() }).ok()?;
         let [formulation, integrator, projection] = [formulation, integrator, projection].map(MethodSpec::named);
         let atol = rtol * case.prepared.method.atol / case.prepared.method.rtol;
         let method = Method { formulation, integrator, projection, rtol, atol, step: None };
-        let prepared = PreparedScene { is_automatic: false, ..prepared };
+        prepared.is_automatic = false;
         run(&prepared, &method, case.span, LIMITS[1])
     };
     let accurate = with("ggl", "radau_iia", "none", 1e-12)?;

@@ -147,14 +147,14 @@ struct Companion {
 pub type Watch<'a> = (&'a dyn Fn(f64), &'a (dyn Fn() -> Option<Stop> + Sync));
 
 /// The companion of a run: coarser, and begun anew in the middle where it would take the very steps of the run, as
-/// where steps grow by a largest factor from their beginning to the end. Finer where a coarser run does not come to the
-/// end.
+/// where steps grow by a largest factor from their beginning to the end. Finer where a coarser run diverges, or does not
+/// come to the end.
 fn companion(prepared: &PreparedScene, run: &Completed, parts: &[Part], watch: Watch) -> Companion {
     let Statistics { steps, stagnated, .. } = run.statistics;
     let is_at_round_off = stagnated as f64 > AT_ROUND_OFF * steps as f64;
     let coarser = |method: &Method| Changed::coarser(method, is_at_round_off, prepared.system());
     let first = rerun(prepared, run.span, parts, &coarser, watch);
-    if first.failure.is_some() {
+    if first.failure.is_some() || has_diverged(run.trajectory, &first.rows) {
         let is_ended = watch.1().is_some();
         return if is_ended { first } else { rerun(prepared, run.span, parts, &Changed::finer, watch) };
     }
@@ -163,6 +163,15 @@ fn companion(prepared: &PreparedScene, run: &Completed, parts: &[Part], watch: W
     }
     let halves: Vec<Part> = parts.iter().flat_map(Part::halves).collect();
     rerun(prepared, run.span, &halves, &coarser, watch)
+}
+
+/// A companion whose values are so many times the largest one of the run is beyond its limit of stability.
+const DIVERGED: f64 = 1e3;
+
+fn has_diverged(trajectory: &Trajectory, companion: &[(f64, Vec<f64>)]) -> bool {
+    let differences = differences(trajectory, companion);
+    let is_far = |i: usize, row: &[f64]| row[i] > DIVERGED * largest_of(trajectory, i);
+    differences.last().is_some_and(|row| (0..row.len()).any(|i| is_far(i, row)))
 }
 
 /// Runs the parts one after the other, each by its changed method.

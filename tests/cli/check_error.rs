@@ -82,9 +82,10 @@ fn arrays_have_the_error_bars() {
     let place = Place::new(PENDULUM);
     let format = ["--format", "npz,csv", "-o", "own", "--rtol", "1e-4", "--atol", "1e-6"];
     place.done(&[&["simulate", "scene.json", "--check-error"], &format[..]].concat());
-    let archive = std::fs::File::open(place.path("own/trajectory.npz")).unwrap();
-    let names: Vec<String> = zip::ZipArchive::new(archive).unwrap().file_names().map(String::from).collect();
-    assert!(names.contains(&"error_rows.npy".to_string()) && names.contains(&"error_columns.npy".to_string()));
+    let archive = std::fs::read(place.path("own/trajectory.npz")).unwrap();
+    for name in ["error_rows.npy", "error_columns.npy"] {
+        assert!(archive.windows(name.len()).any(|window| window == name.as_bytes()), "{name}");
+    }
 }
 
 #[test]

@@ -78,3 +78,14 @@ fn a_budget_is_kept() {
     let output = place.run(&["simplify", "scene.json", "--within", "5%", "--budget", "0.01ms", "-o", "none"]);
     assert!(output.status.code() == Some(1) && err(&output).contains("more time by --budget"), "{}", err(&output));
 }
+
+/// A chaotic motion whose own error grows beyond what is promised: the scene that is written says so.
+#[test]
+fn a_promise_that_no_run_keeps_ends_with_one() {
+    let place = Place::new(include_str!("../data/chaos.json"));
+    let output = place.run(&["simplify", "scene.json", "--within", "5%", "--at-most", "3", "-o", "out"]);
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    assert!(err(&output).contains("error: no run keeps within 5 %: "), "{}", err(&output));
+    let about = place.json("out/simplified.json")["about"].to_string();
+    assert!(about.contains("no run keeps within 5 %"), "{about}");
+}

@@ -164,6 +164,7 @@ mod tests {
             last: None,
             rows: times.len(),
             gaps: Vec::new(),
+            extremes: Vec::new(),
             drift: Drift::default(),
             energy: None,
             singularity: Singularity::default(),
