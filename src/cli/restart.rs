@@ -11,6 +11,8 @@ use std::path::Path;
 #[derive(Deserialize)]
 struct Saved {
     parameters: Map<String, Value>,
+    #[serde(default)]
+    scene_hash: String,
     r#final: State,
     restart: Option<Checkpoint>,
 }
@@ -21,10 +23,10 @@ struct State {
     v: Map<String, Value>,
 }
 
-/// Reads the state from which the run of this summary can continue.
-pub fn read(path: &Path, prepared: &PreparedScene) -> Result<Checkpoint> {
-    let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
-    let saved = parse(&text).and_then(|saved| checked(saved, prepared));
+/// Reads the state from which the run of this summary can continue, with a scene that may be `changed` since.
+pub fn read(path: &Path, prepared: &PreparedScene, changed: bool) -> Result<Checkpoint> {
+    let text = crate::files::read_text(path).map_err(|error| Error::file(path, error))?;
+    let saved = parse(&text).and_then(|saved| checked(saved, prepared, changed));
     saved.map_err(|error| error.under("--start").in_file(path))
 }
 
@@ -35,10 +37,11 @@ fn parse(text: &str) -> Result<Saved> {
     })
 }
 
-/// Refuses a run of another scene.
+/// Refuses a run of another scene, and a state that no run has left.
 fn checked(
-    Saved { parameters, r#final: State { q, v }, restart }: Saved,
+    Saved { parameters, scene_hash, r#final: State { q, v }, restart }: Saved,
     prepared: &PreparedScene,
+    changed: bool,
 ) -> Result<Checkpoint> {
     let names = prepared.system().names();
     let other = |found: &Map<String, Value>, known: &[String]| {
@@ -55,13 +58,20 @@ fn checked(
     }
     for (name, value) in prepared.parameters.iter() {
         let saved = parameters.get(name).and_then(Value::as_f64);
-        if saved != Some(value) {
+        if saved != Some(value) && !changed {
             let was = saved.map_or("missing".to_string(), |saved| saved.to_string());
             return Err(Error::input(format!("the parameter `{name}` is {value} here and {was} there"))
                 .hint(format!("give --set {name}={was}, or begin anew without --start")));
         }
     }
-    restart.ok_or_else(|| Error::input("that run could not begin, so that there is nothing to go on from"))
+    if scene_hash != prepared.fingerprint && !changed {
+        return Err(Error::input(format!("the scene `{}` is not the one of that run: it was changed since", prepared.name))
+            .hint("begin anew without --start; or give --changed, if the motion is to go on in the changed scene"));
+    }
+    let restart =
+        restart.ok_or_else(|| Error::input("that run could not begin, so that there is nothing to go on from"))?;
+    restart.check(prepared.system())?;
+    Ok(restart)
 }
 
 /// Returns a warning if the run does not continue as it was.

@@ -40,6 +40,9 @@ pub struct Args {
     /// Go on from the end of another run of this scene, its summary.json, to a later --until
     #[arg(long, value_name = "FILE", conflicts_with_all = ["check_error", "equilibrium"])]
     start: Option<PathBuf>,
+    /// The scene was changed on purpose since the run that --start names
+    #[arg(long, requires = "start")]
+    changed: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -52,7 +55,7 @@ enum Format {
 pub fn run(args: Args) -> Result<ExitCode> {
     let prepared = args.common.load()?;
     let span = args.span(&prepared)?;
-    let saved = args.start.as_ref().map(|path| restart::read(path, &prepared)).transpose()?;
+    let saved = args.start.as_ref().map(|path| restart::read(path, &prepared, args.changed)).transpose()?;
     let doubt = saved.as_ref().and_then(|saved| restart::doubt(saved, &prepared));
     let mut folder = args.output.folder(&prepared.name)?;
     let stiffness = prepared.stiffness(span);

@@ -159,12 +159,17 @@ fn companion(prepared: &PreparedScene, run: &Completed, parts: &[Part], watch: W
         return if is_ended { first } else { rerun(prepared, run.span, parts, &Changed::finer, watch) };
     }
     if first.statistics.steps != steps {
-        return first;
+        let is_alike = first.statistics.steps as f64 > HARDLY_FEWER * steps as f64;
+        return Companion { part: if is_alike { OF_ALIKE } else { first.part }, ..first };
     }
     let halves: Vec<Part> = parts.iter().flat_map(Part::halves).collect();
     rerun(prepared, run.span, &halves, &coarser, watch)
 }
 
+/// Steps that are hardly fewer at a larger tolerance are limited by something else, such as stability, in both runs.
+const HARDLY_FEWER: f64 = 0.9;
+/// Errors of such runs are alike, and their difference is smaller.
+const OF_ALIKE: f64 = 10.0;
 /// A companion whose values are so many times the largest one of the run is beyond its limit of stability.
 const DIVERGED: f64 = 1e3;
 

@@ -38,6 +38,17 @@ impl Statistics {
         Work { rhs_evaluations, jacobian_evaluations, factorizations, newton_iterations, projections }
     }
 
+    /// True if no counter is beyond what a run could count: sums of two do not overflow.
+    pub fn is_possible(&self) -> bool {
+        let Statistics { steps, rejected, stagnated, rank_deficient, .. } = *self;
+        let of = |work: Work| {
+            let Work { rhs_evaluations, jacobian_evaluations, factorizations, newton_iterations, projections } = work;
+            [rhs_evaluations, jacobian_evaluations, factorizations, newton_iterations, projections]
+        };
+        let works = of(self.of_steps()).into_iter().chain(of(self.rows));
+        works.chain([steps, rejected, stagnated, rank_deficient]).all(|count| count <= u64::MAX / 4)
+    }
+
     /// Work of steps and `rows`.
     pub fn whole(&self) -> Work {
         self.of_steps() + self.rows

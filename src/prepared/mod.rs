@@ -119,6 +119,8 @@ pub struct PreparedScene {
     pub assembly: Assembly,
     /// Warnings about the scene and its start.
     pub doubts: Vec<Warning>,
+    /// Hash of what the scene says of the mechanism.
+    pub fingerprint: String,
     /// Path, from the scene, of the reference table that accuracy is measured against.
     pub reference: Option<String>,
     start_time: f64,
@@ -176,6 +178,7 @@ impl PreparedScene {
             is_automatic,
             chosen_because: None,
             assembly,
+            fingerprint: scene.fingerprint,
             reference: scene.simulation.reference,
             start_time: start,
             span,

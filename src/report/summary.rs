@@ -50,6 +50,8 @@ pub struct Summary {
     pub outputs: Vec<Extremes>,
     /// Values of the last row.
     pub r#final: FinalState,
+    /// Hash of what the scene says of the mechanism.
+    pub scene_hash: String,
     /// State from which `--start` continues; none where the run could not begin.
     pub restart: Option<Checkpoint>,
 }
@@ -149,6 +151,7 @@ pub fn summarize(
         error: None,
         outputs: record.extremes.clone(),
         r#final: final_state(record),
+        scene_hash: prepared.fingerprint.clone(),
         restart: None,
     }
 }

@@ -10,6 +10,7 @@ mod beam_outputs;
 mod builder;
 mod connections;
 mod elements;
+mod fingerprint;
 mod format;
 #[doc(hidden)]
 pub mod generate;
@@ -87,6 +88,8 @@ pub struct Scene {
     pub hold: Vec<String>,
     /// Settings of the simulation, as they are given.
     pub simulation: Simulation,
+    /// Hash of what it says of the mechanism.
+    pub fingerprint: String,
 }
 
 /// A model in the plane or in space.
@@ -163,12 +166,13 @@ impl Elements {
                 .hint("begin with {\"name\": ..., \"dimension\": 2, ...}"));
         }
         let origins = include::complete(&mut json, folder, overrides)?;
+        let fingerprint = fingerprint::fingerprint(&json, folder);
         // The long lists are moved, not copied.
         let mut taken = |key: &str| json.get_mut(key).and_then(Value::as_array_mut).map(std::mem::take);
         let [bodies, joints, forces] = ["bodies", "joints", "forces"].map(|key| taken(key).unwrap_or_default());
         let file = crate::body::parse::<SceneFile>(&json).map(|file| SceneFile { bodies, joints, forces, ..file });
         let scene = file.and_then(|file| resolve::build(file, self, overrides, folder));
-        scene.map_err(|error| origins.place(name_element(error, &json)))
+        scene.map(|scene| Scene { fingerprint, ..scene }).map_err(|error| origins.place(name_element(error, &json)))
     }
 }
 

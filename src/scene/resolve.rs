@@ -39,6 +39,7 @@ pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)
         v,
         hold: file.assembly.hold,
         simulation: file.simulation,
+        fingerprint: String::new(),
     })
 }
 

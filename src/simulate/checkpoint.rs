@@ -3,11 +3,12 @@
 use super::crowd::Crowd;
 use super::passage::SingularPassage;
 use super::{Method, Outcome, Run, Sink, Span};
-use crate::error::{Error, Failure, Result};
+use crate::error::{Error, Failure, Result, clock, short};
 use crate::formulation::Statistics;
 use crate::math::Piece;
 use crate::math::expression::Switch;
-use crate::system::{MechanicalSystem, OperatingPoint};
+use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Terms};
+use crate::tolerances::report::JOINTS_OPEN;
 use serde::{Deserialize, Serialize};
 
 /// The values that a run carries from one accepted step to the next: the state, and the adaptive quantities. A run of
@@ -105,6 +106,31 @@ impl Checkpoint {
         self.integrator.is_some()
     }
 
+    /// Refuses a state that is not finite, and one at which the joints are open by more than a run tolerates.
+    ///
+    /// # Errors
+    /// Such a state, with the joint.
+    pub fn check(&self, system: &dyn MechanicalSystem) -> Result<()> {
+        if !self.fits(system) {
+            return Err(Error::input("the saved run is one of another system"));
+        }
+        if self.y.iter().chain([&self.h, &self.t]).any(|value| !value.is_finite()) {
+            return Err(Error::input("the saved state is not finite").hint("begin anew without --start"));
+        }
+        let n = system.dimensions();
+        let (q, v) = (&self.y[..n.q], &self.y[n.q..n.q + n.v]);
+        let (mut terms, mut scratch) = (Terms::new(system), Scratch::default());
+        system.evaluate(self.t, q, v, Need::CONSTRAINTS, &mut terms, &mut scratch);
+        let scales = system.scales();
+        let gap = |row: usize| terms.phi[row].abs() / scales[row];
+        let widest = (0..n.lambda).max_by(|a, b| gap(*a).total_cmp(&gap(*b)));
+        let Some(row) = widest.filter(|row| gap(*row).is_nan() || gap(*row) > JOINTS_OPEN) else { return Ok(()) };
+        let group = system.groups().into_iter().find(|group| group.rows.contains(&row));
+        let (name, gap) = (group.map_or(String::new(), |group| group.name), short(terms.phi[row]));
+        Err(Error::input(format!("`{name}` is open by {gap} (m, rad) at the saved state, at t = {} s", clock(self.t)))
+            .hint("name the summary.json of a run whose joints held, or begin anew without --start"))
+    }
+
     /// True if the dimensions agree with those of the system.
     fn fits(&self, system: &dyn MechanicalSystem) -> bool {
         let (n, switches) = (system.dimensions(), system.switches());
@@ -113,6 +139,7 @@ impl Checkpoint {
         let lengths = [self.y.len(), self.turned_at.len(), self.pieces.len(), self.turned.len()];
         let all = n.q + n.v + 1 + system.works().len();
         lengths == [all, all, switches.len(), switches.len()]
+            && self.statistics.is_possible()
             && are_pieces
             && self.dropped.iter().all(|row| *row < n.lambda)
             && self.h > 0.0
@@ -177,7 +204,9 @@ impl Run<'_> {
             self.rows.problem.dynamics.statistics = saved.statistics.rows.into();
         }
         let is_same = self.span.start == saved.span.start && self.span.output_step == saved.span.output_step;
-        self.rows.next = if is_same { saved.next_row } else { self.next_row() };
+        // A row at the very time of the state may have been written, or not.
+        let is_next = saved.next_row.abs_diff(self.next_row()) <= 1;
+        self.rows.next = if is_same && is_next { saved.next_row } else { self.next_row() };
         Ok(())
     }
 

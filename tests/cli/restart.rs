@@ -68,3 +68,39 @@ fn what_does_not_go_on_is_refused() {
     fs::write(place.path("other.json"), place.text("first/summary.json").replace("rod.x", "bar.x")).unwrap();
     check("other.json", "bar.x");
 }
+
+/// A file that was changed by hand is checked like any start.
+#[test]
+fn a_state_that_no_run_has_left_is_refused() {
+    let place = Place::new(PENDULUM);
+    place.done(&["simulate", "scene.json", "-o", "first", "--quiet"]);
+    let changed = |change: &dyn Fn(&mut Value)| {
+        let mut summary = summary(&place, "first");
+        change(&mut summary);
+        fs::write(place.path("changed.json"), summary.to_string()).unwrap();
+        ["simulate", "scene.json", "--start", "changed.json", "--until", "2", "-o", "second"]
+    };
+    let open = refused(&place, &changed(&|summary| summary["restart"]["y"][0] = 0.5.into()));
+    assert!(open.contains("is open by") && open.contains("at the saved state"), "{open}");
+    let count = refused(&place, &changed(&|summary| summary["restart"]["statistics"]["steps"] = u64::MAX.into()));
+    assert!(count.contains("of another system"), "{count}");
+    // The number of the next row follows from the time.
+    place.done(&changed(&|summary| summary["restart"]["next_row"] = u64::MAX.into()));
+    let rows = place.text("second/trajectory.csv").lines().count();
+    place.done(&changed(&|_| ()));
+    assert_eq!(place.text("second/trajectory.csv").lines().count(), rows);
+}
+
+/// A run goes on in the scene that it began in, unless the user says that the scene was changed on purpose.
+#[test]
+fn a_changed_scene_is_refused_unless_it_is_meant() {
+    let place = Place::new(PENDULUM);
+    place.done(&["simulate", "scene.json", "-o", "first", "--quiet"]);
+    let moon = PENDULUM.replace("-9.81", "-1.62");
+    assert_ne!(moon, PENDULUM);
+    fs::write(place.path("scene.json"), moon).unwrap();
+    let args = ["simulate", "scene.json", "--start", "first/summary.json", "--until", "2", "-o", "second"];
+    let error = refused(&place, &args);
+    assert!(error.contains("it was changed since") && error.contains("--changed"), "{error}");
+    place.done(&[&args[..], &["--changed"]].concat());
+}
