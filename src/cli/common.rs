@@ -273,7 +273,7 @@ impl Talk {
     /// Returns a result of several methods, or of none, with its origin.
     pub fn of_no_method<T>(&self, parameters: &Parameters, result: T) -> Repeatable<T> {
         let warnings = self.said.borrow().clone();
-        let origin = Origin { command: std::env::args().collect(), ..Origin::new(parameters, warnings) };
+        let origin = Origin { command: command_line(), ..Origin::new(parameters, warnings) };
         Repeatable { origin, simulation: None, result }
     }
 
@@ -345,4 +345,9 @@ pub fn pick<'a>(what: &str, found: &str, names: &[&'a str]) -> Result<&'a str> {
     let canonical = found.replace('-', "_");
     let name = names.iter().find(|name| **name == canonical).copied();
     name.ok_or_else(|| Error::unknown(what, found, names.iter().copied()))
+}
+
+/// The words of the command; characters of a name that are not text are replaced.
+pub fn command_line() -> Vec<String> {
+    std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect()
 }

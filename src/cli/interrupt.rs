@@ -2,6 +2,7 @@
 
 use super::terminal::tell;
 use crate::error::INTERRUPTED;
+use crate::files::abandon;
 use crate::report::Folder;
 use crate::simulate::Stop;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,6 +24,7 @@ pub fn listen() {
         let ends = is_second || !is_heard;
         tell(if ends { "interrupted" } else { "interrupted: the results so far are written; again to end at once" });
         if ends {
+            abandon();
             std::process::exit(ENDED);
         }
     });

@@ -65,8 +65,11 @@ fn checked(
         }
     }
     if scene_hash != prepared.fingerprint && !changed {
-        return Err(Error::input(format!("the scene `{}` is not the one of that run: it was changed since", prepared.name))
-            .hint("begin anew without --start; or give --changed, if the motion is to go on in the changed scene"));
+        return Err(Error::input(format!(
+            "the scene `{}` is not the one of that run: it was changed since",
+            prepared.name
+        ))
+        .hint("begin anew without --start; or give --changed, if the motion is to go on in the changed scene"));
     }
     let restart =
         restart.ok_or_else(|| Error::input("that run could not begin, so that there is nothing to go on from"))?;

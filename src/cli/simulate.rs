@@ -1,6 +1,6 @@
 //! `holonom simulate SCENE`
 
-use super::common::{Common, Output, tell};
+use super::common::{Common, Output, command_line, tell};
 use super::{interrupt, restart};
 use crate::analysis::{Record, Recorder};
 use crate::compare::{Completed, error_bars};
@@ -90,7 +90,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
     rows.finish()?;
     let mut summary = summarize((&prepared, stiffness, &early), (&outcome, &legs), &record, seconds);
-    (summary.origin.command, summary.restart) = (std::env::args().collect(), saved);
+    summary.origin.command = command_line();
+    summary.restart = saved;
     let summary = match args.check_error && summary.failure.is_none() {
         true => {
             let bar = args.common.talk.progress(1000, &format!("{}: the error", prepared.name));

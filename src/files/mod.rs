@@ -10,7 +10,7 @@ mod staging;
 
 pub use array::Array;
 pub use read::{open, read, read_limited, read_text, refuse_large};
-pub use staging::Staging;
+pub use staging::{Staging, abandon};
 
 use std::fs::OpenOptions;
 use std::io::{self, Write};

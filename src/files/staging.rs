@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::TempDir;
 
 /// Prefix of the names of hidden folders; random letters follow.
@@ -10,12 +11,31 @@ const PREFIX: &str = ".holonom-";
 /// File in a hidden folder, locked as long as the process that writes there is alive.
 const LOCK: &str = ".lock";
 
+/// The hidden folders of this process. Files are renamed while it is locked.
+static HIDDEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn hidden() -> MutexGuard<'static, Vec<PathBuf>> {
+    HIDDEN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Waits for results that are being published, and removes the others, for a process that ends at once. Nothing is
+/// published after that.
+pub fn abandon() {
+    let folders = hidden();
+    for folder in folders.iter() {
+        // The next process that writes there removes what is left.
+        let _ = std::fs::remove_dir_all(folder);
+    }
+    std::mem::forget(folders);
+}
+
 /// Results that become visible only when all of them are complete.
 ///
 /// They are written to a hidden folder in the one where they will be, and [`publish`](Self::publish) renames them one
-/// after another. If the process ends before that, by a full disk or a formula, earlier results stay unchanged. Only
-/// during the renames, some microseconds for each file, can old and new ones be mixed. The last file vouches for the
-/// others: its old version goes before the first is renamed, and its new one comes last.
+/// after another. If the process ends before that, by a full disk or a formula, earlier results stay unchanged. A signal
+/// that ends the process waits for the renames: see [`abandon`]. Only where the process is killed during them, some
+/// microseconds for each file, can old and new ones be mixed. The last file vouches for the others: its old version goes
+/// before the first is renamed, and its new one comes last.
 ///
 /// Hidden folders of processes that were killed are removed by the next one that writes to the same place. The lock in
 /// them shows whether their process lives.
@@ -37,6 +57,7 @@ impl Staging {
         loop {
             let hidden = tempfile::Builder::new().prefix(PREFIX).tempdir_in(target)?;
             if let Some(lock) = lock(hidden.path())? {
+                self::hidden().push(hidden.path().to_path_buf());
                 return Ok(Staging { target: target.to_path_buf(), names: Vec::new(), _lock: lock, hidden });
             }
         }
@@ -77,6 +98,7 @@ impl Staging {
     /// # Errors
     /// Errors of the file system, with the name of the file.
     pub fn publish(self, obsolete: &[String]) -> Result<(), (String, io::Error)> {
+        let _renaming = hidden();
         let vouching = if let [_, .., last] = self.names.as_slice() { Some(last) } else { None };
         for name in vouching.into_iter().chain(obsolete) {
             removed(&self.target.join(name)).map_err(|error| (name.clone(), error))?;
@@ -84,6 +106,12 @@ impl Staging {
         self.names.iter().try_for_each(|name| {
             std::fs::rename(self.path(name), self.target.join(name)).map_err(|error| (name.clone(), error))
         })
+    }
+}
+
+impl Drop for Staging {
+    fn drop(&mut self) {
+        hidden().retain(|folder| folder != self.hidden.path());
     }
 }
 

@@ -111,7 +111,7 @@ impl Folder {
         let written = self.staging.as_ref().and_then(|staging| Settings::read(&staging.path(name)));
         if let Some((earlier, new)) = Settings::earlier(&self.path.join(name)).zip(written) {
             self.notes.extend(earlier.replaced_by(&new));
-            self.obsolete.extend(earlier.files);
+            self.obsolete.extend(earlier.files.into_iter().filter(|file| belongs(name, file)));
         }
         Ok(sealed)
     }
@@ -122,7 +122,7 @@ impl Folder {
     /// A file cannot be moved. Then the last file is missing, which shows that the results are incomplete.
     pub fn finish(self) -> Result<Written> {
         let Folder { path, written, staging, notes, mut obsolete, .. } = self;
-        obsolete.retain(|name| !written.contains(name) && is_plain(name) && path.join(name).is_file());
+        obsolete.retain(|name| !written.contains(name) && path.join(name).is_file());
         staging
             .map_or(Ok(()), |staging| staging.publish(&obsolete))
             .map_err(|(name, error)| failed(&path.join(name), "not all results are in place", &error))?;
@@ -177,9 +177,21 @@ impl Write for Stream {
     }
 }
 
-/// True for the name of a file without a path.
-fn is_plain(name: &str) -> bool {
-    Path::new(name).file_name().is_some_and(|plain| plain == name)
+/// Endings of the files of results.
+const ENDINGS: [&str; 8] = ["csv", "json", "svg", "png", "gif", "npz", "mat", "md"];
+/// Results whose files have other names than theirs.
+const FAMILIES: [(&str, &[&str]); 2] =
+    [("summary", &["trajectory", "drift", "energy", "outputs"]), ("simplify", &["simplified"])];
+
+/// True if a command that writes the result `seal` may write `name`: a result that somebody else has written, or
+/// changed, must not make it remove other files.
+fn belongs(seal: &str, name: &str) -> bool {
+    let Some((stem, ending)) = name.rsplit_once('.') else { return false };
+    let whole = seal.trim_end_matches(".json");
+    let family = FAMILIES.iter().find(|(seal, _)| *seal == whole).map_or(&[][..], |(_, names)| names);
+    let continues = |rest: &str| rest.is_empty() || rest.starts_with(['-', '_']);
+    let is_own = stem.strip_prefix(whole).is_some_and(continues) || family.contains(&stem);
+    is_own && ENDINGS.contains(&ending) && !name.contains(['/', '\\'])
 }
 
 /// The files in place.

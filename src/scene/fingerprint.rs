@@ -75,7 +75,8 @@ mod tests {
 
     #[test]
     fn what_changes_the_motion_changes_the_hash() {
-        let scene = json!({ "name": "a", "gravity": [0, -9.81], "bodies": [{ "name": "b", "mass": 1 }], "outputs": [] });
+        let scene =
+            json!({ "name": "a", "gravity": [0, -9.81], "bodies": [{ "name": "b", "mass": 1 }], "outputs": [] });
         let with = |key: &str, value: Value| {
             let mut other = scene.clone();
             other[key] = value;

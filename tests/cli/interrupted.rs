@@ -36,7 +36,7 @@ fn is_ignored(process: u32, signal: u32) -> bool {
 }
 
 /// Waits for a condition.
-fn until(is_so: impl Fn() -> bool) {
+fn until(mut is_so: impl FnMut() -> bool) {
     let clock = Instant::now();
     while !is_so() {
         assert!(clock.elapsed() < FOREVER);
@@ -322,4 +322,54 @@ fn assert_whole(folder: &Path) {
         let last: f64 = rows.lines().last().unwrap().split(',').next().unwrap().parse().unwrap();
         assert_eq!(last, end, "{name}");
     }
+}
+
+/// A signal that comes while results are renamed: old ones or new ones, whole, and no hidden folder stays.
+#[test]
+fn a_signal_mixes_no_results() {
+    let place = Place::new(PENDULUM);
+    let times: Vec<String> = (0..40).map(|k| format!("{}", 0.01 * f64::from(k))).collect();
+    let times = times.join(",");
+    let linearize = |rtol| ["linearize", "scene.json", "--at", &times, "--rtol", rtol, "-o", "here", "--quiet"];
+    let contents = || -> Vec<(String, Vec<u8>)> {
+        let entries = fs::read_dir(place.path("here")).unwrap().map(|entry| entry.unwrap().path());
+        let files = entries.filter(|path| path.is_file());
+        let mut all: Vec<_> = files
+            .map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(&path).unwrap()))
+            .collect();
+        all.sort();
+        all
+    };
+    for _ in 0..5 {
+        place.done(&linearize("1e-6"));
+        let old = contents();
+        let mut child = start(&place, &linearize("1e-5"));
+        // The first file goes when the renames begin.
+        until(|| contents_changed(&place, old.len()) || child.try_wait().unwrap().is_some());
+        signal(&child, "TERM");
+        child.wait().unwrap();
+        let new = contents();
+        let changed = old.iter().zip(&new).filter(|(old, new)| old != new).count();
+        assert!(new.len() == old.len() && (changed == 0 || changed == old.len()), "{changed} of {} files", old.len());
+        assert!(hidden(&place.path("here")).is_empty());
+    }
+}
+
+/// True if the folder has another number of files than before.
+fn contents_changed(place: &Place, before: usize) -> bool {
+    let entries = fs::read_dir(place.path("here")).unwrap().flatten();
+    entries.filter(|entry| !entry.file_name().to_string_lossy().starts_with('.')).count() != before
+}
+
+/// A name that is not text in UTF-8 is a name like any other.
+#[test]
+fn a_name_that_is_not_utf_8_loses_nothing() {
+    use std::os::unix::ffi::OsStringExt;
+    let place = Place::new(PENDULUM);
+    let name = std::ffi::OsString::from_vec(b"out\xff".to_vec());
+    let output = place.command(&["simulate", "scene.json", "--quiet", "-o"]).arg(&name).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let folder = fs::read_dir(place.path(".")).unwrap().flatten().find(|entry| entry.file_name() == name).unwrap();
+    let summary: Value = serde_json::from_slice(&fs::read(folder.path().join("summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["command"].as_array().unwrap().last(), Some(&Value::from("out\u{fffd}")));
 }

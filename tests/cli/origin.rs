@@ -131,3 +131,19 @@ fn what_is_no_run_of_the_scene_is_refused() {
         assert!(output.status.code() == Some(2) && err(&output).contains(message), "{args:?}: {}", err(&output));
     }
 }
+
+/// A summary that somebody else has written makes no command remove what holonom has not written.
+#[test]
+fn a_planted_summary_removes_no_file_of_others() {
+    let place = Place::new(scene());
+    fs::create_dir(place.path("here")).unwrap();
+    let others = ["thesis.tex", "data.csv", "run.json"];
+    others.iter().for_each(|name| fs::write(place.path("here").join(name), "mine").unwrap());
+    fs::write(place.path("here/energy.png"), "of an earlier run").unwrap();
+    let files = ["thesis.tex", "data.csv", "run.json", "energy.png", "../scene.json", "summary.json"];
+    let planted = serde_json::json!({ "holonom": "0", "command": ["x"], "parameters": {}, "files": files });
+    fs::write(place.path("here/summary.json"), planted.to_string()).unwrap();
+    place.done(&["simulate", "scene.json", "--quiet", "-o", "here"]);
+    others.iter().for_each(|name| assert_eq!(place.text(&format!("here/{name}")), "mine"));
+    assert!(!place.path("here/energy.png").exists());
+}

@@ -70,7 +70,11 @@ fn the_summary_has_the_promised_keys() {
         "energy",
         "final",
     ];
-    assert_keys(&summary, &top, &["assembly", "error", "files", "outputs", "restart", "scene_hash", "singularity", "stiffness"]);
+    assert_keys(
+        &summary,
+        &top,
+        &["assembly", "error", "files", "outputs", "restart", "scene_hash", "singularity", "stiffness"],
+    );
     assert_eq!(summary["warnings"], serde_json::json!([]));
     assert_keys(&summary["method"], &["formulation", "integrator", "projection", "rtol", "atol", "step"], &[]);
     let counters = ["steps", "rejected", "rhs_evaluations", "jacobian_evaluations", "factorizations"];
