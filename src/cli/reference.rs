@@ -15,8 +15,8 @@ use std::process::ExitCode;
   holonom reference expressions
   holonom reference spring_damper")]
 pub struct Args {
-    /// A key of a scene, such as bodies, outputs or simulation; a type, such as revolute; expressions or units
-    /// (default: a list of all)
+    /// A key of a scene or of an element, such as bodies, simulation or section; a type, such as revolute; a measure,
+    /// such as reaction; expressions, units or measures (default: a list of all)
     #[arg(value_name = "TOPIC")]
     topic: Option<String>,
 }
@@ -37,6 +37,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// A key of elements, with those that have it in this meaning.
+struct InnerKey<'v> {
+    name: &'v str,
+    value: &'v Value,
+    owners: Vec<&'v str>,
+}
+
 /// What the schema of scenes says.
 struct Reference {
     schema: Value,
@@ -54,11 +61,25 @@ impl Reference {
 
     fn topic(&self, topic: &str) -> Result<String> {
         let types = || ELEMENTS.iter().flat_map(|key| self.elements(key)).map(|kind| (name(kind), kind));
-        let names: Vec<&str> =
-            ["expressions", "units"].into_iter().chain(self.own_keys()).chain(types().map(|kind| kind.0)).collect();
+        let inner = self.inner_keys();
+        let own = ["expressions", "units", "measures"].into_iter();
+        let own = own.chain(self.own_keys()).chain(types().map(|kind| kind.0));
+        let all = own.chain(self.measure_names()).chain(inner.iter().map(|key| key.name));
+        let mut names: Vec<&str> = Vec::new();
+        all.for_each(|name| {
+            if !names.contains(&name) {
+                names.push(name)
+            }
+        });
+        let topic = if topic == "unit" { "units" } else { topic };
         Ok(match pick("topic", topic, &names)? {
             "expressions" => language(),
             "units" => units(),
+            "measures" => self.measures(),
+            name if self.measure_names().any(|measure| measure == name) => self.measure(name),
+            name if !self.own_keys().chain(types().map(|kind| kind.0)).any(|known| known == name) => {
+                inner.iter().filter(|key| key.name == name).map(|key| self.inner(key)).collect::<Vec<_>>().join("\n")
+            }
             key if ELEMENTS.contains(&key) => self.types(key),
             "outputs" => {
                 let output = self.resolved(&self.schema["properties"]["outputs"]["items"]);
@@ -98,6 +119,75 @@ impl Reference {
         table.to_string()
     }
 
+    /// Returns the keys of elements and outputs, each once for each meaning that it has.
+    fn inner_keys(&self) -> Vec<InnerKey<'_>> {
+        let output = self.resolved(&self.schema["properties"]["outputs"]["items"]);
+        let types = ELEMENTS.iter().flat_map(|key| self.elements(key)).map(|kind| (name(kind), kind));
+        let mut found: Vec<InnerKey> = Vec::new();
+        for (owner, object) in types.chain([("outputs", output)]) {
+            for (name, value) in properties(object).filter(|(name, _)| *name != "type") {
+                match found.iter_mut().find(|key| key.name == name && key.value == value) {
+                    Some(key) => key.owners.push(owner),
+                    None => found.push(InnerKey { name, value, owners: vec![owner] }),
+                }
+            }
+        }
+        found
+    }
+
+    /// Returns what a key of elements means, and what it contains.
+    fn inner(&self, InnerKey { name, value, owners }: &InnerKey) -> String {
+        let own = plain(value);
+        let about = if own.is_empty() { plain(self.resolved(value)) } else { own };
+        let text = format!("{name} of {}: {about}", owners.join(", "));
+        format!("{}\n{}{}", wrapped(text.trim_end_matches([':', ' ']), 0), self.choices(value).trim_start_matches('\n'), self.contents(value))
+    }
+
+    /// Returns the keys of each form that a value may have, with those of the values in them.
+    fn contents(&self, value: &Value) -> String {
+        let mut text = String::new();
+        for form in self.forms(value) {
+            let keys: Vec<&str> = properties(form).map(|(name, _)| name).collect();
+            let about = wrapped(&plain(form), 2);
+            text += &format!("\n  {{ {} }} {about}\n{}", keys.join(", "), self.keys(form));
+            for (name, value) in properties(form) {
+                for inner in self.forms(value) {
+                    text += &format!("\n{name}\n{}", self.keys(inner));
+                }
+            }
+        }
+        text
+    }
+
+    /// Returns the objects that a value may be, or that it has by name.
+    fn forms<'v>(&'v self, value: &'v Value) -> Vec<&'v Value> {
+        if properties(value).next().is_some() {
+            return vec![value];
+        }
+        let reference = value["$ref"].as_str().and_then(|path| self.schema.pointer(path.trim_start_matches('#')));
+        let choices = ["anyOf", "oneOf"].into_iter().flat_map(|key| value[key].as_array().into_iter().flatten());
+        let parts = ["items", "additionalProperties"].into_iter().filter_map(|key| value.get(key));
+        choices.chain(parts).chain(reference).flat_map(|one| self.forms(one)).collect()
+    }
+
+    fn measure_names(&self) -> impl Iterator<Item = &str> {
+        let kinds = self.schema["$defs"]["MeasureKind"]["oneOf"].as_array().into_iter().flatten();
+        kinds.filter_map(|kind| kind["const"].as_str())
+    }
+
+    /// Returns what a measure is, and the keys that go with it.
+    fn measure(&self, measure: &str) -> String {
+        let kinds = self.schema["$defs"]["MeasureKind"]["oneOf"].as_array().into_iter().flatten();
+        let kind = kinds.into_iter().find(|kind| kind["const"] == measure).unwrap_or(&Value::Null);
+        let keys = serde_json::from_value(kind["const"].clone()).map_or(&[][..], MeasureKind::keys);
+        let output = self.resolved(&self.schema["properties"]["outputs"]["items"]);
+        let mut object = output.clone();
+        if let Some(all) = object["properties"].as_object_mut() {
+            all.retain(|name, _| keys.contains(&name.as_str()) || ["name", "unit"].contains(&name.as_str()));
+        }
+        format!("measure {measure}: {}\n\n{}", wrapped(&plain(kind), 0), self.keys(&object))
+    }
+
     /// Returns the measures with their keys and units.
     fn measures(&self) -> String {
         let mut table = Table::left(&["measure", "keys", "unit, and what it is"]);
@@ -112,9 +202,9 @@ impl Reference {
     fn nested_keys(&self, object: &Value) -> String {
         let mut text = self.keys(object);
         for (name, value) in properties(object) {
-            let inner = self.keys(self.resolved(value.get("items").unwrap_or(value)));
+            let inner = self.contents(value);
             if !inner.is_empty() {
-                text += &format!("\n{name}\n{inner}");
+                text += &format!("\n{name}\n{}", inner.trim_start_matches('\n'));
             }
         }
         text
@@ -211,5 +301,5 @@ fn units() -> String {
     for dimension in Dimension::all() {
         table.row([dimension.word().to_string(), dimension.units().collect::<Vec<_>>().join(", ")]);
     }
-    format!("{table}\nAn expression takes any word as its \"unit\", for axes alone.\n")
+    format!("{table}\nAn expression is converted from the SI to its \"unit\"; a word that is not here stands on axes alone.\n")
 }

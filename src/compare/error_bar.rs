@@ -239,8 +239,8 @@ const AT_ROUND_OFF: f64 = 0.3;
 const COARSEST: f64 = 0.1;
 /// The difference to a companion at ten times the tolerance, whose error is larger by about ten.
 const MARGIN: f64 = 1.3;
-/// Beyond a hundredfold tolerance errors grow less than it.
-const LEAST_PART: f64 = 0.1;
+/// Errors of loose tolerances grow less than in proportion to them.
+const GROWTH: f64 = 0.75;
 /// Twice the step leaves 2^p times the error: a third of the difference holds that of a method of order three and more
 /// where order two is seen.
 const OF_FIXED_STEPS: f64 = 1.0 / 3.0;
@@ -270,7 +270,7 @@ impl Changed {
         let rtol = (factor * method.rtol).min(coarsest);
         // Steps at their tightest are those of a looser tolerance.
         let factor = rtol / tightening.reached(&at(method.rtol)).max(method.rtol);
-        let part = if is_at_round_off { 1.0 } else { (10.0 / factor).clamp(LEAST_PART, 1.0) };
+        let part = if is_at_round_off { 1.0 } else { (10.0 / factor).min(1.0).powf(GROWTH) };
         let formulation = softer(&method.formulation);
         Changed { method: Method { formulation, rtol, atol: at(rtol).atol, ..method.clone() }, part: MARGIN * part }
     }

@@ -325,5 +325,28 @@ pub fn registry() -> &'static [Entry] {
 
 /// The entry that `spec` names.
 pub fn find(spec: &MethodSpec) -> Result<&'static Entry> {
-    spec.entry(registry())
+    spec.entry(registry()).map_err(|error| match ELSEWHERE.iter().find(|(theirs, _)| *theirs == spec.name) {
+        Some((theirs, ours)) => {
+            error.changed(|input| input.hint = Some(format!("did you mean `{ours}`? It is nearest to the {theirs} of other codes")))
+        }
+        None => error,
+    })
 }
+
+/// Names of methods in MATLAB, SciPy, SUNDIALS and other codes, and what comes nearest to them.
+const ELSEWHERE: [(&str, &str); 14] = [
+    ("ode45", "dopri5"),
+    ("rk45", "dopri5"),
+    ("ode23", "tsit45"),
+    ("ode89", "dop853"),
+    ("ode78", "dop853"),
+    ("ode113", "adams"),
+    ("ode15s", "bdf"),
+    ("ode23t", "tr_bdf2"),
+    ("ode23tb", "tr_bdf2"),
+    ("radau", "radau_iia"),
+    ("radau5", "radau_iia"),
+    ("ida", "bdf"),
+    ("cvode", "bdf"),
+    ("hht", "generalized_alpha"),
+];

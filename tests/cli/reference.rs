@@ -70,3 +70,24 @@ fn unknown_topics_are_refused() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(err(&output), "error: there is no topic `revolut`\n  help: did you mean `revolute`?\n");
 }
+
+/// Keys of elements, measures and words for them are topics of their own, with what they contain.
+#[test]
+fn keys_of_elements_and_measures_are_topics() {
+    let place = Place::new(PENDULUM);
+    let topic = |name: &str| place.done(&["reference", name]);
+    for (name, words) in [
+        ("section", &["section of flexible_beam", "rectangle", "height", "width"][..]),
+        ("damping", &["damping of ", "rayleigh", "modal", "stiffness"]),
+        ("markers", &["markers of ", "position", "z_axis"]),
+        ("shapes", &["shapes of rigid", "cylinder", "density"]),
+        ("reaction", &["measure reaction", "component", "on", "unit"]),
+        ("unit", &["angle", "deg", "N m"]),
+        ("measures", &["reaction", "bending_moment"]),
+        ("flexible_beam", &["rectangle", "rayleigh"]),
+    ] {
+        let text = topic(name);
+        words.iter().for_each(|word| assert!(text.contains(word), "{name}: no {word} in {text}"));
+        assert!(text.lines().all(|line| line.chars().count() <= 200), "{text}");
+    }
+}

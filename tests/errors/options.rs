@@ -209,6 +209,11 @@ cases! {
             "at --integrator: there is no integrator `rk5`",
             "did you mean `rk4`?",
         ];
+    integrator_ode45:
+        pendulum().args(&["--integrator", "ode45"]) => [
+            "at --integrator: there is no integrator `ode45`",
+            "did you mean `dopri5`?",
+        ];
     projection_manifld:
         pendulum().args(&["--projection", "manifld"]) => [
             "at --projection: there is no projection `manifld`",
