@@ -140,7 +140,12 @@ impl Reference {
         let own = plain(value);
         let about = if own.is_empty() { plain(self.resolved(value)) } else { own };
         let text = format!("{name} of {}: {about}", owners.join(", "));
-        format!("{}\n{}{}", wrapped(text.trim_end_matches([':', ' ']), 0), self.choices(value).trim_start_matches('\n'), self.contents(value))
+        format!(
+            "{}\n{}{}",
+            wrapped(text.trim_end_matches([':', ' ']), 0),
+            self.choices(value).trim_start_matches('\n'),
+            self.contents(value)
+        )
     }
 
     /// Returns the keys of each form that a value may have, with those of the values in them.
@@ -301,5 +306,7 @@ fn units() -> String {
     for dimension in Dimension::all() {
         table.row([dimension.word().to_string(), dimension.units().collect::<Vec<_>>().join(", ")]);
     }
-    format!("{table}\nAn expression is converted from the SI to its \"unit\"; a word that is not here stands on axes alone.\n")
+    format!(
+        "{table}\nAn expression is converted from the SI to its \"unit\"; a word that is not here stands on axes alone.\n"
+    )
 }

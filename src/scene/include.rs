@@ -4,6 +4,7 @@
 //! states, signals, inputs, outputs, markers of the ground and the start of another scene. Its names, those of its
 //! parameters among them, begin with `left_`.
 
+use super::budget::Budget;
 use super::format::Include;
 use super::names::check_name;
 use super::repeat::{self, Written};
@@ -47,19 +48,24 @@ pub fn own_parameters(scene: &Value, overrides: &[(String, Number)]) -> Result<P
 
 /// Expands what is repeated and adds what is included, in `scene` whose files are found from `folder`.
 pub fn complete(scene: &mut Value, folder: &Path, overrides: &[(String, Number)]) -> Result<Origins> {
-    completed(scene, folder, overrides, &[])
+    completed(scene, folder, overrides, (&[], &mut Budget::default()))
 }
 
-fn completed(scene: &mut Value, folder: &Path, overrides: &[(String, Number)], around: &[PathBuf]) -> Result<Origins> {
+fn completed(
+    scene: &mut Value,
+    folder: &Path,
+    overrides: &[(String, Number)],
+    (around, budget): (&[PathBuf], &mut Budget),
+) -> Result<Origins> {
     let mut origins = Origins::default();
     if repeat::is_used(scene) {
-        origins.written = repeat::expand(scene, &own_parameters(scene, overrides)?)?;
+        origins.written = repeat::expand(scene, &own_parameters(scene, overrides)?, budget)?;
     }
     let Some(given) = scene.as_object_mut().and_then(|keys| keys.shift_remove("include")) else { return Ok(origins) };
     let includes: Vec<Include> = parse(given).map_err(|error| error.under("include"))?;
     let outer = own_parameters(scene, overrides)?;
     for (i, include) in includes.iter().enumerate() {
-        let added = add(scene, include, (folder, around), (&outer, overrides));
+        let added = add(scene, include, (folder, around), (&outer, overrides), budget);
         origins.included.push(added.map_err(|error| match &error {
             Error::Input(input) if input.file.is_some() => error,
             _ => error.under(format!("include[{i}]")),
@@ -122,6 +128,7 @@ fn add(
     include: &Include,
     (folder_of_scene, around): (&Path, &[PathBuf]),
     (outer, overrides): (&Parameters, &[(String, Number)]),
+    budget: &mut Budget,
 ) -> Result<Origin> {
     check_name(&include.prefix).map_err(|error| error.under("as"))?;
     let path = folder_of_scene.join(&include.file);
@@ -135,6 +142,7 @@ fn add(
         Error::File { problem, .. } => Error::input(format!("`{}`: {problem}", excerpt(&include.file))).under("file"),
         other => other,
     })?;
+    budget.take_include(&text)?;
     let prefix = format!("{}_", include.prefix);
     let overrides = inner_overrides(include, &prefix, outer, overrides)?;
     let within = |error: Error| place(error, &path, &text);
@@ -142,7 +150,7 @@ fn add(
     let mut inner = read.and_then(|inner| check(&inner, scene).map(|()| inner)).map_err(within)?;
     check_parameters(&inner, include)?;
     let around: Vec<PathBuf> = around.iter().cloned().chain([real]).collect();
-    let origins = completed(&mut inner, folder(Some(&path)), &overrides, &around).map_err(within)?;
+    let origins = completed(&mut inner, folder(Some(&path)), &overrides, (&around, budget)).map_err(within)?;
     let names = Names::of(&inner, prefix.clone(), folder(Some(Path::new(&include.file))));
     let ranges = LISTS.map(|list| append(scene, list, &mut inner, &names));
     names.add_entries(scene, inner, &include.parameters)?;

@@ -7,6 +7,7 @@ mod absolute_beam;
 mod actions;
 mod beam_mass;
 mod beam_outputs;
+mod budget;
 mod builder;
 mod connections;
 mod elements;

@@ -4,13 +4,11 @@
 //! of i. In its text and keys `{EXPRESSION}` is replaced by the value of the expression over the parameters and i:
 //! `leg{i}`, `2*pi*{i}/6`, `leg{mod(i, 6) + 1}.end`.
 
+use super::budget::Budget;
 use crate::error::{Error, Result, excerpt, short};
 use crate::math::expression::{Expression, Name, Names, Number, Parameters};
 use serde_json::{Map, Value};
 use std::collections::HashMap;
-
-/// Copies of all elements together; more are taken for a mistake.
-const MOST_COPIES: usize = 1_000_000;
 
 /// Keys of a scene in which elements may be repeated.
 const KEYS: [&str; 7] = ["ground", "bodies", "joints", "forces", "states", "inputs", "outputs"];
@@ -29,8 +27,8 @@ fn has_repeat(json: &Value) -> bool {
 }
 
 /// Puts copies in the place of what is repeated, and returns the places where they are written.
-pub fn expand(scene: &mut Value, parameters: &Parameters) -> Result<Written> {
-    let mut expansion = Expansion { parameters, copies: 0, written: Written::default() };
+pub fn expand(scene: &mut Value, parameters: &Parameters, budget: &mut Budget) -> Result<Written> {
+    let mut expansion = Expansion { parameters, budget, written: Written::default() };
     for key in KEYS {
         if let Some(value) = scene.get_mut(key) {
             *value = expansion.value(value.take(), &Vec::new(), &Place::default().entry(key, key))?;
@@ -101,7 +99,7 @@ impl Names for Scope<'_> {
 
 struct Expansion<'a> {
     parameters: &'a Parameters,
-    copies: usize,
+    budget: &'a mut Budget,
     written: Written,
 }
 
@@ -164,6 +162,8 @@ impl Expansion<'_> {
             return Ok(vec![(value, outer.clone())]);
         };
         let all = self.assignments(repeat, outer).map_err(|error| error.under("repeat").under(&place.written))?;
+        check_name(&value, all.len()).map_err(|error| error.under("name").under(&place.written))?;
+        self.budget.take_text(&value, all.len()).map_err(|error| error.under("repeat").under(&place.written))?;
         Ok(all.into_iter().map(|variables| (value.clone(), variables)).collect())
     }
 
@@ -179,12 +179,7 @@ impl Expansion<'_> {
             let mut longer = Vec::new();
             for variables in &all {
                 let (first, count) = self.range(range, variables).map_err(|error| error.under(name))?;
-                self.copies = self.copies.saturating_add(count);
-                if self.copies > MOST_COPIES {
-                    return Err(Error::input(format!("more than {MOST_COPIES} copies"))
-                        .under(name)
-                        .hint("repeat less"));
-                }
+                self.budget.take_copies(count).map_err(|error| error.under(name))?;
                 longer.extend((0..count).map(|i| {
                     variables.iter().cloned().chain([(name.clone(), first + i as f64)]).collect::<Variables>()
                 }));
@@ -244,6 +239,17 @@ impl Expansion<'_> {
     }
 }
 
+/// Refuses copies of one name, before they are made.
+fn check_name(value: &Value, copies: usize) -> Result<()> {
+    match value.get("name").and_then(Value::as_str) {
+        Some(name) if copies > 1 && !name.contains('{') => {
+            Err(Error::input(format!("{copies} copies have the name `{}`", excerpt(name)))
+                .hint("name the variable of \"repeat\" in it, as in `leg{i}`"))
+        }
+        _ => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -252,7 +258,7 @@ mod tests {
     fn expanded(bodies: Value) -> Result<Value> {
         let parameters = Parameters::resolve(&[("n".to_string(), 2.0.into())], &[]).unwrap();
         let mut scene = json!({ "bodies": bodies });
-        expand(&mut scene, &parameters)?;
+        expand(&mut scene, &parameters, &mut Budget::default())?;
         assert!(!is_used(&scene), "{scene}");
         Ok(scene["bodies"].take())
     }
@@ -289,7 +295,7 @@ mod tests {
     fn paths_are_those_of_the_text() {
         let mut scene =
             json!({ "bodies": [{}, { "repeat": { "i": "1..3" }, "markers": { "P{i}": {} } }, { "x": [1] }] });
-        let written = expand(&mut scene, &Parameters::default()).unwrap();
+        let written = expand(&mut scene, &Parameters::default(), &mut Budget::default()).unwrap();
         let table = [
             ("bodies[0].x", "bodies[0].x"),
             ("bodies[3].markers.P3.y", "bodies[1].markers.P{i}.y"),
@@ -311,6 +317,14 @@ mod tests {
             (json!([{ "repeat": { "i": "1..1e300" } }]), "at bodies[0].repeat.i: more than 1000000 copies"),
             (json!([{ "repeat": { "i": "3..1" } }]), "at bodies[0].repeat.i: `3..1` is no range"),
             (json!([{ "repeat": { "i": "1..1e7" } }]), "at bodies[0].repeat.i: more than 1000000 copies"),
+            (
+                json!([{ "repeat": { "i": "1..1000000" }, "about": "x".repeat(2000) }]),
+                "at bodies[0].repeat: the scene grows beyond 64 MB of text",
+            ),
+            (
+                json!([{ "repeat": { "i": "1..1000000" }, "name": "rod" }]),
+                "at bodies[0].name: 1000000 copies have the name `rod`",
+            ),
             (json!([{ "repeat": { "i": "1..m" } }]), "at bodies[0].repeat.i: unknown name `m`"),
             (json!([{ "repeat": { "n": "1..2" } }]), "at bodies[0].repeat.n: the name `n` is taken"),
             (json!([{ "repeat": { "sin": "1..2" } }]), "at bodies[0].repeat.sin: `sin` cannot name a parameter"),

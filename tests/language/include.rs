@@ -125,3 +125,18 @@ fn faults_are_told_in_their_file() {
     assert!(wrong.contains("at include[0].file: `main.json` includes itself"), "{wrong}");
     assert!(Scene::parse(MAIN, &[]).map(|_| ()).unwrap_err().to_string().contains("there is no such file"));
 }
+
+/// Ten files that each include the next ten times stand for ten thousand million bodies: refused before they are read.
+#[test]
+fn includes_that_multiply_are_refused() {
+    let place = tempfile::tempdir().unwrap();
+    let body = r#"{ "name": "b", "type": "point_mass", "mass": 1 }"#;
+    for level in 0..11 {
+        let include = |k: usize| format!(r#"{{ "file": "s{}.json", "as": "a{k}" }}"#, level + 1);
+        let includes = if level < 10 { (0..10).map(include).collect::<Vec<_>>().join(", ") } else { String::new() };
+        let scene = format!(r#"{{ "name": "s", "dimension": 2, "bodies": [{body}], "include": [{includes}] }}"#);
+        fs::write(place.path().join(format!("s{level}.json")), scene).unwrap();
+    }
+    let error = Scene::load(&place.path().join("s0.json"), &[]).map(|_| ()).unwrap_err().to_string();
+    assert!(error.contains("more than 10000 scenes are included"), "{error}");
+}
