@@ -189,7 +189,8 @@ pub struct StateSpec {
 pub struct SignalSpec {
     /// None of a function, a parameter, a state or an output.
     pub name: String,
-    /// A table beside the scene: a line of names, then lines of numbers, separated by commas, semicolons or tabs.
+    /// A table beside the scene: a line of names, if need be one of units, then lines of numbers in units of the SI,
+    /// separated by commas, semicolons, tabs or blanks. Lines that begin with # are comments.
     pub file: Option<String>,
     /// Names of the columns with the argument, which increases, and the value. Default: the first two.
     pub columns: Option<[String; 2]>,

@@ -1,9 +1,11 @@
 //! Signals of a scene: measured data from a table, or points written in it.
 
 use super::format::{SceneFile, SignalSpec};
+use super::units::dimension_of;
 use crate::error::{Error, Result, excerpt, suggest};
 use crate::math::expression::{Number, Parameters};
 use crate::math::signal::{PointsError, Signal};
+use std::borrow::Cow;
 use std::path::Path;
 
 /// Adds the signals to the parameters, so that all expressions may call them. Those before are known in the points.
@@ -43,21 +45,39 @@ fn read(spec: &SignalSpec, file: &SceneFile, folder: &Path, parameters: &Paramet
     signal.map_err(|problem| fault(problem, &points, &places, field))
 }
 
-/// Points with the place of each, such as `road.csv, line 7`.
+/// Points with the place of each.
 struct Points {
     points: Vec<[f64; 2]>,
-    places: Vec<String>,
+    places: Places,
     field: &'static str,
 }
 
-fn fault(problem: PointsError, points: &[[f64; 2]], places: &[String], field: &str) -> Error {
+/// Where points are written.
+enum Places {
+    /// In the scene.
+    Points,
+    /// In a file, each on its line.
+    Lines { file: String, lines: Vec<u64> },
+}
+
+impl Places {
+    /// The place of a point, such as `road.csv, line 7`.
+    fn at(&self, i: usize) -> String {
+        match self {
+            Places::Points => format!("points[{i}]"),
+            Places::Lines { file, lines } => format!("{file}, line {}", lines[i]),
+        }
+    }
+}
+
+fn fault(problem: PointsError, points: &[[f64; 2]], places: &Places, field: &str) -> Error {
     match problem {
         PointsError::TooFew => {
             Error::input(format!("a signal takes at least 2 points, found {}", points.len())).under(field)
         }
         PointsError::NotIncreasing(i) => {
             let (now, before) = (points[i][0], points[i - 1][0]);
-            Error::input(format!("{}: x must increase, found {now} after {before}", places[i]))
+            Error::input(format!("{}: x must increase, found {now} after {before}", places.at(i)))
                 .under(field)
                 .hint("give each x once, in order")
         }
@@ -72,7 +92,7 @@ fn fault(problem: PointsError, points: &[[f64; 2]], places: &[String], field: &s
 }
 
 fn given(points: &[[Number; 2]], parameters: &Parameters) -> Result<Points> {
-    let place = |i: usize| format!("points[{i}]");
+    let place = |i: usize| Places::Points.at(i);
     let value = |(i, point): (usize, &[Number; 2])| {
         let number = |k: usize| {
             let value = point[k].evaluate(parameters);
@@ -81,10 +101,11 @@ fn given(points: &[[Number; 2]], parameters: &Parameters) -> Result<Points> {
         Ok([number(0)?, number(1)?])
     };
     let values = points.iter().enumerate().map(value).collect::<Result<_>>()?;
-    Ok(Points { points: values, places: (0..points.len()).map(place).collect(), field: "points" })
+    Ok(Points { points: values, places: Places::Points, field: "points" })
 }
 
-/// Two columns of a table with headings: CSV with commas, semicolons or tabs.
+/// Two columns of a table with headings: CSV with commas, semicolons, tabs or blanks. Lines that begin with # are
+/// comments; a first line without numbers has the units.
 fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Points> {
     let path = folder.join(file);
     let text = crate::files::read_text(&path).map_err(|problem| {
@@ -92,36 +113,99 @@ fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Poi
         Error::input(format!("{file}: {problem}")).hint("the file is looked for beside the scene")
     })?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let header = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
-    let delimiter = [b'\t', b';'].into_iter().find(|mark| header.as_bytes().contains(mark)).unwrap_or(b',');
-    let mut reader =
-        csv::ReaderBuilder::new().delimiter(delimiter).flexible(true).trim(csv::Trim::All).from_reader(text.as_bytes());
+    let is_data = |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
+    let header = text.lines().find(is_data).unwrap_or_default();
+    let delimiter = [b'\t', b';', b','].into_iter().find(|mark| header.as_bytes().contains(mark));
+    let text = if delimiter.is_none() { Cow::Owned(with_commas(text)) } else { Cow::Borrowed(text) };
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(delimiter.unwrap_or(b','))
+        .comment(Some(b'#'))
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
     let broken = |error: csv::Error| Error::input(format!("{file}: this is no table: {error}"));
     let headings: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_string).collect();
     let chosen = choose(file, &headings, columns)?;
-    let (mut points, mut places) = (Vec::new(), Vec::new());
-    for record in reader.records() {
-        let record = record.map_err(broken)?;
-        let place = format!("{file}, line {}", record.position().map_or(0, |at| line(text, at)));
+    let (mut points, mut lines, mut record) = (Vec::new(), Vec::new(), csv::StringRecord::new());
+    while reader.read_record(&mut record).map_err(broken)? {
+        let line = record.position().map_or(0, |at| line(&text, at));
+        let row = Row { file, line, headings: &headings, record: &record };
+        if points.is_empty() && row.has_units() {
+            row.check_units(chosen)?;
+            continue;
+        }
+        points.push(row.values(chosen)?);
+        lines.push(line);
+    }
+    let places = Places::Lines { file: file.to_string(), lines };
+    Ok(Points { points, places, field: "file" })
+}
+
+/// The text with a comma in the place of blanks within its lines.
+fn with_commas(text: &str) -> String {
+    let joined = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(",");
+    text.lines()
+        .map(|line| if line.trim_start().starts_with('#') { line.to_string() } else { joined(line) } + "\n")
+        .collect()
+}
+
+/// A line of a table.
+struct Row<'a> {
+    file: &'a str,
+    line: u64,
+    headings: &'a [String],
+    record: &'a csv::StringRecord,
+}
+
+impl Row<'_> {
+    /// True if it has a word in every column.
+    fn has_units(&self) -> bool {
+        self.record.iter().all(|cell| !cell.is_empty() && cell.parse::<f64>().is_err())
+    }
+
+    /// Refuses units other than those of the SI: the values of a signal are taken as they are.
+    fn check_units(&self, chosen: [usize; 2]) -> Result<()> {
+        for column in chosen {
+            let cell = self.record.get(column).unwrap_or_default();
+            let name = cell.trim_matches(['[', ']', '(', ')']);
+            let unit = dimension_of(name).and_then(|dimension| dimension.unit(name).ok());
+            if unit.is_some_and(|unit| unit.per_si != 1.0) {
+                let message = format!("{}: the column `{}` is in {name}", self.place(), self.headings[column]);
+                return Err(Error::input(message).hint("the values of a signal are in units of the SI: convert them"));
+            }
+        }
+        Ok(())
+    }
+
+    fn values(&self, chosen: [usize; 2]) -> Result<[f64; 2]> {
+        let Row { headings, record, .. } = self;
         if record.iter().skip(headings.len()).any(|cell| !cell.is_empty()) {
-            let message = format!("{place}: {} values under {} names", record.len(), headings.len());
+            let message = format!("{}: {} values under {} names", self.place(), record.len(), headings.len());
             return Err(Error::input(message).hint("decimals are written with a point; or name all columns"));
         }
-        let number = |k: usize| {
-            let cell = record.get(chosen[k]).unwrap_or_default();
-            cell.parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(|| {
-                let found = if cell.is_empty() { "nothing".to_string() } else { format!("`{}`", excerpt(cell)) };
-                Error::input(format!(
-                    "{place}: expected a number in the column `{}`, found {found}",
-                    headings[chosen[k]]
-                ))
-                .hint("decimals are written with a point: 0.5")
-            })
-        };
-        points.push([number(0)?, number(1)?]);
-        places.push(place);
+        Ok([self.number(chosen[0])?, self.number(chosen[1])?])
     }
-    Ok(Points { points, places, field: "file" })
+
+    fn number(&self, column: usize) -> Result<f64> {
+        let cell = self.record.get(column).unwrap_or_default();
+        let value = cell.parse::<f64>();
+        if let Some(value) = value.as_ref().ok().filter(|value| value.is_finite()) {
+            return Ok(*value);
+        }
+        let found = if cell.is_empty() { "nothing".to_string() } else { format!("`{}`", excerpt(cell)) };
+        let name = &self.headings[column];
+        let is_gap = cell.is_empty() || value.is_ok_and(f64::is_nan);
+        let hint = match is_gap {
+            true => "remove the line, or fill the gap: between two lines a signal is interpolated",
+            false => "decimals are written with a point: 0.5",
+        };
+        let place = self.place();
+        Err(Error::input(format!("{place}: expected a number in the column `{name}`, found {found}")).hint(hint))
+    }
+
+    fn place(&self) -> String {
+        format!("{}, line {}", self.file, self.line)
+    }
 }
 
 /// Line of a record, whose position is before the empty lines that it follows.
@@ -135,7 +219,7 @@ fn line(text: &str, at: &csv::Position) -> u64 {
 fn choose(file: &str, headings: &[String], columns: Option<&[String; 2]>) -> Result<[usize; 2]> {
     if headings.len() < 2 {
         return Err(Error::input(format!("{file}: expected two columns or more, found {}", headings.len()))
-            .hint("separate them by commas, semicolons or tabs, with names in the first line"));
+            .hint("separate them by commas, semicolons, tabs or blanks, with names in the first line"));
     }
     if headings.iter().all(|heading| heading.parse::<f64>().is_ok()) {
         return Err(Error::input(format!("{file}: the first line has numbers in the place of names"))

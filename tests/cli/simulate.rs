@@ -414,3 +414,21 @@ fn without_coordinates_the_trajectory_has_the_outputs_and_the_summary_the_state(
     assert_eq!(refused.status.code(), Some(2));
     assert!(err(&refused).contains("the scene has no outputs"), "{}", err(&refused));
 }
+
+/// Commas, blanks, comments and a row of units: the same signal.
+#[test]
+fn tables_are_read_as_instruments_write_them() {
+    let signal = r#""signals": [{ "name": "road", "file": "road.csv", "interpolation": "linear" }], "gravity""#;
+    let output = r#""outputs": [{ "name": "z", "measure": "expression", "value": "road(1.5)" },"#;
+    let place = Place::new(PENDULUM.replacen("\"gravity\"", signal, 1).replacen("\"outputs\": [", output, 1));
+    for table in [
+        "s,z\n0,1\n1,2\n2,4\n",
+        "# measured\ns;z\nm;m\n0;1\n# a gap\n1;2\n2;4\n",
+        "  s   z\n [m] [m]\n  0   1\n  1   2\n\n  2   4\n",
+        "s\tz\n0\t1\n1\t2\n2\t4\n",
+    ] {
+        fs::write(place.path("road.csv"), table).unwrap();
+        place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
+        assert_eq!(place.json("here/summary.json")["final"]["outputs"]["z"], 3.0, "{table}");
+    }
+}

@@ -55,7 +55,7 @@ cases! {
 /// One message a file: (its text, the columns, pieces).
 #[test]
 fn files_that_are_no_signal() {
-    let cases: [(&str, &str, &[&str]); 9] = [
+    let cases: [(&str, &str, &[&str]); 11] = [
         (
             "s,z\n0,1\n1,2\n1,3\n",
             "",
@@ -70,9 +70,15 @@ fn files_that_are_no_signal() {
             &["road.csv, line 3: 4 values under 2 names", "decimals are written with a point"],
         ),
         ("0,1\n1,2\n2,3\n", "", &["road.csv: the first line has numbers in the place of names"]),
-        ("s\n1\n2\n", "", &["road.csv: expected two columns or more, found 1", "commas, semicolons or tabs"]),
+        ("s\n1\n2\n", "", &["road.csv: expected two columns or more, found 1", "commas, semicolons, tabs or blanks"]),
         ("s,height\n0,1\n1,2\n", "'s', 'heigth'", &["road.csv: there is no column `heigth`", "did you mean `height`?"]),
         ("", "", &["road.csv: expected two columns or more"]),
+        (
+            "s,z\n0,1\n1,NaN\n",
+            "",
+            &["road.csv, line 3: expected a number in the column `z`, found `NaN`", "fill the gap"],
+        ),
+        ("s,z\nm,mm\n0,1\n1,2\n", "", &["road.csv, line 2: the column `z` is in mm", "units of the SI"]),
     ];
     for (table, columns, pieces) in cases {
         let columns = if columns.is_empty() { String::new() } else { format!(", 'columns': [{columns}]") };
