@@ -148,8 +148,17 @@ fn automatic(text: &str) -> Result<Automatic, String> {
 pub fn number(text: &str) -> Result<f64, String> {
     match constant(text) {
         Some(value) if value.is_finite() => Ok(value),
+        _ if has_unit(text) => {
+            Err(format!("`{text}` has a unit; write the number alone, in units of the SI, times in s"))
+        }
         _ => Err(format!("`{text}` is not a finite number")),
     }
+}
+
+/// True for a number with letters behind it, such as `20s`.
+fn has_unit(text: &str) -> bool {
+    let number = text.trim_end_matches(char::is_alphabetic).trim_end();
+    number.len() < text.len() && constant(number).is_some()
 }
 
 pub fn positive(text: &str) -> Result<f64, String> {
