@@ -17,6 +17,7 @@ mod modal_body;
 mod models;
 mod outside;
 mod own_elements;
+mod reactions;
 mod scenes;
 mod section_forces;
 mod signals;

@@ -75,3 +75,34 @@ fn units_of_something_else_are_refused() {
         assert!(err(&output).contains(message) && err(&output).contains(".unit"), "{}", err(&output));
     }
 }
+
+/// An expression is in SI units and shown in the unit that is named; a word that is no unit names the axis.
+#[test]
+fn expressions_are_converted_to_units_that_are_known() {
+    let scene = PENDULUM.replace(
+        r#"{ "name": "pin","#,
+        r#"{ "name": "double", "measure": "expression", "value": "2*theta", "unit": "deg" },
+    { "name": "half", "measure": "expression", "value": "double/4" },
+    { "name": "score", "measure": "expression", "value": "2*theta", "unit": "points" }, { "name": "pin","#,
+    );
+    let place = Place::new(scene.replace(r#""t_end""#, r#""reference": "table.csv", "t_end""#));
+    place.done(&["simulate", "scene.json", "-o", "here"]);
+    let json = place.json("here/summary.json");
+    let value = |name: &str| json["final"]["outputs"][name].as_f64().unwrap();
+    let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs();
+    assert!(close(value("double"), 2.0 * value("theta").to_degrees()), "{}", value("double"));
+    assert!(close(value("half"), 0.5 * value("theta")), "others read it in SI units: {}", value("half"));
+    assert_eq!(value("score"), 2.0 * value("theta"));
+    assert_eq!([&json["outputs"]["double"]["unit"], &json["outputs"]["score"]["unit"]], ["deg", "points"]);
+    place.done(&["linearize", "scene.json", "-o", "here"]);
+    let json = place.json("here/linear-0.json");
+    let first = |i: usize| json["C"][i].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).sum::<f64>();
+    assert!(first(0) != 0.0 && close(first(1), 2.0 * first(0).to_degrees()), "{}", json["C"]);
+    assert!(close(first(2), 0.5 * first(0)) && close(first(3), 2.0 * first(0)), "{}", json["C"]);
+    // A reference table is in the units of the outputs: with the row above as its end, there is no error.
+    fs::write(place.path("table.csv"), format!("t,double\n1,{}\n", value("double"))).unwrap();
+    let methods = ["--formulation", "index1", "--integrator", "dop853", "--outputs", "double", "--budget", "2s"];
+    place.done(&[&["tradeoff", "scene.json", "-o", "trade", "--figures", "none"], &methods[..]].concat());
+    let reference = place.json("trade/tradeoff.json")["reference"].clone();
+    assert!(reference["error"].as_f64().unwrap() < 1e-6, "{}", reference["error"]);
+}
