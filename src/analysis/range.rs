@@ -1,12 +1,13 @@
-//! Range of validity of the models, and rotation between evaluations in fixed steps.
+//! Range of validity of the models and of measured data, and rotation between evaluations in fixed steps.
 
+use super::held::HeldSignals;
 use crate::error::{Warning, short};
 use crate::simulate::Observation;
-use crate::system::{Limited, MechanicalSystem, Theory};
+use crate::system::{Limited, MechanicalSystem, Road, Scratch, Theory};
 use std::f64::consts::PI;
 
-/// The largest deformation of each part whose theory is valid for small ones only, and the largest rotation between
-/// evaluations.
+/// The largest deformation of each part whose theory is valid for small ones only, the largest rotation between
+/// evaluations, the deepest wheel, and signals beyond their points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Range {
     /// The largest deformation of each such part.
@@ -14,6 +15,10 @@ pub struct Range {
     /// In fixed steps: the largest rotation of a body between evaluations of the equations, rad; index of the body;
     /// time, s.
     pub leap: Option<(f64, usize, f64)>,
+    /// The tyre with the largest compression beyond its radius at a row, and the time, s.
+    pub sunk: Option<(Road, f64)>,
+    /// Signals beyond their points.
+    held: HeldSignals,
     now: Vec<f64>,
     bodies: Vec<String>,
     spins: Vec<f64>,
@@ -36,7 +41,8 @@ impl Range {
         let start = |limited: &Limited| LargestDeformation { limited: limited.clone(), deformation: 0.0, t: 0.0 };
         let parts: Vec<LargestDeformation> = system.limited().iter().map(start).collect();
         let bodies = system.turning_bodies();
-        Range { now: vec![0.0; parts.len()], spins: vec![0.0; bodies.len()], parts, bodies, leap: None }
+        let (now, spins, held) = (vec![0.0; parts.len()], vec![0.0; bodies.len()], HeldSignals::new(system));
+        Range { now, spins, parts, bodies, leap: None, sunk: None, held }
     }
 
     /// Adds an accepted state.
@@ -50,6 +56,21 @@ impl Range {
         self.leap = farther.or(self.leap);
     }
 
+    /// Adds an output row.
+    pub fn add_row(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
+        self.held.add(system, state, scratch);
+        self.see_roads(system, state.t, (state.q, state.v), scratch);
+    }
+
+    fn see_roads(&mut self, system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]), scratch: &mut Scratch) {
+        for road in system.roads(t, q, v, scratch) {
+            let deepest = self.sunk.as_ref().map_or(1.0, |(road, _)| road.compression());
+            if road.compression() > deepest {
+                self.sunk = Some((road, t));
+            }
+        }
+    }
+
     fn see(&mut self, system: &dyn MechanicalSystem, t: f64, q: &[f64]) {
         system.deformations(q, &mut self.now);
         for (part, now) in self.parts.iter_mut().zip(&self.now).filter(|(part, now)| **now > part.deformation) {
@@ -61,13 +82,28 @@ impl Range {
     pub fn warnings_at(system: &dyn MechanicalSystem, t: f64, q: &[f64]) -> Vec<Warning> {
         let mut range = Range::new(system);
         range.see(system, t, q);
+        let still = vec![0.0; system.dimensions().v];
+        range.see_roads(system, t, (q, &still), &mut Scratch::default());
         range.warnings()
     }
 
     /// Returns a warning for each part beyond its limit, and one for steps too long to resolve the rotation of bodies.
     pub fn warnings(&self) -> Vec<Warning> {
         let beyond = self.parts.iter().filter(|part| part.deformation > part.limited.theory.most());
-        beyond.map(LargestDeformation::warning).chain(self.leaping()).collect()
+        let parts = beyond.map(LargestDeformation::warning);
+        parts.chain(self.leaping()).chain(self.sinking()).chain(self.held.warnings()).collect()
+    }
+
+    /// The force of a tyre has no meaning where its wheel's centre is below the road.
+    fn sinking(&self) -> Option<Warning> {
+        let (road, t) = self.sunk.as_ref()?;
+        let compression = short(two_digits(road.radius - road.clearance));
+        let (radius, t) = (short(road.radius), short(two_digits(*t)));
+        let text = format!(
+            "the tyre `{}` is compressed by {compression} m at t = {t} s, more than its radius of {radius} m",
+            road.tyre
+        );
+        Some(Warning::new(text, "its stiffness is in N/m: for 200 N/mm write 200e3"))
     }
 
     /// From half a revolution on, a rotation the other way round would fit as well.

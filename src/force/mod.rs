@@ -67,7 +67,7 @@ pub enum InputKind {
     },
 }
 
-/// A wheel for drawings.
+/// A wheel for drawings, and for warnings about its load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[doc(hidden)]
 pub struct Wheel {
@@ -75,6 +75,8 @@ pub struct Wheel {
     pub radius: f64,
     /// Height of the road under it, m.
     pub road: f64,
+    /// True if it may leave the road, so that it never pulls.
+    pub lifts: bool,
 }
 
 /// A force's equations, written once over any scalar.

@@ -90,7 +90,7 @@ impl<const D: usize> ForceKernel<D> for Spring {
     }
 
     fn wheel(&self, frames: &Motion<f64, D>, time: Instant<f64>) -> Option<Wheel> {
-        Some(Wheel { radius: self.radius, road: self.height(frames, time).x })
+        Some(Wheel { radius: self.radius, road: self.height(frames, time).x, lifts: self.lift_off.is_some() })
     }
 
     fn input(&self) -> InputKind {

@@ -1,14 +1,15 @@
 //! Warnings about the start of a simulation.
 
 use super::AnyMechanism;
-use crate::body::dot;
-use crate::error::{Error, Warning, short};
+use crate::body::{dot, norm};
+use crate::error::{Error, Warning, short, significant};
 use crate::initial::{Assembly, Move};
 use crate::joint::{Axis, Joint};
 use crate::scene::Connection;
-use crate::system::{MechanicalSystem, Mechanism, Scratch};
+use crate::system::{MechanicalSystem, Mechanism, Road, Scratch};
 use crate::tolerances::report as tolerances;
-use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
+use std::array::from_fn;
+use std::f64::consts::FRAC_PI_2;
 
 /// Warnings about the scene alone.
 pub fn of_scene(mechanism: &AnyMechanism) -> &[Warning] {
@@ -26,14 +27,67 @@ pub fn explained(mut error: Error, doubts: &[Warning]) -> Error {
     error
 }
 
-/// All warnings about an initial guess and its assembly.
-pub fn doubts(mechanism: &AnyMechanism, guess: &[f64], assembly: &Assembly) -> Vec<Warning> {
-    let turned = match mechanism {
-        AnyMechanism::Planar(_) => Vec::new(),
-        AnyMechanism::Spatial(mechanism) => turned_over(mechanism, guess, &assembly.q),
+/// All warnings about an initial guess and its assembly. With `has_joint_start` joint coordinates choose the
+/// configuration, and the guess may be rough.
+pub fn doubts(mechanism: &AnyMechanism, guess: &[f64], assembly: &Assembly, has_joint_start: bool) -> Vec<Warning> {
+    let allowed = if has_joint_start { FRAC_PI_2 } else { tolerances::ASSEMBLY_TURNED };
+    let (over, turned) = match mechanism {
+        AnyMechanism::Planar(mechanism) => (Vec::new(), turned_far(mechanism, guess, &assembly.q, allowed)),
+        AnyMechanism::Spatial(mechanism) => {
+            (turned_over(mechanism, guess, &assembly.q), turned_far(mechanism, guess, &assembly.q, allowed))
+        }
     };
-    let far = moved_far(&assembly.moves, mechanism.system().length());
-    of_scene(mechanism).iter().cloned().chain(turned).chain(far).collect()
+    let far = turned.or_else(|| moved_far(&assembly.moves, mechanism.system().length()));
+    of_scene(mechanism).iter().cloned().chain(over).chain(far).collect()
+}
+
+/// Tyres that pull their wheels down at the start.
+pub fn pulling(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Vec<Warning> {
+    let roads = system.roads(t, q, v, &mut Scratch::default());
+    let pulls = |road: &&Road| !road.lifts && road.load < 0.0 && road.compression() < -tolerances::TYRE_PULLS;
+    let warning = |road: &Road| {
+        let above = significant(road.clearance - road.radius, 2);
+        let force = significant(-road.load, 2);
+        let text = format!("at the start the tyre `{}` is {above} m above the road and pulls by {force} N", road.tyre);
+        let hint = "put the wheel on the road, start with --equilibrium, or give the tyre \"lift_off\": true";
+        Warning::new(text, hint)
+    };
+    roads.iter().filter(pulls).map(warning).collect()
+}
+
+const OTHER_CONFIGURATION: &str = "see with `plot` whether this configuration is meant; else give positions and angles \
+     nearer to it, or name what is right in \"hold\" of \"assembly\"";
+
+/// The body that assembly turned most, if by more than `allowed`, rad. Nodes of a beam turn where it bends.
+fn turned_far<const D: usize>(mechanism: &Mechanism<D>, guess: &[f64], q: &[f64], allowed: f64) -> Option<Warning> {
+    let model = mechanism.model();
+    let is_node = |index: usize| model.beams.iter().any(|beam| beam.bodies().contains(&index));
+    let mut most: Option<(f64, &str)> = None;
+    for (index, part) in model.given_bodies().iter().enumerate() {
+        let own = part.first_q..part.first_q + part.nq;
+        let angle = turn(&part.body.coordinate_names(), &guess[own.clone()], &q[own]);
+        let allowed = if is_node(index) { FRAC_PI_2 } else { allowed };
+        if angle > most.map_or(allowed, |(angle, _)| angle.max(allowed)) {
+            most = Some((angle, &part.name));
+        }
+    }
+    let (angle, name) = most?;
+    let text = format!("assembly turned `{name}` by {} degrees", significant(angle.to_degrees(), 3));
+    Some(Warning::new(text, OTHER_CONFIGURATION))
+}
+
+/// Rotation of a body with these coordinates from one state to another, rad.
+fn turn(names: &[String], from: &[f64], to: &[f64]) -> f64 {
+    let place = |coordinate: &str| names.iter().position(|name| name == coordinate);
+    if let Some(angle) = place("angle") {
+        return (to[angle] - from[angle]).abs();
+    }
+    let Some(first) = place("qw") else { return 0.0 };
+    let [a, b]: [[f64; 4]; 2] = [from, to].map(|q| from_fn(|k| q[first + k]));
+    // The real part of a* b is the cosine of half the angle, the rest its sine; -b is the same rotation as b.
+    let cosine = dot(&a, &b).abs();
+    let sine = norm(&from_fn::<f64, 4, _>(|k| b[k] * dot(&a, &a) - a[k] * dot(&a, &b))) / norm(&a);
+    2.0 * sine.atan2(cosine)
 }
 
 fn moved_far(moves: &[Move], length: f64) -> Option<Warning> {
@@ -41,16 +95,12 @@ fn moved_far(moves: &[Move], length: f64) -> Option<Warning> {
         let (_, coordinate) = step.name.rsplit_once('.').unwrap_or(("", &step.name));
         match coordinate {
             "x" | "y" | "z" => (step.to - step.from).abs() > tolerances::ASSEMBLY_MOVED * length,
-            "qw" | "qx" | "qy" | "qz" => (step.to - step.from).abs() > FRAC_1_SQRT_2,
-            "angle" => (step.to - step.from).abs() > FRAC_PI_2,
             _ => false,
         }
     };
     let Move { name, from, to } = moves.iter().find(is_far)?;
     let text = format!("assembly moved `{name}` far, from {} to {}", short(*from), short(*to));
-    let hint = "see with `plot` whether this configuration is meant; else give positions and angles nearer to it, or name what \
-                is right in \"hold\" of \"assembly\"";
-    Some(Warning::new(text, hint))
+    Some(Warning::new(text, OTHER_CONFIGURATION))
 }
 
 /// Joints whose axes point against each other at the assembled start, and not in the guess: phi = 0 in both directions.

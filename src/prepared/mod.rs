@@ -6,7 +6,7 @@ mod schema;
 
 pub use schema::schema;
 
-use doubts::{doubts, explained, of_scene};
+use doubts::{doubts, explained, of_scene, pulling};
 use rest::at_rest;
 
 use crate::body::MarkerTable;
@@ -157,16 +157,18 @@ impl PreparedScene {
         let method = settings.method(is_automatic, length).map_err(|error| settings.place(error))?;
         method.check_options(mechanism.system()).map_err(|error| settings.place(error))?;
         let held = AnyMechanism::held(scene.held);
+        let has_joint_start = held[0].is_some();
         let held = held.each_ref().map(|held| held.as_ref().map(AnyMechanism::system));
         let assembly = initial::assemble_held(mechanism.system(), held, start, (&scene.q, &scene.v), &scene.hold);
         let mut assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
         check_switches(mechanism.system(), start, (&assembly.q, &assembly.v))?;
-        let mut doubts = doubts(&mechanism, &scene.q, &assembly);
+        let mut doubts = doubts(&mechanism, &scene.q, &assembly, has_joint_start);
         if overrides.equilibrium {
             let (rest, warnings) = at_rest(mechanism.system(), start, &assembly)?;
             assembly = rest;
             doubts.extend(warnings);
         }
+        doubts.extend(pulling(mechanism.system(), start, (&assembly.q, &assembly.v)));
         Ok(PreparedScene {
             doubts,
             name: scene.name,

@@ -357,6 +357,9 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn roads(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Vec<Road> {
+        if !self.has_roads() {
+            return Vec::new();
+        }
         self.at(q, v, scratch, |work, regime| self.find_roads(Time { t, regime }, work))
     }
 

@@ -17,6 +17,7 @@ mod output;
 mod output_tangent;
 mod portions;
 mod rigid_joint;
+mod road;
 mod rotating;
 mod rows;
 mod scale;
@@ -43,6 +44,8 @@ pub use levi_civita::LeviCivita;
 pub use limits::{Limited, Theory};
 pub use mechanism::Mechanism;
 pub use output_tangent::OutputTangent;
+#[doc(hidden)]
+pub use road::Road;
 #[doc(hidden)]
 pub use rotating::Rotating;
 #[doc(hidden)]
@@ -96,18 +99,6 @@ pub struct Names {
     pub v: Vec<String>,
     /// Multipliers, n_c.
     pub lambda: Vec<String>,
-}
-
-/// The road under a wheel.
-#[derive(Clone, Debug, PartialEq)]
-#[doc(hidden)]
-pub struct Road {
-    /// Name of the tyre in the scene.
-    pub tyre: String,
-    /// Height under the wheel, m.
-    pub height: f64,
-    /// True if the force depends on the rate of the height.
-    pub is_damped: bool,
 }
 
 /// The rows of phi that belong to one joint.

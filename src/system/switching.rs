@@ -1,14 +1,11 @@
-//! What the time loop asks where the form of the equations changes: switching functions, roads, infinite forces.
+//! What the time loop asks where the form of the equations changes: switching functions, infinite forces.
 
-use super::Road;
 use super::mechanism::{Mechanism, with_frames};
 use super::tangent::OperatingPoint;
 use super::view::{Plain, along_motion, gathered};
 use super::workspace::Workspace;
 use crate::body::{MOST_MARKERS, Wrench};
-use crate::force::{Force, InputKind};
 use crate::math::{Rate, Regime, Taylor, Time, all_finite};
-use crate::scene::Connection;
 
 impl<const D: usize> Mechanism<D> {
     /// Writes the arguments of all switching functions.
@@ -32,17 +29,6 @@ impl<const D: usize> Mechanism<D> {
                 |frames| force.element.switching(&still, frames, time.map(Taylor::running), out),
             );
         }
-    }
-
-    /// The roads under the wheels.
-    pub(super) fn find_roads(&self, time: Time<f64>, work: &Workspace<D>) -> Vec<Road> {
-        let road = |force: &Connection<Box<dyn Force<D>>>| {
-            let InputKind::Displacement { rate: is_damped } = force.element.input() else { return None };
-            let wheel = |frames: &[_]| force.element.wheel(frames, time.map(Taylor::time));
-            let height = with_frames(&work.motion, &force.markers, wheel)?.road;
-            Some(Road { tyre: force.name.clone(), height, is_damped })
-        };
-        self.model().given_forces().iter().filter_map(road).collect()
     }
 
     /// Name of the first force that is infinite or not a number.

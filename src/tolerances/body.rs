@@ -53,3 +53,7 @@ pub const ROUNDED_PLACES: f64 = 1e-5;
 /// Unit: `[1]`. Why: a choice: of unit vectors it leaves four digits of a direction. Test: none: not tried with other
 /// values.
 pub const NO_AXIS: f64 = 1e-12;
+
+/// Young's modulus of a solid that is smaller is probably in another unit.
+/// Unit: `[Pa]`. Why: the softest rubber has 1e5 to 1e6. Test: `a_modulus_in_another_unit_is_said`.
+pub const SOFTEST_SOLID: f64 = 1e5;

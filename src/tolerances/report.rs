@@ -1,6 +1,7 @@
 //! What is told, and warned of: drift, energy, singular states, comparisons.
 
 pub use super::SAME;
+use std::f64::consts::FRAC_PI_6;
 
 /// A length, an angle, a speed or a swing of the kinetic energy that is smaller is zero by symmetry, or as good as
 /// that: no errors are relative to it.
@@ -165,8 +166,22 @@ pub const JOINTS_OPEN: f64 = 1e-2;
 
 /// Assembly that moves a position by so many lengths of the mechanism may have found another configuration than the one
 /// that was meant.
-/// Unit: `[1]`. Why: a choice; of angles a quarter of a turn. Test: none: not tried with other values.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const ASSEMBLY_MOVED: f64 = 1.0;
+
+/// Assembly that turns a body by more may have found another configuration than the one that was meant.
+/// Unit: `[rad]`. Why: a choice: a guess by hand is nearer, and branches are farther apart. Test:
+/// `a_doubtful_start_is_said`.
+pub const ASSEMBLY_TURNED: f64 = FRAC_PI_6;
+
+/// A tyre whose wheel starts above the road by more pulls it down.
+/// Unit: `[1]` of the radius. Why: a choice: below a static compression of some 5 %. Test:
+/// `a_tyre_that_pulls_or_sinks_is_said`.
+pub const TYRE_PULLS: f64 = 1e-2;
+
+/// A signal that keeps the value of an end for a larger part of a run deserves a warning.
+/// Unit: `[1]` of the run. Why: most of it. Test: `a_signal_that_ends_early_is_said`.
+pub const HELD_SIGNAL: f64 = 0.5;
 
 /// A guess whose axes have a smaller cosine has them against each other.
 /// Unit: `[1]`. Why: a choice: within 26 degrees of opposite. Test: none: not tried with other values.

@@ -82,7 +82,7 @@ fn warnings_are_in_every_file() {
     let place = Place::new(scene().replace(r#""position": [0.5, 0]"#, r#""position": [0.5, 5]"#));
     place.done(&["linearize", "scene.json", "-o", "here", "--quiet"]);
     let warnings = place.json("here/linear-0.json")["warnings"].clone();
-    assert!(warnings[0].as_str().unwrap().starts_with("assembly moved `rod.angle` far"), "{warnings}");
+    assert!(warnings[0].as_str().unwrap().starts_with("assembly turned `rod` by "), "{warnings}");
 }
 
 #[test]

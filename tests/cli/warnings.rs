@@ -106,6 +106,24 @@ fn hinged(rotation: &str, position: &str) -> String {
     )
 }
 
+/// A rod that a pin and a drive hold level, with its centre 0.5 m beside the pin; its guess is turned about the pin.
+fn pinned(dimension: usize, degrees: i32) -> String {
+    let angle = f64::from(degrees).to_radians();
+    let (pivot, at, inertia, initial) = match dimension {
+        2 => ("[0, 0]", "[-0.5, 0]", "0.1", format!(r#""angle": {angle}"#)),
+        _ => ("[0, 0, 0]", "[-0.5, 0, 0]", "[0.1, 0.1, 0.1]", format!(r#""rotation": [0, 0, {angle}]"#)),
+    };
+    format!(
+        r#"{{ "name": "pinned", "dimension": {dimension}, "ground": {{ "markers": {{ "A": {pivot} }} }},
+            "bodies": [ {{ "name": "rod", "type": "rigid", "mass": 1, "inertia": {inertia}, "markers": {{ "A": {at} }},
+                           "initial": {{ {initial} }} }} ],
+            "joints": [ {{ "name": "A", "type": "revolute", "between": ["ground.A", "rod.A"] }},
+                        {{ "name": "held", "type": "driver", "between": ["ground.A", "rod.A"], "coordinate": "angle",
+                           "value": 0 }} ],
+            "simulation": {{ "t_end": 0.1 }} }}"#
+    )
+}
+
 #[test]
 fn a_doubtful_start_is_said() {
     assert_eq!(warnings(&hinged("[0.1, 0, 0]", "[0.1, 0, 0]"), &[]), [""; 0]);
@@ -120,6 +138,14 @@ fn a_doubtful_start_is_said() {
     assert_eq!(warnings(&hinged("[\"pi\", 0, 0]", "[0, 0, 0]"), &[]), [""; 0]);
     let found = warnings(&PENDULUM.replace(r#""angle": 0"#, r#""angle": 6.5"#), &[]);
     assert!(found[0].contains("6.5*pi/180"), "{found:?}");
+    // A rod whose end lies 40 or 20 degrees beside its pin.
+    for (dimension, degrees) in [(2, 40), (3, 40), (2, 20), (3, 20)] {
+        let found = warnings(&pinned(dimension, degrees), &[]);
+        match degrees {
+            40 => assert!(found.len() == 1 && found[0].contains("assembly turned `rod` by 4"), "{found:?}"),
+            _ => assert_eq!(found, [""; 0]),
+        }
+    }
     // So far off that the joints do not close.
     let place = Place::new(PENDULUM.replace(r#""angle": 0"#, r#""angle": 60"#));
     let output = place.run(&["simulate", "scene.json"]);
@@ -301,5 +327,85 @@ fn a_linear_model_where_a_law_has_a_kink_is_a_warning() {
         place.done(&["linearize", "scene.json", "-o", "here", "--figures", "none"]);
         let found = place.json("here/linear-0.json")["warnings"].to_string();
         assert_eq!(found.contains("the force `spring` is where its form changes"), has_kink, "{force}: {found}");
+    }
+}
+
+/// A wheel of 30 kg on a tyre of radius 0.3 m; it starts at a height of `z`.
+fn wheel(stiffness: &str, z: f64, road: &str, more: &str) -> String {
+    format!(
+        r#"{{ "name": "wheel", "dimension": 2, "gravity": [0, -9.81], {road}
+            "bodies": [ {{ "name": "hub", "type": "rigid", "mass": 30, "free": ["y"],
+                           "initial": {{ "position": [0, {z}] }} }} ],
+            "forces": [ {{ "name": "tyre", "type": "tyre", "at": "hub", "stiffness": {stiffness}, "damping": 300,
+                           "radius": 0.3 {more} }} ],
+            "simulation": {{ "t_end": 1, "output_step": 0.01 }} }}"#
+    )
+}
+
+/// 30 kg press the tyre by 1.47 mm. Above the road it pulls, unless it lifts off; with 200 N/m it would sink by 1.47 m.
+#[test]
+fn a_tyre_that_pulls_or_sinks_is_said() {
+    for z in [0.29, 0.3, 0.302] {
+        assert_eq!(warnings(&wheel("200e3", z, "", ""), &[]), [""; 0], "{z}");
+    }
+    let found = warnings(&wheel("200e3", 0.37, "", ""), &[]);
+    let text = "at the start the tyre `tyre` is 0.070 m above the road and pulls by 1.4e4 N";
+    assert!(found.len() == 1 && found[0].contains(text) && found[0].contains("--equilibrium"), "{found:?}");
+    assert_eq!(warnings(&wheel("200e3", 0.37, "", r#", "lift_off": true"#), &[]), [""; 0]);
+    assert_eq!(warnings(&wheel("200e3", 0.37, "", ""), &["--equilibrium"]), [""; 0]);
+    for more in [&["--equilibrium"][..], &[]] {
+        let found = warnings(&wheel("200", 0.3, "", ""), more);
+        assert!(found.len() == 1 && found[0].contains("the tyre `tyre` is compressed by"), "{found:?}");
+        assert!(found[0].contains("write 200e3"), "{found:?}");
+    }
+    // Of a static equilibrium and of a linear model, too.
+    for command in [&["check", "scene.json", "--static"][..], &["linearize", "scene.json", "--equilibrium"]] {
+        let output = Place::new(wheel("200", 0.3, "", "")).run(command);
+        assert_eq!(err(&output).matches("the tyre `tyre` is compressed by 1.5 m").count(), 1, "{}", err(&output));
+    }
+}
+
+/// A road of so many points 0.1 m apart, at 10 m/s: it ends at `points`/100 s of 1 s.
+fn road(points: usize, height: impl Fn(usize) -> f64, keys: &str) -> String {
+    let points: Vec<String> = (0..=points).map(|i| format!("[{}, {:e}]", 0.1 * i as f64, height(i))).collect();
+    let signals = format!(r#""signals": [ {{ "name": "road", "points": [{}] {keys} }} ],"#, points.join(", "));
+    wheel("200e3", 0.3, &signals, r#", "road": "road(10*t)""#)
+}
+
+#[test]
+fn a_signal_that_ends_early_is_said() {
+    let rough = |i: usize| 1e-4 * (i as f64).sin();
+    let found = warnings(&road(20, rough, ""), &[]);
+    let text = "the signal `road` has no points above 2: from t = 0.2 s on it is held at 9.129e-5, for 80 % of the run";
+    assert!(found.len() == 1 && found[0].contains(text) && found[0].contains("\"repeat\""), "{found:?}");
+    // Of most of the run, or with an end that is level, or written by hand.
+    let bump = |i: usize| 1e-4 * (1.0 - (i as f64 * std::f64::consts::TAU / 20.0).cos());
+    let flat = |i: usize| if i < 19 { bump(i) } else { 0.0 };
+    for scene in [road(60, rough, ""), road(20, flat, ""), road(3, rough, "")] {
+        assert_eq!(warnings(&scene, &[]), [""; 0]);
+    }
+    assert_eq!(warnings(&road(20, rough, r#", "beyond": "repeat", "interpolation": "linear""#), &[]), [""; 0]);
+}
+
+/// 70 GPa and 210000 N/mm^2 written as Pa. The beam is in a floating frame, and at rest.
+#[test]
+fn a_modulus_in_another_unit_is_said() {
+    let beam = |modulus: &str| {
+        format!(
+            r#"{{ "name": "beam", "dimension": 2, "ground": {{ "markers": {{ "wall": [0, 0] }} }},
+            "bodies": [{{ "name": "arm", "type": "flexible_beam", "frame": "floating", "length": 1, "elements": 2,
+                "material": {{ "E": {modulus}, "rho": 2700 }}, "section": {{ "circle": {{ "radius": 0.01 }} }},
+                "markers": {{ "root": [0, 0] }} }}],
+            "joints": [{{ "name": "clamp", "type": "weld", "between": ["ground.wall", "arm.root"] }}],
+            "simulation": {{ "t_end": 0.01 }} }}"#
+        )
+    };
+    for (modulus, text) in [("70", "write 70e9"), ("70e3", "7e4")] {
+        let found = warnings(&beam(modulus), &[]);
+        assert!(found.len() == 1 && found[0].starts_with("the body `arm`: `E` is 7"), "{found:?}");
+        assert!(found[0].contains("softest rubber") && (modulus != "70" || found[0].contains(text)), "{found:?}");
+    }
+    for modulus in ["70e9", "1e5"] {
+        assert_eq!(warnings(&beam(modulus), &[]), [""; 0]);
     }
 }

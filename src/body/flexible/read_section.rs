@@ -4,8 +4,9 @@ use super::profile::{Law, Laws, Make, Profile};
 use super::section::{Matter, Section};
 use super::spec::{Elasticity, FlexibleBeam, Material, OneOrMany, SectionInertia, SectionShape, Stiffness, Theory};
 use crate::body::Build;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Warning, short};
 use crate::math::expression::{Number, Scope};
+use crate::tolerances::body as tolerances;
 
 const FORMS: &str = "give \"material\" and \"section\", or \"stiffness\" and \"inertia\"";
 
@@ -81,6 +82,7 @@ impl<const D: usize> Reader<'_, D> {
     ) -> Result<(Make, Vec<Law>)> {
         let (build, under) = (self.build, |error: Error| error.under("material"));
         let e = build.positive("E", e).map_err(under)?;
+        self.doubt_modulus(e);
         let rho = rho.map_or(Ok(0.0), |rho| build.positive("rho", rho)).map_err(under)?;
         let g = match (g, nu) {
             (Some(_), Some(_)) => {
@@ -107,6 +109,16 @@ impl<const D: usize> Reader<'_, D> {
                 let inner = inner_radius.as_ref().map(|r| self.law("section", "circle.inner_radius", r, true));
                 Ok((Make::Circle(matter), vec![outer, inner.unwrap_or(Ok(Law::constant(0.0)))?]))
             }
+        }
+    }
+
+    /// Warns of a modulus that is probably in MPa or GPa.
+    fn doubt_modulus(&self, e: f64) {
+        if e < tolerances::SOFTEST_SOLID {
+            let modulus = short(e);
+            let text = format!("`E` is {modulus} Pa, and the softest rubber has {:e} Pa", tolerances::SOFTEST_SOLID);
+            let hint = format!("for {modulus} GPa write {modulus}e9, for {modulus} MPa (N/mm^2) {modulus}e6");
+            self.build.switches.borrow_mut().doubts.push(Warning::new(text, hint));
         }
     }
 

@@ -18,8 +18,12 @@ pub use points::{Beyond, Interpolation, PointsError};
 
 use super::regime::{Piece, Thresholds};
 use super::scalar::Scalar;
+use crate::tolerances::math as tolerances;
 use cubic::{BoundsTree, Cubic, bounds, derived, hull, value};
 use std::sync::Arc;
+
+/// Fewer points are a ramp or a pulse that somebody wrote, and meant to be held.
+const MEASURED_POINTS: usize = 5;
 
 /// A function of one argument through given points.
 #[derive(Clone, Debug, PartialEq)]
@@ -176,6 +180,23 @@ impl Signal {
         };
         let after = if grows { Some(row + 1) } else { row.checked_sub(1) };
         ahead(row).or_else(|| ahead(after?)).filter(|_| self.is_watched())
+    }
+
+    /// The value that it keeps beyond the first (`beyond_last` false) or the last point, where its points look like
+    /// measured data that go on: five or more, not in steps, and not level at that end. `None` elsewhere.
+    pub fn cut_off(&self, beyond_last: bool) -> Option<f64> {
+        let heights = || self.cubics.iter().map(|cubic| cubic[0]).chain([self.last]);
+        let is_stepped = self.cubics.iter().all(|cubic| cubic[1..] == [0.0; 3]);
+        if self.beyond != Beyond::Hold || self.knots.len() < MEASURED_POINTS || is_stepped {
+            return None;
+        }
+        let (low, high) =
+            heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+        let count = self.cubics.len();
+        let [end, neighbour] = if beyond_last { [count, count - 1] } else { [0, 1] };
+        let height = |row: usize| self.cubics.get(row).map_or(self.last, |cubic| cubic[0]);
+        let is_level = (height(end) - height(neighbour)).abs() <= tolerances::LEVEL_END * (high - low);
+        (!is_level).then(|| height(end))
     }
 
     /// The message of an element whose argument has left the points.
