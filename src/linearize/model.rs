@@ -107,8 +107,8 @@ pub struct Mode {
     pub mass: f64,
     /// Change of each output with the shape; empty for infinite ones.
     pub outputs: Vec<Complex<f64>>,
-    /// |lambda| that rounding of K leaves of a zero eigenvalue, 1/s: with lambda^2 x^H M x = -x^H K x for the shape x,
-    /// the root of that of the terms of x^H K x.
+    /// |lambda| that rounding leaves of a zero eigenvalue, 1/s. Of K: with lambda^2 x^H M x = -x^H K x for the shape x,
+    /// the root of that of the terms of x^H K x. Of the solver: [`errors`](crate::math::eigen::Eigen::errors).
     pub rounding: f64,
 }
 
@@ -126,6 +126,11 @@ impl Mode {
     /// True if the eigenvalue is zero but for rounding: it has no frequency and no damping.
     pub fn is_zero(&self) -> bool {
         self.value.norm() <= self.rounding
+    }
+
+    /// True for a motion without frequency and damping, in which bodies move.
+    pub fn is_rigid_body(&self) -> bool {
+        self.kind == Kind::Physical && self.is_zero() && self.mass > 0.0
     }
 
     /// The eigenvalue, 1/s, zero where it is rounding, and so its real part.

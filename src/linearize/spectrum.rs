@@ -13,6 +13,8 @@ struct Solved {
     /// Participation of the states in each mode; none where left vectors are not known.
     participation: Option<Matrix>,
     conditioning: f64,
+    /// Change of each eigenvalue by rounding, 1/s; zero where it is not known.
+    errors: Vec<f64>,
 }
 
 /// The modes of a model, with the measures on which their classes are based.
@@ -71,7 +73,8 @@ fn modes(
         // States xi have no energy.
         let energy = shapes.column(i).into_iter().zip(weighed.column(i)).take(moving);
         let energy = energy.map(|(x, mx)| (x.conj() * mx).re).collect();
-        rounded(variation, mode((*value, kinds[i]), column(shapes, i), column(&outputs, i), parts, energy))
+        let mode = mode((*value, kinds[i]), column(shapes, i), column(&outputs, i), parts, energy);
+        rounded(variation, mode, solved.errors[i])
     };
     solved.values.iter().enumerate().map(of).collect()
 }
@@ -96,19 +99,19 @@ fn mode(
     Mode { value, kind, shape, participation, energy, mass, outputs, rounding: 0.0 }
 }
 
-/// The mode with the size of what rounding leaves of a zero eigenvalue.
-fn rounded(variation: &Variation, mode: Mode) -> Mode {
+/// The mode with the size of what rounding leaves of a zero eigenvalue; `error` is that of the solver.
+fn rounded(variation: &Variation, mode: Mode, error: f64) -> Mode {
     let entries = variation.dynamics.structure.tangent.entries.iter().zip(&variation.tangent.k);
     let size = |i: usize| mode.shape.get(i).map_or(0.0, |x| x.norm());
     let terms: f64 = entries.map(|(&(i, j), k)| size(i) * k.abs() * size(j)).sum();
-    let rounding = if mode.mass > 0.0 { (tolerances::ROUND_OFF_OF_SUMS * terms / mode.mass).sqrt() } else { 0.0 };
-    Mode { rounding, ..mode }
+    let of_stiffness = if mode.mass > 0.0 { (tolerances::ROUND_OFF_OF_K * terms / mode.mass).sqrt() } else { 0.0 };
+    Mode { rounding: of_stiffness.max(error), ..mode }
 }
 
 /// Solves a model without E.
 fn solve_plain(built: &Built) -> Result<Solved, Unsolved> {
-    let Eigen { values, right, left, conditioning } = eigen(&built.a)?;
-    Ok(Solved { values, participation: Some(parts(&left, &right)), right, conditioning })
+    let Eigen { values, right, left, conditioning, errors } = eigen(&built.a)?;
+    Ok(Solved { values, participation: Some(parts(&left, &right)), right, conditioning, errors })
 }
 
 fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
@@ -117,7 +120,8 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
         Some("qz") => {
             let found = generalized(&built.a, e)?.split(built.infinite)?;
             let conditioning = f64::NAN;
-            return Ok(Solved { values: found.values, right: found.right, participation: None, conditioning });
+            let errors = vec![0.0; found.values.len()];
+            return Ok(Solved { values: found.values, right: found.right, participation: None, conditioning, errors });
         }
         Some("gsvd") => Deflation::Gsvd,
         _ => Deflation::NullSpace,
@@ -127,7 +131,8 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
         return Err(Unsolved::Doubtful { gap: found.deflated.gap });
     }
     let participation = Some(parts(&(complex(&e.transpose()) * &found.left), &found.right));
-    Ok(Solved { values: found.values, right: found.right, participation, conditioning: found.conditioning })
+    let (values, right, conditioning, errors) = (found.values, found.right, found.conditioning, found.errors);
+    Ok(Solved { values, right, participation, conditioning, errors })
 }
 
 /// Returns the participation |y_i x_i|, each column with sum 1.

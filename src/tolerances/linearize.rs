@@ -214,3 +214,8 @@ pub const FASTEST_PERIODS: f64 = 8.0;
 /// Unit: `[1]`. Why: a choice: nearer, terms of second order grow with the inverse of the distance. Test:
 /// `a_singular_state_ends_the_comparison`.
 pub const BEFORE_SINGULAR: f64 = 0.5;
+
+/// Rounding of the terms of x^H K x with the shape x of a mode.
+/// Unit: `[1]` of their sum. Why: four ulps: two for an entry of K, which is a sum of few elements, and two for the
+/// products. Test: `a_rigid_body_mode_is_zero_and_a_slow_one_is_not`.
+pub const ROUND_OFF_OF_K: f64 = 4.0 * f64::EPSILON;

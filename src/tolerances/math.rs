@@ -252,3 +252,13 @@ pub const LARGEST_CORE: usize = 256;
 /// Unit: `[groups]`. Why: as for coordinates that come behind their multipliers: eliminated before them it would make
 /// one dense block of all. Test: `a_hub_and_separate_mechanisms_are_divided`.
 pub const COUPLED_TO_MANY: usize = 32;
+
+/// A signal whose last two points differ by less is level at that end: it is meant to be held beyond.
+/// Unit: `[1]` of the range of its values. Why: a smooth ramp of 50 points ends so; a measured road does not. Test:
+/// `a_signal_that_ends_early_is_said`.
+pub const LEVEL_END: f64 = 1e-3;
+
+/// Backward error of the eigenvalues of a dense matrix, and rounding of its entries.
+/// Unit: `[1]` of the norm of the balanced matrix. Why: four ulps; the QR algorithm leaves one or two. Test:
+/// `a_rigid_body_mode_is_zero_and_a_slow_one_is_not`.
+pub const QR_BACKWARD_ERROR: f64 = 4.0 * f64::EPSILON;

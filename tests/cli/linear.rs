@@ -195,6 +195,62 @@ fn zero_modes_have_no_frequency() {
     assert_eq!((&modes[0]["frequency_hz"], &modes[0]["shift"]), (&0.0.into(), &0.0.into()), "{modes}");
 }
 
+/// Of an arm on a hub that nothing holds the rotation is zero, although rounding of its stiff directions leaves
+/// 4e-5 rad/s. A mode that is 1e7 times slower than another is not.
+#[test]
+fn a_rigid_body_mode_is_zero_and_a_slow_one_is_not() {
+    let place = Place::new(FREE_ARM);
+    let text = place.done(&["linearize", "scene.json", "--figures", "none", "-o", "here"]);
+    let rigid: Vec<&str> = text.lines().filter(|line| line.contains("physical, rigid body")).collect();
+    assert!(rigid.iter().all(|line| line.split_whitespace().skip(1).take(4).eq(["0", "0", "0", "-"])), "{text}");
+    let modes = place.json("here/linear-0.json")["eigenvalues"].clone();
+    for mode in &modes.as_array().unwrap()[..2] {
+        assert_eq!([&mode["re"], &mode["im"], &mode["frequency_hz"]], [0.0; 3], "{mode}");
+        assert!(mode["damping_ratio"].is_null() && mode["kind"] == "physical", "{mode}");
+    }
+    assert!(!rigid.is_empty() && modes[2]["frequency_hz"].as_f64().unwrap() > 1.0, "{text}");
+    // Masses 1, 1 and 0.001 in a row on springs of 0.01, 1e12 and 1e6 N/m: sqrt(0.01/2.001) rad/s.
+    let mass = |name: &str, mass: f64, x: usize| {
+        format!(
+            r#"{{ "name": "{name}", "type": "rigid", "mass": {mass}, "free": ["x"],
+                 "initial": {{ "position": [{x}, 0] }} }}"#
+        )
+    };
+    let spring = |name: &str, from: &str, to: &str, k: &str| {
+        format!(
+            r#"{{ "name": "{name}", "type": "spring_damper", "between": ["{from}", "{to}"], "stiffness": {k},
+                 "free_length": 1 }}"#
+        )
+    };
+    let bodies = [mass("a", 1.0, 1), mass("b", 1.0, 2), mass("c", 0.001, 3)].join(", ");
+    let springs =
+        [spring("s0", "ground", "a", "0.01"), spring("s1", "a", "b", "1e12"), spring("s2", "b", "c", "1e6")].join(", ");
+    let place = Place::new(format!(
+        r#"{{ "name": "scales", "dimension": 2, "bodies": [{bodies}], "forces": [{springs}],
+             "simulation": {{ "t_end": 1 }} }}"#
+    ));
+    place.done(&["linearize", "scene.json", "--figures", "none", "-o", "here"]);
+    let slowest = place.json("here/linear-0.json")["eigenvalues"][0].clone();
+    let frequency = slowest["frequency_hz"].as_f64().unwrap() * std::f64::consts::TAU;
+    // Entries of 1e12 round to 1e-4: 1 % of the spring of 0.01 N/m; the solver adds some ulps of 1e12.
+    assert!((frequency / 0.070693 - 1.0).abs() < 0.5, "{slowest}");
+}
+
+/// A flexible arm on a hub without a motor.
+const FREE_ARM: &str = r#"{ "name": "free_arm", "dimension": 2, "ground": { "markers": { "O": [0, 0] } },
+  "bodies": [
+    { "name": "link", "type": "flexible_beam", "frame": "floating", "length": 1.0, "elements": 6,
+      "material": { "E": 7e10, "nu": 0.33, "rho": 2700 }, "section": { "rectangle": { "height": 0.005, "width": 0.03 } },
+      "frame_conditions": "tangent", "markers": { "A": [0, 0], "T": [1.0, 0] },
+      "damping": { "rayleigh": { "stiffness": 1e-4 } } },
+    { "name": "hub", "type": "rigid", "mass": 1, "inertia": 0.05 },
+    { "name": "payload", "type": "rigid", "mass": 0.2, "inertia": 1e-6, "initial": { "position": [1, 0] } } ],
+  "joints": [
+    { "name": "shaft", "type": "revolute", "between": ["ground.O", "hub"] },
+    { "name": "clamp", "type": "weld", "between": ["hub", "link.A"] },
+    { "name": "tip", "type": "weld", "between": ["link.T", "payload"] } ],
+  "simulation": { "t_end": 2 } }"#;
+
 #[test]
 fn a_simpler_model_loses_a_mode_and_shifts_another() {
     let place = Place::new(chain(false));

@@ -3,7 +3,7 @@
 use super::Linear;
 use crate::error::Result;
 use crate::files::{Array, mat};
-use crate::linearize::{Complex, Cost, Kind, LinearModel, Matrix, Mode};
+use crate::linearize::{Complex, Cost, Kind, LinearModel, Matrix, Mode, damping, frequency};
 use crate::math::largest;
 use crate::report::table::named;
 use crate::report::{Folder, cell};
@@ -182,13 +182,14 @@ fn rows(matrix: &Matrix) -> Vec<Vec<f64>> {
 fn eigenvalue(model: &LinearModel, mode: &Mode) -> Eigenvalue {
     let is_finite = mode.kind != Kind::Infinite && mode.value.re.is_finite() && mode.value.im.is_finite();
     let finite = |value: f64| is_finite.then_some(value);
+    let value = shown(mode);
     let parts = largest_parts(&model.states, &mode.participation).into_iter();
     let parts = parts.filter(|(_, part)| *part >= tolerances::PART_OF_MODE);
     Eigenvalue {
-        re: finite(mode.value.re),
-        im: finite(mode.value.im),
-        frequency_hz: finite(mode.frequency()),
-        damping_ratio: finite(mode.clean_damping()),
+        re: finite(value.re),
+        im: finite(value.im),
+        frequency_hz: finite(frequency(value)),
+        damping_ratio: finite(mode.clean_damping()).filter(|_| !mode.is_zero()),
         kind: mode.kind,
         participation: parts.map(|(name, part)| (name.to_string(), Value::from(part))).collect(),
     }
@@ -250,8 +251,8 @@ impl Linear<'_> {
         [
             ("eigenvalues", Array::complex(model.modes.iter().map(value).collect())),
             ("kinds", Array::Texts(model.modes.iter().map(|mode| mode.kind.name().to_string()).collect())),
-            ("frequency_hz", each(|mode| if is_infinite(mode) { f64::INFINITY } else { mode.frequency() })),
-            ("damping_ratio", each(Mode::damping)),
+            ("frequency_hz", each(|mode| if is_infinite(mode) { f64::INFINITY } else { frequency(shown(mode)) })),
+            ("damping_ratio", each(|mode| damping(shown(mode)))),
             ("mode_shapes", Array::Complex { shape: vec![rows, columns], values: shapes }),
             ("participation", Array::Real { shape: vec![model.states.len(), columns], values: parts }),
         ]
@@ -263,7 +264,12 @@ fn is_infinite(mode: &Mode) -> bool {
 }
 
 fn value(mode: &Mode) -> Complex<f64> {
-    if is_infinite(mode) { Complex::new(f64::INFINITY, 0.0) } else { mode.value }
+    if is_infinite(mode) { Complex::new(f64::INFINITY, 0.0) } else { shown(mode) }
+}
+
+/// The eigenvalue, zero where it is rounding.
+fn shown(mode: &Mode) -> Complex<f64> {
+    if mode.is_zero() { Complex::ZERO } else { mode.value }
 }
 
 fn matrix(matrix: &Matrix) -> Array {

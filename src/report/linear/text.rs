@@ -151,7 +151,8 @@ fn cells(bodies: &[&str], number: usize, pair: &Pair) -> [String; 7] {
     // Digits of rounding are none.
     let numbers = if mode.is_zero() { ["0", "0", "0", "-"].map(str::to_string) } else { numbers };
     let [re, im, frequency, damping] = numbers;
-    let (kind, moves) = (mode.kind.name().to_string(), movers(bodies, &mode.energy));
+    let kind = if mode.is_rigid_body() { "physical, rigid body" } else { mode.kind.name() }.to_string();
+    let moves = movers(bodies, &mode.energy);
     [number.to_string(), re, im, frequency, damping, kind, moves]
 }
 

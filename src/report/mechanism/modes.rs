@@ -75,7 +75,7 @@ fn shaped(model: &LinearModel) -> Vec<(usize, Pair<'_>)> {
 fn title(pair: &Pair) -> String {
     let mode = pair.mode;
     let text = match mode.value.im != 0.0 {
-        true if mode.is_zero() => "0 Hz".to_string(),
+        _ if mode.is_zero() => "0 Hz".to_string(),
         true => format!("{} Hz, ζ = {}", short(mode.frequency()), short(mode.clean_damping())),
         false => format!("{} 1/s, no swing", short(mode.value.re)),
     };

@@ -122,6 +122,8 @@ pub struct Finite {
     pub left: ComplexMatrix,
     /// Condition number of `right`; infinite if its columns are dependent to rounding.
     pub conditioning: f64,
+    /// Changes of the values by rounding, as [`Eigen::errors`](super::Eigen::errors) of the finite part.
+    pub errors: Vec<f64>,
     /// The finite part of the pencil, from which they are computed.
     pub deflated: Deflated,
 }
@@ -139,5 +141,5 @@ pub fn finite(a: &Matrix, e: &Matrix, by: Deflation) -> Result<Finite, Unsolved>
     let mut left = dense::complex(&deflated.left.transpose()) * inner.left;
     left.column_iter_mut().zip(lengths).for_each(|(mut y, length)| y.iter_mut().for_each(|y| *y *= length));
     let conditioning = dense::condition(&right)?;
-    Ok(Finite { values: inner.values, right, left, conditioning, deflated })
+    Ok(Finite { values: inner.values, errors: inner.errors, right, left, conditioning, deflated })
 }
