@@ -44,6 +44,14 @@ pub fn values(
     all
 }
 
+/// Reads a state on the pieces of the run: of a law that jumps there, the run is still on the side it came from.
+pub fn on_pieces<R>(state: &Observation, scratch: &mut Scratch, read: impl FnOnce(&mut Scratch) -> R) -> R {
+    scratch.pieces.extend_from_slice(state.pieces);
+    let found = read(scratch);
+    scratch.pieces.clear();
+    found
+}
+
 impl Trajectory {
     /// No rows, with the columns of a system.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
@@ -69,12 +77,14 @@ impl Trajectory {
         own.chain(self.outputs.iter().map(|output| output.name.as_str())).collect()
     }
 
-    /// Appends a row with the outputs at a state.
-    pub fn push(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
-        let outputs = values(system, (state.loaded(), state.works), self.outputs.len(), scratch);
+    /// Returns the row of a state with its outputs.
+    pub fn row(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Vec<f64> {
+        let count = self.outputs.len();
+        let outputs =
+            on_pieces(state, scratch, |scratch| values(system, (state.loaded(), state.works), count, scratch));
         let Names { q, v, lambda } = &self.names;
         let own = [&state.q[..q.len()], &state.v[..v.len()], &state.lambda[..lambda.len()]];
-        self.rows.push([&[state.t], own[0], own[1], own[2], &outputs].concat());
+        [&[state.t], own[0], own[1], own[2], &outputs].concat()
     }
 
     /// Appends the last row of a trajectory that has more columns.

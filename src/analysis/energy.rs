@@ -3,6 +3,7 @@
 use crate::simulate::Observation;
 use crate::system::{MechanicalSystem, Scratch};
 use crate::tolerances::report as tolerances;
+use crate::trajectory::on_pieces;
 use serde::Serialize;
 
 /// Energy at the start and the end, and the largest error of the balance. The work of dampers, applied forces, tyres
@@ -97,11 +98,7 @@ impl EnergyMeter {
 
     /// Returns the balance at a state; `None` where the system defines no potential.
     pub fn ledger(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Option<Ledger> {
-        // Of a law that jumps here the run is still on the side it came from.
-        scratch.pieces.extend_from_slice(state.pieces);
-        let energy = system.energy(state.t, state.q, state.v, scratch);
-        scratch.pieces.clear();
-        let energy = energy?;
+        let energy = on_pieces(state, scratch, |scratch| system.energy(state.t, state.q, state.v, scratch))?;
         let total = energy.kinetic + energy.potential;
         // A run that goes on from another one begins with the work done before.
         let initial = self.balance.map_or(total - state.work, |balance| balance.initial);

@@ -4,6 +4,7 @@
 mod drift;
 mod energy;
 mod extremes;
+mod held;
 mod range;
 mod rank;
 mod recorder;
@@ -21,7 +22,7 @@ pub use range::{LargestDeformation, Range};
 pub use rank::Rank;
 #[doc(hidden)]
 pub use rank::{Redundant, dependent_nearby};
-pub use recorder::{Record, Recorder, Row};
+pub use recorder::{MOST_JUMPS, Record, Recorder, Row};
 #[doc(hidden)]
 pub use scale::{Sizes, scales};
 #[doc(hidden)]

@@ -7,8 +7,10 @@ use super::range::Range;
 use super::singularity::{Singularity, Watch};
 use super::thinned::thin;
 use crate::math::largest;
+use crate::scene::units::{Dimension, dimension_of};
 use crate::simulate::{Observation, Sink, Stop};
 use crate::system::{MechanicalSystem, Scratch};
+use crate::tolerances::report as tolerances;
 use crate::trajectory::{Gap, Trajectory, recorded};
 
 /// Trajectory, drift and energy of a run.
@@ -19,6 +21,8 @@ pub struct Record {
     pub last: Option<Trajectory>,
     /// Number of rows of the run.
     pub rows: usize,
+    /// Number of times at which a watched quantity jumped.
+    pub jumps: usize,
     /// Outputs without a finite value at some rows.
     pub gaps: Vec<Gap>,
     /// Least, greatest and mean values of the outputs over the rows.
@@ -47,6 +51,15 @@ pub struct Row<'r> {
     pub ledger: Option<Ledger>,
 }
 
+/// A row with all columns of the run.
+struct Made {
+    values: Vec<f64>,
+    drift: [f64; 3],
+    ledger: Option<Ledger>,
+    /// Largest |lambda|, N or N m, and |v'|, m/s^2 or rad/s^2.
+    loads: f64,
+}
+
 /// Collects a [`Record`] during a run.
 pub struct Recorder<'a> {
     system: &'a dyn MechanicalSystem,
@@ -59,6 +72,9 @@ pub struct Recorder<'a> {
     stop: Box<dyn Fn() -> Option<Stop> + 'a>,
     pass: Option<Pass<'a>>,
     outputs_only: bool,
+    shows_jumps: bool,
+    /// The state before the present change of form.
+    before: Option<Made>,
 }
 
 type Pass<'a> = Box<dyn FnMut(Row) + 'a>;
@@ -76,6 +92,7 @@ impl<'a> Recorder<'a> {
                 trajectory: Trajectory::new(system),
                 last: None,
                 rows: 0,
+                jumps: 0,
                 gaps: Vec::new(),
                 extremes: recorded(system).iter().map(Extremes::of).collect(),
                 drift: Drift::default(),
@@ -89,6 +106,8 @@ impl<'a> Recorder<'a> {
             stop: Box::new(|| None),
             pass: None,
             outputs_only: false,
+            shows_jumps: false,
+            before: None,
         }
     }
 
@@ -96,6 +115,13 @@ impl<'a> Recorder<'a> {
     pub fn with_outputs_only(mut self) -> Self {
         self.outputs_only = true;
         self.keep(0)
+    }
+
+    /// Adds two rows at each time at which an output, a velocity or a multiplier jumps: that before the jump and that
+    /// after it; at no more than [`MOST_JUMPS`] times.
+    pub fn with_jumps(mut self) -> Self {
+        self.shows_jumps = true;
+        self
     }
 
     /// Passes each row on as it comes, and keeps those that curves need of the outputs, of the first `coordinates`, of
@@ -132,6 +158,99 @@ impl<'a> Recorder<'a> {
     }
 }
 
+/// Both sides of a jump are rows at so many times.
+pub const MOST_JUMPS: usize = 1000;
+
+impl Recorder<'_> {
+    fn made(&mut self, state: &Observation) -> Made {
+        Made {
+            values: self.record.full().row(self.system, state, &mut self.scratch),
+            drift: [state.phi, state.phi_dot, state.phi_ddot].map(largest),
+            ledger: self.meter.ledger(self.system, state, &mut self.scratch),
+            loads: largest(state.lambda).max(largest(state.vdot)),
+        }
+    }
+
+    fn keep_row(&mut self, Made { values, drift, ledger, .. }: Made) {
+        let record = &mut self.record;
+        let t = values[0];
+        record.note_extremes(&values);
+        record.rows += 1;
+        record.drift_rows.push(drift);
+        record.ledger_rows.extend(ledger);
+        match &mut record.last {
+            None => record.trajectory.rows.push(values),
+            Some(last) => {
+                last.rows = vec![values];
+                record.trajectory.push_part(last);
+            }
+        }
+        record.note_gaps(t);
+        if let Some(pass) = &mut self.pass {
+            let all = record.last.as_ref().filter(|_| !self.outputs_only).unwrap_or(&record.trajectory);
+            if let Some(values) = all.rows.last() {
+                pass(Row { values, drift, ledger });
+            }
+            thin(&mut record.trajectory.rows, &mut record.drift_rows, &mut record.ledger_rows);
+        }
+    }
+
+    /// Adds the rows of a jump. Where an output row has just been made, that is the one before.
+    fn keep_jump(&mut self, mut before: Made, mut after: Made) {
+        let (t, start) = (before.values[0], self.record.trajectory.rows.first().map_or(0.0, |row| row[0]));
+        let last = self.record.full().rows.last().map_or(f64::NEG_INFINITY, |row| row[0]);
+        let has_row = t - last <= tolerances::SAME * (t - start);
+        if has_row {
+            (before.values[0], after.values[0]) = (last, last);
+        }
+        if self.record.jumps > MOST_JUMPS {
+            self.record.note_extremes(&before.values);
+            self.record.note_extremes(&after.values);
+            return;
+        }
+        if !has_row {
+            self.keep_row(before);
+        }
+        self.keep_row(after);
+    }
+
+    /// True if a velocity, a multiplier or an output differs by more than round-off.
+    fn jumps(&self, before: &Made, after: &Made) -> bool {
+        let trajectory = self.record.full();
+        let sides = [before, after].map(|made| trajectory.row_state(&made.values));
+        let differ = |a: &[f64], b: &[f64]| {
+            let least = tolerances::SAME * largest(a).max(largest(b));
+            a.iter().zip(b).any(|(a, b)| (a - b).abs() > least)
+        };
+        let [(_, v0, lambda0), (_, v1, lambda1)] = sides;
+        if !self.outputs_only && (differ(v0, v1) || differ(lambda0, lambda1)) {
+            return true;
+        }
+        let [a, b] = [before, after].map(|made| trajectory.row_outputs(&made.values));
+        let loads = before.loads.max(after.loads);
+        (0..a.len()).any(|i| (a[i] - b[i]).abs() > tolerances::SAME * self.size_of((a, b), i, loads))
+    }
+
+    /// The largest value of the outputs in the unit of output `i`; of forces and accelerations those of the mechanism
+    /// count, too, since one that is zero by symmetry is round-off of the others.
+    fn size_of(&self, (a, b): (&[f64], &[f64]), i: usize, loads: f64) -> f64 {
+        let unit = &self.record.extremes[i].unit;
+        let size = if is_load(unit) { loads } else { 0.0 };
+        self.record.extremes.iter().zip(a.iter().zip(b)).filter(|(seen, _)| seen.unit == *unit).fold(
+            size,
+            |size, (seen, (a, b))| {
+                let [min, max] = [seen.min, seen.max].map(|value| value.unwrap_or(0.0).abs());
+                size.max(min).max(max).max(a.abs()).max(b.abs())
+            },
+        )
+    }
+}
+
+fn is_load(unit: &str) -> bool {
+    let loads = [Dimension::Force, Dimension::Torque, Dimension::Acceleration, Dimension::AngularAcceleration];
+    dimension_of(unit).is_some_and(|dimension| loads.contains(&dimension))
+}
+
 impl Sink for Recorder<'_> {
     fn accepted(&mut self, state: &Observation) {
         self.record.drift.add(state, &self.scales);
@@ -143,28 +262,25 @@ impl Sink for Recorder<'_> {
 
     fn row(&mut self, state: &Observation) {
         self.record.drift.add(state, &self.scales);
-        let levels = [state.phi, state.phi_dot, state.phi_ddot].map(largest);
-        let ledger = self.meter.ledger(self.system, state, &mut self.scratch);
-        let record = &mut self.record;
-        record.rows += 1;
-        record.drift_rows.push(levels);
-        record.ledger_rows.extend(ledger);
-        match &mut record.last {
-            None => record.trajectory.push(self.system, state, &mut self.scratch),
-            Some(last) => {
-                last.rows.clear();
-                last.push(self.system, state, &mut self.scratch);
-                record.trajectory.push_part(last);
-            }
-        }
-        record.note_gaps(state.t);
-        record.note_extremes(state.t);
-        if let Some(pass) = &mut self.pass {
-            let all = record.last.as_ref().filter(|_| !self.outputs_only).unwrap_or(&record.trajectory);
-            if let Some(values) = all.rows.last() {
-                pass(Row { values, drift: levels, ledger });
-            }
-            thin(&mut record.trajectory.rows, &mut record.drift_rows, &mut record.ledger_rows);
+        self.record.range.add_row(self.system, state, &mut self.scratch);
+        let made = self.made(state);
+        self.keep_row(made);
+    }
+
+    fn watches_events(&self) -> bool {
+        self.shows_jumps
+    }
+
+    fn before_event(&mut self, state: &Observation) {
+        self.before = Some(self.made(state));
+    }
+
+    fn after_event(&mut self, state: &Observation) {
+        let Some(before) = self.before.take() else { return };
+        let after = self.made(state);
+        if self.jumps(&before, &after) {
+            self.record.jumps += 1;
+            self.keep_jump(before, after);
         }
     }
 
@@ -179,10 +295,9 @@ impl Record {
         self.last.as_ref().unwrap_or(&self.trajectory)
     }
 
-    fn note_extremes(&mut self, t: f64) {
-        let Record { trajectory, extremes, .. } = self;
-        let Some(row) = trajectory.rows.last() else { return };
-        extremes.iter_mut().zip(trajectory.row_outputs(row)).for_each(|(extremes, value)| extremes.add(t, *value));
+    fn note_extremes(&mut self, row: &[f64]) {
+        let outputs = self.trajectory.row_outputs(row);
+        self.extremes.iter_mut().zip(outputs).for_each(|(extremes, value)| extremes.add(row[0], *value));
     }
 
     /// Counts the outputs that have no value at the last row.

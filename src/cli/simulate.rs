@@ -67,6 +67,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let fraction = |t: f64| (1000.0 * (t - span.start) / (span.end - span.start)) as u64;
     let rows = RefCell::new(args.row_files(&prepared, &mut folder)?);
     let mut recorder = Recorder::new(prepared.system())
+        .with_jumps()
         .with_progress(|t| bar.set_position(fraction(t)))
         .with_stop(|| rows.borrow().stop().or_else(|| interrupt::stop(&folder)));
     if args.outputs_only {

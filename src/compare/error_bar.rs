@@ -64,6 +64,19 @@ pub struct Completed<'a> {
     pub statistics: Statistics,
 }
 
+impl Completed<'_> {
+    /// The watched quantities of the rows at the times of the span, without those beside jumps.
+    fn rows_of_span(&self) -> Vec<Vec<f64>> {
+        let mut found: Vec<Vec<f64>> = Vec::new();
+        for (t, row) in self.trajectory.times().zip(self.trajectory.watched()) {
+            if t == self.span.row(found.len() as u64) {
+                found.push(row);
+            }
+        }
+        found
+    }
+}
+
 /// Gives each output an error bar, and compares the run with one of diffsol and with motions nearby. `show` is called
 /// with the times, `stop` asked whether the run should end.
 pub fn error_bars(
@@ -302,7 +315,7 @@ impl Sink for Rows<'_> {
     }
 
     fn row(&mut self, state: &Observation) {
-        let values = self.watched.read(self.system, (state.loaded(), state.works), &mut self.scratch);
+        let values = self.watched.read_row(self.system, state, &mut self.scratch);
         self.rows.push((state.t, values));
     }
 
@@ -317,7 +330,7 @@ fn confirm(prepared: &PreparedScene, run: &Completed, is_stopped: &(dyn Fn() -> 
     let longest = parts.iter().max_by(|a, b| a.duration().total_cmp(&b.duration()))?;
     let motion = Motion { counts_start: true, ..Motion::of(prepared, run.span, is_stopped) };
     let watched = Watched::new(prepared.system(), &[]).ok()?;
-    let rows: Vec<Vec<f64>> = run.trajectory.watched().collect();
+    let rows = run.rows_of_span();
     let allowed = Allowed { cpu: Duration::MAX, wall: Duration::MAX };
     Some(second_opinion(&motion, &watched, run.span, (&rows, &longest.method), allowed))
 }
@@ -347,14 +360,17 @@ fn largest_of(trajectory: &Trajectory, i: usize) -> f64 {
     trajectory.watched().map(|row| row[i].abs()).filter(|value| value.is_finite()).fold(0.0, f64::max)
 }
 
-/// |x - x_c| at the rows of the run, as far as the companion came; zero at rows that it does not have.
+/// |x - x_c| at the rows of the run, as far as the companion came; zero at rows that it does not have, and after a jump
+/// at the time of the row before.
 fn differences(trajectory: &Trajectory, companion: &[(f64, Vec<f64>)]) -> Vec<Vec<f64>> {
     let mut others = companion.iter().peekable();
     let mut all = Vec::new();
+    let mut before = f64::NEG_INFINITY;
     for (t, own) in trajectory.times().zip(trajectory.watched()) {
+        let is_after_jump = std::mem::replace(&mut before, t) == t;
         while others.next_if(|(time, _)| *time < t).is_some() {}
         let Some((time, other)) = others.peek() else { break };
-        let is_same = *time == t;
+        let is_same = *time == t && !is_after_jump;
         let difference = |(own, other): (&f64, &f64)| if is_same { (own - other).abs() } else { 0.0 };
         all.push(own.iter().zip(other).map(difference).collect());
     }

@@ -1,6 +1,6 @@
 //! Reasons to doubt a result although it was computed to the end.
 
-use crate::analysis::{Drift, EnergyBalance, Record};
+use crate::analysis::{Drift, EnergyBalance, MOST_JUMPS, Record};
 use crate::error::Warning;
 use crate::error::significant;
 use crate::formulation::Statistics;
@@ -10,7 +10,8 @@ use crate::trajectory::Gap;
 /// Returns all warnings from the record of a run.
 pub fn warnings(record: &Record) -> Vec<Warning> {
     let energy = record.energy.as_ref().filter(|energy| energy.is_open()).map(open_balance);
-    open_joints(&record.drift).into_iter().chain(energy).chain(gaps(record)).chain(record.range.warnings()).collect()
+    let doubts = open_joints(&record.drift).into_iter().chain(energy).chain(gaps(record));
+    doubts.chain(record.range.warnings()).chain(many_jumps(record.jumps)).collect()
 }
 
 /// Returns a warning of uncertain classes of eigenvalues, by these methods, each of which may be named more than once.
@@ -61,6 +62,15 @@ fn open_balance(energy: &EnergyBalance) -> Warning {
         None => "compare with a smaller --step, and with an adaptive integrator",
     };
     Warning::new(text, hint)
+}
+
+fn many_jumps(jumps: usize) -> Option<Warning> {
+    let text = || {
+        format!("quantities jump at {jumps} times: the table has a row on both sides of the first {MOST_JUMPS} of them")
+    };
+    let hint =
+        "least and greatest values in summary.json are from both sides of all; a smaller --output-step shows more";
+    (jumps > MOST_JUMPS).then(|| Warning::new(text(), hint))
 }
 
 fn gaps(record: &Record) -> Vec<Warning> {

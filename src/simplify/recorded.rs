@@ -102,7 +102,7 @@ impl Sink for Memory<'_> {
         if state.dropped.len() > redundant.len() {
             *redundant = state.dropped.to_vec();
         }
-        rows.push(self.watched.read(self.system, (state.loaded(), state.works), &mut self.scratch));
+        rows.push(self.watched.read_row(self.system, state, &mut self.scratch));
     }
 
     fn stops(&self) -> Option<Stop> {

@@ -1,8 +1,8 @@
 //! Change of the form of the equations at a state.
 
-use super::Run;
 use super::events::{Passage, Turn};
 use super::rows::project;
+use super::{Run, Sink};
 use crate::error::{Failure, short};
 use crate::formulation::{Dynamics, StepError};
 use crate::integrator::{From, first_step};
@@ -97,6 +97,21 @@ impl Run<'_> {
             self.start_small()?;
         }
         Ok(())
+    }
+
+    /// As [`change_form`](Self::change_form), and shows the state before and after it.
+    pub fn change_form_seen(&mut self, at_start: Option<usize>, sink: &mut dyn Sink) -> Result<(), Failure> {
+        if !sink.watches_events() {
+            return self.change_form(at_start);
+        }
+        self.show_event(false, sink)?;
+        self.change_form(at_start)?;
+        self.show_event(true, sink)
+    }
+
+    fn show_event(&mut self, is_after: bool, sink: &mut dyn Sink) -> Result<(), Failure> {
+        self.rows.y.copy_from_slice(&self.y);
+        self.rows.show_event(self.t, is_after, sink).map_err(|halt| self.halted(&halt))
     }
 
     /// Changes the form where a run is continued from a time at which functions of time change theirs.

@@ -263,7 +263,7 @@ impl<'a> Run<'a> {
             let (mut size, mut end) = self.fit(stop);
             let tried = size;
             let Some(error) = self.try_step(size, end)? else { continue };
-            if !self.is_of_one_form(&mut size, &mut end)? {
+            if !self.is_of_one_form(&mut size, &mut end, sink)? {
                 continue;
             }
             if let Some(theta) = self.output(size, end, sink)? {
@@ -277,7 +277,7 @@ impl<'a> Run<'a> {
             self.integrator.accepted(&self.tolerance);
             (self.growing, self.cut) = (true, None);
             if self.t < self.span.end && (self.events.is_at_threshold() || stop.changes_form && self.t >= stop.t) {
-                self.change_form(None)?;
+                self.change_form_seen(None, sink)?;
             } else {
                 self.events.go_on();
             }
@@ -299,12 +299,12 @@ impl<'a> Run<'a> {
     }
 
     /// True if the step just tried passed no threshold; else it prepares the next attempt.
-    fn is_of_one_form(&mut self, size: &mut f64, end: &mut Option<f64>) -> Result<bool, Failure> {
+    fn is_of_one_form(&mut self, size: &mut f64, end: &mut Option<f64>, sink: &mut dyn Sink) -> Result<bool, Failure> {
         let passage = self.end_at_passage(size, end).map_err(|halt| self.halted(&halt))?;
         match passage {
             None => return Ok(true),
             Some(Passage::AtStart(number)) => {
-                self.change_form(Some(number))?;
+                self.change_form_seen(Some(number), sink)?;
                 // A step after which the function is on neither side is longer than the time to the threshold.
                 if self.fixed.is_none()
                     && 0.1 * self.h > tolerances::UNDECIDED_STEP * self.smallest()

@@ -88,6 +88,14 @@ pub trait Sink {
     }
     /// Called with every output row, in order.
     fn row(&mut self, _state: &Observation) {}
+    /// True if it is to be shown both sides of each change of form.
+    fn watches_events(&self) -> bool {
+        false
+    }
+    /// Called with the state at which the equations change their form, before they do.
+    fn before_event(&mut self, _state: &Observation) {}
+    /// Called with the same state after the change: v' and lambda may have jumped, and v with a prescribed rate.
+    fn after_event(&mut self, _state: &Observation) {}
     /// Called before every step and after every row: returns the reason if the run should end here.
     fn stops(&self) -> Option<Stop> {
         None

@@ -48,6 +48,18 @@ impl<'a> OutputRows<'a> {
         self.vdot.iter_mut().zip(rates).for_each(|(vdot, rate)| *vdot = rate);
     }
 
+    /// Shows one side of a change of form at the state in `y`.
+    pub fn show_event(&mut self, t: f64, is_after: bool, sink: &mut dyn super::Sink) -> Result<(), StepError> {
+        self.evaluate(t)?;
+        let state = observation(t, &self.y, &self.problem, None, &mut self.phi_ddot);
+        if is_after {
+            sink.after_event(&state)
+        } else {
+            sink.before_event(&state)
+        }
+        Ok(())
+    }
+
     pub fn show(&mut self, t: f64, sink: &mut dyn super::Sink) {
         sink.row(&observation(t, &self.y, &self.problem, None, &mut self.phi_ddot));
     }

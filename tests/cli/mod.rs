@@ -10,6 +10,7 @@ mod generate;
 mod import;
 #[cfg(unix)]
 mod interrupted;
+mod jumps;
 mod limits;
 mod linear;
 mod loci;

@@ -2,8 +2,9 @@
 
 use crate::analysis::{Sizes, scales};
 use crate::error::{Result, find};
+use crate::simulate::Observation;
 use crate::system::{Column, MechanicalSystem, OperatingPoint, Scratch};
-use crate::trajectory::{recorded, values};
+use crate::trajectory::{on_pieces, recorded, values};
 use serde::{Deserialize, Serialize};
 
 /// The quantities that are compared: outputs, or all coordinates of a system without outputs.
@@ -33,6 +34,11 @@ impl Watched {
         };
         let columns = places.iter().map(|place| known[*place].clone()).collect();
         Ok(Watched { columns, outputs: Some((known.len(), places)) })
+    }
+
+    /// Returns their values at a row of a run.
+    pub fn read_row(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Vec<f64> {
+        on_pieces(state, scratch, |scratch| self.read(system, (state.loaded(), state.works), scratch))
     }
 
     /// Returns their values at a state with its works.

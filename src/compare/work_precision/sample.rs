@@ -158,7 +158,7 @@ impl Sink for Sampler<'_> {
     fn row(&mut self, state: &Observation) {
         self.sizes.add(self.motion.system, state, &self.scales, &mut self.scratch);
         if state.t > self.start || self.motion.counts_start {
-            self.rows.push(self.watched.read(self.motion.system, (state.loaded(), state.works), &mut self.scratch));
+            self.rows.push(self.watched.read_row(self.motion.system, state, &mut self.scratch));
         }
     }
 

@@ -66,13 +66,16 @@ pub trait Names {
     }
 }
 
+/// A number beyond all of a scene: no regime prescribes its piece.
+const UNNUMBERED: usize = usize::MAX / 2;
+
 /// A compiled formula. Evaluation allocates nothing, does not recurse, and cannot fail.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     text: String,
     program: Program,
     variables: Vec<(usize, String)>,
-    /// The number of its first switching function.
+    /// The number of its first switching function; [`UNNUMBERED`] where it is not part of the equations of a scene.
     first: usize,
 }
 
@@ -86,7 +89,7 @@ impl Expression {
     /// A division by zero is no error here: see [`constant`](Self::constant).
     pub fn parse(text: &str, names: &dyn Names) -> Result<Self, ExpressionError> {
         let (program, variables) = parser::parse(text, names)?;
-        Ok(Expression { text: text.to_string(), program, variables, first: 0 })
+        Ok(Expression { text: text.to_string(), program, variables, first: UNNUMBERED })
     }
 
     /// The value at `variables`, with the indices that [`Names::resolve`] returned.
@@ -107,7 +110,9 @@ impl Expression {
 
     /// Writes the arguments of its switching functions to `out` at their numbers, with the pieces of `regime`.
     pub fn arguments<S: Scalar>(&self, variables: &[S], regime: Regime, out: &mut [S]) {
-        self.program.arguments(variables, self.first, regime, &mut out[self.first..]);
+        if let Some(own) = out.get_mut(self.first..) {
+            self.program.arguments(variables, self.first, regime, own);
+        }
     }
 
     /// The text that was parsed.
@@ -153,7 +158,7 @@ impl Expression {
 impl From<f64> for Expression {
     fn from(value: f64) -> Self {
         let program = Program::constant(value);
-        Expression { text: value.to_string(), program, variables: Vec::new(), first: 0 }
+        Expression { text: value.to_string(), program, variables: Vec::new(), first: UNNUMBERED }
     }
 }
 

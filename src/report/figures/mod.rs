@@ -163,6 +163,7 @@ mod tests {
             trajectory: Trajectory { names, outputs: Vec::new(), rows },
             last: None,
             rows: times.len(),
+            jumps: 0,
             gaps: Vec::new(),
             extremes: Vec::new(),
             drift: Drift::default(),
