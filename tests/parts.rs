@@ -1,6 +1,7 @@
 //! What mechanisms are made of: bodies, joints, forces, outputs, and shipped scenes.
 
 mod absolute_beam;
+mod assembly;
 mod closed_forms;
 mod common;
 mod elements;

@@ -2,7 +2,7 @@
 
 use super::common::{print, tell, to_json};
 use crate::error::{Error, Result};
-use crate::import::urdf::{Closure, Options, import};
+use crate::import::urdf::{Closure, Given, Options, import};
 use crate::prepared::{Overrides, PreparedScene};
 use crate::report::write_whole;
 use crate::scene::Scene;
@@ -12,6 +12,7 @@ use std::process::ExitCode;
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   holonom import models/data/two_link.urdf -o two_link.json
+  holonom import models/data/two_link.urdf --at shoulder=pi/4 --at elbow=-0.5
   holonom import models/data/two_link.urdf --free")]
 pub struct Args {
     /// Robot in URDF
@@ -30,6 +31,9 @@ pub struct Args {
     /// links' own frames
     #[arg(long, value_name = "JOINT", allow_hyphen_values = true)]
     close: Vec<Closure>,
+    /// Position of a joint in the scene's guess, rad or m (default: 0); may be repeated
+    #[arg(long, value_name = "JOINT=VALUE", allow_hyphen_values = true)]
+    at: Vec<Given>,
     /// Print nothing but errors and the scene
     #[arg(long)]
     quiet: bool,
@@ -37,7 +41,7 @@ pub struct Args {
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let text = crate::files::read_text(&args.path).map_err(|error| Error::file(&args.path, error))?;
-    let options = Options { base: args.base, is_free: args.free, closures: args.close };
+    let options = Options { base: args.base, is_free: args.free, closures: args.close, positions: args.at };
     let imported = import(&text, &options).map_err(|error| error.in_file(&args.path))?;
     let text = to_json(&imported.scene)? + "\n";
     match &args.output {

@@ -67,7 +67,7 @@ pub(super) fn newton(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f6
 /// Rank indicator and dependent rows of a state; `None` if a joint is open.
 fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<Followed>> {
     metric.at(t, &q, still)?;
-    if metric.worst(&metric.terms.phi) > tolerances::CLOSED {
+    if !metric.is_closed(&q) {
         return Ok(None);
     }
     let rows = metric.kkt.left_out().iter().copied();

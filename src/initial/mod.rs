@@ -1,17 +1,22 @@
 //! Consistent initial values: q, then v, then v' and lambda; static equilibrium.
 
+mod closing;
+mod diagnosis;
 mod equilibrium;
 mod follow;
 mod holds;
+mod nearest;
 mod position;
 mod reach;
 mod report;
+mod travel;
 mod velocity;
 
 pub use equilibrium::{Equilibrium, Stability, Way, equilibrium};
 #[doc(hidden)]
 pub use follow::{Followed, follow};
 pub use report::{Assembly, Level, Move};
+pub(crate) use travel::{Travel, TravelEnd};
 
 use crate::error::{Error, Result, short};
 use crate::formulation::{Dynamics, StepError};
@@ -76,13 +81,17 @@ fn consistent(
     let (mut assembled, mut rates) = (q.to_vec(), v.to_vec());
     system.normalize(&mut assembled);
     let before = metric.level(t, &assembled, &rates);
-    match coordinates {
-        None => position::close(&mut metric, t, &mut assembled)?,
+    let is_beside = match coordinates {
+        None => {
+            position::close(&mut metric, t, &mut assembled)?;
+            metric.is_beside
+        }
         Some(coordinates) => {
             let all = &mut Metric::new(coordinates, directions.clone());
             reach::reach(&mut metric, all, t, &mut assembled)?;
+            metric.is_beside || all.is_beside
         }
-    }
+    };
     match velocities {
         None => velocity::fit(&mut metric, t, &assembled, &mut rates)?,
         Some(velocities) => velocity::fit(&mut Metric::new(velocities, directions), t, &assembled, &mut rates)?,
@@ -94,7 +103,8 @@ fn consistent(
         force.map_or_else(|| stuck(&halt), |name| stuck(&halt).element(&name))
     })?;
     let moves = report::moves(system, (q, v), (&assembled, &rates));
-    Ok(Assembly { q: assembled, v: rates, vdot: dynamics.vdot, lambda: dynamics.lambda, before, after, moves })
+    let Dynamics { vdot, lambda, .. } = dynamics;
+    Ok(Assembly { q: assembled, v: rates, vdot, lambda, before, after, moves, is_beside })
 }
 
 /// Error for a start that is consistent, but has no acceleration.
@@ -125,6 +135,12 @@ struct Metric<'a> {
     held: Vec<usize>,
     /// phi of a state on the way, which counts as closed; none: zero.
     ahead: Vec<f64>,
+    /// Rows that are dropped.
+    without: Vec<usize>,
+    still: Vec<f64>,
+    bodies_that_turn: usize,
+    /// True if the joints closed from beside the guess.
+    is_beside: bool,
 }
 
 impl<'a> Metric<'a> {
@@ -141,12 +157,16 @@ impl<'a> Metric<'a> {
             scratch: Scratch::default(),
             kkt: SaddlePoint::sharing(&mass, &rows, &analysis),
             weights: vec![0.0; mass.entries.len()],
+            still: vec![0.0; mass.rows],
             values: vec![1.0; rows.entries.len()],
             mass,
             rows,
             scales: system.scales(),
             held,
             ahead: Vec::new(),
+            without: Vec::new(),
+            is_beside: false,
+            bodies_that_turn: system.turning_bodies().len(),
             system,
         }
     }
@@ -154,6 +174,12 @@ impl<'a> Metric<'a> {
     fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64], need: Need) {
         self.system.evaluate(t, q, v, need, &mut self.terms, &mut self.scratch);
         self.terms.phi.iter_mut().zip(&self.ahead).for_each(|(phi, ahead)| *phi -= ahead);
+    }
+
+    /// Drops these rows, and no others, from now on.
+    fn drop_rows(&mut self, rows: &[usize]) {
+        self.without = rows.to_vec();
+        self.kkt.drop_rows(rows);
     }
 
     /// Evaluates the terms and factors the matrix at a state.
@@ -206,6 +232,81 @@ impl<'a> Metric<'a> {
     fn level(&mut self, t: f64, q: &[f64], v: &[f64]) -> Level {
         self.evaluate(t, q, v, Need::CONSTRAINTS);
         Level { phi: self.worst(&self.terms.phi), phi_dot: self.worst(&self.terms.phi_dot) }
+    }
+
+    /// Evaluates the constraints at q; returns |phi| in units of the scene's scale.
+    fn residual(&mut self, t: f64, q: &[f64]) -> f64 {
+        let still = std::mem::take(&mut self.still);
+        self.evaluate(t, q, &still, Need::CONSTRAINTS);
+        self.still = still;
+        self.size_of_phi()
+    }
+
+    /// |phi| of the terms at hand, in units of the scene's scale; NaN where a row is not a number.
+    fn size_of_phi(&self) -> f64 {
+        let kept = (0..self.scales.len()).filter(|row| !self.without.contains(row));
+        kept.map(|row| (self.terms.phi[row] / self.scales[row]).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// |phi| of some rows, as [`size_of_phi`](Self::size_of_phi).
+    fn size_of(&self, rows: &[usize]) -> f64 {
+        rows.iter().map(|row| (self.terms.phi[*row] / self.scales[*row]).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// The sum of rows of G times these weights.
+    fn rows_times(&self, rows: &[usize], weights: &[f64]) -> Vec<f64> {
+        let mut sum = vec![0.0; self.still.len()];
+        for ((row, column), value) in self.rows.entries.iter().zip(&self.values) {
+            if let Some(place) = rows.iter().position(|wanted| wanted == row) {
+                sum[*column] += weights[place] * value;
+            }
+        }
+        sum
+    }
+
+    /// |G_r d|^2 of rows r, in units of the scene's scale.
+    fn squared_rates(&self, rows: &[usize], d: &[f64]) -> f64 {
+        let mut rates = vec![0.0; rows.len()];
+        for ((row, column), value) in self.rows.entries.iter().zip(&self.values) {
+            if let Some(place) = rows.iter().position(|wanted| wanted == row) {
+                rates[place] += value * d[*column] / self.scales[*row];
+            }
+        }
+        rates.iter().map(|rate| rate * rate).sum()
+    }
+
+    /// True if the terms at hand, those at q, are closed: up to a part of the scene's lengths and the round-off of its
+    /// largest coordinate.
+    fn is_closed(&self, q: &[f64]) -> bool {
+        let rounding = tolerances::ROUND_OFF * largest(self.system.own(q));
+        let mut kept = (0..self.scales.len()).filter(|row| !self.without.contains(row));
+        kept.all(|row| self.terms.phi[row].abs() <= tolerances::CLOSED * self.scales[row] + rounding)
+    }
+
+    /// q = start + factor N d
+    fn go(&self, start: &[f64], d: &[f64], factor: f64, q: &mut [f64]) {
+        let mut rate = vec![0.0; q.len()];
+        self.system.rate(start, d, &mut rate);
+        q.iter_mut().zip(start).zip(&rate).for_each(|((q, start), rate)| *q = start + factor * rate);
+        self.system.normalize(q);
+    }
+
+    /// The largest rotation of a body along a step, rad.
+    fn largest_turn(&self, q: &[f64], d: &[f64]) -> f64 {
+        let mut turns = vec![0.0; self.bodies_that_turn];
+        self.system.spins(q, d, &mut turns);
+        largest(&turns)
+    }
+
+    /// d^T W d
+    fn distance(&self, d: &[f64]) -> f64 {
+        d.iter().zip(self.weigh(d)).map(|(d, weighed)| d * weighed).sum()
+    }
+
+    /// W_ii
+    fn inertia(&self, direction: usize) -> f64 {
+        let entries = self.mass.entries.iter().zip(&self.weights);
+        entries.filter(|(place, _)| **place == (direction, direction)).map(|(_, weight)| *weight).sum()
     }
 
     fn worst(&self, rows: &[f64]) -> f64 {

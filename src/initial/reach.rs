@@ -31,7 +31,8 @@ pub fn reach(alone: &mut Metric, all: &mut Metric, t: f64, q: &mut [f64]) -> Res
     }
 }
 
-/// Moves q along the path; returns how much of it, and the gaps that remain where it ends before the values.
+/// Closes the joints alone, and moves q along the path; returns how much of it, and the gaps that remain where it ends
+/// before the values.
 fn follow(
     alone: &mut Metric,
     all: &mut Metric,
@@ -40,17 +41,25 @@ fn follow(
     moved: &mut [f64],
 ) -> Result<(f64, Option<String>)> {
     position::close(alone, t, q)?;
-    all.level(t, q, moved);
     let groups = all.system.groups().into_iter().filter(|group| group.kind == INITIAL);
+    let rows: Vec<usize> = groups.flat_map(|group| group.rows).collect();
+    let done = path(all, &rows, t, q, moved);
+    Ok((done, (done < 1.0).then(|| all.culprits(&all.terms.phi))))
+}
+
+/// Moves q along the path on which phi of some rows, open by `gap` at q, goes to zero as (1 - s) gap. Returns s where it
+/// ends; the terms are those at q.
+pub(super) fn path(all: &mut Metric, rows: &[usize], t: f64, q: &mut [f64], moved: &mut [f64]) -> f64 {
+    all.residual(t, q);
     let mut gap = vec![0.0; all.terms.phi.len()];
-    groups.for_each(|group| gap[group.rows.clone()].copy_from_slice(&all.terms.phi[group.rows]));
+    rows.iter().for_each(|row| gap[*row] = all.terms.phi[*row]);
     let (mut done, mut part) = (0.0, 1.0);
     while done < 1.0 && part > tolerances::LEAST_PART {
         let next = f64::min(done + part, 1.0);
         let (mut ahead, mut change) = (q.to_vec(), moved.to_vec());
         all.ahead = gap.iter().map(|gap| (1.0 - next) * gap).collect();
         let contracts = newton(all, t, &mut ahead, &mut change).unwrap_or(false);
-        if contracts && all.level(t, &ahead, &change).phi < tolerances::CLOSED {
+        if contracts && all.residual(t, &ahead).is_finite() && all.is_closed(&ahead) {
             q.copy_from_slice(&ahead);
             moved.copy_from_slice(&change);
             (done, part) = (next, 2.0 * part);
@@ -59,6 +68,6 @@ fn follow(
         }
     }
     all.ahead.clear();
-    all.level(t, q, moved);
-    Ok((done, (done < 1.0).then(|| all.culprits(&all.terms.phi))))
+    all.residual(t, q);
+    done
 }

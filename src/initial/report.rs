@@ -20,6 +20,9 @@ pub struct Assembly {
     pub after: Level,
     /// Coordinates and velocities that changed, largest first.
     pub moves: Vec<Move>,
+    /// True if Newton's method comes from the guess to a singular state with open joints, and they closed from beside
+    /// the guess: on one of several branches.
+    pub is_beside: bool,
 }
 
 /// Largest residuals, in units of the scene's scale.

@@ -45,6 +45,9 @@ where
     fn depends_on_time(&self) -> bool {
         true
     }
+    fn prescribed(&self, t: f64) -> Option<f64> {
+        Some(self.inner.prescribed(t)? + self.value.eval(&[t]))
+    }
     fn closed_form(&self) -> Option<ClosedForm<D>> {
         None
     }

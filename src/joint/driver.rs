@@ -96,6 +96,10 @@ impl<const D: usize> JointKernel<D> for Drive<D> {
         true
     }
 
+    fn prescribed(&self, t: f64) -> Option<f64> {
+        Some(self.value.eval(&[t]))
+    }
+
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
         JointKernel::<D>::driven(self, S::zero(), frames, time, out);
     }

@@ -6,11 +6,12 @@ use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::math::{Scalar, Time};
 use std::array::from_fn;
+use std::f64::consts::TAU;
 
 /// Locks some relative translations and rotations of marker B against marker A.
 ///
 /// Translation rows: e_i . (r_B - r_A), along world axes when all are locked (then G is constant in r), else along the
-/// axes of A. Rotation rows: in the plane turn_B - turn_A; in space e_i(A) . e_j(B) for pairs of different axes. The
+/// axes of A. Rotation rows: in the plane turn_B - turn_A less full turns, as a ring of beams closes after one; in space e_i(A) . e_j(B) for pairs of different axes. The
 /// pairs of a joint share one axis, so that no row of G vanishes at a quarter turn about the free axis, as with cyclic
 /// pairs.
 #[derive(Clone)]
@@ -109,9 +110,14 @@ impl<const D: usize> JointKernel<D> for Lock<D> {
             }
         }
         for (row, &(i, j)) in rotations.iter_mut().zip(self.rotation) {
-            *row = if D == 2 { b.turn - a.turn } else { dot(&self.axis(a, i), &self.axis(b, j)) };
+            *row = if D == 2 { within_half_turn(b.turn - a.turn) } else { dot(&self.axis(a, i), &self.axis(b, j)) };
         }
     }
+}
+
+/// An angle less the nearest number of full turns.
+pub fn within_half_turn<S: Scalar>(angle: S) -> S {
+    angle - TAU * (angle.value() / TAU).round()
 }
 
 /// Right-handed orthonormal axes, by rows; number `principal` is along `direction`.

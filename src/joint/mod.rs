@@ -36,7 +36,7 @@ use std::array::from_fn;
 pub use added::Added;
 pub use coordinates::{JointCoordinate, given};
 #[doc(hidden)]
-pub use lock::Lock;
+pub use lock::{Lock, within_half_turn};
 
 /// The largest number of rows of a joint.
 pub const MOST_ROWS: usize = 6;
@@ -80,6 +80,11 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     fn prescribes(&self) -> bool {
         false
     }
+    /// The value that its row prescribes at `t`, if that is a function of t alone. Default: none.
+    #[doc(hidden)]
+    fn prescribed(&self, _t: f64) -> Option<f64> {
+        None
+    }
     /// [`phi`](Self::phi) with an input that adds to the value that is prescribed: phi - input.
     fn driven<S: Scalar>(&self, _input: S, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]) {
         self.phi(frames, time, out);
@@ -115,6 +120,9 @@ pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Dual6, D> + Send 
     fn depends_on_time(&self) -> bool;
     /// True if an input may add to the value that its only row prescribes.
     fn prescribes(&self) -> bool;
+    /// The value that its row prescribes at `t`, if that is a function of t alone.
+    #[doc(hidden)]
+    fn prescribed(&self, t: f64) -> Option<f64>;
     /// Axis of the joint with its first marker at `first`, if it has one.
     fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis>;
     /// Its form, if closed formulas between rigid bodies are known.
@@ -166,6 +174,7 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
         fn row_names(&self) -> Vec<&'static str>;
         fn depends_on_time(&self) -> bool;
         fn prescribes(&self) -> bool;
+        fn prescribed(&self, t: f64) -> Option<f64>;
         fn joint_axis(&self, first: &Frame<f64, D>) -> Option<Axis>;
         fn closed_form(&self) -> Option<ClosedForm<D>>;
         fn switching(&self, frames: &[Frame<Rate, D>], time: Time<Rate>, out: &mut [Rate]);

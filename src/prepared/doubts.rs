@@ -38,7 +38,7 @@ pub fn doubts(mechanism: &AnyMechanism, guess: &[f64], assembly: &Assembly, has_
         }
     };
     let far = turned.or_else(|| moved_far(&assembly.moves, mechanism.system().length()));
-    of_scene(mechanism).iter().cloned().chain(over).chain(far).collect()
+    of_scene(mechanism).iter().cloned().chain(over).chain(beside(assembly)).chain(far).collect()
 }
 
 /// Tyres that pull their wheels down at the start.
@@ -88,6 +88,17 @@ fn turn(names: &[String], from: &[f64], to: &[f64]) -> f64 {
     let cosine = dot(&a, &b).abs();
     let sine = norm(&from_fn::<f64, 4, _>(|k| b[k] * dot(&a, &a) - a[k] * dot(&a, &b))) / norm(&a);
     2.0 * sine.atan2(cosine)
+}
+
+/// A start that was found from beside the guess.
+fn beside(assembly: &Assembly) -> Option<Warning> {
+    let first = assembly.moves.first().filter(|_| assembly.is_beside)?;
+    let body = first.name.split('.').next().unwrap_or(&first.name);
+    let text = format!(
+        "the guess leads to a singular state, such as bars on one line: `{body}` was turned off it, to one of several \
+         branches"
+    );
+    Some(Warning::new(text, format!("give `{body}` an angle in its \"initial\" on the branch that is meant")))
 }
 
 fn moved_far(moves: &[Move], length: f64) -> Option<Warning> {

@@ -130,7 +130,7 @@ pub fn summarize(
     wall_seconds: f64,
 ) -> Summary {
     // The error that ended a run may be a consequence of leaving the branch, which is reported first.
-    let failure = record.singularity.failure().or(outcome.failure.clone());
+    let failure = record.singularity.failure_of(outcome);
     // Fixed steps go on to round-off in any case.
     let at_round_off = at_round_off(&outcome.statistics).filter(|_| prepared.method.step.is_none());
     let warnings = early.iter().cloned().chain(warnings(record)).chain(at_round_off);

@@ -18,6 +18,7 @@ mod spectrum;
 mod start;
 mod step;
 mod stiffness;
+mod travel;
 
 pub use crate::math::threads::spread;
 pub(crate) use automatic::known_methods;
@@ -40,9 +41,11 @@ use events::{Events, Passage};
 use passage::SingularPassage;
 use rows::{OutputRows, observation};
 use step::is_too_large;
+use travel::Travelled;
 
 use crate::error::{Failure, Result};
 use crate::formulation::{self, Dynamics, Statistics};
+use crate::initial::Travel;
 use crate::integrator::{self, Integrator, Problem, Tolerance};
 use crate::method_spec::MethodSpec;
 use crate::projection::{self, Projection};
@@ -121,6 +124,8 @@ struct Run<'a> {
     cut: Option<f64>,
     /// Time since which the steps tried are counted, and their number.
     progress: (f64, usize),
+    /// The travel of its drivers, if there are any.
+    travelled: Option<Travelled<'a>>,
     /// Work after which the run pauses, in evaluations: see [`Run::mark`].
     allowance: f64,
 }
@@ -202,6 +207,7 @@ impl<'a> Run<'a> {
             growing: true,
             cut: None,
             progress: (span.start, 0),
+            travelled: Travel::new(system, span.start, &y[..system.dimensions().q]).map(Travelled::new),
             allowance: f64::INFINITY,
             y,
         }
@@ -253,9 +259,14 @@ impl<'a> Run<'a> {
 
     /// Steps to the end of the span, or until the work exceeds the allowance.
     fn advance(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
+        self.take_steps(sink).map_err(|failure| self.explained(failure, sink))
+    }
+
+    fn take_steps(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
         while self.t < self.span.end && self.mark().work < self.allowance {
             self.ask(sink)?;
             self.check_progress()?;
+            self.check_crawl()?;
             let stop = self.next_stop();
             if self.integrator.leads() {
                 self.lead(stop)?;
@@ -266,6 +277,7 @@ impl<'a> Run<'a> {
             if !self.is_of_one_form(&mut size, &mut end, sink)? {
                 continue;
             }
+            self.check_travel(self.end_of(size, end))?;
             if let Some(theta) = self.output(size, end, sink)? {
                 self.problem.dynamics.statistics.rejected += 1;
                 self.cut = Some(theta * size);

@@ -72,6 +72,16 @@ impl SingularPassage {
         self.is_near() || self.rate < 0.0 && h > 0.5 * self.ahead()
     }
 
+    /// True if the last state is so near to a singular one that the next step may come there.
+    pub fn may_be_singular(&self) -> bool {
+        self.rank_indicator < tolerances::PLACED_STEPS * self.largest
+    }
+
+    /// True if no rank indicator has been added.
+    pub fn is_unknown(&self) -> bool {
+        self.t == f64::NEG_INFINITY
+    }
+
     /// True if the last state is near a singular one.
     pub fn is_near(&self) -> bool {
         self.rank_indicator < tolerances::NEAR_SINGULAR * self.largest
@@ -79,8 +89,7 @@ impl SingularPassage {
 
     /// True if steps of size `h` are too small to pass a singular state.
     pub fn is_stuck(&self, h: f64) -> bool {
-        self.rank_indicator < tolerances::PLACED_STEPS * self.largest
-            && h < tolerances::STUCK_AT_SINGULAR * self.regular
+        self.may_be_singular() && h < tolerances::STUCK_AT_SINGULAR * self.regular
     }
 
     /// Time to the singular state at the last rate, s.
@@ -94,9 +103,7 @@ impl SingularPassage {
     pub fn place(&mut self, h: f64, gap: f64) -> f64 {
         let (ahead, across) = (self.ahead(), self.ahead() / gap);
         // At a singular state there is none ahead.
-        if !(self.rank_indicator < tolerances::PLACED_STEPS * self.largest
-            && self.rank_indicator > tolerances::AT_SINGULAR * self.largest
-            && self.rate < 0.0)
+        if !(self.may_be_singular() && self.rank_indicator > tolerances::AT_SINGULAR * self.largest && self.rate < 0.0)
         {
             h
         } else if !self.is_tried && across <= h.max(self.regular) {

@@ -7,15 +7,15 @@ use super::limits::{Extent, limits};
 use super::output::column;
 use super::output_tangent::{OutputTangent, Slopes};
 use super::rows::{JointRows, PlacedJoint};
-use super::scale::{length_scale, row_scales};
+use super::scale::{length_scale, named_lengths, row_scales};
 use super::spin::{Placement, Rotation, Spin};
 use super::support::Support;
 use super::tangent::{Evaluation, OperatingPoint, Tangent};
 use super::view::{Plain, gathered};
 use super::workspace::Workspace;
 use super::{
-    Column, Dimensions, Energy, Excitation, Group, Limited, MechanicalSystem, Names, Need, Road, Scratch, Structure,
-    Terms,
+    Column, Dimensions, Energy, Excitation, Group, Limited, MechanicalSystem, Names, Need, Prescribed, Road, Scratch,
+    Structure, Terms,
 };
 use crate::body::{Frame, cross};
 use crate::math::expression::{Switch, TimeFunction};
@@ -311,6 +311,17 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
             rows: rows.range(),
         };
         joints.map(group).collect()
+    }
+
+    fn lengths(&self) -> Vec<(String, f64)> {
+        named_lengths(&self.model)
+    }
+
+    fn prescribed(&self, t: f64) -> Vec<Prescribed> {
+        let joints = self.model.joints.iter().zip(&self.joints);
+        let driven = joints.filter(|(joint, _)| joint.element.depends_on_time());
+        let rows = driven.flat_map(|(joint, rows)| rows.range().map(|row| (row, joint.element.prescribed(t))));
+        rows.map(|(row, value)| Prescribed { row, value }).collect()
     }
 
     fn outputs(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {

@@ -113,6 +113,16 @@ pub struct Group {
     pub rows: std::ops::Range<usize>,
 }
 
+/// A row of phi that depends on t explicitly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[doc(hidden)]
+pub struct Prescribed {
+    /// Its index in phi.
+    pub row: usize,
+    /// The value that it prescribes, m or rad, if the row is a coordinate minus a value.
+    pub value: Option<f64>,
+}
+
 /// Name and unit of an output or input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
@@ -325,6 +335,18 @@ pub trait MechanicalSystem: Send + Sync {
     /// Reference values of the rows of phi for drift: a length for rows in metres, 1 rad for angles. Default: 1.
     fn scales(&self) -> Vec<f64> {
         vec![1.0; self.dimensions().lambda]
+    }
+
+    /// Lengths by name, m, for messages: of bodies, from the origin to the farthest marker, and of rods. Default: none.
+    #[doc(hidden)]
+    fn lengths(&self) -> Vec<(String, f64)> {
+        Vec::new()
+    }
+
+    /// The rows of phi that depend on t explicitly, with the values that they prescribe at `t`. Default: none.
+    #[doc(hidden)]
+    fn prescribed(&self, _t: f64) -> Vec<Prescribed> {
+        Vec::new()
     }
 
     /// The rows of phi by joint. Default: each row is a group of its own.

@@ -8,7 +8,7 @@
 //! | all translations, e_i of the world | e . r | e . r' | e . r'' |
 //! | translation along e of A | e . r | e . (r' - w_A x r) | e . (r'' - 2 w_A x r' + w_A x (w_A x r)) |
 //! | rod | abs(r) - l | u . r' | (r' . r' - phi'^2)/abs(r) + u . r'' |
-//! | rotation in the plane | turn_B - turn_A | d | 0 |
+//! | rotation in the plane | turn_B - turn_A less full turns | d | 0 |
 //! | rotation in space, e of A and b of B | e . b | -d . n | (d . e) (d . b) - d^2 e . b + (w_A x d) . n |
 //!
 //! with u = r/abs(r) and n = e x b. Rows of G are the generalized forces of what a unit of lambda does to the bodies: a
@@ -18,7 +18,7 @@
 use super::Need;
 use super::rows::JointRows;
 use crate::body::{Frame, Freedom, MarkerId, Pose, cross, dot, in_space, sub, twist_len};
-use crate::joint::{ClosedForm, Joint, Lock};
+use crate::joint::{ClosedForm, Joint, Lock, within_half_turn};
 use crate::math::kkt::Lever;
 use crate::math::{Scalar, Taylor};
 use crate::scene::{Connection, Model};
@@ -252,7 +252,7 @@ impl<const D: usize> Rows<'_, D> {
         if D == 2 {
             for row in first..first + lock.rotation.len() {
                 let turn = b.turn + self.sides[1].turn - (a.turn + self.sides[0].turn);
-                let level = Taylor::new(turn, b.spin[2] - a.spin[2], 0.0);
+                let level = Taylor::new(within_half_turn(turn), b.spin[2] - a.spin[2], 0.0);
                 self.row(row, level, &[0.0; D], &[0.0, 0.0, -1.0], &[0.0, 0.0, 1.0]);
             }
             return;

@@ -207,6 +207,7 @@ impl MechanicalSystem for Rotating<'_> {
         fn length(&self) -> f64;
         fn scales(&self) -> Vec<f64>;
         fn groups(&self) -> Vec<Group>;
+        fn lengths(&self) -> Vec<(String, f64)>;
     }
 
     fn structure(&self) -> Structure {

@@ -1,6 +1,8 @@
 //! Assembly, static equilibrium, charts and projections: what makes a state consistent.
 
-pub use super::{NEWTON_HALVES, NEWTON_STAGNATION, REDUNDANT_ROWS_CLOSED, ROUND_OFF_OF_PHI, ROUND_OFF_OF_SUMS, SAME};
+pub use super::{
+    NEWTON_HALVES, NEWTON_STAGNATION, REDUNDANT_ROWS_CLOSED, ROUND_OFF, ROUND_OFF_OF_PHI, ROUND_OFF_OF_SUMS, SAME,
+};
 
 /// What is left of a column of Z Z^T where all directions of motion are found.
 /// Unit: `[1]` of the column without constraints. Why: a choice, above the round-off of the saddle-point system over
@@ -145,16 +147,86 @@ pub const FOLLOWED: f64 = 1e-11;
 /// none: not tried with other values.
 pub const LEAST_WEIGHT: f64 = 1e-6;
 
-/// Iterations at most of the assembly.
-/// Unit: `[iterations]`. Why: a choice: guesses may be far off. Test: none: a bound of work, not tried.
-pub const ASSEMBLY_ITERATIONS: usize = 200;
+/// Damped Newton's steps at most from a guess to closed joints.
+/// Unit: `[steps]`. Why: loops of random angles take 56 at most. Test: none: a bound of work, not tried.
+pub const CLOSING_STEPS: usize = 80;
+
+/// The largest rotation of a body in a step of the assembly.
+/// Unit: `[rad]`. Why: a choice: beyond, a step is none along the circles on which bars move. Test: none: with 0.3 to 3
+/// the same loops close.
+pub const LARGEST_TURN: f64 = 0.7;
+
+/// Halvings of a step of the assembly before it is given up.
+/// Unit: `[halvings]`. Why: a choice. Test: none: a bound of work, not tried.
+pub const STEP_HALVINGS: usize = 12;
+
+/// A step of Newton's method reduces |phi| by this part of what it would where phi is linear.
+/// Unit: `[1]`. Why: a choice, as of other line searches. Test: none: not tried with other values.
+pub const FALL_OF_RESIDUAL: f64 = 0.1;
+
+/// Beginnings of the assembly beside its guess where it does not close from there.
+/// Unit: `[beginnings]`. Why: of 199 loops with random angles one needs four. Test: `loops_close_from_random_angles`.
+pub const RESTARTS: usize = 12;
+
+/// Beginnings of the assembly beside its guess where there are many velocities.
+/// Unit: `[beginnings]`. Why: each takes seconds. Test: none: a bound of work, not tried.
+pub const FEW_RESTARTS: usize = 3;
+
+/// Velocities from which on the assembly begins less often.
+/// Unit: `[velocities]`. Why: a choice. Test: none: a bound of work, not tried.
+pub const LARGE_ASSEMBLY: usize = 300;
+
+/// Distance from the guess of the first beginning beside it; the next are farther.
+/// Unit: `[rad]`, or the scene's length. Why: a choice. Test: `a_guess_on_one_line_is_left`.
+pub const BESIDE: f64 = 0.1;
+
+/// Steps at most along the constraints to the state nearest to the guess.
+/// Unit: `[steps]`. Why: a choice: what is closed can begin. Test: none: a bound of work, not tried.
+pub const APPROACH_STEPS: usize = 100;
+
+/// Steps towards the nearest state that are this small end there.
+/// Unit: `[m, rad]` over 1 and the way from the guess. Why: round-off. Test: none: not tried with other values.
+pub const SETTLED: f64 = 1e-12;
+
+/// Steps towards the nearest state below this are judged by their size, not by the distance.
+/// Unit: `[m, rad]` over 1 and the way from the guess. Why: the square root of rounding, with a margin. Test: none: not
+/// tried with other values.
+pub const STEP_DECIDES: f64 = 1e-6;
+
+/// Small steps towards the nearest state that do not fall below this part of the smallest are round-off.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
+pub const STAGNANT_STEP: f64 = 0.9;
+
+/// Joints that may be what is in the way have gaps of this part of the largest.
+/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
+pub const PART_OF_GAP: f64 = 1e-3;
+
+/// Joints that are left out one after the other to see whether the others close.
+/// Unit: `[joints]`. Why: a choice. Test: none: a bound of work, not tried.
+pub const JOINTS_TRIED: usize = 8;
+
+/// A gap that falls by less than the rest shows that the other joints leave no freedom to close it.
+/// Unit: `[1]` of the gap. Why: a choice, above round-off. Test: `a_joint_too_many_is_named`.
+pub const GAP_FALLS: f64 = 1.0 - 1e-6;
+
+/// A gap that falls by less than this in a step is the least.
+/// Unit: `[1]` of the gap. Why: a choice: four digits are told. Test: `a_bar_that_is_too_short_is_named_with_the_gap`.
+pub const GAP_SETTLED: f64 = 1e-7;
+
+/// Lengths in a scene that does not close of which some may be in millimetres.
+/// Unit: `[1]`, the largest over the smallest. Why: half of a thousand. Test: `millimetres_among_metres_are_named`.
+pub const UNLIKE_LENGTHS: f64 = 500.0;
+
+/// Digits of the value that a driver asks for, and of the end of its travel.
+/// Unit: `[digits]`. Why: the end is known to some ten. Test: `a_driver_beyond_its_travel_is_named`.
+pub const DIGITS_OF_TRAVEL: usize = 9;
 
 /// The least part of the way to the coordinates in `initial` that is tried before the path is taken to end.
 /// Unit: `[1]`. Why: near a dead centre steps shrink with the root of what is left. Test:
 /// `a_loop_is_turned_to_an_angle_far_from_the_guess`.
 pub const LEAST_PART: f64 = 1e-4;
 
-/// The largest phi of a closed loop after assembly.
+/// The largest phi of a closed loop after assembly, beside round-off of the largest coordinate.
 /// Unit: `[1]` of the scene's scale. Why: round-off of chains of transformations, up to thousands of them. Test: none:
 /// with a thousand times more or less the tests of its room pass.
 pub const CLOSED: f64 = 1e-10;
@@ -172,3 +244,24 @@ pub const NEARLY_THERE: f64 = 0.999;
 /// Unit: `[1]`. Why: half of the digits of the velocities would be lost. Test:
 /// `a_rate_at_a_dead_centre_is_refused`.
 pub const DEAD_CENTRE: f64 = 1e-7;
+
+/// The end of a travel is found to this part of the run.
+/// Unit: `[1]`. Why: round-off of a driver's value, with a margin. Test: `a_driver_beyond_its_travel_is_named`.
+pub const TRAVEL_RESOLVED: f64 = 1e-12;
+
+/// A state that is closed for a driver is the continuation of another within this distance.
+/// Unit: `[m, rad]` over 1 and the largest coordinate. Why: a choice: other configurations are farther. Test: none: not
+/// tried with other values.
+pub const TRAVEL_NEAR: f64 = 0.1;
+
+/// The driver to blame is one without which the joints close this part of the run after the end of the travel.
+/// Unit: `[1]`. Why: a choice. Test: `a_driver_beyond_its_travel_is_named`.
+pub const TRAVEL_BEYOND: f64 = 1e-3;
+
+/// Samples of what a driver asks for after the end of its travel.
+/// Unit: `[samples]`. Why: a choice of how much a message says. Test: none: not tried with other values.
+pub const TRAVEL_SAMPLES: u32 = 400;
+
+/// Thirds that are cut off around the extreme of what a driver asks for.
+/// Unit: `[1]`. Why: (2/3)^60 is below round-off. Test: `a_driver_beyond_its_travel_is_named`.
+pub const EXTREME_HALVINGS: usize = 60;

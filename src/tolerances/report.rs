@@ -230,3 +230,7 @@ pub const STEPS_AT_ROUND_OFF: f64 = 0.1;
 /// Unit: `[deg]`. Why: a choice: ten digits of a response of a damped one are farther away. Test: none: not tried with
 /// other values.
 pub const UNDAMPED_PHASE: f64 = 1e-3;
+
+/// A branch that was left so soon before a run ended was left because of what ended it.
+/// Unit: `[1]` of the time. Why: a choice. Test: `a_driver_beyond_its_travel_is_named`.
+pub const LEFT_AT_END: f64 = 1e-5;

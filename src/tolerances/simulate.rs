@@ -376,3 +376,24 @@ pub const STEPS_FOR_STABILITY: f64 = 150.0;
 /// Unit: `[velocities]`. Why: a step of a chain takes 100 times as long as by index 1 there, with 300 600 times. Test:
 /// `dense_formulations_of_large_systems_are_warned_of`.
 pub const LARGE_FOR_DENSE: usize = 100;
+
+/// Constraints that are open by more may be so because a driver is beyond its travel.
+/// Unit: `[1]` of their scales. Why: a choice: a look takes some factorizations. Test:
+/// `a_driver_beyond_its_travel_is_named`.
+pub const TRAVEL_OPEN: f64 = 1e-6;
+
+/// Steps after which the travel of drivers is looked at where no rank indicator is known.
+/// Unit: `[steps]`. Why: a choice: a look takes as long as a few steps. Test: `a_driver_beyond_its_travel_is_named`.
+pub const TRAVEL_STEPS: usize = 20;
+
+/// A run that fails so soon before the end of a travel fails because of it.
+/// Unit: `[1]` of the span. Why: a choice. Test: `a_driver_beyond_its_travel_is_named`.
+pub const TRAVEL_AHEAD: f64 = 1e-3;
+
+/// Steps tried that come no farther than TRAVEL_AHEAD: they may crawl towards the end of a travel.
+/// Unit: `[steps]`. Why: a choice: a look takes as long as a few steps. Test: `a_driver_beyond_its_travel_is_named`.
+pub const TRAVEL_TRIES: usize = 500;
+
+/// The time ahead in which a run that crawls may come to the end of a travel.
+/// Unit: `[1]` of the span. Why: a choice. Test: `a_driver_beyond_its_travel_is_named`.
+pub const TRAVEL_AHEAD_OF_CRAWL: f64 = 1e-2;

@@ -75,6 +75,39 @@ fn joints_start_at_the_positions_that_they_are_given() {
     assert!((at("lower.qw") - half.cos()).abs() < 1e-12 && (at("lower.qy") - half.sin()).abs() < 1e-12);
 }
 
+/// The same positions in the guess itself.
+#[test]
+fn joints_are_imported_at_given_positions() {
+    let positions = ["shoulder=-0.5", "elbow=1.2"].map(|given| given.parse().unwrap()).to_vec();
+    let scene = import(ARM, &Options { positions, ..Options::default() }).unwrap().scene;
+    assert_eq!(scene["initial"], serde_json::json!({ "shoulder.angle": -0.5, "elbow.angle": 1.2 }));
+    let half = 0.5 * (0.7 + std::f64::consts::FRAC_PI_2);
+    let turn: Vec<f64> =
+        scene["bodies"][1]["initial"]["rotation"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    assert!((turn[0] - half.cos()).abs() < 1e-15 && (turn[2] - half.sin()).abs() < 1e-15, "{turn:?}");
+    let refused = |given: &str| {
+        let positions = vec![given.parse().unwrap()];
+        import(ARM, &Options { positions, ..Options::default() }).unwrap_err().to_string()
+    };
+    assert!(refused("sholder=1").contains("at --at: there is no joint `sholder`"));
+    assert!(refused("flange=1").contains("`flange` has no coordinate"));
+}
+
+/// A closed loop that position zero is not: the crank is of length 1 with its support at 2.5 instead of 2.
+#[test]
+fn a_loop_is_closed_from_a_posture() {
+    let text = CHAIN.replace("xyz=\"2 0 0\"/><parent link=\"base\"", "xyz=\"2.5 0 0\"/><parent link=\"base\"");
+    let closures = vec!["D=revolute:coupler@2,0,0:rocker@0,0,1:axis=0,1,0".parse().unwrap()];
+    let positions = vec!["A=-0.4".parse().unwrap(), "C=0.5".parse().unwrap()];
+    let scene = import(&text, &Options { closures, positions, ..Options::default() }).unwrap().scene;
+    let ready = parse(&scene.to_string());
+    let names = ready.system().names().q;
+    let turn = |body: &str| ready.start().q[names.iter().position(|known| *known == format!("{body}.qy")).unwrap()];
+    assert!(ready.start().after.phi < 1e-12);
+    // Near the posture: the crank leans by 0.4 against the other way.
+    assert!((2.0 * turn("crank").asin() + 0.4).abs() < 0.4, "{}", turn("crank"));
+}
+
 /// Three bars between supports, closed at position zero: crank 1 up, coupler 2 along x, rocker 1 down to the base.
 const CHAIN: &str = r#"<robot name="four_bar">
   <link name="base"/>

@@ -5,6 +5,7 @@ mod n_four_bar;
 mod parallelogram;
 mod reference;
 mod slider_crank;
+mod travel;
 
 use crate::scenes::Run;
 use holonom::method_spec::MethodSpec;

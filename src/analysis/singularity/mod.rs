@@ -5,7 +5,7 @@ mod path;
 mod survey;
 
 use crate::error::{Failure, short_list};
-use crate::simulate::Observation;
+use crate::simulate::{Observation, Outcome};
 use crate::system::MechanicalSystem;
 use crate::tolerances::report as tolerances;
 use branch::Turning;
@@ -83,6 +83,17 @@ impl Singularity {
              motion from its branch, and what comes after is not the motion of the scene"
         );
         Some(Failure { t: *t, reason, hint: "choose a projection such as `manifold`, or a smaller step".to_string() })
+    }
+}
+
+impl Singularity {
+    /// Returns the failure of a run with this outcome: that of a motion that left its branch, unless the run ended at
+    /// that state, for a reason of its own.
+    pub fn failure_of(&self, outcome: &Outcome) -> Option<Failure> {
+        let ended = outcome.failure.clone();
+        let own = ended.as_ref().map_or(f64::INFINITY, |failure| failure.t);
+        let left = self.failure().filter(|left| left.t < own - tolerances::LEFT_AT_END * own.abs());
+        left.or(ended)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::error::{Error, suggest};
 use std::str::FromStr;
 
-/// A joint between two links at position zero: `[NAME=]TYPE:LINK@X,Y,Z:LINK@X,Y,Z[:axis=X,Y,Z]`.
+/// A joint between two links, whose axes coincide at position zero: `[NAME=]TYPE:LINK@X,Y,Z:LINK@X,Y,Z[:axis=X,Y,Z]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closure {
     /// Name of the joint.

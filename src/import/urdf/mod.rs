@@ -1,9 +1,10 @@
 //! Scenes from URDF, the Unified Robot Description Format (<http://wiki.ros.org/urdf/XML>).
 //!
 //! A link becomes a rigid body whose origin and axes are those of the link; what fixed joints hold together becomes one
-//! body. Joints stand at position zero. Loops, which URDF cannot describe, are closed by [`Closure`]s.
+//! body. Joints stand at the given positions, by default at zero. Loops, which URDF cannot describe, are closed by [`Closure`]s.
 
 mod close;
+mod given;
 mod names;
 mod read;
 mod scene;
@@ -11,6 +12,7 @@ mod transform;
 mod tree;
 
 pub use close::Closure;
+pub use given::Given;
 
 use crate::error::Result;
 use serde_json::Value;
@@ -24,6 +26,8 @@ pub struct Options {
     pub is_free: bool,
     /// Joints that close loops.
     pub closures: Vec<Closure>,
+    /// Positions of joints; all others are zero, or follow those that they mimic.
+    pub positions: Vec<Given>,
 }
 
 /// A scene with what was left out of it.
@@ -42,6 +46,7 @@ pub struct Imported {
 /// line and column in the text.
 pub fn import(text: &str, options: &Options) -> Result<Imported> {
     let robot = read::robot(text)?;
-    let tree = tree::Tree::of(&robot, options.base.as_deref())?;
+    let positions = given::positions(&robot, &options.positions).map_err(|error| error.under("--at"))?;
+    let tree = tree::Tree::of(&robot, options.base.as_deref(), positions)?;
     scene::build(&robot, &tree, options)
 }

@@ -1,8 +1,9 @@
 //! The XML of a robot.
 
 use super::transform::Transform;
+use crate::body::norm;
 use crate::error::{Error, Result, excerpt, suggest};
-use crate::math::rotation::Matrix3;
+use crate::math::rotation::{Matrix3, quaternion_from_vector};
 use roxmltree::{Document, Node};
 
 /// A robot as its file describes it.
@@ -64,6 +65,20 @@ impl Joint {
     /// True if its position is one number.
     pub fn has_coordinate(&self) -> bool {
         matches!(self.kind, Kind::Revolute | Kind::Prismatic)
+    }
+
+    /// The frame of the child at a position in that at position zero.
+    pub fn moved(&self, position: f64) -> Transform {
+        let size = norm(&self.axis);
+        if position == 0.0 || size == 0.0 {
+            return Transform::default();
+        }
+        let along = self.axis.map(|x| position * x / size);
+        match self.kind {
+            Kind::Revolute => Transform { r: [0.0; 3], turn: quaternion_from_vector(&along) },
+            Kind::Prismatic => Transform { r: along, ..Transform::default() },
+            Kind::Planar | Kind::Floating | Kind::Fixed => Transform::default(),
+        }
     }
 }
 

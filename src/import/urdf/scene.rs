@@ -13,7 +13,7 @@ use serde_json::{Map, Value, json};
 use std::array::from_fn;
 use std::collections::BTreeMap;
 
-/// The scene at position zero of all joints, with what was left out.
+/// The scene at the positions of the joints, with what was left out.
 pub fn build(robot: &Robot, tree: &Tree, options: &Options) -> Result<Imported> {
     let mut names = Names::default();
     let links: Vec<String> = robot.links.iter().map(|link| names.unique(&link.name)).collect();
@@ -120,7 +120,9 @@ impl Draft<'_> {
             _ => {}
         }
         let coordinate = if joint.kind == Kind::Revolute { "angle" } else { "position" };
-        self.scene.initial.insert(format!("{name}.{coordinate}"), json!(0));
+        let position = self.tree.positions[index];
+        let position = if position == 0.0 { json!(0) } else { json!(position) };
+        self.scene.initial.insert(format!("{name}.{coordinate}"), position);
         self.scene.outputs.push(output);
         Ok(())
     }
@@ -153,8 +155,8 @@ impl Draft<'_> {
                 .hint("name links that joints let move"));
         }
         let axes = aimed(closure.axis)?;
-        // The same axes in the world.
-        let turned = self.tree.frames[b].inverse().then(&self.tree.frames[a]).then(&axes);
+        // The same axes in the world at position zero, so that positions of joints change the guess alone.
+        let turned = self.tree.at_zero[b].inverse().then(&self.tree.at_zero[a]).then(&axes);
         let between = [
             self.mark(a, &Transform { r: *at_a, ..axes }, name),
             self.mark(b, &Transform { r: *at_b, ..turned }, name),
@@ -197,7 +199,7 @@ impl Draft<'_> {
     fn scene(&self, options: &Options) -> Value {
         let mut scene = json!({
             "name": Names::default().unique(&self.robot.name),
-            "about": about(self.robot),
+            "about": about(self.robot, options),
             "dimension": 3,
             "gravity": [0, 0, -9.81],
             "bodies": self.bodies().map(|body| self.body(body)).collect::<Vec<_>>(),
@@ -235,11 +237,14 @@ fn turned(tensor: &Matrix3, frame: &Transform) -> Matrix3 {
     from_fn(|i| frame.rotated(&columns.map(|column| column[i])))
 }
 
-fn about(robot: &Robot) -> String {
+fn about(robot: &Robot, options: &Options) -> String {
     let meshes = robot.links.iter().filter(|link| !link.meshes.is_empty());
     let meshes: Vec<String> = meshes.map(|link| format!("{}: {}", link.name, link.meshes.join(", "))).collect();
     let told = if meshes.is_empty() { String::new() } else { format!(" Meshes, not used: {}.", meshes.join("; ")) };
-    format!("The robot {} from its URDF, joints at position zero.{told}", robot.name)
+    let given: Vec<String> =
+        options.positions.iter().map(|given| format!("{} = {}", given.joint, given.value)).collect();
+    let at = if given.is_empty() { String::new() } else { format!(" but {}", given.join(", ")) };
+    format!("The robot {} from its URDF, joints at position zero{at}.{told}", robot.name)
 }
 
 /// What the scene does not have.

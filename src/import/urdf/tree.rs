@@ -5,20 +5,24 @@ use super::transform::Transform;
 use crate::error::{Error, Result, short_list};
 use std::collections::HashMap;
 
-/// Places of the links at position zero of all joints, and the links that are one body.
+/// Places of the links at the positions of the joints, and the links that are one body.
 pub struct Tree {
     /// Index of the link that is the base.
     pub base: usize,
     /// Frame of each link in that of the base.
     pub frames: Vec<Transform>,
+    /// The same at position zero of all joints.
+    pub at_zero: Vec<Transform>,
     /// For each link, the first of those that fixed joints hold together with it; the base for its own.
     pub body: Vec<usize>,
     /// Indices of the parent and child of each joint.
     pub ends: Vec<[usize; 2]>,
+    /// Position of each joint, rad or m.
+    pub positions: Vec<f64>,
 }
 
 impl Tree {
-    pub fn of(robot: &Robot, base: Option<&str>) -> Result<Tree> {
+    pub fn of(robot: &Robot, base: Option<&str>, positions: Vec<f64>) -> Result<Tree> {
         let index = indices(robot)?;
         let ends = robot.joints.iter().map(|joint| joint_ends(joint, &index)).collect::<Result<Vec<_>>>()?;
         let parents = parents(robot, &ends)?;
@@ -40,21 +44,26 @@ impl Tree {
         };
         let order = order(robot, &parents, &ends)?;
         let mut frames = vec![Transform::default(); robot.links.len()];
+        let mut at_zero = frames.clone();
         let mut body: Vec<usize> = (0..robot.links.len()).collect();
         for link in order {
-            if let Some(joint) = parents[link] {
-                let parent = ends[joint][0];
-                frames[link] = frames[parent].then(&robot.joints[joint].origin);
-                if robot.joints[joint].kind == Kind::Fixed {
+            if let Some(index) = parents[link] {
+                let (joint, parent) = (&robot.joints[index], ends[index][0]);
+                frames[link] = frames[parent].then(&joint.origin).then(&joint.moved(positions[index]));
+                at_zero[link] = at_zero[parent].then(&joint.origin);
+                if joint.kind == Kind::Fixed {
                     body[link] = body[parent];
                 }
             }
         }
         let base = base.map_or(Ok(root), |name| find(robot, name).map_err(|error| error.under("--base")))?;
-        let (back, held) = (frames[base].inverse(), body[base]);
-        let frames = frames.iter().map(|frame| back.then(frame)).collect();
+        let held = body[base];
+        let [frames, at_zero] = [frames, at_zero].map(|frames| {
+            let back = frames[base].inverse();
+            frames.iter().map(|frame| back.then(frame)).collect()
+        });
         body.iter_mut().filter(|body| **body == held).for_each(|body| *body = base);
-        Ok(Tree { base, frames, body, ends })
+        Ok(Tree { base, frames, at_zero, body, ends, positions })
     }
 }
 

@@ -50,6 +50,7 @@ impl MechanicalSystem for Pushed<'_> {
         fn length(&self) -> f64;
         fn scales(&self) -> Vec<f64>;
         fn groups(&self) -> Vec<Group>;
+        fn lengths(&self) -> Vec<(String, f64)>;
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {

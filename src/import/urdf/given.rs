@@ -1,0 +1,63 @@
+//! Positions of joints, as the command line gives them.
+
+use super::read::Robot;
+use crate::error::{Error, Result, find};
+use crate::math::expression::constant;
+use std::str::FromStr;
+
+/// The position of a joint: `JOINT=VALUE`, rad or m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Given {
+    /// Name of the joint in the file.
+    pub joint: String,
+    /// Its angle, rad, or its displacement, m.
+    pub value: f64,
+}
+
+impl FromStr for Given {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let form = "write JOINT=VALUE, in rad or m, such as knee=0.5 or hip=-pi/6";
+        let faulty = |what: String| Error::input(what).hint(form);
+        let (joint, value) = text.rsplit_once('=').ok_or_else(|| faulty(format!("`{text}` has no value")))?;
+        let value = constant(value).filter(|value| value.is_finite());
+        let value = value.ok_or_else(|| faulty(format!("the position of `{joint}` is no number")))?;
+        Ok(Given { joint: joint.to_string(), value })
+    }
+}
+
+/// The position of each joint: as given, or as that of the joint that it mimics, or zero.
+pub fn positions(robot: &Robot, given: &[Given]) -> Result<Vec<f64>> {
+    let index = |name: &str| find("joint", name, robot.joints.iter().map(|joint| joint.name.as_str()));
+    let mut positions = vec![None; robot.joints.len()];
+    for Given { joint, value } in given {
+        let place = index(joint)?;
+        if !robot.joints[place].has_coordinate() {
+            return Err(Error::input(format!("`{joint}` has no coordinate")).hint("joints that turn or slide have one"));
+        }
+        if positions[place].replace(*value).is_some() {
+            return Err(Error::input(format!("`{joint}` has two positions")).hint("give one of them"));
+        }
+    }
+    for (place, joint) in robot.joints.iter().enumerate() {
+        let Some(mimic) = &joint.mimic else { continue };
+        let leader = robot.joints.iter().position(|known| known.name == mimic.joint);
+        let lead = leader.and_then(|leader| positions[leader]);
+        positions[place] = positions[place].or(lead.map(|lead| mimic.multiplier * lead + mimic.offset));
+    }
+    Ok(positions.into_iter().map(Option::unwrap_or_default).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Given;
+
+    #[test]
+    fn positions_are_read_or_refused() {
+        let read = |text: &str| text.parse::<Given>().map_err(|error| error.to_string());
+        assert_eq!(read("knee=-pi/2").map(|given| given.value), Ok(-std::f64::consts::FRAC_PI_2));
+        assert!(read("knee").unwrap_err().starts_with("`knee` has no value"));
+        assert!(read("knee=x").unwrap_err().starts_with("the position of `knee` is no number"));
+    }
+}

@@ -1,0 +1,97 @@
+//! phi = 0 from a guess, by damped Newton's method in the mass metric.
+
+use super::Metric;
+use super::position::step;
+use crate::error::Result;
+use crate::tolerances::initial as tolerances;
+
+/// Closes the joints: d = -W^-1 G^T (G W^-1 G^T)^-1 phi, damped until |phi| falls. Where that ends at an open state, G
+/// has lost rank there, such as with all bars of a loop on one line. Then it begins again from states beside the guess.
+/// Returns true if the joints are closed; else q is the open state with the smallest |phi|. Adds the way to `moved`.
+///
+/// # Errors
+/// Constraints that are infinite at the guess.
+pub fn close(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
+    let guess = (q.to_vec(), moved.to_vec());
+    if attempt(metric, t, q, moved)? {
+        return Ok(true);
+    }
+    let mut least = metric.residual(t, q);
+    for number in 1..=restarts(moved.len()) {
+        let (mut from, mut way) = guess.clone();
+        beside(metric, number, &mut from, &mut way);
+        // A state beside the guess may be where an expression has no value.
+        let is_closed = attempt(metric, t, &mut from, &mut way).unwrap_or(false);
+        let residual = metric.residual(t, &from);
+        if is_closed || residual < least {
+            q.copy_from_slice(&from);
+            moved.copy_from_slice(&way);
+            least = residual;
+        }
+        if is_closed {
+            metric.is_beside = true;
+            return Ok(true);
+        }
+    }
+    metric.residual(t, q);
+    Ok(false)
+}
+
+/// Number of further beginnings: fewer for large systems, where each takes long.
+fn restarts(velocities: usize) -> usize {
+    if velocities > tolerances::LARGE_ASSEMBLY { tolerances::FEW_RESTARTS } else { tolerances::RESTARTS }
+}
+
+/// Damped Newton's method from one guess; true if it ends closed, as far as round-off lets the residual fall.
+pub(super) fn attempt(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
+    let still = vec![0.0; moved.len()];
+    let mut last = f64::INFINITY;
+    for _ in 0..tolerances::CLOSING_STEPS {
+        metric.at(t, q, &still)?;
+        let residual = metric.size_of_phi();
+        let is_closed = metric.is_closed(q);
+        if is_closed && residual >= tolerances::NEWTON_HALVES * last {
+            return Ok(true);
+        }
+        last = residual;
+        let d = step(metric, None)?;
+        let factor = (tolerances::LARGEST_TURN / metric.largest_turn(q, &d)).min(1.0);
+        let Some(taken) = advance(metric, t, q, (&d, factor), residual) else { return Ok(is_closed) };
+        moved.iter_mut().zip(&d).for_each(|(moved, d)| *moved += taken * d);
+    }
+    metric.residual(t, q);
+    Ok(metric.is_closed(q))
+}
+
+/// Moves q along a step, halved until the residual falls; returns the part that is taken. `None` where it does not fall,
+/// with q unchanged.
+fn advance(metric: &mut Metric, t: f64, q: &mut [f64], (d, full): (&[f64], f64), residual: f64) -> Option<f64> {
+    let start = q.to_vec();
+    let mut factor = full;
+    for _ in 0..tolerances::STEP_HALVINGS {
+        metric.go(&start, d, factor, q);
+        if metric.residual(t, q) < residual * (1.0 - tolerances::FALL_OF_RESIDUAL * factor) {
+            return Some(factor);
+        }
+        factor *= 0.5;
+    }
+    q.copy_from_slice(&start);
+    None
+}
+
+/// Moves q away from the guess, farther with each number, along none of the held directions. The directions are a Weyl
+/// sequence: the fractional parts of multiples of the golden ratio.
+fn beside(metric: &Metric, number: usize, q: &mut [f64], moved: &mut [f64]) {
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let amplitude = (tolerances::BESIDE * number as f64).min(1.0);
+    let length = metric.system.length();
+    let mut away = vec![0.0; moved.len()];
+    for (i, away) in away.iter_mut().enumerate() {
+        let place = 2.0 * (golden * (number * moved.len() + i + 1) as f64).fract() - 1.0;
+        *away = amplitude * place * (length / metric.inertia(i).sqrt()).min(1.0);
+    }
+    metric.held.iter().for_each(|held| away[*held] = 0.0);
+    let start = q.to_vec();
+    metric.go(&start, &away, 1.0, q);
+    moved.iter_mut().zip(&away).for_each(|(moved, away)| *moved += away);
+}

@@ -1,0 +1,74 @@
+//! The state nearest to the guess among those with phi = 0.
+
+use super::Metric;
+use super::position::step;
+use crate::error::Result;
+use crate::math::largest;
+use crate::tolerances::initial as tolerances;
+
+/// Moves a closed q along the constraints until |q - q_0|_W is least, by steps [W G^T; G 0] [d; .] = [-W (q - q_0);
+/// -phi]. A step is halved until the joints close after it by Newton's method with the matrix before it, and the
+/// distance falls. Where no step does so, the last closed state is kept. `moved` is the way from the guess.
+///
+/// # Errors
+/// None from a closed state where the constraints are smooth.
+pub fn approach(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<()> {
+    let still = vec![0.0; moved.len()];
+    let mut smallest = f64::INFINITY;
+    for _ in 0..tolerances::APPROACH_STEPS {
+        metric.at(t, q, &still)?;
+        let d = step(metric, Some(moved))?;
+        let size = largest(&d);
+        let travel = 1.0 + largest(moved);
+        // Near the nearest state the distance changes by the square of the step: by its round-off.
+        let is_close = size <= tolerances::STEP_DECIDES * travel;
+        if size <= tolerances::SETTLED * travel || (is_close && size > tolerances::STAGNANT_STEP * smallest) {
+            break;
+        }
+        smallest = smallest.min(size);
+        let Some(next) = tried(metric, t, (q, moved), &d, is_close) else { break };
+        q.copy_from_slice(&next.0);
+        moved.copy_from_slice(&next.1);
+    }
+    Ok(())
+}
+
+/// The closed state after a step, with the way to it.
+fn tried(
+    metric: &mut Metric,
+    t: f64,
+    (q, moved): (&[f64], &[f64]),
+    d: &[f64],
+    is_close: bool,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let before = metric.distance(moved);
+    let mut factor = (tolerances::LARGEST_TURN / metric.largest_turn(q, d)).min(1.0);
+    for _ in 0..tolerances::STEP_HALVINGS {
+        let (mut ahead, mut way) = (q.to_vec(), moved.to_vec());
+        metric.go(q, d, factor, &mut ahead);
+        way.iter_mut().zip(d).for_each(|(way, d)| *way += factor * d);
+        if corrected(metric, t, &mut ahead, &mut way) && (is_close || metric.distance(&way) < before) {
+            return Some((ahead, way));
+        }
+        factor *= 0.5;
+    }
+    None
+}
+
+/// Newton's method with the matrix at hand; true if it closes the joints.
+pub(super) fn corrected(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> bool {
+    let mut last = f64::INFINITY;
+    for _ in 0..tolerances::CLOSING_ITERATIONS {
+        let residual = metric.residual(t, q);
+        let is_slow = residual.is_nan() || residual > tolerances::NEWTON_HALVES * last;
+        if metric.is_closed(q) || is_slow {
+            return metric.is_closed(q);
+        }
+        last = residual;
+        let Ok(d) = step(metric, None) else { return false };
+        let start = q.to_vec();
+        metric.go(&start, &d, 1.0, q);
+        moved.iter_mut().zip(&d).for_each(|(moved, d)| *moved += d);
+    }
+    false
+}

@@ -1,0 +1,139 @@
+//! The end of a travel: the time from which on the joints can no longer follow a driver.
+//!
+//! There G(q, t) loses rank, and phi_t has a part along the lost row: phi' = G v + phi_t = 0 has no solution v.
+
+use super::diagnosis::is_length;
+use super::{Metric, closing};
+use crate::error::significant;
+use crate::math::largest;
+use crate::system::{Group, MechanicalSystem};
+use crate::tolerances::initial as tolerances;
+
+/// The joints of a system with drivers, closed at one time after the other.
+pub struct Travel<'a> {
+    metric: Metric<'a>,
+    driven: Vec<Group>,
+    /// The last closed state.
+    last: (f64, Vec<f64>),
+}
+
+/// The end of a travel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TravelEnd {
+    /// Time, s.
+    pub t: f64,
+    /// The driver, the value that it asks for and the value at the end.
+    pub reason: String,
+}
+
+impl<'a> Travel<'a> {
+    /// Begins at a consistent state; `None` for a system without drivers.
+    pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64]) -> Option<Self> {
+        let rows: Vec<usize> = system.prescribed(t).iter().map(|driven| driven.row).collect();
+        let mut driven = system.groups();
+        driven.retain(|group| group.rows.clone().any(|row| rows.contains(&row)));
+        if driven.is_empty() {
+            return None;
+        }
+        Some(Travel { metric: Metric::new(system, Vec::new()), driven, last: (t, q.to_vec()) })
+    }
+
+    /// True if there are as many constraints as velocities.
+    pub fn is_determined(&self) -> bool {
+        self.metric.scales.len() >= self.metric.system.dimensions().moving()
+    }
+
+    /// The end of the travel if the joints do not close at `t`, neither near q nor on the way there from the last
+    /// closed state; `until` is the end of the run.
+    pub fn end_before(&mut self, t: f64, q: &[f64], until: f64) -> Option<TravelEnd> {
+        if let Some(closed) = self.closed(t, q) {
+            self.last = (t, closed);
+            return None;
+        }
+        let (start, mut step) = (self.last.0, t - self.last.0);
+        let resolution = tolerances::TRAVEL_RESOLVED * (until - start).abs() + f64::EPSILON * t.abs();
+        while self.last.0 < t && step > resolution {
+            let next = f64::min(self.last.0 + step, t);
+            match self.closed(next, &self.last.1.clone()) {
+                Some(closed) => {
+                    self.last = (next, closed);
+                    step *= 2.0;
+                }
+                None => step *= 0.5,
+            }
+        }
+        if self.last.0 >= t { None } else { Some(self.end(until)) }
+    }
+
+    /// The end of the travel if it comes within `ahead` after a state.
+    pub fn end_within(&mut self, (t, q): (f64, &[f64]), ahead: f64, until: f64) -> Option<TravelEnd> {
+        self.end_before(t, q, until).or_else(|| {
+            let from = self.last.1.clone();
+            self.end_before(t + ahead, &from, until)
+        })
+    }
+
+    /// A closed state near q.
+    fn closed(&mut self, t: f64, q: &[f64]) -> Option<Vec<f64>> {
+        let mut closed = q.to_vec();
+        let mut moved = vec![0.0; self.metric.still.len()];
+        let is_closed = closing::attempt(&mut self.metric, t, &mut closed, &mut moved).unwrap_or(false);
+        let is_near = largest(&moved) <= tolerances::TRAVEL_NEAR * (1.0 + largest(self.metric.system.own(q)));
+        (is_closed && is_near).then_some(closed)
+    }
+
+    /// The end at the last closed state.
+    fn end(&mut self, until: f64) -> TravelEnd {
+        let t = self.last.0;
+        let blamed = (0..self.driven.len()).find(|driven| self.closes_without(*driven, until)).unwrap_or(0);
+        let Group { name, rows, .. } = &self.driven[blamed];
+        let row = rows.start;
+        let reason = match self.asked(row, until) {
+            Some((asked, reached)) => {
+                let unit = if is_length(&self.metric.system.names().lambda[row]) { "m" } else { "rad" };
+                let [asked, reached] = [asked, reached].map(|x| significant(x, tolerances::DIGITS_OF_TRAVEL));
+                format!(
+                    "the driver `{name}` asks for {asked} {unit}, and its travel ends at {reached} {unit}: the joints reach \
+                     no farther"
+                )
+            }
+            None => format!("the joint `{name}`, which depends on time, comes to the end of its travel"),
+        };
+        TravelEnd { t, reason }
+    }
+
+    /// True if the joints close beyond the end without a driver.
+    fn closes_without(&mut self, driven: usize, until: f64) -> bool {
+        let (t, q) = self.last.clone();
+        let rows: Vec<usize> = self.driven[driven].rows.clone().collect();
+        self.metric.drop_rows(&rows);
+        let is_closed = self.closed(t + tolerances::TRAVEL_BEYOND * (until - t), &q).is_some();
+        self.metric.drop_rows(&[]);
+        is_closed
+    }
+
+    /// The extreme that a driver asks for before it comes back to the value of the end, and that value.
+    fn asked(&self, row: usize, until: f64) -> Option<(f64, f64)> {
+        let t = self.last.0;
+        let value = |t: f64| self.metric.system.prescribed(t).iter().find(|driven| driven.row == row)?.value;
+        let (reached, apart) = (value(t)?, (until - t) / f64::from(tolerances::TRAVEL_SAMPLES));
+        let (mut farthest, mut asked) = (t, reached);
+        for sample in 1..=tolerances::TRAVEL_SAMPLES {
+            let ahead = t + f64::from(sample) * apart;
+            let beyond = value(ahead)? - reached;
+            if beyond * (asked - reached) < 0.0 {
+                break;
+            }
+            if beyond.abs() > (asked - reached).abs() {
+                (farthest, asked) = (ahead, reached + beyond);
+            }
+        }
+        // The extreme is between the neighbours of the sample.
+        let (mut low, mut high) = (f64::max(farthest - apart, t), f64::min(farthest + apart, until));
+        for _ in 0..tolerances::EXTREME_HALVINGS {
+            let [left, right] = [1.0, 2.0].map(|third| low + third / 3.0 * (high - low));
+            if (value(left)? - reached).abs() < (value(right)? - reached).abs() { low = left } else { high = right }
+        }
+        Some((value(0.5 * (low + high))?, reached))
+    }
+}
