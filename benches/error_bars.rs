@@ -8,14 +8,13 @@
 //! fail or take more than ten seconds are no cases.
 
 use cpu_time::ThreadTime;
-use holonom::compare::work_precision::Watched;
+use holonom::analysis::Recorder;
 use holonom::compare::{Completed, ErrorBars};
 use holonom::formulation::Statistics;
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::Automatic;
-use holonom::simulate::{Leg, Method, Observation, Sink, Span, Stop};
-use holonom::system::{MechanicalSystem, Scratch};
+use holonom::simulate::{Leg, Method, Span, Stop};
 use holonom::trajectory::Trajectory;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -54,46 +53,23 @@ const LIMITS: [f64; 2] = [10.0, 30.0];
 /// Round-off of an output, of its largest value: smaller errors count as this.
 const ROUND_OFF: f64 = 1e-14;
 
-struct Collector<'a> {
-    system: &'a dyn MechanicalSystem,
-    watched: &'a Watched,
-    scratch: Scratch,
-    trajectory: Trajectory,
-    rows: Vec<Vec<f64>>,
-    begun: ThreadTime,
-    limit: f64,
-}
-
-impl Sink for Collector<'_> {
-    fn accepted(&mut self, _: &Observation) {}
-
-    fn row(&mut self, state: &Observation) {
-        self.trajectory.push(self.system, state, &mut self.scratch);
-        self.rows.push(self.watched.read(self.system, (state.loaded(), state.works), &mut self.scratch));
-    }
-
-    fn stops(&self) -> Option<Stop> {
-        let is_over = self.begun.elapsed().as_secs_f64() > self.limit;
-        is_over.then(|| Stop { reason: "it is too slow".to_string(), hint: String::new() })
-    }
-}
-
 struct Run {
     trajectory: Trajectory,
-    rows: Vec<Vec<f64>>,
     statistics: Statistics,
     legs: Vec<Leg>,
 }
 
 fn run(prepared: &PreparedScene, method: &Method, span: Span, limit: f64) -> Option<Run> {
-    let system = prepared.system();
-    let watched = Watched::new(system, &[]).ok()?;
-    let (scratch, trajectory) = (Scratch::default(), Trajectory::new(system));
     let begun = ThreadTime::now();
-    let mut sink = Collector { system, watched: &watched, scratch, trajectory, rows: Vec::new(), begun, limit };
-    let (outcome, legs) = prepared.simulate(method, span, &mut sink).ok()?;
-    let Collector { trajectory, rows, .. } = sink;
-    outcome.failure.is_none().then_some(Run { trajectory, rows, statistics: outcome.statistics, legs })
+    let stop = || too_slow(begun.elapsed().as_secs_f64() > limit);
+    let mut recorder = Recorder::new(prepared.system()).with_stop(stop);
+    let (outcome, legs) = prepared.simulate(method, span, &mut recorder).ok()?;
+    let trajectory = recorder.finish().trajectory;
+    outcome.failure.is_none().then_some(Run { trajectory, statistics: outcome.statistics, legs })
+}
+
+fn too_slow(is_over: bool) -> Option<Stop> {
+    is_over.then(|| Stop { reason: "it is too slow".to_string(), hint: String::new() })
 }
 
 /// A scene with other parameters, a part of its span and a method.
@@ -154,12 +130,20 @@ fn truth(case: &Case, path: &Path) -> Option<[Run; 2]> {
     Some([accurate, other])
 }
 
-/// Largest difference of a column.
-fn difference(a: &[Vec<f64>], b: &[Vec<f64>], column: usize) -> f64 {
-    if a.len() != b.len() {
-        return f64::NAN;
+/// Largest difference of a watched quantity over the times that both runs have once.
+fn difference(a: &Trajectory, b: &Trajectory, column: usize) -> f64 {
+    let rows = |run: &Trajectory| -> Vec<(f64, f64)> {
+        run.times().zip(run.watched()).map(|(t, values)| (t, values[column])).collect()
+    };
+    let (a, b) = (rows(a), rows(b));
+    let mut most = 0.0f64;
+    for (t, value) in &a {
+        let mut others = b.iter().filter(|(time, _)| time == t);
+        if let (Some((_, other)), None) = (others.next(), others.next()) {
+            most = most.max((value - other).abs());
+        }
     }
-    a.iter().zip(b).map(|(a, b)| (a[column] - b[column]).abs()).fold(0.0, f64::max)
+    most
 }
 
 /// What was found of the outputs of one method.
@@ -207,10 +191,7 @@ fn measure(case: &Case, path: &Path) -> Option<(f64, Vec<(f64, f64)>)> {
     let Run { trajectory, legs, statistics, .. } = &first;
     let completed = Completed { span: case.span, trajectory, legs, statistics: *statistics };
     let begun = std::time::Instant::now();
-    let stop = || {
-        let is_over = begun.elapsed().as_secs_f64() > 3.0 * LIMITS[1];
-        is_over.then(|| Stop { reason: "it is too slow".to_string(), hint: String::new() })
-    };
+    let stop = || too_slow(begun.elapsed().as_secs_f64() > 3.0 * LIMITS[1]);
     let bars = ErrorBars::of(&case.prepared, completed, (&|_| (), &stop));
     if bars.failure.is_some() {
         println!("{} by {}: no bar: {:?}", case.scene, case.prepared.method.triple(), bars.failure);
@@ -218,9 +199,9 @@ fn measure(case: &Case, path: &Path) -> Option<(f64, Vec<(f64, f64)>)> {
     let [accurate, other] = truth(case, path)?;
     let mut outputs = Vec::new();
     for (column, (name, bar)) in bars.outputs.iter().enumerate() {
-        let size = accurate.rows.iter().map(|row| row[column].abs()).fold(0.0, f64::max);
-        let error = difference(&first.rows, &accurate.rows, column);
-        if !(difference(&accurate.rows, &other.rows, column) < 0.1 * error) {
+        let size = accurate.trajectory.watched().map(|row| row[column].abs()).fold(0.0, f64::max);
+        let error = difference(&first.trajectory, &accurate.trajectory, column);
+        if !(difference(&accurate.trajectory, &other.trajectory, column) < 0.1 * error) {
             continue;
         }
         let error = error.max(ROUND_OFF * size);
