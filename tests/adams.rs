@@ -69,6 +69,23 @@ fn rows_between_steps_are_as_good_as_the_steps() {
     }
 }
 
+/// Motions that amplify errors some ten times: the errors of steps at the order of least error add up.
+#[test]
+fn motions_that_amplify_a_little_are_as_accurate_as_asked() {
+    for (name, columns) in [("double_pendulum", 4), ("slider_crank", 3), ("parallelogram", 3)] {
+        let ready = shipped(name, &[]);
+        let exact = ready.run(&dop853(1e-13), ready.span());
+        for tolerance in [1e-8, 1e-10] {
+            let run = ready.run(&adaptive("index1", "adams", "manifold", tolerance), ready.span());
+            let ends = [&run, &exact].map(|run| run.record.trajectory.rows.last().unwrap());
+            let off = |i: usize| (ends[0][i] - ends[1][i]).abs() / (1.0 + ends[1][i].abs()) / tolerance;
+            let error = (1..=columns).map(off).fold(0.0, f64::max);
+            println!("{name} {tolerance:e}: {error:.1} tolerances");
+            assert!(error < 20.0, "{name} {tolerance:e}: {error} tolerances");
+        }
+    }
+}
+
 /// Two thirds of the evaluations of dop853 on a smooth motion at equal errors; found: 804 and 7.9e-10, 1305 and 6.1e-10.
 #[test]
 fn smooth_motions_take_two_thirds_of_the_evaluations() {

@@ -35,12 +35,48 @@ struct Sizes {
     change: f64,
 }
 
+/// The step in which the energy balance changes most.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WorstStep {
+    /// Time at its end, s.
+    pub t: f64,
+    /// Change of the balance, J.
+    pub change: f64,
+    /// The largest change in any other step, J.
+    pub other: f64,
+    /// Change due to the tolerated errors of the step, J.
+    pub tolerated: f64,
+    /// Number of steps.
+    pub steps: usize,
+}
+
+impl WorstStep {
+    fn add(&mut self, t: f64, change: f64, tolerated: f64) {
+        self.steps += 1;
+        if change > self.change {
+            *self = WorstStep { t, change, other: self.change, tolerated, ..*self };
+        } else {
+            self.other = self.other.max(change);
+        }
+    }
+
+    /// True if the balance changes far more than in any other step, and by more than a part of what is tolerated.
+    pub fn is_alone(&self) -> bool {
+        self.steps >= tolerances::STEPS_COMPARED
+            && self.change > tolerances::CHANGE_ALONE * self.other
+            && self.change > tolerances::CHANGE_SEEN * self.tolerated
+    }
+}
+
 /// Accumulates the energy balance along a motion.
 #[derive(Clone, Debug, Default)]
 pub struct EnergyMeter {
     balance: Option<EnergyBalance>,
     potential: f64,
     sizes: Sizes,
+    /// Error of the balance at the last state, J.
+    error: f64,
+    worst: WorstStep,
 }
 
 /// Energies at one state.
@@ -76,9 +112,9 @@ impl EnergyBalance {
 }
 
 impl EnergyMeter {
-    /// Adds an accepted state.
-    pub fn add(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
-        let Some(row) = self.ledger(system, state, scratch) else { return };
+    /// Adds an accepted state. Returns its energies; `None` where the system defines no potential.
+    pub fn add(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Option<Ledger> {
+        let row = self.ledger(system, state, scratch)?;
         let total = row.kinetic + row.potential;
         if self.balance.is_none() {
             self.potential = row.potential;
@@ -87,13 +123,17 @@ impl EnergyMeter {
             self.balance.get_or_insert(EnergyBalance { initial: total - state.work, ..EnergyBalance::default() });
         (balance.last, balance.work) = (total, state.work);
         balance.max_error = balance.max_error.max(row.error.abs());
+        let change = (row.error - std::mem::replace(&mut self.error, row.error)).abs();
         if let Some(tolerated) = state.tolerated {
             *balance.tolerated.get_or_insert(0.0) += tolerated;
+            let round_off = tolerances::ENERGY_ROUND_OFF * (row.kinetic + row.potential.abs() + row.work.abs());
+            self.worst.add(state.t, change.max(round_off), tolerated);
         }
         let Sizes { kinetic, potential, change } = &mut self.sizes;
         *kinetic = kinetic.max(row.kinetic);
         *potential = potential.max(row.potential.abs());
         *change = change.max((row.potential - self.potential).abs()).max(state.work.abs());
+        Some(row)
     }
 
     /// Returns the balance at a state; `None` where the system defines no potential.
@@ -104,6 +144,11 @@ impl EnergyMeter {
         let initial = self.balance.map_or(total - state.work, |balance| balance.initial);
         let error = total - initial - state.work;
         Some(Ledger { kinetic: energy.kinetic, potential: energy.potential, work: state.work, error })
+    }
+
+    /// Returns the step in which the balance changed most, with controlled steps.
+    pub fn worst(&self) -> WorstStep {
+        self.worst
     }
 
     /// Returns the balance up to the last state; `None` before the first state or without a potential.

@@ -1,6 +1,7 @@
 //! Analysis of a state or of one run: rank and redundancy, drift, energy balance, singular states, range of validity of
 //! the models.
 
+mod divergence;
 mod drift;
 mod energy;
 mod extremes;
@@ -15,10 +16,10 @@ mod thinned;
 pub use drift::{Drift, DriftLevel};
 pub use energy::EnergyBalance;
 #[doc(hidden)]
-pub use energy::{EnergyMeter, Ledger};
+pub use energy::{EnergyMeter, Ledger, WorstStep};
 pub use extremes::Extremes;
 #[doc(hidden)]
-pub use range::{LargestDeformation, Range};
+pub use range::{LargestDeformation, Leap, Range};
 pub use rank::Rank;
 #[doc(hidden)]
 pub use rank::{Redundant, dependent_nearby};

@@ -1,4 +1,4 @@
-//! Range of validity of the models and of measured data, and rotation between evaluations in fixed steps.
+//! Range of validity of the models and of measured data, and rotation between evaluations.
 
 use super::held::HeldSignals;
 use crate::error::{Warning, short};
@@ -12,9 +12,8 @@ use std::f64::consts::PI;
 pub struct Range {
     /// The largest deformation of each such part.
     pub parts: Vec<LargestDeformation>,
-    /// In fixed steps: the largest rotation of a body between evaluations of the equations, rad; index of the body;
-    /// time, s.
-    pub leap: Option<(f64, usize, f64)>,
+    /// The largest rotation of a body between evaluations of the equations.
+    pub leap: Option<Leap>,
     /// The tyre with the largest compression beyond its radius at a row, and the time, s.
     pub sunk: Option<(Road, f64)>,
     /// Signals beyond their points.
@@ -22,6 +21,21 @@ pub struct Range {
     now: Vec<f64>,
     bodies: Vec<String>,
     spins: Vec<f64>,
+}
+
+/// A rotation between two evaluations of the equations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leap {
+    /// Angle, rad.
+    pub angle: f64,
+    /// Index of the body.
+    pub body: usize,
+    /// Time, s.
+    pub t: f64,
+    /// Time between the evaluations, s.
+    pub apart: f64,
+    /// True in a fixed step.
+    pub is_fixed: bool,
 }
 
 /// The largest deformation of a part.
@@ -50,10 +64,12 @@ impl Range {
         self.see(system, state.t, state.q);
         let Some(apart) = state.apart else { return };
         system.spins(state.q, state.v, &mut self.spins);
-        let before = self.leap.map_or(0.0, |(turn, ..)| turn);
-        let leap = self.spins.iter().enumerate().map(|(body, spin)| (apart * spin, body, state.t));
-        let farther = leap.filter(|(turn, ..)| *turn > before).max_by(|a, b| a.0.total_cmp(&b.0));
-        self.leap = farther.or(self.leap);
+        for (body, spin) in self.spins.iter().enumerate() {
+            let angle = apart * spin;
+            if self.leap.is_none_or(|leap| angle > leap.angle) {
+                self.leap = Some(Leap { angle, body, t: state.t, apart, is_fixed: state.tolerated.is_none() });
+            }
+        }
     }
 
     /// Adds an output row.
@@ -108,14 +124,19 @@ impl Range {
 
     /// From half a revolution on, a rotation the other way round would fit as well.
     fn leaping(&self) -> Option<Warning> {
-        let (turn, body, t) = self.leap.filter(|(turn, ..)| *turn >= PI)?;
-        let [turn, t] = [turn, t].map(|x| short(two_digits(x)));
+        let Leap { angle, body, t, apart, is_fixed } = self.leap.filter(|leap| leap.angle >= PI)?;
+        let shorter = short(two_digits(0.5 * apart * PI / angle));
+        let [angle, t] = [angle, t].map(|x| short(two_digits(x)));
         let text = format!(
-            "`{}` turns by {turn} rad, half a revolution or more, between two evaluations of the equations at t = {t} s: \
+            "`{}` turns by {angle} rad, half a revolution or more, between two evaluations of the equations at t = {t} s: \
              steps so long do not see the motion",
             self.bodies[body]
         );
-        Some(Warning::new(text, "choose a smaller --step, or an adaptive method"))
+        let hint = match is_fixed {
+            true => "choose a smaller --step, or an adaptive method".to_string(),
+            false => format!("compare with --step {shorter}; nothing is missed where nothing depends on the angle"),
+        };
+        Some(Warning::new(text, hint))
     }
 }
 

@@ -1,7 +1,8 @@
 //! A sink that records a run.
 
+use super::divergence::Divergence;
 use super::drift::Drift;
-use super::energy::{EnergyBalance, EnergyMeter, Ledger};
+use super::energy::{EnergyBalance, EnergyMeter, Ledger, WorstStep};
 use super::extremes::Extremes;
 use super::range::Range;
 use super::singularity::{Singularity, Watch};
@@ -31,6 +32,8 @@ pub struct Record {
     pub drift: Drift,
     /// `None` where the system defines no potential.
     pub energy: Option<EnergyBalance>,
+    /// The step in which the energy balance changes most.
+    pub worst_step: WorstStep,
     /// Singular states on the way.
     pub singularity: Singularity,
     /// Deformations of parts whose theory is valid for small ones only.
@@ -66,6 +69,9 @@ pub struct Recorder<'a> {
     scratch: Scratch,
     scales: Vec<f64>,
     meter: EnergyMeter,
+    divergence: Divergence,
+    /// The reason to end the run, if the motion diverges.
+    diverged: Option<Stop>,
     watch: Watch<'a>,
     record: Record,
     progress: Box<dyn FnMut(f64) + 'a>,
@@ -87,6 +93,8 @@ impl<'a> Recorder<'a> {
             scratch: Scratch::default(),
             scales: system.scales(),
             meter: EnergyMeter::default(),
+            divergence: Divergence::default(),
+            diverged: None,
             watch: Watch::new(system),
             record: Record {
                 trajectory: Trajectory::new(system),
@@ -97,6 +105,7 @@ impl<'a> Recorder<'a> {
                 extremes: recorded(system).iter().map(Extremes::of).collect(),
                 drift: Drift::default(),
                 energy: None,
+                worst_step: WorstStep::default(),
                 singularity: Singularity::default(),
                 range: Range::new(system),
                 drift_rows: Vec::new(),
@@ -153,6 +162,7 @@ impl<'a> Recorder<'a> {
     /// Returns the record.
     pub fn finish(mut self) -> Record {
         self.record.energy = self.meter.balance();
+        self.record.worst_step = self.meter.worst();
         self.record.singularity = self.watch.finish();
         self.record
     }
@@ -254,7 +264,10 @@ fn is_load(unit: &str) -> bool {
 impl Sink for Recorder<'_> {
     fn accepted(&mut self, state: &Observation) {
         self.record.drift.add(state, &self.scales);
-        self.meter.add(self.system, state, &mut self.scratch);
+        if let Some(ledger) = self.meter.add(self.system, state, &mut self.scratch) {
+            let diverged = self.divergence.add(self.system, state, &ledger, &mut self.scratch);
+            self.diverged = self.diverged.take().or(diverged);
+        }
         self.watch.add(state);
         self.record.range.add(self.system, state);
         (self.progress)(state.t);
@@ -285,7 +298,7 @@ impl Sink for Recorder<'_> {
     }
 
     fn stops(&self) -> Option<Stop> {
-        (self.stop)()
+        self.diverged.clone().or_else(|| (self.stop)())
     }
 }
 

@@ -80,9 +80,12 @@ pub struct MethodOptions {
     /// Absolute tolerance, likewise
     #[arg(long, help_heading = OWN, value_parser = positive, allow_negative_numbers = true)]
     pub atol: Option<f64>,
-    /// Fixed step, s
-    #[arg(long, help_heading = OWN, value_name = "H", value_parser = positive, allow_negative_numbers = true)]
+    /// Fixed step, s; 0 for steps that the integrator chooses
+    #[arg(long, help_heading = OWN, value_name = "H", value_parser = not_negative, allow_negative_numbers = true)]
     pub step: Option<f64>,
+    /// Steps that the integrator chooses, in the place of a fixed step of the scene
+    #[arg(long, help_heading = OWN, conflicts_with = "step")]
+    pub adaptive: bool,
     /// End time, s
     #[arg(long, help_heading = OWN, value_name = "T", value_parser = number, allow_negative_numbers = true)]
     pub until: Option<f64>,
@@ -165,6 +168,10 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text).and_then(|value| if value > 0.0 { Ok(value) } else { Err("it must be above zero".to_string()) })
 }
 
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    number(text).and_then(|value| if value >= 0.0 { Ok(value) } else { Err("it must not be below zero".to_string()) })
+}
+
 /// Reads a time with its unit, s by default.
 pub fn duration(text: &str) -> Result<Duration, String> {
     let split = text.find(|c: char| c.is_alphabetic()).unwrap_or(text.len());
@@ -229,7 +236,8 @@ impl Common {
 impl MethodOptions {
     /// Returns the changes of the scene's settings; `method` is given if the program chooses it.
     pub fn overrides(&self, scene: &SceneOptions, method: Option<Automatic>) -> Overrides {
-        let MethodOptions { rtol, atol, step, until, output_step, .. } = *self;
+        let MethodOptions { rtol, atol, until, output_step, .. } = *self;
+        let step = self.step.or(self.adaptive.then_some(0.0));
         let [formulation, integrator, projection] =
             [&self.formulation, &self.integrator, &self.projection].map(Clone::clone);
         let (set, rest) = (scene.set.clone(), Overrides::default());

@@ -54,7 +54,7 @@ pub struct Args {
     separate: bool,
     /// Draw a finished run in the place of a new one: its folder, such as out/NAME, whose parameters it takes
     #[arg(long, value_name = "DIR", conflicts_with_all = ["set", "equilibrium", "method", "formulation", "integrator",
-          "projection", "rtol", "atol", "step", "until", "output_step"])]
+          "projection", "rtol", "atol", "step", "adaptive", "until", "output_step"])]
     from: Option<PathBuf>,
     /// Markers whose paths are drawn, or none (default: those whose positions are outputs)
     #[arg(long, value_name = "BODY.MARKER[,...]", value_delimiter = ',')]

@@ -46,7 +46,7 @@ pub use residual::Unknowns;
 pub use stabilizer::{Stabilizer, StabilizingField};
 pub use statistics::{Statistics, Work};
 #[doc(hidden)]
-pub use turn::turn;
+pub use turn::ExponentialMap;
 
 use crate::error::Result;
 use crate::method_spec::Listed;

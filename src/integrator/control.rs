@@ -103,15 +103,22 @@ pub struct Tightening {
     pub factor: f64,
     /// Exponent of the tolerance.
     pub power: f64,
+    /// The least rtol of steps, unless a smaller one is asked.
+    pub least: f64,
 }
 
 impl Tightening {
     /// The tolerance as it is: steps are fixed, or the error of the motion is no more than that of one step.
-    pub const NONE: Self = Tightening { factor: 1.0, power: 1.0 };
+    pub const NONE: Self = Tightening::new(1.0, 1.0);
 
-    /// The tolerance of steps: at most `asked`, and not below the accuracy of Newton's method.
+    /// The tolerance factor asked^power, not below the accuracy of Newton's method.
+    pub const fn new(factor: f64, power: f64) -> Self {
+        Tightening { factor, power, least: tolerances::CONTROLLED_RTOL }
+    }
+
+    /// The tolerance of steps: at most `asked`, and not below `least`.
     pub fn of_steps(self, asked: &Tolerance) -> Tolerance {
-        let rtol = (self.factor * asked.rtol.powf(self.power)).max(tolerances::CONTROLLED_RTOL).min(asked.rtol);
+        let rtol = (self.factor * asked.rtol.powf(self.power)).max(self.least).min(asked.rtol);
         asked.with(rtol, asked.atol * rtol / asked.rtol)
     }
 
@@ -273,10 +280,10 @@ mod tests {
     #[test]
     fn steps_are_never_looser_than_asked_nor_tighter_than_round_off() {
         let asked = |rtol: f64| Tolerance { rtol, atol: 1e-2 * rtol, turning: [0, 0], motion: 0 };
-        let steps = |rtol: f64| Tightening { factor: 10.0, power: 1.5 }.of_steps(&asked(rtol)).rtol;
+        let steps = |rtol: f64| Tightening::new(10.0, 1.5).of_steps(&asked(rtol)).rtol;
         assert_eq!(steps(1.0), 1.0);
         assert!((steps(1e-4) / 1e-5 - 1.0).abs() < 1e-12 && steps(1e-10) == 1e-11 && steps(1e-15) == 1e-15);
-        let reached = |rtol: f64| Tightening { factor: 10.0, power: 1.5 }.reached(&asked(rtol));
+        let reached = |rtol: f64| Tightening::new(10.0, 1.5).reached(&asked(rtol));
         assert!((reached(1e-6) / 1e-6 - 1.0).abs() < 1e-12 && (reached(1e-10) / 1e-8 - 1.0).abs() < 1e-12);
         assert_eq!(Tightening::NONE.of_steps(&asked(1e-8)), asked(1e-8));
     }

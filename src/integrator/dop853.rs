@@ -12,7 +12,7 @@ pub const ENTRY: Entry = Entry {
     order: 8,
     steps: Steps::Either,
     // Errors over a motion were 3 times rtol, and 10 to 20 in long ones.
-    tightening: Tightening { factor: 0.2, power: 1.0 },
+    tightening: Tightening::new(0.2, 1.0),
     solves: takes::vector_fields,
     refuses: refuses::none,
     options: &[],

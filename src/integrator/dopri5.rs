@@ -12,7 +12,7 @@ pub const ENTRY: Entry = Entry {
     order: 5,
     steps: Steps::Either,
     // Errors over a motion were 5 to 20 times rtol, and 40 in long ones.
-    tightening: Tightening { factor: 0.1, power: 1.0 },
+    tightening: Tightening::new(0.1, 1.0),
     solves: takes::vector_fields,
     refuses: refuses::none,
     options: &[],

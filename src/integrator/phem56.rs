@@ -15,7 +15,7 @@ pub const ENTRY: Entry = Entry {
     order: 5,
     steps: Steps::Either,
     // Errors over a motion were 3 rtol^0.9, and 30 in long ones.
-    tightening: Tightening { factor: 0.06, power: 1.1 },
+    tightening: Tightening::new(0.06, 1.1),
     solves: takes::velocity_rows,
     refuses: refuses::none,
     options: &[],

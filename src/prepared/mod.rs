@@ -1,16 +1,18 @@
 //! A scene ready to run: its mechanism, a consistent start, and the method of simulation.
 
 mod doubts;
+mod far;
 mod rest;
 mod schema;
 
 pub use schema::schema;
 
 use doubts::{doubts, explained, of_scene, pulling};
+use far::refuse_rounding;
 use rest::at_rest;
 
 use crate::body::MarkerTable;
-use crate::error::{Error, Result, Warning, clock};
+use crate::error::{Error, Result, Warning, clock, short};
 use crate::initial::{self, Assembly};
 use crate::integrator::{self, Steps};
 use crate::math::expression::{Number, Parameters};
@@ -89,7 +91,7 @@ pub struct Overrides {
     pub rtol: Option<f64>,
     /// Absolute tolerance in place of the scene's.
     pub atol: Option<f64>,
-    /// Fixed step in place of the scene's, s.
+    /// Fixed step in place of the scene's, s; zero for steps that the integrator chooses.
     pub step: Option<f64>,
     /// End of the simulation in place of the scene's `t_end`, s.
     pub until: Option<f64>,
@@ -163,6 +165,7 @@ impl PreparedScene {
         let mut assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
         check_switches(mechanism.system(), start, (&assembly.q, &assembly.v))?;
         let mut doubts = doubts(&mechanism, &scene.q, &assembly, has_joint_start);
+        doubts.extend(settings.unused_tolerance(&method));
         if overrides.equilibrium {
             let (rest, warnings) = at_rest(mechanism.system(), start, &assembly)?;
             assembly = rest;
@@ -239,8 +242,9 @@ impl PreparedScene {
     /// Returns a checkpoint to continue from, too.
     ///
     /// # Errors
-    /// Bad input only: see [`simulate_from`].
+    /// Bad input only: see [`simulate_from`]; a tolerance below the rounding of positions far from the origin.
     pub fn simulate_from(&self, method: &Method, span: Span, start: Start, sink: &mut dyn Sink) -> Result<Simulated> {
+        refuse_rounding(&self.mechanism, self.start().0, method)?;
         match start {
             Start::State(q, v) if self.is_automatic => {
                 simulate_automatic(self.system(), (method.rtol, method.atol), span, (q, v), sink)
@@ -337,7 +341,8 @@ impl Settings<'_> {
             found.or(has_step.then_some("step"))
         };
         let in_scene = named([&scene.formulation, &scene.integrator, &scene.projection], scene.step.is_some());
-        let on_line = named([&given.formulation, &given.integrator, &given.projection], given.step.is_some());
+        let has_step = given.step.is_some_and(|step| step > 0.0);
+        let on_line = named([&given.formulation, &given.integrator, &given.projection], has_step);
         let beside = if given.method.is_some() { on_line } else { in_scene };
         match (given.method.or(scene.method), beside) {
             (Some(Automatic::Auto), Some(name)) => {
@@ -373,10 +378,23 @@ impl Settings<'_> {
             projection: pick(&given.projection, &scene.projection, default.projection),
             rtol,
             atol: given.atol.unwrap_or(atol),
-            step: given.step.or(own_step),
+            step: given.step.or(own_step).filter(|step| given.step.is_none() || *step != 0.0),
         };
         method.check()?;
         Ok(method)
+    }
+
+    /// Warning about a tolerance on the command line where the scene fixes the step.
+    fn unused_tolerance(&self, method: &Method) -> Option<Warning> {
+        let given = self.overrides;
+        let option = [("--rtol", given.rtol), ("--atol", given.atol)].into_iter().find(|(_, value)| value.is_some())?.0;
+        let step = short(method.step?);
+        let is_fixed = integrator::find(&method.integrator).is_ok_and(|entry| entry.steps == Steps::Fixed);
+        let hint = match is_fixed {
+            true => "choose an integrator with an error estimate, such as --integrator dop853",
+            false => "give --adaptive, by which the integrator chooses its steps",
+        };
+        Some(Warning::new(format!("{option} has no effect: the step is fixed, {step} s"), hint))
     }
 
     fn span(&self, start: f64) -> Result<Option<Span>> {

@@ -1,6 +1,6 @@
 //! Reasons to doubt a result although it was computed to the end.
 
-use crate::analysis::{Drift, EnergyBalance, MOST_JUMPS, Record};
+use crate::analysis::{Drift, EnergyBalance, MOST_JUMPS, Record, WorstStep};
 use crate::error::Warning;
 use crate::error::significant;
 use crate::formulation::Statistics;
@@ -10,6 +10,7 @@ use crate::trajectory::Gap;
 /// Returns all warnings from the record of a run.
 pub fn warnings(record: &Record) -> Vec<Warning> {
     let energy = record.energy.as_ref().filter(|energy| energy.is_open()).map(open_balance);
+    let energy = energy.or_else(|| record.worst_step.is_alone().then(|| energy_jump(&record.worst_step)));
     let doubts = open_joints(&record.drift).into_iter().chain(energy).chain(gaps(record));
     doubts.chain(record.range.warnings()).chain(many_jumps(record.jumps)).collect()
 }
@@ -71,6 +72,15 @@ fn many_jumps(jumps: usize) -> Option<Warning> {
     let hint =
         "least and greatest values in summary.json are from both sides of all; a smaller --output-step shows more";
     (jumps > MOST_JUMPS).then(|| Warning::new(text(), hint))
+}
+
+fn energy_jump(&WorstStep { t, change, other, tolerated, .. }: &WorstStep) -> Warning {
+    let [times, part] = [change / other, change / tolerated].map(|x| significant(x, 2));
+    let text = format!(
+        "the energy balance changes by {change:.1e} J in the step to t = {t:.6} s, {times} times as much as in any other \
+         step and {part} times what its tolerated errors make: the motion may be wrong from there on"
+    );
+    Warning::new(text, "compare with another --rtol and --atol, and with another integrator")
 }
 
 fn gaps(record: &Record) -> Vec<Warning> {

@@ -9,7 +9,7 @@ use super::rods::{Rod, rods};
 use super::source::Source;
 use crate::body::{cross, dot, norm, sub};
 use crate::error::Result;
-use crate::formulation::{Dynamics, turn};
+use crate::formulation::{Dynamics, ExponentialMap};
 use crate::initial::{Assembly, assemble};
 use crate::linearize::{Complex, Kind, Mode, State, amplitude, pairs, seen};
 use crate::math::largest;
@@ -204,8 +204,8 @@ fn end(mode: &Mode, time: f64) -> Vec<[Vec<f64>; 2]> {
 /// The state at a displacement from the start, on the constraints; none where they do not close.
 fn beside(prepared: &PreparedScene, t: f64, change: &[f64], v: &[f64]) -> Option<State> {
     let (system, (start, before)) = (prepared.system(), prepared.start());
-    let (mut q, mut stages) = (start.to_vec(), [(); 3].map(|()| vec![0.0; start.len()]));
-    turn(system, &mut stages, start, change, &mut q);
+    let mut q = start.to_vec();
+    ExponentialMap::new(system).apply(system, start, change, &mut q);
     // States xi stay as they are.
     let moving = system.dimensions().moving();
     let v = [&v[..moving], &before[moving..]].concat();

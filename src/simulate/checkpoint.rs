@@ -196,7 +196,11 @@ impl Run<'_> {
             true => self.recall(saved)?,
             false => self.go_on(&saved.dropped, 0.0)?,
         }
-        self.show((self.approach != SingularPassage::default()).then_some(self.approach.rank_indicator), sink);
+        self.show(
+            (self.approach != SingularPassage::default()).then_some(self.approach.rank_indicator),
+            self.fixed,
+            sink,
+        );
         self.rows.y.copy_from_slice(&self.y);
         self.rows.emit(self.t, sink).map_err(|halt| self.halted(&halt))?;
         if saved.method == *method {

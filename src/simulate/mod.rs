@@ -111,6 +111,8 @@ struct Run<'a> {
     phi_ddot: Vec<f64>,
     /// M v
     momentum: Vec<f64>,
+    /// Change of the energy balance in the last step tried, J, where it is watched.
+    lost: Option<f64>,
     /// False for velocities that follow from phi = 0 alone: they are of lower order and not tested.
     tests_velocities: bool,
     limits_projection: bool,
@@ -200,6 +202,7 @@ impl<'a> Run<'a> {
             is_moved: false,
             phi_ddot: vec![0.0; system.dimensions().lambda],
             momentum: vec![0.0; system.dimensions().v],
+            lost: None,
             tests_velocities: parts.tests_velocities,
             limits_projection: parts.limits_projection,
             refusal: "",
@@ -218,7 +221,7 @@ impl<'a> Run<'a> {
         self.settle();
         self.check_start()?;
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
-        self.observe(sink);
+        self.observe(self.fixed, sink);
         self.rows.y.copy_from_slice(&self.y);
         self.rows.emit(self.t, sink).map_err(|halt| self.halted(&halt))?;
         self.rows.next = 1;
@@ -354,14 +357,17 @@ impl<'a> Run<'a> {
         std::mem::swap(&mut self.y, &mut self.next);
         std::mem::swap(&mut self.slope, &mut self.next_slope);
         self.problem.dynamics.statistics.steps += 1;
+        if let Some(lost) = self.lost.take() {
+            self.approach.add_loss(lost);
+        }
         if self.is_moved {
             self.integrator.moved();
         }
-        self.observe(sink);
+        self.observe(self.fixed.or(Some(h)), sink);
     }
 
-    /// Updates the reference values of the rank at an accepted state, and shows the state.
-    fn observe(&mut self, sink: &mut dyn Sink) {
+    /// Updates the reference values of the rank at an accepted state, and shows the state with the size of its step.
+    fn observe(&mut self, size: Option<f64>, sink: &mut dyn Sink) {
         let deficient = self.problem.dynamics.is_rank_deficient;
         self.problem.dynamics.statistics.rank_deficient += u64::from(deficient);
         let dynamics = &self.problem.dynamics;
@@ -375,7 +381,7 @@ impl<'a> Run<'a> {
         }
         let dense = dynamics.dense_reference.max(dynamics.dense_indicator);
         self.refer_to(dense);
-        self.show(rank_indicator, sink);
+        self.show(rank_indicator, size, sink);
     }
 
     /// Sets the reference values of the rank indicators, that of a dense solver to `dense`.
@@ -384,13 +390,14 @@ impl<'a> Run<'a> {
         [problem, &mut rows.problem].into_iter().for_each(|p| p.dynamics.refer_to(approach.largest, dense));
     }
 
-    fn show(&mut self, rank_indicator: Option<f64>, sink: &mut dyn Sink) {
+    fn show(&mut self, rank_indicator: Option<f64>, size: Option<f64>, sink: &mut dyn Sink) {
         if !sink.watches() {
             return;
         }
         let tolerated = self.fixed.is_none().then(|| self.tolerated_energy());
+        let effort = Some(self.effort());
         let state = observation(self.t, &self.y, &self.problem, rank_indicator, &mut self.phi_ddot);
-        let apart = self.fixed.map(|step| step * self.integrator.spacing());
-        sink.accepted(&Observation { tolerated, apart, ..state });
+        let apart = size.map(|size| size * self.integrator.spacing());
+        sink.accepted(&Observation { tolerated, apart, effort, ..state });
     }
 }

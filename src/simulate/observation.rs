@@ -62,8 +62,10 @@ pub struct Observation<'a> {
     pub pieces: &'a [Piece],
     /// Change of energy due to the tolerated errors of this step, J; `None` for fixed steps and output rows.
     pub tolerated: Option<f64>,
-    /// The longest time between evaluations of the equations in a fixed step, s; `None` otherwise.
+    /// The longest time between evaluations of the equations in the step, s; `None` at the start and in output rows.
     pub apart: Option<f64>,
+    /// Sum of the sizes of all generalized forces and multipliers, N and N m; `None` in output rows.
+    pub effort: Option<f64>,
     /// The smallest sine between a row of G and those before it (metric M^-1), zero at a singular state; `None` where
     /// the method does not factor the saddle-point matrix there.
     pub rank_indicator: Option<f64>,
@@ -130,6 +132,13 @@ impl Stop {
 }
 
 impl super::Run<'_> {
+    /// Sum of the sizes of all generalized forces and multipliers at the present state, N and N m.
+    pub fn effort(&self) -> f64 {
+        let dynamics = &self.problem.dynamics;
+        let forces = &dynamics.terms.f[..dynamics.system.dimensions().moving()];
+        forces.iter().chain(&dynamics.lambda).map(|force| force.abs()).sum()
+    }
+
     /// Change of the energy at the state by the tolerated errors of q and v, to first order, J: sum |M v|_i w(v_i) +
     /// |f_i| w(q), with the tolerance w of the largest coordinate.
     pub fn tolerated_energy(&mut self) -> f64 {

@@ -119,6 +119,7 @@ pub fn observation<'o>(
         pieces: &dynamics.scratch.pieces,
         tolerated: None,
         apart: None,
+        effort: None,
         rank_indicator,
         dropped: &dynamics.dropped,
     }

@@ -26,8 +26,9 @@ impl Run<'_> {
         }
         let t = self.end_of(h, end);
         let mut error = self.project_step((h, end), error, is_singular)?;
-        if is_singular && error.is_some_and(|error| !is_too_large(error)) {
-            error = error.map(|error| error.max(self.energy_lost(t)));
+        self.lost = None;
+        if (is_singular || self.approach.watches_energy()) && error.is_some_and(|error| !is_too_large(error)) {
+            error = error.map(|error| error.max(self.error_by_energy(t, is_singular)));
         }
         if error.is_some_and(is_too_large) {
             return Ok(error);
@@ -157,9 +158,10 @@ impl Run<'_> {
     }
 
     /// Change of the energy balance in the step to `t`, over the largest that is accepted. Where stages are off along
-    /// nearly dependent rows, the solutions of both orders may be wrong alike; their energy is not.
-    fn energy_lost(&mut self, t: f64) -> f64 {
-        let tolerated = tolerances::SINGULAR_ENERGY * self.tolerated_energy();
+    /// nearly dependent rows, the solutions of both orders may be wrong alike; their energy is not. Over a singular
+    /// state that change is also compared with those of the steps before.
+    fn error_by_energy(&mut self, t: f64, is_singular: bool) -> f64 {
+        let tolerated = self.tolerated_energy();
         let Run { problem, y, next, .. } = self;
         let Dimensions { q: nq, v: nv, .. } = problem.dynamics.system.dimensions();
         // The balance, and the size of the energies, whose rounding changes it.
@@ -169,8 +171,15 @@ impl Run<'_> {
                 problem.dynamics.system.energy(t, q, v, &mut problem.dynamics.scratch)?;
             Some((kinetic + potential - y[nq + nv], kinetic + potential.abs() + y[nq + nv].abs()))
         };
-        let balances = balance(self.t, y).zip(balance(t, next));
-        balances.map_or(0.0, |((start, _), (end, size))| (end - start).abs() / (tolerated + ENERGY_ROUND_OFF * size))
+        let Some(((start, _), (end, size))) = balance(self.t, y).zip(balance(t, next)) else { return 0.0 };
+        let (lost, round_off) = ((end - start).abs(), ENERGY_ROUND_OFF * size);
+        let is_seen = lost > tolerances::LOSS_SEEN * tolerated + round_off;
+        if is_singular && is_seen && self.approach.refuses(lost) {
+            self.refusal = "the energy balance changes by far more than in the steps before";
+            return tolerances::REFUSED_FOR_ENERGY;
+        }
+        self.lost = Some(lost.max(round_off));
+        if is_singular { lost / (tolerances::SINGULAR_ENERGY * tolerated + round_off) } else { 0.0 }
     }
 
     /// The error to be accepted, in units of the tolerance. Round-off of the largest coordinate moves all parts that

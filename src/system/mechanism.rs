@@ -14,8 +14,8 @@ use super::tangent::{Evaluation, OperatingPoint, Tangent};
 use super::view::{Plain, gathered};
 use super::workspace::Workspace;
 use super::{
-    Column, Dimensions, Energy, Excitation, Group, Limited, MechanicalSystem, Names, Need, Prescribed, Road, Scratch,
-    Structure, Terms,
+    Column, Dimensions, Energy, Excitation, Feed, Group, Limited, MechanicalSystem, Names, Need, Prescribed, Road,
+    Scratch, Structure, Terms,
 };
 use crate::body::{Frame, cross};
 use crate::math::expression::{Switch, TimeFunction};
@@ -365,6 +365,11 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     fn infinite_force(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<String> {
         let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
         self.viewed(at, scratch, |view| self.find_infinite_force(view))
+    }
+
+    fn feeds(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Vec<Feed> {
+        let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
+        self.viewed(at, scratch, |view| self.list_feeds(view))
     }
 
     fn roads(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Vec<Road> {

@@ -101,6 +101,18 @@ pub struct Names {
     pub lambda: Vec<String>,
 }
 
+/// What a force does at a state.
+#[derive(Clone, Debug, PartialEq)]
+#[doc(hidden)]
+pub struct Feed {
+    /// Name of the force in the scene.
+    pub name: String,
+    /// Power that it delivers to the bodies, W.
+    pub power: f64,
+    /// Sum of the sizes of its forces and torques, N and N m.
+    pub size: f64,
+}
+
 /// The rows of phi that belong to one joint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[doc(hidden)]
@@ -299,6 +311,11 @@ pub trait MechanicalSystem: Send + Sync {
     /// Name of the first force that is infinite or not a number at a state, if the forces have names.
     fn infinite_force(&self, _t: f64, _q: &[f64], _v: &[f64], _scratch: &mut Scratch) -> Option<String> {
         None
+    }
+
+    /// What each force does at a state. Default: nothing is known.
+    fn feeds(&self, _t: f64, _q: &[f64], _v: &[f64], _scratch: &mut Scratch) -> Vec<Feed> {
+        Vec::new()
     }
 
     /// The roads under the wheels at a state. Default: none.

@@ -1,11 +1,14 @@
-//! What the time loop asks where the form of the equations changes: switching functions, infinite forces.
+//! Single forces and switching functions, as the time loop asks for them: arguments, powers, infinite forces.
 
+use super::Feed;
 use super::mechanism::{Mechanism, with_frames};
 use super::tangent::OperatingPoint;
-use super::view::{Plain, along_motion, gathered};
+use super::view::{Plain, View, along_motion, gathered};
 use super::workspace::Workspace;
-use crate::body::{MOST_MARKERS, Wrench};
+use crate::body::{MOST_MARKERS, Wrench, norm};
+use crate::force::Force;
 use crate::math::{Rate, Regime, Taylor, Time, all_finite};
+use crate::scene::Connection;
 
 impl<const D: usize> Mechanism<D> {
     /// Writes the arguments of all switching functions.
@@ -29,6 +32,21 @@ impl<const D: usize> Mechanism<D> {
                 |frames| force.element.switching(&still, frames, time.map(Taylor::running), out),
             );
         }
+    }
+
+    /// What each force does at a state.
+    pub(super) fn list_feeds(&self, view: &Plain<D>) -> Vec<Feed> {
+        let feed = |(i, force): (usize, &Connection<Box<dyn Force<D>>>)| {
+            let mut wrenches = [Wrench::zero(); MOST_MARKERS];
+            self.act(i, view, &mut wrenches);
+            let (mut power, mut size) = (0.0, 0.0);
+            for (wrench, &marker) in wrenches.iter().zip(&force.markers) {
+                power += wrench.power(&view.frame(marker));
+                size += norm(&wrench.force) + norm(&wrench.torque);
+            }
+            Feed { name: force.name.clone(), power, size }
+        };
+        self.model().forces.iter().enumerate().map(feed).collect()
     }
 
     /// Name of the first force that is infinite or not a number.

@@ -131,6 +131,11 @@ pub const ADAMS_AIM: f64 = 0.25;
 /// none: time alone depends on it.
 pub const ADAMS_LONGER: f64 = 1.1;
 
+/// The largest rotation of a body in a controlled step of generalized_alpha.
+/// Unit: `[rad]`. Why: Newton's method converges, and no half revolution is missed. Test:
+/// `steady_motions_are_as_accurate_as_asked`.
+pub const GENERALIZED_ALPHA_TURN: f64 = 1.0;
+
 /// The largest rho_inf of generalized_alpha with index3.
 /// Unit: `[1]`. Why: with 0.98 the energy of a pendulum grows a million times in steps of a hundredth of its period.
 /// Test: `every_triple_has_the_order_of_its_integrator`.
@@ -140,6 +145,11 @@ pub const UNDAMPED_WITH_POSITIONS: f64 = 0.9;
 /// Unit: `[1]`. Why: Newton's methods, which go two digits further, and projections near singular states come near
 /// round-off. Test: `steps_are_never_looser_than_asked_nor_tighter_than_round_off`.
 pub const CONTROLLED_RTOL: f64 = 1e-11;
+
+/// Steps of adams are not controlled more tightly than this unless that is asked for.
+/// Unit: `[1]`. Why: it has no Newton's method, and errors fell in proportion down to 1e-14. Test:
+/// `motions_that_amplify_a_little_are_as_accurate_as_asked`.
+pub const ADAMS_RTOL: f64 = 1e-13;
 
 /// How often a guess of the first step is divided by ten where y' has no value ahead.
 /// Unit: `[divisions]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.

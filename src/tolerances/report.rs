@@ -24,6 +24,37 @@ pub const ENERGY_OPEN: f64 = 0.01;
 /// Unit: `[1]`. Why: the promise of the README. Test: none: not tried with other values.
 pub const ENERGY_BEYOND: f64 = 10.0;
 
+/// The change of the energy balance in one step may be an error where it is so many times that in any other.
+/// Unit: `[1]`. Why: those of good runs differ by up to 10. Test: `no_passage_is_wrong_in_silence`.
+pub const CHANGE_ALONE: f64 = 20.0;
+
+/// Such a change is seen from here on.
+/// Unit: `[1]` of that by the tolerated errors of the step. Why: below, the motion is within its tolerance. Test:
+/// `no_passage_is_wrong_in_silence`.
+pub const CHANGE_SEEN: f64 = 0.3;
+
+/// Steps among which one may be alone.
+/// Unit: `[steps]`. Why: a choice. Test: none: not tried with other values.
+pub const STEPS_COMPARED: usize = 10;
+
+/// Up to so many times what the forces give over a length of the scene, a state shows what the scene holds.
+/// Unit: `[1]`. Why: a choice: bodies move some lengths. Test: `a_motion_that_a_force_feeds_without_end_ends`.
+pub const ENERGY_OF_EFFORT: f64 = 10.0;
+
+/// A motion may diverge whose energy is beyond what the scene holds by this.
+/// Unit: `[1]`. Why: no scene travels a million of its lengths under its largest force. Test:
+/// `a_motion_that_a_force_feeds_without_end_ends`.
+pub const ENERGY_DIVERGED: f64 = 1e6;
+
+/// Growth of the energy between two looks at the forces.
+/// Unit: `[1]`. Why: a choice. Test: `a_motion_that_a_force_feeds_without_end_ends`.
+pub const ENERGY_LOOKED: f64 = 4.0;
+
+/// A force grows with a motion that diverges by this between two looks.
+/// Unit: `[1]`. Why: one that is proportional to the motion grows by 2. Test:
+/// `a_motion_that_a_force_feeds_without_end_ends`.
+pub const FEED_GROWN: f64 = 1.5;
+
 /// Distance to the nearby state that tells a singular one from redundant rows.
 /// Unit: `[m, rad]`. Why: a choice. Test: none: not tried with other values.
 pub const STATE_BESIDE: f64 = 1e-3;

@@ -2,6 +2,39 @@
 
 pub use super::{ROUND_OFF_OF_PHI, SAME};
 
+/// Coordinates count as far from the origin from here on.
+/// Unit: `[1]` of the longest lever of the joints. Why: a choice: nearer ones are rounded by 1e-12 of it. Test:
+/// `a_tolerance_below_the_rounding_of_positions_is_refused`.
+pub const FAR_FROM_ORIGIN: f64 = 1e4;
+
+/// Rounding of a lever that steps can be controlled with.
+/// Unit: `[1]` of rtol. Why: with 2 a double pendulum took three times the steps, with 20 two hundred times. Test:
+/// `a_tolerance_below_the_rounding_of_positions_is_refused`.
+pub const ROUNDING_TOLERATED: f64 = 4.0;
+
+/// Steps near singular states by which others are judged.
+/// Unit: `[steps]`. Why: a choice. Test: `no_passage_is_wrong_in_silence`.
+pub const LOSSES_KNOWN: usize = 4;
+
+/// A step over a singular state that changes the energy balance by so many times the largest change before is refused.
+/// Unit: `[1]`. Why: those of good steps differ by up to 10; one that left the motion by 200 tolerances had 50. Test:
+/// `no_passage_is_wrong_in_silence`.
+pub const UNUSUAL_LOSS: f64 = 20.0;
+
+/// Smaller changes of the energy balance refuse no step.
+/// Unit: `[1]` of that by the tolerated errors of the state. Why: they move the motion by less than the tolerance.
+/// Test: `no_passage_is_wrong_in_silence`.
+pub const LOSS_SEEN: f64 = 0.1;
+
+/// Steps that are refused from one state for their energy balance.
+/// Unit: `[steps]`. Why: a choice: a passage that every step makes so is accepted, with a warning. Test: none: a bound
+/// of work, not tried.
+pub const LOSSES_REFUSED: usize = 3;
+
+/// Error of such a step.
+/// Unit: `[tolerated errors]`. Why: the next one is shorter by a half or so. Test: `no_passage_is_wrong_in_silence`.
+pub const REFUSED_FOR_ENERGY: f64 = 100.0;
+
 /// A state whose rank indicator is below is near a singular one.
 /// Unit: `[1]` of the largest so far. Why: a choice. Test: none: with a thousand times more or less the tests of its
 /// room pass.

@@ -21,8 +21,7 @@ pub fn moved(
 ) -> Option<State> {
     let Changes { q: dq, v: dv } = coordinates.changes_of(&(x0 * eps));
     let mut q = start.q.clone();
-    let mut stages = [0; 3].map(|_| vec![0.0; q.len()]);
-    crate::formulation::turn(system, &mut stages, &start.q, dq.as_slice(), &mut q);
+    crate::formulation::ExponentialMap::new(system).apply(system, &start.q, dq.as_slice(), &mut q);
     let v: Vec<f64> = start.v.iter().zip(&dv).map(|(v, dv)| v + dv).collect();
     let closed = assemble(system, start.t, (&q, &v), &[]).ok()?;
     Some(State { t: start.t, q: closed.q, v: closed.v })

@@ -244,7 +244,22 @@ fn fixed_steps_that_do_not_see_a_turn_are_a_warning() {
                 assert_eq!(said, count, "{integrator} {step}: {found:?}");
             }
         }
-        assert_eq!(warnings(&scene, &[]), [""; 0]);
+    }
+    // Quaternions limit controlled steps; the angle in the plane does not, and nothing but its own rate depends on it.
+    assert_eq!(warnings(&spun("3", "[1, 2, 3]", "[0, 0, 100]"), &[]), [""; 0]);
+    let found = warnings(&spun("2", "1", "100"), &[]);
+    assert!(found.len() == 1 && found[0].contains("`rotor` turns by") && found[0].contains("--step"), "{found:?}");
+}
+
+/// A tolerance that nothing is controlled by.
+#[test]
+fn a_tolerance_beside_a_fixed_step_is_a_warning() {
+    let scene = SWUNG.replace("\"t_end\": 1", "\"t_end\": 0.1, \"step\": 1e-3");
+    let found = warnings(&scene, &["--rtol", "1e-6"]);
+    assert!(found.iter().any(|warning| warning.contains("--rtol has no effect") && warning.contains("--adaptive")));
+    for option in [&["--adaptive"][..], &["--step", "0"]] {
+        let found = warnings(&scene, &[&["--rtol", "1e-6"], option].concat());
+        assert!(found.iter().all(|warning| !warning.contains("no effect")), "{found:?}");
     }
 }
 

@@ -56,7 +56,7 @@ pub fn stepwise(formulation: &str, integrator: &str, projection: &str, tolerance
 
 /// What to ask of a motion so that its steps have the tolerance.
 pub fn asked_for(method: &Method, tolerance: f64) -> f64 {
-    let Tightening { factor, power } = integrator::find(&method.integrator).unwrap().tightening;
+    let Tightening { factor, power, .. } = integrator::find(&method.integrator).unwrap().tightening;
     // Below that steps are controlled by what is asked.
     if tolerance < 1e-11 { tolerance } else { (tolerance / factor).powf(1.0 / power).max(tolerance) }
 }

@@ -107,6 +107,25 @@ fn flat_states_are_passed_at_any_tolerance() {
     assert!(stopped <= 1, "{stopped}");
 }
 
+/// One passage in two hundred runs left the motion by 200 tolerances, and its energy balance showed it.
+#[test]
+fn no_passage_is_wrong_in_silence() {
+    let scene = parse(&n_four_bar(2).to_string());
+    let [x, y] = TOPS[0].1;
+    let mut told = 0;
+    let others = (0..40).map(|k| 1e-10 * 1.1f64.powi(k - 10));
+    for tolerance in std::iter::once(1.0615201506010002e-10).chain(others) {
+        let run =
+            scene.run(&adaptive("index1", "dop853", "manifold", tolerance), Span { output_step: 0.05, ..SECONDS });
+        let error = (last(&run, "B0_x") - x).hypot(last(&run, "B0_y") - y) / tolerance;
+        let is_told = run.record.worst_step.is_alone();
+        told += usize::from(is_told);
+        // Steps at 1e-11 are at their tightest, and the reference has 12 digits.
+        assert!(is_told || error < 100.0, "{tolerance:e}: {error} tolerances in silence");
+    }
+    assert!(told < 3, "{told} warnings");
+}
+
 #[test]
 fn forty_loops_with_smaller_steps_come_closer() {
     let scene = load(&model("n_four_bar"), &[]);

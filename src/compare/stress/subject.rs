@@ -195,9 +195,8 @@ fn perturbed(
     let size = system.scales().into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let mut random = Random(1);
     let dq: Vec<f64> = v.iter().map(|_| position * size * random.next()).collect();
-    let mut stages = [0; 3].map(|_| vec![0.0; q.len()]);
     let from = q.clone();
-    crate::formulation::turn(system, &mut stages, &from, &dq, &mut q);
+    crate::formulation::ExponentialMap::new(system).apply(system, &from, &dq, &mut q);
     v.iter_mut().for_each(|v| *v += velocity * size / period * random.next());
     (q, v)
 }

@@ -2,7 +2,7 @@
 
 use super::failure;
 use crate::error::Result;
-use crate::formulation::{Dynamics, turn};
+use crate::formulation::{Dynamics, ExponentialMap};
 use crate::math::kkt::{Pattern, SaddlePoint, Unsymmetric};
 use crate::math::{largest, largest_in};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Tangent};
@@ -55,7 +55,7 @@ pub(super) struct EquilibriumSystem<'a> {
     pub coordinates: usize,
     /// v: zero but for the states xi of the present terms.
     pub still: Vec<f64>,
-    stages: [Vec<f64>; 3],
+    retraction: ExponentialMap,
 }
 
 impl<'a> EquilibriumSystem<'a> {
@@ -88,7 +88,7 @@ impl<'a> EquilibriumSystem<'a> {
             scales: system.scales(),
             iterations: 0,
             values: vec![0.0; g.entries.len()],
-            stages: [vec![0.0; n.q], vec![0.0; n.q], vec![0.0; n.q]],
+            retraction: ExponentialMap::new(system),
             coordinates: n.q,
             dynamics,
             t,
@@ -180,7 +180,7 @@ impl<'a> EquilibriumSystem<'a> {
         let dq: Vec<f64> = change.q.iter().map(|dq| part * dq).collect();
         let mut q = from.q.clone();
         let ((own, xi), moving) = (q.split_at_mut(self.coordinates), self.dynamics.system.dimensions().moving());
-        turn(self.dynamics.system, &mut self.stages, &from.q[..own.len()], &dq, own);
+        self.retraction.apply(self.dynamics.system, &from.q[..own.len()], &dq, own);
         xi.iter_mut().zip(&dq[moving..]).for_each(|(xi, d)| *xi += d);
         let lambda = from.lambda.iter().zip(&change.lambda).map(|(lambda, d)| lambda + part * d).collect();
         Place { q, lambda }

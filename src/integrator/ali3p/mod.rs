@@ -7,7 +7,7 @@ use super::memory::Reader;
 use super::sums::trapezoid;
 use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
 use crate::error::{Error, Result};
-use crate::formulation::{StepError, turn};
+use crate::formulation::{ExponentialMap, StepError};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor, relative};
 use crate::method_spec::OptionDoc;
@@ -69,7 +69,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         step: zeros(n.v),
         rows: zeros(n.lambda),
         scales: setup.system.scales(),
-        stages: [zeros(n.q), zeros(n.q), zeros(n.q)],
+        retraction: ExponentialMap::new(setup.system),
         slope: zeros(setup.len()),
         control: Control::new(2.0, 0.2, 5.0),
         polynomial: Hermite::new(setup.len(), 0),
@@ -91,7 +91,7 @@ struct Ali3p {
     rows: Vec<f64>,
     /// Reference values of phi.
     scales: Vec<f64>,
-    stages: [Vec<f64>; 3],
+    retraction: ExponentialMap,
     /// y' at the new state.
     slope: Vec<f64>,
     control: Control,
@@ -129,7 +129,7 @@ impl Ali3p {
         for (i, v0) in v0.iter().enumerate() {
             self.step[i] = h * v0 + 0.5 * h * h * self.a[i];
         }
-        turn(problem.dynamics.system, &mut self.stages, q0, &self.step, &mut self.predicted);
+        self.retraction.apply(problem.dynamics.system, q0, &self.step, &mut self.predicted);
     }
 
     /// v_1 and q_1 for the present a_1.
@@ -140,7 +140,7 @@ impl Ali3p {
             v[i] = v0[i] + 0.5 * h * (self.a[i] + self.a_new[i]);
             self.step[i] = 0.25 * h * h * (self.a_new[i] - self.a[i]);
         }
-        turn(problem.dynamics.system, &mut self.stages, &self.predicted, &self.step, q);
+        self.retraction.apply(problem.dynamics.system, &self.predicted, &self.step, q);
     }
 
     fn converge(&mut self, problem: &mut Problem, from: From, h: f64, to: &mut [f64]) -> Result<(), StepError> {

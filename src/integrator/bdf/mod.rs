@@ -35,7 +35,7 @@ pub const ENTRY: Entry = Entry {
     order: 5,
     steps: Steps::Own,
     // At order 5, which tight tolerances select; errors over a motion were 9 rtol^(5/6) on long ones.
-    tightening: Tightening { factor: 0.07, power: 1.2 },
+    tightening: Tightening::new(0.07, 1.2),
     solves: takes::accelerations_or_positions,
     refuses: refuses::all,
     options: &[],

@@ -24,10 +24,9 @@ use newton::Newton;
 /// with the rows and the shifts u and w of the formulation's `Dae`, r = rho_inf, the damping at infinite frequency.
 /// Source: Chung, Hulbert, J. Appl. Mech. 60 (1993) 371-375; Arnold, Bruels, Multibody Syst. Dyn. 18 (2007) 185-202;
 /// stabilized index 2: Arnold, Bruels, Cardona, Numer. Math. 129 (2015) 149-179. Rotations advance along the group, q
-/// exp(Dq) by four Runge-Kutta stages of q' = N(q) Dq; with ggl in two factors, one for the change that was predicted
-/// and one for the rest, so that Newton's method sees small rotations only and steps of a radian converge. (That moves
-/// q by O(h^4), which the phi of index3 would amplify by h^-2.) Order 2 in q, v and lambda; implicit, for stiff
-/// motions.
+/// exp(Dq), which is exact about a fixed axis; with ggl in two factors, one for the change that was predicted and one
+/// for the rest, so that Newton's method sees small rotations only and steps of a radian converge. (That moves q by
+/// O(h^4), which the phi of index3 would amplify by h^-2.) Order 2 in q, v and lambda; implicit, for stiff motions.
 ///
 /// With rho_inf = 1 nothing is damped, which ggl allows. With index3 the multipliers have the eigenvalue -rho_inf
 /// three times, which a rotating G separates, the more the larger the step: with too little damping errors grow
@@ -36,9 +35,10 @@ use newton::Newton;
 /// `exact`; `full` would distribute that error between v and q at every step, which costs q an order, so it is
 /// refused); with ggl to round-off too.
 ///
-/// Error of a step: (1/6 - beta - (alpha_m - alpha_f)/2) h^2 (a_1 - a) in q, the leading term, and that of h^3 xi''' in
-/// states; v and lambda, index 2 and 3, are not tested. Source: Geradin, Cardona, Flexible Multibody Dynamics (2001),
-/// chapter 7. When the step changes, a = v'(t + (alpha_m - alpha_f) h) is moved with it: Jay, Negrut, ECCOMAS Multibody
+/// Error of a step: (1/6 - beta - (alpha_m - alpha_f)/2) h^2 (a_1 - a) + h^3/12 [v, v'] in q, the leading terms, and
+/// that of h^3 xi''' in states; v and lambda, index 2 and 3, are not tested. Source: Geradin, Cardona, Flexible
+/// Multibody Dynamics (2001), chapter 7. A step turns no body in space by more than a radian, since at a steady
+/// rotation these errors are zero, however large the rotation. When the step changes, a = v'(t + (alpha_m - alpha_f) h) is moved with it: Jay, Negrut, ECCOMAS Multibody
 /// Dynamics (2009) 143-158. One matrix, from exact K and C, is kept while Newton's method converges with it; an
 /// evaluation and a back-substitution (with ggl two) per iteration. The work is integrated by the trapezoidal rule.
 /// Cubic Hermite interpolation.
@@ -48,7 +48,7 @@ pub const ENTRY: Entry = Entry {
     order: 2,
     steps: Steps::Either,
     // Errors over a motion were 10 rtol^(2/3), 70 for lasting oscillations, whose v is not in the estimate.
-    tightening: Tightening { factor: 0.01, power: 1.5 },
+    tightening: Tightening::new(0.01, 1.5),
     solves: takes::positions,
     refuses: refuses::shared_error,
     options: &[OptionDoc {
@@ -74,7 +74,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
     let n = setup.system.dimensions();
     Ok(Box::new(GeneralizedAlpha {
-        motion: Motion::new(Scheme::new(r), n, &dae),
+        motion: Motion::new(Scheme::new(r), setup.system, &dae),
         newton,
         error: vec![0.0; n.q],
         control: Control::proportional(3.0, 0.13, 0.2, 2.0),
@@ -92,15 +92,16 @@ struct GeneralizedAlpha {
 }
 
 impl GeneralizedAlpha {
-    /// Root mean square of the errors of q and xi in units of the tolerance.
+    /// Root mean square of the errors of q and xi in units of the tolerance; above one where a rotation is too large.
     fn error(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, to: &[f64]) -> f64 {
         let (q, v) = problem.split(to);
         let n = problem.dynamics.system.dimensions();
-        problem.dynamics.system.rate(q, self.motion.local_error(h), &mut self.error);
+        problem.dynamics.system.rate(q, self.motion.local_error(problem, from, h), &mut self.error);
         let sum = tolerance.squares(q.len(), from.y, q, &self.error);
         let of_state = |i: usize| self.motion.state_error(i, h) / tolerance.weight(from.y[q.len() + i], v[i]);
         let of_states: f64 = (n.moving()..n.v).map(|i| of_state(i).powi(2)).sum();
-        ((sum + of_states) / (tolerance.tested(q.len()) + n.states) as f64).sqrt()
+        let error = ((sum + of_states) / (tolerance.tested(q.len()) + n.states) as f64).sqrt();
+        error.max((self.motion.turned() / tolerances::GENERALIZED_ALPHA_TURN).powi(3))
     }
 }
 

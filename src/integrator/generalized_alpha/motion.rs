@@ -3,9 +3,9 @@
 use super::super::memory::Reader;
 use super::super::{From, Problem};
 use super::prediction::{Carried, Prediction};
-use crate::formulation::{Change, Dae, Slopes, StepError, Unknowns, turn};
+use crate::formulation::{Change, Dae, ExponentialMap, Slopes, StepError, Unknowns};
 use crate::math::largest;
-use crate::system::Dimensions;
+use crate::system::MechanicalSystem;
 
 /// Coefficients of the method.
 pub(super) struct Scheme {
@@ -64,11 +64,12 @@ pub(super) struct Motion {
     a_predicted: Vec<f64>,
     /// q after the first change, if the two changes are applied in succession.
     between: Option<Vec<f64>>,
-    stages: [Vec<f64>; 3],
+    retraction: ExponentialMap,
 }
 
 impl Motion {
-    pub fn new(scheme: Scheme, n: Dimensions, dae: &Dae) -> Self {
+    pub fn new(scheme: Scheme, system: &dyn MechanicalSystem, dae: &Dae) -> Self {
+        let n = system.dimensions();
         let zeros = |n: usize| vec![0.0; n];
         Motion {
             scheme,
@@ -83,7 +84,7 @@ impl Motion {
             change: zeros(n.v),
             a_predicted: zeros(n.v),
             between: dae.mu.map(|_| zeros(n.q)),
-            stages: [zeros(n.q), zeros(n.q), zeros(n.q)],
+            retraction: ExponentialMap::new(system),
         }
     }
 
@@ -186,13 +187,21 @@ impl Motion {
         [largest(a).max(largest(&change.w) / slopes.v).max(moved), largest(states)]
     }
 
-    /// The leading term of the error of q along the directions of v.
-    pub fn local_error(&mut self, h: f64) -> &[f64] {
+    /// The leading term of the error of q along the directions of v: `Scheme::error` h^3 v'', and h^3/12 \[v, v'\], by
+    /// which rotations about a moving axis differ from that by the integral of v. Source: Magnus, Comm. Pure Appl.
+    /// Math. 7 (1954) 649-673.
+    pub fn local_error(&mut self, problem: &Problem, from: From, h: f64) -> &[f64] {
         let factor = self.scheme.error() * h * h;
+        problem.dynamics.system.bracket(problem.split(from.y).1, &self.start.vdot, &mut self.change);
         for (i, error) in self.change.iter_mut().enumerate() {
-            *error = factor * (self.end.a[i] - self.a[i]);
+            *error = h * h * h / 12.0 * *error + factor * (self.end.a[i] - self.a[i]);
         }
         &self.change
+    }
+
+    /// The largest angle of a rotation in the step, as it was predicted, rad.
+    pub fn turned(&self) -> f64 {
+        self.retraction.largest_angle(&self.predicted)
     }
 
     /// The leading term of the error of velocity `i`, a state.
@@ -229,7 +238,7 @@ impl Motion {
             *predicted = h * v + h * h * ((0.5 - beta) * a + beta * end);
         }
         if let Some(between) = &mut self.between {
-            turn(problem.dynamics.system, &mut self.stages, q0, &self.predicted, between);
+            self.retraction.apply(problem.dynamics.system, q0, &self.predicted, between);
         }
     }
 
@@ -251,6 +260,6 @@ impl Motion {
             self.change.iter_mut().zip(&self.predicted).for_each(|(change, predicted)| *change += predicted);
             q0
         });
-        turn(problem.dynamics.system, &mut self.stages, start, &self.change, q);
+        self.retraction.apply(problem.dynamics.system, start, &self.change, q);
     }
 }

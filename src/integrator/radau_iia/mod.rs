@@ -54,7 +54,7 @@ pub const ENTRY: Entry = Entry {
     order: 5,
     steps: Steps::Either,
     // Errors over a motion were 0.1 rtol^0.8, with the rtol of `internal`: index 3 and fast modes lose order.
-    tightening: Tightening { factor: 10.0, power: 1.25 },
+    tightening: Tightening::new(10.0, 1.25),
     solves: |formulation| formulation.dae.is_some(),
     refuses: refuses::shared_error,
     options: &[OptionDoc { name: "order", about: "5, 9 or 13 (default: chosen as it goes; 5 with a fixed step)" }],

@@ -147,7 +147,7 @@ pub fn envelope(points: impl Iterator<Item = (f64, f64)>, rows: usize, windows: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::{Drift, Range, Singularity};
+    use crate::analysis::{Drift, Range, Singularity, WorstStep};
     use crate::system::{Column, Names};
 
     /// Rows at times of 0.01 s with one constraint and the energies of a motion without work.
@@ -166,6 +166,7 @@ mod tests {
             jumps: 0,
             gaps: Vec::new(),
             extremes: Vec::new(),
+            worst_step: WorstStep::default(),
             drift: Drift::default(),
             energy: None,
             singularity: Singularity::default(),

@@ -6,7 +6,7 @@ use super::snapshot::{Snapshot, snapshot};
 use super::view::along;
 use crate::body::{norm, sub};
 use crate::error::{short, significant};
-use crate::formulation::turn;
+use crate::formulation::ExponentialMap;
 use crate::linearize::{Complex, Kind, LinearModel, Mode, Pair, State, pairs};
 use crate::math::bounds;
 use crate::plot::{Figure, Item, Tint};
@@ -146,8 +146,7 @@ impl<'a> Swing<'a> {
     fn snapshot(&self, angle: f64) -> Snapshot {
         let (point, system) = (&self.model.point, self.prepared.system());
         let mut q = point.q.clone();
-        let mut stages = [q.clone(), q.clone(), q.clone()];
-        turn(system, &mut stages, &point.q, &self.change(angle), &mut q);
+        ExponentialMap::new(system).apply(system, &point.q, &self.change(angle), &mut q);
         snapshot(&self.prepared.mechanism, &State { t: point.t, q, v: point.v.clone() })
     }
 }
