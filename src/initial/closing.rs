@@ -1,7 +1,6 @@
 //! phi = 0 from a guess, by damped Newton's method in the mass metric.
 
 use super::Metric;
-use super::position::step;
 use crate::error::Result;
 use crate::tolerances::initial as tolerances;
 
@@ -54,7 +53,7 @@ pub(super) fn attempt(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f
             return Ok(true);
         }
         last = residual;
-        let d = step(metric, None)?;
+        let d = metric.step(None)?;
         let factor = (tolerances::LARGEST_TURN / metric.largest_turn(q, &d)).min(1.0);
         let Some(taken) = advance(metric, t, q, (&d, factor), residual) else { return Ok(is_closed) };
         moved.iter_mut().zip(&d).for_each(|(moved, d)| *moved += taken * d);
@@ -79,15 +78,18 @@ fn advance(metric: &mut Metric, t: f64, q: &mut [f64], (d, full): (&[f64], f64),
     None
 }
 
-/// Moves q away from the guess, farther with each number, along none of the held directions. The directions are a Weyl
-/// sequence: the fractional parts of multiples of the golden ratio.
+/// The numbers of a Weyl sequence between -1 and 1: fractional parts of multiples of the golden ratio.
+pub fn weyl(number: usize) -> f64 {
+    2.0 * (0.5 * (5f64.sqrt() - 1.0) * (number + 1) as f64).fract() - 1.0
+}
+
+/// Moves q away from the guess, farther with each number, along none of the held directions.
 fn beside(metric: &Metric, number: usize, q: &mut [f64], moved: &mut [f64]) {
-    let golden = 0.5 * (5f64.sqrt() - 1.0);
     let amplitude = (tolerances::BESIDE * number as f64).min(1.0);
     let length = metric.system.length();
     let mut away = vec![0.0; moved.len()];
     for (i, away) in away.iter_mut().enumerate() {
-        let place = 2.0 * (golden * (number * moved.len() + i + 1) as f64).fract() - 1.0;
+        let place = weyl(number * moved.len() + i);
         *away = amplitude * place * (length / metric.inertia(i).sqrt()).min(1.0);
     }
     metric.held.iter().for_each(|held| away[*held] = 0.0);

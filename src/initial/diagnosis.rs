@@ -1,7 +1,7 @@
 //! The reason why joints cannot be closed.
 
+use super::follow::path;
 use super::nearest::corrected;
-use super::reach::path;
 use super::{Metric, closing, nearest};
 use crate::error::{Error, short, significant};
 
@@ -36,12 +36,11 @@ pub fn obstacle(
             let (mut turned, mut way) = (guess.to_vec(), way.to_vec());
             !closes_without(metric, &directions, t, &mut turned, &mut way)
         };
-        let before = metric.residual(t, q);
         if path(metric, &rows, t, q, moved) == 1.0 {
             return None;
         }
         least_gap(metric, &rows, t, q);
-        let is_free = metric.size_of_phi() < tolerances::GAP_FALLS * before;
+        let is_free = moves(metric, &rows, t, q);
         return Some(blocked(metric, &group, t, (is_free, has_fitting_axes)));
     }
     Some(general)
@@ -74,6 +73,26 @@ fn least_gap(metric: &mut Metric, rows: &[usize], t: f64, q: &mut Vec<f64>) {
     }
     metric.drop_rows(&[]);
     metric.residual(t, q);
+}
+
+/// True if the other joints let the bodies of some rows move: of an arbitrary direction of motion, a part along the
+/// coordinates of these rows is left. At a dead point their gap does not
+/// change along it at first. The terms are those at q.
+fn moves(metric: &mut Metric, rows: &[usize], t: f64, q: &[f64]) -> bool {
+    let still = vec![0.0; metric.still.len()];
+    metric.drop_rows(rows);
+    let any: Vec<f64> = (0..still.len()).map(closing::weyl).collect();
+    let mut left = Vec::new();
+    if metric.at(t, q, &still).is_ok() {
+        left = metric.weigh(&any);
+        if metric.solve(&mut left, &vec![0.0; metric.terms.phi.len()]).is_err() {
+            left.clear();
+        }
+    }
+    let [all, free] = [&any, &left].map(|d| metric.largest_along(rows, d));
+    metric.drop_rows(&[]);
+    metric.residual(t, q);
+    free > tolerances::LOCKED * all
 }
 
 /// A closed state whose rows r have a smaller gap than that of q, with that gap.

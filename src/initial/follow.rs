@@ -1,6 +1,5 @@
 //! Continuation of an assembled state to a nearby one on the same branch.
 
-use super::position::step;
 use super::{Metric, holds};
 use crate::error::Result;
 use crate::math::largest;
@@ -51,11 +50,11 @@ pub fn follow(
 }
 
 /// Newton's method on phi; true if it contracts from its first step on. Adds its steps to `moved`.
-pub(super) fn newton(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
+fn newton(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
     let (still, mut rate) = (vec![0.0; moved.len()], vec![0.0; q.len()]);
     Monitor::default().solve(LIMITS, |_| {
         metric.at(t, q, &still)?;
-        let d = step(metric, None)?;
+        let d = metric.step(None)?;
         metric.system.rate(q, &d, &mut rate);
         q.iter_mut().zip(&rate).for_each(|(q, rate)| *q += rate);
         metric.system.normalize(q);
@@ -76,4 +75,29 @@ fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<
     metric.kkt.drop_rows(&dependent);
     metric.at(t, &q, still)?;
     Ok(Some(Followed { q, rank_indicator: metric.kkt.rank_indicator(), dependent }))
+}
+
+/// Moves q along the path on which phi of some rows, open by `gap` at q, goes to zero as (1 - s) gap. Returns s where it
+/// ends; the terms are those at q.
+pub(super) fn path(all: &mut Metric, rows: &[usize], t: f64, q: &mut [f64], moved: &mut [f64]) -> f64 {
+    all.residual(t, q);
+    let mut gap = vec![0.0; all.terms.phi.len()];
+    rows.iter().for_each(|row| gap[*row] = all.terms.phi[*row]);
+    let (mut done, mut part) = (0.0, 1.0);
+    while done < 1.0 && part > tolerances::LEAST_PART {
+        let next = f64::min(done + part, 1.0);
+        let (mut ahead, mut change) = (q.to_vec(), moved.to_vec());
+        all.ahead = gap.iter().map(|gap| (1.0 - next) * gap).collect();
+        let contracts = newton(all, t, &mut ahead, &mut change).unwrap_or(false);
+        if contracts && all.residual(t, &ahead).is_finite() && all.is_closed(&ahead) {
+            q.copy_from_slice(&ahead);
+            moved.copy_from_slice(&change);
+            (done, part) = (next, 2.0 * part);
+        } else {
+            part *= 0.5;
+        }
+    }
+    all.ahead.clear();
+    all.residual(t, q);
+    done
 }

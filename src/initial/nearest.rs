@@ -1,7 +1,6 @@
 //! The state nearest to the guess among those with phi = 0.
 
 use super::Metric;
-use super::position::step;
 use crate::error::Result;
 use crate::math::largest;
 use crate::tolerances::initial as tolerances;
@@ -17,7 +16,7 @@ pub fn approach(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -
     let mut smallest = f64::INFINITY;
     for _ in 0..tolerances::APPROACH_STEPS {
         metric.at(t, q, &still)?;
-        let d = step(metric, Some(moved))?;
+        let d = metric.step(Some(moved))?;
         let size = largest(&d);
         let travel = 1.0 + largest(moved);
         // Near the nearest state the distance changes by the square of the step: by its round-off.
@@ -65,7 +64,7 @@ pub(super) fn corrected(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut 
             return metric.is_closed(q);
         }
         last = residual;
-        let Ok(d) = step(metric, None) else { return false };
+        let Ok(d) = metric.step(None) else { return false };
         let start = q.to_vec();
         metric.go(&start, &d, 1.0, q);
         moved.iter_mut().zip(&d).for_each(|(moved, d)| *moved += d);

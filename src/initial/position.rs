@@ -43,14 +43,3 @@ fn kept(metric: &Metric, moved: &[f64]) -> Result<()> {
         .under("assembly.hold")
         .hint("begin where the joints are closed, or hold fewer coordinates"))
 }
-
-/// Solves [W G^T; G 0] [d; .] = [-W moved; -phi]: Newton's step, and the way back towards the guess within the tangent
-/// space if `moved` is given.
-pub(super) fn step(metric: &mut Metric, moved: Option<&[f64]>) -> Result<Vec<f64>> {
-    let n = metric.system.dimensions().v;
-    let mut top = moved.map_or(vec![0.0; n], |moved| metric.weigh(moved).iter().map(|x| -x).collect());
-    let mut bottom: Vec<f64> = metric.terms.phi.iter().map(|phi| -phi).collect();
-    metric.without.iter().for_each(|row| bottom[*row] = 0.0);
-    metric.solve(&mut top, &bottom)?;
-    Ok(top)
-}

@@ -1,6 +1,6 @@
 //! The coordinates in `initial`: a path to them from the guess with its joints closed.
 
-use super::follow::newton;
+use super::follow::path;
 use super::{Metric, position};
 use crate::error::{Error, Result};
 use crate::scene::INITIAL;
@@ -45,29 +45,4 @@ fn follow(
     let rows: Vec<usize> = groups.flat_map(|group| group.rows).collect();
     let done = path(all, &rows, t, q, moved);
     Ok((done, (done < 1.0).then(|| all.culprits(&all.terms.phi))))
-}
-
-/// Moves q along the path on which phi of some rows, open by `gap` at q, goes to zero as (1 - s) gap. Returns s where it
-/// ends; the terms are those at q.
-pub(super) fn path(all: &mut Metric, rows: &[usize], t: f64, q: &mut [f64], moved: &mut [f64]) -> f64 {
-    all.residual(t, q);
-    let mut gap = vec![0.0; all.terms.phi.len()];
-    rows.iter().for_each(|row| gap[*row] = all.terms.phi[*row]);
-    let (mut done, mut part) = (0.0, 1.0);
-    while done < 1.0 && part > tolerances::LEAST_PART {
-        let next = f64::min(done + part, 1.0);
-        let (mut ahead, mut change) = (q.to_vec(), moved.to_vec());
-        all.ahead = gap.iter().map(|gap| (1.0 - next) * gap).collect();
-        let contracts = newton(all, t, &mut ahead, &mut change).unwrap_or(false);
-        if contracts && all.residual(t, &ahead).is_finite() && all.is_closed(&ahead) {
-            q.copy_from_slice(&ahead);
-            moved.copy_from_slice(&change);
-            (done, part) = (next, 2.0 * part);
-        } else {
-            part *= 0.5;
-        }
-    }
-    all.ahead.clear();
-    all.residual(t, q);
-    done
 }

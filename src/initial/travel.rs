@@ -65,11 +65,14 @@ impl<'a> Travel<'a> {
         if self.last.0 >= t { None } else { Some(self.end(until)) }
     }
 
-    /// The end of the travel if it comes within `ahead` after a state.
+    /// The end of the travel if it comes within `ahead` after a state. A driver may come back soon after the end, so that
+    /// the looks begin near the state, each twice as far as the one before.
     pub fn end_within(&mut self, (t, q): (f64, &[f64]), ahead: f64, until: f64) -> Option<TravelEnd> {
         self.end_before(t, q, until).or_else(|| {
-            let from = self.last.1.clone();
-            self.end_before(t + ahead, &from, until)
+            (0..=tolerances::TRAVEL_LOOKS).find_map(|look| {
+                let from = self.last.1.clone();
+                self.end_before(t + ahead * 0.5f64.powi(tolerances::TRAVEL_LOOKS - look), &from, until)
+            })
         })
     }
 

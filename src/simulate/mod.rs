@@ -253,7 +253,8 @@ impl<'a> Run<'a> {
 
     /// The outcome at the present state.
     fn finish(&mut self, failure: Option<Failure>, sink: &mut dyn Sink) -> Outcome {
-        if failure.is_some() {
+        // Steps may have gone a little over the end of a travel.
+        if failure.as_ref().is_some_and(|failure| failure.t >= self.t) {
             self.last_good_row(sink);
         }
         let (q, v) = self.problem.split(&self.y);

@@ -6,7 +6,7 @@ use super::levi_civita::LeviCivita;
 use super::limits::{Extent, limits};
 use super::output::column;
 use super::output_tangent::{OutputTangent, Slopes};
-use super::rows::{JointRows, PlacedJoint};
+use super::rows::{JointRows, PlacedJoint, groups, prescribed};
 use super::scale::{length_scale, named_lengths, row_scales};
 use super::spin::{Placement, Rotation, Spin};
 use super::support::Support;
@@ -21,7 +21,7 @@ use crate::body::{Frame, cross};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
-use crate::scene::{Connection, Input, Model, Part};
+use crate::scene::{Input, Model, Part};
 use nalgebra::DMatrix;
 use std::array::from_fn;
 use std::ops::Range;
@@ -304,13 +304,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn groups(&self) -> Vec<Group> {
-        let joints = self.model.joints.iter().zip(&self.joints);
-        let group = |(joint, rows): (&Connection<_>, &JointRows)| Group {
-            name: joint.name.clone(),
-            kind: joint.kind.to_string(),
-            rows: rows.range(),
-        };
-        joints.map(group).collect()
+        groups(&self.model, &self.joints)
     }
 
     fn lengths(&self) -> Vec<(String, f64)> {
@@ -318,10 +312,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn prescribed(&self, t: f64) -> Vec<Prescribed> {
-        let joints = self.model.joints.iter().zip(&self.joints);
-        let driven = joints.filter(|(joint, _)| joint.element.depends_on_time());
-        let rows = driven.flat_map(|(joint, rows)| rows.range().map(|row| (row, joint.element.prescribed(t))));
-        rows.map(|(row, value)| Prescribed { row, value }).collect()
+        prescribed(&self.model, &self.joints, t)
     }
 
     fn outputs(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {

@@ -5,12 +5,12 @@ use super::mechanism::{Mechanism, of};
 use super::support::Support;
 use super::variation::{SeedDirection, SeededBody};
 use super::view::mapped;
-use super::{OperatingPoint, Terms};
+use super::{Group, OperatingPoint, Prescribed, Terms};
 use crate::body::{Dual6, Frame, Wrench, twist_len};
 use crate::joint::{Joint, Lock, MOST_ROWS, markers_per_pass};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Scalar, Taylor, Time};
-use crate::scene::Connection;
+use crate::scene::{Connection, Model};
 use std::ops::Range;
 
 /// Rows of a joint in phi, and the places of its entries in G.
@@ -67,6 +67,24 @@ impl JointRows {
     pub fn range(&self) -> Range<usize> {
         self.first..self.first + self.count
     }
+}
+
+/// The rows of phi by joint.
+pub(super) fn groups<const D: usize>(model: &Model<D>, joints: &[JointRows]) -> Vec<Group> {
+    let joints = model.joints.iter().zip(joints);
+    let group = |(joint, rows): (&Connection<_>, &JointRows)| Group {
+        name: joint.name.clone(),
+        kind: joint.kind.to_string(),
+        rows: rows.range(),
+    };
+    joints.map(group).collect()
+}
+
+/// The rows that depend on t, with what they prescribe.
+pub(super) fn prescribed<const D: usize>(model: &Model<D>, joints: &[JointRows], t: f64) -> Vec<Prescribed> {
+    let driven = model.joints.iter().zip(joints).filter(|(joint, _)| joint.element.depends_on_time());
+    let rows = driven.flat_map(|(joint, rows)| rows.range().map(|row| (row, joint.element.prescribed(t))));
+    rows.map(|(row, value)| Prescribed { row, value }).collect()
 }
 
 impl<const D: usize> PlacedJoint<'_, D> {

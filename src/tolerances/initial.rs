@@ -205,9 +205,10 @@ pub const PART_OF_GAP: f64 = 1e-3;
 /// Unit: `[joints]`. Why: a choice. Test: none: a bound of work, not tried.
 pub const JOINTS_TRIED: usize = 8;
 
-/// A gap that falls by less than the rest shows that the other joints leave no freedom to close it.
-/// Unit: `[1]` of the gap. Why: a choice, above round-off. Test: `a_joint_too_many_is_named`.
-pub const GAP_FALLS: f64 = 1.0 - 1e-6;
+/// Bodies move so far along a direction of motion if they are free at all.
+/// Unit: `[1]` of an arbitrary change of their coordinates. Why: a choice, above round-off. Test:
+/// `a_joint_too_many_is_named`.
+pub const LOCKED: f64 = 1e-8;
 
 /// A gap that falls by less than this in a step is the least.
 /// Unit: `[1]` of the gap. Why: a choice: four digits are told. Test: `a_bar_that_is_too_short_is_named_with_the_gap`.
@@ -261,6 +262,10 @@ pub const TRAVEL_BEYOND: f64 = 1e-3;
 /// Samples of what a driver asks for after the end of its travel.
 /// Unit: `[samples]`. Why: a choice of how much a message says. Test: none: not tried with other values.
 pub const TRAVEL_SAMPLES: u32 = 400;
+
+/// Looks for the end of a travel ahead of a run that fails or crawls, each twice as far as the one before.
+/// Unit: `[looks]`. Why: the first is at a millionth of the time. Test: `a_driver_beyond_its_travel_is_named`.
+pub const TRAVEL_LOOKS: i32 = 20;
 
 /// Thirds that are cut off around the extreme of what a driver asks for.
 /// Unit: `[1]`. Why: (2/3)^60 is below round-off. Test: `a_driver_beyond_its_travel_is_named`.

@@ -6,8 +6,7 @@ cases! {
     unreachable:
         pendulum()
             .and_joint("{'name':'far','type':'distance','between':['ground.P','rod.B'],'length':0.5}") => [
-            "scene.json:12:13: at joints: the joints cannot all be closed; gaps that remain (m, rad): `pin` 0.75, \
-             `far` 0.75",
+            "scene.json:12:13: at joints (`far`): the joints cannot all be closed: `far` is out of reach, by 1.5 m",
             "check lengths and markers of these joints, and whether one asks for what another forbids; or start \
              nearer",
         ];
@@ -92,8 +91,11 @@ fn pair(element: &str, [a, b]: [&str; 2]) -> crate::errors::Scene {
 
 #[test]
 fn two_rods_of_different_lengths() {
-    let pieces =
-        ["at joints: the joints cannot all be closed", "`second`", "`first`", "help: check lengths and markers"];
+    let pieces = [
+        "at joints (`second`): the joints cannot all be closed: `second` is one joint too many",
+        "its gap of 0.5 m (4 equations, 3 velocities)",
+        "help: remove a joint",
+    ];
     pair(ROD, ["2", "2.5"]).refused_with(&pieces);
 }
 
@@ -101,7 +103,9 @@ fn two_rods_of_different_lengths() {
 fn two_drivers_that_contradict() {
     let rates = ["at joints: the joints ask for different velocities", "0.5", "0.5", "check drivers"];
     pair(DRIVE, ["t", "2*t"]).refused_with(&rates);
-    let positions = ["at joints: the joints cannot all be closed", "0.5", "0.5"];
+    let positions =
+        ["at joints (`second`): the joints cannot all be closed: the driver `second` asks for 1 rad, and the joints \
+         reach 0 rad"];
     pair(DRIVE, ["t", "1 + t"]).refused_with(&positions);
 }
 
@@ -127,7 +131,7 @@ fn a_four_bar_with_too_short_links() {
          'bodies': [{bodies}],\n'joints': [{}] }}",
         joints.join(", ")
     );
-    let pieces =
-        ["scene.json:2:11: at joints: the joints cannot all be closed; gaps that remain", "`A`", "help: check"];
+    // Three links of 0.4 over a ground of 2.
+    let pieces = ["at joints (`D`): the joints cannot all be closed: `D` is out of reach, by 0.8 m", "help: check"];
     crate::errors::scene(crate::errors::json(&text)).refused_with(&pieces);
 }

@@ -62,7 +62,7 @@ fn failed(scene: &Ready, method: &Method) -> (f64, String, Vec<f64>) {
     (failure.t, failure.reason, recorder.finish().trajectory.times().collect())
 }
 
-const ADAPTIVE: [[&str; 3]; 14] = [
+const ADAPTIVE: [[&str; 3]; 15] = [
     ["index1", "dop853", "manifold"],
     ["index1", "dopri5", "none"],
     ["baumgarte", "dop853", "none"],
@@ -75,6 +75,7 @@ const ADAPTIVE: [[&str; 3]; 14] = [
     ["null_space", "dopri5", "manifold"],
     ["udwadia_kalaba", "dopri5", "none"],
     ["penalty", "dopri5", "manifold"],
+    ["baumgarte", "radau_iia", "none"],
     ["penalty", "dopri5", "none"],
     ["augmented_lagrangian", "dopri5", "none"],
 ];
