@@ -366,7 +366,7 @@ fn a_tyre_that_pulls_or_sinks_is_said() {
         assert_eq!(warnings(&wheel("200e3", z, "", ""), &[]), [""; 0], "{z}");
     }
     let found = warnings(&wheel("200e3", 0.37, "", ""), &[]);
-    let text = "at the start the tyre `tyre` is 0.070 m above the road and pulls by 1.4e4 N";
+    let text = "at the start the tyre `tyre` is 0.07 m above the road and pulls by 1.4e4 N";
     assert!(found.len() == 1 && found[0].contains(text) && found[0].contains("--equilibrium"), "{found:?}");
     assert_eq!(warnings(&wheel("200e3", 0.37, "", r#", "lift_off": true"#), &[]), [""; 0]);
     assert_eq!(warnings(&wheel("200e3", 0.37, "", ""), &["--equilibrium"]), [""; 0]);
