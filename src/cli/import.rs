@@ -12,8 +12,7 @@ use std::process::ExitCode;
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   holonom import models/data/two_link.urdf -o two_link.json
-  holonom import models/data/two_link.urdf --at shoulder=pi/4 --at elbow=-0.5
-  holonom import models/data/two_link.urdf --free")]
+  holonom import models/data/two_link.urdf --at shoulder=pi/4 --at elbow=-0.5")]
 pub struct Args {
     /// Robot in URDF
     #[arg(value_name = "FILE")]

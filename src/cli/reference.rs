@@ -24,6 +24,9 @@ pub struct Args {
 /// Lists of elements in a scene, which have types.
 const ELEMENTS: [&str; 3] = ["bodies", "joints", "forces"];
 
+/// References in references that are followed: a schema may refer to itself.
+const DEEPEST: usize = 6;
+
 /// Width of a line, characters.
 const WIDTH: usize = 110;
 
@@ -151,12 +154,12 @@ impl Reference {
     /// Returns the keys of each form that a value may have, with those of the values in them.
     fn contents(&self, value: &Value) -> String {
         let mut text = String::new();
-        for form in self.forms(value) {
+        for form in self.forms(value, DEEPEST) {
             let keys: Vec<&str> = properties(form).map(|(name, _)| name).collect();
-            let about = wrapped(&plain(form), 2);
-            text += &format!("\n  {{ {} }} {about}\n{}", keys.join(", "), self.keys(form));
+            let about = format!("{{ {} }} {}", keys.join(", "), plain(form));
+            text += &format!("\n  {}\n{}", wrapped(&about, 2), self.keys(form));
             for (name, value) in properties(form) {
-                for inner in self.forms(value) {
+                for inner in self.forms(value, DEEPEST) {
                     text += &format!("\n{name}\n{}", self.keys(inner));
                 }
             }
@@ -165,14 +168,17 @@ impl Reference {
     }
 
     /// Returns the objects that a value may be, or that it has by name.
-    fn forms<'v>(&'v self, value: &'v Value) -> Vec<&'v Value> {
+    fn forms<'v>(&'v self, value: &'v Value, deepest: usize) -> Vec<&'v Value> {
         if properties(value).next().is_some() {
             return vec![value];
+        }
+        if deepest == 0 {
+            return Vec::new();
         }
         let reference = value["$ref"].as_str().and_then(|path| self.schema.pointer(path.trim_start_matches('#')));
         let choices = ["anyOf", "oneOf"].into_iter().flat_map(|key| value[key].as_array().into_iter().flatten());
         let parts = ["items", "additionalProperties"].into_iter().filter_map(|key| value.get(key));
-        choices.chain(parts).chain(reference).flat_map(|one| self.forms(one)).collect()
+        choices.chain(parts).chain(reference).flat_map(|one| self.forms(one, deepest - 1)).collect()
     }
 
     fn measure_names(&self) -> impl Iterator<Item = &str> {

@@ -14,6 +14,7 @@ use crate::tolerances::initial as tolerances;
 pub fn approach(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<()> {
     let still = vec![0.0; moved.len()];
     let mut smallest = f64::INFINITY;
+    let mut stalled = 0;
     for _ in 0..tolerances::APPROACH_STEPS {
         metric.at(t, q, &still)?;
         let d = metric.step(Some(moved))?;
@@ -21,7 +22,8 @@ pub fn approach(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -
         let travel = 1.0 + largest(moved);
         // Near the nearest state the distance changes by the square of the step: by its round-off.
         let is_close = size <= tolerances::STEP_DECIDES * travel;
-        if size <= tolerances::SETTLED * travel || (is_close && size > tolerances::STAGNANT_STEP * smallest) {
+        stalled = if size > tolerances::STAGNANT_STEP * smallest { stalled + 1 } else { 0 };
+        if size <= tolerances::SETTLED * travel || (is_close && stalled > tolerances::STALLED_STEPS) {
             break;
         }
         smallest = smallest.min(size);

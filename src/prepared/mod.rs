@@ -1,74 +1,31 @@
 //! A scene ready to run: its mechanism, a consistent start, and the method of simulation.
 
+mod any_mechanism;
 mod doubts;
 mod far;
 mod rest;
 mod schema;
 
+pub use any_mechanism::AnyMechanism;
 pub use schema::schema;
 
 use doubts::{doubts, explained, of_scene, pulling};
 use far::refuse_rounding;
 use rest::at_rest;
 
-use crate::body::MarkerTable;
 use crate::error::{Error, Result, Warning, clock, short};
 use crate::initial::{self, Assembly};
 use crate::integrator::{self, Steps};
 use crate::math::expression::{Number, Parameters};
 use crate::math::{Rate, Scalar};
 use crate::method_spec::MethodSpec;
-use crate::scene::{self, AnyModel, Automatic, Elements, Scene, Simulation};
+use crate::scene::{self, Automatic, Elements, Scene, Simulation};
 use crate::simulate::{
     Checkpoint, Leg, Method, Outcome, Sink, Span, Start, Stiffness, advise, atol_of, simulate_automatic, simulate_from,
     stiffness,
 };
-use crate::system::{MechanicalSystem, Mechanism, OperatingPoint, Scratch};
+use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use std::path::Path;
-
-/// A mechanism in the plane or in space.
-pub enum AnyMechanism {
-    /// A mechanism in the plane.
-    Planar(Mechanism<2>),
-    /// A mechanism in space.
-    Spatial(Mechanism<3>),
-}
-
-impl AnyMechanism {
-    /// Mechanism of a model.
-    pub fn new(model: AnyModel) -> Self {
-        match model {
-            AnyModel::Planar(model) => AnyMechanism::Planar(Mechanism::new(model)),
-            AnyModel::Spatial(model) => AnyMechanism::Spatial(Mechanism::new(model)),
-        }
-    }
-
-    /// Mechanisms of the models that hold joint coordinates of the start, and their rates.
-    pub(crate) fn held(models: [Option<Box<AnyModel>>; 2]) -> [Option<AnyMechanism>; 2] {
-        models.map(|model| model.map(|model| AnyMechanism::new(*model)))
-    }
-
-    /// The mechanism as the solvers see it.
-    pub fn system(&self) -> &dyn MechanicalSystem {
-        match self {
-            AnyMechanism::Planar(mechanism) => mechanism,
-            AnyMechanism::Spatial(mechanism) => mechanism,
-        }
-    }
-
-    /// Its markers.
-    pub fn markers(&self) -> &MarkerTable {
-        match self {
-            AnyMechanism::Planar(mechanism) => &mechanism.model().markers,
-            AnyMechanism::Spatial(mechanism) => &mechanism.model().markers,
-        }
-    }
-
-    /// 2 in the plane, 3 in space.
-    pub fn dimension(&self) -> usize {
-        if matches!(self, AnyMechanism::Planar(_)) { 2 } else { 3 }
-    }
-}
 
 /// Kinds of elements that a scene may name, and settings that replace those of the scene.
 #[derive(Clone, Debug, Default)]

@@ -61,6 +61,13 @@ pub struct Part<const D: usize> {
     pub nv: usize,
 }
 
+impl<const D: usize> Part<D> {
+    /// Name of a coordinate or velocity of the body; a state has its own.
+    pub fn full_name(&self, name: &str) -> String {
+        if name.is_empty() { self.name.clone() } else { format!("{}.{name}", self.name) }
+    }
+}
+
 /// A flexible beam in absolute coordinates: bodies as nodes, and elements as forces between them.
 pub struct BeamLine {
     /// Name of the beam in the scene.

@@ -159,11 +159,6 @@ pub(super) fn place_body<const D: usize>(
     part.body.motion(of(q, part, true), of(v, part, false), vdot, 0, frames);
 }
 
-/// Name of a coordinate or velocity of a body; a state has its own.
-fn full_name<const D: usize>(part: &Part<D>, name: &str) -> String {
-    if name.is_empty() { part.name.clone() } else { format!("{}.{name}", part.name) }
-}
-
 /// The coordinates (`coordinates`) or else the velocities of one body.
 pub(super) fn of<'a, const D: usize>(all: &'a [f64], part: &Part<D>, coordinates: bool) -> &'a [f64] {
     match coordinates {
@@ -192,7 +187,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     fn names(&self) -> Names {
         let all = |names: fn(&Part<D>) -> Vec<String>| {
             let bodies = self.model.bodies.iter();
-            bodies.flat_map(|part| names(part).into_iter().map(|name| full_name(part, &name))).collect()
+            bodies.flat_map(|part| names(part).into_iter().map(|name| part.full_name(&name))).collect()
         };
         let joints = self.model.joints.iter();
         Names {

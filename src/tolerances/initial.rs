@@ -182,7 +182,7 @@ pub const BESIDE: f64 = 0.1;
 
 /// Steps at most along the constraints to the state nearest to the guess.
 /// Unit: `[steps]`. Why: a choice: what is closed can begin. Test: none: a bound of work, not tried.
-pub const APPROACH_STEPS: usize = 100;
+pub const APPROACH_STEPS: usize = 200;
 
 /// Steps towards the nearest state that are this small end there.
 /// Unit: `[m, rad]` over 1 and the way from the guess. Why: round-off. Test: none: not tried with other values.
@@ -196,6 +196,10 @@ pub const STEP_DECIDES: f64 = 1e-6;
 /// Small steps towards the nearest state that do not fall below this part of the smallest are round-off.
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const STAGNANT_STEP: f64 = 0.9;
+
+/// So many of them in a row end the way to the nearest state: far from the guess steps fall slowly.
+/// Unit: `[steps]`. Why: a choice. Test: `they_move_as_the_built_in_ones`.
+pub const STALLED_STEPS: usize = 8;
 
 /// Joints that may be what is in the way have gaps of this part of the largest.
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.

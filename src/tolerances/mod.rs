@@ -12,6 +12,7 @@
 //! memory, and all that is drawn.
 
 pub mod body;
+mod contest;
 pub mod initial;
 pub mod integrator;
 pub mod linearize;

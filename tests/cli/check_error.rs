@@ -17,7 +17,7 @@ fn error_of(place: &Place, name: &str, [own, exact]: [&str; 2]) -> [f64; 2] {
 }
 
 /// The true error lies within the bar, and the bar is not much wider: ten times the tolerance leaves about ten times the
-/// error, twice the step of rk4 sixteen times.
+/// error, a hundred times that of dop853 in a short run more, twice the step of rk4 sixteen times.
 #[test]
 fn the_bar_holds_the_error() {
     let place = Place::new(PENDULUM);
@@ -38,7 +38,7 @@ fn the_bar_holds_the_error() {
         for name in ["theta", "pin"] {
             let [max, last] = error_of(&place, name, ["own", "exact"]);
             let told = |key: &str| error["outputs"][name][key].as_f64().unwrap();
-            assert!(told("max") >= max && told("max") < 30.0 * max, "{name}: {error} beside {max:e}");
+            assert!(told("max") >= max && told("max") < 100.0 * max, "{name}: {error} beside {max:e}");
             assert!(told("final") >= last, "{name}: {error} beside {last:e}");
         }
         // The period grows with the amplitude: small changes grow with time, not exponentially.

@@ -1,6 +1,6 @@
 //! What does not fit is refused before it is asked for.
 
-use crate::cli::{Place, err, out};
+use crate::cli::{PENDULUM, Place, err, out};
 use serde_json::json;
 use std::fs;
 
@@ -149,4 +149,24 @@ fn files_that_are_too_large() {
     let file = fs::File::create(place.path("large.json")).unwrap();
     file.set_len(300_000_000).unwrap();
     refused(&place, &["check", "large.json"], &["large.json: this is larger than the 256 MB that are read"]);
+}
+
+/// At 1e9 m a position is known to 1e-7 m: the tolerance is refused, and one that is a thousand times nearer is not.
+#[test]
+fn a_tolerance_below_the_rounding_of_positions_is_refused() {
+    let at = |x: &str| {
+        let far = PENDULUM.replace(r#""O": [0, 0]"#, &format!(r#""O": [{x}, 0]"#));
+        far.replace(r#""position": [0.5, 0]"#, &format!(r#""position": [{x}.5, 0]"#))
+    };
+    let place = Place::new(at("1000000000"));
+    let output = place.run(&["simulate", "scene.json"]);
+    let message = err(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(
+        message.contains("coordinates of 1e9 are rounded by 4.4e-7 of the longest lever of the joints"),
+        "{message}"
+    );
+    assert!(message.contains("put the origin near the mechanism"), "{message}");
+    place.done(&["simulate", "scene.json", "--rtol", "1e-5", "--atol", "1e-5", "--quiet"]);
+    Place::new(at("1000")).done(&["simulate", "scene.json", "--quiet"]);
 }

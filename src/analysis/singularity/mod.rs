@@ -91,8 +91,11 @@ impl Singularity {
     /// that state, for a reason of its own.
     pub fn failure_of(&self, outcome: &Outcome) -> Option<Failure> {
         let ended = outcome.failure.clone();
-        let own = ended.as_ref().map_or(f64::INFINITY, |failure| failure.t);
-        let left = self.failure().filter(|left| left.t < own - tolerances::LEFT_AT_END * own.abs());
+        let is_before = |left: &Failure| match &ended {
+            Some(Failure { t, .. }) => left.t < t - tolerances::LEFT_AT_END * t.abs(),
+            None => true,
+        };
+        let left = self.failure().filter(is_before);
         left.or(ended)
     }
 }
