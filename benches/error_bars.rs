@@ -201,11 +201,13 @@ fn measure(case: &Case, path: &Path) -> Option<(f64, Vec<(f64, f64)>)> {
     for (column, (name, bar)) in bars.outputs.iter().enumerate() {
         let size = accurate.trajectory.watched().map(|row| row[column].abs()).fold(0.0, f64::max);
         let error = difference(&first.trajectory, &accurate.trajectory, column);
-        if !(difference(&accurate.trajectory, &other.trajectory, column) < 0.1 * error) {
+        let is_known = difference(&accurate.trajectory, &other.trajectory, column) < 0.1 * error;
+        if !is_known {
             continue;
         }
         let error = error.max(ROUND_OFF * size);
-        if !(bar.max >= error) {
+        let holds = bar.max >= error;
+        if !holds {
             println!(
                 "{} by {}, rtol {:.1e}: `{name}` is off by {error:.1e}, bar {:.1e}",
                 case.scene,

@@ -77,6 +77,8 @@ pub struct Companion {
     pub method: Method,
     /// Part of the difference of both runs that holds the error of the run.
     pub part: f64,
+    /// Least order of its methods.
+    order: usize,
     pub rows: Vec<(f64, Vec<f64>)>,
     pub statistics: Statistics,
     pub failure: Option<Failure>,
@@ -98,17 +100,33 @@ pub fn companion(prepared: &PreparedScene, run: &Completed, parts: &[Part], watc
         return if is_ended { first } else { rerun(prepared, run.span, parts, &Changed::finer, watch) };
     }
     if first.statistics.steps != steps {
-        let is_alike = first.statistics.steps as f64 > HARDLY_FEWER * steps as f64;
-        return Companion { part: if is_alike { OF_ALIKE } else { first.part }, ..first };
+        let part = seen_part(&first, steps as f64 / first.statistics.steps.max(1) as f64);
+        return Companion { part, ..first };
     }
     let halves: Vec<Part> = parts.iter().flat_map(Part::halves).collect();
-    rerun(prepared, run.span, &halves, &coarser, watch)
+    let begun_anew = rerun(prepared, run.span, &halves, &coarser, watch);
+    Companion { part: begun_anew.part.max(OF_FINER), ..begun_anew }
 }
 
 /// Steps that are hardly fewer at a larger tolerance are limited by something else, such as stability, in both runs.
 const HARDLY_FEWER: f64 = 0.9;
 /// Errors of such runs are alike, and their difference is smaller.
 const OF_ALIKE: f64 = 10.0;
+/// The part by the steps that were seen: where these are s times as many, errors of order p differ by s^p at most.
+fn seen_part(companion: &Companion, fewer: f64) -> f64 {
+    if fewer < 1.0 / HARDLY_FEWER {
+        return OF_ALIKE;
+    }
+    let is_adaptive = companion.method.step.is_none();
+    let seen = if is_adaptive { part_of(fewer.powi(companion.order as i32)) } else { 0.0 };
+    companion.part.max(seen)
+}
+
+/// The part of the difference that holds the error where the companion's error is `factor` times as large.
+fn part_of(factor: f64) -> f64 {
+    MARGIN * (10.0 / factor).min(1.0).powf(GROWTH)
+}
+
 /// A companion whose values are so many times the largest one of the run is beyond its limit of stability.
 const DIVERGED: f64 = 1e3;
 
@@ -130,8 +148,9 @@ fn rerun(
     let methods: Vec<Changed> = parts.iter().map(|part| change(&part.method)).collect();
     let method = methods.first().map_or(prepared.method.clone(), |changed| changed.method.clone());
     let part = methods.iter().map(|changed| changed.part).fold(0.0, f64::max);
+    let order = methods.iter().map(|changed| changed.order).min().unwrap_or(1);
     let (rows, statistics, failure) = (Vec::new(), Statistics::default(), None);
-    let mut companion = Companion { method, part, rows, statistics, failure };
+    let mut companion = Companion { method, part, order, rows, statistics, failure };
     let Ok(watched) = Watched::new(system, &[]) else { return companion };
     let mut sink = Rows { system, watched, scratch: Scratch::default(), rows: Vec::new(), show, stop };
     let mut saved: Option<Checkpoint> = None;
@@ -168,6 +187,7 @@ struct Changed {
     method: Method,
     /// Part of the difference of both runs that holds the error of the method: measured, see `benches/error_bars.rs`.
     part: f64,
+    order: usize,
 }
 
 /// Order from which on a tenfold tolerance saves too little: 10^(-1/p) of the work is left.
@@ -195,7 +215,7 @@ impl Changed {
         let order = entry.as_ref().map_or(1, |entry| entry.order);
         if let Some(step) = method.step {
             let method = Method { formulation: softer(&method.formulation), step: Some(2.0 * step), ..method.clone() };
-            return Changed { method, part: if order >= 3 { OF_FIXED_STEPS } else { MARGIN } };
+            return Changed { method, part: if order >= 3 { OF_FIXED_STEPS } else { MARGIN }, order };
         }
         let tightening = entry.map_or(Tightening::NONE, |entry| entry.tightening);
         let at = |rtol: f64| Tolerance::new(rtol, method.atol * rtol / method.rtol, system);
@@ -209,12 +229,9 @@ impl Changed {
         let rtol = rounded((factor * method.rtol).min(coarsest));
         // Steps at their tightest are those of a looser tolerance.
         let factor = rtol / tightening.reached(&at(method.rtol)).max(method.rtol);
-        let part = if is_at_round_off { 1.0 } else { (10.0 / factor).min(1.0).powf(GROWTH) };
+        let part = if is_at_round_off { MARGIN } else { part_of(factor) };
         let formulation = softer(&method.formulation);
-        Changed {
-            method: Method { formulation, rtol, atol: rounded(at(rtol).atol), ..method.clone() },
-            part: MARGIN * part,
-        }
+        Changed { method: Method { formulation, rtol, atol: rounded(at(rtol).atol), ..method.clone() }, part, order }
     }
 
     /// Half the step, or a tenth of the tolerance.
@@ -224,7 +241,7 @@ impl Changed {
             Some(step) => Method { step: Some(0.5 * step), ..method.clone() },
             None => Method { rtol: 0.1 * rtol, atol: 0.1 * atol, ..method.clone() },
         };
-        Changed { method, part: OF_FINER }
+        Changed { method, part: OF_FINER, order: 1 }
     }
 }
 
