@@ -141,8 +141,11 @@ fn what_begins_badly_for_it_the_other_method_takes_over_on_the_way() {
     );
     let span = Span { start: 0.0, end: 120.0, output_step: 1.0 };
     let (outcome, legs, record) = automatic(&scene, 1e-7, span);
-    assert_eq!(integrators(&legs), ["adams", "bdf"], "{legs:?}");
-    assert!(legs[1].from > 5.0 && legs[1].from < 12.0 && !legs[1].because.contains("began again"), "{legs:?}");
+    // Between them another explicit method may come farther at the limit of stability.
+    let names = integrators(&legs);
+    assert_eq!((names[0], names[names.len() - 1]), ("adams", "bdf"), "{legs:?}");
+    let last = &legs[legs.len() - 1];
+    assert!(last.from > 5.0 && last.from < 12.0 && !last.because.contains("began again"), "{legs:?}");
     // The work that the attempt took is counted, and is no more than that of the swing.
     assert!(legs[0].tried().rhs_evaluations < 2 * legs[0].statistics.rhs_evaluations, "{legs:?}");
     assert!(outcome.failure.is_none() && record.trajectory.rows.len() == 121);

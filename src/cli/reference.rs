@@ -79,7 +79,9 @@ impl Reference {
             "expressions" => language(),
             "units" => units(),
             "measures" => self.measures(),
-            name if self.measure_names().any(|measure| measure == name) => self.measure(name),
+            name if self.measure_names().any(|measure| measure == name) && !types().any(|kind| kind.0 == name) => {
+                self.measure(name)
+            }
             name if !self.own_keys().chain(types().map(|kind| kind.0)).any(|known| known == name) => {
                 inner.iter().filter(|key| key.name == name).map(|key| self.inner(key)).collect::<Vec<_>>().join("\n")
             }

@@ -59,14 +59,21 @@ fn a_driver_that_asks_for_too_much_is_named_with_what_it_reaches() {
     assert!(message.contains("the driver `drive` asks for 1.9 rad, and the joints reach 1.643"), "{message}");
 }
 
+/// A bar held by a pin and a rod, and by a second rod that does not fit.
 #[test]
 fn a_joint_too_many_is_named() {
-    let mut scene = four_bar(1.0, [0.5, 0.9, 0.7], [1.5, 0.0, -1.5]);
-    scene["ground"]["markers"]["E"] = json!([0.9, 0.9]);
-    let pin = json!({ "name": "pin", "type": "revolute", "between": ["ground.E", "b0.B"] });
-    scene["joints"].as_array_mut().unwrap().push(pin);
+    let (x, y) = (0.6f64.cos(), 0.6f64.sin());
+    let rod = |name: &str, from: &str, length: f64| json!({ "name": name, "type": "distance", "between": [from, "bar.B"], "length": length });
+    let scene = json!({ "name": "bar", "dimension": 2,
+        "ground": { "markers": { "O": [0, 0], "P": [0, 2], "Q": [2, 0] } },
+        "bodies": [{ "name": "bar", "type": "rigid", "mass": 1, "inertia": 0.1, "origin": [-0.5, 0],
+            "markers": { "O": [0, 0], "B": [1, 0] }, "initial": { "position": [0, 0], "angle": 0.6 } }],
+        "joints": [{ "name": "pin", "type": "revolute", "between": ["ground.O", "bar.O"] },
+            rod("first", "ground.P", x.hypot(2.0 - y)), rod("second", "ground.Q", (2.0 - x).hypot(y) + 0.25)] });
     let message = message(&scene);
-    assert!(message.contains("the joints cannot all be closed: `") && message.contains("`pin`"), "{message}");
+    let told =
+        message.contains("`second` is one joint too many: the others leave no freedom to close its gap of 0.25 m");
+    assert!(told && message.contains("(4 equations, 3 velocities)"), "{message}");
 }
 
 /// A door whose upper hinge is 30 degrees off the axis of the lower one.

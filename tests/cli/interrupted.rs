@@ -331,27 +331,25 @@ fn a_signal_mixes_no_results() {
     let times: Vec<String> = (0..40).map(|k| format!("{}", 0.01 * f64::from(k))).collect();
     let times = times.join(",");
     let linearize = |rtol| ["linearize", "scene.json", "--at", &times, "--rtol", rtol, "-o", "here", "--quiet"];
-    let contents = || -> Vec<(String, Vec<u8>)> {
-        let entries = fs::read_dir(place.path("here")).unwrap().map(|entry| entry.unwrap().path());
-        let files = entries.filter(|path| path.is_file());
-        let mut all: Vec<_> = files
-            .map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(&path).unwrap()))
-            .collect();
-        all.sort();
-        all
+    // The names of all files, and the tolerances in those that have one.
+    let contents = || -> (Vec<String>, Vec<String>) {
+        let mut names: Vec<String> = place.files("here");
+        names.sort();
+        let tolerance = |name: &String| place.json(&format!("here/{name}"))["simulation"]["rtol"].to_string();
+        let mut tolerances: Vec<String> = names.iter().filter(|name| name.ends_with(".json")).map(tolerance).collect();
+        tolerances.dedup();
+        (names, tolerances)
     };
-    place.done(&linearize("1e-5"));
-    let other = contents();
     for _ in 0..5 {
         place.done(&linearize("1e-6"));
-        let old = contents();
+        let (names, old) = contents();
         let mut child = start(&place, &linearize("1e-5"));
         // The first file goes when the renames begin.
-        until(|| contents_changed(&place, old.len()) || child.try_wait().unwrap().is_some());
+        until(|| contents_changed(&place, names.len()) || child.try_wait().unwrap().is_some());
         signal(&child, "TERM");
         child.wait().unwrap();
-        let new = contents();
-        assert!(new == old || new == other, "old and new results are mixed");
+        let (now, new) = contents();
+        assert!(now == names && old.len() == 1 && new.len() == 1, "{old:?}, then {new:?}");
         assert!(hidden(&place.path("here")).is_empty());
     }
 }
