@@ -111,7 +111,10 @@ impl Staging {
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        hidden().retain(|folder| folder != self.hidden.path());
+        let mut folders = hidden();
+        // While it is locked: a process that ends between the two would leave the folder.
+        let _ = std::fs::remove_dir_all(self.hidden.path());
+        folders.retain(|folder| folder != self.hidden.path());
     }
 }
 
