@@ -86,7 +86,7 @@ fn motions_that_amplify_a_little_are_as_accurate_as_asked() {
     }
 }
 
-/// Two thirds of the evaluations of dop853 on a smooth motion at equal errors; found: 804 and 7.9e-10, 1305 and 6.1e-10.
+/// Two thirds of the evaluations of dop853 on a smooth motion at equal errors; found: 806 and 6.2e-10, 1266 and 6.9e-10.
 #[test]
 fn smooth_motions_take_two_thirds_of_the_evaluations() {
     let ready = shipped("andrews", &[]);
@@ -99,7 +99,7 @@ fn smooth_motions_take_two_thirds_of_the_evaluations() {
         });
         (run.outcome.statistics.rhs_evaluations, error.into_iter().fold(0.0, f64::max))
     };
-    let (work, error) = run("adams", 1e-9);
+    let (work, error) = run("adams", 1e-8);
     let (other, reached) = run("dop853", 1e-8);
     println!("adams {work} {error:e}, dop853 {other} {reached:e}");
     assert!(error < 2.0 * reached && 3 * work < 2 * other, "{work} {error:e}, dop853 {other} {reached:e}");
