@@ -32,7 +32,8 @@ fn every_triple_has_the_order_that_is_asked_for() {
     let pairs: Vec<_> = formulations().flat_map(|f| projections().map(move |p| (f.clone(), p))).collect();
     assert_eq!(pairs.len(), 48);
     pairs.par_iter().for_each(|(formulation, projection)| {
-        for (order, tolerances, off) in [(2.0, [1e-5, 1e-8], 0.2), (4.0, [1e-6, 1e-10], 0.4), (7.0, [1e-7, 1e-11], 1.0)]
+        for (order, tolerances, off) in
+            [(2.0, [1e-4, 1e-7], 0.2), (4.0, [1e-5, 3.333e-9], 0.4), (7.0, [1e-6, 3.333e-9], 1.0)]
         {
             let integrator = format!("adams:order={order}");
             let found =
