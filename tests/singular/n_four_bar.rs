@@ -70,20 +70,17 @@ fn forty_loops_at_a_tolerance() {
 }
 
 /// An absolute tolerance far below the relative one is below what round-off of positions of 40 m leaves of those that pass zero
-/// where the loops are flat: that is put up with, but for 1e-10 with 1e-12, where round-off decides which motions end
-/// there with a message that says so.
+/// where the loops are flat: that is put up with. At 1e-10 round-off decides which motions end there, with a message that
+/// says so.
 #[test]
 fn forty_loops_at_a_small_absolute_tolerance() {
     let scene = load(&model("n_four_bar"), &[]);
-    for (integrator, rtol) in
-        [("dop853", 1e-6), ("dop853", 1e-8), ("dop853", 1e-10), ("dopri5", 1e-6), ("dopri5", 1e-8)]
-    {
-        for atol in [1e-10, 1e-12].into_iter().filter(|atol| rtol > 1e-9 || *atol >= rtol) {
+    for (integrator, rtol) in [("dop853", 1e-6), ("dop853", 1e-8), ("dopri5", 1e-6), ("dopri5", 1e-8)] {
+        for atol in [1e-10, 1e-12] {
             let run = scene.run(&Method { atol, ..adaptive("index1", integrator, "manifold", rtol) }, SECONDS);
             let error = (last(&run, "B0_x") - 0.180512226686728).hypot(last(&run, "B0_y") - 0.983572740582312);
             // As above; the reference has 12 digits.
-            let most = if rtol < 1e-9 { 1e3 } else { 50.0 };
-            assert!(error < most * rtol, "{integrator}, {rtol:e}, {atol:e}: {error:e}");
+            assert!(error < 50.0 * rtol, "{integrator}, {rtol:e}, {atol:e}: {error:e}");
         }
     }
 }
