@@ -43,38 +43,57 @@ fn restarts(velocities: usize) -> usize {
 
 /// Damped Newton's method from one guess; true if it ends closed, as far as round-off lets the residual fall.
 pub(super) fn attempt(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
-    let still = vec![0.0; moved.len()];
+    let (mut d, mut start) = std::mem::take(&mut metric.newton);
+    d.resize(moved.len(), 0.0);
+    let is_closed = iterate(metric, t, (q, moved), (&mut d, &mut start));
+    metric.newton = (d, start);
+    is_closed
+}
+
+fn iterate(
+    metric: &mut Metric,
+    t: f64,
+    (q, moved): (&mut [f64], &mut [f64]),
+    (d, start): (&mut [f64], &mut Vec<f64>),
+) -> Result<bool> {
     let mut last = f64::INFINITY;
     for _ in 0..tolerances::CLOSING_STEPS {
-        metric.at(t, q, &still)?;
+        metric.at_rest(t, q)?;
         let residual = metric.size_of_phi();
         let is_closed = metric.is_closed(q);
         if is_closed && residual >= tolerances::NEWTON_HALVES * last {
             return Ok(true);
         }
         last = residual;
-        let d = metric.step(None)?;
-        let factor = (tolerances::LARGEST_TURN / metric.largest_turn(q, &d)).min(1.0);
-        let Some(taken) = advance(metric, t, q, (&d, factor), residual) else { return Ok(is_closed) };
-        moved.iter_mut().zip(&d).for_each(|(moved, d)| *moved += taken * d);
+        metric.step(None, d)?;
+        let factor = (tolerances::LARGEST_TURN / metric.largest_turn(q, d)).min(1.0);
+        start.clear();
+        start.extend_from_slice(q);
+        let Some(taken) = advance(metric, t, (start, q), (d, factor), residual) else { return Ok(is_closed) };
+        moved.iter_mut().zip(&*d).for_each(|(moved, d)| *moved += taken * d);
     }
     metric.residual(t, q);
     Ok(metric.is_closed(q))
 }
 
-/// Moves q along a step, halved until the residual falls; returns the part that is taken. `None` where it does not fall,
+/// Moves q from `start` along a step, halved until the residual falls; returns the part that is taken. `None` where it does not fall,
 /// with q unchanged.
-fn advance(metric: &mut Metric, t: f64, q: &mut [f64], (d, full): (&[f64], f64), residual: f64) -> Option<f64> {
-    let start = q.to_vec();
+fn advance(
+    metric: &mut Metric,
+    t: f64,
+    (start, q): (&[f64], &mut [f64]),
+    (d, full): (&[f64], f64),
+    residual: f64,
+) -> Option<f64> {
     let mut factor = full;
     for _ in 0..tolerances::STEP_HALVINGS {
-        metric.go(&start, d, factor, q);
+        metric.go(start, d, factor, q);
         if metric.residual(t, q) < residual * (1.0 - tolerances::FALL_OF_RESIDUAL * factor) {
             return Some(factor);
         }
         factor *= 0.5;
     }
-    q.copy_from_slice(&start);
+    q.copy_from_slice(start);
     None
 }
 
@@ -84,7 +103,7 @@ pub fn weyl(number: usize) -> f64 {
 }
 
 /// Moves q away from the guess, farther with each number, along none of the held directions.
-fn beside(metric: &Metric, number: usize, q: &mut [f64], moved: &mut [f64]) {
+fn beside(metric: &mut Metric, number: usize, q: &mut [f64], moved: &mut [f64]) {
     let amplitude = (tolerances::BESIDE * number as f64).min(1.0);
     let length = metric.system.length();
     let mut away = vec![0.0; moved.len()];

@@ -79,11 +79,10 @@ fn least_gap(metric: &mut Metric, rows: &[usize], t: f64, q: &mut Vec<f64>) {
 /// coordinates of these rows is left. At a dead point their gap does not
 /// change along it at first. The terms are those at q.
 fn moves(metric: &mut Metric, rows: &[usize], t: f64, q: &[f64]) -> bool {
-    let still = vec![0.0; metric.still.len()];
     metric.drop_rows(rows);
-    let any: Vec<f64> = (0..still.len()).map(closing::weyl).collect();
+    let any: Vec<f64> = (0..metric.still.len()).map(closing::weyl).collect();
     let mut left = Vec::new();
-    if metric.at(t, q, &still).is_ok() {
+    if metric.at_rest(t, q).is_ok() {
         left = metric.weigh(&any);
         if metric.solve(&mut left, &vec![0.0; metric.terms.phi.len()]).is_err() {
             left.clear();
@@ -97,8 +96,7 @@ fn moves(metric: &mut Metric, rows: &[usize], t: f64, q: &[f64]) -> bool {
 
 /// A closed state whose rows r have a smaller gap than that of q, with that gap.
 fn with_less_gap(metric: &mut Metric, rows: &[usize], t: f64, q: &[f64], gap: f64) -> Option<(Vec<f64>, f64)> {
-    let still = vec![0.0; metric.still.len()];
-    metric.at(t, q, &still).ok()?;
+    metric.at_rest(t, q).ok()?;
     let weights: Vec<f64> = rows.iter().map(|row| metric.terms.phi[*row] / metric.scales[*row].powi(2)).collect();
     let slopes = metric.rows_times(rows, &weights);
     let mut d: Vec<f64> = slopes.iter().map(|slope| -slope).collect();
@@ -109,7 +107,7 @@ fn with_less_gap(metric: &mut Metric, rows: &[usize], t: f64, q: &[f64], gap: f6
     let turn = tolerances::LARGEST_TURN / metric.largest_turn(q, &d);
     let mut factor = (falls / curvature).min(turn);
     for _ in 0..2 * tolerances::STEP_HALVINGS {
-        let (mut ahead, mut way) = (q.to_vec(), still.clone());
+        let (mut ahead, mut way) = (q.to_vec(), metric.still.clone());
         metric.go(q, &d, factor, &mut ahead);
         if corrected(metric, t, &mut ahead, &mut way) {
             let now = metric.size_of(rows);

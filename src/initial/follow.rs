@@ -51,10 +51,11 @@ pub fn follow(
 
 /// Newton's method on phi; true if it contracts from its first step on. Adds its steps to `moved`.
 fn newton(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
-    let (still, mut rate) = (vec![0.0; moved.len()], vec![0.0; q.len()]);
+    let mut d = vec![0.0; moved.len()];
+    let mut rate = vec![0.0; q.len()];
     Monitor::default().solve(LIMITS, |_| {
-        metric.at(t, q, &still)?;
-        let d = metric.step(None)?;
+        metric.at_rest(t, q)?;
+        metric.step(None, &mut d)?;
         metric.system.rate(q, &d, &mut rate);
         q.iter_mut().zip(&rate).for_each(|(q, rate)| *q += rate);
         metric.system.normalize(q);

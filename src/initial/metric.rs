@@ -26,9 +26,21 @@ pub struct Metric<'a> {
     /// Rows that are dropped.
     pub without: Vec<usize>,
     pub still: Vec<f64>,
-    pub bodies_that_turn: usize,
+    /// Memory of Newton's method: d, and q before a step.
+    pub newton: (Vec<f64>, Vec<f64>),
+    /// Memory of single steps.
+    room: Room,
     /// True if the joints closed from beside the guess.
     pub is_beside: bool,
+}
+
+/// Memory of a step: its right-hand sides, q', and the turns of bodies.
+#[derive(Default)]
+struct Room {
+    bottom: Vec<f64>,
+    rows: Vec<f64>,
+    rate: Vec<f64>,
+    turns: Vec<f64>,
 }
 
 impl<'a> Metric<'a> {
@@ -46,6 +58,7 @@ impl<'a> Metric<'a> {
             kkt: SaddlePoint::sharing(&mass, &rows, &analysis),
             weights: vec![0.0; mass.entries.len()],
             still: vec![0.0; mass.rows],
+            newton: Default::default(),
             values: vec![1.0; rows.entries.len()],
             mass,
             rows,
@@ -54,7 +67,7 @@ impl<'a> Metric<'a> {
             ahead: Vec::new(),
             without: Vec::new(),
             is_beside: false,
-            bodies_that_turn: system.turning_bodies().len(),
+            room: Room { turns: vec![0.0; system.turning_bodies().len()], ..Room::default() },
             system,
         }
     }
@@ -104,19 +117,28 @@ impl<'a> Metric<'a> {
 
     /// Solves [W G^T; G 0] [d; .] = [top; bottom], with d = 0 along the held directions, and writes d to `top`.
     pub fn solve(&mut self, top: &mut [f64], bottom: &[f64]) -> Result<()> {
-        let mut rows = bottom.to_vec();
+        let rows = &mut self.room.rows;
+        rows.clear();
+        rows.extend_from_slice(bottom);
         rows.resize(self.rows.rows, 0.0);
-        self.kkt.solve_motion(top, &mut rows).map_err(|singular| Error::input(format!("at the start, {singular}")))
+        self.kkt.solve_motion(top, rows).map_err(|singular| Error::input(format!("at the start, {singular}")))
     }
 
-    /// Solves [W G^T; G 0] [d; .] = [-W moved; -phi]: Newton's step, and the way back towards the guess within the tangent
-    /// space if `moved` is given.
-    pub fn step(&mut self, moved: Option<&[f64]>) -> Result<Vec<f64>> {
-        let mut top = moved.map_or(vec![0.0; self.still.len()], |moved| self.weigh(moved).iter().map(|x| -x).collect());
-        let mut bottom: Vec<f64> = self.terms.phi.iter().map(|phi| -phi).collect();
+    /// Writes d of [W G^T; G 0] [d; .] = [-W moved; -phi]: Newton's step, and the way back towards the guess within the
+    /// tangent space if `moved` is given.
+    pub fn step(&mut self, moved: Option<&[f64]>, d: &mut [f64]) -> Result<()> {
+        d.fill(0.0);
+        if let Some(moved) = moved {
+            self.mass.multiply_symmetric(&self.weights, moved, d);
+            d.iter_mut().for_each(|d| *d = -*d);
+        }
+        let mut bottom = std::mem::take(&mut self.room.bottom);
+        bottom.clear();
+        bottom.extend(self.terms.phi.iter().map(|phi| -phi));
         self.without.iter().for_each(|row| bottom[*row] = 0.0);
-        self.solve(&mut top, &bottom)?;
-        Ok(top)
+        let solved = self.solve(d, &bottom);
+        self.room.bottom = bottom;
+        solved
     }
 
     /// W x
@@ -130,6 +152,14 @@ impl<'a> Metric<'a> {
     pub fn level(&mut self, t: f64, q: &[f64], v: &[f64]) -> Level {
         self.evaluate(t, q, v, Need::CONSTRAINTS);
         Level { phi: self.worst(&self.terms.phi), phi_dot: self.worst(&self.terms.phi_dot) }
+    }
+
+    /// Evaluates the terms and factors the matrix at q, without velocities.
+    pub fn at_rest(&mut self, t: f64, q: &[f64]) -> Result<()> {
+        let still = std::mem::take(&mut self.still);
+        let factored = self.at(t, q, &still);
+        self.still = still;
+        factored
     }
 
     /// Evaluates the constraints at q; returns |phi| in units of the scene's scale.
@@ -188,18 +218,18 @@ impl<'a> Metric<'a> {
     }
 
     /// q = start + factor N d
-    pub fn go(&self, start: &[f64], d: &[f64], factor: f64, q: &mut [f64]) {
-        let mut rate = vec![0.0; q.len()];
-        self.system.rate(start, d, &mut rate);
-        q.iter_mut().zip(start).zip(&rate).for_each(|((q, start), rate)| *q = start + factor * rate);
+    pub fn go(&mut self, start: &[f64], d: &[f64], factor: f64, q: &mut [f64]) {
+        let rate = &mut self.room.rate;
+        rate.resize(q.len(), 0.0);
+        self.system.rate(start, d, rate);
+        q.iter_mut().zip(start).zip(&*rate).for_each(|((q, start), rate)| *q = start + factor * rate);
         self.system.normalize(q);
     }
 
     /// The largest rotation of a body along a step, rad.
-    pub fn largest_turn(&self, q: &[f64], d: &[f64]) -> f64 {
-        let mut turns = vec![0.0; self.bodies_that_turn];
-        self.system.spins(q, d, &mut turns);
-        largest(&turns)
+    pub fn largest_turn(&mut self, q: &[f64], d: &[f64]) -> f64 {
+        self.system.spins(q, d, &mut self.room.turns);
+        largest(&self.room.turns)
     }
 
     /// d^T W d

@@ -12,12 +12,12 @@ use crate::tolerances::initial as tolerances;
 /// # Errors
 /// None from a closed state where the constraints are smooth.
 pub fn approach(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<()> {
-    let still = vec![0.0; moved.len()];
+    let mut d = vec![0.0; moved.len()];
     let mut smallest = f64::INFINITY;
     let mut stalled = 0;
     for _ in 0..tolerances::APPROACH_STEPS {
-        metric.at(t, q, &still)?;
-        let d = metric.step(Some(moved))?;
+        metric.at_rest(t, q)?;
+        metric.step(Some(moved), &mut d)?;
         let size = largest(&d);
         let travel = 1.0 + largest(moved);
         // Near the nearest state the distance changes by the square of the step: by its round-off.
@@ -58,6 +58,7 @@ fn tried(
 
 /// Newton's method with the matrix at hand; true if it closes the joints.
 pub(super) fn corrected(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> bool {
+    let mut d = vec![0.0; moved.len()];
     let mut last = f64::INFINITY;
     for _ in 0..tolerances::CLOSING_ITERATIONS {
         let residual = metric.residual(t, q);
@@ -66,7 +67,9 @@ pub(super) fn corrected(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut 
             return metric.is_closed(q);
         }
         last = residual;
-        let Ok(d) = metric.step(None) else { return false };
+        if metric.step(None, &mut d).is_err() {
+            return false;
+        }
         let start = q.to_vec();
         metric.go(&start, &d, 1.0, q);
         moved.iter_mut().zip(&d).for_each(|(moved, d)| *moved += d);

@@ -15,6 +15,9 @@ pub struct Travel<'a> {
     driven: Vec<Group>,
     /// The last closed state.
     last: (f64, Vec<f64>),
+    /// The state that is being closed, and the way to it.
+    trial: Vec<f64>,
+    moved: Vec<f64>,
 }
 
 /// The end of a travel.
@@ -35,7 +38,9 @@ impl<'a> Travel<'a> {
         if driven.is_empty() {
             return None;
         }
-        Some(Travel { metric: Metric::new(system, Vec::new()), driven, last: (t, q.to_vec()) })
+        let moved = vec![0.0; system.dimensions().v];
+        let last = (t, q.to_vec());
+        Some(Travel { metric: Metric::new(system, Vec::new()), driven, last, trial: q.to_vec(), moved })
     }
 
     /// True if there are as many constraints as velocities.
@@ -46,20 +51,20 @@ impl<'a> Travel<'a> {
     /// The end of the travel if the joints do not close at `t`, neither near q nor on the way there from the last
     /// closed state; `until` is the end of the run.
     pub fn end_before(&mut self, t: f64, q: &[f64], until: f64) -> Option<TravelEnd> {
-        if let Some(closed) = self.closed(t, q) {
-            self.last = (t, closed);
+        self.trial.copy_from_slice(q);
+        if self.closes(t) {
+            self.take(t);
             return None;
         }
         let (start, mut step) = (self.last.0, t - self.last.0);
         let resolution = tolerances::TRAVEL_RESOLVED * (until - start).abs() + f64::EPSILON * t.abs();
         while self.last.0 < t && step > resolution {
             let next = f64::min(self.last.0 + step, t);
-            match self.closed(next, &self.last.1.clone()) {
-                Some(closed) => {
-                    self.last = (next, closed);
-                    step *= 2.0;
-                }
-                None => step *= 0.5,
+            if self.closes_from_last(next) {
+                self.take(next);
+                step *= 2.0;
+            } else {
+                step *= 0.5;
             }
         }
         if self.last.0 >= t { None } else { Some(self.end(until)) }
@@ -76,13 +81,25 @@ impl<'a> Travel<'a> {
         })
     }
 
-    /// A closed state near q.
-    fn closed(&mut self, t: f64, q: &[f64]) -> Option<Vec<f64>> {
-        let mut closed = q.to_vec();
-        let mut moved = vec![0.0; self.metric.still.len()];
-        let is_closed = closing::attempt(&mut self.metric, t, &mut closed, &mut moved).unwrap_or(false);
-        let is_near = largest(&moved) <= tolerances::TRAVEL_NEAR * (1.0 + largest(self.metric.system.own(q)));
-        (is_closed && is_near).then_some(closed)
+    /// Closes the state on trial; true if it was near a closed one.
+    fn closes(&mut self, t: f64) -> bool {
+        let Travel { metric, trial, moved, .. } = self;
+        let size = 1.0 + largest(metric.system.own(trial));
+        moved.fill(0.0);
+        let is_closed = closing::attempt(metric, t, trial, moved).unwrap_or(false);
+        is_closed && largest(moved) <= tolerances::TRAVEL_NEAR * size
+    }
+
+    /// True if a state near the last one is closed at `t`; that is on trial then.
+    fn closes_from_last(&mut self, t: f64) -> bool {
+        self.trial.copy_from_slice(&self.last.1);
+        self.closes(t)
+    }
+
+    /// Takes the state on trial as the last one.
+    fn take(&mut self, t: f64) {
+        self.last.0 = t;
+        std::mem::swap(&mut self.last.1, &mut self.trial);
     }
 
     /// The end at the last closed state.
@@ -107,10 +124,10 @@ impl<'a> Travel<'a> {
 
     /// True if the joints close beyond the end without a driver.
     fn closes_without(&mut self, driven: usize, until: f64) -> bool {
-        let (t, q) = self.last.clone();
+        let t = self.last.0;
         let rows: Vec<usize> = self.driven[driven].rows.clone().collect();
         self.metric.drop_rows(&rows);
-        let is_closed = self.closed(t + tolerances::TRAVEL_BEYOND * (until - t), &q).is_some();
+        let is_closed = self.closes_from_last(t + tolerances::TRAVEL_BEYOND * (until - t));
         self.metric.drop_rows(&[]);
         is_closed
     }
