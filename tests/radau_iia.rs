@@ -288,3 +288,16 @@ fn shifts_excite_nothing_stiff() {
     let statistics = shaft.run(&adaptive("ggl", "radau_iia", "none", 1e-3), span).outcome.statistics;
     assert!(statistics.steps < 70, "{statistics:?}");
 }
+
+/// phi returns to zero from its rounding at the rate of the gain: a velocity that shorter steps see as an error.
+#[test]
+fn gains_of_any_size_are_stepped_over() {
+    for name in ["double_pendulum", "spatial_slider_crank"] {
+        for gain in ["1e6", "1e8", "1e9"] {
+            let formulation = format!("baumgarte:alpha={gain},beta={gain}");
+            let run = shipped(name, &[]).run(&adaptive(&formulation, "radau_iia", "none", 1e-8), until(1e-3));
+            let steps = run.outcome.statistics.steps;
+            assert!(steps < 200, "{name} {gain}: {steps} steps");
+        }
+    }
+}

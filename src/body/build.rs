@@ -275,6 +275,13 @@ impl<const D: usize> Build<'_, D> {
         all.len() - 1
     }
 
+    /// Number of a piece that the time loop sets, see [`Thresholds::Held`].
+    pub(crate) fn held(&self) -> usize {
+        let all = &mut self.switches.borrow_mut().all;
+        all.push(Switch { thresholds: Thresholds::Held, of_time: None, signal: None });
+        all.len() - 1
+    }
+
     /// Index of an angle in space that an element needs counted through full turns; it begins within half a turn of
     /// `start`. In the plane angles are coordinates.
     pub fn turning(&self, terms: Vec<Turned>, start: f64) -> usize {

@@ -78,6 +78,7 @@ where
     forward! { .inner =>
         fn beam(&self) -> Option<&Beam>;
         fn takes_small_rotations(&self) -> bool;
+        fn gap(&self) -> Option<usize>;
         fn input(&self) -> InputKind;
         fn is_torque(&self) -> bool;
     }

@@ -126,6 +126,11 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     fn takes_small_rotations(&self) -> bool {
         false
     }
+    /// Number of the piece that holds the line between its first two markers, if its force jumps where they meet: the
+    /// piece is zero for its law, else the [`Side`](crate::math::Side) that the gap counts as positive. Default: none.
+    fn gap(&self) -> Option<usize> {
+        None
+    }
     /// The wheel to be drawn, if it is one.
     fn wheel(&self, _frames: &Motion<f64, D>, _time: Instant<f64>) -> Option<Wheel> {
         None
@@ -172,6 +177,8 @@ pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send 
     fn beam(&self) -> Option<&Beam>;
     /// True if the force is valid for small relative rotations alone.
     fn takes_small_rotations(&self) -> bool;
+    /// Number of the piece that holds the line between its first two markers.
+    fn gap(&self) -> Option<usize>;
     /// Number of its first markers on whose bodies it acts, of `markers` in all.
     fn acted(&self, markers: usize) -> usize;
     /// False if its wrenches are the same at all velocities.
@@ -189,6 +196,7 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
         fn wheel(&self, frames: &Motion<f64, D>, time: Instant<f64>) -> Option<Wheel>;
         fn beam(&self) -> Option<&Beam>;
         fn takes_small_rotations(&self) -> bool;
+        fn gap(&self) -> Option<usize>;
         fn depends_on_velocities(&self) -> bool;
         fn input(&self) -> InputKind;
         fn acted(&self, markers: usize) -> usize;

@@ -5,7 +5,8 @@ use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
 use crate::body::{Build, Probe, Quantity, Wrench, dot, norm, sub};
 use crate::error::Result;
 use crate::math::expression::Number;
-use crate::math::{Rate, Scalar, Taylor};
+use crate::math::{Rate, Scalar, Side, Taylor};
+use crate::tolerances::body::NEARLY_CLOSED;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -37,12 +38,16 @@ impl ForceSpec for SpringDamper {
         if let Some(law) = &self.law {
             return self.by_law(law, build);
         }
-        let force = Spring {
+        let mut force = Spring {
+            line: None,
             k: optional_not_negative("stiffness", &self.stiffness, build)?,
             c: optional_not_negative("damping", &self.damping, build)?,
             free: optional_not_negative("free_length", &self.free_length, build)?,
             preload: build.number_or("preload", &self.preload, 0.0)?,
         };
+        if force.k * force.free + force.preload != 0.0 {
+            force.line = Some(build.held());
+        }
         Ok(Built { force: Box::new(force), markers: build.between(&self.between)? })
     }
 }
@@ -72,15 +77,45 @@ struct Spring {
     c: f64,
     free: f64,
     preload: f64,
+    /// Number of the piece that holds the line where both markers meet, if the force jumps there.
+    line: Option<usize>,
+}
+
+impl Spring {
+    /// The law along a line that is held: the gap counts as a length with a sign, by which the force passes zero
+    /// without its jump. Where the gap is closed the line is that of its rate.
+    fn act_along<S: Scalar, const D: usize>(
+        &self,
+        side: Side,
+        gap: &[Taylor<S>; D],
+        out: &mut [Wrench<S, D>],
+    ) -> Action<S> {
+        let (values, rates) = (gap.map(|x| x.x.value()), gap.map(|x| x.d.value()));
+        let is_open = norm(&values) > NEARLY_CLOSED * self.free.max(self.preload.abs() / self.k.max(f64::MIN_POSITIVE));
+        let line = side.along(if is_open { values } else { rates });
+        let length = gap.iter().zip(line).fold(Taylor::fixed(S::zero()), |sum, (x, u)| sum + *x * u);
+        let stretch = length - self.free;
+        let tension = stretch.x * self.k + length.d * self.c - self.preload;
+        out[0].force = line.map(|u| tension * u);
+        out[1].force = line.map(|u| tension * -u);
+        Action { potential: stretch.square() * (0.5 * self.k) - stretch * self.preload, magnitude: tension }
+    }
 }
 
 impl<const D: usize> ForceKernel<D> for Spring {
+    fn gap(&self) -> Option<usize> {
+        self.line
+    }
+
     fn depends_on_velocities(&self) -> bool {
         self.c > 0.0
     }
 
-    fn act<S: Scalar>(&self, frames: &Motion<S, D>, _: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
+    fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let gap = sub(&frames[1].r, &frames[0].r);
+        if let Some(side) = self.line.and_then(|number| Side::of_piece(time.regime.piece(number)?)) {
+            return self.act_along(side, &gap, out);
+        }
         let square = dot(&gap, &gap);
         // Without free length, preload and damping the force is k times the gap, also where the gap closes.
         if self.free == 0.0 && self.preload == 0.0 && (self.c == 0.0 || square.value() == 0.0) {

@@ -86,6 +86,19 @@ impl Dae {
         if self.rows().all(|row| row.level() == 0) { 2 } else { 1 }
     }
 
+    /// Rate by which phi returns to zero, 1/s; `None` where no row contains phi together with its second derivative.
+    pub fn gain(&self) -> Option<f64> {
+        let Row { position, acceleration, .. } = self.lambda;
+        (position > 0.0 && acceleration > 0.0).then(|| (position / acceleration).sqrt())
+    }
+
+    /// Time over which the rounding of q becomes one of v in a step of size `h`, s: `h` where phi = 0 alone determines
+    /// v, 1/gain where phi returns to zero, and `h` where it does so within the step. `None` where v does not follow
+    /// from phi.
+    pub fn rounding_time(&self, h: f64) -> Option<f64> {
+        if self.velocity_index() == 2 { Some(h) } else { self.gain().map(|gain| h.max(1.0 / gain)) }
+    }
+
     /// True if q or v is shifted by multipliers of its own, mu or eta.
     pub fn has_shifts(&self) -> bool {
         self.eta.is_some() || self.mu.is_some()

@@ -18,6 +18,7 @@ pub mod rotation;
 mod scalar;
 #[doc(hidden)]
 pub mod screw;
+mod side;
 #[doc(hidden)]
 pub mod signal;
 mod taylor;
@@ -38,6 +39,8 @@ pub use scalar::Scalar;
 #[doc(hidden)]
 pub use scalar::Unary;
 pub(crate) use scalar::operators;
+#[doc(hidden)]
+pub use side::Side;
 pub use taylor::Taylor;
 
 /// True if no entry is infinite or NaN, of which 0 x is NaN; in four sums so that it vectorizes.

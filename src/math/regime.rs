@@ -61,6 +61,8 @@ pub enum Thresholds {
     },
     /// The whole numbers, see [`piece_of_whole`].
     Whole,
+    /// None: the time loop sets the piece, and zero stands for the law itself.
+    Held,
 }
 
 impl Thresholds {
@@ -74,6 +76,7 @@ impl Thresholds {
                 (cycle < 2 * before).then(|| knots[k % knots.len()] + (cycle as f64 - before as f64) * period)
             }
             Thresholds::Whole => Some(k as f64 - MOST_WHOLE).filter(|whole| *whole < MOST_WHOLE),
+            Thresholds::Held => None,
         }
     }
 
@@ -83,6 +86,7 @@ impl Thresholds {
             Thresholds::At(all) => piece_of(argument, all.len(), |k| all[k]),
             Thresholds::Every { knots, period } => self.piece_of_period(argument, knots, *period),
             Thresholds::Whole => piece_of_whole(argument),
+            Thresholds::Held => Some(0),
         }
     }
 

@@ -17,7 +17,7 @@ use crate::error::{Error, Result, Warning, clock, short};
 use crate::initial::{self, Assembly};
 use crate::integrator::{self, Steps};
 use crate::math::expression::{Number, Parameters};
-use crate::math::{Rate, Scalar};
+use crate::math::{Rate, Scalar, Thresholds};
 use crate::method_spec::MethodSpec;
 use crate::scene::{self, Automatic, Elements, Scene, Simulation};
 use crate::simulate::{
@@ -240,7 +240,9 @@ fn check_switches(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]
         system.switching(OperatingPoint { t, q, v, vdot: &vdot, lambda: &[] }, &mut out, &mut Scratch::default());
         out
     });
-    match zeros.iter().zip(&ones).position(|(zero, one)| zero.value() == 0.0 && one.value() == 1.0) {
+    let is_read = |switch: usize| system.switches()[switch].thresholds != Thresholds::Held;
+    let is_unwritten = |switch: &usize| zeros[*switch].value() == 0.0 && ones[*switch].value() == 1.0;
+    match (0..count).find(|switch| is_read(*switch) && is_unwritten(switch)) {
         None => Ok(()),
         Some(switch) => Err(Error::input(format!(
             "the type of {} has a switching function whose argument it never writes",

@@ -5,8 +5,8 @@ use super::passage::SingularPassage;
 use super::{Method, Outcome, Run, Sink, Span};
 use crate::error::{Error, Failure, Result, clock, short};
 use crate::formulation::Statistics;
-use crate::math::Piece;
 use crate::math::expression::Switch;
+use crate::math::{Piece, Thresholds};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Terms};
 use crate::tolerances::report::JOINTS_OPEN;
 use serde::{Deserialize, Serialize};
@@ -134,7 +134,10 @@ impl Checkpoint {
     /// True if the dimensions agree with those of the system.
     fn fits(&self, system: &dyn MechanicalSystem) -> bool {
         let (n, switches) = (system.dimensions(), system.switches());
-        let exists = |piece: usize, s: &Switch| piece < 2 || s.thresholds.get(piece.div_ceil(2) - 1).is_some();
+        let exists = |piece: usize, s: &Switch| match s.thresholds {
+            Thresholds::Held => piece <= 6,
+            _ => piece < 2 || s.thresholds.get(piece.div_ceil(2) - 1).is_some(),
+        };
         let are_pieces = self.pieces.iter().zip(switches).all(|(&piece, switch)| exists(piece as usize, switch));
         let lengths = [self.y.len(), self.turned_at.len(), self.pieces.len(), self.turned.len()];
         let all = n.q + n.v + 1 + system.works().len();
@@ -231,6 +234,7 @@ impl Run<'_> {
         self.drop_rows(&saved.dropped);
         self.refer_to(saved.dense_reference);
         self.recall_events(saved);
+        self.start_gaps();
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         let ((q, v), (_, vdot)) = (self.problem.split(&self.y), self.problem.split(&self.slope));
         self.events.start_at(OperatingPoint { t: self.t, q, v, vdot, lambda: &[] });

@@ -7,6 +7,7 @@ mod contest;
 mod crowd;
 mod ending;
 mod events;
+mod gaps;
 mod method;
 mod observation;
 mod observed;
@@ -39,6 +40,7 @@ pub use stiffness::{Stiffness, stiffness};
 
 use crowd::Crowd;
 use events::{Events, Passage};
+use gaps::Gaps;
 use passage::SingularPassage;
 use rows::OutputRows;
 use step::is_too_large;
@@ -90,6 +92,7 @@ struct Run<'a> {
     rows: OutputRows<'a>,
     approach: SingularPassage,
     events: Events<'a>,
+    gaps: Gaps,
     crowd: Crowd,
     /// The state at the last threshold passage.
     turned_at: Vec<f64>,
@@ -187,6 +190,7 @@ impl<'a> Run<'a> {
             rows: OutputRows::new(parts.rows.0, parts.rows.1),
             approach: SingularPassage::default(),
             events: Events::new(system, (span.start, span.end)),
+            gaps: Gaps::new(system),
             crowd: Crowd::default(),
             turned_at: zeros(),
             divided: span.start,
@@ -220,6 +224,7 @@ impl<'a> Run<'a> {
     fn begin(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
         self.begin_form()?;
         self.settle();
+        self.start_gaps();
         self.check_start()?;
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         self.observe(self.fixed, sink);
@@ -236,6 +241,7 @@ impl<'a> Run<'a> {
         (self.progress, self.divided) = ((self.t, 0), self.t);
         self.begin_form()?;
         self.settle();
+        self.start_gaps();
         self.drop_rows(dropped);
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         let first = self.first_step().map_err(|halt| self.halted(&halt))?;
@@ -293,7 +299,9 @@ impl<'a> Run<'a> {
             self.propose(size, error, end.is_some() || self.cut.is_some() || size < tried)?;
             self.integrator.accepted(&self.tolerance);
             (self.growing, self.cut) = (true, None);
-            if self.t < self.span.end && (self.events.is_at_threshold() || stop.changes_form && self.t >= stop.t) {
+            let changes_form =
+                self.end_gaps() || self.events.is_at_threshold() || stop.changes_form && self.t >= stop.t;
+            if changes_form && self.t < self.span.end {
                 self.change_form_seen(None, sink)?;
             } else {
                 self.events.go_on();
@@ -305,7 +313,12 @@ impl<'a> Run<'a> {
     /// Tries a step. Returns its error in units of the tolerance, if there is an estimate; `None` if the step was
     /// refused.
     fn try_step(&mut self, size: f64, end: Option<f64>) -> Result<Option<Option<f64>>, Failure> {
-        self.h = match self.step(size, end) {
+        let tried = self.step(size, end);
+        if tried.is_ok() && self.holds_line() {
+            self.problem.dynamics.statistics.rejected += 1;
+            return Ok(None);
+        }
+        self.h = match tried {
             Ok(error) if !error.is_some_and(is_too_large) => return Ok(Some(error)),
             Ok(error) => self.retry(size, error, self.refusal, None)?,
             Err(halt) if halt.is_fatal() => return Err(self.halted(&halt)),
@@ -317,6 +330,11 @@ impl<'a> Run<'a> {
 
     /// True if the step just tried passed no threshold; else it prepares the next attempt.
     fn is_of_one_form(&mut self, size: &mut f64, end: &mut Option<f64>, sink: &mut dyn Sink) -> Result<bool, Failure> {
+        if let Some(theta) = self.gap_closes(*size, self.end_of(*size, *end)).map_err(|halt| self.halted(&halt))? {
+            self.problem.dynamics.statistics.rejected += 1;
+            self.cut = Some(theta * *size);
+            return Ok(false);
+        }
         let passage = self.end_at_passage(size, end).map_err(|halt| self.halted(&halt))?;
         match passage {
             None => return Ok(true),

@@ -28,12 +28,12 @@ pub struct SingularPassage {
     regular: f64,
     /// True if a step across the singular state was tried from here.
     is_tried: bool,
-    /// The largest change of the energy balance in a step near a singular state, J, and the number of such steps.
+    /// The largest change of the energy balance in a step over a singular state, J, and the number of such steps.
     #[serde(default)]
     lost: f64,
     #[serde(default)]
     known: usize,
-    /// Number of steps from here that were refused for their change of the energy balance.
+    /// Number of steps of this passage that were refused for their change of the energy balance.
     #[serde(default)]
     refused: usize,
 }
@@ -75,24 +75,19 @@ impl SingularPassage {
         let regular = if is_regular { step } else { self.regular };
         let rate = (rank_indicator - self.rank_indicator) / step;
         let bend = if self.step.is_finite() { 2.0 * (rate - self.rate) / (step + self.step) } else { f64::INFINITY };
+        let refused = if is_regular { 0 } else { self.refused };
         let is_tried = false;
-        *self =
-            SingularPassage { t, rank_indicator, rate, step, bend, largest, regular, is_tried, refused: 0, ..*self };
+        *self = SingularPassage { t, rank_indicator, rate, step, bend, largest, regular, is_tried, refused, ..*self };
     }
 
-    /// True if the energy balance is watched in steps from here.
-    pub fn watches_energy(&self) -> bool {
-        self.rank_indicator < tolerances::PLACED_STEPS * self.largest
-    }
-
-    /// Adds the change of the energy balance in an accepted step.
+    /// Adds the change of the energy balance in an accepted step over a singular state.
     pub fn add_loss(&mut self, lost: f64) {
         self.lost = self.lost.max(lost);
         self.known += 1;
     }
 
-    /// True if a change of the energy balance is far beyond those of all steps near singular states so far: then the
-    /// step is refused, some times.
+    /// True if a change of the energy balance is far beyond those of all steps over singular states so far: then the
+    /// step is refused, once in a passage.
     pub fn refuses(&mut self, lost: f64) -> bool {
         let is_unusual = self.known >= tolerances::LOSSES_KNOWN
             && self.refused < tolerances::LOSSES_REFUSED

@@ -27,8 +27,8 @@ impl Run<'_> {
         let t = self.end_of(h, end);
         let mut error = self.project_step((h, end), error, is_singular)?;
         self.lost = None;
-        if (is_singular || self.approach.watches_energy()) && error.is_some_and(|error| !is_too_large(error)) {
-            error = error.map(|error| error.max(self.error_by_energy(t, is_singular)));
+        if is_singular && error.is_some_and(|error| !is_too_large(error)) {
+            error = error.map(|error| error.max(self.error_by_energy(t)));
         }
         if error.is_some_and(is_too_large) {
             return Ok(error);
@@ -160,7 +160,7 @@ impl Run<'_> {
     /// Change of the energy balance in the step to `t`, over the largest that is accepted. Where stages are off along
     /// nearly dependent rows, the solutions of both orders may be wrong alike; their energy is not. Over a singular
     /// state that change is also compared with those of the steps before.
-    fn error_by_energy(&mut self, t: f64, is_singular: bool) -> f64 {
+    fn error_by_energy(&mut self, t: f64) -> f64 {
         let tolerated = self.tolerated_energy();
         let Run { problem, y, next, .. } = self;
         let Dimensions { q: nq, v: nv, .. } = problem.dynamics.system.dimensions();
@@ -174,12 +174,12 @@ impl Run<'_> {
         let Some(((start, _), (end, size))) = balance(self.t, y).zip(balance(t, next)) else { return 0.0 };
         let (lost, round_off) = ((end - start).abs(), ENERGY_ROUND_OFF * size);
         let is_seen = lost > tolerances::LOSS_SEEN * tolerated + round_off;
-        if is_singular && is_seen && self.approach.refuses(lost) {
+        if is_seen && self.approach.refuses(lost) {
             self.refusal = "the energy balance changes by far more than in the steps before";
             return tolerances::REFUSED_FOR_ENERGY;
         }
         self.lost = Some(lost.max(round_off));
-        if is_singular { lost / (tolerances::SINGULAR_ENERGY * tolerated + round_off) } else { 0.0 }
+        lost / (tolerances::SINGULAR_ENERGY * tolerated + round_off)
     }
 
     /// The error to be accepted, in units of the tolerance. Round-off of the largest coordinate moves all parts that

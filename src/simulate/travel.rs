@@ -65,9 +65,10 @@ impl Run<'_> {
 
     /// The failure of a run, whose reason may be the end of a travel near the last state.
     pub fn explained(&mut self, failure: Failure, sink: &dyn Sink) -> Failure {
+        let part = if self.approach.is_near() { tolerances::TRAVEL_AHEAD_OF_CRAWL } else { tolerances::TRAVEL_AHEAD };
         let Some(travelled) = self.travelled.as_mut().filter(|_| sink.stops().is_none()) else { return failure };
         let (q, _) = self.problem.split(&self.y);
-        let ahead = tolerances::TRAVEL_AHEAD * (self.span.end - self.span.start);
+        let ahead = part * (self.span.end - self.span.start);
         travelled.travel.end_within((self.t, q), ahead, self.span.end).map_or(failure, ended)
     }
 }

@@ -185,20 +185,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn names(&self) -> Names {
-        let all = |names: fn(&Part<D>) -> Vec<String>| {
-            let bodies = self.model.bodies.iter();
-            bodies.flat_map(|part| names(part).into_iter().map(|name| part.full_name(&name))).collect()
-        };
-        let joints = self.model.joints.iter();
-        Names {
-            q: [all(|part| part.body.coordinate_names()), self.turning_names()].concat(),
-            v: all(|part| part.body.velocity_names()),
-            lambda: joints
-                .flat_map(|joint| {
-                    joint.element.row_names().into_iter().map(|row| format!("joint.{}.{row}", joint.name))
-                })
-                .collect(),
-        }
+        self.list_names()
     }
 
     fn turning_angles(&self) -> usize {
@@ -356,6 +343,14 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     fn feeds(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Vec<Feed> {
         let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
         self.viewed(at, scratch, |view| self.list_feeds(view))
+    }
+
+    fn gaps(&self) -> Vec<usize> {
+        self.gap_lines().map(|(number, _)| number).collect()
+    }
+
+    fn write_gaps(&self, q: &[f64], out: &mut [[f64; 3]]) {
+        self.gap_lines().zip(out).for_each(|((_, markers), out)| self.write_gap(markers, q, out));
     }
 
     fn roads(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Vec<Road> {

@@ -8,6 +8,7 @@ mod coupling;
 mod critical;
 mod equations;
 mod evaluate;
+mod gaps;
 mod input;
 mod levi_civita;
 mod limits;
@@ -322,6 +323,15 @@ pub trait MechanicalSystem: Send + Sync {
     fn roads(&self, _t: f64, _q: &[f64], _v: &[f64], _scratch: &mut Scratch) -> Vec<Road> {
         Vec::new()
     }
+
+    /// Numbers of the switching functions that hold a line: of forces along the gap between two markers that jump where
+    /// it closes. Default: none.
+    fn gaps(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    /// Writes the gaps, m, along the axes of the world.
+    fn write_gaps(&self, _q: &[f64], _out: &mut [[f64; 3]]) {}
 
     /// Functions of t alone in the equations: the time loop limits its steps so as to miss none. Default: none.
     fn time_functions(&self) -> &[TimeFunction] {

@@ -5,12 +5,12 @@ use super::mechanism::Mechanism;
 use super::tangent::OperatingPoint;
 use super::view::{Plain, View, gathered};
 use super::workspace::Workspace;
-use super::{Column, Scratch};
+use super::{Column, Names, Scratch};
 use crate::body::{Energy, Frame, MOST_MARKERS, Probe, Quantity, Wrench, norm, twist_len};
 use crate::force::{Action, Force, ForceOver};
 use crate::joint::{Joint, JointOver, MOST_ROWS, markers_per_pass};
 use crate::math::{Regime, Scalar, Taylor};
-use crate::scene::{FORCE_SIZE, Measure, TORQUE_SIZE, Watched};
+use crate::scene::{Connection, FORCE_SIZE, Measure, Part, TORQUE_SIZE, Watched};
 
 /// Name and unit of an output.
 pub(super) fn column(output: &Watched) -> Column {
@@ -18,6 +18,23 @@ pub(super) fn column(output: &Watched) -> Column {
 }
 
 impl<const D: usize> Mechanism<D> {
+    /// Names of q, v and lambda.
+    pub(super) fn list_names(&self) -> Names {
+        let of_bodies = |names: fn(&Part<D>) -> Vec<String>| -> Vec<String> {
+            let bodies = self.model().bodies.iter();
+            bodies.flat_map(|part| names(part).into_iter().map(|name| part.full_name(&name))).collect()
+        };
+        let rows = |joint: &Connection<Box<dyn Joint<D>>>| -> Vec<String> {
+            let names = joint.element.row_names().into_iter();
+            names.map(|row| format!("joint.{}.{row}", joint.name)).collect()
+        };
+        Names {
+            q: [of_bodies(|part| part.body.coordinate_names()), self.turning_names()].concat(),
+            v: of_bodies(|part| part.body.velocity_names()),
+            lambda: self.model().joints.iter().flat_map(rows).collect(),
+        }
+    }
+
     /// Returns the state with its v' only where an output reads accelerations.
     pub(super) fn felt<'a>(&self, at: OperatingPoint<'a>) -> OperatingPoint<'a> {
         let is_accelerated = self.model().outputs.iter().any(|output| output.measure.feels_acceleration());

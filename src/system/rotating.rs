@@ -202,6 +202,8 @@ impl MechanicalSystem for Rotating<'_> {
         fn excitations(&self) -> Vec<Excitation>;
         fn switches(&self) -> &[Switch];
         fn owner_of_switch(&self, switch: usize) -> &str;
+        fn gaps(&self) -> Vec<usize>;
+        fn write_gaps(&self, q: &[f64], out: &mut [[f64; 3]]);
         fn limited(&self) -> &[Limited];
         fn deformations(&self, q: &[f64], out: &mut [f64]);
         fn length(&self) -> f64;

@@ -2,6 +2,10 @@
 
 pub use super::{ROUND_OFF_OF_FACTORS, SAME};
 
+/// A gap whose line is held takes it from its rate below this.
+/// Unit: `[1]` of the free length. Why: the direction of a shorter one is rounded. Test: `a_spring_passes_its_anchor`.
+pub const NEARLY_CLOSED: f64 = 1e-6;
+
 /// Integrals of shape functions are exact when halving the panels changes none by more.
 /// Unit: `[1]` of the largest. Why: a choice: round-off of sums over the panels is less. Test: none: not tried with
 /// other values.

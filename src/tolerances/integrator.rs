@@ -79,6 +79,10 @@ pub const RADAU_PATIENCE: usize = 10;
 /// `long_chains_of_beams_take_fixed_steps`.
 pub const RADAU_STAGNATION: f64 = 100.0;
 
+/// Error of a step of radau_iia that is the rounding of phi, over that of one state.
+/// Unit: `[1]`. Why: a choice: some operations a stage. Test: `gains_of_any_size_are_stepped_over`.
+pub const RADAU_ROUND_OFF: f64 = 10.0;
+
 /// The least rate by which the error that an iteration leaves is told.
 /// Unit: `[1]`. Why: two changes tell little of the rate. Test: `no_more_work_than_other_codes`.
 pub const RADAU_LEAST_RATE: f64 = 0.1;

@@ -1,6 +1,7 @@
 //! Where the equations change their form, and what acts for a short time: nothing in time is stepped over.
 
 mod by_clock;
+mod gaps;
 mod of_state;
 mod sliding;
 

@@ -62,7 +62,7 @@ fn failed(scene: &Ready, method: &Method) -> (f64, String, Vec<f64>) {
     (failure.t, failure.reason, recorder.finish().trajectory.times().collect())
 }
 
-const ADAPTIVE: [[&str; 3]; 15] = [
+const ADAPTIVE: [[&str; 3]; 16] = [
     ["index1", "dop853", "manifold"],
     ["index1", "dopri5", "none"],
     ["baumgarte", "dop853", "none"],
@@ -71,6 +71,7 @@ const ADAPTIVE: [[&str; 3]; 15] = [
     ["index2", "radau_iia", "none"],
     ["ggl", "bdf", "none"],
     ["index3", "generalized_alpha", "none"],
+    ["index3", "generalized_alpha", "manifold"],
     ["index1", "dopri5", "exact"],
     ["null_space", "dopri5", "manifold"],
     ["udwadia_kalaba", "dopri5", "none"],

@@ -207,6 +207,16 @@ impl RadauIIA {
         collocation.solve(newton, problem, tolerance, from, h)
     }
 
+    /// The error to be accepted in units of the tolerance: where phi returns to zero at a large rate, it returns from
+    /// its rounding, and no shorter step has less of that in its velocities.
+    fn allowed(&mut self, problem: &Problem, from: From, h: f64) -> f64 {
+        if self.dae.gain().is_none() {
+            return 1.0;
+        }
+        let time = self.dae.rounding_time(h);
+        1.0 + tolerances::RADAU_ROUND_OFF * self.stages.round_off(problem, &self.tolerance, from, time)
+    }
+
     /// An error estimate h (gamma y'_0 + sum d_i Y'_i), damped along the stiff directions, over the tolerated errors.
     fn estimate(
         &mut self,
@@ -224,6 +234,7 @@ impl RadauIIA {
             let stages = self.stages.y.iter().zip(d);
             x[k] = h * (gamma * v0[k] + stages.map(|(y, d)| d * y[nq + k]).sum::<f64>());
         }
+        self.stages.rotations.combine(h, d, |place| gamma * v0[place], x);
         v.iter_mut().zip(vdot0).for_each(|(v, vdot)| *v = h * gamma * vdot);
         accumulate(v, h, d, &self.stages.unknowns.a);
         accumulate(v, h, d, &self.stages.unknowns.w);
@@ -286,11 +297,14 @@ impl Integrator for RadauIIA {
         self.order.limit(&self.newton, most(s, self.is_fixed), self.stages.turned());
         to.copy_from_slice(&self.stages.y[s - 1]);
         let tolerance = self.tolerance;
-        let error = self.estimate(problem, &tolerance, (from, h, to), |method| &method.error)?;
+        let allowed = self.allowed(problem, from, h);
+        let error = self.estimate(problem, &tolerance, (from, h, to), |method| &method.error)? / allowed;
         let lower = match self.order.len() {
             1 => 0.0,
-            _ => self.estimate(problem, &tolerance, (from, h, to), |method| &method.lower_error)?,
+            _ => self.estimate(problem, &tolerance, (from, h, to), |method| &method.lower_error)? / allowed,
         };
+        let is_round_off = error <= 1.0 && error * allowed > 1.0 && !self.newton.has_stagnated;
+        problem.dynamics.statistics.stagnated += u64::from(is_round_off);
         self.seen = Seen { error, lower, theta: self.newton.rate };
         if self.dae.velocity_index() == 2 && (self.is_fixed || error <= 1.0) {
             velocity::project(problem, from.t + h, to)?;

@@ -65,6 +65,17 @@ impl Rotations {
         }
     }
 
+    /// Writes h (start + sum weights_i a'_i) to the places of the rotations in `x`: the rates of the vectors are
+    /// integrated, and differ from the velocities where the axis moves.
+    pub fn combine(&self, h: f64, weights: &[f64], start: impl Fn(usize) -> f64, x: &mut [f64]) {
+        for (k, place) in self.places.iter().enumerate() {
+            for i in 0..3 {
+                let stages = self.rates.iter().zip(weights).map(|(rates, weight)| weight * rates[3 * k + i]);
+                x[place.v + i] = h * (start(place.v + i) + stages.sum::<f64>());
+            }
+        }
+    }
+
     /// Sets the quaternions at the fraction `theta` of the step, by the polynomials of the vectors.
     pub fn interpolate(&self, method: &Collocation, theta: f64, start: &[f64], q: &mut [f64]) {
         for (k, place) in self.places.iter().enumerate() {

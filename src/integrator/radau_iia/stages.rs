@@ -19,7 +19,7 @@ pub struct Stages {
     next: Vec<Vec<f64>>,
     qdot: Vec<Vec<f64>>,
     velocity: Vec<f64>,
-    rotations: Rotations,
+    pub rotations: Rotations,
 }
 
 /// The unknowns, stage by stage, those of shifts that the equations do not have empty: see [`formulation::Unknowns`].

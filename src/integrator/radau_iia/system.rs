@@ -36,10 +36,10 @@ impl System<'_> {
         let System { dae, method, at, matrices, stages, is_fixed } = self;
         stages.reset(from);
         stages.advance(problem, method, from, h);
-        let divides = dae.velocity_index() == 2;
-        let mut round_off = |divides: bool| stages.round_off(problem, tolerance, from, Some(h).filter(|_| divides));
+        let divisor = dae.rounding_time(h);
         // A fixed step goes on to where changes no longer fall, which stiff forces may raise.
-        let (round_off, stagnation) = (round_off(divides), round_off(divides || *is_fixed));
+        let fixed = if *is_fixed { Some(h) } else { divisor };
+        let [round_off, stagnation] = [divisor, fixed].map(|by| stages.round_off(problem, tolerance, from, by));
         let limits = Limits {
             most: most(method.stages(), *is_fixed),
             tolerance: (10.0 * f64::EPSILON / tolerance.rtol).max(tolerance.rtol.sqrt().min(0.03)),

@@ -13,7 +13,7 @@ pub use timetable::Timetable;
 
 use crate::math::expression::Switch;
 use crate::math::signal::Signal;
-use crate::math::{Piece, Rate, Regime};
+use crate::math::{Piece, Rate, Regime, Thresholds};
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use crate::tolerances::simulate as tolerances;
 use range::{Range, first_out};
@@ -65,7 +65,8 @@ impl<'a> Events<'a> {
     pub fn new(system: &'a dyn MechanicalSystem, (start, end): (f64, f64)) -> Self {
         let (switches, functions) = (system.switches(), system.time_functions());
         let zeros = || vec![Rate::fixed(0.0); switches.len()];
-        let of_state: Vec<usize> = (0..switches.len()).filter(|&number| switches[number].of_time.is_none()).collect();
+        let is_of_state = |switch: &Switch| switch.of_time.is_none() && switch.thresholds != Thresholds::Held;
+        let of_state: Vec<usize> = (0..switches.len()).filter(|&number| is_of_state(&switches[number])).collect();
         let signal = |(number, switch): (usize, &'a Switch)| Some((number, switch.signal.as_deref()?));
         let signals = switches.iter().enumerate().filter_map(signal).filter(|(_, signal)| signal.is_watched());
         Events {
