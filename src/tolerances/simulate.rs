@@ -184,6 +184,11 @@ pub const NEAR_THRESHOLD: f64 = 0.2;
 /// Unit: `[places]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const LOOKS_AT_STEP: usize = 8;
 
+/// Halvings of the interval in which the cubic of a step passes a threshold.
+/// Unit: `[halvings]`. Why: thresholds a millionth of a step apart are taken in order. Test:
+/// `a_law_of_many_kinks_is_found_kink_by_kink`.
+pub const HALVINGS_OF_CUBIC: usize = 20;
+
 /// An argument of time that is so near to a threshold may be there.
 /// Unit: `[1]` of its largest distance from one. Why: cancellation in a smoothstep leaves 15 ulps. Test:
 /// `a_function_that_comes_to_rest_on_a_threshold_passes_it_once`.

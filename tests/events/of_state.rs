@@ -162,3 +162,30 @@ fn a_row_shows_what_a_step_has_not_seen() {
         assert!((outcome.v[1] - momentum).abs() < 1e-6, "{names:?}: {}", outcome.v[1]);
     }
 }
+
+/// A force that kinks at 300 heights, all of which a long step would pass: each step ends at the next one. Its energy is
+/// v^2/2 - c/2 sum (y - y_k)|y - y_k|.
+#[test]
+fn a_law_of_many_kinks_is_found_kink_by_kink() {
+    const KINKS: usize = 300;
+    let heights: Vec<f64> = (0..KINKS).map(|k| k as f64 / KINKS as f64).collect();
+    let force: Vec<String> = heights.iter().map(|height| format!("1e-3*abs(m.y - {height})")).collect();
+    let scene = parse(&format!(
+        r#"{{ "name": "kinks", "dimension": 2,
+            "bodies": [{{ "name": "m", "type": "point_mass", "mass": 1,
+                          "initial": {{ "position": [0, 1], "velocity": [0, -2] }} }}],
+            "forces": [{{ "name": "f", "type": "applied_force", "at": "m", "force": [0, "{}"] }}],
+            "simulation": {{ "t_end": 1 }} }}"#,
+        force.join(" + ")
+    ));
+    let energy = |y: f64, v: f64| {
+        let work: f64 = heights.iter().map(|height| (y - height) * (y - height).abs()).sum();
+        0.5 * v * v - 0.5e-3 * work
+    };
+    let (outcome, _) = attempt(&scene, &dop853(1e-9), 0.5);
+    assert_eq!(outcome.failure, None);
+    let (passed, steps) = (heights.iter().filter(|height| **height > outcome.q[1]).count(), outcome.statistics.steps);
+    assert!(passed > 200 && (passed as u64..2 * passed as u64).contains(&steps), "{passed} kinks, {steps} steps");
+    let error = energy(outcome.q[1], outcome.v[1]) - energy(1.0, -2.0);
+    assert!(error.abs() < 1e-8, "{error:e}");
+}

@@ -5,6 +5,7 @@
 //! given time is known before: a step ends there. One of the state is found on the dense output of a step that passed
 //! it; the step is taken again so that it ends there, and the next one starts on the other piece.
 
+mod argument;
 mod range;
 mod timetable;
 mod watch;
@@ -16,7 +17,8 @@ use crate::math::signal::Signal;
 use crate::math::{Piece, Rate, Regime, Thresholds};
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use crate::tolerances::simulate as tolerances;
-use range::{Range, first_out};
+use argument::Argument;
+use range::Range;
 
 /// The place of a threshold in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +57,8 @@ pub struct Events<'a> {
     within: Vec<Rate>,
     /// Numbers of the functions that are at a threshold at the end of the step.
     at: Vec<usize>,
+    /// The functions that come near a threshold in the step, by the fraction of the step up to there.
+    near: Vec<(f64, usize)>,
     /// Number of changes of each function at the start of the step.
     pub turned: Vec<u8>,
     /// Shorter times count as zero, s.
@@ -81,6 +85,7 @@ impl<'a> Events<'a> {
             end: zeros(),
             within: zeros(),
             at: Vec::new(),
+            near: Vec::new(),
             turned: vec![0; switches.len()],
             shortest: tolerances::PASSAGE * (end - start),
         }
@@ -164,10 +169,11 @@ impl<'a> Events<'a> {
         end: OperatingPoint,
         mut between: impl FnMut(f64, &mut dyn FnMut(OperatingPoint)) -> Result<(), E>,
     ) -> Result<Option<Passage>, E> {
-        let Events { system, switches, of_state, pieces, scratch, start, within, at, turned, shortest, .. } = self;
+        let Events { system, switches, of_state, pieces, scratch, start, within, at, near, turned, shortest, .. } =
+            self;
         read(*system, scratch, pieces, end, &mut self.end);
         at.clear();
-        let mut first = 1.0;
+        near.clear();
         // A function that is fixed on a threshold is within round-off of it.
         for &number in of_state.iter().filter(|&&number| turned[number] < 2) {
             let (a, b) = (start[number], self.end[number]);
@@ -178,7 +184,6 @@ impl<'a> Events<'a> {
                 continue;
             };
             let swing = (b.re - a.re).abs().max(h * b.eps[0].abs()).max(h * a.eps[0].abs());
-            let argument = Argument { range, a, b, h };
             // A threshold that is reached within the shortest time counts as reached.
             let is_at = |x: Rate, part: f64| {
                 let soon = shortest.max(4.0 * f64::EPSILON * end.t.abs()) * x.eps[0].abs();
@@ -189,19 +194,27 @@ impl<'a> Events<'a> {
                     return Ok(Some(Passage::AtStart(number)));
                 }
                 _ if is_at(b, tolerances::AT_THRESHOLD) => at.push(number),
-                _ if range.beyond(b.re) < 0.0 && !argument.may_come_near() => {}
-                _ => {
-                    let mut beyond = |theta: f64| {
-                        between(theta, &mut |state| read(*system, scratch, pieces, state, within))?;
-                        Ok(range.beyond(within[number].re))
-                    };
-                    let passage = argument.first_passage(first, &mut beyond)?;
-                    if passage < tolerances::PASSAGE_AT_START {
-                        return Ok(Some(Passage::AtStart(number)));
-                    }
-                    first = passage.min(first);
-                }
+                _ => near.extend(Argument { range, a, b, h }.near_from().map(|theta| (theta, number))),
             }
+        }
+        // Those that come near later than the first passage found are left to the step that ends there.
+        near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut first = 1.0;
+        for &(from, number) in near.iter() {
+            if from >= first {
+                break;
+            }
+            let Some(range) = Range::of(pieces[number], &switches[number].thresholds) else { continue };
+            let argument = Argument { range, a: start[number], b: self.end[number], h };
+            let mut beyond = |theta: f64| {
+                between(theta, &mut |state| read(*system, scratch, pieces, state, within))?;
+                Ok(range.beyond(within[number].re))
+            };
+            let passage = argument.first_passage(first, &mut beyond)?;
+            if passage < tolerances::PASSAGE_AT_START {
+                return Ok(Some(Passage::AtStart(number)));
+            }
+            first = passage.min(first);
         }
         Ok((first < 1.0).then_some(Passage::Within(first)))
     }
@@ -278,62 +291,4 @@ fn read(system: &dyn MechanicalSystem, scratch: &mut Scratch, pieces: &[Piece], 
     scratch.pieces.clear();
     scratch.pieces.extend_from_slice(pieces);
     system.switching(at, out, scratch);
-}
-
-/// An argument over a step of size `h`, given by its values and rates at both ends.
-struct Argument {
-    range: Range,
-    a: Rate,
-    b: Rate,
-    h: f64,
-}
-
-impl Argument {
-    /// The cubic Hermite interpolant.
-    fn cubic(&self, theta: f64) -> f64 {
-        let (x, y) = (self.a.re, self.b.re);
-        let [u, v] = [self.a, self.b].map(|end| self.h * end.eps[0]);
-        let rest = 1.0 - theta;
-        x + theta * (y - x) + theta * rest * (rest * (u - (y - x)) - theta * (v - (y - x)))
-    }
-
-    fn looks() -> impl Iterator<Item = f64> {
-        (1..tolerances::LOOKS_AT_STEP).map(|k| k as f64 / tolerances::LOOKS_AT_STEP as f64)
-    }
-
-    /// True if the cubic comes near a threshold.
-    fn may_come_near(&self) -> bool {
-        let ends = [self.a.re, self.b.re];
-        let all = || Self::looks().map(|theta| self.cubic(theta)).chain(ends);
-        let (low, high) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        let margin = tolerances::NEAR_THRESHOLD * (high - low);
-        self.range.beyond(low - margin) >= 0.0 || self.range.beyond(high + margin) >= 0.0
-    }
-
-    /// The first fraction of the step, before `limit`, at which the argument leaves its range; `limit` where it does
-    /// not.
-    fn first_passage<E>(&self, limit: f64, beyond: &mut impl FnMut(f64) -> Result<f64, E>) -> Result<f64, E> {
-        let mut inside = 0.0;
-        for theta in Self::looks().chain([1.0]).map(|part| part * limit) {
-            let is_end = theta == 1.0;
-            if (if is_end { self.range.beyond(self.b.re) } else { beyond(theta)? }) >= 0.0 {
-                let mut failed = None;
-                let passage = first_out(
-                    |theta| match theta {
-                        0.0 => self.range.beyond(self.a.re),
-                        1.0 => self.range.beyond(self.b.re),
-                        _ => beyond(theta).unwrap_or_else(|error| {
-                            failed = Some(error);
-                            0.0
-                        }),
-                    },
-                    inside,
-                    theta,
-                );
-                return failed.map_or(Ok(passage), Err);
-            }
-            inside = theta;
-        }
-        Ok(limit)
-    }
 }
