@@ -137,6 +137,7 @@ pub mod files;
 pub mod force;
 pub mod formulation;
 mod forward;
+pub mod guide;
 #[cfg(feature = "urdf")]
 pub mod import;
 pub mod initial;
@@ -176,8 +177,3 @@ pub mod prelude {
     pub use crate::validate::{Settings, validate};
     pub use crate::{Error, Result};
 }
-
-/// The README's example, compiled and run by the tests.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

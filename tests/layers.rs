@@ -22,7 +22,7 @@ const LAYERS: &[&[&str]] = &[
     &["compare"],
     &["simplify"],
     &["plot"],
-    &["report"],
+    &["report", "guide"],
     &["cli"],
 ];
 

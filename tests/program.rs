@@ -4,6 +4,7 @@ mod automatic;
 mod cli;
 mod common;
 mod errors;
+mod guide;
 mod layers;
 mod robustness;
 mod scenes;

@@ -140,7 +140,7 @@ impl Format {
 /// Returns the help on an option with all that it can name.
 fn names<E: Listed>(what: &str, registry: &[E]) -> String {
     let names: Vec<&str> = registry.iter().map(E::name).collect();
-    format!("{what}: {}; `holonom methods` says what goes with what", names.join(", "))
+    format!("{what}. One of {}. `holonom methods` lists the accepted combinations", names.join(", "))
 }
 
 fn automatic(text: &str) -> Result<Automatic, String> {

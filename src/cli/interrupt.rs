@@ -5,6 +5,8 @@ use crate::error::INTERRUPTED;
 use crate::files::abandon;
 use crate::report::Folder;
 use crate::simulate::Stop;
+#[cfg(unix)]
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// IS_HEARD: a command polls for interruption. IS_ASKED_FOR: a signal has arrived.
@@ -34,11 +36,13 @@ pub fn listen() {
 /// of a script has INT: who sends one means it. HUP is not, since that is the purpose of nohup.
 #[cfg(unix)]
 fn handle(then: impl Fn() + Send + 'static) -> std::io::Result<()> {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
     let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM])?;
     if is_ignored(SIGHUP) == Some(false) {
         signals.add_signal(SIGHUP)?;
     }
+    // A file above the limit of the shell is an error of its write, with a message, and not the end of the process.
+    signal_hook::flag::register(SIGXFSZ, Arc::default())?;
     std::thread::Builder::new().spawn(move || signals.forever().for_each(|_| then()))?;
     Ok(())
 }

@@ -110,6 +110,11 @@ impl MethodOptions {
 }
 
 impl StateOptions {
+    /// Number of states.
+    pub fn count(&self) -> usize {
+        self.at.len().max(1)
+    }
+
     pub fn states<'a>(&self, prepared: &'a PreparedScene, talk: &Talk) -> Result<Vec<Operating<'a>>> {
         let found = self.operating(prepared, talk)?;
         for place @ Operating { state, doubt, .. } in &found {

@@ -31,8 +31,8 @@ pub struct Args {
     /// start of each scene unless --at or --equilibrium says otherwise
     #[arg(long, value_name = "NAME=A..B[:N][:log]")]
     sweep: Option<Range>,
-    /// With --sweep: unit of the parameter, such as N/m; rad/s, deg/s, rev/s or rpm is that of a speed of rotation, which
-    /// excites once and twice a turn: a Campbell diagram (default: that of a steady rotation by --equilibrium, else none)
+    /// With --sweep: unit of the parameter, such as N/m (default: that of a steady rotation by --equilibrium, else none).
+    /// A speed of rotation (rad/s, deg/s, rev/s, rpm) gives a Campbell diagram with the lines 1x and 2x
     #[arg(long, value_name = "UNIT", requires = "sweep")]
     unit: Option<String>,
     /// With --sweep: at this time of each motion, s

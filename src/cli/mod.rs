@@ -6,12 +6,14 @@ mod common;
 mod completions;
 mod drift;
 mod generate;
+mod guide;
 mod import;
 mod interrupt;
 mod linear;
 mod linearize;
 mod loci;
 mod methods;
+mod models;
 mod plot;
 mod reference;
 mod restart;
@@ -26,6 +28,7 @@ mod transition;
 mod validate;
 
 use crate::clock;
+use crate::error::{Error, Result};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -38,7 +41,7 @@ use std::process::ExitCode;
     about,
     max_term_width = 110,
     arg_required_else_help = true,
-    after_help = "What a scene may say: holonom reference. Methods: holonom methods. Examples: holonom COMMAND --help"
+    after_help = "Guide: holonom guide. Keys of scenes: holonom reference. Methods: holonom methods. Examples: holonom COMMAND --help"
 )]
 struct Cli {
     #[command(subcommand)]
@@ -47,14 +50,14 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// What is modelled: coordinates, constraints, rank, redundancy, consistency, conditioning
+    /// The model: coordinates, constraints, rank, redundancy, consistency, conditioning
     Check(check::Args),
     /// Integrate: trajectory, drift and energy, with figures
     Simulate(simulate::Args),
     /// The same scene under every stabilization: drift against time, one table, one figure
     ///
-    /// By the integrator of the scene or of the command line: every stabilization of index 1 for those that take vector fields,
-    /// and all other formulations and projections that it goes with. So --formulation and --projection are refused.
+    /// The integrator is that of the scene or of the command line. It is run with every formulation and projection that it
+    /// accepts, so --formulation and --projection are refused.
     Drift(drift::Args),
     /// Speed for accuracy: what every method costs for the digits it gives, and which to choose
     ///
@@ -63,9 +66,9 @@ enum Command {
     Tradeoff(tradeoff::Args),
     /// Position curves: the scene assembled at many values of a parameter, such as camber over wheel travel
     ///
-    /// From the scene's own value of the parameter outwards, each state from its neighbour, at the scene's start time.
-    /// Where the mechanism cannot be moved on, the end of its travel is found. Multipliers and reactions are those of the
-    /// equations of motion at that state, with the accelerations there.
+    /// It begins at the scene's own value of the parameter and goes outwards, each state from its neighbour, at the scene's
+    /// start time. It finds the end of the travel. Multipliers and reactions are those of the equations of motion at that
+    /// state, with the accelerations there.
     Sweep(sweep::Args),
     /// The mechanism itself: at one time, at several in one figure, or in motion
     Plot(plot::Args),
@@ -83,27 +86,31 @@ enum Command {
     /// The exit code is 1 where the verdict is that a model is wrong, and standard error says of which state. The chart is
     /// by default that of `linearize`; a moving one is carried along the motion.
     Validate(validate::Args),
-    /// How small changes grow along the motion: Floquet multipliers of a period, Lyapunov exponents
+    /// Growth of small changes along the motion: Floquet multipliers of a period, Lyapunov exponents
     Transition(transition::Args),
     /// Maps over extremes: steps, gains, masses, stiffness, tolerances, speeds, sizes, times, start errors
     Stress(stress::Args),
     /// The least model and the cheapest method that keep the watched outputs within a bound, as a scene
     ///
-    /// The scene is the richest model. What a change does is estimated from one run of it, then measured: the model with all
-    /// that was left out is run whole on the same motion. Beams with fewer elements or modes or rigid, links, sliders
+    /// The scene is the full model. The effect of each change is estimated from one run of it. Then the simplified model is
+    /// run on the same motion, and the effect is measured. Changes: beams with fewer elements or modes or rigid, links, sliders
     /// and branches without mass, bodies at rest, stiff springs and bushings, redundant joints, forces that hardly do any work.
     Simplify(simplify::Args),
     /// Print a scalable scene
     Generate(generate::Args),
     /// A scene from a robot in URDF, loops closed by joints named here
     ///
-    /// Links become rigid bodies, what fixed joints hold together one; joints stand at zero. What the scene leaves out, such as
-    /// limits and meshes, is said on standard error.
+    /// Links become rigid bodies. Links that fixed joints hold together become one body. Joints stand at zero. Standard error
+    /// lists all that the scene leaves out, such as limits and meshes.
     Import(import::Args),
     /// Formulations, integrators and projections: what goes with what, proven orders, what each is for
     Methods(methods::Args),
-    /// What a scene may say: its keys, types of elements, measures, units and expressions
+    /// The scene format: keys, types of elements, measures, units and expressions
     Reference(reference::Args),
+    /// A chapter of the guide, or the list of chapters
+    Guide(guide::Args),
+    /// The scenes of a folder with their tags and what they are
+    Models(models::Args),
     /// Print the JSON Schema of a scene
     #[command(after_help = "Examples:
   holonom schema
@@ -115,6 +122,11 @@ enum Command {
     Man(completions::Man),
 }
 
+/// The number of threads, as rayon reads it.
+const THREADS: &str = "RAYON_NUM_THREADS";
+/// More threads than any machine has cores.
+const MOST_THREADS: usize = 1024;
+
 /// Set to `readings` by tests, this variable of the environment lets budgets count readings of the clock.
 const CLOCK: &str = "HOLONOM_CLOCK";
 
@@ -122,6 +134,9 @@ const CLOCK: &str = "HOLONOM_CLOCK";
 pub fn run() -> ExitCode {
     let command = Cli::parse().command;
     interrupt::listen();
+    if let Err(error) = refuse_threads() {
+        return failed(&error);
+    }
     if std::env::var_os(CLOCK).is_some_and(|clock| clock == "readings") {
         clock::count_readings();
     }
@@ -143,15 +158,28 @@ pub fn run() -> ExitCode {
         Command::Import(args) => import::run(args),
         Command::Methods(args) => methods::run(args),
         Command::Reference(args) => reference::run(args),
+        Command::Guide(args) => guide::run(args),
+        Command::Models(args) => models::run(args),
         Command::Schema => schema::run(),
         Command::Completions(args) => completions::completions(args),
         Command::Man(args) => completions::man(args),
     };
-    match result {
-        Ok(code) => code,
-        Err(error) => {
-            terminal::tell(format!("error: {error}"));
-            ExitCode::from(error.exit_code())
+    result.unwrap_or_else(|error| failed(&error))
+}
+
+fn failed(error: &Error) -> ExitCode {
+    terminal::tell(format!("error: {error}"));
+    ExitCode::from(error.exit_code())
+}
+
+/// Refuses a number of threads whose memory and start alone take longer than most runs.
+fn refuse_threads() -> Result<()> {
+    let asked = std::env::var(THREADS).ok().and_then(|count| count.trim().parse::<usize>().ok());
+    match asked.filter(|count| *count > MOST_THREADS) {
+        None => Ok(()),
+        Some(count) => {
+            Err(Error::input(format!("{THREADS} asks for {count} threads, but at most {MOST_THREADS} are started"))
+                .hint("give the number of cores, or leave it out"))
         }
     }
 }

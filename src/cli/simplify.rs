@@ -23,7 +23,7 @@ pub struct Args {
     /// Outputs that the promise is about (default: all)
     #[arg(long, value_name = "NAME[,NAME...]", value_delimiter = ',')]
     outputs: Vec<String>,
-    /// What differences are relative to
+    /// Base of relative differences
     #[arg(long, value_enum, default_value_t = NormOption::Range)]
     norm: NormOption,
     /// Runs in all, two of them of the scene as it is, and work in runs of that

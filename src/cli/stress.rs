@@ -28,10 +28,10 @@ pub struct Args {
     /// One's own map: what varies along x, an extreme or a parameter, such as step or mass_ratio=1e-8..1e8:9:log
     #[arg(long, value_name = "EXTREME[=A..B[:N][:log]]", requires = "y", conflicts_with = "map")]
     x: Option<String>,
-    /// What varies along y
+    /// Parameter along y
     #[arg(long, value_name = "EXTREME[=A..B[:N][:log]]", requires = "x")]
     y: Option<String>,
-    /// What the figures show: position, velocity, final_position, energy, error or seconds
+    /// Quantity of the figures: position, velocity, final_position, energy, error or seconds
     #[arg(long, value_name = "QUANTITY")]
     show: Option<String>,
     /// CPU time of each simulation, such as 1s or 500ms

@@ -1,12 +1,17 @@
 //! `holonom validate SCENE`
 
-use super::common::{positive, tell};
+use super::common::{duration, positive, tell};
+use super::interrupt;
 use super::linear::{AtStates, ChartOptions};
-use crate::error::Result;
+use crate::clock::Stopwatch;
+use crate::error::{Result, Warning};
 use crate::report::cell;
 use crate::report::linear::{ValidationFile, validation_figure};
-use crate::validate::{Direction, Settings, validate};
+use crate::validate::{Direction, Settings, validate_until};
 use std::process::ExitCode;
+use std::time::Duration;
+
+const MORE: &str = "give more time by --budget, or a shorter --horizon";
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -18,12 +23,15 @@ pub struct Args {
     /// Directions of the perturbation: random[:SEED] or names of states of the chart (default: random:1)
     #[arg(long, value_name = "DIRECTION[,DIRECTION...]", value_delimiter = ',')]
     along: Vec<String>,
-    /// How long perturbed motions are followed, s (default: about a period of a usual mode)
+    /// Time over which perturbed motions are followed, s (default: about a period of a usual mode)
     #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     horizon: Option<f64>,
     /// Leave the inputs out
     #[arg(long)]
     no_inputs: bool,
+    /// Time for all states together, as 20s or 5min: what is known by then is written
+    #[arg(long, value_name = "TIME", value_parser = duration, default_value = "20s")]
+    budget: Duration,
     #[command(flatten)]
     chart: ChartOptions,
 }
@@ -37,8 +45,19 @@ pub fn run(args: Args) -> Result<ExitCode> {
     };
     let settings = Settings { chart: args.chart.chart(), directions, horizon: args.horizon, inputs: !args.no_inputs };
     let (names, mut complaints) = (prepared.system().names(), Vec::new());
+    let (watch, budget) = (Stopwatch::start(), args.budget.as_secs_f64());
+    let bar = args.at.talk.progress(1000, &prepared.name);
+    let (mut done, states) = (0.0, args.at.states.count() as f64);
     args.at.conclude(&prepared, |place, folder| {
-        let found = validate(place.system(), &place.state, &settings).map_err(args.at.in_file())?;
+        done += 1.0;
+        // Each state may use what is left for those up to it.
+        let is_over = || {
+            let part = watch.wall().as_secs_f64() / budget;
+            bar.set_position((1000.0 * part) as u64);
+            part > done / states || interrupt::is_asked()
+        };
+        let found = validate_until(place.system(), &place.state, &settings, &is_over).map_err(args.at.in_file())?;
+        args.at.talk.warn(&found.cut.iter().map(|text| Warning::new(text, MORE)).collect::<Vec<_>>());
         let file = ValidationFile::new(&prepared.name, &names, &found);
         let stem = format!("validation-{}", cell(place.state.t));
         for (i, sequence) in found.sequences.iter().enumerate() {

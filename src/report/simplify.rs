@@ -58,11 +58,11 @@ fn outcome(result: &Simplification) -> String {
     };
     let farthest =
         chosen.worst().map_or(String::new(), |worst| format!("{} is off by {}", worst.name, percent(worst.error)));
-    let confirmed = result.second_opinion.iter().map(|opinion| format!("  the richest model is {opinion}\n"));
+    let confirmed = result.second_opinion.iter().map(|opinion| format!("  the full model is {opinion}\n"));
     let confirmed: String = confirmed.collect();
     let [before, after] = [richest, chosen].map(|run| format!("{} in {}", size(run), milliseconds(run.seconds)));
     text + &format!(
-        "  {after}, the richest {before}\n  {farthest}, all others by less\n{confirmed}  found by {runs} runs, with the work of {:.1} of the richest\n",
+        "  {after}, the full model {before}\n  {farthest}, all others by less\n{confirmed}  found by {runs} runs, with the work of {:.1} of the full model\n",
         result.cost
     )
 }
@@ -146,7 +146,7 @@ pub fn simplify_table(result: &Simplification) -> Result<Vec<u8>> {
 
 /// Factor of the axes around the points.
 const MARGIN: f64 = 2.0;
-/// Colour of the richest model, as index in the palette: black.
+/// Colour of the full model, as index in the palette: black.
 const BLACK: usize = 6;
 
 /// Errors so many times below the promise are drawn there: they are as good as none.

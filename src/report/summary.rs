@@ -214,7 +214,7 @@ impl Summary {
         if let Some(energy) = &self.energy {
             let part = energy
                 .relative_max_error
-                .map_or(String::new(), |part| format!(" ({part:.1e} of what was turned over)"));
+                .map_or(String::new(), |part| format!(" ({part:.1e} of the energy converted)"));
             text += &format!(
                 "\n  energy {} J -> {} J, work {} J, error of the balance {:.2e} J{part}\n",
                 significant(energy.initial, 6),

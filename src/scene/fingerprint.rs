@@ -4,7 +4,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Keys of a scene that change no motion from a given state; parameters are compared by their values.
-const ASIDE: [&str; 7] = ["name", "about", "references", "parameters", "outputs", "simulation", "assembly"];
+const ASIDE: [&str; 8] = ["name", "about", "references", "tags", "parameters", "outputs", "simulation", "assembly"];
 
 /// Hash of what a scene with its includes says of the mechanism, and of the files that it names, in hexadecimal digits:
 /// FNV-1a of 64 bits. It tells changes by mistake, not by intent.

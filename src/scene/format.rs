@@ -26,6 +26,9 @@ pub struct SceneFile {
     /// Where its data and known results come from.
     #[serde(default)]
     pub references: Vec<String>,
+    /// Words by which `holonom models TAG` lists it, such as linkage, vehicle or robot.
+    #[serde(rename = "tags", default)]
+    pub _tags: Vec<String>,
     pub dimension: Dimension,
     /// Named numbers and expressions over other parameters, in any order.
     #[serde(default)]

@@ -19,11 +19,12 @@ use std::path::{Path, PathBuf};
 /// Lists whose elements are added.
 const LISTS: [&str; 7] = ["bodies", "joints", "forces", "states", "signals", "inputs", "outputs"];
 /// Other keys that an included scene may have; what it says of gravity and simulation does not count.
-const OTHERS: [&str; 11] = [
+const OTHERS: [&str; 12] = [
     "$schema",
     "name",
     "about",
     "references",
+    "tags",
     "dimension",
     "parameters",
     "gravity",

@@ -1,4 +1,4 @@
-//! The richest model: accurately, and by a method whose own error the promise allows.
+//! The full model: accurately, and by a method whose own error the promise allows.
 
 use super::assembled::carried;
 use super::edit::{elements, text};
@@ -23,7 +23,7 @@ use std::time::Duration;
 pub const METHOD: &str = "method";
 /// Rows of the least part of a motion that a promise may be about.
 const FEWEST_ROWS: usize = 10;
-/// CPU time that the richest model may take.
+/// CPU time that the full model may take.
 const ALLOWED: Duration = Duration::from_secs(3600);
 /// The run of diffsol may take one of so many parts of the budget.
 const CONFIRMED: u32 = 10;
@@ -34,7 +34,7 @@ const TIGHTENED: usize = 2;
 /// A step, and a tolerance, that are so many times that of the accurate run are measured against it.
 const COARSER: [f64; 2] = [2.0, 10.0];
 
-/// The accurate run of the richest model.
+/// The accurate run of the full model.
 pub struct Accurate {
     /// The scene, until where the time allowed for.
     pub source: Source,
@@ -48,7 +48,7 @@ pub struct Accurate {
     is_shorter: bool,
 }
 
-/// The richest model with its two runs.
+/// The full model with its two runs.
 pub struct Base {
     /// The accurate run.
     pub accurate: Accurate,
@@ -111,7 +111,7 @@ impl Accurate {
 }
 
 impl Base {
-    /// Runs the richest model: at a hundredth of its tolerance until `is_long`, by its own method and, where the error
+    /// Runs the full model: at a hundredth of its tolerance until `is_long`, by its own method and, where the error
     /// of that is too much, by a tighter one.
     ///
     /// # Errors
@@ -123,15 +123,15 @@ impl Base {
         is_stopped: &(dyn Fn() -> bool + Sync),
         watch: &mut dyn FnMut(&str, usize),
     ) -> Result<Base> {
-        watch("the richest model, accurately", 0);
+        watch("the full model, accurately", 0);
         let accurate = Accurate::new(source, settings, is_long)?;
-        watch("the richest model", 1);
+        watch("the full model", 1);
         let richest = accurate.measured(is_stopped)?;
         let work = accurate.recorded.work + richest.work;
         let mut base = Base { accurate, richest, trials: Vec::new(), runs: 2, work };
         for _ in 0..TIGHTENED {
             let Some(method) = base.sufficient().filter(|_| !is_stopped()) else { break };
-            watch("the richest model by a tighter method", base.runs);
+            watch("the full model by a tighter method", base.runs);
             // Where that does not complete it stays as it is, and its error is told.
             let Ok(next) = base.tightened(&method, settings, [is_long, is_stopped]) else { break };
             base = next;
@@ -157,7 +157,7 @@ impl Base {
         .filter(|finer| finer.step < method.step || finer.rtol < method.rtol)
     }
 
-    /// The richest model by a tighter method, against the accurate run that is there where that is accurate enough.
+    /// The full model by a tighter method, against the accurate run that is there where that is accurate enough.
     fn tightened(
         &self,
         method: &Method,
@@ -199,12 +199,12 @@ pub fn contradicted(opinion: &SecondOpinion, within: f64) -> Option<Warning> {
     Some(Warning::new(text, "give the scene a tighter rtol and atol: one of the two runs is wrong by that"))
 }
 
-/// What is doubtful about the richest model.
+/// What is doubtful about the full model.
 pub fn doubts(accurate: &Accurate, richest: &Run) -> Vec<Warning> {
     let own = richest.error();
     let worst = richest.worst().map_or("", |worst| &worst.name);
     let coarse = (own > NUMERICAL * accurate.promise.within).then(|| {
-        let text = format!("the richest model's own numerical error is {} ({worst})", percent(own));
+        let text = format!("the full model's own numerical error is {} ({worst})", percent(own));
         Warning::new(text, "give it a tighter rtol and atol, or a shorter step")
     });
     let part = accurate.is_shorter.then(|| {
@@ -257,7 +257,7 @@ fn rounded(x: f64) -> f64 {
 /// The scene until the last row that the time allowed for.
 fn shorter(source: &Source, recorded: &Recorded, stopped: &Failure) -> Result<Source> {
     if recorded.rows.len() < FEWEST_ROWS {
-        let reason = format!("the richest model came to t = {} s only", clock(stopped.t));
+        let reason = format!("the full model came to t = {} s only", clock(stopped.t));
         let hint = "give it more time by --budget, a shorter motion by --until, or the scene a faster method: an implicit one \
              where it is stiff; `holonom check` says what looks superfluous from the start alone";
         return Err(Failure { reason, hint: hint.to_string(), t: stopped.t }.into());
@@ -274,7 +274,7 @@ fn watched(prepared: &PreparedScene, settings: &Settings) -> Result<Watched> {
     if settings.at_most < LEAST {
         return Err(Error::input(format!("{} runs are too few", settings.at_most))
             .under("--at-most")
-            .hint(format!("{LEAST} at least: two of the richest model, and one of another")));
+            .hint(format!("{LEAST} at least: two of the full model, and one of another")));
     }
     if recorded(prepared.system()).is_empty() {
         return Err(Error::input("the scene has no outputs that a promise could be about")

@@ -13,9 +13,9 @@ use std::time::Duration;
 
 /// Where models are run: the promise, and how many runs are left.
 pub struct Bench<'a> {
-    /// The richest model as JSON.
+    /// The full model as JSON.
     pub source: &'a Source,
-    /// The watched outputs of the richest model.
+    /// The watched outputs of the full model.
     pub promise: &'a Promise,
     /// True if the user asks to stop.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
@@ -23,9 +23,9 @@ pub struct Bench<'a> {
     pub watch: &'a mut dyn FnMut(&str, usize),
     /// Runs done.
     pub runs: usize,
-    /// Their counted work, in that of one of the richest model.
+    /// Their counted work, in that of one of the full model.
     pub cost: f64,
-    /// A run of the richest model.
+    /// A run of the full model.
     pub richest: &'a Run,
     /// Runs allowed, and work.
     pub at_most: usize,

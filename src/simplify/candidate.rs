@@ -7,7 +7,7 @@ use serde_json::Value;
 /// A change of the scene; an error says why it is not possible, as after other changes.
 pub type Edit = Box<dyn Fn(&mut Value) -> Result<(), String> + Send + Sync>;
 
-/// A kind of simplification: it looks at the richest model and its motion, and proposes changes of the scene.
+/// A kind of simplification: it looks at the full model and its motion, and proposes changes of the scene.
 ///
 /// A proposal is only that: the changed scene is run whole, and kept if the watched outputs stay within the promise. An
 /// own kind is tried beside those of the [`registry`](super::registry):

@@ -1,4 +1,4 @@
-//! What one run of the richest model tells about its parts.
+//! What one run of the full model tells about its parts.
 
 use super::edit::{carrier, text};
 use super::recorded::Recorded;
@@ -19,7 +19,7 @@ const STATES: usize = 200;
 /// The largest number of them at which derivatives and changed models are evaluated.
 const FEW: usize = 25;
 
-/// The richest model and states along its motion.
+/// The full model and states along its motion.
 pub struct Facts {
     /// The scene.
     pub source: Source,

@@ -1,12 +1,12 @@
 //! Only what a motion requires: the least model of a scene, and the cheapest method for it, that keep a promise.
 //!
-//! 1. The scene is the richest model. It is run twice: at a hundredth of its tolerance for the outputs that all others are
+//! 1. The scene is the full model. It is run twice: at a hundredth of its tolerance for the outputs that all others are
 //!    compared with ([`Promise`]) and for what its parts do ([`Facts`]); by its own method for its cost and own error.
 //!    Where that is more than a tenth of the promise a tighter tolerance or a shorter step takes its place.
 //! 2. Each [`Candidate`] looks at the facts and proposes changes of the scene, with a rough estimate of their effect:
 //!    shares of energy and work, relative motions, deflections; at least what they do at once to the outputs at states of
 //!    the motion, accelerations and reactions with them. What they do later would take the state-transition matrix, which
-//!    costs 10 to 100 runs of the richest model, where the search runs fewer than two models in vain; or the equations
+//!    costs 10 to 100 runs of the full model, where the search runs fewer than two models in vain; or the equations
 //!    linearized about the run, for changes that keep the coordinates: in 92 searches, of all scenes within 10 % and 1 %,
 //!    20 of these were run in vain for their effect, and 27 searches would have had to pay for the estimate.
 //! 3. Changes are tried where they save most, all of a kind together and, where that is refused, in halves. What is run is
@@ -66,17 +66,17 @@ use std::time::Duration;
 /// What is promised, and how much it may cost to find the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Allowed difference of every watched output from the richest model: 0.1 for 10 %.
+    /// Allowed difference of every watched output from the full model: 0.1 for 10 %.
     pub within: f64,
     /// How the difference is taken.
     pub norm: Norm,
     /// Names of the watched outputs; all where it is empty.
     pub outputs: Vec<String>,
-    /// Number of runs in all, and of runs of the richest model that take the same work; those of
+    /// Number of runs in all, and of runs of the full model that take the same work; those of
     /// [`nearby`](Self::nearby) apart.
     pub at_most: usize,
     /// Time for all of it, those of [`nearby`](Self::nearby) included; none: no limit. Where it does not suffice for
-    /// the motion of the richest model, the promise is about the first part of that.
+    /// the motion of the full model, the promise is about the first part of that.
     pub budget: Option<Duration>,
     /// Motions on which the promise is tried.
     pub nearby: Option<Nearby>,
@@ -99,9 +99,9 @@ pub struct Simplification {
     pub norm: Norm,
     /// The watched outputs.
     pub outputs: Vec<String>,
-    /// Run of the richest model by its own method.
+    /// Run of the full model by its own method.
     pub richest: Run,
-    /// The difference of the accurate run of the richest model from a run of diffsol.
+    /// The difference of the accurate run of the full model from a run of diffsol.
     pub second_opinion: Option<SecondOpinion>,
     /// All changes in the order in which they were tried; the last ones of kind `method`.
     pub trials: Vec<Trial>,
@@ -109,7 +109,7 @@ pub struct Simplification {
     pub chosen: Run,
     /// Number of runs.
     pub runs: usize,
-    /// Their counted work, in that of one of the richest model.
+    /// Their counted work, in that of one of the full model.
     pub cost: f64,
     /// The promise on motions nearby.
     pub robustness: Option<Robustness>,
@@ -122,7 +122,7 @@ pub struct Simplification {
 }
 
 impl Simplification {
-    /// True if anything but the method is simpler than in the richest model.
+    /// True if anything but the method is simpler than in the full model.
     pub fn is_simpler(&self) -> bool {
         self.left_out().next().is_some()
     }
@@ -141,11 +141,11 @@ impl Simplification {
 
 /// Part of the runs that the search for a model leaves to that for a method.
 const RESERVED: usize = 3;
-/// The least number of runs: two of the richest model, and one of another.
+/// The least number of runs: two of the full model, and one of another.
 const LEAST: usize = 3;
 /// Its accurate run may take one of so many parts of the budget.
 const RICHEST: u32 = 4;
-/// Motions nearby begin with the richest model, until one of so many parts of the budget is over.
+/// Motions nearby begin with the full model, until one of so many parts of the budget is over.
 const NEARBY: u32 = 2;
 
 /// Finds the least model of a scene that keeps a promise.
@@ -168,14 +168,14 @@ pub fn simplify(
     let is_long = || is_asked() || !is_within(RICHEST);
     let Base { accurate, richest, trials, runs, work } = Base::new(source, settings, &is_long, is_stopped, watch)?;
     let mut warnings = doubts(&accurate, &richest);
-    watch("the richest model by diffsol", runs);
+    watch("the full model by diffsol", runs);
     let opinion = accurate.confirmed(settings, is_stopped);
     warnings.extend(opinion.as_ref().and_then(|opinion| contradicted(opinion, settings.within)));
     let Accurate { source: base, prepared, recorded, promise, .. } = accurate;
     let (scene, names) = (prepared.name.clone(), promise.names());
     let facts = Facts::new(base.clone(), prepared, names.clone(), recorded);
     if settings.nearby.is_some() {
-        watch("the richest model on motions nearby", runs);
+        watch("the full model on motions nearby", runs);
     }
     let is_near_long = || is_asked() || !is_within(NEARBY);
     let near =
@@ -242,7 +242,7 @@ fn described(mut scene: Value, result: &Simplification) -> Value {
         None if result.warnings.is_empty() => {
             format!(", within {} in {}", percent(result.within), result.outputs.join(", "))
         }
-        // Where the richest model's own error is larger nobody knows.
+        // Where the full model's own error is larger nobody knows.
         None => String::new(),
     };
     scene["about"] = json!(format!("Simplified from {}{promise}: {left_out}.{about}", result.scene));

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::array::from_fn;
 
-/// What of the richest model can be moved.
+/// What of the full model can be moved.
 pub struct Movable<'a> {
     source: &'a Source,
     facts: &'a Facts,
@@ -102,7 +102,7 @@ impl<'a> Movable<'a> {
         numbers.collect::<Vec<_>>().into_par_iter().filter(is_possible).cloned().collect()
     }
 
-    /// The motion of this number, and the scene of the richest model.
+    /// The motion of this number, and the scene of the full model.
     ///
     /// # Errors
     /// Reason why that cannot start so.
@@ -121,7 +121,7 @@ impl<'a> Movable<'a> {
         }
     }
 
-    /// The change with a start that is `u` of the way further, and the scene of the richest model with both.
+    /// The change with a start that is `u` of the way further, and the scene of the full model with both.
     fn restarted(&self, scene: &Value, mut change: Move, u: f64) -> Result<(Move, Value), String> {
         let start = |scene: &Value| self.source.prepare(scene).map_err(|error| error.to_string());
         let first = start(&self.moved(scene, &change))?;

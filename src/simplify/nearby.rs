@@ -20,7 +20,7 @@ use std::time::Duration;
 pub struct Nearby {
     /// Largest relative change.
     pub by: f64,
-    /// Number of motions; from 20, where the richest model takes much work, to 60 where none is given.
+    /// Number of motions; from 20, where the full model takes much work, to 60 where none is given.
     pub samples: Option<usize>,
 }
 
@@ -39,7 +39,7 @@ pub struct Robustness {
     pub inputs: Vec<String>,
     /// The motions that were tried.
     pub motions: Vec<NearbyMotion>,
-    /// Number of motions that the richest model completes.
+    /// Number of motions that the full model completes.
     pub counted: usize,
     /// Number of these on which the promise is kept.
     pub kept: usize,
@@ -69,7 +69,7 @@ const ALLOWED: Duration = Duration::from_secs(600);
 /// Part of the motions that may break the promise: half of the twentieth that is granted, the other half being a
 /// reserve for motions that are not tried.
 const MAY_BREAK: f64 = 0.5 * 0.05;
-/// Work of the richest model on all motions together up to which there are more than the least number of them.
+/// Work of the full model on all motions together up to which there are more than the least number of them.
 const AFFORDED: f64 = 1e8;
 /// Least and largest number of motions: 60 of 60 say with 95 % certainty that the promise is kept on 95 % of all.
 const SAMPLES: [usize; 2] = [20, 60];
@@ -100,13 +100,13 @@ impl Robustness {
 
 type Motion = std::result::Result<(Move, Promise), String>;
 
-/// The richest model on motions nearby.
+/// The full model on motions nearby.
 pub struct Neighbourhood<'a> {
     source: &'a Source,
     within: f64,
     by: f64,
     movable: Movable<'a>,
-    /// What is moved, with the promise about that motion, or the reason why the richest model does not complete it.
+    /// What is moved, with the promise about that motion, or the reason why the full model does not complete it.
     motions: Vec<Motion>,
     /// Number of motions that there were to be.
     wanted: usize,
@@ -114,11 +114,11 @@ pub struct Neighbourhood<'a> {
 }
 
 impl<'a> Neighbourhood<'a> {
-    /// Runs the richest model, a run of which takes `work`, on the motions near that of `promise`, until `is_long`;
+    /// Runs the full model, a run of which takes `work`, on the motions near that of `promise`, until `is_long`;
     /// models are tried on them until `is_stopped`.
     ///
     /// # Errors
-    /// Nothing can be moved; the richest model completes none of the motions, though there is time.
+    /// Nothing can be moved; the full model completes none of the motions, though there is time.
     pub fn new(
         (source, facts): (&'a Source, &'a Facts),
         promise: &Promise,
@@ -133,6 +133,9 @@ impl<'a> Neighbourhood<'a> {
                 .hint("name its numbers in \"parameters\""));
         }
         let motion = |sample: usize| {
+            if is_long() {
+                return None;
+            }
             let change = movable.draw(sample as u64, by);
             let there = change.and_then(|(change, scene)| Ok((change, promised(source, &scene, promise, is_long)?)));
             // What was not completed for want of time says nothing.
@@ -142,7 +145,7 @@ impl<'a> Neighbourhood<'a> {
         let motions: Vec<_> = (0..samples).into_par_iter().filter_map(motion).collect();
         match motions.iter().all(Result::is_err).then(|| motions.first()).flatten() {
             Some(Err(reason)) => {
-                Err(Error::input(format!("the richest model completes none of the motions nearby: {reason}"))
+                Err(Error::input(format!("the full model completes none of the motions nearby: {reason}"))
                     .under("--robust")
                     .hint("move the scene by less"))
             }
@@ -209,7 +212,7 @@ impl Neighbourhood<'_> {
     }
 }
 
-/// The promise about another motion of the richest model.
+/// The promise about another motion of the full model.
 fn promised(
     source: &Source,
     scene: &Value,

@@ -17,7 +17,7 @@ pub enum Norm {
     Rms,
 }
 
-/// Outputs of the richest model, and what differences from them are relative to.
+/// Outputs of the full model, and what differences from them are relative to.
 #[derive(Clone, Debug)]
 pub struct Promise {
     /// The watched outputs.
@@ -30,7 +30,7 @@ pub struct Promise {
 }
 
 impl Promise {
-    /// Promise about outputs with these values over the motion of the richest model. What hardly moves is measured in
+    /// Promise about outputs with these values over the motion of the full model. What hardly moves is measured in
     /// thousandths of the motion ([`scales`]); energies, whose zero is arbitrary, in the swing of the kinetic energy.
     pub fn new((within, norm): (f64, Norm), columns: &[Column], rows: Vec<Vec<f64>>, sizes: &Sizes) -> Promise {
         let sizes = scales(columns, &rows, sizes);
@@ -46,7 +46,7 @@ impl Promise {
         Promise { columns: columns.to_vec(), within, norm, scales, rows }
     }
 
-    /// The same promise about another motion of the richest model.
+    /// The same promise about another motion of the full model.
     pub fn about(&self, rows: Vec<Vec<f64>>, sizes: &Sizes) -> Promise {
         Promise::new((self.within, self.norm), &self.columns, rows, sizes)
     }

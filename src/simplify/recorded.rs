@@ -1,4 +1,4 @@
-//! A run of the richest model with its states.
+//! A run of the full model with its states.
 
 use super::run::counted;
 use crate::analysis::{Singularity, Sizes, Watch};
@@ -74,8 +74,7 @@ pub fn record(
         None => Ok(recorded),
         Some(failure) if failure.reason == INTERRUPTED => Ok(Recorded { stopped: Some(failure), ..recorded }),
         Some(failure) => {
-            Err(Failure { reason: format!("the richest model does not complete: {}", failure.reason), ..failure }
-                .into())
+            Err(Failure { reason: format!("the full model does not complete: {}", failure.reason), ..failure }.into())
         }
     }
 }

@@ -26,7 +26,7 @@ pub struct Run {
     /// Kind of the work: formulation, and integrator if that is implicit.
     #[serde(skip)]
     pub class: (String, String),
-    /// Difference of each watched output from the richest model; empty where the run failed.
+    /// Difference of each watched output from the full model; empty where the run failed.
     pub outputs: Vec<Difference>,
     /// Reason why it did not complete.
     pub failure: Option<Failure>,
@@ -62,7 +62,7 @@ impl Run {
     pub fn refusal(&self, within: f64) -> Option<String> {
         match (&self.failure, self.worst()) {
             (Some(failure), _) => Some(failure.reason.clone()),
-            (None, None) => Some("it has no values at the times of the richest model".to_string()),
+            (None, None) => Some("it has no values at the times of the full model".to_string()),
             (None, Some(worst)) => {
                 (worst.error > within).then(|| format!("{} is off by {}", worst.name, percent(worst.error)))
             }

@@ -113,7 +113,7 @@ pub fn search(
 
 impl Search<'_, '_> {
     /// Takes up a proposal that is possible by itself and not hopeless. Its effect is at least what it does at once to
-    /// the outputs at states of the richest model.
+    /// the outputs at states of the full model.
     fn consider(
         &mut self,
         candidate: &'static str,

@@ -1,4 +1,4 @@
-//! The richest model as JSON, from which poorer ones are made.
+//! The full model as JSON, from which poorer ones are made.
 
 use super::edit::elements_mut;
 use crate::error::{Error, Result};

@@ -371,11 +371,11 @@ fn words(
         ([false, true], true) => "no longer stiff",
         ([false, _], _) => "stiff",
     };
-    let verdict = if wins { "comes" } else { "comes only" };
+    let verdict = if wins { "advances" } else { "advances only" };
     let filter = if kind == "fast, not stiff" { FILTER } else { "" };
     format!(
-        "{kind}. At t = {} s the fastest mode {mode} and {own} takes steps of {} s; tried there, {other} {verdict} {} times as \
-         far for the same work{filter}",
+        "{kind}. At t = {} s the fastest mode {mode} and {own} takes steps of {} s; tried there, {other} {verdict} {} \
+         times as far for the same work{filter}",
         two(*t),
         two(*step),
         two(*gain)

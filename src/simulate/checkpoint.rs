@@ -195,15 +195,15 @@ impl Run<'_> {
     /// Continues from a checkpoint, and shows its state, as at any start.
     fn go_on_from(&mut self, saved: &Checkpoint, method: &Method, sink: &mut dyn Sink) -> Result<(), Failure> {
         self.t = saved.t;
-        match saved.method == *method {
-            true => self.recall(saved)?,
-            false => self.go_on(&saved.dropped, 0.0)?,
+        if saved.method == *method {
+            self.recall(saved)?;
+        } else {
+            self.go_on(&saved.dropped, 0.0)?;
+            // The choice of the first step evaluated the terms ahead.
+            self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         }
-        self.show(
-            (self.approach != SingularPassage::default()).then_some(self.approach.rank_indicator),
-            self.fixed,
-            sink,
-        );
+        let rank_indicator = (self.approach != SingularPassage::default()).then_some(self.approach.rank_indicator);
+        self.show(rank_indicator, self.fixed, sink);
         self.rows.y.copy_from_slice(&self.y);
         self.rows.emit(self.t, sink).map_err(|halt| self.halted(&halt))?;
         if saved.method == *method {

@@ -34,7 +34,7 @@ impl Run<'_> {
     pub fn check_joints(&self) -> Result<(), Failure> {
         let open = largest_in(&self.scales, &self.problem.dynamics.terms.phi);
         match open > tolerances::JOINTS_APART {
-            true => Err(self.failure(format!("the joints have come apart by {open:.1e} times the scene's size"), None)),
+            true => Err(self.failure(format!("the joints have come apart by {open:.1e} of the scene's size"), None)),
             false => Ok(()),
         }
     }

@@ -141,7 +141,7 @@ impl fmt::Display for Stiffness {
             ),
             None => write!(
                 out,
-                "the fastest mode of the start {mode}: {integrator} needs {} steps to stay stable, and radau_iia comes {} \
+                "the fastest mode of the start {mode}: {integrator} needs {} steps to stay stable, and radau_iia advances {} \
                  times as far for the same work",
                 two(self.steps_for_stability.ceil()),
                 two(self.implicit_gain.unwrap_or(1.0))

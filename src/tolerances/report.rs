@@ -17,7 +17,7 @@ pub const ENERGY_ROUND_OFF: f64 = 1e-12;
 pub const ENERGY_UNSEEN: f64 = 1e-3;
 
 /// A balance that is open by this part is that of another motion: a warning.
-/// Unit: `[1]` of the energy turned over. Why: the promise of the README. Test: none: not tried with other values.
+/// Unit: `[1]` of the energy converted. Why: the promise of the README. Test: none: not tried with other values.
 pub const ENERGY_OPEN: f64 = 0.01;
 
 /// The balance of a good run is open by less than so many times what the tolerance lets it.
@@ -158,7 +158,7 @@ pub const REFERENCE_RTOL: f64 = 1e-13;
 pub const MEANINGLESS: f64 = 0.1;
 
 /// A run that stopped had diverged before if its energy error is this.
-/// Unit: `[1]` of the energy turned over. Why: a choice. Test: none: not tried with other values.
+/// Unit: `[1]` of the energy converted. Why: a choice. Test: none: not tried with other values.
 pub const BLOWN_UP: f64 = 0.5;
 
 /// Costs within this factor of the least are a tie.

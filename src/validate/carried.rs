@@ -1,7 +1,7 @@
 //! The chart of a linear model along the motion that it is compared with.
 
 use crate::error::{Error, Result};
-use crate::linearize::flow::{Bundle, Snapshot, flow};
+use crate::linearize::flow::{Bundle, Snapshot, flow_until};
 use crate::linearize::{Chart, Coordinates, Matrix, State, Variation, parallel};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
@@ -14,6 +14,8 @@ pub struct Carried<'a> {
     from: State,
     /// Rate of rotation of the basis, 1/s; none: the chart is constant.
     rate: Option<f64>,
+    /// True when motions are followed no further.
+    is_over: &'a dyn Fn() -> bool,
 }
 
 impl<'a> Carried<'a> {
@@ -21,30 +23,39 @@ impl<'a> Carried<'a> {
     ///
     /// # Errors
     /// A chart that does not exist at the state.
-    pub fn new(variation: &mut Variation<'a>, chart: &Chart, from: &State) -> Result<Self> {
+    pub fn new(
+        variation: &mut Variation<'a>,
+        chart: &Chart,
+        from: &State,
+        is_over: &'a dyn Fn() -> bool,
+    ) -> Result<Self> {
         let start = chart.at(variation)?;
         let moves = *chart == Chart::Intrinsic && start.r.ncols() > 0 && !variation.point.is_equilibrium;
         let rate = moves.then(|| {
             let moving = moving(variation, &start);
             (moving.transpose() * variation.mass() * &moving).amax().sqrt()
         });
-        Ok(Carried { system: variation.system(), start, from: from.clone(), rate })
+        Ok(Carried { system: variation.system(), start, from: from.clone(), rate, is_over })
     }
 
-    /// Returns the motions of a bundle at these times (increasing, after the start), with the chart at each.
+    /// Returns the motions of a bundle at these times (increasing, after the start), with the chart at each: at the
+    /// first ones alone where the time is over.
     ///
     /// # Errors
     /// A basis that rotates too fast, a motion that cannot go on, a state at which the chart does not exist.
     pub fn flow(&self, bundle: &Bundle, times: &[f64]) -> Result<(Vec<Snapshot>, Vec<Coordinates>)> {
         let all = self.times(times)?;
         let (mut snapshots, mut states) = (Vec::new(), Vec::new());
-        flow(self.system, bundle, &all.iter().map(|(t, _)| *t).collect::<Vec<f64>>(), |snapshot| {
+        let times: Vec<f64> = all.iter().map(|(t, _)| *t).collect();
+        flow_until(self.system, bundle, &times, self.is_over, |snapshot| {
             let is_asked = all[states.len()].1;
             snapshots.extend(is_asked.then(|| snapshot.clone()));
             states.push((snapshot.motion.clone(), is_asked));
             true
         })?;
-        Ok((snapshots, self.along(&states)?))
+        let charts = self.along(&states)?;
+        snapshots.truncate(charts.len());
+        Ok((snapshots, charts))
     }
 
     /// Returns the times (increasing, after the start) with the intermediate ones that the transport of the chart

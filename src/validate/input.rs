@@ -27,6 +27,16 @@ pub struct InputCheck {
     pub error_lti: f64,
 }
 
+/// Result of a pulse.
+pub(super) enum Pulsed {
+    /// It was compared with the model.
+    Checked(InputCheck),
+    /// It moves nothing that the model has states of.
+    Nothing,
+    /// The time was over before its end.
+    TooSlow,
+}
+
 /// Compares a smooth pulse of each size with the model and its B.
 pub(super) fn check(
     system: &dyn MechanicalSystem,
@@ -34,7 +44,7 @@ pub(super) fn check(
     (model, carried, norm): (&Minimal, &Carried, &Norm),
     (input, name): (usize, String),
     width: f64,
-) -> Result<Option<InputCheck>> {
+) -> Result<Pulsed> {
     let pulse = Pulse { input, start: start.t, width };
     let lti = response(model, &pulse, width);
     // A unit pulse may move the mechanism by very much or little: sizes are chosen by its effect.
@@ -43,7 +53,7 @@ pub(super) fn check(
     let driven = model.coordinates.lift.p.column(input).amax();
     let size = dq.amax().max(dv.amax() / norm.rate).max(driven);
     if size == 0.0 || model.built.a.nrows() == 0 {
-        return Ok(None);
+        return Ok(Pulsed::Nothing);
     }
     let n = start.v.len();
     let none = Matrix::zeros(n, 1);
@@ -58,7 +68,7 @@ pub(super) fn check(
     };
     let half = start.t + 0.5 * width;
     let (snapshots, charts) = carried.flow(&bundle, &[half, start.t + width])?;
-    let ([middle, end], [chart, last]) = (&snapshots[..], &charts[..]) else { return Ok(None) };
+    let ([middle, end], [chart, last]) = (&snapshots[..], &charts[..]) else { return Ok(Pulsed::TooSlow) };
     let errors = end.members.iter().zip(&EPSILONS).map(|(member, eps)| {
         let [dq, dv] = difference(system, &end.motion, member);
         norm.off((&dq, &dv), (end.columns.q.as_slice(), end.columns.v.as_slice()), *eps)
@@ -72,7 +82,7 @@ pub(super) fn check(
     let columns = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
     let scaled =
         decay(&EPSILONS, &errors_ltv, |eps| tolerances::SECOND_ORDER_RANGE * eps * columns, floor(&errors_ltv));
-    Ok(Some(InputCheck { input: name, width, amplitudes, errors_ltv, order_ltv: scaled, error_lti }))
+    Ok(Pulsed::Checked(InputCheck { input: name, width, amplitudes, errors_ltv, order_ltv: scaled, error_lti }))
 }
 
 /// Returns the states (z, y) of changes while a displacement `u` of a driver is in them.

@@ -23,7 +23,7 @@ pub use frozen::{Frozen, horizon};
 pub use input::InputCheck;
 #[doc(hidden)]
 pub use order::{Decay, decay};
-pub use run::{Validation, Verdict, validate};
+pub use run::{Validation, Verdict, validate, validate_until};
 pub use sequence::{Curve, PerturbationSequence};
 
 use crate::linearize::Chart;

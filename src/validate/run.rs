@@ -2,10 +2,11 @@
 
 use super::carried::Carried;
 use super::frozen::frozen;
+use super::input::{self, Pulsed};
 use super::perturb::{Norm, Speed};
 use super::regular::first_singular;
 use super::sequence::sequence;
-use super::{Decay, Frozen, InputCheck, PerturbationSequence, Settings, input};
+use super::{Decay, Frozen, InputCheck, PerturbationSequence, Settings};
 use crate::error::{Result, short_list};
 use crate::linearize::{Chart, State, Variation, minimal, refuse_large};
 use crate::system::{Column, MechanicalSystem};
@@ -33,6 +34,8 @@ pub struct Validation {
     pub inputs: Vec<InputCheck>,
     /// Names of inputs that move nothing that the model has states of, and are not checked.
     pub unchecked: Vec<String>,
+    /// What was not done for want of time, a sentence each.
+    pub cut: Vec<String>,
     /// Conclusion from the orders.
     pub verdict: Verdict,
 }
@@ -53,6 +56,19 @@ pub struct Verdict {
 /// # Errors
 /// A chart that does not exist at the state; a motion that cannot go on.
 pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Settings) -> Result<Validation> {
+    validate_until(system, start, settings, &|| false)
+}
+
+/// The same until `is_over`: what is known by then is the result, and [`Validation::cut`] says what is missing.
+///
+/// # Errors
+/// As of [`validate`], and where nothing is known by then.
+pub fn validate_until(
+    system: &dyn MechanicalSystem,
+    start: &State,
+    settings: &Settings,
+    is_over: &dyn Fn() -> bool,
+) -> Result<Validation> {
     refuse_large(system.dimensions().v)?;
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
     let chart = settings.chart.clone().unwrap_or_else(|| Chart::preferred(&mut variation));
@@ -60,28 +76,34 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
     let name = model.coordinates.name.clone();
     // The plain projection has no chart that follows the motion; its states are those of the mass-orthogonal one.
     let chart = if chart == Chart::Frozen { Chart::MassOrthogonal } else { chart };
-    let carried = Carried::new(&mut variation, &chart, start)?;
+    let carried = Carried::new(&mut variation, &chart, start, is_over)?;
     model.coordinates = carried.start.clone();
     let speed = Speed::of(&model)?;
     let norm = Norm { rate: speed.usual };
     let wished = settings.horizon.unwrap_or(speed.period());
     let singular = first_singular(system, start, wished)?;
     let followed = singular.map_or(wished, |t| tolerances::BEFORE_SINGULAR * (t - start.t));
-    let mut sequences = Vec::new();
+    let (mut sequences, mut cut) = (Vec::new(), Vec::new());
     for direction in &settings.directions {
+        if is_over() && !sequences.is_empty() {
+            cut.push(format!("no motion was followed along {}", direction.name()));
+            continue;
+        }
         let x0 = direction.state(&model.coordinates, norm.rate)?;
         if model.built.a.nrows() > 0 {
             sequences.push(sequence(system, start, (&model, &carried, &norm), &x0, (direction.name(), followed))?);
         }
     }
+    cut.extend(sequences.iter().filter_map(|sequence| shortened(sequence, followed)));
     let longest = followed.min(1.0 / speed.fastest.max(f64::MIN_POSITIVE));
     let frozen = frozen(start, &carried, (&model.built.a, &speed), longest)?;
     let (mut inputs, mut unchecked) = (Vec::new(), Vec::new());
     for (index, Column { name, .. }) in system.inputs().into_iter().enumerate().filter(|_| settings.inputs) {
         let pulse = (index, name.clone());
         match input::check(system, start, (&model, &carried, &norm), pulse, 0.1 * followed)? {
-            Some(found) => inputs.push(found),
-            None => unchecked.push(name),
+            Pulsed::Checked(found) => inputs.push(found),
+            Pulsed::Nothing => unchecked.push(name),
+            Pulsed::TooSlow => cut.push(format!("the input `{name}` was not checked")),
         }
     }
     let verdict = judge(&sequences, &frozen, &inputs);
@@ -95,8 +117,15 @@ pub fn validate(system: &dyn MechanicalSystem, start: &State, settings: &Setting
         frozen,
         inputs,
         unchecked,
+        cut,
         verdict,
     })
+}
+
+/// The part of a time over which a motion was followed, if it is not the whole.
+fn shortened(sequence: &PerturbationSequence, followed: f64) -> Option<String> {
+    let came = sequence.times.last().copied().filter(|t| *t < 0.999 * followed)?;
+    Some(format!("along {} the motion was followed for {came:.2e} s of {followed:.2e} s", sequence.direction))
 }
 
 fn judge(sequences: &[PerturbationSequence], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {

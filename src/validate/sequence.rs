@@ -62,6 +62,8 @@ struct Followed<'a> {
     system: &'a dyn MechanicalSystem,
     norm: &'a Norm,
     epsilons: Vec<f64>,
+    /// The first time asked for, s.
+    first: f64,
     times: Vec<f64>,
     snapshots: Vec<Snapshot>,
     /// The chart at each time.
@@ -80,8 +82,11 @@ pub(super) fn sequence(
 ) -> Result<PerturbationSequence> {
     let followed = follow(system, start, (model, carried, norm), x0, duration)?;
     let ends = followed.snapshots.last().zip(followed.charts.last());
-    let Some((end, chart)) = ends else { return Err(Error::input("nothing to follow")) };
-    let last = &followed.predicted[ROWS - 1];
+    let Some((end, chart)) = ends else {
+        return Err(Error::input(format!("no perturbed motion came to {:.1e} s in the time", followed.first))
+            .hint("give more time by --budget, or a shorter --horizon"));
+    };
+    let last = &followed.predicted[followed.snapshots.len() - 1];
     let errors_ltv = followed.errors(end, &end.columns);
     let errors_lti = followed.errors(end, &chart.changes_of(last));
     let size = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
@@ -117,13 +122,15 @@ fn follow<'a>(
     let (epsilons, members): (Vec<f64>, Vec<State>) = EPSILONS.iter().filter_map(perturbed).unzip();
     let columns = coordinates.changes_of(x0);
     let bundle = Bundle { columns, members, ..Bundle::of(start) };
-    let times: Vec<f64> = (1..=ROWS).map(|i| duration * i as f64 / ROWS as f64).collect();
+    let mut times: Vec<f64> = (1..=ROWS).map(|i| duration * i as f64 / ROWS as f64).collect();
+    let first = times[0];
     let (snapshots, charts) = carried.flow(&bundle, &times.iter().map(|t| start.t + t).collect::<Vec<f64>>())?;
     let step =
         expm(&(&model.built.a * (duration / ROWS as f64))).map_err(|unsolved| Error::input(unsolved.to_string()))?;
     let mut predicted = vec![&step * x0];
     (1..ROWS).for_each(|i| predicted.push(&step * &predicted[i - 1]));
-    Ok(Followed { system, norm, epsilons, times, snapshots, charts, predicted })
+    times.truncate(snapshots.len());
+    Ok(Followed { system, norm, epsilons, first, times, snapshots, charts, predicted })
 }
 
 impl Followed<'_> {

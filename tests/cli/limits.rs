@@ -170,3 +170,21 @@ fn a_tolerance_below_the_rounding_of_positions_is_refused() {
     place.done(&["simulate", "scene.json", "--rtol", "1e-5", "--atol", "1e-5", "--quiet"]);
     Place::new(at("1000")).done(&["simulate", "scene.json", "--quiet"]);
 }
+
+#[test]
+fn a_parameter_that_is_set_twice() {
+    let place = Place::new(PENDULUM);
+    let twice = ["check", "scene.json", "--set", "l=1", "--set", "l=2"];
+    refused(&place, &twice, &["--set: the parameter `l` is set twice"]);
+}
+
+#[test]
+fn more_threads_than_any_machine_has_cores() {
+    let place = Place::new(PENDULUM);
+    let run =
+        |threads: &str| place.command(&["check", "scene.json"]).env("RAYON_NUM_THREADS", threads).output().unwrap();
+    let output = run("100000");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("RAYON_NUM_THREADS asks for 100000 threads"), "{}", err(&output));
+    assert_eq!(run("3").status.code(), Some(0));
+}

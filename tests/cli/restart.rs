@@ -104,3 +104,17 @@ fn a_changed_scene_is_refused_unless_it_is_meant() {
     assert!(error.contains("it was changed since") && error.contains("--changed"), "{error}");
     place.done(&[&args[..], &["--changed"]].concat());
 }
+
+/// The terms of a run that goes on by another method are those of its first state.
+#[test]
+fn drift_begins_at_the_state_where_another_method_goes_on() {
+    let place = Place::new("");
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/models/double_pendulum.json");
+    place.done(&["simulate", scene, "--until", "2", "-o", "half"]);
+    let on = ["--start", "half/summary.json", "--until", "3", "-o", "whole"];
+    for integrator in ["dop853", "adams"] {
+        place.done(&[&["simulate", scene, "--integrator", integrator][..], &on].concat());
+        let drift = summary(&place, "whole")["drift"]["position"]["max"].as_f64().unwrap();
+        assert!(drift < 1e-14, "{integrator}: {drift:e}");
+    }
+}

@@ -158,10 +158,10 @@ fn models_are_compared() {
     let rods = models().join("five_link_suspension_rods.json").display().to_string();
     let args = ["tradeoff", "scene.json", "--until", "0.2", "--repeats", "1", "-o", "here", "--variants", &rods];
     let text = place.done(&args);
-    assert!(text.starts_with("models against the richest, five_link_suspension_rods, at 200 times"), "{text}");
+    assert!(text.starts_with("models against the full model, five_link_suspension_rods, at 200 times"), "{text}");
     assert!(text.contains("  within 10 % in all outputs: "), "{text}");
     assert!(
-        text.contains("  the richest is converged: without a mesh to refine, with a hundredth of its tolerance the worst output changes"),
+        text.contains("  the full model is converged: without a mesh to refine, with a hundredth of its tolerance the worst output changes"),
         "{text}"
     );
     assert_eq!(place.files("here"), ["models.csv", "models.json", "models.svg"]);

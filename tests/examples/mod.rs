@@ -15,7 +15,7 @@ mod scene_in_code;
 use holonom::analysis::Recorder;
 use holonom::simulate::{Method, Span, simulate};
 
-/// What a method makes of a swing of the pendulum in `own_equations.rs`: the error of its energy, as part of that turned over.
+/// What a method makes of a swing of the pendulum in `own_equations.rs`: the error of its energy, as part of that converted.
 fn swing(method: &Method) -> holonom::Result<f64> {
     let system = own_equations::Pendulum { mass: 2.0, length: 0.5 };
     let mut recorder = Recorder::new(&system);

@@ -37,7 +37,7 @@ fn scene(json: Value, settings: &Settings) -> Simplification {
     found(Source::new(json, &Overrides::default()).unwrap(), settings)
 }
 
-/// Found with the promise kept on at least 95 % of 20 motions nearby, for the work of 15 runs of the richest model at
+/// Found with the promise kept on at least 95 % of 20 motions nearby, for the work of 15 runs of the full model at
 /// most.
 fn promised(json: Value, settings: &Settings) -> Simplification {
     let nearby = Some(Nearby { by: 0.1, samples: Some(20) });
@@ -99,7 +99,7 @@ fn nothing_can_be_left_out_of_a_robot_arm() {
     assert!(arm.simplified["about"].as_str().unwrap().contains("nothing can be left out"));
 }
 
-/// Work is compared with what is turned over, not with the kinetic energy of a car that rolls on: to run it without the
+/// Work is compared with what is converted, not with the kinetic energy of a car that rolls on: to run it without the
 /// dampers of its struts, which is off by 90 %, is hopeless.
 #[test]
 fn what_a_car_rolls_with_is_no_measure_of_work() {

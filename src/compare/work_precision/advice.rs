@@ -60,7 +60,11 @@ impl WorkPrecision {
                 ("no run came to its end".to_string(), "give more time by --budget; tradeoff.csv has the reasons")
             }
             (Some(reference), _) if reference.digits() < f64::from(digits) => (
-                format!("the reference is sure of {:.1} digits ({})", reference.digits(), reference.worst),
+                if reference.worst.is_empty() || reference.digits() < 0.05 {
+                    "the reference has no digit that a second run confirms".to_string()
+                } else {
+                    format!("the reference is sure of {:.1} digits ({})", reference.digits(), reference.worst)
+                },
                 "give more time by --budget, or choose by --outputs what counts",
             ),
             (Some(_), Some(cell)) => (

@@ -38,7 +38,7 @@ impl Variant {
 /// Models compared with the richest of them.
 #[derive(Clone, Debug, Serialize)]
 pub struct ModelCosts {
-    /// Outputs of the richest model, in which the others are compared.
+    /// Outputs of the full model, in which the others are compared.
     #[serde(skip)]
     pub columns: Vec<Column>,
     /// Index of the model with the most velocities.
@@ -51,7 +51,7 @@ pub struct ModelCosts {
     pub finer: Finer,
 }
 
-/// Comparison of the richest model with a finer one.
+/// Comparison of the full model with a finer one.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Finer {
     /// Number of velocities with twice the elements and modes; none where the richest has no beams to refine.
@@ -63,7 +63,7 @@ pub struct Finer {
 }
 
 impl ModelCosts {
-    /// Returns the estimated error of the richest model and its output: the larger of the changes by twice the mesh and
+    /// Returns the estimated error of the full model and its output: the larger of the changes by twice the mesh and
     /// by a hundredth of the tolerance. None where it has a mesh and the finer one was not run.
     pub fn uncertainty(&self) -> Option<(f64, &str)> {
         let numerical = (self.models[self.richest].numerical_error?, "the worst output");
@@ -94,13 +94,13 @@ pub struct ModelCost {
     pub statistics: Statistics,
     /// Largest relative change of the model's own outputs with a hundredth of the tolerance.
     pub numerical_error: Option<f64>,
-    /// Difference of each output that the model has from that of the richest model.
+    /// Difference of each output that the model has from that of the full model.
     pub outputs: Vec<OutputError>,
     /// Reason why it did not complete.
     pub failure: Option<Failure>,
 }
 
-/// Difference of an output relative to its size in the motion of the richest model: see [`ErrorMetric`].
+/// Difference of an output relative to its size in the motion of the full model: see [`ErrorMetric`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OutputError {
     /// Name of the output.
@@ -127,7 +127,7 @@ impl ModelCost {
 const ROWS: usize = 200;
 
 /// Runs all models over the span of the first, each with its own method, `repeats` times in turn; `watch` is called
-/// with the next one and the number of runs done. `outputs` names the outputs to compare, all of the richest model
+/// with the next one and the number of runs done. `outputs` names the outputs to compare, all of the full model
 /// where it is empty.
 ///
 /// # Errors
@@ -156,13 +156,13 @@ pub fn compare(
     let rich = runs[richest].tight.as_ref().filter(|sample| sample.failure.is_none());
     let rich = rich.map(|sample| ErrorMetric::new(&columns, sample.rows.clone(), &sample.sizes));
     let rich = rich.ok_or_else(|| runs[richest].failure(span.start))?;
-    watch("the richest with a finer mesh", (repeats + 1) * variants.len());
+    watch("the full model with a finer mesh", (repeats + 1) * variants.len());
     let finer = finer(&variants[richest], &columns, span, allowed, &rich)?;
     let models = runs.iter().map(|run| run.cost(&rich)).collect();
     Ok(ModelCosts { richest, rows: ROWS, models, columns, finer })
 }
 
-/// Compares the richest model with itself on twice the mesh.
+/// Compares the full model with itself on twice the mesh.
 fn finer(richest: &Variant, columns: &[Column], span: Span, allowed: Duration, rich: &ErrorMetric) -> Result<Finer> {
     let Some(prepared) = richest.finer() else { return Ok(Finer::default()) };
     let velocities = Some(prepared.system().dimensions().v);
@@ -219,9 +219,9 @@ impl<'a> Run<'a> {
     fn failure(&self, t: f64) -> Error {
         let own = self.tight.as_ref().and_then(|sample| sample.failure.clone());
         let hint = || "choose another method or tolerance".to_string();
-        let none = || Failure { t, reason: "the richest model was not run".to_string(), hint: hint() };
+        let none = || Failure { t, reason: "the full model was not run".to_string(), hint: hint() };
         let failure = own.unwrap_or_else(none);
-        Failure { reason: format!("the richest model, `{}`: {}", self.variant.name, failure.reason), ..failure }.into()
+        Failure { reason: format!("the full model, `{}`: {}", self.variant.name, failure.reason), ..failure }.into()
     }
 
     fn cost(&self, rich: &ErrorMetric) -> ModelCost {

@@ -12,6 +12,9 @@ use std::fmt;
 /// ones.
 pub(super) const METHODS: [[&str; 3]; 2] = [["index1", "tsit45", "exact"], ["ggl", "diffsol", "none"]];
 
+/// Largest relative difference that confirms a run, to two digits.
+const CONFIRMED: f64 = 1e-2;
+
 /// Difference of a run of diffsol from reference values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SecondOpinion {
@@ -58,11 +61,28 @@ impl fmt::Display for SecondOpinion {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let SecondOpinion { method, difference, about } = self;
         match difference {
-            Some(difference) => write!(
+            Some(difference) if *difference <= CONFIRMED => write!(
                 out,
                 "confirmed by diffsol, which shares no code with it: {method} differs by {difference:.0e} ({about})"
             ),
+            Some(difference) => write!(
+                out,
+                "not confirmed by diffsol, which shares no code with it: {method} differs by {difference:.0e} ({about})"
+            ),
             None => write!(out, "not confirmed by diffsol: {method} did not complete: {about}"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::SecondOpinion;
+
+    #[test]
+    fn a_run_that_differs_confirms_nothing() {
+        let opinion =
+            |difference| SecondOpinion::of("ggl + bdf".to_string(), (difference, "x".to_string())).to_string();
+        assert!(opinion(1e-6).starts_with("confirmed by diffsol"));
+        assert!(opinion(2.0).starts_with("not confirmed by diffsol"));
     }
 }

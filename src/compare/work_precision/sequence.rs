@@ -279,8 +279,13 @@ impl<'a> Runner<'a> {
     fn outcome(&self, result: &WorkPrecision, run: RunSample, cpu_seconds: Vec<f64>) -> Outcome {
         if let Some(Failure { t, .. }) = run.failure.as_ref().filter(|_| run.is_too_slow) {
             let (start, end) = self.motion.between;
-            let all = two(run.seconds * (end - start) / (t - start));
-            let reason = format!("would take about {all} s: it came to t = {t:.3e} s in {} s", two(run.seconds));
+            let came = format!("it came to t = {t:.3e} s in {} s", two(run.seconds));
+            let reason = if *t > start {
+                let whole = two(run.seconds * (end - start) / (t - start));
+                format!("would take about {whole} s: {came}")
+            } else {
+                format!("is too slow: {came}")
+            };
             return Outcome::TooSlow { t: *t, cpu_seconds: run.seconds, statistics: run.statistics, reason };
         }
         if let Some(failure) = run.failure {

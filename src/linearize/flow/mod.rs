@@ -35,6 +35,20 @@ pub fn flow(
     system: &dyn MechanicalSystem,
     bundle: &Bundle,
     times: &[f64],
+    see: impl FnMut(&mut Snapshot) -> bool,
+) -> Result<()> {
+    flow_until(system, bundle, times, &|| false, see)
+}
+
+/// The same until `is_over`, which is asked before each step; what was passed to `see` until then is the result.
+///
+/// # Errors
+/// As of [`flow`].
+pub fn flow_until(
+    system: &dyn MechanicalSystem,
+    bundle: &Bundle,
+    times: &[f64],
+    is_over: &dyn Fn() -> bool,
     mut see: impl FnMut(&mut Snapshot) -> bool,
 ) -> Result<()> {
     let shape = Shape::of(system, bundle);
@@ -70,9 +84,12 @@ pub fn flow(
     let horizon = times.last().map_or(start.t, |last| last.max(start.t));
     let tolerance = Tolerance::new(tolerances::FLOW_RTOL, tolerances::FLOW_ATOL, &carrier);
     let mut run = Segments::new(parts, tolerance, (start.t, horizon), shape.pack(bundle));
-    let mut counter = Counter(0);
+    let mut counter = Counter { steps: 0, is_over };
     for &end in times {
-        run.advance(end, &mut counter).map_err(stopped)?;
+        match run.advance(end, &mut counter) {
+            Err(_) if is_over() => break,
+            advanced => advanced.map_err(stopped)?,
+        }
         let mut snapshot = shape.unpack(end, run.state());
         let goes_on = see(&mut snapshot);
         if !goes_on {
@@ -83,16 +100,22 @@ pub fn flow(
     Ok(())
 }
 
-/// Counts steps, and ends a run that needs too many.
-struct Counter(usize);
+/// Counts steps, and ends a run that needs too many or whose time is over.
+struct Counter<'a> {
+    steps: usize,
+    is_over: &'a dyn Fn() -> bool,
+}
 
-impl Sink for Counter {
+impl Sink for Counter<'_> {
     fn accepted(&mut self, _: &Observation) {
-        self.0 += 1;
+        self.steps += 1;
     }
 
     fn stops(&self) -> Option<Stop> {
-        (self.0 > tolerances::FLOW_STEPS).then(|| Stop {
+        if (self.is_over)() {
+            return Some(Stop { reason: "its time is over".to_string(), hint: SHORTER.to_string() });
+        }
+        (self.steps > tolerances::FLOW_STEPS).then(|| Stop {
             reason: "the explicit method that carries perturbations needs more than two million steps".to_string(),
             hint: "choose a shorter time, or a model without its fastest modes".to_string(),
         })

@@ -24,7 +24,8 @@ pub struct Eigen {
     pub conditioning: f64,
     /// |change| of each value, to first order, by the backward error of the QR algorithm: eps ||A|| / |y^H x| with x and
     /// y of norm 1, in the balanced matrix (Wilkinson, The Algebraic Eigenvalue Problem, section 2.9). A double zero
-    /// with one vector is moved to +-s with |y^H x| of the size of s, so that s is of the size of its own error.
+    /// with one vector is moved to +-s with |y^H x| of the size of s, so that s is of the size of its own error. At such a
+    /// value y^H x may vanish: the change of a double one is at most the root of eps times ||A||.
     pub errors: Vec<f64>,
 }
 
@@ -128,7 +129,8 @@ fn errors(units: &[Unit], vectors: &[(Vector, Vector)], size: f64) -> Vec<f64> {
     for (unit, (x, y)) in units.iter().zip(vectors) {
         let product: Complex<f64> = x.iter().zip(y).map(|(x, y)| y.conj() * x).sum();
         let norm = |x: &Vector| x.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
-        let error = tolerances::QR_BACKWARD_ERROR * size * norm(x) * norm(y) / product.norm();
+        let of_simple = tolerances::QR_BACKWARD_ERROR * size * norm(x) * norm(y) / product.norm();
+        let error = of_simple.min(tolerances::QR_BACKWARD_ERROR.sqrt() * size);
         errors.extend(std::iter::repeat_n(error, 1 + usize::from(unit.is_pair())));
     }
     errors

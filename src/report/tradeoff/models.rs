@@ -32,11 +32,11 @@ const WITHIN: [f64; 4] = [0.1, 0.01, 1e-3, 1e-4];
 impl<'a> ModelsSummary<'a> {
     /// The summary of the costs of models.
     pub fn new(costs: &'a ModelCosts) -> ModelsSummary<'a> {
-        // Differences below the error of the richest model itself mean nothing.
+        // Differences below the error of the full model itself mean nothing.
         let told = costs.uncertainty().map_or(0.0, |(error, _)| error);
         let mut recommendations: Vec<ModelAdvice> =
             WITHIN.iter().filter(|within| **within >= told).filter_map(|within| advice(costs, *within)).collect();
-        // Only the first recommendation of the richest model is kept.
+        // Only the first recommendation of the full model is kept.
         recommendations.dedup_by(|a, b| a.model == b.model && b.model == costs.models[costs.richest].name);
         ModelsSummary { costs, recommendations }
     }
@@ -45,7 +45,7 @@ impl<'a> ModelsSummary<'a> {
     pub fn text(&self) -> String {
         let ModelCosts { models, richest, rows, .. } = self.costs;
         let rich = &models[*richest];
-        let mut text = format!("models against the richest, {}, at {rows} times of the motion\n\n", rich.name);
+        let mut text = format!("models against the full model, {}, at {rows} times of the motion\n\n", rich.name);
         text += &convergence(self.costs);
         for advice in &self.recommendations {
             text += &format!("  {}\n", advice.sentence);
@@ -72,7 +72,7 @@ impl<'a> ModelsSummary<'a> {
     }
 }
 
-/// Returns the convergence of the richest model itself.
+/// Returns the convergence of the full model itself.
 fn convergence(costs: &ModelCosts) -> String {
     let Finer { velocities, failure, .. } = &costs.finer;
     let mesh = match velocities {
@@ -82,13 +82,17 @@ fn convergence(costs: &ModelCosts) -> String {
     let text = match (costs.uncertainty(), failure) {
         (Some((error, output)), _) if error > CONVERGED => {
             let error = percent(error);
-            format!("the richest is NOT converged: {mesh} {output} changes by {error}; what is nearer cannot be told")
+            format!(
+                "the full model is NOT converged: {mesh} {output} changes by {error}; what is nearer cannot be told"
+            )
         }
         (Some((error, output)), _) => {
-            format!("the richest is converged: {mesh} {output} changes by {} at most", percent(error))
+            format!("the full model is converged: {mesh} {output} changes by {} at most", percent(error))
         }
-        (None, Some(failure)) => format!("whether the richest is converged is not known: {mesh}: {}", failure.reason),
-        (None, None) => "whether the richest is converged is not known".to_string(),
+        (None, Some(failure)) => {
+            format!("whether the full model is converged is not known: {mesh}: {}", failure.reason)
+        }
+        (None, None) => "whether the full model is converged is not known".to_string(),
     };
     format!("  {text}\n\n")
 }
@@ -111,7 +115,7 @@ fn advice(costs: &ModelCosts, within: f64) -> Option<ModelAdvice> {
     let best = costs.models.iter().filter(is_good).min_by(|a, b| time(a).total_cmp(&time(b)))?;
     let against = match best.name == rich.name {
         true => "no poorer model is as near".to_string(),
-        false => format!("the richest takes {}", milliseconds(rich.seconds()?)),
+        false => format!("the full model takes {}", milliseconds(rich.seconds()?)),
     };
     let sentence = format!(
         "within {} in all outputs: {}, {}; {against}",

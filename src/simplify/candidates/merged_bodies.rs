@@ -47,7 +47,7 @@ struct Merged {
     first: String,
     /// Start of the first as assembled, which would share its motion alone among both.
     initial: Value,
-    /// The second, as it is in the richest model.
+    /// The second, as it is in the full model.
     second: Value,
     /// Place of the second in the frame of the first.
     place: Placed,

@@ -3,7 +3,6 @@
 mod absorbed;
 mod beam_spring;
 mod branch;
-mod coarser_signal;
 mod flexible_body;
 mod geometric_stiffening;
 mod half_output;
@@ -48,6 +47,5 @@ pub fn registry() -> &'static [&'static dyn Candidate] {
         &geometric_stiffening::GeometricStiffening,
         &negligible_force::NegligibleForce,
         &quasi_static_state::QuasiStaticState,
-        &coarser_signal::CoarserSignal,
     ]
 }

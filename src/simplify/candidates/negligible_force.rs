@@ -36,7 +36,7 @@ fn proposal(facts: &Facts, subject: String, what: String, edit: Edit) -> Option<
     edit(&mut scene).ok()?;
     // A damper of zero is no simplification, and what acts on bodies at rest is not told by its work.
     let effect = facts.work_share(&scene).filter(|share| *share > 0.0)?;
-    let why = format!("its work comes to {} of the energy turned over", percent(effect));
+    let why = format!("its work comes to {} of the energy converted", percent(effect));
     Some(Proposal { subject, what, why, effect, edit })
 }
 

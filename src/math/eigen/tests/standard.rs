@@ -108,3 +108,13 @@ fn any_matrix_has_eigenvalues_that_sum_to_its_trace() {
         assert!(found.values.windows(2).all(|pair| pair[0].norm() <= pair[1].norm()), "{seed}");
     }
 }
+
+/// The error of a double eigenvalue with one vector is far below the value itself.
+#[test]
+fn a_defective_value_is_not_taken_for_zero() {
+    let a = Matrix::from_row_slice(3, 3, &[-5.0, 1.0, 0.0, 0.0, -5.0, 0.0, 0.0, 0.0, 20.0]);
+    let found = eigen(&a).unwrap();
+    for (value, error) in found.values.iter().zip(&found.errors) {
+        assert!(value.norm() > 4.9 && *error < 1e-5, "{value}: {error:e}");
+    }
+}

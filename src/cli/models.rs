@@ -1,0 +1,77 @@
+//! `holonom models [TAG]`
+
+use super::common::{print, to_json};
+use crate::error::{Error, Result};
+use crate::report::Table;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  holonom models
+  holonom models linkage")]
+pub struct Args {
+    /// Only scenes with this tag, such as linkage, vehicle, robot, flexible or machine
+    tag: Option<String>,
+    /// Folder of the scenes
+    #[arg(long, value_name = "DIR", default_value = "models")]
+    folder: PathBuf,
+    /// Print as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// The keys of a scene that tell what it is.
+#[derive(Deserialize, Serialize)]
+struct Listed {
+    #[serde(default)]
+    file: String,
+    #[serde(default)]
+    about: String,
+    #[serde(default)]
+    tags: Vec<String>,
+    /// Without bodies a file is no scene.
+    #[serde(rename = "bodies", skip_serializing)]
+    _bodies: Vec<serde::de::IgnoredAny>,
+}
+
+pub fn run(args: Args) -> Result<ExitCode> {
+    let mut scenes = scenes(&args.folder)?;
+    if let Some(tag) = &args.tag {
+        let known: Vec<String> = scenes.iter().flat_map(|scene| scene.tags.clone()).collect();
+        scenes.retain(|scene| scene.tags.contains(tag));
+        if scenes.is_empty() {
+            return Err(Error::unknown("tag", tag, known.iter().map(String::as_str)));
+        }
+    }
+    if args.json {
+        print(&(to_json(&scenes)? + "\n"))?;
+    } else {
+        let mut table = Table::left(&["scene", "tags", "about"]);
+        scenes.iter().for_each(|scene| table.row([scene.file.clone(), scene.tags.join(" "), sentence(&scene.about)]));
+        print(&table.to_string())?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The scenes of a folder, by name.
+fn scenes(folder: &Path) -> Result<Vec<Listed>> {
+    let entries = std::fs::read_dir(folder).map_err(|problem| Error::file(folder, problem).hint(ELSEWHERE))?;
+    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
+    paths.sort();
+    Ok(paths.iter().filter_map(|path| scene(path)).collect())
+}
+
+const ELSEWHERE: &str = "run it where the folder `models` of holonom is, or give --folder";
+
+fn scene(path: &Path) -> Option<Listed> {
+    let listed: Listed = serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()?;
+    Some(Listed { file: path.display().to_string(), ..listed })
+}
+
+/// The first sentence of a text.
+fn sentence(text: &str) -> String {
+    text.split_inclusive(". ").next().unwrap_or_default().trim_end().to_string()
+}
