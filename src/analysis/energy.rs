@@ -68,6 +68,31 @@ impl WorstStep {
     }
 }
 
+/// The output row with the largest error of the energy balance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WorstRow {
+    /// Its time, s.
+    pub t: f64,
+    /// |error| of its balance, J.
+    pub error: f64,
+    /// Its kinetic energy and work, J.
+    size: f64,
+}
+
+impl WorstRow {
+    pub(super) fn add(&mut self, t: f64, ledger: &Ledger) {
+        if ledger.error.abs() > self.error {
+            *self = WorstRow { t, error: ledger.error.abs(), size: ledger.kinetic + ledger.work.abs() };
+        }
+    }
+
+    /// True if the row has a part of its energy that no step has: rows and steps are not of one motion.
+    pub fn contradicts(&self, steps: &EnergyBalance) -> bool {
+        let of_steps = steps.max_error.max(steps.tolerated.unwrap_or(0.0));
+        self.error > tolerances::ROW_BEYOND_STEPS * of_steps && self.error > tolerances::ENERGY_OPEN * self.size
+    }
+}
+
 /// Accumulates the energy balance along a motion.
 #[derive(Clone, Debug, Default)]
 pub struct EnergyMeter {

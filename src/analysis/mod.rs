@@ -16,7 +16,7 @@ mod thinned;
 pub use drift::{Drift, DriftLevel};
 pub use energy::EnergyBalance;
 #[doc(hidden)]
-pub use energy::{EnergyMeter, Ledger, WorstStep};
+pub use energy::{EnergyMeter, Ledger, WorstRow, WorstStep};
 pub use extremes::Extremes;
 #[doc(hidden)]
 pub use range::{LargestDeformation, Leap, Range};

@@ -2,7 +2,7 @@
 
 use super::divergence::Divergence;
 use super::drift::Drift;
-use super::energy::{EnergyBalance, EnergyMeter, Ledger, WorstStep};
+use super::energy::{EnergyBalance, EnergyMeter, Ledger, WorstRow, WorstStep};
 use super::extremes::Extremes;
 use super::range::Range;
 use super::singularity::{Singularity, Watch};
@@ -34,6 +34,8 @@ pub struct Record {
     pub energy: Option<EnergyBalance>,
     /// The step in which the energy balance changes most.
     pub worst_step: WorstStep,
+    /// The output row with the largest error of the balance.
+    pub worst_row: WorstRow,
     /// Singular states on the way.
     pub singularity: Singularity,
     /// Deformations of parts whose theory is valid for small ones only.
@@ -106,6 +108,7 @@ impl<'a> Recorder<'a> {
                 drift: Drift::default(),
                 energy: None,
                 worst_step: WorstStep::default(),
+                worst_row: WorstRow::default(),
                 singularity: Singularity::default(),
                 range: Range::new(system),
                 drift_rows: Vec::new(),
@@ -188,6 +191,7 @@ impl Recorder<'_> {
         record.rows += 1;
         record.drift_rows.push(drift);
         record.ledger_rows.extend(ledger);
+        ledger.iter().for_each(|ledger| record.worst_row.add(t, ledger));
         match &mut record.last {
             None => record.trajectory.rows.push(values),
             Some(last) => {

@@ -56,6 +56,10 @@ impl<'a> Travel<'a> {
             self.take(t);
             return None;
         }
+        // A driver without a value there, such as a signal beyond its points, is no end of a travel.
+        if self.metric.system.prescribed(t).iter().any(|driven| driven.value.is_some_and(|value| !value.is_finite())) {
+            return None;
+        }
         let (start, mut step) = (self.last.0, t - self.last.0);
         let resolution = tolerances::TRAVEL_RESOLVED * (until - start).abs() + f64::EPSILON * t.abs();
         while self.last.0 < t && step > resolution {
@@ -113,7 +117,7 @@ impl<'a> Travel<'a> {
                 let unit = if is_length(&self.metric.system.names().lambda[row]) { "m" } else { "rad" };
                 let [asked, reached] = [asked, reached].map(|x| significant(x, tolerances::DIGITS_OF_TRAVEL));
                 format!(
-                    "the driver `{name}` asks for {asked} {unit}, and its travel ends at {reached} {unit}: the joints reach \
+                    "the driver `{name}` later asks for {asked} {unit}, and its travel ends at {reached} {unit}: the joints reach \
                      no farther"
                 )
             }

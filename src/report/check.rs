@@ -211,7 +211,7 @@ fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
     .collect()
 }
 
-fn count(n: usize, one: &str, many: &str) -> String {
+pub(super) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 

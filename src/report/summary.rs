@@ -255,8 +255,8 @@ impl Summary {
     fn assembly_text(&self) -> String {
         let Some(largest) = self.assembly.moves.first() else { return String::new() };
         format!(
-            "  assembly moved {} coordinates and velocities, most {}: {} -> {}\n",
-            self.assembly.moves.len(),
+            "  assembly moved {}; the largest change is that of {}: {} -> {}\n",
+            super::check::count(self.assembly.moves.len(), "state", "states"),
             largest.name,
             significant(largest.from, 6),
             significant(largest.to, 6)

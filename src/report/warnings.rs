@@ -11,7 +11,8 @@ use crate::trajectory::Gap;
 pub fn warnings(record: &Record) -> Vec<Warning> {
     let energy = record.energy.as_ref().filter(|energy| energy.is_open()).map(open_balance);
     let energy = energy.or_else(|| record.worst_step.is_alone().then(|| energy_jump(&record.worst_step)));
-    let doubts = open_joints(&record.drift).into_iter().chain(energy).chain(gaps(record));
+    let row = record.energy.as_ref().filter(|energy| record.worst_row.contradicts(energy)).map(|_| odd_row(record));
+    let doubts = open_joints(&record.drift).into_iter().chain(energy).chain(row).chain(gaps(record));
     doubts.chain(record.range.warnings()).chain(many_jumps(record.jumps)).collect()
 }
 
@@ -63,6 +64,15 @@ fn open_balance(energy: &EnergyBalance) -> Warning {
         None => "compare with a smaller --step, and with an adaptive integrator",
     };
     Warning::new(text, hint)
+}
+
+fn odd_row(record: &Record) -> Warning {
+    let t = significant(record.worst_row.t, 6);
+    let error = record.worst_row.error;
+    let text = format!(
+        "the row at t = {t} s has an energy that no step has, by {error:.1e} J: a short force acts between steps"
+    );
+    Warning::new(text, "give a --step below its duration, or an explicit integrator such as dop853, which meets it")
 }
 
 fn many_jumps(jumps: usize) -> Option<Warning> {

@@ -80,7 +80,13 @@ pub fn hints(
     let source = Source::load(path, overrides)?;
     let span = prepared.span()?;
     let start = prepared.start();
+    // Drivers may be at rest at the start and move all bodies later.
+    let is_still = start.1.iter().all(|v| *v == 0.0);
     let modes: Vec<&Mode> = pairs(&model, Kind::Physical).into_iter().map(|pair| pair.mode).collect();
+    if modes.is_empty() && is_still {
+        let skipped = "nothing moves at the start: `holonom simplify` looks at the motion".to_string();
+        return Ok(Hints { skipped, ..Hints::default() });
+    }
     let watched: Vec<String> = prepared.system().columns().into_iter().map(|column| column.name).collect();
     let time = span.end - span.start;
     // Without outputs nothing is known of what counts.

@@ -20,6 +20,11 @@ pub const ENERGY_UNSEEN: f64 = 1e-3;
 /// Unit: `[1]` of the energy converted. Why: the promise of the README. Test: none: not tried with other values.
 pub const ENERGY_OPEN: f64 = 0.01;
 
+/// An output row whose energy is off by so many errors of the steps is not of their motion: a warning.
+/// Unit: `[1]`. Why: a choice: dense output is less accurate than steps by ten or so. Test:
+/// `a_row_that_no_step_confirms_is_told`.
+pub const ROW_BEYOND_STEPS: f64 = 1e3;
+
 /// The balance of a good run is open by less than so many times what the tolerance lets it.
 /// Unit: `[1]`. Why: the promise of the README. Test: none: not tried with other values.
 pub const ENERGY_BEYOND: f64 = 10.0;

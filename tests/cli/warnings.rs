@@ -426,3 +426,24 @@ fn a_modulus_in_another_unit_is_said() {
         assert_eq!(warnings(&beam(modulus), &[]), [""; 0]);
     }
 }
+
+/// A force of a fiftieth of a second that implicit steps go over, and the row in its middle does not.
+#[test]
+fn a_row_that_no_step_confirms_is_told() {
+    let scene = |bump: &str| {
+        format!(
+            r#"{{ "name": "bump", "dimension": 2,
+            "bodies": [{{ "name": "m", "type": "point_mass", "mass": 1, "initial": {{ "velocity": [1, 0] }} }}],
+            "forces": [{{ "name": "f", "type": "applied_force", "at": "m", "force": [0, "{bump}"] }}],
+            "outputs": [{{ "name": "y", "measure": "position", "of": "m", "component": "y" }}],
+            "simulation": {{ "t_end": 10, "output_step": 0.02 }} }}"#
+        )
+    };
+    let implicit =
+        ["simulate", "scene.json", "--formulation", "ggl", "--integrator", "radau_iia", "--projection", "none"];
+    let said = |bump: &str| err(&Place::new(scene(bump)).run(&implicit));
+    let short = said("100*exp(-((m.x - 5)/0.02)^2)");
+    assert!(short.contains("the row at t = 5 s has an energy that no step has"), "{short}");
+    let long = said("exp(-((m.x - 5)/2)^2)");
+    assert!(!long.contains("warning"), "{long}");
+}

@@ -87,7 +87,7 @@ fn is_told(scene: &Ready, method: &Method) {
     // Positions close to 1e-10 rad, which the drive of 0.06 rad/s passes in 2e-9 s.
     assert!((t - end).abs() < 1e-8, "{method:?}: {t} {end}: {reason}");
     let reached = format!("its travel ends at {angle:.8}");
-    let told = reason.contains("the driver `drive` asks for 1.64435999 rad") && reason.contains(&reached);
+    let told = reason.contains("the driver `drive` later asks for 1.64435999 rad") && reason.contains(&reached);
     assert!(told, "{method:?}: {reason}");
     // Rows at 0, 0.15 ... 0.9, and the last good state.
     assert!(rows.len() >= 7 && rows.iter().all(|row| *row <= end + 1e-8), "{method:?}: {rows:?}");

@@ -147,7 +147,7 @@ pub fn envelope(points: impl Iterator<Item = (f64, f64)>, rows: usize, windows: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::{Drift, Range, Singularity, WorstStep};
+    use crate::analysis::{Drift, Range, Singularity, WorstRow, WorstStep};
     use crate::system::{Column, Names};
 
     /// Rows at times of 0.01 s with one constraint and the energies of a motion without work.
@@ -167,6 +167,7 @@ mod tests {
             gaps: Vec::new(),
             extremes: Vec::new(),
             worst_step: WorstStep::default(),
+            worst_row: WorstRow::default(),
             drift: Drift::default(),
             energy: None,
             singularity: Singularity::default(),
