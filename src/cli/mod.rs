@@ -93,8 +93,8 @@ enum Command {
     /// The least model and the cheapest method that keep the watched outputs within a bound, as a scene
     ///
     /// The scene is the full model. The effect of each change is estimated from one run of it. Then the simplified model is
-    /// run on the same motion, and the effect is measured. Changes: beams with fewer elements or modes or rigid, links, sliders
-    /// and branches without mass, bodies at rest, stiff springs and bushings, redundant joints, forces that hardly do any work.
+    /// run on the same motion, and the effect is measured. Changes: beams with fewer elements or modes or rigid, links and
+    /// branches without mass, bodies at rest, stiff springs and bushings, redundant joints, forces that hardly do any work.
     Simplify(simplify::Args),
     /// Print a scalable scene
     Generate(generate::Args),

@@ -89,15 +89,6 @@ pub fn mentions(value: &Value, name: &str) -> bool {
     !all_words(value, &|word| carrier(word) != name)
 }
 
-/// True if all that `value` says of a body is about these markers of it, or their coordinates.
-pub fn is_about(value: &Value, body: &str, markers: &[String]) -> bool {
-    let is_one = |name: &str| markers.iter().any(|marker| marker == name);
-    let is_coordinate = |word: &str| {
-        word.rsplit_once('.').is_some_and(|(marker, name)| ["x", "y", "z"].contains(&name) && is_one(marker))
-    };
-    all_words(value, &|word| carrier(word) != body || is_one(word) || is_coordinate(word))
-}
-
 fn all_words(value: &Value, is_such: &impl Fn(&str) -> bool) -> bool {
     match value {
         Value::String(text) => words(text).all(is_such),

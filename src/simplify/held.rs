@@ -40,12 +40,6 @@ pub fn acting<'a>(scene: &'a Value, list: &str, body: &str) -> impl Iterator<Ite
     elements(scene, list).iter().filter(move |element| mentions(element, body))
 }
 
-/// True if the ties, and nothing else of the list, act on the body as they did.
-pub fn are_all<'a>(mut ties: impl Iterator<Item = &'a Tie> + Clone, scene: &Value, list: &str, body: &str) -> bool {
-    acting(scene, list, body).count() == ties.clone().count()
-        && ties.all(|tie| elements(scene, list).contains(&tie.element))
-}
-
 /// Removes a body with its joints and forces, and what refers to these.
 ///
 /// # Errors

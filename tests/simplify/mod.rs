@@ -1,6 +1,5 @@
 //! Only what a motion requires: what is left out, what stays, and that the promise is what is measured.
 
-mod halves;
 mod light_bodies;
 mod nearby;
 

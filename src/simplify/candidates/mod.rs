@@ -5,11 +5,7 @@ mod beam_spring;
 mod branch;
 mod flexible_body;
 mod geometric_stiffening;
-mod half_output;
-mod half_spring;
-mod massless_slider;
 mod merged_bodies;
-mod mirror;
 mod negligible_force;
 mod planar;
 mod planar_output;
@@ -19,9 +15,7 @@ mod quasi_static_state;
 mod redundant_joint;
 mod resting_body;
 mod section;
-mod series_springs;
 mod stiff_connection;
-mod symmetric_half;
 mod two_force_link;
 
 pub(super) use plane::Plane;
@@ -33,11 +27,8 @@ use super::candidate::Candidate;
 pub fn registry() -> &'static [&'static dyn Candidate] {
     &[
         &planar::Planar,
-        &symmetric_half::SymmetricHalf,
         &flexible_body::FlexibleBody,
         &two_force_link::TwoForceLink,
-        &massless_slider::MasslessSlider,
-        &series_springs::SeriesSprings,
         &branch::Branch,
         &resting_body::RestingBody,
         &merged_bodies::MergedBodies,
