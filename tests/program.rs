@@ -3,6 +3,7 @@
 mod automatic;
 mod cli;
 mod common;
+mod dependencies;
 mod errors;
 mod guide;
 mod layers;

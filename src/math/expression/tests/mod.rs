@@ -3,6 +3,7 @@
 mod derivatives;
 mod enclosures;
 mod hostile;
+mod random;
 mod switches;
 
 use super::*;
