@@ -31,13 +31,14 @@ use crate::clock;
 use crate::error::{Error, Result};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
+use std::sync::OnceLock;
 
 /// Simulates mechanisms as differential-algebraic equations and measures how far every method drifts off the
 /// constraints.
 #[derive(Parser)]
 #[command(
     name = "holonom",
-    version,
+    version = version(),
     about,
     max_term_width = 110,
     arg_required_else_help = true,
@@ -129,6 +130,17 @@ const MOST_THREADS: usize = 1024;
 
 /// Set to `readings` by tests, this variable of the environment lets budgets count readings of the clock.
 const CLOCK: &str = "HOLONOM_CLOCK";
+
+/// The version with the features of this build.
+fn version() -> &'static str {
+    static VERSION: OnceLock<String> = OnceLock::new();
+    let features =
+        [("figures", cfg!(feature = "figures")), ("npz", cfg!(feature = "npz")), ("urdf", cfg!(feature = "urdf"))];
+    VERSION.get_or_init(|| {
+        let names: Vec<&str> = features.iter().filter(|(_, is_built)| *is_built).map(|(name, _)| *name).collect();
+        format!("{} (features: cli {})", env!("CARGO_PKG_VERSION"), names.join(" "))
+    })
+}
 
 /// Runs the command line and returns the exit code: 0 done, 1 the run failed, 2 bad input.
 pub fn run() -> ExitCode {

@@ -157,7 +157,8 @@ fn help_and_version_are_no_errors() {
     for args in [&["--help"][..], &["simulate", "--help"], &["check", "-h"], &["help", "drift"]] {
         assert!(place.done(args).contains("Usage: holonom"), "{args:?}");
     }
-    assert_eq!(place.done(&["--version"]), format!("holonom {}\n", env!("CARGO_PKG_VERSION")));
+    let version = format!("holonom {} (features: cli figures npz urdf)\n", env!("CARGO_PKG_VERSION"));
+    assert_eq!(place.done(&["--version"]), version);
 }
 
 #[test]
