@@ -1,7 +1,7 @@
 //! `holonom sweep SCENE NAME=A..B:N`
 
 use super::common::{Output, SceneOptions, Talk, tell};
-use crate::error::{Result, find};
+use crate::error::{Result, Warning, find};
 use crate::prepared::Overrides;
 use crate::report::{SweepLook, SweepSummary, sweep_figure, sweep_table};
 use crate::sweep::{Family, Range, Sweep};
@@ -11,7 +11,7 @@ use std::process::ExitCode;
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   holonom sweep models/five_link_kinematics.json travel=-0.08..0.08:21 --outputs camber,toe --against wheel_travel
-  holonom sweep models/four_bar_spring.json l0=1.2..1.5:7 --json")]
+  holonom sweep models/double_wishbone.json rack=-0.06..0.06:25 --json")]
 pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
@@ -43,12 +43,21 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let bar = args.talk.progress(args.range.count as u64, &args.range.parameter);
     let sweep = family.sweep(&args.range, |done| bar.set_position(done as u64))?;
     bar.finish_and_clear();
+    args.talk.warn(&moves_nothing(&sweep));
     let summary = SweepSummary::new(&sweep);
     write(&args, &family, &sweep, &summary)?;
     let Some(failure) = &summary.failure else { return Ok(ExitCode::SUCCESS) };
     let ends = summary.ends().join("\n       ");
     tell(format!("error: the branch ends {ends}\n  help: {}", failure.hint));
     Ok(ExitCode::from(1))
+}
+
+fn moves_nothing(sweep: &Sweep) -> Option<Warning> {
+    let name = &sweep.range.parameter;
+    let text = format!("`{name}` changes no position: a sweep assembles positions and simulates nothing");
+    let hint =
+        format!("simulate with --set {name}=.., or follow eigenvalues by `holonom loci SCENE --sweep {name}=A..B`");
+    sweep.moves_nothing().then(|| Warning::new(text, hint))
 }
 
 fn known_output(known: &[Column], names: &[String]) -> Result<()> {

@@ -10,6 +10,8 @@ use tempfile::TempDir;
 const PREFIX: &str = ".holonom-";
 /// File in a hidden folder, locked as long as the process that writes there is alive.
 const LOCK: &str = ".lock";
+/// Folder in a hidden folder, with the results of before while new ones are published.
+const OLD: &str = ".old";
 
 /// The hidden folders of this process. Files are renamed while it is locked.
 static HIDDEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -33,9 +35,9 @@ pub fn abandon() {
 ///
 /// They are written to a hidden folder in the one where they will be, and [`publish`](Self::publish) renames them one
 /// after another. If the process ends before that, by a full disk or a formula, earlier results stay unchanged. A signal
-/// that ends the process waits for the renames: see [`abandon`]. Only where the process is killed during them, some
-/// microseconds for each file, can old and new ones be mixed. The last file vouches for the others: its old version goes
-/// before the first is renamed, and its new one comes last.
+/// that ends the process waits for the renames: see [`abandon`]. Where a rename fails, those before it are undone. Only
+/// where the process is killed during them, some microseconds for each file, can a part of the files be missing. The last
+/// file vouches for the others: its old version goes first, and its new one comes last.
 ///
 /// Hidden folders of processes that were killed are removed by the next one that writes to the same place. The lock in
 /// them shows whether their process lives.
@@ -93,19 +95,62 @@ impl Staging {
         self.hidden.path().join(name)
     }
 
-    /// Renames the files to their places, in the order in which they were first written, and removes the `obsolete`.
+    /// Renames the files to their places, in the order in which they were first written, and removes the `obsolete`. If
+    /// that fails, all files are as before.
     ///
     /// # Errors
     /// Errors of the file system, with the name of the file.
     pub fn publish(self, obsolete: &[String]) -> Result<(), (String, io::Error)> {
         let _renaming = hidden();
-        let vouching = if let [_, .., last] = self.names.as_slice() { Some(last) } else { None };
-        for name in vouching.into_iter().chain(obsolete) {
-            removed(&self.target.join(name)).map_err(|error| (name.clone(), error))?;
+        let mut moves = Moves::default();
+        let done = self.rename_all(obsolete, &mut moves);
+        if done.is_err() {
+            moves.undo();
         }
-        self.names.iter().try_for_each(|name| {
-            std::fs::rename(self.path(name), self.target.join(name)).map_err(|error| (name.clone(), error))
-        })
+        done
+    }
+
+    fn rename_all(&self, obsolete: &[String], moves: &mut Moves) -> Result<(), (String, io::Error)> {
+        let old = self.hidden.path().join(OLD);
+        std::fs::create_dir(&old).map_err(|error| (OLD.to_string(), error))?;
+        // The file that vouches for the others goes first.
+        for name in self.names.iter().rev().chain(obsolete) {
+            moves.set_aside(&self.target.join(name), old.join(name)).map_err(|error| (name.clone(), error))?;
+        }
+        for name in &self.names {
+            moves.rename(self.path(name), self.target.join(name)).map_err(|error| (name.clone(), error))?;
+        }
+        Ok(())
+    }
+}
+
+/// Renamed files, from where and to where.
+#[derive(Default)]
+struct Moves(Vec<(PathBuf, PathBuf)>);
+
+impl Moves {
+    fn rename(&mut self, from: PathBuf, to: PathBuf) -> io::Result<()> {
+        std::fs::rename(&from, &to)?;
+        self.0.push((from, to));
+        Ok(())
+    }
+
+    /// Moves a file away, if it is there. A folder is not ours.
+    fn set_aside(&mut self, path: &Path, to: PathBuf) -> io::Result<()> {
+        if path.is_dir() {
+            return Err(io::ErrorKind::IsADirectory.into());
+        }
+        match self.rename(path.to_path_buf(), to) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(()),
+        }
+    }
+
+    fn undo(self) {
+        for (from, to) in self.0.into_iter().rev() {
+            // The error that is told is the one that led here.
+            let _ = std::fs::rename(to, from);
+        }
     }
 }
 
@@ -130,13 +175,6 @@ fn lock(hidden: &Path) -> io::Result<Option<Option<File>>> {
         Err(std::fs::TryLockError::WouldBlock) => None,
         Err(std::fs::TryLockError::Error(_)) => Some(None),
     })
-}
-
-fn removed(path: &Path) -> io::Result<()> {
-    match std::fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    }
 }
 
 /// Removes hidden folders of killed processes. Failure to remove them is ignored.
@@ -209,14 +247,30 @@ mod tests {
         assert_eq!(contents(place.path()), pairs([("a", "living"), ("b", "old")]));
     }
 
-    /// Without the last file nobody takes the others for a set.
+    /// Whichever rename fails, old results stay whole.
     #[test]
-    fn the_last_file_vouches_for_the_others() {
-        let place = place();
-        let mut staging = Staging::create(place.path()).unwrap();
-        ["a", "b"].iter().for_each(|name| staging.write(name, b"new").unwrap());
-        std::fs::remove_file(staging.hidden.path().join("a")).unwrap();
-        assert_eq!(staging.publish(&[]).unwrap_err().0, "a");
-        assert_eq!(contents(place.path()), pairs([("a", "old")]));
+    fn results_are_old_where_a_rename_fails() {
+        for missing in ["a", "b", "c"] {
+            let place = place();
+            std::fs::write(place.path().join("d"), "old").unwrap();
+            let mut staging = Staging::create(place.path()).unwrap();
+            ["a", "b", "c"].iter().for_each(|name| staging.write(name, b"new").unwrap());
+            std::fs::remove_file(staging.hidden.path().join(missing)).unwrap();
+            assert_eq!(staging.publish(&["d".to_string()]).unwrap_err().0, missing);
+            assert_eq!(contents(place.path()), pairs([("a", "old"), ("b", "old"), ("d", "old")]), "{missing}");
+        }
+    }
+
+    #[test]
+    fn a_folder_of_the_name_of_a_file_stays() {
+        for name in ["a", "b"] {
+            let place = place();
+            let mut staging = Staging::create(place.path()).unwrap();
+            ["a", "b"].iter().for_each(|name| staging.write(name, b"new").unwrap());
+            std::fs::remove_file(place.path().join(name)).unwrap();
+            std::fs::create_dir_all(place.path().join(name).join("mine")).unwrap();
+            assert_eq!(staging.publish(&[]).unwrap_err().0, name);
+            assert!(place.path().join(name).join("mine").exists());
+        }
     }
 }

@@ -47,7 +47,9 @@ mod walk;
 pub use family::Family;
 pub use range::Range;
 
+use crate::math::largest;
 use crate::system::{Column, Names};
+use crate::tolerances::simulate as tolerances;
 
 /// The states of a sweep.
 #[derive(Clone, Debug)]
@@ -81,6 +83,16 @@ impl Sweep {
         curve.sort_by(|a, b| place(a).total_cmp(&place(b)));
         curve.dedup_by(|a, b| a.value == b.value);
         curve
+    }
+
+    /// True if no coordinate depends on the parameter, as on a stiffness or a mass.
+    pub fn moves_nothing(&self) -> bool {
+        let first = self.points.first().map_or(&[][..], |point| &point.q);
+        let is_same = |point: &Point| {
+            let change = point.q.iter().zip(first).map(|(a, b)| (a - b).abs());
+            change.fold(0.0, f64::max) <= tolerances::SAME * (1.0 + largest(first))
+        };
+        self.limits.is_empty() && self.points.len() > 1 && self.points.iter().all(is_same)
     }
 }
 

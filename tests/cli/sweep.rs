@@ -225,3 +225,13 @@ fn bad_sweeps_are_refused_and_nothing_is_written() {
         assert!(!place.path("out").exists());
     }
 }
+
+#[test]
+fn a_parameter_that_moves_nothing_is_told() {
+    let place = Place::new("");
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+    let said = |scene: &str, range: &str| err(&place.run(&["sweep", models.join(scene).to_str().unwrap(), range]));
+    let stiffness = said("four_bar_spring.json", "k1=10..100:5");
+    assert!(stiffness.contains("`k1` changes no position") && stiffness.contains("holonom loci"), "{stiffness}");
+    assert!(!said("double_wishbone.json", "rack=-0.01..0.01:3").contains("changes no position"));
+}
