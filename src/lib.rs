@@ -39,7 +39,7 @@
 //! | [`body`] | rigid bodies and point masses, their frames at markers | a file and a line in [`body::registry`], or from outside |
 //! | [`joint`], [`force`] | constraints and wrenches over frames | a file and a line in the registry, or from outside |
 //! | [`scene`] | the JSON format, its checks and its schema; scenes built in code | |
-//! | `import` | scenes from URDF (feature `urdf`) | |
+//! | `import` | scenes from URDF and MJCF (feature `urdf`) | |
 //! | [`system`] | [`system::MechanicalSystem`], which solvers see; own equations by [`system::Equations`] | implement it |
 //! | [`formulation`] | what is integrated: index 1, Baumgarte, invariant manifold, penalty, null space ... | a file and a line |
 //! | [`projection`] | what is done after a step: post-stabilization, coordinate projection | a file and a line |

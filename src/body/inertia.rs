@@ -4,6 +4,7 @@ use super::{Build, dot};
 use crate::error::{Error, Result, short};
 use crate::math::expression::Number;
 use crate::math::rotation::Matrix3;
+use crate::tolerances::body::ROUNDED_INERTIA;
 use nalgebra::{Matrix3 as Tensor, SymmetricEigen};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -85,8 +86,7 @@ pub fn physical(tensor: &Matrix3) -> Result<()> {
     let mut moments: Vec<f64> =
         SymmetricEigen::new(Tensor::from_fn(|i, j| tensor[i][j])).eigenvalues.iter().copied().collect();
     moments.sort_by(f64::total_cmp);
-    // Data are rounded to a few digits, so a thin rod may miss the bound by rounding.
-    let slack = 1e-6 * moments[2].abs();
+    let slack = ROUNDED_INERTIA * moments[2].abs();
     if moments[0] < -slack {
         return Err(Error::input(format!(
             "a principal moment of inertia is {}, but cannot be negative",

@@ -1,8 +1,8 @@
-//! `holonom import ROBOT.urdf`
+//! `holonom import FILE`, URDF or MJCF
 
 use super::common::{print, tell, to_json};
 use crate::error::{Error, Result};
-use crate::import::urdf::{Closure, Given, Options, import};
+use crate::import::{Closure, Given, Options, import};
 use crate::prepared::{Overrides, PreparedScene};
 use crate::report::write_whole;
 use crate::scene::Scene;
@@ -12,25 +12,26 @@ use std::process::ExitCode;
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   holonom import models/data/two_link.urdf -o two_link.json
-  holonom import models/data/two_link.urdf --at shoulder=pi/4 --at elbow=-0.5")]
+  holonom import models/data/two_link.urdf --at shoulder=pi/4 --at elbow=-0.5
+  holonom import humanoid.xml -o humanoid.json")]
 pub struct Args {
-    /// Robot in URDF
+    /// Robot in URDF, or model in MJCF; the root of the XML says which
     #[arg(value_name = "FILE")]
     path: PathBuf,
     /// Scene file to write (default: standard output)
     #[arg(short, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Link that is the ground (default: the root of the tree)
+    /// Link of a URDF file that is the ground (default: the root of the tree)
     #[arg(long, value_name = "LINK")]
     base: Option<String>,
-    /// The base moves freely, and is not the ground
+    /// The base of a URDF file moves freely, and is not the ground
     #[arg(long)]
     free: bool,
     /// Joint that closes a loop: [NAME=]revolute|spherical|weld:LINK@X,Y,Z:LINK@X,Y,Z[:axis=X,Y,Z], points and axis in the
     /// links' own frames
     #[arg(long, value_name = "JOINT", allow_hyphen_values = true)]
     close: Vec<Closure>,
-    /// Position of a joint in the scene's guess, rad or m (default: 0); may be repeated
+    /// Position of a joint in the scene's guess, rad or m (default: 0, in MJCF `ref`); may be repeated
     #[arg(long, value_name = "JOINT=VALUE", allow_hyphen_values = true)]
     at: Vec<Given>,
     /// Print nothing but errors and the scene
@@ -49,10 +50,15 @@ pub fn run(args: Args) -> Result<ExitCode> {
     }
     if !args.quiet {
         imported.left_out.iter().for_each(|what| tell(format!("left out: {what}")));
+        imported.warnings.iter().for_each(|what| tell(format!("warning: {what}")));
     }
     let ready = Scene::parse(&text, &[]).and_then(|scene| PreparedScene::new(scene, &Overrides::default()));
-    if let Err(error) = ready {
-        tell(format!("warning: the scene does not start as it is: {error}"));
+    match ready {
+        Err(_) if imported.scene["bodies"].as_array().is_some_and(Vec::is_empty) => {
+            tell("warning: no body moves\n  help: --free lets the base of a URDF file move freely");
+        }
+        Err(error) => tell(format!("warning: the scene does not start as it is: {error}")),
+        Ok(_) => {}
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -99,10 +99,11 @@ enum Command {
     Simplify(simplify::Args),
     /// Print a scalable scene
     Generate(generate::Args),
-    /// A scene from a robot in URDF, loops closed by joints named here
+    /// A scene from a robot in URDF or a model in MJCF, loops closed by joints named here
     ///
-    /// Links become rigid bodies. Links that fixed joints hold together become one body. Joints stand at zero. Standard error
-    /// lists all that the scene leaves out, such as limits and meshes.
+    /// Links become rigid bodies. Links that fixed joints hold together become one. Joints stand at zero, in MJCF at `ref`.
+    /// Equalities of MJCF are soft there and exact constraints here. Its motors become inputs. Standard error lists all that
+    /// the scene leaves out, such as limits, contacts and meshes, and all that looks wrong in the file.
     Import(import::Args),
     /// Formulations, integrators and projections: what goes with what, proven orders, what each is for
     Methods(methods::Args),

@@ -37,6 +37,7 @@ impl JointSpec for Gear {
             Some(carrier) => {
                 markers.push(build.marker("carrier[0]", &carrier[0])?);
                 markers.push(build.marker("carrier[1]", &carrier[1])?);
+                self.refuse_wheels_of_carrier(&markers, build)?;
             }
             None if D == 2 => {}
             None => {
@@ -50,6 +51,18 @@ impl JointSpec for Gear {
         let wheel = |i: usize| Some(Turned { of: markers[i], to: *markers.get(i + 2)?, factor: teeth[i], axes: None });
         let turning = build.turning((0..2).filter_map(wheel).collect(), offset);
         Ok(Built { joint: Box::new(Pair { teeth, offset, turning }), markers })
+    }
+}
+
+impl Gear {
+    /// A wheel that is one body with its carrier never turns against it.
+    fn refuse_wheels_of_carrier<const D: usize>(&self, markers: &[usize], build: &Build<D>) -> Result<()> {
+        let body = |marker: usize| build.markers.bodies[markers[marker]];
+        let Some(wheel) = (0..2).find(|wheel| body(*wheel) == body(wheel + 2)) else { return Ok(()) };
+        let name = self.between[wheel].split('.').next().unwrap_or_default();
+        Err(Error::input(format!("the wheel `{name}` is its own carrier, so it does not turn against it"))
+            .under(format!("carrier[{wheel}]"))
+            .hint("name a marker of the body that the wheel turns on"))
     }
 }
 

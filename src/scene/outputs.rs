@@ -10,17 +10,19 @@ use crate::body::Build;
 use crate::error::{Error, Result};
 use crate::force::Force;
 use crate::joint::Joint;
+use std::collections::HashSet;
 
 pub type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
 pub type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
 
 /// Refuses names of outputs that are `t`, taken or not valid: they are columns of the trajectory.
 pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
+    let mut known = HashSet::new();
     for (i, OutputSpec { name, .. }) in specs.iter().enumerate() {
         let taken = |by: &str| Error::input(format!("the name `{name}` is taken{by}")).hint("give each output its own");
         let checked = match name.as_str() {
             "t" => Err(taken(" by time")),
-            _ if specs[..i].iter().any(|known| known.name == *name) => Err(taken("")),
+            _ if !known.insert(name) => Err(taken("")),
             _ => super::names::check_name(name),
         };
         checked.map_err(|error| error.under("name").under(format!("outputs[{i}]")))?;

@@ -5,12 +5,14 @@ use crate::body::Build;
 use crate::error::{Error, Result, excerpt, suggest};
 use crate::joint::{ClosedForm, Joint, given};
 use crate::math::expression::Number;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// `kind` of these rows.
 pub const KIND: &str = "initial";
 
 type Joints<const D: usize> = Vec<Connection<Box<dyn Joint<D>>>>;
+/// Joints by name.
+type Index<'j, const D: usize> = HashMap<&'j str, &'j Connection<Box<dyn Joint<D>>>>;
 
 /// Rows for the coordinates, and rows for the rates, that `initial` gives.
 pub fn rows<const D: usize>(
@@ -18,10 +20,12 @@ pub fn rows<const D: usize>(
     joints: &Joints<D>,
     build: &Build<D>,
 ) -> Result<[Joints<D>; 2]> {
+    let index: Index<D> = joints.iter().rev().map(|joint| (joint.name.as_str(), joint)).collect();
     let mut rows = [Vec::new(), Vec::new()];
     for (name, number) in initial {
         let is_rate = name.ends_with('\'');
-        let row = row(name, number, joints, build).map_err(|error| error.under(excerpt(name)).under("initial"))?;
+        let row =
+            row(name, number, (joints, &index), build).map_err(|error| error.under(excerpt(name)).under("initial"))?;
         rows[usize::from(is_rate)].push(row);
     }
     build.own("start", "initial");
@@ -31,7 +35,7 @@ pub fn rows<const D: usize>(
 fn row<const D: usize>(
     name: &str,
     number: &Number,
-    joints: &Joints<D>,
+    (joints, index): (&Joints<D>, &Index<D>),
     build: &Build<D>,
 ) -> Result<Connection<Box<dyn Joint<D>>>> {
     let base = name.trim_end_matches('\'');
@@ -39,7 +43,7 @@ fn row<const D: usize>(
         return Err(Error::input(format!("`{}` is no coordinate of a joint", excerpt(name)))
             .hint("write JOINT.COORDINATE, as in `pin.angle`, or with `'` for its rate"));
     };
-    let joint = joints.iter().find(|joint| joint.name == of).ok_or_else(|| {
+    let joint = *index.get(of).ok_or_else(|| {
         let known = joints.iter().map(|joint| joint.name.as_str());
         Error::input(format!("there is no joint `{}`", excerpt(of))).hint(suggest(of, known))
     })?;

@@ -61,3 +61,13 @@ pub const NO_AXIS: f64 = 1e-12;
 /// Young's modulus of a solid that is smaller is probably in another unit.
 /// Unit: `[Pa]`. Why: the softest rubber has 1e5 to 1e6. Test: `a_modulus_in_another_unit_is_said`.
 pub const SOFTEST_SOLID: f64 = 1e5;
+
+/// A principal moment of inertia may be above the sum of the others by so much.
+/// Unit: `[1]` of the largest. Why: data are rounded to a few digits, so that a thin rod may miss the bound by that. Test:
+/// `moments_that_no_body_has_are_made_valid`.
+pub const ROUNDED_INERTIA: f64 = 1e-6;
+
+/// Radius of gyration of what has no extent.
+/// Unit: `[m]`. Why: the radius of an atom; what files have below it is round-off. Test:
+/// `moments_of_round_off_are_zero`.
+pub const ATOM: f64 = 1e-10;

@@ -14,3 +14,18 @@ fn a_robot_becomes_a_scene_that_runs() {
     assert_eq!(check["degrees_of_freedom"], 1);
     place.done(&["simulate", "made.json", "--until", "0.1", "--quiet"]);
 }
+
+/// A model in MJCF by the same command; a lone link asks for the option that frees it.
+#[test]
+fn models_become_scenes_and_a_lone_link_asks_to_be_free() {
+    let place = Place::new("");
+    fs::write(place.path("four_bar.xml"), include_str!("../data/import/four_bar.xml")).unwrap();
+    place.done(&["import", "four_bar.xml", "-o", "made.json"]);
+    let check: Value = serde_json::from_str(&place.done(&["check", "made.json", "--json"])).unwrap();
+    assert_eq!(check["degrees_of_freedom"], 1);
+    fs::write(place.path("craft.urdf"), include_str!("../data/import/one_link.urdf")).unwrap();
+    let told = place.command(&["import", "craft.urdf"]).output().unwrap().stderr;
+    assert!(String::from_utf8_lossy(&told).contains("--free lets the base"), "{}", String::from_utf8_lossy(&told));
+    place.done(&["import", "craft.urdf", "--free", "-o", "free.json"]);
+    place.done(&["check", "free.json"]);
+}

@@ -38,7 +38,7 @@ fn a_two_link_arm_moves_as_by_hand() {
                         {{ "name": "tip", "measure": "position", "of": "lower.T", "component": "x" }}] }}"#,
         -centre
     );
-    let Imported { mut scene, left_out } = imported(ARM, None, &[]);
+    let Imported { mut scene, left_out, .. } = imported(ARM, None, &[]);
     scene["outputs"][1] =
         serde_json::json!({ "name": "tip", "measure": "position", "of": "lower.tool", "component": "x" });
     let [ours, hand] = [scene.to_string(), hand].map(|text| parse(&text).tight(1e-11, 1.5, 0.1));
@@ -156,7 +156,7 @@ const GRIPPER: &str = r#"<robot name="gripper">
 /// (1 + 2/4) x'' = -0.6 x' from x' = 1, and y = 0.1 - x/2.
 #[test]
 fn a_joint_mimics_another_and_a_slider_is_damped() {
-    let Imported { mut scene, left_out } = imported(GRIPPER, None, &[]);
+    let Imported { mut scene, left_out, .. } = imported(GRIPPER, None, &[]);
     assert_eq!(scene["initial"], serde_json::json!({ "jaw.position": 0 }));
     assert!(left_out.iter().any(|what| what == "safety_controller of the joints jaw"), "{left_out:?}");
     assert!(!left_out.iter().any(|what| what.contains("damping") || what.contains("mimic")), "{left_out:?}");

@@ -1,5 +1,6 @@
 //! Mass, centre of mass and inertia of a rigid body from the shapes that it is made of.
 
+mod crossing;
 mod uniform;
 
 use super::{Build, Orientation, Repeat, in_space};
@@ -93,6 +94,7 @@ pub struct Rod {
 }
 
 /// Mass, centre of mass and inertia of a body.
+#[derive(Clone)]
 pub struct MassProperties {
     /// kg
     pub mass: f64,
@@ -103,9 +105,15 @@ pub struct MassProperties {
 }
 
 impl MassProperties {
-    /// Sum over parts; those without mass do not count.
+    /// Sum over parts; those of inertia alone, such as rotors, add that wherever they are.
     pub fn sum(parts: Vec<MassProperties>) -> Self {
-        let mut parts: Vec<MassProperties> = parts.into_iter().filter(|part| part.mass > 0.0).collect();
+        let (masses, rotors): (Vec<_>, Vec<_>) = parts.into_iter().partition(|part| part.mass > 0.0);
+        let mut sum = Self::of_masses(masses);
+        rotors.iter().for_each(|rotor| uniform::add(&mut sum.inertia, 1.0, &rotor.inertia));
+        sum
+    }
+
+    fn of_masses(mut parts: Vec<MassProperties>) -> Self {
         if parts.len() < 2 {
             let none = MassProperties { mass: 0.0, centre: [0.0; 3], inertia: [[0.0; 3]; 3] };
             return parts.pop().unwrap_or(none);
@@ -280,7 +288,7 @@ fn prism<const D: usize>(corners: &[Vec<Number>], thickness: f64, build: &Build<
     let corners = corners.iter().enumerate().map(corner).collect::<Result<Vec<_>>>()?;
     let uniform = Uniform::prism(&corners, thickness);
     let is_flat = uniform.spread.iter().flatten().any(|x| !x.is_finite());
-    match is_flat || uniform::crosses_itself(&corners) {
+    match is_flat || crossing::crosses_itself(&corners) {
         true => Err(Error::input("the polygon encloses no area, or crosses itself")
             .hint("give three corners or more, in the order in which they follow each other")),
         false => Ok(uniform),

@@ -22,7 +22,7 @@ fn square(a: [f64; 3], b: [f64; 3]) -> Matrix3 {
 }
 
 /// Adds `factor` times a matrix.
-fn add(sum: &mut Matrix3, factor: f64, matrix: &Matrix3) {
+pub fn add(sum: &mut Matrix3, factor: f64, matrix: &Matrix3) {
     for (row, other) in sum.iter_mut().zip(matrix) {
         row.iter_mut().zip(other).for_each(|(x, y)| *x += factor * y);
     }
@@ -120,15 +120,4 @@ pub fn sum(parts: &[(f64, Uniform)]) -> (f64, [f64; 3], Matrix3) {
     let mut tensor = diagonal([spread[0][0] + spread[1][1] + spread[2][2]; 3]);
     add(&mut tensor, -1.0, &spread);
     (mass, centre, tensor)
-}
-
-/// True if two edges of a closed polygon cross.
-pub fn crosses_itself(corners: &[[f64; 2]]) -> bool {
-    let n = corners.len();
-    let side = |a: usize, b: usize, c: usize| {
-        let [a, b, c] = [a, b, c].map(|i| corners[i % n]);
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    };
-    let apart = |a: usize, b: usize, c: usize, d: usize| side(a, b, c) * side(a, b, d) >= 0.0;
-    (0..n).any(|i| (i + 2..n).any(|j| !apart(i, i + 1, j, j + 1) && !apart(j, j + 1, i, i + 1)))
 }

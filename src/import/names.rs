@@ -1,11 +1,13 @@
 //! Names of a scene in the place of those of a robot.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Names of letters, digits and underscores, each once.
 #[derive(Default)]
 pub struct Names {
     taken: HashSet<String>,
+    /// The number that was tried last behind each name.
+    numbers: HashMap<String, usize>,
     /// Names that were changed, with the new ones.
     pub changed: Vec<(String, String)>,
 }
@@ -19,10 +21,10 @@ impl Names {
             name.insert(0, '_');
         }
         let mut candidate = name.clone();
-        let mut number = 2;
         while candidate == "ground" || !self.taken.insert(candidate.clone()) {
+            let number = self.numbers.entry(name.clone()).or_insert(1);
+            *number += 1;
             candidate = format!("{name}_{number}");
-            number += 1;
         }
         if candidate != given {
             self.changed.push((given.to_string(), candidate.clone()));

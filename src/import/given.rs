@@ -1,8 +1,9 @@
 //! Positions of joints, as the command line gives them.
 
-use super::read::Robot;
-use crate::error::{Error, Result, find};
+use super::robot::Robot;
+use crate::error::{Error, Result};
 use crate::math::expression::constant;
+use std::collections::HashMap;
 use std::str::FromStr;
 
 /// The position of a joint: `JOINT=VALUE`, rad or m.
@@ -27,12 +28,13 @@ impl FromStr for Given {
     }
 }
 
-/// The position of each joint: as given, or as that of the joint that it mimics, or zero.
+/// The position of each joint: as given, or as that of the joint that it follows, or that of the file.
 pub fn positions(robot: &Robot, given: &[Given]) -> Result<Vec<f64>> {
-    let index = |name: &str| find("joint", name, robot.joints.iter().map(|joint| joint.name.as_str()));
+    let known = || robot.joints.iter().map(|joint| joint.name.as_str());
+    let index: HashMap<&str, usize> = known().enumerate().rev().map(|(index, name)| (name, index)).collect();
     let mut positions = vec![None; robot.joints.len()];
     for Given { joint, value } in given {
-        let place = index(joint)?;
+        let place = *index.get(joint.as_str()).ok_or_else(|| Error::unknown("joint", joint, known()))?;
         if !robot.joints[place].has_coordinate() {
             return Err(Error::input(format!("`{joint}` has no coordinate")).hint("joints that turn or slide have one"));
         }
@@ -40,13 +42,13 @@ pub fn positions(robot: &Robot, given: &[Given]) -> Result<Vec<f64>> {
             return Err(Error::input(format!("`{joint}` has two positions")).hint("give one of them"));
         }
     }
-    for (place, joint) in robot.joints.iter().enumerate() {
-        let Some(mimic) = &joint.mimic else { continue };
-        let leader = robot.joints.iter().position(|known| known.name == mimic.joint);
-        let lead = leader.and_then(|leader| positions[leader]);
-        positions[place] = positions[place].or(lead.map(|lead| mimic.multiplier * lead + mimic.offset));
+    for coupling in &robot.couplings {
+        let of_file = coupling.leader.map_or(0.0, |leader| robot.joints[leader].reference);
+        let lead = coupling.leader.and_then(|leader| positions[leader]).unwrap_or(of_file);
+        positions[coupling.follower].get_or_insert(coupling.position(&robot.joints, lead));
     }
-    Ok(positions.into_iter().map(Option::unwrap_or_default).collect())
+    let all = positions.into_iter().zip(&robot.joints);
+    Ok(all.map(|(position, joint)| position.unwrap_or(joint.reference)).collect())
 }
 
 #[cfg(test)]

@@ -1,0 +1,94 @@
+//! Elements with the defaults of their classes.
+
+use crate::error::{Error, Result};
+use crate::import::xml::{all, exactly, list, parsed, place};
+use roxmltree::Node;
+use std::collections::HashMap;
+
+/// Default classes: the <default>s of each, its own first, then those around it.
+pub struct Classes<'a, 'i> {
+    chains: HashMap<&'a str, Vec<Node<'a, 'i>>>,
+}
+
+/// The class of elements that name none.
+const MAIN: &str = "main";
+
+impl<'a, 'i> Classes<'a, 'i> {
+    pub fn read(root: Node<'a, 'i>) -> Self {
+        let mut classes = Classes { chains: HashMap::new() };
+        let mut pending: Vec<(Node, Vec<Node>)> = all(root, "default").map(|node| (node, Vec::new())).collect();
+        while let Some((node, around)) = pending.pop() {
+            let chain = [vec![node], around].concat();
+            pending.extend(all(node, "default").map(|inner| (inner, chain.clone())));
+            // The outermost class is that of all elements, whatever its name.
+            let name = node.attribute("class").filter(|_| chain.len() > 1).unwrap_or(MAIN);
+            if let Some(own) = node.attribute("class").filter(|_| name == MAIN) {
+                classes.chains.entry(own).or_default().extend(&chain);
+            }
+            classes.chains.entry(name).or_default().extend(chain);
+        }
+        classes
+    }
+
+    /// The element with its defaults under these tags; `class` is that of the bodies around it.
+    pub fn element(&self, node: Node<'a, 'i>, tags: &[&str], class: Option<&'a str>) -> Result<Element<'a, 'i>> {
+        let class = node.attribute("class").or(class).unwrap_or(MAIN);
+        let Some(chain) = self.chains.get(class) else {
+            if class == MAIN {
+                return Ok(Element { node, defaults: Vec::new() });
+            }
+            let mut known: Vec<&str> = self.chains.keys().copied().collect();
+            known.sort_unstable();
+            return Err(Error::unknown("default class", class, known).placed(place(node)));
+        };
+        let of_class = |class: &Node<'a, 'i>| -> Vec<Node<'a, 'i>> {
+            class.children().rev().filter(|child| tags.contains(&child.tag_name().name())).collect()
+        };
+        Ok(Element { node, defaults: chain.iter().flat_map(of_class).collect() })
+    }
+}
+
+/// An element whose missing attributes are those of its class.
+pub struct Element<'a, 'i> {
+    pub node: Node<'a, 'i>,
+    defaults: Vec<Node<'a, 'i>>,
+}
+
+impl<'a, 'i> Element<'a, 'i> {
+    /// An element that has no defaults.
+    pub fn plain(node: Node<'a, 'i>) -> Self {
+        Element { node, defaults: Vec::new() }
+    }
+
+    /// The text of an attribute, with the node that has it.
+    fn found(&self, key: &str) -> Option<(Node<'a, 'i>, &'a str)> {
+        let all = std::iter::once(&self.node).chain(&self.defaults);
+        all.filter_map(|node| Some((*node, node.attribute(key)?))).next()
+    }
+
+    pub fn text(&self, key: &str) -> Option<&'a str> {
+        self.found(key).map(|(_, text)| text)
+    }
+
+    pub fn is(&self, key: &str, value: &str) -> bool {
+        self.text(key) == Some(value)
+    }
+
+    pub fn number(&self, key: &str) -> Result<Option<f64>> {
+        self.found(key).map(|(node, text)| parsed(node, key, text)).transpose()
+    }
+
+    /// The numbers of an attribute; none where it is not given.
+    pub fn list(&self, key: &str) -> Result<Vec<f64>> {
+        self.found(key).map_or(Ok(Vec::new()), |(node, text)| list(node, key, text))
+    }
+
+    /// True if one of the numbers of an attribute is not zero.
+    pub fn has(&self, key: &str) -> Result<bool> {
+        Ok(self.list(key)?.iter().any(|x| *x != 0.0))
+    }
+
+    pub fn numbers<const N: usize>(&self, key: &str) -> Result<Option<[f64; N]>> {
+        self.found(key).map(|(node, text)| exactly(node, key, list(node, key, text)?)).transpose()
+    }
+}

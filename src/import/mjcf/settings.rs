@@ -1,0 +1,100 @@
+//! What a model says of itself as a whole: <compiler> and <option>.
+
+use super::told::Told;
+use crate::error::{Result, excerpt};
+use crate::import::xml::{all, exactly, faulty, list, parsed};
+use roxmltree::Node;
+
+pub struct Settings {
+    /// Radians of a unit of the file's angles.
+    pub unit: f64,
+    /// The axes of Euler angles in their order; true for those that do not turn with the frame.
+    pub euler: [(usize, bool); 3],
+    /// True: masses follow from geoms; false: from <inertial>; `None`: from geoms where there is no <inertial>.
+    pub from_geoms: Option<bool>,
+    /// Groups of geoms that have mass.
+    pub groups: [f64; 2],
+    /// kg
+    pub total_mass: Option<f64>,
+    /// m/s^2
+    pub gravity: [f64; 3],
+}
+
+/// What scenes have no place for.
+const OPTIONS: [&str; 4] = ["density", "viscosity", "wind", "magnetic"];
+
+impl Settings {
+    pub fn read(root: Node, told: &mut Told) -> Result<Settings> {
+        let compiler = |key: &'static str| last(root, "compiler", key);
+        if let Some((node, "global")) = compiler("coordinate") {
+            return Err(faulty(node, "global coordinates are no part of the format any more")
+                .hint("save the model with local coordinates"));
+        }
+        tell_bounds(root, told)?;
+        tell_options(root, told)?;
+        let total_mass = compiler("settotalmass").map(|(node, text)| parsed(node, "settotalmass", text)).transpose()?;
+        let from_geoms = compiler("inertiafromgeom").and_then(|(_, text)| text.parse().ok());
+        let groups = numbers(root, "compiler", "inertiagrouprange")?;
+        Ok(Settings {
+            unit: if compiler("angle").is_some_and(|(_, text)| text == "radian") { 1.0 } else { 1f64.to_radians() },
+            euler: euler(root)?,
+            from_geoms,
+            groups: groups.unwrap_or([0.0, 5.0]),
+            total_mass: total_mass.filter(|mass| *mass > 0.0),
+            gravity: gravity(root)?,
+        })
+    }
+}
+
+/// An attribute of the last element of this tag that has it.
+fn last<'a, 'i>(root: Node<'a, 'i>, tag: &'static str, key: &str) -> Option<(Node<'a, 'i>, &'a str)> {
+    all(root, tag).filter_map(|node| Some((node, node.attribute(key)?))).last()
+}
+
+fn numbers<const N: usize>(root: Node, tag: &'static str, key: &str) -> Result<Option<[f64; N]>> {
+    last(root, tag, key).map(|(node, text)| exactly(node, key, list(node, key, text)?)).transpose()
+}
+
+fn euler(root: Node) -> Result<[(usize, bool); 3]> {
+    let Some((node, text)) = last(root, "compiler", "eulerseq") else {
+        return Ok([(0, false), (1, false), (2, false)]);
+    };
+    let axes: Option<Vec<(usize, bool)>> = text.chars().map(|c| "xyzXYZ".find(c).map(|i| (i % 3, i > 2))).collect();
+    axes.and_then(|axes| axes.try_into().ok()).ok_or_else(|| {
+        faulty(node, format!("expected three of x, y, z, X, Y, Z in `eulerseq`, found \"{}\"", excerpt(text)))
+    })
+}
+
+fn gravity(root: Node) -> Result<[f64; 3]> {
+    let flags = all(root, "option").flat_map(|option| all(option, "flag"));
+    if flags.filter_map(|flag| flag.attribute("gravity")).last() == Some("disable") {
+        return Ok([0.0; 3]);
+    }
+    Ok(numbers(root, "option", "gravity")?.unwrap_or([0.0, 0.0, -9.81]))
+}
+
+/// Bounds that change masses.
+fn tell_bounds(root: Node, told: &mut Told) -> Result<()> {
+    for key in ["boundmass", "boundinertia"] {
+        let bound = last(root, "compiler", key).map(|(node, text)| parsed(node, key, text)).transpose()?;
+        told.add_if(bound.is_some_and(|bound| bound > 0.0), "bounds from below by the compiler:", key);
+    }
+    Ok(())
+}
+
+fn tell_options(root: Node, told: &mut Told) -> Result<()> {
+    for option in all(root, "option") {
+        for attribute in option.attributes().filter(|attribute| attribute.name() != "gravity") {
+            let key = attribute.name();
+            if !OPTIONS.contains(&key) {
+                told.add("settings of the solver:", key);
+            } else if list(option, key, attribute.value())?.iter().any(|value| *value != 0.0) && key != "magnetic" {
+                told.add("forces of the medium:", key);
+            }
+        }
+        for flag in all(option, "flag").flat_map(|flag| flag.attributes()).filter(|flag| flag.name() != "gravity") {
+            told.add("flags of the solver:", flag.name());
+        }
+    }
+    Ok(())
+}

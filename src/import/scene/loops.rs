@@ -1,0 +1,52 @@
+//! Joints that close loops.
+
+use super::{Draft, aimed};
+use crate::error::{Error, Result};
+use crate::import::close::Closure;
+use crate::import::names::Names;
+use crate::import::robot::Loop;
+use crate::import::transform::Transform;
+use crate::import::tree::find;
+use serde_json::json;
+
+impl Draft<'_> {
+    /// Adds a joint that the command line names.
+    pub fn close_by(&mut self, closure: &Closure, names: &mut Names) -> Result<()> {
+        let [(a, at_a), (b, at_b)] = &closure.ends;
+        let links = [find(self.robot, a)?, find(self.robot, b)?];
+        self.refuse_one_body(links)?;
+        let axes = aimed(closure.axis)?;
+        // The same axes in the world at the file's positions, so that other positions change the guess alone.
+        let turned = self.from_first(links).then(&axes);
+        let frames = [Transform { r: *at_a, ..axes }, Transform { r: *at_b, ..turned }];
+        self.add_loop(&names.unique(&closure.name), closure.kind, links, frames);
+        Ok(())
+    }
+
+    /// Adds a joint of the file.
+    pub fn close(&mut self, given: &Loop, names: &mut Names) -> Result<()> {
+        self.refuse_one_body(given.links).map_err(|error| error.element(&given.name))?;
+        let own = given.frames[0].unwrap_or_default();
+        let other = given.frames[1].unwrap_or_else(|| self.from_first(given.links).then(&own));
+        self.add_loop(&names.unique(&given.name), given.kind, given.links, [own, other]);
+        Ok(())
+    }
+
+    /// Frame of the first link in the second one at the file's positions.
+    fn from_first(&self, [a, b]: [usize; 2]) -> Transform {
+        self.tree.at_zero[b].inverse().then(&self.tree.at_zero[a])
+    }
+
+    fn refuse_one_body(&self, [a, b]: [usize; 2]) -> Result<()> {
+        if self.tree.body[a] != self.tree.body[b] {
+            return Ok(());
+        }
+        let [a, b] = [a, b].map(|link| &self.robot.links[link].name);
+        Err(Error::input(format!("`{a}` and `{b}` are one body")).hint("name links that joints let move"))
+    }
+
+    fn add_loop(&mut self, name: &str, kind: &str, [a, b]: [usize; 2], [at_a, at_b]: [Transform; 2]) {
+        let between = [self.mark(a, &at_a, name), self.mark(b, &at_b, name)];
+        self.scene.joints.push(json!({ "name": name, "type": kind, "between": between }));
+    }
+}

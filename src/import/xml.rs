@@ -1,0 +1,117 @@
+//! Elements and attributes of XML, with their places in errors.
+
+use crate::error::{Error, Result, excerpt};
+use roxmltree::{Document, Node};
+use std::borrow::Cow;
+use std::collections::HashSet;
+
+/// The text with blanks in the place of an XML declaration that does not come first, as XML asks; places stay.
+pub fn without_late_declaration(text: &str) -> Cow<'_, str> {
+    let body = text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
+    let start = text.len() - body.len();
+    match body.find("?>").filter(|_| start > 0 && body.starts_with("<?xml ")) {
+        None => Cow::Borrowed(text),
+        Some(end) => {
+            let blank = " ".repeat(end + 2);
+            Cow::Owned([&text[..start], &blank, &body[end + 2..]].concat())
+        }
+    }
+}
+
+/// The document of a text.
+pub fn document(text: &str) -> Result<Document<'_>> {
+    Document::parse(text).map_err(|error| {
+        let at = error.pos();
+        Error::input(format!("this is not XML: {error}")).placed((at.row as usize, at.col as usize))
+    })
+}
+
+/// Line and column of a byte of the text.
+pub fn place_of(text: &str, at: usize) -> (usize, usize) {
+    let before = &text[..at];
+    let line = before.rsplit('\n').next().unwrap_or_default();
+    (before.matches('\n').count() + 1, line.chars().count() + 1)
+}
+
+/// Line and column of a node.
+pub fn place(node: Node) -> (usize, usize) {
+    place_of(node.document().input_text(), node.range().start)
+}
+
+/// An error at a node.
+pub fn faulty(node: Node, message: impl Into<String>) -> Error {
+    Error::input(message).placed(place(node))
+}
+
+/// Names of the elements in a node that are not among the `used` ones, each once.
+pub fn unused(node: Node, used: &[&str]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    let mut known = HashSet::new();
+    for tag in node.children().filter(Node::is_element).map(|node| node.tag_name().name()) {
+        if !used.contains(&tag) && known.insert(tag) {
+            names.push(tag.to_string());
+        }
+    }
+    names
+}
+
+/// The children of this tag.
+pub fn all<'a, 'i>(node: Node<'a, 'i>, tag: &'static str) -> impl Iterator<Item = Node<'a, 'i>> {
+    node.children().filter(move |child| child.has_tag_name(tag))
+}
+
+/// The first child of this tag.
+pub fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
+    node.children().find(|child| child.has_tag_name(tag))
+}
+
+/// The text of an attribute that must be there.
+pub fn attribute<'a>(node: Node<'a, '_>, key: &str) -> Result<&'a str> {
+    let tag = node.tag_name().name().to_string();
+    node.attribute(key).ok_or_else(|| faulty(node, format!("<{tag}> has no `{key}`")))
+}
+
+/// A number, or `default` where it is not given.
+pub fn number(node: Node, key: &str, default: Option<f64>) -> Result<f64> {
+    match (node.attribute(key), default) {
+        (None, Some(default)) => Ok(default),
+        _ => parsed(node, key, attribute(node, key)?),
+    }
+}
+
+/// The number of a word in an attribute.
+pub fn parsed(node: Node, key: &str, text: &str) -> Result<f64> {
+    let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite());
+    value.ok_or_else(|| faulty(node, format!("expected a number in `{key}`, found \"{}\"", excerpt(text))))
+}
+
+/// The numbers of an attribute.
+pub fn list(node: Node, key: &str, text: &str) -> Result<Vec<f64>> {
+    text.split_whitespace().map(|word| parsed(node, key, word)).collect()
+}
+
+/// N numbers of an attribute, or `default` where it is not given.
+pub fn numbers<const N: usize>(node: Node, key: &str, default: [f64; N]) -> Result<[f64; N]> {
+    let Some(text) = node.attribute(key) else { return Ok(default) };
+    exactly(node, key, list(node, key, text)?)
+}
+
+/// N numbers.
+pub fn exactly<const N: usize>(node: Node, key: &str, all: Vec<f64>) -> Result<[f64; N]> {
+    all.try_into()
+        .map_err(|all: Vec<f64>| faulty(node, format!("expected {N} numbers in `{key}`, found {}", all.len())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_declaration_after_blanks_is_read_and_places_stay() {
+        let text = "\n <?xml version=\"1.0\"?>\n<a><b/></a>";
+        let text = without_late_declaration(text);
+        let document = document(&text).unwrap();
+        assert_eq!(place(document.root_element().first_child().unwrap()), (3, 4));
+        assert!(matches!(without_late_declaration("<?xml version=\"1.0\"?><a/>"), Cow::Borrowed(_)));
+    }
+}
