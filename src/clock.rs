@@ -37,9 +37,10 @@ enum Begun {
 impl Stopwatch {
     /// Starts.
     pub fn start() -> Self {
-        Stopwatch(match IS_COUNTED.load(Ordering::Relaxed) {
-            true => Begun::Counted(READINGS.get()),
-            false => Begun::At(Instant::now(), thread_time()),
+        Stopwatch(if IS_COUNTED.load(Ordering::Relaxed) {
+            Begun::Counted(READINGS.get())
+        } else {
+            Begun::At(Instant::now(), thread_time())
         })
     }
 

@@ -285,10 +285,7 @@ pub fn significant(value: f64, digits: usize) -> String {
         return format!("{value:.*e}", digits - 1);
     }
     let text = format!("{value:.*}", (digits as i32 - 1 - size).max(0) as usize);
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
-        false => text,
-    }
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
 }
 
 /// A part in per cent with three significant digits, without an exponent from 0.0001 % on: 0.123 %, 3e-5 %.

@@ -92,9 +92,10 @@ impl MethodSpec {
         let known = entry.options();
         for (key, _) in &self.options {
             if known.iter().all(|option| option.name != key) {
-                let hint = match known.is_empty() {
-                    true => format!("{} takes no options", self.name),
-                    false => suggest(key, known.iter().map(|option| option.name)),
+                let hint = if known.is_empty() {
+                    format!("{} takes no options", self.name)
+                } else {
+                    suggest(key, known.iter().map(|option| option.name))
                 };
                 return Err(Error::input(format!("{} {} has no option `{key}`", E::KIND, self.name)).hint(hint));
             }
@@ -125,20 +126,22 @@ impl MethodSpec {
     /// A number that is not negative.
     pub fn not_negative(&self, key: &str, default: f64) -> Result<f64> {
         let value = self.number(key, default)?;
-        match value < 0.0 {
-            true => Err(Error::input(format!("{}: {key} is {value}, but cannot be negative", self.name))
-                .hint("give zero or more")),
-            false => Ok(value),
+        if value < 0.0 {
+            Err(Error::input(format!("{}: {key} is {value}, but cannot be negative", self.name))
+                .hint("give zero or more"))
+        } else {
+            Ok(value)
         }
     }
 
     /// A number above zero.
     pub fn positive(&self, key: &str, default: f64) -> Result<f64> {
         let value = self.number(key, default)?;
-        match value > 0.0 {
-            true => Ok(value),
-            false => Err(Error::input(format!("{}: {key} is {value}, but must be above zero", self.name))
-                .hint(format!("give a number above zero, as in {key}={default}"))),
+        if value > 0.0 {
+            Ok(value)
+        } else {
+            Err(Error::input(format!("{}: {key} is {value}, but must be above zero", self.name))
+                .hint(format!("give a number above zero, as in {key}={default}")))
         }
     }
 
@@ -155,13 +158,14 @@ impl MethodSpec {
     pub fn whole(&self, key: &str, default: usize, range: std::ops::RangeInclusive<usize>) -> Result<usize> {
         let value = self.number(key, default as f64)?;
         let whole = value as usize;
-        match whole as f64 == value && range.contains(&whole) {
-            true => Ok(whole),
-            false => Err(Error::input(format!("{}: {key} is {value}", self.name)).hint(format!(
+        if whole as f64 == value && range.contains(&whole) {
+            Ok(whole)
+        } else {
+            Err(Error::input(format!("{}: {key} is {value}", self.name)).hint(format!(
                 "give a whole number from {} to {}",
                 range.start(),
                 range.end()
-            ))),
+            )))
         }
     }
 }

@@ -100,12 +100,11 @@ fn a_pair_becomes_two_real_ones_and_a_pair_again() {
         .map(|t| {
             let k = 0.25 + 1.75 * (1.0 - 2.0 * t).powi(2);
             let other = (c(-0.1, 1.5), [-0.4, 1.0]);
-            match k > 1.0 {
-                true => sample(t, &[(c(-1.0, (k - 1.0).sqrt()), [1.0, 0.1]), other]),
-                false => {
-                    let root = (1.0 - k).sqrt();
-                    sample(t, &[(c(-1.0 + root, 0.0), [1.0, 0.1]), (c(-1.0 - root, 0.0), [1.0, 0.1]), other])
-                }
+            if k > 1.0 {
+                sample(t, &[(c(-1.0, (k - 1.0).sqrt()), [1.0, 0.1]), other])
+            } else {
+                let root = (1.0 - k).sqrt();
+                sample(t, &[(c(-1.0 + root, 0.0), [1.0, 0.1]), (c(-1.0 - root, 0.0), [1.0, 0.1]), other])
             }
         })
         .collect();

@@ -46,9 +46,12 @@ fn slider_crank() -> Stressed {
 
 /// As if the budget had ended before these cells.
 fn without(whole: &Stressed, left_out: impl Fn(&Cell) -> bool) -> Stressed {
-    let blank = |cell: &Cell| match left_out(cell) {
-        true => Cell { status: Status::LeftOut, drift: None, error: None, holds: None, errors: vec![], ..cell.clone() },
-        false => cell.clone(),
+    let blank = |cell: &Cell| {
+        if left_out(cell) {
+            Cell { status: Status::LeftOut, drift: None, error: None, holds: None, errors: vec![], ..cell.clone() }
+        } else {
+            cell.clone()
+        }
     };
     let cells = whole.cells.iter().map(blank).collect();
     Stressed { map: whole.map.clone(), watched: whole.watched.clone(), second_opinion: None, cells }

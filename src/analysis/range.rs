@@ -132,9 +132,10 @@ impl Range {
              steps so long do not see the motion",
             self.bodies[body]
         );
-        let hint = match is_fixed {
-            true => "choose a smaller --step, or an adaptive method".to_string(),
-            false => format!("compare with --step {shorter}; nothing is missed where nothing depends on the angle"),
+        let hint = if is_fixed {
+            "choose a smaller --step, or an adaptive method".to_string()
+        } else {
+            format!("compare with --step {shorter}; nothing is missed where nothing depends on the angle")
         };
         Some(Warning::new(text, hint))
     }

@@ -52,14 +52,13 @@ impl Rank {
         let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.rank_indicator());
         let (terms, structure, all) = (&dynamics.terms, &dynamics.structure, system.dimensions().lambda);
         // The search for the rows that a row depends on is dense: it runs only where some are dependent.
-        let (nearby, dependence) = match rows.is_empty() {
-            true => (all, Dependence { rank: all, rows: Vec::new() }),
-            false => (all - dependent_nearby(system, t, q).len(), dependent_rows(&structure.g, &terms.g, RANK)),
+        let (nearby, dependence) = if rows.is_empty() {
+            (all, Dependence { rank: all, rows: Vec::new() })
+        } else {
+            (all - dependent_nearby(system, t, q).len(), dependent_rows(&structure.g, &terms.g, RANK))
         };
-        let (groups, names) = match rows.is_empty() {
-            true => (Vec::new(), Vec::new()),
-            false => (system.groups(), system.names().lambda),
-        };
+        let (groups, names) =
+            if rows.is_empty() { (Vec::new(), Vec::new()) } else { (system.groups(), system.names().lambda) };
         let redundant = dependence.rows.iter().map(|row| {
             let others = row.combination.iter().map(|(other, _)| owner(&groups, *other));
             redundant(&names[row.row], owner(&groups, row.row), others)

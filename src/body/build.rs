@@ -157,10 +157,11 @@ impl<const D: usize> Build<'_, D> {
     /// A whole number from zero on.
     pub fn count(&self, field: &str, number: &Number) -> Result<u32> {
         let value = self.number(field, number)?;
-        match value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&value) {
-            true => Ok(value as u32),
-            false => Err(Error::input(format!("{field} is {}, but must be a whole number from zero on", short(value)))
-                .under(field)),
+        if value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&value) {
+            Ok(value as u32)
+        } else {
+            Err(Error::input(format!("{field} is {}, but must be a whole number from zero on", short(value)))
+                .under(field))
         }
     }
 
@@ -235,11 +236,12 @@ impl<const D: usize> Build<'_, D> {
     /// Refuses an element that makes sense in one kind of scene only: `what` needs the `dimension`; in others take
     /// `instead`.
     pub fn needs_dimension(&self, dimension: usize, what: &str, instead: &str) -> Result<()> {
-        match D == dimension {
-            true => Ok(()),
-            false => Err(Error::input(format!("{what} needs \"dimension\": {dimension}"))
+        if D == dimension {
+            Ok(())
+        } else {
+            Err(Error::input(format!("{what} needs \"dimension\": {dimension}"))
                 .under("type")
-                .hint(format!("in this scene use {instead}"))),
+                .hint(format!("in this scene use {instead}")))
         }
     }
 

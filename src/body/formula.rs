@@ -96,10 +96,11 @@ impl Formula {
 
     /// The expression as a function of t alone; an error if it reads a marker.
     pub fn function_of_time(self) -> Result<Expression> {
-        match self.probes.is_empty() {
-            true => Ok(self.expression),
-            false => Err(Error::input("this may depend on t and parameters only, but uses a marker")
-                .hint("markers and outputs may stand in an `equation` joint, an applied force or torque, the law of a spring, a tyre's road, and outputs")),
+        if self.probes.is_empty() {
+            Ok(self.expression)
+        } else {
+            Err(Error::input("this may depend on t and parameters only, but uses a marker")
+                .hint("markers and outputs may stand in an `equation` joint, an applied force or torque, the law of a spring, a tyre's road, and outputs"))
         }
     }
 

@@ -179,10 +179,8 @@ impl<S: Scalar, const D: usize> Wrench<S, D> {
     /// Power of the wrench at a moving frame, f.v + m.w, W.
     pub fn power(&self, frame: &Frame<Taylor<S>, D>) -> S {
         let force = frame.r.iter().zip(self.force).fold(S::zero(), |sum, (r, f)| sum + r.d * f);
-        match self.torque == [S::zero(); 3] {
-            true => force,
-            false => force + dot(&frame.angular_velocity(), &self.torque),
-        }
+        let has_torque = self.torque != [S::zero(); 3];
+        if has_torque { force + dot(&frame.angular_velocity(), &self.torque) } else { force }
     }
 }
 

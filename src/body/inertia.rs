@@ -41,11 +41,12 @@ pub fn about<const D: usize>(given: &Option<Inertia>, axis: &[f64; 3], build: &B
     }
     let tensor = entries(given, build)?;
     let moment = moment(&tensor, axis);
-    match moment >= 0.0 {
-        true => Ok(moment),
-        false => Err(Error::input(format!("the moment about the axis of rotation is {}", short(moment)))
+    if moment >= 0.0 {
+        Ok(moment)
+    } else {
+        Err(Error::input(format!("the moment about the axis of rotation is {}", short(moment)))
             .under("inertia")
-            .hint("it cannot be negative")),
+            .hint("it cannot be negative"))
     }
 }
 

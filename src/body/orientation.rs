@@ -52,11 +52,12 @@ impl Orientation<'_> {
 pub fn aim(z: Option<[f64; 3]>, x: Option<[f64; 3]>) -> Result<[[f64; 3]; 3]> {
     let unit = |v: [f64; 3], name: &str| -> Result<[f64; 3]> {
         let length = norm(&v);
-        match length > tolerances::body::NO_AXIS {
-            true => Ok(v.map(|c| c / length)),
-            false => Err(Error::input("the axis has no direction of its own")
+        if length > tolerances::body::NO_AXIS {
+            Ok(v.map(|c| c / length))
+        } else {
+            Err(Error::input("the axis has no direction of its own")
                 .under(name)
-                .hint("give vectors that are not zero and not parallel")),
+                .hint("give vectors that are not zero and not parallel"))
         }
     };
     let z = match (z, x) {

@@ -167,10 +167,8 @@ impl Probe {
     {
         let of = frame(self.of).borrow().r;
         let gap = self.to.map_or(of, |to| sub(&of, &frame(to).borrow().r));
-        match norm(&gap.map(|x| x.x)).value() == 0.0 {
-            true if self.order == 1 => norm(&gap.map(|x| x.d)),
-            _ => level(norm(&gap), self.order),
-        }
+        let is_closed = norm(&gap.map(|x| x.x)).value() == 0.0;
+        if is_closed && self.order == 1 { norm(&gap.map(|x| x.d)) } else { level(norm(&gap), self.order) }
     }
 }
 

@@ -147,11 +147,12 @@ impl Initial {
     /// Refuses an initial rotation, for point masses.
     pub fn refuse_rotation(&self) -> Result<()> {
         let is_turned = self.angle.is_some() || self.orientation().given().is_some();
-        match is_turned || self.angular_velocity.is_some() {
-            true => Err(Error::input("a point mass has no rotation")
+        if is_turned || self.angular_velocity.is_some() {
+            Err(Error::input("a point mass has no rotation")
                 .under("initial")
-                .hint("remove angle, rotation and angular_velocity, or use a body of type \"rigid\"")),
-            false => Ok(()),
+                .hint("remove angle, rotation and angular_velocity, or use a body of type \"rigid\""))
+        } else {
+            Ok(())
         }
     }
 }
@@ -320,10 +321,11 @@ impl Rigid {
 fn refuse_locked(field: &str, given: &[f64], moves: &[f64]) -> Result<()> {
     let scale = crate::math::largest(given);
     let differs = |(x, own): (&f64, &f64)| *x != 0.0 && (x - own).abs() > tolerances::SAME * scale;
-    match given.iter().zip(moves).any(differs) {
-        false => Ok(()),
-        true => Err(Error::input("the body cannot move like that: only the coordinates in `free` move")
+    if given.iter().zip(moves).any(differs) {
+        Err(Error::input("the body cannot move like that: only the coordinates in `free` move")
             .under(format!("initial.{field}"))
-            .hint("remove what is along other directions, or add them to \"free\"")),
+            .hint("remove what is along other directions, or add them to \"free\""))
+    } else {
+        Ok(())
     }
 }

@@ -67,10 +67,7 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
 
     fn mass_pattern(&self) -> Vec<(usize, usize)> {
         let diagonal = (0..6).map(|i| (i, i));
-        match self.has_products() {
-            false => diagonal.collect(),
-            true => diagonal.chain([(4, 3), (5, 3), (5, 4)]).collect(),
-        }
+        if self.has_products() { diagonal.chain([(4, 3), (5, 3), (5, 4)]).collect() } else { diagonal.collect() }
     }
     fn mass(&self, values: &mut [f64]) {
         let j = &self.inertia;

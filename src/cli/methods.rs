@@ -56,9 +56,10 @@ struct Triple {
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let pairs = pairs(&args)?;
-    match args.json {
-        true => print(&(to_json(&methods(&pairs))? + "\n"))?,
-        false => print(&text(&pairs))?,
+    if args.json {
+        print(&(to_json(&methods(&pairs))? + "\n"))?
+    } else {
+        print(&text(&pairs))?
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -148,9 +149,8 @@ fn orders(pairs: &[Pair]) -> String {
 }
 
 fn cells(entry: &Entry, formulation: &str) -> Vec<String> {
-    let cell = |projection: &str| match entry.refuses(formulation, projection) {
-        true => "-".to_string(),
-        false => entry.order.to_string(),
+    let cell = |projection: &str| {
+        if entry.refuses(formulation, projection) { "-".to_string() } else { entry.order.to_string() }
     };
     projection::registry().iter().map(|entry| cell(entry.name)).collect()
 }

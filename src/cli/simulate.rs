@@ -93,14 +93,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let mut summary = summarize((&prepared, stiffness, &early), (&outcome, &legs), &record, seconds);
     summary.origin.command = command_line();
     summary.restart = saved;
-    let summary = match args.check_error && summary.failure.is_none() {
-        true => {
-            let bar = args.common.talk.progress(1000, &format!("{}: the error", prepared.name));
-            let watch = (|t: f64| bar.set_position(fraction(t)), || interrupt::stop(&folder));
-            let run = Completed { span, trajectory: &record.trajectory, legs: &legs, statistics: outcome.statistics };
-            summary.checked(on_all_threads(|| error_bars(&prepared, run, watch)))
-        }
-        false => summary,
+    let summary = if args.check_error && summary.failure.is_none() {
+        let bar = args.common.talk.progress(1000, &format!("{}: the error", prepared.name));
+        let watch = (|t: f64| bar.set_position(fraction(t)), || interrupt::stop(&folder));
+        let run = Completed { span, trajectory: &record.trajectory, legs: &legs, statistics: outcome.statistics };
+        summary.checked(on_all_threads(|| error_bars(&prepared, run, watch)))
+    } else {
+        summary
     };
     let sealed = write((&prepared, &record, &summary), &mut folder, &args)?;
     args.common.talk.conclude(folder, &sealed, || summary.text())?;

@@ -110,10 +110,7 @@ fn scenes(path: &Path) -> Result<Vec<PathBuf>> {
     };
     paths.retain(is_scene);
     paths.sort();
-    match paths.is_empty() {
-        true => Err(Error::file(path, "there is no scene in this folder")),
-        false => Ok(paths),
-    }
+    if paths.is_empty() { Err(Error::file(path, "there is no scene in this folder")) } else { Ok(paths) }
 }
 
 fn prepare(args: &Args, path: &Path) -> Result<(Subject<'static>, Vec<Map>)> {

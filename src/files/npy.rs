@@ -76,10 +76,7 @@ impl<'a> Npy<'a> {
     /// Up to eight bytes as an integer, in the byte order of the type.
     fn raw(&self, bytes: &[u8]) -> u64 {
         let append = |raw, byte: &u8| raw << 8 | u64::from(*byte);
-        match self.descr.starts_with('>') {
-            true => bytes.iter().fold(0, append),
-            false => bytes.iter().rev().fold(0, append),
-        }
+        if self.descr.starts_with('>') { bytes.iter().fold(0, append) } else { bytes.iter().rev().fold(0, append) }
     }
 }
 

@@ -23,10 +23,12 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 pub fn open(path: &Path) -> io::Result<File> {
     // Checked before opening, which waits for a writer at the other end of a pipe.
     let found = metadata(path)?;
-    match found.is_file() {
-        true => File::open(path),
-        false if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-        false => Err(io::Error::other("this is a pipe or a device; name a regular file")),
+    if found.is_file() {
+        File::open(path)
+    } else if found.is_dir() {
+        Err(io::ErrorKind::IsADirectory.into())
+    } else {
+        Err(io::Error::other("this is a pipe or a device; name a regular file"))
     }
 }
 
@@ -57,10 +59,7 @@ pub fn read_text(path: &Path) -> io::Result<String> {
 pub fn read_limited(source: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     source.take(MOST + 1).read_to_end(&mut bytes)?;
-    match bytes.len() as u64 > MOST {
-        true => Err(too_large()),
-        false => Ok(bytes),
-    }
+    if bytes.len() as u64 > MOST { Err(too_large()) } else { Ok(bytes) }
 }
 
 #[cfg(test)]

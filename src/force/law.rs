@@ -30,11 +30,12 @@ impl Law {
         let locals = [(name, own), ("rate", Probe { order: 1, ..own })];
         let formula = build.acting_with("law", law, true, &locals)?;
         let markers = formula.markers_after(ends);
-        match markers.len() <= MOST_MARKERS {
-            true => Ok(Law { formula, markers }),
-            false => Err(Error::input(format!("the law uses {} markers", markers.len()))
+        if markers.len() <= MOST_MARKERS {
+            Ok(Law { formula, markers })
+        } else {
+            Err(Error::input(format!("the law uses {} markers", markers.len()))
                 .under("law")
-                .hint(format!("use at most {MOST_MARKERS}, those of the spring among them"))),
+                .hint(format!("use at most {MOST_MARKERS}, those of the spring among them")))
         }
     }
 

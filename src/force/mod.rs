@@ -217,9 +217,10 @@ impl<const D: usize> Built<D> {
     /// Refuses too few or too many markers: a mistake in the code of the type, not in a scene.
     fn checked(self) -> Result<Self> {
         let markers = self.markers.len();
-        match (1..=MOST_MARKERS).contains(&markers) {
-            true => Ok(self),
-            false => Err(mistaken(format!("{markers} markers; 1 to {MOST_MARKERS} are possible"))),
+        if (1..=MOST_MARKERS).contains(&markers) {
+            Ok(self)
+        } else {
+            Err(mistaken(format!("{markers} markers; 1 to {MOST_MARKERS} are possible")))
         }
     }
 }

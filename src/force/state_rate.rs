@@ -18,10 +18,11 @@ impl StateRate {
     /// An expression over too many markers and states.
     pub fn new(state: MarkerId, rate: Formula) -> Result<Self> {
         let markers = rate.markers_after(&[state]);
-        match markers.len() <= MOST_MARKERS {
-            true => Ok(StateRate { rate, markers }),
-            false => Err(Error::input(format!("uses {} markers and states", markers.len()))
-                .hint(format!("use at most {MOST_MARKERS} in one rate, or split it into several states"))),
+        if markers.len() <= MOST_MARKERS {
+            Ok(StateRate { rate, markers })
+        } else {
+            Err(Error::input(format!("uses {} markers and states", markers.len()))
+                .hint(format!("use at most {MOST_MARKERS} in one rate, or split it into several states")))
         }
     }
 

@@ -126,9 +126,8 @@ impl Rest<'_, '_> {
     /// A coordinate with at least the n-th part of the largest pivot: the one that forces without symmetry move most.
     fn probed(&mut self) -> Option<usize> {
         let found = self.columns.len() as f64;
-        let force = |(i, whole): (usize, &f64)| match *whole > 0.0 {
-            true => (1.0 + found + 0.7 * i as f64 * (i as f64 + 3.0)).sin() / whole.sqrt(),
-            false => 0.0,
+        let force = |(i, whole): (usize, &f64)| {
+            if *whole > 0.0 { (1.0 + found + 0.7 * i as f64 * (i as f64 + 3.0)).sin() / whole.sqrt() } else { 0.0 }
         };
         let moved = self.times(self.whole.iter().enumerate().map(force).collect())?;
         Some(self.pivot(moved.iter().map(|x| x * x)))

@@ -260,9 +260,10 @@ impl<'a> Dynamics<'a> {
 
     fn solve_factored(&mut self) -> Result<(), StepError> {
         self.is_rank_deficient = self.kkt.is_rank_deficient();
-        let solved = match self.wants_least {
-            true => self.kkt.solve(&mut self.vdot, &mut self.lambda),
-            false => self.kkt.solve_motion(&mut self.vdot, &mut self.lambda),
+        let solved = if self.wants_least {
+            self.kkt.solve(&mut self.vdot, &mut self.lambda)
+        } else {
+            self.kkt.solve_motion(&mut self.vdot, &mut self.lambda)
         };
         solved.map_err(|singular| self.halt(singular))
     }
@@ -280,10 +281,7 @@ impl<'a> Dynamics<'a> {
 
     /// An error if v' or lambda is infinite or not a number.
     pub fn finite(&self) -> Result<(), StepError> {
-        match all_finite(&self.vdot) && all_finite(&self.lambda) {
-            true => Ok(()),
-            false => Err(StepError::NotFinite),
-        }
+        if all_finite(&self.vdot) && all_finite(&self.lambda) { Ok(()) } else { Err(StepError::NotFinite) }
     }
 
     /// Power of the forces without a potential and of moving constraints, lambda^T phi_t, W; then the powers whose

@@ -96,11 +96,10 @@ impl Residual {
             of(dae.eta.is_some() && !w.is_empty(), w, eta, &mut self.w[..]),
             of(dae.mu.is_some() && !u.is_empty(), u, mu, &mut self.u[..]),
         ];
-        match a.len() < NUMBERS_OF_A_PORTION {
-            true => products.iter_mut().flatten().for_each(product),
-            false => {
-                each(&mut products[..], &|some: &mut [Option<Product>]| some.iter_mut().flatten().for_each(product))
-            }
+        if a.len() < NUMBERS_OF_A_PORTION {
+            products.iter_mut().flatten().for_each(product)
+        } else {
+            each(&mut products[..], &|some: &mut [Option<Product>]| some.iter_mut().flatten().for_each(product))
         }
         for Product { x, out, .. } in products[1..].iter_mut().flatten() {
             out.iter_mut().zip(x.iter().zip(stiffness)).for_each(|(out, (x, stiffness))| *out += stiffness * x);

@@ -29,23 +29,9 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
     }
     if !is_met {
         let culprits = metric.culprits(&metric.terms.phi_dot);
-        return Err(match metric.held.is_empty() {
-            _ if metric.has_initial() => Error::input(format!(
-                "the rates in `initial` contradict the joints or each other; rates that remain (m/s, rad/s): {culprits}"
-            ))
-            .under("initial")
-            .hint("give rates that the joints allow together, or fewer of them"),
-            true => Error::input(format!(
-                "the joints ask for different velocities; rates that remain (m/s, rad/s): {culprits}"
-            ))
-            .under("joints")
-            .hint("check drivers, and joints that hold the same motion"),
-            false => Error::input(format!(
-                "the held rates contradict the joints; rates that remain (m/s, rad/s): {culprits}"
-            ))
-            .under("assembly.hold")
-            .hint("what is held keeps its initial velocity: mend that, or hold fewer coordinates"),
-        });
+        let (problem, place, hint) = contradiction(metric);
+        let message = format!("{problem}; rates that remain (m/s, rad/s): {culprits}");
+        return Err(Error::input(message).under(place).hint(hint));
     }
     let size = |metric: &Metric, v: &[f64]| v.iter().zip(metric.weigh(v)).map(|(a, b)| a * b).sum::<f64>();
     let (before, after) = (size(metric, &given), size(metric, v));
@@ -62,4 +48,18 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
         .hint("mend \"velocity\" and \"angular_velocity\" in \"initial\", or leave them out"));
     }
     Ok(())
+}
+
+/// The problem of velocities that do not fit together, its place in the scene and the remedy.
+fn contradiction(metric: &Metric) -> (&'static str, &'static str, &'static str) {
+    if metric.has_initial() {
+        let hint = "give rates that the joints allow together, or fewer of them";
+        ("the rates in `initial` contradict the joints or each other", "initial", hint)
+    } else if metric.held.is_empty() {
+        let hint = "check drivers, and joints that hold the same motion";
+        ("the joints ask for different velocities", "joints", hint)
+    } else {
+        let hint = "what is held keeps its initial velocity: mend that, or hold fewer coordinates";
+        ("the held rates contradict the joints", "assembly.hold", hint)
+    }
 }

@@ -268,10 +268,7 @@ impl Integrator for HalfExplicit {
     ) -> Result<(), StepError> {
         let HalfExplicit { polynomial, stage, error, .. } = self;
         polynomial.prepare(from, h, to, slope);
-        match self.tableau.order > CUBIC {
-            true => polynomial.raise(problem, from, h, [stage, error]),
-            false => Ok(()),
-        }
+        if self.tableau.order > CUBIC { polynomial.raise(problem, from, h, [stage, error]) } else { Ok(()) }
     }
 
     fn polynomial(&mut self) -> Option<&mut Hermite> {

@@ -147,8 +147,9 @@ fn triad<const D: usize>(principal: usize, direction: [f64; D]) -> [[f64; D]; D]
 pub fn direction<const D: usize>(build: &Build<D>, axis: &Option<Vec<Number>>) -> Result<Option<[f64; D]>> {
     let Some(numbers) = axis else { return Ok(None) };
     let direction = build.vector::<D>("axis", numbers)?;
-    match direction.iter().all(|&x| x == 0.0) {
-        true => Err(Error::input("the axis has no direction").under("axis").hint("give a vector that is not zero")),
-        false => Ok(Some(direction)),
+    if direction.iter().all(|&x| x == 0.0) {
+        Err(Error::input("the axis has no direction").under("axis").hint("give a vector that is not zero"))
+    } else {
+        Ok(Some(direction))
     }
 }

@@ -150,9 +150,10 @@ impl<K: JointKernel<D>, S: Scalar, const D: usize> JointOver<S, D> for K {
     fn gradient(&self, frames: &[Frame<Taylor<S>, D>], time: Time<S>, pass: usize, out: &mut [[S; 6]]) {
         let seeded = |i: usize| -> Frame<Dual<S, 6>, D> {
             let frame = frames[i].map(|x| x.x);
-            match i / markers_per_pass(D) == pass {
-                true => frame.seeded(i % markers_per_pass(D) * twist_len(D)),
-                false => frame.map(Dual::fixed),
+            if i / markers_per_pass(D) == pass {
+                frame.seeded(i % markers_per_pass(D) * twist_len(D))
+            } else {
+                frame.map(Dual::fixed)
             }
         };
         let mut rows = [Dual::fixed(S::zero()); MOST_ROWS];

@@ -83,10 +83,7 @@ fn least_norm(matrices: &[Matrix], k: usize) -> f64 {
     let [mut low, mut high] = tolerances::RATES_SOUGHT;
     for _ in 0..tolerances::RATES_THIRDS {
         let third = (high - low) / 3.0;
-        match largest(low + third) < largest(high - third) {
-            true => high -= third,
-            false => low += third,
-        }
+        if largest(low + third) < largest(high - third) { high -= third } else { low += third }
     }
     largest(0.5 * (low + high))
 }

@@ -129,9 +129,10 @@ impl Resonances {
         let sizes = || model.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.frequency());
         let fastest = sizes().fold(0.0, f64::max);
         let slowest = sizes().filter(|f| *f > tolerances::NO_MODE * fastest).fold(fastest, f64::min);
-        match slowest > 0.0 && fastest.is_finite() {
-            true => Resonances { from: slowest / 10.0, to: fastest * 10.0 },
-            false => Resonances { from: 0.01, to: 100.0 },
+        if slowest > 0.0 && fastest.is_finite() {
+            Resonances { from: slowest / 10.0, to: fastest * 10.0 }
+        } else {
+            Resonances { from: 0.01, to: 100.0 }
         }
     }
 

@@ -50,9 +50,8 @@ pub(super) fn matching(
 ) -> Vec<Option<usize>> {
     let (from, to) = (Set::new(starts.iter().copied()), Set::new(ends.iter()));
     let cost = cost(starts, predicted, ends, mass);
-    let free = Matrix::from_fn(starts.len(), ends.len(), |i, j| match is_allowed(from.sides[i], to.sides[j]) {
-        true => cost[(i, j)],
-        false => f64::INFINITY,
+    let free = Matrix::from_fn(starts.len(), ends.len(), |i, j| {
+        if is_allowed(from.sides[i], to.sides[j]) { cost[(i, j)] } else { f64::INFINITY }
     });
     let mut found = places(&free, assign(&free));
     if !is_symmetric(&found, &from, &to) {

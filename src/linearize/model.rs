@@ -135,9 +135,10 @@ impl Mode {
 
     /// The eigenvalue, 1/s, zero where it is rounding, and so its real part.
     pub fn clean_value(&self) -> Complex<f64> {
-        match self.is_zero() {
-            true => Complex::ZERO,
-            false => Complex::new(if self.clean_damping() == 0.0 { 0.0 } else { self.value.re }, self.value.im),
+        if self.is_zero() {
+            Complex::ZERO
+        } else {
+            Complex::new(if self.clean_damping() == 0.0 { 0.0 } else { self.value.re }, self.value.im)
         }
     }
 

@@ -73,11 +73,12 @@ fn still<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operating<'a>
     let found = equilibrium(prepared.system(), state.t, (&state.q, &state.v))?;
     let rest = State { t: state.t, v: found.v, q: found.q };
     let operating = Operating::moving(prepared, rest);
-    match operating.variation()?.point.is_equilibrium {
-        true => Ok(operating),
-        false => Err(Error::input(format!("at t = {} s moving constraints accelerate the mechanism", short(state.t)))
+    if operating.variation()?.point.is_equilibrium {
+        Ok(operating)
+    } else {
+        Err(Error::input(format!("at t = {} s moving constraints accelerate the mechanism", short(state.t)))
             .under("--equilibrium")
-            .hint("choose a time at which drives stand still or move steadily, or linearize the motion itself")),
+            .hint("choose a time at which drives stand still or move steadily, or linearize the motion itself"))
     }
 }
 

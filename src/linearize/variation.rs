@@ -250,10 +250,11 @@ impl<'a> Variation<'a> {
         let system = self.system();
         let n = system.dimensions();
         let mut tangent = OutputTangent::new(self.outputs, n.v, n.lambda, self.excitations.len());
-        match system.output_tangent(self.point.at(), &mut tangent, &mut self.dynamics.scratch) {
-            true => Ok(tangent),
-            false => Err(Error::input("these equations give no derivatives of their outputs")
-                .hint("implement MechanicalSystem::output_tangent, or leave the outputs out")),
+        if system.output_tangent(self.point.at(), &mut tangent, &mut self.dynamics.scratch) {
+            Ok(tangent)
+        } else {
+            Err(Error::input("these equations give no derivatives of their outputs")
+                .hint("implement MechanicalSystem::output_tangent, or leave the outputs out"))
         }
     }
 

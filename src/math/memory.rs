@@ -39,10 +39,12 @@ const LARGEST_FILE: f64 = 1e12;
 /// Bad input with the size and the limit; the caller adds the remedy.
 pub fn refuse_rows(rows: f64, columns: usize, is_kept: bool) -> Result<()> {
     let wanted = if is_kept { WRITTEN } else { TEXT } * rows * columns as f64;
-    let limit = match is_kept {
-        true if wanted > SMALL => free(),
-        true => f64::INFINITY,
-        false => LARGEST_FILE,
+    let limit = if !is_kept {
+        LARGEST_FILE
+    } else if wanted > SMALL {
+        free()
+    } else {
+        f64::INFINITY
     };
     if wanted <= limit {
         return Ok(());

@@ -30,12 +30,11 @@ pub fn rotation_vector<S: Scalar>(r: &[[S; 3]; 3]) -> Vector<S> {
     let (w, v) = quaternion(r);
     let square = dot3(&v, &v);
     // 2 atan(|v|/w)/|v|, by its series near zero, where |v| is not smooth.
-    let factor = match square.value() < 0.01 * w.value() * w.value() {
-        true => series(square / (w * w), |k| f64::from(1 - 2 * (k as i32 % 2)) / (2 * k + 1) as f64) * 2.0 / w,
-        false => {
-            let size = square.sqrt();
-            S::atan2(size, w) * 2.0 / size
-        }
+    let factor = if square.value() < 0.01 * w.value() * w.value() {
+        series(square / (w * w), |k| f64::from(1 - 2 * (k as i32 % 2)) / (2 * k + 1) as f64) * 2.0 / w
+    } else {
+        let size = square.sqrt();
+        S::atan2(size, w) * 2.0 / size
     };
     v.map(|v| v * factor)
 }
@@ -53,10 +52,7 @@ pub fn quaternion<S: Scalar>(r: &[[S; 3]; 3]) -> (S, Vector<S>) {
     let twice = (r[largest][largest] * 2.0 - trace + 1.0).sqrt();
     let sign = if skew[largest].value() < 0.0 { -1.0 } else { 1.0 };
     let part = |numerator: S| numerator / (twice * 2.0) * sign;
-    let v = from_fn(|i| match i == largest {
-        true => twice * 0.5 * sign,
-        false => part(r[i][largest] + r[largest][i]),
-    });
+    let v = from_fn(|i| if i == largest { twice * 0.5 * sign } else { part(r[i][largest] + r[largest][i]) });
     (part(skew[largest]), v)
 }
 

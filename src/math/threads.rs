@@ -71,10 +71,7 @@ fn at_once<P: Divisible>(all: P, work: &(impl Fn(P) + Sync)) {
 }
 
 fn in_turn<P: Divisible>(all: P, work: &impl Fn(P)) {
-    match all.is_whole() {
-        true => work(all),
-        false => all.divided().into_iter().for_each(|half| in_turn(half, work)),
-    }
+    if all.is_whole() { work(all) } else { all.divided().into_iter().for_each(|half| in_turn(half, work)) }
 }
 
 #[cfg(test)]

@@ -349,9 +349,10 @@ impl Settings<'_> {
         let option = [("--rtol", given.rtol), ("--atol", given.atol)].into_iter().find(|(_, value)| value.is_some())?.0;
         let step = short(method.step?);
         let is_fixed = integrator::find(&method.integrator).is_ok_and(|entry| entry.steps == Steps::Fixed);
-        let hint = match is_fixed {
-            true => "choose an integrator with an error estimate, such as --integrator dop853",
-            false => "give --adaptive, by which the integrator chooses its steps",
+        let hint = if is_fixed {
+            "choose an integrator with an error estimate, such as --integrator dop853"
+        } else {
+            "give --adaptive, by which the integrator chooses its steps"
         };
         Some(Warning::new(format!("{option} has no effect: the step is fixed, {step} s"), hint))
     }
@@ -370,11 +371,12 @@ impl Settings<'_> {
         }
         let given = self.overrides.output_step.or(self.number("output_step", &scene.output_step)?);
         let output_step = given.unwrap_or((end - start) / ROWS);
-        match output_step > 0.0 && (end - start) / output_step < MOST_ROWS {
-            true => Ok(Some(Span { start, end, output_step })),
-            false => Err(Error::input(format!("the output step is {output_step} s"))
+        if output_step > 0.0 && (end - start) / output_step < MOST_ROWS {
+            Ok(Some(Span { start, end, output_step }))
+        } else {
+            Err(Error::input(format!("the output step is {output_step} s"))
                 .under("output_step")
-                .hint("give one above zero and above a ten-millionth of the time")),
+                .hint("give one above zero and above a ten-millionth of the time"))
         }
     }
 }

@@ -249,13 +249,14 @@ impl Check {
         if self.redundant.is_empty() {
             return String::new();
         }
-        let mut text = match self.rank_beside > self.rank {
-            true => format!(
+        let mut text = if self.rank_beside > self.rank {
+            format!(
                 "the start is a singular state: rank {} here, {} beside it; the branch of the motion is that of its velocity\n\
                  constraints that depend on others here:\n",
                 self.rank, self.rank_beside
-            ),
-            false => String::from("redundant constraints (consistent; multipliers of least norm are computed):\n"),
+            )
+        } else {
+            String::from("redundant constraints (consistent; multipliers of least norm are computed):\n")
         };
         for row in &self.redundant {
             let cause = match row.follows_from.as_slice() {

@@ -41,9 +41,10 @@ const LISTED: usize = 5;
 
 fn outcome(result: &Simplification) -> String {
     let Simplification { richest, chosen, runs, within, .. } = result;
-    let mut text = match result.is_simpler() {
-        true => String::new(),
-        false => format!("  nothing can be left out: no simpler model keeps within {}\n", percent(*within)),
+    let mut text = if result.is_simpler() {
+        String::new()
+    } else {
+        format!("  nothing can be left out: no simpler model keeps within {}\n", percent(*within))
     };
     for trial in result.left_out() {
         trial.what.iter().for_each(|what| text += &format!("  {what}\n"));

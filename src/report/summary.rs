@@ -299,9 +299,10 @@ fn singular_text(found: &Singularity) -> String {
     let named = found.passed.iter().find(|passing| !passing.joints.is_empty());
     if let Some(Passing { rank: Some(rank), regular_rank, joints, .. }) = named {
         let joints = short_list(joints);
-        text += &match rank < regular_rank {
-            true => format!("  rank {rank} there, {regular_rank} beside: dependent rows of {joints}\n"),
-            false => format!("  nearly dependent rows of {joints}\n"),
+        text += &if rank < regular_rank {
+            format!("  rank {rank} there, {regular_rank} beside: dependent rows of {joints}\n")
+        } else {
+            format!("  nearly dependent rows of {joints}\n")
         };
     }
     text + "\n"

@@ -133,9 +133,10 @@ impl SweepSummary {
     fn singular_line(&self) -> String {
         let Nearest { value, rank_indicator } = self.nearest_singular;
         let place = format!("{} = {}", self.parameter, significant(value, 8));
-        match rank_indicator < tolerances::TOLD_SINGULAR {
-            true => format!("  SINGULAR at {place}: distance {rank_indicator:.1e}\n"),
-            false => format!("  nearest to a singular state at {place}: distance {rank_indicator:.1e} (1 is far)\n"),
+        if rank_indicator < tolerances::TOLD_SINGULAR {
+            format!("  SINGULAR at {place}: distance {rank_indicator:.1e}\n")
+        } else {
+            format!("  nearest to a singular state at {place}: distance {rank_indicator:.1e} (1 is far)\n")
         }
     }
 
@@ -155,9 +156,12 @@ impl SweepSummary {
 
     fn table(&self) -> String {
         let Some(first) = self.outputs.first() else { return String::new() };
-        let headings = first.places().map(|place| match self.limits.iter().any(|limit| limit.value == place.at) {
-            true => format!("end, {}", significant(place.at, 6)),
-            false => format!("at {}", significant(place.at, 6)),
+        let headings = first.places().map(|place| {
+            if self.limits.iter().any(|limit| limit.value == place.at) {
+                format!("end, {}", significant(place.at, 6))
+            } else {
+                format!("at {}", significant(place.at, 6))
+            }
         });
         let own = [self.parameter.clone(), String::new()];
         let headings: Vec<String> = own.into_iter().chain(headings).chain(["min", "max"].map(str::to_string)).collect();

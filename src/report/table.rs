@@ -97,9 +97,10 @@ impl fmt::Display for Table {
             for (i, (cell, &width)) in row.iter().zip(&widths).enumerate() {
                 let padding = " ".repeat(width - cell.chars().count());
                 let gap = if i == 0 { "" } else { "  " };
-                line += &match i == 0 || self.left || self.words.contains(&i) {
-                    true => format!("{gap}{cell}{padding}"),
-                    false => format!("{gap}{padding}{cell}"),
+                line += &if i == 0 || self.left || self.words.contains(&i) {
+                    format!("{gap}{cell}{padding}")
+                } else {
+                    format!("{gap}{padding}{cell}")
                 };
             }
             writeln!(out, "{}", line.trim_end())?;

@@ -49,9 +49,12 @@ fn open_joints(drift: &Drift) -> Option<Warning> {
 }
 
 fn open_balance(energy: &EnergyBalance) -> Warning {
-    let in_words = |part: f64| match part < 1.0 {
-        true => format!(", {} % of the energy converted", significant(100.0 * part, 2)),
-        false => format!(", {} times the energy converted", significant(part, 2)),
+    let in_words = |part: f64| {
+        if part < 1.0 {
+            format!(", {} % of the energy converted", significant(100.0 * part, 2))
+        } else {
+            format!(", {} times the energy converted", significant(part, 2))
+        }
     };
     let part = energy.relative_max_error.map_or(String::new(), in_words);
     let expected = match energy.tolerated {

@@ -131,9 +131,10 @@ fn refuse_floating(json: &Map<String, Value>) -> Result<()> {
             .under(key)
             .hint("remove it, or use \"frame\": \"floating\""));
     }
-    match json.contains_key("origin") {
-        true => Err(Error::input("the origin of a beam is its left end").under("origin").hint("remove it")),
-        false => Ok(()),
+    if json.contains_key("origin") {
+        Err(Error::input("the origin of a beam is its left end").under("origin").hint("remove it"))
+    } else {
+        Ok(())
     }
 }
 

@@ -30,11 +30,9 @@ pub fn reaction<const D: usize>(
     build: &Build<D>,
 ) -> Result<Measure> {
     let names = elements.joints.iter().map(|joint| joint.name.as_str());
-    let joint =
-        find("joint", of, names).map_err(|error| match elements.forces.iter().any(|force| force.name == of) {
-            false => error,
-            true => is_a(of, "force", "joint", "force"),
-        })?;
+    let joint = find("joint", of, names).map_err(|error| {
+        if elements.forces.iter().any(|force| force.name == of) { is_a(of, "force", "joint", "force") } else { error }
+    })?;
     let (given, holds) = (&elements.joints[joint], elements.joints[joint].element.row_names());
     let axes = build.marker("relative_to", spec.relative_to.as_deref().unwrap_or("ground"))?;
     build.oriented("relative_to", &[axes])?;
@@ -87,11 +85,13 @@ fn second<E>(element: &Connection<E>) -> usize {
 /// Magnitude of a force, or a component of what it exerts on a body.
 pub fn force<const D: usize>(spec: &OutputSpec, of: &str, elements: Elements<D>, build: &Build<D>) -> Result<Measure> {
     let names = elements.forces.iter().map(|force| force.name.as_str());
-    let force =
-        find("force", of, names).map_err(|error| match elements.joints.iter().any(|joint| joint.name == of) {
-            false => error,
-            true => is_a(of, "joint", "force", "reaction"),
-        })?;
+    let force = find("force", of, names).map_err(|error| {
+        if elements.joints.iter().any(|joint| joint.name == of) {
+            is_a(of, "joint", "force", "reaction")
+        } else {
+            error
+        }
+    })?;
     let Some(name) = spec.component.as_deref() else { return Ok(Measure::Force(force)) };
     let component = component::<D>(name, None)?;
     let axes = build.marker("relative_to", spec.relative_to.as_deref().unwrap_or("ground"))?;
@@ -123,11 +123,12 @@ pub fn power<const D: usize>(of: &str, elements: Elements<D>) -> Result<Measure>
     }
     let drives = |joint: &&Connection<Box<dyn Joint<D>>>| joint.element.depends_on_time();
     if let Some(joint) = elements.joints.iter().position(|joint| joint.name == of) {
-        return match drives(&&elements.joints[joint]) {
-            true => Ok(Measure::DrivePower { joint }),
-            false => Err(Error::input(format!("the {} `{of}` has no power", elements.joints[joint].kind))
+        return if drives(&&elements.joints[joint]) {
+            Ok(Measure::DrivePower { joint })
+        } else {
+            Err(Error::input(format!("the {} `{of}` has no power", elements.joints[joint].kind))
                 .under("of")
-                .hint("a joint that does not move by itself takes what it gives: name a driver or a force")),
+                .hint("a joint that does not move by itself takes what it gives: name a driver or a force"))
         };
     }
     let drivers = elements.joints.iter().filter(drives).map(|joint| joint.name.as_str());

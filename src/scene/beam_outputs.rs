@@ -36,12 +36,9 @@ pub fn measure<const D: usize>(
     let names = floating().map(|(_, part, _)| part.name.as_str()).chain(beams.iter().map(|beam| beam.name.as_str()));
     let names: Vec<&str> = massless().map(|(force, _)| force.name.as_str()).chain(names).collect();
     let found = find("flexible beam", of, names.into_iter()).map_err(|error| {
-        match elements.joints.iter().any(|joint| joint.name == of) {
-            false => error,
-            true => Error::input(format!("`{of}` is a joint, no flexible beam")).under("of").hint(
+        if elements.joints.iter().any(|joint| joint.name == of) { Error::input(format!("`{of}` is a joint, no flexible beam")).under("of").hint(
                 "\"measure\": \"reaction\" gives what a joint exerts: without a component the torque of a driver of an angle",
-            ),
-        }
+            ) } else { error }
     })?;
     match massless().nth(found) {
         Some((force, beam)) => Ok(Measure::Station(Box::new(on_massless(spec, force, beam, build)?))),
@@ -205,11 +202,12 @@ impl Sum {
 fn place<const D: usize>(spec: &OutputSpec, length: f64, build: &Build<D>) -> Result<f64> {
     let at = spec.at.as_ref().ok_or_else(|| missing("at", "say where on the beam: m from its left end"))?;
     let at = build.number("at", at)?;
-    match (0.0..=length * (1.0 + 1e-12)).contains(&at) {
-        true => Ok(at.min(length)),
-        false => Err(Error::input(format!("{} m is off the beam", short(at)))
+    if (0.0..=length * (1.0 + 1e-12)).contains(&at) {
+        Ok(at.min(length))
+    } else {
+        Err(Error::input(format!("{} m is off the beam", short(at)))
             .under("at")
-            .hint(format!("the beam reaches from 0 to {} m", short(length)))),
+            .hint(format!("the beam reaches from 0 to {} m", short(length))))
     }
 }
 

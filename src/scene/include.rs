@@ -186,9 +186,10 @@ fn check(inner: &Value, scene: &Value) -> Result<()> {
             .under(key)
             .hint(suggest(key, known())));
     }
-    match inner.get("dimension") == scene.get("dimension") {
-        true => Ok(()),
-        false => Err(Error::input("the dimension is not that of the scene that includes it").under("dimension")),
+    if inner.get("dimension") == scene.get("dimension") {
+        Ok(())
+    } else {
+        Err(Error::input("the dimension is not that of the scene that includes it").under("dimension"))
     }
 }
 

@@ -98,9 +98,10 @@ fn road<const D: usize>(name: &str, forces: &Forces<D>) -> Result<(Target, &'sta
 fn driver<const D: usize>(name: &str, joints: &Joints<D>) -> Result<(Target, &'static str)> {
     let joint = named("driver", "driver", name, joints)?;
     let element = &joints[joint].element;
-    match element.prescribes() {
-        true => Ok((Target::Driver { joint }, if element.row_names() == ["angle"] { "rad" } else { "m" })),
-        false => Err(undriven("driver", &joints[joint], "name a joint of type driver")),
+    if element.prescribes() {
+        Ok((Target::Driver { joint }, if element.row_names() == ["angle"] { "rad" } else { "m" }))
+    } else {
+        Err(undriven("driver", &joints[joint], "name a joint of type driver"))
     }
 }
 

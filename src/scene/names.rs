@@ -5,11 +5,12 @@ use crate::error::{Error, Result, excerpt};
 /// The name of a scene is that of its folder of results.
 pub fn check_scene_name(name: &str) -> Result<()> {
     let fits = |c: char| c.is_alphanumeric() || "_-+ ()".contains(c) || c == '.';
-    match !name.trim().is_empty() && !name.starts_with('.') && name.len() <= 200 && name.chars().all(fits) {
-        true => Ok(()),
-        false => Err(Error::input(format!("`{}` cannot name a scene", excerpt(name)))
+    if !name.trim().is_empty() && !name.starts_with('.') && name.len() <= 200 && name.chars().all(fits) {
+        Ok(())
+    } else {
+        Err(Error::input(format!("`{}` cannot name a scene", excerpt(name)))
             .under("name")
-            .hint("its results go to a folder of this name: use letters, digits, `_` and `-`")),
+            .hint("its results go to a folder of this name: use letters, digits, `_` and `-`"))
     }
 }
 
@@ -17,11 +18,13 @@ pub fn check_scene_name(name: &str) -> Result<()> {
 pub fn check_name(name: &str) -> Result<()> {
     let mut characters = name.chars();
     let starts = characters.next().is_some_and(|c| c.is_alphabetic() || c == '_');
-    match starts && characters.all(|c| c.is_alphabetic() || c.is_ascii_digit() || c == '_') {
-        true => Ok(()),
-        false => Err(Error::input(format!("`{}` cannot be a name", excerpt(name))).hint(match name.contains('{') {
-            true => "braces need a \"repeat\" in the same element, and whole numbers from zero on in names",
-            false => "use a letter, then letters, digits and underscores",
-        })),
+    if starts && characters.all(|c| c.is_alphabetic() || c.is_ascii_digit() || c == '_') {
+        Ok(())
+    } else {
+        Err(Error::input(format!("`{}` cannot be a name", excerpt(name))).hint(if name.contains('{') {
+            "braces need a \"repeat\" in the same element, and whole numbers from zero on in names"
+        } else {
+            "use a letter, then letters, digits and underscores"
+        }))
     }
 }

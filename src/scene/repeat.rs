@@ -137,9 +137,10 @@ impl Expansion<'_> {
         for (key, value) in map {
             let written = place.entry(&key, &key);
             for (value, variables) in self.copies(value, variables, &written)? {
-                let name = match variables.is_empty() {
-                    true => key.clone(),
-                    false => self.text(&key, &variables).map_err(|error| error.under(&written.written))?,
+                let name = if variables.is_empty() {
+                    key.clone()
+                } else {
+                    self.text(&key, &variables).map_err(|error| error.under(&written.written))?
                 };
                 let here = place.entry(&name, &key);
                 if name != key {
@@ -211,10 +212,11 @@ impl Expansion<'_> {
         };
         let [first, last] = [self.evaluate(first, variables)?, self.evaluate(last, variables)?];
         let (is_whole, count) = ([first, last].iter().all(|x| x.fract() == 0.0), last - first + 1.0);
-        match is_whole && first.abs() < 1e9 && count >= 0.0 {
-            true => Ok((first, count as usize)),
-            false => Err(Error::input(format!("`{}..{}` is no range", short(first), short(last)))
-                .hint("give two whole numbers, the smaller one first")),
+        if is_whole && first.abs() < 1e9 && count >= 0.0 {
+            Ok((first, count as usize))
+        } else {
+            Err(Error::input(format!("`{}..{}` is no range", short(first), short(last)))
+                .hint("give two whole numbers, the smaller one first"))
         }
     }
 

@@ -195,9 +195,10 @@ impl Row<'_> {
         let found = if cell.is_empty() { "nothing".to_string() } else { format!("`{}`", excerpt(cell)) };
         let name = &self.headings[column];
         let is_gap = cell.is_empty() || value.is_ok_and(f64::is_nan);
-        let hint = match is_gap {
-            true => "remove the line, or fill the gap: between two lines a signal is interpolated",
-            false => "decimals are written with a point: 0.5",
+        let hint = if is_gap {
+            "remove the line, or fill the gap: between two lines a signal is interpolated"
+        } else {
+            "decimals are written with a point: 0.5"
         };
         let place = self.place();
         Err(Error::input(format!("{place}: expected a number in the column `{name}`, found {found}")).hint(hint))

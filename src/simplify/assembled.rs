@@ -33,8 +33,5 @@ pub fn carried(source: &Source, prepared: &PreparedScene) -> Source {
         own.len() == other.len() && own.iter().zip(other).all(|(x, y)| (x - y).abs() <= SAME * (1.0 + x.abs()))
     };
     let is_same = |again: PreparedScene| near(&start.q, again.start().0) && near(&start.v, again.start().1);
-    match source.prepare(&scene).is_ok_and(is_same) {
-        true => Source { scene, ..source.clone() },
-        false => source.clone(),
-    }
+    if source.prepare(&scene).is_ok_and(is_same) { Source { scene, ..source.clone() } } else { source.clone() }
 }

@@ -68,10 +68,7 @@ impl Bench<'_> {
         let allowed = Duration::from_secs_f64(seconds.min(left)) + TICKS;
         let run = measured(&prepared, self.promise, allowed, self.is_stopped).map_err(impossible)?;
         // What was stopped by the clock has taken that time, whatever it counts by then.
-        self.cost += match run.is_too_slow {
-            true => run.seconds / self.richest.seconds,
-            false => run.work / self.richest.work,
-        };
+        self.cost += if run.is_too_slow { run.seconds / self.richest.seconds } else { run.work / self.richest.work };
         self.enter(&run);
         Ok(run)
     }
@@ -106,9 +103,10 @@ impl Bench<'_> {
         let worst = found.worst().filter(|worst| worst.error > self.promise.within);
         let off = |worst: &Difference| format!("{} is off by up to {}", worst.name, percent(worst.error));
         let worst = worst.map_or("it does not complete all".to_string(), off);
-        match found.is_kept() {
-            true => Ok(Some(found)),
-            false => Err(format!("kept on {kept} of {counted} motions nearby only: {worst}")),
+        if found.is_kept() {
+            Ok(Some(found))
+        } else {
+            Err(format!("kept on {kept} of {counted} motions nearby only: {worst}"))
         }
     }
 

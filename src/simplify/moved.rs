@@ -112,12 +112,11 @@ impl<'a> Movable<'a> {
         let parameters = self.parameters.iter().map(|_| next()).collect();
         let [velocities, start, inputs] = [next(), next(), next()];
         let change = Move { parameters, velocities, inputs, ..Move::default() };
-        match self.positions {
-            true => self.restarted(&self.source.scene, change, start),
-            false => {
-                let scene = self.moved(&self.source.scene, &change);
-                Ok((change, scene))
-            }
+        if self.positions {
+            self.restarted(&self.source.scene, change, start)
+        } else {
+            let scene = self.moved(&self.source.scene, &change);
+            Ok((change, scene))
         }
     }
 

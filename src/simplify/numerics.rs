@@ -94,10 +94,12 @@ fn attempt(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], method: &Me
     }
     let is_good = reason.is_empty();
     let is_dear = seconds > DEARER * best || result.as_ref().is_ok_and(|run| run.is_too_slow);
-    let verdict = match is_good {
-        _ if is_dear => Verdict::Dear,
-        true => Verdict::Good,
-        false => Verdict::Poor,
+    let verdict = if is_dear {
+        Verdict::Dear
+    } else if is_good {
+        Verdict::Good
+    } else {
+        Verdict::Poor
     };
     if is_good && !is_cheaper {
         reason = "it costs as much".to_string();

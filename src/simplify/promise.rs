@@ -69,9 +69,10 @@ impl Promise {
     fn differences(&self, one: &[Vec<f64>], other: &[Vec<f64>]) -> Option<Vec<f64>> {
         let of = |i: usize| {
             let differences = one.iter().zip(other).map(|(one, other)| other[i] - one[i]);
-            match differences.clone().all(f64::is_finite) {
-                true => self.norm.difference(differences) / self.scales[i],
-                false => f64::INFINITY,
+            if differences.clone().all(f64::is_finite) {
+                self.norm.difference(differences) / self.scales[i]
+            } else {
+                f64::INFINITY
             }
         };
         (one.len() == other.len()).then(|| (0..self.columns.len()).map(of).collect())

@@ -75,10 +75,7 @@ pub fn known_methods(system: &dyn MechanicalSystem, tolerances: (f64, f64)) -> V
 fn explicit(system: &dyn MechanicalSystem, rtol: f64) -> &'static str {
     let has_few =
         |switch: &Switch| switch.signal.is_none() && switch.thresholds.get(tolerances::THRESHOLDS_OF_ADAMS).is_none();
-    match rtol <= tolerances::RTOL_OF_ADAMS && system.switches().iter().all(has_few) {
-        true => "adams",
-        false => "dop853",
-    }
+    if rtol <= tolerances::RTOL_OF_ADAMS && system.switches().iter().all(has_few) { "adams" } else { "dop853" }
 }
 
 /// Compares a given method with an implicit one at the beginning of a motion. `None` where stability does not limit its

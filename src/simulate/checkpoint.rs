@@ -153,10 +153,11 @@ impl Checkpoint {
         if !self.fits(system) {
             return Err(Error::input("the saved run is one of another system"));
         }
-        match self.t < span.end && self.t >= span.start {
-            true => Ok(self),
-            false => Err(Error::input(format!("nothing to simulate from {} s to {} s", self.t, span.end))
-                .hint("the saved run has come to that end: go on to a later one with --until")),
+        if self.t < span.end && self.t >= span.start {
+            Ok(self)
+        } else {
+            Err(Error::input(format!("nothing to simulate from {} s to {} s", self.t, span.end))
+                .hint("the saved run has come to that end: go on to a later one with --until"))
         }
     }
 }

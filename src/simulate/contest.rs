@@ -176,10 +176,8 @@ impl Run<'_> {
     fn pace_with_rows(&self, mark: Mark, growth: f64, output_step: f64) -> f64 {
         let now = self.mark();
         let (time, work) = (growth * (now.t - mark.t), now.work - mark.work);
-        let row = match self.integrator.rows_are_steps() {
-            true => work / (now.steps - mark.steps).max(1) as f64,
-            false => self.price(),
-        };
+        let row =
+            if self.integrator.rows_are_steps() { work / (now.steps - mark.steps).max(1) as f64 } else { self.price() };
         time / (work + time / output_step * row).max(1.0)
     }
 
@@ -213,10 +211,8 @@ impl Run<'_> {
             failure => (rival.mark(), failure),
         };
         // Steps of a multistep method, which begins with short ones, go on growing.
-        let growing = |run: &Run, mark| match run.integrator.begins_anew() {
-            true => (run.h / run.step_since(mark)).max(1.0),
-            false => 1.0,
-        };
+        let growing =
+            |run: &Run, mark| if run.integrator.begins_anew() { (run.h / run.step_since(mark)).max(1.0) } else { 1.0 };
         let theirs = if stopped.is_some() { 0.0 } else { pace(&rival, since, growing(&rival, since)) };
         let ours = growing(self, mark) * own.pace(mark);
         let contest = Contest { t: self.t, mode, step, gain: theirs / ours };

@@ -21,21 +21,23 @@ impl Run<'_> {
             return Ok(());
         }
         self.progress.1 += 1;
-        match tries > tolerances::CRAWLING_STEPS {
-            true => Err(self.failure(
+        if tries > tolerances::CRAWLING_STEPS {
+            Err(self.failure(
                 format!("{} steps have come no farther than {advanced:.1e} s", tolerances::CRAWLING_STEPS),
                 None,
-            )),
-            false => Ok(()),
+            ))
+        } else {
+            Ok(())
         }
     }
 
     /// Ends a run whose joints have come apart.
     pub fn check_joints(&self) -> Result<(), Failure> {
         let open = largest_in(&self.scales, &self.problem.dynamics.terms.phi);
-        match open > tolerances::JOINTS_APART {
-            true => Err(self.failure(format!("the joints have come apart by {open:.1e} of the scene's size"), None)),
-            false => Ok(()),
+        if open > tolerances::JOINTS_APART {
+            Err(self.failure(format!("the joints have come apart by {open:.1e} of the scene's size"), None))
+        } else {
+            Ok(())
         }
     }
 
@@ -50,20 +52,20 @@ impl Run<'_> {
             _ => self.integrator.control().retry * h,
         };
         let is_stuck = self.keeps_constraints() && self.approach.is_stuck(h);
-        match smaller > self.smallest() && !is_stuck {
-            true => Ok(smaller),
-            false => Err(self.too_small(format!("{reason}, down to a step of {h:.1e} s"), hint)),
+        if smaller > self.smallest() && !is_stuck {
+            Ok(smaller)
+        } else {
+            Err(self.too_small(format!("{reason}, down to a step of {h:.1e} s"), hint))
         }
     }
 
     /// Failure of steps that have become too small, whose reason may be a singular state nearby.
     pub fn too_small(&self, reason: String, hint: Option<&str>) -> Failure {
-        match self.approach.is_near() {
-            true => {
-                let help = if self.keeps_constraints() { SINGULAR } else { PASSES };
-                self.failure(format!("the motion comes to a singular state, and {reason}"), Some(help))
-            }
-            false => self.failure(reason, hint),
+        if self.approach.is_near() {
+            let help = if self.keeps_constraints() { SINGULAR } else { PASSES };
+            self.failure(format!("the motion comes to a singular state, and {reason}"), Some(help))
+        } else {
+            self.failure(reason, hint)
         }
     }
 

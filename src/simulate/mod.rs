@@ -361,9 +361,10 @@ impl<'a> Run<'a> {
         let Some(error) = error else { return Ok(()) };
         let proposed = self.integrator.propose(size, error, self.growing);
         self.h = if is_cut { self.h.max(proposed) } else { proposed };
-        match self.t < self.span.end && self.h < self.smallest() {
-            true => Err(self.too_small(format!("steps have fallen to {:.1e} s", self.h), None)),
-            false => Ok(()),
+        if self.t < self.span.end && self.h < self.smallest() {
+            Err(self.too_small(format!("steps have fallen to {:.1e} s", self.h), None))
+        } else {
+            Ok(())
         }
     }
 

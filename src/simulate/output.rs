@@ -79,10 +79,7 @@ impl Run<'_> {
             projection.is_some()
                 && problem.dynamics.kkt.rank_indicator() < tolerances::PLACED_STEPS * self.approach.largest
         };
-        match is_near() {
-            true => project(t, y, problem, projection, tolerances::SINGULAR_ROW_SWEEPS - sweeps),
-            false => Ok(()),
-        }
+        if is_near() { project(t, y, problem, projection, tolerances::SINGULAR_ROW_SWEEPS - sweeps) } else { Ok(()) }
     }
 
     /// True if v' of the row differs from that of the dense output. This is not tested for implicit methods, in whose

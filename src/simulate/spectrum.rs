@@ -86,10 +86,7 @@ pub fn bound(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<f64
     }
     let mut least = vec![0.0; structure.mass.rows];
     for (&(i, j), &mass) in structure.mass.entries.iter().zip(&terms.mass) {
-        match i == j {
-            true => least[i] += mass,
-            false => [i, j].iter().for_each(|&i| least[i] -= mass.abs()),
-        }
+        if i == j { least[i] += mass } else { [i, j].iter().for_each(|&i| least[i] -= mass.abs()) }
     }
     let roots: Vec<f64> = least.iter().map(|mass| mass.sqrt()).collect();
     let norm = |values: &[f64]| {
@@ -199,9 +196,10 @@ fn fit(y0: &[f64], y1: &[f64], y2: &[f64]) -> Vec<SpectralMode> {
     let (p, r) = ((f * d - b * g) / determinant, (a * g - b * f) / determinant);
     let square = r - 0.25 * p * p;
     let root = square.abs().sqrt();
-    match square > 0.0 {
-        true => vec![SpectralMode { decay: 0.5 * p, swing: root }],
-        false => [-1.0, 1.0].map(|sign| SpectralMode { decay: 0.5 * p + sign * root.copysign(p), swing: 0.0 }).to_vec(),
+    if square > 0.0 {
+        vec![SpectralMode { decay: 0.5 * p, swing: root }]
+    } else {
+        [-1.0, 1.0].map(|sign| SpectralMode { decay: 0.5 * p + sign * root.copysign(p), swing: 0.0 }).to_vec()
     }
 }
 

@@ -48,10 +48,11 @@ impl Range {
     /// # Errors
     /// Ends that are not both above zero.
     pub fn log(self) -> Result<Range> {
-        match self.from > 0.0 && self.to > 0.0 {
-            true => Ok(Range { is_log: true, ..self }),
-            false => Err(Error::input(format!("from {} to {} there is no constant factor", self.from, self.to))
-                .hint("give two ends above zero, or leave out `:log`")),
+        if self.from > 0.0 && self.to > 0.0 {
+            Ok(Range { is_log: true, ..self })
+        } else {
+            Err(Error::input(format!("from {} to {} there is no constant factor", self.from, self.to))
+                .hint("give two ends above zero, or leave out `:log`"))
         }
     }
 
@@ -64,9 +65,12 @@ impl Range {
             _ => value,
         };
         let part = |k: usize| k as f64 / last as f64;
-        let between = |k: usize| match self.is_log {
-            true => self.from * (self.to / self.from).powf(part(k)),
-            false => round(self.from * part(last - k) + self.to * part(k)),
+        let between = |k: usize| {
+            if self.is_log {
+                self.from * (self.to / self.from).powf(part(k))
+            } else {
+                round(self.from * part(last - k) + self.to * part(k))
+            }
         };
         (0..self.count)
             .map(|k| {

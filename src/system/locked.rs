@@ -31,9 +31,10 @@ pub(super) fn row_gradient<S: Scalar, const D: usize>(
     let all = lock.translation.len();
     if row < all {
         let point = if all == D { [a, b][slot].r } else { b.r };
-        match all == D {
-            true => gradient.force[row] = S::constant(sign),
-            false => gradient.force = lock.axis(a, lock.translation[row]).map(|e| e * sign),
+        if all == D {
+            gradient.force[row] = S::constant(sign)
+        } else {
+            gradient.force = lock.axis(a, lock.translation[row]).map(|e| e * sign)
         }
         gradient.torque = cross(&sub(&point, centre), &gradient.force);
     } else if D == 2 {

@@ -161,10 +161,7 @@ pub(super) fn place_body<const D: usize>(
 
 /// The coordinates (`coordinates`) or else the velocities of one body.
 pub(super) fn of<'a, const D: usize>(all: &'a [f64], part: &Part<D>, coordinates: bool) -> &'a [f64] {
-    match coordinates {
-        true => &all[part.first_q..part.first_q + part.nq],
-        false => &all[part.first_v..part.first_v + part.nv],
-    }
+    if coordinates { &all[part.first_q..part.first_q + part.nq] } else { &all[part.first_v..part.first_v + part.nv] }
 }
 
 pub(super) fn with_frames<R, const D: usize>(

@@ -115,10 +115,7 @@ impl<const D: usize> RigidJoint<D> {
     #[inline]
     pub fn evaluate(&self, poses: &[Pose<D>], need: Need, terms: &mut JointTerms) {
         let poses = [&poses[self.sides[0].body], &poses[self.sides[1].body]];
-        match D == 2 && self.is_point {
-            true => self.point_in_plane(poses, need, terms),
-            false => self.any(poses, need, terms),
-        }
+        if D == 2 && self.is_point { self.point_in_plane(poses, need, terms) } else { self.any(poses, need, terms) }
     }
 
     #[inline(never)]

@@ -113,10 +113,7 @@ impl<const D: usize> SeededBody<D> {
         let mut gathered = std::mem::take(&mut self.gathered);
         gathered.resize(markers.len(), Frame::world());
         for (slot, (&marker, out)) in markers.iter().zip(&mut gathered).enumerate() {
-            match is_seeded(slot) {
-                true => self.write(part, marker, motion, out),
-                false => fix(&motion[marker], out),
-            }
+            if is_seeded(slot) { self.write(part, marker, motion, out) } else { fix(&motion[marker], out) }
         }
         self.gathered = gathered;
     }

@@ -75,10 +75,9 @@ impl<'a> Carried<'a> {
         }
         let between = before.zip(times).flat_map(|(from, &to)| {
             let count = 2 * pairs(from, to) as usize;
-            (1..=count).map(move |i| match i == count {
-                true => (to, true),
-                false => (from + (to - from) * i as f64 / count as f64, false),
-            })
+            (1..=count).map(
+                move |i| if i == count { (to, true) } else { (from + (to - from) * i as f64 / count as f64, false) },
+            )
         });
         Ok(between.collect())
     }

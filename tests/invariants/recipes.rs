@@ -75,9 +75,10 @@ impl Displacement {
         for body in scene["bodies"].as_array_mut().unwrap() {
             let initial = &mut body["initial"];
             initial["position"] = json!(self.moved(&numbers(&initial["position"])));
-            match is_planar {
-                true => initial["angle"] = json!(self.angle),
-                false => initial["rotation"] = json!([0.0, 0.0, self.angle]),
+            if is_planar {
+                initial["angle"] = json!(self.angle)
+            } else {
+                initial["rotation"] = json!([0.0, 0.0, self.angle])
             }
         }
         scene

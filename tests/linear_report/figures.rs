@@ -344,6 +344,6 @@ fn modes_are_drawn_one_panel_each() {
 #[test]
 fn modes_without_shapes_are_not_drawn() {
     let prepared = prepared("four_bar_spring");
-    says(&svg(mode_figure(&prepared, &look(), &descriptor(&prepared))), &["mode 1: −0.7984 1/s, no swing"]);
+    says(&svg(mode_figure(&prepared, &look(), &descriptor(&prepared))), &["mode 1: −0.7984 1/s, no oscillation"]);
     assert!(mode_figure(&prepared, &look(), &empty(&prepared)).is_none());
 }

@@ -16,9 +16,10 @@ use std::path::Path;
 fn swing<const D: usize>() -> Value {
     let (planar, spatial) = (D == 2, D == 3);
     let at = |x: f64| if planar { json!([x, 0]) } else { json!([x, 0, 0]) };
-    let stiffness = match planar {
-        true => json!({ "EA": 2e4, "EI": 30, "GA": 5e3 }),
-        false => json!({ "EA": 2e4, "EI": [50, 30], "GA": [9e3, 7e3], "GJ": 2e-6 }),
+    let stiffness = if planar {
+        json!({ "EA": 2e4, "EI": 30, "GA": 5e3 })
+    } else {
+        json!({ "EA": 2e4, "EI": [50, 30], "GA": [9e3, 7e3], "GJ": 2e-6 })
     };
     // As good as none: what sections turn at second order is not in the data of modal bodies.
     let inertia = if planar { json!(1e-10) } else { json!([2e-10, 1e-10]) };
@@ -57,9 +58,10 @@ fn modal<const D: usize>(scene: &Value, folder: &Path, file: &str) -> Value {
     let beam = Beam::<D>::new(&scene["bodies"][0]);
     let all: Vec<usize> = (0..beam.modes()).collect();
     let data = beam.export(&all);
-    match file.ends_with(".npz") {
-        true => npz::write(&folder.join(file), &data),
-        false => fs::write(folder.join(file), serde_json::to_string(&data).unwrap()).unwrap(),
+    if file.ends_with(".npz") {
+        npz::write(&folder.join(file), &data)
+    } else {
+        fs::write(folder.join(file), serde_json::to_string(&data).unwrap()).unwrap()
     }
     let mut scene = scene.clone();
     let markers = scene["bodies"][0]["markers"].take();

@@ -57,14 +57,15 @@ impl Case {
             ),
         };
         let tip = if self.dimension == 2 { r#"[2, 0]"# } else { r#"[2, 0, 0]"# };
-        match is_flexible {
-            false => format!(
-                r#"{{ "name": "{name}", "type": "rigid", "mass": 1, "inertia": {inertia}, "markers": {{ "p": {{ {marker} }} }} }}"#
-            ),
-            true => format!(
+        if is_flexible {
+            format!(
                 r#"{{ "name": "{name}", "type": "flexible_beam", "frame": "floating", "length": 2, "elements": 2,
                 "stiffness": {{ {section} }}, "inertia": {{ "rhoA": 1, "rhoI": 0.1 }}, "markers": {{ "p": {tip} }} }}"#
-            ),
+            )
+        } else {
+            format!(
+                r#"{{ "name": "{name}", "type": "rigid", "mass": 1, "inertia": {inertia}, "markers": {{ "p": {{ {marker} }} }} }}"#
+            )
         }
     }
 

@@ -264,12 +264,13 @@ fn beam_outputs(dimension: usize) -> String {
     }
     let mut outputs = Vec::new();
     for (i, (keys, at_place)) in all.into_iter().enumerate() {
-        match at_place {
-            false => outputs.push(format!(r#"{{ "name": "y{i}_{}", {keys} }}"#, label(&keys))),
-            true => [0.0, 0.7, 1.0, 2.0].into_iter().enumerate().for_each(|(place, at)| {
+        if at_place {
+            [0.0, 0.7, 1.0, 2.0].into_iter().enumerate().for_each(|(place, at)| {
                 let name = format!("y{i}_{}_{place}", label(&keys));
                 outputs.push(format!(r#"{{ "name": "{name}", {keys}, "of": "rod", "at": {at} }}"#));
-            }),
+            })
+        } else {
+            outputs.push(format!(r#"{{ "name": "y{i}_{}", {keys} }}"#, label(&keys)))
         }
     }
     outputs.join(", ")

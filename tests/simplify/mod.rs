@@ -313,9 +313,12 @@ fn four_bar_in_space(axes: [[f64; 3]; 3], outputs: Value) -> Value {
     let hinge = |position: Value| json!({ "position": position, "z_axis": n, "x_axis": e });
     let bar = |name: &str, length: f64, [x, y, angle]: [f64; 3], is_turned: bool| {
         let (line, side) = (at(angle.cos(), angle.sin()), at(angle.sin(), -angle.cos()));
-        let end = |x: f64| match is_turned {
-            true => json!({ "position": [x, 0, 0], "z_axis": [0, 1, 0], "x_axis": [1, 0, 0] }),
-            false => json!([x, 0, 0]),
+        let end = |x: f64| {
+            if is_turned {
+                json!({ "position": [x, 0, 0], "z_axis": [0, 1, 0], "x_axis": [1, 0, 0] })
+            } else {
+                json!([x, 0, 0])
+            }
         };
         json!({ "name": name, "type": "rigid", "mass": format!("m*{length}"), "inertia": [0.01, 0.1 * length, 0.1 * length],
                 "markers": { "A": end(-0.5 * length), "B": end(0.5 * length) },

@@ -65,10 +65,7 @@ impl Turning {
                 self.way.push(now.clone());
             }
         }
-        match self.open.as_mut().is_some_and(|open| open.is_seen(now)) {
-            true => self.judge(survey),
-            false => None,
-        }
+        if self.open.as_mut().is_some_and(|open| open.is_seen(now)) { self.judge(survey) } else { None }
     }
 
     /// Judges the last singular state by the states after it, if there are any.

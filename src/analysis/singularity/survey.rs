@@ -143,9 +143,10 @@ impl<'a> Survey<'a> {
         aside = (tolerances::LINES_ASIDE * bound * aside / before.max(after)).min(0.1 * width);
         let [before, after] = sides(aside);
         // The lines of a round minimum do not meet near zero.
-        match least < 0.5 * before.min(after) {
-            true => Some((t + aside * (before - after) / (before + after), least)),
-            false => Some((t, least)),
+        if least < 0.5 * before.min(after) {
+            Some((t + aside * (before - after) / (before + after), least))
+        } else {
+            Some((t, least))
         }
     }
 

@@ -148,16 +148,15 @@ fn elements<const D: usize>(
 
 fn check_turn(line: &ReferenceLine, elements: usize) -> Result<()> {
     let turn = line.length * norm(&line.curvature);
-    match turn <= MOST_TURN * elements as f64 * (1.0 + 1e-9) {
-        true => Ok(()),
-        false => {
-            Err(Error::input(format!("an element of this curved beam turns by {} rad", short(turn / elements as f64)))
-                .under("elements")
-                .hint(format!(
-                    "give {} or more, of which none turns by more than a quarter turn",
-                    (turn / MOST_TURN).ceil()
-                )))
-        }
+    if turn <= MOST_TURN * elements as f64 * (1.0 + 1e-9) {
+        Ok(())
+    } else {
+        Err(Error::input(format!("an element of this curved beam turns by {} rad", short(turn / elements as f64)))
+            .under("elements")
+            .hint(format!(
+                "give {} or more, of which none turns by more than a quarter turn",
+                (turn / MOST_TURN).ceil()
+            )))
     }
 }
 

@@ -158,9 +158,8 @@ impl<const D: usize> Mesh<D> {
         let place = |s: f64| self.line.at(s).1;
         let middle = place(0.5 * self.line.length);
         let unit = |axis: usize| from_fn(|k| if k == axis { 1.0 } else { 0.0 });
-        let displacement = |r: &[f64; 3]| match part < D {
-            true => unit(part),
-            false => cross(&unit(3 + part - Self::PER_NODE), &sub(r, &middle)),
+        let displacement = |r: &[f64; 3]| {
+            if part < D { unit(part) } else { cross(&unit(3 + part - Self::PER_NODE), &sub(r, &middle)) }
         };
         let mut motion = vec![0.0; self.total()];
         for (node, &s) in self.nodes.iter().enumerate() {

@@ -199,8 +199,9 @@ impl<const D: usize> Reader<'_, D> {
 
 fn poisson<const D: usize>(nu: &Number, build: &Build<D>) -> Result<f64> {
     let value = build.number("nu", nu)?;
-    match value > -1.0 && value <= 0.5 {
-        true => Ok(value),
-        false => Err(Error::input(format!("nu is {value}, but lies between -1 and 0.5")).under("nu")),
+    if value > -1.0 && value <= 0.5 {
+        Ok(value)
+    } else {
+        Err(Error::input(format!("nu is {value}, but lies between -1 and 0.5")).under("nu"))
     }
 }

@@ -257,10 +257,7 @@ impl Functions {
         let mass = dense(n, &mass_matrix(inertia));
         if let Some(i) = first_dependent(mass.as_ref(), tolerances::ROUND_OFF_OF_FACTORS) {
             let function = &self.functions[i];
-            let what = match mass[(i, i)] == 0.0 {
-                true => "is zero everywhere",
-                false => "is a sum of the functions before it",
-            };
+            let what = if mass[(i, i)] == 0.0 { "is zero everywhere" } else { "is a sum of the functions before it" };
             return Err(function.fault(format!("`{}` {what}", function.value)).hint("remove it"));
         }
         if let Some(i) = first_dependent(dense(n, stiffness).as_ref(), tolerances::ROUND_OFF_OF_FACTORS) {

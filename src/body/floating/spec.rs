@@ -65,9 +65,10 @@ fn node_at<const D: usize>(nodes: &[(String, PointShape<D>)], at: &[f64; D], siz
 }
 
 fn refuse_origin<const D: usize>(markers: &[Marker<D>], truth: &str) -> Result<()> {
-    match markers.first().is_some_and(|own| own.offset.iter().any(|x| *x != 0.0)) {
-        false => Ok(()),
-        true => Err(Error::input(format!("the origin of {truth}")).under("origin").hint("remove it")),
+    if markers.first().is_some_and(|own| own.offset.iter().any(|x| *x != 0.0)) {
+        Err(Error::input(format!("the origin of {truth}")).under("origin").hint("remove it"))
+    } else {
+        Ok(())
     }
 }
 

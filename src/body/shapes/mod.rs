@@ -243,15 +243,12 @@ impl Shape {
 impl Tube {
     fn uniform<const D: usize>(&self, build: &Build<D>) -> Result<Uniform> {
         let [outer, inner] = [build.positive("outer", &self.outer)?, build.not_negative("inner", &self.inner)?];
-        match inner < outer {
-            true => Ok(Uniform::tube(outer, inner, build.positive("length", &self.length)?)),
-            false => Err(Error::input(format!(
-                "the inner radius {} is not below the outer one {}",
-                short(inner),
-                short(outer)
-            ))
-            .under("inner")
-            .hint("\"outer\" and \"inner\" are radii")),
+        if inner < outer {
+            Ok(Uniform::tube(outer, inner, build.positive("length", &self.length)?))
+        } else {
+            Err(Error::input(format!("the inner radius {} is not below the outer one {}", short(inner), short(outer)))
+                .under("inner")
+                .hint("\"outer\" and \"inner\" are radii"))
         }
     }
 }
@@ -260,9 +257,10 @@ impl Rod {
     fn uniform<const D: usize>(&self, build: &Build<D>) -> Result<Uniform> {
         let [from, to] = [build.vector::<D>("from", &self.from)?, build.vector::<D>("to", &self.to)?];
         let radius = self.radius.as_ref().map_or(Ok(0.0), |radius| build.positive("radius", radius))?;
-        match from == to {
-            true => Err(Error::input("the rod has no length").under("to").hint("give two different points")),
-            false => Ok(Uniform::rod(in_space(&from), in_space(&to), radius)),
+        if from == to {
+            Err(Error::input("the rod has no length").under("to").hint("give two different points"))
+        } else {
+            Ok(Uniform::rod(in_space(&from), in_space(&to), radius))
         }
     }
 }
@@ -288,9 +286,10 @@ fn prism<const D: usize>(corners: &[Vec<Number>], thickness: f64, build: &Build<
     let corners = corners.iter().enumerate().map(corner).collect::<Result<Vec<_>>>()?;
     let uniform = Uniform::prism(&corners, thickness);
     let is_flat = uniform.spread.iter().flatten().any(|x| !x.is_finite());
-    match is_flat || crossing::crosses_itself(&corners) {
-        true => Err(Error::input("the polygon encloses no area, or crosses itself")
-            .hint("give three corners or more, in the order in which they follow each other")),
-        false => Ok(uniform),
+    if is_flat || crossing::crosses_itself(&corners) {
+        Err(Error::input("the polygon encloses no area, or crosses itself")
+            .hint("give three corners or more, in the order in which they follow each other"))
+    } else {
+        Ok(uniform)
     }
 }

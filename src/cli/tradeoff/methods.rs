@@ -108,8 +108,9 @@ fn resumed(place: &Path, fresh: WorkPrecision) -> Result<WorkPrecision> {
     let text = files::read_text(place).map_err(|_| wrong("there is no measurement to go on with"))?;
     let measured: WorkPrecision =
         serde_json::from_str(&text).map_err(|error| wrong(&format!("this is no measurement ({error})")))?;
-    match measured.fingerprint == fresh.fingerprint {
-        true => Ok(measured),
-        false => Err(wrong("this is a measurement of another scene, or with other options")),
+    if measured.fingerprint == fresh.fingerprint {
+        Ok(measured)
+    } else {
+        Err(wrong("this is a measurement of another scene, or with other options"))
     }
 }

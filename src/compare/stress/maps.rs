@@ -128,10 +128,11 @@ pub fn maps(subject: &Subject, names: &[String]) -> Result<Vec<Map>> {
     let named = |name: &String| {
         let found = known().iter().find(|entry| entry.name == name.replace('-', "_"));
         let entry = found.ok_or_else(|| Error::unknown("map", name, known().iter().map(|entry| entry.name)))?;
-        match has(entry.x, subject) && has(entry.y, subject) {
-            true => entry.map(subject),
-            false => Err(Error::input(format!("the scene has nothing for the map `{name}`: {}", entry.about))
-                .hint("leave --map out for the maps that make sense for the scene")),
+        if has(entry.x, subject) && has(entry.y, subject) {
+            entry.map(subject)
+        } else {
+            Err(Error::input(format!("the scene has nothing for the map `{name}`: {}", entry.about))
+                .hint("leave --map out for the maps that make sense for the scene"))
         }
     };
     names.iter().map(named).collect()

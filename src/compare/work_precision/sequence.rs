@@ -59,9 +59,10 @@ impl<'a> Runner<'a> {
     ) -> Result<Option<Pause>> {
         for triple in self.pending(result, (decades, is_fine), allowed) {
             let method = self.method(result, triple, decades);
-            let pause = match self.begun.wall() > self.plan.budget.mul_f64(GRID) {
-                true => Some(Pause::Budget),
-                false => self.pauses(result, &method.triple()),
+            let pause = if self.begun.wall() > self.plan.budget.mul_f64(GRID) {
+                Some(Pause::Budget)
+            } else {
+                self.pauses(result, &method.triple())
             };
             if pause.is_some() {
                 return Ok(pause);
@@ -208,9 +209,8 @@ impl<'a> Runner<'a> {
     fn method(&self, result: &WorkPrecision, triple: &Triple, decades: u32) -> Method {
         let entry = integrator::find(&triple.integrator).ok();
         let step = entry.filter(|entry| entry.steps == Steps::Fixed).map(|entry| {
-            let pace = result.reference.as_ref().map_or(1.0, |reference| match self.is_explicit(triple) {
-                true => reference.pace.explicit,
-                false => reference.pace.implicit,
+            let pace = result.reference.as_ref().map_or(1.0, |reference| {
+                if self.is_explicit(triple) { reference.pace.explicit } else { reference.pace.implicit }
             });
             let step = FIXED * pace * 10f64.powf(-f64::from(decades) / entry.order as f64);
             let (start, end) = self.motion.between;

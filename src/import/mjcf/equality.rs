@@ -56,9 +56,10 @@ impl<'a, 'i> Reader<'a, 'i> {
         let [x, y, z, turn @ ..] = element.numbers::<7>("relpose")?.unwrap_or_default();
         let size = turn.iter().map(|x| x * x).sum::<f64>().sqrt();
         // A quaternion of zeros stands for the pose in the file.
-        let frames = match size > 0.0 {
-            true => [Some(Transform { r: [x, y, z], turn: turn.map(|x| x / size) }), Some(Transform::default())],
-            false => [Some(Transform::default()), None],
+        let frames = if size > 0.0 {
+            [Some(Transform { r: [x, y, z], turn: turn.map(|x| x / size) }), Some(Transform::default())]
+        } else {
+            [Some(Transform::default()), None]
         };
         let links = self.two_bodies(element.node)?;
         self.robot.loops.push(Loop { name: name.to_string(), kind: "weld", links, frames });
@@ -112,9 +113,10 @@ impl<'a, 'i> Reader<'a, 'i> {
         let index = *joints
             .get(name)
             .ok_or_else(|| faulty(node, format!("there is no joint `{name}`")).hint(suggest(name, known())))?;
-        match self.robot.joints[index].has_coordinate() {
-            true => Ok(index),
-            false => Err(faulty(node, format!("`{name}` has no coordinate")).hint("name a hinge or a slide")),
+        if self.robot.joints[index].has_coordinate() {
+            Ok(index)
+        } else {
+            Err(faulty(node, format!("`{name}` has no coordinate")).hint("name a hinge or a slide"))
         }
     }
 }

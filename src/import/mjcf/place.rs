@@ -33,10 +33,7 @@ impl Settings {
         }
         let Some(quaternion) = element.numbers::<4>("quat")? else { return Ok(UNTURNED) };
         let size = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
-        match size > 0.0 {
-            true => Ok(quaternion.map(|x| x / size)),
-            false => Err(faulty(element.node, "the quaternion is zero")),
-        }
+        if size > 0.0 { Ok(quaternion.map(|x| x / size)) } else { Err(faulty(element.node, "the quaternion is zero")) }
     }
 
     /// The n-th angle about the n-th axis: about those of the frame as it has turned, or about those that stand.

@@ -61,11 +61,14 @@ pub(super) fn soft(rest: &mut EquilibriumSystem, place: &Place) -> Option<Soft> 
 pub(super) fn judge(rest: &mut EquilibriumSystem, place: &Place) -> (Stability, Vec<String>) {
     let Some(soft) = soft(rest, place) else { return (Stability::Unknown, Vec::new()) };
     let free = named(rest, &soft.directions);
-    let stability = match soft.directions.is_empty() {
-        _ if !soft.is_symmetric => by_modes(rest).unwrap_or(Stability::Unknown),
-        true if soft.smallest > 0.0 => Stability::Stable,
-        _ if soft.directions.is_empty() => Stability::Unstable,
-        _ => Stability::Neutral,
+    let stability = if !soft.is_symmetric {
+        by_modes(rest).unwrap_or(Stability::Unknown)
+    } else if !soft.directions.is_empty() {
+        Stability::Neutral
+    } else if soft.smallest > 0.0 {
+        Stability::Stable
+    } else {
+        Stability::Unstable
     };
     (stability, free)
 }
@@ -83,11 +86,8 @@ fn by_modes(rest: &mut EquilibriumSystem) -> Option<Stability> {
     let values = eigen(&a).ok()?.values;
     let size = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
     let growth = values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
-    match growth.abs() > tolerances::SURE_GROWTH * size {
-        true if growth > 0.0 => Some(Stability::Unstable),
-        true => Some(Stability::Stable),
-        false => None,
-    }
+    let is_sure = growth.abs() > tolerances::SURE_GROWTH * size;
+    is_sure.then_some(if growth > 0.0 { Stability::Unstable } else { Stability::Stable })
 }
 
 /// Names of the coordinates with the largest components in the directions.

@@ -104,10 +104,11 @@ impl Integrator for Bdf {
         to: &mut [f64],
     ) -> Result<Option<f64>, StepError> {
         let Bdf { stage, history, order, predicted, rate, change, .. } = self;
-        match std::mem::replace(&mut self.is_begun, true) {
-            false => history.add(from, &problem.dynamics.lambda, h),
+        if std::mem::replace(&mut self.is_begun, true) {
             // The time loop may have moved the start.
-            true => history.replace(from),
+            history.replace(from);
+        } else {
+            history.add(from, &problem.dynamics.lambda, h);
         }
         let (k, t) = (order.k, from.t + h);
         let g = h / (1..=k).map(|j| 1.0 / j as f64).sum::<f64>();

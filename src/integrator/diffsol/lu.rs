@@ -80,10 +80,7 @@ impl LinearSolver<FaerSparseMat<f64>> for SparseLu {
         // The factors are those of this symbolic factorization: both are made in `set_sparsity`.
         let lu = LuRef::new_unchecked(&factors.symbolic, &factors.numeric);
         lu.solve_in_place_with_conj(Conj::No, x.inner_mut().rb_mut(), Par::Seq, MemStack::new(&mut memory));
-        match x.inner().col_as_slice(0).iter().all(|x| x.is_finite()) {
-            true => Ok(()),
-            false => Err(singular()),
-        }
+        if x.inner().col_as_slice(0).iter().all(|x| x.is_finite()) { Ok(()) } else { Err(singular()) }
     }
 
     fn solve_transpose_in_place(&self, _: &mut FaerVec<f64>) -> Result<(), LaError> {

@@ -161,10 +161,7 @@ impl Rows {
                 out[multiplier] = -x[multiplier];
             }
         });
-        match all_finite(out) {
-            true => Ok(()),
-            false => Err(dynamics.halt(Singular::NotFinite)),
-        }
+        if all_finite(out) { Ok(()) } else { Err(dynamics.halt(Singular::NotFinite)) }
     }
 
     /// Writes the powers whose integrals are the works. One evaluation of forces and constraints.

@@ -47,10 +47,7 @@ impl Matrices {
         at: &mut Linearized,
         dynamics: &mut Dynamics,
     ) -> Result<(), Singular> {
-        match self.is_factored(index, h, dynamics) {
-            true => Ok(()),
-            false => at.weigh(slopes(h * method.real.value).q, dynamics),
-        }
+        if self.is_factored(index, h, dynamics) { Ok(()) } else { at.weigh(slopes(h * method.real.value).q, dynamics) }
     }
 
     /// Factors for a step `h` of `method`, whose index is `index`, unless that is done.

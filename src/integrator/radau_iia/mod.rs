@@ -207,16 +207,6 @@ impl RadauIIA {
         collocation.solve(newton, problem, tolerance, from, h)
     }
 
-    /// The error to be accepted in units of the tolerance: where phi returns to zero at a large rate, it returns from
-    /// its rounding, and no shorter step has less of that in its velocities.
-    fn allowed(&mut self, problem: &Problem, from: From, h: f64) -> f64 {
-        if self.dae.gain().is_none() {
-            return 1.0;
-        }
-        let time = self.dae.rounding_time(h);
-        1.0 + tolerances::RADAU_ROUND_OFF * self.stages.round_off(problem, &self.tolerance, from, time)
-    }
-
     /// An error estimate h (gamma y'_0 + sum d_i Y'_i), damped along the stiff directions, over the tolerated errors.
     fn estimate(
         &mut self,
@@ -265,9 +255,10 @@ impl Integrator for RadauIIA {
     ) -> Result<Option<f64>, StepError> {
         let method = self.order.current();
         self.tried = Some(Step { h, method });
-        self.tolerance = match self.is_fixed {
-            true => Tolerance::exact(problem.split(from.y).0, problem.dynamics.system),
-            false => internal(tolerance, self.order.method().stages()),
+        self.tolerance = if self.is_fixed {
+            Tolerance::exact(problem.split(from.y).0, problem.dynamics.system)
+        } else {
+            internal(tolerance, self.order.method().stages())
         };
         if !std::mem::replace(&mut self.is_begun, true) {
             self.lambda.copy_from_slice(&problem.dynamics.lambda);
@@ -297,7 +288,7 @@ impl Integrator for RadauIIA {
         self.order.limit(&self.newton, most(s, self.is_fixed), self.stages.turned());
         to.copy_from_slice(&self.stages.y[s - 1]);
         let tolerance = self.tolerance;
-        let allowed = self.allowed(problem, from, h);
+        let allowed = self.stages.allowed(&self.dae, (problem, &tolerance), from, h);
         let error = self.estimate(problem, &tolerance, (from, h, to), |method| &method.error)? / allowed;
         let lower = match self.order.len() {
             1 => 0.0,

@@ -125,9 +125,10 @@ impl Stages {
                 self.velocity.copy_from_slice(&v[..nv]);
                 self.velocity.iter_mut().zip(&self.unknowns.u[i]).for_each(|(place, shift)| *place += shift);
                 // N does not depend on the angles that count full turns: they follow in the last sweep.
-                match sweep == sweeps {
-                    true => system.rate(q, &self.velocity, &mut self.qdot[i]),
-                    false => system.own_rate(q, &self.velocity, &mut self.qdot[i]),
+                if sweep == sweeps {
+                    system.rate(q, &self.velocity, &mut self.qdot[i])
+                } else {
+                    system.own_rate(q, &self.velocity, &mut self.qdot[i])
                 }
                 self.rotations.set_rates(i, &self.velocity);
             }
@@ -170,6 +171,15 @@ impl Stages {
     /// Round-off of the changes of a stage, over the tolerated errors: see [`round_off`].
     pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, divisor: Option<f64>) -> f64 {
         round_off(problem, tolerance, from.y, divisor, &mut self.next[0])
+    }
+
+    /// The error to be accepted in units of the tolerance: where phi returns to zero at a large rate, it returns from
+    /// its rounding, and no shorter step has less of that in its velocities.
+    pub fn allowed(&mut self, dae: &Dae, (problem, tolerance): (&Problem, &Tolerance), from: From, h: f64) -> f64 {
+        if dae.gain().is_none() {
+            return 1.0;
+        }
+        1.0 + tolerances::RADAU_ROUND_OFF * self.round_off(problem, tolerance, from, dae.rounding_time(h))
     }
 
     /// The residuals of all stages of a step from (t, y) by `h`. One evaluation per stage.

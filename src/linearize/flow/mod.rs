@@ -56,9 +56,10 @@ pub fn flow_until(
     let push = |amplitude: &f64| Pushed::new(system, bundle.pulse?, *amplitude);
     let pushed: Vec<Pushed> = bundle.pushes.iter().filter_map(push).collect();
     // Without a pulse one system serves all members.
-    let members: Vec<&dyn MechanicalSystem> = match pushed.is_empty() {
-        true => vec![system],
-        false => pushed.iter().map(|pushed| pushed as &dyn MechanicalSystem).collect(),
+    let members: Vec<&dyn MechanicalSystem> = if pushed.is_empty() {
+        vec![system]
+    } else {
+        pushed.iter().map(|pushed| pushed as &dyn MechanicalSystem).collect()
     };
     let start = &bundle.start;
     // Rows that depend on others everywhere need not be found again at each state.

@@ -78,9 +78,10 @@ fn check(equations: &Quadratic, count: usize, shift: C) -> Result<()> {
     if equations.finite == 0 {
         return Err(Error::input("the mechanism has no degree of freedom here, so no modes"));
     }
-    match shift.re.is_finite() && shift.im.is_finite() {
-        true => Ok(()),
-        false => Err(Error::input("the shift is not finite").under("--shift")),
+    if shift.re.is_finite() && shift.im.is_finite() {
+        Ok(())
+    } else {
+        Err(Error::input("the shift is not finite").under("--shift"))
     }
 }
 

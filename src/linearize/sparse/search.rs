@@ -59,9 +59,10 @@ impl Operator<'_> {
 pub fn find<'a>(equations: [&'a Quadratic; 2], count: usize, shift: C) -> Result<Found<'a>, Unsolved> {
     let each = if shift.im > 0.0 { 1 } else { 2 };
     let mut wanted = (each * count + count / 8 + 6).min(equations[0].finite);
-    let (sigma, rate) = match shift.norm() > 0.0 {
-        true => (shift + tolerances::SHIFT_BESIDE * shift.norm(), shift.norm()),
-        false => slowest(equations[0], &mut wanted)?,
+    let (sigma, rate) = if shift.norm() > 0.0 {
+        (shift + tolerances::SHIFT_BESIDE * shift.norm(), shift.norm())
+    } else {
+        slowest(equations[0], &mut wanted)?
     };
     if sigma.im == 0.0 {
         let operator = beside(equations[0], sigma.re, rate)?;

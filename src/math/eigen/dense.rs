@@ -29,10 +29,7 @@ pub fn square(matrices: &[&Matrix]) -> Result<usize, Unsolved> {
     if matrices.iter().any(|matrix| matrix.shape() != (n, n)) {
         return Err(Unsolved::Shape);
     }
-    match matrices.iter().all(|matrix| is_finite(matrix)) {
-        true => Ok(n),
-        false => Err(Unsolved::NotFinite),
-    }
+    if matrices.iter().all(|matrix| is_finite(matrix)) { Ok(n) } else { Err(Unsolved::NotFinite) }
 }
 
 pub fn is_finite(matrix: &Matrix) -> bool {

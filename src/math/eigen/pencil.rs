@@ -127,9 +127,10 @@ fn vector(pencil: &Balanced, (unit, beta): &(Unit, f64), right: &Mat<f64>) -> Ve
     };
     let residual = (product(&pencil.a) * Complex::from(*beta) - product(&pencil.e) * unit.value).norm();
     let size = pencil.a.norm() * beta.abs() + pencil.e.norm() * unit.value.norm();
-    match residual <= tolerances::EIGENVECTOR_OF_PENCIL * size * x.norm() {
-        true => x.iter().zip(&pencil.cols).map(|(x, d)| *x * *d).collect(),
-        false => vec![Complex::ZERO; n],
+    if residual <= tolerances::EIGENVECTOR_OF_PENCIL * size * x.norm() {
+        x.iter().zip(&pencil.cols).map(|(x, d)| *x * *d).collect()
+    } else {
+        vec![Complex::ZERO; n]
     }
 }
 

@@ -52,9 +52,10 @@ pub fn eigen(a: &Matrix) -> Result<Eigen, Unsolved> {
     let left = biorthogonal(&right, left, conditioning);
     units.iter_mut().for_each(|unit| unit.value *= size);
     let values = conjugates::values(&units);
-    match values.iter().all(|value| value.is_finite()) {
-        true => Ok(Eigen { values, right, left, conditioning, errors }),
-        false => Err(Unsolved::Overflow),
+    if values.iter().all(|value| value.is_finite()) {
+        Ok(Eigen { values, right, left, conditioning, errors })
+    } else {
+        Err(Unsolved::Overflow)
     }
 }
 

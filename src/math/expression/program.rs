@@ -85,9 +85,10 @@ impl Program {
     /// argument, and the argument; with `OWN` it is not called, and every piece is that of the argument.
     #[inline]
     fn run<S: Scalar, const OWN: bool>(&self, variables: &[S], choose: &mut impl FnMut(usize, Piece, S) -> Piece) -> S {
-        match self.depth <= SHALLOW {
-            true => self.run_on::<S, SHALLOW, OWN>(variables, choose),
-            false => self.run_on::<S, MAX_STACK, OWN>(variables, choose),
+        if self.depth <= SHALLOW {
+            self.run_on::<S, SHALLOW, OWN>(variables, choose)
+        } else {
+            self.run_on::<S, MAX_STACK, OWN>(variables, choose)
         }
     }
 

@@ -161,9 +161,10 @@ impl Supernodal {
         let mut found = (1.0, 0);
         for (d, &sign) in self.diagonal.iter().zip(&self.signs) {
             let pivot: f64 = d * f64::from(sign);
-            match pivot > collapsed && pivot < 1e-3 * tolerances::PLACE_OF_A_VANISHED_ROW {
-                true => found.0 = pivot.min(found.0),
-                false => found.1 += usize::from(sign < 0),
+            if pivot > collapsed && pivot < 1e-3 * tolerances::PLACE_OF_A_VANISHED_ROW {
+                found.0 = pivot.min(found.0)
+            } else {
+                found.1 += usize::from(sign < 0)
             }
         }
         found

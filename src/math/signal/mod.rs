@@ -132,10 +132,8 @@ impl Signal {
     /// The value beyond the first or the last point.
     fn outside<S: Scalar>(&self, is_before: bool, x: S) -> S {
         let [first, last] = self.range();
-        let (end, row, y) = match is_before {
-            true => (first, 0, self.cubics[0][0]),
-            false => (last, self.cubics.len() - 1, self.last),
-        };
+        let (end, row, y) =
+            if is_before { (first, 0, self.cubics[0][0]) } else { (last, self.cubics.len() - 1, self.last) };
         // Without slope, but for rounding at the end of what is not to be left.
         let is_near = (x.value() - end).abs() <= 8.0 * f64::EPSILON * end.abs().max(last - first);
         match self.beyond {
@@ -149,9 +147,12 @@ impl Signal {
     #[inline]
     fn cubic<S: Scalar>(&self, row: usize, shift: f64, x: S) -> S {
         let (start, cubic) = (self.knots[row] + shift, &self.cubics[row]);
-        x.compose(0, &|order, [low, high]| match low == high {
-            true => [value(&derived(cubic, order), low - start); 2],
-            false => bounds(&derived(cubic, order), [low - start, high - start]),
+        x.compose(0, &|order, [low, high]| {
+            if low == high {
+                [value(&derived(cubic, order), low - start); 2]
+            } else {
+                bounds(&derived(cubic, order), [low - start, high - start])
+            }
         })
     }
 
@@ -159,12 +160,11 @@ impl Signal {
     #[inline]
     fn smooth<S: Scalar>(&self, x: S) -> S {
         let [low, high] = x.bounds();
-        match low == high {
-            true => {
-                let (row, shift) = self.place(low);
-                self.cubic(row, shift, x)
-            }
-            false => x.compose(0, &|order, x| self.derivative_bounds(order, x)),
+        if low == high {
+            let (row, shift) = self.place(low);
+            self.cubic(row, shift, x)
+        } else {
+            x.compose(0, &|order, x| self.derivative_bounds(order, x))
         }
     }
 
@@ -236,13 +236,14 @@ impl Signal {
     fn derivative_bounds(&self, order: usize, [low, high]: [f64; 2]) -> [f64; 2] {
         let ([first, last], shift) = (self.range(), self.shift(low));
         let (low, high) = (low - shift, high - shift);
-        match self.beyond == Beyond::Repeat && high > last {
-            true if high - low < last - first => {
-                hull(self.bounds_within(order, [low, last]), self.bounds_within(order, [first, high - (last - first)]))
-            }
-            true => self.bounds_within(order, [first, last]),
-            false => self.bounds_within(order, [low, high]),
+        if self.beyond != Beyond::Repeat || high <= last {
+            return self.bounds_within(order, [low, high]);
         }
+        let period = last - first;
+        if high - low >= period {
+            return self.bounds_within(order, [first, last]);
+        }
+        hull(self.bounds_within(order, [low, last]), self.bounds_within(order, [first, high - period]))
     }
 
     fn bounds_within(&self, order: usize, [low, high]: [f64; 2]) -> [f64; 2] {

@@ -64,9 +64,10 @@ pub fn check(points: &[[f64; 2]]) -> Result<(), PointsError> {
 /// Refuses first and last values that differ.
 pub fn check_ends(points: &[[f64; 2]]) -> Result<(), PointsError> {
     let size = points.iter().fold(0.0, |size: f64, point| size.max(point[1].abs()));
-    match (points[0][1] - points[points.len() - 1][1]).abs() > 8.0 * f64::EPSILON * size {
-        true => Err(PointsError::EndsDiffer),
-        false => Ok(()),
+    if (points[0][1] - points[points.len() - 1][1]).abs() > 8.0 * f64::EPSILON * size {
+        Err(PointsError::EndsDiffer)
+    } else {
+        Ok(())
     }
 }
 

@@ -207,12 +207,11 @@ pub fn comparison_text(rows: &[Comparison], is_equilibrium: bool) -> String {
             significant(row.eigen_microseconds, 3),
         ]);
     }
-    let note = match is_equilibrium {
-        true => "",
-        false => {
-            "  off equilibrium only models in the same chart have the same eigenvalues: those of redundant coordinates and the \
+    let note = if is_equilibrium {
+        ""
+    } else {
+        "  off equilibrium only models in the same chart have the same eigenvalues: those of redundant coordinates and the \
              plain projection (frozen) belong to no chart\n"
-        }
     };
     format!(
         "{table}  off constraints: largest part of a physical mode / smallest part of a spurious one that the constraints \

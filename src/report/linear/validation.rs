@@ -84,9 +84,10 @@ impl ValidationFile {
     pub fn complaint(&self) -> String {
         let ValidationFile { scene, chart, verdict, .. } = self;
         let t = significant(self.t, 9);
-        let help = match verdict.ltv {
-            true => "take --chart intrinsic, mass_orthogonal or names of independent coordinates",
-            false => "try another --horizon or --along; equations of one's own may have wrong derivatives",
+        let help = if verdict.ltv {
+            "take --chart intrinsic, mass_orthogonal or names of independent coordinates"
+        } else {
+            "try another --horizon or --along; equations of one's own may have wrong derivatives"
         };
         format!("{scene} at t = {t} s, chart {chart}: {}\n  help: {help}", verdict.text)
     }

@@ -58,10 +58,13 @@ fn mean(pictures: &[Snapshot], at: [f64; 3]) -> Option<[f64; 3]> {
 fn support(pen: &mut Canvas, at: [f64; 3], (x, y): (f64, f64), is_wall: bool) {
     let size = x.hypot(y);
     // Away from the bodies: exactly for a wall, upwards or downwards for a bearing.
-    let out = match is_wall && size > 1e-9 {
-        true => (-x / size, -y / size),
-        false if y < -0.35 * size && size > 1e-9 => (0.0, 1.0),
-        false => (0.0, -1.0),
+    let has_side = size > 1e-9;
+    let out = if is_wall && has_side {
+        (-x / size, -y / size)
+    } else if y < -0.35 * size && has_side {
+        (0.0, 1.0)
+    } else {
+        (0.0, -1.0)
     };
     pen.layer = Layer::Ground;
     pen.depth = pen.view.depth(at);

@@ -74,10 +74,12 @@ fn shaped(model: &LinearModel) -> Vec<(usize, Pair<'_>)> {
 /// Returns frequency and damping ratio of an oscillating mode, the rate of another.
 fn title(pair: &Pair) -> String {
     let mode = pair.mode;
-    let text = match mode.value.im != 0.0 {
-        _ if mode.is_zero() => "0 Hz".to_string(),
-        true => format!("{} Hz, ζ = {}", short(mode.frequency()), short(mode.clean_damping())),
-        false => format!("{} 1/s, no swing", short(mode.value.re)),
+    let text = if mode.is_zero() {
+        "0 Hz".to_string()
+    } else if mode.value.im != 0.0 {
+        format!("{} Hz, ζ = {}", short(mode.frequency()), short(mode.clean_damping()))
+    } else {
+        format!("{} 1/s, no oscillation", short(mode.value.re))
     };
     text.replace('-', "−")
 }

@@ -11,9 +11,10 @@ use crate::tolerances::report::WRONG_MOTION;
 /// Returns the verdict on a map: a sentence or two for each method.
 pub fn sentences(stressed: &Stressed) -> Vec<String> {
     let gains = stressed.gains();
-    let mut all: Vec<String> = match gains.is_empty() {
-        true => stressed.verdicts().iter().map(|verdict| general(stressed, verdict)).collect(),
-        false => gains.iter().map(gain).collect(),
+    let mut all: Vec<String> = if gains.is_empty() {
+        stressed.verdicts().iter().map(|verdict| general(stressed, verdict)).collect()
+    } else {
+        gains.iter().map(gain).collect()
     };
     if stressed.is_empty() {
         all.push(format!("No cell has a value of {}: there is no figure.", stressed.map.quantity.label()));

@@ -113,9 +113,10 @@ fn advice(costs: &ModelCosts, within: f64) -> Option<ModelAdvice> {
     };
     let time = |model: &ModelCost| model.seconds().unwrap_or(f64::INFINITY);
     let best = costs.models.iter().filter(is_good).min_by(|a, b| time(a).total_cmp(&time(b)))?;
-    let against = match best.name == rich.name {
-        true => "no poorer model is as near".to_string(),
-        false => format!("the full model takes {}", milliseconds(rich.seconds()?)),
+    let against = if best.name == rich.name {
+        "no poorer model is as near".to_string()
+    } else {
+        format!("the full model takes {}", milliseconds(rich.seconds()?))
     };
     let sentence = format!(
         "within {} in all outputs: {}, {}; {against}",

@@ -70,9 +70,10 @@ fn families(measured: &WorkPrecision, advice: &super::Advice) -> String {
     let (Some(explicit), Some(implicit)) = (pair(advice.places.explicit), pair(advice.places.implicit)) else {
         return String::new();
     };
-    let (winner, other, words) = match explicit.1 < implicit.1 {
-        true => (&explicit, &implicit, ["explicit", "implicit"]),
-        false => (&implicit, &explicit, ["implicit", "explicit"]),
+    let (winner, other, words) = if explicit.1 < implicit.1 {
+        (&explicit, &implicit, ["explicit", "implicit"])
+    } else {
+        (&implicit, &explicit, ["implicit", "explicit"])
     };
     let ratio = crate::error::short(format!("{:.1e}", other.1 / winner.1).parse().unwrap_or(0.0));
     format!(

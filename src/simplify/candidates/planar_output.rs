@@ -33,9 +33,10 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
         if measure == "angle" && !(is_x(base)? && is_x(end)?) {
             return None;
         }
-        match turns {
-            true => drop(own.as_object_mut()?.shift_remove("component")),
-            false => own["component"] = json!("mz"),
+        if turns {
+            drop(own.as_object_mut()?.shift_remove("component"))
+        } else {
+            own["component"] = json!("mz")
         }
         return made_of(&own, &[(sign, None)], 0.0);
     }

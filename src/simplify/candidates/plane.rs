@@ -69,10 +69,7 @@ impl Plane {
     /// Direction at the start of the planar x axis of what has this name: the ground, a body or a marker.
     pub fn x_of(&self, facts: &Facts, name: &str) -> Option<Vector> {
         let place = facts.place(name)?;
-        match name.contains('.') {
-            true => self.marker(&place),
-            false => Some(world(&place, &self.seen_from(name, &place)[0])),
-        }
+        if name.contains('.') { self.marker(&place) } else { Some(world(&place, &self.seen_from(name, &place)[0])) }
     }
 
     /// The axes of the plane in those of the ground or of a body that is at `place`.

@@ -98,9 +98,10 @@ impl<T: Scalar, F: FnMut(&[T], &mut [T]) -> Result<(), Unsolved>> Krylov<T, F> {
             self.size += 1;
             let is_inside = after <= tolerances::ROUND_OFF_OF_SUMS * before;
             self.rest = if is_inside { 0.0 } else { after };
-            match is_inside {
-                true => self.start(k + 1)?,
-                false => self.v.set_column(k + 1, &next.unscale(after)),
+            if is_inside {
+                self.start(k + 1)?
+            } else {
+                self.v.set_column(k + 1, &next.unscale(after))
             }
             if self.size < m {
                 self.h[(k + 1, k)] = T::from_real(self.rest);

@@ -17,9 +17,10 @@ impl Judge<'_> {
     pub fn inverse(&mut self, pivot: f64, (size, sign): (f64, f64), node: impl Fn() -> usize) -> Result<f64, usize> {
         let positive = sign * pivot;
         // Written so that a NaN is judged too.
-        match positive > self.rule.weak * size && positive < f64::INFINITY {
-            true => Ok(1.0 / pivot),
-            false => self.judge(node(), positive, size),
+        if positive > self.rule.weak * size && positive < f64::INFINITY {
+            Ok(1.0 / pivot)
+        } else {
+            self.judge(node(), positive, size)
         }
     }
 

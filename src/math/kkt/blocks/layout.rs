@@ -114,9 +114,10 @@ impl Layout {
         };
         for &group in &others {
             let first = layout.nodes.len();
-            match group < count {
-                true => layout.nodes.extend(&groups.coordinates[group]),
-                false => layout.nodes.extend(groups.rows[group - count].iter().map(|row| n + row)),
+            if group < count {
+                layout.nodes.extend(&groups.coordinates[group])
+            } else {
+                layout.nodes.extend(groups.rows[group - count].iter().map(|row| n + row))
             }
             layout.push(first, group < count, group < count && !groups.late[group]);
         }
@@ -126,10 +127,7 @@ impl Layout {
             layout.aim(j, below);
         }
         for (p, &node) in layout.nodes.iter().enumerate() {
-            match node < n {
-                true => layout.coordinates.push((node as u32, p as u32)),
-                false => layout.g_rows[node - n] = p as u32,
-            }
+            if node < n { layout.coordinates.push((node as u32, p as u32)) } else { layout.g_rows[node - n] = p as u32 }
         }
         let positions = layout.coordinates.iter().map(|&(_, p)| p);
         layout.late = positions.filter(|&p| p as usize >= layout.early_unknowns).collect();
@@ -177,10 +175,7 @@ impl Layout {
     /// Place of the block of the columns that begin at these positions, the second at or before the first.
     fn product(&self, row: u32, column: u32) -> usize {
         let of = |position: u32| self.columns.partition_point(|column| column.first <= position as usize) - 1;
-        match row == column {
-            true => self.columns[of(column)].diagonal,
-            false => self.block(of(row), of(column)),
-        }
+        if row == column { self.columns[of(column)].diagonal } else { self.block(of(row), of(column)) }
     }
 
     fn push(&mut self, first: usize, is_coordinate: bool, is_diagonal: bool) {
@@ -254,10 +249,7 @@ impl Layout {
 
     fn slot(&mut self, (row, p): (usize, usize), (column, q): (usize, usize)) -> usize {
         let width = self.columns[column].width;
-        let block = match row == column {
-            true => self.columns[column].diagonal,
-            false => self.block(row, column),
-        };
+        let block = if row == column { self.columns[column].diagonal } else { self.block(row, column) };
         self.columns[column].is_diagonal &= row != column || p == q;
         block + p * width + q
     }

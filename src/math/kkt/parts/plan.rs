@@ -233,9 +233,12 @@ impl Whole {
         let members: Vec<usize> = (0..self.of_group.len()).filter(|&group| is_here(group)).collect();
         let place_of_group = places(&members, self.of_group.len());
         let last: Vec<usize> = self.separator.iter().map(|&group| place_of_group[group]).collect();
-        let nodes = last.iter().flat_map(|&group| match group < of_coordinates {
-            true => groups.coordinates[group].clone(),
-            false => groups.rows[group - of_coordinates].iter().map(|row| g.cols + row).collect(),
+        let nodes = last.iter().flat_map(|&group| {
+            if group < of_coordinates {
+                groups.coordinates[group].clone()
+            } else {
+                groups.rows[group - of_coordinates].iter().map(|row| g.cols + row).collect()
+            }
         });
         let nodes: Vec<usize> = nodes.collect();
         let mut order = groups.in_order(&order_before(mass, g, late, &nodes));

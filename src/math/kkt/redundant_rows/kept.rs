@@ -117,9 +117,10 @@ fn solve(
     is_least: bool,
 ) -> Result<(), Singular> {
     short.iter_mut().zip(rows).for_each(|(value, row)| *value = bottom[*row]);
-    match is_least {
-        true => inner.solve(top, short)?,
-        false => inner.solve_motion(top, short)?,
+    if is_least {
+        inner.solve(top, short)?
+    } else {
+        inner.solve_motion(top, short)?
     }
     bottom.fill(0.0);
     short.iter().zip(rows).for_each(|(value, row)| bottom[*row] = *value);

@@ -108,9 +108,10 @@ impl<T: Field> Unsymmetric<T> {
             scale: vec![1.0; size],
             weight: vec![1.0; g.cols],
             is_massless: vec![false; g.cols],
-            factors: match is_dense {
-                true => Factors::Dense(Dense::new(size)?),
-                false => Factors::Sparse(Sparse::new(&matrix.places, border.as_ref().map(|b| b.columns.as_slice()))?),
+            factors: if is_dense {
+                Factors::Dense(Dense::new(size)?)
+            } else {
+                Factors::Sparse(Sparse::new(&matrix.places, border.as_ref().map(|b| b.columns.as_slice()))?)
             },
             rank: border.map_or_else(|| vec![1.0; size], |border| border.rank),
             g: g.clone(),
@@ -343,10 +344,7 @@ impl<T: Field> Unsymmetric<T> {
             let solution = self.right[first..].iter().zip(&self.scale[first..]);
             found.iter_mut().zip(solution).for_each(|(x, (right, scale))| *x = *right * *scale);
         }
-        match self.right.iter().all(|x| x.size().is_finite()) {
-            true => Ok(()),
-            false => Err(Singular::NotFinite),
-        }
+        if self.right.iter().all(|x| x.size().is_finite()) { Ok(()) } else { Err(Singular::NotFinite) }
     }
 }
 

@@ -258,9 +258,8 @@ fn what_does_not_fit_is_refused() {
 fn crossover() {
     for links in [4, 8, 12, 16, 20, 24, 28, 32, 48, 200, 2000, 20000] {
         let times = [true, false].map(|is_dense| {
-            let time = |factor: fn(&Chain, usize, bool) -> f64| match is_dense && links > 200 {
-                true => f64::NAN,
-                false => factor(&chain(links, 0), links, is_dense),
+            let time = |factor: fn(&Chain, usize, bool) -> f64| {
+                if is_dense && links > 200 { f64::NAN } else { factor(&chain(links, 0), links, is_dense) }
             };
             [time(seconds::<f64>), time(seconds::<c64>)].map(|seconds| 1e6 * seconds)
         });
