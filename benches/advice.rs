@@ -86,14 +86,16 @@ fn triple(method: &Method) -> Triple {
 fn measure(path: &Path) -> Result<Measured> {
     let clock = Instant::now();
     let prepared = PreparedScene::load(path, &Overrides::default())?;
-    let (own, default) = (triple(&prepared.method), triple(&Method::default()));
+    let own = triple(&prepared.method);
+    let default = triple(&Method::default());
     let mut triples = grid(&Filter::default())?;
     for asked in [&own, &default] {
         if !triples.contains(asked) {
             triples.push(asked.clone());
         }
     }
-    let (span, rows) = (prepared.span()?, 200);
+    let span = prepared.span()?;
+    let rows = 200;
     let between = (span.start, span.end);
     let watched = Watched::new(prepared.system(), &[])?;
     let within = |budget: Duration| -> Result<WorkPrecision> {
@@ -121,7 +123,8 @@ fn measure(path: &Path) -> Result<Measured> {
             break;
         }
     }
-    let (name, began) = (prepared.name.clone(), Instant::now());
+    let name = prepared.name.clone();
+    let began = Instant::now();
     let amplification = amplified(&prepared, span, |_| began.elapsed() < PATIENCE).ok();
     Ok(Measured {
         name,
@@ -146,7 +149,9 @@ fn automatic(
     let rtol = 0.1f64.powi(decades as i32);
     let tolerances = (rtol, atol_of(rtol, prepared.method.atol / prepared.method.rtol));
     let system = prepared.system();
-    let (rows, drift, scratch) = (Vec::new(), Drift::default(), Scratch::default());
+    let rows = Vec::new();
+    let drift = Drift::default();
+    let scratch = Scratch::default();
     let mut seen = Seen { system, watched, scales: system.scales(), scratch, rows, drift, begun: ThreadTime::now() };
     let (run, seconds) = cpu_seconds(|| simulate_automatic(system, tolerances, span, prepared.start(), &mut seen));
     let (outcome, legs, _) = run?;
@@ -182,7 +187,8 @@ fn cost(result: &WorkPrecision, legs: &[Leg]) -> Option<f64> {
                 false => ("ggl", "radau_iia"),
             };
             let is_explicit = !is_implicit && has_explicit;
-            let (formulation, integrator) = (MethodSpec::named(formulation), MethodSpec::named(integrator));
+            let formulation = MethodSpec::named(formulation);
+            let integrator = MethodSpec::named(integrator);
             priced.cells.push(unpriced(Method { formulation, integrator, ..method.clone() }, is_explicit, *work));
         }
     }
@@ -192,7 +198,9 @@ fn cost(result: &WorkPrecision, legs: &[Leg]) -> Option<f64> {
 }
 
 fn unpriced(method: Method, is_explicit: bool, statistics: Statistics) -> Cell {
-    let (worst, drift, cpu_seconds) = (String::new(), (&Drift::default()).into(), Vec::new());
+    let worst = String::new();
+    let drift = (&Drift::default()).into();
+    let cpu_seconds = Vec::new();
     let outcome = Outcome::Completed { error: 1.0, worst, drift, cpu_seconds, statistics };
     Cell { method, decades: 0, is_explicit, cost: None, outcome }
 }
@@ -288,7 +296,8 @@ fn main() {
     println!("error over tolerance: scenes that amplify by at most {CALM}, and the others\n\n{}", errors(&all));
     println!("cost over that of the best at {DIGITS:?} digits\n\n{}", costs(&all));
     let count = |is: &dyn Fn(&Measured) -> bool| all.iter().filter(|scene| is(scene)).count();
-    let (advised, quick) = (count(&|scene| scene.is_advised), count(&|scene| scene.is_quick));
+    let advised = count(&|scene| scene.is_advised);
+    let quick = count(&|scene| scene.is_quick);
     println!(
         "{advised} of {} scenes have a recommendation within {} s, {quick} a reference of {} digits",
         scenes.len(),
@@ -325,7 +334,8 @@ fn errors(all: &[Measured]) -> Table {
                 ratios.sort_by(f64::total_cmp);
                 ratios
             };
-            let (calm, others) = (ratios(true), ratios(false));
+            let calm = ratios(true);
+            let others = ratios(false);
             let failed = cells.iter().filter(|(_, cell)| matches!(cell.outcome, Outcome::Failed { .. })).count();
             table.row(vec![
                 format!("{formulation} + {integrator} + {projection}"),

@@ -135,7 +135,8 @@ fn difference(a: &Trajectory, b: &Trajectory, column: usize) -> f64 {
     let rows = |run: &Trajectory| -> Vec<(f64, f64)> {
         run.times().zip(run.watched()).map(|(t, values)| (t, values[column])).collect()
     };
-    let (a, b) = (rows(a), rows(b));
+    let a = rows(a);
+    let b = rows(b);
     let mut most = 0.0f64;
     for (t, value) in &a {
         let mut others = b.iter().filter(|(time, _)| time == t);
@@ -223,7 +224,8 @@ fn measure(case: &Case, path: &Path) -> Option<(f64, Vec<(f64, f64)>)> {
 
 fn main() {
     let mut numbers = std::env::args().skip(1).filter_map(|text| text.parse::<u64>().ok());
-    let (wanted, seed) = (numbers.next().unwrap_or(1000), numbers.next().unwrap_or(1));
+    let wanted = numbers.next().unwrap_or(1000);
+    let seed = numbers.next().unwrap_or(1);
     let mut random = fastrand::Rng::with_seed(seed);
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
     let entries = std::fs::read_dir(&folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));

@@ -78,7 +78,8 @@ fn cost(prepared: &PreparedScene, method: &Method, step: f64, steps: usize) -> (
 
 fn method(formulation: &str, integrator: &str, step: f64) -> Method {
     let spec = |name: &str| MethodSpec::parse(name).unwrap_or_else(|error| panic!("{error}"));
-    let (formulation, integrator) = (spec(formulation), spec(integrator));
+    let formulation = spec(formulation);
+    let integrator = spec(integrator);
     Method { formulation, integrator, projection: spec("none"), step: Some(step), ..Method::default() }
 }
 

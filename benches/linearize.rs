@@ -101,8 +101,10 @@ fn along_motions() {
 
 /// v' of the independent coordinate `z` of the 7 angles at (z, z'), by Newton's method on the constraints.
 fn acceleration(dynamics: &mut Dynamics, start: &State, z: [f64; 2]) -> f64 {
-    let (n, rows) = (start.q.len(), dynamics.lambda.len());
-    let (mut q, still) = (start.q.clone(), vec![0.0; start.v.len()]);
+    let n = start.q.len();
+    let rows = dynamics.lambda.len();
+    let mut q = start.q.clone();
+    let still = vec![0.0; start.v.len()];
     let mut system = |q: &[f64], last: f64| {
         dynamics.evaluate(start.t, q, &still, Need::G | Need::CONSTRAINTS);
         let mut matrix = Matrix::zeros(n, n);
@@ -136,7 +138,8 @@ fn differences() {
         };
         reference.iter().map(off).fold(0.0, f64::max)
     };
-    let (mut dynamics, centre) = (Dynamics::new(&Andrews), [state.q[0], state.v[0]]);
+    let mut dynamics = Dynamics::new(&Andrews);
+    let centre = [state.q[0], state.v[0]];
     println!("\n7 angles, chart of beta                       us   error of eigenvalues");
     let mut variation = Variation::new(&Andrews, state.t, &state.q, &state.v).unwrap();
     let mut exact = Matrix::zeros(2, 2);

@@ -101,7 +101,8 @@ fn stiff() {
         let prepared = shipped(name, &overrides);
         let methods = [["index1", "dop853", "manifold"], ["ggl", "radau_iia", "none"], ["ggl", "bdf", "none"]];
         let cases = methods.map(|names| {
-            let (method, prepared) = (adaptive(names, 1e-6), &prepared);
+            let method = adaptive(names, 1e-6);
+            let prepared = &prepared;
             let work = run(prepared, &method, end).statistics;
             let name = format!("{}, {} steps, {} evaluations", names[1], work.steps, work.rhs_evaluations);
             case(name, move || drop(run(prepared, &method, end)))

@@ -124,7 +124,9 @@ impl Trajectory {
 
     /// q, v and lambda of a row.
     pub fn row_state<'a>(&self, row: &'a [f64]) -> (&'a [f64], &'a [f64], &'a [f64]) {
-        let (nq, nv, nc) = (self.names.q.len(), self.names.v.len(), self.names.lambda.len());
+        let nq = self.names.q.len();
+        let nv = self.names.v.len();
+        let nc = self.names.lambda.len();
         let (q, rest) = row[1..].split_at(nq);
         let (v, rest) = rest.split_at(nv);
         (q, v, &rest[..nc])

@@ -39,7 +39,9 @@ fn as_accurate_as_generalized_alpha() {
             let run = scene.run(&fixed("index3", integrator, "none", step), span);
             distance(&run.record.trajectory.rows.last().unwrap()[1..1 + n.q], &exact[1..1 + n.q])
         };
-        let (own, half, other) = (error("ali3p", step), error("ali3p", 0.5 * step), error("generalized_alpha", step));
+        let own = error("ali3p", step);
+        let half = error("ali3p", 0.5 * step);
+        let other = error("generalized_alpha", step);
         assert!((own / half).log2() > 1.7 && own < 5.0 * other, "{name}: {own:e} {half:e} {other:e}");
     }
 }
@@ -73,7 +75,8 @@ fn redundant_rows_and_singular_positions_are_passed() {
         assert!(run.record.drift.position.max < 1e-13 && run.record.drift.velocity.max < 1e-10);
         distance(&run.column("angle"), &angle)
     };
-    let (coarse, fine) = (error(1e-3), error(5e-4));
+    let coarse = error(1e-3);
+    let fine = error(5e-4);
     assert!(fine < 1e-4 && (coarse / fine).log2() > 1.7, "{coarse:e} {fine:e}");
 }
 
@@ -89,6 +92,7 @@ fn rotations_in_space_converge_with_order_two() {
         let row = last(fixed("index3", "ali3p", "none", step));
         distance(&row[1..1 + n.q + n.v], &exact[1..1 + n.q + n.v])
     };
-    let (coarse, fine) = (error(1e-3), error(5e-4));
+    let coarse = error(1e-3);
+    let fine = error(5e-4);
     assert!(((coarse / fine).log2() - 2.0).abs() < 0.1, "{coarse:e} {fine:e}");
 }

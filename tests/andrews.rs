@@ -97,10 +97,12 @@ fn angles_agree_with_the_reference() {
 #[test]
 fn the_rigid_bodies_are_those_of_the_test_set() {
     let ready = shipped("andrews", &[]);
-    let (system, mut scratch) = (ready.system(), Scratch::default());
+    let system = ready.system();
+    let mut scratch = Scratch::default();
     for (t, angles, rates) in REFERENCE {
         let bodies = places(std::array::from_fn(|i| Taylor::new(angles[i], rates[i], 0.0)));
-        let (q, v) = (bodies.map(|x| x.x), bodies.map(|x| x.d));
+        let q = bodies.map(|x| x.x);
+        let v = bodies.map(|x| x.d);
         let mut terms = Terms::new(system);
         system.evaluate(t, &q, &v, Need::CONSTRAINTS, &mut terms, &mut scratch);
         // Angles and rates are given to 16 digits: round-off of lengths below 0.07 m and speeds below 50 m/s.
@@ -120,7 +122,9 @@ fn places<S: Scalar>([beta, theta, gamma, phi, delta, omega, epsilon]: [S; 7]) -
         [x + u, y + v, angle]
     };
     let at = |x: f64, y: f64| [S::constant(x), S::constant(y)];
-    let (o, a, b) = (at(0.0, 0.0), at(-0.06934, -0.00227), at(-0.03635, 0.03273));
+    let o = at(0.0, 0.0);
+    let a = at(-0.06934, -0.00227);
+    let b = at(-0.03635, 0.03273);
     let pivot = |[x, y]: [S; 2], angle: S, [u, v]: [f64; 2]| {
         let [x, y, _] = from([x, y], angle, [u, v]);
         [x, y]

@@ -73,7 +73,8 @@ fn a_pin_reacts_along_and_across_the_rod() {
     ))
     .tight(1e-13, 2.0, 0.05);
     for (row, angle) in run.column("angle").into_iter().enumerate() {
-        let (along, across) = (2.5 * 9.81 * angle.sin(), 9.81 / 4.0 * angle.cos());
+        let along = 2.5 * 9.81 * angle.sin();
+        let across = 9.81 / 4.0 * angle.cos();
         let off = (run.column("x")[row] - along).abs().max((run.column("y")[row] - across).abs());
         assert!(off < 100.0 * CLOSE, "row {row} is off by {off:e} N");
     }
@@ -83,7 +84,9 @@ fn a_pin_reacts_along_and_across_the_rod() {
 fn top_precesses_steadily_at_both_roots() {
     let (g, m, l, i1, i3, theta, spin): (f64, f64, f64, f64, f64, f64, f64) = (9.81, 0.5, 0.08, 6e-4, 8e-4, 0.5, 200.0);
     // a p^2 - b p + c = 0
-    let (a, b, c) = ((i1 + m * l * l) * theta.cos(), i3 * spin, m * g * l);
+    let a = (i1 + m * l * l) * theta.cos();
+    let b = i3 * spin;
+    let c = m * g * l;
     let root = (b * b - 4.0 * a * c).sqrt();
     for rate in [2.0 * c / (b + root), (b + root) / (2.0 * a)] {
         let run = shipped("spinning_top", &[("precession", rate)]).tight(1e-13, 1.0, 0.01);
@@ -121,9 +124,11 @@ const TOP: [(f64, [[f64; 2]; 5]); 2] = [
 fn top_nutates_as_the_elliptic_functions_say() {
     for (rate, rows) in TOP {
         let run = shipped("spinning_top", &[("precession", rate)]).tight(1e-13, 1.0, 0.05);
-        let (nutation, precession) = (run.column("nutation"), run.column("precession"));
+        let nutation = run.column("nutation");
+        let precession = run.column("precession");
         for (row, [theta, phi]) in [2, 5, 10, 15, 20].into_iter().zip(rows) {
-            let (off, ahead) = (nutation[row] - theta, precession[row] - phi);
+            let off = nutation[row] - theta;
+            let ahead = precession[row] - phi;
             assert!(off.abs() < CLOSE && ahead.abs() < CLOSE, "from {rate}, row {row}: {off:e}, {ahead:e}");
         }
         assert!(run.worst("spin", |_| 200.0) < CLOSE);
@@ -157,7 +162,8 @@ fn free_body_turns_as_euler_says() {
 
 #[test]
 fn universal_joint_turns_unevenly_and_two_of_them_evenly() {
-    let (w, bend) = (10.0, std::f64::consts::PI / 6.0);
+    let w = 10.0;
+    let bend = std::f64::consts::PI / 6.0;
     let run = shipped("universal_shaft", &[]).tight(1e-12, 1.25, 0.01);
     let speed = |t: f64| w * bend.cos() / (1.0 - (bend.sin() * (w * t).cos()).powi(2));
     assert!(run.worst("cardan_speed", speed) < CLOSE);
@@ -182,7 +188,8 @@ fn two_masses_swing_at_five_radians_a_second() {
     // The link pushes the second mass: m2 x''.
     assert!(run.worst("link_force", |t| -7.5 * (5.0 * t).cos()) < 100.0 * CLOSE);
     let damped = shipped("two_mass", &[("c1", 2.0)]).tight(1e-13, 5.0, 0.05);
-    let (decay, omega) = (0.25, (25.0f64 - 0.0625).sqrt());
+    let decay = 0.25;
+    let omega = (25.0f64 - 0.0625).sqrt();
     let x = |t: f64| 0.1 * (-decay * t).exp() * ((omega * t).cos() + decay / omega * (omega * t).sin());
     assert!(damped.worst("x1", x) < CLOSE);
 }
@@ -200,7 +207,8 @@ impl Equations for FourBar {
         mass[0] = S::constant(5.0 / 3.0);
     }
     fn force<S: Scalar>(&self, _t: S, q: &[S], v: &[S], f: &mut [S]) {
-        let (s, c) = ((q[0] * 0.5).sin(), (q[0] * 0.5).cos());
+        let s = (q[0] * 0.5).sin();
+        let c = (q[0] * 0.5).cos();
         let stretch = c * 2.0 - std::f64::consts::SQRT_2;
         f[0] = stretch * s * 100.0 - q[0].cos() * (2.0 * 9.81) - s * s * v[0] * self.damping;
     }
@@ -212,7 +220,8 @@ fn four_bar_follows_its_equation_in_the_crank_angle() {
     for damping in [0.0, 0.5] {
         let run = shipped("four_bar_spring", &[("c1", damping)]).tight(1e-13, 5.0, 0.05);
         let alone = reduced(FourBar { damping }, (1.1, 1.0), 5.0, 0.05);
-        let (angle, rate) = (alone.column("q1"), alone.column("v1"));
+        let angle = alone.column("q1");
+        let rate = alone.column("v1");
         rows_agree(&run, &["crank_angle"], &rows(&angle), 1e-9);
         // Rates are five times as large.
         rows_agree(&run, &["crank_rate"], &rows(&rate), 5e-9);
@@ -268,7 +277,8 @@ fn gears_keep_their_ratio() {
         // Round-off of angles below one.
         assert!((18.0 * small + 45.0 * large).abs() < 1e-13, "{small} {large}");
     }
-    let (j1, j2) = (0.09 * 0.09 / 2.0, 4.0 * 0.225 * 0.225 / 2.0);
+    let j1 = 0.09 * 0.09 / 2.0;
+    let j2 = 4.0 * 0.225 * 0.225 / 2.0;
     let omega = (1.15 / (j1 + j2 * (18.0f64 / 45.0).powi(2))).sqrt();
     assert!(run.worst("small_angle", |t| 0.5 * (omega * t).cos()) < CLOSE);
 }
@@ -298,7 +308,8 @@ fn bead_circles_at_a_rate_without_regard_to_the_radius() {
 #[test]
 fn block_on_a_bushing_swings_along_each_axis_by_itself() {
     let run = shipped("bushing_block", &[]).tight(1e-13, 1.0, 0.01);
-    let (omega, sag) = (1000.0f64.sqrt(), 9.81 / 1000.0);
+    let omega = 1000.0f64.sqrt();
+    let sag = 9.81 / 1000.0;
     assert!(run.worst("x", |t| 0.01 * (omega * t).cos()) < CLOSE);
     assert!(run.worst("y", |t| -0.005 * (omega * t).cos()) < CLOSE);
     assert!(run.worst("z", |t| sag * ((omega * t).cos() - 1.0)) < CLOSE);

@@ -263,7 +263,8 @@ fn rigid_motions(system: &dyn MechanicalSystem, q: &[f64]) -> Vec<Vec<f64>> {
 /// Velocities of a free spatial body that turns about a world axis: e x r, and e in the body's axes.
 fn turning(q: &[f64], axis: usize) -> Vec<f64> {
     let mut v = vec![0.0; 6];
-    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+    let next = (axis + 1) % 3;
+    let last = (axis + 2) % 3;
     (v[next], v[last]) = (-q[last], q[next]);
     let axes = holonom::math::rotation::axes_from_quaternion(&q[3..7]);
     (0..3).for_each(|j| v[3 + j] = axes[j][axis]);

@@ -22,7 +22,8 @@ fn found(scene: &Ready) -> Equilibrium {
 }
 
 fn left(system: &dyn MechanicalSystem, at: &Equilibrium) -> (f64, f64) {
-    let (mut terms, still) = (Terms::new(system), &at.v);
+    let mut terms = Terms::new(system);
+    let still = &at.v;
     system.evaluate(at.t, &at.q, still, Need::DYNAMICS, &mut terms, &mut Scratch::default());
     let mut reaction = vec![0.0; still.len()];
     system.structure().g.multiply_transposed(&terms.g, &at.lambda, &mut reaction);
@@ -33,7 +34,8 @@ fn left(system: &dyn MechanicalSystem, at: &Equilibrium) -> (f64, f64) {
 
 fn output(scene: &Ready, at: &Equilibrium, name: &str) -> f64 {
     let columns = scene.system().columns();
-    let (mut out, still) = (vec![0.0; columns.len()], vec![0.0; scene.system().dimensions().v]);
+    let mut out = vec![0.0; columns.len()];
+    let still = vec![0.0; scene.system().dimensions().v];
     let at = OperatingPoint { t: at.t, q: &at.q, v: &still, vdot: &still, lambda: &at.lambda };
     scene.system().outputs(at, &mut out, &mut Scratch::default());
     out[columns.iter().position(|column| column.name == name).unwrap()]
@@ -178,7 +180,9 @@ fn stiff_beams_hang() {
 /// A cantilever of rigid links on torsion springs, bent by a force across its end.
 fn cantilever(n: usize, load: f64) -> String {
     let length = 1.0 / n as f64;
-    let (mut bodies, mut joints, mut forces) = (Vec::new(), Vec::new(), Vec::new());
+    let mut bodies = Vec::new();
+    let mut joints = Vec::new();
+    let mut forces = Vec::new();
     for i in 0..n {
         let before = if i == 0 { "ground.O".to_string() } else { format!("link{}.B", i - 1) };
         let x = (i as f64 + 0.5) * length;

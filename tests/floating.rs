@@ -34,7 +34,9 @@ const ELASTIC: usize = 6;
 /// `is_curved`: with rotations, arms that turn with them, and displacements of second order.
 fn cloud<const D: usize>(is_curved: bool) -> Cloud<D> {
     let mut stir = Stir(D as f64);
-    let (mut pieces, mut masses, mut shapes) = (Vec::new(), Vec::new(), vec![still()]);
+    let mut pieces = Vec::new();
+    let mut masses = Vec::new();
+    let mut shapes = vec![still()];
     for dofs in DOFS {
         let n = dofs.len() + 1;
         let mut piece = Piece {
@@ -118,7 +120,8 @@ fn discs(stir: &mut Stir) -> Vec<Disc> {
 fn second<const D: usize>(n: usize, stir: &mut Stir) -> Vec<Vec<Second<D>>> {
     let mut rows = vec![Vec::new(); n];
     for (i, j) in (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))) {
-        let (moment, product) = (stir.vector(), std::array::from_fn(|_| stir.vector()));
+        let moment = stir.vector();
+        let product = std::array::from_fn(|_| stir.vector());
         rows[i].push(Second { other: j, moment, product });
         if i != j {
             rows[j].push(Second { other: i, moment, product });
@@ -142,7 +145,8 @@ struct State<const D: usize> {
 
 fn state<const D: usize>(body: &Floating<D>) -> State<D> {
     let mut stir = Stir(77.0);
-    let (nq, nv) = (frame_coordinates(D) + ELASTIC, frame_velocities(D) + ELASTIC);
+    let nq = frame_coordinates(D) + ELASTIC;
+    let nv = frame_velocities(D) + ELASTIC;
     let mut q = stir.list(nq);
     body.normalize(&mut q);
     State { q, v: stir.list(nv), vdot: stir.list(nv), gravity: stir.vector() }
@@ -276,7 +280,8 @@ fn tangent_is_the_slope<const D: usize>() {
     let body = cloud::<D>(true).body;
     let State { q, v, vdot, gravity } = state(&body);
     let pattern = body.tangent_pattern();
-    let (mut k, mut c) = (vec![0.0; pattern.len()], vec![0.0; pattern.len()]);
+    let mut k = vec![0.0; pattern.len()];
+    let mut c = vec![0.0; pattern.len()];
     body.tangent(BodyState { q: &q, v: &v, vdot: &vdot, gravity: &gravity }, &mut k, &mut c);
     let n = v.len();
     let dense = |values: &[f64]| {
@@ -284,7 +289,9 @@ fn tangent_is_the_slope<const D: usize>() {
         pattern.iter().zip(values).for_each(|(&(i, j), value)| matrix[i * n + j] += value);
         matrix
     };
-    let (k, c, h) = (dense(&k), dense(&c), 1e-6);
+    let k = dense(&k);
+    let c = dense(&c);
+    let h = 1e-6;
     for j in 0..n {
         let unit: Vec<f64> = (0..n).map(|i| if i == j { 1.0 } else { 0.0 }).collect();
         let mut rate = vec![0.0; q.len()];

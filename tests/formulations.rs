@@ -14,7 +14,8 @@ use holonom::system::{Equations, MechanicalSystem};
 fn solve(system: &dyn MechanicalSystem, formulation: &str, t: f64, q: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let mut dynamics = Dynamics::new(system);
     let mut formulation = make(&MethodSpec::parse(formulation).unwrap(), system).unwrap();
-    let (mut qdot, mut vdot) = (vec![0.0; q.len()], vec![0.0; v.len()]);
+    let mut qdot = vec![0.0; q.len()];
+    let mut vdot = vec![0.0; v.len()];
     formulation.derivative(t, q, v, &mut dynamics, &mut qdot, &mut vdot).unwrap();
     (dynamics.vdot, dynamics.lambda)
 }
@@ -44,7 +45,8 @@ impl Equations for Coupled {
         (3, 1)
     }
     fn mass<S: Scalar>(&self, _t: S, q: &[S], mass: &mut [S]) {
-        let (sin, cos) = (q[2].sin(), q[2].cos());
+        let sin = q[2].sin();
+        let cos = q[2].cos();
         let entries =
             [[S::constant(2.0), S::zero(), cos], [S::zero(), S::constant(2.0), sin], [cos, sin, S::constant(1.5)]];
         mass.iter_mut().zip(entries.into_iter().flatten()).for_each(|(m, entry)| *m = entry);
@@ -176,7 +178,8 @@ fn force_projection_pulls_back_at_its_rates() {
     q[0] += 0.01;
     let mut dynamics = Dynamics::new(&DrivenPendulum);
     let spec = MethodSpec::parse("force_projection:position=2,velocity=7").unwrap();
-    let (mut qdot, mut vdot) = ([0.0; 4], [0.0; 4]);
+    let mut qdot = [0.0; 4];
+    let mut vdot = [0.0; 4];
     let mut formulation = make(&spec, &DrivenPendulum).unwrap();
     formulation.derivative(0.0, &q, &v, &mut dynamics, &mut qdot, &mut vdot).unwrap();
     let terms = &dynamics.terms;

@@ -109,7 +109,8 @@ fn long_runs_keep_their_energy() {
     let prepared = shipped("pendulum");
     let loss = |formulation: &str, integrator: &str, step: f64| {
         let mut recorder = Recorder::new(prepared.system());
-        let (span, method) = (until(100.0), fixed(formulation, integrator, "none", step));
+        let span = until(100.0);
+        let method = fixed(formulation, integrator, "none", step);
         let outcome = simulate(prepared.system(), &method, span, prepared.start(), &mut recorder).unwrap();
         assert_eq!(outcome.failure, None);
         let record = recorder.finish();
@@ -123,7 +124,8 @@ fn long_runs_keep_their_energy() {
         let damped = [0.01, 0.005].map(|step| loss(formulation, "generalized_alpha:rho_inf=0.5", step));
         assert!(damped[0] < 0.05 && damped[0] > 3.5 * damped[1], "{damped:?}");
     }
-    let (method, span) = (fixed("index3", "generalized_alpha:rho_inf=0.98", "none", 0.01), until(1.0));
+    let method = fixed("index3", "generalized_alpha:rho_inf=0.98", "none", 0.01);
+    let span = until(1.0);
     let refused = simulate(prepared.system(), &method, span, prepared.start(), &mut Recorder::new(prepared.system()));
     assert!(refused.unwrap_err().to_string().contains("index3"));
 }

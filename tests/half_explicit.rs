@@ -51,7 +51,8 @@ fn phem56_without_constraints_is_dopri5() {
         let method = stepwise(formulation, integrator, "none", 1e-7);
         run(&Arenstorf, &method, until(Arenstorf::PERIOD), (&q, &v)).completed()
     };
-    let (half, full) = (orbit("index2", "phem56"), orbit("index1", "dopri5"));
+    let half = orbit("index2", "phem56");
+    let full = orbit("index1", "dopri5");
     assert_eq!(half.outcome.statistics, full.outcome.statistics);
     assert!(distance(half.last().0, full.last().0) < 1e-8);
 }
@@ -82,10 +83,13 @@ fn redundant_constraints() {
     let method = adaptive("index2", "phem56", "manifold", 1e-8);
     let span = Span { start: 0.0, end: 1.0, output_step: 0.1 };
     let ready = shipped("parallelogram_redundant", &[]);
-    let (half, full) = (ready.run(&method, span), ready.run(&crate::scenes::dop853(1e-12), span));
+    let half = ready.run(&method, span);
+    let full = ready.run(&crate::scenes::dop853(1e-12), span);
     let last = |run: &crate::scenes::Run| run.record.trajectory.rows.last().unwrap().clone();
-    let (half_last, full_last) = (last(&half), last(&full));
-    let (half, full) = (half.record.trajectory.row_state(&half_last), full.record.trajectory.row_state(&full_last));
+    let half_last = last(&half);
+    let full_last = last(&full);
+    let half = half.record.trajectory.row_state(&half_last);
+    let full = full.record.trajectory.row_state(&full_last);
     assert!(distance(half.0, full.0) < 1e-6);
 }
 

@@ -6,7 +6,9 @@ use holonom::math::kkt::{Field, Pattern, Reduced, SaddlePoint, Unsymmetric};
 /// Allocations of a few rounds of factor, solve, projection and refinement, after a first one.
 fn allocations(mass: &Pattern, mass_values: &[f64], g: &Pattern, g_values: &[f64]) -> usize {
     let mut solver = SaddlePoint::new(mass, g);
-    let (mut top, mut bottom, mut correction) = (vec![1.0; g.cols], vec![0.0; g.rows], vec![0.0; g.cols]);
+    let mut top = vec![1.0; g.cols];
+    let mut bottom = vec![0.0; g.rows];
+    let mut correction = vec![0.0; g.cols];
     let mut round = || {
         solver.factor(mass_values, g_values).unwrap();
         top.fill(1.0);
@@ -67,7 +69,9 @@ fn nor_by_the_dense_solver() {
         let (g, values) = rods(points, copies);
         let mass = Pattern::diagonal(2 * points);
         let mut solver = Reduced::new(&mass, &g, 1e-10).unwrap();
-        let (mass, mut top, mut bottom) = (vec![1.0; g.cols], vec![1.0; g.cols], vec![0.0; g.rows]);
+        let mass = vec![1.0; g.cols];
+        let mut top = vec![1.0; g.cols];
+        let mut bottom = vec![0.0; g.rows];
         let mut round = || {
             solver.factor(&mass, &values, 0.0).unwrap();
             top.fill(1.0);
@@ -84,9 +88,11 @@ fn nor_by_the_dense_solver() {
 /// Rounds of factor and solve of an implicit method's matrix, whose pivots change from round to round.
 fn unsymmetric<T: Field>(points: usize, copies: usize) {
     let (g, values) = rods(points, copies);
-    let (mass, tangent) = (Pattern::diagonal(g.cols), Pattern::diagonal(g.cols));
+    let mass = Pattern::diagonal(g.cols);
+    let tangent = Pattern::diagonal(g.cols);
     let mut system = Unsymmetric::<T>::new(&mass, &tangent, &g).unwrap();
-    let (mut top, mut bottom) = (vec![T::real(1.0); g.cols], vec![T::real(1.0); g.rows]);
+    let mut top = vec![T::real(1.0); g.cols];
+    let mut bottom = vec![T::real(1.0); g.rows];
     let stiffness: Vec<f64> = (0..g.cols).map(|k| (k as f64).sin()).collect();
     let mut round = |k: u32| {
         system.clear();

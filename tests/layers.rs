@@ -49,7 +49,8 @@ impl Source {
             found.extend(expanded(&text[at + "crate::".len()..]));
         }
         for (at, _) in text.match_indices("super::").filter(|(at, _)| starts_path(text, *at)) {
-            let (mut rest, mut up) = (&text[at..], 0);
+            let mut rest = &text[at..];
+            let mut up = 0;
             while let Some(tail) = rest.strip_prefix("super::") {
                 (rest, up) = (tail, up + 1);
             }
@@ -84,7 +85,9 @@ fn expanded(text: &str) -> Vec<Vec<String>> {
 
 /// What stands between the commas of a group, up to its closing brace.
 fn members(group: &str) -> Vec<&str> {
-    let (mut depth, mut members, mut start) = (0, Vec::new(), 0);
+    let mut depth = 0;
+    let mut members = Vec::new();
+    let mut start = 0;
     for (i, c) in group.char_indices() {
         match c {
             '{' => depth += 1,
@@ -326,7 +329,8 @@ fn thresholds_are_on_their_page() {
 /// The thresholds of the page, by name, with their doc comments on one line.
 fn thresholds() -> Vec<(String, String)> {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/tolerances");
-    let (mut paths, mut found) = (Vec::new(), Vec::new());
+    let mut paths = Vec::new();
+    let mut found = Vec::new();
     collect(&page, &mut paths);
     for path in paths {
         let mut doc = String::new();
@@ -360,7 +364,8 @@ fn all_text() -> String {
 
 #[test]
 fn thresholds_have_a_unit_a_reason_and_a_test() {
-    let (thresholds, text) = (thresholds(), all_text());
+    let thresholds = thresholds();
+    let text = all_text();
     assert!(thresholds.len() > 100, "the page is read otherwise than it is written");
     for (name, doc) in thresholds {
         let parts = ["Unit: `[", " Why: ", " Test: "].map(|part| doc.find(part));

@@ -77,7 +77,9 @@ fn modes_of_one_shape_that_cross_go_straight_on() {
 fn modes_that_veer_do_not_cross() {
     // Stiffness [[a, e], [e, b]] with a and b that cross, e = 0.05, unit masses.
     let veering = |t: f64| {
-        let (a, b, e) = (1.0 + t, 2.0 - t, 0.05f64);
+        let a = 1.0 + t;
+        let b = 2.0 - t;
+        let e = 0.05f64;
         let half = ((0.5 * (a - b)).powi(2) + e * e).sqrt();
         [-half, half].map(|half| {
             let square = 0.5 * (a + b) + half;
@@ -204,7 +206,8 @@ fn coarse_states_do_not_exchange_the_modes_of_a_double_pendulum() {
     let times: Vec<f64> = (0..=60).map(|k| f64::from(k) / 6.0).collect();
     let loci = loci_along(&prepared, &request("mcs"), &times, || ());
     let fastest = |branch: &Branch| branch.points.iter().map(|(_, value)| value.norm() / TAU).fold(0.0, f64::max);
-    let (slow, fast) = (fastest(&loci.branches[0]), fastest(&loci.branches[2]));
+    let slow = fastest(&loci.branches[0]);
+    let fast = fastest(&loci.branches[2]);
     assert!(slow < 0.5 && fast > 1.3, "{slow} {fast}");
     assert!(loci.branches.iter().all(|branch| branch.points.len() == 61));
 }
@@ -242,7 +245,8 @@ fn descriptor_and_minimal_models_answer_alike() {
             ["mcs", "rcs"].map(|method| frequency_response(&model(&prepared, &state, method), &frequencies()));
         let largest = minimal.iter().flatten().map(|response| response.camax()).fold(0.0, f64::max);
         for (a, b) in minimal.iter().zip(&descriptor) {
-            let (a, b) = (a.as_ref().unwrap(), b.as_ref().unwrap());
+            let a = a.as_ref().unwrap();
+            let b = b.as_ref().unwrap();
             assert_eq!(a.ncols(), inputs);
             let off = (a - b).camax();
             assert!(off < 1e-9 * a.camax().max(1e-6 * largest), "{scene}: {off} of {}", a.camax());

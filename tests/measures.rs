@@ -92,7 +92,10 @@ fn travels_of_joints_are_along_their_axes() {
 /// A body turned by R_x(a) R_y(b) against its universal joint, with rates p and r of the two angles.
 #[test]
 fn a_universal_joint_has_two_angles() {
-    let (a, b, p, r) = (0.4f64, -0.7f64, 0.3, 0.9);
+    let a = 0.4f64;
+    let b = -0.7f64;
+    let p = 0.3;
+    let r = 0.9;
     let half = |x: f64| (0.5 * x).sin_cos();
     let ((sa, ca), (sb, cb)) = (half(a), half(b));
     let rotation = [ca * cb, sa * cb, ca * sb, sa * sb];
@@ -215,8 +218,11 @@ fn a_cubic_spring_has_the_period_of_the_elliptic_integral() {
 /// the body, whose origin is not its centre of mass, is back, and its energy is -mu m/(2a) all along.
 #[test]
 fn a_body_that_is_drawn_to_a_point_moves_as_kepler_says() {
-    let (mu, a, mass) = (4.0f64, 2.5f64, 3.0);
-    let (speed, period) = ((mu * 1.6f64).sqrt(), std::f64::consts::TAU * (a.powi(3) / mu).sqrt());
+    let mu = 4.0f64;
+    let a = 2.5f64;
+    let mass = 3.0;
+    let speed = (mu * 1.6f64).sqrt();
+    let period = std::f64::consts::TAU * (a.powi(3) / mu).sqrt();
     for dimension in [2, 3] {
         let of = |x: f64, y: f64| if dimension == 2 { json!([x, y]) } else { json!([x, 0, y]) };
         let inertia = if dimension == 2 { json!(1) } else { json!([1, 1, 1]) };
@@ -230,7 +236,8 @@ fn a_body_that_is_drawn_to_a_point_moves_as_kepler_says() {
             "simulation": { "t_end": 1 } });
         let run = parse(&keys.to_string()).tight(1e-12, period, 0.25 * period);
         measured(&run, "energy", |_| -mu * mass / (2.0 * a));
-        let (x, weight) = (run.column("x"), run.column("weight"));
+        let x = run.column("x");
+        let weight = run.column("weight");
         assert!((x[0] - x[4]).abs() < 1e-9 && (weight[0] - mu * mass).abs() < 1e-12, "{x:?} {weight:?}");
         assert!((weight[2] - mu * mass / 16.0).abs() < 1e-9, "the apocentre is at 4: {weight:?}");
     }
@@ -286,7 +293,8 @@ fn works_of_forces() {
                { "name": "sprung", "measure": "work", "of": "spring", "unit": "kJ" },
                { "name": "power", "measure": "power", "of": "pull" }]),
     );
-    let (d, rest) = (0.2_f64, 0.75);
+    let d = 0.2_f64;
+    let rest = 0.75;
     let w = (4.0 - d * d).sqrt();
     let x = |t: f64| rest * (1.0 - (-d * t).exp() * ((w * t).cos() + d / w * (w * t).sin()));
     let v = |t: f64| rest * 4.0 / w * (-d * t).exp() * (w * t).sin();
@@ -296,7 +304,8 @@ fn works_of_forces() {
     measured(&run, "sprung", |t| 1e-3 * (0.5 * v(t).powi(2) - 3.0 * x(t)));
     // Expressions find other outputs beside works.
     measured(&run, "twice", |t| 6.0 * v(t));
-    let (system, mut recorder) = (block.system(), Recorder::new(block.system()));
+    let system = block.system();
+    let mut recorder = Recorder::new(block.system());
     let (start, span) = (block.start(), Span { start: 0.0, end: 6.0, output_step: 6.0 });
     simulate_automatic(system, (1e-10, 1e-12), span, (&start.q, &start.v), &mut recorder).unwrap();
     let pulled = recorder.finish().trajectory.column("pulled").unwrap()[1];

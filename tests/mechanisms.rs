@@ -126,13 +126,15 @@ fn bricard_agrees_until(end: f64, method: &Method, bound: f64) {
     for (row, expected) in BRICARD.into_iter().filter(|(row, _)| *row as f64 <= end) {
         for (name, expected) in bricard_columns().iter().zip(expected) {
             let error = (run.column(name)[row] - expected).abs();
-            let (formulation, integrator) = (&method.formulation, &method.integrator);
+            let formulation = &method.formulation;
+            let integrator = &method.integrator;
             assert!(error < bound, "{name} at {row} s is off by {error:e} with {formulation} {integrator}");
         }
     }
     // The hinge angles keep to their curve.
     for (alpha, beta) in run.column("alpha").into_iter().zip(run.column("beta")) {
-        let (a, b) = (alpha.sin(), beta.sin());
+        let a = alpha.sin();
+        let b = beta.sin();
         assert!((a + b + a * b).abs() < bound, "at {alpha}, {beta}");
     }
     // One row too many at every accepted state; penalties do not ask.
@@ -203,10 +205,18 @@ struct Spatial {
 /// By the loop in closed form: rod from the pin p to the slider x = sqrt(l^2 - |p|^2), direction u; its rate of turning
 /// u x u' + s u with the spin s that keeps it square to (pin of the slider, e_x) x (pin of the rod, e_x x u).
 fn spatial(angle: f64) -> Spatial {
-    let (r, l, y0, z0, rod, slider) = (0.08, 0.3, 0.1, 0.12, 0.5, 2.0);
-    let (i_crank, i_axial, i_cross) = (1e-4, 4e-4, 4e-3);
+    let r = 0.08;
+    let l = 0.3;
+    let y0 = 0.1;
+    let z0 = 0.12;
+    let rod = 0.5;
+    let slider = 2.0;
+    let i_crank = 1e-4;
+    let i_axial = 4e-4;
+    let i_cross = 4e-3;
     let turned = Dual::<f64, 1>::seeded(angle, 0);
-    let (y, z) = (turned.sin() * -r + y0, turned.cos() * r + z0);
+    let y = turned.sin() * -r + y0;
+    let z = turned.cos() * r + z0;
     let x = (-(y.square() + z.square()) + l * l).sqrt();
     let u = [x, -y, -z].map(|part| part.re / l);
     let rate = [x, -y, -z].map(|part| part.eps[0] / l);
@@ -278,7 +288,8 @@ const OFFSET: (f64, f64, f64, f64) = (0.15, 0.4, 0.1, 30.0);
 
 fn offset<S: Scalar>(t: S) -> Offset<S> {
     let (r, l, offset, w) = OFFSET;
-    let (x, y) = ((t * w).cos() * r, (t * w).sin() * r);
+    let x = (t * w).cos() * r;
+    let y = (t * w).sin() * r;
     let sin = (-y + offset) * (1.0 / l);
     let cos = (-sin.square() + 1.0).sqrt();
     let centre = [x + cos * (0.5 * l), y + sin * (0.5 * l)];
@@ -319,7 +330,8 @@ fn offset_slider_crank_asks_of_motor_and_guide_what_the_balances_say() {
 #[test]
 fn offset_slider_crank_returns_quickly() {
     let (r, l, e, w) = OFFSET;
-    let (out, back) = ((e / (l + r)).asin(), PI + (e / (l - r)).asin());
+    let out = (e / (l + r)).asin();
+    let back = PI + (e / (l - r)).asin();
     for angle in [out, back] {
         let run = shipped("slider_crank_offset", &[]).tight(1e-12, angle / w, angle / w);
         // Speeds are up to 5 m/s.

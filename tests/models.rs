@@ -146,7 +146,8 @@ fn degrees_of_freedom_are_those_of_the_mechanisms() {
 }
 
 fn freedom(ready: &Ready) -> usize {
-    let (n, g) = (ready.system().dimensions(), ready.system().structure().g);
+    let n = ready.system().dimensions();
+    let g = ready.system().structure().g;
     let mut terms = Terms::new(ready.system());
     let (q, v) = ready.0.start();
     ready.system().evaluate(0.0, q, v, Need::G, &mut terms, &mut Scratch::default());

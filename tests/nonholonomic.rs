@@ -46,7 +46,8 @@ impl MechanicalSystem for Skate {
 
 /// From rest at the origin: v = g/omega sin(omega t) along the blade (Neimark, Fufaev, Dynamics of Nonholonomic Systems, 1972).
 fn exact(t: f64) -> [f64; 3] {
-    let (angle, size) = (OMEGA * t, GRAVITY / (2.0 * OMEGA * OMEGA));
+    let angle = OMEGA * t;
+    let size = GRAVITY / (2.0 * OMEGA * OMEGA);
     [size * angle.sin().powi(2), size * (angle - 0.5 * (2.0 * angle).sin()), angle]
 }
 

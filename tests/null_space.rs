@@ -93,7 +93,9 @@ fn rotations_in_space_keep_their_order() {
 /// done by hand.
 #[test]
 fn what_is_integrated_are_the_coordinates_of_the_chart() {
-    let (q0, w0, h) = ([0.6, -0.8], 1.5, 0.2);
+    let q0 = [0.6, -0.8];
+    let w0 = 1.5;
+    let h = 0.2;
     let z = [0.8, 0.6];
     let point = |u: f64, w: f64| {
         let normal = (1.0 - u * u).sqrt();
@@ -108,8 +110,10 @@ fn what_is_integrated_are_the_coordinates_of_the_chart() {
         z[0] * -lambda * q[0] + z[1] * (-9.81 - lambda * q[1])
     };
     let a0 = acceleration(0.0, w0);
-    let (u1, w1) = (h * w0, w0 + h * a0);
-    let (u, w) = (0.5 * h * (w0 + w1), w0 + 0.5 * h * (a0 + acceleration(u1, w1)));
+    let u1 = h * w0;
+    let w1 = w0 + h * a0;
+    let u = 0.5 * h * (w0 + w1);
+    let w = w0 + 0.5 * h * (a0 + acceleration(u1, w1));
     let by_hand = point(u, w);
     let v0 = [z[0] * w0, z[1] * w0];
     let run = run(&Pendulum, &fixed("null_space", "heun", "none", h), until(h), (&q0, &v0)).completed();
@@ -120,7 +124,8 @@ fn what_is_integrated_are_the_coordinates_of_the_chart() {
 /// A quarter of a turn and more in a step leaves the chart.
 #[test]
 fn a_step_too_long_for_its_chart_is_refused() {
-    let (q, v) = ([0.0, -1.0], [20.0, 0.0]);
+    let q = [0.0, -1.0];
+    let v = [20.0, 0.0];
     let long = run(&Pendulum, &fixed("null_space", "rk4", "none", 0.5), until(1.0), (&q, &v));
     let failure = long.outcome.failure.unwrap();
     assert!(failure.reason.contains("converge") && failure.hint.contains("smaller"), "{failure:?}");

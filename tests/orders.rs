@@ -70,7 +70,8 @@ fn drift_orders(integrator: &str, projection: &str, steps: usize) -> [f64; 2] {
         let method = fixed("index1", integrator, projection, END / steps as f64);
         run(&DrivenPendulum, &method, until(END), (&q, &v)).completed().drift()
     };
-    let (coarse, fine) = (drift(steps), drift(2 * steps));
+    let coarse = drift(steps);
+    let fine = drift(2 * steps);
     [(coarse.0 / fine.0).log2(), (coarse.1 / fine.1).log2()]
 }
 

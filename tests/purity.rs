@@ -23,7 +23,8 @@ struct State {
 /// States of the motion by the scene's own method, as many off the constraints, one far away and one that is none.
 fn states(path: &std::path::Path) -> (crate::scenes::Ready, Vec<State>) {
     let ready = load(path, &[]);
-    let (system, span) = (ready.system(), ready.span());
+    let system = ready.system();
+    let span = ready.span();
     let end = span.start + 0.1 * (span.end - span.start);
     let mut recorder = Recorder::new(system);
     let some = Span { start: span.start, end, output_step: (end - span.start) / 6.0 };

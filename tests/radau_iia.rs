@@ -123,7 +123,8 @@ fn rows_are_as_accurate_as_steps() {
         let found = rows(&adaptive(formulation, "radau_iia", "none", 1e-8));
         let error = |(row, exact): (&Vec<f64>, &Vec<f64>)| distance(&row[1..8], &exact[1..8]);
         let errors: Vec<f64> = found.iter().zip(&exact).map(error).collect();
-        let (worst, last) = (errors.iter().fold(0.0, |a: f64, b| a.max(*b)), errors.last().unwrap());
+        let worst = errors.iter().fold(0.0, |a: f64, b| a.max(*b));
+        let last = errors.last().unwrap();
         println!("{formulation} {worst:e} {last:e}");
         // The error grows along the motion.
         assert!(worst < 3.0 * last.max(1e-8), "{formulation}: {worst:e} {last:e}");
@@ -190,7 +191,8 @@ fn stiff_motions_are_stepped_over() {
         for formulation in FORMULATIONS {
             let span = Span { start: 0.0, end: 10.0, output_step: 10.0 };
             let run = ready.run(&adaptive(formulation, "radau_iia", "none", 1e-8), span);
-            let (x, work) = (*run.column("x").last().unwrap(), run.outcome.statistics);
+            let x = *run.column("x").last().unwrap();
+            let work = run.outcome.statistics;
             println!("{damping} {formulation}: {:e} {work:?}", x - slow_position());
             assert!((x - slow_position()).abs() < 1e-6, "{damping} {formulation}: {x}");
             assert!(work.steps < 400, "{damping} {formulation}: {work:?}");

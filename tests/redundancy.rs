@@ -23,10 +23,13 @@ fn scene(ground: Value, bodies: Vec<Value>, joints: Vec<Value>) -> Ready {
 /// So many crossed pairs of rods on top of each other, the lowest on a slide. With guides the left ends are on a vertical
 /// line, where they are anyway: a redundant row each.
 fn scissors(pairs: usize, has_guides: bool) -> Ready {
-    let (angle, mut bodies, mut joints) = (0.7_f64, Vec::new(), Vec::new());
+    let angle = 0.7_f64;
+    let mut bodies = Vec::new();
+    let mut joints = Vec::new();
     let pin = |name: String, a: String, b: String| joint(name, "revolute", &a, b);
     for k in 0..pairs {
-        let (x, y) = (0.5 * angle.cos(), (k as f64 + 0.5) * angle.sin());
+        let x = 0.5 * angle.cos();
+        let y = (k as f64 + 0.5) * angle.sin();
         bodies.extend([rod(format!("u{k}"), x, y, angle), rod(format!("d{k}"), x, y, -angle)]);
         joints.push(pin(format!("M{k}"), format!("u{k}.M"), format!("d{k}.M")));
         let Some(below) = k.checked_sub(1) else { continue };
@@ -74,14 +77,16 @@ fn guides_of_scissors() {
 /// Each carries its part, which is the least norm.
 #[test]
 fn a_thousand_copies_of_a_joint() {
-    let (one, many) = (run(&copies(1)), run(&copies(1000)));
+    let one = run(&copies(1));
+    let many = run(&copies(1000));
     assert_eq!(one.outcome.statistics.factorizations, many.outcome.statistics.factorizations);
     assert!(distance(&one.outcome.q, &many.outcome.q) < 1e-13);
     let lambda = |run: &Run| {
         let trajectory = &run.record.trajectory;
         trajectory.row_state(trajectory.rows.last().unwrap()).2.to_vec()
     };
-    let (one, many) = (lambda(&one), lambda(&many));
+    let one = lambda(&one);
+    let many = lambda(&many);
     let shared: Vec<f64> =
         (0..many.len()).map(|row| if row < 2 { one[row] } else { one[2 + row % 2] / 1000.0 }).collect();
     assert!(distance(&many, &shared) < 1e-11);

@@ -211,7 +211,8 @@ fn a_run_that_goes_on_is_the_one_that_went_on() {
 /// The solvers of diffsol begin again: the run is the same within a hundred tolerances, and its checkpoint says so.
 #[test]
 fn a_run_by_diffsol_goes_on_within_the_tolerance() {
-    let (ready, rtol) = (shipped("pendulum", &[]), 1e-7);
+    let ready = shipped("pendulum", &[]);
+    let rtol = 1e-7;
     let span = Span { start: 0.0, end: 1.0, output_step: 0.5 };
     let (q, v) = ready.0.start();
     for integrator in BY_DIFFSOL {

@@ -180,7 +180,8 @@ fn mutant(text: &str, random: &mut Random) -> String {
         }
         7 => {
             let all = words();
-            let (from, to) = (all[random.below(all.len())], all[random.below(all.len())]);
+            let from = all[random.below(all.len())];
+            let to = all[random.below(all.len())];
             replaced(text, to, &text[from.0..from.1])
         }
         _ => {

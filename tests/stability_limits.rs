@@ -25,7 +25,8 @@ fn oscillator(k: f64, c: f64) -> Ready {
 fn limits(system: &Ready) -> Vec<(&'static str, &'static str, Stability)> {
     let of = |entry: &'static integrator::Entry| {
         let [name, formulation] = [entry.name, entry.accepts().next()?];
-        let (integrator, spec) = (MethodSpec::named(name), MethodSpec::named(formulation));
+        let integrator = MethodSpec::named(name);
+        let spec = MethodSpec::named(formulation);
         let setup = Setup { integrator: &integrator, formulation: &spec, system: system.system(), is_fixed: true };
         Some((name, formulation, (entry.make)(&setup).ok()?.stability()?))
     };

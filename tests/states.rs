@@ -201,10 +201,12 @@ impl MechanicalSystem for Rotor {
 /// angle is its integral, t - i - w.
 #[test]
 fn coordinates_are_told_from_states() {
-    let (t, b) = (END, 0.75f64.sqrt());
+    let t = END;
+    let b = 0.75f64.sqrt();
     let (sin, cos) = (b * t).sin_cos();
     let decay = (-0.5 * t).exp();
-    let (w, i) = (1.0 - decay * (cos + sin / (2.0 * b)), decay * sin / b);
+    let w = 1.0 - decay * (cos + sin / (2.0 * b));
+    let i = decay * sin / b;
     let angle = t - i - w;
     let exact = [angle.cos(), angle.sin(), w, i];
     for entry in registry().iter().filter(|entry| entry.name != "rattle") {

@@ -117,7 +117,8 @@ struct Pushed;
 
 /// Distance after 1.5 s from rest: 0.5 0.3^2 (1 + ...) by hand for the force 1, -2, 3, 0.
 fn pushed_to() -> f64 {
-    let (mut x, mut v) = (0.0, 0.0);
+    let mut x = 0.0;
+    let mut v = 0.0;
     for (force, time) in [(1.0, 0.3), (-2.0, 0.4), (3.0, 0.4), (0.0, 0.4)] {
         x += v * time + 0.5 * force * time * time;
         v += force * time;

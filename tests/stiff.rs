@@ -82,7 +82,8 @@ fn ggl_holds_both_constraints_and_runs_repeat_bit_by_bit() {
             assert_eq!(runs[0].outcome.statistics, runs[1].outcome.statistics);
             runs[0].drift()
         };
-        let (ggl, index1) = (drift("ggl"), drift("index1"));
+        let ggl = drift("ggl");
+        let index1 = drift("index1");
         // Newton's iteration ends a hundred times below the tolerance; index 1 drifts at it.
         assert!(ggl.0 < 3e-7 && ggl.1 < 1e-5, "{}: {ggl:?}", entry.name);
         assert!(index1.0 > 5e-7 && index1.1 > 2e-6, "{}: {index1:?}", entry.name);
@@ -110,7 +111,9 @@ fn rows_within_steps_are_on_the_motion() {
 #[test]
 fn driven_mechanisms_are_as_accurate_as_asked_between_steps() {
     let ready = shipped("flexible_slider_crank_rigid", &[]);
-    let (l1, l2, omega) = (0.15f64, 0.3f64, 150.0);
+    let l1 = 0.15f64;
+    let l2 = 0.3f64;
+    let omega = 150.0;
     for entry in implicit() {
         for tolerance in [1e-3, 1e-6, 1e-9] {
             let method = Method { rtol: tolerance, atol: 1e-3 * tolerance, ..adaptive("ggl", entry.name, "none", 1.0) };
@@ -238,7 +241,8 @@ fn compare(scene: &str, ready: &Ready, span: Span, columns: &[&str], steps: &[f6
     for method in adaptive.chain(fixed) {
         let clock = Instant::now();
         let run = ready.run(&method, span);
-        let (ms, s) = (1e3 * clock.elapsed().as_secs_f64(), run.outcome.statistics);
+        let ms = 1e3 * clock.elapsed().as_secs_f64();
+        let s = run.outcome.statistics;
         println!(
             "{:34} {:>8} {:>6.1} {:>7} {:>12} {:>9} {:>7} {ms:>9.1}",
             format!("{} + {} + {}", method.formulation, method.integrator, method.projection),

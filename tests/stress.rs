@@ -104,7 +104,9 @@ fn the_verdict_on_baumgarte_of_the_scene() {
         let held = |level: fn(&StepVerdict) -> &Level| {
             verdict.steps.iter().take_while(|step| level(step).drift.is_some()).count()
         };
-        let (alone, once, twice) = (held(|s| &s.none), held(|s| &s.manifold), held(|s| &s.manifold_twice));
+        let alone = held(|s| &s.none);
+        let once = held(|s| &s.manifold);
+        let twice = held(|s| &s.manifold_twice);
         assert!(once > alone && twice > alone && alone > 2, "{alone} {once} {twice}");
     }
 }

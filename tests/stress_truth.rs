@@ -109,7 +109,8 @@ fn the_figure_names_its_cells() {
     let rows: Vec<&String> = part.map.y.entries.iter().map(|entry| &entry.label).collect();
     assert_eq!(panel.y.names.iter().collect::<Vec<_>>(), rows);
     let tint = |word: &str| panel.keys.iter().find(|(label, _)| label == word).unwrap().1;
-    let (left_out, diverged) = (tint("– left out"), tint("∞ diverged"));
+    let left_out = tint("– left out");
+    let diverged = tint("∞ diverged");
     assert_ne!(left_out, diverged);
     let drawn =
         |column: usize, row: usize| panel.cells.iter().find(|cell| (cell.column, cell.row) == (column, row)).unwrap();
@@ -147,7 +148,8 @@ fn what_completes_need_not_be_right() {
 fn drifting_least_is_not_being_nearest() {
     for (whole, output) in [(robot_arm(), "theta1"), (slider_crank(), "crank_speed")] {
         let verdict = &whole.gains()[0];
-        let (none, watched) = (row(&whole, "none"), whole.watched.iter().position(|name| name == output).unwrap());
+        let none = row(&whole, "none");
+        let watched = whole.watched.iter().position(|name| name == output).unwrap();
         let ratio = |column: usize| {
             let best = verdict.steps[column].best?.gain;
             let row = whole.map.y.entries.iter().position(|entry| entry.value == Some(best))?;

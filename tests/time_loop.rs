@@ -234,7 +234,8 @@ fn forces_that_are_no_numbers_end_the_run_where_they_begin() {
 #[test]
 fn a_run_is_stopped_between_steps() {
     use std::cell::Cell;
-    let (system, asked) = (Exponential, Cell::new(0));
+    let system = Exponential;
+    let asked = Cell::new(0);
     let stop = || {
         asked.set(asked.get() + 1);
         (asked.get() > 5).then(|| Stop { reason: "enough".to_string(), hint: "ask again".to_string() })

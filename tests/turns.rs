@@ -157,7 +157,8 @@ fn gears_keep_their_gap_however_far_drift_goes() {
               "teeth": [400, 800] }],
         "simulation": { "t_end": 20 } }"#,
     );
-    let (q, v) = (&mesh.start().q, mesh.start().v.clone());
+    let q = &mesh.start().q;
+    let v = mesh.start().v.clone();
     // A rate of the mesh that opens it by 0.02 rad/s, which index 1 does not see.
     let open: Vec<f64> = v.iter().enumerate().map(|(i, v)| if i == 5 { v + 0.02 } else { *v }).collect();
     let run =

@@ -32,7 +32,8 @@ pub struct Extremes {
 impl Extremes {
     /// Before the first row.
     pub fn of(column: &Column) -> Self {
-        let (name, unit) = (column.name.clone(), column.unit.clone());
+        let name = column.name.clone();
+        let unit = column.unit.clone();
         Self { name, unit, min: None, t_min: None, max: None, t_max: None, rms: None, last: None, squares: (0.0, 0.0) }
     }
 

@@ -55,7 +55,9 @@ impl Range {
         let start = |limited: &Limited| LargestDeformation { limited: limited.clone(), deformation: 0.0, t: 0.0 };
         let parts: Vec<LargestDeformation> = system.limited().iter().map(start).collect();
         let bodies = system.turning_bodies();
-        let (now, spins, held) = (vec![0.0; parts.len()], vec![0.0; bodies.len()], HeldSignals::new(system));
+        let now = vec![0.0; parts.len()];
+        let spins = vec![0.0; bodies.len()];
+        let held = HeldSignals::new(system);
         Range { now, spins, parts, bodies, leap: None, sunk: None, held }
     }
 
@@ -114,7 +116,8 @@ impl Range {
     fn sinking(&self) -> Option<Warning> {
         let (road, t) = self.sunk.as_ref()?;
         let compression = short(two_digits(road.radius - road.clearance));
-        let (radius, t) = (short(road.radius), short(two_digits(*t)));
+        let radius = short(road.radius);
+        let t = short(two_digits(*t));
         let text = format!(
             "the tyre `{}` is compressed by {compression} m at t = {t} s, more than its radius of {radius} m",
             road.tyre

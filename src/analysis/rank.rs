@@ -50,7 +50,9 @@ impl Rank {
         dynamics.drop_rows(&rows);
         // A consistent state can be factored; the indicator is zero where it could not.
         let distance = dynamics.factor().map_or(0.0, |()| dynamics.kkt.rank_indicator());
-        let (terms, structure, all) = (&dynamics.terms, &dynamics.structure, system.dimensions().lambda);
+        let terms = &dynamics.terms;
+        let structure = &dynamics.structure;
+        let all = system.dimensions().lambda;
         // The search for the rows that a row depends on is dense: it runs only where some are dependent.
         let (nearby, dependence) = if rows.is_empty() {
             (all, Dependence { rank: all, rows: Vec::new() })
@@ -100,7 +102,9 @@ fn mass_range(structure: &Structure, terms: &Terms) -> [f64; 2] {
 pub fn dependent_nearby(system: &dyn MechanicalSystem, t: f64, q: &[f64]) -> Vec<usize> {
     let mut dynamics = Dynamics::new(system);
     let n = system.dimensions();
-    let (rest, mut step, mut rate) = (vec![0.0; n.v], vec![0.0; n.v], vec![0.0; n.q]);
+    let rest = vec![0.0; n.v];
+    let mut step = vec![0.0; n.v];
+    let mut rate = vec![0.0; n.q];
     let mut aside = q.to_vec();
     step.iter_mut().enumerate().for_each(|(i, x)| *x = (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin());
     dynamics.evaluate(t, q, &rest, Need::MASS | Need::CONSTRAINTS | Need::G);

@@ -211,7 +211,8 @@ impl Recorder<'_> {
 
     /// Adds the rows of a jump. Where an output row has just been made, that is the one before.
     fn keep_jump(&mut self, mut before: Made, mut after: Made) {
-        let (t, start) = (before.values[0], self.record.trajectory.rows.first().map_or(0.0, |row| row[0]));
+        let t = before.values[0];
+        let start = self.record.trajectory.rows.first().map_or(0.0, |row| row[0]);
         let last = self.record.full().rows.last().map_or(f64::NEG_INFINITY, |row| row[0]);
         let has_row = t - last <= tolerances::SAME * (t - start);
         if has_row {

@@ -22,7 +22,8 @@ pub fn thin(rows: &mut Vec<Vec<f64>>, drift_rows: &mut Vec<[f64; DRIFT]>, ledger
         }
         other => rows[row][other - DRIFT - ENERGY],
     };
-    let (start, end) = (rows[0][0], rows[rows.len() - 1][0]);
+    let start = rows[0][0];
+    let end = rows[rows.len() - 1][0];
     let windows = (most / 2 / of_window) as f64;
     let window_of = |row: usize| ((rows[row][0] - start) / (end - start) * windows) as usize;
     let mut is_kept = vec![false; rows.len()];
@@ -61,8 +62,11 @@ mod tests {
 
     #[test]
     fn no_extreme_is_lost_and_memory_is_bounded() {
-        let (mut rows, mut drift, mut energy) = (Vec::new(), Vec::new(), Vec::new());
-        let (count, spikes) = (700_000, [(123_456, 9.0), (400_001, -8.0)]);
+        let mut rows = Vec::new();
+        let mut drift = Vec::new();
+        let mut energy = Vec::new();
+        let count = 700_000;
+        let spikes = [(123_456, 9.0), (400_001, -8.0)];
         for i in 0..count {
             let t = f64::from(i);
             let spike = spikes.iter().find(|(place, _)| *place == i).map_or(0.0, |(_, size)| *size);

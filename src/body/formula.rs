@@ -318,7 +318,8 @@ impl<const D: usize> Names for Scope<'_, D> {
     fn known(&self) -> Vec<String> {
         let quantities: &[&str] = if D == 2 { &["x", "y", "angle"] } else { &["x", "y", "z"] };
         let table = self.build.markers;
-        let (markers, states) = (table.names.iter(), table.states.iter().map(|(name, _)| name.clone()));
+        let markers = table.names.iter();
+        let states = table.states.iter().map(|(name, _)| name.clone());
         let probes = markers.flat_map(|marker| quantities.iter().map(move |q| format!("{marker}.{q}")));
         let named = self.named.iter().map(|(name, _)| name.clone());
         let known = self.build.parameters.known().into_iter().chain(["t".into()]);

@@ -144,7 +144,8 @@ impl<S: Scalar, const D: usize> Frame<S, D> {
                 seeded[1].eps[first + 2] = axis[0];
             } else {
                 for k in 0..3 {
-                    let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+                    let next = (k + 1) % 3;
+                    let last = (k + 2) % 3;
                     // (e_k x a): component next is -a_last, component last is a_next.
                     seeded[next].eps[first + 3 + k] = -axis[last];
                     seeded[last].eps[first + 3 + k] = axis[next];

@@ -90,7 +90,8 @@ impl<const D: usize> BodyKernel<D> for Guided<D> {
             axis.iter_mut().zip(start).for_each(|(a, &s)| *a = S::constant(s));
             if let Some(turn) = self.turn {
                 let (s, c) = q[turn.slot].sin_cos();
-                let (i, j) = ((turn.axis + 1) % 3, (turn.axis + 2) % 3);
+                let i = (turn.axis + 1) % 3;
+                let j = (turn.axis + 2) % 3;
                 axis[i] = c * start[i] - s * start[j];
                 axis[j] = s * start[i] + c * start[j];
             }

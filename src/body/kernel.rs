@@ -160,7 +160,9 @@ fn lift(values: &[f64]) -> [Dual6; MOST_COORDINATES] {
 
 /// k and c less the derivatives of the own forces, over dual numbers, six directions at a time: M is constant.
 pub(super) fn tangent<K: BodyKernel<D>, const D: usize>(body: &K, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
-    let (q, v, n) = (lift(at.q), lift(at.v), at.v.len());
+    let q = lift(at.q);
+    let v = lift(at.v);
+    let n = at.v.len();
     let subtract = |q: &[Dual6], v: &[Dual6], first: usize, matrix: &mut [f64]| {
         let mut forces = [Dual6::fixed(0.0); MOST_COORDINATES];
         body.own_forces(q, v, at.gravity, &mut forces[..n]);

@@ -89,7 +89,8 @@ impl<const D: usize> Pose<D> {
     #[inline]
     pub fn seen(&self, path: &[Taylor<f64>; D]) -> [Taylor<f64>; D] {
         let swept = self.swept(&path.map(|x| x.x));
-        let (coriolis, centripetal) = (self.swept(&path.map(|x| x.d)), self.swept(&swept));
+        let coriolis = self.swept(&path.map(|x| x.d));
+        let centripetal = self.swept(&swept);
         from_fn(|k| Taylor::new(path[k].x, path[k].d - swept[k], path[k].dd - 2.0 * coriolis[k] + centripetal[k]))
     }
 

@@ -99,8 +99,10 @@ impl Probe {
         S: Scalar,
         F: Borrow<Frame<S, D>>,
     {
-        let (of, to) = (frame(self.of), self.to.map(&frame));
-        let (of, to) = (of.borrow(), to.as_ref().map(|to| to.borrow()));
+        let of = frame(self.of);
+        let to = self.to.map(&frame);
+        let of = of.borrow();
+        let to = to.as_ref().map(|to| to.borrow());
         let gap = || to.map_or(of.r, |to| sub(&of.r, &to.r));
         match self.quantity {
             Quantity::Position(axis) => to.map_or(of.r[axis], |to| dot(&to.axes[axis], &gap())),
@@ -202,7 +204,8 @@ pub fn small_rotation<S: Scalar, const D: usize>(a: &Frame<S, D>, b: &Frame<S, D
 pub fn small_rotation_torque<S: Scalar, const D: usize>(a: &Frame<S, D>, b: &Frame<S, D>, moment: &[S; 3]) -> [S; 3] {
     let mut torque = [S::zero(); 3];
     for (from, to) in a.axes.iter().zip(&b.axes) {
-        let (cosine, along) = (dot(from, to), (0..D).fold(S::zero(), |sum, k| sum + to[k] * moment[k]));
+        let cosine = dot(from, to);
+        let along = (0..D).fold(S::zero(), |sum, k| sum + to[k] * moment[k]);
         (0..D).for_each(|k| torque[k] += (cosine * moment[k] - from[k] * along) * 0.5);
     }
     torque

@@ -73,7 +73,8 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
     }
     fn freedom(&self) -> Option<Freedom> {
         let Freedom { rotations, .. } = Freedom::all(D);
-        let (translations, turns) = (self.free().filter(|&i| i < 2).collect(), self.slots[2].is_some());
+        let translations = self.free().filter(|&i| i < 2).collect();
+        let turns = self.slots[2].is_some();
         Some(Freedom { translations, rotations: if turns { rotations } else { Vec::new() } })
     }
 

@@ -90,7 +90,8 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
         let momentum = self.angular_momentum(&w);
         for j in 0..3 {
             let unit: [f64; 3] = from_fn(|i| f64::from(u8::from(i == j)));
-            let (turned, changed) = (cross(&unit, &momentum), cross(&w, &self.angular_momentum(&unit)));
+            let turned = cross(&unit, &momentum);
+            let changed = cross(&w, &self.angular_momentum(&unit));
             (0..3).for_each(|i| c[3 * i + j] += turned[i] + changed[i]);
         }
     }

@@ -67,7 +67,8 @@ impl Turned {
     /// along e_z.
     #[inline(always)]
     fn at<'m, const D: usize>(&self, marker: impl Fn(MarkerId) -> Carried<'m, D>) -> [f64; 3] {
-        let (of, to) = (marker(self.of), marker(self.to));
+        let of = marker(self.of);
+        let to = marker(self.to);
         let (x, e) = match &self.axes {
             None => (of.axis(0), [to.axis(0), to.axis(1)]),
             Some(axes) => axes.directions(&of, &to),

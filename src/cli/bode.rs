@@ -52,7 +52,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = args.at.in_file();
     let request = args.model.request()?;
     let prepared = args.at.load()?;
-    let (inputs, outputs) = (prepared.system().inputs(), prepared.system().columns());
+    let inputs = prepared.system().inputs();
+    let outputs = prepared.system().columns();
     let chosen = Chosen {
         inputs: choose("input", &args.inputs, &inputs).map_err(in_file)?,
         outputs: choose("output", &args.outputs, &outputs)
@@ -126,7 +127,8 @@ fn frequencies(args: &Args, model: &LinearModel) -> Result<Vec<f64>> {
 }
 
 fn respond(prepared: &PreparedScene, model: &LinearModel, chosen: &Chosen, frequencies: Vec<f64>) -> FrequencyResponse {
-    let (inputs, outputs) = (prepared.system().inputs(), prepared.system().columns());
+    let inputs = prepared.system().inputs();
+    let outputs = prepared.system().columns();
     let found = frequency_response(model, &frequencies);
     let pole = Complex::new(f64::NAN, f64::NAN);
     let pair = |i: usize, j: usize| Response {

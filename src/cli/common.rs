@@ -240,7 +240,8 @@ impl MethodOptions {
         let step = self.step.or(self.adaptive.then_some(0.0));
         let [formulation, integrator, projection] =
             [&self.formulation, &self.integrator, &self.projection].map(Clone::clone);
-        let (set, rest) = (scene.set.clone(), Overrides::default());
+        let set = scene.set.clone();
+        let rest = Overrides::default();
         Overrides { set, method, formulation, integrator, projection, rtol, atol, step, until, output_step, ..rest }
     }
 }

@@ -41,7 +41,8 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let (prepared, in_file) = (args.at.load()?, args.at.in_file());
+    let prepared = args.at.load()?;
+    let in_file = args.at.in_file();
     let requests = requests(&args).map_err(|error| error.under("--method"))?;
     let other = args.against.as_ref().map(|path| other(&args, path)).transpose()?;
     let strangers = other.as_ref().map(|scene| unlike(&prepared, scene)).transpose()?.flatten();

@@ -151,7 +151,8 @@ fn along(args: &Args, prepared: &PreparedScene, request: &Request) -> Result<Loc
 }
 
 fn times(args: &Args, prepared: &PreparedScene) -> Result<Vec<f64>> {
-    let (start, end) = (prepared.start_time(), prepared.span()?.end);
+    let start = prepared.start_time();
+    let end = prepared.span()?.end;
     let from = args.from.unwrap_or(start);
     if !(start..end).contains(&from) {
         let message =

@@ -69,7 +69,8 @@ type Pair = (&'static Entry, &'static str);
 /// Returns integrators with the formulations that they accept, of the requested ones.
 fn pairs(args: &Args) -> Result<Vec<Pair>> {
     let wanted = |name: &Option<String>| name.as_deref().map(MethodSpec::parse).transpose();
-    let (formulation, integrator) = (wanted(&args.formulation)?, wanted(&args.integrator)?);
+    let formulation = wanted(&args.formulation)?;
+    let integrator = wanted(&args.integrator)?;
     if let Some(spec) = &formulation {
         spec.entry(formulation::registry()).map_err(|error| error.under("--formulation"))?;
     }
@@ -87,7 +88,9 @@ fn methods(pairs: &[Pair]) -> Methods {
     let triples = pairs.iter().flat_map(|&(entry, formulation)| {
         let accepted = projection::registry().iter().filter(move |other| !entry.refuses(formulation, other.name));
         accepted.map(move |projection| {
-            let (integrator, projection, order) = (entry.name, projection.name, entry.order);
+            let integrator = entry.name;
+            let projection = projection.name;
+            let order = entry.order;
             Triple { formulation, integrator, projection, q: order, v: order, lambda: order }
         })
     });

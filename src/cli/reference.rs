@@ -272,7 +272,8 @@ fn plain(value: &Value) -> String {
 
 /// Returns the text in lines of at most 110 characters, all but the first with this indentation.
 fn wrapped(text: &str, indentation: usize) -> String {
-    let (mut wrapped, mut width) = (String::new(), indentation);
+    let mut wrapped = String::new();
+    let mut width = indentation;
     for word in text.split_whitespace() {
         let length = word.chars().count() + 1;
         if width + length > WIDTH {

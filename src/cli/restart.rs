@@ -79,7 +79,8 @@ fn checked(
 
 /// Returns a warning if the run does not continue as it was.
 pub fn doubt(saved: &Checkpoint, prepared: &PreparedScene) -> Option<Warning> {
-    let (t, method) = (saved.t(), saved.method());
+    let t = saved.t();
+    let method = saved.method();
     if !prepared.is_automatic && *method != prepared.method {
         return Some(Warning::new(
             format!("the method is another one than up to t = {t} s, and begins anew from the state there"),

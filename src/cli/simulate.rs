@@ -162,7 +162,9 @@ fn write<'s>(
             Format::Mat => folder.write("trajectory.mat", &mat::write(&arrays())?)?,
         }
     }
-    let (output, name, length) = (&args.output, &prepared.name, prepared.system().length());
+    let output = &args.output;
+    let name = &prepared.name;
+    let length = prepared.system().length();
     let shown =
         Shown::of_run(Ending::of(summary.failure.as_ref(), &record.drift, record.energy.as_ref()), record, length);
     let outputs = report::outputs_figure(name, (&record.trajectory, summary.error.as_ref()), &shown, args.separate);

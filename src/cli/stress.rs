@@ -78,7 +78,9 @@ fn run_one(args: &Args, path: &Path) -> Result<ExitCode> {
 fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
     let scenes = scenes(path)?;
     let mut folder = args.output.folder("stress")?;
-    let (mut files, mut unread, mut all) = (Vec::new(), Vec::new(), Vec::new());
+    let mut files = Vec::new();
+    let mut unread = Vec::new();
+    let mut all = Vec::new();
     for scene in scenes {
         let begun = Stopwatch::start();
         match prepare(args, &scene) {
@@ -144,7 +146,9 @@ const LONGEST: Duration = Duration::from_secs(1_000_000_000);
 
 /// Simulates the maps, each with its share of the remaining time.
 fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begun: Stopwatch) -> (StressFile, Vec<Stressed>) {
-    let (budget, cell, count) = (args.budget(), args.limit.min(LONGEST), maps.len());
+    let budget = args.budget();
+    let cell = args.limit.min(LONGEST);
+    let count = maps.len();
     let bar = args.talk.progress(maps.iter().map(|map| map.cell_count() as u64).sum(), &subject.name);
     let one = |(k, map): (usize, Map)| {
         let left = budget.saturating_sub(begun.wall());
@@ -208,7 +212,8 @@ fn text(file: &StressFile, stressed: &[Stressed]) -> String {
 }
 
 fn list() -> String {
-    let (mut maps, mut extremes) = (Table::left(&["map", ""]), Table::left(&["extreme", ""]));
+    let mut maps = Table::left(&["map", ""]);
+    let mut extremes = Table::left(&["extreme", ""]);
     known().iter().for_each(|map| maps.row([map.name, map.about].map(String::from)));
     registry().iter().for_each(|extreme| extremes.row([extreme.name, extreme.about].map(String::from)));
     format!("{maps}\n{extremes}")

@@ -31,7 +31,8 @@ pub struct Args {
 const RENEWALS: f64 = 500.0;
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let (prepared, in_file) = (args.at.load()?, args.at.in_file());
+    let prepared = args.at.load()?;
+    let in_file = args.at.in_file();
     args.at.conclude(&prepared, |place, folder| {
         let state = &place.state;
         let mut result = json!({ "scene": prepared.name, "t": state.t });

@@ -44,10 +44,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
         names => names.iter().map(|name| Direction::parse(name)).collect(),
     };
     let settings = Settings { chart: args.chart.chart(), directions, horizon: args.horizon, inputs: !args.no_inputs };
-    let (names, mut complaints) = (prepared.system().names(), Vec::new());
-    let (watch, budget) = (Stopwatch::start(), args.budget.as_secs_f64());
+    let names = prepared.system().names();
+    let mut complaints = Vec::new();
+    let watch = Stopwatch::start();
+    let budget = args.budget.as_secs_f64();
     let bar = args.at.talk.progress(1000, &prepared.name);
-    let (mut done, states) = (0.0, args.at.states.count() as f64);
+    let mut done = 0.0;
+    let states = args.at.states.count() as f64;
     args.at.conclude(&prepared, |place, folder| {
         done += 1.0;
         // Each state may use what is left for those up to it.

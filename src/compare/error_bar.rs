@@ -99,7 +99,8 @@ const NEIGHBOURS: usize = 10;
 
 fn bars(run: &Completed, companion: &Companion) -> Vec<(String, ErrorBar)> {
     let trajectory = run.trajectory;
-    let (part, rows) = (companion.part, differences(trajectory, &companion.rows));
+    let part = companion.part;
+    let rows = differences(trajectory, &companion.rows);
     let bar = |(i, (name, unit)): (usize, (&str, &str))| {
         let round_off = tolerances::ROUND_OFF_OF_ROWS * largest_of(trajectory, i);
         let differences: Vec<f64> = rows.iter().map(|row| part * row[i] + round_off).collect();

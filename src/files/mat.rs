@@ -114,7 +114,8 @@ mod tests {
         let word = |bytes: &[u8], at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
         let mut found = Vec::new();
         while !bytes.is_empty() {
-            let (kind, length) = (word(bytes, 0), word(bytes, 4) as usize);
+            let kind = word(bytes, 0);
+            let length = word(bytes, 4) as usize;
             found.push((kind, &bytes[8..8 + length]));
             bytes = &bytes[8 + length.next_multiple_of(8)..];
         }

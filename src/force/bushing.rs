@@ -75,7 +75,8 @@ impl<const D: usize> ForceKernel<D> for Cushion {
         let [a, b] = [&frames[0], &frames[1]];
         let gap = sub(&b.r, &a.r);
         let mut potential = Taylor::fixed(S::zero());
-        let (mut force, mut torque) = ([S::zero(); D], [S::zero(); 3]);
+        let mut force = [S::zero(); D];
+        let mut torque = [S::zero(); 3];
         for (i, axis) in a.axes.iter().enumerate() {
             let (component, stored) = self.law(i, dot(axis, &gap));
             potential += stored;

@@ -90,7 +90,8 @@ impl Spring {
         gap: &[Taylor<S>; D],
         out: &mut [Wrench<S, D>],
     ) -> Action<S> {
-        let (values, rates) = (gap.map(|x| x.x.value()), gap.map(|x| x.d.value()));
+        let values = gap.map(|x| x.x.value());
+        let rates = gap.map(|x| x.d.value());
         let is_open = norm(&values) > NEARLY_CLOSED * self.free.max(self.preload.abs() / self.k.max(f64::MIN_POSITIVE));
         let line = side.along(if is_open { values } else { rates });
         let length = gap.iter().zip(line).fold(Taylor::fixed(S::zero()), |sum, (x, u)| sum + *x * u);

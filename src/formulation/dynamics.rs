@@ -126,7 +126,8 @@ pub struct Dynamics<'a> {
 impl<'a> Dynamics<'a> {
     /// Patterns and memory for a system; nothing is evaluated.
     pub fn new(system: &'a dyn MechanicalSystem) -> Self {
-        let (n, structure) = (system.dimensions(), system.structure());
+        let n = system.dimensions();
+        let structure = system.structure();
         Dynamics {
             system,
             terms: Terms::new(system),

@@ -142,7 +142,8 @@ impl<T: Number> RowSlope<T> {
             let g = q * row.position + v * row.velocity + a * row.acceleration;
             [g, q * row.velocity + v * (2.0 * row.acceleration)]
         };
-        let (zero, one) = (T::ZERO, T::real(1.0));
+        let zero = T::ZERO;
+        let one = T::real(1.0);
         RowSlope { a: by(s.q, s.v, one), w: by(s.w_q, s.w, zero), u: by(s.u, zero, zero) }
     }
 }
@@ -176,7 +177,8 @@ impl<T: Number> RowSlopes<T> {
 impl<T: Number> Iteration<T> {
     /// Memory for `dae` on a system; `None` if there is not enough.
     pub fn new(dae: Dae, system: &dyn MechanicalSystem) -> Option<Self> {
-        let (n, structure) = (system.dimensions(), system.structure());
+        let n = system.dimensions();
+        let structure = system.structure();
         let zeros = |n: usize| vec![T::ZERO; n];
         let shift = |is_there: bool| if is_there { (zeros(n.v), zeros(n.lambda)) } else { (Vec::new(), Vec::new()) };
         let ((w, eta), (u, mu)) = (shift(dae.eta.is_some()), shift(dae.mu.is_some()));
@@ -324,7 +326,9 @@ impl Iteration<f64> {
         v: &mut [f64],
         dynamics: &Dynamics,
     ) -> Result<(), StepError> {
-        let (structure, tau, row) = (&dynamics.structure, self.slopes.v, self.rows.dae.lambda);
+        let structure = &dynamics.structure;
+        let tau = self.slopes.v;
+        let row = self.rows.dae.lambda;
         let [free, rows] = &mut self.part;
         let Change { a: top, lambda: bottom, .. } = &mut self.change;
         free.fill(0.0);

@@ -56,7 +56,8 @@ impl Linearized {
     /// # Errors
     /// As [`update`](Self::update).
     pub fn recall(&mut self, point: &[f64], dynamics: &mut Dynamics) -> Result<(), StepError> {
-        let (n, counted) = (dynamics.system.dimensions(), dynamics.statistics);
+        let n = dynamics.system.dimensions();
+        let counted = dynamics.statistics;
         let Some((&t, rest)) = point.split_first().filter(|(_, rest)| rest.len() == n.q + 2 * n.v + n.lambda) else {
             return Ok(());
         };
@@ -128,7 +129,8 @@ struct Metric {
 
 impl Metric {
     fn new(system: &dyn MechanicalSystem) -> Self {
-        let (mass, n) = (&system.structure().mass, system.dimensions());
+        let mass = &system.structure().mass;
+        let n = system.dimensions();
         let mut diagonal: Vec<usize> =
             mass.entries.iter().filter(|(i, j)| i == j && *i < n.moving()).map(|(i, _)| *i).collect();
         diagonal.sort_unstable();

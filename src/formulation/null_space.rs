@@ -77,7 +77,8 @@ const LIMITS: Limits = Limits {
 
 impl TangentSpace {
     fn new(system: &dyn MechanicalSystem) -> Option<Self> {
-        let (n, structure) = (system.dimensions(), system.structure());
+        let n = system.dimensions();
+        let structure = system.structure();
         let zeros = |n: usize| vec![0.0; n];
         Some(TangentSpace {
             field: Dense(Reduced::new(&structure.mass, &structure.g, RANK)?),

@@ -74,7 +74,8 @@ pub(super) struct Penalty {
 
 impl Penalty {
     pub fn new(iterations: usize, spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Self> {
-        let (n, structure) = (system.dimensions(), system.structure());
+        let n = system.dimensions();
+        let structure = system.structure();
         let [mut mass, mut g] = [structure.mass, structure.g].map(Arc::unwrap_or_clone);
         mass.entries.extend((n.v..n.v + n.lambda).map(|i| (i, i)));
         g.entries.extend((0..n.lambda).map(|row| (row, n.v + row)));
@@ -128,7 +129,8 @@ impl Formulation for Penalty {
         qdot: &mut [f64],
         vdot: &mut [f64],
     ) -> Result<(), StepError> {
-        let (omega, xi) = (self.omega, self.xi);
+        let omega = self.omega;
+        let xi = self.xi;
         dynamics.right_sides(t, q, v, |phi, phi_dot| -2.0 * xi * omega * phi_dot - omega * omega * phi);
         self.factor(dynamics)?;
         self.c.copy_from_slice(&dynamics.lambda);

@@ -56,7 +56,10 @@ impl Residual {
     /// All zero, for these dimensions.
     pub fn new(n: Dimensions) -> Self {
         let rows = || vec![0.0; n.lambda];
-        let (lambda, eta, mu, phi_ddot) = (rows(), rows(), rows(), rows());
+        let lambda = rows();
+        let eta = rows();
+        let mu = rows();
+        let phi_ddot = rows();
         let zeros = || vec![0.0; n.v];
         Residual { motion: zeros(), w: zeros(), u: zeros(), lambda, eta, mu, phi_ddot, powers: Vec::new() }
     }
@@ -83,7 +86,8 @@ impl Residual {
 
     /// The residual from terms that are already evaluated at (t, q, v).
     pub fn of_terms(&mut self, dae: &Dae, unknowns: Unknowns, dynamics: &Dynamics) {
-        let (terms, structure) = (&dynamics.terms, &dynamics.structure);
+        let terms = &dynamics.terms;
+        let structure = &dynamics.structure;
         let Unknowns { a, lambda, w, eta, u, mu, stiffness } = unknowns;
         let product = |product: &mut Product| {
             product.out.fill(0.0);

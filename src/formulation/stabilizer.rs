@@ -117,7 +117,8 @@ impl Stabilizer {
     }
 
     fn gradient(&mut self, dynamics: &Dynamics) {
-        let (g, terms) = (&dynamics.structure.g, &dynamics.terms);
+        let g = &dynamics.structure.g;
+        let terms = &dynamics.terms;
         g.multiply_transposed(&terms.g, &terms.phi, &mut self.dq);
         g.multiply_transposed(&terms.l, &terms.phi_dot, &mut self.dq);
         g.multiply_transposed(&terms.g, &terms.phi_dot, &mut self.dv);
@@ -125,7 +126,9 @@ impl Stabilizer {
 
     fn full(&mut self, dynamics: &mut Dynamics) -> Result<(), StepError> {
         let Some(full) = &mut self.full else { return Ok(()) };
-        let (n, m, terms) = (self.dq.len(), self.row.len(), &dynamics.terms);
+        let n = self.dq.len();
+        let m = self.row.len();
+        let terms = &dynamics.terms;
         if self.field == StabilizingField::MassWeighted {
             let (first, second) = full.mass.split_at_mut(terms.mass.len());
             first.copy_from_slice(&terms.mass);
@@ -151,8 +154,10 @@ impl Stabilizer {
 
 impl Full {
     fn new(field: StabilizingField, system: &dyn MechanicalSystem) -> Self {
-        let (dimensions, structure) = (system.dimensions(), system.structure());
-        let (n, m) = (dimensions.v, dimensions.lambda);
+        let dimensions = system.dimensions();
+        let structure = system.structure();
+        let n = dimensions.v;
+        let m = dimensions.lambda;
         let shifted = |pattern: &Pattern, i0: usize, j0: usize| -> Vec<(usize, usize)> {
             pattern.entries.iter().map(|&(i, j)| (i + i0, j + j0)).collect()
         };

@@ -30,7 +30,8 @@ pub const ENTRY: Entry = Entry {
     }],
     dae: None,
     field: Some(|spec, system| {
-        let (structure, tolerance) = (system.structure(), spec.not_negative("tolerance", 1e-10)?);
+        let structure = system.structure();
+        let tolerance = spec.not_negative("tolerance", 1e-10)?;
         let n = system.dimensions();
         refuse_dense("udwadia_kalaba", [n.v, n.v.max(n.lambda)], COPIES).map_err(|error| error.hint(SPARSE))?;
         let solver = Reduced::new(&structure.mass, &structure.g, tolerance);

@@ -33,7 +33,8 @@ pub fn obstacle(
         }
         let directions = rotations(metric, &group);
         let has_fitting_axes = directions.is_empty() || directions.len() == rows.len() || {
-            let (mut turned, mut way) = (guess.to_vec(), way.to_vec());
+            let mut turned = guess.to_vec();
+            let mut way = way.to_vec();
             !closes_without(metric, &directions, t, &mut turned, &mut way)
         };
         if path(metric, &rows, t, q, moved) == 1.0 {
@@ -107,7 +108,8 @@ fn with_less_gap(metric: &mut Metric, rows: &[usize], t: f64, q: &[f64], gap: f6
     let turn = tolerances::LARGEST_TURN / metric.largest_turn(q, &d);
     let mut factor = (falls / curvature).min(turn);
     for _ in 0..2 * tolerances::STEP_HALVINGS {
-        let (mut ahead, mut way) = (q.to_vec(), metric.still.clone());
+        let mut ahead = q.to_vec();
+        let mut way = metric.still.clone();
         metric.go(q, &d, factor, &mut ahead);
         if corrected(metric, t, &mut ahead, &mut way) {
             let now = metric.size_of(rows);

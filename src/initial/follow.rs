@@ -43,7 +43,8 @@ pub fn follow(
 ) -> Result<Option<Followed>> {
     let mut metric = Metric::new(system, holds::directions(system, hold)?);
     metric.kkt.drop_rows(dependent);
-    let (mut q, mut moved) = (guess.to_vec(), vec![0.0; system.dimensions().v]);
+    let mut q = guess.to_vec();
+    let mut moved = vec![0.0; system.dimensions().v];
     system.normalize(&mut q);
     let contracts = newton(&mut metric, t, &mut q, &mut moved)?;
     if contracts { end(metric, t, q, &vec![0.0; moved.len()]) } else { Ok(None) }
@@ -84,10 +85,12 @@ pub(super) fn path(all: &mut Metric, rows: &[usize], t: f64, q: &mut [f64], move
     all.residual(t, q);
     let mut gap = vec![0.0; all.terms.phi.len()];
     rows.iter().for_each(|row| gap[*row] = all.terms.phi[*row]);
-    let (mut done, mut part) = (0.0, 1.0);
+    let mut done = 0.0;
+    let mut part = 1.0;
     while done < 1.0 && part > tolerances::LEAST_PART {
         let next = f64::min(done + part, 1.0);
-        let (mut ahead, mut change) = (q.to_vec(), moved.to_vec());
+        let mut ahead = q.to_vec();
+        let mut change = moved.to_vec();
         all.ahead = gap.iter().map(|gap| (1.0 - next) * gap).collect();
         let contracts = newton(all, t, &mut ahead, &mut change).unwrap_or(false);
         if contracts && all.residual(t, &ahead).is_finite() && all.is_closed(&ahead) {

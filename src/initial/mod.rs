@@ -55,7 +55,8 @@ pub fn assemble_held(
 fn beyond_signal(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Option<Error> {
     let switches = system.switches();
     let mut arguments = vec![Rate::fixed(0.0); switches.len()];
-    let (vdot, mut scratch) = (vec![0.0; v.len()], Scratch::default());
+    let vdot = vec![0.0; v.len()];
+    let mut scratch = Scratch::default();
     system.switching(OperatingPoint { t, q, v, vdot: &vdot, lambda: &[] }, &mut arguments, &mut scratch);
     let left = |(number, switch): (usize, &Switch)| {
         let signal = switch.signal.as_ref()?;
@@ -76,7 +77,8 @@ fn consistent(
 ) -> Result<Assembly> {
     let directions = holds::directions(system, hold)?;
     let mut metric = Metric::new(system, directions.clone());
-    let (mut assembled, mut rates) = (q.to_vec(), v.to_vec());
+    let mut assembled = q.to_vec();
+    let mut rates = v.to_vec();
     system.normalize(&mut assembled);
     let before = metric.level(t, &assembled, &rates);
     let is_beside = match coordinates {

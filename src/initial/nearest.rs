@@ -45,7 +45,8 @@ fn tried(
     let before = metric.distance(moved);
     let mut factor = (tolerances::LARGEST_TURN / metric.largest_turn(q, d)).min(1.0);
     for _ in 0..tolerances::STEP_HALVINGS {
-        let (mut ahead, mut way) = (q.to_vec(), moved.to_vec());
+        let mut ahead = q.to_vec();
+        let mut way = moved.to_vec();
         metric.go(q, d, factor, &mut ahead);
         way.iter_mut().zip(d).for_each(|(way, d)| *way += factor * d);
         if corrected(metric, t, &mut ahead, &mut way) && (is_close || metric.distance(&way) < before) {

@@ -13,7 +13,8 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
 
 /// As [`close`]; `moved` is the way from the guess to q.
 pub fn close_moved(metric: &mut Metric, t: f64, q: &mut [f64], mut moved: Vec<f64>) -> Result<()> {
-    let (guess, way) = (q.to_vec(), moved.clone());
+    let guess = q.to_vec();
+    let way = moved.clone();
     if !closing::close(metric, t, q, &mut moved)? {
         if metric.has_initial() {
             return Err(diagnosis::refused_values(metric));

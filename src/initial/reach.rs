@@ -14,7 +14,8 @@ use crate::tolerances::initial as tolerances;
 /// # Errors
 /// Values that the joints do not allow, or on another branch only; the message says where the path ends.
 pub fn reach(alone: &mut Metric, all: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {
-    let (guess, mut moved) = (q.to_vec(), vec![0.0; all.system.dimensions().v]);
+    let guess = q.to_vec();
+    let mut moved = vec![0.0; all.system.dimensions().v];
     let (done, ended) = match follow(alone, all, t, q, &mut moved) {
         Ok((_, None)) => return position::close_moved(all, t, q, moved),
         Ok((done, Some(gaps))) => (done, format!("; turned there from the guess, they stop short by {gaps}")),

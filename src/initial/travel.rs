@@ -60,7 +60,8 @@ impl<'a> Travel<'a> {
         if self.metric.system.prescribed(t).iter().any(|driven| driven.value.is_some_and(|value| !value.is_finite())) {
             return None;
         }
-        let (start, mut step) = (self.last.0, t - self.last.0);
+        let start = self.last.0;
+        let mut step = t - self.last.0;
         let resolution = tolerances::TRAVEL_RESOLVED * (until - start).abs() + f64::EPSILON * t.abs();
         while self.last.0 < t && step > resolution {
             let next = f64::min(self.last.0 + step, t);
@@ -140,8 +141,10 @@ impl<'a> Travel<'a> {
     fn asked(&self, row: usize, until: f64) -> Option<(f64, f64)> {
         let t = self.last.0;
         let value = |t: f64| self.metric.system.prescribed(t).iter().find(|driven| driven.row == row)?.value;
-        let (reached, apart) = (value(t)?, (until - t) / f64::from(tolerances::TRAVEL_SAMPLES));
-        let (mut farthest, mut asked) = (t, reached);
+        let reached = value(t)?;
+        let apart = (until - t) / f64::from(tolerances::TRAVEL_SAMPLES);
+        let mut farthest = t;
+        let mut asked = reached;
         for sample in 1..=tolerances::TRAVEL_SAMPLES {
             let ahead = t + f64::from(sample) * apart;
             let beyond = value(ahead)? - reached;
@@ -153,7 +156,8 @@ impl<'a> Travel<'a> {
             }
         }
         // The extreme is between the neighbours of the sample.
-        let (mut low, mut high) = (f64::max(farthest - apart, t), f64::min(farthest + apart, until));
+        let mut low = f64::max(farthest - apart, t);
+        let mut high = f64::min(farthest + apart, until);
         for _ in 0..tolerances::EXTREME_HALVINGS {
             let [left, right] = [1.0, 2.0].map(|third| low + third / 3.0 * (high - low));
             if (value(left)? - reached).abs() < (value(right)? - reached).abs() { low = left } else { high = right }

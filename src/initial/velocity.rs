@@ -34,7 +34,8 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
         return Err(Error::input(message).under(place).hint(hint));
     }
     let size = |metric: &Metric, v: &[f64]| v.iter().zip(metric.weigh(v)).map(|(a, b)| a * b).sum::<f64>();
-    let (before, after) = (size(metric, &given), size(metric, v));
+    let before = size(metric, &given);
+    let after = size(metric, v);
     let driven = metric.terms.phi_t.iter().any(|rate| *rate != 0.0);
     if before > 0.0 && !driven && after < tolerances::VELOCITIES_KEPT * tolerances::VELOCITIES_KEPT * before {
         let names = metric.system.names().v;

@@ -254,7 +254,8 @@ pub fn first_step(
     slope: &[f64],
     order: usize,
 ) -> Result<f64, StepError> {
-    let (d0, d1) = (tolerance.norm(y, y), tolerance.norm(y, slope));
+    let d0 = tolerance.norm(y, y);
+    let d1 = tolerance.norm(y, slope);
     let guess = if d0 < 1e-10 || d1 < 1e-10 { 1e-6 } else { 0.01 * d0 / d1 };
     let mut guess = guess.min(tolerances::FIRST_STEP_OF_SPAN * span);
     let mut next = vec![0.0; y.len()];

@@ -116,7 +116,8 @@ impl Explicit {
             ErrorEstimate::None => None,
             ErrorEstimate::Embedded(weights) => Some((square(weights) / n as f64).sqrt()),
             ErrorEstimate::Pair { fifth, third } => {
-                let (fifth, third) = (square(fifth), square(third));
+                let fifth = square(fifth);
+                let third = square(third);
                 // err5^2 / sqrt(err5^2 + 0.01 err3^2); zero for a step without any change.
                 let both = fifth + 0.01 * third;
                 Some(if both == 0.0 { 0.0 } else { fifth / (both * n as f64).sqrt() })

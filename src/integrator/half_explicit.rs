@@ -87,7 +87,9 @@ pub struct HalfExplicit {
 
 impl HalfExplicit {
     pub fn new(tableau: &'static Tableau, setup: &Setup) -> Result<Self> {
-        let (n, len, structure) = (setup.system.dimensions(), setup.len(), setup.system.structure());
+        let n = setup.system.dimensions();
+        let len = setup.len();
+        let structure = setup.system.structure();
         let zeros = |n: usize| vec![0.0; n];
         let none = Pattern { rows: n.v, cols: n.v, entries: Vec::new() };
         let matrix = Unsymmetric::new(&structure.mass, &none, &structure.g);

@@ -39,7 +39,8 @@ impl Stability {
         while size < tolerances::FARTHEST_LIMIT && holds(size) {
             size += tolerances::STRIDE_TO_LIMIT;
         }
-        let (mut low, mut high) = (size - tolerances::STRIDE_TO_LIMIT, size);
+        let mut low = size - tolerances::STRIDE_TO_LIMIT;
+        let mut high = size;
         for _ in 0..20 {
             let middle = 0.5 * (low + high);
             *(if holds(middle) { &mut low } else { &mut high }) = middle;

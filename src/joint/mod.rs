@@ -193,7 +193,8 @@ pub struct Built<const D: usize> {
 impl<const D: usize> Built<D> {
     /// Refuses too few or too many rows or markers: a mistake in the code of the type, not in a scene.
     fn checked(self) -> Result<Self> {
-        let (rows, markers) = (self.joint.row_names().len(), self.markers.len());
+        let rows = self.joint.row_names().len();
+        let markers = self.markers.len();
         match ((1..=MOST_ROWS).contains(&rows), (1..=MOST_MARKERS).contains(&markers)) {
             (false, _) => Err(mistaken(format!("{rows} rows; 1 to {MOST_ROWS} are possible"))),
             (_, false) => Err(mistaken(format!("{markers} markers; 1 to {MOST_MARKERS} are possible"))),

@@ -31,7 +31,8 @@ pub struct Fate {
 impl Fate {
     /// |change| of the eigenvalue over its size; none where the mode is lost, or zero here and not there.
     pub fn shift(&self) -> Option<f64> {
-        let (change, size) = (self.there.map(|there| (there - self.value).norm())?, self.value.norm());
+        let change = self.there.map(|there| (there - self.value).norm())?;
+        let size = self.value.norm();
         if change == 0.0 { Some(0.0) } else { Some(change / size).filter(|shift| shift.is_finite()) }
     }
 }
@@ -55,7 +56,8 @@ pub fn against(model: &LinearModel, other: &LinearModel, time: f64) -> Against {
         .filter_map(|(i, name)| Some([i, other.outputs.iter().position(|own| own == name)?]))
         .collect();
     let of = |model| pairs(model, Kind::Physical).into_iter().map(|pair| pair.mode).collect::<Vec<&Mode>>();
-    let (modes, others) = (of(model), of(other));
+    let modes = of(model);
+    let others = of(other);
     let changes = |modes: &[&Mode], side: usize| -> Vec<Vec<Complex<f64>>> {
         let of = |mode: &&Mode| {
             let all = visible(mode, time);
@@ -63,7 +65,8 @@ pub fn against(model: &LinearModel, other: &LinearModel, time: f64) -> Against {
         };
         modes.iter().map(of).collect()
     };
-    let (x, y) = (changes(&modes, 0), changes(&others, 1));
+    let x = changes(&modes, 0);
+    let y = changes(&others, 1);
     let largest = |k: usize| x.iter().chain(&y).filter_map(|x| x.get(k)).fold(0.0, |most: f64, x| most.max(x.norm()));
     // What no mode moves tells nothing: the energy at rest has no first derivative but round-off.
     let all = (0..common.len()).map(largest).fold(0.0, f64::max);
@@ -71,7 +74,8 @@ pub fn against(model: &LinearModel, other: &LinearModel, time: f64) -> Against {
     let size = |k: usize| Some(largest(k)).filter(|size| *size > least).unwrap_or(f64::INFINITY);
     let sizes: Vec<f64> = (0..common.len()).map(size).collect();
     let values = |modes: &[&Mode]| modes.iter().map(|mode| mode.clean_value()).collect::<Vec<_>>();
-    let (from, to) = (values(&modes), values(&others));
+    let from = values(&modes);
+    let to = values(&others);
     let floor = floor(from.iter().chain(&to));
     let scaled = |all: Vec<Vec<Complex<f64>>>| -> Vec<Vec<Complex<f64>>> {
         all.iter().map(|own| own.iter().zip(&sizes).map(|(y, size)| y / size).collect()).collect()
@@ -80,7 +84,8 @@ pub fn against(model: &LinearModel, other: &LinearModel, time: f64) -> Against {
         let is_one = |a: usize, b: usize| apart(values[a], values[b], floor) <= tolerances::EIGENVALUES_AGREE;
         (0..all.len()).map(|i| basis((0..all.len()).filter(|k| is_one(i, *k)).map(|k| &all[k]))).collect()
     };
-    let (x, y) = (scaled(x), scaled(y));
+    let x = scaled(x);
+    let y = scaled(y);
     let [of_x, of_y] = [spans(&x, &from), spans(&y, &to)];
     let mac = |i: usize, j: usize| {
         let both = (part_within(&of_x[i], &y[j])?, part_within(&of_y[j], &x[i])?);
@@ -118,7 +123,8 @@ fn basis<'a>(all: impl Iterator<Item = &'a Vec<Complex<f64>>>) -> Vec<Vec<Comple
 
 /// Part of |y|^2 in the span of a basis, the MAC where that is of one; none where one of both is zero.
 fn part_within(basis: &[Vec<Complex<f64>>], y: &[Complex<f64>]) -> Option<f64> {
-    let (parts, all) = (basis.iter().map(|own| product(own, y).norm_sqr()).sum::<f64>(), product(y, y).re);
+    let parts = basis.iter().map(|own| product(own, y).norm_sqr()).sum::<f64>();
+    let all = product(y, y).re;
     (all > 0.0 && !basis.is_empty()).then(|| parts / all)
 }
 

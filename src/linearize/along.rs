@@ -54,7 +54,8 @@ pub fn states(prepared: &PreparedScene, times: &[f64], progress: impl FnMut(f64)
     let mut order: Vec<usize> = (0..times.len()).collect();
     order.sort_by(|&i, &j| times[i].total_cmp(&times[j]));
     let mut walk = Walk::new(prepared);
-    let (mut found, mut progress) = (vec![walk.last.clone(); times.len()], progress);
+    let mut found = vec![walk.last.clone(); times.len()];
+    let mut progress = progress;
     for place in order {
         found[place] = walk.to(times[place])?;
         progress(times[place]);
@@ -89,7 +90,8 @@ impl<'a> Walk<'a> {
 /// # Errors
 /// The first such time.
 pub fn within_run(prepared: &PreparedScene, times: &[f64]) -> Result<()> {
-    let (start, end) = (prepared.start_time(), prepared.span().map_or(f64::INFINITY, |span| span.end));
+    let start = prepared.start_time();
+    let end = prepared.span().map_or(f64::INFINITY, |span| span.end);
     let Some(t) = times.iter().find(|t| !(start..=end).contains(*t)) else { return Ok(()) };
     let [t, start, end] = [*t, start, end].map(short);
     Err(Error::input(format!("t = {t} s is outside the run, which goes from {start} s to {end} s"))

@@ -36,7 +36,8 @@ fn amplification(
     if columns.q.ncols() == 0 {
         return Ok(1.0);
     }
-    let (mut found, bundle) = (Vec::new(), Bundle { columns, ..Bundle::of(start) });
+    let mut found = Vec::new();
+    let bundle = Bundle { columns, ..Bundle::of(start) };
     flow(system, &bundle, times, |snapshot| {
         found.push(chart(&snapshot.motion).map(|chart| chart.states_of(&snapshot.columns)));
         goes_on(snapshot.motion.t)
@@ -90,7 +91,8 @@ fn least_norm(matrices: &[Matrix], k: usize) -> f64 {
 
 /// The first `k` states are z.
 fn scaled(matrix: &Matrix, k: usize, rate: f64) -> Matrix {
-    let (mut scaled, rest) = (matrix.clone(), matrix.nrows() - k);
+    let mut scaled = matrix.clone();
+    let rest = matrix.nrows() - k;
     scaled.columns_mut(k, rest).scale_mut(rate);
     scaled.rows_mut(k, rest).unscale_mut(rate);
     scaled

@@ -20,7 +20,8 @@ impl Changes {
 
     /// A unit change of each direction of q, then of each of n of v; `moving` of them, the first, move q.
     pub fn all(n: usize, moving: usize) -> Self {
-        let (unit, none) = (Matrix::identity(n, n), Matrix::zeros(n, n));
+        let unit = Matrix::identity(n, n);
+        let none = Matrix::zeros(n, n);
         let first = |matrix: &Matrix| matrix.columns(0, moving).clone_owned();
         Changes { q: beside([&first(&unit), &none]), v: beside([&first(&none), &unit]) }
     }
@@ -43,7 +44,8 @@ pub(super) struct Directions {
 /// where the velocity is an angular one, `rotor.wx`, after the rotation about that axis of the body, `rotor.rx`.
 pub(super) fn directions(system: &dyn MechanicalSystem, q: &[f64]) -> Directions {
     let names = system.names();
-    let (mut unit, mut rate) = (vec![0.0; names.v.len()], vec![0.0; names.q.len()]);
+    let mut unit = vec![0.0; names.v.len()];
+    let mut rate = vec![0.0; names.q.len()];
     let moving = &names.v[..system.dimensions().moving()];
     let own = moving.iter().enumerate().map(|(direction, name)| {
         unit[direction] = 1.0;

@@ -147,7 +147,9 @@ pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
     let LeviCivita { w, w_dot, mass_dot } = &connection;
     let bracket = |v: &[f64], x: &Matrix| variation.bracket_of(v, x);
     let LinearizationPoint { v, vdot, .. } = &variation.point;
-    let (turned, turned_later, wn) = (-bracket(v, &n), -bracket(vdot, &n), w * &n);
+    let turned = -bracket(v, &n);
+    let turned_later = -bracket(vdot, &n);
+    let wn = w * &n;
     let corrected = variation.gd_times(&n) - variation.g_times(&turned);
     let n_dot = -variation.correct(&corrected)? - &n * n.tr_mul(&wn);
     let momenta = variation.mass_times(&n_dot) + &wn;

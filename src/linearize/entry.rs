@@ -49,12 +49,14 @@ impl Built {
     /// A descriptor form in (dq, dv, ..) has a dq for each direction of v. Those of the states xi, their integrals, act
     /// on nothing and are left out.
     pub(super) fn without_integrals(mut self, n: Dimensions) -> Self {
-        let (first, count) = (n.moving(), n.states);
+        let first = n.moving();
+        let count = n.states;
         let square = |matrix: Matrix| matrix.remove_rows(first, count).remove_columns(first, count);
         self.states.drain(first..first + count);
         let Changes { q, v } = self.changes;
         let changes = Changes { q: q.remove_columns(first, count), v: v.remove_columns(first, count) };
-        let (b, c) = (self.b.remove_rows(first, count), self.c.remove_columns(first, count));
+        let b = self.b.remove_rows(first, count);
+        let c = self.c.remove_columns(first, count);
         let a = self.input_states.a.remove_rows(first, count);
         let input_states = InputStates { a, ..self.input_states };
         Built { a: square(self.a), e: self.e.map(square), b, c, input_states, changes, ..self }
@@ -63,7 +65,9 @@ impl Built {
     /// Adds the states of the inputs to the model, as its last states, and renames its inputs to the derivatives that they are.
     fn add_input_states(&mut self, inputs: &mut [String]) {
         let InputStates { orders, a, c } = &self.input_states;
-        let (own, added, n_u) = (self.a.nrows(), a.ncols(), orders.len());
+        let own = self.a.nrows();
+        let added = a.ncols();
+        let n_u = orders.len();
         self.states.extend(self.input_states.states(inputs));
         inputs.iter_mut().zip(orders).for_each(|(name, &order)| *name = primed(name, order));
         if added == 0 {

@@ -22,8 +22,11 @@ impl Variation<'_> {
         let rows = self.driven_rows();
         let orders = self.orders();
         let mut forces = [0; 2].map(|_| Matrix::zeros(self.velocities(), orders.len()));
-        let (system, scratch) = (self.dynamics.system, &mut self.dynamics.scratch);
-        let (t, q, v) = (self.point.t, &self.point.q, &self.point.v);
+        let system = self.dynamics.system;
+        let scratch = &mut self.dynamics.scratch;
+        let t = self.point.t;
+        let q = &self.point.q;
+        let v = &self.point.v;
         if !orders.is_empty() {
             system.input_forces(t, q, v, &mut forces[0], scratch);
         }

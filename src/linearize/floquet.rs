@@ -58,7 +58,8 @@ impl Floquet {
             let (near, far): (Vec<_>, Vec<_>) =
                 left.into_iter().partition(|other| (other - first).norm() <= slack.sqrt());
             left = far;
-            let (count, sum) = (near.len(), near.iter().sum::<Complex<f64>>());
+            let count = near.len();
+            let sum = near.iter().sum::<Complex<f64>>();
             let multiplier = sum / count as f64;
             let vectors = if count > 1 { self.vectors_of(multiplier)? } else { 1 };
             if vectors < count {

@@ -35,7 +35,8 @@ struct Reduced {
 impl Reduced {
     fn new(model: &LinearModel) -> Self {
         let complex = |matrix: &Matrix| matrix.map(Complex::from);
-        let (d, orders) = (complex(&model.d), model.orders.clone());
+        let d = complex(&model.d);
+        let orders = model.orders.clone();
         let sizes = model.c.row_iter().map(|row| row.norm()).collect();
         if let Some(e) = &model.e {
             // Rows of equations in different units are scaled to one size, since sizes decide on pivots.

@@ -18,7 +18,8 @@ pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String
     let candidates = candidates(variation);
     let chosen = names.iter().map(|name| find(&candidates, name)).collect::<Result<Vec<&Candidate>>>()?;
     let states = variation.system().dimensions().states;
-    let (n, degrees) = (z.nrows(), z.ncols() - states);
+    let n = z.nrows();
+    let degrees = z.ncols() - states;
     let best = || best(&candidates, &weighed(variation, z)).join(", ");
     if chosen.len() != degrees {
         let message =

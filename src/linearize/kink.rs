@@ -18,7 +18,8 @@ pub fn kinks(system: &dyn MechanicalSystem, state: &State) -> Result<Vec<Warning
         return Ok(warnings);
     }
     let mut variation = Variation::new(system, state.t, &state.q, &state.v)?;
-    let (point, scratch) = (variation.point, &mut variation.dynamics.scratch);
+    let point = variation.point;
+    let scratch = &mut variation.dynamics.scratch;
     let at = point.at();
     let mut arguments = vec![Rate::fixed(0.0); switches.len()];
     system.switching(at, &mut arguments, scratch);
@@ -47,7 +48,8 @@ fn warning(t: f64, owner: &str) -> Warning {
 
 /// f, K and C on the pieces of `scratch`.
 fn terms_of(system: &dyn MechanicalSystem, at: OperatingPoint, scratch: &mut Scratch) -> [Vec<f64>; 3] {
-    let (mut terms, mut tangent) = (Terms::new(system), Tangent::new(&system.structure().tangent));
+    let mut terms = Terms::new(system);
+    let mut tangent = Tangent::new(&system.structure().tangent);
     system.evaluate(at.t, at.q, at.v, Need::FORCE, &mut terms, scratch);
     system.tangent(at, &mut tangent, scratch);
     [terms.f, tangent.k, tangent.c]

@@ -61,7 +61,8 @@ fn orthonormal(columns: &Changes) -> (Changes, Vec<f64>) {
     stacked.rows_mut(0, n).copy_from(&columns.q);
     stacked.rows_mut(n, n).copy_from(&columns.v);
     let qr = stacked.qr();
-    let (q, r) = (qr.q(), qr.r());
+    let q = qr.q();
+    let r = qr.r();
     let changes = Changes { q: q.rows(0, n).clone_owned(), v: q.rows(n, n).clone_owned() };
     (changes, (0..k).map(|i| r[(i, i)].abs()).collect())
 }

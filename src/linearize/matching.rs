@@ -48,7 +48,8 @@ pub(super) fn matching(
     ends: &[Node],
     mass: &Matrix,
 ) -> Vec<Option<usize>> {
-    let (from, to) = (Set::new(starts.iter().copied()), Set::new(ends.iter()));
+    let from = Set::new(starts.iter().copied());
+    let to = Set::new(ends.iter());
     let cost = cost(starts, predicted, ends, mass);
     let free = Matrix::from_fn(starts.len(), ends.len(), |i, j| {
         if is_allowed(from.sides[i], to.sides[j]) { cost[(i, j)] } else { f64::INFINITY }
@@ -74,7 +75,8 @@ fn are_equal(a: Complex<f64>, b: Complex<f64>) -> bool {
 /// which two of them are exchanged.
 pub(super) fn is_clear(starts: &[&Node], ends: &[Node], mass: &Matrix) -> bool {
     let values: Vec<Complex<f64>> = starts.iter().map(|start| start.value).collect();
-    let (from, to) = (Set::new(starts.iter().copied()), Set::new(ends.iter()));
+    let from = Set::new(starts.iter().copied());
+    let to = Set::new(ends.iter());
     let cost = cost(starts, &values, ends, mass);
     let found = matching(starts, &values, ends, mass);
     let matched: Vec<(usize, usize)> = found.iter().enumerate().filter_map(|(i, j)| Some((i, (*j)?))).collect();
@@ -102,16 +104,20 @@ fn cost(starts: &[&Node], predicted: &[Complex<f64>], ends: &[Node], mass: &Matr
     let x = shapes(n, starts.iter().copied());
     let y = shapes(n, ends.iter());
     let metric = mass.map(Complex::from);
-    let (mx, my) = (&metric * &x, &metric * &y);
+    let mx = &metric * &x;
+    let my = &metric * &y;
     let size = |shape: &ComplexMatrix, weighed: &ComplexMatrix, j: usize| shape.column(j).dotc(&weighed.column(j)).re;
     let sizes = |shape: &ComplexMatrix, weighed: &ComplexMatrix| -> Vec<f64> {
         (0..shape.ncols()).map(|j| size(shape, weighed, j)).collect()
     };
-    let (of_x, of_y, product) = (sizes(&x, &mx), sizes(&y, &my), x.adjoint() * &my);
+    let of_x = sizes(&x, &mx);
+    let of_y = sizes(&y, &my);
+    let product = x.adjoint() * &my;
     let largest = predicted.iter().chain(ends.iter().map(|end| &end.value)).fold(0.0f64, |most, z| most.max(z.norm()));
     let floor = (tolerances::EIGENVALUES_AGREE * largest).max(f64::MIN_POSITIVE);
     Matrix::from_fn(starts.len(), ends.len(), |i, j| {
-        let (a, b) = (predicted[i], ends[j].value);
+        let a = predicted[i];
+        let b = ends[j].value;
         let sizes = of_x[i] * of_y[j];
         let mac = if sizes > 0.0 { product[(i, j)].norm_sqr() / sizes } else { 0.0 };
         1.0 - mac + (a - b).norm() / (a.norm() + b.norm() + floor)
@@ -156,7 +162,8 @@ fn is_symmetric(found: &[Option<usize>], from: &Set, to: &Set) -> bool {
 
 /// Matches pairs to pairs first; the remaining ones become real or come from real ones.
 fn pairs_first(cost: &Matrix, from: &Set, to: &Set) -> Vec<Option<usize>> {
-    let (starts, ends) = (from.pairs(), to.pairs());
+    let starts = from.pairs();
+    let ends = to.pairs();
     let pairs = Matrix::from_fn(starts.len(), ends.len(), |i, j| cost[(starts[i].0, ends[j].0)]);
     let mut found = vec![None; from.sides.len()];
     let mut is_reached = vec![false; to.sides.len()];

@@ -47,7 +47,9 @@ pub(super) fn restrict(
     response: impl FnOnce(&mut Variation, &Perturbation) -> Result<Response>,
 ) -> Result<Minimal> {
     let Coordinates { r, b, turn, drift, lift, .. } = &coordinates;
-    let (k, n, changes) = (coordinates.freedom(), r.ncols(), coordinates.changes());
+    let k = coordinates.freedom();
+    let n = r.ncols();
+    let changes = coordinates.changes();
     let perturbation = Perturbation::new(variation, &changes, |i, j| lift.along(i, j));
     let response = response(variation, &perturbation)?;
     let Parts { state, input_states, inputs } = perturbation.split(&(b * &response.vdot));
@@ -61,7 +63,9 @@ pub(super) fn restrict(
     driven.rows_mut(0, k).copy_from(&upper.rows(0, k));
     let outputs = observe(&variation.outputs()?, &perturbation, &response);
     let input_states = InputStates { orders, a: driven, c: outputs.input_states };
-    let (b, c, d) = (inputs.insert_rows(0, k, 0.0), outputs.state, outputs.inputs);
+    let b = inputs.insert_rows(0, k, 0.0);
+    let c = outputs.state;
+    let d = outputs.inputs;
     let Coordinates { name: chart, states, .. } = coordinates.clone();
     let built = Built { chart, states, a, b, c, d, e: None, input_states, changes, infinite: 0 };
     Ok(Minimal { coordinates, built })

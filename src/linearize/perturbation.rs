@@ -35,7 +35,8 @@ impl Perturbation {
         along: impl Fn(usize, usize) -> Option<[Matrix; 2]>,
     ) -> Self {
         let Excited { orders, forces, rows } = variation.excited();
-        let (n_u, own) = (orders.len(), state.q.ncols());
+        let n_u = orders.len();
+        let own = state.q.ncols();
         let states: Vec<(usize, usize)> =
             orders.iter().enumerate().flat_map(|(j, &order)| (0..order).map(move |i| (i, j))).collect();
         let added = states.len() + n_u;

@@ -42,7 +42,8 @@ impl LinearizationPoint {
 
     /// The state whose terms and solution `dynamics` contains, with its K.
     pub(super) fn new(dynamics: &Dynamics, k: &[f64], t: f64, q: &[f64], v: &[f64]) -> Self {
-        let (terms, scales) = (&dynamics.terms, dynamics.system.scales());
+        let terms = &dynamics.terms;
+        let scales = dynamics.system.scales();
         let worst = |rows: &[f64]| rows.iter().zip(&scales).fold(0.0f64, |worst, (row, s)| worst.max((row / s).abs()));
         LinearizationPoint {
             t,
@@ -74,7 +75,8 @@ pub(super) fn rounding(dynamics: &Dynamics, k: &[f64], q: &[f64]) -> Vec<f64> {
 /// True if nothing moves and M v' is negligible against the forces and reactions that it is the sum of, or their
 /// rounding.
 fn is_at_rest(dynamics: &Dynamics, rounding: &[f64], v: &[f64]) -> bool {
-    let (structure, terms) = (&dynamics.structure, &dynamics.terms);
+    let structure = &dynamics.structure;
+    let terms = &dynamics.terms;
     let mut inertia = vec![0.0; v.len()];
     structure.mass.multiply_symmetric(&terms.mass, &dynamics.vdot, &mut inertia);
     let mut usual: Vec<f64> = terms.f.iter().map(|f| f.abs()).collect();

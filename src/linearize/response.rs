@@ -25,7 +25,8 @@ impl Response {
     /// Response of the equations with phi'' + c1 phi' + c0 phi = 0, c = [c1, c0].
     pub fn held(variation: &mut Variation, perturbation: &Perturbation, c: [f64; 2]) -> Result<Self> {
         let t = variation.point.t;
-        let (mut vdot, mut lambda) = (perturbation.force(variation), perturbation.rows(variation, c));
+        let mut vdot = perturbation.force(variation);
+        let mut lambda = perturbation.rows(variation, c);
         variation.push_all(&mut vdot, &mut lambda).map_err(|halt| at_state(t, &halt))?;
         Ok(Response { vdot, lambda })
     }

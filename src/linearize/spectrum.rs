@@ -131,7 +131,10 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
         return Err(Unsolved::Doubtful { gap: found.deflated.gap });
     }
     let participation = Some(parts(&(complex(&e.transpose()) * &found.left), &found.right));
-    let (values, right, conditioning, errors) = (found.values, found.right, found.conditioning, found.errors);
+    let values = found.values;
+    let right = found.right;
+    let conditioning = found.conditioning;
+    let errors = found.errors;
     Ok(Solved { values, right, participation, conditioning, errors })
 }
 
@@ -161,7 +164,8 @@ fn kinds(
     if shapes.ncols() <= physical {
         return Ok((vec![Kind::Physical; shapes.ncols()], None));
     }
-    let (mass, z) = (complex(&variation.mass()), complex(&z));
+    let mass = complex(&variation.mass());
+    let z = complex(&z);
     let off = shapes - &z * (z.transpose() * weighed);
     let weighed_off = mass * &off;
     let size = |x: &ComplexMatrix, mx: &ComplexMatrix, j: usize| x.column(j).dotc(&mx.column(j)).re.max(0.0).sqrt();

@@ -111,7 +111,8 @@ fn is_same_all_around(axes: &Rotating, prepared: &PreparedScene, state: &State) 
 
 /// Returns M v'.
 fn inertia(variation: &Variation) -> Vec<f64> {
-    let (structure, terms) = (&variation.dynamics.structure, &variation.dynamics.terms);
+    let structure = &variation.dynamics.structure;
+    let terms = &variation.dynamics.terms;
     let mut inertia = vec![0.0; variation.velocities()];
     structure.mass.multiply_symmetric(&terms.mass, &variation.point.vdot, &mut inertia);
     inertia

@@ -113,7 +113,8 @@ pub fn loci_along<'a>(
     times: &[f64],
     progress: impl Fn() + Sync,
 ) -> Loci {
-    let (mut walk, mut stopped) = (Walk::new(prepared), None);
+    let mut walk = Walk::new(prepared);
+    let mut stopped = None;
     let mut go_to = |t: f64| match &stopped {
         Some(error) => Err(Error::clone(error)),
         None => walk.to(t).inspect_err(|error| stopped = Some(error.clone())),
@@ -231,7 +232,8 @@ fn found_by(variation: &mut Variation, operating: &Operating, at: f64, request: 
     let is_equilibrium = model.point.is_equilibrium;
     let turning = model.point.axes.map(|spin| spin.speed());
     let sample = LociPoint { at, modes: model.modes, mass };
-    let (state, doubt) = (operating.state.clone(), operating.doubt.clone());
+    let state = operating.state.clone();
+    let doubt = operating.doubt.clone();
     Ok(Found { state, sample, method: model.method, chart: model.chart, is_equilibrium, turning, doubt })
 }
 
@@ -271,7 +273,10 @@ fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found,
     let more: Vec<Vec<LociPoint>> = outcomes.par_windows(2).map(behind).collect();
     let first = outcomes.iter().find_map(|(_, outcome)| outcome.as_ref().ok());
     let (method, chart) = first.map(|found| (found.method.clone(), found.chart.clone())).unwrap_or_default();
-    let (mut reached, mut gaps, mut samples, mut doubts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut reached = Vec::new();
+    let mut gaps = Vec::new();
+    let mut samples = Vec::new();
+    let mut doubts = Vec::new();
     for ((at, outcome), more) in outcomes.into_iter().zip(more.into_iter().chain([Vec::new()])) {
         match outcome {
             Ok(found) => {

@@ -37,7 +37,8 @@ impl LociPoint {
 
     /// True if it is clear which physical mode of `next` belongs to which of these.
     pub fn leads_clearly_to(&self, next: &LociPoint) -> bool {
-        let (starts, ends) = (self.nodes(Kind::Physical), next.nodes(Kind::Physical));
+        let starts = self.nodes(Kind::Physical);
+        let ends = next.nodes(Kind::Physical);
         is_clear(&starts.iter().collect::<Vec<_>>(), &ends, &next.mass)
     }
 }
@@ -67,7 +68,8 @@ struct Thread {
 /// followed by a pair, or by two real eigenvalues, of which the larger belongs to the branch with im > 0. Where the
 /// number of modes changes, branches start or end. In a gap every branch has a point that is not a number.
 pub fn track(samples: &[LociPoint]) -> Vec<Branch> {
-    let (mut branches, mut threads) = (Vec::new(), Vec::new());
+    let mut branches = Vec::new();
+    let mut threads = Vec::new();
     for sample in samples {
         if sample.modes.is_empty() {
             let gap = (sample.at, Complex::new(f64::NAN, f64::NAN));

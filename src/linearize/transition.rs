@@ -43,7 +43,8 @@ pub fn transition(
     let bundle = Bundle { columns: coordinates.changes(), ..Bundle::of(start) };
     let mut found = Vec::new();
     flow(system, &bundle, times, |snapshot| {
-        let (state, changes) = (snapshot.motion.clone(), snapshot.columns.clone());
+        let state = snapshot.motion.clone();
+        let changes = snapshot.columns.clone();
         found.push(Transition { state, start: coordinates.clone(), changes });
         true
     })?;

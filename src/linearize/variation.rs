@@ -46,8 +46,10 @@ impl<'a> Variation<'a> {
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<Self> {
         let dynamics = Dynamics::new(system);
         let tangent = Tangent::new(&dynamics.structure.tangent);
-        let (gdd, own) = (vec![0.0; dynamics.structure.g.entries.len()], v.to_vec());
-        let (excitations, outputs) = (system.excitations(), system.columns().len());
+        let gdd = vec![0.0; dynamics.structure.g.entries.len()];
+        let own = v.to_vec();
+        let excitations = system.excitations();
+        let outputs = system.columns().len();
         let point = LinearizationPoint::default();
         let mut variation = Variation { dynamics, point, tangent, gdd, v: own, excitations, outputs };
         variation.operate_at(t, q, v)?;
@@ -186,7 +188,8 @@ impl<'a> Variation<'a> {
     /// Returns M x, a column each.
     pub fn mass_times(&self, x: &Matrix) -> Matrix {
         let Dynamics { structure, terms, .. } = &self.dynamics;
-        let (n, mut momenta) = (self.velocities().max(1), Matrix::zeros(x.nrows(), x.ncols()));
+        let n = self.velocities().max(1);
+        let mut momenta = Matrix::zeros(x.nrows(), x.ncols());
         for (x, momenta) in x.as_slice().chunks_exact(n).zip(momenta.as_mut_slice().chunks_exact_mut(n)) {
             structure.mass.multiply_symmetric(&terms.mass, x, momenta);
         }
@@ -200,7 +203,8 @@ impl<'a> Variation<'a> {
 
     /// Returns [v, x], a column each.
     pub fn bracket_of(&self, v: &[f64], x: &Matrix) -> Matrix {
-        let (n, mut turned) = (self.velocities().max(1), Matrix::zeros(x.nrows(), x.ncols()));
+        let n = self.velocities().max(1);
+        let mut turned = Matrix::zeros(x.nrows(), x.ncols());
         for (from, to) in x.as_slice().chunks_exact(n).zip(turned.as_mut_slice().chunks_exact_mut(n)) {
             self.dynamics.system.bracket(v, from, to);
         }
@@ -224,7 +228,8 @@ impl<'a> Variation<'a> {
 
     /// Returns the smallest change d in the mass metric with G d = `rows`, for each column.
     pub fn correct(&mut self, rows: &Matrix) -> Result<Matrix> {
-        let (mut corrections, mut rows) = (Matrix::zeros(self.velocities(), rows.ncols()), rows.clone());
+        let mut corrections = Matrix::zeros(self.velocities(), rows.ncols());
+        let mut rows = rows.clone();
         self.push_all(&mut corrections, &mut rows).map_err(|halt| at_state(self.point.t, &halt))?;
         Ok(corrections)
     }
@@ -305,7 +310,8 @@ impl<'a> Variation<'a> {
 
 /// Computes sum += factor A x.
 fn add_product(pattern: &Pattern, values: &[f64], x: &Matrix, factor: f64, sum: &mut Matrix) {
-    let (rows, columns) = (pattern.rows.max(1), pattern.cols.max(1));
+    let rows = pattern.rows.max(1);
+    let columns = pattern.cols.max(1);
     for (x, sum) in x.as_slice().chunks_exact(columns).zip(sum.as_mut_slice().chunks_exact_mut(rows)) {
         if x.iter().any(|x| *x != 0.0) {
             let entries = pattern.entries.iter().zip(values).filter(|(_, value)| **value != 0.0);

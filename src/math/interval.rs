@@ -133,7 +133,8 @@ operators! {
     impl[] Interval:
     Neg neg(a) = Interval { low: -a.high, high: -a.low };
     Add add(a, b: Self) = {
-        let (low, high) = (a.low + b.low, a.high + b.high);
+        let low = a.low + b.low;
+        let high = a.high + b.high;
         if low <= high { Interval { low, high } } else { Self::WHOLE }
     };
     Sub sub(a, b: Self) = a + -b;

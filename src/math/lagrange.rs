@@ -34,7 +34,8 @@ mod tests {
             let sum = |weight: fn(&[f64], usize, f64) -> f64| -> f64 {
                 points.iter().enumerate().map(|(i, point)| weight(&points, i, x) * cubic(*point)).sum()
             };
-            let (value, slope) = (sum(lagrange) - cubic(x), sum(lagrange_rate) - rate(x));
+            let value = sum(lagrange) - cubic(x);
+            let slope = sum(lagrange_rate) - rate(x);
             assert!(value.abs() < 1e-12 && slope.abs() < 1e-12, "{x}: {value:e} {slope:e}");
         }
     }

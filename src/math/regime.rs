@@ -17,7 +17,8 @@ pub fn piece_of(argument: f64, count: usize, threshold: impl Fn(usize) -> f64) -
     if argument.is_nan() {
         return None;
     }
-    let (mut low, mut high) = (0, count);
+    let mut low = 0;
+    let mut high = count;
     while low < high {
         let middle = (low + high) / 2;
         if threshold(middle) < argument { low = middle + 1 } else { high = middle }
@@ -92,7 +93,8 @@ impl Thresholds {
 
     /// The piece of an argument among thresholds that repeat.
     fn piece_of_period(&self, argument: f64, knots: &[f64], period: f64) -> Option<Piece> {
-        let (cycle, before) = (((argument - knots[0]) / period).floor(), periods_before(knots));
+        let cycle = ((argument - knots[0]) / period).floor();
+        let before = periods_before(knots);
         if cycle.is_nan() || cycle.abs() >= before as f64 - 1.0 {
             return None;
         }

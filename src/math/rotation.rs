@@ -12,10 +12,18 @@ pub type Matrix3 = [[f64; 3]; 3];
 pub fn axes_from_quaternion<S: Scalar>(p: &[S]) -> [[S; 3]; 3] {
     let [w, x, y, z] = [p[0], p[1], p[2], p[3]];
     let s = S::constant(2.0) / (w * w + x * x + y * y + z * z);
-    let (xs, ys, zs) = (x * s, y * s, z * s);
-    let (wx, wy, wz) = (w * xs, w * ys, w * zs);
-    let (xx, xy, xz) = (x * xs, x * ys, x * zs);
-    let (yy, yz, zz) = (y * ys, y * zs, z * zs);
+    let xs = x * s;
+    let ys = y * s;
+    let zs = z * s;
+    let wx = w * xs;
+    let wy = w * ys;
+    let wz = w * zs;
+    let xx = x * xs;
+    let xy = x * ys;
+    let xz = x * zs;
+    let yy = y * ys;
+    let yz = y * zs;
+    let zz = z * zs;
     let one = S::one();
     [[one - (yy + zz), xy + wz, xz - wy], [xy - wz, one - (xx + zz), yz + wx], [xz + wy, yz - wx, one - (xx + yy)]]
 }
@@ -75,7 +83,8 @@ mod tests {
     /// p0^-1 p = exp(a) along a motion: its difference quotient, h^2 + round-off/h, against p (0, w)/2.
     #[test]
     fn rotation_vectors_move_as_their_quaternions() {
-        let (w, h) = ([0.3, -1.1, 0.7], 1e-5);
+        let w = [0.3, -1.1, 0.7];
+        let h = 1e-5;
         for size in [0.0, 1e-3, 0.8, 3.0, 5.0] {
             let a = [0.6, 0.0, 0.8].map(|x: f64| x * size);
             let rate = rotation_vector_rate(&a, &w);

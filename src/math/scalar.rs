@@ -169,7 +169,9 @@ pub trait Scalar:
     }
     /// x^n by repeated squaring; exact at x = 0, where a logarithm would not be.
     fn powi(self, n: i32) -> Self {
-        let (mut base, mut left, mut power) = (self, n.unsigned_abs(), Self::one());
+        let mut base = self;
+        let mut left = n.unsigned_abs();
+        let mut power = Self::one();
         while left > 0 {
             if left & 1 == 1 {
                 power = power * base;

@@ -94,7 +94,8 @@ pub fn cotangent_slope<S: Scalar>(x: S) -> S {
     }
     // With h = |a|/2 and b = h cot h: db/dx = (cot h - h/sin^2 h)/(8 h).
     let half = x.sqrt() * 0.5;
-    let (sine, cosine) = (half.sin(), half.cos());
+    let sine = half.sin();
+    let cosine = half.cos();
     let cot = cosine / sine;
     let slope = (cot - half / (sine * sine)) / (half * 8.0);
     (-slope - (S::one() - half * cot) / x) / x
@@ -114,17 +115,21 @@ pub fn shift<S: Scalar>(a: &Vector<S>, p: &Vector<S>) -> Vector<S> {
 /// da = W dw, dr and dw being the twist of the moved frame in its own axes.
 pub fn pull_back<S: Scalar>(a: &Vector<S>, p: &Vector<S>, n: &Vector<S>, m: &Vector<S>) -> [Vector<S>; 2] {
     let x = dot3(a, a);
-    let (c, slope) = (cotangent(x), cotangent_slope(x));
+    let c = cotangent(x);
+    let slope = cotangent_slope(x);
     let w = |v: &Vector<S>| -> Vector<S> {
         let turned = cross3(a, v);
         let twice = cross3(a, &turned);
         from_fn(|i| v[i] + turned[i] * 0.5 + c * twice[i])
     };
     // The gradient of n . u(a) = n . p - n . (a x p)/2 + c ((a . p)(a . n) - a^2 (n . p)).
-    let (ap, an, np) = (dot3(a, p), dot3(a, n), dot3(n, p));
+    let ap = dot3(a, p);
+    let an = dot3(a, n);
+    let np = dot3(n, p);
     let along = slope * 2.0 * (ap * an - x * np) - c * 2.0 * np;
     let lever = cross3(n, p);
-    let (cp, cn) = (c * an, c * ap);
+    let cp = c * an;
+    let cn = c * ap;
     let gradient: Vector<S> = from_fn(|i| lever[i] * 0.5 + cp * p[i] + cn * n[i] + along * a[i]);
     [w(n), w(&from_fn(|i| m[i] + gradient[i]))]
 }
@@ -133,7 +138,8 @@ pub fn pull_back<S: Scalar>(a: &Vector<S>, p: &Vector<S>, n: &Vector<S>, m: &Vec
 #[inline]
 pub fn planar_shift<S: Scalar>(a: S, [x, y]: [S; 2]) -> [S; 2] {
     let square = a * a;
-    let (along, across) = (S::one() - cotangent(square) * square, a * 0.5);
+    let along = S::one() - cotangent(square) * square;
+    let across = a * 0.5;
     [along * x + across * y, along * y - across * x]
 }
 
@@ -141,8 +147,10 @@ pub fn planar_shift<S: Scalar>(a: S, [x, y]: [S; 2]) -> [S; 2] {
 #[inline]
 pub fn planar_pull_back<S: Scalar>(a: S, [x, y]: [S; 2], [nx, ny]: [S; 2], m: S) -> ([S; 2], S) {
     let square = a * a;
-    let (c, slope) = (cotangent(square), cotangent_slope(square));
-    let (along, across) = (S::one() - c * square, a * 0.5);
+    let c = cotangent(square);
+    let slope = cotangent_slope(square);
+    let along = S::one() - c * square;
+    let across = a * 0.5;
     let np = nx * x + ny * y;
     let gradient = (nx * y - ny * x) * 0.5 - a * 2.0 * np * (c + square * slope);
     ([along * nx - across * ny, along * ny + across * nx], m + gradient)
@@ -166,7 +174,8 @@ fn turning<S: Scalar>(x: S) -> [S; 3] {
         return from_fn(|first| series(x, |k| sign(k) * INVERSE_FACTORIALS[2 * k + first]));
     }
     let angle = x.sqrt();
-    let (sin, cos) = (angle.sin(), angle.cos());
+    let sin = angle.sin();
+    let cos = angle.cos();
     [sin / angle, (S::one() - cos) / x, (angle - sin) / (angle * x)]
 }
 
@@ -196,7 +205,8 @@ mod tests {
     fn the_logarithm_undoes_the_exponential() {
         for angle in [0.0, 1e-9, 1e-3, 0.19, 0.2, 0.21, 0.5, 0.547, 0.548, 1.0, 2.0, 2.1, 3.0, PI - 1e-6] {
             for axis in [[1.0, 0.0, 0.0], [0.0, 0.6, -0.8], [-0.48, 0.6, 0.64], [0.36, -0.48, -0.8]] {
-                let (u, a) = ([0.3, -1.0, 0.7], axis.map(|x| x * angle));
+                let u = [0.3, -1.0, 0.7];
+                let a = axis.map(|x| x * angle);
                 let (axes, p) = exponential(&u, &a, 1.0);
                 let r = from_fn(|i| from_fn(|j| axes[j][i]));
                 let back = rotation_vector::<f64>(&r);
@@ -213,9 +223,12 @@ mod tests {
     /// In the plane as in space, at the bounds of the series too.
     #[test]
     fn the_plane_is_a_part_of_space() {
-        let (p, n, m) = ([0.3, -1.0], [2.0, 0.7], -0.4);
+        let p = [0.3, -1.0];
+        let n = [2.0, 0.7];
+        let m = -0.4;
         for angle in [0.0, 1e-9, -1e-3, 0.2, -0.547, 0.548, 1.0, -2.1, 3.0] {
-            let (a, lifted) = ([0.0, 0.0, angle], |[x, y]: [f64; 2]| [x, y, 0.0]);
+            let a = [0.0, 0.0, angle];
+            let lifted = |[x, y]: [f64; 2]| [x, y, 0.0];
             let u = planar_shift(angle, p);
             let (force, torque) = planar_pull_back(angle, p, n, m);
             let [spatial_force, spatial_torque] = pull_back(&a, &lifted(p), &lifted(n), &[0.0, 0.0, m]);
@@ -247,10 +260,8 @@ mod tests {
             // 1 - b loses a digit and a half at the bound, its derivative the same again.
             assert!((seeded.eps[0] - cotangent_slope(x)).abs() < 1e-14, "{x}: {seeded:?}");
         }
-        let (below, above) = (
-            cotangent(tolerances::SERIES_OF_ROTATIONS * (1.0 - 1e-15)),
-            cotangent(tolerances::SERIES_OF_ROTATIONS * (1.0 + 1e-15)),
-        );
+        let below = cotangent(tolerances::SERIES_OF_ROTATIONS * (1.0 - 1e-15));
+        let above = cotangent(tolerances::SERIES_OF_ROTATIONS * (1.0 + 1e-15));
         assert!((below - above).abs() < 1e-15);
         assert!(
             (cotangent_slope(tolerances::SERIES_OF_ROTATIONS * (1.0 - 1e-15))

@@ -59,7 +59,8 @@ mod tests {
             let side = Side::of(&vector);
             assert_eq!(Side::of_piece(side.piece()), Some(side));
             assert!(side.component(&vector) > 0.0 && side.opposite().component(&vector) < 0.0);
-            let (along, opposite) = (side.along(vector), side.along(vector.map(|x| -x)));
+            let along = side.along(vector);
+            let opposite = side.along(vector.map(|x| -x));
             assert!(along == opposite && side.component(&along) > 0.0);
         }
         assert_eq!(Side::of_piece(0), None);

@@ -84,7 +84,9 @@ mod tests {
 
     /// The threads that work at ten places. Each waits at its first place until so many have come.
     fn threads(count: usize) -> Vec<Option<ThreadId>> {
-        let (mut all, came, more) = ([None; 10], Mutex::new(Vec::new()), Condvar::new());
+        let mut all = [None; 10];
+        let came = Mutex::new(Vec::new());
+        let more = Condvar::new();
         each(&mut all[..], &|part: &mut [Option<ThreadId>]| {
             assert_eq!(part.len(), 1);
             part[0] = Some(current().id());

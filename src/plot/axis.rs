@@ -38,7 +38,8 @@ impl Extent {
     /// Returns the limits of a linear axis with a margin in parts of its length; without, it ends at round numbers that
     /// are very near.
     fn linear(&self, margin: Option<f64>) -> (f64, f64) {
-        let (span, middle) = (self.high - self.low, 0.5 * self.low + 0.5 * self.high);
+        let span = self.high - self.low;
+        let middle = 0.5 * self.low + 0.5 * self.high;
         if span > least_span(self.low, self.high) {
             let wide = |margin: f64| (self.low - margin * span, self.high + margin * span);
             return margin.map_or_else(|| near_round(self.low, self.high), wide);
@@ -49,7 +50,8 @@ impl Extent {
 
     /// Returns the decimal logarithms of the limits, with at least two labelled decades.
     fn decades(&self, margin: f64) -> (f64, f64) {
-        let (low, high) = (self.low.log10(), self.high.log10());
+        let low = self.low.log10();
+        let high = self.high.log10();
         let (low, high) = match ((low + 1e-9).floor(), (high - 1e-9).ceil()) {
             _ if high.floor() - low.ceil() >= 1.0 => (low, high),
             (down, up) if up > down => (down, up),
@@ -63,7 +65,8 @@ impl Extent {
 fn near_round(low: f64, high: f64) -> (f64, f64) {
     let step = 10f64.powf((high - low).log10().floor()) / 2.0;
     let near = 0.012 * (high - low);
-    let (down, up) = ((low / step).floor() * step, (high / step).ceil() * step);
+    let down = (low / step).floor() * step;
+    let up = (high / step).ceil() * step;
     (if low - down < near { down } else { low }, if up - high < near { up } else { high })
 }
 

@@ -19,14 +19,16 @@ pub(super) fn polyline(points: &[Pt], inside: &Rect) -> Vec<Vec<Pt>> {
 
 /// Returns the part of a segment inside a rectangle (Liang and Barsky).
 fn segment(from: Pt, to: Pt, inside: &Rect) -> Option<(Pt, Pt)> {
-    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let dx = to.0 - from.0;
+    let dy = to.1 - from.1;
     let sides = [
         (-dx, from.0 - inside.left),
         (dx, inside.right - from.0),
         (-dy, from.1 - inside.top),
         (dy, inside.bottom - from.1),
     ];
-    let (mut enter, mut leave) = (0.0f64, 1.0f64);
+    let mut enter = 0.0f64;
+    let mut leave = 1.0f64;
     for (slope, room) in sides {
         if slope == 0.0 && room < 0.0 {
             return None;

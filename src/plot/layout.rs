@@ -108,7 +108,8 @@ impl<'a> Placed<'a> {
 
     /// Makes units equally long: by the height of the frame if it stays moderate, and by wider limits otherwise.
     fn equalize(&mut self) {
-        let (x, y) = (self.x.high - self.x.low, self.y.high - self.y.low);
+        let x = self.x.high - self.x.low;
+        let y = self.y.high - self.y.low;
         let (width, height) = self.frame.size();
         let height = (width * (y / x)).max(0.3 * width).min(height).round();
         self.frame.bottom = height;
@@ -127,7 +128,9 @@ pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
     let whole = if figure.width.is_finite() { figure.width.clamp(WIDTHS.0, WIDTHS.1).round() } else { WIDTHS.0 };
     let total = whole / columns(figure) as f64;
     let mut all = panels(figure);
-    let (mut left, mut right, mut distance) = (80.0, 20.0, 0.0);
+    let mut left = 80.0;
+    let mut right = 20.0;
+    let mut distance = 0.0;
     // Marks depend on the space for them, and the space on their labels; three rounds settle it.
     for _ in 0..3 {
         let width = (total - left - right).max(60.0);

@@ -91,11 +91,13 @@ pub(super) fn inside(entries: &[LegendEntry], placed: &Placed, taken: &Taken) ->
     const SIDES: [(f64, f64); 8] =
         [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (0.0, 0.5), (0.5, 1.0), (0.5, 0.0)];
     let most = if placed.panel.cells.is_empty() { entries.len().min(4) } else { 0 };
-    let (room, frame) = (placed.frame.grown(-INSET), placed.frame.size());
+    let room = placed.frame.grown(-INSET);
+    let frame = placed.frame.size();
     (1..=most).find_map(|columns| {
         let block = Block::new(entries, columns, 0.8 * frame.0);
         let (width, height) = block.size();
-        let (across, down) = (room.size().0 - width, room.size().1 - height);
+        let across = room.size().0 - width;
+        let down = room.size().1 - height;
         let is_small = across >= 0.0 && down >= 0.0 && width * height <= MOST_AREA * frame.0 * frame.1;
         let corners = SIDES.map(|(right, up)| (room.left + right * across, room.bottom - height - up * down));
         let free = |corner: &Pt| is_small && taken.cover(&Rect::new(*corner, (width, height)), 5.0) == 0;

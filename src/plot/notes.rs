@@ -80,7 +80,8 @@ impl Taken {
     }
 
     fn segment(&mut self, from: Pt, to: Pt) {
-        let (right, down) = (to.0 - from.0, to.1 - from.1);
+        let right = to.0 - from.0;
+        let down = to.1 - from.1;
         let steps = (right.hypot(down) / 5.0).ceil().clamp(1.0, 4000.0);
         let parts = (1..=steps as usize).map(|k| k as f64 / steps);
         self.points.extend(parts.map(|part| (from.0 + part * right, from.1 + part * down)));

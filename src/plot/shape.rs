@@ -98,7 +98,8 @@ impl Text {
     /// Returns the box around the text, as measured with the embedded font.
     pub fn bounds(&self) -> Rect {
         let (width, (x, y)) = (self.rich.width(self.size), self.at);
-        let (before, above) = (self.align.part() * width, 0.78 * self.size);
+        let before = self.align.part() * width;
+        let above = 0.78 * self.size;
         if self.turned {
             return Rect::new((x - above, y + before - width), (self.size, width));
         }

@@ -16,7 +16,9 @@ pub(super) fn render(drawing: &Drawing) -> String {
 
 /// Returns the file without its end.
 fn opening(drawing: &Drawing) -> String {
-    let (width, height, title) = (number(drawing.width), number(drawing.height), escape(&drawing.title));
+    let width = number(drawing.width);
+    let height = number(drawing.height);
+    let title = escape(&drawing.title);
     let title = if title.is_empty() { title } else { format!("<title>{title}</title>\n") };
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
@@ -58,9 +60,11 @@ fn style(paint: &Paint) -> String {
 /// Returns an animation of which `frames` are shown in a loop, each for `delay` seconds.
 pub(super) fn animate(still: &Drawing, frames: &[Vec<Shape>], delay: f64) -> String {
     let mut out = opening(still);
-    let (count, whole) = (frames.len() as f64, delay * frames.len() as f64);
+    let count = frames.len() as f64;
+    let whole = delay * frames.len() as f64;
     for (k, frame) in frames.iter().enumerate() {
-        let (from, to) = (k as f64 / count, (k + 1) as f64 / count);
+        let from = k as f64 / count;
+        let to = (k + 1) as f64 / count;
         // Viewers without animation show the first frame.
         let first = if k == 0 { "inline" } else { "none" };
         out += &format!(
@@ -75,15 +79,19 @@ pub(super) fn animate(still: &Drawing, frames: &[Vec<Shape>], delay: f64) -> Str
 
 fn text(out: &mut String, text: &Text) {
     let anchor = ["start", "middle", "end"][text.align as usize];
-    let (x, y) = (number(text.at.0), number(text.at.1));
+    let x = number(text.at.0);
+    let y = number(text.at.1);
     let upright = format!("x=\"{x}\" y=\"{y}\"");
     let place = if text.turned { format!("transform=\"translate({x} {y}) rotate(-90)\"") } else { upright };
-    let (size, color) = (number(text.size), hex(&text.color));
+    let size = number(text.size);
+    let color = hex(&text.color);
     *out += &format!("<text {place} font-size=\"{size}\" fill=\"{color}\" text-anchor=\"{anchor}\">");
     let mut level = 0.0;
     for (rise, run) in &text.rich.0 {
         let (size, down) = text::metrics(*rise, text.size);
-        let (step, size, run) = (number(down - level), number(size), escape(run));
+        let step = number(down - level);
+        let size = number(size);
+        let run = escape(run);
         let is_plain = *rise == 0.0 && level == 0.0;
         *out += &if is_plain { run } else { format!("<tspan dy=\"{step}\" font-size=\"{size}\">{run}</tspan>") };
         level = down;
@@ -93,7 +101,8 @@ fn text(out: &mut String, text: &Text) {
 
 /// Returns path data: steps in tenths of a pixel that add up without drift, without letters that repeat.
 fn data(lines: &[Vec<Pt>]) -> String {
-    let (mut out, mut pen) = (String::new(), [0, 0]);
+    let mut out = String::new();
+    let mut pen = [0, 0];
     for line in lines {
         let mut last = ' ';
         for (x, y) in line {

@@ -16,7 +16,8 @@ pub(super) static DEJAVU: LazyLock<Option<FontRef>> =
 
 /// Returns the glyphs of a text, each with its start, and the end of the text; in em, with kerning.
 pub(super) fn glyphs(font: &FontRef, text: &str) -> (Vec<(GlyphId, f64)>, f64) {
-    let (mut end, mut before) = (0.0, None);
+    let mut end = 0.0;
+    let mut before = None;
     let mut place = |character| {
         let glyph = font.glyph_id(character);
         let start = end + before.map_or(0.0, |before| font.kern_unscaled(before, glyph));
@@ -50,7 +51,8 @@ impl Rich {
     /// Reads a text. Superscript and subscript characters become raised and lowered parts, which look the same in
     /// every font, and so does a whole number after "^": `m/s^2`. Control characters become spaces.
     pub fn new(text: &str) -> Self {
-        let (mut rich, mut is_exponent) = (Self::default(), false);
+        let mut rich = Self::default();
+        let mut is_exponent = false;
         let chars: Vec<char> = text.chars().collect();
         let is_digit = |k: usize| chars.get(k).is_some_and(char::is_ascii_digit);
         for (k, character) in chars.iter().enumerate() {

@@ -52,7 +52,8 @@ fn straighten(points: &[Pt], tolerance: f64) -> Vec<Pt> {
 
 /// Returns the square of the distance of a point from the segment between two others.
 fn distance(point: Pt, from: Pt, to: Pt) -> f64 {
-    let (along, away) = ((to.0 - from.0, to.1 - from.1), (point.0 - from.0, point.1 - from.1));
+    let along = (to.0 - from.0, to.1 - from.1);
+    let away = (point.0 - from.0, point.1 - from.1);
     let length = along.0 * along.0 + along.1 * along.1;
     let part = if length > 0.0 { ((along.0 * away.0 + along.1 * away.1) / length).clamp(0.0, 1.0) } else { 0.0 };
     (away.0 - part * along.0).powi(2) + (away.1 - part * along.1).powi(2)
@@ -105,7 +106,8 @@ mod tests {
         assert!(thin.len() < 200, "{}", thin.len());
         for (x, y) in curve {
             let right = thin.partition_point(|point| point.0 < x).clamp(1, thin.len() - 1);
-            let (a, b) = (thin[right - 1], thin[right]);
+            let a = thin[right - 1];
+            let b = thin[right];
             let on_line = a.1 + (b.1 - a.1) * (x - a.0) / (b.0 - a.0);
             assert!((on_line - y).abs() < 0.4, "{x} {y} {on_line}");
         }

@@ -85,7 +85,8 @@ fn linear(low: f64, high: f64, room: Room, is_angle: bool) -> Ticks {
 /// Returns marks at the multiples of a step.
 fn multiples(low: f64, high: f64, step: f64) -> Ticks {
     // A mark exactly at the limit must not be lost to rounding.
-    let (first, last) = ((low / step - 1e-6).ceil(), (high / step + 1e-6).floor());
+    let first = (low / step - 1e-6).ceil();
+    let last = (high / step + 1e-6).floor();
     let values: Vec<f64> = (0..50).map(|k| (first + f64::from(k)) * step).take_while(|v| *v <= last * step).collect();
     let largest = |offset: f64| values.iter().map(|value| (value - offset).abs()).fold(f64::MIN_POSITIVE, f64::max);
     let is_long = largest(0.0).log10().floor() - step.log10().floor() >= MOST_DIGITS;

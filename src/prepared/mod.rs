@@ -231,7 +231,8 @@ impl PreparedScene {
 
 /// Refuses an element with a switching function whose argument it never writes: its law would never switch.
 fn check_switches(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<()> {
-    let (vdot, count) = (vec![0.0; v.len()], system.switches().len());
+    let vdot = vec![0.0; v.len()];
+    let count = system.switches().len();
     if count == 0 {
         return Ok(());
     }
@@ -293,7 +294,8 @@ impl Settings<'_> {
 
     /// True for automatic choice of methods; the command line has precedence over the scene.
     fn is_automatic(&self) -> Result<bool> {
-        let (scene, given) = (self.scene, self.overrides);
+        let scene = self.scene;
+        let given = self.overrides;
         let named = |choices: [&Option<MethodSpec>; 3], has_step: bool| {
             let names = ["formulation", "integrator", "projection"].into_iter().zip(choices);
             let found = names.filter(|(_, spec)| spec.is_some()).map(|(name, _)| name).next();
@@ -315,7 +317,9 @@ impl Settings<'_> {
 
     /// The method, with default tolerances for a scene of this `length`, m.
     fn method(&self, is_automatic: bool, length: f64) -> Result<Method> {
-        let (own, given, default) = (self.scene, self.overrides, Method::of_length(length));
+        let own = self.scene;
+        let given = self.overrides;
+        let default = Method::of_length(length);
         let unnamed = Simulation { formulation: None, integrator: None, projection: None, step: None, ..own.clone() };
         let scene = if is_automatic { &unnamed } else { own };
         let pick = |given: &Option<MethodSpec>, scene: &Option<MethodSpec>, default: MethodSpec| {

@@ -46,7 +46,8 @@ struct Exact {
 impl Projection for Exact {
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), StepError> {
         let need = Need::MASS | Need::CONSTRAINTS | Need::G;
-        let (mut newton, mut is_evaluated) = (Monitor::default(), false);
+        let mut newton = Monitor::default();
+        let mut is_evaluated = false;
         // `most` corrections, and the residual after the last one.
         let limits = Limits { most: self.most + 1, ..LIMITS };
         let closed = newton.solve(limits, |_| {

@@ -106,7 +106,8 @@ pub fn check(prepared: &PreparedScene) -> Check {
 fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check {
     let (system, Assembly { q, v, vdot, lambda, .. }) = (prepared.system(), &prepared.assembly);
     let found = Rank::at(system, OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda });
-    let (n, names) = (system.dimensions(), system.names().lambda);
+    let n = system.dimensions();
+    let names = system.names().lambda;
     Check {
         scene: prepared.name.clone(),
         dimension: D,
@@ -148,7 +149,8 @@ fn bodies<const D: usize>(model: &Model<D>) -> Vec<Item> {
 }
 
 fn beam_item<const D: usize>(beam: &BeamLine, node: &crate::scene::Part<D>) -> Item {
-    let (elements, nodes) = (beam.elements.len(), beam.abscissae.len());
+    let elements = beam.elements.len();
+    let nodes = beam.abscissae.len();
     let detail = format!("{elements} elements, {nodes} nodes of {}", node.body.coordinate_names().join(" "));
     Item { name: beam.name.clone(), kind: "flexible beam, absolute".to_string(), detail }
 }
@@ -161,7 +163,8 @@ fn forces<const D: usize>(model: &Model<D>) -> Vec<Item> {
 }
 
 fn states<const D: usize>(model: &Model<D>) -> Vec<Item> {
-    let (kind, detail) = ("state".to_string(), String::new());
+    let kind = "state".to_string();
+    let detail = String::new();
     let item = |(name, _): &(String, usize)| Item { name: name.clone(), kind: kind.clone(), detail: detail.clone() };
     model.markers.states.iter().map(item).collect()
 }
@@ -311,7 +314,8 @@ impl Start {
         let at = OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda };
         prepared.system().outputs(at, &mut values, &mut Scratch::default());
         let moving = ..prepared.system().dimensions().moving();
-        let (velocity, acceleration) = (largest(&v[moving]), largest(&vdot[moving]));
+        let velocity = largest(&v[moving]);
+        let acceleration = largest(&vdot[moving]);
         Start {
             velocity,
             acceleration,

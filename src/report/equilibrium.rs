@@ -61,12 +61,15 @@ impl EquilibriumFile {
 
     /// The report of an equilibrium.
     pub fn of(prepared: &PreparedScene, found: Equilibrium) -> EquilibriumFile {
-        let (system, names) = (prepared.system(), prepared.system().names());
+        let system = prepared.system();
+        let names = prepared.system().names();
         let columns = system.columns();
-        let (mut outputs, vdot) = (vec![0.0; columns.len()], vec![0.0; names.v.len()]);
+        let mut outputs = vec![0.0; columns.len()];
+        let vdot = vec![0.0; names.v.len()];
         let at = OperatingPoint { t: found.t, q: &found.q, v: &found.v, vdot: &vdot, lambda: &found.lambda };
         system.outputs(at, &mut outputs, &mut Scratch::default());
-        let (n, start) = (system.dimensions(), prepared.start());
+        let n = system.dimensions();
+        let start = prepared.start();
         let states = names.v[n.moving()..].iter().zip(start.1.iter().zip(&found.v).skip(n.moving()));
         let pairs = names.q.iter().zip(start.0.iter().zip(&found.q)).chain(states.clone());
         let moved = pairs.filter(|(_, (from, to))| (*to - *from).abs() > tolerances::SAME * (1.0 + from.abs()));

@@ -210,7 +210,8 @@ impl Written {
 
     /// Returns what became of earlier results that were not the same; none where there were none.
     pub fn note(&self) -> Option<String> {
-        let (folder, removed) = (self.folder.display(), self.removed.join(", "));
+        let folder = self.folder.display();
+        let removed = self.removed.join(", ");
         let gone = if removed.is_empty() { String::new() } else { format!("removed {removed} of an earlier run") };
         match (self.notes.first(), removed.is_empty()) {
             (None, true) => None,

@@ -128,7 +128,8 @@ fn read_table(path: &Path, is_thinned: bool) -> Result<Rows> {
     });
     let mut reader = csv::Reader::from_reader(file.map_err(|error| wrong(&error))?);
     let headings: Vec<String> = reader.headers().map_err(|error| wrong(&error))?.iter().map(String::from).collect();
-    let (mut rows, mut record) = (Vec::new(), csv::StringRecord::new());
+    let mut rows = Vec::new();
+    let mut record = csv::StringRecord::new();
     while reader.read_record(&mut record).map_err(|error| wrong(&error))? {
         let value = |cell: &str| match cell {
             "" => Ok(f64::NAN),

@@ -32,7 +32,8 @@ fn rods(what: &str, rods: &[Rod], is_of: impl Fn(&Rod) -> bool) -> String {
 
 fn modes(modes: &[&Unseen]) -> Option<String> {
     let frequency = |mode: &&Unseen| mode.circular_frequency;
-    let (least, most) = (modes.iter().map(frequency).reduce(f64::min)?, modes.iter().map(frequency).reduce(f64::max)?);
+    let least = modes.iter().map(frequency).reduce(f64::min)?;
+    let most = modes.iter().map(frequency).reduce(f64::max)?;
     let seen = modes.iter().map(|mode| mode.seen).fold(0.0, f64::max);
     let mut moves: Vec<String> = modes.iter().flat_map(|mode| mode.moves.clone()).collect();
     moves.sort();

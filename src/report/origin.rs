@@ -111,7 +111,8 @@ impl Settings {
 
     /// Returns the settings that differ, with their earlier values.
     fn changes(&self, new: &Settings) -> Vec<String> {
-        let (old, new) = (self.values(), new.values());
+        let old = self.values();
+        let new = new.values();
         let differs =
             |(name, value): &(&str, &Value)| new.iter().find(|(known, _)| known == name).map(|x| x.1) != Some(value);
         let mut changes: Vec<String> =

@@ -33,7 +33,8 @@ pub fn reaction<const D: usize>(
     let joint = find("joint", of, names).map_err(|error| {
         if elements.forces.iter().any(|force| force.name == of) { is_a(of, "force", "joint", "force") } else { error }
     })?;
-    let (given, holds) = (&elements.joints[joint], elements.joints[joint].element.row_names());
+    let given = &elements.joints[joint];
+    let holds = elements.joints[joint].element.row_names();
     let axes = build.marker("relative_to", spec.relative_to.as_deref().unwrap_or("ground"))?;
     build.oriented("relative_to", &[axes])?;
     let Some(name) = spec.component.as_deref() else {

@@ -91,7 +91,8 @@ impl NodeMass {
     /// The half of the element after (or before) the node.
     pub fn half(&self, after: bool) -> Half {
         let Some(lump) = (if after { self.after } else { self.before }) else { return Half::default() };
-        let (share, about) = (lump.mass / self.mass(), self.about());
+        let share = lump.mass / self.mass();
+        let about = self.about();
         let small = |i: usize| lump.rotary[i] == 0.0;
         let moment = |i: usize| if small(i) { share * about[i] } else { lump.rotary[i] };
         let per_length = |i: usize| if small(i) { 2.0 / lump.length * moment(i) } else { lump.section.rho_i[i] };

@@ -229,7 +229,8 @@ fn wanted<const D: usize>(spec: &OutputSpec, build: &Build<D>) -> Result<Wanted>
     Ok(match spec.measure {
         MeasureKind::Deflection => Wanted::Deflection(component(spec, "y", &["x", "y", "z"][..D])?),
         MeasureKind::Strain => {
-            let (mut y, mut z) = (0.0, 0.0);
+            let mut y = 0.0;
+            let mut z = 0.0;
             match (&spec.offset, D) {
                 (None, _) => {}
                 (Some(offset), 2) => [y] = build.vector::<1>("offset", offset)?,

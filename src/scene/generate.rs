@@ -17,7 +17,8 @@ pub fn n_four_bar(n: usize) -> Value {
             "initial": { "position": position, "angle": angle, "velocity": motion[0], "angular_velocity": motion[1] } })
     };
     let ends = json!({ "A": ["-l/2", 0], "B": ["l/2", 0] });
-    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+    let mut bodies = Vec::new();
+    let mut joints = Vec::new();
     let mut hinge = |name: String, a: String, b: String| {
         joints.push(json!({ "name": name, "type": "revolute", "between": [a, b] }));
     };

@@ -287,7 +287,8 @@ impl<'a> Names<'a> {
 
     /// A reference or expression with prefixes before the names of the included scene.
     fn text(&self, text: &str) -> String {
-        let (mut out, mut rest) = (String::new(), text);
+        let mut out = String::new();
+        let mut rest = text;
         while let Some(first) = rest.chars().next() {
             let length = word_length(rest).max(first.len_utf8());
             let (word, after) = rest.split_at(length);

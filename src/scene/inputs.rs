@@ -126,7 +126,8 @@ fn add<const D: usize>(
             });
         }
         Target::Component { force, .. } | Target::Road { force, .. } => {
-            let (component, added) = (target.force().map_or(0, |(_, component)| component), value.clone());
+            let component = target.force().map_or(0, |(_, component)| component);
+            let added = value.clone();
             replace(forces, force, |known| {
                 let (element, markers) = force::Added::new(known.element, &known.markers, (component, added));
                 Connection { element: Box::new(element) as _, markers, ..known }

@@ -61,7 +61,8 @@ impl<const D: usize> Named<'_, D> {
     /// The error of an output that an expression names, with its place in the message.
     fn unreadable(&self, spec: &OutputSpec, error: Error) -> Error {
         let Error::Input(input) = error else { return error };
-        let (all, read) = (self.file.joints.iter().chain(&self.file.forces), self.elements.borrow());
+        let all = self.file.joints.iter().chain(&self.file.forces);
+        let read = self.elements.borrow();
         // How many elements stand between this one, which is read, and that of the output.
         let ahead = |of: &String| {
             let place = all.skip(read.len()).position(|element| element["name"] == **of);

@@ -65,7 +65,9 @@ pub fn outputs<const D: usize>(
     elements: Elements<D>,
     build: &Build<D>,
 ) -> Result<(Vec<Watched>, Vec<Watched>, Vec<Cut<D>>)> {
-    let (mut all, mut works, mut cuts) = (Vec::new(), Vec::new(), Vec::new());
+    let mut all = Vec::new();
+    let mut works = Vec::new();
+    let mut cuts = Vec::new();
     for (i, spec) in specs.iter().enumerate() {
         let place = |error: Error| error.element(&spec.name).under(format!("outputs[{i}]"));
         refuse_idle_keys(spec).map_err(place)?;

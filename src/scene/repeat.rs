@@ -211,7 +211,8 @@ impl Expansion<'_> {
                 .hint("write \"1..6\" for 1 to 6; the ends may be expressions over parameters"));
         };
         let [first, last] = [self.evaluate(first, variables)?, self.evaluate(last, variables)?];
-        let (is_whole, count) = ([first, last].iter().all(|x| x.fract() == 0.0), last - first + 1.0);
+        let is_whole = [first, last].iter().all(|x| x.fract() == 0.0);
+        let count = last - first + 1.0;
         if is_whole && first.abs() < 1e9 && count >= 0.0 {
             Ok((first, count as usize))
         } else {

@@ -90,7 +90,8 @@ fn model<const D: usize>(
         turnings: &turnings,
     };
     build.gravity = gravity::uniform(&file.gravity, &build)?;
-    let (gravity, mut parts) = (build.gravity, Parts::collect(file, &kinds.bodies, &build)?);
+    let gravity = build.gravity;
+    let mut parts = Parts::collect(file, &kinds.bodies, &build)?;
     outputs::check_names(&file.outputs)?;
     states::place(&file.states, &file.outputs, &mut parts, &build)?;
     let named = Named { file, elements: Default::default() };
@@ -248,7 +249,8 @@ impl<const D: usize> Parts<D> {
 
     /// Adds a body; `markers` are the full names of its markers after its own frame.
     fn place(&mut self, name: String, markers: impl Iterator<Item = String>, built: Built<D>) {
-        let (index, first_marker) = (self.bodies.len(), self.table.names.len());
+        let index = self.bodies.len();
+        let first_marker = self.table.names.len();
         let oriented = built.body.oriented();
         let all = [name.clone()].into_iter().chain(markers);
         all.for_each(|marker| self.table.add(marker, Some(index), oriented));
@@ -264,8 +266,10 @@ impl<const D: usize> Parts<D> {
     }
 
     fn add_part(&mut self, name: String, first_marker: MarkerId, built: Built<D>) {
-        let (first_q, first_v) = (self.q.len(), self.v.len());
-        let (nq, nv) = (built.q.len(), built.v.len());
+        let first_q = self.q.len();
+        let first_v = self.v.len();
+        let nq = built.q.len();
+        let nv = built.v.len();
         self.bodies.push(Part { name, first_marker, first_q, first_v, nq, nv, body: built.body });
         self.q.extend(built.q);
         self.v.extend(built.v);

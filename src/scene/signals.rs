@@ -76,7 +76,8 @@ fn fault(problem: PointsError, points: &[[f64; 2]], places: &Places, field: &str
             Error::input(format!("a signal takes at least 2 points, found {}", points.len())).under(field)
         }
         PointsError::NotIncreasing(i) => {
-            let (now, before) = (points[i][0], points[i - 1][0]);
+            let now = points[i][0];
+            let before = points[i - 1][0];
             Error::input(format!("{}: x must increase, found {now} after {before}", places.at(i)))
                 .under(field)
                 .hint("give each x once, in order")
@@ -126,7 +127,9 @@ fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Poi
     let broken = |error: csv::Error| Error::input(format!("{file}: this is no table: {error}"));
     let headings: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_string).collect();
     let chosen = choose(file, &headings, columns)?;
-    let (mut points, mut lines, mut record) = (Vec::new(), Vec::new(), csv::StringRecord::new());
+    let mut points = Vec::new();
+    let mut lines = Vec::new();
+    let mut record = csv::StringRecord::new();
     while reader.read_record(&mut record).map_err(broken)? {
         let line = record.position().map_or(0, |at| line(&text, at));
         let row = Row { file, line, headings: &headings, record: &record };

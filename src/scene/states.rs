@@ -18,7 +18,8 @@ pub fn place<const D: usize>(
 ) -> Result<()> {
     for (i, spec) in specs.iter().enumerate() {
         let place = |error: Error| error.under(format!("states[{i}]"));
-        let (others, name) = (&specs[..i], spec.name.as_str());
+        let others = &specs[..i];
+        let name = spec.name.as_str();
         let taken = [
             (name == "t" || name == "pi", "a name that every expression knows"),
             (others.iter().any(|known| known.name == name), "that of another state"),
@@ -45,7 +46,8 @@ pub fn rates<const D: usize>(specs: &[StateSpec], build: &Build<D>) -> Result<Ve
         let acting = build.acting("rate", &spec.rate, true).and_then(|rate| StateRate::new(marker, rate));
         let rate = acting.map_err(|error| error.element(&spec.name).under(format!("states[{i}]")))?;
         build.own("state", &spec.name);
-        let (name, markers) = (format!("{}'", spec.name), rate.markers().to_vec());
+        let name = format!("{}'", spec.name);
+        let markers = rate.markers().to_vec();
         Ok(Connection { name, kind: "rate", element: Box::new(rate) as Box<dyn Force<D>>, markers })
     };
     specs.iter().zip(&build.markers.states).enumerate().map(rate).collect()

@@ -187,7 +187,8 @@ impl Base {
             reason: String::new(),
         };
         let again = if is_known { 0.0 } else { accurate.recorded.work };
-        let (runs, work) = (self.runs + if is_known { 1 } else { 2 }, self.work + again + richest.work);
+        let runs = self.runs + if is_known { 1 } else { 2 };
+        let work = self.work + again + richest.work;
         Ok(Base { accurate, richest, trials: vec![trial], runs, work })
     }
 }

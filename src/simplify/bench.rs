@@ -51,7 +51,8 @@ fn kind(run: &Run) -> Kind {
 impl Bench<'_> {
     /// True if no run may be done any more, or but `reserved` are.
     pub fn is_over(&self, reserved: usize) -> bool {
-        let (at_most, reserved) = (self.at_most as f64, reserved as f64);
+        let at_most = self.at_most as f64;
+        let reserved = reserved as f64;
         let is_done = self.runs as f64 + reserved >= at_most || self.cost + reserved >= COUNTED * at_most;
         is_done || (self.is_stopped)()
     }

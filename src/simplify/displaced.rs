@@ -36,7 +36,8 @@ pub fn start_at(body: &mut Value, place: &Placed, dimension: usize) {
     if !is_rigid(body) {
         return;
     }
-    let (is_point, is_guided) = (text(body, "type") == "point_mass", body.get("free").is_some());
+    let is_point = text(body, "type") == "point_mass";
+    let is_guided = body.get("free").is_some();
     if !body["initial"].is_object() {
         body["initial"] = json!({});
     }

@@ -133,7 +133,8 @@ pub fn change_words(value: &mut Value, change: &impl Fn(&str, &str) -> Option<St
 }
 
 fn changed(text: &str, change: &impl Fn(&str, &str) -> Option<String>) -> Option<String> {
-    let (mut result, mut rest) = (String::new(), text);
+    let mut result = String::new();
+    let mut rest = text;
     while let Some(word) = words(rest).next() {
         let at = word.as_ptr() as usize - rest.as_ptr() as usize;
         result += &rest[..at];

@@ -183,10 +183,12 @@ impl Facts {
     ) -> Option<Vec<Vec<f64>>> {
         let system = model.system();
         let watched = Watched::new(system, outputs).ok()?;
-        let (mut dynamics, mut scratch) = (Dynamics::new(system), Scratch::default());
+        let mut dynamics = Dynamics::new(system);
+        let mut scratch = Scratch::default();
         let read = |State { t, q, v }: &State| {
             dynamics.solve(*t, q, v, |_, _| 0.0).ok()?;
-            let (vdot, lambda) = (&dynamics.vdot, &dynamics.lambda);
+            let vdot = &dynamics.vdot;
+            let lambda = &dynamics.lambda;
             Some(watched.read(system, (OperatingPoint { t: *t, q, v, vdot, lambda }, &[]), &mut scratch))
         };
         states.map(read).collect()
@@ -203,7 +205,9 @@ impl Facts {
         }
         let mut scratch = [Scratch::default(), Scratch::default()];
         let mut terms = systems.map(Terms::new);
-        let (mut work, mut most, mut before) = (0.0, 0.0f64, None);
+        let mut work = 0.0;
+        let mut most = 0.0f64;
+        let mut before = None;
         for state in &self.states {
             for ((system, terms), scratch) in systems.iter().zip(&mut terms).zip(&mut scratch) {
                 system.evaluate(state.t, &state.q, &state.v, Need::FORCE, terms, scratch);
@@ -221,7 +225,8 @@ impl Facts {
     /// The larger of the swings of the kinetic energy and of the potential, J: that of a car that rolls on is turned over
     /// by nothing.
     pub(super) fn turnover(&self) -> f64 {
-        let (system, mut scratch) = (self.prepared.system(), Scratch::default());
+        let system = self.prepared.system();
+        let mut scratch = Scratch::default();
         let energy = |state: &State| system.energy(state.t, &state.q, &state.v, &mut scratch);
         let all: Vec<_> = self.states.iter().filter_map(energy).collect();
         let swing = |of: fn(&Energy) -> f64| {
@@ -234,7 +239,8 @@ impl Facts {
 
 /// `initial` of a rigid body or point mass at a state with these places of markers; none of another.
 pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body: &Value) -> Option<Value> {
-    let (name, kind) = (text(body, "name"), text(body, "type"));
+    let name = text(body, "name");
+    let kind = text(body, "type");
     if !["rigid", "point_mass"].contains(&kind) {
         return None;
     }
@@ -281,7 +287,8 @@ fn places<const D: usize>(mechanism: &Mechanism<D>, state: &State, scratch: &mut
     let axis = |axes: &[[f64; D]; D], i: usize| if i < D { in_space(&axes[i]) } else { [0.0, 0.0, 1.0] };
     let place = |moving: &Frame<Taylor<f64>, D>| {
         let frame = moving.map(|x| x.x);
-        let (velocity, spin) = (in_space(&moving.velocity()), moving.angular_velocity());
+        let velocity = in_space(&moving.velocity());
+        let spin = moving.angular_velocity();
         let axes = from_fn(|i| axis(&frame.axes, i));
         Placed { r: in_space(&frame.r), axes, turn: frame.turn, velocity, spin }
     };
@@ -296,7 +303,8 @@ fn seen<const D: usize>(mechanism: &Mechanism<D>, states: &[State]) -> Seen {
     let model = mechanism.model();
     let kinetic = |state: &State| -> Vec<f64> {
         let of = |part: &crate::scene::Part<D>| {
-            let (q, v) = (&state.q[part.first_q..][..part.nq], &state.v[part.first_v..][..part.nv]);
+            let q = &state.q[part.first_q..][..part.nq];
+            let v = &state.v[part.first_v..][..part.nv];
             part.body.energy(q, v, &model.gravity).kinetic
         };
         model.bodies.iter().map(of).collect()

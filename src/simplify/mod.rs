@@ -163,7 +163,8 @@ pub fn simplify(
 ) -> Result<Simplification> {
     let begun = Stopwatch::start();
     let is_within = |part: u32| settings.budget.is_none_or(|budget| begun.wall() < budget / part);
-    let (is_asked, is_spent) = (is_stopped, || is_stopped() || !is_within(1));
+    let is_asked = is_stopped;
+    let is_spent = || is_stopped() || !is_within(1);
     let is_stopped: &(dyn Fn() -> bool + Sync) = &is_spent;
     let is_long = || is_asked() || !is_within(RICHEST);
     let Base { accurate, richest, trials, runs, work } = Base::new(source, settings, &is_long, is_stopped, watch)?;
@@ -172,7 +173,8 @@ pub fn simplify(
     let opinion = accurate.confirmed(settings, is_stopped);
     warnings.extend(opinion.as_ref().and_then(|opinion| contradicted(opinion, settings.within)));
     let Accurate { source: base, prepared, recorded, promise, .. } = accurate;
-    let (scene, names) = (prepared.name.clone(), promise.names());
+    let scene = prepared.name.clone();
+    let names = promise.names();
     let facts = Facts::new(base.clone(), prepared, names.clone(), recorded);
     if settings.nearby.is_some() {
         watch("the full model on motions nearby", runs);
@@ -199,7 +201,8 @@ pub fn simplify(
     let reserved = RESERVED.min((settings.at_most - LEAST) / 2);
     let mut found = search::search(&mut bench, &facts, candidates, trials, reserved);
     numerics::cheapest(&mut bench, &mut found);
-    let (runs, cost) = (bench.runs, bench.cost);
+    let runs = bench.runs;
+    let cost = bench.cost;
     // Where nothing was changed it has not been tried.
     let untried = neighbours.filter(|_| found.robustness.is_none() && !is_stopped());
     let robustness = untried.map(|near| near.robustness(&found.scene)).or(found.robustness);

@@ -49,7 +49,8 @@ impl<'a> Movable<'a> {
     pub fn new(source: &'a Source, facts: &'a Facts, by: f64) -> Movable<'a> {
         let scene = &source.scene;
         let points = elements(scene, "signals").iter().filter_map(|signal| points(facts, signal)).collect();
-        let (velocities, progress) = (facts.prepared.start().1.iter().any(|v| *v != 0.0), progress(facts));
+        let velocities = facts.prepared.start().1.iter().any(|v| *v != 0.0);
+        let progress = progress(facts);
         let mut all = Movable {
             source,
             facts,
@@ -173,8 +174,10 @@ impl<'a> Movable<'a> {
             let (joint, coordinate) = key.split_once('.')?;
             let joint = self.facts.element("joints", joint).filter(|joint| joint.get("axis").is_none())?;
             let [one, other] = pair(joint)?.map(|marker| self.facts.path(marker));
-            let (one, other) = (one?, other?);
-            let (first, now) = ([one[0], other[0]], [*one.get(state)?, *other.get(state)?]);
+            let one = one?;
+            let other = other?;
+            let first = [one[0], other[0]];
+            let now = [*one.get(state)?, *other.get(state)?];
             let along = if self.facts.dimension() == 2 && coordinate == "position" { 0 } else { 2 };
             let change = match coordinate {
                 "angle" => wrapped(angle(&now) - angle(&first)),
@@ -217,7 +220,8 @@ impl<'a> Movable<'a> {
         if dimension == self.facts.dimension() {
             return Some(*place);
         }
-        let (plane, start) = (Plane::new(self.facts), self.facts.place(body)?);
+        let plane = Plane::new(self.facts);
+        let start = self.facts.place(body)?;
         let own = plane.seen_from(body, &start)[0];
         let flat = |vector: &[f64; 3]| plane.axes.map(|axis| dot(&axis, vector));
         let direction = |place: &Placed| -> [f64; 3] { from_fn(|i| (0..3).map(|k| own[k] * place.axes[k][i]).sum()) };
@@ -256,7 +260,8 @@ fn potential(prepared: &PreparedScene) -> Option<f64> {
 
 /// Points of a signal that is in a file.
 fn points(facts: &Facts, signal: &Value) -> Option<(String, Value)> {
-    let (name, _) = (text(signal, "name"), signal.get("file")?);
+    let name = text(signal, "name");
+    let _ = signal.get("file")?;
     let signal = facts.prepared.parameters.signals().iter().find(|signal| signal.name() == name)?;
     let points: Vec<[f64; 2]> = signal.knots().iter().map(|x| [*x, signal.apply(*x)]).collect();
     Some((name.to_string(), json!(points)))

@@ -150,7 +150,8 @@ impl<'a> Neighbourhood<'a> {
                     .hint("move the scene by less"))
             }
             _ => {
-                let (within, wanted) = (promise.within, samples);
+                let within = promise.within;
+                let wanted = samples;
                 Ok(Neighbourhood { source, within, by, movable, motions, wanted, is_stopped })
             }
         }

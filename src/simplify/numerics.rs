@@ -87,7 +87,8 @@ fn attempt(bench: &mut Bench, found: &mut Found, exact: &[Vec<f64>], method: &Me
     let what = format!("{} at {}", method.triple(), accuracy(method));
     let result = bench.run(&scene, &what, DEARER * found.run.seconds);
     let mut reason = result.as_ref().map_or_else(Clone::clone, |run| refusal(bench, run, exact));
-    let (best, seconds) = (bench.cost(&found.run), result.as_ref().map_or(0.0, |run| bench.cost(run)));
+    let best = bench.cost(&found.run);
+    let seconds = result.as_ref().map_or(0.0, |run| bench.cost(run));
     let is_cheaper = seconds < CHEAPER * best;
     if let (Ok(run), true) = (&result, reason.is_empty() && is_cheaper) {
         reason = found.take(bench, scene, run).err().unwrap_or_default();

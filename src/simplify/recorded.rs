@@ -59,15 +59,19 @@ pub fn record(
     is_stopped: &dyn Fn() -> bool,
 ) -> Result<Recorded> {
     let system = prepared.system();
-    let (rows, states, redundant) = (Vec::new(), Vec::new(), Vec::new());
-    let (sizes, singularity) = (Sizes::default(), Singularity::default());
+    let rows = Vec::new();
+    let states = Vec::new();
+    let redundant = Vec::new();
+    let sizes = Sizes::default();
+    let singularity = Singularity::default();
     let recorded = Recorded { rows, sizes, stopped: None, work: 0.0, states, redundant, singularity };
     let scales = system.scales();
     let span = prepared.span()?;
     let watch = Watch::new(system);
     let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, recorded, watch, is_stopped };
     let outcome = simulate(system, method, span, prepared.start(), &mut memory)?;
-    let (work, singularity) = (counted(prepared, method, outcome.statistics), memory.watch.finish());
+    let work = counted(prepared, method, outcome.statistics);
+    let singularity = memory.watch.finish();
     let left = singularity.failure();
     let recorded = Recorded { work, singularity, ..memory.recorded };
     match outcome.failure.or(left) {
@@ -120,7 +124,9 @@ mod tests {
             let states = times.iter().map(|&t| State { t, q: Vec::new(), v: Vec::new() }).collect();
             let stopped = Some(Failure { reason: INTERRUPTED.to_string(), hint: String::new(), t: times[2] });
             let rows = times.iter().map(|&t| vec![t]).collect();
-            let (sizes, redundant, singularity) = (Sizes::default(), Vec::new(), Singularity::default());
+            let sizes = Sizes::default();
+            let redundant = Vec::new();
+            let singularity = Singularity::default();
             let mut recorded = Recorded { rows, sizes, stopped, work: 0.0, states, redundant, singularity };
             recorded.end_on_grid(span);
             assert_eq!((recorded.end(), recorded.rows.last()), (end, Some(&vec![end])));

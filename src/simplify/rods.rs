@@ -89,7 +89,8 @@ fn forces(facts: &Facts, sources: &[Source]) -> Option<Vec<Rod>> {
             row[own.clone()].iter().zip(weights).map(|(value, weight)| value * weight).sum()
         };
         let forces: Vec<f64> = rows.iter().zip(&source.weights).map(sum).collect();
-        let (least, most) = (forces.iter().copied().reduce(f64::min)?, forces.iter().copied().reduce(f64::max)?);
+        let least = forces.iter().copied().reduce(f64::min)?;
+        let most = forces.iter().copied().reduce(f64::max)?;
         Some(Rod { name: source.name.clone(), at_start: *forces.first()?, least, most })
     };
     (!names.is_empty()).then(|| sources.iter().filter_map(rod).collect())

@@ -84,7 +84,8 @@ pub fn sampled(
     allowed: Duration,
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<RunSample> {
-    let (watched, span) = (Watched::new(prepared.system(), names)?, prepared.span()?);
+    let watched = Watched::new(prepared.system(), names)?;
+    let span = prepared.span()?;
     let motion = Motion { counts_start: true, ..Motion::of(prepared, span, is_stopped) };
     sample(&motion, &watched, &prepared.method, span, Allowed { cpu: allowed, wall: BUSY * allowed + WAIT })
 }

@@ -143,7 +143,8 @@ impl Search<'_, '_> {
         };
         let known = self.ideas.len();
         let dimensions = mechanism.map(|mechanism| mechanism.system().dimensions());
-        let (expected, size) = (proposal.effect, dimensions.map_or(0, |n| n.v + n.lambda));
+        let expected = proposal.effect;
+        let size = dimensions.map_or(0, |n| n.v + n.lambda);
         self.ideas.push(Idea { candidate, proposal, expected, size });
         if let Some(reason) = refusal {
             let trial = self.trial(&[known], None, reason);
@@ -189,7 +190,9 @@ impl Search<'_, '_> {
     /// alike: of those much better by the estimate it tells nothing.
     fn correct(&mut self, of: usize, measured: f64) {
         let Idea { candidate, proposal: Proposal { subject, effect, .. }, .. } = &self.ideas[of];
-        let (candidate, subject, effect) = (*candidate, subject.clone(), *effect);
+        let candidate = *candidate;
+        let subject = subject.clone();
+        let effect = *effect;
         for Idea { candidate: kind, proposal, expected, .. } in &mut self.ideas {
             if *kind == candidate && proposal.subject == subject && proposal.effect >= ALIKE * effect {
                 *expected = expected.max(proposal.effect * measured / effect);

@@ -172,7 +172,11 @@ impl<'a> Drive<'a> {
         let start = flat(system, q, v);
         let run = Run::new(system, &methods[FIRST], span, start.clone())?;
         let leg = Leg::of(span.start, &methods[FIRST], CALM.to_string());
-        let (carrier, stopped, window, contest, legs) = (FIRST, 0, tolerances::IMPLICIT_TRIED, None, Vec::new());
+        let carrier = FIRST;
+        let stopped = 0;
+        let window = tolerances::IMPLICIT_TRIED;
+        let contest = None;
+        let legs = Vec::new();
         let sits_out = vec![false; methods.len()];
         Ok(Drive { system, methods, span, start, run, carrier, stopped, window, contest, sits_out, legs, leg })
     }
@@ -180,7 +184,8 @@ impl<'a> Drive<'a> {
     /// Continues to the end, to a failure that all methods have, or until `is_enough`, which is called after each
     /// comparison with the mark from which the work is measured, and true if the method should change.
     fn go(&mut self, sink: &mut dyn Sink, is_enough: impl Fn(&Self, Mark, bool) -> bool) -> Result<Option<Failure>> {
-        let (mut mark, mut failure) = (self.run.mark(), None);
+        let mut mark = self.run.mark();
+        let mut failure = None;
         loop {
             if failure.is_none() {
                 (mark, failure) = self.run.window(self.window, f64::INFINITY, sink, |_, _, _| false);

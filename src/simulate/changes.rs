@@ -28,7 +28,8 @@ impl Run<'_> {
             let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.end_of(*h, *end) };
             self.integrator.interpolate(&mut self.rows.problem, from, *h, theta, &mut self.next)?;
             (*h, *end, self.is_moved) = (theta * *h, None, true);
-            let (t, sweeps) = (self.t + *h, self.sweeps(*h));
+            let t = self.t + *h;
+            let sweeps = self.sweeps(*h);
             project(t, &mut self.next, &mut self.problem, &mut self.rows.projection, sweeps)?;
             self.problem.derivative(t, &self.next, &mut self.next_slope)?;
             passage = self.passage(*h, t)?;
@@ -44,7 +45,8 @@ impl Run<'_> {
         let mut prepared = false;
         let Run { events, rows, integrator, problem, .. } = self;
         let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
-        let (next, next_slope) = (&self.next, &self.next_slope);
+        let next = &self.next;
+        let next_slope = &self.next_slope;
         let (q, v) = problem.split(next);
         let (_, vdot) = problem.split(next_slope);
         events.passage(h, OperatingPoint { t: end, q, v, vdot, lambda: &[] }, |theta, see| {
@@ -72,7 +74,9 @@ impl Run<'_> {
     /// Changes the form at the present state: at a given time, and where a step ended at a threshold or
     /// cannot begin. The next step is small where y' jumps.
     pub fn change_form(&mut self, at_start: Option<usize>) -> Result<(), Failure> {
-        let (before, roads, pieces) = (self.slope.clone(), self.roads(), self.events.pieces.clone());
+        let before = self.slope.clone();
+        let roads = self.roads();
+        let pieces = self.events.pieces.clone();
         let turns = self.events.turn(at_start);
         if let Some(&turn) = turns.first() {
             self.check_crowd(turn)?;
@@ -166,12 +170,11 @@ impl Run<'_> {
     fn meet_constraints(&mut self, [phi, phi_dot]: [Vec<f64>; 2]) -> Result<(), Failure> {
         let [now, rate] = self.constraints();
         let jumps = |new: &[f64], old: &[f64]| new.iter().zip(old).map(|(new, old)| new - old).collect::<Vec<f64>>();
-        let (jump, kink) = (jumps(&now, &phi), jumps(&rate, &phi_dot));
+        let jump = jumps(&now, &phi);
+        let kink = jumps(&rate, &phi_dot);
         if let Some(row) = (0..jump.len()).find(|&row| jump[row].abs() > tolerances::SAME * self.scales[row]) {
-            let (names, by) = (
-                self.problem.dynamics.system.names().lambda,
-                short(format!("{:.1e}", jump[row].abs()).parse().unwrap_or(0.0)),
-            );
+            let names = self.problem.dynamics.system.names().lambda;
+            let by = short(format!("{:.1e}", jump[row].abs()).parse().unwrap_or(0.0));
             let reason = format!("what `{}` prescribes jumps by {by} m or rad", names[row]);
             return Err(
                 self.failure(reason, Some("prescribe a motion without jumps: no mechanism follows one in no time"))
@@ -186,7 +189,8 @@ impl Run<'_> {
     /// Changes v by G dv = - `kink`, and counts the work.
     fn kick(&mut self, kink: &[f64]) -> Result<(), StepError> {
         let mut scratch = Scratch::default();
-        let (system, t) = (self.problem.dynamics.system, self.t);
+        let system = self.problem.dynamics.system;
+        let t = self.t;
         let mut kinetic = |y: &[f64], run: &Self| {
             let (q, v) = run.problem.split(y);
             system.energy(t, q, v, &mut scratch).map_or(0.0, |energy| energy.kinetic)

@@ -118,22 +118,26 @@ impl Checkpoint {
             return Err(Error::input("the saved state is not finite").hint("begin anew without --start"));
         }
         let n = system.dimensions();
-        let (q, v) = (&self.y[..n.q], &self.y[n.q..n.q + n.v]);
-        let (mut terms, mut scratch) = (Terms::new(system), Scratch::default());
+        let q = &self.y[..n.q];
+        let v = &self.y[n.q..n.q + n.v];
+        let mut terms = Terms::new(system);
+        let mut scratch = Scratch::default();
         system.evaluate(self.t, q, v, Need::CONSTRAINTS, &mut terms, &mut scratch);
         let scales = system.scales();
         let gap = |row: usize| terms.phi[row].abs() / scales[row];
         let widest = (0..n.lambda).max_by(|a, b| gap(*a).total_cmp(&gap(*b)));
         let Some(row) = widest.filter(|row| gap(*row).is_nan() || gap(*row) > JOINTS_OPEN) else { return Ok(()) };
         let group = system.groups().into_iter().find(|group| group.rows.contains(&row));
-        let (name, gap) = (group.map_or(String::new(), |group| group.name), short(terms.phi[row]));
+        let name = group.map_or(String::new(), |group| group.name);
+        let gap = short(terms.phi[row]);
         Err(Error::input(format!("`{name}` is open by {gap} (m, rad) at the saved state, at t = {} s", clock(self.t)))
             .hint("name the summary.json of a run whose joints held, or begin anew without --start"))
     }
 
     /// True if the dimensions agree with those of the system.
     fn fits(&self, system: &dyn MechanicalSystem) -> bool {
-        let (n, switches) = (system.dimensions(), system.switches());
+        let n = system.dimensions();
+        let switches = system.switches();
         let exists = |piece: usize, s: &Switch| match s.thresholds {
             Thresholds::Held => piece <= 6,
             _ => piece < 2 || s.thresholds.get(piece.div_ceil(2) - 1).is_some(),
@@ -165,7 +169,8 @@ impl Checkpoint {
 impl Run<'_> {
     /// Saves the values on which the next steps depend.
     pub fn checkpoint(&self, method: &Method) -> Checkpoint {
-        let (dynamics, timetable) = (&self.problem.dynamics, &self.events.timetable);
+        let dynamics = &self.problem.dynamics;
+        let timetable = &self.events.timetable;
         Checkpoint {
             method: method.clone(),
             span: self.span,

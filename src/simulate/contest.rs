@@ -175,7 +175,8 @@ impl Run<'_> {
     /// output rows that were not made: about an evaluation each where they are no steps of their own.
     fn pace_with_rows(&self, mark: Mark, growth: f64, output_step: f64) -> f64 {
         let now = self.mark();
-        let (time, work) = (growth * (now.t - mark.t), now.work - mark.work);
+        let time = growth * (now.t - mark.t);
+        let work = now.work - mark.work;
         let row =
             if self.integrator.rows_are_steps() { work / (now.steps - mark.steps).max(1) as f64 } else { self.price() };
         time / (work + time / output_step * row).max(1.0)

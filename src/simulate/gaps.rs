@@ -33,7 +33,8 @@ impl Gaps {
 
     /// True if the gap reverses in the step, on one line.
     fn reverses(&self, i: usize) -> bool {
-        let (a, b) = (&self.start[i], &self.end[i]);
+        let a = &self.start[i];
+        let b = &self.end[i];
         let along = dot(a, b);
         let across = dot(a, a) * dot(b, b) - along * along;
         along < 0.0 && across <= (tolerances::ON_ONE_LINE * along).powi(2)
@@ -116,7 +117,8 @@ impl Run<'_> {
         let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
         rows.problem.begin_step(from.t, from.y)?;
         integrator.prepare(&mut rows.problem, from, h, &self.next, &self.next_slope)?;
-        let (mut low, mut high) = (0.0, 1.0);
+        let mut low = 0.0;
+        let mut high = 1.0;
         for _ in 0..tolerances::LOOKS_AT_GAP {
             let theta = low + (high - low) * low_value / (low_value - high_value);
             integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;

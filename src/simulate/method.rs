@@ -108,11 +108,14 @@ impl Method {
     /// Warning that the steps cannot be controlled tightly enough for rtol: with methods of low order at rtol 1e-9,
     /// say.
     fn beyond_reach(&self, system: &dyn MechanicalSystem) -> Option<Warning> {
-        let (entry, asked) = (integrator::find(&self.integrator).ok()?, Tolerance::new(self.rtol, self.atol, system));
+        let entry = integrator::find(&self.integrator).ok()?;
+        let asked = Tolerance::new(self.rtol, self.atol, system);
         let reached = entry.tightening.reached(&asked);
         let is_beyond = self.step.is_none() && reached > tolerances::ERROR_OF_MOTION * self.rtol;
         is_beyond.then(|| {
-            let (name, rtol, reached) = (entry.name, short(self.rtol), format!("{reached:.0e}"));
+            let name = entry.name;
+            let rtol = short(self.rtol);
+            let reached = format!("{reached:.0e}");
             let text = format!("{name} comes to errors of about {reached}, not to rtol {rtol}: its steps are at their tightest");
             Warning::new(text, "choose a method of higher order, such as dop853, or radau_iia for stiff motions; --check-error measures errors")
         })
@@ -122,7 +125,8 @@ impl Method {
     pub fn check(&self) -> Result<()> {
         let entry = integrator::find(&self.integrator).map_err(|error| error.under("integrator"))?;
         check_pair(entry, &self.formulation).map_err(|error| error.under("formulation"))?;
-        let (formulation, projection) = (self.formulation.name.as_str(), self.projection.name.as_str());
+        let formulation = self.formulation.name.as_str();
+        let projection = self.projection.name.as_str();
         let known = formulation::lookup(&self.formulation);
         let refuses = |projection: &str| known.is_some_and(|known| (entry.refuses)(known, projection));
         if refuses(projection) {

@@ -15,7 +15,8 @@ impl Run<'_> {
     pub fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<Option<f64>, Failure> {
         let end = self.end_of(h, end);
         let slack = tolerances::SAME * h;
-        let (first, mut prepared) = (self.rows.next, false);
+        let first = self.rows.next;
+        let mut prepared = false;
         loop {
             let t = self.span.row(self.rows.next);
             if t > end + slack || self.rows.next > 0 && self.span.row(self.rows.next - 1) >= self.span.end {
@@ -50,7 +51,8 @@ impl Run<'_> {
     /// constraints to be projected.
     fn row_within(&mut self, t: f64, h: f64, end: f64) -> Result<Option<f64>, StepError> {
         let theta = (t - self.t) / h;
-        let (rows, from) = (&mut self.rows, From { t: self.t, y: &self.y, slope: &self.slope, end });
+        let rows = &mut self.rows;
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
         rows.problem.begin_step(self.t, &self.y)?;
         self.integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;
         let is_checked = self.is_explicit && self.fixed.is_none() && !self.approach.reaches(h);
@@ -87,7 +89,8 @@ impl Run<'_> {
     /// less exact.
     fn row_contradicts(&self, h: f64) -> bool {
         let v = |y| self.problem.split(y).1.iter();
-        let (row, ends) = (v(&self.rows.slope), v(&self.slope).zip(v(&self.next_slope)));
+        let row = v(&self.rows.slope);
+        let ends = v(&self.slope).zip(v(&self.next_slope));
         let size = v(&self.y).zip(v(&self.next));
         row.zip(&self.rows.vdot).zip(ends).zip(size).any(|(((row, dense), (a, b)), (v0, v1))| {
             let off = (row - dense).abs();

@@ -130,7 +130,8 @@ impl SingularPassage {
     /// state, which is then at its `gap`, the fraction of a step that is farthest from all stages; after that one that
     /// ends well before it.
     pub fn place(&mut self, h: f64, gap: f64) -> f64 {
-        let (ahead, across) = (self.ahead(), self.ahead() / gap);
+        let ahead = self.ahead();
+        let across = self.ahead() / gap;
         // At a singular state there is none ahead.
         if !(self.may_be_singular() && self.rank_indicator > tolerances::AT_SINGULAR * self.largest && self.rate < 0.0)
         {

@@ -24,7 +24,9 @@ pub struct OutputRows<'a> {
 impl<'a> OutputRows<'a> {
     pub fn new(problem: Problem<'a>, projection: Option<Box<dyn Projection + 'a>>) -> Self {
         let zeros = || vec![0.0; problem.len()];
-        let (y, slope, ahead) = (zeros(), zeros(), zeros());
+        let y = zeros();
+        let slope = zeros();
+        let ahead = zeros();
         let vdot = vec![0.0; problem.dynamics.vdot.len()];
         let phi_ddot = vec![0.0; problem.dynamics.lambda.len()];
         OutputRows { problem, projection, next: 0, y, slope, vdot, ahead, phi_ddot }
@@ -43,7 +45,8 @@ impl<'a> OutputRows<'a> {
 
     /// Sets `vdot` to the difference quotient of `y` and the state `ahead`, which is `dt` later.
     pub fn differentiate(&mut self, dt: f64) {
-        let (before, after) = (self.problem.split(&self.y).1, self.problem.split(&self.ahead).1);
+        let before = self.problem.split(&self.y).1;
+        let after = self.problem.split(&self.ahead).1;
         let rates = before.iter().zip(after).map(|(before, after)| (after - before) / dt);
         self.vdot.iter_mut().zip(rates).for_each(|(vdot, rate)| *vdot = rate);
     }

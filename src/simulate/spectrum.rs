@@ -78,8 +78,10 @@ pub fn fastest(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<S
 /// D^-1/2 C D^-1/2, which are at most the roots of their largest sums over rows times columns; constraints only take
 /// directions away.
 pub fn bound(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<f64> {
-    let (structure, mut scratch) = (system.structure(), Scratch::default());
-    let (mut terms, mut tangent) = (Terms::new(system), Tangent::new(&structure.tangent));
+    let structure = system.structure();
+    let mut scratch = Scratch::default();
+    let mut terms = Terms::new(system);
+    let mut tangent = Tangent::new(&structure.tangent);
     system.evaluate(state.t, state.q, state.v, Need::MASS, &mut terms, &mut scratch);
     if !system.tangent(state, &mut tangent, &mut scratch) {
         return None;
@@ -90,7 +92,8 @@ pub fn bound(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<f64
     }
     let roots: Vec<f64> = least.iter().map(|mass| mass.sqrt()).collect();
     let norm = |values: &[f64]| {
-        let (mut rows, mut columns) = (vec![0.0; roots.len()], vec![0.0; roots.len()]);
+        let mut rows = vec![0.0; roots.len()];
+        let mut columns = vec![0.0; roots.len()];
         for (&(i, j), value) in structure.tangent.entries.iter().zip(values).filter(|(_, value)| **value != 0.0) {
             let size = value.abs() / (roots[i] * roots[j]);
             rows[i] += size;
@@ -98,7 +101,8 @@ pub fn bound(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<f64
         }
         (largest(&rows) * largest(&columns)).sqrt()
     };
-    let (k, c) = (norm(&tangent.k), norm(&tangent.c));
+    let k = norm(&tangent.k);
+    let c = norm(&tangent.c);
     let bound = 0.5 * (c + (c * c + 4.0 * k).sqrt());
     (least.iter().all(|mass| *mass > 0.0) && bound.is_finite()).then_some(bound)
 }
@@ -193,7 +197,8 @@ fn fit(y0: &[f64], y1: &[f64], y2: &[f64]) -> Vec<SpectralMode> {
     if determinant <= 1e-8 * a * d {
         return vec![SpectralMode { decay: if d > 0.0 { -b / d } else { 0.0 }, swing: 0.0 }];
     }
-    let (p, r) = ((f * d - b * g) / determinant, (a * g - b * f) / determinant);
+    let p = (f * d - b * g) / determinant;
+    let r = (a * g - b * f) / determinant;
     let square = r - 0.25 * p * p;
     let root = square.abs().sqrt();
     if square > 0.0 {

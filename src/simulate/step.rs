@@ -81,7 +81,8 @@ impl Run<'_> {
         is_singular: bool,
     ) -> Result<Option<f64>, StepError> {
         self.change.copy_from_slice(&self.next);
-        let (t, sweeps) = (self.end_of(h, end), self.sweeps(h));
+        let t = self.end_of(h, end);
+        let sweeps = self.sweeps(h);
         self.problem.dynamics.ends_near = self.integrator.ends_near() && !is_singular;
         project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?;
         self.problem.dynamics.ends_near = false;
@@ -172,7 +173,8 @@ impl Run<'_> {
             Some((kinetic + potential - y[nq + nv], kinetic + potential.abs() + y[nq + nv].abs()))
         };
         let Some(((start, _), (end, size))) = balance(self.t, y).zip(balance(t, next)) else { return 0.0 };
-        let (lost, round_off) = ((end - start).abs(), ENERGY_ROUND_OFF * size);
+        let lost = (end - start).abs();
+        let round_off = ENERGY_ROUND_OFF * size;
         let is_seen = lost > tolerances::LOSS_SEEN * tolerated + round_off;
         if is_seen && self.approach.refuses(lost) {
             self.refusal = "the energy balance changes by far more than in the steps before";

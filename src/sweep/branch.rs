@@ -95,8 +95,10 @@ pub struct Branch<'a> {
 
 impl<'a> Branch<'a> {
     pub fn new(family: &'a Family, range: &'a Range, start: State) -> Self {
-        let (parameter, resolution) = (range.parameter.as_str(), tolerances::PARAMETER_END * range.length());
-        let (nearest, redundant) = (start.nearest(), start.dependent.len());
+        let parameter = range.parameter.as_str();
+        let resolution = tolerances::PARAMETER_END * range.length();
+        let nearest = start.nearest();
+        let redundant = start.dependent.len();
         Branch { family, parameter, resolution, last: start, before: None, nearest, redundant }
     }
 

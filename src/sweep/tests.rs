@@ -25,7 +25,8 @@ fn four_bar([a, b, c, g]: [f64; 4]) -> Family {
 
 /// The rocker's angle on the branch with D above the line from C to B.
 fn rocker([a, b, c, g]: [f64; 4], angle: f64) -> f64 {
-    let (x, y) = (a * angle.cos() - g, a * angle.sin());
+    let x = a * angle.cos() - g;
+    let y = a * angle.sin();
     let d = x.hypot(y);
     y.atan2(x) - ((c * c + d * d - b * b) / (2.0 * c * d)).acos()
 }

@@ -43,7 +43,8 @@ impl<P: FnMut(usize)> Walk<'_, P> {
     fn run(mut self, own: f64) -> Result<Sweep> {
         let (start, is_own) = self.start(own)?;
         let (names, outputs) = start.columns();
-        let (mut nearest, begin) = (start.nearest(), start.point.value);
+        let mut nearest = start.nearest();
+        let begin = start.point.value;
         // The range may run downwards: `before` has the values that come before the start in it.
         let forward = self.range.to > self.range.from;
         let is_before = |value: f64| if forward { value < begin } else { value > begin };

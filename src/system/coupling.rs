@@ -68,7 +68,8 @@ impl Couplings {
             first..pattern.entries.len()
         };
         let bodies = model.bodies.iter().map(own).collect();
-        let (mut locked, mut joints) = (Vec::new(), Vec::new());
+        let mut locked = Vec::new();
+        let mut joints = Vec::new();
         for (joint, Connection { markers, .. }) in model.joints.iter().enumerate() {
             match rigid.lock(model, joint) {
                 Some(lock) => locked.push(LockedBlocks::new(model, rigid, (joint, lock), pattern)),
@@ -89,14 +90,16 @@ impl LockedBlocks {
     ) -> Self {
         let velocities = |slot: usize| {
             let body = model.markers.bodies[model.joints[joint].markers[slot]]?;
-            let (first, freedom) = (model.bodies[body].first_v, rigid.freedoms[body].as_ref()?);
+            let first = model.bodies[body].first_v;
+            let freedom = rigid.freedoms[body].as_ref()?;
             let skipped = if lock.changes_with_rotations() { freedom.translations.len() } else { 0 };
             Some(first + skipped..first + freedom.count())
         };
         let sides = [velocities(0), velocities(1)];
         let mut block = |row: usize, column: usize| {
             let is_there = row == column || lock.couples_bodies();
-            let (rows, columns) = (sides[row].clone().filter(|_| is_there)?, sides[column].clone()?);
+            let rows = sides[row].clone().filter(|_| is_there)?;
+            let columns = sides[column].clone()?;
             let first = pattern.entries.len();
             pattern.entries.extend(rows.flat_map(|i| columns.clone().map(move |j| (i, j))));
             Some(first)

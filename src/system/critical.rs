@@ -39,7 +39,8 @@ impl Load {
 /// Buckling limits of a beam in a floating frame, each with the load ratios along the beam.
 pub(super) fn loads<const D: usize>(model: &Model<D>, part: &Part<D>) -> Vec<(Theory, Extent<D>)> {
     let Some(Bent { line, stretches, first }) = part.body.bent() else { return Vec::new() };
-    let (length, free) = (line.length(), free_length(model, part, line.length()));
+    let length = line.length();
+    let free = free_length(model, part, line.length());
     let end = from_fn(|k| if k == 0 { length } else { 0.0 });
     let stiffens = !stretches.is_empty() || !line.point(end).shortening.is_empty();
     let along = |of: &dyn Fn(&Section) -> (usize, f64)| -> Vec<Load> {

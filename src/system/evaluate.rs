@@ -56,7 +56,8 @@ impl<const D: usize> RigidParts<D> {
     /// Finds them in a model with the places of its joints and of the values of M.
     pub fn new(model: &Model<D>, rows: &[JointRows], masses: &[Range<usize>]) -> Self {
         let freedoms = freedoms(model);
-        let (mut joints, mut general_joints) = (Vec::new(), Vec::new());
+        let mut joints = Vec::new();
+        let mut general_joints = Vec::new();
         for (i, (joint, rows)) in model.joints.iter().zip(rows).enumerate() {
             match RigidJoint::new(model, &freedoms, joint, rows) {
                 Some(joint) => joints.push(joint),
@@ -77,7 +78,8 @@ impl<const D: usize> RigidParts<D> {
             weight: vec![0.0; model.bodies.last().map_or(0, |last| last.first_v + last.nv)],
         };
         for (part, places) in model.bodies.iter().zip(masses) {
-            let (q, v) = (vec![0.0; part.nq], vec![0.0; part.nv]);
+            let q = vec![0.0; part.nq];
+            let v = vec![0.0; part.nv];
             if part.body.has_constant_mass() {
                 part.body.mass(&q, &mut parts.mass[places.clone()]);
             }
@@ -283,7 +285,8 @@ impl<const D: usize> Mechanism<D> {
                 freedom.pull_back(&poses[body], &frame.r.map(|x| x.x), wrench, f);
             }
             None => self.supports[marker].add_to(f, pulled, |f| {
-                let (index, frame) = (marker - part.first_marker, frame.map(|x| x.x));
+                let index = marker - part.first_marker;
+                let frame = frame.map(|x| x.x);
                 part.body.pull_back(index, of(q, part, true), &frame, wrench, f);
             }),
         }

@@ -49,7 +49,8 @@ impl LeviCivita {
             let w: [f64; 3] = from_fn(|i| v[part.first_v + first + i]);
             for j in 0..3 {
                 let unit = from_fn(|i| f64::from(u8::from(i == j)));
-                let (turned, changed) = (cross(&unit, &momentum(&w)), cross(&w, &momentum(&unit)));
+                let turned = cross(&unit, &momentum(&w));
+                let changed = cross(&w, &momentum(&unit));
                 let back = momentum(&cross(&w, &unit));
                 let place = part.first_v + first;
                 (0..3).for_each(|i| target[(place + i, place + j)] += 0.5 * (turned[i] + changed[i] + back[i]));

@@ -102,7 +102,8 @@ pub(super) fn limits<const D: usize>(model: &Model<D>) -> (Vec<Limited>, Vec<Ext
     let lines = model.beams.iter().flat_map(|beam| {
         let ends = model.forces[beam.forces()].iter().map(|element| [element.markers[0], element.markers[1]]);
         let ends: Vec<_> = ends.collect();
-        let (elements, name) = (ends.len(), || beam.name.clone());
+        let elements = ends.len();
+        let name = || beam.name.clone();
         let mesh = (elements > 2).then(|| (name(), Theory::Mesh { elements }, Extent::Line(ends.clone())));
         std::iter::once((name(), helix(elements), Extent::Ends(ends))).chain(mesh)
     });
@@ -152,7 +153,9 @@ impl<const D: usize> Mechanism<D> {
     fn roughness(&self, elements: &[[MarkerId; 2]], q: &[f64]) -> f64 {
         let last = elements.len() - 1;
         let mut around = [0, 0, 1].map(|i| self.turn_between(elements[i], q));
-        let (mut change, mut whole, mut bend) = (0.0, 0.0, 0.0);
+        let mut change = 0.0;
+        let mut whole = 0.0;
+        let mut bend = 0.0;
         for i in 0..=last {
             let [before, here, after] = around;
             let span = if i == 0 || i == last { 1.0 } else { 2.0 };
@@ -175,7 +178,8 @@ impl<const D: usize> Mechanism<D> {
         let part = |i: usize, j: usize| dot(&a.axis(i), &b.axis(j));
         // `sine` is 2 sin(angle) times the axis; `cosine` is 2 cos(angle).
         let sine = [part(2, 1) - part(1, 2), part(0, 2) - part(2, 0), part(1, 0) - part(0, 1)];
-        let (size, cosine) = (norm(&sine), part(0, 0) + part(1, 1) + part(2, 2) - 1.0);
+        let size = norm(&sine);
+        let cosine = part(0, 0) + part(1, 1) + part(2, 2) - 1.0;
         let angle = size.atan2(cosine);
         if size > 0.0 { sine.map(|x| x * angle / size) } else { [angle, 0.0, 0.0] }
     }

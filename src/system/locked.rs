@@ -117,7 +117,8 @@ impl<const D: usize> Stiffness<'_, D> {
     /// x . y, each of the vectors fixed in a body or in the world. With s = x . y, the blocks of (x's body, y's body) are
     /// y x^T - s, x y^T - s on the diagonal, and s - y x^T, s - x y^T beside it.
     fn product(&mut self, (own, x): (Option<usize>, [f64; D]), (other, y): (Option<usize>, [f64; D])) {
-        let (s, minus) = (dot(&x, &y), |v: &[f64; D]| v.map(|x| -x));
+        let s = dot(&x, &y);
+        let minus = |v: &[f64; D]| v.map(|x| -x);
         self.turn((own, own), -s, (&y, &x));
         self.turn((other, other), -s, (&x, &y));
         self.turn((own, other), s, (&minus(&y), &x));
@@ -130,7 +131,8 @@ impl<const D: usize> Stiffness<'_, D> {
         for (slot, sign) in [(0, -1.0), (1, 1.0)] {
             let [Some(turning), Some(moving)] = [&self.solids[0], &self.solids[slot]] else { continue };
             let [Some(upper), Some(lower)] = [self.first[0][slot], self.first[slot][0]] else { continue };
-            let (width, own) = (moving.count(), turning.count());
+            let width = moving.count();
+            let own = turning.count();
             for (k, angle) in turning.rotations() {
                 let turned = turning.turned(k, e);
                 for (i, place) in moving.translations() {

@@ -59,7 +59,8 @@ impl<const D: usize> Mechanism<D> {
 
     /// All outputs in the order of the scene.
     pub(super) fn write_outputs(&self, view: &Plain<D>, out: &mut [f64]) {
-        let (mut energies, mut section) = (None, None);
+        let mut energies = None;
+        let mut section = None;
         for (out, output) in out.iter_mut().zip(&self.model().outputs) {
             let value = match output.measure {
                 Measure::Energy(part) => part.of(*energies.get_or_insert_with(|| self.energies(view))),
@@ -156,9 +157,11 @@ impl<const D: usize> Mechanism<D> {
     where
         dyn Force<D>: ForceOver<S, D>,
     {
-        let (input, force) = (view.input(force), &self.model().forces[force]);
+        let input = view.input(force);
+        let force = &self.model().forces[force];
         let wrenches = &mut wrenches[..force.markers.len()];
-        let (element, time) = (force.element.as_ref(), view.time().map(Taylor::time));
+        let element = force.element.as_ref();
+        let time = view.time().map(Taylor::time);
         let act = |frames: &[_]| ForceOver::<S, D>::driven(element, &input, frames, time, wrenches);
         gathered(&force.markers, |marker| view.frame(marker), act)
     }
@@ -173,9 +176,11 @@ impl<const D: usize> Mechanism<D> {
         let mut wrench = [S::zero(); 6];
         if let Some(lock) = lock {
             let frames = [0, 1].map(|slot| view.frame(joint.markers[slot]).map(|x| x.x));
-            let (both, own) = ([&frames[0], &frames[1]], (slot, &frames[slot].r));
+            let both = [&frames[0], &frames[1]];
+            let own = (slot, &frames[slot].r);
             for (row, multiplier) in rows.enumerate() {
-                let (gradient, lambda) = (row_gradient(lock, both, own, row), view.lambda(multiplier));
+                let gradient = row_gradient(lock, both, own, row);
+                let lambda = view.lambda(multiplier);
                 let torque = &gradient.torque[if D == 2 { 2 } else { 0 }..];
                 let entries = gradient.force.iter().chain(torque);
                 wrench.iter_mut().zip(entries).for_each(|(sum, &entry)| *sum -= lambda * entry);
@@ -184,7 +189,9 @@ impl<const D: usize> Mechanism<D> {
         }
         let mut slopes = [[S::zero(); 6]; MOST_ROWS];
         let own = &mut slopes[..rows.len()];
-        let (element, time, pass) = (joint.element.as_ref(), view.time().map(S::constant), slot / markers_per_pass(D));
+        let element = joint.element.as_ref();
+        let time = view.time().map(S::constant);
+        let pass = slot / markers_per_pass(D);
         let gradient = |frames: &[_]| JointOver::<S, D>::gradient(element, frames, time, pass, own);
         gathered(&joint.markers, |marker| view.frame(marker), gradient);
         let first = slot % markers_per_pass(D) * twist_len(D);
@@ -212,10 +219,12 @@ impl<const D: usize> Mechanism<D> {
     where
         dyn Joint<D>: JointOver<S, D>,
     {
-        let (rows, joint) = (self.rows_of_joint(joint), &self.model().joints[joint]);
+        let rows = self.rows_of_joint(joint);
+        let joint = &self.model().joints[joint];
         let mut levels = [Taylor::fixed(S::zero()); MOST_ROWS];
         let levels = &mut levels[..rows.len()];
-        let (element, time) = (joint.element.as_ref(), view.time().map(|t| Taylor::fixed(S::constant(t))));
+        let element = joint.element.as_ref();
+        let time = view.time().map(|t| Taylor::fixed(S::constant(t)));
         let rates = |frames: &[_]| JointOver::<S, D>::levels(element, frames, time, levels);
         gathered(&joint.markers, |marker| view.frame(marker), rates);
         rows.zip(levels).fold(S::zero(), |sum, (row, level)| sum - view.lambda(row) * level.d)

@@ -63,7 +63,8 @@ impl<const D: usize> Slopes<'_, D> {
     /// Differentiates each output along all that it reads.
     pub fn run(&mut self) {
         self.tangent.clear();
-        let (mechanism, outputs) = (self.mechanism, &self.mechanism.model().outputs);
+        let mechanism = self.mechanism;
+        let outputs = &self.mechanism.model().outputs;
         let mut read = std::mem::take(&mut self.work.read);
         if read.len() < outputs.len() {
             read = outputs.iter().map(|output| mechanism.carriers(&output.measure)).collect();
@@ -91,7 +92,8 @@ impl<const D: usize> Slopes<'_, D> {
 
     /// The energy is a sum over bodies and forces, each of which depends on few bodies.
     fn energy(&mut self, row: usize, part: EnergyPart, carriers: &[Carrier], scale: f64) {
-        let (mechanism, model) = (self.mechanism, self.mechanism.model());
+        let mechanism = self.mechanism;
+        let model = self.mechanism.model();
         for (body, own) in model.bodies.iter().zip(carriers.chunks(1)) {
             self.along_bodies(row, own, |view| part.of(view.energy(body, &model.gravity)) * scale);
         }

@@ -29,7 +29,8 @@ impl BodyPortion {
         let mut portions: Vec<BodyPortion> = Vec::new();
         for first in (0..count).step_by(ELEMENTS_OF_A_PORTION) {
             let bodies = first..count.min(first + ELEMENTS_OF_A_PORTION);
-            let (own, last) = (&model.bodies[first], &model.bodies[bodies.end - 1]);
+            let own = &model.bodies[first];
+            let last = &model.bodies[bodies.end - 1];
             let before = portions.last().map_or(0, |portion| portion.markers.end);
             let markers = model.bodies.get(bodies.end).map_or(model.marker_count(), |next| next.first_marker);
             portions.push(BodyPortion {
@@ -62,7 +63,8 @@ impl<const D: usize> Divisible for BodyTerms<'_, D> {
 
     fn divided(self) -> [Self; 2] {
         let (portions, others) = self.portions.split_at(self.portions.len() / 2);
-        let (first, next) = (&portions[0], &others[0]);
+        let first = &portions[0];
+        let next = &others[0];
         let poses = self.poses.split_at_mut(next.bodies.start - first.bodies.start);
         let markers = self.motion.len().min(next.markers.start - first.markers.start);
         let motion = self.motion.split_at_mut(markers);
@@ -121,8 +123,10 @@ impl<const D: usize> Divisible for JointsTerms<'_, D> {
 
     fn divided(self) -> [Self; 2] {
         let (portions, others) = self.portions.split_at(self.portions.len() / 2);
-        let (first, next) = (&portions[0], &others[0]);
-        let (rows, entries) = (next.first_row - first.first_row, next.first_entry - first.first_entry);
+        let first = &portions[0];
+        let next = &others[0];
+        let rows = next.first_row - first.first_row;
+        let entries = next.first_entry - first.first_entry;
         let JointTerms { phi, phi_dot, phi_t, gamma, g } = self.terms;
         let [phi, phi_dot, phi_t, gamma] = [phi, phi_dot, phi_t, gamma].map(|level| level.split_at_mut(rows));
         let g = g.split_at_mut(entries);

@@ -226,7 +226,8 @@ impl<const D: usize> Rows<'_, D> {
             }
             return;
         }
-        let (seen, ahead) = (a.seen(gap), a.own(&from_fn(|k| gap[k].x)));
+        let seen = a.seen(gap);
+        let ahead = a.own(&from_fn(|k| gap[k].x));
         for (row, &i) in lock.translation.iter().enumerate() {
             let axis = self.sides[0].axes[i];
             let e = a.rotated(&axis);
@@ -255,10 +256,13 @@ impl<const D: usize> Rows<'_, D> {
             return;
         }
         let d = sub(&b.spin, &a.spin);
-        let (square, turned) = (dot(&d, &d), cross(&a.spin, &d));
+        let square = dot(&d, &d);
+        let turned = cross(&a.spin, &d);
         for (row, &(i, j)) in lock.rotation.iter().enumerate() {
-            let (e, x) = (in_space(&a.rotated(&self.sides[0].axes[i])), in_space(&b.rotated(&self.sides[1].axes[j])));
-            let (cosine, n) = (dot(&e, &x), cross(&e, &x));
+            let e = in_space(&a.rotated(&self.sides[0].axes[i]));
+            let x = in_space(&b.rotated(&self.sides[1].axes[j]));
+            let cosine = dot(&e, &x);
+            let n = cross(&e, &x);
             let second = dot(&d, &e) * dot(&d, &x) - square * cosine + dot(&turned, &n);
             let n_in = |pose: &Pose<D>, sign: f64| in_space(&pose.own(&from_fn(|k| sign * n[k])));
             let level = Taylor::new(cosine, -dot(&d, &n), second);

@@ -54,7 +54,9 @@ impl<const D: usize> Mechanism<D> {
             let mut wrenches = [Wrench::zero(); MOST_MARKERS];
             let load = force.element.act(frames, time, &mut wrenches[..frames.len()]).magnitude;
             let clearance = frames[0].r[D - 1].x - wheel.road;
-            let (radius, lifts, tyre) = (wheel.radius, wheel.lifts, force.name.clone());
+            let radius = wheel.radius;
+            let lifts = wheel.lifts;
+            let tyre = force.name.clone();
             Some(Road { tyre, height: wheel.road, is_damped, clearance, radius, load, lifts })
         })
     }

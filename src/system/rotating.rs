@@ -53,7 +53,8 @@ impl<'a> Rotating<'a> {
         let placements = inner.placements()?;
         let mut structure = inner.structure();
         let inner_tangent = structure.tangent.clone();
-        let (mut places, mut entries) = (placed(&inner_tangent), inner_tangent.entries.clone());
+        let mut places = placed(&inner_tangent);
+        let mut entries = inner_tangent.entries.clone();
         let both = structure.mass.entries.iter().flat_map(|&(i, j)| [(i, j), (j, i)]);
         for (i, j) in both.chain(inner_tangent.entries.iter().copied()) {
             let Some((first, size)) = block_of(&placements, j) else { continue };
@@ -106,7 +107,8 @@ impl<'a> Rotating<'a> {
 
     /// What `ask` gives for the inner system at its t, v and v'.
     fn at<T>(&self, at: OperatingPoint, ask: impl FnOnce(OperatingPoint) -> T) -> T {
-        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
+        let v = self.velocity(at.q, at.v);
+        let vdot = self.acceleration(at.q, at.v, at.vdot);
         ask(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at })
     }
 
@@ -243,7 +245,8 @@ impl MechanicalSystem for Rotating<'_> {
     }
 
     fn tangent(&self, at: OperatingPoint, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
-        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
+        let v = self.velocity(at.q, at.v);
+        let vdot = self.acceleration(at.q, at.v, at.vdot);
         let mut inner = Tangent::new(&self.inner_tangent);
         if !self.inner.tangent(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at }, &mut inner, scratch) {
             return false;
@@ -253,7 +256,8 @@ impl MechanicalSystem for Rotating<'_> {
             values.fill(0.0);
             values[..count].copy_from_slice(own);
         }
-        let (slopes, terms) = (self.slopes(at.q, at.v), self.terms(at.q, &v, Need::MASS, scratch));
+        let slopes = self.slopes(at.q, at.v);
+        let terms = self.terms(at.q, &v, Need::MASS, scratch);
         self.add_product(&self.inner_tangent, &inner.c, &slopes, 0, &mut tangent.k);
         self.add_mass_product(&terms.mass, &slopes, 1, &mut tangent.k);
         self.add_mass_product(&terms.mass, &slopes, 2, &mut tangent.c);
@@ -261,12 +265,14 @@ impl MechanicalSystem for Rotating<'_> {
     }
 
     fn acceleration_gradient(&self, at: OperatingPoint, values: &mut [f64], scratch: &mut Scratch) -> bool {
-        let (v, vdot) = (self.velocity(at.q, at.v), self.acceleration(at.q, at.v, at.vdot));
+        let v = self.velocity(at.q, at.v);
+        let vdot = self.acceleration(at.q, at.v, at.vdot);
         if !self.inner.acceleration_gradient(OperatingPoint { t: self.t, v: &v, vdot: &vdot, ..at }, values, scratch) {
             return false;
         }
         // d(phi'')/dv = 2 L + G [v, .]
-        let (slopes, terms) = (self.slopes(at.q, at.v), self.terms(at.q, &v, Need::G | Need::L, scratch));
+        let slopes = self.slopes(at.q, at.v);
+        let terms = self.terms(at.q, &v, Need::G | Need::L, scratch);
         self.add_gradient(&terms.l, &slopes, 0, 2.0, values);
         let mut bracket = vec![0.0; terms.g.len()];
         self.add_bracket(&terms.g, &v, &mut bracket);

@@ -134,8 +134,10 @@ impl<const D: usize> PlacedJoint<'_, D> {
         terms: &mut Terms,
     ) {
         let part = &self.mechanism.model().bodies[block.body];
-        let (marker, width) = (self.joint.markers[block.slot], self.width(block));
-        let (index, frame) = (marker - part.first_marker, frame.map(|x| x.x));
+        let marker = self.joint.markers[block.slot];
+        let width = self.width(block);
+        let index = marker - part.first_marker;
+        let frame = frame.map(|x| x.x);
         let first = block.slot % markers_per_pass(D) * twist_len(D);
         let entries = &mut terms.g[block.first_entry..][..self.rows.count * width];
         entries.fill(0.0);

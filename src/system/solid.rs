@@ -35,18 +35,21 @@ pub(super) struct Solid<const D: usize> {
 impl<const D: usize> Solid<D> {
     /// A body at the frames `motion` of all markers.
     fn new(part: &Part<D>, freedom: &Freedom, motion: &[Frame<Taylor<f64>, D>]) -> Self {
-        let (own, offset) = (&motion[part.first_marker], &part.body.marker(0).offset);
+        let own = &motion[part.first_marker];
+        let offset = &part.body.marker(0).offset;
         let mut centre = own.r;
         for (axis, &x) in own.axes.iter().zip(offset).filter(|(_, x)| **x != 0.0) {
             centre.iter_mut().zip(axis).for_each(|(centre, &axis)| *centre -= axis * x);
         }
         let Freedom { translations, rotations } = freedom;
-        let (mut components, mut axes) = ([0; 3], [[0.0; D]; 3]);
+        let mut components = [0; 3];
+        let mut axes = [[0.0; D]; 3];
         components.iter_mut().zip(translations).for_each(|(component, &k)| *component = k);
         for (axis, turn) in axes.iter_mut().zip(rotations) {
             *axis = from_fn(|i| own.axes.iter().zip(turn).map(|(e, part)| e[i].x * part).sum());
         }
-        let (translations, rotations) = (translations.len(), rotations.len());
+        let translations = translations.len();
+        let rotations = rotations.len();
         Solid { components, translations, axes, rotations, centre, spin: own.angular_velocity(), first: 0 }
     }
 

@@ -98,10 +98,12 @@ impl Spin {
     /// b(q, v)
     pub(super) fn acceleration(&self, placement: Placement, q: &[f64], v: &[f64]) -> [f64; 3] {
         let (first, count) = Self::velocities(placement);
-        let (own, carried) = (from_fn(|k| if k < count { v[first + k] } else { 0.0 }), self.carried(placement, q));
+        let own = from_fn(|k| if k < count { v[first + k] } else { 0.0 });
+        let carried = self.carried(placement, q);
         match placement {
             Placement::Place { .. } => {
-                let (coriolis, centripetal) = (cross(&self.velocity, &own), cross(&self.velocity, &carried));
+                let coriolis = cross(&self.velocity, &own);
+                let centripetal = cross(&self.velocity, &carried);
                 from_fn(|k| 2.0 * coriolis[k] + centripetal[k])
             }
             Placement::Angle { .. } => [0.0; 3],
@@ -122,7 +124,8 @@ impl Spin {
             Placement::Angle { .. } => [none; 3],
             Placement::Axes { .. } => {
                 // A rotation of the body by d changes w by w x d in its axes.
-                let (spin, own) = (skew(&self.carried(placement, q)), skew(&from_fn(|k| v[first + k])));
+                let spin = skew(&self.carried(placement, q));
+                let own = skew(&from_fn(|k| v[first + k]));
                 let bent = product(&own, &spin).map(|row| row.map(|x| -x));
                 [block(spin), block(bent), block(spin)]
             }

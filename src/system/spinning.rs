@@ -77,10 +77,12 @@ impl<const D: usize> Mechanism<D> {
 
 /// Placements of one body: x, y(, z) first, then an angle or a quaternion where it has an orientation.
 fn placements<const D: usize>(part: &Part<D>) -> Option<Vec<Placement>> {
-    let (body, names) = (&part.body, part.body.coordinate_names());
+    let body = &part.body;
+    let names = part.body.coordinate_names();
     let own: Vec<&str> = names.iter().map(String::as_str).collect();
     let place = Placement::Place { q: part.first_q, v: part.first_v, count: D };
-    let (q, v) = (part.first_q + D, part.first_v + D);
+    let q = part.first_q + D;
+    let v = part.first_v + D;
     match (D, own.as_slice()) {
         (_, []) => Some(Vec::new()),
         (2, ["x", "y", "angle", ..]) => Some(vec![place, Placement::Angle { q, v }]),

@@ -39,7 +39,8 @@ impl<const D: usize> Mechanism<D> {
         let feed = |(i, force): (usize, &Connection<Box<dyn Force<D>>>)| {
             let mut wrenches = [Wrench::zero(); MOST_MARKERS];
             self.act(i, view, &mut wrenches);
-            let (mut power, mut size) = (0.0, 0.0);
+            let mut power = 0.0;
+            let mut size = 0.0;
             for (wrench, &marker) in wrenches.iter().zip(&force.markers) {
                 power += wrench.power(&view.frame(marker));
                 size += norm(&wrench.force) + norm(&wrench.torque);

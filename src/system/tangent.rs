@@ -58,7 +58,8 @@ impl<const D: usize> Evaluation<'_, D> {
     pub fn run(&mut self) {
         self.tangent.k.fill(0.0);
         self.tangent.c.fill(0.0);
-        let (mechanism, time) = (self.mechanism, Time { t: Dual6::fixed(self.at.t), regime: self.regime });
+        let mechanism = self.mechanism;
+        let time = Time { t: Dual6::fixed(self.at.t), regime: self.regime };
         let couplings = &mechanism.couplings;
         for (part, places) in mechanism.model().bodies.iter().zip(&couplings.bodies) {
             let own = BodyState {
@@ -98,7 +99,8 @@ impl<const D: usize> Evaluation<'_, D> {
 
     /// K of a joint between rigid bodies, in closed form.
     fn locked(&mut self, joint: usize, first: &[[Option<usize>; 2]; 2]) {
-        let (mechanism, motion) = (self.mechanism, &self.work.motion);
+        let mechanism = self.mechanism;
+        let motion = &self.work.motion;
         let (model, Some(lock)) = (mechanism.model(), &mechanism.rigid.locks[joint]) else { return };
         let &[a, b] = &model.joints[joint].markers[..] else { return };
         let solids = [a, b].map(|marker| mechanism.solid(model.markers.bodies[marker]?, motion));
@@ -147,7 +149,8 @@ impl<const D: usize> Evaluation<'_, D> {
             return None;
         }
         let of = |carrier: &Carrier| self.mechanism.solid(carrier.body, &self.work.motion);
-        let (a, b) = (of(a)?, of(b)?);
+        let a = of(a)?;
+        let b = of(b)?;
         let b = b.behind(&a);
         Some([a, b])
     }
@@ -207,7 +210,8 @@ impl<const D: usize> Evaluation<'_, D> {
         }
         let q = if is_varied { moved } else { rest };
         for held in &row.markers {
-            let (index, frame) = (markers[held.slot] - part.first_marker, gathered[held.slot].map(|x| x.x));
+            let index = markers[held.slot] - part.first_marker;
+            let frame = gathered[held.slot].map(|x| x.x);
             if held.places.len() == row.velocities.len() {
                 part.body.pull_back(index, q, &frame, &acting[held.slot], f);
                 continue;

@@ -88,7 +88,8 @@ pub struct Terms {
 impl Terms {
     /// All zero, for the dimensions and patterns of a system.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
-        let (n, structure) = (system.dimensions(), system.structure());
+        let n = system.dimensions();
+        let structure = system.structure();
         let zeros = |n: usize| vec![0.0; n];
         Terms {
             mass: zeros(structure.mass.entries.len()),

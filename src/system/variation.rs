@@ -77,7 +77,8 @@ impl<const D: usize> SeededBody<D> {
 
     /// Writes the body's q, v and v' alone, whatever moves with them.
     pub fn vary_state(&mut self, along: SeedDirection, part: &Part<D>, at: &OperatingPoint, directions: &[usize]) {
-        let (q, v) = (of(at.q, part, true), of(at.v, part, false));
+        let q = of(at.q, part, true);
+        let v = of(at.v, part, false);
         self.directions.clear();
         self.directions.resize(part.nv, Dual6::fixed(0.0));
         for (j, &direction) in directions.iter().enumerate() {
@@ -102,7 +103,8 @@ impl<const D: usize> SeededBody<D> {
         match (&self.solid, self.along) {
             (Some(solid), Some(along)) => solid.seed(along, &motion[marker], out),
             _ => {
-                let (vdot, out) = ((!self.moved_vdot.is_empty()).then_some(&self.moved_vdot[..]), from_mut(out));
+                let vdot = (!self.moved_vdot.is_empty()).then_some(&self.moved_vdot[..]);
+                let out = from_mut(out);
                 part.body.motion(&self.moved, &self.moved_v, vdot, marker - part.first_marker, out);
             }
         }

@@ -53,7 +53,9 @@ impl<const D: usize> View<f64, D> for Plain<'_, D> {
             Some(part) => {
                 let OperatingPoint { q, v, vdot, .. } = self.at;
                 let vdot = (!vdot.is_empty()).then(|| of(vdot, part, false));
-                let (q, v, first) = (of(q, part, true), of(v, part, false), marker - part.first_marker);
+                let q = of(q, part, true);
+                let v = of(v, part, false);
+                let first = marker - part.first_marker;
                 part.body.motion(q, v, vdot, first, std::slice::from_mut(&mut frame));
             }
         }
@@ -130,7 +132,8 @@ impl<const D: usize> View<Dual6, D> for SeededView<'_, D> {
                 part.body.energy(&self.varied.moved, &self.varied.moved_v, gravity)
             }
             _ => {
-                let (q, v) = (of(self.at.q, part, true), of(self.at.v, part, false));
+                let q = of(self.at.q, part, true);
+                let v = of(self.at.v, part, false);
                 let Energy { kinetic, potential } = part.body.energy(q, v, gravity);
                 Energy { kinetic: Dual6::fixed(kinetic), potential: Dual6::fixed(potential) }
             }

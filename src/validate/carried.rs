@@ -45,7 +45,8 @@ impl<'a> Carried<'a> {
     /// A basis that rotates too fast, a motion that cannot go on, a state at which the chart does not exist.
     pub fn flow(&self, bundle: &Bundle, times: &[f64]) -> Result<(Vec<Snapshot>, Vec<Coordinates>)> {
         let all = self.times(times)?;
-        let (mut snapshots, mut states) = (Vec::new(), Vec::new());
+        let mut snapshots = Vec::new();
+        let mut states = Vec::new();
         let times: Vec<f64> = all.iter().map(|(t, _)| *t).collect();
         flow_until(self.system, bundle, &times, self.is_over, |snapshot| {
             let is_asked = all[states.len()].1;
@@ -90,7 +91,8 @@ impl<'a> Carried<'a> {
         if self.rate.is_none() {
             return Ok(states.iter().map(|_| self.start.clone()).collect());
         }
-        let (mut charts, mut last) = (Vec::new(), Basis::at(self.system, &self.from, &self.start.r)?);
+        let mut charts = Vec::new();
+        let mut last = Basis::at(self.system, &self.from, &self.start.r)?;
         for pair in states.chunks_exact(2) {
             last = last.step(self.system, [&pair[0].0, &pair[1].0])?;
             if pair[1].1 {

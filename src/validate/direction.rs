@@ -36,7 +36,8 @@ impl Direction {
     /// # Errors
     /// The name is not one of the states.
     pub(super) fn state(&self, coordinates: &Coordinates, rate: f64) -> Result<Matrix> {
-        let (k, n) = (coordinates.freedom(), coordinates.r.ncols());
+        let k = coordinates.freedom();
+        let n = coordinates.r.ncols();
         let mut x = match self {
             Direction::Random(seed) => random(*seed, k + n),
             Direction::Named(name) => unit(name, &coordinates.states)?,

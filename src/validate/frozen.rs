@@ -62,6 +62,7 @@ pub fn horizon(times: &[f64], errors: &[f64], share: f64) -> Option<f64> {
     if first == 0 {
         return Some(times[0]);
     }
-    let (low, high) = (errors[first - 1], errors[first]);
+    let low = errors[first - 1];
+    let high = errors[first];
     Some(times[first - 1] + (times[first] - times[first - 1]) * (share - low) / (high - low))
 }

@@ -95,7 +95,8 @@ fn lifted(chart: &Coordinates, changes: &Changes, (input, u): (usize, f64)) -> M
 /// Where a derivative of the pulse is the input of the model, its lower ones are the states of the input.
 fn response(model: &Minimal, pulse: &Pulse, until: f64) -> Matrix {
     let states = &model.built.input_states;
-    let (order, first) = (states.orders[pulse.input], states.orders[..pulse.input].iter().sum());
+    let order = states.orders[pulse.input];
+    let first = states.orders[..pulse.input].iter().sum();
     let b =
         beside([&states.a.columns(first, order).clone_owned(), &model.built.b.columns(pulse.input, 1).clone_owned()]);
     let push = |t: f64| &b * Matrix::from_column_slice(order + 1, 1, &pulse.jet(t)[..=order]);

@@ -47,7 +47,8 @@ fn is_exact(sizes: &[f64], errors: &[f64], rounding: f64) -> bool {
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let mean = |pick: fn(&(f64, f64)) -> f64| points.iter().map(pick).sum::<f64>() / n;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let x = mean(|p| p.0);
+    let y = mean(|p| p.1);
     let product: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
     product / points.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>()
 }

@@ -36,7 +36,8 @@ pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [V
         return [change, dv];
     }
     let moving = system.dimensions().moving();
-    let (mut unit, mut rate) = (vec![0.0; from.v.len()], vec![0.0; from.q.len()]);
+    let mut unit = vec![0.0; from.v.len()];
+    let mut rate = vec![0.0; from.q.len()];
     let own = rate.len() - system.turning_angles();
     let dq = (0..moving).map(|j| {
         unit[j] = 1.0;

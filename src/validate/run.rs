@@ -83,7 +83,8 @@ pub fn validate_until(
     let wished = settings.horizon.unwrap_or(speed.period());
     let singular = first_singular(system, start, wished)?;
     let followed = singular.map_or(wished, |t| tolerances::BEFORE_SINGULAR * (t - start.t));
-    let (mut sequences, mut cut) = (Vec::new(), Vec::new());
+    let mut sequences = Vec::new();
+    let mut cut = Vec::new();
     for direction in &settings.directions {
         if is_over() && !sequences.is_empty() {
             cut.push(format!("no motion was followed along {}", direction.name()));
@@ -97,7 +98,8 @@ pub fn validate_until(
     cut.extend(sequences.iter().filter_map(|sequence| shortened(sequence, followed)));
     let longest = followed.min(1.0 / speed.fastest.max(f64::MIN_POSITIVE));
     let frozen = frozen(start, &carried, (&model.built.a, &speed), longest)?;
-    let (mut inputs, mut unchecked) = (Vec::new(), Vec::new());
+    let mut inputs = Vec::new();
+    let mut unchecked = Vec::new();
     for (index, Column { name, .. }) in system.inputs().into_iter().enumerate().filter(|_| settings.inputs) {
         let pulse = (index, name.clone());
         match input::check(system, start, (&model, &carried, &norm), pulse, 0.1 * followed)? {
@@ -134,7 +136,8 @@ fn judge(sequences: &[PerturbationSequence], frozen: &Frozen, inputs: &[InputChe
     let passes =
         |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > 2.0 - tolerances::ORDER_SLACK);
     let steep = |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > tolerances::STEEP_ENOUGH);
-    let (ltv, lti) = (orders.clone().all(passes), steep(&frozen.decay));
+    let ltv = orders.clone().all(passes);
+    let lti = steep(&frozen.decay);
     let lowest = orders.filter_map(|decay| decay.order).fold(f64::INFINITY, f64::min);
     let order = if lowest.is_finite() { format!("order {lowest:.2}") } else { "exact to rounding".to_string() };
     let is_untold = |decay: &Decay| !decay.is_exact && decay.order.is_none();

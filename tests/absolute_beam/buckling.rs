@@ -116,7 +116,8 @@ fn an_arch_bears_no_more() {
                 {{ "name": "rises", "type": "equation", "expression": "rod.tip.y - {y} - t" }} ] }}"#
         ));
         let bears = |sunk: f64| {
-            let (mut q, mut lambda) = (arch.0.start().0.to_vec(), vec![0.0; arch.system().dimensions().lambda]);
+            let mut q = arch.0.start().0.to_vec();
+            let mut lambda = vec![0.0; arch.system().dimensions().lambda];
             (1..=10).for_each(|step| balance(arch.system(), sunk * f64::from(step) / 10.0, &mut q, &mut lambda));
             -lambda[lambda.len() - 1]
         };

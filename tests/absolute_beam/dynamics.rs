@@ -68,7 +68,8 @@ fn a_stiff_beam_moves_like_a_rigid_body() {
     let angle = rigid.tight(1e-10, 1.0, 0.05).column("rod.angle");
     let deviation = |ei: f64| {
         let run = pendulum(ei).tight(1e-9, 1.0, 0.05);
-        let (x, y) = (run.column("x"), run.column("y"));
+        let x = run.column("x");
+        let y = run.column("y");
         let gap = |i: usize| (x[i] - angle[i].cos()).hypot(y[i] - angle[i].sin());
         (0..x.len()).map(gap).fold(0.0, f64::max)
     };

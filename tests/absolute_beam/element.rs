@@ -59,7 +59,8 @@ fn energy_and_magnitude_do_not_change_in_a_rigid_motion() {
     for turn in TURNS {
         let ends = deformed(turn);
         let (_, action) = at_rest(&ends);
-        let (pivot, w) = ([1.0, 2.0, -3.0], [1.1, -2.0, 0.6]);
+        let pivot = [1.0, 2.0, -3.0];
+        let w = [1.1, -2.0, 0.6];
         let carried = ends.map(|end| {
             let r = add(pivot, turned(add(end.r, pivot, -1.0), w), 1.0);
             Frame { r: add(r, [5.0, 0.3, -7.0], 1.0), axes: end.axes.map(|axis| turned(axis, w)), turn: 0.0 }
@@ -128,7 +129,8 @@ fn power_of_the_wrenches_is_the_loss_of_energy() {
 /// In the plane the element is that of space.
 #[test]
 fn the_plane_lies_in_space() {
-    let (curvature, angle) = ([0.0, 0.0, 0.5], 0.8);
+    let curvature = [0.0, 0.0, 0.5];
+    let angle = 0.8;
     let flat = |x: f64, y: f64, turn: f64| {
         let (s, c) = turn.sin_cos();
         Frame { r: [x, y], axes: [[c, s], [-s, c]], turn }.map(Taylor::fixed)
@@ -149,7 +151,9 @@ fn the_plane_lies_in_space() {
 /// those of statics, and the line is the cubic of beam theory.
 #[test]
 fn stations_have_the_moments_and_the_line_of_beam_theory() {
-    let (length, force, torque) = (2.0, [2e-7, 3e-7, -1e-7], [4e-7, 5e-7, -7e-7]);
+    let length = 2.0;
+    let force = [2e-7, 3e-7, -1e-7];
+    let torque = [4e-7, 5e-7, -7e-7];
     let [ei_y, ei_z] = SECTION.ei;
     let [ga_y, ga_z] = SECTION.ga;
     let beam = Beam::new::<3>(&SECTION, length, [0.0; 3], 0.0);

@@ -13,14 +13,18 @@ pub fn frequencies(ready: &Ready) -> Vec<f64> {
 /// Of frequencies about a place at rest, in ascending order: (Z^T K Z) x = w^2 (Z^T M Z) x with Z a basis of the motions
 /// that the joints leave, none of which lambda does work over to second order.
 pub fn squares(ready: &Ready, t: f64, q: &[f64]) -> Vec<f64> {
-    let (system, v) = (ready.system(), &vec![0.0; ready.system().dimensions().v][..]);
-    let (n, structure) = (system.dimensions(), system.structure());
-    let (mut terms, mut scratch) = (Terms::new(system), Scratch::default());
+    let system = ready.system();
+    let v = &vec![0.0; ready.system().dimensions().v][..];
+    let n = system.dimensions();
+    let structure = system.structure();
+    let mut terms = Terms::new(system);
+    let mut scratch = Scratch::default();
     let mut tangent = Tangent::new(&structure.tangent);
     system.evaluate(t, q, v, Need::DYNAMICS, &mut terms, &mut scratch);
     let lambda = vec![0.0; n.lambda];
     assert!(system.tangent(OperatingPoint { t, q, v, vdot: v, lambda: &lambda }, &mut tangent, &mut scratch));
-    let (mut k, mut m) = (DMatrix::<f64>::zeros(n.v, n.v), DMatrix::<f64>::zeros(n.v, n.v));
+    let mut k = DMatrix::<f64>::zeros(n.v, n.v);
+    let mut m = DMatrix::<f64>::zeros(n.v, n.v);
     structure.tangent.entries.iter().zip(&tangent.k).for_each(|(&place, k_ij)| k[place] += k_ij);
     structure.mass.entries.iter().zip(&terms.mass).for_each(|(&place, m_ij)| m[place] += m_ij);
     let mut g = DMatrix::<f64>::zeros(n.lambda, n.v);
@@ -29,7 +33,8 @@ pub fn squares(ready: &Ready, t: f64, q: &[f64]) -> Vec<f64> {
     // Rows of G have entries of size one or none.
     let free: Vec<usize> = (0..n.v).filter(|&i| squares.eigenvalues[i] < 1e-9).collect();
     let z = squares.eigenvectors.select_columns(&free);
-    let (k, m) = (z.transpose() * k * &z, z.transpose() * m * &z);
+    let k = z.transpose() * k * &z;
+    let m = z.transpose() * m * &z;
     let inverse = Cholesky::new(m).expect("a node has mass and inertia").l().try_inverse().unwrap();
     let symmetric = &inverse * k * inverse.transpose();
     let mut squares: Vec<f64> = SymmetricEigen::new(symmetric).eigenvalues.iter().copied().collect();
@@ -66,7 +71,8 @@ fn errors<const N: usize>(elements: [usize; N], which: usize, exact: f64, make: 
 #[test]
 fn a_pinned_beam_converges_with_the_third_power() {
     for mode in [1u8, 2, 3] {
-        let (k, rotary) = (f64::from(mode) * PI, 1e-4);
+        let k = f64::from(mode) * PI;
+        let rotary = 1e-4;
         let exact = k * k / (1.0 + rotary * k * k).sqrt();
         let errors = errors([4, 8, 16, 32], usize::from(mode) - 1, exact, |n| beam(n, rotary, "revolute", "revolute"));
         println!("pinned, mode {mode}: {errors:?}");

@@ -43,7 +43,8 @@ impl Rod {
     pub fn rectangle(length: f64, [h, w]: [f64; 2], [e, nu]: [f64; 2]) -> Self {
         let term = |n: f64| (n * PI * h / (2.0 * w)).tanh() / n.powi(5);
         let sum: f64 = (0..20).map(|k| term(f64::from(2 * k + 1))).sum();
-        let (g, j) = (e / (2.0 * (1.0 + nu)), h * w.powi(3) / 3.0 * (1.0 - 192.0 * w / (PI.powi(5) * h) * sum));
+        let g = e / (2.0 * (1.0 + nu));
+        let j = h * w.powi(3) / 3.0 * (1.0 - 192.0 * w / (PI.powi(5) * h) * sum);
         let shear = 5.0 / 6.0 * g * h * w;
         let moments = Vector3::new(g * j, e * h * w.powi(3) / 12.0, e * w * h.powi(3) / 12.0);
         Rod { length, forces: Vector3::new(e * h * w, shear, shear), moments, curvature: Vector3::zeros() }
@@ -64,7 +65,8 @@ impl Rod {
 
     /// The tip from what the clamp carries; the force is the same in all sections.
     pub fn end(&self, force: &Vector3<f64>, at_clamp: &Vector3<f64>) -> State {
-        let (h, mut state) = (self.length / STEPS as f64, State::zeros());
+        let h = self.length / STEPS as f64;
+        let mut state = State::zeros();
         state[3] = 1.0;
         state.fixed_rows_mut::<3>(7).copy_from(at_clamp);
         for _ in 0..STEPS {
@@ -126,9 +128,11 @@ pub fn solve(guess: Vector3<f64>, size: f64, f: impl Fn(&Vector3<f64>) -> Vector
 fn a_rod_rolled_into_an_arc_and_a_helix() {
     let rod = Rod { curvature: Vector3::new(0.3, 0.0, 1.0), ..Rod::slender(2.0, [1.0; 3]) };
     // A helix of curvature k and torsion t: r^2 = k^2 + t^2, radius k/r^2, pitch t/r over the length.
-    let (k, t) = (1.0f64, 0.3f64);
+    let k = 1.0f64;
+    let t = 0.3f64;
     let r = k.hypot(t);
-    let (radius, end) = (k / (r * r), position(&rod.end(&Vector3::zeros(), &Vector3::zeros())));
+    let radius = k / (r * r);
+    let end = position(&rod.end(&Vector3::zeros(), &Vector3::zeros()));
     let axis = Vector3::new(t, 0.0, k) / r;
     let rise = end.dot(&axis);
     let chord = (end - axis * rise).norm();

@@ -7,7 +7,8 @@ use nalgebra::{DMatrix, DVector};
 
 /// q in equilibrium with the loads at t = 1, reached in `steps` equal steps of t, which the loads of the scene grow with.
 pub fn equilibrium(ready: &Ready, steps: usize) -> Vec<f64> {
-    let (mut q, mut lambda) = (ready.0.start().0.to_vec(), vec![0.0; ready.system().dimensions().lambda]);
+    let mut q = ready.0.start().0.to_vec();
+    let mut lambda = vec![0.0; ready.system().dimensions().lambda];
     for step in 1..=steps {
         balance(ready.system(), step as f64 / steps as f64, &mut q, &mut lambda);
     }
@@ -16,8 +17,10 @@ pub fn equilibrium(ready: &Ready, steps: usize) -> Vec<f64> {
 
 /// Newton's method for G^T lambda = f, phi = 0.
 pub fn balance(system: &dyn MechanicalSystem, t: f64, q: &mut [f64], lambda: &mut [f64]) {
-    let (n, structure) = (system.dimensions(), system.structure());
-    let (mut terms, mut scratch) = (Terms::new(system), Scratch::default());
+    let n = system.dimensions();
+    let structure = system.structure();
+    let mut terms = Terms::new(system);
+    let mut scratch = Scratch::default();
     let mut tangent = Tangent::new(&structure.tangent);
     let rest = vec![0.0; n.v];
     for _ in 0..40 {

@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 /// A four-bar with these lengths, its guess with all bars along the ground.
 fn four_bar(ground: f64, lengths: [f64; 3], angles: [f64; 3]) -> Value {
     let mut at = [0.0, 0.0];
-    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+    let mut bodies = Vec::new();
+    let mut joints = Vec::new();
     for (i, (length, angle)) in lengths.iter().zip(angles).enumerate() {
         bodies.push(json!({ "name": format!("b{i}"), "type": "rigid", "mass": 1, "inertia": length * length / 12.0,
             "origin": [-0.5 * length, 0], "markers": { "A": [0, 0], "B": [length, 0] },
@@ -62,7 +63,8 @@ fn a_driver_that_asks_for_too_much_is_named_with_what_it_reaches() {
 /// A bar held by a pin and a rod, and by a second rod that does not fit.
 #[test]
 fn a_joint_too_many_is_named() {
-    let (x, y) = (0.6f64.cos(), 0.6f64.sin());
+    let x = 0.6f64.cos();
+    let y = 0.6f64.sin();
     let rod = |name: &str, from: &str, length: f64| json!({ "name": name, "type": "distance", "between": [from, "bar.B"], "length": length });
     let scene = json!({ "name": "bar", "dimension": 2,
         "ground": { "markers": { "O": [0, 0], "P": [0, 2], "Q": [2, 0] } },

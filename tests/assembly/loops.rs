@@ -22,7 +22,8 @@ fn planar(random: &mut Rng, is_near: bool) -> Value {
     }
     let turned = end[1].atan2(end[0]);
     let mut at = [0.0, 0.0];
-    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+    let mut bodies = Vec::new();
+    let mut joints = Vec::new();
     for (i, (length, angle)) in lengths.iter().zip(&closed).enumerate() {
         let off = 2.0 * random.f64() - 1.0;
         let angle = if is_near { angle - turned + off } else { PI * off };
@@ -82,7 +83,8 @@ fn spatial(random: &mut Rng, most: f64) -> Value {
         json!({ "position": position, "rotation": frames[joint] })
     };
     let mut at = points[0];
-    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+    let mut bodies = Vec::new();
+    let mut joints = Vec::new();
     for i in 0..links - 1 {
         let centre = [0, 1, 2].map(|k| 0.5 * (points[i][k] + points[i + 1][k]));
         let turn = quaternion(direction(random), most * random.f64());

@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 /// Point masses on rods of this length, the first from the ground, at these angles.
 fn pendulums(length: f64, angles: &[f64]) -> Value {
     let mut at = [0.0, 0.0];
-    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+    let mut bodies = Vec::new();
+    let mut joints = Vec::new();
     for (i, angle) in angles.iter().enumerate() {
         at = [at[0] + length * angle.sin(), at[1] - length * angle.cos()];
         bodies.push(json!({ "name": format!("p{i}"), "type": "point_mass", "mass": 1, "initial": { "position": at } }));

@@ -11,7 +11,8 @@ fn error_of(place: &Place, name: &str, [own, exact]: [&str; 2]) -> [f64; 2] {
         let index = text.lines().next().unwrap().split(',').position(|heading| heading == name).unwrap();
         text.lines().skip(1).map(|line| line.split(',').nth(index).unwrap().parse().unwrap()).collect()
     };
-    let (own, exact) = (column(own), column(exact));
+    let own = column(own);
+    let exact = column(exact);
     let errors: Vec<f64> = own.iter().zip(&exact).map(|(own, exact)| (own - exact).abs()).collect();
     [errors.iter().fold(0.0, |most, error| error.max(most)), errors[errors.len() - 1]]
 }
@@ -72,7 +73,8 @@ fn an_error_bar_is_not_below_round_off() {
     let method = ["--rtol", "1e-13", "--atol", "1e-15", "--until", "0.1", "--output-step", "0.1"];
     place.done(&[&["simulate", "scene.json", "--check-error", "-o", "own"], &method[..]].concat());
     let summary = place.json("own/summary.json");
-    let (most, bar) = (&summary["outputs"]["pin"]["max"], &summary["error"]["outputs"]["pin"]["max"]);
+    let most = &summary["outputs"]["pin"]["max"];
+    let bar = &summary["error"]["outputs"]["pin"]["max"];
     assert!(bar.as_f64().unwrap() >= 1e-14 * most.as_f64().unwrap(), "{summary}");
 }
 

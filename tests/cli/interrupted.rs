@@ -200,7 +200,8 @@ fn hidden(folder: &Path) -> Vec<std::path::PathBuf> {
 
 /// Kills a run as soon as it writes this file, or at once without a name.
 fn killed(place: &Place, file: &str) {
-    let (mut child, folder) = (start(place, &MUCH), place.path("here"));
+    let mut child = start(place, &MUCH);
+    let folder = place.path("here");
     while !file.is_empty()
         && child.try_wait().unwrap().is_none()
         && !hidden(&folder).iter().any(|path| path.join(file).exists())
@@ -219,7 +220,9 @@ fn a_killed_run_leaves_whole_files() {
     let run = || place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
     run();
     let old = place.json("here/summary.json");
-    let (mut before, mut after, mut left) = (0, 0, 0);
+    let mut before = 0;
+    let mut after = 0;
+    let mut left = 0;
     // On a busy machine a run may have come to its end before it is killed.
     for name in names.iter().cycle().take(20 * names.len()) {
         killed(&place, name);
@@ -267,7 +270,8 @@ fn limited(place: &Place, trap: &str) -> Output {
 fn where_the_disk_is_full_nothing_is_written() {
     let place = Place::new(PENDULUM);
     place.done(&["simulate", "scene.json", "-o", "here", "--quiet"]);
-    let (old, files) = (place.text("here/summary.json"), place.files("here"));
+    let old = place.text("here/summary.json");
+    let files = place.files("here");
     for trap in ["trap '' XFSZ;", ""] {
         let output = limited(&place, trap);
         let message = err(&output);

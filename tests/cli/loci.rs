@@ -53,7 +53,8 @@ fn over_a_parameter() {
         let args = ["loci", "scene.json", "--sweep", "k1=10..1000:6:log", "-o", "here", "--figures", "none", "--quiet"];
         assert_eq!(place.done(&[&args, state].concat()), "");
         let csv = place.text("here/loci.csv");
-        let (k1, im) = (numbers(&csv, "k1"), numbers(&csv, "mode1.im"));
+        let k1 = numbers(&csv, "k1");
+        let im = numbers(&csv, "mode1.im");
         assert_eq!((k1.len(), k1[0], k1[5]), (6, 10.0, 1000.0));
         assert!(k1.iter().zip(im).all(|(k1, im)| (im - (k1 / 4.0).sqrt()).abs() < 1e-9), "{csv}");
         let json = place.json("here/loci.json");
@@ -156,11 +157,13 @@ fn a_frequency_response() {
     assert_eq!(place.files("here"), ["bode-0.csv", "bode-0.json", "bode-0.svg"]);
     assert!(text.contains("x2 / push") && text.contains("m/N") && text.contains("an equilibrium"), "{text}");
     let csv = place.text("here/bode-0.csv");
-    let (f, size) = (numbers(&csv, "frequency_hz"), numbers(&csv, "x2/push.magnitude"));
+    let f = numbers(&csv, "frequency_hz");
+    let size = numbers(&csv, "x2/push.magnitude");
     let phase = numbers(&csv, "x2/push.phase_deg");
     assert!(f.is_sorted() && f.len() > 400 && (f[0] - 0.5 / TAU).abs() < 1e-9);
     for ((f, size), phase) in f.iter().zip(size).zip(phase) {
-        let (re, im) = (100.0 - 4.0 * (TAU * f).powi(2), 2.0 * TAU * f);
+        let re = 100.0 - 4.0 * (TAU * f).powi(2);
+        let im = 2.0 * TAU * f;
         assert!((size * re.hypot(im) - 1.0).abs() < 1e-11 && (phase.to_radians() + im.atan2(re)).abs() < 1e-9);
     }
     let json = place.json("here/bode-0.json");

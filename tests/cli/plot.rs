@@ -12,11 +12,14 @@ fn png_size(path: &Path) -> (u32, u32) {
 /// The frames of a GIF, each as its whole picture of palette indices.
 fn gif_frames(path: &Path) -> Vec<Vec<u8>> {
     let mut decoder = gif::DecodeOptions::new().read_info(fs::File::open(path).unwrap()).unwrap();
-    let (width, height) = (usize::from(decoder.width()), usize::from(decoder.height()));
-    let (mut picture, mut frames) = (vec![0; width * height], Vec::new());
+    let width = usize::from(decoder.width());
+    let height = usize::from(decoder.height());
+    let mut picture = vec![0; width * height];
+    let mut frames = Vec::new();
     while let Some(frame) = decoder.read_next_frame().unwrap() {
         for (i, index) in frame.buffer.iter().enumerate().filter(|(_, index)| Some(**index) != frame.transparent) {
-            let (x, y) = (i % usize::from(frame.width), i / usize::from(frame.width));
+            let x = i % usize::from(frame.width);
+            let y = i / usize::from(frame.width);
             picture[(y + usize::from(frame.top)) * width + x + usize::from(frame.left)] = *index;
         }
         frames.push(picture.clone());
@@ -91,7 +94,8 @@ fn bodies_are_where_they_should_be() {
     assert_eq!(rods.len(), 3);
     let lengths: Vec<f64> = rods.iter().map(|rod| (rod[1].0 - rod[0].0).hypot(rod[1].1 - rod[0].1)).collect();
     for (rod, t) in rods.iter().zip([0.25f64, 1.5, 2.0]) {
-        let (dx, dy) = ((rod[1].0 - rod[0].0) / lengths[0], (rod[0].1 - rod[1].1) / lengths[0]);
+        let dx = (rod[1].0 - rod[0].0) / lengths[0];
+        let dy = (rod[0].1 - rod[1].1) / lengths[0];
         assert!((dx - t.cos()).abs() < 2e-3 && (dy - t.sin()).abs() < 2e-3, "{t}: {dx} {dy}");
     }
     for t in ["0.25", "1.5", "2"] {

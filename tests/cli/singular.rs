@@ -34,7 +34,8 @@ fn a_motion_that_leaves_its_branch_is_told() {
         assert!(err(&output).contains("come apart"), "{}", err(&output));
         let summary = place.json("out/summary.json");
         assert_eq!(summary["status"], "failed");
-        let (failure, passed) = (&summary["failure"], summary["singularity"]["passed"].as_array().unwrap());
+        let failure = &summary["failure"];
+        let passed = summary["singularity"]["passed"].as_array().unwrap();
         let left = passed.iter().find(|passing| passing["branch"] == "left").unwrap();
         assert_eq!(failure["t"], left["t"]);
         assert!(failure["reason"].as_str().unwrap().contains("bearing, crank_pin, slider"), "{failure}");

@@ -52,7 +52,8 @@ fn four_bar() -> Place {
 /// Columns of a table by their headings.
 fn columns(text: &str) -> impl Fn(&str) -> Vec<f64> + use<> {
     let mut rows = text.lines().map(|line| line.split(',').map(str::to_string).collect::<Vec<_>>());
-    let (headings, rows) = (rows.next().unwrap(), rows.collect::<Vec<_>>());
+    let headings = rows.next().unwrap();
+    let rows = rows.collect::<Vec<_>>();
     move |name| {
         let column = headings.iter().position(|heading| heading == name).unwrap_or_else(|| panic!("no {name}"));
         rows.iter().map(|row| row[column].parse().unwrap()).collect()
@@ -74,7 +75,9 @@ fn camber_and_toe_over_the_travel_of_a_wheel() {
         csv.lines().next().unwrap().ends_with("joint.lift.z,wheel_travel,camber,toe,track_change,wheelbase_change")
     );
     let column = columns(&csv);
-    let (travel, camber, toe) = (column("travel"), column("camber"), column("toe"));
+    let travel = column("travel");
+    let camber = column("camber");
+    let toe = column("toe");
     assert_eq!((travel[0], travel[40], travel[80], travel.len()), (-0.08, 0.0, 0.08, 81));
     assert!(travel.iter().zip(column("wheel_travel")).all(|(asked, found)| (asked - found).abs() < 1e-10));
     let ends = [camber[0], camber[80], toe[0], toe[80]].map(f64::to_degrees);

@@ -98,7 +98,9 @@ fn a_measurement_goes_on_where_it_was() {
     let cells = |result: &Value| result["cells"].as_array().unwrap().clone();
     let count = |result: &Value| cells(result).iter().filter(|cell| cell["status"] == "completed").count();
     // What was measured stays; what took too long, or was left out, may be measured.
-    let (part, whole, again) = (measure("200ms", &[]), measure("20s", &["--resume"]), measure("20s", &["--resume"]));
+    let part = measure("200ms", &[]);
+    let whole = measure("20s", &["--resume"]);
+    let again = measure("20s", &["--resume"]);
     assert!(0 < count(&part) && count(&part) < count(&whole), "{} {}", count(&part), count(&whole));
     for [earlier, later] in [[&part, &whole], [&whole, &again]] {
         let later = cells(later);

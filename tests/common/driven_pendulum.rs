@@ -23,8 +23,10 @@ fn pivot<S: Scalar>(t: S) -> [S; 2] {
 pub fn start() -> ([f64; 4], [f64; 4]) {
     let angles: [f64; 2] = [0.6, 0.3];
     let rates = [0.3, -0.2];
-    let (mut r, mut v) = ([0.0, 0.1], [0.6, 0.0]);
-    let (mut q, mut qdot) = ([0.0; 4], [0.0; 4]);
+    let mut r = [0.0, 0.1];
+    let mut v = [0.6, 0.0];
+    let mut q = [0.0; 4];
+    let mut qdot = [0.0; 4];
     for i in 0..2 {
         let (sin, cos) = angles[i].sin_cos();
         r = [r[0] + LENGTHS[i] * sin, r[1] - LENGTHS[i] * cos];

@@ -92,9 +92,11 @@ pub fn start() -> ([f64; 2], [f64; 3]) {
 pub fn exact(times: &[f64]) -> Vec<Vec<f64>> {
     let field = |t: f64, [angle, w, i]: [f64; 3]| [w, K * i - GRAVITY * angle.sin(), rate(t, w, i)];
     let ahead = |y: [f64; 3], h: f64, k: [f64; 3]| std::array::from_fn(|j| y[j] + h * k[j]);
-    let (mut t, mut y) = (0.0, START);
+    let mut t = 0.0;
+    let mut y = START;
     let mut at = |end: &f64| {
-        let (began, steps) = (t, ((end - t) / 5e-5).ceil());
+        let began = t;
+        let steps = ((end - t) / 5e-5).ceil();
         let h = if steps > 0.0 { (end - t) / steps } else { 0.0 };
         for step in 0..steps as usize {
             t = began + step as f64 * h;

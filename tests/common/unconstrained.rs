@@ -59,9 +59,11 @@ impl Equations for Arenstorf {
         mass.copy_from_slice(&[S::one(), S::zero(), S::zero(), S::one()]);
     }
     fn force<S: Scalar>(&self, _t: S, q: &[S], v: &[S], f: &mut [S]) {
-        let (moon, earth) = (Self::MOON, 1.0 - Self::MOON);
+        let moon = Self::MOON;
+        let earth = 1.0 - Self::MOON;
         let cube = |x: S| (x.square() + q[1].square()).sqrt().powi(3);
-        let (to_earth, to_moon) = (cube(q[0] + moon), cube(q[0] - earth));
+        let to_earth = cube(q[0] + moon);
+        let to_moon = cube(q[0] - earth);
         f[0] = q[0] + v[1] * 2.0 - (q[0] + moon) * earth / to_earth - (q[0] - earth) * moon / to_moon;
         f[1] = q[1] - v[0] * 2.0 - q[1] * earth / to_earth - q[1] * moon / to_moon;
     }

@@ -216,7 +216,8 @@ fn wheel(signals: &str, road: &str, damping: f64) -> Ready {
 fn a_road_that_jumps_is_refused_under_a_damper() {
     let edge = r#"{ "name": "edge", "points": [[0, 0], [0.3, 0.02], [1, 0.02]], "interpolation": "previous" }"#;
     for (signals, road, named) in [("", "0.02*step(t - 0.3)", ""), (edge, "edge(t)", " `edge`")] {
-        let (damped, sprung) = (wheel(signals, road, 10.0), wheel(signals, road, 0.0));
+        let damped = wheel(signals, road, 10.0);
+        let sprung = wheel(signals, road, 0.0);
         for names in ADAPTIVE {
             let failure = attempt(&damped, &method(names, 1e-8), 1.0).0.failure;
             let failure = failure.unwrap_or_else(|| panic!("{names:?}"));

@@ -24,7 +24,9 @@ fn bouncing() -> Ready {
 
 /// Its height: parabolas above the floor, and a part of a sine below.
 fn height(t: f64) -> f64 {
-    let (fall, speed, frequency) = ((2.0 / G).sqrt(), (2.0 * G).sqrt(), STIFFNESS.sqrt());
+    let fall = (2.0 / G).sqrt();
+    let speed = (2.0 * G).sqrt();
+    let frequency = STIFFNESS.sqrt();
     let sag = G / STIFFNESS;
     // y = -sag + sag cos(w t) - speed/w sin(w t) comes back to zero at w t = 2 pi - 2 atan(speed/(w sag)).
     let contact = 2.0 * (std::f64::consts::PI - (speed / (frequency * sag)).atan()) / frequency;
@@ -184,7 +186,8 @@ fn a_law_of_many_kinks_is_found_kink_by_kink() {
     };
     let (outcome, _) = attempt(&scene, &dop853(1e-9), 0.5);
     assert_eq!(outcome.failure, None);
-    let (passed, steps) = (heights.iter().filter(|height| **height > outcome.q[1]).count(), outcome.statistics.steps);
+    let passed = heights.iter().filter(|height| **height > outcome.q[1]).count();
+    let steps = outcome.statistics.steps;
     assert!(passed > 200 && (passed as u64..2 * passed as u64).contains(&steps), "{passed} kinks, {steps} steps");
     let error = energy(outcome.q[1], outcome.v[1]) - energy(1.0, -2.0);
     assert!(error.abs() < 1e-8, "{error:e}");

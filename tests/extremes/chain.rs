@@ -31,7 +31,8 @@ pub struct Chain {
 impl Chain {
     /// With links of 1 m that zigzag, at rest.
     pub fn new(dimension: usize, masses: &[f64], links: &[Link]) -> Self {
-        let (masses, links) = (masses.to_vec(), links.to_vec());
+        let masses = masses.to_vec();
+        let links = links.to_vec();
         Chain { dimension, masses, links, length: 1.0, gravity: 9.81, is_straight: false, speed: 0.0 }
     }
 
@@ -51,7 +52,8 @@ impl Chain {
 
     pub fn scene(&self) -> Ready {
         let mut bodies = Vec::new();
-        let (mut joints, mut forces) = (Vec::new(), Vec::new());
+        let mut joints = Vec::new();
+        let mut forces = Vec::new();
         for (i, (mass, position)) in self.masses.iter().zip(self.positions()).enumerate() {
             let mut velocity = vec![0.0; self.dimension];
             velocity[0] = if i + 1 == self.masses.len() { self.speed } else { 0.0 };
@@ -60,7 +62,8 @@ impl Chain {
                       "initial": {{ "position": {position:?}, "velocity": {velocity:?} }} }}"#
             ));
             let before = if i == 0 { "ground.O".to_string() } else { format!("m{}", i - 1) };
-            let (between, length) = (format!(r#""between": ["{before}", "m{i}"]"#), self.length);
+            let between = format!(r#""between": ["{before}", "m{i}"]"#);
+            let length = self.length;
             match self.links[i] {
                 Link::Rod => joints
                     .push(format!(r#"{{ "name": "rod{i}", "type": "distance", {between}, "length": {length:e} }}"#)),
@@ -107,7 +110,8 @@ impl<'c> Exact<'c> {
         let n = chain.masses.len();
         let zeros = |n: usize| vec![Double::ZERO; n];
         let inverse = chain.masses.iter().map(|&m| Double::from(1.0) / m.into()).collect();
-        let (gap, rate) = (zeros(n * chain.dimension), zeros(n * chain.dimension));
+        let gap = zeros(n * chain.dimension);
+        let rate = zeros(n * chain.dimension);
         Exact { chain, inverse, gap, rate, diagonal: zeros(n), upper: zeros(n), lambda: zeros(n) }
     }
 
@@ -118,7 +122,8 @@ impl<'c> Exact<'c> {
 
     /// y' at y = (r, r').
     pub fn rate(&mut self, y: &[Double], out: &mut [Double]) {
-        let (d, n) = (self.chain.dimension, self.chain.masses.len());
+        let d = self.chain.dimension;
+        let n = self.chain.masses.len();
         let (r, v) = y.split_at(d * n);
         for i in 0..d * n {
             let before = |x: &[Double]| if i < d { Double::ZERO } else { x[i - d] };
@@ -138,7 +143,8 @@ impl<'c> Exact<'c> {
 
     /// lambda, by elimination from the first link on.
     fn solve(&mut self) {
-        let (d, n) = (self.chain.dimension, self.chain.masses.len());
+        let d = self.chain.dimension;
+        let n = self.chain.masses.len();
         let mut lower = Double::ZERO;
         for i in 0..n {
             let square = self.dot(i, i);
@@ -176,7 +182,8 @@ impl<'c> Exact<'c> {
     pub fn run(&mut self, (q, v): (&[f64], &[f64]), end: f64) -> (Vec<f64>, Vec<f64>) {
         let mut y: Vec<Double> = q.iter().chain(v).map(|&x| x.into()).collect();
         let mut method = Extrapolation::new(y.len());
-        let (mut t, mut h) = (0.0, 1e-3 * end);
+        let mut t = 0.0;
+        let mut h = 1e-3 * end;
         while t < end {
             let step = if t + h >= end { end - t } else { h };
             let error = method.attempt(&y, step.into(), self) / TOLERANCE;

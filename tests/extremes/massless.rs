@@ -26,14 +26,19 @@ impl Pendulum {
 
     /// On links without mass, each on a hinge and with a ball at its end, or on rods.
     fn scene(&self, has_links: bool) -> Ready {
-        let (mut bodies, mut joints, mut at) = (Vec::new(), Vec::new(), 0.0);
-        let (mut hinge, mut support) = ("ground.O".to_string(), "ground.O".to_string());
+        let mut bodies = Vec::new();
+        let mut joints = Vec::new();
+        let mut at = 0.0;
+        let mut hinge = "ground.O".to_string();
+        let mut support = "ground.O".to_string();
         let (inertia, rotation, ball) = match self.dimension {
             2 => ("0", format!("\"angle\": {:e}", self.turned), "revolute"),
             _ => ("[0, 0, 0]", format!("\"rotation\": [0, 0, {:e}]", self.turned), "spherical"),
         };
         for (k, (length, mass)) in self.links.iter().enumerate() {
-            let (start, zero, end) = (self.along(at), self.vector(0.0, 0.0), self.vector(*length, 0.0));
+            let start = self.along(at);
+            let zero = self.vector(0.0, 0.0);
+            let end = self.vector(*length, 0.0);
             at += length;
             bodies.push(format!(
                 r#"{{"name": "bob{k}", "type": "point_mass", "mass": {mass:e}, "markers": {{"P": {zero}}},
@@ -112,7 +117,9 @@ fn links_without_mass_swing_as_rods_do() {
         let exact = pendulum.ends().map(|name| *rods.column(&name).last().unwrap());
         let check = |method: &Method, most: f64, most_steps: u64| {
             let (error, steps) = pendulum.error(&exact, method);
-            let (dimension, links, triple) = (pendulum.dimension, pendulum.links, method.triple());
+            let dimension = pendulum.dimension;
+            let links = pendulum.links;
+            let triple = method.triple();
             println!("{dimension} {links:?} {triple} {:?}: {error:e} in {steps}", method.step);
             assert!(error < most && steps <= most_steps, "{dimension} {links:?} {triple}: {error:e} in {steps}");
         };

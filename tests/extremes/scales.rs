@@ -39,7 +39,8 @@ impl Sink for Limited<'_> {
 /// Positions are known to 1e-10 m there: Newton's method may not ask for more.
 #[test]
 fn a_thousand_kilometres_from_the_origin() {
-    let (here, there) = (pendulum(0.0, 0.0), pendulum(1e6, 0.0));
+    let here = pendulum(0.0, 0.0);
+    let there = pendulum(1e6, 0.0);
     for [formulation, integrator, projection] in [
         ["index1", "dop853", "manifold"],
         ["ggl", "radau_iia", "none"],
@@ -62,7 +63,8 @@ fn a_thousand_kilometres_from_the_origin() {
 /// A motion that turns in 1e-60 s, of which a second derivative says that a first step of 1e-120 s would be good.
 #[test]
 fn turns_at_any_speed_are_alike() {
-    let (slow, fast) = (pendulum(0.0, 1e6), pendulum(0.0, 1e60));
+    let slow = pendulum(0.0, 1e6);
+    let fast = pendulum(0.0, 1e60);
     for [formulation, integrator, projection] in
         [["index1", "dop853", "manifold"], ["index2", "phem56", "none"], ["ggl", "radau_iia", "none"]]
     {
@@ -100,7 +102,8 @@ impl Equations for Shy {
 /// sqrt(1 - v/v1) falls linearly in time, by RATE/2.
 #[test]
 fn a_first_guess_where_the_forces_end() {
-    let (end, tolerance) = (1.5 / RATE, 1e-9);
+    let end = 1.5 / RATE;
+    let tolerance = 1e-9;
     let exact = LIMIT * (1.0 - (1.0 - 0.5 * RATE * end).powi(2));
     for integrator in ["dop853", "dopri5"] {
         let run = run(&Shy, &adaptive("index1", integrator, "none", tolerance), until(end), (&[0.0; 2], &[0.0; 2]));

@@ -54,7 +54,8 @@ fn cantilevers_agree_to_the_square_of_the_load() {
 /// Static modes alone are exact under loads at markers: F L^3/(3 EI), with F L/GA of the shear.
 #[test]
 fn static_modes_bend_as_at_rest() {
-    let (load, length) = (1e-4, LENGTH);
+    let load = 1e-4;
+    let length = LENGTH;
     for (frame, theory) in FLOATING.into_iter().flat_map(|frame| THEORIES.map(|theory| (frame, theory))) {
         let rod = Rod { dimension: 2, frame, theory, elements: 4, stiffness: 1.0, more: r#""modes": 0,"# }.json();
         let rest = format!(

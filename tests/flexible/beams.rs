@@ -76,7 +76,8 @@ pub fn at_rest(ready: &Ready, names: &[&str]) -> Vec<f64> {
     let found =
         equilibrium(system, 0.0, (&ready.start().q, &ready.start().v)).unwrap_or_else(|error| panic!("{error}"));
     let columns = system.columns();
-    let (mut out, still) = (vec![0.0; columns.len()], vec![0.0; system.dimensions().v]);
+    let mut out = vec![0.0; columns.len()];
+    let still = vec![0.0; system.dimensions().v];
     let at = OperatingPoint { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
     system.outputs(at, &mut out, &mut Scratch::default());
     names.iter().map(|name| out[columns.iter().position(|column| column.name == *name).unwrap()]).collect()

@@ -132,7 +132,9 @@ fn joints_on_beams_have_true_derivatives() {
     each(examples, "joints", |mechanism, _, what| {
         let system = mechanism.system();
         let n = system.dimensions();
-        let (t, q, v) = (0.4, place(system, &mut random), random.list(n.v));
+        let t = 0.4;
+        let q = place(system, &mut random);
+        let v = random.list(n.v);
         let here = terms(system, t, &q, &v);
         let at = |s: f64| terms(system, t + s, &moved(system, &q, &v, s), &v);
         close(&slope(|s| at(s).phi), &here.phi_dot, &format!("phi' of {what}"));
@@ -141,7 +143,8 @@ fn joints_on_beams_have_true_derivatives() {
         let mut along = vec![0.0; n.lambda];
         system.structure().g.multiply(&here.g, &v, &mut along);
         close(&slope(frozen), &along, &format!("G of {what}"));
-        let (vdot, lambda) = (random.list(n.v), random.list(n.lambda));
+        let vdot = random.list(n.v);
+        let lambda = random.list(n.lambda);
         crate::scenes::differences::check(
             system,
             OperatingPoint { t, q: &q, v: &v, vdot: &vdot, lambda: &lambda },
@@ -161,8 +164,11 @@ fn forces_on_beams_have_true_derivatives_and_potentials() {
         each(examples, "forces", |mechanism, with, what| {
             let system = mechanism.system();
             let n = system.dimensions();
-            let (t, q, v) = (0.4, place(system, &mut random), random.list(n.v));
-            let (vdot, lambda) = (random.list(n.v), random.list(n.lambda));
+            let t = 0.4;
+            let q = place(system, &mut random);
+            let v = random.list(n.v);
+            let vdot = random.list(n.v);
+            let lambda = random.list(n.lambda);
             crate::scenes::differences::check(
                 system,
                 OperatingPoint { t, q: &q, v: &v, vdot: &vdot, lambda: &lambda },
@@ -236,7 +242,8 @@ fn constraints_on_beams_stay_closed() {
         ));
         let method = Method { projection: MethodSpec::named("exact"), ..dop853(1e-9) };
         let run = ready.run(&method, Span { start: 0.0, end: 0.5, output_step: 0.05 });
-        let (drift, energy) = (&run.record.drift, run.record.energy.as_ref().unwrap());
+        let drift = &run.record.drift;
+        let energy = run.record.energy.as_ref().unwrap();
         let found = [drift.position.max, drift.velocity.max, energy.relative_max_error.unwrap()];
         println!("chain in {dimension}: {found:?}");
         // Rounding of metres and of some metres a second; energy of 500 steps at 1e-9.

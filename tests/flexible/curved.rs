@@ -40,7 +40,8 @@ fn arc(dimension: usize, frame: &str, elements: usize, force: &str) -> Ready {
 /// Castigliano with the moment at the angle a from the clamp: Fy (1 - sin a) - Fx cos a in the plane; across it torsion
 /// Fz (1 - sin a) and bending Fz cos a.
 fn tip([x, y, z]: [f64; 3]) -> [f64; 3] {
-    let (bend, stretch) = (1.0 / EI, 1.0 / EA);
+    let bend = 1.0 / EI;
+    let stretch = 1.0 / EA;
     [
         x * PI / 4.0 * (bend + stretch) - y * 0.5 * (bend - stretch),
         -x * 0.5 * (bend - stretch) + y * ((0.75 * PI - 2.0) * bend + PI / 4.0 * stretch),
@@ -54,7 +55,8 @@ fn a_quarter_of_a_circle_bends_as_castigliano_says() {
     for (dimension, frame) in [2, 3].into_iter().flat_map(|d| FRAMES.map(|frame| (d, frame))) {
         for direction in 0..dimension {
             let force: [f64; 3] = std::array::from_fn(|k| if k == direction { load } else { 0.0 });
-            let (expected, force) = (tip(force), format!("{:?}", &force[..dimension]));
+            let expected = tip(force);
+            let force = format!("{:?}", &force[..dimension]);
             let names = &["x", "y", "z"][..dimension];
             let size = largest(expected.into_iter());
             let errors = [4, 8, 16].map(|elements| {

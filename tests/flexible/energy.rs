@@ -47,7 +47,8 @@ fn scaled(elastic: &str, size: f64) -> String {
 /// Linear momentum, and angular momentum about the world's origin (its third component in the plane), of one floating
 /// beam.
 fn momentum(ready: &Ready, q: &[f64], v: &[f64]) -> Vec<f64> {
-    let (system, dimension) = (ready.system(), if v.len() < ready.system().dimensions().q { 3 } else { 2 });
+    let system = ready.system();
+    let dimension = if v.len() < ready.system().dimensions().q { 3 } else { 2 };
     let mut terms = Terms::new(system);
     system.evaluate(0.0, q, v, Need::DYNAMICS, &mut terms, &mut Scratch::default());
     let mut p = vec![0.0; v.len()];
@@ -141,7 +142,8 @@ fn the_mass_matrix_is_positive_at_any_slope() {
             "frame": "floating", "frame_conditions": "{frame}", "length": 1, "elements": 8, "rotary_inertia": true,
             "stiffness": {{ "EA": 1e6, "EI": [50, 100], "GJ": 1 }}, "inertia": {{ "rhoA": 1, "rhoI": [1e-4, 9e-4] }} }}] }}"#
         ));
-        let (system, start) = (beam.system(), &beam.start().q);
+        let system = beam.system();
+        let start = &beam.start().q;
         let names = system.names().q;
         for slope in [0.0, 0.15, 0.4, 1.0] {
             let bent = |(i, name): (usize, &String)| match name.rsplit_once('_') {
@@ -153,7 +155,8 @@ fn the_mass_matrix_is_positive_at_any_slope() {
             system.evaluate(0.0, &q, &vec![0.0; names.len() - 1], Need::DYNAMICS, &mut terms, &mut Scratch::default());
             let n = names.len() - 1;
             let mass = DMatrix::from_fn(n, n, |i, j| {
-                let (mut unit, mut column) = (vec![0.0; n], vec![0.0; n]);
+                let mut unit = vec![0.0; n];
+                let mut column = vec![0.0; n];
                 unit[j] = 1.0;
                 system.structure().mass.multiply_symmetric(&terms.mass, &unit, &mut column);
                 column[i]

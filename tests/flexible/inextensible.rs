@@ -32,8 +32,10 @@ fn drive(t: f64) -> [f64; 2] {
 /// so small is the inertia of a section about itself, 5e-6 of a mode's, that it is left out.
 fn accelerations(t: f64, c: &[f64], rates: &[f64]) -> Vec<f64> {
     let (ds, [speed, spin]) = (L / POINTS as f64, drive(t));
-    let (mut m, mut f) = (DMatrix::<f64>::zeros(N, N), DVector::<f64>::zeros(N));
-    let (mut j, mut a) = ([[0.0; 2]; N], [0.0; 2]);
+    let mut m = DMatrix::<f64>::zeros(N, N);
+    let mut f = DVector::<f64>::zeros(N);
+    let mut j = [[0.0; 2]; N];
+    let mut a = [0.0; 2];
     for point in 0..POINTS {
         let x = (point as f64 + 0.5) / POINTS as f64;
         let powers: [f64; N] = std::array::from_fn(|i| x.powi(i as i32 + 1));
@@ -55,7 +57,8 @@ fn accelerations(t: f64, c: &[f64], rates: &[f64]) -> Vec<f64> {
         advance(&mut j, &mut a);
     }
     for (i, k) in (0..N).flat_map(|i| (0..N).map(move |k| (i, k))) {
-        let (p, q) = (i as f64 + 1.0, k as f64 + 1.0);
+        let p = i as f64 + 1.0;
+        let q = k as f64 + 1.0;
         f[i] -= EI / L * p * q / (p + q - 1.0) * c[k];
     }
     m.cholesky().expect("it has mass").solve(&f).as_slice().to_vec()
@@ -72,12 +75,14 @@ fn lag(c: &[f64]) -> f64 {
 
 /// The lag at the multiples of 0.05 s, by Runge and Kutta's method of order 4: its steps are at its limit of stability.
 fn elastica(end: f64) -> Vec<f64> {
-    let (steps, h) = (20, 0.0025);
+    let steps = 20;
+    let h = 0.0025;
     let rate = |t: f64, y: &DVector<f64>| {
         let (c, rates) = y.as_slice().split_at(N);
         DVector::from_iterator(2 * N, rates.iter().copied().chain(accelerations(t, c, rates)))
     };
-    let (mut y, mut lags) = (DVector::<f64>::zeros(2 * N), vec![0.0]);
+    let mut y = DVector::<f64>::zeros(2 * N);
+    let mut lags = vec![0.0];
     for step in 0..(end / h).round() as usize {
         let t = step as f64 * h;
         let k1 = rate(t, &y);

@@ -112,7 +112,9 @@ fn the_whirl_of_a_clamped_shaft_depends_on_no_frame() {
 /// (1 + r2 k^2) F^2 - 2 r2 k^2 W F = EI k^4/rhoA of the whirl in space, and F - W in the axes of the shaft.
 fn whirl(mode: f64, r2: f64, speed: f64) -> [f64; 2] {
     let k2 = (mode * std::f64::consts::PI).powi(2);
-    let (a, b, c) = (1.0 + r2 * k2, r2 * k2 * speed, 100.0 * k2 * k2);
+    let a = 1.0 + r2 * k2;
+    let b = r2 * k2 * speed;
+    let c = 100.0 * k2 * k2;
     let root = (b * b + a * c).sqrt();
     [(b + root) / a - speed, (b - root) / a - speed]
 }

@@ -137,9 +137,12 @@ fn radau_iia_finds_the_published_motion() {
 /// Natural frequencies of the coordinates whose rates' names start with `part`, rad/s, from M and K at rest.
 fn frequencies(ready: &Ready, part: &str) -> Vec<f64> {
     let system: &dyn MechanicalSystem = ready.system();
-    let (n, structure) = (system.dimensions(), system.structure());
+    let n = system.dimensions();
+    let structure = system.structure();
     let kept: Vec<usize> = (0..n.v).filter(|&i| system.names().v[i].starts_with(part)).collect();
-    let (q, rest, lambda) = (&ready.start().q, vec![0.0; n.v], vec![0.0; n.lambda]);
+    let q = &ready.start().q;
+    let rest = vec![0.0; n.v];
+    let lambda = vec![0.0; n.lambda];
     let mut straight = q.clone();
     system.names().q.iter().zip(&mut straight).filter(|(name, _)| name.starts_with(part)).for_each(|(_, q)| *q = 0.0);
     let mut terms = Terms::new(system);
@@ -150,7 +153,8 @@ fn frequencies(ready: &Ready, part: &str) -> Vec<f64> {
     let full = |multiply: &dyn Fn(&[f64], &mut [f64])| {
         let mut matrix = DMatrix::<f64>::zeros(kept.len(), kept.len());
         for (j, &column) in kept.iter().enumerate() {
-            let (mut unit, mut product) = (vec![0.0; n.v], vec![0.0; n.v]);
+            let mut unit = vec![0.0; n.v];
+            let mut product = vec![0.0; n.v];
             unit[column] = 1.0;
             multiply(&unit, &mut product);
             kept.iter().enumerate().for_each(|(i, &row)| matrix[(i, j)] = product[row]);

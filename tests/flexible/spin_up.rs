@@ -44,7 +44,8 @@ fn the_beam_lags_comes_back_and_is_stretched() {
     let stretch = (k * L).tan() / k - L;
     assert!((stretch / (RHO_A * W * W * L.powi(3) / (3.0 * EA)) - 1.0).abs() < 1e-4);
     let force = RHO_A * W * W * L * L / 2.0;
-    let (found, pull) = (late_mean(&run, "stretch"), late_mean(&run, "root_force"));
+    let found = late_mean(&run, "stretch");
+    let pull = late_mean(&run, "root_force");
     let swing = late_rms(&run, "lag");
     println!(
         "swing {swing:.2e} m; lag {lag:.4} m at {t} s; stretch {found:.6e} of {stretch:.6e}; force {pull:.4} of {force:.4}"
@@ -118,7 +119,8 @@ fn the_absolute_beam_lags_alike() {
     let absolute = text()
         .replace("\"frame\": \"floating\"", "\"frame\": \"absolute\"")
         .replace("\"frame_conditions\": \"tangent\", \"geometric_stiffening\": true,", "");
-    let (floating, absolute) = (beam(), parse(&absolute));
+    let floating = beam();
+    let absolute = parse(&absolute);
     let runs = [&floating, &absolute].map(|beam| beam.run(&beam.0.method, whole()));
     let [a, b] = [0, 1].map(|i: usize| runs[i].column("lag"));
     let gap = largest(a.iter().zip(&b).map(|(a, b)| a - b));

@@ -74,7 +74,8 @@ fn converges(what: &str, exact: f64, order: f64, last: f64, found: [f64; 4]) {
 #[test]
 fn the_tip_of_a_tapered_cantilever() {
     // The slope is 1e-6, and its square what linear statics leave out.
-    let (force, c) = (1e-3, 0.5f64);
+    let force = 1e-3;
+    let c = 0.5f64;
     let bent = 8.0 * force * LENGTH.powi(3) / bending(0.0) * (-c.ln() - 2.0 * (1.0 - c) + (1.0 - c * c) / 2.0);
     let sheared = -2.0 * force * LENGTH * c.ln() / (G * WIDTH * H * 5.0 / 6.0);
     for (frame, theory) in FRAMES.into_iter().flat_map(|frame| THEORIES.map(|theory| (frame, theory))) {
@@ -118,7 +119,9 @@ fn sections_carry_the_weight_beyond() {
     };
     // Centre of the trapezium beyond, from s.
     let moment = |s: f64| {
-        let (rest, a, b) = (LENGTH - s, height(s), height(LENGTH));
+        let rest = LENGTH - s;
+        let a = height(s);
+        let b = height(LENGTH);
         beyond(s) * rest * (a + 2.0 * b) / (3.0 * (a + b))
     };
     let places = [0.0, 0.3, 1.1, 1.9];
@@ -148,7 +151,8 @@ fn sections_carry_the_weight_beyond() {
 /// Strain of an absolute beam is the bending moment over the EI of the section where it is, not of its element's mean.
 #[test]
 fn strain_is_that_of_the_section() {
-    let (force, y) = (1e-3, 0.01);
+    let force = 1e-3;
+    let y = 0.01;
     for s in [0.0, 0.31, 1.0, 1.73] {
         let rest = format!(
             r#""forces": [ {{ "name": "load", "type": "applied_force", "at": "rod.tip", "force": [0, {force}] }} ],
@@ -190,7 +194,8 @@ fn a_stepped_shaft() {
 /// and its weight that of a frustum, 7/12 of the cylinder.
 #[test]
 fn a_conical_shaft() {
-    let (radius, torque) = (0.05f64, 1e-3);
+    let radius = 0.05f64;
+    let torque = 1e-3;
     let gj = 4e8 * std::f64::consts::PI / 2.0 * radius.powi(4);
     let weight = 7.0 / 12.0 * RHO * std::f64::consts::PI * radius * radius * LENGTH * GRAVITY;
     let found = |frame: &str, elements: usize, gravity: f64, load: f64| {

@@ -46,7 +46,8 @@ fn ends(number: u64, scene: &Path) -> Result<i32, String> {
 
 /// How the program ended, and whether it had to be asked to. A run of tiny steps rightly takes long, but must hear that.
 fn wait(mut child: Child) -> Option<(ExitStatus, bool)> {
-    let (clock, mut is_asked) = (Instant::now(), false);
+    let clock = Instant::now();
+    let mut is_asked = false;
     while clock.elapsed() < watch::FOREVER / 2 {
         if let Some(status) = child.try_wait().unwrap() {
             return Some((status, is_asked));
@@ -81,7 +82,8 @@ fn whole(folder: &Path) -> Result<(), String> {
 }
 
 fn try_binary(numbers: std::ops::Range<u64>) {
-    let (stock, place) = (Stock::new(), place());
+    let stock = Stock::new();
+    let place = place();
     let numbers: Vec<u64> = numbers.collect();
     let codes = watch::each(&numbers, place.path(), |number, file| {
         std::fs::write(file, stock.mutant(number)).unwrap();

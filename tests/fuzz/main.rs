@@ -76,7 +76,8 @@ fn place() -> TempDir {
 }
 
 fn try_scenes(numbers: std::ops::Range<u64>) {
-    let (stock, place) = (Stock::new(), place());
+    let stock = Stock::new();
+    let place = place();
     let numbers: Vec<u64> = numbers.collect();
     let endings = watch::each(&numbers, place.path(), |number, file| {
         std::fs::write(file, stock.mutant(number)).unwrap();

@@ -71,7 +71,8 @@ fn hostile(scene: &mut Value, random: &mut Random) {
 
 /// JSON pointers of all values below the root that `is_wanted` accepts.
 fn pointers(value: &Value, is_wanted: impl Fn(&str, &Value) -> bool) -> Vec<String> {
-    let (mut found, mut open) = (Vec::new(), vec![(String::new(), value)]);
+    let mut found = Vec::new();
+    let mut open = vec![(String::new(), value)];
     while let Some((at, value)) = open.pop() {
         if !at.is_empty() && is_wanted(&at, value) {
             found.push(at.clone());

@@ -20,14 +20,21 @@ pub fn each<T: Send>(
 ) -> Vec<(u64, Result<T, String>)> {
     let workers = std::thread::available_parallelism().map_or(2, usize::from);
     let slots: Slots = Arc::new(Mutex::new(vec![None; workers]));
-    let (next, is_over, found) = (AtomicU64::new(0), Arc::new(AtomicBool::new(false)), Mutex::new(Vec::new()));
+    let next = AtomicU64::new(0);
+    let is_over = Arc::new(AtomicBool::new(false));
+    let found = Mutex::new(Vec::new());
     let dog = std::thread::spawn({
-        let (slots, is_over, folder) = (slots.clone(), is_over.clone(), folder.to_path_buf());
+        let slots = slots.clone();
+        let is_over = is_over.clone();
+        let folder = folder.to_path_buf();
         move || watch(&slots, &is_over, &folder)
     });
     std::thread::scope(|scope| {
         for worker in 0..workers {
-            let (slots, next, found, work) = (&slots, &next, &found, &work);
+            let slots = &slots;
+            let next = &next;
+            let found = &found;
+            let work = &work;
             scope.spawn(move || {
                 let file = file(folder, worker);
                 while let Some(&number) = numbers.get(next.fetch_add(1, Ordering::Relaxed) as usize) {

@@ -132,7 +132,8 @@ fn same(a: &str, b: &str) -> bool {
 
 /// The text of a line without its numbers and repeated blanks, and the numbers.
 fn taken_apart(line: &str) -> (String, Vec<f64>) {
-    let (mut text, mut numbers) = (String::new(), Vec::new());
+    let mut text = String::new();
+    let mut numbers = Vec::new();
     let mut rest = line.trim_end();
     while let Some(c) = rest.chars().next() {
         let before = text.chars().last();

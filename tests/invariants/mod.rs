@@ -163,7 +163,8 @@ fn the_order_of_a_scene_means_nothing() {
 fn a_displaced_scene_moves_alike() {
     let displacement = Displacement { angle: 0.7, shift: [3.0, -2.0, 1.5] };
     for number in 0..12 {
-        let (scene, recipe) = (recipe(number).json(), recipe(number));
+        let scene = recipe(number).json();
+        let recipe = recipe(number);
         let moved = displacement.scene(scene.clone());
         let [here, there] = [&scene, &moved].map(|scene| parse(&scene.to_string()).run(&tight(1e-11), SPAN));
         for body in (0..recipe.rods).map(|i| format!("rod{i}")) {

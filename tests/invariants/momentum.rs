@@ -16,7 +16,8 @@ fn values<const N: usize>(body: &Value, run: &Run, row: usize, names: [&str; N])
 
 fn planar(body: &Value, run: &Run, row: usize) -> Vec<f64> {
     let [x, y, vx, vy, turning] = values(body, run, row, ["x", "y", "x'", "y'", "angle'"]);
-    let (mass, inertia) = (body["mass"].as_f64().unwrap(), body["inertia"].as_f64().unwrap());
+    let mass = body["mass"].as_f64().unwrap();
+    let inertia = body["inertia"].as_f64().unwrap();
     vec![mass * vx, mass * vy, mass * (x * vy - y * vx) + inertia * turning]
 }
 
@@ -27,7 +28,8 @@ fn spatial(body: &Value, run: &Run, row: usize) -> Vec<f64> {
     let mass = body["mass"].as_f64().unwrap();
     let own: [f64; 3] = std::array::from_fn(|i| body["inertia"][i].as_f64().unwrap() * spin[i]);
     // p + 2 w (u x p) + 2 u x (u x p): from the body's axes to those of the world.
-    let (u, once) = ([x, y, z], cross([x, y, z], own));
+    let u = [x, y, z];
+    let once = cross([x, y, z], own);
     let twice = cross(u, once);
     let orbital = cross(position, velocity);
     let angular = (0..3).map(|i| mass * orbital[i] + own[i] + 2.0 * (w * once[i] + twice[i]));

@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 pub fn recipe(number: u64) -> Recipe {
     let dimension = 2 + (number % 2) as usize;
     // A planar loop of two rods is stiff.
-    let (is_loop, rods) = (number % 4 >= 2, 2 + (number / 2 % 3) as usize);
+    let is_loop = number % 4 >= 2;
+    let rods = 2 + (number / 2 % 3) as usize;
     let is_loop = is_loop && rods + dimension > 4;
     Recipe {
         dimension,
@@ -23,7 +24,8 @@ pub fn recipe(number: u64) -> Recipe {
 pub fn floating(number: u64) -> Value {
     let mut scene = Recipe { is_loop: false, is_redundant: false, ..recipe(number) }.json();
     let mut numbers = Numbers(number);
-    let (dimension, rods) = (scene["dimension"].as_u64().unwrap() as usize, scene["bodies"].as_array().unwrap().len());
+    let dimension = scene["dimension"].as_u64().unwrap() as usize;
+    let rods = scene["bodies"].as_array().unwrap().len();
     scene["joints"].as_array_mut().unwrap().remove(0);
     scene["gravity"] = json!(vec![0.0; dimension]);
     for (i, spring) in scene["forces"].as_array_mut().unwrap().iter_mut().enumerate() {

@@ -140,7 +140,8 @@ fn mass_of_the_ground_is_told() {
 fn long_chains_and_alike_names_are_imported() {
     let links = |name: fn(usize) -> String| -> String {
         let joint = |i: usize| {
-            let (parent, child) = (name(i - 1), name(i));
+            let parent = name(i - 1);
+            let child = name(i);
             format!(
                 "<link name=\"{child}\"/><joint name=\"j{i}\" type=\"continuous\"><origin xyz=\"0 0 -0.1\"/>\
                  <parent link=\"{parent}\"/><child link=\"{child}\"/><mimic joint=\"j1\" multiplier=\"{i}\"/></joint>"

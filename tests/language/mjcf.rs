@@ -59,7 +59,8 @@ fn a_double_pendulum_moves_as_by_hand() {
                              { "name": "turn", "measure": "angle", "of": "lower.elbow", "relative_to": "upper.elbow" }]);
     let [ours, hand] = [ours, hand].map(|scene| parse(&scene.to_string()).tight(1e-11, 1.5, 0.1));
     for output in ["x", "turn"] {
-        let (a, b) = (ours.column(output), hand.column(output));
+        let a = ours.column(output);
+        let b = hand.column(output);
         near(&a, &b, 1e-9);
         assert!((a[0] - a.last().unwrap()).abs() > 0.1, "{output} moves: {a:?}");
     }
@@ -77,7 +78,8 @@ fn a_four_bar_is_closed_by_connect() {
     let ready = parse(&scene.to_string());
     assert_eq!(check(&ready.0).degrees_of_freedom, 1);
     let run = ready.tight(1e-10, 0.8, 0.4);
-    let (angle, rate) = (run.column("A"), run.column("crank.wy"));
+    let angle = run.column("A");
+    let rate = run.column("crank.wy");
     assert!(angle[2] > 0.3, "{angle:?}");
     near(&angle, &run.column("B"), 1e-9);
     let energy = |i: usize| 0.5 * 2.7 * rate[i].powi(2) + 9.81 * 3.0 * angle[i].cos();
@@ -87,7 +89,8 @@ fn a_four_bar_is_closed_by_connect() {
 /// Mass, centre and Ixx, Iyy, Izz of geoms against the formulas.
 #[test]
 fn inertia_follows_from_geoms() {
-    let (r, h) = (0.1, 0.3);
+    let r = 0.1;
+    let h = 0.3;
     let rod = 1000.0 * PI * r * r * 2.0 * h;
     let half = 500.0 * 4.0 / 3.0 * PI * r.powi(3);
     // A half ball about its own centre of mass, 3 r/8 from the disc, and from there to the middle.
@@ -187,7 +190,8 @@ fn sliders_have_springs_dampers_rotors_and_a_position_of_the_file() {
              stiffness="8" damping="2" armature="0.5"/><geom size=".1" mass="1.5"/></body></worldbody>"#,
     );
     let run = parse(&made.scene.to_string()).tight(1e-11, 2.0, 0.25);
-    let (decay, w) = (0.5, (4.0f64 - 0.25).sqrt());
+    let decay = 0.5;
+    let w = (4.0f64 - 0.25).sqrt();
     let x = |t: f64| 0.2 + 0.3 * (-decay * t).exp() * ((w * t).cos() + decay / w * (w * t).sin());
     assert!(run.worst("x", x) < 1e-9, "{:?}", run.column("x"));
 }

@@ -95,8 +95,10 @@ fn stewart_platform_follows_the_lengths_of_its_legs() {
         assert!(run.worst(&format!("platform.{coordinate}"), |_| 0.0) < 1e-9, "{coordinate}");
     }
     for leg in 1..=6 {
-        let (sign, at) = (if leg % 2 == 0 { 1.0 } else { -1.0 }, PI / 3.0 * (leg as f64 - 0.5));
-        let (base, corner) = (at - 0.35 * sign, at + 0.35 * sign);
+        let sign = if leg % 2 == 0 { 1.0 } else { -1.0 };
+        let at = PI / 3.0 * (leg as f64 - 0.5);
+        let base = at - 0.35 * sign;
+        let corner = at + 0.35 * sign;
         let length = |t: f64| {
             let (s, c) = (corner + turn(t)).sin_cos();
             (0.7 * c - 1.2 * base.cos()).hypot(0.7 * s - 1.2 * base.sin()).hypot(rise(t))

@@ -49,7 +49,11 @@ fn agree(made: &Made, mass: f64, centre: &[f64], inertia: &[f64]) {
 
 #[test]
 fn every_shape_has_the_moments_of_its_textbook_formula() {
-    let (a, b, c, r, l) = (0.3, 0.5, 0.7, 0.2, 1.1);
+    let a = 0.3;
+    let b = 0.5;
+    let c = 0.7;
+    let r = 0.2;
+    let l = 1.1;
     let cylinder = |m: f64| [m * (3.0 * r * r + l * l) / 12.0, m * (3.0 * r * r + l * l) / 12.0, 0.5 * m * r * r];
     let tube = |m: f64| {
         let square = r * r + 0.01;
@@ -84,7 +88,9 @@ fn every_shape_has_the_moments_of_its_textbook_formula() {
 
 #[test]
 fn a_triangle_and_a_slender_rod_in_the_plane() {
-    let (b, h, m) = (0.6, 0.9, 2.0);
+    let b = 0.6;
+    let h = 0.9;
+    let m = 2.0;
     // Both ways round: Izz = m (b^2 + h^2)/18 for a right angle.
     for corners in [json!([[1, 1], [1.6, 1], [1, 1.9]]), json!([[1, 1], [1, 1.9], [1.6, 1]])] {
         let triangle = made(2, json!([{ "polygon": corners, "mass": m }]));
@@ -97,11 +103,13 @@ fn a_triangle_and_a_slender_rod_in_the_plane() {
 /// The products: of two points of mass m at p, and of a rod along an oblique direction.
 #[test]
 fn turned_shapes_have_products_of_inertia() {
-    let (m, l) = (1.5, 1.2);
+    let m = 1.5;
+    let l = 1.2;
     let turned =
         json!([{ "cylinder": { "radius": 0.1, "length": l }, "mass": m, "at": [1, 2, 3], "z_axis": [1, 2, 2] }]);
     let u = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
-    let (along, across) = (0.5 * m * 0.01, m * (0.03 + l * l) / 12.0);
+    let along = 0.5 * m * 0.01;
+    let across = m * (0.03 + l * l) / 12.0;
     // J = across 1 + (along - across) u u^T
     let entry = |i: usize, j: usize| if i == j { across } else { 0.0 } + (along - across) * u[i] * u[j];
     let tensor = [entry(0, 0), entry(1, 1), entry(2, 2), entry(1, 0), entry(2, 0), entry(2, 1)];
@@ -141,7 +149,8 @@ fn parts_make_the_whole() {
         { "plate": [3, 1], "thickness": 0.1, "density": 5, "at": [1.5, 0.5] },
         { "plate": [1, 1], "thickness": 0.1, "density": 5, "at": [0.5, 1.5] },
     ]);
-    let (angle, two) = (made(2, angle), made(2, two));
+    let angle = made(2, angle);
+    let two = made(2, two);
     agree(&angle, two.mass, &two.centre, &two.inertia);
 }
 

@@ -30,7 +30,8 @@ fn four_bar(initial: &str) -> String {
 
 /// Angle of the rocker above the base for a crank angle: by the diagonal from the crank's end to B.
 fn rocker(theta: f64) -> f64 {
-    let (x, y) = (2.0 - theta.cos(), -theta.sin());
+    let x = 2.0 - theta.cos();
+    let y = -theta.sin();
     let diagonal = x.hypot(y);
     let at_b = ((diagonal * diagonal + 2.25 - 4.0) / (3.0 * diagonal)).acos();
     (-y).atan2(-x) - at_b

@@ -19,7 +19,9 @@ fn imported(text: &str, base: Option<&str>, closures: &[&str]) -> Imported {
 fn a_two_link_arm_moves_as_by_hand() {
     let centre = (2.0 * 0.4 + 0.9) / 3.0;
     let arms = 2.0 * (0.4f64 - centre).powi(2) + (0.9f64 - centre).powi(2);
-    let (x, y, z) = (0.21 + 0.004 + arms, 0.2 + 0.004 + arms, 0.01 + 0.004);
+    let x = 0.21 + 0.004 + arms;
+    let y = 0.2 + 0.004 + arms;
+    let z = 0.01 + 0.004;
     let about_y = r#""z_axis": [0, 1, 0], "x_axis": [1, 0, 0]"#;
     let hand = format!(
         r#"{{ "name": "arm", "dimension": 3, "gravity": [0, 0, -9.81],
@@ -43,7 +45,8 @@ fn a_two_link_arm_moves_as_by_hand() {
         serde_json::json!({ "name": "tip", "measure": "position", "of": "lower.tool", "component": "x" });
     let [ours, hand] = [scene.to_string(), hand].map(|text| parse(&text).tight(1e-11, 1.5, 0.1));
     for output in ["shoulder", "tip"] {
-        let (a, b) = (ours.column(output), hand.column(output));
+        let a = ours.column(output);
+        let b = hand.column(output);
         let error = a.iter().zip(&b).fold(0.0f64, |worst, (a, b)| worst.max((a - b).abs()));
         assert!(error < 1e-9, "{output}: {error:e}");
         assert!((a[0] - a.last().unwrap()).abs() > 0.3, "{output} moves: {a:?}");
@@ -136,7 +139,8 @@ fn a_four_bar_is_closed_by_a_joint() {
         assert!((turn - b).abs() < 1e-9 && (turn + c).abs() < 1e-9, "{turn} {b} {c}");
     }
     // Energy: 1/2 I w^2 + g s cos(angle) with I = 2 (0.1 + 1/4) + 2 and s = 2 (1/2) + 2.
-    let (inertia, weight) = (2.0 * (0.1 + 0.25) + 2.0, 9.81 * 3.0);
+    let inertia = 2.0 * (0.1 + 0.25) + 2.0;
+    let weight = 9.81 * 3.0;
     let rate = run.column("crank.wy");
     let energy = |i: usize| 0.5 * inertia * rate[i].powi(2) + weight * angle[i].cos();
     assert!((energy(2) - energy(0)).abs() < 1e-8 * energy(0), "{} {}", energy(0), energy(2));

@@ -7,7 +7,8 @@ use holonom::report::linear::comparison_text;
 #[test]
 fn methods_are_compared_with_a_reference() {
     let prepared = prepared("four_bar_spring");
-    let (mut one, mut two) = (plain(&prepared), descriptor(&prepared));
+    let mut one = plain(&prepared);
+    let mut two = descriptor(&prepared);
     for model in [&mut one, &mut two] {
         model.modes[0].value = complex(0.0, 4.0);
         model.modes[1].value = complex(0.0, -4.0);

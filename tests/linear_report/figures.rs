@@ -107,7 +107,8 @@ fn the_plane_is_scaled_to_each_part() {
     let mut branches = pair(Kind::Physical, |t| complex(-0.5 + 0.6 * t, 900.0 + 100.0 * t)).to_vec();
     branches.extend(pair(Kind::Physical, |t| complex(-0.3, 300.0 + t)));
     let panel = only(loci_figure("loci", "k1 (N/m)", &branches, &[]));
-    let (re, im) = (panel.x.range.unwrap(), panel.y.range.unwrap());
+    let re = panel.x.range.unwrap();
+    let im = panel.y.range.unwrap();
     assert!((-0.6..-0.5).contains(&re.0) && (0.088..0.2).contains(&re.1), "{re:?}");
     assert!((-100.0..=0.0).contains(&im.0) && (998.0..1100.0).contains(&im.1), "{im:?}");
     // Round-off of real parts does not fill an axis.
@@ -119,7 +120,8 @@ fn the_plane_is_scaled_to_each_part() {
 #[test]
 fn the_half_plane_of_growth_is_shaded_and_zero_is_a_thin_line() {
     let panel = only(loci_figure("loci", "k1 (N/m)", &pair(Kind::Physical, |t| complex(t - 0.5, 10.0 + t)), &[]));
-    let (re, im) = (panel.x.range.unwrap(), panel.y.range.unwrap());
+    let re = panel.x.range.unwrap();
+    let im = panel.y.range.unwrap();
     assert_eq!(shaded(&panel), [(0.0, im.0), (re.1, im.0), (re.1, im.1), (0.0, im.1)]);
     let up = panel.series.iter().find(|line| line.points == [(0.0, im.0), (0.0, im.1)]).unwrap();
     assert_eq!(up.style, Style::Thin);

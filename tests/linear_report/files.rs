@@ -97,7 +97,8 @@ fn no_file_holds_what_is_no_number() {
 #[test]
 fn arrays_fit_each_other() {
     let prepared = prepared("four_bar_spring");
-    let (model, names) = (descriptor(&prepared), prepared.system().names());
+    let model = descriptor(&prepared);
+    let names = prepared.system().names();
     let arrays = linear(&prepared, &model, &names).arrays();
     let find = |name: &str| &arrays.iter().find(|(known, _)| *known == name).unwrap().1;
     let shape = |name: &str| match find(name) {

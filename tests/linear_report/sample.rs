@@ -16,10 +16,14 @@ pub fn complex(re: f64, im: f64) -> Complex<f64> {
 
 /// The start of a scene with M, K and C on the directions that the constraints allow, held as they are.
 pub fn plain(prepared: &PreparedScene) -> LinearModel {
-    let (system, n) = (prepared.system(), prepared.system().dimensions());
-    let (structure, mut terms, mut scratch) = (system.structure(), Terms::new(system), Scratch::default());
+    let system = prepared.system();
+    let n = prepared.system().dimensions();
+    let structure = system.structure();
+    let mut terms = Terms::new(system);
+    let mut scratch = Scratch::default();
     let (q, v) = prepared.start();
-    let (vdot, lambda) = (&prepared.assembly.vdot, &prepared.assembly.lambda);
+    let vdot = &prepared.assembly.vdot;
+    let lambda = &prepared.assembly.lambda;
     let t = prepared.start_time();
     system.evaluate(t, q, v, Need::DYNAMICS, &mut terms, &mut scratch);
     let mut tangent = Tangent::new(&structure.tangent);

@@ -12,13 +12,15 @@ fn recipe(seed: u64) -> Recipe {
     let dimension = random.usize(2..=3);
     let rods = if random.u8(0..4) < 3 { random.usize(1..=3) } else { random.usize(4..=5) };
     let is_loop = random.bool() && rods + dimension > 4;
-    let (is_chain, is_redundant) = (random.bool() || is_loop, random.bool());
+    let is_chain = random.bool() || is_loop;
+    let is_redundant = random.bool();
     Recipe { dimension, rods, is_loop, is_chain, is_redundant, seed }
 }
 
 /// A state beside the start, with velocities of about 1; none where assembly does not close it.
 fn moving(system: &dyn holonom::system::MechanicalSystem, q: &[f64], seed: u64) -> Option<(Vec<f64>, Vec<f64>)> {
-    let (n, mut numbers) = (system.dimensions(), Numbers(seed ^ 1));
+    let n = system.dimensions();
+    let mut numbers = Numbers(seed ^ 1);
     let q: Vec<f64> = q.iter().map(|q| q + 0.1 * numbers.next()).collect();
     let v: Vec<f64> = (0..n.v).map(|_| 2.0 * numbers.next()).collect();
     assemble(system, 0.0, (&q, &v), &[]).ok().map(|found| (found.q, found.v))

@@ -100,7 +100,8 @@ fn the_conical_pendulum_in_the_intrinsic_chart() {
 #[test]
 fn the_conical_pendulum_has_its_floquet_multipliers() {
     let (state, omega) = circling();
-    let (period, chart) = (TAU / omega, Chart::parse("q1,q2"));
+    let period = TAU / omega;
+    let chart = Chart::parse("q1,q2");
     let found = transition(&Spherical, &state, &chart, &[period]).unwrap();
     let multipliers = found[0].matrix(&Spherical, &chart).unwrap().complex_eigenvalues();
     let w = omega * 1.75f64.sqrt();

@@ -57,7 +57,8 @@ fn response(model: &LinearModel, s: C) -> DMatrix<C> {
 
 /// Of all outputs to all inputs.
 fn gap(a: &LinearModel, b: &LinearModel, s: C) -> f64 {
-    let (a, b) = (response(a, s), response(b, s));
+    let a = response(a, s);
+    let b = response(b, s);
     (&a - &b).norm() / b.norm().max(f64::MIN_POSITIVE)
 }
 
@@ -69,11 +70,13 @@ fn check(prepared: &PreparedScene, state: &State, count: usize, shift: f64) {
         modal(&mut variation, count, shift).unwrap_or_else(|error| panic!("{} {count}: {error}", prepared.name));
     let full = dense(&mut variation);
     let largest = full.modes.iter().map(|mode| mode.value.norm()).fold(0.0, f64::max);
-    let (found, all) = (upper(&model, largest), upper(&full, largest));
+    let found = upper(&model, largest);
+    let all = upper(&full, largest);
     let off = if found.is_empty() { 0.0 } else { distance(&found, &nearest(all.clone(), shift, found.len())) };
     println!("{} {count} modes at {shift}: {off:e}", prepared.name);
     assert!(off < 1e-8, "{} {count} modes at {shift}: {off:e} {found:?} {all:?}", prepared.name);
-    let (a, pairs) = (&model.a, model.modes.iter().filter(|mode| mode.value.im != 0.0).count());
+    let a = &model.a;
+    let pairs = model.modes.iter().filter(|mode| mode.value.im != 0.0).count();
     let of_inputs: usize = model.orders.iter().sum();
     assert!(model.modes.len() + of_inputs == a.nrows() && model.states.len() == a.nrows() && pairs % 2 == 0);
     assert!(model.modes.iter().all(|mode| (mode.energy.iter().sum::<f64>() - 1.0).abs() < 1e-9));
@@ -140,7 +143,8 @@ fn the_response_is_that_of_all_modes() {
         let at = if moving { start(&prepared) } else { rest(&prepared) };
         let mut variation = at.variation(&prepared).unwrap();
         let full = dense(&mut variation);
-        let (all, one) = (modal(&mut variation, 1000, C::ZERO).unwrap(), modal(&mut variation, 1, C::ZERO).unwrap());
+        let all = modal(&mut variation, 1000, C::ZERO).unwrap();
+        let one = modal(&mut variation, 1, C::ZERO).unwrap();
         let slow = one.modes[0].value.norm();
         for s in [1e-3, 0.3, 1.0, 7.0, 100.0].map(|part| C::new(0.0, part * slow)) {
             let off = gap(&all, &full, s);

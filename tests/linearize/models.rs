@@ -26,8 +26,10 @@ pub fn counts(model: &LinearModel) -> [usize; 3] {
 
 /// With the variational equations at the state of a reference.
 pub fn at<T>(label: &str, check: impl FnOnce(&mut Variation, &Reference) -> T) -> T {
-    let (reference, system) = (Reference::read(label), system(label));
-    let (q, v) = (reference.vector("q"), reference.vector("v"));
+    let reference = Reference::read(label);
+    let system = system(label);
+    let q = reference.vector("q");
+    let v = reference.vector("v");
     check(&mut Variation::new(system.as_ref(), 0.0, &q, &v).unwrap(), &reference)
 }
 

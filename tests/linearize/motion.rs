@@ -15,7 +15,8 @@ fn state(label: &str) -> State {
 
 /// The slope of |X(h) - exp(A h)| over halved steps. X(h) = exp(A h) - A' h^2/2 + ..., in constant charts.
 fn order(label: &str, chart: &Chart, least: f64) -> f64 {
-    let (system, start) = (system(label), state(label));
+    let system = system(label);
+    let start = state(label);
     let mut variation = Variation::new(system.as_ref(), 0.0, &start.q, &start.v).unwrap();
     let model = minimal(&mut variation, chart).unwrap();
     let measured = Chart::MassOrthogonal.at(&mut variation).unwrap();
@@ -94,7 +95,8 @@ fn a_double_pendulum_is_chaotic() {
 fn a_conical_pendulum_has_its_multipliers() {
     let angle = std::f64::consts::PI / 3.0;
     let turn = (9.81 / angle.cos()).sqrt();
-    let (radius, height) = (angle.sin(), -angle.cos());
+    let radius = angle.sin();
+    let height = -angle.cos();
     let start = State { t: 0.0, q: vec![radius, 0.0, height], v: vec![0.0, radius * turn, 0.0] };
     let period = std::f64::consts::TAU / turn;
     let found = floquet(&Spherical, &start, period).unwrap();

@@ -17,7 +17,8 @@ fn slope(variation: &mut Variation, s: Complex<f64>) -> Complex<f64> {
     let x: ComplexMatrix = complex(padded.svd(false, true).v_t.unwrap().rows(g.nrows(), 1).transpose());
     let pencil = &mass * (s * s) + &c * s + k;
     let lift = (&g * g.transpose()).try_inverse().unwrap() * &g;
-    let (p, r) = (&lift * &pencil * &x, &lift * pencil.transpose() * &x);
+    let p = &lift * &pencil * &x;
+    let r = &lift * pencil.transpose() * &x;
     let rate = x.transpose() * (mass * (s * 2.0) + c) * &x;
     (r.transpose() * p)[(0, 0)] / rate[(0, 0)]
 }

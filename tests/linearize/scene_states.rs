@@ -210,7 +210,8 @@ fn boom(t: f64, [angle, speed, pa, pb]: [f64; 4]) -> [f64; 4] {
     let arm = (-dx * angle.sin() + dy * angle.cos()) / length;
     let [bore, ring] = [5e-3, 2.5e-3];
     let [to_a, to_b] = if valve > 0.0 { [(16.0 - pa).sqrt(), pb.sqrt()] } else { [pa.sqrt(), (16.0 - pb).sqrt()] };
-    let (leak, pull) = (2e-6 * (pa - pb), arm * speed);
+    let leak = 2e-6 * (pa - pb);
+    let pull = arm * speed;
     let torque = 1e6 * (pa * bore - pb * ring) * arm - 400.0 * 9.81 * 1.5 * angle.cos();
     [
         speed,

@@ -33,7 +33,8 @@ fn grows(found: impl Fn(&Mark) -> f64, marks: &[Mark], (order, chosen): (i32, bo
 #[test]
 fn rattle_keeps_energy_and_runs_ahead_linearly() {
     let run = |steps: f64| marks(&fixed("index3", "rattle", "none", period() / steps), &[100.0, 1000.0]);
-    let (coarse, fine) = (run(50.0), run(100.0));
+    let coarse = run(50.0);
+    let fine = run(100.0);
     for (marks, largest) in [(&coarse, 5.6e-3), (&fine, 1.4e-3)] {
         grows(|mark| mark.phase, marks, (1, false));
         let [first, last] = [marks[0].largest, marks[1].largest];
@@ -52,7 +53,8 @@ fn rattle_keeps_energy_and_runs_ahead_linearly() {
 /// the closed form.
 fn recurrence(steps: f64, periods: f64) -> f64 {
     let h = period() / steps;
-    let (mut theta, mut sin_turn) = (AMPLITUDE, -0.5 * h * h * GRAVITY * AMPLITUDE.sin());
+    let mut theta = AMPLITUDE;
+    let mut sin_turn = -0.5 * h * h * GRAVITY * AMPLITUDE.sin();
     let mut passages = 0;
     let count = (steps * periods).round() as usize;
     for _ in 0..count {

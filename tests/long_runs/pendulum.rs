@@ -39,8 +39,10 @@ pub fn pendulum() -> Result<PreparedScene> {
 pub fn phase(q: &[f64], v: &[f64]) -> f64 {
     let theta = q[0].atan2(-q[1]);
     let rate = (q[0] * v[1] - q[1] * v[0]) / (q[0] * q[0] + q[1] * q[1]);
-    let (x, y) = ((0.5 * theta).sin(), 0.5 * rate / GRAVITY.sqrt());
-    let (angle, square) = (x.atan2(y), x * x + y * y);
+    let x = (0.5 * theta).sin();
+    let y = 0.5 * rate / GRAVITY.sqrt();
+    let angle = x.atan2(y);
+    let square = x * x + y * y;
     let quarter = 0.5 * PI / mean(1.0, (1.0 - square).sqrt());
     (first_integral(angle, square) / (4.0 * quarter)).rem_euclid(1.0)
 }
@@ -81,7 +83,8 @@ struct Watch {
 
 impl Sink for Watch {
     fn accepted(&mut self, state: &Observation) {
-        let (q, v) = (state.q, state.v);
+        let q = state.q;
+        let v = state.v;
         self.passages += u64::from(self.last_x < 0.0 && q[0] >= 0.0);
         self.last_x = q[0];
         let start = -GRAVITY * AMPLITUDE.cos();
@@ -96,9 +99,12 @@ impl Sink for Watch {
 pub fn run(method: &Method, periods: &[f64], told: impl Fn(&Mark)) -> Result<Vec<Mark>> {
     let prepared = pendulum()?;
     let (q, v) = prepared.start();
-    let (mut q, mut v) = (q.to_vec(), v.to_vec());
+    let mut q = q.to_vec();
+    let mut v = v.to_vec();
     let mut watch = Watch { last_x: q[0], ..Watch::default() };
-    let (clock, mut t, mut steps) = (Instant::now(), 0.0, 0);
+    let clock = Instant::now();
+    let mut t = 0.0;
+    let mut steps = 0;
     let mut marks = Vec::new();
     for &periods in periods {
         let span = Span { start: t, end: periods * period(), output_step: periods * period() };

@@ -25,13 +25,16 @@ impl<const D: usize> Beam<D> {
             beam.as_object_mut().unwrap().remove(shared);
         }
         let number = |value: &Value| value.as_f64().unwrap_or(0.0);
-        let (length, inertia) = (number(&beam["length"]), &beam["inertia"]);
+        let length = number(&beam["length"]);
+        let inertia = &beam["inertia"];
         let rho_i = match D {
             2 => [0.0, number(&inertia["rhoI"])],
             _ => [number(&inertia["rhoI"][0]), number(&inertia["rhoI"][1])],
         };
-        let (rho_a, elements) = (number(&inertia["rhoA"]), number(&beam["elements"]) as usize);
-        let (parameters, markers) = (Parameters::default(), MarkerTable::default());
+        let rho_a = number(&inertia["rhoA"]);
+        let elements = number(&beam["elements"]) as usize;
+        let parameters = Parameters::default();
+        let markers = MarkerTable::default();
         let folder = Path::new("");
         let build = Build {
             parameters: &parameters,

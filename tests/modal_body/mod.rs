@@ -14,7 +14,8 @@ use std::path::Path;
 
 /// A beam that falls on a hinge, with a mass and a force at its tip.
 fn swing<const D: usize>() -> Value {
-    let (planar, spatial) = (D == 2, D == 3);
+    let planar = D == 2;
+    let spatial = D == 3;
     let at = |x: f64| if planar { json!([x, 0]) } else { json!([x, 0, 0]) };
     let stiffness = if planar {
         json!({ "EA": 2e4, "EI": 30, "GA": 5e3 })

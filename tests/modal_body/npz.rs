@@ -16,7 +16,8 @@ pub fn write(path: &Path, data: &ModalData<Array>) {
         let data: Vec<u8> = array.values.iter().flat_map(|value| value.to_le_bytes()).collect();
         npy("<f8", &array.shape, &data)
     };
-    let (lumped, nodes) = (data.lumped.as_ref().unwrap(), &data.nodes.as_ref().unwrap().0);
+    let lumped = data.lumped.as_ref().unwrap();
+    let nodes = &data.nodes.as_ref().unwrap().0;
     put("modal_stiffness", numbers(data.modal_stiffness.as_ref().unwrap()));
     put("modal_damping", numbers(data.modal_damping.as_ref().unwrap()));
     put("lumped_masses", numbers(&stacked(lumped.iter().map(|one| &one.mass))));

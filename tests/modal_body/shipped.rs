@@ -8,7 +8,11 @@ use serde_json::{Value, json};
 
 /// Steel, 0.8 m long, 30 mm wide and 4 mm high.
 fn strip() -> Value {
-    let (length, width, height, e, rho) = (0.8, 0.03, 0.004, 2.1e11, 7850.0);
+    let length = 0.8;
+    let width = 0.03;
+    let height = 0.004;
+    let e = 2.1e11;
+    let rho = 7850.0;
     let area: f64 = width * height;
     json!({
         "frame": "floating", "length": length, "elements": 4, "frame_conditions": "mean", "modes": 1,

@@ -52,7 +52,9 @@ fn ahead(x: &[f64], direction: &[f64], s: f64) -> Vec<f64> {
 /// The derivatives along q, v, v' and lambda at a state agree with differences to `near` of the largest derivative of the
 /// output or of its value.
 pub fn check(system: &dyn MechanicalSystem, at: OperatingPoint, near: f64, what: &str) {
-    let (n, exact, values) = (system.dimensions(), tangent(system, at), outputs(system, at));
+    let n = system.dimensions();
+    let exact = tangent(system, at);
+    let values = outputs(system, at);
     let names: Vec<String> = system.columns().into_iter().map(|column| column.name).collect();
     let compare = |kind: &str, matrix: &DMatrix<f64>, column: usize, slopes: Vec<f64>| {
         for (row, difference) in slopes.into_iter().enumerate() {

@@ -96,7 +96,8 @@ fn cases() -> Vec<Case> {
 const T: f64 = 0.3;
 
 fn state(system: &dyn MechanicalSystem) -> (Vec<f64>, Vec<f64>) {
-    let (n, mut random) = (system.dimensions(), random(5));
+    let n = system.dimensions();
+    let mut random = random(5);
     let mut q: Vec<f64> = (0..n.q).map(|_| random()).collect();
     system.normalize(&mut q);
     (q, (0..n.v).map(|_| random()).collect())
@@ -105,7 +106,9 @@ fn state(system: &dyn MechanicalSystem) -> (Vec<f64>, Vec<f64>) {
 /// f and the outputs.
 fn forces(system: &dyn MechanicalSystem) -> (Vec<f64>, Vec<f64>) {
     let (q, v) = state(system);
-    let (mut terms, mut scratch, mut y) = (Terms::new(system), Scratch::default(), vec![0.0; 2]);
+    let mut terms = Terms::new(system);
+    let mut scratch = Scratch::default();
+    let mut y = vec![0.0; 2];
     system.evaluate(T, &q, &v, Need::FORCE, &mut terms, &mut scratch);
     let at = OperatingPoint { t: T, q: &q, v: &v, vdot: &v, lambda: &[] };
     system.outputs(at, &mut y, &mut scratch);

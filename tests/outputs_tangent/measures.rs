@@ -62,7 +62,9 @@ fn at_states(system: &dyn MechanicalSystem, size: f64, near: f64, what: &str) {
     for seed in 0..4 {
         let mut random = random(seed);
         let mut some = |count: usize, size: f64| -> Vec<f64> { (0..count).map(|_| size * random()).collect() };
-        let (mut q, v, lambda) = (some(n.q, size), some(n.v, 1.0), some(n.lambda, 3.0));
+        let mut q = some(n.q, size);
+        let v = some(n.v, 1.0);
+        let lambda = some(n.lambda, 3.0);
         system.normalize(&mut q);
         let vdot = some(n.v, 2.0);
         let at = OperatingPoint { t: 0.4, q: &q, v: &v, vdot: &vdot, lambda: &lambda };

@@ -15,7 +15,8 @@ fn outputs_of_shipped_scenes() {
     let mut found = Vec::new();
     for path in models() {
         let scene = load(&path, &[]);
-        let (system, start) = (scene.system(), scene.start());
+        let system = scene.system();
+        let start = scene.start();
         let what = scene.0.name.clone();
         if system.columns().is_empty() {
             continue;

@@ -9,7 +9,8 @@ fn at_zero(system: &dyn MechanicalSystem) -> OutputTangent {
     let n = system.dimensions();
     let names = system.names().q;
     let q: Vec<f64> = names.iter().map(|name| if name.ends_with(".qw") { 1.0 } else { 0.0 }).collect();
-    let (v, lambda) = (vec![0.0; n.v], vec![0.0; n.lambda]);
+    let v = vec![0.0; n.v];
+    let lambda = vec![0.0; n.lambda];
     tangent(system, OperatingPoint { t: 0.0, q: &q, v: &v, vdot: &v, lambda: &lambda })
 }
 

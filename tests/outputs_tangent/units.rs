@@ -87,7 +87,8 @@ fn turns_are_joined_in_the_unit() {
         simulate(prepared.system(), &dop853(1e-9), prepared.span().unwrap(), prepared.start(), &mut recorder).unwrap();
         recorder.finish().trajectory
     };
-    let (plain, changed) = (run(&plain), run(&changed));
+    let plain = run(&plain);
+    let changed = run(&changed);
     let last =
         |trajectory: &holonom::trajectory::Trajectory| trajectory.row_outputs(trajectory.rows.last().unwrap()).to_vec();
     assert_eq!(plain.rows.len(), changed.rows.len());

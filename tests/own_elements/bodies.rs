@@ -79,7 +79,8 @@ impl<const D: usize> BodyKernel<D> for OwnBody<D> {
             let axes = axes_from_quaternion(&q[3..7]);
             return Frame { r, axes: from_fn(|i| from_fn(|j| axes[i][j])), ..Frame::world() };
         }
-        let (s, c) = (q[2].sin(), q[2].cos());
+        let s = q[2].sin();
+        let c = q[2].cos();
         Frame { r, axes: from_fn(|i| from_fn(|j| [[c, s], [-s, c]][i][j])), turn: q[2] }
     }
     fn mass(&self, values: &mut [f64]) {

@@ -97,7 +97,8 @@ fn methods() -> impl Iterator<Item = Method> {
 fn every_formulation_moves_them_as_the_equations_say() {
     let prepared = prepared();
     for method in methods() {
-        let (found, expected) = (motion(prepared.system(), &method), motion(&Bead, &method));
+        let found = motion(prepared.system(), &method);
+        let expected = motion(&Bead, &method);
         for (found, expected) in found.record.trajectory.rows.iter().zip(&expected.record.trajectory.rows) {
             // t, q, v, lambda; sums of the same terms in another order, over a thousand steps.
             let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs() / (1.0 + b.abs()));
@@ -110,7 +111,8 @@ fn every_formulation_moves_them_as_the_equations_say() {
 /// The energy of the bead stays what the kernels' potentials say, and outputs are what lambda and q make of them.
 #[test]
 fn outputs_and_energy_are_theirs() {
-    let (prepared, method) = (prepared(), Method { rtol: 1e-12, atol: 1e-12, ..Method::default() });
+    let prepared = prepared();
+    let method = Method { rtol: 1e-12, atol: 1e-12, ..Method::default() };
     let run = motion(prepared.system(), &method);
     let energy = run.record.energy.expect("a scene has an energy");
     let start = Bead.potential(0.0, &START).unwrap();

@@ -38,7 +38,8 @@ fn references_fit_the_equations() {
             let what = format!("{} at {} s", problem.name, state.t);
             dynamics.solve(state.t, state.q, state.v, |_, _| 0.0).unwrap();
             let zeros = [0.0; 6];
-            let (phi, phi_dot) = (distance(&dynamics.terms.phi, &zeros), distance(&dynamics.terms.phi_dot, &zeros));
+            let phi = distance(&dynamics.terms.phi, &zeros);
+            let phi_dot = distance(&dynamics.terms.phi_dot, &zeros);
             let size = |x: &[f64]| distance(x, &zeros).max(1.0);
             // Round-off of lengths up to 1 m and rates up to 1424 rad/s; the published crank is off by 2.03e-10 m.
             let off = if problem.name == "crank as published" { 2.04e-10 } else { 1e-15 };
@@ -88,7 +89,8 @@ fn andrews_takes_no_more_than_other_codes() {
     ] {
         let asked = asked_for(&named(names), tolerance);
         let run = ANDREWS.run(&Method { rtol: asked, atol: asked, ..named(names) });
-        let (work, found) = (&run.outcome.statistics, mixed_digits(run.last().0, andrews::END.q, 1.0));
+        let work = &run.outcome.statistics;
+        let found = mixed_digits(run.last().0, andrews::END.q, 1.0);
         println!("{names} {tolerance:e}: {found:.2} digits, {work:?}");
         assert!(work.steps + work.rejected <= steps && work.rhs_evaluations <= evaluations, "{names}: {work:?}");
         // Their digits are rounded.

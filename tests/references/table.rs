@@ -62,9 +62,11 @@ impl Problem {
     fn text(&self, line: &Line, run: &Run) -> String {
         let (q, v, lambda) = run.last();
         let [q, v, lambda] = [(q, self.end.q), (v, self.end.v), (lambda, self.end.lambda)].map(|(x, y)| digits(x, y));
-        let (work, drift) = (&run.outcome.statistics, run.drift().0);
+        let work = &run.outcome.statistics;
+        let drift = run.drift().0;
         let [steps, rejected, evaluations] = [work.steps, work.rejected, work.rhs_evaluations];
-        let (names, asked) = (line.names, line.asked.0);
+        let names = line.names;
+        let asked = line.asked.0;
         format!(
             "{names:40} {asked:7.0e} {q:5.1} {v:5.1} {lambda:5.1} {steps:7} {rejected:8} {evaluations:11} {drift:9.1e}"
         )

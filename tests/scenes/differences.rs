@@ -5,7 +5,9 @@ use holonom::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, 
 
 /// r at (q, v) with v' and lambda held.
 fn residual(system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64], vdot: &[f64], lambda: &[f64]) -> Vec<f64> {
-    let (mut terms, mut scratch, structure) = (Terms::new(system), Scratch::default(), system.structure());
+    let mut terms = Terms::new(system);
+    let mut scratch = Scratch::default();
+    let structure = system.structure();
     system.evaluate(t, q, v, Need::DYNAMICS, &mut terms, &mut scratch);
     let mut r: Vec<f64> = terms.f.iter().map(|f| -f).collect();
     structure.mass.multiply_symmetric(&terms.mass, vdot, &mut r);

@@ -52,8 +52,12 @@ impl Recipe {
 
     /// Rods begin at earlier ends and end about a metre away; all bodies have the axes of the ground at the start.
     pub fn json(&self) -> Value {
-        let (mut numbers, mut ends, mut ground) = (Numbers(self.seed), Vec::<Vec<f64>>::new(), serde_json::Map::new());
-        let (mut bodies, mut joints, mut forces) = (Vec::new(), Vec::new(), Vec::new());
+        let mut numbers = Numbers(self.seed);
+        let mut ends = Vec::<Vec<f64>>::new();
+        let mut ground = serde_json::Map::new();
+        let mut bodies = Vec::new();
+        let mut joints = Vec::new();
+        let mut forces = Vec::new();
         ground.insert("O".to_string(), json!(vec![0.0; self.dimension]));
         for i in 0..self.rods {
             let before = if self.is_chain {

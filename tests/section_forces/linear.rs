@@ -48,12 +48,14 @@ fn the_root_carries_the_reaction_in_linear_models() {
     for (dimension, frame) in [2, 3].into_iter().flat_map(|d| ["tangent", "chord", "absolute"].map(|frame| (d, frame)))
     {
         let ready = clamped(dimension, frame);
-        let (rest, n) = (at_rest(&ready, 0.0).0, if dimension == 2 { 3 } else { 6 });
+        let rest = at_rest(&ready, 0.0).0;
+        let n = if dimension == 2 { 3 } else { 6 };
         for (q, is_rest) in [(&ready.start().q, false), (&rest, true)] {
             let mut variation = Variation::new(ready.system(), 0.0, q, &ready.start().v).unwrap();
             let all = METHODS.map(|method| transfer(&model(&mut variation, method), 7.0));
             for (method, found) in METHODS.iter().zip(&all) {
-                let (size, what) = (found.amax(), format!("{dimension} {frame} {method} {is_rest}"));
+                let size = found.amax();
+                let what = format!("{dimension} {frame} {method} {is_rest}");
                 assert!(size > 0.1, "{what}: {found}");
                 let off = (0..n).fold(0.0f64, |most, i| most.max((found[(i, 0)] + found[(2 * n + i, 0)]).abs()));
                 assert!(off < 1e-9 * size, "{what}: {off:e} {found}");

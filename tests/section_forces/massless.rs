@@ -72,7 +72,8 @@ fn its_line_and_strain_are_those_of_a_cantilever() {
         { "name": "e", "measure": "strain", "of": "rod", "at": 1.2, "offset": [0.05] }"#;
     let ready: Ready = parse(&scene(2, r#""theory": "timoshenko""#, ["[4e-6, 3e-6]", "5e-6"], outputs));
     let (_, out) = at_rest(&ready, 0.0);
-    let (s, moment) = (1.2f64, 5e-6 + 3e-6 * 0.8);
+    let s = 1.2f64;
+    let moment = 5e-6 + 3e-6 * 0.8;
     let y = 3e-6 * s * s * (6.0 - s) / 1800.0 + 5e-6 * s * s / 600.0 + 3e-6 * s / 4e3;
     assert!(
         (out[0] - y).abs() < 1e-13 && (out[1] - (4e-6 / 1e4 - 0.05 * moment / 300.0)).abs() < 1e-14,

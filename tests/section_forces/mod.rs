@@ -38,7 +38,8 @@ fn sections(dimension: usize, beam: &str, places: &[f64]) -> String {
 fn reactions(dimension: usize, joint: &str, axes: &str) -> String {
     let all: &[&str] = if dimension == 2 { &["x", "y", "mz"] } else { &["x", "y", "z", "mx", "my", "mz"] };
     let output = |(i, component): (usize, &&str)| {
-        let (name, keys) = (name("r", i), format!(r#""component": "{component}", "relative_to": "{axes}""#));
+        let name = name("r", i);
+        let keys = format!(r#""component": "{component}", "relative_to": "{axes}""#);
         format!(r#"{{ "name": "{name}", "measure": "reaction", "of": "{joint}", {keys} }}"#)
     };
     all.iter().enumerate().map(output).collect::<Vec<_>>().join(", ")
@@ -52,7 +53,8 @@ fn name(letter: &str, i: usize) -> String {
 fn at_rest(ready: &Ready, t: f64) -> (Vec<f64>, Vec<f64>) {
     let system = ready.system();
     let found = equilibrium(system, t, (&ready.start().q, &ready.start().v)).unwrap_or_else(|error| panic!("{error}"));
-    let (mut out, still) = (vec![0.0; system.columns().len()], vec![0.0; system.dimensions().v]);
+    let mut out = vec![0.0; system.columns().len()];
+    let still = vec![0.0; system.dimensions().v];
     let at = OperatingPoint { t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
     system.outputs(at, &mut out, &mut Scratch::default());
     (found.q, out)

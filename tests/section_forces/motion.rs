@@ -52,7 +52,8 @@ fn method(formulation: &str, integrator: &str) -> Method {
 /// The largest |section at the root + reaction| over the motion, over the largest reaction.
 fn off(ready: &Ready, dimension: usize, method: &Method) -> f64 {
     let run = ready.run(method, Span { start: 0.0, end: 0.1, output_step: 0.01 });
-    let (mut off, mut size) = (0.0f64, 0.0f64);
+    let mut off = 0.0f64;
+    let mut size = 0.0f64;
     for i in 0..if dimension == 2 { 3 } else { 6 } {
         for (section, reaction) in run.column(&format!("s{i}")).iter().zip(run.column(&format!("r{i}"))) {
             (off, size) = (off.max((section + reaction).abs()), size.max(reaction.abs()));
@@ -115,7 +116,8 @@ fn whatever_the_method() {
 #[test]
 fn the_load_at_a_marker_makes_a_step() {
     for frame in ["tangent", "absolute"] {
-        let (body, beside) = (format!(r#"{}, "elements": 2"#, frame_keys(frame)), [1.0, 1.0 + 1e-7]);
+        let body = format!(r#"{}, "elements": 2"#, frame_keys(frame));
+        let beside = [1.0, 1.0 + 1e-7];
         let text = stepped(&body, &beside);
         let run = parse(&text).run(&method("ggl", "radau_iia"), Span { start: 0.0, end: 0.1, output_step: 0.02 });
         for ((t, left), right) in run.times().into_iter().zip(run.column("s2")).zip(run.column("s5")) {
@@ -142,11 +144,15 @@ fn stepped(body: &str, places: &[f64]) -> String {
 /// EA (cos(k s)/cos(k L) - 1) with k^2 = rho A W^2/EA. The stretch alone is 0.5 % of it.
 #[test]
 fn a_turning_beam_is_under_tension() {
-    let (length, ea, rho, w) = (2.0, 1e4, 3.0, 3.0);
+    let length = 2.0;
+    let ea = 1e4;
+    let rho = 3.0;
+    let w = 3.0;
     let places = [0.0, 0.3, 0.9, 1.7];
     let k = f64::sqrt(rho * w * w / ea);
     for (frame, elements) in [("tangent", 2), ("tangent", 8), ("absolute", 2), ("absolute", 8)] {
-        let (frame_keys, outputs) = (frame_keys(frame), sections(2, "rod", &places));
+        let frame_keys = frame_keys(frame);
+        let outputs = sections(2, "rod", &places);
         let ready = parse(&format!(
             r#"{{ "name": "turning", "dimension": 2, "ground": {{ "markers": {{ "o": [0, 0] }} }},
             "bodies": [ {{ "name": "rod", "type": "flexible_beam", {frame_keys}, "length": {length}, "elements": {elements},

@@ -9,7 +9,8 @@ use std::f64::consts::FRAC_PI_2;
 fn arc(frame: &str, theory: &str, elements: usize, force: f64) -> Ready {
     let length = FRAC_PI_2;
     let places = [0.0, 0.1, 0.37, 0.5, 0.77, 1.0].map(|part| part * length);
-    let (frame, outputs) = (frame_keys(frame), sections(3, "rod", &places));
+    let frame = frame_keys(frame);
+    let outputs = sections(3, "rod", &places);
     parse(&format!(
         r#"{{ "name": "arc", "dimension": 3, "ground": {{ "markers": {{ "wall": [0, 0, 0] }} }},
         "bodies": [ {{ "name": "rod", "type": "flexible_beam", {frame}, "length": {length},
@@ -52,7 +53,8 @@ fn sections_of_a_deformed_arc_converge_as_its_displacements() {
         let all = [128, 2, 4, 8, 16].map(|elements| at_rest(&arc("absolute", theory, elements, force), 0.0).1);
         let errors =
             |part: std::ops::Range<usize>| [1, 2, 3, 4].map(|i| gap(&all[i][part.clone()], &all[0][part.clone()]));
-        let (forces, moves) = (errors(0..36), errors(36..38));
+        let forces = errors(0..36);
+        let moves = errors(36..38);
         println!("{theory}: sections {forces:?} N, tip {moves:?} m");
         assert!(all.iter().all(|out| (out[2] / force - 1.0).abs() < 1e-9), "{theory}");
         // Of 20 N and 20 N m. 128 elements leave 1/64 of what 16 do.
@@ -115,7 +117,8 @@ fn a_cantilever_carries_its_own_weight() {
             let q = 3e-7;
             for (part, section) in PARTS.into_iter().zip(out.chunks(out.len() / PARTS.len())) {
                 let rest = LENGTH * (1.0 - part);
-                let (shear, moment) = (-q * rest, q * rest * rest / 2.0);
+                let shear = -q * rest;
+                let moment = q * rest * rest / 2.0;
                 let expected =
                     if dimension == 2 { vec![0.0, shear, -moment] } else { vec![0.0, 0.0, shear, 0.0, moment, 0.0] };
                 let what = format!("{dimension} {frame} {theory} {elements} at {part}: {section:?} {expected:?}");
@@ -159,7 +162,8 @@ fn a_heavy_cantilever_converges() {
 #[test]
 fn what_acts_on_the_frame_itself() {
     let scene = |frame: &str| {
-        let (frame, outputs) = (frame_keys(frame), sections(2, "rod", &[0.0]));
+        let frame = frame_keys(frame);
+        let outputs = sections(2, "rod", &[0.0]);
         format!(
             r#"{{ "name": "frame", "dimension": 2, "gravity": [0, -9.81], "ground": {{ "markers": {{ "o": [0, 0] }} }},
             "bodies": [ {{ "name": "rod", "type": "flexible_beam", {frame}, "length": 2, "elements": 2,

@@ -20,9 +20,11 @@ impl Spline {
         let (x, y): (Vec<f64>, Vec<f64>) =
             rows.map(|(s, z)| (s.parse::<f64>().unwrap(), z.parse::<f64>().unwrap())).unzip();
         let n = x.len();
-        let (mut a, mut b) = (DMatrix::zeros(n, n), DVector::zeros(n));
+        let mut a = DMatrix::zeros(n, n);
+        let mut b = DVector::zeros(n);
         for i in 1..n - 1 {
-            let (h, k) = (x[i] - x[i - 1], x[i + 1] - x[i]);
+            let h = x[i] - x[i - 1];
+            let k = x[i + 1] - x[i];
             (a[(i, i - 1)], a[(i, i)], a[(i, i + 1)]) = (h / 6.0, (h + k) / 3.0, k / 6.0);
             b[i] = (y[i + 1] - y[i]) / k - (y[i] - y[i - 1]) / h;
         }
@@ -38,8 +40,10 @@ impl Spline {
     fn at(&self, x: f64) -> [f64; 2] {
         let i = self.x.iter().rposition(|knot| *knot <= x).unwrap().min(self.x.len() - 2);
         let h = self.x[i + 1] - self.x[i];
-        let (u, w) = ((self.x[i + 1] - x) / h, (x - self.x[i]) / h);
-        let (p, q) = (self.bends[i], self.bends[i + 1]);
+        let u = (self.x[i + 1] - x) / h;
+        let w = (x - self.x[i]) / h;
+        let p = self.bends[i];
+        let q = self.bends[i + 1];
         let y = u * self.y[i] + w * self.y[i + 1] + ((u.powi(3) - u) * p + (w.powi(3) - w) * q) * h * h / 6.0;
         let slope = (self.y[i + 1] - self.y[i]) / h + ((1.0 - 3.0 * u * u) * p + (3.0 * w * w - 1.0) * q) * h / 6.0;
         [y, slope]
@@ -48,7 +52,12 @@ impl Spline {
 
 /// q'' of (x, y, angle, front strut, rear strut).
 fn acceleration(road: &Spline, q: &State, v: &State) -> State {
-    let (g, body, inertia, wheel, front, rear) = (9.81, 640.0, 1100.0, 42.0, 1.2, 1.5);
+    let g = 9.81;
+    let body = 640.0;
+    let inertia = 1100.0;
+    let wheel = 42.0;
+    let front = 1.2;
+    let rear = 1.5;
     let (sine, cosine) = q[2].sin_cos();
     let turned = |x: f64, y: f64| Vector2::new(cosine * x - sine * y, sine * x + cosine * y);
     let mut mass = SMatrix::<f64, 5, 5>::from_diagonal(&State::new(body, body, inertia, 0.0, 0.0));
@@ -75,7 +84,9 @@ fn acceleration(road: &Spline, q: &State, v: &State) -> State {
 
 #[test]
 fn the_car_moves_as_in_coordinates_of_its_own() {
-    let (road, h, each) = (Spline::read(), 1e-4, 1000);
+    let road = Spline::read();
+    let h = 1e-4;
+    let each = 1000;
     let mut q = State::new(0.0, 0.65, 0.0, 0.35, 0.35);
     let mut v = State::new(15.0, 0.0, 0.0, 0.0, 0.0);
     let run = shipped("half_car", &[]).tight(1e-10, 3.0, h * f64::from(each));
@@ -83,10 +94,14 @@ fn the_car_moves_as_in_coordinates_of_its_own() {
     let mut most = 0.0f64;
     for ((x, y), angle) in columns[0].iter().zip(&columns[1]).zip(&columns[2]).skip(1) {
         for _ in 0..each {
-            let (v1, a1) = (v, acceleration(&road, &q, &v));
-            let (v2, a2) = (v + a1 * (h / 2.0), acceleration(&road, &(q + v1 * (h / 2.0)), &(v + a1 * (h / 2.0))));
-            let (v3, a3) = (v + a2 * (h / 2.0), acceleration(&road, &(q + v2 * (h / 2.0)), &(v + a2 * (h / 2.0))));
-            let (v4, a4) = (v + a3 * h, acceleration(&road, &(q + v3 * h), &(v + a3 * h)));
+            let v1 = v;
+            let a1 = acceleration(&road, &q, &v);
+            let v2 = v + a1 * (h / 2.0);
+            let a2 = acceleration(&road, &(q + v1 * (h / 2.0)), &(v + a1 * (h / 2.0)));
+            let v3 = v + a2 * (h / 2.0);
+            let a3 = acceleration(&road, &(q + v2 * (h / 2.0)), &(v + a2 * (h / 2.0)));
+            let v4 = v + a3 * h;
+            let a4 = acceleration(&road, &(q + v3 * h), &(v + a3 * h));
             q += (v1 + v2 * 2.0 + v3 * 2.0 + v4) * (h / 6.0);
             v += (a1 + a2 * 2.0 + a3 * 2.0 + a4) * (h / 6.0);
         }

@@ -176,7 +176,8 @@ fn machine() -> Value {
     ]
     .map(|(name, a, b)| json!({ "name": name, "type": "revolute", "between": [a, b] }))
     .to_vec();
-    let (mut ground, mut forces) = (json!({ "O": [0, 0], "D": [2, 0] }), Vec::new());
+    let mut ground = json!({ "O": [0, 0], "D": [2, 0] });
+    let mut forces = Vec::new();
     for i in 0..10 {
         crank["markers"][format!("bolt{i}")] = json!([place(i), 0]);
         let out = 0.5 + place(i);
@@ -312,7 +313,8 @@ fn four_bar_in_space(axes: [[f64; 3]; 3], outputs: Value) -> Value {
     let at = |x: f64, y: f64| std::array::from_fn::<f64, 3, _>(|i| x * e[i] + y * f[i]);
     let hinge = |position: Value| json!({ "position": position, "z_axis": n, "x_axis": e });
     let bar = |name: &str, length: f64, [x, y, angle]: [f64; 3], is_turned: bool| {
-        let (line, side) = (at(angle.cos(), angle.sin()), at(angle.sin(), -angle.cos()));
+        let line = at(angle.cos(), angle.sin());
+        let side = at(angle.sin(), -angle.cos());
         let end = |x: f64| {
             if is_turned {
                 json!({ "position": [x, 0, 0], "z_axis": [0, 1, 0], "x_axis": [1, 0, 0] })
@@ -350,7 +352,9 @@ fn four_bar_in_space(axes: [[f64; 3]; 3], outputs: Value) -> Value {
 /// The motion in a plane is the same, whatever plane it is: x-y, z-x, x-z, an oblique one.
 #[test]
 fn what_moves_in_a_plane_is_planar() {
-    let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let x = [1.0, 0.0, 0.0];
+    let y = [0.0, 1.0, 0.0];
+    let z = [0.0, 0.0, 1.0];
     let oblique = [x, [0.0, 0.8, 0.6], [0.0, -0.6, 0.8]];
     for (axes, upright) in [([x, y, z], "y"), ([z, x, y], "x"), ([x, z, y.map(|i: f64| 0.0 - i)], "z"), (oblique, "z")]
     {

@@ -41,7 +41,8 @@ fn generalized_alpha_passes_the_flat_position() {
 fn forty_loops_pass_flat_ten_times() {
     let scene = load(&model("n_four_bar"), &[]);
     let run = scene.run(&scene.0.method, Span { output_step: 0.05, ..SECONDS });
-    let (x, y) = (last(&run, "B0_x"), last(&run, "B0_y"));
+    let x = last(&run, "B0_x");
+    let y = last(&run, "B0_y");
     let error = (x - 0.180512226686728).hypot(y - 0.983572740582312);
     // RK4's error with the scene's step of 5 ms, of order four.
     assert!(error < 2e-7, "{error:e}");

@@ -14,7 +14,8 @@ fn stiffness() -> f64 {
 
 /// Jacobi's amplitude am(u, k) by arithmetic-geometric means (Abramowitz & Stegun 16.4).
 fn amplitude(u: f64, modulus: f64) -> f64 {
-    let (mut a, mut b) = (1.0, (1.0 - modulus * modulus).sqrt());
+    let mut a = 1.0;
+    let mut b = (1.0 - modulus * modulus).sqrt();
     let mut ratios = Vec::new();
     while (a - b) / a > 1e-15 {
         (a, b) = ((a + b) / 2.0, (a * b).sqrt());
@@ -77,7 +78,8 @@ fn the_order_is_kept_wherever_steps_end() {
 /// link turns three times as fast the other way, 3/4 turn(1) + 1/4 turn(2) = 0. Others are of no motion.
 #[test]
 fn from_a_change_point_it_follows_its_velocities() {
-    let (span, method) = (Span { start: 0.0, end: 1.0, output_step: 0.05 }, fixed("index1", "rk4", "manifold", 5e-4));
+    let span = Span { start: 0.0, end: 1.0, output_step: 0.05 };
+    let method = fixed("index1", "rk4", "manifold", 5e-4);
     let level = std::f64::consts::FRAC_PI_2;
     let start = (0.5 * 9.81 * 2.4, 0.5 * (0.4 / 3.0 * 2.0 + 2.0) * 0.25);
     let run = shipped("parallelogram", &[("angle0", level)]).run(&method, span);

@@ -32,7 +32,8 @@ fn equal_bumps_move_two_mirror_images_without_roll() {
     for row in 0..run.times().len() {
         let ((q, v), (one, rate)) = (state(&run, row), state(&single, row));
         let roll = q[1].abs().max(v[1].abs());
-        let (position, velocity) = (apart(&q[2..9], &mirrored(&q[9..16])), apart(&v[2..8], &mirrored(&v[8..14])));
+        let position = apart(&q[2..9], &mirrored(&q[9..16]));
+        let velocity = apart(&v[2..8], &mirrored(&v[8..14]));
         // Round-off of a step's solution, which the springs of 2e5 N/m do not amplify.
         assert!(roll < 1e-12 && position < 1e-12 && velocity < 1e-11, "{row}: {roll:e} {position:e} {velocity:e}");
         // Both take steps of their own.
@@ -49,7 +50,8 @@ fn exchanged_bumps_give_the_mirror_image() {
     let (low, high) = extremes(&run.column("roll"));
     assert!(low < -0.05 && high > 0.05, "it rolls: {low} {high}");
     for row in 0..run.times().len() {
-        let (q, mirror) = (state(&run, row).0, state(&other, row).0);
+        let q = state(&run, row).0;
+        let mirror = state(&other, row).0;
         let chassis = (q[0] - mirror[0]).abs().max((q[1] + mirror[1]).abs());
         let wheels = apart(&q[2..9], &mirrored(&mirror[9..16])).max(apart(&q[9..16], &mirrored(&mirror[2..9])));
         assert!(chassis < 1e-11 && wheels < 1e-11, "{row}: {chassis:e} {wheels:e}");
@@ -81,7 +83,8 @@ fn camber_against_the_road_is_that_of_the_travel_and_the_roll() {
         for (side, outward) in [("left", roll), ("right", -roll)] {
             let travel = run.column(&format!("{side}_travel"))[row];
             let held = shipped("five_link_kinematics", &[("travel", travel), ("stroke", 0.0)]).tight(1e-9, 0.1, 0.1);
-            let (camber, toe) = (held.column("camber")[0], held.column("toe")[0]);
+            let camber = held.column("camber")[0];
+            let toe = held.column("toe")[0];
             // The spindle turned about x, exactly.
             let tilt = (camber.sin() * outward.cos() + camber.cos() * toe.cos() * outward.sin()).asin();
             let off = (run.column(&format!("{side}_camber"))[row] - tilt).abs();

@@ -144,7 +144,8 @@ fn light_rods_are_massless_rods() {
         let force = rows.map(|row| apart(&rod_forces(&run, row), &rod_forces(&massless, row))).fold(0.0, f64::max);
         (apart(&run.column("chassis_height"), &massless.column("chassis_height")), force)
     };
-    let (heavy, light) = (run(3e-3), run(3e-4));
+    let heavy = run(3e-3);
+    let light = run(3e-4);
     // Proportional to the mass.
     assert!((heavy.0 / light.0 - 10.0).abs() < 0.1 && (heavy.1 / light.1 - 10.0).abs() < 0.1, "{heavy:?} {light:?}");
     assert!(light.0 < 1e-5 && light.1 < 0.1, "{light:?}");

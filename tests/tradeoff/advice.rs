@@ -59,7 +59,8 @@ fn advice_does_not_depend_on_the_load() {
         let plan: Plan = plan(&filter(&formulations, &["rk4", "dopri5", "dop853"], &[]), 60_000);
         let idle = measured(motion(&scene, end), &plan, &[]);
         for seed in 0..10 {
-            let (mut busy, mut random) = (idle.clone(), fastrand::Rng::with_seed(seed));
+            let mut busy = idle.clone();
+            let mut random = fastrand::Rng::with_seed(seed);
             for cell in &mut busy.cells {
                 if let Outcome::Completed { cpu_seconds, .. } = &mut cell.outcome {
                     cpu_seconds.iter_mut().for_each(|seconds| *seconds *= 1.0 + random.f64());

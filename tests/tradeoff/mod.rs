@@ -32,7 +32,8 @@ pub fn motion(scene: &Ready, end: f64) -> Motion<'_> {
 pub fn filter(formulations: &[&str], integrators: &[&str], projections: &[&str]) -> Filter {
     let choices =
         |names: &[&str]| names.iter().map(|name| holonom::method_spec::MethodSpec::parse(name).unwrap()).collect();
-    let (formulations, integrators) = (choices(formulations), choices(integrators));
+    let formulations = choices(formulations);
+    let integrators = choices(integrators);
     Filter { formulations, integrators, projections: choices(projections) }
 }
 
@@ -88,7 +89,8 @@ fn errors_are_those_against_the_closed_form() {
     let completed: Vec<&Cell> = result.cells.iter().filter(|cell| cell.reason().is_none()).collect();
     assert!(completed.len() > 15, "{}", completed.len());
     for cell in completed {
-        let (told, own) = (cell.error().unwrap(), error(&run(&motion, &["x1"], &cell.method).rows));
+        let told = cell.error().unwrap();
+        let own = error(&run(&motion, &["x1"], &cell.method).rows);
         // What is told has the reference's own error on top.
         assert!((told - own).abs() <= 2e-11 + 1e-6 * own, "{:?}: told {told:e}, is {own:e}", cell.method);
     }
@@ -110,7 +112,8 @@ fn recommendations_are_the_best_of_what_was_measured() {
             assert!(digits >= 11.0, "nothing next to the best for {digits} digits");
             continue;
         };
-        let (best, next) = (&result.cells[advice.best], &result.cells[next]);
+        let best = &result.cells[advice.best];
+        let next = &result.cells[next];
         assert!(best.digits().unwrap() >= digits && next.digits().unwrap() >= digits);
         assert_ne!(best.method.integrator, next.method.integrator);
         let good = result.cells.iter().filter(|cell| cell.digits() >= Some(digits));

@@ -40,7 +40,8 @@ fn energies_are_compared_with_the_kinetic_and_forces_with_the_reactions() {
     let scene = shipped("pendulum", &[]);
     let motion = motion(&scene, 3.0);
     let run = sample(&motion, &Watched::new(scene.system(), &[]).unwrap(), &tight(), span(3.0, ROWS), Duration::MAX);
-    let (kinetic, reaction) = (9.81, 3.0 * 9.81);
+    let kinetic = 9.81;
+    let reaction = 3.0 * 9.81;
     let moving = ErrorMetric::new(&columns, rows.clone(), &run.unwrap().sizes);
     let errors = moving.errors(&off);
     // 1 kg and 1 m; 200 rows miss the lowest point by little.

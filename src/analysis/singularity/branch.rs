@@ -117,7 +117,8 @@ impl Open {
 /// Returns the integral from a to b of the polynomial through v' at up to four `nodes`, by Gauss's rule of two points,
 /// which is exact for it.
 fn integral(nodes: &[&PathPoint], (a, b): (f64, f64)) -> Vec<f64> {
-    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+    let middle = 0.5 * (a + b);
+    let half = 0.5 * (b - a);
     let points = [-1.0, 1.0].map(|sign| middle + sign * half / 3f64.sqrt());
     let lagrange = |k: usize, t: f64| -> f64 {
         let others = nodes.iter().enumerate().filter(|(i, _)| *i != k);

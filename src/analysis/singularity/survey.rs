@@ -25,7 +25,8 @@ pub struct Survey<'a> {
 impl<'a> Survey<'a> {
     pub fn new(system: &'a dyn MechanicalSystem) -> Self {
         let dimensions = system.dimensions();
-        let (rest, nearest) = (vec![0.0; dimensions.v], (0.0, Vec::new()));
+        let rest = vec![0.0; dimensions.v];
+        let nearest = (0.0, Vec::new());
         Survey { system, dynamics: None, dropped: Vec::new(), dimensions, rest, largest: 0.0, nearest }
     }
 
@@ -89,7 +90,8 @@ impl<'a> Survey<'a> {
     /// not preserve, but for nearly dependent rows: to move a position along these takes a division by almost nothing.
     pub fn position(&mut self, path: &Path, t: f64) -> Vec<f64> {
         let mut q = path.at(t);
-        let (mut step, mut rate) = (vec![0.0; self.rest.len()], vec![0.0; q.len()]);
+        let mut step = vec![0.0; self.rest.len()];
+        let mut rate = vec![0.0; q.len()];
         let largest = self.largest;
         for _ in 0..tolerances::PATH_SWEEPS {
             let dynamics = self.constraints(t, &q);

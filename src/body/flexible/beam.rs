@@ -189,6 +189,7 @@ fn nodal<const D: usize>(mesh: &Mesh<D>, quartic: Option<f64>) -> Elastic<D> {
             stretches.extend(stiffened(mesh, element, quartic));
         }
     }
-    let (inertia, stiffness) = (mesh.inertia(0.0), stiffness.finish());
+    let inertia = mesh.inertia(0.0);
+    let stiffness = stiffness.finish();
     Elastic { names: mesh.names(), inertia, stiffness, damping: Vec::new(), stretches, line: None }
 }

@@ -142,7 +142,9 @@ impl Element {
     /// between its ends, whose shear is constant (Przemieniecki, Theory of Matrix Structural Analysis, section 5.6;
     /// Reddy, An Introduction to the Finite Element Method, section 5.3); Hermite's cubics where `shear` is zero.
     fn bending(&self, xi: f64, shear: f64) -> [Bending; 4] {
-        let (l, x2, x3) = (self.length, xi * xi, xi * xi * xi);
+        let l = self.length;
+        let x2 = xi * xi;
+        let x3 = xi * xi * xi;
         let bubble = 0.5 * shear * (xi - x2);
         let bubble_slope = 0.5 * shear * (1.0 - 2.0 * xi);
         // Values of the deflection, its slope, the turn and its rate, times 1 + shear.

@@ -22,7 +22,8 @@ fn node(n: usize, i: usize) -> (f64, f64) {
 
 /// P_n and P_(n-1) at x.
 fn legendre(n: usize, x: f64) -> (f64, f64) {
-    let (mut value, mut lower) = (1.0, 0.0);
+    let mut value = 1.0;
+    let mut lower = 0.0;
     for k in 1..=n {
         let k = k as f64;
         (value, lower) = (((2.0 * k - 1.0) * x * value - (k - 1.0) * lower) / k, value);

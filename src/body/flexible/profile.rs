@@ -167,7 +167,9 @@ impl Law {
 
     /// Checks the value at `s`; constants are checked when they are read.
     fn check(&self, s: f64) -> Result<()> {
-        let (value, field, place) = (self.at(s), &self.field, short(s));
+        let value = self.at(s);
+        let field = &self.field;
+        let place = short(s);
         let error = |what: String| Err(Error::input(what).under(&self.path));
         match value {
             _ if !self.varies() => Ok(()),

@@ -80,7 +80,8 @@ impl<const D: usize> Reader<'_, D> {
         shape: &SectionShape,
         theory: Theory,
     ) -> Result<(Make, Vec<Law>)> {
-        let (build, under) = (self.build, |error: Error| error.under("material"));
+        let build = self.build;
+        let under = |error: Error| error.under("material");
         let e = build.positive("E", e).map_err(under)?;
         self.doubt_modulus(e);
         let rho = rho.map_or(Ok(0.0), |rho| build.positive("rho", rho)).map_err(under)?;

@@ -143,7 +143,8 @@ impl System {
     /// those of one node: with it fixed the stiffness is definite, and vectors without their rigid part,
     /// S = (I - R R^T M) [0; I], have that same stiffness and the mass S^T M S = M - M R R^T M.
     fn elastic_modes(&self) -> Option<Modes> {
-        let (n, held) = (self.mass.nrows(), self.rigid.ncols());
+        let n = self.mass.nrows();
+        let held = self.rigid.ncols();
         if held == 0 {
             return Modes::of(self.stiffness.as_ref(), self.mass.as_ref());
         }

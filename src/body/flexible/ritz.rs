@@ -273,7 +273,8 @@ impl Functions {
 
 /// Points of integration with their weights on equal panels of an interval.
 fn places([from, to]: [f64; 2], panels: usize) -> impl Iterator<Item = (f64, f64)> {
-    let (rule, width) = (gauss_legendre(POINTS), (to - from) / panels as f64);
+    let rule = gauss_legendre(POINTS);
+    let width = (to - from) / panels as f64;
     let panel = move |k: usize| [from + k as f64 * width, from + (k + 1) as f64 * width];
     (0..panels).flat_map(move |k| on_interval(&rule, panel(k)).collect::<Vec<_>>())
 }
@@ -292,7 +293,8 @@ fn function<const D: usize>(kind: Kind, i: usize, number: &Number, build: &Build
 
 /// Diagonals of mass and stiffness matrix, interleaved.
 fn diagonals<const D: usize>(n: usize, (inertia, stiffness): &(Inertia<D>, Symmetric)) -> Vec<f64> {
-    let (mass, stiffness) = (dense(n, &mass_matrix(inertia)), dense(n, stiffness));
+    let mass = dense(n, &mass_matrix(inertia));
+    let stiffness = dense(n, stiffness);
     (0..n).flat_map(|i| [mass[(i, i)], stiffness[(i, i)]]).collect()
 }
 

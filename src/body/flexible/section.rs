@@ -96,7 +96,8 @@ impl Shape {
 /// Saint-Venant's torsion constant of a rectangle: a b^3 (1/3 - 64/pi^5 (b/a) sum_odd tanh(n pi a/(2b))/n^5), a >= b
 /// (Timoshenko and Goodier, Theory of Elasticity, section 109).
 fn torsion_of_rectangle(h: f64, b: f64) -> f64 {
-    let (long, short) = (h.max(b), h.min(b));
+    let long = h.max(b);
+    let short = h.min(b);
     let term = |n: f64| (n * PI * long / (2.0 * short)).tanh() / n.powi(5);
     let sum: f64 = (0..200).map(|k| term(f64::from(2 * k + 1))).sum();
     long * short.powi(3) * (1.0 / 3.0 - 64.0 / PI.powi(5) * (short / long) * sum)

@@ -57,7 +57,8 @@ impl<const D: usize> Piece<D> {
     /// A piece of these coordinates without mass.
     pub fn massless(dofs: Vec<usize>) -> Self {
         let n = 1 + dofs.len();
-        let (moments, products) = (vec![[0.0; D]; n], vec![[[0.0; D]; D]; n * n]);
+        let moments = vec![[0.0; D]; n];
+        let products = vec![[[0.0; D]; D]; n * n];
         Piece { dofs, mass: 0.0, moments, products, second: vec![Vec::new(); n - 1] }
     }
 

@@ -29,7 +29,8 @@ pub fn shortening(line: &impl Shapes, s: f64) -> Vec<f64> {
 
 /// Adds m_ij and P_0ij of the shortening to the piece of all coordinates from `start` on.
 pub fn shorten<const D: usize>(line: &impl Shapes, start: f64, piece: &mut Piece<D>) {
-    let (n, rule) = (piece.dofs.len(), gauss_legendre(POINTS));
+    let n = piece.dofs.len();
+    let rule = gauss_legendre(POINTS);
     let mut table = vec![0.0; n * n];
     let mut sums = vec![[0.0; 2]; n * n];
     for [from, to] in spans(line) {

@@ -46,7 +46,8 @@ pub(super) fn transposed<S: Scalar, const D: usize>(m: &Matrix<S, D>) -> Matrix<
 /// w.
 #[inline]
 pub(super) fn swung<S: Scalar, const D: usize>(m: &Matrix<S, D>, w: &[S; 3]) -> [S; 3] {
-    let (trace, along) = (trace(m), times(m, w));
+    let trace = trace(m);
+    let along = times(m, w);
     from_fn(|k| trace * w[k] - along[k])
 }
 

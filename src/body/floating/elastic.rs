@@ -30,7 +30,8 @@ fn steepness<S: Scalar>(stretch: &Stretch, i: usize, q: &[S]) -> S {
 impl<const D: usize> Floating<D> {
     /// f -= K q + D q' + dV/dq, with V = sum weight (a.q q.S q + quartic (q.S q)^2/4)/2 of geometric stiffening.
     pub(super) fn add_elastic_forces(&self, q: &[f64], v: &[f64], f: &mut [f64]) {
-        let (q, v) = (&q[frame_coordinates(D)..], &v[frame_velocities(D)..]);
+        let q = &q[frame_coordinates(D)..];
+        let v = &v[frame_velocities(D)..];
         let f = &mut f[frame_velocities(D)..];
         for (matrix, x) in [(&self.elastic.stiffness, q), (&self.elastic.damping, v)] {
             for &(i, j, value) in matrix {
@@ -68,7 +69,8 @@ impl<const D: usize> Floating<D> {
             let Means { axial, squared } = Means::at(stretch, q);
             let n = stretch.dofs.len();
             for i in 0..n {
-                let (a, steep) = (stretch.axial[i], steepness(stretch, i, q));
+                let a = stretch.axial[i];
+                let steep = steepness(stretch, i, q);
                 for j in 0..n {
                     let other = steepness(stretch, j, q);
                     let mixed = a * other + stretch.axial[j] * steep + stretch.quartic * steep * other;

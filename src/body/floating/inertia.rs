@@ -39,7 +39,8 @@ pub(super) fn angular_velocity<S: Scalar, const D: usize>(v: &[S]) -> [S; 3] {
 
 impl<const D: usize> Floating<D> {
     pub(super) fn moving<'a, S: Scalar>(&'a self, q: &'a [S], v: &'a [S]) -> impl Iterator<Item = Moving<'a, S, D>> {
-        let (q, v) = (&q[frame_coordinates(D)..], v.get(frame_velocities(D)..).unwrap_or(&[]));
+        let q = &q[frame_coordinates(D)..];
+        let v = v.get(frame_velocities(D)..).unwrap_or(&[]);
         self.elastic.inertia.pieces.iter().zip(&self.curves).map(move |(piece, curves)| Moving { piece, q, v, curves })
     }
 
@@ -47,7 +48,9 @@ impl<const D: usize> Floating<D> {
     pub(super) fn write_mass(&self, q: &[f64], values: &mut [f64]) {
         values.fill(0.0);
         let own = frame::<f64, D>(q);
-        let (mut mass, mut s, mut p) = (0.0, [0.0; D], [[0.0; D]; D]);
+        let mut mass = 0.0;
+        let mut s = [0.0; D];
+        let mut p = [[0.0; D]; D];
         for (moving, places) in self.moving(q, &[]).zip(&self.layout.pieces) {
             mass += moving.piece.mass;
             add_scaled(&mut s, 1.0, &moving.s());
@@ -83,7 +86,8 @@ impl<const D: usize> Floating<D> {
 
     /// f += weight and velocity-dependent inertia forces.
     pub(super) fn add_inertia_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]) {
-        let (own, w) = (frame::<f64, D>(q), angular_velocity::<_, D>(v));
+        let own = frame::<f64, D>(q);
+        let w = angular_velocity::<_, D>(v);
         // The weight is the inertia force of the acceleration -g.
         let lift = local(&own, &gravity.map(|g| -g));
         for moving in self.moving(q, v) {
@@ -92,7 +96,8 @@ impl<const D: usize> Floating<D> {
             let coriolis = spin(&w, &rate);
             let force = world(&own, &from_fn(|k| whirl[k] + 2.0 * coriolis[k] + drift[k]));
             (0..D).for_each(|k| f[k] += moving.piece.mass * gravity[k] - force[k]);
-            let (mut p, mut flow) = (moving.against(0), [[0.0; D]; D]);
+            let mut p = moving.against(0);
+            let mut flow = [[0.0; D]; D];
             for (i, &dof) in moving.piece.dofs.iter().enumerate() {
                 let weighed = moving.w(i);
                 add_matrix(&mut p, moving.q[dof], &weighed);
@@ -111,13 +116,15 @@ impl<const D: usize> Floating<D> {
 
     /// Kinetic energy, and the potential of the weight.
     pub(super) fn inertia_energy<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S> {
-        let (own, w) = (frame::<S, D>(q), angular_velocity::<S, D>(v));
+        let own = frame::<S, D>(q);
+        let w = angular_velocity::<S, D>(v);
         let speed: [S; D] = local(&own, &from_fn(|k| v[k]));
         let down = local(&own, &gravity.map(S::constant));
         let height = (0..D).fold(S::zero(), |sum, k| sum + q[k] * gravity[k]);
         let mut energy = Energy { kinetic: S::zero(), potential: S::zero() };
         for moving in self.moving(q, v) {
-            let (s, rate) = (moving.s(), moving.momentum(moving.v));
+            let s = moving.s();
+            let rate = moving.momentum(moving.v);
             let turning = spin(&w, &s);
             let drift: [S; D] = from_fn(|k| turning[k] + rate[k]);
             let mut twice = dot(&speed, &speed) * moving.piece.mass

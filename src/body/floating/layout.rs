@@ -34,7 +34,8 @@ pub(super) struct PieceLayout {
 impl Layout {
     pub fn new<const D: usize>(elastic: &Elastic<D>, nv: usize) -> Layout {
         let n = elastic.names.len();
-        let (mut mass, mut tangent) = (Places::default(), Places::default());
+        let mut mass = Places::default();
+        let mut tangent = Places::default();
         for i in 0..nv + n {
             (0..nv.min(i + 1)).for_each(|j| mass.add(i, j));
             (0..nv).for_each(|j| tangent.add(i, j));

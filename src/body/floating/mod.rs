@@ -115,7 +115,8 @@ impl<S: Scalar, const D: usize> BodyOver<S, D> for Floating<D> {
     }
 
     fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, first: usize, out: &mut [Frame<Taylor<S>, D>]) {
-        let (nq, nv) = (frame_coordinates(D), frame_velocities(D));
+        let nq = frame_coordinates(D);
+        let nv = frame_velocities(D);
         let mut path = [Taylor::fixed(S::zero()); 8];
         let rigid = (&q[..nq], &v[..nv], vdot.map(|vdot| &vdot[..nv]));
         coordinate_path(frame_rate::<S, D>, rigid, &mut path[..nq]);

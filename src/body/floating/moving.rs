@@ -34,7 +34,8 @@ pub(super) struct Curves<const D: usize> {
 
 impl<const D: usize> Curves<D> {
     pub fn of(piece: &Piece<D>) -> Self {
-        let (n, all) = (piece.dofs.len(), || piece.second.iter().flatten());
+        let n = piece.dofs.len();
+        let all = || piece.second.iter().flatten();
         let mut bent = Vec::new();
         if all().next().is_some() {
             bent.extend(
@@ -142,7 +143,8 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
 
     /// sum_ij x_i x_j m_ij and ax(sum_ij x_i x_j P_0ij).
     pub fn swerve(&self, x: &[S]) -> ([S; D], [S; 3]) {
-        let (mut drift, mut curved) = ([S::zero(); D], [[S::zero(); D]; D]);
+        let mut drift = [S::zero(); D];
+        let mut curved = [[S::zero(); D]; D];
         if !self.curves.swerves {
             return (drift, [S::zero(); 3]);
         }

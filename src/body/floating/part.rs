@@ -72,7 +72,8 @@ struct Sums<S, const D: usize> {
 
 impl<S: Scalar, const D: usize> Sums<S, D> {
     fn of(piece: &Piece<D>, coordinate: impl Fn(usize) -> Taylor<S> + Copy) -> Self {
-        let (zero, width) = (Taylor::fixed(S::zero()), piece.dofs.len() + 1);
+        let zero = Taylor::fixed(S::zero());
+        let width = piece.dofs.len() + 1;
         let p = |a: usize| if a == 0 { Taylor::fixed(S::one()) } else { coordinate(piece.dofs[a - 1]) };
         let mut sums = Sums { s: [zero; D], products: [[zero; D]; D] };
         for a in 0..width {

@@ -91,7 +91,8 @@ pub(super) fn start<const D: usize>(
     build: &Build<D>,
 ) -> Result<(Vec<f64>, Vec<f64>)> {
     let (position, velocity) = initial.translation::<D>(build)?;
-    let (mut q, mut v) = (position.to_vec(), velocity.to_vec());
+    let mut q = position.to_vec();
+    let mut v = velocity.to_vec();
     if D == 2 {
         let (angle, spin) = initial.planar(build)?;
         q.push(angle);

@@ -34,7 +34,8 @@ struct Motion<'a, const D: usize> {
 impl<const D: usize> Motion<'_, D> {
     /// alpha x u + w x (w x u)
     fn swept(&self, u: &[f64; D]) -> [f64; D] {
-        let (whirl, swing) = (spin(&self.w, &spin(&self.w, u)), spin(&self.alpha, u));
+        let whirl = spin(&self.w, &spin(&self.w, u));
+        let swing = spin(&self.alpha, u);
         from_fn(|k| whirl[k] + swing[k])
     }
 }
@@ -62,7 +63,8 @@ impl<const D: usize> Floating<D> {
     /// k += d(r_r, r_t)/dtheta.
     fn add_frame_stiffness(&self, motion: &Motion<D>, moving: &Moving<f64, D>, k: &mut [f64]) {
         let s = moving.s();
-        let (swept, rate) = (motion.swept(&s), moving.momentum(moving.v));
+        let swept = motion.swept(&s);
+        let rate = moving.momentum(moving.v);
         let (push, (drift, _)) = (moving.momentum(motion.vdot), moving.swerve(moving.v));
         let coriolis = spin(&motion.w, &rate);
         let bracket: [f64; D] = from_fn(|i| swept[i] + 2.0 * coriolis[i] + push[i] + drift[i]);
@@ -78,14 +80,22 @@ impl<const D: usize> Floating<D> {
 
     /// c += d(r_r, r_t)/dw.
     fn add_frame_damping(&self, motion: &Motion<D>, moving: &Moving<f64, D>, c: &mut [f64]) {
-        let (s, rate, w) = (moving.s(), moving.momentum(moving.v), &motion.w);
-        let (p, q) = (moving.p(), transposed(&moving.flow(moving.v)));
+        let s = moving.s();
+        let rate = moving.momentum(moving.v);
+        let w = &motion.w;
+        let p = moving.p();
+        let q = transposed(&moving.flow(moving.v));
         for l in turns(D) {
-            let (e, column) = (unit(l), turn_velocity(D, l));
-            let (first, second, third) = (spin(&e, &spin(w, &s)), spin(w, &spin(&e, &s)), spin(&e, &rate));
+            let e = unit(l);
+            let column = turn_velocity(D, l);
+            let first = spin(&e, &spin(w, &s));
+            let second = spin(w, &spin(&e, &s));
+            let third = spin(&e, &rate);
             let force = world(&motion.own, &from_fn(|i| first[i] + second[i] + 2.0 * third[i]));
             (0..D).for_each(|i| c[self.layout.frame(i, column)] += force[i]);
-            let (first, second, third) = (cross(&e, &swung(&p, w)), cross(w, &swung(&p, &e)), swung(&q, &e));
+            let first = cross(&e, &swung(&p, w));
+            let second = cross(w, &swung(&p, &e));
+            let third = swung(&q, &e);
             turns(D).for_each(|i| {
                 c[self.layout.frame(turn_velocity(D, i), column)] += first[i] + second[i] + 2.0 * third[i];
             });
@@ -94,9 +104,13 @@ impl<const D: usize> Floating<D> {
 
     /// d(r_r, r_t)/dq_j and d(r_r, r_t)/dq_j', d(r_j)/dtheta and d(r_j)/dw.
     fn add_mixed(&self, motion: &Motion<D>, moving: &Moving<f64, D>, j: usize, k: &mut [f64], c: &mut [f64]) {
-        let (dof, mu, w) = (moving.piece.dofs[j], moving.mu(j), &motion.w);
-        let (drift, pushed_on) = (moving.drift(moving.v, j), moving.drift(motion.vdot, j));
-        let (swept, coriolis) = (motion.swept(&mu), spin(w, &drift));
+        let dof = moving.piece.dofs[j];
+        let mu = moving.mu(j);
+        let w = &motion.w;
+        let drift = moving.drift(moving.v, j);
+        let pushed_on = moving.drift(motion.vdot, j);
+        let swept = motion.swept(&mu);
+        let coriolis = spin(w, &drift);
         let force = world(&motion.own, &from_fn(|i| swept[i] + 2.0 * coriolis[i] + pushed_on[i]));
         let turned = spin(w, &mu);
         let braking = world(&motion.own, &from_fn(|i| turned[i] + drift[i]));
@@ -104,15 +118,21 @@ impl<const D: usize> Floating<D> {
             k[self.layout.column(i, dof)] += force[i];
             c[self.layout.column(i, dof)] += 2.0 * braking[i];
         }
-        let (weighed, rated) = (moving.w(j), moving.rated(moving.v, j));
-        let (curving, curved) = (moving.curved(moving.v, j), moving.curved(motion.vdot, j));
+        let weighed = moving.w(j);
+        let rated = moving.rated(moving.v, j);
+        let curving = moving.curved(moving.v, j);
+        let curved = moving.curved(motion.vdot, j);
         let grown: Matrix<f64, D> = from_fn(|a| from_fn(|b| weighed[a][b] + weighed[b][a]));
         let (lever, swing, gyroscopic) =
             (cross(&mu, &motion.a), swung(&grown, &motion.alpha), cross(w, &swung(&grown, w)));
         let flow: Matrix<f64, D> = from_fn(|a| from_fn(|b| rated[a][b] + curving[b][a]));
-        let (stretching, push, push_on) = (swung(&flow, w), axial(&moving.rated(motion.vdot, j)), axial(&curved));
-        let (moving_out, swerving) = (swung(&transposed(&weighed), w), axial(&curving));
-        let (outward, rotating) = (swung(&grown, w), axial(&rated));
+        let stretching = swung(&flow, w);
+        let push = axial(&moving.rated(motion.vdot, j));
+        let push_on = axial(&curved);
+        let moving_out = swung(&transposed(&weighed), w);
+        let swerving = axial(&curving);
+        let outward = swung(&grown, w);
+        let rotating = axial(&rated);
         for i in turns(D) {
             let turn = turn_velocity(D, i);
             let pushing = push_on[i] - push[i];

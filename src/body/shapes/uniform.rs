@@ -44,7 +44,8 @@ impl Uniform {
 
     /// Hollow cylinder about z.
     pub fn tube(outer: f64, inner: f64, length: f64) -> Self {
-        let (across, along) = (0.25 * (outer * outer + inner * inner), length * length / 12.0);
+        let across = 0.25 * (outer * outer + inner * inner);
+        let along = length * length / 12.0;
         let section = std::f64::consts::PI * (outer - inner) * (outer + inner);
         Self::centred(section * length, [across, across, along])
     }
@@ -70,7 +71,9 @@ impl Uniform {
     pub fn prism(corners: &[[f64; 2]], thickness: f64) -> Self {
         let first = corners.first().copied().unwrap_or([0.0; 2]);
         let arms: Vec<[f64; 3]> = corners.iter().map(|c| [c[0] - first[0], c[1] - first[1], 0.0]).collect();
-        let (mut area, mut moment, mut second) = (0.0, [0.0; 3], [[0.0; 3]; 3]);
+        let mut area = 0.0;
+        let mut moment = [0.0; 3];
+        let mut second = [[0.0; 3]; 3];
         for pair in arms.windows(2) {
             let part = 0.5 * cross(&pair[0], &pair[1])[2];
             area += part;

@@ -24,7 +24,8 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
     let name = prepared.name.clone();
     let bar = args.talk.progress((WITHIN.len() + 1) as u64, &name);
     let found = models(args, &prepared, &bar);
-    let (found, searched) = (found?, WITHIN.len() as u32);
+    let found = found?;
+    let searched = WITHIN.len() as u32;
     let rest = args.budget - args.budget * searched / SEARCH;
     let budget = rest / (1 + found.len()) as u32;
     let own = ("as it is".to_string(), Vec::new());

@@ -31,7 +31,8 @@ pub fn run(args: &Args, prepared: &PreparedScene) -> Result<ExitCode> {
 impl Question {
     /// Returns the results so far: none, or those that `--resume` finds.
     fn begin(&self, args: &Args, prepared: &PreparedScene, place: &Path) -> Result<WorkPrecision> {
-        let (span, rows) = (prepared.span()?, self.plan.rows);
+        let span = prepared.span()?;
+        let rows = self.plan.rows;
         let fresh = WorkPrecision {
             fingerprint: fingerprint(args, rows)?,
             ..WorkPrecision::fresh(&prepared.name, (span.start, span.end), rows)
@@ -42,7 +43,8 @@ impl Question {
     fn measure(self, args: &Args, prepared: &PreparedScene, place: &Path, measured: &mut WorkPrecision) -> Result<()> {
         let span = prepared.span()?;
         let bar = args.talk.progress(1000, &prepared.name);
-        let (clock, mut saved) = (Instant::now(), Instant::now());
+        let clock = Instant::now();
+        let mut saved = Instant::now();
         let watch = |measured: &WorkPrecision, next: &str| {
             bar.set_position((1e3 * clock.elapsed().as_secs_f64() / args.budget.as_secs_f64()) as u64);
             bar.set_message(next.to_string());

@@ -98,7 +98,9 @@ struct Question {
 impl Args {
     /// Returns what to measure of a scene within `budget`; against these values, if they are given.
     fn question(&self, prepared: &PreparedScene, budget: Duration, given: Option<Given>) -> Result<Question> {
-        let (span, system, rows) = (prepared.span()?, prepared.system(), usize::from(self.rows));
+        let span = prepared.span()?;
+        let system = prepared.system();
+        let rows = usize::from(self.rows);
         let outputs = self.outputs(prepared, given.as_ref());
         let watched = Watched::new(system, &outputs).map_err(|error| error.under("--outputs"))?;
         let rows = given.as_ref().map_or(Ok(rows), |given| given.parts((span.start, span.end), rows))?;

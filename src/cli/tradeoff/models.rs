@@ -15,7 +15,8 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
     for text in &args.variants {
         others.push(variant(text, args, &prepared)?);
     }
-    let (name, title) = (prepared.name.clone(), format!("{}: what models cost", prepared.name));
+    let name = prepared.name.clone();
+    let title = format!("{}: what models cost", prepared.name);
     let set = args.scene.set.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(",");
     let source = Some((args.scene.path.clone(), args.overrides()));
     let own = Variant { name: named(&args.scene.path, &set), prepared, source };

@@ -170,13 +170,15 @@ impl Map {
 
     /// Returns the method, row and column of a cell by its number.
     pub(super) fn place(&self, index: usize) -> [usize; 3] {
-        let (columns, rows) = (self.x.entries.len(), self.y.entries.len());
+        let columns = self.x.entries.len();
+        let rows = self.y.entries.len();
         [index / (rows * columns), index / columns % rows, index % columns]
     }
 
     /// Returns the numbers of the neighbouring cells with the same method.
     pub(super) fn beside(&self, [panel, row, column]: [usize; 3]) -> impl Iterator<Item = usize> {
-        let (columns, rows) = (self.x.entries.len(), self.y.entries.len());
+        let columns = self.x.entries.len();
+        let rows = self.y.entries.len();
         let beside = |at: usize, count: usize| [at.checked_sub(1), Some(at + 1).filter(|at| *at < count)];
         let lines = beside(row, rows).into_iter().flatten().map(move |row| (row, column));
         let along = beside(column, columns).into_iter().flatten().map(move |column| (row, column));

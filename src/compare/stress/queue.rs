@@ -171,7 +171,8 @@ mod tests {
         let needs = |k: usize| Duration::from_secs_f64(1e-3 * 2f64.powi(k as i32));
         let mut queues = Queues::default();
         (0..9).for_each(|k: usize| queues.add("", Job::new(k.abs_diff(4), What::Cell(k))));
-        let (mut spent, mut through) = (Duration::ZERO, Vec::new());
+        let mut spent = Duration::ZERO;
+        let mut through = Vec::new();
         while let Some((queue, job)) = queues.take(LIMIT) {
             let What::Cell(k) = job.what else { unreachable!() };
             let took = needs(k).min(job.share(LIMIT));

@@ -51,7 +51,8 @@ impl Search {
 
     fn by(subject: &Subject, case: Case, cpu: Duration, shift: Shift) -> Self {
         let found = subject.with(&case, |system, span, start| {
-            let (between, is_stopped) = ((span.start, span.end), &|| false);
+            let between = (span.start, span.end);
+            let is_stopped = &|| false;
             let motion = Motion { system, start, between, ratio: 1.0, counts_start: true, is_stopped };
             let watched = Watched::new(system, &[])?;
             let wall = shift.left();
@@ -77,7 +78,8 @@ pub(super) fn confirmed(
     cpu: Duration,
 ) -> Option<SecondOpinion> {
     let compared = subject.with(case, |system, span, start| {
-        let (between, is_stopped) = ((span.start, span.end), &|| false);
+        let between = (span.start, span.end);
+        let is_stopped = &|| false;
         let motion = Motion { system, start, between, ratio: 1.0, counts_start: true, is_stopped };
         let watched = Watched::new(system, &[])?;
         let allowed = Allowed { cpu, wall: cpu.saturating_mul(2) };

@@ -33,7 +33,8 @@ pub struct Stressed {
 impl Stressed {
     /// Returns the cell of a method, row and column; none outside the map.
     pub fn cell(&self, method: usize, row: usize, column: usize) -> Option<&Cell> {
-        let (columns, rows) = (self.map.x.entries.len(), self.map.y.entries.len());
+        let columns = self.map.x.entries.len();
+        let rows = self.map.y.entries.len();
         self.cells.get((method * rows + row) * columns + column).filter(|_| column < columns && row < rows)
     }
 
@@ -84,7 +85,9 @@ impl Work {
         order.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
         let mut ranks = vec![0; order.len()];
         order.into_iter().enumerate().for_each(|(rank, index)| ranks[index] = rank);
-        let (mut cells, mut motions, mut queues) = (Vec::new(), Vec::new(), Queues::default());
+        let mut cells = Vec::new();
+        let mut motions = Vec::new();
+        let mut queues = Queues::default();
         let mut known: Vec<[Option<usize>; 3]> = Vec::new();
         for (index, rank) in ranks.into_iter().enumerate() {
             let at = map.place(index);

@@ -60,7 +60,8 @@ pub(super) fn run(
     match run {
         Err(error) => (Cell { status: Status::Refused, reason: Some(message(&error)), ..blank }, Vec::new(), 1.0),
         Ok(run) => {
-            let (rows, part) = (run.record.trajectory.watched().collect(), run.part);
+            let rows = run.record.trajectory.watched().collect();
+            let part = run.part;
             (run.cell(blank), rows, part)
         }
     }
@@ -81,7 +82,8 @@ struct Run {
 
 fn simulated(subject: &Subject, case: &Case, shift: Shift, share: Duration) -> Result<Run> {
     subject.with(case, |system, span, start| {
-        let (deadline, stopped) = (Deadline::new(share, shift), Flag::new(None));
+        let deadline = Deadline::new(share, shift);
+        let stopped = Flag::new(None);
         let stop = || {
             let over = deadline.over()?;
             let is_slow = over == Over::Share && share == shift.cell;

@@ -188,7 +188,8 @@ fn perturbed(
     [position, velocity]: [f64; 2],
     period: f64,
 ) -> (Vec<f64>, Vec<f64>) {
-    let (mut q, mut v) = (q.to_vec(), v.to_vec());
+    let mut q = q.to_vec();
+    let mut v = v.to_vec();
     if position == 0.0 && velocity == 0.0 {
         return (q, v);
     }
@@ -226,7 +227,8 @@ impl Typical {
         let steps = outcome.statistics.steps.max(1) as f64;
         let step = if outcome.t > span.start { (outcome.t - span.start) / steps } else { duration / TYPICAL_ROWS };
         let columns = trajectory.rows.first().map_or(0, Vec::len);
-        let (n, outputs) = (trajectory.names.q.len(), trajectory.outputs.len());
+        let n = trajectory.names.q.len();
+        let outputs = trajectory.outputs.len();
         let mut candidates = (columns - outputs..columns).chain(1..=n.min(columns));
         let times: Vec<f64> = trajectory.times().collect();
         let period = candidates.find_map(|i| {

@@ -131,7 +131,8 @@ fn bound(axis: &Axis, cells: &[&Cell], place: impl Fn(&Cell) -> usize) -> Option
         cells.iter().filter(|cell| place(cell) == at).any(|cell| ended(&cell))
     };
     let bad: Vec<usize> = (0..values.len()).filter(|at| is_bad(*at)).collect();
-    let (first, last) = (*bad.first()?, *bad.last()?);
+    let first = *bad.first()?;
+    let last = *bad.last()?;
     let is_one_piece = last - first + 1 == bad.len();
     let (side, at) = match (first, last + 1 == values.len()) {
         (0, true) => return None,

@@ -83,7 +83,8 @@ impl WorkPrecision {
     pub fn recommend(&self, digits: u32) -> Option<Recommendation> {
         let tied = self.cheapest(digits, &|_| true);
         let first = |is_meant: &dyn Fn(&Cell) -> bool| self.cheapest(digits, is_meant).first().copied();
-        let (best, cells) = (*tied.first()?, &self.cells);
+        let best = *tied.first()?;
+        let cells = &self.cells;
         let mut ties: Vec<usize> = Vec::new();
         for place in tied {
             if [best].iter().chain(&ties).all(|known| !cells[*known].is_of(&cells[place].method)) {

@@ -150,6 +150,7 @@ pub(super) fn digits(error: f64) -> f64 {
 pub fn median(values: &[f64]) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
-    let (low, high) = (sorted.get((sorted.len().max(1) - 1) / 2)?, sorted.get(sorted.len() / 2)?);
+    let low = sorted.get((sorted.len().max(1) - 1) / 2)?;
+    let high = sorted.get(sorted.len() / 2)?;
     Some(0.5 * (low + high))
 }

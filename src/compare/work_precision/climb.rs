@@ -75,7 +75,8 @@ pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (
         if error <= if part == LAST { 0.1 } else { wanted } {
             break;
         }
-        let (is_last, part) = (part == LAST, budget.mul_f64(part));
+        let is_last = part == LAST;
+        let part = budget.mul_f64(part);
         let waited = budget.mul_f64(WAITED[usize::from(is_last)]).saturating_sub(begun.wall());
         let least =
             lines.iter().map(|line| line.forecast(motion)).filter(|time| *time > 0.0).fold(f64::INFINITY, f64::min);
@@ -83,7 +84,8 @@ pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (
             if is_last && line.forecast(motion) > QUICK * least {
                 return Ok(());
             }
-            let (watch, mut cpu) = (Stopwatch::start(), part);
+            let watch = Stopwatch::start();
+            let mut cpu = part;
             while !(motion.is_stopped)() && !cpu.is_zero() {
                 let wall = waited.saturating_sub(watch.wall());
                 let (is_more, seconds) = line.step(motion, watched, span, (*names, Allowed { cpu, wall }))?;

@@ -67,7 +67,8 @@ fn refused(integrators: &[MethodSpec], formulations: &[MethodSpec], filter: &Fil
     let none = [MethodSpec::named("none")];
     let projections = if filter.projections.is_empty() { &none[..] } else { &filter.projections };
     for ((formulation, integrator), projection) in formulations.iter().zip(integrators).zip(projections) {
-        let (formulation, integrator) = (formulation.clone(), integrator.clone());
+        let formulation = formulation.clone();
+        let integrator = integrator.clone();
         let triple = Triple { formulation, integrator, projection: projection.clone() };
         // A step that any method may have where it needs one.
         triple.at((1e-6, 1e-6), None).check()?;

@@ -97,7 +97,8 @@ impl<'a> Runner<'a> {
         for (triple, decades) in
             self.plan.triples.iter().flat_map(|t| COARSE.into_iter().chain(FINE).map(move |d| (t, d)))
         {
-            let (key, best) = (triple.at((1.0, 1.0), None), result.cells.iter().zip(&behind));
+            let key = triple.at((1.0, 1.0), None);
+            let best = result.cells.iter().zip(&behind);
             if cells_of(result, triple).any(|cell| cell.decades == decades) {
                 continue;
             }
@@ -294,7 +295,8 @@ impl<'a> Runner<'a> {
         let Some(reference) = &result.reference else { return Outcome::Skipped { reason: String::new() } };
         let (error, worst) = reference.values.error(&run.rows);
         if !error.is_finite() {
-            let (reason, hint) = ("the result is not finite".to_string(), "try a tighter tolerance".to_string());
+            let reason = "the result is not finite".to_string();
+            let hint = "try a tighter tolerance".to_string();
             let failure = Failure { t: self.motion.between.1, reason, hint };
             return Outcome::Failed { failure, cpu_seconds: run.seconds };
         }

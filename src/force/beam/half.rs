@@ -57,7 +57,8 @@ impl Half {
         let lift: [S; D] = from_fn(|k| -node.r[k].dd + gravity[k]);
         let along = node.axes[0];
         let [axis, bent] = [along.map(|e| e.x), along.map(|e| e.dd)];
-        let (hanging, whirling) = (cross(&axis, &lift), cross(&axis, &bent));
+        let hanging = cross(&axis, &lift);
+        let whirling = cross(&axis, &bent);
         let turning = |moments: [f64; 2]| -> Vector<S> {
             let mut torque = [S::zero(); 3];
             for (axis, moment) in node.axes[1..].iter().zip(moments) {

@@ -40,7 +40,8 @@ impl<S: Scalar> Line<S> {
         let both = |first: usize, helix: &Vector<S>| -> [Vector<S>; 2] {
             from_fn(|end| from_fn(|i| strain(end, first + i) - helix[i] * per_length))
         };
-        let (lean, bend) = (both(0, &shift), both(3, &turn));
+        let lean = both(0, &shift);
+        let bend = both(3, &turn);
         let tangent = compose(&axes[1], &from_fn(|i| strain(1, i)));
         Line { length: beam.length, gap, tangent, shift, turn, bend, lean }
     }

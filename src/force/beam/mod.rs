@@ -32,9 +32,12 @@ impl<const D: usize> ForceKernel<D> for Beam {
         let [a, b] = [&frames[0], &frames[1]].map(|frame| frame.map(|x| Moving { re: x.x, eps: [x.d] }));
         let strains = Strains::between(&a, &b);
         let strain = self.strain::<_, D>(&strains);
-        let (mut damped, mut twice_stored, mut power) = ([S::zero(); 6], S::zero(), S::zero());
+        let mut damped = [S::zero(); 6];
+        let mut twice_stored = S::zero();
+        let mut power = S::zero();
         for &i in components::<D>() {
-            let (stretched, rate) = (strain[i].re - self.rest[i], strain[i].eps[0]);
+            let stretched = strain[i].re - self.rest[i];
+            let rate = strain[i].eps[0];
             let elastic = stretched * self.stiffness[i];
             damped[i] = elastic + rate * (self.damping * self.stiffness[i]);
             twice_stored += elastic * stretched;
@@ -65,7 +68,8 @@ impl Beam {
         let [turn, gap] = [&strains.turn, &strains.gap].map(|vector| vector.map(|x| x.re));
         if D == 2 {
             let ([nx, ny], torque) = planar_pull_back(turn[2], [gap[0], gap[1]], [n[0], n[1]], m[2]);
-            let (n, lever) = ([nx, ny, n[2]], gap[0] * ny - gap[1] * nx);
+            let n = [nx, ny, n[2]];
+            let lever = gap[0] * ny - gap[1] * nx;
             return [torque + lever, torque].map(|torque| Carried { n, m: [m[0], m[1], torque] });
         }
         let [n, m] = pull_back(&turn, &gap, &n, &m);

@@ -98,7 +98,8 @@ impl<S: Scalar> Line<S> {
         let [value, first, last] = cubic(part);
         let [first, last] = [first, last].map(|slope| slope * self.length);
         let growth: Vector<S> = from_fn(|i| b.n[i] - a.n[i]);
-        let (turned, arm) = (cross3(&self.tangent, &growth), cross3(&self.gap, &a.n));
+        let turned = cross3(&self.tangent, &growth);
+        let arm = cross3(&self.gap, &a.n);
         let moved = cross3(place, &a.n);
         let [f, l] = [loads.each_ref().map(|x| x.force_per_length), loads.each_ref().map(|x| x.torque_per_length)];
         Carried {

@@ -128,12 +128,14 @@ impl Beam {
         let per_length = 1.0 / self.length;
         if D == 2 {
             let ([x, y, zero], k) = (strains.shift, strains.turn[2] * per_length);
-            let (x, y) = (x * per_length, y * per_length);
+            let x = x * per_length;
+            let y = y * per_length;
             return [self.stretch::<_, D>([x, y, zero]), y, zero, zero, zero, k];
         }
         let [x, y, z] = strains.shift.map(|u| u * per_length);
         let k = strains.turn.map(|a| a * per_length);
-        let (gy, gz) = (y * self.bent[0], z * self.bent[1]);
+        let gy = y * self.bent[0];
+        let gz = z * self.bent[1];
         [self.stretch::<_, D>([x, y, z]), y, z, k[0] + gy * k[1] + gz * k[2], k[1] - gy * k[0], k[2] - gz * k[0]]
     }
 
@@ -151,7 +153,8 @@ impl Beam {
             return [[x * tension, qy + y * tension * long_y, qz], [torque, my, mz]];
         }
         let k = strains.turn.map(|a| a.re * per_length);
-        let (gy, gz) = (y * self.bent[0], z * self.bent[1]);
+        let gy = y * self.bent[0];
+        let gz = z * self.bent[1];
         let force = [
             x * tension,
             qy + y * tension * long_y + (k[1] * torque - k[0] * my) * self.bent[0],

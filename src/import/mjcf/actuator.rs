@@ -42,7 +42,8 @@ impl<'a, 'i> Reader<'a, 'i> {
     fn reflect(&mut self, element: &Element, joint: usize) -> Result<()> {
         let ratio = element.list("gear")?.first().copied().unwrap_or(1.0);
         let first = |key: &str| Ok::<f64, Error>(element.list(key)?.first().copied().unwrap_or(0.0));
-        let (armature, damping) = (first("armature")?, first("damping")?);
+        let armature = first("armature")?;
+        let damping = first("damping")?;
         self.robot.joints[joint].armature += ratio * ratio * armature;
         self.robot.joints[joint].damping += ratio * ratio * damping;
         Ok(())

@@ -104,7 +104,8 @@ impl<'a, 'i> Reader<'a, 'i> {
             self.robot.joints.push(weld);
             return Ok(());
         }
-        let (mut from, mut origin) = (parent, pose);
+        let mut from = parent;
+        let mut origin = pose;
         for (number, part) in joints.iter().enumerate() {
             let mut to = link;
             if number + 1 < joints.len() {

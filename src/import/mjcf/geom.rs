@@ -43,7 +43,8 @@ pub fn mass(element: &Element, settings: &Settings) -> Result<Option<MassPropert
 fn frame_and_size(element: &Element, settings: &Settings, kind: &str) -> Result<(Transform, Vec<f64>)> {
     let mut size = element.list("size")?;
     let Some([a, b, c, d, e, f]) = element.numbers("fromto")? else { return Ok((settings.place(element)?, size)) };
-    let (from, to) = ([a, b, c], [d, e, f]);
+    let from = [a, b, c];
+    let to = [d, e, f];
     let along = sub(&from, &to);
     let length = norm(&along);
     if length == 0.0 {
@@ -85,7 +86,8 @@ fn ellipsoid(axes: [f64; 3]) -> Solid {
 /// A cylinder of half length h between two half spheres; the mean of (h + z)^2 over one of these is
 /// h^2 + 2 h (3/8) r + r^2/5.
 fn capsule(r: f64, h: f64) -> Solid {
-    let (rod, ball) = (2.0 * PI * r * r * h, 4.0 / 3.0 * PI * r * r * r);
+    let rod = 2.0 * PI * r * r * h;
+    let ball = 4.0 / 3.0 * PI * r * r * r;
     let volume = rod + ball;
     let across = (rod * 0.25 + ball * 0.2) * r * r / volume;
     let along = (rod * h * h / 3.0 + ball * (h * h + 0.75 * h * r + 0.2 * r * r)) / volume;

@@ -54,7 +54,8 @@ pub(super) fn read<'i>(root: Node<'_, 'i>, options: &Options) -> Result<Robot<'i
     let mut told = Told::default();
     let settings = Settings::read(root, &mut told)?;
     let robot = empty(root, settings.gravity);
-    let (bodies, sites) = (HashMap::new(), HashMap::new());
+    let bodies = HashMap::new();
+    let sites = HashMap::new();
     let mut reader = Reader { root, classes: Classes::read(root), settings, robot, bodies, sites, told };
     reader.worldbody()?;
     reader.scale_masses();

@@ -38,7 +38,8 @@ pub(super) enum End {
 pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
     let Some(mut at) = rest.balance(q) else { return (End::Stuck(Place { q: q.to_vec(), lambda: Vec::new() }), 0) };
     let mut shift = largest(&at.force) / tolerances::DESCENT_FIRST;
-    let (most, mut tried) = (tolerances::DESCENT_STIFFEST * shift, norm(&at.force));
+    let most = tolerances::DESCENT_STIFFEST * shift;
+    let mut tried = norm(&at.force);
     for step in 0..tolerances::DESCENT_STEPS {
         if norm(&at.force) <= tolerances::DESCENT_FALL * tried {
             tried = norm(&at.force);
@@ -89,7 +90,8 @@ fn advance(rest: &mut EquilibriumSystem, at: &Balance, shift: f64) -> Option<(Ba
     if !(before > 0.0 && predicted.is_finite()) {
         return None;
     }
-    let (mut next, mut way) = (onward(rest, &at.place, &change, size)?, change.q);
+    let mut next = onward(rest, &at.place, &change, size)?;
+    let mut way = change.q;
     relax(rest, &mut next, &mut way, shift, norm(&at.force))?;
     let gain = 0.5 * (dot(&at.force, &way) + dot(&next.force, &way)) / predicted;
     (gain > tolerances::DESCENT_TAKEN_BACK).then_some((next, gain))
@@ -126,7 +128,9 @@ fn relax(rest: &mut EquilibriumSystem, at: &mut Balance, way: &mut [f64], shift:
 
 /// Returns to phi = 0 by least changes; `None` where these together exceed half the step.
 fn close(rest: &mut EquilibriumSystem, place: Place, size: f64) -> Option<Vec<f64>> {
-    let (mut at, mut way, mut is_evaluated) = (place, 0.0, false);
+    let mut at = place;
+    let mut way = 0.0;
+    let mut is_evaluated = false;
     let closed: Result<bool, ()> = Monitor::default().solve(CLOSING, |_| {
         if std::mem::replace(&mut is_evaluated, true) {
             let change = rest.closing().ok_or(())?;

@@ -44,7 +44,8 @@ const BEGIN_NEARER: &str = "begin nearer to it, or look at the motion with `holo
 
 /// Name of an entry of a place.
 fn name_of(system: &dyn MechanicalSystem, entry: usize) -> Option<String> {
-    let (names, n) = (system.names(), system.dimensions());
+    let names = system.names();
+    let n = system.dimensions();
     names.q.into_iter().chain(names.v.into_iter().skip(n.moving())).nth(entry)
 }
 

@@ -10,7 +10,10 @@ use crate::tolerances::initial as tolerances;
 pub(super) fn homotopy(rest: &mut EquilibriumSystem, start: &Place) -> (Place, f64, usize) {
     rest.evaluate(&start.q);
     let missing = rest.force(&start.lambda);
-    let (mut at, mut s, mut part, mut steps) = (start.clone(), 0.0, tolerances::LOAD_FIRST, 0);
+    let mut at = start.clone();
+    let mut s = 0.0;
+    let mut part = tolerances::LOAD_FIRST;
+    let mut steps = 0;
     for _ in 0..tolerances::LOAD_CHANGES {
         let next: f64 = if s + part > 1.0 - tolerances::LOAD_SMALLEST { 1.0 } else { s + part };
         let goal: Vec<f64> = missing.iter().map(|force| (1.0 - next) * force).collect();

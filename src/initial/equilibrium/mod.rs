@@ -177,11 +177,14 @@ fn finish(mut rest: EquilibriumSystem, found: Found, steps: usize) -> Result<Equ
     if let Some(balance) = rest.balance(&place.q) {
         place.lambda = balance.place.lambda;
     }
-    let (residual, gap) = (largest(&rest.force(&place.lambda)), rest.gap());
+    let residual = largest(&rest.force(&place.lambda));
+    let gap = rest.gap();
     if gap > tolerances::REDUNDANT_ROWS_CLOSED {
         return Err(failure::contradiction(rest.t));
     }
-    let (t, iterations) = (rest.t, rest.iterations);
-    let (q, v) = (place.q[..rest.coordinates].to_vec(), rest.still);
+    let t = rest.t;
+    let iterations = rest.iterations;
+    let q = place.q[..rest.coordinates].to_vec();
+    let v = rest.still;
     Ok(Equilibrium { t, q, v, lambda: place.lambda, way, iterations, steps, residual, gap, stability, free })
 }

@@ -33,8 +33,10 @@ pub(super) fn newton(
     goal: Option<&[f64]>,
     policy: Policy,
 ) -> Option<(Place, bool)> {
-    let (mut at, mut newton) = (start, Monitor::default());
-    let (mut was_still, mut was_small) = (false, false);
+    let mut at = start;
+    let mut newton = Monitor::default();
+    let mut was_still = false;
+    let mut was_small = false;
     let converged: Result<bool, ()> = newton.solve(policy.limits, |_| {
         rest.evaluate(&at.q);
         let force = residual(rest, &at, goal);
@@ -45,7 +47,8 @@ pub(super) fn newton(
         }
         was_still = is_still;
         let change = if factored { rest.solve(&force) } else { None }.ok_or(())?;
-        let (size, part) = (rest.size(&change.q), largest(&change.q) / (1.0 + largest(&at.q)));
+        let size = rest.size(&change.q);
+        let part = largest(&change.q) / (1.0 + largest(&at.q));
         if part > tolerances::AWAY {
             return Err(());
         }

@@ -78,7 +78,8 @@ pub(super) fn judge(rest: &mut EquilibriumSystem, place: &Place) -> (Stability, 
 fn by_modes(rest: &mut EquilibriumSystem) -> Option<Stability> {
     let z = free_directions(&mut rest.dynamics)?;
     let [k, c] = [&rest.tangent.k, &rest.tangent.c].map(|values| reduce(&rest.dynamics.structure.tangent, values, &z));
-    let (n, moving) = (z.ncols(), z.ncols() - rest.dynamics.system.dimensions().states);
+    let n = z.ncols();
+    let moving = z.ncols() - rest.dynamics.system.dimensions().states;
     let mut a = DMatrix::zeros(moving + n, moving + n);
     a.view_mut((0, moving), (moving, moving)).fill_with_identity();
     a.view_mut((moving, 0), (n, moving)).copy_from(&-k.columns(0, moving));

@@ -61,7 +61,8 @@ pub(super) struct EquilibriumSystem<'a> {
 impl<'a> EquilibriumSystem<'a> {
     /// Memory, and the independent rows of phi, found at a place where phi = 0.
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, place: &[f64]) -> Result<Self> {
-        let (n, mut dynamics) = (system.dimensions(), Dynamics::new(system));
+        let n = system.dimensions();
+        let mut dynamics = Dynamics::new(system);
         let (q, xi) = place.split_at(n.q);
         let still = [&vec![0.0; n.moving()], xi].concat();
         let mut tangent = Tangent::new(&dynamics.structure.tangent);
@@ -109,7 +110,8 @@ impl<'a> EquilibriumSystem<'a> {
 
     /// f - G^T lambda from the present terms.
     pub fn force(&self, lambda: &[f64]) -> Vec<f64> {
-        let (terms, g) = (&self.dynamics.terms, &self.dynamics.structure.g);
+        let terms = &self.dynamics.terms;
+        let g = &self.dynamics.structure.g;
         let mut reaction = vec![0.0; terms.f.len()];
         g.multiply_transposed(&terms.g, lambda, &mut reaction);
         terms.f.iter().zip(reaction).map(|(f, reaction)| f - reaction).collect()
@@ -125,7 +127,8 @@ impl<'a> EquilibriumSystem<'a> {
         self.evaluate(q);
         let terms = &self.dynamics.terms;
         self.level.factor(&self.ones, &terms.g).ok()?;
-        let (mut top, mut lambda) = (terms.f.clone(), vec![0.0; self.scales.len()]);
+        let mut top = terms.f.clone();
+        let mut lambda = vec![0.0; self.scales.len()];
         self.level.solve(&mut top, &mut lambda).ok()?;
         let force = self.force(&lambda);
         force.iter().all(|x| x.is_finite()).then_some(Balance { place: Place { q: q.to_vec(), lambda }, force })
@@ -149,7 +152,8 @@ impl<'a> EquilibriumSystem<'a> {
 
     /// Factors the matrix at a place whose terms are evaluated; false where it is singular.
     pub fn factor(&mut self, place: &Place, shift: f64) -> bool {
-        let (q, vdot) = (&place.q[..self.coordinates], &vec![0.0; self.still.len()]);
+        let q = &place.q[..self.coordinates];
+        let vdot = &vec![0.0; self.still.len()];
         let at = OperatingPoint { t: self.t, q, v: &self.still, vdot, lambda: &place.lambda };
         let Dynamics { system, structure, terms, scratch, .. } = &mut self.dynamics;
         system.tangent(at, &mut self.tangent, scratch);
@@ -195,7 +199,8 @@ impl<'a> EquilibriumSystem<'a> {
 
     /// Sum of the magnitudes of the forces and reactions on each velocity, from the present terms.
     pub fn sizes(&self, place: &Place) -> Vec<f64> {
-        let (terms, structure) = (&self.dynamics.terms, &self.dynamics.structure);
+        let terms = &self.dynamics.terms;
+        let structure = &self.dynamics.structure;
         let mut sizes: Vec<f64> = terms.f.iter().map(|f| f.abs()).collect();
         for (&(i, j), g) in structure.g.entries.iter().zip(&terms.g) {
             sizes[j] += (g * place.lambda[i]).abs();

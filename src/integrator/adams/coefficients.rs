@@ -31,7 +31,9 @@ impl Coefficients {
         let mut all = Coefficients { beta: [1.0; ROOM], sigma: [1.0; ROOM + 1], ..Self::NONE };
         // Time from the start of the step back to the point, and g_i = c_i1 with c_1q = 1/q, c_2q = 1/(q (q + 1)),
         // c_iq = c_{i-1,q} - h/psi_{i-1} c_{i-1,q+1}.
-        let (mut back, mut part, mut c) = (0.0, 0.0, SECOND);
+        let mut back = 0.0;
+        let mut part = 0.0;
+        let mut c = SECOND;
         for (i, step) in past.iter().take(count).enumerate() {
             if i > 1 {
                 let c = &mut c[..=count - i];
@@ -53,11 +55,13 @@ impl Coefficients {
     /// through them from there over `ahead` seconds (below zero within the step), over `ahead`.
     pub fn interpolation(&self, ahead: f64, count: usize) -> [f64; ROOM] {
         let mut w: [f64; ROOM] = std::array::from_fn(|i| 1.0 / (i + 1) as f64);
-        let (mut g, mut term) = ([0.0; ROOM], 0.0);
+        let mut g = [0.0; ROOM];
+        let mut term = 0.0;
         g[0] = 1.0;
         for j in 1..count {
             let psi = self.psi[j - 1];
-            let (kept, next) = ((ahead + term) / psi, ahead / psi);
+            let kept = (ahead + term) / psi;
+            let next = ahead / psi;
             let w = &mut w[..=count - j];
             (1..w.len()).for_each(|i| w[i - 1] = kept * w[i - 1] - next * w[i]);
             g[j] = w[0];
@@ -69,7 +73,8 @@ impl Coefficients {
 
 /// c_2q = 1/(q (q + 1)) by q - 1.
 const SECOND: [f64; ROOM] = {
-    let (mut c, mut q) = ([0.0; ROOM], 0);
+    let mut c = [0.0; ROOM];
+    let mut q = 0;
     while q < ROOM {
         c[q] = 1.0 / ((q + 1) * (q + 2)) as f64;
         q += 1;

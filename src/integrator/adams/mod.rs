@@ -136,10 +136,12 @@ impl Adams {
     /// y~, and the sums of the differences.
     fn predict(&mut self, from: From, h: f64, to: &mut [f64]) {
         let Adams { order, differences, known, predicted, coefficients, .. } = self;
-        let (k, beta) = (*order, &coefficients.beta);
+        let k = *order;
+        let beta = &coefficients.beta;
         let weights: [f64; ROOM] = from_fn(|i| h * coefficients.g[i]);
         for (b, (rows, sums)) in differences.blocks.iter().zip(&mut predicted.blocks).enumerate() {
-            let (mut y, mut sum) = (quad(from.y, b), [0.0; QUAD]);
+            let mut y = quad(from.y, b);
+            let mut sum = [0.0; QUAD];
             if *known > k {
                 sums[k] = rows[k].map(|x| beta[k] * x);
             }
@@ -165,7 +167,8 @@ impl Adams {
 
     /// Inverses of the tolerated errors of a step, times those of the root of their number.
     fn weigh(&mut self, tolerance: &Tolerance, from: &[f64], to: &[f64]) {
-        let (n, untested) = (tolerance.motion(), tolerance.untested());
+        let n = tolerance.motion();
+        let untested = tolerance.untested();
         let per = (tolerance.tested(n) as f64).sqrt().recip();
         for range in [0..untested.start, untested.end..n] {
             let [from, to] = [from, to].map(|y| &y[range.clone()]);
@@ -182,8 +185,10 @@ impl Adams {
         let k = self.order;
         let mut squares = [[0.0; QUAD]; 4];
         for (b, sums) in self.predicted.blocks.iter().enumerate() {
-            let (weight, d) = (quad(&self.weights, b), quad(&self.defect, b));
-            let (one, two) = (plus(d, 1.0, sums[k - 1]), plus(d, 1.0, sums[k.max(2) - 2]));
+            let weight = quad(&self.weights, b);
+            let d = quad(&self.defect, b);
+            let one = plus(d, 1.0, sums[k - 1]);
+            let two = plus(d, 1.0, sums[k.max(2) - 2]);
             for (squares, of_order) in squares.iter_mut().zip([d, one, two, plus(d, -1.0, sums[k])]) {
                 *squares = from_fn(|i| squares[i] + (weight[i] * of_order[i]).powi(2));
             }
@@ -330,7 +335,8 @@ impl Integrator for Adams {
 
     fn lower_order(&self, from: From, h: f64, out: &mut [f64]) -> bool {
         // Of order k: y~ with g_k in the place of g_{k+1}.
-        let (k, g) = (self.tried.order, &self.coefficients.g);
+        let k = self.tried.order;
+        let g = &self.coefficients.g;
         for (b, sums) in self.predicted.blocks.iter().enumerate() {
             let mut y = quad(from.y, b);
             for i in 0..k {

@@ -60,14 +60,16 @@ impl Penalized {
         dynamics.statistics.factorizations += 1;
         self.weigh(problem);
         self.g.copy_from_slice(&problem.dynamics.terms.g);
-        let (structure, terms) = (&problem.dynamics.structure, &problem.dynamics.terms);
+        let structure = &problem.dynamics.structure;
+        let terms = &problem.dynamics.terms;
         self.matrix.clear();
         self.matrix.add(&structure.mass, &terms.mass, 1.0, true);
         self.matrix.add(&structure.tangent, &self.tangent.c, 0.5 * h, false);
         self.matrix.add(&structure.tangent, &self.tangent.k, 0.25 * h * h, false);
         for (row, weight) in self.rows.iter().zip(&self.weight) {
             for (&a, &b) in row.iter().flat_map(|a| row.iter().map(move |b| (a, b))) {
-                let (i, j) = (structure.g.entries[a].1, structure.g.entries[b].1);
+                let i = structure.g.entries[a].1;
+                let j = structure.g.entries[b].1;
                 self.matrix.add_entry(i, j, weight * self.g[a] * self.g[b]);
             }
         }
@@ -76,7 +78,8 @@ impl Penalized {
 
     /// Sets alpha: penalty / (G diag(M)^-1 G^T)_jj, over coordinates with mass; 1 in place of a zero diagonal.
     fn weigh(&mut self, problem: &Problem) {
-        let (structure, terms) = (&problem.dynamics.structure, &problem.dynamics.terms);
+        let structure = &problem.dynamics.structure;
+        let terms = &problem.dynamics.terms;
         self.diagonal.fill(0.0);
         for (&(i, j), mass) in structure.mass.entries.iter().zip(&terms.mass) {
             self.diagonal[i] += if i == j { *mass } else { 0.0 };

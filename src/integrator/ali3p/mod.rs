@@ -173,7 +173,8 @@ impl Ali3p {
     fn iterate(&mut self, problem: &mut Problem, h: f64) -> Result<f64, StepError> {
         let dynamics = &mut problem.dynamics;
         dynamics.statistics.newton_iterations += 1;
-        let (terms, structure) = (&dynamics.terms, &dynamics.structure);
+        let terms = &dynamics.terms;
+        let structure = &dynamics.structure;
         // Residual of the equations of motion, and phi in units of an acceleration.
         self.step.fill(0.0);
         structure.mass.multiply_symmetric(&terms.mass, &self.a_new, &mut self.step);
@@ -211,7 +212,8 @@ impl Ali3p {
 
     /// Solves G x + b = 0 by the least change of x.
     fn meet(&mut self, problem: &Problem, x: &mut [f64], b: impl Fn(&Problem, usize) -> f64) -> Result<(), StepError> {
-        let (g, values) = (&problem.dynamics.structure.g, &problem.dynamics.terms.g);
+        let g = &problem.dynamics.structure.g;
+        let values = &problem.dynamics.terms.g;
         let met = Monitor::default().solve(PROJECTED, |_| {
             self.rows.iter_mut().enumerate().for_each(|(j, row)| *row = b(problem, j));
             g.multiply(values, x, &mut self.rows);
@@ -242,7 +244,8 @@ impl Integrator for Ali3p {
         to: &mut [f64],
     ) -> Result<Option<f64>, StepError> {
         let n = problem.dynamics.system.dimensions();
-        let (t, work) = (from.t + h, n.q + n.v..);
+        let t = from.t + h;
+        let work = n.q + n.v..;
         self.begin(problem, from);
         self.converge(problem, from, h, to)?;
         self.project(problem, t, to)?;

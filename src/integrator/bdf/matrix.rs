@@ -89,7 +89,8 @@ impl Matrix {
 
     /// Restores a [`memory`](Self::memory) at the next step.
     pub fn recall(&mut self, mut memory: Reader) {
-        let (g, is_fresh) = (memory.number(), memory.number() != 0.0);
+        let g = memory.number();
+        let is_fresh = memory.number() != 0.0;
         self.recalled = (g > 0.0).then(|| (g, is_fresh, memory.rest().to_vec()));
     }
 

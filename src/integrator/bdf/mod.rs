@@ -110,7 +110,8 @@ impl Integrator for Bdf {
         } else {
             history.add(from, &problem.dynamics.lambda, h);
         }
-        let (k, t) = (order.k, from.t + h);
+        let k = order.k;
+        let t = from.t + h;
         let g = h / (1..=k).map(|j| 1.0 / j as f64).sum::<f64>();
         history.predict(k, t, predicted, rate);
         stage.attempt(problem, from, |stage, problem| {

@@ -41,7 +41,9 @@ pub struct Stage {
 impl Stage {
     /// Memory for a system.
     pub fn new(setup: &Setup) -> error::Result<Self> {
-        let (integrator, formulation, n) = (&setup.integrator.name, &setup.formulation.name, setup.system.dimensions());
+        let integrator = &setup.integrator.name;
+        let formulation = &setup.formulation.name;
+        let n = setup.system.dimensions();
         let dae = formulation::dae(setup.formulation)?
             .ok_or_else(|| Error::input(format!("{integrator} cannot integrate {formulation}")))?;
         let matrix = Matrix::new(dae, setup.system)

@@ -40,11 +40,13 @@ const TWICE_N: [[(f64, usize); 3]; 4] = [
 impl Directions {
     /// The directions of a system.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
-        let (n, rotations) = (system.dimensions(), system.rotations());
+        let n = system.dimensions();
+        let rotations = system.rotations();
         match of_bodies(n, n.q - system.turning_angles(), &rotations) {
             Some(of) => Directions { of, other: None },
             None => {
-                let (rows, columns) = (n.q, n.moving());
+                let rows = n.q;
+                let columns = n.moving();
                 let other = Some([DMatrix::zeros(rows, columns), DMatrix::zeros(columns, rows)]);
                 Directions { of: Vec::new(), other }
             }

@@ -51,7 +51,8 @@ impl Places {
             end - len..end
         };
         let of = |is_there: bool, len: usize| if is_there { len } else { 0 };
-        let (has_w, has_u) = (dae.eta.is_some(), dae.mu.is_some());
+        let has_w = dae.eta.is_some();
+        let has_u = dae.mu.is_some();
         Places {
             q: next(n.q),
             v: next(n.v),
@@ -82,7 +83,8 @@ struct Matrices<'m> {
 impl Rows {
     /// Memory for `dae` on the system of `dynamics`, with the rows that are dropped there.
     pub fn new(dae: Dae, dynamics: &Dynamics) -> Self {
-        let (system, structure) = (dynamics.system, &dynamics.structure);
+        let system = dynamics.system;
+        let structure = &dynamics.structure;
         let n = system.dimensions();
         let mut by_constraint = vec![Vec::new(); n.lambda];
         structure.g.entries.iter().enumerate().for_each(|(entry, (row, _))| by_constraint[*row].push(entry));
@@ -112,7 +114,8 @@ impl Rows {
 
     /// x at the start of a step, given (q, v, works) with the rate, and lambda.
     pub fn start(&self, y: &[f64], slope: &[f64], lambda: &[f64]) -> Vec<f64> {
-        let (mut x, motion) = (vec![0.0; self.len()], self.differential());
+        let mut x = vec![0.0; self.len()];
+        let motion = self.differential();
         x[..motion].copy_from_slice(&y[..motion]);
         x[self.places.a.clone()].copy_from_slice(&slope[self.places.v.clone()]);
         x[self.places.lambda.clone()].copy_from_slice(lambda);
@@ -136,7 +139,8 @@ impl Rows {
             mu: part(&places.mu),
             stiffness: &[],
         };
-        let (q, v) = (part(&places.q), part(&places.v));
+        let q = part(&places.q);
+        let v = part(&places.v);
         residual.evaluate(dae, (t, q, v), unknowns, dynamics)?;
         velocity.copy_from_slice(v);
         add(velocity, unknowns.u);
@@ -193,7 +197,8 @@ impl Rows {
     pub fn pattern(&self, dynamics: &Dynamics) -> Vec<(usize, usize)> {
         let structure = &dynamics.structure;
         let zeros = |pattern: &Pattern| vec![0.0; pattern.entries.len()];
-        let (mass, g) = (zeros(&structure.mass), zeros(&structure.g));
+        let mass = zeros(&structure.mass);
+        let g = zeros(&structure.g);
         // The values do not count.
         let q = vec![1.0; self.n.q];
         let at = Matrices {
@@ -291,7 +296,9 @@ impl Rows {
             let Some(Row { position, velocity, acceleration }) = row else { return put(place, place, -1.0) };
             for &entry in &self.by_constraint[constraint] {
                 let j = structure.g.entries[entry].1;
-                let (g, l, gradient) = (at.g[entry], at.l[entry], at.gradient[entry]);
+                let g = at.g[entry];
+                let l = at.l[entry];
+                let gradient = at.gradient[entry];
                 let of_q = position * g + velocity * l + acceleration * gradient;
                 self.directions.along(at.q, j, -of_q, |col, value| put(place, q.start + col, value));
                 if row.is_some_and(|row| row.level() > 0) {

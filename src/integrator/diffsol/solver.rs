@@ -232,7 +232,8 @@ fn begin<'p, 's>(
 }
 
 fn state<S: OdeSolverState<FaerVec<f64>>>(problem: &Owner, (from, x): (From, &[f64]), h: f64) -> S {
-    let (eqn, empty) = (&problem.eqn, || FaerVec::from_vec(Vec::new(), Default::default()));
+    let eqn = &problem.eqn;
+    let empty = || FaerVec::from_vec(Vec::new(), Default::default());
     let motion = eqn.differential();
     S::new_from_common(StateCommon {
         y: eqn.vector(|i| x[i]),

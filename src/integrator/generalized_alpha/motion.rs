@@ -18,7 +18,8 @@ pub(super) struct Scheme {
 impl Scheme {
     /// Coefficients for rho_inf = r.
     pub fn new(r: f64) -> Self {
-        let (alpha_m, alpha_f) = ((2.0 * r - 1.0) / (r + 1.0), r / (r + 1.0));
+        let alpha_m = (2.0 * r - 1.0) / (r + 1.0);
+        let alpha_f = r / (r + 1.0);
         let gamma = 0.5 + alpha_f - alpha_m;
         Scheme { alpha_m, alpha_f, gamma, beta: 0.25 * (gamma + 0.5) * (gamma + 0.5) }
     }

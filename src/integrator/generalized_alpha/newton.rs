@@ -161,7 +161,8 @@ impl Newton {
         to: &[f64],
     ) -> Result<(), StepError> {
         let ((q, v), t) = (problem.split(to), from.t + h);
-        let (vdot, lambda) = (&motion.end.vdot, &motion.end.lambda);
+        let vdot = &motion.end.vdot;
+        let lambda = &motion.end.lambda;
         let dynamics = &mut problem.dynamics;
         if self.is_linearized && self.dropped == dynamics.dropped {
             self.residual.evaluate(&self.dae, (t, q, v), motion.unknowns(), dynamics)?;

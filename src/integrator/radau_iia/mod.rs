@@ -149,7 +149,8 @@ impl RadauIIA {
         if self.accepted.is_some_and(is_near) {
             self.predict(problem, from, h);
             let RadauIIA { order, stages, at, .. } = self;
-            let (method, middle) = (order.method(), order.method().stages() / 2);
+            let method = order.method();
+            let middle = order.method().stages() / 2;
             stages.reset(from);
             stages.advance(problem, method, from, h);
             let (q, v) = problem.split(&stages.y[middle]);

@@ -118,7 +118,8 @@ impl Order {
     }
 
     fn neighbours(&self) -> impl Iterator<Item = usize> + use<> {
-        let (current, count) = (self.current, self.methods.len());
+        let current = self.current;
+        let count = self.methods.len();
         [current.checked_sub(1), Some(current + 1)].into_iter().flatten().filter(move |index| *index < count)
     }
 
@@ -126,7 +127,8 @@ impl Order {
     /// times as large.
     fn gain(&self, index: usize, tolerance: &Tolerance, seen: &Seen, fall: f64) -> f64 {
         let [before, after] = [self.method(), &self.methods[index]];
-        let (old, new) = (before.stages(), after.stages());
+        let old = before.stages();
+        let new = after.stages();
         let scale =
             internal(tolerance, old).rtol / internal(tolerance, new).rtol * after.real.value / before.real.value;
         let fall = if new > old { fall } else { 1.0 / fall.max(f64::MIN_POSITIVE) };
@@ -142,7 +144,8 @@ impl Order {
     /// where it would contract too slowly, as theta grows like h, or turn too far after one with rotation vectors up to
     /// `turned`.
     pub fn limit(&mut self, newton: &Monitor, most: usize, turned: f64) {
-        let (most, iterations) = (most as f64, newton.iterations as f64);
+        let most = most as f64;
+        let iterations = newton.iterations as f64;
         self.control.safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations);
         self.control.grow = farthest(newton.rate, turned).clamp(1.0, tolerances::RADAU_GROWTH);
     }

@@ -108,7 +108,9 @@ impl Stages {
     /// Q_i and V_i for the present unknowns. Where N depends on q, Q_i is found by sweeps from its last value, each of
     /// which reduces its error by about h |omega|/8.
     pub fn advance(&mut self, problem: &Problem, method: &Collocation, from: From, h: f64) {
-        let (nq, nv, s) = (self.n.q, self.n.v, method.stages());
+        let nq = self.n.q;
+        let nv = self.n.v;
+        let s = method.stages();
         let system = problem.dynamics.system;
         for i in 0..s {
             let (q, v) = self.next[i].split_at_mut(nq);

@@ -124,7 +124,8 @@ impl Shape {
 
     pub fn pack(&self, bundle: &Bundle) -> Vec<f64> {
         let mut y = vec![0.0; self.coordinates() + self.velocities() + 1];
-        let (motion, columns) = (bundle.start.clone(), bundle.columns.clone());
+        let motion = bundle.start.clone();
+        let columns = bundle.columns.clone();
         self.repack(&Snapshot { motion, columns, members: bundle.members.clone() }, &mut y);
         y
     }

@@ -100,7 +100,8 @@ impl<'a> VariationalField<'a> {
         self.changes.v.copy_from_slice(dv);
         let turned = self.variation.bracket_with(&self.changes.q);
         dq_dot.iter_mut().zip(dv.iter().zip(&turned)).for_each(|(rate, (dv, turned))| *rate = dv - turned);
-        let (n, moving) = (self.shape.v.max(1), self.variation.system().dimensions().moving());
+        let n = self.shape.v.max(1);
+        let moving = self.variation.system().dimensions().moving();
         dq_dot.chunks_exact_mut(n).for_each(|rates| rates[moving..].fill(0.0));
         let mut force = self.variation.force(&self.changes);
         let mut rows = self.variation.rows(&self.changes, [0.0; 2]);
@@ -158,7 +159,8 @@ impl Formulation for VariationalField<'_> {
             self.columns((t, q0, v0), (dq, dv), dq_dot, dv_dot)?;
         }
         for i in 0..members {
-            let (own_q, own_v) = (i * nq..(i + 1) * nq, i * nv..(i + 1) * nv);
+            let own_q = i * nq..(i + 1) * nq;
+            let own_v = i * nv..(i + 1) * nv;
             let state = (t, &qs[own_q.clone()], &vs[own_v.clone()]);
             let own = self.member(i, state, &mut qdot[own_q], &mut vdot[own_v])?;
             rank_indicator = rank_indicator.min(own);

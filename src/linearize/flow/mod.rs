@@ -71,7 +71,8 @@ pub fn flow_until(
     let projection = || -> Result<Option<Box<dyn Projection>>> {
         Ok(Some(Box::new(Straightening::new(system, &members, (&shape, bundle), &dependent)?)))
     };
-    let (integrator, formulation) = (MethodSpec::named("dop853"), MethodSpec::named("index1"));
+    let integrator = MethodSpec::named("dop853");
+    let formulation = MethodSpec::named("index1");
     let setup = Setup { integrator: &integrator, formulation: &formulation, system: &carrier, is_fixed: false };
     let parts = Parts {
         problem: problem()?,

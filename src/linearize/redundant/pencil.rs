@@ -26,7 +26,8 @@ struct Kind {
 /// Returns (E, A), B, C and D in x = (dq, dv, dlambda), followed by deta and dmu where the equations have them.
 pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
     let kept = variation.independent_rows();
-    let (n, m) = (variation.velocities(), kept.len());
+    let n = variation.velocities();
+    let m = kept.len();
     let kept_rows = |rows: Matrix| rows.select_rows(&kept);
     let mut parts = Parts {
         k: variation.k(),
@@ -41,8 +42,11 @@ pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
         end += m;
         Kind { row, at: end - m }
     };
-    let (lambda, eta, mu) = (place(dae.lambda), dae.eta.map(&mut place), dae.mu.map(&mut place));
-    let (mut e, mut a) = (Matrix::zeros(end, end), Matrix::zeros(end, end));
+    let lambda = place(dae.lambda);
+    let eta = dae.eta.map(&mut place);
+    let mu = dae.mu.map(&mut place);
+    let mut e = Matrix::zeros(end, end);
+    let mut a = Matrix::zeros(end, end);
     let Parts { k, c, g, .. } = &parts;
     put(&mut e, (0, 0), &Matrix::identity(n, n));
     put(&mut e, (n, n), &variation.mass());
@@ -83,7 +87,8 @@ fn observe(
     (kept, perturbation): (&[usize], &Perturbation),
     (e, a, driven, b): (Matrix, Matrix, Matrix, Matrix),
 ) -> Result<Built> {
-    let (n, size) = (variation.velocities(), a.nrows());
+    let n = variation.velocities();
+    let size = a.nrows();
     let outputs = variation.outputs()?;
     let mut c = Matrix::zeros(outputs.q.nrows(), size);
     put(&mut c, (0, 0), &outputs.q);
@@ -93,14 +98,16 @@ fn observe(
     let changes = Changes { q: unit.rows(0, n).clone_owned(), v: unit.rows(n, n).clone_owned() };
     let Columns { input_states, inputs, .. } =
         perturbation.split(&(outputs.u * &perturbation.u[0] + outputs.udot * &perturbation.u[1]));
-    let (mut seen, mut d) = (input_states, inputs);
+    let mut seen = input_states;
+    let mut d = inputs;
     if let Some(of_force) = of_outputs(outputs.vdot, variation.mass()) {
         c += &of_force * a.rows(n, n);
         seen += &of_force * driven.rows(n, n);
         d += &of_force * b.rows(n, n);
     }
     let states = states(dae, variation, kept);
-    let (chart, infinite) = ("redundant".to_string(), infinite(dae, kept.len()));
+    let chart = "redundant".to_string();
+    let infinite = infinite(dae, kept.len());
     let input_states = InputStates { orders: variation.orders(), a: driven, c: seen };
     let built = Built { chart, states, a, b, c, d, e: Some(e), input_states, changes, infinite };
     Ok(built.without_integrals(variation.system().dimensions()))

@@ -95,7 +95,8 @@ fn hold(variation: &mut Variation, equations: &Quadratic, space: &mut Space) -> 
 
 /// Returns dq = p, dv = s p + [v, p]; dxi = p.
 fn changes(equations: &Quadratic, space: &Space) -> Changes {
-    let (mut q, mut v) = (space.p.clone(), &space.u + equations.turn.product(&space.p));
+    let mut q = space.p.clone();
+    let mut v = &space.u + equations.turn.product(&space.p);
     let states = (equations.moving, equations.len() - equations.moving);
     v.rows_mut(states.0, states.1).copy_from(&space.p.rows(states.0, states.1));
     q.rows_mut(states.0, states.1).fill(0.0);
@@ -105,7 +106,8 @@ fn changes(equations: &Quadratic, space: &Space) -> Changes {
 /// Adds inputs and outputs. Returns also the forces of a unit of each state of the inputs and of each input: with
 /// dq = p + P u for what drivers prescribe, -(M P u'' + C P u' + K P u) is one.
 fn build(variation: &mut Variation, equations: &Quadratic, modal: Modal) -> Result<(Built, Matrix)> {
-    let (n, changes) = (equations.len(), changes(equations, &modal.space));
+    let n = equations.len();
+    let changes = changes(equations, &modal.space);
     let lift = Lift::frozen(variation, (&Matrix::zeros(n, 0), &Matrix::zeros(0, n)))?;
     let perturbation = Perturbation::new(variation, &changes, |i, j| lift.along(i, j));
     let response = Response::exact(variation, &perturbation)?;
@@ -121,8 +123,11 @@ fn build(variation: &mut Variation, equations: &Quadratic, modal: Modal) -> Resu
     let columns = modal.inputs * &forces;
     let [driven, b] = [columns.columns(0, states.ncols()), columns.columns_range(states.ncols()..)];
     let input_states = InputStates { orders: variation.orders(), a: driven.clone_owned(), c: outputs.input_states };
-    let (chart, states, b) = ("modal".to_string(), modal.states, b.clone_owned());
-    let (c, d) = (outputs.state, outputs.inputs);
+    let chart = "modal".to_string();
+    let states = modal.states;
+    let b = b.clone_owned();
+    let c = outputs.state;
+    let d = outputs.inputs;
     Ok((Built { chart, states, a: modal.a, b, c, d, e: None, input_states, changes, infinite: 0 }, forces))
 }
 

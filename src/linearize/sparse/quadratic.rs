@@ -38,12 +38,16 @@ impl Quadratic {
     /// The equations at the state of `variation`. Cost: linear in the entries of the matrices, and with moving
     /// rotations in space a bracket for each direction.
     pub fn new(variation: &Variation) -> Self {
-        let (structure, terms) = (&variation.dynamics.structure, &variation.dynamics.terms);
+        let structure = &variation.dynamics.structure;
+        let terms = &variation.dynamics.terms;
         let part = |values: &[f64]| Sparse { pattern: Pattern::clone(&structure.tangent), values: values.to_vec() };
         let mut mass = Sparse::symmetric(&structure.mass, &terms.mass);
         let n = variation.system().dimensions();
-        let (k, c, turn) = (part(&variation.tangent.k), part(&variation.tangent.c), turn(variation));
-        let (mut stiffness, mut damping) = (k.plus(c.times(&turn)), c.plus(mass.times(&turn)));
+        let k = part(&variation.tangent.k);
+        let c = part(&variation.tangent.c);
+        let turn = turn(variation);
+        let mut stiffness = k.plus(c.times(&turn));
+        let mut damping = c.plus(mass.times(&turn));
         damping.give(&mut stiffness, |_, j| j >= n.moving());
         mass.give(&mut damping, |_, j| j >= n.moving());
         Quadratic {
@@ -78,7 +82,9 @@ impl Quadratic {
     /// Returns an upper estimate of the fastest rate, 1/s: sqrt(K / M) of the rows, or C / M where there is no K; 1
     /// where all is zero.
     pub fn fastest(&self) -> f64 {
-        let (mass, k, c) = (self.mass.row_sizes(), self.stiffness.row_sizes(), self.damping.row_sizes());
+        let mass = self.mass.row_sizes();
+        let k = self.stiffness.row_sizes();
+        let c = self.damping.row_sizes();
         let over = |top: &[f64]| {
             let ratios = top.iter().zip(&mass).filter(|(_, m)| **m > 0.0).map(|(x, m)| x / m);
             ratios.fold(0.0, f64::max)
@@ -91,7 +97,9 @@ impl Quadratic {
 
 /// Returns W, column by column, where the velocity of the state rotates anything.
 fn turn(variation: &Variation) -> Sparse {
-    let (n, system, v) = (variation.velocities(), variation.system(), &variation.point.v);
+    let n = variation.velocities();
+    let system = variation.system();
+    let v = &variation.point.v;
     let mut turn = Sparse { pattern: Pattern { rows: n, cols: n, entries: Vec::new() }, values: Vec::new() };
     // Along no axis, so that every rotation shows.
     let (any, mut out): (Vec<f64>, _) = ((0..n).map(|i| (i as f64 + 1.0).sqrt()).collect(), vec![0.0; n]);

@@ -31,7 +31,8 @@ pub fn reduce(equations: &Quadratic, found: &Found, count: usize, shift: C) -> R
     if p.ncols() != b.ncols() {
         return Err(not_found);
     }
-    let (mp, mu) = (equations.mass.product(p), equations.mass.product(u));
+    let mp = equations.mass.product(p);
+    let mu = equations.mass.product(u);
     let e = w.transpose() * mp + b.transpose() * (equations.damping.product(p) + &mu);
     let a = w.transpose() * mu - b.transpose() * equations.stiffness.product(p);
     let lu = e.lu();

@@ -40,7 +40,8 @@ impl Operator<'_> {
         match self {
             Operator::Complex(operator) => operator.apply(&x, &mut image)?,
             Operator::Real(operator) => {
-                let (mut part, mut of_part) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+                let mut part = vec![0.0; x.len()];
+                let mut of_part = vec![0.0; x.len()];
                 for unit in [C::ONE, C::I] {
                     part.iter_mut().zip(&x).for_each(|(part, x)| *part = (unit.conj() * x).re);
                     operator.apply(&part, &mut of_part)?;
@@ -82,7 +83,8 @@ fn spaces<'a, T: Scalar + Into<C>>(
     shift: C,
     rate: f64,
 ) -> Result<([Space; 2], Shifted<'a, T>), Unsolved> {
-    let (total, sigma) = (adjoint.finite, operator.sigma);
+    let total = adjoint.finite;
+    let sigma = operator.sigma;
     let (right, cut) = loop {
         let partial = run(&mut operator, wanted, false)?;
         let cut = cut(&partial, wanted == total);

@@ -48,7 +48,8 @@ impl<'a, T: Scalar> Shifted<'a, T> {
     /// (sigma^2 M + sigma C + K) p + G^T lambda = -(M (u0 + sigma p0) + C p0),   u = p0 + sigma p
     /// ```
     pub fn apply(&mut self, x: &[T], y: &mut [T]) -> Result<(), Unsolved> {
-        let (n, sigma) = (self.quadratic.len(), self.sigma);
+        let n = self.quadratic.len();
+        let sigma = self.sigma;
         y.iter_mut().zip(x.iter().zip(&self.scale)).for_each(|(y, (x, scale))| *y = x.unscale(*scale));
         let (p, u) = y.split_at_mut(n);
         u.iter_mut().zip(p.iter()).for_each(|(u, p)| *u += sigma * *p);

@@ -32,7 +32,8 @@ pub const FORCE_PROJECTION: Entry = Entry {
 };
 
 fn response(variation: &mut Variation, perturbation: &Perturbation, held: [f64; 2]) -> Result<Response> {
-    let (mass, all) = (variation.mass(), variation.g());
+    let mass = variation.mass();
+    let all = variation.g();
     // Close to the constraints, at a distance of 1e-9 say, dependent rows are not exactly dependent: they would raise
     // the rank.
     let kept = variation.independent_rows();

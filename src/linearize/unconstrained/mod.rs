@@ -51,7 +51,8 @@ fn build(
     let outputs = observe(&variation.outputs()?, &perturbation, &response);
     let driven = input_states.insert_rows(0, moving, 0.0);
     let input_states = InputStates { orders: variation.orders(), a: driven, c: outputs.input_states };
-    let (c, d) = (outputs.state, outputs.inputs);
+    let c = outputs.state;
+    let d = outputs.inputs;
     let states = directions(variation.system(), &variation.point.q).states();
     let chart = "redundant".to_string();
     Ok(Built { chart, states, a, b, c, d, e: None, input_states, changes, infinite: 0 })

@@ -77,14 +77,16 @@ struct Penalty {
 
 impl Penalty {
     fn new(spec: &MethodSpec, iterations: usize, variation: &Variation) -> Result<Self> {
-        let (omega, xi) = (spec.not_negative("omega", 10.0)?, spec.not_negative("xi", 1.0)?);
+        let omega = spec.not_negative("omega", 10.0)?;
+        let xi = spec.not_negative("xi", 1.0)?;
         let compliance = mean_compliance(&variation.dynamics.structure, &variation.dynamics.terms);
         let weight = spec.positive("penalty", 1e7)? / compliance;
         Ok(Penalty { iterations, weight, held: [2.0 * xi * omega, omega * omega] })
     }
 
     fn inertial(&self, variation: &mut Variation, perturbation: &Perturbation) -> Result<Response> {
-        let (g, point) = (variation.g(), variation.point.clone());
+        let g = variation.g();
+        let point = variation.point.clone();
         let lu = (variation.mass() + g.transpose() * &g * self.weight).lu();
         let solve = |right: &Matrix| lu.solve(right).ok_or_else(singular);
         let column = |values: &[f64]| Matrix::from_column_slice(values.len(), 1, values);

@@ -8,7 +8,8 @@ use super::Matrix;
 /// With more rows than columns some rows get a number from `cost.ncols()` on, which is no column. Costs that are not
 /// finite are avoided if possible.
 pub fn assign(cost: &Matrix) -> Vec<usize> {
-    let (rows, cols) = (cost.nrows(), cost.ncols().max(cost.nrows()));
+    let rows = cost.nrows();
+    let cols = cost.ncols().max(cost.nrows());
     let finite = cost.iter().filter(|x| x.is_finite()).fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let avoided = finite * 4.0 * (rows as f64 + 1.0) + 1.0;
     let price = |i: usize, j: usize| match cost.get((i, j)) {
@@ -40,9 +41,12 @@ impl Paths {
     /// Assigns one more row along the cheapest alternating path (Dijkstra with reduced costs).
     fn augment(&mut self, start: usize, price: &impl Fn(usize, usize) -> f64) {
         let cols = self.col.len();
-        let (mut distance, mut before) = (vec![f64::INFINITY; cols], vec![None; cols]);
+        let mut distance = vec![f64::INFINITY; cols];
+        let mut before = vec![None; cols];
         let mut done = vec![false; cols];
-        let (mut i, mut from, mut reached) = (start, None, 0.0);
+        let mut i = start;
+        let mut from = None;
+        let mut reached = 0.0;
         let end = loop {
             for j in (0..cols).filter(|&j| !done[j]) {
                 let through = reached + price(i, j) - self.row[i] - self.col[j];

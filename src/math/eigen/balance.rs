@@ -39,7 +39,8 @@ pub fn balance(a: &Matrix, e: &Matrix) -> Balanced {
 fn time(a: &Matrix, e: &Matrix) -> f64 {
     let n = a.nrows();
     let entries = logarithms(a, e);
-    let (mut cols, mut time) = (vec![0.0; n], 0.0);
+    let mut cols = vec![0.0; n];
+    let mut time = 0.0;
     for _ in 0..tolerances::BALANCE_SWEEPS {
         let rows = means(n, entries.iter().map(|x| (x.row, x.time(time) - x.size - cols[x.col])));
         cols = means(n, entries.iter().map(|x| (x.col, x.time(time) - x.size - rows[x.row])));
@@ -85,7 +86,8 @@ fn of_one(matrix: &Matrix, is_of_a: bool) -> Vec<Logarithm> {
 
 /// Mean of the values of each index; zero if there are none.
 fn means(n: usize, values: impl Iterator<Item = (usize, f64)>) -> Vec<f64> {
-    let (mut sums, mut counts) = (vec![0.0; n], vec![0.0; n]);
+    let mut sums = vec![0.0; n];
+    let mut counts = vec![0.0; n];
     for (place, value) in values {
         sums[place] += value;
         counts[place] += 1.0;

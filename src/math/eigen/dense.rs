@@ -67,7 +67,8 @@ pub fn condition(matrix: &ComplexMatrix) -> Result<f64, Unsolved> {
         return Ok(1.0);
     }
     let values = singular_values(matrix)?;
-    let (largest, smallest) = (values[0], values[values.len() - 1]);
+    let largest = values[0];
+    let smallest = values[values.len() - 1];
     let is_zero = smallest <= largest * f64::EPSILON * matrix.nrows() as f64;
     Ok(if is_zero { f64::INFINITY } else { largest / smallest })
 }

@@ -71,12 +71,14 @@ fn decompose(pencil: &Balanced) -> Result<Decomposed, Unsolved> {
     let n = pencil.a.nrows();
     let mut re = Diag::<f64>::zeros(n);
     re.as_mut().column_vector_mut().fill(f64::NAN);
-    let (mut im, mut beta) = (Diag::<f64>::zeros(n), re.clone());
+    let mut im = Diag::<f64>::zeros(n);
+    let mut beta = re.clone();
     let mut right = dense::zeros(n);
     let mut options = Spec::<GevdParams, f64>::default();
     // The blocked algorithm does not get along with many infinite eigenvalues: seconds for a hundred rows.
     options.config.schur.blocking_threshold = 10 * n.max(8);
-    let (no, yes) = (ComputeEigenvectors::No, ComputeEigenvectors::Yes);
+    let no = ComputeEigenvectors::No;
+    let yes = ComputeEigenvectors::Yes;
     // faer's scratch size omits a few columns for the vectors.
     let memory = gevd_scratch::<f64>(n, no, yes, Par::Seq, options).and(temp_mat_scratch::<f64>(n + 8, 16));
     let mut memory = MemBuffer::new(memory);
@@ -100,7 +102,8 @@ fn decompose(pencil: &Balanced) -> Result<Decomposed, Unsolved> {
 
 /// An error if values are NaN, faer's only sign that it did not converge, and for 0/0.
 fn check(pencil: &Balanced, found: &[(Unit, f64)]) -> Result<(), Unsolved> {
-    let (size_a, size_e) = (pencil.a.norm(), pencil.e.norm());
+    let size_a = pencil.a.norm();
+    let size_e = pencil.e.norm();
     let count = |of: &dyn Fn(&(Unit, f64)) -> bool| {
         found.iter().filter(|unit| of(unit)).map(|unit| 1 + usize::from(unit.0.is_pair())).sum()
     };
@@ -122,7 +125,8 @@ fn vector(pencil: &Balanced, (unit, beta): &(Unit, f64), right: &Mat<f64>) -> Ve
     let n = pencil.a.nrows();
     let x = ComplexMatrix::from_vec(n, 1, unit.vector(right.as_ref()));
     let product = |matrix: &Matrix| {
-        let (re, im) = (x.map(|x| x.re), x.map(|x| x.im));
+        let re = x.map(|x| x.re);
+        let im = x.map(|x| x.im);
         (matrix * re).zip_map(&(matrix * im), Complex::new)
     };
     let residual = (product(&pencil.a) * Complex::from(*beta) - product(&pencil.e) * unit.value).norm();

@@ -45,7 +45,8 @@ pub fn eigen(a: &Matrix) -> Result<Eigen, Unsolved> {
     x.iter_mut().flatten().zip(scale.iter().cycle()).for_each(|(x, d)| *x *= *d);
     y.iter_mut().flatten().zip(scale.iter().cycle()).for_each(|(y, d)| *y /= *d);
     mend(&(a / size), &units, &mut x, &mut y)?;
-    let (mut right, mut left) = (conjugates::matrix(&units, &x, n), conjugates::matrix(&units, &y, n));
+    let mut right = conjugates::matrix(&units, &x, n);
+    let mut left = conjugates::matrix(&units, &y, n);
     dense::normalize(&mut right);
     dense::normalize(&mut left);
     let conditioning = dense::condition(&right)?;
@@ -80,8 +81,10 @@ type Decomposed = (Vec<Unit>, Mat<f64>, Mat<f64>);
 /// Returns eigenvalues, and right and left vectors in the columns of real matrices.
 fn decompose(a: &Matrix) -> Result<Decomposed, Unsolved> {
     let n = a.nrows();
-    let (mut re, mut im) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n));
-    let (mut right, mut left) = (dense::zeros(n), dense::zeros(n));
+    let mut re = Diag::<f64>::zeros(n);
+    let mut im = Diag::<f64>::zeros(n);
+    let mut right = dense::zeros(n);
+    let mut left = dense::zeros(n);
     let options = Default::default();
     let yes = ComputeEigenvectors::Yes;
     let mut memory = MemBuffer::new(evd_scratch::<f64>(n, yes, yes, Par::Seq, options));
@@ -108,7 +111,8 @@ fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Res
     let mut converged = 0;
     let mut found = Vec::new();
     for unit in units {
-        let (mut x, mut y) = (unit.vector(right.as_ref()), unit.vector(left.as_ref()));
+        let mut x = unit.vector(right.as_ref());
+        let mut y = unit.vector(left.as_ref());
         if !(residual(&complex, unit.value, &x) <= tolerances::ROUND_OFF_OF_FACTORS && y.iter().all(|y| y.is_finite()))
         {
             (x, y) = inverse::vectors(&complex, unit.value, unit.column as u64, tolerances::ROUND_OFF_OF_FACTORS)?;

@@ -187,7 +187,8 @@ impl Two {
 
     #[inline]
     pub fn apply<S: Scalar>(self, a: S, b: S) -> S {
-        let (u, v) = (a.value(), b.value());
+        let u = a.value();
+        let v = b.value();
         match self {
             Two::Add => a + b,
             Two::Sub => a - b,
@@ -286,7 +287,8 @@ fn hypot<S: Scalar>(a: S, b: S) -> S {
         return S::zero();
     }
     let scale = sizes.into_iter().flatten().fold(0.0, |scale: f64, x| scale.max(x.abs()));
-    let (a, b) = (a / scale, b / scale);
+    let a = a / scale;
+    let b = b / scale;
     (a * a + b * b).sqrt() * scale
 }
 

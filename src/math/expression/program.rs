@@ -100,7 +100,8 @@ impl Program {
     ) -> S {
         let mut stack = [S::zero(); N];
         // Index of the top of the stack plus one, and the number of the next switching function.
-        let (mut height, mut number) = (0_usize, 0_usize);
+        let mut height = 0_usize;
+        let mut number = 0_usize;
         let mut chosen = |own: Option<Piece>, argument: S| {
             number += 1;
             own.map(|own| choose(number - 1, own, argument))
@@ -119,12 +120,14 @@ impl Program {
                     chosen(function.piece(x.value()), x).map_or(S::constant(f64::NAN), |piece| function.on(piece, x))
                 }
                 Op::Two(function) => {
-                    let (x, y) = (stack[top], stack[height]);
+                    let x = stack[top];
+                    let y = stack[height];
                     let piece = chosen(function.piece(x, y), function.argument(x, y));
                     piece.map_or(S::constant(f64::NAN), |piece| function.on(piece, x, y))
                 }
                 Op::Signal(index) => {
-                    let (x, signal) = (stack[top], &self.signals[index]);
+                    let x = stack[top];
+                    let signal = &self.signals[index];
                     chosen(signal.piece(x.value()), x).map_or(x, |piece| signal.on(piece, x))
                 }
                 Op::Select => select(stack[top], stack[height], stack[height + 1]),

@@ -96,7 +96,8 @@ impl Expression {
     /// Calls `see` for every operation with its operands and the number of switching functions before it; returns the
     /// result's operand.
     fn walk(&self, mut see: impl FnMut(&Program, Op, &[Operand], usize)) -> Option<Operand> {
-        let (mut stack, mut number) = (Vec::<Operand>::new(), 0);
+        let mut stack = Vec::<Operand>::new();
+        let mut number = 0;
         for (place, &op) in self.program.ops.iter().enumerate() {
             let operands = stack.split_off(stack.len() - op.operands());
             see(&self.program, op, &operands, number);

@@ -20,7 +20,8 @@ pub(super) fn order(mass: &Pattern, g: &Pattern, late: &[bool]) -> Vec<usize> {
 /// The same for all nodes but the `last`, which come after them and couple each other all.
 pub(super) fn order_before(mass: &Pattern, g: &Pattern, late: &[bool], last: &[usize]) -> Vec<usize> {
     let left = Left::new(mass, g, late);
-    let (n, total) = (mass.rows, mass.rows + g.rows);
+    let n = mass.rows;
+    let total = mass.rows + g.rows;
     let mut edges = left.edges(mass, g);
     // Coupled to so many nodes that are not there, the last are not taken before the others.
     let weights = if last.is_empty() { 0..0 } else { total..total + WEIGHTS };
@@ -50,7 +51,8 @@ pub(super) struct Left {
 
 impl Left {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
-        let (n, m) = (mass.rows, g.rows);
+        let n = mass.rows;
+        let m = g.rows;
         let nodes: Vec<usize> = (0..n).filter(|&i| !late[i]).collect();
         let early = nodes.len();
         let mut all = ordered(&nodes, n + m, mass.entries.iter().copied());
@@ -108,7 +110,8 @@ pub(super) fn ordered(nodes: &[usize], total: usize, edges: impl Iterator<Item =
 
 fn minimum_degree(size: usize, upper: &[Pair<usize, usize>]) -> Option<Vec<usize>> {
     let (graph, _) = SymbolicSparseColMat::<usize>::try_new_from_indices(size, size, upper).ok()?;
-    let (mut order, mut inverse) = (vec![0; size], vec![0; size]);
+    let mut order = vec![0; size];
+    let mut inverse = vec![0; size];
     let mut memory = MemBuffer::try_new(amd::order_scratch::<usize>(size, upper.len())).ok()?;
     let stack = MemStack::new(&mut memory);
     amd::order(&mut order, &mut inverse, graph.as_ref(), amd::Control::default(), stack).ok()?;

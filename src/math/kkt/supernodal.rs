@@ -41,7 +41,8 @@ pub(super) struct Supernodal {
 impl Supernodal {
     /// `None` if faer cannot allocate.
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Option<Self> {
-        let (n, order) = (mass.rows, order(mass, g, late));
+        let n = mass.rows;
+        let order = order(mass, g, late);
         let size = order.len();
         let places = places(&order, mass, g);
         let mut pairs = places.clone();
@@ -105,7 +106,8 @@ impl Supernodal {
     /// Writes the scaled matrix; returns true if a coordinate without mass was given some (under a rule that allows
     /// it).
     fn assemble(&mut self, mass: &[f64], g: &[f64], rule: Rule) -> bool {
-        let (n, scale) = (self.n, &self.scale);
+        let n = self.n;
+        let scale = &self.scale;
         self.entries.fill(0.0);
         let (mass_slots, g_slots) = self.slots.split_at(self.mass.entries.len());
         for ((&(i, j), value), &slot) in self.mass.entries.iter().zip(mass).zip(mass_slots) {
@@ -142,7 +144,8 @@ impl Supernodal {
 
     /// Solves in place; dropped multipliers are zero.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
-        let (n, nodes) = (self.n, &self.order);
+        let n = self.n;
+        let nodes = &self.order;
         for (x, &node) in self.x.iter_mut().zip(nodes) {
             *x = self.scale[node] * if node < n { top[node] } else { bottom[node - n] };
         }

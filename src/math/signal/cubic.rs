@@ -64,7 +64,9 @@ impl BoundsTree {
             return [f64::NEG_INFINITY, f64::INFINITY];
         }
         let n = self.nodes.len() / 2;
-        let (mut left, mut right, mut all) = (from + n, to + n, NONE);
+        let mut left = from + n;
+        let mut right = to + n;
+        let mut all = NONE;
         while left < right {
             if left % 2 == 1 {
                 all = hull(all, self.nodes[left][order]);

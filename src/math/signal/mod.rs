@@ -146,7 +146,8 @@ impl Signal {
     /// The cubic to the right of a point, moved by `shift` along x.
     #[inline]
     fn cubic<S: Scalar>(&self, row: usize, shift: f64, x: S) -> S {
-        let (start, cubic) = (self.knots[row] + shift, &self.cubics[row]);
+        let start = self.knots[row] + shift;
+        let cubic = &self.cubics[row];
         x.compose(0, &|order, [low, high]| {
             if low == high {
                 [value(&derived(cubic, order), low - start); 2]
@@ -235,7 +236,8 @@ impl Signal {
     /// Bounds on the derivative of order `order` of a cubic signal between two arguments.
     fn derivative_bounds(&self, order: usize, [low, high]: [f64; 2]) -> [f64; 2] {
         let ([first, last], shift) = (self.range(), self.shift(low));
-        let (low, high) = (low - shift, high - shift);
+        let low = low - shift;
+        let high = high - shift;
         if self.beyond != Beyond::Repeat || high <= last {
             return self.bounds_within(order, [low, high]);
         }
@@ -247,7 +249,8 @@ impl Signal {
     }
 
     fn bounds_within(&self, order: usize, [low, high]: [f64; 2]) -> [f64; 2] {
-        let (from, to) = (self.interval(low), self.interval(high));
+        let from = self.interval(low);
+        let to = self.interval(high);
         let part = |row: usize, [low, high]: [f64; 2]| {
             let start = self.knots[row];
             bounds(&derived(&self.cubics[row], order), [low - start, high - start])

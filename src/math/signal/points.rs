@@ -91,7 +91,8 @@ pub fn cubics(points: &[[f64; 2]], interpolation: Interpolation, repeats: bool) 
 
 /// The arguments at which the form changes.
 pub fn thresholds(knots: &Arc<[f64]>, is_cubic: bool, repeats: bool) -> Thresholds {
-    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    let first = knots[0];
+    let last = knots[knots.len() - 1];
     match (is_cubic, repeats) {
         (true, true) => Thresholds::At([].into()),
         (true, false) => Thresholds::At([first, last].into()),

@@ -56,7 +56,8 @@ pub fn periodic(points: &[[f64; 2]]) -> Vec<f64> {
     }
     // The slope at the last point of the period, which the first and the last of the other rows use, is found last.
     let mut rows: Vec<Row> = (0..n - 1).map(|i| inner(&h, &m, (i + n - 1) % n, i)).collect();
-    let (first, last) = (std::mem::take(&mut rows[0][0]), std::mem::take(&mut rows[n - 2][2]));
+    let first = std::mem::take(&mut rows[0][0]);
+    let last = std::mem::take(&mut rows[n - 2][2]);
     let own = solve(&rows);
     let mut coupling = rows;
     coupling.iter_mut().for_each(|row| row[3] = 0.0);

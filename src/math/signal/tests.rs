@@ -49,7 +49,8 @@ fn splines_are_smooth_at_their_points() {
     ring[7][1] = ring[0][1];
     let ring = signal(&ring, Interpolation::Cubic, Beyond::Repeat);
     for (k, curve) in [&spline, &ring].into_iter().enumerate() {
-        let (count, scale) = (curve.cubics.len(), 1e-11);
+        let count = curve.cubics.len();
+        let scale = 1e-11;
         for row in 0..count - 1 + k {
             let h = UNEVEN[row + 1] - UNEVEN[row];
             let next = &curve.cubics[(row + 1) % count];

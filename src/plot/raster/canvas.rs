@@ -81,7 +81,8 @@ impl RasterCanvas {
 
     fn stroke(&mut self, path: PathBuilder, stroke: &Stroke) {
         let dash = StrokeDash::new(stroke.dash.iter().map(|length| *length as f32).collect(), 0.0);
-        let (width, line_join) = (stroke.width as f32, LineJoin::Round);
+        let width = stroke.width as f32;
+        let line_join = LineJoin::Round;
         let style = tiny_skia::Stroke { width, line_join, dash, ..tiny_skia::Stroke::default() };
         if let Some(path) = path.finish() {
             self.pixels.stroke_path(&path, &paint(stroke.color, 1.0), &style, self.scale, None);
@@ -110,7 +111,8 @@ fn outline(lines: &[Vec<Pt>]) -> PathBuilder {
 
 /// Returns the outline of a glyph in units of the font; none for spaces.
 fn letter(font: &FontRef, glyph: GlyphId) -> Option<Path> {
-    let (mut path, mut pen) = (PathBuilder::new(), None);
+    let mut path = PathBuilder::new();
+    let mut pen = None;
     for curve in font.outline(glyph)?.curves {
         let (OutlineCurve::Line(from, to) | OutlineCurve::Quad(from, _, to) | OutlineCurve::Cubic(from, _, _, to)) =
             curve;

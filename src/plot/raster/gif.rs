@@ -74,9 +74,11 @@ fn difference(before: &[u8], now: &[u8], width: usize) -> Frame<'static> {
     let is_same = |i: usize| before.get(i) == Some(&now[i]);
     let changed: Vec<usize> = (0..now.len()).filter(|i| !is_same(*i)).collect();
     let columns = || changed.iter().map(|i| i % width);
-    let (left, right) = (columns().min().unwrap_or(0), columns().max().unwrap_or(0));
+    let left = columns().min().unwrap_or(0);
+    let right = columns().max().unwrap_or(0);
     let row = |i: Option<&usize>| i.map_or(0, |i| i / width);
-    let (top, bottom) = (row(changed.first()), row(changed.last()));
+    let top = row(changed.first());
+    let bottom = row(changed.last());
     let places = (top..=bottom).flat_map(|y| (left..=right).map(move |x| y * width + x));
     Frame {
         left: left as u16,

@@ -17,7 +17,8 @@ const COLUMN_METRES: f64 = 0.085;
 
 /// Returns the bytes of a PNG file, or the reason why there is none. Pictures of unusual size are drawn coarser.
 pub(super) fn png(drawing: &Drawing) -> Result<Vec<u8>, String> {
-    let (width, height) = (drawing.width.ceil(), drawing.height.ceil());
+    let width = drawing.width.ceil();
+    let height = drawing.height.ceil();
     let fits = |density: &usize| width * height * density.pow(2) as f64 <= MOST_PIXELS;
     let too_many = || format!("{width:.0} x {height:.0} pixels are too many; save it as SVG");
     let density = [DENSITY, 1].into_iter().find(fits).ok_or_else(too_many)?;

@@ -118,7 +118,8 @@ fn in_order<'a>(curves: Vec<Curve<'a>>, mut members: Vec<Vec<usize>>) -> Vec<Vec
 /// True if the changes of the curves are seen, and their values not.
 fn is_change(curves: &[Curve]) -> bool {
     let (low, high) = bounds(curves.iter().flat_map(Curve::values));
-    let (height, size) = (high - low, largest(&[low, high]));
+    let height = high - low;
+    let size = largest(&[low, high]);
     if height <= CONSTANT * size {
         return false;
     }

@@ -156,7 +156,8 @@ mod tests {
         let names = Names { lambda: vec!["rod".into()], ..Names::default() };
         let rows = times.iter().map(|t| vec![*t, 0.0]).collect();
         let ledger = |t: &f64| {
-            let (kinetic, potential) = (kinetic(*t), potential(*t));
+            let kinetic = kinetic(*t);
+            let potential = potential(*t);
             Ledger { kinetic, potential, work: 0.0, error: kinetic + potential - 100.0 }
         };
         Record {

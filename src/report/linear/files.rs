@@ -147,7 +147,8 @@ impl Linear<'_> {
     }
 
     fn point(&self) -> OperatingPointFile {
-        let (model, point) = (self.model, &self.model.point);
+        let model = self.model;
+        let point = &self.model.point;
         OperatingPointFile {
             q: named(&self.names.q, &point.q),
             v: named(&self.names.v, &point.v),
@@ -206,7 +207,8 @@ impl Linear<'_> {
     /// Returns all arrays, with names that Python and MATLAB both allow. Columns of `mode_shapes` (along `v`) and
     /// `participation` (along `states`) belong to the `eigenvalues`; they are zero where nothing is known.
     pub fn arrays(&self) -> Vec<(&'static str, Array)> {
-        let (model, point) = (self.model, &self.model.point);
+        let model = self.model;
+        let point = &self.model.point;
         let mut arrays = vec![
             ("scene", Array::Text(self.scene.to_string())),
             ("t", Array::number(point.t)),

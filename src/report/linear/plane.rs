@@ -118,7 +118,8 @@ fn frame_lines(panel: Panel, window: &Window, is_upper: bool, data: &[Complex<f6
     let up = Series::line("", vec![(0.0, im.0), (0.0, im.1)]).style(Style::Thin).color(BLACK);
     let pixels = (PIXELS.0 / (re.1 - re.0), PIXELS.1 / (im.1 - im.0));
     let rays = rays(re.0, im.1, pixels);
-    let (origin, gap) = ((0.0, 0.0), (f64::NAN, f64::NAN));
+    let origin = (0.0, 0.0);
+    let gap = (f64::NAN, f64::NAN);
     let line = |ray: &Ray| {
         let lower = if is_upper { gap } else { (ray.end.0, -ray.end.1) };
         [ray.end, origin, lower, gap]

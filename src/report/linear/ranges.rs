@@ -24,7 +24,8 @@ pub(super) fn robust(values: impl Iterator<Item = f64>, size: f64) -> Option<(f6
     sorted.sort_by(f64::total_cmp);
     let last = sorted.len().checked_sub(1)?;
     let at = |part: f64| sorted[(part * last as f64).round() as usize];
-    let (low, high) = (at(TAIL), at(1.0 - TAIL));
+    let low = at(TAIL);
+    let high = at(1.0 - TAIL);
     let is_one = high - low <= tolerances::EIGENVALUES_AGREE * size.max(low.abs()).max(high.abs());
     let reach = if is_one { f64::INFINITY } else { REACH * (high - low) };
     Some((at(0.0).max(low - reach), at(1.0).min(high + reach)))

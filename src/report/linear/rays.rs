@@ -23,7 +23,8 @@ pub(super) fn rays(low: f64, high: f64, pixels: (f64, f64)) -> Vec<Ray> {
     let mut found: Vec<Ray> = Vec::new();
     let mut before = FIRST - BETWEEN;
     for ratio in RATIOS {
-        let (x, y) = (-ratio, (1.0 - ratio * ratio).sqrt());
+        let x = -ratio;
+        let y = (1.0 - ratio * ratio).sqrt();
         let angle = (-x * pixels.0).atan2(y * pixels.1).to_degrees();
         if (before + BETWEEN..=LAST).contains(&angle) {
             let size = (low / x).min(high / y);

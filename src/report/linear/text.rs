@@ -143,7 +143,8 @@ fn modes_text(model: &LinearModel, bodies: &[&str]) -> String {
 }
 
 fn cells(bodies: &[&str], number: usize, pair: &Pair) -> [String; 7] {
-    let (mode, value) = (pair.mode, pair.mode.value);
+    let mode = pair.mode;
+    let value = pair.mode.value;
     let imaginary =
         if pair.is_pair { format!("+-{}", significant(value.im.abs(), 6)) } else { significant(value.im, 6) };
     let numbers =

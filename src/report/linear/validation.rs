@@ -189,7 +189,8 @@ fn order_panel(sequence: &PerturbationSequence) -> Option<Panel> {
         let pairs = sequence.epsilons.iter().copied().zip(errors.iter().copied());
         pairs.filter(|(epsilon, error)| *epsilon > 0.0 && *error > 0.0).collect()
     };
-    let (ltv, lti) = (pairs(&sequence.errors_ltv), pairs(&sequence.errors_lti));
+    let ltv = pairs(&sequence.errors_ltv);
+    let lti = pairs(&sequence.errors_lti);
     let errors = AxisSpec::from("error of the change at the end").log();
     let mut panel = Panel::new(AxisSpec::from("perturbation ε").log(), errors);
     // The line of slope 2 is below the errors, through the largest perturbation.

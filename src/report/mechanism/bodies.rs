@@ -58,8 +58,10 @@ const BEAM: f64 = 3.4;
 fn ribbon(pen: &mut Canvas, line: &[[f64; 3]], color: usize) {
     let flat: Vec<(f64, f64)> = line.iter().map(|point| pen.view.flat(*point)).collect();
     let normal = |i: usize| {
-        let (a, b) = (flat[i.saturating_sub(1)], flat[(i + 1).min(flat.len() - 1)]);
-        let (x, y) = (b.0 - a.0, b.1 - a.1);
+        let a = flat[i.saturating_sub(1)];
+        let b = flat[(i + 1).min(flat.len() - 1)];
+        let x = b.0 - a.0;
+        let y = b.1 - a.1;
         let size = x.hypot(y);
         if size > 0.0 { (-y / size, x / size) } else { (0.0, 0.0) }
     };
@@ -73,7 +75,8 @@ fn ribbon(pen: &mut Canvas, line: &[[f64; 3]], color: usize) {
 }
 
 fn fill(pen: &mut Canvas, spots: Vec<Spot>, color: usize) {
-    let (edge, inner) = (pen.color(color, 0.0), Tint::Body(color, 0.0));
+    let edge = pen.color(color, 0.0);
+    let inner = Tint::Body(color, 0.0);
     if pen.paleness > 0.0 {
         pen.shape(spots, edge, THIN, (inner, FAINT));
         return;
@@ -84,7 +87,8 @@ fn fill(pen: &mut Canvas, spots: Vec<Spot>, color: usize) {
 }
 
 fn point_mass(pen: &mut Canvas, r: [f64; 3], color: usize) {
-    let (edge, inner) = (pen.color(color, 0.0), pen.color(color, 0.35));
+    let edge = pen.color(color, 0.0);
+    let inner = pen.color(color, 0.35);
     pen.disc(pen.spot(r), MASS, edge);
     pen.disc(pen.spot(r), MASS - BOLD, inner);
 }

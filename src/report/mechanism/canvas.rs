@@ -102,10 +102,12 @@ impl<'a> Canvas<'a> {
     /// Draws a line with a head at its end; the head follows the last piece, both of whose ends belong to one point.
     pub fn arrow(&mut self, spots: Vec<Spot>, tint: Tint, width: f64) {
         if let [.., before, tip] = spots.as_slice() {
-            let (dx, dy) = (tip.step.0 - before.step.0, tip.step.1 - before.step.1);
+            let dx = tip.step.0 - before.step.0;
+            let dy = tip.step.1 - before.step.1;
             let size = dx.hypot(dy);
             if size > 1e-6 {
-                let (x, y) = (dx / size, dy / size);
+                let x = dx / size;
+                let y = dy / size;
                 let corner = |back: f64, side: f64| tip.moved(-back * x - side * y, -back * y + side * x);
                 let head = vec![corner(-3.0, 0.0), corner(6.5, 4.2), corner(6.5, -4.2)];
                 self.area(head, tint, 1.0);
@@ -148,7 +150,8 @@ impl<'a> Canvas<'a> {
         if size < 1e-6 {
             return None;
         }
-        let (x, y) = (x / size, y / size);
+        let x = x / size;
+        let y = y / size;
         for side in [gap, -gap] {
             let end = |r: [f64; 3], out: f64| self.spot(r).moved(out * x - side * y, out * y + side * x);
             let spots = vec![end(a, -reach), end(b, reach)];

@@ -97,7 +97,8 @@ pub fn animation(
     per_second: f64,
     speed: String,
 ) -> Animation<impl Fn(usize) -> Figure + Sync> {
-    let (prepared, course) = (motion.prepared, course(motion));
+    let prepared = motion.prepared;
+    let course = course(motion);
     let few: Vec<Snapshot> = every(&times, 40).map(|t| snapshot(&prepared.mechanism, &motion.state(t))).collect();
     let fixed = supports(look, &few);
     let moving: Vec<Vec<Item>> = every(&times, 400)
@@ -109,7 +110,10 @@ pub fn animation(
         .collect();
     let all = moving.iter().map(Vec::as_slice).chain([fixed.as_slice()]);
     let empty = few.first().map(|scene| panel(look, scene, all, &series)).unwrap_or_default();
-    let (count, look, mechanism, name) = (times.len(), look.clone(), &prepared.mechanism, motion.title.clone());
+    let count = times.len();
+    let look = look.clone();
+    let mechanism = &prepared.mechanism;
+    let name = motion.title.clone();
     let states: Vec<State> = times.iter().map(|t| motion.state(*t)).collect();
     let step = times.windows(2).map(|pair| pair[1] - pair[0]).next().unwrap_or(1.0);
     let decimals = (-step.log10()).ceil().clamp(0.0, 9.0) as usize;
@@ -178,7 +182,8 @@ pub(super) fn panel<'a>(
     items: impl Iterator<Item = &'a [Item]>,
     series: &[Series],
 ) -> Panel {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    let mut low = [f64::INFINITY; 2];
+    let mut high = [f64::NEG_INFINITY; 2];
     let places = items.flatten().flat_map(Item::data);
     for (x, y) in places.chain(series.iter().flat_map(|series| series.points.iter().copied())) {
         low = [low[0].min(x), low[1].min(y)];

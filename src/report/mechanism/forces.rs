@@ -36,7 +36,8 @@ fn zigzag(pen: &mut Canvas, [a, b]: [[f64; 3]; 2], start: f64) {
         at(0.2 + 0.6 * (k as f64 + 0.5) / COILS as f64, side)
     }));
     spots.extend([at(0.8, 0.0), at(1.0, 0.0)]);
-    let (ends, ink) = ([spots[0], spots[spots.len() - 1]], pen.ink(0.25));
+    let ends = [spots[0], spots[spots.len() - 1]];
+    let ink = pen.ink(0.25);
     pen.layer = Layer::Rod;
     pen.line(spots, ink, THIN);
     ends.into_iter().for_each(|end| pen.disc(end, 2.8, ink));
@@ -69,7 +70,8 @@ pub fn beam(pen: &mut Canvas, link: &Link, _: &Sight) {
 pub fn bushing(pen: &mut Canvas, link: &Link, _: &Sight) {
     let [a, b] = [pen.spot(link.ends[0].r), pen.spot(link.ends[1].r)];
     pen.layer = Layer::Rod;
-    let (rubber, ink) = (pen.ink(0.7), pen.ink(0.3));
+    let rubber = pen.ink(0.7);
+    let ink = pen.ink(0.3);
     pen.disc(a, 17.5, ink);
     pen.disc(a, 16.0, rubber);
     pen.line(vec![a, b], ink, BOLD);
@@ -96,7 +98,8 @@ pub fn applied_torque(pen: &mut Canvas, link: &Link, _: &Sight) {
 /// Draws the tyre as a circle, and the road.
 pub fn tyre(pen: &mut Canvas, link: &Link, sight: &Sight) {
     let Some(wheel) = link.wheel else { return };
-    let (hub, up) = (&link.ends[0], unit(if sight.is_planar { 1 } else { 2 }));
+    let hub = &link.ends[0];
+    let up = unit(if sight.is_planar { 1 } else { 2 });
     // In space its axle is the horizontal part of the marker's y axis.
     let level = |axis: [f64; 3]| direction(along(axis, up, -dot(&axis, &up)));
     let axle = if sight.is_planar { unit(2) } else { level(hub.axes[1]).unwrap_or(unit(1)) };

@@ -37,7 +37,8 @@ pub fn draw(pen: &mut Canvas, pictures: &[Snapshot]) {
 /// Returns the mean direction from a point of the ground to the bodies connected there; shorter than one where it
 /// changes.
 fn mean(pictures: &[Snapshot], at: [f64; 3]) -> Option<[f64; 3]> {
-    let (mut sum, mut count) = ([0.0; 3], 0.0);
+    let mut sum = [0.0; 3];
+    let mut count = 0.0;
     for scene in pictures {
         for link in scene.joints.iter().chain(&scene.forces) {
             let here = link
@@ -68,7 +69,8 @@ fn support(pen: &mut Canvas, at: [f64; 3], (x, y): (f64, f64), is_wall: bool) {
     };
     pen.layer = Layer::Ground;
     pen.depth = pen.view.depth(at);
-    let (spot, ink) = (pen.spot(at), pen.ink(0.25));
+    let spot = pen.spot(at);
+    let ink = pen.ink(0.25);
     let corner = |side: f64, far: f64| spot.moved(far * out.0 - side * out.1, far * out.1 + side * out.0);
     let base = if is_wall { 0.0 } else { 14.0 };
     if !is_wall {

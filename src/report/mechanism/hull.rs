@@ -40,7 +40,8 @@ fn turn(a: Point, b: Point, c: Point) -> f64 {
 pub fn rounded(corners: &[Point]) -> Vec<(Point, Point)> {
     let count = corners.len();
     let heading = |k: usize| {
-        let (a, b) = (corners[k % count], corners[(k + 1) % count]);
+        let a = corners[k % count];
+        let b = corners[(k + 1) % count];
         (b.1 - a.1).atan2(b.0 - a.0)
     };
     let mut outline = Vec::new();
@@ -49,7 +50,8 @@ pub fn rounded(corners: &[Point]) -> Vec<(Point, Point)> {
         let (from, turn) = match count {
             1 => (0.0, std::f64::consts::TAU),
             _ => {
-                let (before, after) = (heading(k + count - 1), heading(k));
+                let before = heading(k + count - 1);
+                let after = heading(k);
                 (before - std::f64::consts::FRAC_PI_2, (after - before).rem_euclid(std::f64::consts::TAU))
             }
         };

@@ -35,7 +35,8 @@ pub fn revolute(pen: &mut Canvas, link: &Link, _: &Sight) {
 /// Draws two rails along the travel of the slide, hatched where they belong to the ground.
 fn slot(pen: &mut Canvas, link: &Link, sight: &Sight) {
     let Some(axis) = axis(link) else { return };
-    let (foot, point) = (link.ends[0].r, link.ends[1].r);
+    let foot = link.ends[0].r;
+    let point = link.ends[1].r;
     let place = dot(&axis, &sub(&point, &foot));
     let (low, high) = sight.travel.unwrap_or((place, place));
     // The rails pass through the point even if the joint has drifted.
@@ -49,7 +50,8 @@ fn slot(pen: &mut Canvas, link: &Link, sight: &Sight) {
             for k in 0..3 {
                 let along = sign * (3.0 + 5.0 * f64::from(k));
                 let corner = |out: f64, back: f64| {
-                    let (right, up) = (along - back, -RAIL - out);
+                    let right = along - back;
+                    let up = -RAIL - out;
                     end.moved(right * x - up * y, right * y + up * x)
                 };
                 let stroke = vec![corner(0.0, 0.0), corner(5.0, 4.0)];
@@ -67,27 +69,31 @@ pub fn prismatic(pen: &mut Canvas, link: &Link, sight: &Sight) {
 /// Draws rails and a hinge's circle.
 pub fn cylindrical(pen: &mut Canvas, link: &Link, sight: &Sight) {
     slot(pen, link, sight);
-    let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
+    let spot = pen.spot(link.ends[1].r);
+    let ink = pen.ink(0.0);
     pen.ring(spot, HINGE, ink);
 }
 
 /// Draws rails and a dot.
 pub fn point_on_line(pen: &mut Canvas, link: &Link, sight: &Sight) {
     slot(pen, link, sight);
-    let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
+    let spot = pen.spot(link.ends[1].r);
+    let ink = pen.ink(0.0);
     pen.disc(spot, 3.6, ink);
 }
 
 /// Draws a ball in its socket.
 pub fn spherical(pen: &mut Canvas, link: &Link, _: &Sight) {
-    let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
+    let spot = pen.spot(link.ends[1].r);
+    let ink = pen.ink(0.0);
     pen.ring(spot, 6.0, ink);
     pen.disc(spot, 3.8, ink);
 }
 
 /// Draws a circle with the two pins of the cross.
 pub fn universal(pen: &mut Canvas, link: &Link, _: &Sight) {
-    let (at, ink) = (link.ends[1].r, pen.ink(0.0));
+    let at = link.ends[1].r;
+    let ink = pen.ink(0.0);
     let spot = pen.spot(at);
     pen.ring(spot, 9.5, ink);
     for pin in [link.ends[0].axes[0], link.ends[1].axes[1]] {
@@ -99,7 +105,8 @@ pub fn universal(pen: &mut Canvas, link: &Link, _: &Sight) {
 
 /// Draws a patch of the plane.
 pub fn planar(pen: &mut Canvas, link: &Link, _: &Sight) {
-    let (at, ink) = (link.ends[1].r, pen.ink(0.3));
+    let at = link.ends[1].r;
+    let ink = pen.ink(0.3);
     let Some(normal) = axis(link) else { return };
     let [first, second] = super::view::square_to(normal, link.ends[0].axes[0]);
     let corner = |a: f64, b: f64| pen.beside((at, along(first.map(|x| x * a), second, b)));
@@ -111,7 +118,8 @@ pub fn planar(pen: &mut Canvas, link: &Link, _: &Sight) {
 
 /// Draws a square.
 pub fn weld(pen: &mut Canvas, link: &Link, _: &Sight) {
-    let (spot, ink) = (pen.spot(link.ends[1].r), pen.ink(0.0));
+    let spot = pen.spot(link.ends[1].r);
+    let ink = pen.ink(0.0);
     let side = 4.4;
     let corners = [(-side, -side), (side, -side), (side, side), (-side, side)];
     pen.area(corners.iter().map(|(right, up)| spot.moved(*right, *up)).collect(), ink, 1.0);
@@ -128,7 +136,8 @@ pub fn distance(pen: &mut Canvas, link: &Link, _: &Sight) {
 
 /// Draws an arrow along or about the driven direction.
 pub fn driver(pen: &mut Canvas, link: &Link, _: &Sight) {
-    let (at, ink) = (link.ends[1].r, pen.ink(0.1));
+    let at = link.ends[1].r;
+    let ink = pen.ink(0.1);
     pen.layer = Layer::Arrow;
     match link.axis {
         Some(Axis::Turn(axis)) => turn(pen, at, axis, 17.0, ink),

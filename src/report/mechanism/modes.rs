@@ -132,7 +132,8 @@ impl<'a> Swing<'a> {
 
     /// Returns the distance of the middle of both ends from the operating point, as a part of their distance.
     fn bend(&self, rest: &Snapshot) -> f64 {
-        let (one, other) = (self.snapshot(0.0), self.snapshot(0.5 * TAU));
+        let one = self.snapshot(0.0);
+        let other = self.snapshot(0.5 * TAU);
         let ends = || places(&one).zip(places(&other));
         let middle = ends().zip(places(rest)).map(|((a, b), r)| norm(&sub(&along(a.map(|x| 0.5 * x), b, 0.5), &r)));
         let apart = ends().map(|(a, b)| norm(&sub(&b, &a))).fold(f64::MIN_POSITIVE, f64::max);
@@ -146,7 +147,8 @@ impl<'a> Swing<'a> {
     }
 
     fn snapshot(&self, angle: f64) -> Snapshot {
-        let (point, system) = (&self.model.point, self.prepared.system());
+        let point = &self.model.point;
+        let system = self.prepared.system();
         let mut q = point.q.clone();
         ExponentialMap::new(system).apply(system, &point.q, &self.change(angle), &mut q);
         snapshot(&self.prepared.mechanism, &State { t: point.t, q, v: point.v.clone() })

@@ -34,7 +34,8 @@ impl<'a> Motion<'a> {
 
     /// Returns a warning if rows are too far apart to draw the mechanism between them.
     pub fn sparse(&self) -> Option<Warning> {
-        let (names, length) = (&self.trajectory.names.q, self.prepared.system().length());
+        let names = &self.trajectory.names.q;
+        let length = self.prepared.system().length();
         let scale = |name: &String| if name.ends_with(['x', 'y', 'z']) && !name.contains(".q") { length } else { 1.0 };
         // On half the distance the cubic is 2^4 times as accurate.
         let is_far = |row: &[Vec<f64>]| {
@@ -83,11 +84,14 @@ impl<'a> Motion<'a> {
 
     fn between(&self, a: &[f64], b: &[f64], t: f64) -> State {
         let system = self.prepared.system();
-        let (h, s) = (b[0] - a[0], (t - a[0]) / (b[0] - a[0]));
+        let h = b[0] - a[0];
+        let s = (t - a[0]) / (b[0] - a[0]);
         let ((qa, va, _), (qb, vb, _)) = (self.trajectory.row_state(a), self.trajectory.row_state(b));
-        let (ra, rb) = (rate(system, qa, va), rate(system, qb, vb));
+        let ra = rate(system, qa, va);
+        let rb = rate(system, qb, vb);
         let cubic = |i: usize| {
-            let (near, far) = (s * s * (3.0 - 2.0 * s), s * (1.0 - s));
+            let near = s * s * (3.0 - 2.0 * s);
+            let far = s * (1.0 - s);
             qa[i] + near * (qb[i] - qa[i]) + h * far * ((1.0 - s) * ra[i] - s * rb[i])
         };
         let mut q: Vec<f64> = (0..qa.len()).map(cubic).collect();

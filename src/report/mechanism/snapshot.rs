@@ -112,7 +112,8 @@ fn pose<const D: usize>(frame: &Frame<Taylor<f64>, D>) -> Pose {
 }
 
 fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
-    let (model, frames) = (mechanism.model(), frames(mechanism, state));
+    let model = mechanism.model();
+    let frames = frames(mechanism, state);
     let poses: Vec<Pose> = frames.iter().map(pose).collect();
     let used = used(model);
     let time = Time { t: Taylor::time(state.t), regime: Regime::FREE.turned(mechanism.turned(&state.q)) };

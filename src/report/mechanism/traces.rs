@@ -44,7 +44,8 @@ pub fn find_trace(mechanism: &AnyMechanism, name: &str) -> Result<Trace> {
 
 /// Returns the markers whose positions relative to the ground are outputs of the scene.
 pub fn output_traces(mechanism: &AnyMechanism) -> Vec<Trace> {
-    let (table, mut traces) = (mechanism.markers(), Vec::<Trace>::new());
+    let table = mechanism.markers();
+    let mut traces = Vec::<Trace>::new();
     for output in outputs(mechanism) {
         if let Measure::Probe(Probe { of, to, quantity: Quantity::Position(_), order: 0 }) = output.measure
             && to.is_none_or(|to| table.bodies[to].is_none())

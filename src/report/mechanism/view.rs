@@ -35,7 +35,8 @@ impl View {
             axes: [unit(i), unit(j), cross(&unit(i), &unit(j))],
             names: Some([["x", "y", "z"][i], ["x", "y", "z"][j]]),
         };
-        let (first, second) = ((up + 1) % 3, (up + 2) % 3);
+        let first = (up + 1) % 3;
+        let second = (up + 2) % 3;
         match name.as_str() {
             "iso" => Ok(Self::isometric(up)),
             "xy" => Ok(plane(0, 1)),
@@ -51,7 +52,8 @@ impl View {
     }
 
     fn parse_angles(text: &str, up: usize) -> Result<Self> {
-        let (mut azimuth, mut elevation) = (-45.0, ISOMETRIC);
+        let mut azimuth = -45.0;
+        let mut elevation = ISOMETRIC;
         for part in text.split(',') {
             let (key, value) = part.split_once('=').unwrap_or((part, ""));
             let place = match key.trim() {
@@ -153,7 +155,8 @@ mod tests {
         for (angles, name) in
             [("azimuth=-90,elevation=0", "xz"), ("azimuth=0,elevation=0", "yz"), ("azimuth=-90,elevation=90", "xy")]
         {
-            let (a, b) = (View::parse(angles, 2).unwrap(), View::parse(name, 2).unwrap());
+            let a = View::parse(angles, 2).unwrap();
+            let b = View::parse(name, 2).unwrap();
             assert!(near(a.flat(point), b.flat(point)) && (a.depth(point) - b.depth(point)).abs() < 1e-12, "{name}");
         }
     }

@@ -43,7 +43,8 @@ fn width(axis: &Axis) -> f64 {
 
 fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
     let map = &stressed.map;
-    let (columns, rows) = (order(&map.x), order(&map.y));
+    let columns = order(&map.x);
+    let rows = order(&map.y);
     let mut panel = Panel::new(axis(&map.x, &columns), axis(&map.y, &rows))
         .title(map.methods[method].label.clone())
         .height(ROW * rows.len().max(4) as f64);

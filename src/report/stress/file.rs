@@ -158,8 +158,12 @@ pub fn stress_page(
         for (map, verdict) in file.maps.iter().flat_map(|map| map.verdicts.iter().map(move |verdict| (map, verdict))) {
             let others: Vec<String> =
                 verdict.others.iter().map(|(status, n)| format!("{n} {}", status.word())).collect();
-            let (scene, method) = (&file.scene, &verdict.method);
-            let (name, cells, completed, held) = (&map.name, verdict.cells, verdict.completed, verdict.held);
+            let scene = &file.scene;
+            let method = &verdict.method;
+            let name = &map.name;
+            let cells = verdict.cells;
+            let completed = verdict.completed;
+            let held = verdict.held;
             page +=
                 &format!("| {scene} | {name} | {method} | {cells} | {completed} | {held} | {} |\n", others.join(", "));
         }

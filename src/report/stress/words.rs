@@ -75,7 +75,9 @@ fn best(verdict: &GainVerdict) -> String {
     let error = error.map_or(String::new(), |error| format!(" with an error of {error}"));
     let [at_coarse, coarse, at_fine, fine] = [at_coarse.gain, *coarse, at_fine.gain, *fine].map(short);
     let farther = verdict.farther.as_ref().map_or(String::new(), |farther| {
-        let (step, gain, ratio) = (short(farther.step), short(farther.gain), two(farther.ratio));
+        let step = short(farther.step);
+        let gain = short(farther.gain);
+        let ratio = two(farther.ratio);
         let output = &farther.output;
         format!(
             "; at h = {step} the gain that drifts least, {gain} 1/s, is {ratio} times as far off as none in {output}"
@@ -226,7 +228,8 @@ fn with_unit(axis: &Axis, value: &str) -> String {
 }
 
 fn because(stressed: &Stressed, reason: &Reason) -> String {
-    let (x, y) = (&stressed.map.x, &stressed.map.y);
+    let x = &stressed.map.x;
+    let y = &stressed.map.y;
     let at = [(x, &reason.x), (y, &reason.y)].map(|(axis, label)| format!("{} {}", axis.name, with_unit(axis, label)));
     format!(". {} of them say, as at {}: {}.", reason.count, at.join(", "), reason.reason)
 }

@@ -13,7 +13,8 @@ pub fn massless(facts: &Facts, beam: &Value) -> Option<Proposal> {
     let link = Link::between_pins(facts, beam).filter(|_| beam.get("curvature").is_none())?;
     let ends = link.pins.each_ref().map(|pin| on_line(facts, beam, &pin.own));
     let stiffness = format!("{}/({})", axial_stiffness(beam)?, link.length);
-    let (gap, length) = ((ends[0]? - ends[1]?).abs(), facts.number(&beam["length"])?);
+    let gap = (ends[0]? - ends[1]?).abs();
+    let length = facts.number(&beam["length"])?;
     // A section that changes along the beam has no number.
     facts.number(&json!(stiffness))?;
     let mut spring = json!({ "name": name, "type": "spring_damper", "between": link.others(), "stiffness": stiffness,

@@ -61,7 +61,8 @@ fn alternatives(facts: &Facts, beam: &Value) -> Vec<Proposal> {
     let is_absolute = text(beam, "frame") == "absolute";
     let nonlinear = if is_absolute { deflection.powi(2) } else { 0.0 };
     let count = |key: &str| facts.number(&beam[key]).map(|n| n as u32);
-    let (mesh, modes) = (count("elements"), count("modes"));
+    let mesh = count("elements");
+    let modes = count("modes");
     let mut all: Vec<Proposal> = Vec::new();
     if let Some(rigid) = rigid(facts, beam) {
         let (name, name_of) = (name.clone(), name.clone());
@@ -103,7 +104,8 @@ fn alternatives(facts: &Facts, beam: &Value) -> Vec<Proposal> {
 
 /// Largest displacement of the last marker of a beam, seen from the first, by its length.
 fn bend(facts: &Facts, beam: &Value) -> Option<f64> {
-    let (name, markers) = (text(beam, "name"), beam["markers"].as_object()?);
+    let name = text(beam, "name");
+    let markers = beam["markers"].as_object()?;
     let [first, last] = [markers.keys().next()?, markers.keys().next_back()?].map(|marker| format!("{name}.{marker}"));
     let shift = facts.relative([&first, &last])?.shift;
     Some(shift / facts.number(&beam["length"])?).filter(|_| first != last)
@@ -159,7 +161,8 @@ fn densities(beam: &Value, dimension: usize) -> Option<[String; 2]> {
         };
         return Some([line, spin]);
     }
-    let (density, section) = (expression(&beam["material"]["rho"])?, &beam["section"]);
+    let density = expression(&beam["material"]["rho"])?;
+    let section = &beam["section"];
     let (area, gyration) = area(section)?;
     Some([format!("{density}*{area}"), format!("{density}*{area}*{gyration}")])
 }

@@ -21,7 +21,8 @@ impl Candidate for GeometricStiffening {
 }
 
 fn proposal(facts: &Facts, name: String) -> Option<Proposal> {
-    let (subject, what) = (name.clone(), format!("{name} bends without geometric stiffening"));
+    let subject = name.clone();
+    let what = format!("{name} bends without geometric stiffening");
     let edit = move |scene: &mut Value| {
         let law = find_mut(scene, "bodies", &name)?.get_mut("geometric_stiffening");
         law.map(|law| *law = json!(false)).ok_or(format!("`{name}` no longer bends"))

@@ -79,7 +79,8 @@ impl Merged {
     }
 
     fn replace(&self, scene: &mut Value) -> Result<(), String> {
-        let (first, second) = (&self.first, text(&self.second, "name"));
+        let first = &self.first;
+        let second = text(&self.second, "name");
         if find_mut(scene, "bodies", second)? != &self.second {
             return Err(format!("`{second}` is no longer what it was"));
         }
@@ -100,7 +101,8 @@ impl Merged {
         let number =
             |value: &Value| serde_json::from_value::<Number>(value.clone()).ok()?.evaluate(&self.parameters).ok();
         let origin = |body: &Value| -> [f64; 3] { from_fn(|i| number(&body["origin"][i]).unwrap_or(0.0)) };
-        let (masses, axes) = ([own["mass"].clone(), self.second["mass"].clone()], &self.place.axes);
+        let masses = [own["mass"].clone(), self.second["mass"].clone()];
+        let axes = &self.place.axes;
         let [m, other] = [number(&masses[0])?, number(&masses[1])?];
         let arm = origin(&self.second);
         let centres = [

@@ -50,7 +50,8 @@ fn without(name: &str) -> Edit {
 fn undamped(list: &'static str, element: &Value) -> Option<Change> {
     element.get("damping")?;
     let name = text(element, "name").to_string();
-    let (subject, what) = (name.clone(), format!("{name} is not damped"));
+    let subject = name.clone();
+    let what = format!("{name} is not damped");
     let edit = move |scene: &mut Value| {
         let keys = find_mut(scene, list, &name)?.as_object_mut();
         keys.and_then(|keys| keys.shift_remove("damping")).map(|_| ()).ok_or(format!("`{name}` has no damping"))

@@ -24,13 +24,15 @@ impl Candidate for Planar {
 }
 
 fn proposal(facts: &Facts) -> Option<Proposal> {
-    let (plane, travel) = (Plane::new(facts), facts.travel());
+    let plane = Plane::new(facts);
+    let travel = facts.travel();
     let mut effect = 0.0f64;
     for body in elements(facts.scene(), "bodies") {
         let path = facts.path(text(body, "name"))?;
         let start = path.first()?;
         let normal = start.axes.map(|axis| dot(&axis, plane.normal()));
-        let (mut out, mut tilt) = (0.0f64, 0.0f64);
+        let mut out = 0.0f64;
+        let mut tilt = 0.0f64;
         for place in &path {
             let height = |r: &[f64; 3]| dot(r, plane.normal());
             let cosine: f64 = (0..3).map(|i| normal[i] * height(&place.axes[i])).sum();
@@ -106,7 +108,8 @@ fn flat_body(facts: &Facts, plane: &Plane, body: &Value) -> Option<Value> {
     if !["rigid", "point_mass"].contains(&text(body, "type")) || body.get("shapes").is_some() {
         return None;
     }
-    let (mut own, name) = (body.clone(), text(body, "name"));
+    let mut own = body.clone();
+    let name = text(body, "name");
     let frame = facts.place(name)?;
     let axes = plane.seen_from(name, &frame);
     if let Some(all) = body["inertia"].as_array() {
@@ -164,7 +167,8 @@ fn freedom(plane: &Plane, name: &str) -> Option<Vec<&'static str>> {
 fn flat_joint(facts: &Facts, plane: &Plane, joint: &Value) -> Option<Vec<Value>> {
     let first = joint["between"][0].as_str().and_then(|marker| facts.path(marker));
     let z = first.and_then(|path| path.first().copied())?.axes[2];
-    let (sign, is_across) = (plane.along(&z), plane.contains(&z));
+    let sign = plane.along(&z);
+    let is_across = plane.contains(&z);
     let kind = match (text(joint, "type"), sign.is_some(), is_across) {
         ("planar", true, _) => return Some(Vec::new()),
         ("revolute" | "cylindrical" | "point_on_line", true, _) | ("spherical", ..) => "revolute",

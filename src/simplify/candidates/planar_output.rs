@@ -9,7 +9,8 @@ use serde_json::{Value, json};
 
 /// The output in the plane, after others that it is made of; `None` for what is zero there or has no name.
 pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<Value>> {
-    let (measure, component) = (text(output, "measure"), text(output, "component"));
+    let measure = text(output, "measure");
+    let component = text(output, "component");
     let turns = measure.starts_with("angle") || measure.starts_with("angular");
     let mut own = output.clone();
     match component {
@@ -51,7 +52,9 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
 /// The output, or an expression of its own parts, each a factor with a component, plus an offset: `None` where these are
 /// none, in a unit that an expression has not, or an integral over the run.
 pub fn made_of(own: &Value, parts: &[(f64, Option<&str>)], offset: f64) -> Option<Vec<Value>> {
-    let (name, mut all, mut sum) = (text(own, "name"), Vec::new(), Vec::new());
+    let name = text(own, "name");
+    let mut all = Vec::new();
+    let mut sum = Vec::new();
     for (part, component) in parts.iter().filter(|(part, _)| part.abs() > SAME) {
         let mut output = own.clone();
         if let Some(component) = component {

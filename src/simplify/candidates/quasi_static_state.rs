@@ -43,10 +43,13 @@ fn lag(facts: &Facts, index: usize) -> Option<f64> {
     let mut tangent = Tangent::new(&dynamics.structure.tangent);
     let entries = dynamics.structure.tangent.entries.iter().enumerate();
     let own: Vec<usize> = entries.filter(|(_, entry)| **entry == (place, place)).map(|(i, _)| i).collect();
-    let (mut lag, mut least, mut most) = (0.0f64, f64::INFINITY, f64::NEG_INFINITY);
+    let mut lag = 0.0f64;
+    let mut least = f64::INFINITY;
+    let mut most = f64::NEG_INFINITY;
     for state in facts.few_states() {
         dynamics.solve(state.t, &state.q, &state.v, |_, _| 0.0).ok()?;
-        let (vdot, lambda) = (&dynamics.vdot, &dynamics.lambda);
+        let vdot = &dynamics.vdot;
+        let lambda = &dynamics.lambda;
         let at = OperatingPoint { t: state.t, q: &state.q, v: &state.v, vdot, lambda };
         let is_known = system.tangent(at, &mut tangent, &mut dynamics.scratch);
         let slope = own.iter().map(|i| tangent.c[*i]).sum::<f64>();
@@ -68,7 +71,8 @@ fn settle(scene: &mut Value, name: &str) -> Result<(), String> {
         rename(&mut rate, name, x);
         rate.as_str().unwrap_or("0").to_string()
     };
-    let (zero, one) = (at("0"), at("1"));
+    let zero = at("0");
+    let one = at("1");
     let value = format!("(({zero})/(({zero}) - ({one})))");
     remove(scene, "states", |state| text(state, "name") == name);
     let keys = [("states", "rate"), ("outputs", "value"), ("forces", "force"), ("forces", "torque"), ("forces", "law")];

@@ -34,7 +34,8 @@ fn spring(facts: &Facts, force: &Value) -> Option<Proposal> {
 }
 
 fn bushing(facts: &Facts, force: &Value) -> Option<Vec<Proposal>> {
-    let (motion, travel) = (facts.relative(pair(force)?)?, facts.travel());
+    let motion = facts.relative(pair(force)?)?;
+    let travel = facts.travel();
     let hinges: &[(&str, f64)] = match facts.dimension() {
         2 => &[("weld", motion.turn), ("revolute", 0.0)],
         _ => &[("weld", motion.turn), ("revolute", motion.tilt), ("spherical", 0.0)],

@@ -47,7 +47,8 @@ impl Link {
 
     /// What two pins hold as a link; `None` where anything else acts on it.
     pub fn between_pins(facts: &Facts, body: &Value) -> Option<Link> {
-        let (scene, name) = (facts.scene(), text(body, "name"));
+        let scene = facts.scene();
+        let name = text(body, "name");
         let joints: Vec<&Value> = acting(scene, "joints", name).collect();
         let kinds: Vec<&str> = joints.iter().map(|joint| text(joint, "type")).collect();
         let are_pins = match facts.dimension() {
@@ -111,7 +112,8 @@ impl Link {
 
     /// The output without the link; `None` where that has none.
     fn translated(&self, output: &Value) -> Option<Value> {
-        let (of, axes) = (text(output, "of"), text(output, "relative_to"));
+        let of = text(output, "of");
+        let axes = text(output, "relative_to");
         let is_reaction = text(output, "measure") == "reaction" && self.owns(of);
         if !is_reaction {
             return (!mentions(output, &self.name)).then(|| output.clone());

@@ -18,7 +18,8 @@ impl Argument {
 
     /// The cubic Hermite interpolant.
     fn cubic(&self, theta: f64) -> f64 {
-        let (x, y) = (self.a.re, self.b.re);
+        let x = self.a.re;
+        let y = self.b.re;
         let [u, v] = [self.a, self.b].map(|end| self.h * end.eps[0]);
         let rest = 1.0 - theta;
         x + theta * (y - x) + theta * rest * (rest * (u - (y - x)) - theta * (v - (y - x)))
@@ -43,7 +44,8 @@ impl Argument {
 
     /// The fraction before `outside` at which the cubic passes its threshold, to some digits from below.
     fn passed_before(&self, outside: f64) -> f64 {
-        let (mut low, mut high) = (outside - Self::APART, outside);
+        let mut low = outside - Self::APART;
+        let mut high = outside;
         for _ in 0..tolerances::HALVINGS_OF_CUBIC {
             let middle = 0.5 * (low + high);
             if self.range.beyond(self.cubic(middle)) < 0.0 { low = middle } else { high = middle }

@@ -67,7 +67,8 @@ pub struct Events<'a> {
 
 impl<'a> Events<'a> {
     pub fn new(system: &'a dyn MechanicalSystem, (start, end): (f64, f64)) -> Self {
-        let (switches, functions) = (system.switches(), system.time_functions());
+        let switches = system.switches();
+        let functions = system.time_functions();
         let zeros = || vec![Rate::fixed(0.0); switches.len()];
         let is_of_state = |switch: &Switch| switch.of_time.is_none() && switch.thresholds != Thresholds::Held;
         let of_state: Vec<usize> = (0..switches.len()).filter(|&number| is_of_state(&switches[number])).collect();
@@ -176,7 +177,8 @@ impl<'a> Events<'a> {
         near.clear();
         // A function that is fixed on a threshold is within round-off of it.
         for &number in of_state.iter().filter(|&&number| turned[number] < 2) {
-            let (a, b) = (start[number], self.end[number]);
+            let a = start[number];
+            let b = self.end[number];
             let Some(range) = Range::of(pieces[number], &switches[number].thresholds) else {
                 if a.re != b.re {
                     return Ok(Some(Passage::AtStart(number)));
@@ -228,7 +230,8 @@ impl<'a> Events<'a> {
             None => self.turned.fill(0),
         }
         let turn = |number: usize| {
-            let (from, thresholds) = (self.pieces[number], &self.switches[number].thresholds);
+            let from = self.pieces[number];
+            let thresholds = &self.switches[number].thresholds;
             let x = if at_start.is_some() { self.start[number] } else { self.end[number] };
             let (to, rate) = match Range::of(from, thresholds) {
                 Some(range) if range.nearest(x.re) == range.low => (from.saturating_sub(2), range.outward(x)),

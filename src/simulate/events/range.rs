@@ -13,7 +13,8 @@ impl Range {
     /// Range of a piece; `None` for the piece that is a threshold itself.
     pub fn of(piece: Piece, thresholds: &Thresholds) -> Option<Self> {
         let next = (piece / 2) as usize;
-        let (low, high) = (next.checked_sub(1).and_then(|k| thresholds.get(k)), thresholds.get(next));
+        let low = next.checked_sub(1).and_then(|k| thresholds.get(k));
+        let high = thresholds.get(next);
         let range = Range { low: low.unwrap_or(f64::NEG_INFINITY), high: high.unwrap_or(f64::INFINITY) };
         piece.is_multiple_of(2).then_some(range)
     }
@@ -46,7 +47,8 @@ impl Range {
 /// The first number, up to round-off, at which `beyond` is not negative, if it has one zero between `from`, where it is
 /// not positive, and `to`, where it is not negative. Regula falsi with bisection in every third iteration.
 pub fn first_out(mut beyond: impl FnMut(f64) -> f64, mut from: f64, mut to: f64) -> f64 {
-    let (mut inside, mut outside) = (beyond(from).min(0.0), beyond(to));
+    let mut inside = beyond(from).min(0.0);
+    let mut outside = beyond(to);
     for round in 1.. {
         let slanted = to - outside * (to - from) / (outside - inside);
         let middle = if round % 3 == 0 || !(from < slanted && slanted < to) { 0.5 * (from + to) } else { slanted };
@@ -65,7 +67,8 @@ mod tests {
 
     #[test]
     fn a_piece_lies_between_its_thresholds() {
-        let (infinite, two) = (f64::INFINITY, Thresholds::At([1.0, 2.0].into()));
+        let infinite = f64::INFINITY;
+        let two = Thresholds::At([1.0, 2.0].into());
         assert_eq!(Range::of(0, &two), Some(Range { low: -infinite, high: 1.0 }));
         assert_eq!(Range::of(2, &two), Some(Range { low: 1.0, high: 2.0 }));
         assert_eq!(Range::of(4, &two), Some(Range { low: 2.0, high: infinite }));

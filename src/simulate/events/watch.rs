@@ -130,7 +130,9 @@ impl Watched<'_> {
         let mut looks = tolerances::LOOKS_IN_WINDOW;
         for (i, quarter) in quarters(&times, &nodes).into_iter().enumerate() {
             let middle = self.at(0.5 * (quarter.from + quarter.to), regime);
-            let (a, b, width) = (nodes[i], nodes[i + 1], quarter.to - quarter.from);
+            let a = nodes[i];
+            let b = nodes[i + 1];
+            let width = quarter.to - quarter.from;
             let cubic = 0.5 * (a.x + b.x) + width / 8.0 * (a.d - b.d);
             let change = (b.x - a.x).abs() + 0.25 * width * (a.d.abs() + b.d.abs());
             let small = tolerances::SAME * a.x.abs().max(b.x.abs()) + tolerances::NO_FUNCTION;

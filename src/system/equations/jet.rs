@@ -66,11 +66,13 @@ operators! {
     Add add(a, b: Self) = Jet { path: a.path + b.path, slope: each(|i| a.slope[i] + b.slope[i]) };
     Sub sub(a, b: Self) = Jet { path: a.path - b.path, slope: each(|i| a.slope[i] - b.slope[i]) };
     Mul mul(a, b: Self) = {
-        let (x, y) = (a.path.x, b.path.x);
+        let x = a.path.x;
+        let y = b.path.x;
         Jet { path: a.path * b.path, slope: each(|i| a.slope[i] * y + x * b.slope[i]) }
     };
     Div div(a, b: Self) = {
-        let (path, inverse) = (a.path / b.path, b.path.x.recip());
+        let path = a.path / b.path;
+        let inverse = b.path.x.recip();
         Jet { path, slope: each(|i| (a.slope[i] - path.x * b.slope[i]) * inverse) }
     };
     Add add(a, x: f64) = Jet { path: a.path + x, ..a };

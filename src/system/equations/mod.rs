@@ -142,7 +142,9 @@ impl<E: Equations> MechanicalSystem for E {
 
     fn output_tangent(&self, at: OperatingPoint, tangent: &mut OutputTangent, _scratch: &mut Scratch) -> bool {
         tangent.clear();
-        let (t, q, v) = (Dual::fixed(at.t), fixed(at.q), fixed(at.v));
+        let t = Dual::fixed(at.t);
+        let q = fixed(at.q);
+        let v = fixed(at.v);
         output_slopes(at.q, |q, out| Equations::outputs(self, t, q, &v, out), &mut tangent.q);
         output_slopes(at.v, |v, out| Equations::outputs(self, t, &q, v, out), &mut tangent.v);
         true

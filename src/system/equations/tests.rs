@@ -45,7 +45,8 @@ fn one_pass_gives_what_a_pass_for_each_derivative_does() {
         };
         let mut g = DMatrix::zeros(2, n);
         output_slopes(&q, |q, rows| system.phi(Dual::fixed(t), q, rows), &mut g);
-        let (moving, fixed) = (along(&v), along(&vec![0.0; n]));
+        let moving = along(&v);
+        let fixed = along(&vec![0.0; n]);
         // The same operations in another order: round-off of sums of n terms of size up to 3.
         let same = |a: f64, b: f64| assert!((a - b).abs() < 1e-15 * 10.0 * n as f64, "{n}: {a} {b}");
         for i in 0..2 {

@@ -92,8 +92,10 @@ fn agree<const D: usize>(model: impl Fn() -> Model<D>, case: &str) {
     generic.rigid.are_all_rigid = false;
     let n = closed.dimensions();
     for seed in 0..4 {
-        let (q, v) = (numbers(n.q, seed), numbers(n.v, seed + 7));
-        let (found, expected) = (terms(&closed, &q, &v), terms(&generic, &q, &v));
+        let q = numbers(n.q, seed);
+        let v = numbers(n.v, seed + 7);
+        let found = terms(&closed, &q, &v);
+        let expected = terms(&generic, &q, &v);
         // Sums of some tens of products of numbers up to the largest, each rounded.
         let largest = expected.values().flat_map(values).fold(1.0, |size: f64, x| size.max(x.abs()));
         let tolerance = 50.0 * f64::EPSILON * largest;

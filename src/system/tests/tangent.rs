@@ -22,7 +22,8 @@ fn scene(dimension: usize, kinds: &[(&str, Value)]) -> AnyModel {
     let at = |x: &[f64]| json!(x[..dimension]);
     let inertia = if dimension == 2 { json!(0.3) } else { json!([0.3, 0.4, 0.5, 0.02, 0.01, 0.03]) };
     let body = |name: &str, free: Value| {
-        let (p, r) = (at(&[0.3, -0.4, 0.7]), at(&[-0.2, 0.5, 0.1]));
+        let p = at(&[0.3, -0.4, 0.7]);
+        let r = at(&[-0.2, 0.5, 0.1]);
         let mut body = json!({ "name": name, "type": "rigid", "mass": 1.2, "inertia": inertia,
             "origin": at(&[0.1, 0.2, -0.3]), "markers": { "P": p, "R": r } });
         if !free.is_null() {
@@ -76,7 +77,8 @@ fn locked_joints<const D: usize>(closed: Model<D>, mut generic: Model<D>) {
         joint.element = Box::new(Generic(lock)) as Box<dyn Joint<D>>;
     }
     let values = [closed, generic].map(|model| {
-        let (mechanism, mut scratch) = (Mechanism::new(model), Scratch::default());
+        let mechanism = Mechanism::new(model);
+        let mut scratch = Scratch::default();
         let n = mechanism.dimensions();
         let all = numbers(n.q + 2 * n.v + n.lambda);
         let [q, v] = [&all[..n.q], &all[n.q..][..n.v]];
@@ -178,7 +180,8 @@ fn locked_joints_agree_with_their_kernel() {
 fn reactions_of_planar_hinges_change_with_angles_alone() {
     let AnyModel::Planar(model) = scene(2, &[("revolute", Value::Null)]) else { panic!("a scene in the plane") };
     let mechanism = Mechanism::new(model);
-    let (names, tangent) = (mechanism.names().v, mechanism.structure().tangent);
+    let names = mechanism.names().v;
+    let tangent = mechanism.structure().tangent;
     assert!(!tangent.entries.is_empty());
     assert!(tangent.entries.iter().all(|&(i, j)| i == j && names[i].contains("angle")), "{:?}", tangent.entries);
 }

@@ -128,7 +128,8 @@ impl Equations for Andrews {
     fn force<S: Scalar>(&self, _t: S, q: &[S], v: &[S], f: &mut [S]) {
         let (sin, cos) = q[2].sin_cos();
         let arm = [cos * SD + sin * SC, sin * SD - cos * SC];
-        let (x, y) = (arm[0] + (B[0] - C[0]), arm[1] + (B[1] - C[1]));
+        let x = arm[0] + (B[0] - C[0]);
+        let y = arm[1] + (B[1] - C[1]);
         let tension = (x.square() + y.square()).sqrt().recip() * (STIFFNESS * NATURAL) - STIFFNESS;
         let centrifugal = [q[1].sin() * CARRIED[0], q[3].cos() * CARRIED[1], q[5].cos() * CARRIED[2]];
         f[0] = -centrifugal[0] * v[1] * (v[1] + v[0] * 2.0) + TORQUE;
@@ -145,15 +146,19 @@ impl Equations for Andrews {
             let (sin, cos) = angle.sin_cos();
             [cos * length, sin * length]
         };
-        let (crank, rod) = (turn(q[0], RR), turn(q[0] + q[1], D));
-        let (x, y) = (crank[0] - rod[0], crank[1] - rod[1]);
+        let crank = turn(q[0], RR);
+        let rod = turn(q[0] + q[1], D);
+        let x = crank[0] - rod[0];
+        let y = crank[1] - rod[1];
         let third = turn(q[2], SS);
         phi[0] = x - third[1] - B[0];
         phi[1] = y + third[0] - B[1];
-        let (fourth, fifth) = (turn(q[3] + q[4], E), turn(q[4], ZT));
+        let fourth = turn(q[3] + q[4], E);
+        let fifth = turn(q[4], ZT);
         phi[2] = x - fourth[1] - fifth[0] - A[0];
         phi[3] = y + fourth[0] - fifth[1] - A[1];
-        let (sixth, seventh) = (turn(q[5] + q[6], ZF), turn(q[6], U));
+        let sixth = turn(q[5] + q[6], ZF);
+        let seventh = turn(q[6], U);
         phi[4] = x - sixth[0] - seventh[1] - A[0];
         phi[5] = y - sixth[1] + seventh[0] - A[1];
     }
@@ -161,7 +166,8 @@ impl Equations for Andrews {
     /// The spring's energy and that of the constant torque.
     fn potential(&self, _t: f64, q: &[f64]) -> Option<f64> {
         let (sin, cos) = q[2].sin_cos();
-        let (x, y) = (B[0] - C[0] + cos * SD + sin * SC, B[1] - C[1] + sin * SD - cos * SC);
+        let x = B[0] - C[0] + cos * SD + sin * SC;
+        let y = B[1] - C[1] + sin * SD - cos * SC;
         Some(0.5 * STIFFNESS * (x.hypot(y) - NATURAL).powi(2) - TORQUE * q[0])
     }
 }

@@ -64,7 +64,8 @@ impl Equations for CarAxis {
 
     fn force<S: Scalar>(&self, t: S, q: &[S], _v: &[S], f: &mut [S]) {
         let [xb, yb] = road(t);
-        let (left, right) = (spring(q[0], q[1]), spring(q[2] - xb, q[3] - yb));
+        let left = spring(q[0], q[1]);
+        let right = spring(q[2] - xb, q[3] - yb);
         f.copy_from_slice(&[left[0], left[1] - INERTIA, right[0], right[1] - INERTIA]);
     }
 

@@ -133,7 +133,9 @@ fn stiffness<S: Scalar>(x: &[S; 4]) -> [S; 4] {
 
 /// rho B q: the skew matrix that couples the lateral and the axial motion of a turning rod.
 fn coupling<S: Scalar>(x: &[S; 4]) -> [S; 4] {
-    let (b13, b14, b24) = (-16.0 / PI.powi(3), 8.0 / PI.powi(3) - 1.0 / PI, 0.5 / PI);
+    let b13 = -16.0 / PI.powi(3);
+    let b14 = 8.0 / PI.powi(3) - 1.0 / PI;
+    let b24 = 0.5 / PI;
     let rows = [x[2] * b13 + x[3] * b14, x[3] * b24, -x[0] * b13, -x[0] * b14 - x[1] * b24];
     rows.map(|row| row * MASS)
 }
@@ -158,7 +160,8 @@ impl Equations for Crank {
 
     fn mass<S: Scalar>(&self, _t: S, q: &[S], mass: &mut [S]) {
         let x = deformation(q);
-        let (sin, cos) = ((q[0] - q[1]).sin(), (q[0] - q[1]).cos());
+        let sin = (q[0] - q[1]).sin();
+        let cos = (q[0] - q[1]).cos();
         let coupled = coupling(&x);
         mass.fill(S::zero());
         let mut set = |i: usize, j: usize, entry: S| (mass[7 * i + j], mass[7 * j + i]) = (entry, entry);
@@ -177,10 +180,15 @@ impl Equations for Crank {
     }
 
     fn force<S: Scalar>(&self, _t: S, q: &[S], v: &[S], f: &mut [S]) {
-        let (x, rate) = (deformation(q), deformation(v));
-        let (sin, cos) = ((q[0] - q[1]).sin(), (q[0] - q[1]).cos());
-        let (w1, w2) = (v[0], v[1]);
-        let (heavy, turning, bent) = (elastic_mass(&x), coupling(&rate), stiffness(&x));
+        let x = deformation(q);
+        let rate = deformation(v);
+        let sin = (q[0] - q[1]).sin();
+        let cos = (q[0] - q[1]).cos();
+        let w1 = v[0];
+        let w2 = v[1];
+        let heavy = elastic_mass(&x);
+        let turning = coupling(&rate);
+        let bent = stiffness(&x);
         let lateral = sin * dot(&C1, &x) - cos * dot(&C2, &x);
         f[0] = -w2.square() * (sin * (0.5 * L1 * L2 * M2) + lateral * L1)
             - w2 * (cos * dot(&C1, &rate) + sin * dot(&C2, &rate)) * (2.0 * L1);

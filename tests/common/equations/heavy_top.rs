@@ -29,7 +29,8 @@ const SPIN: f64 = 40.0;
 /// Spinning about its resting axis, which then falls, precesses and rises again.
 pub fn start() -> ([f64; 9], [f64; 9]) {
     let (sin, cos) = LEAN.sin_cos();
-    let (mut q, mut v) = ([0.0; 9], [0.0; 9]);
+    let mut q = [0.0; 9];
+    let mut v = [0.0; 9];
     for i in 0..3 {
         let (y, x) = (i as f64 * std::f64::consts::TAU / 3.0).sin_cos();
         let turned = |x: f64, y: f64, z: f64| [x, cos * y - sin * z, sin * y + cos * z];

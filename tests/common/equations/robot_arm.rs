@@ -56,7 +56,8 @@ impl Equations for RobotArm {
     fn force<S: Scalar>(&self, _t: S, theta: &[S], omega: &[S], f: &mut [S]) {
         let inertia = theta[1].sin() * (0.5 * MASS * LENGTH * LENGTH);
         let weight = 0.5 * MASS * GRAVITY * LENGTH;
-        let (first, second) = (theta[0].cos() * weight, (theta[0] + theta[1]).cos() * weight);
+        let first = theta[0].cos() * weight;
+        let second = (theta[0] + theta[1]).cos() * weight;
         f[0] = inertia * omega[1] * (omega[0] * 2.0 + omega[1]) - first * 3.0 - second;
         f[1] = -inertia * omega[0].square() - second;
     }

@@ -58,7 +58,8 @@ fn a_driven_base() {
 /// M y'' + C y' + K y = (c_tyre s + k_tyre) road for wheel and body.
 fn quarter_car(frequency: f64) -> Vec<C> {
     let s = C::new(0.0, TAU * frequency);
-    let (strut, tyre) = (s * 2200.0 + 34000.0, s * 150.0 + 200000.0);
+    let strut = s * 2200.0 + 34000.0;
+    let tyre = s * 150.0 + 200000.0;
     let matrix = Matrix2::new(s * s * 38.0 + strut + tyre, -strut, -strut, s * s * 400.0 + strut);
     let y = matrix.lu().solve(&Vector2::new(tyre, C::ZERO)).unwrap();
     vec![y[1], y[0], y[1] - y[0], strut * (y[1] - y[0]), tyre * (C::new(1.0, 0.0) - y[0])]

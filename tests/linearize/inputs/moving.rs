@@ -61,7 +61,9 @@ fn the_model_of_a_turned_crank_follows_pulses_of_its_drive() {
 /// The models along the motion, in one constant chart, give the change by a pulse to the error of their integration.
 #[test]
 fn models_in_a_constant_chart_follow_a_pulse_of_the_drive() {
-    let (scene, width, steps) = (planar(), 0.2, 200);
+    let scene = planar();
+    let width = 0.2;
+    let steps = 200;
     let times: Vec<f64> = (0..=2 * steps).map(|i| 0.4 + width * i as f64 / (2 * steps) as f64).collect();
     let all = states(&scene.0, &times, |_| {}).unwrap();
     let pulse = Pulse { input: 0, start: 0.4, width: 2.0 * width };
@@ -73,7 +75,8 @@ fn models_in_a_constant_chart_follow_a_pulse_of_the_drive() {
             + model.built.input_states.a * Matrix::from_column_slice(2, 1, &[u, rate])
             + model.built.b * second
     };
-    let (mut x, h) = (Matrix::zeros(2, 1), width / steps as f64);
+    let mut x = Matrix::zeros(2, 1);
+    let h = width / steps as f64;
     for i in (0..2 * steps).step_by(2) {
         let k1 = rates(i, &x);
         let k2 = rates(i + 1, &(&x + &k1 * (0.5 * h)));

@@ -9,7 +9,8 @@ use std::f64::consts::TAU;
 
 /// The factor H of y = y0 + Im(H a e^(s t)), by least squares over the last `span` s.
 fn fitted(run: &Run, output: &str, (frequency, amplitude): (f64, f64), span: f64) -> C {
-    let (times, values) = (run.times(), run.column(output));
+    let times = run.times();
+    let values = run.column(output);
     let from = times[times.len() - 1] - span;
     let rows: Vec<usize> = (0..times.len()).filter(|&i| times[i] >= from).collect();
     let angle = |i: usize| TAU * frequency * times[rows[i]];

@@ -29,7 +29,8 @@ fn a_value_may_turn_a_drive_around() {
             json["inputs"] = json!([{ "name": "turn", "driver": json["joints"][1]["name"], "value": input }]);
         })
     };
-    let (split, whole) = (scene("2*t", "3*t"), scene("5*t", "0"));
+    let split = scene("2*t", "3*t");
+    let whole = scene("5*t", "0");
     let end = |scene: &Ready| scene.tight(1e-9, 3.0, 3.0).outcome;
     let [a, b] = [end(&split), end(&whole)].map(|outcome| outcome.q);
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-7), "{a:?} {b:?}");
@@ -46,7 +47,8 @@ fn values_add_to_roads_where_the_wheel_lifts_off() {
         })
     };
     let bump = "0.12*exp(-((t - 0.3)/0.05)^2)";
-    let (split, whole) = (scene("0", bump), scene(bump, "0"));
+    let split = scene("0", bump);
+    let whole = scene(bump, "0");
     assert!(whole.tight(1e-10, 1.0, 0.01).column("tyre_load").contains(&0.0));
     ["body_height", "tyre_load", "energy"].into_iter().for_each(|output| same(&split, &whole, output, 1.0));
 }
@@ -63,7 +65,8 @@ fn a_value_may_read_markers() {
             "outputs": [ {{ "name": "x", "measure": "position", "of": "m", "component": "x" }} ] }}"#
         ))
     };
-    let (split, whole) = (scene("-m.x", r#", "value": "t - 4*m.x - m.x'*ground.x""#), scene("-m.x + t - 4*m.x", ""));
+    let split = scene("-m.x", r#", "value": "t - 4*m.x - m.x'*ground.x""#);
+    let whole = scene("-m.x + t - 4*m.x", "");
     same(&split, &whole, "x", 2.0);
     let State { t, q, v } = states(&split.0, &[0.5], |_| {}).unwrap().remove(0);
     let [split, whole] = [&split, &whole].map(|scene| {

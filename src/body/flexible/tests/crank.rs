@@ -23,7 +23,9 @@ fn the_rod_of_the_ivp_test_set() {
     )
     .unwrap();
     assert_eq!(rod.names, ["bend1", "bend2", "stretch1", "stretch2"]);
-    let (fm, fk, fb) = (rho * b * b * l, e * b * b / l, b * b * l);
+    let fm = rho * b * b * l;
+    let fk = e * b * b / l;
+    let fb = b * b * l;
 
     let (mass, stiffness) = matrices(&rod, |_| true);
     let mq = [[0.5, 0., 0., 0.], [0., 0.5, 0., 0.], [0., 0., 8., 1.], [0., 0., 1., 2.]];

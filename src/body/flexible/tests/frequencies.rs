@@ -59,7 +59,9 @@ fn bending_of_slender_beams_is_of_order_four() {
 
 /// w = sin(k s): (EI k^2 + GA - rhoI omega^2) (GA k^2 - rhoA omega^2) = (GA k)^2.
 fn timoshenko_pinned(k: f64, ei: f64, ga: f64, rho_a: f64, rho_i: f64) -> f64 {
-    let (a, b, c) = (rho_a * rho_i, -(rho_a * (ei * k * k + ga) + rho_i * ga * k * k), ei * ga * k.powi(4));
+    let a = rho_a * rho_i;
+    let b = -(rho_a * (ei * k * k + ga) + rho_i * ga * k * k);
+    let c = ei * ga * k.powi(4);
     (2.0 * c / (-b + (b * b - 4.0 * a * c).sqrt())).sqrt()
 }
 
@@ -86,7 +88,8 @@ fn product(a: &Square, b: &Square) -> Square {
 /// How (w, turn, moment, shear force) at the right end follow from those at the left: the exponential of length times
 /// w' = turn + V/GA, turn' = M/EI, M' = -V - rhoI omega^2 turn, V' = -rhoA omega^2 w.
 fn transfer(omega: f64, ga: f64, rho_i: f64) -> Square {
-    let (step, square) = (L / 1024.0, omega * omega);
+    let step = L / 1024.0;
+    let square = omega * omega;
     let a = [
         [0.0, 1.0, 0.0, 1.0 / ga],
         [0.0, 0.0, 1.0 / EI, 0.0],
@@ -110,7 +113,8 @@ fn exact(guess: f64, free: [usize; 2], zero: [usize; 2], ga: f64, rho_i: f64) ->
         let t = transfer(omega, ga, rho_i);
         t[zero[0]][free[0]] * t[zero[1]][free[1]] - t[zero[0]][free[1]] * t[zero[1]][free[0]]
     };
-    let (mut low, mut high) = (0.995 * guess, 1.001 * guess);
+    let mut low = 0.995 * guess;
+    let mut high = 1.001 * guess;
     assert!(value(low) * value(high) < 0.0);
     for _ in 0..60 {
         let middle = (low + high) / 2.0;
@@ -212,7 +216,8 @@ fn all_modes_are_the_mesh_itself() {
             let scene = beam(json!({ "elements": 4, "frame_conditions": conditions, "modes": modes }));
             frequencies(&build::<2>(&scene, &[0.75]).unwrap(), |_| true)
         };
-        let (full, reduced) = (frequency(Value::Null), frequency(json!(9)));
+        let full = frequency(Value::Null);
+        let reduced = frequency(json!(9));
         assert_eq!(full.len(), reduced.len());
         full.iter().zip(&reduced).for_each(|(a, b)| assert_close(a / b, 1.0, 1e-10));
     }

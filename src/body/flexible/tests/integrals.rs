@@ -32,7 +32,8 @@ fn without_elastic_motion_it_is_a_rigid_rod() {
     for variant in variants() {
         let rod: Elastic<3> = build(&beam_in_space(variant), &[0.0, 0.4]).unwrap();
         let Piece { mass, moments, products, .. } = whole(&rod);
-        let (moment, product) = (moments[0], products[0]);
+        let moment = moments[0];
+        let product = products[0];
         assert_close(mass, 0.8 * L, 1e-14);
         let exact = [[0.8 * L.powi(3) / 3.0, 0.0, 0.0], [0.0, 1e-3 * L, 0.0], [0.0, 0.0, 2e-3 * L]];
         for k in 0..3 {
@@ -50,7 +51,9 @@ fn without_elastic_motion_an_arc_is_a_rigid_one() {
         let mut keys = json!({ "curvature": [0, 0, "pi/l"] });
         keys.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
         let arc: Elastic<3> = build(&beam_in_space(keys), &[0.0, 0.4]).unwrap();
-        let (mut mass, mut moment, mut product) = (0.0, [0.0; 3], [[0.0; 3]; 3]);
+        let mut mass = 0.0;
+        let mut moment = [0.0; 3];
+        let mut product = [[0.0; 3]; 3];
         for piece in &arc.inertia.pieces {
             mass += piece.mass;
             (0..3).for_each(|k| moment[k] += piece.moments[0][k]);
@@ -74,7 +77,9 @@ fn the_mass_matrix_is_that_of_textbooks() {
     // One element with its left node fixed: the right half of its matrix remains.
     let rod: Elastic<2> = build(&beam(json!({ "elements": 1 })), &[]).unwrap();
     let (mass, stiffness) = matrices(&rod, |_| true);
-    let (m, l, ei) = (0.8 * L / 420.0, L, 3.0);
+    let m = 0.8 * L / 420.0;
+    let l = L;
+    let ei = 3.0;
     let expected = [[140.0 * m, 0.0, 0.0], [0.0, 156.0 * m, -22.0 * l * m], [0.0, -22.0 * l * m, 4.0 * l * l * m]];
     let k = ei / l.powi(3);
     let stiff = [[2e4 / l, 0.0, 0.0], [0.0, 12.0 * k, -6.0 * l * k], [0.0, -6.0 * l * k, 4.0 * l * l * k]];
@@ -85,7 +90,8 @@ fn the_mass_matrix_is_that_of_textbooks() {
     // Two elements share node 1: the coupling between them is the other half.
     let rod: Elastic<2> = build(&beam(json!({ "elements": 2 })), &[]).unwrap();
     let (mass, _) = matrices(&rod, |_| true);
-    let (m, l) = (0.8 * L / 2.0 / 420.0, L / 2.0);
+    let m = 0.8 * L / 2.0 / 420.0;
+    let l = L / 2.0;
     let coupling = [[70.0 * m, 0.0, 0.0], [0.0, 54.0 * m, -13.0 * l * m], [0.0, 13.0 * l * m, -3.0 * l * l * m]];
     for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
         assert_close(mass[(i, 3 + j)], coupling[i][j], 1e-15);
@@ -110,7 +116,8 @@ fn energy_of_field(rod: &Elastic<3>, motion: &Motion) -> f64 {
     let line = rod.line.as_ref().unwrap();
     // Three points across the section have its mass and moments: one on the line, and pairs at distance 1 along y and
     // z.
-    let (rho_a, rho_i) = (0.8, [2e-3, 1e-3]);
+    let rho_a = 0.8;
+    let rho_i = [2e-3, 1e-3];
     let points = [
         ([0.0, 0.0], rho_a - rho_i[0] - rho_i[1]),
         ([1.0, 0.0], rho_i[1] / 2.0),
@@ -184,7 +191,8 @@ fn integrals_hold_the_energy_of_the_field() {
             q: (0..n).map(|_| random()).collect(),
             rate: (0..n).map(|_| random()).collect(),
         };
-        let (field, integrals) = (energy_of_field(&rod, &motion), energy_of_integrals(&whole(&rod), &motion));
+        let field = energy_of_field(&rod, &motion);
+        let integrals = energy_of_integrals(&whole(&rod), &motion);
         assert_close(integrals / field, 1.0, 1e-12);
     }
 }

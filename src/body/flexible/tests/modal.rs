@@ -89,8 +89,10 @@ fn export<const D: usize>(rod: &Elastic<D>) -> ModalData<Array> {
 
 fn read<const D: usize>(body: Value, folder: &Path) -> Result<ModalShapes<D>> {
     let body: ModalBody = crate::body::parse(body).unwrap();
-    let (parameters, table) = (Parameters::default(), MarkerTable::default());
-    let (switches, turnings) = (&Default::default(), &Default::default());
+    let parameters = Parameters::default();
+    let table = MarkerTable::default();
+    let switches = &Default::default();
+    let turnings = &Default::default();
     body.shapes(&Build {
         parameters: &parameters,
         markers: &table,
@@ -104,7 +106,8 @@ fn read<const D: usize>(body: Value, folder: &Path) -> Result<ModalShapes<D>> {
 
 #[track_caller]
 fn assert_same<const D: usize>(rod: &Elastic<D>, found: &ModalShapes<D>) {
-    let (a, b) = (whole(rod), &found.elastic.inertia.pieces[0]);
+    let a = whole(rod);
+    let b = &found.elastic.inertia.pieces[0];
     assert_close(a.mass, b.mass, 1e-14);
     let flat = |x: &[[f64; D]]| x.concat();
     flat(&a.moments).iter().zip(flat(&b.moments)).for_each(|(a, b)| assert_close(*a, b, 1e-12));
@@ -160,7 +163,8 @@ fn stacked<'a>(parts: impl Iterator<Item = &'a Array>) -> Array {
 }
 
 fn npz_arrays(data: ModalData<Array>) -> Vec<(&'static str, Array)> {
-    let (lumped, nodes) = (data.lumped.unwrap(), data.nodes.unwrap().0);
+    let lumped = data.lumped.unwrap();
+    let nodes = data.nodes.unwrap().0;
     vec![
         ("modal_stiffness", data.modal_stiffness.unwrap()),
         ("modal_damping", data.modal_damping.unwrap()),
@@ -202,7 +206,8 @@ fn couplings_keep_what_they_say() {
     let n = rod.names.len();
     let angular = |p: &[[f64; 3]; 3]| vec![p[1][2] - p[2][1], p[2][0] - p[0][2], p[0][1] - p[1][0]];
     // A uniform rod about its centre.
-    let (mass, slender) = (0.8 * L, 0.8 * L * L * L / 12.0);
+    let mass = 0.8 * L;
+    let slender = 0.8 * L * L * L / 12.0;
     let body = json!({ "data": {
         "mass": mass, "center": [L / 2.0, 0, 0], "inertia": [3e-3 * L, slender + 2e-3 * L, slender + 1e-3 * L],
         "modal_stiffness": rod.stiffness.iter().map(|entry| entry.2).collect::<Vec<_>>(),

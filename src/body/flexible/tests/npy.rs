@@ -66,7 +66,8 @@ fn text_in_both_byte_orders() {
 fn the_first_index_may_run_fastest() {
     // a[i][j][k] = 100 i + 10 j + k
     let shape = [2, 3, 4];
-    let (mut c, mut fortran) = (Vec::new(), Vec::new());
+    let mut c = Vec::new();
+    let mut fortran = Vec::new();
     (0..24).for_each(|n| c.push(n / 12 * 100 + n / 4 % 3 * 10 + n % 4));
     (0..24).for_each(|n| fortran.push(n % 2 * 100 + n / 2 % 3 * 10 + n / 6));
     let read = |order, values: &[i32]| numbers(&npy(1, "<i4", order, &shape, &bytes(values, i32::to_le_bytes)));

@@ -43,7 +43,8 @@ fn rigid_motions_carry_the_line() {
         for (mesh, part) in
             curved::<D>().iter().flat_map(|mesh| (D..mesh.rigid_motions().len()).map(move |k| (mesh, k)))
         {
-            let (motion, axis) = (&mesh.rigid_motions()[part], if D == 2 { 2 } else { part - D });
+            let motion = &mesh.rigid_motions()[part];
+            let axis = if D == 2 { 2 } else { part - D };
             let turn: [f64; 3] = from_fn(|k| if k == axis { 1.0 } else { 0.0 });
             let place = |s: f64| mesh.reference().at(s).1;
             let moved = |s: f64| at(mesh, s, motion).displacement;
@@ -110,7 +111,8 @@ fn constant_strains_are_reproduced() {
 fn a_force_at_the_tip_bends_and_shears_exactly() {
     let scene = beam_in_space(json!({ "theory": "timoshenko", "elements": 3 }));
     let rod: Elastic<3> = build(&scene, &[0.4]).unwrap();
-    let (n, force) = (rod.names.len(), 2.0);
+    let n = rod.names.len();
+    let force = 2.0;
     let line = rod.line.unwrap();
     for (tip, [shear, curvature, sign], [ga, ei]) in [("_y", [1, 5, 1], [900.0, 3.0]), ("_z", [2, 4, -1], [700.0, 5.0])]
     {
@@ -134,7 +136,8 @@ fn a_fibre_strains_as_the_signs_say() {
     let scene = beam_in_space(json!({ "theory": "timoshenko", "axial": "quadratic" }));
     let rod: Elastic<3> = build(&scene, &[]).unwrap();
     let line = rod.line.unwrap();
-    let (s, h) = (0.7, 1e-5);
+    let s = 0.7;
+    let h = 1e-5;
     for (y, z) in [(0.0, 0.0), (0.2, 0.0), (0.0, 0.3), (0.2, -0.1)] {
         let [left, right] = [s - h, s + h].map(|s| line.point([s, y, z]));
         let section = line.section(s);

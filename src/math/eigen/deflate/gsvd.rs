@@ -19,7 +19,8 @@ pub fn level(a: &Matrix, e: &Matrix, ranks: &mut Ranks) -> Result<Option<Level>,
     if independent < n {
         return Err(Unsolved::SingularPencil { dependent: n - independent });
     }
-    let (q_a, q_e) = (q.rows(0, n), q.rows(n, n));
+    let q_a = q.rows(0, n);
+    let q_e = q.rows(n, n);
     let cosines = dense::svd(&q_e.into_owned())?;
     let rank = ranks.rank(&cosines.s);
     if rank == n {

@@ -63,7 +63,8 @@ impl Deflated {
 pub fn deflate(a: &Matrix, e: &Matrix, by: Deflation, tolerance: f64) -> Result<Deflated, Unsolved> {
     dense::square(&[a, e])?;
     let pencil = balance(a, e);
-    let (mut a, mut e) = (pencil.a, pencil.e);
+    let mut a = pencil.a;
+    let mut e = pencil.e;
     let mut ranks = Ranks::new(tolerance);
     let mut levels = Vec::new();
     while let Some(level) = match by {
@@ -103,7 +104,8 @@ fn lift(levels: &[Level], a: &Matrix, e: &Matrix) -> Result<Lifted, Unsolved> {
     let singular = Unsolved::Doubtful { gap: 1.0 };
     let rate = solve(a).ok_or(singular)?;
     let inverse = solve(&Matrix::identity(r, r)).ok_or(singular)?;
-    let (mut basis, mut left) = (Matrix::identity(r, r), inverse);
+    let mut basis = Matrix::identity(r, r);
+    let mut left = inverse;
     for level in levels.iter().rev() {
         basis = level.lift(&basis, &rate).ok_or(singular)?;
         left = level.lift_left(&left, &rate).ok_or(singular)?;

@@ -32,7 +32,8 @@ impl Scalar for C {
 
 impl Scalar for f64 {
     fn columns(ritz: &Ritz) -> (Vec<DVector<f64>>, Vec<usize>) {
-        let (mut columns, mut sizes) = (Vec::new(), Vec::new());
+        let mut columns = Vec::new();
+        let mut sizes = Vec::new();
         for (value, vector) in ritz.values.iter().zip(ritz.vectors.column_iter()).filter(|(value, _)| value.im >= 0.0) {
             let size = if value.im > 0.0 { 2 } else { 1 };
             columns.extend([vector.map(|x| x.re), vector.map(|x| x.im)].into_iter().take(size));
@@ -101,7 +102,8 @@ pub fn nearest<T: Scalar>(
         return Ok(Partial { values: Vec::new(), basis: DMatrix::zeros(n, 0) });
     }
     let mut space = Krylov::new(n, m, options.filter, apply)?;
-    let (mut converged, mut known) = (0, None);
+    let mut converged = 0;
+    let mut known = None;
     for _ in 0..=options.restarts {
         space.extend()?;
         let ritz = Ritz::of(&space.h)?;

@@ -33,7 +33,8 @@ impl<T: Scalar> Ordered<T> {
         let q = dense::copy(dense::view(&DMatrix::from_columns(&columns)).qr().compute_thin_Q().as_ref());
         let mut t =
             dense::product(dense::view(&q).adjoint(), dense::view(&dense::product(dense::view(h), dense::view(&q))));
-        let (mut start, mut below) = (0, 0.0f64);
+        let mut start = 0;
+        let mut below = 0.0f64;
         for size in sizes {
             let mut under = t.view_mut((start + size, start), (m - start - size, size));
             below = below.max(under.norm());
@@ -83,7 +84,8 @@ impl<T: Scalar> Ordered<T> {
     fn swap(&mut self, start: usize, [p, q]: [usize; 2]) -> bool {
         let both = p + q;
         let block = self.t.view((start, start), (both, both)).clone_owned();
-        let (a, b) = (block.view((0, 0), (p, p)).clone_owned(), block.view((p, p), (q, q)).clone_owned());
+        let a = block.view((0, 0), (p, p)).clone_owned();
+        let b = block.view((p, p), (q, q)).clone_owned();
         let coupling = DMatrix::from_column_slice(p * q, 1, block.view((0, p), (p, q)).clone_owned().as_slice());
         let eye = |n| DMatrix::<T>::identity(n, n);
         let sylvester = eye(q).kronecker(&a) - b.transpose().kronecker(&eye(p));

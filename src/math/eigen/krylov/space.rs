@@ -68,7 +68,8 @@ impl<T: Scalar, F: FnMut(&[T], &mut [T]) -> Result<(), Unsolved>> Krylov<T, F> {
     fn orthogonalize(&self, vector: &mut DVector<T>, k: usize) -> DVector<T> {
         let n = self.v.nrows();
         let known = dense::view(&self.v).subcols(0, k);
-        let (mut total, mut part) = (DVector::zeros(k), DVector::zeros(k));
+        let mut total = DVector::zeros(k);
+        let mut part = DVector::zeros(k);
         let one = T::from_real(1.0);
         for _ in 0..2 {
             let x = MatRef::from_column_major_slice(vector.as_slice(), n, 1);
@@ -117,7 +118,8 @@ impl<T: Scalar, F: FnMut(&[T], &mut [T]) -> Result<(), Unsolved>> Krylov<T, F> {
 
     /// Keeps the leading `kept` Schur vectors, one more where a pair would be parted.
     pub fn contract(&mut self, schur: &Ordered<T>, kept: usize) {
-        let (m, kept) = (self.h.ncols(), schur.whole(kept));
+        let m = self.h.ncols();
+        let kept = schur.whole(kept);
         let v = self.spanned(&schur.q, kept);
         let last = self.v.column(m).clone_owned();
         self.v.columns_mut(0, kept).copy_from(&v);

@@ -25,7 +25,8 @@ fn least(cost: &Matrix, row: usize, used: &mut Vec<usize>) -> f64 {
 fn no_other_is_cheaper() {
     for seed in 0..256 {
         let mut random = Random(seed);
-        let (rows, more) = (seed as usize % 6, seed as usize / 6 % 3);
+        let rows = seed as usize % 6;
+        let more = seed as usize / 6 % 3;
         // Coarse ones have many ties.
         let coarse = seed % 2 == 0;
         let cost = random.matrix(rows, rows + more).map(|x| if coarse { (3.0 * x).round() } else { x });
@@ -48,7 +49,8 @@ fn more_rows_than_columns_leaves_some_over() {
 
 #[test]
 fn what_is_not_finite_is_avoided() {
-    let (inf, nan) = (f64::INFINITY, f64::NAN);
+    let inf = f64::INFINITY;
+    let nan = f64::NAN;
     assert_eq!(assign(&Matrix::from_row_slice(2, 2, &[1.0, nan, 1.0, 100.0])), [0, 1]);
     assert_eq!(assign(&Matrix::from_row_slice(2, 2, &[inf, 5.0, 1.0, inf])), [1, 0]);
     assert_eq!(assign(&Matrix::from_element(2, 2, inf)).len(), 2);

@@ -106,7 +106,8 @@ fn scaling_of_rows_columns_and_time_does_not_matter() {
         for form in FORMS {
             let (a, e, infinite, zeros) = mechanism.pencil(&form);
             let n = a.nrows();
-            let (rows, cols) = (numbers.powers(n, 8.0), numbers.powers(n, 8.0));
+            let rows = numbers.powers(n, 8.0);
+            let cols = numbers.powers(n, 8.0);
             let scaled = |x: &Matrix, s: f64| Matrix::from_fn(n, n, |i, j| x[(i, j)] * rows[i] * cols[j] * s);
             for way in WAYS {
                 let deflated = deflate(&scaled(&a, 1e-6), &scaled(&e, 1.0), way, RANK_OF_PENCIL).unwrap();

@@ -9,7 +9,8 @@ fn close(found: &Matrix, expected: &Matrix, tolerance: f64) -> bool {
 fn series(a: &Matrix) -> Matrix {
     let halvings = (a.norm() * 8.0).max(1.0).log2().ceil() as i32;
     let small = a / 2f64.powi(halvings);
-    let (mut sum, mut term) = (Matrix::identity(a.nrows(), a.nrows()), Matrix::identity(a.nrows(), a.nrows()));
+    let mut sum = Matrix::identity(a.nrows(), a.nrows());
+    let mut term = Matrix::identity(a.nrows(), a.nrows());
     for k in 1..30 {
         term = &term * &small / f64::from(k);
         sum += &term;
@@ -19,7 +20,8 @@ fn series(a: &Matrix) -> Matrix {
 
 #[test]
 fn closed_forms() {
-    let (w, h) = (5.0, 0.3);
+    let w = 5.0;
+    let h = 0.3;
     let oscillator = Matrix::from_row_slice(2, 2, &[0.0, 1.0, -w * w, 0.0]) * h;
     let (s, c) = f64::sin_cos(w * h);
     assert!(close(&expm(&oscillator).unwrap(), &Matrix::from_row_slice(2, 2, &[c, s / w, -w * s, c]), 1e-15));
@@ -35,7 +37,8 @@ fn closed_forms() {
 fn a_hump_does_not_spoil_it() {
     // Moler and Van Loan's example: exact [-0.7357588823, 0.5518190996; -1.4715175991, 1.1036382408].
     let found = expm(&Matrix::from_row_slice(2, 2, &[-49.0, 24.0, -64.0, 31.0])).unwrap();
-    let (slow, fast) = ((-1f64).exp(), (-17f64).exp());
+    let slow = (-1f64).exp();
+    let fast = (-17f64).exp();
     let exact = [-2.0 * slow + 3.0 * fast, 1.5 * slow - 1.5 * fast, -4.0 * slow + 4.0 * fast, 3.0 * slow - 2.0 * fast];
     assert!(close(&found, &Matrix::from_row_slice(2, 2, &exact), 1e-13));
 }
@@ -55,7 +58,8 @@ fn limits() {
 fn agrees_with_the_series() {
     for seed in 0..256 {
         let mut random = Random(seed);
-        let (n, size) = (1 + seed as usize % 7, -0.9 + 2.1 * random.next());
+        let n = 1 + seed as usize % 7;
+        let size = -0.9 + 2.1 * random.next();
         let a = random.matrix(n, n) * 10f64.powf(size);
         let found = expm(&a).unwrap();
         let error = (&found - series(&a)).amax() / found.amax();

@@ -183,7 +183,8 @@ fn infinite_eigenvalues_do_not_disturb() {
     let (a, e, ..) = mechanism.pencil(&Form::Index3);
     let sigma = C::new(0.0, 3.0);
     let lu = (dense::complex(&a) - dense::complex(&e) * sigma).lu();
-    let (n, e) = (a.nrows(), dense::complex(&e));
+    let n = a.nrows();
+    let e = dense::complex(&e);
     let apply = |x: &[C], y: &mut [C]| {
         let image = lu.solve(&(&e * DVector::from_column_slice(x))).ok_or(Singular::NotFactored)?;
         y.copy_from_slice(image.as_slice());

@@ -54,7 +54,8 @@ fn scaling_of_rows_columns_and_time_does_not_matter() {
         for form in [Form::Index3, Form::Index2, Form::Ggl] {
             let (a, e, infinite, zeros) = mechanism.pencil(&form);
             let n = a.nrows();
-            let (rows, cols) = (numbers.powers(n, 8.0), numbers.powers(n, 8.0));
+            let rows = numbers.powers(n, 8.0);
+            let cols = numbers.powers(n, 8.0);
             let scaled = |x: &Matrix, s: f64| Matrix::from_fn(n, n, |i, j| x[(i, j)] * rows[i] * cols[j] * s);
             let split = generalized(&scaled(&a, 1e6), &scaled(&e, 1.0)).unwrap().split(infinite).unwrap();
             let expected: Vec<_> = mechanism.values().iter().map(|x| x * 1e6).collect();

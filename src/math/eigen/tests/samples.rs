@@ -39,7 +39,9 @@ pub fn two_mass() -> Mechanism {
 
 pub fn random(n: usize, m: usize, seed: u64) -> Mechanism {
     let mut random = Random(seed);
-    let (a, k, c) = (random.matrix(n, n), random.matrix(n, n), random.matrix(n, n));
+    let a = random.matrix(n, n);
+    let k = random.matrix(n, n);
+    let c = random.matrix(n, n);
     Mechanism {
         m: &a * a.transpose() + Matrix::identity(n, n),
         c: c * 0.3,
@@ -51,7 +53,8 @@ pub fn random(n: usize, m: usize, seed: u64) -> Mechanism {
 /// Links of three coordinates each, joined end to end by two rows, hanging: 7 rows a link at index 3.
 pub fn chain(links: usize) -> Mechanism {
     let n = 3 * links;
-    let (mut mass, mut k) = (Matrix::identity(n, n), Matrix::zeros(n, n));
+    let mut mass = Matrix::identity(n, n);
+    let mut k = Matrix::zeros(n, n);
     let mut g = Matrix::zeros(2 * links, n);
     for i in 0..links {
         mass[(3 * i + 2, 3 * i + 2)] = 1.0 / 12.0;
@@ -79,7 +82,8 @@ impl Mechanism {
     pub fn pencil(&self, form: &Form) -> (Matrix, Matrix, usize, usize) {
         let (m, n) = self.g.shape();
         let size = 2 * n + m * if matches!(form, Form::Ggl) { 2 } else { 1 };
-        let (mut a, mut e) = (Matrix::zeros(size, size), Matrix::zeros(size, size));
+        let mut a = Matrix::zeros(size, size);
+        let mut e = Matrix::zeros(size, size);
         e.view_mut((0, 0), (n, n)).fill_with_identity();
         e.view_mut((n, n), (n, n)).copy_from(&self.m);
         a.view_mut((0, n), (n, n)).fill_with_identity();
@@ -135,7 +139,8 @@ pub fn distance(found: &[Complex<f64>], expected: &[Complex<f64>], zeros: usize)
 
 /// Largest |A x - lambda E x| / (|A| + |lambda| |E|) over the columns x of norm 1.
 pub fn residual(a: &Matrix, e: &Matrix, values: &[Complex<f64>], x: &ComplexMatrix) -> f64 {
-    let (a, e) = (dense::complex(a), dense::complex(e));
+    let a = dense::complex(a);
+    let e = dense::complex(e);
     let mut largest: f64 = 0.0;
     for (j, value) in values.iter().enumerate() {
         let x = x.columns(j, 1);

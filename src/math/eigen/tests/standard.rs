@@ -79,7 +79,8 @@ fn balancing_keeps_badly_scaled_states_accurate() {
         let a = random.matrix(n, n);
         let d = random.powers(n, 8.0);
         let scaled = Matrix::from_fn(n, n, |i, j| a[(i, j)] * d[i] / d[j]);
-        let (plain, found) = (eigen(&a).unwrap(), eigen(&scaled).unwrap());
+        let plain = eigen(&a).unwrap();
+        let found = eigen(&scaled).unwrap();
         assert!(distance(&found.values, &plain.values, 0) < 1e-12 * plain.conditioning);
     }
 }
@@ -99,7 +100,8 @@ fn extreme_sizes_neither_hang_nor_overflow() {
 fn any_matrix_has_eigenvalues_that_sum_to_its_trace() {
     for seed in 0..256 {
         let mut random = Random(seed);
-        let (n, zeros) = (1 + seed as usize % 8, random.next().abs());
+        let n = 1 + seed as usize % 8;
+        let zeros = random.next().abs();
         let a = Matrix::from_fn(n, n, |_, _| if random.next().abs() < zeros { 0.0 } else { random.next() });
         let found = eigen(&a).unwrap();
         let sum: Complex<f64> = found.values.iter().sum();

@@ -68,7 +68,8 @@ struct Argument {
 
 impl<'a> Parser<'a> {
     fn new(text: &'a str, names: &'a dyn Names) -> Result<Self> {
-        let (tokens, builder) = (tokens(text)?, Builder::default());
+        let tokens = tokens(text)?;
+        let builder = Builder::default();
         Ok(Parser { text, tokens, next: 0, names, builder, nesting: 0, variables: Vec::new() })
     }
 

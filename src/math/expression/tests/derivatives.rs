@@ -12,7 +12,8 @@ fn check(text: &str, points: &[f64], exact: impl Fn(f64) -> Jet) {
         |a: f64, b: f64, what: &str| assert!((a - b).abs() <= 2e-13 * (1.0 + b.abs()), "{what} of {text}: {a} {b}");
     for &x in points {
         let [f, d, dd] = exact(x);
-        let (v, a) = (1.3, -0.7);
+        let v = 1.3;
+        let a = -0.7;
         near(expression.eval(&[x]), f, "value");
         let motion = expression.eval(&[Taylor::new(x, v, a)]);
         near(motion.x, f, "value");
@@ -86,7 +87,8 @@ fn derivatives_of_pieces() {
 
 #[test]
 fn derivatives_of_powers_and_angles() {
-    let (wide, positive) = ([-2.3, -0.4, 0.0, 0.7, 3.1], [0.2, 1.0, 2.5]);
+    let wide = [-2.3, -0.4, 0.0, 0.7, 3.1];
+    let positive = [0.2, 1.0, 2.5];
     check("x^2", &wide, |x| [x * x, 2.0 * x, 2.0]);
     check("x^3 - 2*x^1 + x^0", &wide, |x| [x.powi(3) - 2.0 * x + 1.0, 3.0 * x * x - 2.0, 6.0 * x]);
     check("(2 - x)^-2", &wide, |x| [(2.0 - x).powi(-2), 2.0 * (2.0 - x).powi(-3), 6.0 * (2.0 - x).powi(-4)]);
@@ -94,7 +96,8 @@ fn derivatives_of_powers_and_angles() {
     check("x^0.5", &positive, |x| [x.sqrt(), 0.5 / x.sqrt(), -0.25 * x.powf(-1.5)]);
     check("2^x", &wide, |x| [1.0, 2f64.ln(), 2f64.ln().powi(2)].map(|c| c * 2f64.powf(x)));
     check("pow(x, x)", &positive, |x| {
-        let (f, l) = (x.powf(x), x.ln() + 1.0);
+        let f = x.powf(x);
+        let l = x.ln() + 1.0;
         [f, f * l, f * (l * l + 1.0 / x)]
     });
     let circle = |x: f64| {
@@ -116,7 +119,8 @@ fn a_bump_has_finite_derivatives_everywhere() {
     for i in -4000..4000 {
         let t = f64::from(i) * 0.01;
         let y = bump.eval(&[Taylor::fixed(0.0), Taylor::fixed(0.0), Taylor::time(t)]);
-        let (u, w) = ((t - 0.5) / 0.07, 1.0 / 0.07);
+        let u = (t - 0.5) / 0.07;
+        let w = 1.0 / 0.07;
         let f = 0.05 * (-u * u).exp();
         let exact = [f, -2.0 * u * w * f, (4.0 * u * u - 2.0) * w * w * f];
         [y.x, y.d, y.dd].iter().zip(exact).for_each(|(a, b)| assert!((a - b).abs() < 1e-12 * (1.0 + b.abs()), "{t}"));

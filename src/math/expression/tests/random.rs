@@ -44,7 +44,9 @@ impl Tree {
                 _ => Tree::Y,
             };
         }
-        let (a, b, c) = (next(), next(), next());
+        let a = next();
+        let b = next();
+        let c = next();
         match random.below(8) {
             0 => Tree::Minus(a),
             1 | 2 => {
@@ -99,7 +101,8 @@ fn formulas_have_the_values_of_their_trees() {
     for number in 0..4000 {
         let tree = Tree::grow(&mut random, 1 + number % 4);
         let text = tree.text();
-        let (x, y) = (random.below(64) as f64 / 16.0 - 1.96875, random.below(64) as f64 / 16.0 - 1.03125);
+        let x = random.below(64) as f64 / 16.0 - 1.96875;
+        let y = random.below(64) as f64 / 16.0 - 1.03125;
         let expected = tree.value(x, y);
         let found = parse(&text).eval(&[x, y, 0.0, 0.0]);
         if expected.is_finite() && expected.abs() < 1e100 {

@@ -84,7 +84,8 @@ pub fn find(mass: &Pattern, g: &Pattern, groups: &Groups) -> Vec<Option<Entries>
         blocks.entry((of_coordinate[i], of_row[row])).or_default().push(entry);
     }
     for ((group, rows), entries) in blocks {
-        let (coordinates, rows_of) = (&groups.coordinates[group], &groups.rows[rows]);
+        let coordinates = &groups.coordinates[group];
+        let rows_of = &groups.rows[rows];
         let places = rows_of.iter().flat_map(|&row| coordinates.iter().map(move |&i| (row, i)));
         are_bodies[group] &= is_sequence(&entries)
             && is_sequence(rows_of)
@@ -128,7 +129,9 @@ impl Bodies {
         self.sides.extend(sides);
         let kind = |run: &Run| (run.width, run.partner_width, run.are_levers);
         if self.runs.last().is_none_or(|run| kind(run) != (width, partner_width, are_levers)) {
-            let (bodies, sides, targets) = (starts.0..0, starts.1..0, starts.2..0);
+            let bodies = starts.0..0;
+            let sides = starts.1..0;
+            let targets = starts.2..0;
             self.runs.push(Run { bodies, sides, targets, width, partner_width, are_levers });
         }
         if let Some(run) = self.runs.last_mut() {

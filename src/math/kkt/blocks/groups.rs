@@ -34,7 +34,8 @@ impl Groups {
         rows: Vec<Vec<usize>>,
         late: &[bool],
     ) -> Self {
-        let (of_coordinate, of_row) = (numbers(&coordinates, g.cols), numbers(&rows, g.rows));
+        let of_coordinate = numbers(&coordinates, g.cols);
+        let of_row = numbers(&rows, g.rows);
         let pattern = |rows: usize, entries: Vec<(usize, usize)>| Pattern {
             rows,
             cols: coordinates.len(),
@@ -55,7 +56,8 @@ impl Groups {
     /// is, but those of late coordinates where their last is, behind all their multipliers.
     pub fn in_order(&self, nodes: &[usize]) -> Vec<usize> {
         let (of_coordinate, of_row) = self.numbers();
-        let (count, n) = (self.coordinates.len(), of_coordinate.len());
+        let count = self.coordinates.len();
+        let n = of_coordinate.len();
         let mut members = vec![0; count + self.rows.len()];
         let mut order = Vec::with_capacity(members.len());
         for &node in nodes {

@@ -65,7 +65,8 @@ impl Elimination<'_, '_> {
     /// Eliminates columns with partners of any width.
     pub fn mixed<const W: usize>(&mut self, run: &Run) -> Result<(), usize> {
         let layout = self.layout;
-        let (mut targets, mut widths) = (&layout.targets[run.targets.clone()], &layout.widths[run.partners.clone()]);
+        let mut targets = &layout.targets[run.targets.clone()];
+        let mut widths = &layout.widths[run.partners.clone()];
         let mut lengths = widths;
         let length = |count: usize| {
             let (own, others) = lengths.split_at(count);
@@ -149,7 +150,8 @@ impl<const W: usize> Products<'_, W> {
         let Some(x) = self.xs.first_chunk::<R>() else { return 0 };
         // By columns, so that the products of a row of X are those of whole rows.
         let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j][p] * self.inverse[p]));
-        let (mut rows, mut count) = (self.xs, 0);
+        let mut rows = self.xs;
+        let mut count = 0;
         for (&width, &target) in self.widths.iter().zip(self.targets) {
             if rows.is_empty() {
                 break;
@@ -175,7 +177,8 @@ impl<T: Lanes> Solution<'_, T> {
     /// x := L^-1 x for columns whose partners are R wide; WR = W R.
     pub fn forward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
         let Solution { layout, work, inverse, x } = self;
-        let (mut work, mut partners) = (&work[run.place..], &layout.partners[run.partners.clone()]);
+        let mut work = &work[run.place..];
+        let mut partners = &layout.partners[run.partners.clone()];
         let inverses = inverse[run.first..].as_chunks::<W>().0;
         for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate() {
             let (own, rest) = work.split_at(W * W + count as usize * WR);
@@ -193,7 +196,8 @@ impl<T: Lanes> Solution<'_, T> {
     /// The same for partners of any width.
     pub fn forward_by_rows<const W: usize>(&mut self, run: &Run) {
         let Solution { layout, work, inverse, x } = self;
-        let (mut work, mut partners) = (&work[run.place..], Partners::of(layout, run));
+        let mut work = &work[run.place..];
+        let mut partners = Partners::of(layout, run);
         let inverses = inverse[run.first..].as_chunks::<W>().0;
         for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate() {
             let own = partners.first(count as usize);
@@ -209,7 +213,8 @@ impl<T: Lanes> Solution<'_, T> {
     /// x := L^-T D^-1 x for columns whose partners are R wide, the last first; WR = W R.
     pub fn backward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
         let Solution { layout, work, inverse, x } = self;
-        let (mut work, mut partners) = (&work[..run.end], &layout.partners[run.partners.clone()]);
+        let mut work = &work[..run.end];
+        let mut partners = &layout.partners[run.partners.clone()];
         let inverses = inverse[run.first..].as_chunks::<W>().0;
         for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate().rev() {
             let (rest, own) = work.split_at(work.len() - W * W - count as usize * WR);
@@ -228,7 +233,8 @@ impl<T: Lanes> Solution<'_, T> {
     /// The same for partners of any width.
     pub fn backward_by_rows<const W: usize>(&mut self, run: &Run) {
         let Solution { layout, work, inverse, x } = self;
-        let (mut work, mut partners) = (&work[..run.end], Partners::of(layout, run));
+        let mut work = &work[..run.end];
+        let mut partners = Partners::of(layout, run);
         let inverses = inverse[run.first..].as_chunks::<W>().0;
         for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate().rev() {
             let own = partners.last(count as usize);
@@ -257,7 +263,8 @@ impl<'a> Partners<'a> {
 
     /// Takes the first ones off.
     fn first(&mut self, count: usize) -> Self {
-        let (positions, widths) = (self.positions.split_at(count), self.widths.split_at(count));
+        let positions = self.positions.split_at(count);
+        let widths = self.widths.split_at(count);
         *self = Partners { positions: positions.1, widths: widths.1 };
         Partners { positions: positions.0, widths: widths.0 }
     }
@@ -265,7 +272,8 @@ impl<'a> Partners<'a> {
     /// Takes the last ones off.
     fn last(&mut self, count: usize) -> Self {
         let at = self.positions.len() - count;
-        let (positions, widths) = (self.positions.split_at(at), self.widths.split_at(at));
+        let positions = self.positions.split_at(at);
+        let widths = self.widths.split_at(at);
         *self = Partners { positions: positions.0, widths: widths.0 };
         Partners { positions: positions.1, widths: widths.1 }
     }
@@ -289,7 +297,8 @@ fn solved_forward<T: Lanes, const W: usize>(
     inverse: &[f64; W],
     (first, x): (usize, &mut [T]),
 ) -> Option<[T; W]> {
-    let (diagonal, x) = (block.as_chunks::<W>().0.first_chunk::<W>()?, at_mut::<_, W>(x, first)?);
+    let diagonal = block.as_chunks::<W>().0.first_chunk::<W>()?;
+    let x = at_mut::<_, W>(x, first)?;
     if !run.is_diagonal {
         forward(diagonal, x);
     }

@@ -105,7 +105,8 @@ impl Layout {
         let below = below[first.len()..].iter().map(|column| column.iter().map(|&k| k - first.len() as u32).collect());
         let full = (own..others.len()).map(|k| (k as u32 + 1..others.len() as u32).collect());
         let below: Vec<Vec<u32>> = below.chain(full).collect();
-        let (count, n) = (groups.coordinates.len(), g.cols);
+        let count = groups.coordinates.len();
+        let n = g.cols;
         let mut layout = Layout {
             columns: Vec::with_capacity(others.len()),
             early: others.iter().filter(|&&group| group < count && !groups.late[group]).count(),
@@ -180,14 +181,18 @@ impl Layout {
 
     fn push(&mut self, first: usize, is_coordinate: bool, is_diagonal: bool) {
         let width = self.nodes.len() - first;
-        let (diagonal, partners, rows, targets) = (0, 0..0, 0, 0);
+        let diagonal = 0;
+        let partners = 0..0;
+        let rows = 0;
+        let targets = 0;
         self.columns.push(Column { width, first, diagonal, partners, rows, targets, is_diagonal, is_coordinate });
     }
 
     /// Gives every block its place.
     fn place(&mut self, below: &[Vec<u32>]) {
         for (j, below) in below.iter().enumerate() {
-            let (start, mut rows) = (self.partners.len(), 0);
+            let start = self.partners.len();
+            let mut rows = 0;
             for &k in below {
                 let Column { width, first, .. } = self.columns[k as usize];
                 self.before.push(rows as u32);
@@ -196,7 +201,8 @@ impl Layout {
                 rows += width;
             }
             self.counts.push(below.len() as u32);
-            let (column, len) = (&mut self.columns[j], self.len);
+            let column = &mut self.columns[j];
+            let len = self.len;
             (column.diagonal, column.partners, column.rows) = (len, start..self.partners.len(), rows);
             self.diagonals.extend((0..column.width).map(|p| (len + p * column.width + p) as u32));
             self.len = column.end();
@@ -220,7 +226,8 @@ impl Layout {
 
     /// Place of the block of column `row` below that of an earlier column.
     fn block(&self, row: usize, column: usize) -> usize {
-        let (first, column) = (self.columns[row].first as u32, &self.columns[column]);
+        let first = self.columns[row].first as u32;
+        let column = &self.columns[column];
         let partner = self.partners[column.partners.clone()].partition_point(|&position| position < first);
         let before = self.before[column.partners.clone()].get(partner).map_or(0, |&before| before as usize);
         column.diagonal + column.width * (column.width + before)
@@ -308,13 +315,15 @@ impl Run {
     /// True if the next columns are alike; any partners suit where there are none.
     fn takes(&self, next: &Run) -> bool {
         let kind = |run: &Run| (run.width, run.is_early, run.is_diagonal, run.sign > 0.0);
-        let (own, other) = (self.partner_width, next.partner_width);
+        let own = self.partner_width;
+        let other = next.partner_width;
         kind(self) == kind(next) && (own == other || self.partners.is_empty() || next.partners.is_empty())
     }
 
     /// Position of the first unknown of each column.
     pub fn firsts(&self) -> impl DoubleEndedIterator<Item = usize> + use<> {
-        let (first, width) = (self.first, self.width);
+        let first = self.first;
+        let width = self.width;
         (0..self.columns.len()).map(move |j| first + j * width)
     }
 

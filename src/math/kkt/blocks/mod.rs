@@ -111,7 +111,8 @@ impl Blocks {
         layout.mass_slots.iter().for_each(|&(entry, slot)| work[slot as usize] += mass[entry as usize]);
         layout.g_slots.iter().for_each(|&(entry, slot)| work[slot as usize] += g[entry as usize]);
         layout.coordinates.iter().for_each(|&(_, p)| sizes[p as usize] = work[layout.diagonal(p)]);
-        let (early, own) = (layout.early_runs(), layout.own_runs);
+        let early = layout.early_runs();
+        let own = layout.own_runs;
         self.reduce();
         self.eliminate(0..early, judge)?;
         let Blocks { layout, work, sizes, .. } = self;
@@ -207,7 +208,9 @@ impl Blocks {
 
     /// Solves [M G^T; G 0] [d; .] = [0; b] for two b at once.
     pub fn project(&mut self, [b, c]: [&[f64]; 2], [d, e]: [&mut [f64]; 2]) {
-        let (n, len, all) = (self.n, self.layout.nodes.len(), 0..self.layout.runs.len());
+        let n = self.n;
+        let len = self.layout.nodes.len();
+        let all = 0..self.layout.runs.len();
         let (factors, _, [top, x]) = self.factors();
         for (side, len) in [(&mut *top, n), (&mut *x, len)] {
             side.clear();
@@ -273,7 +276,8 @@ impl Blocks {
 
     /// The ratios of a joint's pivots with the largest first, by those without, from L_jj D L_jj^T.
     fn pivoted<const W: usize>(&self, first: usize, place: usize, ratios: &mut [f64; W]) {
-        let (rows, sizes) = (self.work[place..].as_chunks::<W>().0, at::<_, W>(&self.sizes, first));
+        let rows = self.work[place..].as_chunks::<W>().0;
+        let sizes = at::<_, W>(&self.sizes, first);
         let (Some(rows), Some(sizes)) = (rows.first_chunk::<W>(), sizes) else { return };
         let l = |i: usize, p: usize| if i == p { 1.0 } else { rows[i][p] };
         let scale = sizes.map(|size| size.sqrt().recip());

@@ -26,7 +26,8 @@ impl Schur<'_> {
         reduce: impl Fn(&[f64; W], &[Side], &mut Iter<u32>, &[f64], &mut [f64]),
     ) {
         let Schur { bodies, g, inverse, work } = self;
-        let (mut rest, mut targets) = (&bodies.sides[run.sides.clone()], bodies.targets[run.targets.clone()].iter());
+        let mut rest = &bodies.sides[run.sides.clone()];
+        let mut targets = bodies.targets[run.targets.clone()].iter();
         for body in &bodies.all[run.bodies.clone()] {
             let Some(inverse) = at::<_, W>(inverse, body.first as usize) else { return };
             let (sides, others) = rest.split_at(body.sides as usize);

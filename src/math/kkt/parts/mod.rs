@@ -59,7 +59,8 @@ impl Divisible for Collection<'_> {
     fn divided(self) -> [Self; 2] {
         let (shares, others) = self.shares.split_at(self.shares.len() / 2);
         let sizes = shares.iter().map(Share::sizes).fold([0, 0], |[n, m], [own, rows]| [n + own, m + rows]);
-        let (top, bottom) = (self.top.split_at_mut(sizes[0]), self.bottom.split_at_mut(sizes[1]));
+        let top = self.top.split_at_mut(sizes[0]);
+        let bottom = self.bottom.split_at_mut(sizes[1]);
         let first = Collection { shares, top: top.0, bottom: bottom.0 };
         [first, Collection { shares: others, top: top.1, bottom: bottom.1 }]
     }
@@ -139,7 +140,8 @@ fn collect<'a, 's>(
 impl Part {
     fn new(number: usize, plan: &PartPlan) -> Self {
         let zeros = |len: usize| vec![0.0; len];
-        let (n, m) = (plan.coordinates.of.len(), plan.rows.of.len());
+        let n = plan.coordinates.of.len();
+        let m = plan.rows.of.len();
         let mut blocks = Blocks::new(plan.layout.clone(), n);
         blocks.reserve(plan.mass.of.len(), plan.g.of.len());
         Part {

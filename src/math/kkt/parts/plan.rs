@@ -178,15 +178,18 @@ impl Whole {
 
     fn part(&self, (mass, g): (&Pattern, &Pattern), late: &[bool], levers: &[Lever], part: u32) -> PartPlan {
         let members = |of: &[u32]| (0..of.len()).filter(|&k| [part, SEPARATOR].contains(&of[k])).collect::<Vec<_>>();
-        let (coordinates, rows) = (members(&self.of_coordinate), members(&self.of_row));
-        let (place_of_coordinate, place_of_row) = (places(&coordinates, g.cols), places(&rows, g.rows));
+        let coordinates = members(&self.of_coordinate);
+        let rows = members(&self.of_row);
+        let place_of_coordinate = places(&coordinates, g.cols);
+        let place_of_row = places(&rows, g.rows);
         // What belongs to the separator alone is in the first part.
         let is_own = |a: u32, b: u32| a.min(b) == part || part == 0 && a.min(b) == SEPARATOR;
         let entries = |pattern: &Pattern, of: &[u32]| -> Vec<usize> {
             let entries = pattern.entries.iter().enumerate();
             entries.filter(|(_, (a, b))| is_own(of[*a], self.of_coordinate[*b])).map(|(k, _)| k).collect()
         };
-        let (of_mass, of_g) = (entries(mass, &self.of_coordinate), entries(g, &self.of_row));
+        let of_mass = entries(mass, &self.of_coordinate);
+        let of_g = entries(g, &self.of_row);
         let pattern = |all: &Pattern, own: &[usize], place: &[usize], rows: usize| Pattern {
             rows,
             cols: coordinates.len(),
@@ -258,12 +261,14 @@ fn places(list: &[usize], len: usize) -> Vec<usize> {
 /// large even of two.
 fn of_groups(groups: &Groups, most: usize) -> Option<(Vec<u32>, usize)> {
     let left = Left::new(&groups.mass, &groups.g, &groups.late);
-    let (count, rest) = (groups.coordinates.len(), left.rest());
+    let count = groups.coordinates.len();
+    let rest = left.rest();
     let total = count + groups.rows.len();
     let place = places(rest, total);
     let mut neighbours = vec![Vec::new(); rest.len()];
     for (a, b) in left.edges(&groups.mass, &groups.g) {
-        let (a, b) = (place[a], place[b]);
+        let a = place[a];
+        let b = place[b];
         if a != usize::MAX && b != usize::MAX && a != b {
             neighbours[a].push(b as u32);
             neighbours[b].push(a as u32);

@@ -30,7 +30,8 @@ pub struct Chart {
 impl Chart {
     /// The patterns must fit each other.
     pub fn new(mass: &Pattern, g: &Pattern) -> Self {
-        let (n, m) = (g.cols, g.rows);
+        let n = g.cols;
+        let m = g.rows;
         let most = n.min(m);
         Chart {
             mass: mass.clone(),

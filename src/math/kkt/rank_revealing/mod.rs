@@ -42,7 +42,8 @@ pub(super) struct NullSpace {
 
 impl NullSpace {
     pub fn new(mass: &Pattern, g: &Pattern) -> Self {
-        let (n, m) = (mass.rows, g.rows);
+        let n = mass.rows;
+        let m = g.rows;
         NullSpace {
             qr: PivotedQr::new(n, m),
             reduced: PivotedCholesky::new(n),
@@ -97,7 +98,8 @@ impl NullSpace {
     }
 
     fn scale_rows(&mut self, system: &System) {
-        let (mass, g) = ((&*system.mass, &system.mass_values[..]), (&*system.g, &system.g_values[..]));
+        let mass = (&*system.mass, &system.mass_values[..]);
+        let g = (&*system.g, &system.g_values[..]);
         scaled_rows(mass, g, &mut self.scale, &mut self.norms, &mut self.qr.values);
     }
 
@@ -109,7 +111,8 @@ impl NullSpace {
 
     /// Factors Z^T S M S Z, made by columns: the lower part of Q^T S M S Q e_k.
     fn factor_reduced(&mut self, system: &System) -> Result<(), Singular> {
-        let (n, r) = (self.scale.len(), self.qr.rank);
+        let n = self.scale.len();
+        let r = self.qr.rank;
         let size = n - r;
         self.reduced.size = size;
         for k in 0..size {
@@ -134,7 +137,8 @@ impl NullSpace {
 
     /// Makes N orthonormal.
     fn span_null(&mut self) {
-        let (m, r) = (self.norms.len(), self.qr.rank);
+        let m = self.norms.len();
+        let r = self.qr.rank;
         self.null.resize(m * (m - r), 0.0);
         for k in r..m {
             self.bottom.fill(0.0);
@@ -155,7 +159,8 @@ impl NullSpace {
     /// Solves in place, with one refinement.
     pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64]) {
         self.inconsistency = if self.qr.bars.contains(&true) { 0.0 } else { project_out(&self.null, bottom) };
-        let (mut t, mut b) = (std::mem::take(&mut self.top), std::mem::take(&mut self.bottom));
+        let mut t = std::mem::take(&mut self.top);
+        let mut b = std::mem::take(&mut self.bottom);
         t.copy_from_slice(top);
         b.copy_from_slice(bottom);
         self.solve_once(system, &mut t, &mut b);

@@ -39,7 +39,8 @@ impl PivotedQr {
     /// Factors `values` up to the first |R_kk| <= tolerance |R_00|. Column norms are recomputed, not downdated, for the
     /// accuracy of small ones; barred columns have a norm of -1. 3 rows cols^2 operations.
     pub fn factor(&mut self, tolerance: f64) {
-        let (rows, cols) = (self.rows, self.permutation.len());
+        let rows = self.rows;
+        let cols = self.permutation.len();
         self.permutation.iter_mut().enumerate().for_each(|(j, p)| *p = j);
         (self.rank, self.rest) = (0, 0.0);
         if rows == 0 {
@@ -249,7 +250,8 @@ impl PivotedCholesky {
 
     /// b := H^-1 b.
     pub fn solve(&mut self, b: &mut [f64]) {
-        let (size, x) = (self.size, &mut self.x);
+        let size = self.size;
+        let x = &mut self.x;
         for (x, &p) in x.iter_mut().zip(&self.permutation[..size]) {
             *x = b[p];
         }

@@ -99,7 +99,8 @@ impl Kept {
     /// null space stays, orthogonal to the removed part.
     fn project(&mut self, system: &System, v: &mut [f64]) -> Result<f64, Singular> {
         let Kept { inner, rows, dropped, bottom: short, least, .. } = self;
-        let (indicator, mut result) = ((inner.rank_indicator(), !inner.is_fast()), Ok(()));
+        let indicator = (inner.rank_indicator(), !inner.is_fast());
+        let mut result = Ok(());
         let mut inverse = |top: &mut [f64], bottom: &mut [f64]| {
             let solved = solve(inner, rows, (top, bottom, short), true);
             result = result.and(solved);

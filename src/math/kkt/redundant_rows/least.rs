@@ -115,7 +115,9 @@ impl Least {
         self.residual.copy_from_slice(v);
         add_scaled(-1.0, &self.weights, &mut self.residual);
         self.null_transposed(system, rows, solve);
-        let (mut product, mut least, mut waited) = (0.0, f64::INFINITY, 0);
+        let mut product = 0.0;
+        let mut least = f64::INFINITY;
+        let mut waited = 0;
         self.direction.fill(0.0);
         for _ in 0..tolerances::GRADIENTS {
             let size = norm(&self.residual);

@@ -42,7 +42,8 @@ pub(super) struct RedundantRowSolve {
 
 impl RedundantRowSolve {
     pub fn new(System { mass, g, analysis, .. }: &System) -> Self {
-        let (n, m) = (g.cols, g.rows);
+        let n = g.cols;
+        let m = g.rows;
         let zeros = || vec![0.0; m];
         RedundantRowSolve {
             factor: Ldlt::of(analysis.single(mass, g), mass, g, &vec![false; n]),

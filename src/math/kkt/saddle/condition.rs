@@ -34,7 +34,8 @@ impl SaddlePoint {
     }
 
     fn condition_by_iteration(&mut self, scale: &[f64]) -> f64 {
-        let (n, system) = (self.n, &self.system);
+        let n = self.n;
+        let system = &self.system;
         let times = |x: &[f64], y: &mut [f64]| {
             y.fill(0.0);
             let (top, bottom) = y.split_at_mut(n);

@@ -66,7 +66,8 @@ impl SaddlePoint {
         let is_shaped = mass.rows == mass.cols && mass.rows == g.cols && mass.is_inside() && g.is_inside();
         let empty = Arc::default();
         let (mass, g) = if is_shaped { (mass, g) } else { (&empty, &empty) };
-        let (n, m) = (mass.rows, g.rows);
+        let n = mass.rows;
+        let m = g.rows;
         SaddlePoint {
             rank_tolerance: 1e-10,
             n,
@@ -227,7 +228,8 @@ impl SaddlePoint {
         if top.len() != self.n || bottom.len() != self.m {
             return Err(Singular::Shape);
         }
-        let (system, counts_all) = (&self.system, !self.drops_rows);
+        let system = &self.system;
+        let counts_all = !self.drops_rows;
         match (
             self.way,
             self.fast.as_mut().and_then(Orders::taken),

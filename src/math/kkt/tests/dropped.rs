@@ -49,7 +49,8 @@ fn dropped_rows_share_the_multipliers() {
     let mut solver = SaddlePoint::new(&sample.mass, &sample.g);
     solver.drop_rows(&[20, 21]);
     solver.factor(&sample.mass_values, &sample.g_values).unwrap();
-    let (mut a, mut lambda) = (r1, r2);
+    let mut a = r1;
+    let mut lambda = r2;
     solver.solve(&mut a, &mut lambda).unwrap();
     agree((&a, &lambda), expected, 1e-10);
 }
@@ -66,7 +67,8 @@ fn released_rows_count_again() {
         solver.factor(&sample.mass_values, &sample.g_values).unwrap();
         assert_eq!(solver.rank(), rank);
     }
-    let (mut top, mut bottom) = (r1, r2);
+    let mut top = r1;
+    let mut bottom = r2;
     solver.solve(&mut top, &mut bottom).unwrap();
     assert!(solver.is_fast() && distance(&top, &a) < 1e-12 && distance(&bottom, &lambda) < 1e-12);
 }
@@ -83,7 +85,8 @@ fn the_dense_solver_drops_rows_too() {
         let mut solver = Reduced::new(&sample.mass, &sample.g, 1e-10).unwrap();
         solver.drop_rows(&[20, 21]);
         solver.factor(&sample.mass_values, &sample.g_values, 0.0).unwrap();
-        let (mut top, mut lambda) = (r1.clone(), r2.clone());
+        let mut top = r1.clone();
+        let mut lambda = r2.clone();
         // What dropped rows ask for is not read.
         lambda[20] += 1.0;
         solver.solve(&mut top, &mut lambda).unwrap();
@@ -99,14 +102,16 @@ fn the_dense_solver_drops_rows_too() {
 /// Two rows that become parallel at s = 0: below 1e-4 of the reference value only what both ask for counts.
 #[test]
 fn nearly_dependent_rows_are_truncated() {
-    let (mass, g) = (Pattern::diagonal(3), Pattern::dense(2, 3));
+    let mass = Pattern::diagonal(3);
+    let g = Pattern::dense(2, 3);
     let values = |s: f64| [1.0, 2.0, 0.5, 1.0, 2.0 + s, 0.5];
     let mut solver = SaddlePoint::new(&mass, &g);
     let mut right = |reference: f64, s: f64| {
         solver.rank_reference = reference;
         solver.factor_truncated(&[1.0, 1.0, 1.0], &values(s), 1e-4).unwrap();
         // Contradicting accelerations: solved for, they cost 1/s.
-        let (mut a, mut lambda) = ([0.0; 3], [1.0, 1.0 + 1e-3]);
+        let mut a = [0.0; 3];
+        let mut lambda = [1.0, 1.0 + 1e-3];
         solver.solve(&mut a, &mut lambda).unwrap();
         (solver.rank(), solver.is_rank_deficient(), a[1])
     };

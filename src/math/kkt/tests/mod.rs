@@ -14,7 +14,8 @@ use samples::{Random, Sample, distance};
 pub fn solved(sample: &Sample, r1: &[f64], r2: &[f64]) -> (Vec<f64>, Vec<f64>, SaddlePoint) {
     let mut solver = SaddlePoint::new(&sample.mass, &sample.g);
     solver.factor(&sample.mass_values, &sample.g_values).unwrap();
-    let (mut a, mut lambda) = (r1.to_vec(), r2.to_vec());
+    let mut a = r1.to_vec();
+    let mut lambda = r2.to_vec();
     solver.solve(&mut a, &mut lambda).unwrap();
     (a, lambda, solver)
 }
@@ -41,7 +42,8 @@ pub fn agrees_with_lu(sample: &Sample, random: &mut Random, tolerance: f64) {
 
 /// The solver that has found what the pseudo-inverse gives.
 pub fn agreeing_with_svd(sample: &Sample, random: &mut Random, tolerance: f64) -> SaddlePoint {
-    let (r1, r2) = (random.vector(sample.sizes().0), reachable(sample, random));
+    let r1 = random.vector(sample.sizes().0);
+    let r2 = reachable(sample, random);
     let (a, lambda, solver) = solved(sample, &r1, &r2);
     agree((&a, &lambda), sample.by_svd(&r1, &r2), tolerance);
     solver

@@ -16,7 +16,9 @@ fn both(
     (count, rule): (usize, Rule),
 ) -> [(Vec<f64>, Vec<usize>); 2] {
     let (n, _) = sample.sizes();
-    let (mut top, mut bottom, mut skipped) = (r1.to_vec(), r2.to_vec(), vec![]);
+    let mut top = r1.to_vec();
+    let mut bottom = r2.to_vec();
+    let mut skipped = vec![];
     let mut whole = Blocks::new(Layout::new(&sample.mass, &sample.g, late, levers).into(), n);
     whole.factor(&sample.mass_values, &sample.g_values, rule, &mut skipped).ok().unwrap();
     whole.solve(&mut top, &mut bottom);
@@ -25,7 +27,9 @@ fn both(
     assert_eq!(division.parts.len(), count);
     let mut parts = Parts::new(division.into());
     let mut solved = || {
-        let (mut top, mut bottom, mut skipped) = (r1.to_vec(), r2.to_vec(), vec![]);
+        let mut top = r1.to_vec();
+        let mut bottom = r2.to_vec();
+        let mut skipped = vec![];
         parts.factor(&sample.mass_values, &sample.g_values, rule, &mut skipped).ok().unwrap();
         parts.solve(&mut top, &mut bottom);
         assert!(parts.smallest_ratio(0.0).0 > 0.0);
@@ -106,7 +110,8 @@ fn as_many_rows_are_dropped_in_parts() {
     for row in [10, 70, 150, 230] {
         sample.append(&[(row, 1.5), (row - 3, -0.5)]);
     }
-    let (r1, r2) = (random.vector(360), reachable(&sample, &mut random));
+    let r1 = random.vector(360);
+    let r2 = reachable(&sample, &mut random);
     let rule = Rule::lenient(1e-13, &sample.mass_values);
     for count in [2, 4] {
         let [expected, found] = both(&sample, (&[false; 360], &[]), (&r1, &r2), (count, rule));

@@ -23,14 +23,16 @@ fn solve(solver: &mut SaddlePoint, (mass, g): &Values, (n, m): (usize, usize)) -
             None => solver.factor(mass, g),
         };
         factored?;
-        let (mut top, mut bottom) = (right_side(n), right_side(m));
+        let mut top = right_side(n);
+        let mut bottom = right_side(m);
         solver.solve(&mut top, &mut bottom)?;
         let rank_indicator = solver.rank_indicator();
         Ok([bits(&top, &bottom), vec![rank_indicator.to_bits()]].concat())
     };
     let mut found = vec![solved(None), solved(Some(1e-4)), solved(Some(1e-2))];
     solver.drop_rows(&[m - 1]);
-    let (mut top, mut bottom) = (right_side(n), right_side(m));
+    let mut top = right_side(n);
+    let mut bottom = right_side(m);
     found.push(solver.factor(mass, g).and_then(|()| solver.solve(&mut top, &mut bottom)).map(|()| bits(&top, &bottom)));
     solver.drop_rows(&[]);
     found
@@ -106,7 +108,8 @@ fn a_used_dense_solver_solves_as_a_fresh_one() {
     let (n, m) = sample.sizes();
     let make = || Reduced::new(&sample.mass, &sample.g, 1e-10).unwrap();
     let solve = |solver: &mut Reduced, (mass, g): &Values, reference: f64| -> Solution {
-        let (mut top, mut bottom) = (right_side(n), right_side(m));
+        let mut top = right_side(n);
+        let mut bottom = right_side(m);
         solver.factor(mass, g, reference)?;
         solver.solve(&mut top, &mut bottom)?;
         Ok([bits(&top, &bottom), vec![solver.rank_indicator().to_bits()]].concat())

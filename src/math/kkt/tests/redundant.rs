@@ -33,7 +33,8 @@ fn the_dense_way_agrees_with_the_pseudo_inverse() {
         system.store(&sample.mass_values, &sample.g_values);
         let mut dense = NullSpace::new(&sample.mass, &sample.g);
         dense.factor(&system, 1e-10).unwrap();
-        let (mut a, mut lambda) = (r1.clone(), r2.clone());
+        let mut a = r1.clone();
+        let mut lambda = r2.clone();
         dense.solve(&system, &mut a, &mut lambda);
         assert_eq!(dense.left_out().len(), copies);
         agree((&a, &lambda), sample.by_svd(&r1, &r2), 1e-11);
@@ -75,7 +76,8 @@ fn a_singular_configuration_is_passed() {
     for (s, rank) in [(1.0, 2), (1e-3, 2), (1e-5, 2), (1e-8, 2), (1e-13, 1), (0.0, 1), (-1e-8, 2), (-1.0, 2)] {
         solver.factor(&[1.0, 2.0, 3.0], &values(s)).unwrap();
         assert_eq!(solver.rank(), rank, "at {s}");
-        let (mut a, mut lambda) = ([1.0, 0.5, -1.0], [0.0, 0.0]);
+        let mut a = [1.0, 0.5, -1.0];
+        let mut lambda = [0.0, 0.0];
         solver.solve(&mut a, &mut lambda).unwrap();
         let mut velocity = [0.0; 2];
         g.multiply(&values(s), &a, &mut velocity);
@@ -125,7 +127,8 @@ fn least_multipliers_take_few_solutions_however_many_rows_are_redundant() {
         system.store(&sample.mass_values, &sample.g_values);
         let (_, _, mut solver) = solved(&reduced, &vec![0.0; n], &[0.0; 120]);
         let (rows, rank_indicator): (Vec<usize>, f64) = ((120..m).collect(), solver.rank_indicator());
-        let (mut solutions, mut v) = (0, random.vector(m));
+        let mut solutions = 0;
+        let mut v = random.vector(m);
         let before = v.clone();
         let mut inverse = |top: &mut [f64], bottom: &mut [f64]| {
             solutions += 1;
@@ -159,7 +162,8 @@ fn copies_of_a_joint_share_its_force() {
     let mut alike = Alike::new(&sample.g);
     assert!(alike.is_crowded() && !Alike::new(&reduced.g).is_crowded());
     assert_eq!(alike.dependent(&sample.g_values, 1e-10), (4..2002).collect::<Vec<usize>>());
-    let (r1, mut r2) = (random.vector(6), random.vector(4));
+    let r1 = random.vector(6);
+    let mut r2 = random.vector(4);
     let (a, lambda, _) = solved(&reduced, &r1, &r2);
     (0..999).for_each(|_| r2.extend([r2[2], r2[3]]));
     let (a_all, lambda_all, solver) = solved(&sample, &r1, &r2);

@@ -138,7 +138,8 @@ fn both_ways_of_elimination_agree() {
         ] {
             let mut skipped = vec![];
             fast.factor(&sample.mass_values, &sample.g_values, Rule::STRICT, &mut skipped).ok().unwrap();
-            let (mut a, mut lambda) = (r1.clone(), r2.clone());
+            let mut a = r1.clone();
+            let mut lambda = r2.clone();
             fast.solve(&mut a, &mut lambda);
             results.push([a, lambda].concat());
         }
@@ -172,7 +173,8 @@ fn bodies_levers_and_single_entries_agree() {
             let mut blocks = Blocks::new(layout.into(), n);
             blocks.factor(&sample.mass_values, &sample.g_values, Rule::STRICT, &mut vec![]).ok().unwrap();
             let of = |blocks: &mut Blocks, top: &[f64], bottom: &[f64]| {
-                let (mut a, mut lambda) = (top.to_vec(), bottom.to_vec());
+                let mut a = top.to_vec();
+                let mut lambda = bottom.to_vec();
                 blocks.solve(&mut a, &mut lambda);
                 [a, lambda]
             };
@@ -222,7 +224,8 @@ fn a_hub_does_not_couple_everything() {
     let mut solver = SaddlePoint::new(&sample.mass, &sample.g);
     solver.factor(&sample.mass_values, &sample.g_values).unwrap();
     let (r1, r2) = right_side(&sample, &mut random);
-    let (mut a, mut lambda) = (r1.clone(), r2.clone());
+    let mut a = r1.clone();
+    let mut lambda = r2.clone();
     solver.solve(&mut a, &mut lambda).unwrap();
     let mut left = r2.clone();
     sample.g.subtract(&sample.g_values, &a, &mut left);
@@ -241,7 +244,8 @@ fn projections_and_refinement() {
     // The factor of values nearby, refined against the true ones.
     let near: Vec<f64> = sample.g_values.iter().map(|v| v * (1.0 + 1e-9 * random.next())).collect();
     solver.factor(&sample.mass_values, &near).unwrap();
-    let (mut a, mut lambda) = (r1.clone(), r2.clone());
+    let mut a = r1.clone();
+    let mut lambda = r2.clone();
     solver.solve_refined(&sample.mass_values, &sample.g_values, &mut a, &mut lambda).unwrap();
     assert!(distance(&a, &sample.by_lu(&r1, &r2).0) < 1e-10);
 }

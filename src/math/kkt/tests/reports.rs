@@ -102,7 +102,8 @@ fn empty_and_misshapen_systems() {
     // Rows of zeros.
     let mut solver = SaddlePoint::new(&Pattern::diagonal(2), &Pattern::dense(2, 2));
     assert_eq!(solver.factor(&[1.0, 2.0], &[0.0, 0.0, 0.0, 1.0]), Ok(()));
-    let (mut top, mut bottom) = ([3.0, 4.0], [0.0, 0.0]);
+    let mut top = [3.0, 4.0];
+    let mut bottom = [0.0, 0.0];
     assert_eq!(solver.solve(&mut top, &mut bottom), Ok(()));
     assert!(solver.rank() == 1 && top == [3.0, 0.0] && bottom == [0.0, 4.0]);
     // M and G of different widths, and an entry outside.

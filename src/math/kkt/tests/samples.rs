@@ -63,7 +63,9 @@ impl Sample {
     ) -> (Self, Vec<Lever>) {
         let width = dimension * (dimension + 1) / 2;
         let n = width * bodies;
-        let (mut g, mut g_values, mut levers) = (Pattern { rows: 0, cols: n, entries: vec![] }, vec![], vec![]);
+        let mut g = Pattern { rows: 0, cols: n, entries: vec![] };
+        let mut g_values = vec![];
+        let mut levers = vec![];
         let pairs = joints.iter().map(|&pair| (pair, dimension)).chain((1..=rods).map(|k| ((k, k + 1), 1)));
         for ((a, b), rows) in pairs {
             for (body, sign) in [(a, -1.0), (b, 1.0)].into_iter().filter(|(body, _)| *body > 0) {
@@ -161,7 +163,9 @@ impl Sample {
         self.apply(r1, r2, |rhs| {
             let k = self.matrix();
             let svd = k.svd().unwrap();
-            let (u, s, v) = (svd.U(), svd.S().column_vector(), svd.V());
+            let u = svd.U();
+            let s = svd.S().column_vector();
+            let v = svd.V();
             let mut c = u.transpose() * &rhs;
             for i in 0..c.nrows() {
                 c[(i, 0)] = if s[i] > 1e-11 * s[0] { c[(i, 0)] / s[i] } else { 0.0 };

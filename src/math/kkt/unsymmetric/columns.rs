@@ -107,7 +107,8 @@ impl<T: Field> Columns<T> {
     /// Computes column j of L, row j of U and their pivot.
     fn eliminate(&mut self, j: usize) -> bool {
         self.reduce(j);
-        let (pivot, own) = (self.diagonal[j], self.column(j));
+        let pivot = self.diagonal[j];
+        let own = self.column(j);
         let inverse = T::real(1.0) / pivot;
         self.diagonal[j] = inverse;
         self.entries[own].iter_mut().for_each(|[l, _]| *l *= inverse);
@@ -123,7 +124,8 @@ impl<T: Field> Columns<T> {
             work[*row as usize] = *entry;
         }
         for &(column, entry) in &row_entries[row_starts[j] as usize..row_starts[j + 1] as usize] {
-            let (entry, end) = (entry as usize, starts[column as usize + 1] as usize);
+            let entry = entry as usize;
+            let end = starts[column as usize + 1] as usize;
             let [left, above] = entries[entry];
             let product = left * above;
             diagonal[j] -= product;
@@ -168,7 +170,8 @@ fn by_rows(starts: &[u32], rows: &[u32], size: usize) -> (Vec<u32>, Vec<(u32, u3
     let mut row_starts = vec![0_u32; size + 1];
     first.iter().for_each(|&row| row_starts[row as usize + 1] += 1);
     (0..size).for_each(|row| row_starts[row + 1] += row_starts[row]);
-    let (mut next, mut entries) = (row_starts.clone(), vec![(0, 0); first.len()]);
+    let mut next = row_starts.clone();
+    let mut entries = vec![(0, 0); first.len()];
     for column in 0..columns {
         for entry in starts[column]..starts[column + 1] {
             let row = rows[entry as usize] as usize;

@@ -14,7 +14,8 @@ pub(super) struct Matrix<T> {
 /// Entries of A, G, G^T, and the diagonal of the multipliers, where dropped rows of G get a one. `None` if there is not
 /// enough memory.
 pub(super) fn places(mass: &Pattern, tangent: &Pattern, g: &Pattern) -> Option<SymbolicSparseColMat<usize>> {
-    let (n, size) = (g.cols, g.cols + g.rows);
+    let n = g.cols;
+    let size = g.cols + g.rows;
     let both = |(row, col): (usize, usize)| [Pair { row, col }, Pair { row: col, col: row }];
     let mut pairs: Vec<_> = tangent.entries.iter().map(|&(row, col)| Pair { row, col }).collect();
     pairs.extend(mass.entries.iter().flat_map(|&entry| both(entry)));

@@ -64,7 +64,8 @@ impl Chain {
 
     /// [A G^T; G 0] times (a, lambda).
     fn multiply<T: Made>(&self, a: &[T], lambda: &[T]) -> (Vec<T>, Vec<T>) {
-        let (mut top, mut bottom) = (vec![T::ZERO; a.len()], vec![T::ZERO; lambda.len()]);
+        let mut top = vec![T::ZERO; a.len()];
+        let mut bottom = vec![T::ZERO; lambda.len()];
         for (i, &m) in self.masses.iter().enumerate() {
             top[i] += a[i] * T::made(2.0, 1.0) * m;
         }
@@ -84,13 +85,15 @@ fn check<T: Made>(links: usize, copies: usize, is_dense: bool) {
     let chain = chain(links, copies);
     let mut system = chain.system::<T>(is_dense);
     let numbers = |n: usize| (0..n).map(|k| T::made(arbitrary(k), arbitrary(k + 5))).collect::<Vec<_>>();
-    let (a, lambda) = (numbers(chain.g.cols), numbers(chain.g.rows));
+    let a = numbers(chain.g.cols);
+    let lambda = numbers(chain.g.rows);
     let (first, second) = chain.multiply(&a, &lambda);
     for _ in 0..2 {
         chain.put(&mut system);
         system.factor(&chain.g, &chain.rows).unwrap();
         assert_eq!(system.left_out().iter().filter(|out| **out).count(), copies);
-        let (mut top, mut bottom) = (first.clone(), second.clone());
+        let mut top = first.clone();
+        let mut bottom = second.clone();
         system.solve(&mut top, &mut bottom).unwrap();
         let left_out = system.left_out().iter().zip(&bottom).filter(|(out, _)| **out);
         assert!(left_out.into_iter().all(|(_, lambda)| lambda.size() == 0.0));
@@ -145,13 +148,15 @@ fn a_rank_that_changes_is_singular_only_where_the_dropped_rows_are_given() {
 
 #[test]
 fn a_coordinate_without_mass_is_held_by_its_rows() {
-    let (mass, g) = (Pattern { rows: 2, cols: 2, entries: vec![(0, 0)] }, Pattern::dense(1, 2));
+    let mass = Pattern { rows: 2, cols: 2, entries: vec![(0, 0)] };
+    let g = Pattern::dense(1, 2);
     for is_dense in [true, false] {
         let mut system =
             Unsymmetric::<f64>::at(matrix::places(&mass, &Pattern::default(), &g).unwrap(), &g, is_dense).unwrap();
         system.add(&mass, &[2.0], 1.0, true);
         system.factor(&g, &[1.0, 1.0]).unwrap();
-        let (mut top, mut bottom) = ([5.0, 1.0], [3.0]);
+        let mut top = [5.0, 1.0];
+        let mut bottom = [3.0];
         system.solve(&mut top, &mut bottom).unwrap();
         assert!((top[0] - 2.0).abs() < 1e-15 && (top[1] - 1.0).abs() < 1e-15 && (bottom[0] - 1.0).abs() < 1e-15);
     }
@@ -163,7 +168,8 @@ fn a_coordinate_without_mass_is_held_by_its_rows() {
 fn a_coordinate_without_mass_does_not_make_its_rows_dependent() {
     let mass = Pattern::diagonal(3);
     let tangent = Pattern { rows: 3, cols: 3, entries: vec![(2, 2)] };
-    let (g, rows) = (Pattern::dense(2, 3), [1.0, 0.0, 1.0, 0.0, 1.0, 2.0]);
+    let g = Pattern::dense(2, 3);
+    let rows = [1.0, 0.0, 1.0, 0.0, 1.0, 2.0];
     for is_dense in [true, false] {
         for stiffness in [0.0, 1e-30, 1e-18, 1e-9, 1.0, 1e3] {
             let mut system =
@@ -174,7 +180,8 @@ fn a_coordinate_without_mass_does_not_make_its_rows_dependent() {
             system.factor(&g, &rows).unwrap();
             assert!(!system.left_out().contains(&true));
             // a = (1, 2, 3), lambda = (4, 5)
-            let (mut top, mut bottom) = ([5.0, 7.0, 14.0 + 3.0 * stiffness], [4.0, 8.0]);
+            let mut top = [5.0, 7.0, 14.0 + 3.0 * stiffness];
+            let mut bottom = [4.0, 8.0];
             system.solve(&mut top, &mut bottom).unwrap();
             let found = top.iter().chain(&bottom).zip([1.0, 2.0, 3.0, 4.0, 5.0]);
             found.for_each(|(found, exact)| assert!((found - exact).abs() < 1e-13, "{stiffness:e}: {found} {exact}"));
@@ -207,7 +214,8 @@ fn a_small_pivot_leads_to_partial_pivoting() {
             system.add(&chain.mass, &chain.masses, 2.0, true);
             system.add(&chain.tangent, &chain.stiffness, 1.0, false);
             system.factor(&chain.g, &chain.rows).unwrap();
-            let (mut top, mut bottom) = (vec![1.0; chain.g.cols], vec![1.0; chain.g.rows]);
+            let mut top = vec![1.0; chain.g.cols];
+            let mut bottom = vec![1.0; chain.g.rows];
             system.solve(&mut top, &mut bottom).unwrap();
             [top, bottom].concat()
         });
@@ -231,7 +239,8 @@ fn divided<T: Made>() {
     let chain = chain(8000, 0);
     let mut system = chain.system::<T>(false).for_corrections();
     let numbers = |n: usize| (0..n).map(|k| T::made(arbitrary(k), arbitrary(k + 5))).collect::<Vec<_>>();
-    let (a, lambda) = (numbers(chain.g.cols), numbers(chain.g.rows));
+    let a = numbers(chain.g.cols);
+    let lambda = numbers(chain.g.rows);
     chain.put(&mut system);
     system.factor(&chain.g, &chain.rows).unwrap();
     assert!(system.is_unpivoted && system.unpivoted.as_ref().is_some_and(|factors| factors.parts.len() == 4));
@@ -269,7 +278,8 @@ fn crossover() {
 
 fn seconds<T: Made>(chain: &Chain, links: usize, is_dense: bool) -> f64 {
     let mut system = chain.system::<T>(is_dense);
-    let (mut top, mut bottom) = (vec![T::real(1.0); chain.g.cols], vec![T::real(1.0); chain.g.rows]);
+    let mut top = vec![T::real(1.0); chain.g.cols];
+    let mut bottom = vec![T::real(1.0); chain.g.rows];
     let mut round = || {
         chain.put(&mut system);
         system.factor(&chain.g, &chain.rows).unwrap();

@@ -76,7 +76,8 @@ impl<T: Field> Part<T> {
         (part, nodes): (u32, Vec<usize>),
         separator: &[usize],
     ) -> Option<Self> {
-        let (own, size) = (nodes.len(), nodes.len() + separator.len());
+        let own = nodes.len();
+        let size = nodes.len() + separator.len();
         let mut place = vec![usize::MAX; of_node.len()];
         nodes.iter().chain(separator).enumerate().for_each(|(k, &node)| place[node] = k);
         // What belongs to the separator alone is added there.
