@@ -388,6 +388,21 @@ fn files_are_short() {
     assert!(long.is_empty(), "more than {LONGEST}:\n{}", long.join("\n"));
 }
 
+/// A tuple on the left takes one apart that a function returned; things that have nothing to do with each other are
+/// assigned by a statement each.
+#[test]
+fn a_statement_assigns_one_thing() {
+    let is_tuple = |line: &str| {
+        let names = line.trim().strip_prefix("let (").and_then(|rest| rest.split_once(") = ("));
+        names.is_some_and(|(names, _)| names.chars().all(|c| c.is_alphanumeric() || "_, ".contains(c)))
+    };
+    let sources = sources();
+    let lines =
+        sources.iter().flat_map(|source| source.code.iter().map(move |(line, text)| (source.place(*line), text)));
+    let tuples: Vec<String> = lines.filter(|(_, text)| is_tuple(text)).map(|(place, _)| place).collect();
+    assert!(tuples.len() <= 100, "{} of at most 100:\n{}", tuples.len(), tuples.join("\n"));
+}
+
 /// `autotests` is off, so that tests are linked into few programs: a file that none of them names would never run.
 #[test]
 fn every_test_is_run() {
