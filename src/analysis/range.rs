@@ -129,7 +129,8 @@ impl Range {
     fn leaping(&self) -> Option<Warning> {
         let Leap { angle, body, t, apart, is_fixed } = self.leap.filter(|leap| leap.angle >= PI)?;
         let shorter = short(two_digits(0.5 * apart * PI / angle));
-        let [angle, t] = [angle, t].map(|x| short(two_digits(x)));
+        let angle = short(two_digits(angle));
+        let t = short(two_digits(t));
         let text = format!(
             "`{}` turns by {angle} rad, half a revolution or more, between two evaluations of the equations at t = {t} s: \
              steps so long do not see the motion",
@@ -147,7 +148,9 @@ impl Range {
 impl LargestDeformation {
     fn warning(&self) -> Warning {
         let Limited { part, theory } = &self.limited;
-        let [t, deformation, most] = [self.t, self.deformation, theory.most()].map(|x| short(two_digits(x)));
+        let t = short(two_digits(self.t));
+        let deformation = short(two_digits(self.deformation));
+        let most = short(two_digits(theory.most()));
         let (text, hint) = match theory {
             Theory::SmallDisplacements => (
                 format!(

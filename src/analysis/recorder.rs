@@ -241,7 +241,8 @@ impl Recorder<'_> {
         if !self.outputs_only && (differ(v0, v1) || differ(lambda0, lambda1)) {
             return true;
         }
-        let [a, b] = [before, after].map(|made| trajectory.row_outputs(&made.values));
+        let a = trajectory.row_outputs(&before.values);
+        let b = trajectory.row_outputs(&after.values);
         let loads = before.loads.max(after.loads);
         (0..a.len()).any(|i| (a[i] - b[i]).abs() > tolerances::SAME * self.size_of((a, b), i, loads))
     }
@@ -254,7 +255,8 @@ impl Recorder<'_> {
         self.record.extremes.iter().zip(a.iter().zip(b)).filter(|(seen, _)| seen.unit == *unit).fold(
             size,
             |size, (seen, (a, b))| {
-                let [min, max] = [seen.min, seen.max].map(|value| value.unwrap_or(0.0).abs());
+                let min = seen.min.unwrap_or(0.0).abs();
+                let max = seen.max.unwrap_or(0.0).abs();
                 size.max(min).max(max).max(a.abs()).max(b.abs())
             },
         )

@@ -97,7 +97,9 @@ pub fn physical(tensor: &Matrix3) -> Result<()> {
         .hint("check the signs, and the order Ixx, Iyy, Izz, Ixy, Ixz, Iyz"));
     }
     if moments[2] > moments[0] + moments[1] + slack {
-        let [a, b, c] = [moments[0], moments[1], moments[2]].map(short);
+        let a = short(moments[0]);
+        let b = short(moments[1]);
+        let c = short(moments[2]);
         return Err(Error::input(format!("principal moments {a}, {b}, {c} violate the triangle inequality"))
             .under("inertia")
             .hint("no body has one principal moment above the sum of the other two: check units and signs"));

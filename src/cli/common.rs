@@ -238,8 +238,9 @@ impl MethodOptions {
     pub fn overrides(&self, scene: &SceneOptions, method: Option<Automatic>) -> Overrides {
         let MethodOptions { rtol, atol, until, output_step, .. } = *self;
         let step = self.step.or(self.adaptive.then_some(0.0));
-        let [formulation, integrator, projection] =
-            [&self.formulation, &self.integrator, &self.projection].map(Clone::clone);
+        let formulation = self.formulation.clone();
+        let integrator = self.integrator.clone();
+        let projection = self.projection.clone();
         let set = scene.set.clone();
         let rest = Overrides::default();
         Overrides { set, method, formulation, integrator, projection, rtol, atol, step, until, output_step, ..rest }

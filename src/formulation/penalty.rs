@@ -76,7 +76,8 @@ impl Penalty {
     pub fn new(iterations: usize, spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Self> {
         let n = system.dimensions();
         let structure = system.structure();
-        let [mut mass, mut g] = [structure.mass, structure.g].map(Arc::unwrap_or_clone);
+        let mut mass = Arc::unwrap_or_clone(structure.mass);
+        let mut g = Arc::unwrap_or_clone(structure.g);
         mass.entries.extend((n.v..n.v + n.lambda).map(|i| (i, i)));
         g.entries.extend((0..n.lambda).map(|row| (row, n.v + row)));
         (mass.rows, mass.cols, g.cols) = (n.v + n.lambda, n.v + n.lambda, n.v + n.lambda);

@@ -89,7 +89,8 @@ fn moves(metric: &mut Metric, rows: &[usize], t: f64, q: &[f64]) -> bool {
             left.clear();
         }
     }
-    let [all, free] = [&any, &left].map(|d| metric.largest_along(rows, d));
+    let all = metric.largest_along(rows, &any);
+    let free = metric.largest_along(rows, &left);
     metric.drop_rows(&[]);
     metric.residual(t, q);
     free > tolerances::LOCKED * all
@@ -184,7 +185,8 @@ fn beyond(metric: &Metric, group: &Group, driven: &Prescribed) -> Option<String>
     let value = driven.value.filter(|_| group.rows.contains(&driven.row))?;
     let unit = if is_length(&metric.system.names().lambda[driven.row]) { "m" } else { "rad" };
     let reached = value + metric.terms.phi[driven.row];
-    let [value, reached] = [value, reached].map(|x| significant(x, tolerances::DIGITS_OF_TRAVEL));
+    let value = significant(value, tolerances::DIGITS_OF_TRAVEL);
+    let reached = significant(reached, tolerances::DIGITS_OF_TRAVEL);
     Some(format!("the driver `{}` asks for {value} {unit}, and the joints reach {reached} {unit}", group.name))
 }
 

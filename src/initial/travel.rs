@@ -116,7 +116,8 @@ impl<'a> Travel<'a> {
         let reason = match self.asked(row, until) {
             Some((asked, reached)) => {
                 let unit = if is_length(&self.metric.system.names().lambda[row]) { "m" } else { "rad" };
-                let [asked, reached] = [asked, reached].map(|x| significant(x, tolerances::DIGITS_OF_TRAVEL));
+                let asked = significant(asked, tolerances::DIGITS_OF_TRAVEL);
+                let reached = significant(reached, tolerances::DIGITS_OF_TRAVEL);
                 format!(
                     "the driver `{name}` later asks for {asked} {unit}, and its travel ends at {reached} {unit}: the joints reach \
                      no farther"
@@ -159,7 +160,8 @@ impl<'a> Travel<'a> {
         let mut low = f64::max(farthest - apart, t);
         let mut high = f64::min(farthest + apart, until);
         for _ in 0..tolerances::EXTREME_HALVINGS {
-            let [left, right] = [1.0, 2.0].map(|third| low + third / 3.0 * (high - low));
+            let left = low + 1.0 / 3.0 * (high - low);
+            let right = low + 2.0 / 3.0 * (high - low);
             if (value(left)? - reached).abs() < (value(right)? - reached).abs() { low = left } else { high = right }
         }
         Some((value(0.5 * (low + high))?, reached))

@@ -81,7 +81,9 @@ impl Tolerance {
         let Range { start, end } = self.untested();
         let mut sums = [0.0; 4];
         for tested in [0..start, end..n] {
-            let [from, to, error] = [from, to, error].map(|y| y[tested.clone()].as_chunks::<4>());
+            let from = from[tested.clone()].as_chunks::<4>();
+            let to = to[tested.clone()].as_chunks::<4>();
+            let error = error[tested.clone()].as_chunks::<4>();
             for ((from, to), error) in from.0.iter().zip(to.0).zip(error.0) {
                 (0..4).for_each(|i| sums[i] += (error[i] / self.weight(from[i], to[i])).powi(2));
             }
@@ -238,7 +240,9 @@ pub(super) fn round_off(
     // Angles that count full turns grow, and only they are rounded to that size.
     let system = problem.dynamics.system;
     let (moving, states) = v.split_at(system.dimensions().moving());
-    let [of_q, of_v, of_states] = [system.own(q), moving, states].map(|x| tolerances::ROUND_OFF * largest(x));
+    let of_q = tolerances::ROUND_OFF * largest(system.own(q));
+    let of_v = tolerances::ROUND_OFF * largest(moving);
+    let of_states = tolerances::ROUND_OFF * largest(states);
     change[..q.len()].fill(of_q);
     change[q.len()..].fill(divisor.map_or(of_v, |h| of_v.max(of_q / h)));
     change[q.len() + moving.len()..].fill(of_states);

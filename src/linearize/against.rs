@@ -113,7 +113,8 @@ fn basis<'a>(all: impl Iterator<Item = &'a Vec<Complex<f64>>>) -> Vec<Vec<Comple
             let part = product(own, &rest);
             rest.iter_mut().zip(own).for_each(|(rest, own)| *rest -= own * part);
         }
-        let [size, left] = [x, &rest].map(|x| product(x, x).re.sqrt());
+        let size = product(x, x).re.sqrt();
+        let left = product(&rest, &rest).re.sqrt();
         if left > tolerances::EIGENVALUES_AGREE * size {
             basis.push(rest.iter().map(|rest| rest / left).collect());
         }

@@ -93,7 +93,9 @@ pub fn within_run(prepared: &PreparedScene, times: &[f64]) -> Result<()> {
     let start = prepared.start_time();
     let end = prepared.span().map_or(f64::INFINITY, |span| span.end);
     let Some(t) = times.iter().find(|t| !(start..=end).contains(*t)) else { return Ok(()) };
-    let [t, start, end] = [*t, start, end].map(short);
+    let t = short(*t);
+    let start = short(start);
+    let end = short(end);
     Err(Error::input(format!("t = {t} s is outside the run, which goes from {start} s to {end} s"))
         .under("--at")
         .hint("choose a time within it, or run longer with --until T"))

@@ -192,7 +192,8 @@ fn order(found: &mut [Option<usize>], from: &Set, to: &Set) {
         }
     }
     for (upper, lower) in to.pairs() {
-        let [above, below] = [upper, lower].map(|end| found.iter().position(|place| *place == Some(end)));
+        let above = found.iter().position(|place| *place == Some(upper));
+        let below = found.iter().position(|place| *place == Some(lower));
         if let (Some(a), Some(b)) = (above, below)
             && from.sides[a] == Side::Real
             && from.values[a].re < from.values[b].re

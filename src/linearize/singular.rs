@@ -64,7 +64,8 @@ fn rank_nearby(system: &dyn MechanicalSystem, point: &LinearizationPoint, direct
     dynamics.solve(point.t, &point.q, &direction, |_, _| 0.0).ok()?;
     dynamics.evaluate(point.t, &point.q, &direction, Need::L);
     // Gd = d(G v + phi_t)/dq is the rate of G along v.
-    let [slope, size] = [&dynamics.terms.l, &dynamics.terms.g].map(|values| largest(values));
+    let slope = largest(&dynamics.terms.l);
+    let size = largest(&dynamics.terms.g);
     if slope <= 0.0 {
         return None;
     }

@@ -52,7 +52,8 @@ pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode
 
 /// M X, by the entries of M.
 fn weighed(variation: &Variation, shapes: &ComplexMatrix) -> ComplexMatrix {
-    let [re, im] = [shapes.map(|x| x.re), shapes.map(|x| x.im)].map(|part| variation.mass_times(&part));
+    let re = variation.mass_times(&shapes.map(|x| x.re));
+    let im = variation.mass_times(&shapes.map(|x| x.im));
     re.zip_map(&im, Complex::new)
 }
 

@@ -96,7 +96,8 @@ fn is_same_all_around(axes: &Rotating, prepared: &PreparedScene, state: &State) 
     let mut y = x.clone();
     y.column_iter_mut().for_each(|mut column| other.turn_directions(tolerances::ODD_ANGLE, column.as_mut_slice()));
     let leaves = there.correct(&(there.g_times(&y)))?;
-    let [mut carried, pushed] = [&here, &there].map(inertia);
+    let mut carried = inertia(&here);
+    let pushed = inertia(&there);
     other.turn_directions(tolerances::ODD_ANGLE, &mut carried);
     let rounding = rounding(&here.dynamics, &here.tangent.k, &here.point.q);
     let is_closed = there.point.phi <= tolerances::STEADY && leaves.norm() <= tolerances::STEADY * y.norm();

@@ -141,7 +141,8 @@ operators! {
     Mul mul(a, b: Self) = {
         // Zero times something without bounds is zero.
         let product = |x: f64, y: f64| if x == 0.0 || y == 0.0 { 0.0 } else { x * y };
-        let [low, high] = [a.low, a.high].map(|x| Interval::new(product(x, b.low), product(x, b.high)));
+        let low = Interval::new(product(a.low, b.low), product(a.low, b.high));
+        let high = Interval::new(product(a.high, b.low), product(a.high, b.high));
         Interval { low: low.low.min(high.low), high: low.high.max(high.high) }
     };
     Div div(a, b: Self) = a * b.recip();

@@ -19,7 +19,8 @@ pub fn refuse_dense(what: &str, [rows, columns]: [usize; 2], copies: f64) -> Res
     if wanted <= limit {
         return Ok(());
     }
-    let [wanted, limit] = [wanted, limit].map(size);
+    let wanted = size(wanted);
+    let limit = size(limit);
     Err(Error::input(format!(
         "{what} takes dense matrices of {rows} x {columns}, {wanted} in all: the limit is {limit}"
     )))
@@ -49,7 +50,8 @@ pub fn refuse_rows(rows: f64, columns: usize, is_kept: bool) -> Result<()> {
     if wanted <= limit {
         return Ok(());
     }
-    let [wanted, limit] = [wanted, limit].map(size);
+    let wanted = size(wanted);
+    let limit = size(limit);
     Err(Error::input(format!("{rows:.0} rows of {columns} numbers take {wanted} to write: the limit is {limit}")))
 }
 

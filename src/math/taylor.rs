@@ -55,7 +55,9 @@ impl<S: Scalar> Scalar for Taylor<S> {
     }
     #[inline]
     fn compose(self, order: usize, derivative: &impl Fn(usize, [f64; 2]) -> [f64; 2]) -> Self {
-        let [x, slope, curvature] = [0, 1, 2].map(|k| self.x.compose(order + k, derivative));
+        let x = self.x.compose(order, derivative);
+        let slope = self.x.compose(order + 1, derivative);
+        let curvature = self.x.compose(order + 2, derivative);
         Taylor { x, d: slope * self.d, dd: curvature * self.d.square() + slope * self.dd }
     }
     #[inline]

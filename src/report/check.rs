@@ -278,7 +278,8 @@ impl Check {
             assembly.before.phi, assembly.after.phi, assembly.before.phi_dot, assembly.after.phi_dot
         );
         for change in assembly.moves.iter().take(10) {
-            let [from, to] = [change.from, change.to].map(|value| significant(value, 8));
+            let from = significant(change.from, 8);
+            let to = significant(change.to, 8);
             text += &format!("  moved {}: {from} -> {to}\n", change.name);
         }
         if assembly.moves.len() > 10 {

@@ -120,7 +120,8 @@ impl EquilibriumFile {
             self.gap.unwrap_or_default()
         );
         for (name, from, to) in self.moves.iter().take(MOST_MOVES) {
-            let [from, to] = [from, to].map(|value| significant(*value, 8));
+            let from = significant(*from, 8);
+            let to = significant(*to, 8);
             text += &format!("  moved {name}: {from} -> {to}\n");
         }
         if self.moves.len() > MOST_MOVES {

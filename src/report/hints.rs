@@ -38,7 +38,8 @@ fn modes(modes: &[&Unseen]) -> Option<String> {
     let mut moves: Vec<String> = modes.iter().flat_map(|mode| mode.moves.clone()).collect();
     moves.sort();
     moves.dedup();
-    let [least, most] = [least, most].map(|x| significant(x, 3));
+    let least = significant(least, 3);
+    let most = significant(most, 3);
     let which = match modes.len() {
         1 => format!("the mode at {least} 1/s"),
         count => format!("{count} modes from {least} to {most} 1/s"),

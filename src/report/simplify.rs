@@ -61,7 +61,8 @@ fn outcome(result: &Simplification) -> String {
         chosen.worst().map_or(String::new(), |worst| format!("{} is off by {}", worst.name, percent(worst.error)));
     let confirmed = result.second_opinion.iter().map(|opinion| format!("  the full model is {opinion}\n"));
     let confirmed: String = confirmed.collect();
-    let [before, after] = [richest, chosen].map(|run| format!("{} in {}", size(run), milliseconds(run.seconds)));
+    let before = format!("{} in {}", size(richest), milliseconds(richest.seconds));
+    let after = format!("{} in {}", size(chosen), milliseconds(chosen.seconds));
     text + &format!(
         "  {after}, the full model {before}\n  {farthest}, all others by less\n{confirmed}  found by {runs} runs, with the work of {:.1} of the full model\n",
         result.cost
@@ -104,8 +105,8 @@ fn near(robustness: &Robustness, within: f64) -> String {
         (false, true) => Some("the velocities at the start"),
         (false, false) => None,
     };
-    let [parameters, inputs] =
-        [&robustness.parameters, &robustness.inputs].map(|names| (!names.is_empty()).then(|| short_list(names)));
+    let parameters = (!robustness.parameters.is_empty()).then(|| short_list(&robustness.parameters));
+    let inputs = (!robustness.inputs.is_empty()).then(|| short_list(&robustness.inputs));
     format!(
         "\n  within {} on {kept} of {counted} motions nearby, off by {} at most{}{}\n  moved by up to {}: {}\n",
         percent(within),
@@ -167,7 +168,8 @@ pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
         let trials = result.trials.iter().filter(|trial| trial.is_kept == is_kept);
         trials.filter_map(|trial| trial.run.as_ref().and_then(point)).collect()
     };
-    let [kept, refused] = [true, false].map(of);
+    let kept = of(true);
+    let refused = of(false);
     let points: Vec<(f64, f64)> = kept.iter().chain(&refused).copied().chain(point(&result.richest)).collect();
     let (x, right) = time_axis(points.iter().map(|point| point.0));
     let top = MARGIN * points.iter().map(|point| point.1).fold(result.within, f64::max);

@@ -281,7 +281,8 @@ fn singular_text(found: &Singularity) -> String {
     let Some(nearest) = found.nearest else { return String::new() };
     if found.passed.is_empty() {
         let condition = nearest.condition.map_or(String::new(), |condition| format!(", condition {condition:.1e}"));
-        let [rank_indicator, t] = [nearest.rank_indicator, nearest.t].map(|value| significant(value, 3));
+        let rank_indicator = significant(nearest.rank_indicator, 3);
+        let t = significant(nearest.t, 3);
         return format!("  nearest to a singular state at t = {t} s: rank indicator {rank_indicator}{condition}\n\n");
     }
     let times = |kind: bool| -> Vec<String> {

@@ -88,7 +88,8 @@ fn many_jumps(jumps: usize) -> Option<Warning> {
 }
 
 fn energy_jump(&WorstStep { t, change, other, tolerated, .. }: &WorstStep) -> Warning {
-    let [times, part] = [change / other, change / tolerated].map(|x| significant(x, 2));
+    let times = significant(change / other, 2);
+    let part = significant(change / tolerated, 2);
     let text = format!(
         "the energy balance changes by {change:.1e} J in the step to t = {t:.6} s, {times} times as much as in any other \
          step and {part} times what its tolerated errors make: the motion may be wrong from there on"

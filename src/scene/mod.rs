@@ -171,7 +171,9 @@ impl Elements {
         let fingerprint = fingerprint::fingerprint(&json, folder);
         // The long lists are moved, not copied.
         let mut taken = |key: &str| json.get_mut(key).and_then(Value::as_array_mut).map(std::mem::take);
-        let [bodies, joints, forces] = ["bodies", "joints", "forces"].map(|key| taken(key).unwrap_or_default());
+        let bodies = taken("bodies").unwrap_or_default();
+        let joints = taken("joints").unwrap_or_default();
+        let forces = taken("forces").unwrap_or_default();
         let file = crate::body::parse::<SceneFile>(&json).map(|file| SceneFile { bodies, joints, forces, ..file });
         let scene = file.and_then(|file| resolve::build(file, self, overrides, folder));
         scene.map(|scene| Scene { fingerprint, ..scene }).map_err(|error| origins.place(name_element(error, &json)))

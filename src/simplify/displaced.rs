@@ -19,7 +19,8 @@ pub fn progress(facts: &Facts) -> Vec<f64> {
         for (most, place) in most.iter_mut().zip(&path) {
             let gap = sub(&place.r, &path[0].r);
             let turn = rotation(&path[0], place);
-            let [shift, turn] = [&gap, &turn].map(norm);
+            let shift = norm(&gap);
+            let turn = norm(&turn);
             *most = most.max(part(shift, travel.shift)).max(part(turn, travel.turn));
         }
     }

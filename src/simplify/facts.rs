@@ -169,7 +169,8 @@ impl Facts {
     /// Values of the watched outputs that a model gives to a few states of the recorded motion; `None` where it has
     /// other coordinates, or no accelerations there.
     pub fn at_once(&self, model: &AnyMechanism) -> Option<Vec<Vec<f64>>> {
-        let [own, other] = [self.prepared.system(), model.system()].map(MechanicalSystem::names);
+        let own = self.prepared.system().names();
+        let other = model.system().names();
         (own.q == other.q && own.v == other.v).then(|| self.read(model, &self.watched, self.few_states())).flatten()
     }
 

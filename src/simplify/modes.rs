@@ -61,7 +61,8 @@ pub fn lost(richest: &PreparedScene, simpler: &PreparedScene) -> Vec<Warning> {
     let share = |mode: &Fate| percent(mode.seen) + if mode.value.re > 0.0 { word } else { "" };
     let other = |mode: &Fate| if grows(mode.value) { "no longer unstable" } else { "unstable now" }.to_string();
     let damped = |mode: &Fate| {
-        let [own, there] = [Some(mode.value), mode.there].map(|value| value.map_or(0.0, damping));
+        let own = Some(mode.value).map_or(0.0, damping);
+        let there = mode.there.map_or(0.0, damping);
         format!("damping ratio {} is {}", significant(own, 2), significant(there, 2))
     };
     [

@@ -225,7 +225,8 @@ impl<'a> Movable<'a> {
         let own = plane.seen_from(body, &start)[0];
         let flat = |vector: &[f64; 3]| plane.axes.map(|axis| dot(&axis, vector));
         let direction = |place: &Placed| -> [f64; 3] { from_fn(|i| (0..3).map(|k| own[k] * place.axes[k][i]).sum()) };
-        let [before, now] = [&start, place].map(|place| plane.angle(&direction(place)));
+        let before = plane.angle(&direction(&start));
+        let now = plane.angle(&direction(place));
         Some(Placed {
             r: flat(&place.r),
             turn: before + wrapped(now - before),

@@ -47,7 +47,9 @@ const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
 
 /// Method of a formulation, an integrator and a projection.
 fn method([formulation, integrator, projection]: [&str; 3], (rtol, atol): (f64, f64)) -> Method {
-    let [formulation, integrator, projection] = [formulation, integrator, projection].map(MethodSpec::named);
+    let formulation = MethodSpec::named(formulation);
+    let integrator = MethodSpec::named(integrator);
+    let projection = MethodSpec::named(projection);
     Method { formulation, integrator, projection, rtol, atol, step: None }
 }
 
@@ -365,7 +367,8 @@ fn words(
     wins: bool,
 ) -> String {
     let two = |x: f64| short(format!("{x:.1e}").parse().unwrap_or(x));
-    let [own, other] = [own, other].map(|method| &method.integrator.name);
+    let own = &own.integrator.name;
+    let other = &other.integrator.name;
     let kind = match (are_explicit, wins) {
         ([true, false], true) => "stiff",
         ([true, _], false) if *gain < tolerances::NO_ALTERNATIVE => "not stiff",

@@ -92,7 +92,8 @@ impl Run<'_> {
 
     pub fn mark(&self) -> Mark {
         let Statistics { steps, rhs_evaluations, rows, .. } = self.statistics();
-        let [own, rows] = [rhs_evaluations, rows.rhs_evaluations].map(|count| self.price() * count as f64);
+        let own = self.price() * rhs_evaluations as f64;
+        let rows = self.price() * rows.rhs_evaluations as f64;
         Mark { t: self.t, work: own + rows, rows, steps }
     }
 

@@ -90,7 +90,8 @@ impl Run<'_> {
         self.gaps.closed = None;
         for i in 0..self.gaps.numbers.len() {
             let Some(side) = Side::of_piece(self.events.pieces[self.gaps.numbers[i]]) else { continue };
-            let [start, at_end] = [&self.gaps.start, &self.gaps.end].map(|gaps| side.component(&gaps[i]));
+            let start = side.component(&self.gaps.start[i]);
+            let at_end = side.component(&self.gaps.end[i]);
             let reach = tolerances::GAP_CLOSED * start.abs().max(at_end.abs());
             if start <= reach || at_end > reach {
                 continue;
@@ -149,7 +150,8 @@ impl Run<'_> {
         let mut is_released = false;
         for (i, &number) in self.gaps.numbers.iter().enumerate() {
             let Some(side) = Side::of_piece(self.events.pieces[number]) else { continue };
-            let [start, end] = [&self.gaps.start, &self.gaps.end].map(|gaps| side.component(&gaps[i]));
+            let start = side.component(&self.gaps.start[i]);
+            let end = side.component(&self.gaps.end[i]);
             let piece: Piece = match closed {
                 Some(index) if index == i => side.opposite().piece(),
                 _ if end > far && end > start => 0,

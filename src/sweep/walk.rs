@@ -51,7 +51,8 @@ impl<P: FnMut(usize)> Walk<'_, P> {
         let all = self.values.clone();
         let before: Vec<f64> = all.iter().copied().filter(|value| is_before(*value)).rev().collect();
         let after: Vec<f64> = all.iter().copied().filter(|value| !is_before(*value) && *value != begin).collect();
-        let [mut first, second] = [before, after].map(|values| self.side(&start, &values, &mut nearest));
+        let mut first = self.side(&start, &before, &mut nearest);
+        let second = self.side(&start, &after, &mut nearest);
         first.points.reverse();
         let middle = all.contains(&begin).then(|| start.point.clone());
         Ok(Sweep {

@@ -128,7 +128,10 @@ impl<const D: usize> Divisible for JointsTerms<'_, D> {
         let rows = next.first_row - first.first_row;
         let entries = next.first_entry - first.first_entry;
         let JointTerms { phi, phi_dot, phi_t, gamma, g } = self.terms;
-        let [phi, phi_dot, phi_t, gamma] = [phi, phi_dot, phi_t, gamma].map(|level| level.split_at_mut(rows));
+        let phi = phi.split_at_mut(rows);
+        let phi_dot = phi_dot.split_at_mut(rows);
+        let phi_t = phi_t.split_at_mut(rows);
+        let gamma = gamma.split_at_mut(rows);
         let g = g.split_at_mut(entries);
         let own = JointTerms { phi: phi.0, phi_dot: phi_dot.0, phi_t: phi_t.0, gamma: gamma.0, g: g.0 };
         let rest = JointTerms { phi: phi.1, phi_dot: phi_dot.1, phi_t: phi_t.1, gamma: gamma.1, g: g.1 };

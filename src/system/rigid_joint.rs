@@ -156,7 +156,8 @@ impl<const D: usize> RigidJoint<D> {
             }
         }
         if need.includes(Need::G) {
-            let [on_a, on_b] = [0, 1].map(|i| self.sides[i].is_moving);
+            let on_a = self.sides[0].is_moving;
+            let on_b = self.sides[1].is_moving;
             let blocks = &mut terms.g[self.first_entry..];
             if on_a {
                 write_lever(-1.0, &arms[0], blocks);

@@ -55,7 +55,9 @@ pub struct Structure {
 impl Structure {
     /// M by its lower triangle, G, and the places of K and C.
     pub fn new(mass: Pattern, g: Pattern, tangent: Pattern) -> Self {
-        let [mass, g, tangent] = [mass, g, tangent].map(Arc::new);
+        let mass = Arc::new(mass);
+        let g = Arc::new(g);
+        let tangent = Arc::new(tangent);
         Structure { mass, g, tangent, analysis: Arc::default() }
     }
 }

@@ -150,7 +150,8 @@ impl<const D: usize> View<Dual6, D> for SeededView<'_, D> {
     fn input(&self, force: usize) -> [Taylor<Dual6>; 3] {
         match self.seed {
             Seed::Inputs(driven) if driven == force => from_fn(|component| {
-                let [x, d] = [component, 3 + component].map(|slot| Dual6::seeded(0.0, slot));
+                let x = Dual6::seeded(0.0, component);
+                let d = Dual6::seeded(0.0, 3 + component);
                 Taylor::new(x, d, Dual6::fixed(0.0))
             }),
             _ => [Taylor::fixed(Dual6::fixed(0.0)); 3],

@@ -32,7 +32,8 @@ pub struct Element {
 impl Element {
     /// The element between two abscissae; the line must rotate by less than half a turn between them.
     pub fn new(line: &ReferenceLine, [from, to]: [f64; 2], section: &Section) -> Self {
-        let [start, end] = [from, to].map(|s| line.at(s).1);
+        let start = line.at(from).1;
+        let end = line.at(to).1;
         let ([_, side, _], middle) = line.at(0.5 * (from + to));
         let chord = sub(&end, &start);
         let length = norm(&chord);

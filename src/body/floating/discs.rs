@@ -83,7 +83,8 @@ impl Mass {
         let small = SmallTurn::of(turn(disc, q));
         let units: Matrix3 = from_fn(unit);
         let [back, rate] = [units.map(|e| small.back(&e)), units.map(|e| small.rate(&e))];
-        let [turned, pushed] = [&back, &rate].map(|columns| columns.map(|column| times(inertia, &column)));
+        let turned = back.map(|column| times(inertia, &column));
+        let pushed = rate.map(|column| times(inertia, &column));
         let product = |a: &Matrix3, b: &Matrix3| from_fn(|i| from_fn(|j| dot(&a[i], &b[j])));
         Mass { frame: product(&back, &turned), mixed: product(&rate, &turned), own: product(&rate, &pushed) }
     }

@@ -67,7 +67,9 @@ impl<'c> Outline<'c> {
 
     /// Twice the area of a triangle of corners, positive if they go around it against the clock.
     fn side(&self, a: usize, b: usize, c: usize) -> f64 {
-        let [a, b, c] = [a, b, c].map(|i| self.corners[i % self.corners.len()]);
+        let a = self.corners[a % self.corners.len()];
+        let b = self.corners[b % self.corners.len()];
+        let c = self.corners[c % self.corners.len()];
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
     }
 }

@@ -129,8 +129,9 @@ impl Args {
 
     /// Returns the methods that are named.
     fn filter(&self) -> Filter {
-        let [formulations, integrators, projections] =
-            [&self.formulation, &self.integrator, &self.projection].map(Clone::clone);
+        let formulations = self.formulation.clone();
+        let integrators = self.integrator.clone();
+        let projections = self.projection.clone();
         Filter { formulations, integrators, projections }
     }
 

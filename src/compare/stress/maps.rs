@@ -225,6 +225,8 @@ fn method(formulation: &str, integrator: &str, projection: &str) -> AxisPlace {
         (formulation, "none") => format!("{integrator} {formulation}"),
         _ => format!("{integrator} {formulation} {projection}"),
     };
-    let [formulation, integrator, projection] = [formulation, integrator, projection].map(MethodSpec::named);
+    let formulation = MethodSpec::named(formulation);
+    let integrator = MethodSpec::named(integrator);
+    let projection = MethodSpec::named(projection);
     AxisPlace::named(&label, vec![Change::Integrator(integrator), Change::Stabilization(formulation, projection)])
 }

@@ -30,7 +30,9 @@ type Axes<S> = [Vector<S>; 3];
 impl<S: Scalar> Line<S> {
     /// The line for the internal forces of the sections at both ends.
     pub fn new(beam: &Beam, strains: &Strains<S>, ends: &[Carried<S>; 2]) -> Self {
-        let [shift, turn, gap] = [&strains.shift, &strains.turn, &strains.gap].map(|v| v.map(|x| x.re));
+        let shift = strains.shift.map(|x| x.re);
+        let turn = strains.turn.map(|x| x.re);
+        let gap = strains.gap.map(|x| x.re);
         let per_length = 1.0 / beam.length;
         let axes = [unit_axes(), exponential(&shift, &turn, 1.0).0];
         let strain = |end: usize, i: usize| {

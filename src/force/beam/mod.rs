@@ -45,7 +45,8 @@ impl<const D: usize> ForceKernel<D> for Beam {
         }
         let [first, last] = self.carried::<_, D>(&strains, &damped);
         // The elastic forces oppose the strain.
-        let [force, torque] = [last.n, last.m].map(|v| in_world(&a, &v.map(|x| -x)));
+        let force = in_world(&a, &last.n.map(|x| -x));
+        let torque = in_world(&a, &last.m.map(|x| -x));
         out[1] = Wrench { force: from_fn(|i| force[i]), torque };
         out[0] = Wrench { force: from_fn(|i| -force[i]), torque: in_world(&a, &first.m) };
         let potential = Taylor::new(twice_stored * (0.5 * self.length), power * self.length, S::zero());
@@ -65,7 +66,8 @@ impl Beam {
     /// Internal forces of the sections at both ends for these stresses, with no load on the element between them.
     fn carried<S: Scalar, const D: usize>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Carried<S>; 2] {
         let [n, m] = self.conjugate::<_, D>(strains, stress);
-        let [turn, gap] = [&strains.turn, &strains.gap].map(|vector| vector.map(|x| x.re));
+        let turn = strains.turn.map(|x| x.re);
+        let gap = strains.gap.map(|x| x.re);
         if D == 2 {
             let ([nx, ny], torque) = planar_pull_back(turn[2], [gap[0], gap[1]], [n[0], n[1]], m[2]);
             let n = [nx, ny, n[2]];

@@ -96,7 +96,8 @@ impl<S: Scalar> Line<S> {
     /// Internal forces of the section at 0 <= `part` <= 1 of the element and at `place`, by equilibrium with the ends.
     fn between(&self, [a, b]: &[Carried<S>; 2], loads: &[Load<S>; 2], part: f64, place: &Vector<S>) -> Carried<S> {
         let [value, first, last] = cubic(part);
-        let [first, last] = [first, last].map(|slope| slope * self.length);
+        let first = first * self.length;
+        let last = last * self.length;
         let growth: Vector<S> = from_fn(|i| b.n[i] - a.n[i]);
         let turned = cross3(&self.tangent, &growth);
         let arm = cross3(&self.gap, &a.n);

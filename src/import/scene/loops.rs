@@ -41,7 +41,8 @@ impl Draft<'_> {
         if self.tree.body[a] != self.tree.body[b] {
             return Ok(());
         }
-        let [a, b] = [a, b].map(|link| &self.robot.links[link].name);
+        let a = &self.robot.links[a].name;
+        let b = &self.robot.links[b].name;
         Err(Error::input(format!("`{a}` and `{b}` are one body")).hint("name links that joints let move"))
     }
 

@@ -77,7 +77,8 @@ pub(super) fn judge(rest: &mut EquilibriumSystem, place: &Place) -> (Stability, 
 /// and for states, whose columns of K are those of C.
 fn by_modes(rest: &mut EquilibriumSystem) -> Option<Stability> {
     let z = free_directions(&mut rest.dynamics)?;
-    let [k, c] = [&rest.tangent.k, &rest.tangent.c].map(|values| reduce(&rest.dynamics.structure.tangent, values, &z));
+    let k = reduce(&rest.dynamics.structure.tangent, &rest.tangent.k, &z);
+    let c = reduce(&rest.dynamics.structure.tangent, &rest.tangent.c, &z);
     let n = z.ncols();
     let moving = z.ncols() - rest.dynamics.system.dimensions().states;
     let mut a = DMatrix::zeros(moving + n, moving + n);

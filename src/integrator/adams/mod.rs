@@ -171,7 +171,8 @@ impl Adams {
         let untested = tolerance.untested();
         let per = (tolerance.tested(n) as f64).sqrt().recip();
         for range in [0..untested.start, untested.end..n] {
-            let [from, to] = [from, to].map(|y| &y[range.clone()]);
+            let from = &from[range.clone()];
+            let to = &to[range.clone()];
             let weights = &mut self.weights[range];
             for (i, weight) in weights.iter_mut().enumerate() {
                 *weight = per / tolerance.weight(from[i], to[i]);

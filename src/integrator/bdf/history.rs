@@ -22,7 +22,8 @@ pub struct History {
 impl History {
     /// Memory for states of length `len` with `rows` multipliers.
     pub fn new(len: usize, rows: usize) -> Self {
-        let [y, lambda] = [len, rows].map(|n| vec![vec![0.0; n]; POINTS]);
+        let y = vec![vec![0.0; len]; POINTS];
+        let lambda = vec![vec![0.0; rows]; POINTS];
         History { known: 0, times: [0.0; POINTS], y, lambda }
     }
 

@@ -103,8 +103,9 @@ impl<'p, 's, S: OdeSolverMethod<'p, Equations<'s>>> Steps for Solver<'p, 's, S> 
             number_of_error_test_failures: too_large,
             ..
         } = *self.0.get_statistics();
-        let [factorizations, newton_iterations, rejected] =
-            [factorizations, newton_iterations, not_converged + too_large].map(|count| count as u64);
+        let factorizations = factorizations as u64;
+        let newton_iterations = newton_iterations as u64;
+        let rejected = (not_converged + too_large) as u64;
         Counters { factorizations, newton_iterations, rejected }
     }
 }

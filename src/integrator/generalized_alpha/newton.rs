@@ -202,8 +202,8 @@ impl Newton {
     fn small(&self, problem: &Problem, motion: &Motion, h: f64, to: &[f64]) -> [f64; 2] {
         let (q, v) = problem.split(to);
         let moving = problem.dynamics.system.dimensions().moving();
-        let [size, of_states] =
-            [0..moving, moving..v.len()].map(|part| largest(&motion.end.a[part.clone()]).max(largest(&v[part]) / h));
+        let size = largest(&motion.end.a[..moving]).max(largest(&v[..moving]) / h);
+        let of_states = largest(&motion.end.a[moving..v.len()]).max(largest(&v[moving..v.len()]) / h);
         let Slopes { q: by_q, v: by_v, .. } = motion.slopes(h);
         let reach =
             Some(largest(q)).filter(|reach| *reach > 0.0).map_or(1.0, |reach| reach.max(tolerances::LEAST_LARGEST_Q));

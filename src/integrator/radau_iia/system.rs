@@ -39,7 +39,8 @@ impl System<'_> {
         let divisor = dae.rounding_time(h);
         // A fixed step goes on to where changes no longer fall, which stiff forces may raise.
         let fixed = if *is_fixed { Some(h) } else { divisor };
-        let [round_off, stagnation] = [divisor, fixed].map(|by| stages.round_off(problem, tolerance, from, by));
+        let round_off = stages.round_off(problem, tolerance, from, divisor);
+        let stagnation = stages.round_off(problem, tolerance, from, fixed);
         let limits = Limits {
             most: most(method.stages(), *is_fixed),
             tolerance: (10.0 * f64::EPSILON / tolerance.rtol).max(tolerance.rtol.sqrt().min(0.03)),

@@ -31,7 +31,8 @@ impl Parts {
         let scaled = |matrix: &Matrix| {
             Matrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| over(matrix[(i, j)], root(i) * root(j)))
         };
-        let [k, c] = [&self.k, &self.c].map(scaled);
+        let k = scaled(&self.k);
+        let c = scaled(&self.c);
         // The highest frequency, 1/s, that springs or dampers give.
         let rate = largest(k.iter()).sqrt().max(largest(c.iter()));
         drop_small(&mut self.k, &k, |_| rate * rate);
@@ -40,7 +41,9 @@ impl Parts {
         let of_rows = |matrix: &Matrix| {
             Matrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| over(matrix[(i, j)], root(j % n.max(1))))
         };
-        let [g, gd, both] = [&self.g, &self.gd, &self.rows].map(of_rows);
+        let g = of_rows(&self.g);
+        let gd = of_rows(&self.gd);
+        let both = of_rows(&self.rows);
         let size: Vec<f64> = g.row_iter().map(|row| largest(row.iter())).collect();
         drop_small(&mut self.g, &g, |i| size[i]);
         drop_small(&mut self.gd, &gd, |i| size[i] * rate);

@@ -287,8 +287,9 @@ impl LociSummary {
         let mut table = Table::new(&["mode", "frequency (Hz)", "damping ratio", &growing]).words(1).words(2).words(3);
         let of = |kind: Kind| self.modes.iter().filter(move |mode| mode.kind == kind);
         of(Kind::Physical).take(MOST_LINES).for_each(|mode| table.row(mode_cells(mode)));
-        let [physical, uncertain, spurious] =
-            [Kind::Physical, Kind::Uncertain, Kind::Spurious].map(|kind| of(kind).count());
+        let physical = of(Kind::Physical).count();
+        let uncertain = of(Kind::Uncertain).count();
+        let spurious = of(Kind::Spurious).count();
         let mut text = if physical > 0 { table.to_string() } else { "  no physical eigenvalues\n".to_string() };
         if physical > MOST_LINES {
             text += &format!("  {} more in the files\n", physical - MOST_LINES);
@@ -317,7 +318,8 @@ fn mode_cells(mode: &ModeSummary) -> [String; 4] {
 }
 
 fn extent(extent: Extent, digits: usize) -> String {
-    let [min, max] = [extent.min, extent.max].map(|end| significant(end, digits));
+    let min = significant(extent.min, digits);
+    let max = significant(extent.max, digits);
     if min == max { min } else { format!("{min} to {max}") }
 }
 

@@ -73,7 +73,10 @@ fn best(verdict: &GainVerdict) -> String {
     let left = span(best.iter().map(|(_, best)| best.value)).unwrap_or_default();
     let error = span(best.iter().filter_map(|(_, best)| best.error));
     let error = error.map_or(String::new(), |error| format!(" with an error of {error}"));
-    let [at_coarse, coarse, at_fine, fine] = [at_coarse.gain, *coarse, at_fine.gain, *fine].map(short);
+    let at_coarse = short(at_coarse.gain);
+    let coarse = short(*coarse);
+    let at_fine = short(at_fine.gain);
+    let fine = short(*fine);
     let farther = verdict.farther.as_ref().map_or(String::new(), |farther| {
         let step = short(farther.step);
         let gain = short(farther.gain);
@@ -245,7 +248,10 @@ pub fn gain_table(verdict: &GainVerdict) -> Table {
             None if step.gains_left_out > 0 => ["left out", "-", "-"].map(String::from).into(),
             None => ["none", "-", "-"].map(String::from).into(),
         };
-        let [none, own, once, twice] = [&step.none, &step.own_gains, &step.manifold, &step.manifold_twice].map(shown);
+        let none = shown(&step.none);
+        let own = shown(&step.own_gains);
+        let once = shown(&step.manifold);
+        let twice = shown(&step.manifold_twice);
         let once_error = step.manifold.error.map_or("-".to_string(), number);
         table.row([short(step.step), none, gain, value, error, own, once, once_error, twice]);
     }

@@ -73,7 +73,8 @@ impl ModelsAndMethods {
             Table::new(&["model", "velocities", "constraints", "its error", "in", "left out"]).words(4).words(5);
         for model in &self.models {
             let error = model.error.map_or("not known".to_string(), percent);
-            let [v, c] = [model.velocities, model.constraints].map(|count| count.to_string());
+            let v = model.velocities.to_string();
+            let c = model.constraints.to_string();
             let left_out = match &model.left_out[..] {
                 [] => String::new(),
                 [one] => one.clone(),

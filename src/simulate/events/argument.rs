@@ -20,7 +20,8 @@ impl Argument {
     fn cubic(&self, theta: f64) -> f64 {
         let x = self.a.re;
         let y = self.b.re;
-        let [u, v] = [self.a, self.b].map(|end| self.h * end.eps[0]);
+        let u = self.h * self.a.eps[0];
+        let v = self.h * self.b.eps[0];
         let rest = 1.0 - theta;
         x + theta * (y - x) + theta * rest * (rest * (u - (y - x)) - theta * (v - (y - x)))
     }
