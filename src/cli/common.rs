@@ -197,6 +197,17 @@ pub fn assignment(text: &str) -> Result<(String, Number), String> {
     }
 }
 
+/// Refuses a parameter that is set twice, since only one value can count.
+fn refuse_twice(set: &[(String, Number)]) -> Result<()> {
+    let is_known = |i: usize| set[..i].iter().any(|(name, _)| *name == set[i].0);
+    match (0..set.len()).find(|i| is_known(*i)) {
+        None => Ok(()),
+        Some(i) => Err(Error::input(format!("the parameter `{}` is set twice", crate::error::excerpt(&set[i].0)))
+            .under("--set")
+            .hint("give each parameter one value")),
+    }
+}
+
 /// Attributes an error in a parameter to the option that set it, in the place of `--set`.
 pub fn set_by(error: Error, option: &str) -> Error {
     error.changed(|input| {
@@ -250,6 +261,7 @@ impl MethodOptions {
 impl Talk {
     /// Loads the scene, with warnings about its start.
     pub fn load(&self, path: &Path, overrides: &Overrides) -> Result<PreparedScene> {
+        refuse_twice(&overrides.set)?;
         let prepared = PreparedScene::load(path, overrides)?;
         self.warn(&prepared.doubts);
         Ok(prepared)

@@ -11,9 +11,8 @@ use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
-  holonom import models/data/two_link.urdf -o two_link.json
   holonom import models/data/two_link.urdf --at shoulder=pi/4 --at elbow=-0.5
-  holonom import humanoid.xml -o humanoid.json")]
+  holonom import models/data/double_pendulum.xml -o double_pendulum.json")]
 pub struct Args {
     /// Robot in URDF, or model in MJCF; the root of the XML says which
     #[arg(value_name = "FILE")]

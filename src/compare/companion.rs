@@ -128,7 +128,7 @@ fn part_of(factor: f64) -> f64 {
 }
 
 /// A companion whose values are so many times the largest one of the run is beyond its limit of stability.
-const DIVERGED: f64 = 1e3;
+const DIVERGED: f64 = 1e2;
 
 fn has_diverged(trajectory: &Trajectory, companion: &[(f64, Vec<f64>)]) -> bool {
     let differences = differences(trajectory, companion);

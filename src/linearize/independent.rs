@@ -24,19 +24,19 @@ pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String
     if chosen.len() != degrees {
         let message =
             format!("{} coordinates are named, the mechanism has {degrees} degrees of freedom here", chosen.len());
-        return Err(Error::input(message).under("chart").hint(format!("independent here are: {}", best())));
+        return Err(Error::input(message).under("--chart").hint(format!("independent here are: {}", best())));
     }
     let weighed = weighed(variation, z);
     let rows = Matrix::from_fn(degrees, degrees, |i, j| weighed[(chosen[i].direction, j)]);
     let smallest = rows.singular_values().iter().fold(f64::INFINITY, |least, x| least.min(*x));
     if smallest < tolerances::INDEPENDENT {
         let message = format!("{} are not independent at t = {} s", names.join(", "), clock(variation.point.t));
-        return Err(Error::input(message).under("chart").hint(format!("independent here are: {}", best())));
+        return Err(Error::input(message).under("--chart").hint(format!("independent here are: {}", best())));
     }
     let all: Vec<usize> = chosen.iter().map(|chosen| chosen.direction).chain(n - states..n).collect();
     let b = Matrix::from_fn(all.len(), n, |i, j| f64::from(u8::from(all[i] == j)));
     let solved = (&b * z).lu().solve(&Matrix::identity(all.len(), all.len()));
-    let inverse = solved.ok_or_else(|| Error::input("the coordinates are not independent").under("chart"))?;
+    let inverse = solved.ok_or_else(|| Error::input("the coordinates are not independent").under("--chart"))?;
     let own = chosen.iter().map(|c| (c.name.clone(), c.rate.clone())).unzip();
     constant(variation, &names.join(","), own, (z * inverse, b))
 }
@@ -50,7 +50,7 @@ fn candidates(variation: &Variation) -> Vec<Candidate> {
 fn find<'c>(candidates: &'c [Candidate], name: &str) -> Result<&'c Candidate> {
     candidates.iter().find(|candidate| candidate.name == name || candidate.rate == name).ok_or_else(|| {
         let known = candidates.iter().map(|candidate| candidate.name.as_str());
-        Error::unknown("coordinate", name, known).under("chart")
+        Error::unknown("coordinate", name, known).under("--chart")
     })
 }
 

@@ -4,7 +4,7 @@ use super::Table;
 use super::equilibrium::EquilibriumFile;
 use super::hints::hints_text;
 use super::summary::AssemblySummary;
-use super::table::OutputValues;
+use super::table::{OutputValues, count};
 use crate::analysis::{Rank, Redundant};
 use crate::error::{Failure, significant};
 use crate::initial::Assembly;
@@ -212,10 +212,6 @@ fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
     .filter(|(absent, _)| *absent)
     .map(|(_, text)| text.to_string())
     .collect()
-}
-
-pub(super) fn count(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
 }
 
 impl Check {

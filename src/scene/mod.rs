@@ -166,7 +166,6 @@ impl Elements {
             return Err(Error::input(format!("a scene is a JSON object, found {}", crate::body::show(&json)))
                 .hint("begin with {\"name\": ..., \"dimension\": 2, ...}"));
         }
-        refuse_twice(overrides)?;
         let origins = include::complete(&mut json, folder, overrides)?;
         let fingerprint = fingerprint::fingerprint(&json, folder);
         // The long lists are moved, not copied.
@@ -177,17 +176,6 @@ impl Elements {
         let file = crate::body::parse::<SceneFile>(&json).map(|file| SceneFile { bodies, joints, forces, ..file });
         let scene = file.and_then(|file| resolve::build(file, self, overrides, folder));
         scene.map(|scene| Scene { fingerprint, ..scene }).map_err(|error| origins.place(name_element(error, &json)))
-    }
-}
-
-/// Refuses a parameter that is set twice, since only one value can count.
-fn refuse_twice(overrides: &[(String, Number)]) -> Result<()> {
-    let names = || overrides.iter().map(|(name, _)| name);
-    match names().enumerate().find(|(i, name)| names().take(*i).any(|before| before == *name)) {
-        None => Ok(()),
-        Some((_, name)) => Err(Error::input(format!("the parameter `{}` is set twice", crate::error::excerpt(name)))
-            .under("--set")
-            .hint("give each parameter one value")),
     }
 }
 

@@ -89,11 +89,13 @@ impl Run<'_> {
     pub fn gap_closes(&mut self, h: f64, end: f64) -> Result<Option<f64>, StepError> {
         self.gaps.closed = None;
         for i in 0..self.gaps.numbers.len() {
-            let Some(side) = Side::of_piece(self.events.pieces[self.gaps.numbers[i]]) else { continue };
+            let number = self.gaps.numbers[i];
+            let Some(side) = Side::of_piece(self.events.pieces[number]) else { continue };
             let start = side.component(&self.gaps.start[i]);
             let at_end = side.component(&self.gaps.end[i]);
             let reach = tolerances::GAP_CLOSED * start.abs().max(at_end.abs());
-            if start <= reach || at_end > reach {
+            let is_closed_before = start <= reach;
+            if at_end > reach || is_closed_before && at_end >= -reach {
                 continue;
             }
             if at_end >= -reach || self.gaps.cuts >= tolerances::CUTS {
@@ -101,6 +103,12 @@ impl Run<'_> {
                 return Ok(None);
             }
             self.gaps.cuts += 1;
+            if is_closed_before {
+                // It was closed before the other side was taken: the whole step is tried again on that.
+                self.events.pieces[number] = side.opposite().piece();
+                self.take_pieces();
+                return Ok(Some(1.0));
+            }
             return self.closing_time(i, side, (h, end), [start, at_end]).map(Some);
         }
         Ok(None)

@@ -432,3 +432,16 @@ fn tables_are_read_as_instruments_write_them() {
         assert_eq!(place.json("here/summary.json")["final"]["outputs"]["z"], 3.0, "{table}");
     }
 }
+
+/// Half of the scene's size is no drift any more, and the rows up to there are kept.
+#[test]
+fn joints_that_come_apart_are_a_failure() {
+    let place = Place::new(PENDULUM);
+    let coarse = ["--integrator", "heun", "--step", "0.05", "--projection", "none", "--until", "50", "-o", "here"];
+    let output = place.run(&[&["simulate", "scene.json"][..], &coarse].concat());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("the joints have come apart by 5.0e-1 of the scene's size"), "{}", err(&output));
+    let summary = place.json("here/summary.json");
+    let open = summary["drift"]["position"]["relative_max"].as_f64().unwrap();
+    assert!(summary["t_end"].as_f64().unwrap() > 30.0 && open > 0.5 && open < 0.6, "{summary}");
+}

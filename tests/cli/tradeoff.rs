@@ -82,7 +82,11 @@ fn no_recommendation_is_no_success() {
     let args = ["--formulation", "index1", "--integrator", "dop853", "--outputs", "theta"];
     let output = place.run(&[&["tradeoff", "scene.json"], &QUICK[..], &args].concat());
     assert_eq!(output.status.code(), Some(1));
-    assert!(err(&output).contains("error: no recommendation: the reference is sure of "), "{}", err(&output));
+    assert!(
+        err(&output).contains("error: no recommendation: the reference has no digit that a second run confirms"),
+        "{}",
+        err(&output)
+    );
     assert_eq!(place.files("here"), ["tradeoff.csv", "tradeoff.json"]);
 }
 

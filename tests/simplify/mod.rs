@@ -381,9 +381,9 @@ fn what_moves_in_a_plane_is_planar() {
     assert!(spatial.simplified["dimension"] == 3 && spatial.chosen.constraints <= 17, "{:?}", left_out(&spatial));
 }
 
-/// A filter of 1 ms, and a road of 401 points on which a wheel of 1 Hz rolls.
+/// A filter of 1 ms.
 #[test]
-fn what_is_too_fast_or_too_fine_goes() {
+fn what_is_too_fast_goes() {
     let road: Vec<[f64; 2]> = (0..=400).map(|i| 0.01 * i as f64).map(|s| [s, 0.02 * (3.0 * s).sin()]).collect();
     let found = promised(
         json!({ "name": "rider", "dimension": 2, "parameters": { "m": 2, "k": 80, "tau": 1e-3 },
@@ -397,7 +397,7 @@ fn what_is_too_fast_or_too_fine_goes() {
         &settings(0.02, &[]),
     );
     let gone = left_out(&found);
-    assert!(gone[0] == "sensed follows at once" && gone[1].starts_with("road has "), "{gone:?}");
+    assert!(gone[0] == "sensed follows at once", "{gone:?}");
     assert_eq!((found.richest.velocities, found.chosen.velocities), (2, 1));
 }
 
