@@ -83,16 +83,13 @@ fn drift_with_rk4() {
 }
 
 #[test]
-fn unstabilized_heun_overflows_and_keeps_what_it_computed() {
+fn unstabilized_heun_comes_apart_and_keeps_what_it_computed() {
     let span = Span { output_step: 0.5, ..until(10.0) };
     let Run { outcome, record } = run(&RobotArm, &fixed("index1", "heun", "none", 0.01), span, START.motion());
     let failure = outcome.failure.unwrap();
-    assert!(
-        failure.reason.contains("infinite or not a number") && failure.reason.contains("fixed step"),
-        "{failure:?}"
-    );
+    assert!(failure.reason.contains("the joints have come apart"), "{failure:?}");
     assert!(failure.hint.contains("manifold"), "{failure:?}");
-    // It leaves the constraint near 7 s and doubles its rates from then on; when the numbers end is a matter of luck.
+    // It leaves the constraint near 7 s and doubles its rates from then on.
     assert!(failure.t > 5.0 && failure.t < 10.0, "{failure:?}");
     assert_eq!(outcome.t, failure.t);
     let rows = &record.trajectory.rows;

@@ -63,7 +63,7 @@ impl Run<'_> {
 
     /// Starts the run with the pieces of its start.
     pub fn begin_form(&mut self) -> Result<(), Failure> {
-        if self.events.pieces.is_empty() {
+        if !self.events.has_thresholds() {
             return Ok(());
         }
         let (q, v) = self.problem.split(&self.y);

@@ -92,6 +92,11 @@ impl<'a> Events<'a> {
         }
     }
 
+    /// True if any function changes its form at thresholds.
+    pub fn has_thresholds(&self) -> bool {
+        self.switches.iter().any(|switch| switch.thresholds != Thresholds::Held)
+    }
+
     /// True if any function of the state changes its form.
     pub fn watches_state(&self) -> bool {
         !self.of_state.is_empty()
