@@ -68,7 +68,10 @@ impl Tree {
             Tree::Y => y,
             Tree::Minus(a) => -a.value(x, y),
             Tree::Of(_, function, a) => function(a.value(x, y)),
+            // The language takes powers of numbers below zero only where a whole exponent is constant.
+            Tree::Two("^", ..) if self.is_power_below_zero(x, y) => f64::NAN,
             Tree::Two(_, operator, a, b) => operator(a.value(x, y), b.value(x, y)),
+            Tree::If(a, ..) if a.value(x, y).is_nan() => f64::NAN,
             Tree::If(a, b, c) => {
                 if a.value(x, y) > 0.5 {
                     b.value(x, y)
@@ -77,6 +80,10 @@ impl Tree {
                 }
             }
         }
+    }
+
+    fn is_power_below_zero(&self, x: f64, y: f64) -> bool {
+        matches!(self, Tree::Two("^", _, a, b) if a.value(x, y) < 0.0 && !matches!(**b, Tree::Number(_)))
     }
 
     fn text(&self) -> String {
