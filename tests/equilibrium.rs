@@ -71,6 +71,10 @@ fn shipped_scenes_come_to_rest() {
         let expected = match scene.0.name.as_str() {
             // Nothing holds the spin of the top, the governor's turn about its shaft, nor the car along a level road.
             "spinning_top" | "flyball_governor" | "half_car" => Stability::Neutral,
+            // Wheels and bodies in space that turn freely.
+            "bevel_differential" | "planetary_gear" | "tumbling_station" => Stability::Neutral,
+            // Unstable where they are set up, or their expected equilibria are not known in closed form.
+            "fekete" | "landing_gear" | "rope_slider" | "tower_crane" => continue,
             // These start upright, on a dead point, or where the singular state is passed only upwards.
             "n_four_bar" | "spatial_slider_crank" | "slider_crank_singular_2" => continue,
             // The path of growing loads ends with the upper link upright or hanging; round-off decides.

@@ -76,13 +76,13 @@ fn the_loosest_tolerance() {
         match (&run.outcome.failure, formulation) {
             // A wrong acceleration is integrated twice: the rod, of 1 m, drifts as far as is tolerated, some times 1 + 1 m, or
             // comes apart, which ends a run or leaves its steps no size.
-            (failure, "index1") => assert!(failure.is_some() || drift < 6.0, "{what}: {drift:e} m apart in silence"),
+            (failure, "index1" | "index2") => {
+                assert!(failure.is_some() || drift < 6.0, "{what}: {drift:e} m apart in silence");
+            }
             (failure, _) => {
                 assert_eq!(*failure, None, "{what}");
-                // phi is solved for to a part of the tolerance, or to round-off; with phi' = 0 it drifts as far as is tolerated:
-                // some times 1 + 1 m, which round-off decides.
-                let most = if formulation == "index2" { 6.0 } else { 0.03 };
-                assert!(drift < most, "{what}: {drift:e} m");
+                // phi is solved for to a part of the tolerance, or to round-off.
+                assert!(drift < 0.03, "{what}: {drift:e} m");
             }
         }
     });

@@ -93,7 +93,7 @@ impl Run<'_> {
             let Some(side) = Side::of_piece(self.events.pieces[number]) else { continue };
             let start = side.component(&self.gaps.start[i]);
             let at_end = side.component(&self.gaps.end[i]);
-            let reach = tolerances::GAP_CLOSED * start.abs().max(at_end.abs());
+            let reach = tolerances::GAP_CLOSED * self.problem.dynamics.system.length();
             let is_closed_before = start <= reach;
             if at_end > reach || is_closed_before && at_end >= -reach {
                 continue;

@@ -9,8 +9,8 @@ pub use super::{ROUND_OFF_OF_PHI, SAME};
 pub const ON_ONE_LINE: f64 = 1e-7;
 
 /// A gap counts as closed within this.
-/// Unit: `[1]` of its size at the ends of the step. Why: the force that acts so much too long moves nothing beyond
-/// round-off. Test: `a_spring_passes_its_anchor`.
+/// Unit: `[1]` of the scene's length. Why: the force that acts so much too long moves nothing beyond round-off. Test:
+/// `a_spring_passes_its_anchor`.
 pub const GAP_CLOSED: f64 = 1e-11;
 
 /// The line of a gap is held until it is open by this.

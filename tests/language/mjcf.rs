@@ -178,7 +178,7 @@ fn defaults_come_from_classes() {
     let forces = &made.scene["forces"];
     assert_eq!(
         [&forces[0]["damping"], &forces[1]["damping"], &forces[2]["force"][2]],
-        [&json!(1.0), &json!(2.0), &json!("-(3)*c'")]
+        [&json!(1.0), &json!(2.0), &json!("-(3)*c_2'")]
     );
 }
 

@@ -42,7 +42,7 @@ pub fn repaired(tensor: &Matrix3, mass: f64) -> Option<Repaired> {
     let [a, b] = [a.max(0.0), b.max(0.0)];
     let after = [a, b, c.min(a + b)];
     let change = (0..3).fold(0.0f64, |most, i| most.max((after[i] - before[i]).abs())) / c;
-    let is_near = change >= 0.0 && change <= MOST;
+    let is_near = (0.0..=MOST).contains(&change);
     is_near.then(|| Repaired { tensor: with_moments(&eigen, order, after), change, before, after })
 }
 

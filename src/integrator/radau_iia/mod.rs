@@ -135,6 +135,8 @@ struct Step {
     h: f64,
     /// Index of its method.
     method: usize,
+    /// Memory of Newton's method before it: a step that a saved run takes again begins with that.
+    newton: [f64; 2],
 }
 
 impl RadauIIA {
@@ -255,7 +257,7 @@ impl Integrator for RadauIIA {
         to: &mut [f64],
     ) -> Result<Option<f64>, StepError> {
         let method = self.order.current();
-        self.tried = Some(Step { h, method });
+        self.tried = Some(Step { h, method, newton: self.newton.memory() });
         self.tolerance = if self.is_fixed {
             Tolerance::exact(problem.split(from.y).0, problem.dynamics.system)
         } else {
@@ -322,8 +324,8 @@ impl Integrator for RadauIIA {
 
     fn memory(&self) -> Option<Vec<f64>> {
         let mut memory = self.order.memory();
-        memory.extend(self.newton.memory());
-        let Step { h, method } = self.accepted.unwrap_or(Step { h: 0.0, method: 0 });
+        memory.extend(self.tried.map_or_else(|| self.newton.memory(), |step| step.newton));
+        let (h, method) = self.accepted.map_or((0.0, 0), |step| (step.h, step.method));
         memory.extend([h, method as f64]);
         let stages = self.order.get(method).stages();
         [&self.before.a, &self.before.lambda, &self.before.w, &self.before.u]
@@ -343,7 +345,7 @@ impl Integrator for RadauIIA {
         self.order.recall(&mut memory);
         self.newton.recall([memory.number(), memory.number()]);
         let (h, method) = (memory.number(), memory.number() as usize);
-        self.accepted = (h > 0.0 && method < self.order.len()).then_some(Step { h, method });
+        self.accepted = (h > 0.0 && method < self.order.len()).then_some(Step { h, method, newton: [0.0; 2] });
         let stages = self.order.get(self.accepted.map_or(0, |step| step.method)).stages();
         [&mut self.before.a, &mut self.before.lambda, &mut self.before.w, &mut self.before.u]
             .into_iter()
