@@ -14,9 +14,8 @@ fn sentences(text: &str) -> Vec<String> {
     let mut is_code = false;
     for line in text.lines().map(str::trim) {
         is_code ^= line.starts_with("```");
-        let is_prose = !is_code
-            && !line.starts_with(['|', '#', '!', '<', '`'])
-            && !(line.starts_with('[') && line.contains("]: "));
+        let is_target = line.starts_with('[') && line.contains("]: ");
+        let is_prose = !is_code && !is_target && !line.starts_with(['|', '#', '!', '<', '`']);
         let item = line.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start_matches(['-', '*', '.']);
         let begins = line.is_empty() || item.len() < line.len() && item.starts_with(' ');
         if begins || !is_prose {

@@ -17,7 +17,7 @@ impl Draft<'_> {
         self.refuse_one_body(links)?;
         let axes = aimed(closure.axis)?;
         // The same axes in the world at the file's positions, so that other positions change the guess alone.
-        let turned = self.from_first(links).then(&axes);
+        let turned = self.first_in_second(links).then(&axes);
         let frames = [Transform { r: *at_a, ..axes }, Transform { r: *at_b, ..turned }];
         self.add_loop(&names.unique(&closure.name), closure.kind, links, frames);
         Ok(())
@@ -27,13 +27,13 @@ impl Draft<'_> {
     pub fn close(&mut self, given: &Loop, names: &mut Names) -> Result<()> {
         self.refuse_one_body(given.links).map_err(|error| error.element(&given.name))?;
         let own = given.frames[0].unwrap_or_default();
-        let other = given.frames[1].unwrap_or_else(|| self.from_first(given.links).then(&own));
+        let other = given.frames[1].unwrap_or_else(|| self.first_in_second(given.links).then(&own));
         self.add_loop(&names.unique(&given.name), given.kind, given.links, [own, other]);
         Ok(())
     }
 
     /// Frame of the first link in the second one at the file's positions.
-    fn from_first(&self, [a, b]: [usize; 2]) -> Transform {
+    fn first_in_second(&self, [a, b]: [usize; 2]) -> Transform {
         self.tree.at_zero[b].inverse().then(&self.tree.at_zero[a])
     }
 

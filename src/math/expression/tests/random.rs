@@ -8,12 +8,15 @@ enum Tree {
     X,
     Y,
     Minus(Box<Tree>),
-    Of(&'static str, fn(f64) -> f64, Box<Tree>),
-    Two(&'static str, fn(f64, f64) -> f64, Box<Tree>, Box<Tree>),
+    Of(&'static str, One, Box<Tree>),
+    Two(&'static str, Two, Box<Tree>, Box<Tree>),
     If(Box<Tree>, Box<Tree>, Box<Tree>),
 }
 
-const FUNCTIONS: [(&str, fn(f64) -> f64); 6] = [
+type One = fn(f64) -> f64;
+type Two = fn(f64, f64) -> f64;
+
+const FUNCTIONS: [(&str, One); 6] = [
     ("sin", f64::sin),
     ("cos", f64::cos),
     ("exp", f64::exp),
@@ -21,7 +24,7 @@ const FUNCTIONS: [(&str, fn(f64) -> f64); 6] = [
     ("tanh", f64::tanh),
     ("atan", f64::atan),
 ];
-const OPERATORS: [(&str, fn(f64, f64) -> f64); 5] =
+const OPERATORS: [(&str, Two); 5] =
     [("+", |a, b| a + b), ("-", |a, b| a - b), ("*", |a, b| a * b), ("/", |a, b| a / b), ("^", |a, b| a.powf(b))];
 
 /// The numbers of a linear congruential sequence (Knuth's MMIX).
