@@ -159,7 +159,7 @@ fn frames_turn_by_their_conventions() {
             format!("<compiler {compiler}/><worldbody><body {turn}><freejoint/><geom size=\"1\"/></body></worldbody>");
         let rotation = numbers(&world(&text).scene["bodies"][0]["initial"]["rotation"]);
         let sign = if rotation[0] * expected[0] < 0.0 { -1.0 } else { 1.0 };
-        near(&rotation.iter().map(|x| sign * x).collect::<Vec<_>>(), &expected, 1e-15);
+        near(&rotation.iter().map(|x| sign * x).collect::<Vec<_>>(), &expected, 4e-15);
     }
 }
 
@@ -238,7 +238,7 @@ fn joints_are_coupled_by_polynomials() {
     made.scene["initial"]["x.position'"] = json!(1);
     let run = parse(&made.scene.to_string()).tight(1e-11, 1.0, 0.25);
     let x = run.column("x");
-    assert!(x[0] == 0.3 && x[4] > 0.4, "{x:?}");
+    assert!((x[0] - 0.3).abs() < 1e-12 && x[4] > 0.4, "{x:?}");
     let y: Vec<f64> = x.iter().map(|x| 0.3 + 2.0 * (x - 0.3).powi(2)).collect();
     near(&run.column("y"), &y, 1e-9);
     near(&run.column("z"), &[0.4; 5], 1e-12);

@@ -87,19 +87,19 @@ impl Draft<'_> {
             "expression": format!("{rotor} - ({name} - ({position}))") }));
     }
 
-    /// Torque -c w on the child of a ball joint, w being its angular velocity against the parent.
+    /// Torque c w on the child of a ball joint, w being the angular velocity of the parent against it, in its axes.
     fn damp_ball(&mut self, joint: &Joint, name: &str, [from, to]: &[String; 2]) {
         if joint.damping == 0.0 {
             return;
         }
         let rates = ["x", "y", "z"].map(|axis| format!("{name}_w{axis}"));
         for (rate, axis) in rates.iter().zip(["x", "y", "z"]) {
-            self.scene.outputs.push(json!({ "name": rate, "measure": "angular_velocity", "of": to,
-                "relative_to": from, "component": axis }));
+            self.scene.outputs.push(json!({ "name": rate, "measure": "angular_velocity", "of": from,
+                "relative_to": to, "component": axis }));
         }
         let torque = rates.map(|rate| format!("({})*{rate}", joint.damping));
-        self.scene.forces.push(json!({ "name": name, "type": "applied_torque", "at": from, "axes": "marker",
-            "torque": torque, "reaction_on": to }));
+        self.scene.forces.push(json!({ "name": name, "type": "applied_torque", "at": to, "axes": "marker",
+            "torque": torque, "reaction_on": from }));
     }
 
     /// Adds the equation of a joint whose coordinate follows that of another.
