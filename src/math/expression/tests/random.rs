@@ -73,6 +73,8 @@ impl Tree {
             Tree::Of(_, function, a) => function(a.value(x, y)),
             // The language takes powers of numbers below zero only where a whole exponent is constant.
             Tree::Two("^", ..) if self.is_power_below_zero(x, y) => f64::NAN,
+            // Unlike `powf`, which takes NaN^0 for 1.
+            Tree::Two(_, _, a, b) if a.value(x, y).is_nan() || b.value(x, y).is_nan() => f64::NAN,
             Tree::Two(_, operator, a, b) => operator(a.value(x, y), b.value(x, y)),
             Tree::If(a, ..) if a.value(x, y).is_nan() => f64::NAN,
             Tree::If(a, b, c) => {
