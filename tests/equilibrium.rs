@@ -67,6 +67,11 @@ fn shipped_scenes_come_to_rest() {
             assert!(error.contains("nothing holds `beam.n0.x`"), "{error}");
             continue;
         }
+        if scene.0.name == "whitworth" {
+            let error = seek(&scene).unwrap_err().to_string();
+            assert!(error.contains("the rate of the state `forward`"), "{error}");
+            continue;
+        }
         let found = found(&scene);
         let expected = match scene.0.name.as_str() {
             // Nothing holds the spin of the top, the governor's turn about its shaft, nor the car along a level road.
