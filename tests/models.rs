@@ -7,18 +7,28 @@ use holonom::system::{Need, Scratch, Terms};
 use serde_json::Value;
 use std::path::Path;
 
+/// Scenes whose guess assembly closes.
+const GUESSED: [&str; 2] = ["delta_robot", "jansen_leg"];
+
+fn is_guessed(path: &Path) -> bool {
+    GUESSED.iter().any(|name| *path == model(name))
+}
+
 #[test]
 fn every_scene_starts_consistent_as_written() {
     for path in models() {
         let ready = load(&path, &[]);
         let start = ready.start();
+        let as_written = if is_guessed(&path) { &start.after } else { &start.before };
         // Sums of a few terms of size one to ten, in units of the scene's scale.
-        assert!(start.before.phi < 1e-14 && start.after.phi < 1e-14, "{path:?}: {:?} {:?}", start.before, start.after);
+        assert!(as_written.phi < 1e-14 && start.after.phi < 1e-14, "{path:?}: {:?} {:?}", start.before, start.after);
         // Speeds are up to some hundred rad/s.
         let slack = 1e-13 * speed(&start.v).max(1.0);
         assert!(rates_as_written(&path, start) < slack && start.after.phi_dot < slack, "{path:?}: {:?}", start.before);
-        let largest = start.moves.iter().map(|moved| (moved.to - moved.from).abs()).fold(0.0, f64::max);
-        assert!(largest < 1e-8, "{path:?} moved: {:?}", start.moves);
+        let coordinates = ready.system().names().q;
+        let positions = start.moves.iter().filter(|moved| coordinates.contains(&moved.name));
+        let largest = positions.map(|moved| (moved.to - moved.from).abs()).fold(0.0, f64::max);
+        assert!(largest < 1e-8 || is_guessed(&path), "{path:?} moved: {:?}", start.moves);
     }
 }
 
@@ -61,7 +71,8 @@ fn changed_parameters_keep_the_start_consistent() {
             let ready = load(&path, &[(&name, 1.01 * value)]);
             let start = ready.start();
             // The start angles of Andrews' mechanism close its loops for its own lengths only: assembly does it.
-            let level = if path == model("andrews") { start.after } else { start.before };
+            let is_closed_by_assembly = path == model("andrews") || is_guessed(&path);
+            let level = if is_closed_by_assembly { start.after } else { start.before };
             assert!(level.phi < 1e-12, "{path:?} with {name}: {level:?}");
             let slack = 1e-12 * speed(&start.v).max(1.0);
             assert!(rates_as_written(&path, start) < slack, "{path:?} with {name}: {level:?}");
