@@ -1,4 +1,4 @@
-//! What a model says of itself as a whole: <compiler> and <option>.
+//! Settings of a whole model: `<compiler>` and `<option>`.
 
 use super::told::Told;
 use crate::error::{Result, excerpt};
