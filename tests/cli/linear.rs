@@ -277,3 +277,21 @@ fn a_simpler_model_loses_a_mode_and_shifts_another() {
         &["one method"],
     );
 }
+
+/// What is known when the time is over is written, and what is missing is told.
+#[test]
+fn validate_ends_within_its_budget() {
+    let place = Place::new("");
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/models/four_bar_spring.json");
+    let said = |budget: &str| {
+        let output = place.run(&["validate", scene, "--at", "0.3", "--budget", budget, "-o", "here"]);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        err(&output)
+    };
+    let short = said("10ms");
+    assert!(short.contains("along random:1 the motion was followed for"), "{short}");
+    assert!(short.contains("the input `torque` was not checked") && short.contains("--budget"), "{short}");
+    assert!(place.files("here").contains(&"validation-0.3.json".to_string()));
+    let long = said("100ms");
+    assert!(!long.contains("warning"), "{long}");
+}
