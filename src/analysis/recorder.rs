@@ -7,6 +7,7 @@ use super::extremes::Extremes;
 use super::range::Range;
 use super::singularity::{Singularity, Watch};
 use super::thinned::thin;
+use crate::math::array::Each;
 use crate::math::largest;
 use crate::scene::units::{Dimension, dimension_of};
 use crate::simulate::{Observation, Sink, Stop};
@@ -232,7 +233,7 @@ impl Recorder<'_> {
     /// True if a velocity, a multiplier or an output differs by more than round-off.
     fn jumps(&self, before: &Made, after: &Made) -> bool {
         let trajectory = self.record.full();
-        let sides = [before, after].map(|made| trajectory.row_state(&made.values));
+        let sides = [before, after].each(|made| trajectory.row_state(&made.values));
         let differ = |a: &[f64], b: &[f64]| {
             let least = tolerances::SAME * largest(a).max(largest(b));
             a.iter().zip(b).any(|(a, b)| (a - b).abs() > least)

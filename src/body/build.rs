@@ -4,6 +4,7 @@ use super::formula::Locals;
 use super::{Formula, NamedOutputs, Probe, Quantity, Turned, Turning};
 use crate::error::{Error, Result, Warning, nearest, short, suggest};
 use crate::math::Thresholds;
+use crate::math::array::Each;
 use crate::math::expression::{Expression, Number, Parameters, Switch, TimeFunction};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -210,7 +211,7 @@ impl<const D: usize> Build<'_, D> {
     /// Two markers on different bodies.
     pub fn between(&self, names: &[String; 2]) -> Result<Vec<MarkerId>> {
         let ids = [self.marker("between[0]", &names[0])?, self.marker("between[1]", &names[1])?];
-        let [a, b] = ids.map(|id| self.markers.bodies[id]);
+        let [a, b] = ids.each(|id| self.markers.bodies[id]);
         if a == b {
             let body = a.map_or("ground", |body| self.markers.body_names[body].as_str());
             return Err(Error::input(format!("both markers, `{}` and `{}`, are on `{body}`", names[0], names[1]))

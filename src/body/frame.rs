@@ -1,7 +1,7 @@
 //! Frames: the position and orientation of a marker, through which joints and forces see a body.
 
+use crate::math::array::{Each, from_fn};
 use crate::math::{Dual, Scalar, Taylor};
-use std::array::from_fn;
 
 /// Number of components of a twist or wrench: (x, y, angle) in the plane, three and three in space.
 pub const fn twist_len(dimension: usize) -> usize {
@@ -68,7 +68,7 @@ impl<S: Scalar, const D: usize> Frame<S, D> {
     /// The frame with `change` applied to each number.
     #[inline]
     pub fn map<T: Scalar>(&self, change: impl Fn(S) -> T) -> Frame<T, D> {
-        Frame { r: self.r.map(&change), axes: self.axes.map(|axis| axis.map(&change)), turn: change(self.turn) }
+        Frame { r: self.r.map(&change), axes: self.axes.each(|axis| axis.map(&change)), turn: change(self.turn) }
     }
 }
 
@@ -95,7 +95,7 @@ impl<const D: usize> Frame<f64, D> {
 impl<S: Scalar, const D: usize> Frame<Taylor<S>, D> {
     /// Velocity of the origin, m/s.
     pub fn velocity(&self) -> [S; D] {
-        self.r.map(|x| x.d)
+        self.r.each(|x| x.d)
     }
 
     /// Angular velocity in the world, rad/s, from w x e = e' for each axis; in the plane (0, 0, turn').
@@ -105,17 +105,17 @@ impl<S: Scalar, const D: usize> Frame<Taylor<S>, D> {
         }
         let mut twice = [S::zero(); 3];
         for axis in &self.axes {
-            let spin = cross(&axis.map(|a| a.x), &axis.map(|a| a.d));
+            let spin = cross(&axis.each(|a| a.x), &axis.each(|a| a.d));
             (0..3).for_each(|i| twice[i] += spin[i]);
         }
-        twice.map(|w| w * 0.5)
+        twice.each(|w| w * 0.5)
     }
 
     /// Angular velocity w in the world, rad/s, and w' = (sum e x e'')/2, rad/s^2, as its rate.
     pub fn spin(&self) -> [Taylor<S>; 3] {
         let mut twice = [S::zero(); 3];
         for axis in &self.axes {
-            let change = cross(&axis.map(|a| a.x), &axis.map(|a| a.dd));
+            let change = cross(&axis.each(|a| a.x), &axis.each(|a| a.dd));
             (0..3).for_each(|i| twice[i] += change[i]);
         }
         if D == 2 {
@@ -222,7 +222,7 @@ pub fn sub<S: Scalar, const D: usize>(a: &[S; D], b: &[S; D]) -> [S; D] {
 /// factor a
 #[inline]
 pub fn scale<S: Scalar, const D: usize>(a: &[S; D], factor: S) -> [S; D] {
-    a.map(|x| x * factor)
+    a.each(|x| x * factor)
 }
 
 /// The vector with these components along axes.

@@ -3,6 +3,7 @@
 use super::{BodyKernel, Energy, Frame, Freedom, Marker, Wrench, cross, sub};
 use crate::error::{Error, Result};
 use crate::math::Scalar;
+use crate::math::array::{Each, from_fn};
 use crate::math::rotation::Matrix3;
 
 /// r = rest + the free translations, R = Rot(axis, angle) R_0. The moment of inertia about a fixed axis is constant, so
@@ -51,7 +52,7 @@ impl<const D: usize> Guided<D> {
                 }
             }
         }
-        let axes = std::array::from_fn(|j| std::array::from_fn(|i| rotation[i][j]));
+        let axes = from_fn(|j| from_fn(|i| rotation[i][j]));
         Ok(Guided { mass, moment, slots, turn, rest, axes, markers })
     }
 
@@ -61,7 +62,7 @@ impl<const D: usize> Guided<D> {
     }
 
     fn position<S: Scalar>(&self, q: &[S]) -> [S; D] {
-        std::array::from_fn(|i| self.slots[i].map_or(S::constant(self.rest[i]), |slot| q[slot]))
+        from_fn(|i| self.slots[i].map_or(S::constant(self.rest[i]), |slot| q[slot]))
     }
 }
 
@@ -79,7 +80,7 @@ impl<const D: usize> BodyKernel<D> for Guided<D> {
     /// The angular acceleration is zero at v' = 0: the axis is fixed in the world.
     fn freedom(&self) -> Option<Freedom> {
         let translations = (0..3).filter(|&i| self.slots[i].is_some()).collect();
-        let rotations = self.turn.iter().map(|turn| self.axes.map(|own| own[turn.axis])).collect();
+        let rotations = self.turn.iter().map(|turn| self.axes.each(|own| own[turn.axis])).collect();
         Some(Freedom { translations, rotations })
     }
 

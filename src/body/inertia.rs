@@ -2,13 +2,13 @@
 
 use super::{Build, dot};
 use crate::error::{Error, Result, short};
+use crate::math::array::from_fn;
 use crate::math::expression::Number;
 use crate::math::rotation::Matrix3;
 use crate::tolerances::body::ROUNDED_INERTIA;
 use nalgebra::{Matrix3 as Tensor, SymmetricEigen};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::array::from_fn;
 
 #[derive(Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "expected a number, an expression such as \"m*l^2/12\", or a list of these")]

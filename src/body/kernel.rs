@@ -5,8 +5,8 @@ use super::{
     Bent, Body, BodyKernel, BodyOver, BodyState, Dual6, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, dot, sub,
 };
 use crate::forward::forward;
+use crate::math::array::{Each, from_fn};
 use crate::math::{Scalar, Taylor};
-use std::array::from_fn;
 
 /// The largest number of coordinates of a [`BodyKernel`]: they are kept on the stack.
 pub const MOST_COORDINATES: usize = 8;
@@ -60,7 +60,7 @@ pub(super) fn pull_back<K: BodyKernel<D>, S: Scalar, const D: usize>(
         let mut unit = [S::zero(); MOST_COORDINATES];
         unit[j] = S::one();
         let own = BodyKernel::motion(body, q, &unit[..n], None);
-        let lever = cross(&sub(&frame.r, &own.r.map(|x| x.x)), &wrench.force);
+        let lever = cross(&sub(&frame.r, &own.r.each(|x| x.x)), &wrench.force);
         let moment: [S; 3] = from_fn(|i| wrench.torque[i] + lever[i]);
         *f += dot(&own.velocity(), &wrench.force) + dot(&own.angular_velocity(), &moment);
     }
@@ -155,7 +155,7 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
 }
 
 fn lift(values: &[f64]) -> [Dual6; MOST_COORDINATES] {
-    std::array::from_fn(|i| Dual6::fixed(values.get(i).copied().unwrap_or(0.0)))
+    from_fn(|i| Dual6::fixed(values.get(i).copied().unwrap_or(0.0)))
 }
 
 /// k and c less the derivatives of the own forces, over dual numbers, six directions at a time: M is constant.

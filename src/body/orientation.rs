@@ -2,10 +2,10 @@
 
 use super::{Build, cross, dot, norm};
 use crate::error::{Error, Result};
+use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::math::rotation::{axes_from_quaternion, quaternion_from_vector};
 use crate::tolerances;
-use std::array::from_fn;
 
 /// The keys of an orientation in space; none of them is no rotation.
 #[derive(Clone, Copy)]
@@ -53,7 +53,7 @@ pub fn aim(z: Option<[f64; 3]>, x: Option<[f64; 3]>) -> Result<[[f64; 3]; 3]> {
     let unit = |v: [f64; 3], name: &str| -> Result<[f64; 3]> {
         let length = norm(&v);
         if length > tolerances::body::NO_AXIS {
-            Ok(v.map(|c| c / length))
+            Ok(v.each(|c| c / length))
         } else {
             Err(Error::input("the axis has no direction of its own")
                 .under(name)
@@ -99,7 +99,7 @@ pub(crate) fn quaternion<const D: usize>(
             if norm < tolerances::SAME {
                 return Err(Error::input("the quaternion is zero").under(field).hint("[1, 0, 0, 0] is no rotation"));
             }
-            Ok(q.map(|x| x / norm))
+            Ok(q.each(|x| x / norm))
         }
         Some(numbers) => Err(Error::input(format!("expected 4 or 3 numbers, found {}", numbers.len()))
             .under(field)

@@ -4,10 +4,10 @@ use super::rigid::{Initial, start_vector};
 use super::{BodyKernel, BodySpec, Build, Built, Energy, Frame, Freedom, Marker, Wrench};
 use crate::error::{Error, Result};
 use crate::math::Scalar;
+use crate::math::array::from_fn;
 use crate::math::expression::Number;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::array::from_fn;
 
 /// A mass without extension: two coordinates in the plane, three in space. It has no orientation, so joints that hold
 /// one and torques are refused.

@@ -3,8 +3,8 @@
 use super::frame::turned;
 use super::{Frame, Marker, Wrench, cross, dot, in_space, sub, twist_len, unit_axes};
 use crate::math::Taylor;
+use crate::math::array::{Each, from_fn};
 use crate::math::rotation::axes_from_quaternion;
-use std::array::from_fn;
 
 /// Position, orientation and twist of a body's own frame, in which its markers are fixed; deformation does not change
 /// them.
@@ -88,8 +88,8 @@ impl<const D: usize> Pose<D> {
     /// x'' - 2 w x x' + w x (w x x).
     #[inline]
     pub fn seen(&self, path: &[Taylor<f64>; D]) -> [Taylor<f64>; D] {
-        let swept = self.swept(&path.map(|x| x.x));
-        let coriolis = self.swept(&path.map(|x| x.d));
+        let swept = self.swept(&path.each(|x| x.x));
+        let coriolis = self.swept(&path.each(|x| x.d));
         let centripetal = self.swept(&swept);
         from_fn(|k| Taylor::new(path[k].x, path[k].d - swept[k], path[k].dd - 2.0 * coriolis[k] + centripetal[k]))
     }

@@ -3,6 +3,7 @@
 use super::frame::{cross, dot, norm, sub, turned};
 use super::turning::TurnAxes;
 use super::{Frame, MarkerId, MarkerTable};
+use crate::math::array::{Each, from_fn};
 use crate::math::{Regime, Scalar, Taylor};
 use std::borrow::Borrow;
 
@@ -157,7 +158,7 @@ impl Probe {
         let spin = sub(&of.borrow().spin(), &to.borrow().spin());
         match D {
             2 => level(spin[2], self.order - 1),
-            _ => level(dot(&to.borrow().axes[axis], &std::array::from_fn(|i| spin[i])), self.order - 1),
+            _ => level(dot(&to.borrow().axes[axis], &from_fn(|i| spin[i])), self.order - 1),
         }
     }
 
@@ -169,14 +170,14 @@ impl Probe {
     {
         let of = frame(self.of).borrow().r;
         let gap = self.to.map_or(of, |to| sub(&of, &frame(to).borrow().r));
-        let is_closed = norm(&gap.map(|x| x.x)).value() == 0.0;
-        if is_closed && self.order == 1 { norm(&gap.map(|x| x.d)) } else { level(norm(&gap), self.order) }
+        let is_closed = norm(&gap.each(|x| x.x)).value() == 0.0;
+        if is_closed && self.order == 1 { norm(&gap.each(|x| x.d)) } else { level(norm(&gap), self.order) }
     }
 }
 
 fn own_spin<S: Scalar, const D: usize>(axis: usize, of: &Frame<Taylor<S>, D>, order: usize) -> S {
     let spin = of.spin();
-    level(dot(&of.axes[axis], &std::array::from_fn(|i| spin[i])), order - 1)
+    level(dot(&of.axes[axis], &from_fn(|i| spin[i])), order - 1)
 }
 
 /// Time derivative of this order.
@@ -196,7 +197,7 @@ pub fn small_rotation<S: Scalar, const D: usize>(a: &Frame<S, D>, b: &Frame<S, D
         let turn = cross(from, to);
         (0..3).for_each(|i| twice[i] += turn[i]);
     }
-    twice.map(|x| x * 0.5)
+    twice.each(|x| x * 0.5)
 }
 
 /// Torque on `b`, with its opposite on `a`, whose power is `moment` times the rate of [`small_rotation`]: with

@@ -8,12 +8,12 @@ use super::rigid_spatial::RigidSpatial;
 use super::shapes::{MassProperties, Shape};
 use super::{BodySpec, Build, Built, Marker, cross};
 use crate::error::{Error, Result};
+use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::math::rotation::{Matrix3, matrix_from_quaternion, quaternion_from_axes};
 use crate::tolerances::body as tolerances;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
-use std::array::from_fn;
 use std::collections::BTreeMap;
 
 /// A rigid body: x, y and angle in the plane; position and unit quaternion in space. Its coordinates are those of its
@@ -126,7 +126,7 @@ impl Initial {
             None => [0.0; 3],
             Some(Inertia::Moment(rate)) if let Some(axis) = axis => {
                 let rate = build.number("initial.angular_velocity", rate)?;
-                matrix_from_quaternion(&quaternion)[axis].map(|part| rate * part)
+                matrix_from_quaternion(&quaternion)[axis].each(|part| rate * part)
             }
             Some(Inertia::Moment(_)) => {
                 return Err(Error::input("expected 3 numbers, found one")
@@ -180,7 +180,7 @@ impl BodySpec for Rigid {
         // From the centre of mass to the origin that markers and `initial` refer to.
         let mut origin: [f64; 3] = from_fn(|i| initial.origin.get(i).copied().unwrap_or(0.0));
         if let Some(made_of) = &made_of {
-            origin = made_of.centre.map(|x| -x);
+            origin = made_of.centre.each(|x| -x);
             markers.iter_mut().for_each(|marker| marker.offset = from_fn(|i| marker.offset[i] + origin[i]));
         }
         let tensor = made_of.map(|made_of| made_of.inertia);

@@ -2,7 +2,7 @@
 
 use super::{BodyKernel, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, sub};
 use crate::math::Scalar;
-use std::array::from_fn;
+use crate::math::array::{Each, from_fn};
 
 /// M = diag(m, m, I): constant, so there are no velocity-dependent forces.
 pub struct RigidPlanar<const D: usize> {
@@ -69,7 +69,7 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
         if let (&[x, y, turn], &[x_rate, y_rate, spin]) = (q, v) {
             return Pose::in_plane([x, y, turn], [x_rate, y_rate, spin]);
         }
-        Pose::in_plane(self.coordinates(q), self.slots.map(|slot| slot.map_or(0.0, |slot| v[slot])))
+        Pose::in_plane(self.coordinates(q), self.slots.each(|slot| slot.map_or(0.0, |slot| v[slot])))
     }
     fn freedom(&self) -> Option<Freedom> {
         let Freedom { rotations, .. } = Freedom::all(D);

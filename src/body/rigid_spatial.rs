@@ -2,8 +2,8 @@
 
 use super::{BodyKernel, BodyState, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, dot, sub};
 use crate::math::Scalar;
+use crate::math::array::from_fn;
 use crate::math::rotation::{Matrix3, axes_from_quaternion, quaternion_rate};
-use std::array::from_fn;
 
 /// M = diag(m, m, m, J) with J constant in the body's axes; f = (m g, -w x J w).
 pub struct RigidSpatial<const D: usize> {

@@ -7,9 +7,9 @@
 
 use super::frame::turned;
 use super::{Carried, Frame, MarkerId, cross, dot, sub};
+use crate::math::array::{Each, from_fn};
 use crate::math::{Regime, Scalar};
 use crate::tolerances::body as tolerances;
-use std::array::from_fn;
 
 /// z times the angle of marker `of` about the z axis of marker `to`, or about another line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,13 +40,13 @@ impl TurnAxes {
     /// b, and e_0 and e_1. Not inlined, so that the markers' own axes, which nearly all angles have, stay fast.
     #[inline(never)]
     fn directions<const D: usize>(&self, of: &Carried<D>, to: &Carried<D>) -> ([f64; D], [[f64; D]; 2]) {
-        (of.direction(&self.of), self.to.map(|e| to.direction(&e)))
+        (of.direction(&self.of), self.to.each(|e| to.direction(&e)))
     }
 
     /// e_0 . b and e_1 . b
     pub fn cos_sin<S: Scalar, const D: usize>(&self, of: &Frame<S, D>, to: &Frame<S, D>) -> (S, S) {
         let b = turned(&of.axes, &self.of);
-        let [c, s] = self.to.map(|e| dot(&turned(&to.axes, &e), &b));
+        let [c, s] = self.to.each(|e| dot(&turned(&to.axes, &e), &b));
         (c, s)
     }
 }

@@ -3,6 +3,7 @@
 use super::{Action, Built, ForceKernel, ForceSpec, InputKind, Instant, Motion};
 use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Wrench, cross, norm};
 use crate::error::{Error, Result};
+use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Taylor, Time};
 use schemars::JsonSchema;
@@ -140,7 +141,7 @@ impl Applied {
         let value = |formula: &Formula| formula.at(time, &self.markers, frames);
         match self.formulas.as_slice() {
             [torque] => [S::zero(), S::zero(), value(torque)],
-            all => std::array::from_fn(|i| all.get(i).map_or(S::zero(), value)),
+            all => from_fn(|i| all.get(i).map_or(S::zero(), value)),
         }
     }
 }
@@ -176,7 +177,7 @@ impl<const D: usize> ForceKernel<D> for Applied {
         out: &mut [Wrench<S, D>],
     ) -> Action<S> {
         let own = self.components(frames, time.map(|t| t.x));
-        let local: [S; 3] = std::array::from_fn(|i| own[i] + input[i].x);
+        let local: [S; 3] = from_fn(|i| own[i] + input[i].x);
         let mut vector = local;
         if self.axes == Axes::Marker && !(D == 2 && matches!(self.kind, Kind::Torque)) {
             vector = [S::zero(); 3];
@@ -190,10 +191,10 @@ impl<const D: usize> ForceKernel<D> for Applied {
         }
         if self.reacts {
             // The reaction acts along the same line, so at the other marker it has the moment of the gap.
-            let gap: [S; D] = std::array::from_fn(|i| frames[0].r[i].x - frames[1].r[i].x);
+            let gap: [S; D] = from_fn(|i| frames[0].r[i].x - frames[1].r[i].x);
             let lever = cross(&gap, &out[0].force);
-            out[1].force = out[0].force.map(|x| -x);
-            out[1].torque = std::array::from_fn(|i| -(out[0].torque[i] + lever[i]));
+            out[1].force = out[0].force.each(|x| -x);
+            out[1].torque = from_fn(|i| -(out[0].torque[i] + lever[i]));
         }
         // A planar torque keeps its sign.
         Action::without_potential(if self.formulas.len() == 1 { vector[2] } else { norm(&vector) })

@@ -3,11 +3,11 @@
 use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
 use crate::body::{Build, Wrench, cross, dot, norm, scale, small_rotation, small_rotation_torque, sub, twist_len};
 use crate::error::{Error, Result};
+use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::math::{Scalar, Taylor};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::array::from_fn;
 
 /// Linear stiffness and damping against displacement and rotation of the second marker, in the axes of the first: 3
 /// numbers (x, y, angle) in the plane, 6 (x, y, z, rx, ry, rz) in space. Rotations in space are meant to be small: the
@@ -80,7 +80,7 @@ impl<const D: usize> ForceKernel<D> for Cushion {
         for (i, axis) in a.axes.iter().enumerate() {
             let (component, stored) = self.law(i, dot(axis, &gap));
             potential += stored;
-            let along = scale(&axis.map(|x| x.x), component);
+            let along = scale(&axis.each(|x| x.x), component);
             force = from_fn(|k| force[k] + along[k]);
         }
         if D == 2 {
@@ -99,9 +99,9 @@ impl<const D: usize> ForceKernel<D> for Cushion {
             torque = small_rotation_torque(&a.map(|x| x.x), &b.map(|x| x.x), &moment);
         }
         // The reaction acts at the second marker too, so at the first it has the moment of the gap.
-        let lever = cross(&gap.map(|x| x.x), &force);
+        let lever = cross(&gap.each(|x| x.x), &force);
         out[1] = Wrench { force, torque };
-        out[0] = Wrench { force: force.map(|x| -x), torque: from_fn(|k| -(torque[k] + lever[k])) };
+        out[0] = Wrench { force: force.each(|x| -x), torque: from_fn(|k| -(torque[k] + lever[k])) };
         Action { potential, magnitude: norm(&force) }
     }
 }

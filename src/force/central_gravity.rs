@@ -3,7 +3,7 @@
 use super::{Action, ForceKernel, Instant, Motion};
 use crate::body::{Wrench, cross, dot, in_space, turned};
 use crate::math::Scalar;
-use std::array::from_fn;
+use crate::math::array::{Each, from_fn};
 
 /// -mu m r/|r|^3 at the centre of mass of a body, r from the attracting point; its potential is -mu m/|r|. Gravity is
 /// taken as uniform over the body: there is no gravity-gradient torque. Its marker is the body's own frame.
@@ -18,7 +18,7 @@ pub struct CentralGravity<const D: usize> {
 impl<const D: usize> CentralGravity<D> {
     /// Gravity of a body of mass `mass`, kg, whose origin is at `origin` from its centre of mass, towards `centre`.
     pub fn new(mu: f64, mass: f64, centre: [f64; D], origin: &[f64; D]) -> Self {
-        CentralGravity { strength: mu * mass, centre, to_mass: in_space(origin).map(|x| -x) }
+        CentralGravity { strength: mu * mass, centre, to_mass: in_space(origin).each(|x| -x) }
     }
 }
 
@@ -30,8 +30,8 @@ impl<const D: usize> ForceKernel<D> for CentralGravity<D> {
         let potential = -(square.sqrt().recip() * self.strength);
         let magnitude = square.x.recip() * self.strength;
         let factor = potential.x / square.x;
-        out[0].force = gap.map(|x| x.x * factor);
-        out[0].torque = cross(&arm.map(|x| x.x), &out[0].force);
+        out[0].force = gap.each(|x| x.x * factor);
+        out[0].torque = cross(&arm.each(|x| x.x), &out[0].force);
         Action { potential, magnitude }
     }
 }

@@ -4,6 +4,7 @@ use super::law::Law;
 use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
 use crate::body::{Build, Probe, Quantity, Wrench, dot, norm, sub};
 use crate::error::Result;
+use crate::math::array::Each;
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Side, Taylor};
 use crate::tolerances::body::NEARLY_CLOSED;
@@ -90,15 +91,15 @@ impl Spring {
         gap: &[Taylor<S>; D],
         out: &mut [Wrench<S, D>],
     ) -> Action<S> {
-        let values = gap.map(|x| x.x.value());
-        let rates = gap.map(|x| x.d.value());
+        let values = gap.each(|x| x.x.value());
+        let rates = gap.each(|x| x.d.value());
         let is_open = norm(&values) > NEARLY_CLOSED * self.free.max(self.preload.abs() / self.k.max(f64::MIN_POSITIVE));
         let line = side.along(if is_open { values } else { rates });
         let length = gap.iter().zip(line).fold(Taylor::fixed(S::zero()), |sum, (x, u)| sum + *x * u);
         let stretch = length - self.free;
         let tension = stretch.x * self.k + length.d * self.c - self.preload;
-        out[0].force = line.map(|u| tension * u);
-        out[1].force = line.map(|u| tension * -u);
+        out[0].force = line.each(|u| tension * u);
+        out[1].force = line.each(|u| tension * -u);
         Action { potential: stretch.square() * (0.5 * self.k) - stretch * self.preload, magnitude: tension }
     }
 }
@@ -120,16 +121,16 @@ impl<const D: usize> ForceKernel<D> for Spring {
         let square = dot(&gap, &gap);
         // Without free length, preload and damping the force is k times the gap, also where the gap closes.
         if self.free == 0.0 && self.preload == 0.0 && (self.c == 0.0 || square.value() == 0.0) {
-            out[0].force = gap.map(|x| x.x * self.k);
-            out[1].force = gap.map(|x| x.x * -self.k);
+            out[0].force = gap.each(|x| x.x * self.k);
+            out[1].force = gap.each(|x| x.x * -self.k);
             let length = if square.value() == 0.0 { S::zero() } else { square.x.sqrt() };
             return Action { potential: square * (0.5 * self.k), magnitude: length * self.k };
         }
         let length = square.sqrt();
         let stretch = length - self.free;
         let tension = stretch.x * self.k + length.d * self.c - self.preload;
-        out[0].force = gap.map(|x| x.x * tension / length.x);
-        out[1].force = out[0].force.map(|x| -x);
+        out[0].force = gap.each(|x| x.x * tension / length.x);
+        out[1].force = out[0].force.each(|x| -x);
         Action { potential: stretch.square() * (0.5 * self.k) - stretch * self.preload, magnitude: tension }
     }
 }
@@ -145,11 +146,11 @@ impl<const D: usize> ForceKernel<D> for Lawful {
     }
 
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        let gap = sub(&frames[1].r, &frames[0].r).map(|x| x.x);
+        let gap = sub(&frames[1].r, &frames[0].r).each(|x| x.x);
         let tension = self.law.value(frames, time);
         let length = norm(&gap);
-        out[0].force = gap.map(|x| x * tension / length);
-        out[1].force = out[0].force.map(|x| -x);
+        out[0].force = gap.each(|x| x * tension / length);
+        out[1].force = out[0].force.each(|x| -x);
         Action::without_potential(tension)
     }
 

@@ -5,11 +5,11 @@ use super::spring_damper::optional_not_negative;
 use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
 use crate::body::{Build, Frame, MarkerId, Probe, Quantity, Turned, Wrench, cross, dot};
 use crate::error::Result;
+use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Taylor};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::array::from_fn;
 
 /// Torque -(k (angle - free_angle) + c angle') on the second marker and its opposite on the first. The angle is that
 /// of the second marker against the first; counted through full turns; in space about the first one's z axis, and within half a turn of
@@ -101,8 +101,8 @@ impl<const D: usize> ForceKernel<D> for Torsion {
             (angle - self.free, gradient(a, b, c.x, s.x))
         };
         let torque = -(twist.x * self.k + twist.d * self.c);
-        out[0].torque = axis.map(|x| -(x * torque));
-        out[1].torque = axis.map(|x| x * torque);
+        out[0].torque = axis.each(|x| -(x * torque));
+        out[1].torque = axis.each(|x| x * torque);
         Action { potential: twist.square() * (0.5 * self.k), magnitude: torque }
     }
 }
@@ -130,8 +130,8 @@ impl<const D: usize> ForceKernel<D> for Lawful {
             gradient(a, b, c.x, s.x)
         };
         let torque = -self.law.value(frames, time);
-        out[0].torque = axis.map(|x| -(x * torque));
-        out[1].torque = axis.map(|x| x * torque);
+        out[0].torque = axis.each(|x| -(x * torque));
+        out[1].torque = axis.each(|x| x * torque);
         Action::without_potential(torque)
     }
 
@@ -149,5 +149,5 @@ fn cos_sin<S: Scalar, const D: usize>(a: &Frame<Taylor<S>, D>, b: &Frame<Taylor<
 fn gradient<S: Scalar, const D: usize>(a: &Frame<Taylor<S>, D>, b: &Frame<Taylor<S>, D>, c: S, s: S) -> [S; 3] {
     let square = c * c + s * s;
     let normal = from_fn(|i| (a.axes[1][i].x * c - a.axes[0][i].x * s) / square);
-    cross::<S, D>(&b.axes[0].map(|x| x.x), &normal)
+    cross::<S, D>(&b.axes[0].each(|x| x.x), &normal)
 }

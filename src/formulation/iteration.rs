@@ -2,6 +2,7 @@
 
 use super::linearized::Linearized;
 use super::{Dae, Dynamics, Residual, Row, StepError};
+use crate::math::array::Each;
 use crate::math::kkt::{Field, Pattern, Places, SaddlePoint, Singular, Unsymmetric};
 use crate::system::{MechanicalSystem, Structure};
 use faer::c64;
@@ -163,7 +164,7 @@ impl<T: Number> RowSlopes<T> {
         RowSlopes {
             dae,
             holonomic,
-            lambda: both.map(|dae| RowSlope::of(dae.lambda, s)),
+            lambda: both.each(|dae| RowSlope::of(dae.lambda, s)),
             eta: both.map(|dae| dae.eta.map(|row| RowSlope::of(row, s))),
             mu: both.map(|dae| dae.mu.map(|row| RowSlope::of(row, s))),
         }
@@ -212,7 +213,7 @@ impl<T: Number> Iteration<T> {
         self.matrix.add_at(of_tangent, &at.tangent.k, slopes.q);
         if at.dae.needs_l() {
             let rows = &self.rows;
-            let ratio = rows.lambda.map(|RowSlope { a: [g, l], .. }| l / g);
+            let ratio = rows.lambda.each(|RowSlope { a: [g, l], .. }| l / g);
             self.matrix.couple(&at.l, |row| ratio[rows.kind(row)]);
         }
         self.matrix.factor(&structure.g, &at.g)
@@ -286,7 +287,7 @@ impl<T: Number> RowSlopes<T> {
         (x, gx): (&[T], &[T]),
         lambda: &mut [T],
     ) {
-        let factors = self.lambda.map(|slope| by(&slope).map(|factor| factor / slope.a[0]));
+        let factors = self.lambda.each(|slope| by(&slope).each(|factor| factor / slope.a[0]));
         for (i, gx) in gx.iter().enumerate() {
             lambda[i] -= factors[self.kind(i)][0] * *gx;
         }

@@ -1,8 +1,8 @@
 //! The exponential map of the coordinates.
 
+use crate::math::array::from_fn;
 use crate::math::rotation::{quaternion_from_vector, quaternion_product};
 use crate::system::{MechanicalSystem, Rotation};
-use std::array::from_fn;
 
 /// q = q0 exp(change), with its memory. Unit quaternions are multiplied by that of the rotation vector in `change`,
 /// which is exact. Other coordinates with q' = N(q) v, as angles that count full turns, move at a constant v by the
@@ -16,7 +16,7 @@ impl ExponentialMap {
     /// Memory for a system.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         let n = system.dimensions().q;
-        ExponentialMap { rotations: system.rotations(), stages: from_fn(|_| vec![0.0; n]) }
+        ExponentialMap { rotations: system.rotations(), stages: std::array::from_fn(|_| vec![0.0; n]) }
     }
 
     /// Writes q0 exp(change) to `q`; `change` is along the directions of v.

@@ -4,6 +4,7 @@ use super::transform::Transform;
 use super::xml::place_of;
 use crate::body::{MassProperties, norm};
 use crate::error::Error;
+use crate::math::array::Each;
 use crate::math::rotation::quaternion_from_vector;
 
 /// Links joined by joints to a tree, and what closes loops.
@@ -114,7 +115,7 @@ impl Joint {
         if travel == 0.0 || size == 0.0 {
             return Transform::default();
         }
-        let along = self.axis.map(|x| travel * x / size);
+        let along = self.axis.each(|x| travel * x / size);
         match self.kind {
             Kind::Revolute => Transform { r: [0.0; 3], turn: quaternion_from_vector(&along) }.about(&self.anchor),
             Kind::Prismatic => Transform { r: along, ..Transform::default() },

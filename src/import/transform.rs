@@ -1,8 +1,8 @@
 //! Places of frames.
 
 use crate::body::MassProperties;
+use crate::math::array::{Each, from_fn};
 use crate::math::rotation::{Matrix3, axes_from_quaternion, quaternion_from_vector, quaternion_product};
-use std::array::from_fn;
 
 /// The unit quaternion of no rotation.
 pub const UNTURNED: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
@@ -41,8 +41,8 @@ impl Transform {
 
     /// The tensor, given in the axes of this frame, in those of the outer one.
     pub fn tensor(&self, tensor: &Matrix3) -> Matrix3 {
-        let columns = tensor.map(|row| self.rotated(&row));
-        from_fn(|i| self.rotated(&columns.map(|column| column[i])))
+        let columns = tensor.each(|row| self.rotated(&row));
+        from_fn(|i| self.rotated(&columns.each(|column| column[i])))
     }
 
     /// Mass properties, given in this frame, in the outer one.
@@ -74,6 +74,6 @@ impl Transform {
     pub fn inverse(&self) -> Transform {
         let [w, x, y, z] = self.turn;
         let back = Transform { r: [0.0; 3], turn: [w, -x, -y, -z] };
-        Transform { r: back.rotated(&self.r).map(|x| -x), ..back }
+        Transform { r: back.rotated(&self.r).each(|x| -x), ..back }
     }
 }

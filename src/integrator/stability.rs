@@ -1,5 +1,6 @@
 //! Stability limits of the steps of explicit methods.
 
+use crate::math::array::Each;
 use crate::tolerances::integrator as tolerances;
 
 /// Stability region of a method for a mode x' = lambda x.
@@ -34,7 +35,7 @@ impl Stability {
             return f64::min(2.0, 2.0 * tolerances::ITERABLE / damping);
         };
         let holds =
-            |size: f64| excess(coefficients, direction.map(|x| x * size)) <= tolerances::STABILITY_GROWTH * size;
+            |size: f64| excess(coefficients, direction.each(|x| x * size)) <= tolerances::STABILITY_GROWTH * size;
         let mut size = tolerances::STRIDE_TO_LIMIT;
         while size < tolerances::FARTHEST_LIMIT && holds(size) {
             size += tolerances::STRIDE_TO_LIMIT;

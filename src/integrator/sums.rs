@@ -1,6 +1,7 @@
 //! Weighted sums of stages.
 
 use super::From;
+use crate::math::array::Each;
 use crate::math::threads::{Divisible, each};
 use crate::tolerances::system::NUMBERS_OF_A_PORTION;
 
@@ -74,7 +75,7 @@ fn accumulate_from(first: usize, y: &mut [f64], h: f64, weights: &[f64], k: &[Ve
 
 #[inline(always)]
 fn add<const N: usize>(y: &mut [f64], terms: [(f64, &[f64]); N]) {
-    let terms = terms.map(|(factor, k)| (factor, &k[..y.len()]));
+    let terms = terms.each(|(factor, k)| (factor, &k[..y.len()]));
     for (i, y) in y.iter_mut().enumerate() {
         for (factor, k) in terms {
             *y += factor * k[i];

@@ -3,9 +3,9 @@
 use super::{Axis, Built, ClosedForm, JointKernel};
 use crate::body::{Build, Frame, dot, in_space, sub, unit_axes};
 use crate::error::{Error, Result};
+use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::math::{Scalar, Time};
-use std::array::from_fn;
 use std::f64::consts::TAU;
 
 /// Locks some relative translations and rotations of marker B against marker A.
@@ -124,7 +124,7 @@ pub fn within_half_turn<S: Scalar>(angle: S) -> S {
 fn triad<const D: usize>(principal: usize, direction: [f64; D]) -> [[f64; D]; D] {
     let mut axes = unit_axes::<f64, D>();
     let length = dot(&direction, &direction).sqrt();
-    let main = direction.map(|x| x / length);
+    let main = direction.each(|x| x / length);
     if D == 2 {
         (axes[0][0], axes[0][1]) = (main[0], main[1]);
         (axes[1][0], axes[1][1]) = (-main[1], main[0]);
@@ -135,7 +135,7 @@ fn triad<const D: usize>(principal: usize, direction: [f64; D]) -> [[f64; D]; D]
     let along = dot(&second, &main);
     second = from_fn(|i| second[i] - along * main[i]);
     let norm = dot(&second, &second).sqrt();
-    second = second.map(|x| x / norm);
+    second = second.each(|x| x / norm);
     let third = crate::body::cross(&main, &second);
     axes[principal] = main;
     axes[(principal + 1) % D] = second;

@@ -27,10 +27,10 @@ mod weld;
 use crate::body::{Build, Dual6, ElementKind, Frame, MOST_MARKERS, MarkerId, mistaken, parse_among, twist_len};
 use crate::error::Result;
 use crate::forward::forward;
+use crate::math::array::from_fn;
 use crate::math::{Dual, Rate, Scalar, Taylor, Time};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
-use std::array::from_fn;
 
 #[doc(hidden)]
 pub use added::Added;

@@ -1,7 +1,7 @@
 //! Forward-mode derivatives: a value with its derivatives along `N` directions.
 
 use super::scalar::{Scalar, Unary, operators};
-use std::array::from_fn;
+use crate::math::array::{Each, from_fn};
 
 /// re + sum_i eps_i e_i with e_i e_j = 0: `eps[i]` is the derivative of `re` along direction i.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,23 +46,23 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
     #[inline]
     fn unary(self, function: Unary) -> Self {
         let [re, slope] = function.slope(self.re);
-        Dual { re, eps: self.eps.map(|e| e * slope) }
+        Dual { re, eps: self.eps.each(|e| e * slope) }
     }
     #[inline]
     fn compose(self, order: usize, derivative: &impl Fn(usize, [f64; 2]) -> [f64; 2]) -> Self {
         let slope = self.re.compose(order + 1, derivative);
-        Dual { re: self.re.compose(order, derivative), eps: self.eps.map(|e| e * slope) }
+        Dual { re: self.re.compose(order, derivative), eps: self.eps.each(|e| e * slope) }
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.re.sin_cos();
-        (Dual { re: sin, eps: self.eps.map(|e| e * cos) }, Dual { re: cos, eps: self.eps.map(|e| -(e * sin)) })
+        (Dual { re: sin, eps: self.eps.each(|e| e * cos) }, Dual { re: cos, eps: self.eps.each(|e| -(e * sin)) })
     }
 }
 
 operators! {
     impl[S: Scalar, const N: usize] Dual<S, N>:
-    Neg neg(a) = Dual { re: -a.re, eps: a.eps.map(|e| -e) };
+    Neg neg(a) = Dual { re: -a.re, eps: a.eps.each(|e| -e) };
     Add add(a, b: Self) = Dual { re: a.re + b.re, eps: from_fn(|i| a.eps[i] + b.eps[i]) };
     Sub sub(a, b: Self) = Dual { re: a.re - b.re, eps: from_fn(|i| a.eps[i] - b.eps[i]) };
     Mul mul(a, b: Self) = Dual { re: a.re * b.re, eps: from_fn(|i| a.eps[i] * b.re + a.re * b.eps[i]) };
@@ -72,6 +72,6 @@ operators! {
         Dual { re, eps: from_fn(|i| (a.eps[i] - re * b.eps[i]) * inverse) }
     };
     Add add(a, x: f64) = Dual { re: a.re + x, ..a };
-    Mul mul(a, x: f64) = Dual { re: a.re * x, eps: a.eps.map(|e| e * x) };
-    Div div(a, x: f64) = Dual { re: a.re / x, eps: a.eps.map(|e| e / x) };
+    Mul mul(a, x: f64) = Dual { re: a.re * x, eps: a.eps.each(|e| e * x) };
+    Div div(a, x: f64) = Dual { re: a.re / x, eps: a.eps.each(|e| e / x) };
 }

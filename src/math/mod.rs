@@ -1,5 +1,6 @@
 //! Numbers and linear algebra below the mechanics.
 
+pub(crate) mod array;
 mod dual;
 #[doc(hidden)]
 pub mod eigen;

@@ -2,6 +2,7 @@
 
 use super::Scalar;
 use super::screw::{cotangent, cross3, dot3, quaternion};
+use crate::math::array::{Each, from_fn};
 
 /// Row-major 3 x 3 matrix.
 pub type Matrix3 = [[f64; 3]; 3];
@@ -31,7 +32,7 @@ pub fn axes_from_quaternion<S: Scalar>(p: &[S]) -> [[S; 3]; 3] {
 /// R with `R[i][j]`: world component i of body axis j.
 pub fn matrix_from_quaternion(p: &[f64; 4]) -> Matrix3 {
     let axes = axes_from_quaternion(p);
-    std::array::from_fn(|i| std::array::from_fn(|j| axes[j][i]))
+    from_fn(|i| from_fn(|j| axes[j][i]))
 }
 
 /// p' = p (0, w) / 2 with w in the body's axes; linear in p.
@@ -57,12 +58,12 @@ pub fn rotation_vector_rate(a: &[f64; 3], w: &[f64; 3]) -> [f64; 3] {
     let across = cross3(a, w);
     let twice = cross3(a, &across);
     let c = cotangent(dot3(a, a));
-    std::array::from_fn(|i| w[i] + 0.5 * across[i] + c * twice[i])
+    from_fn(|i| w[i] + 0.5 * across[i] + c * twice[i])
 }
 
 /// Unit quaternion of the rotation with these axes, `axes[i]` being the i-th.
 pub fn quaternion_from_axes(axes: &Matrix3) -> [f64; 4] {
-    let (w, [x, y, z]) = quaternion(&std::array::from_fn(|i| axes.map(|axis| axis[i])));
+    let (w, [x, y, z]) = quaternion(&from_fn(|i| axes.each(|axis| axis[i])));
     [w, x, y, z]
 }
 
@@ -88,7 +89,7 @@ mod tests {
         for size in [0.0, 1e-3, 0.8, 3.0, 5.0] {
             let a = [0.6, 0.0, 0.8].map(|x: f64| x * size);
             let rate = rotation_vector_rate(&a, &w);
-            let at = |s: f64| quaternion_from_vector(&std::array::from_fn(|i| a[i] + s * rate[i]));
+            let at = |s: f64| quaternion_from_vector(&from_fn(|i| a[i] + s * rate[i]));
             let mut exact = [0.0; 4];
             quaternion_rate(&at(0.0), &w, &mut exact);
             for (i, exact) in exact.iter().enumerate() {

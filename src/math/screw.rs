@@ -6,8 +6,8 @@
 //! A).
 
 use super::Scalar;
+use crate::math::array::{Each, from_fn};
 use crate::tolerances::math as tolerances;
-use std::array::from_fn;
 
 /// A vector of space over any scalar.
 pub type Vector<S> = [S; 3];
@@ -36,7 +36,7 @@ pub fn rotation_vector<S: Scalar>(r: &[[S; 3]; 3]) -> Vector<S> {
         let size = square.sqrt();
         S::atan2(size, w) * 2.0 / size
     };
-    v.map(|v| v * factor)
+    v.each(|v| v * factor)
 }
 
 /// Scalar and vector part of the unit quaternion, the scalar part not negative. Shepperd's choice of the divisor: with
@@ -46,7 +46,7 @@ pub fn quaternion<S: Scalar>(r: &[[S; 3]; 3]) -> (S, Vector<S>) {
     let skew = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]];
     if trace.value() > 0.0 {
         let twice = (trace + 1.0).sqrt();
-        return (twice * 0.5, skew.map(|s| s / (twice * 2.0)));
+        return (twice * 0.5, skew.each(|s| s / (twice * 2.0)));
     }
     let largest = (1..3).fold(0, |best, i| if r[i][i].value() > r[best][best].value() { i } else { best });
     let twice = (r[largest][largest] * 2.0 - trace + 1.0).sqrt();
@@ -182,7 +182,7 @@ fn turning<S: Scalar>(x: S) -> [S; 3] {
 /// The motion at part `part` of the screw with logarithm (u, a), as its axes (`axes[j]` is axis j) and its
 /// shift.
 pub fn exponential<S: Scalar>(u: &Vector<S>, a: &Vector<S>, part: f64) -> ([Vector<S>; 3], Vector<S>) {
-    let a = a.map(|x| x * part);
+    let a = a.each(|x| x * part);
     let [s1, s2, s3] = turning(dot3(&a, &a));
     let turn = |v: &Vector<S>, first: S, second: S| -> Vector<S> {
         let turned = cross3(&a, v);
@@ -190,7 +190,7 @@ pub fn exponential<S: Scalar>(u: &Vector<S>, a: &Vector<S>, part: f64) -> ([Vect
         from_fn(|i| v[i] + first * turned[i] + second * twice[i])
     };
     let axes = from_fn(|j| turn(&from_fn(|i| if i == j { S::one() } else { S::zero() }), s1, s2));
-    (axes, turn(&u.map(|x| x * part), s2, s3))
+    (axes, turn(&u.each(|x| x * part), s2, s3))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A half space bounded by a coordinate plane, by which a vector along a line has a sign.
 
 use super::Piece;
-use std::array::from_fn;
+use crate::math::array::{Each, from_fn};
 
 /// The vectors whose component `axis` has this sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,7 @@ impl Side {
             return from_fn(|i| if i == self.axis { self.sign } else { 0.0 });
         }
         let sign = if self.sign * vector[self.axis] < 0.0 { -1.0 } else { 1.0 };
-        vector.map(|x| sign * x / size)
+        vector.each(|x| sign * x / size)
     }
 }
 

@@ -5,10 +5,10 @@ use crate::body::{dot, norm};
 use crate::error::{Error, Warning, short, significant};
 use crate::initial::{Assembly, Move};
 use crate::joint::{Axis, Joint};
+use crate::math::array::{Each, from_fn};
 use crate::scene::Connection;
 use crate::system::{MechanicalSystem, Mechanism, Road, Scratch};
 use crate::tolerances::report as tolerances;
-use std::array::from_fn;
 use std::f64::consts::FRAC_PI_2;
 
 /// Warnings about the scene alone.
@@ -83,10 +83,10 @@ fn turn(names: &[String], from: &[f64], to: &[f64]) -> f64 {
         return (to[angle] - from[angle]).abs();
     }
     let Some(first) = place("qw") else { return 0.0 };
-    let [a, b]: [[f64; 4]; 2] = [from, to].map(|q| from_fn(|k| q[first + k]));
+    let [a, b]: [[f64; 4]; 2] = [from, to].each(|q| from_fn(|k| q[first + k]));
     // The real part of a* b is the cosine of half the angle, the rest its sine; -b is the same rotation as b.
     let cosine = dot(&a, &b).abs();
-    let sine = norm(&from_fn::<f64, 4, _>(|k| b[k] * dot(&a, &a) - a[k] * dot(&a, &b))) / norm(&a);
+    let sine = norm(&from_fn::<f64, 4>(|k| b[k] * dot(&a, &a) - a[k] * dot(&a, &b))) / norm(&a);
     2.0 * sine.atan2(cosine)
 }
 

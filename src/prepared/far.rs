@@ -3,6 +3,7 @@
 use super::AnyMechanism;
 use crate::body::{norm, sub};
 use crate::error::{Error, Result, short};
+use crate::math::array::Each;
 use crate::math::largest;
 use crate::scene::Connection;
 use crate::simulate::Method;
@@ -39,7 +40,7 @@ pub fn refuse_rounding(mechanism: &AnyMechanism, q: &[f64], method: &Method) -> 
 fn longest_lever<const D: usize>(mechanism: &Mechanism<D>, q: &[f64]) -> f64 {
     let still = vec![0.0; mechanism.dimensions().v];
     let frames = mechanism.frames(q, &still, &mut Scratch::default());
-    let place = |marker: usize| frames[marker].r.map(|x| x.x);
+    let place = |marker: usize| frames[marker].r.each(|x| x.x);
     let model = mechanism.model();
     let reach = |marker: usize| {
         let part = model.carrier(marker);

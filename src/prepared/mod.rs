@@ -1,5 +1,6 @@
 //! A scene ready to run: its mechanism, a consistent start, and the method of simulation.
 
+use crate::math::array::Each;
 mod any_mechanism;
 mod doubts;
 mod far;
@@ -117,7 +118,7 @@ impl PreparedScene {
         method.check_options(mechanism.system()).map_err(|error| settings.place(error))?;
         let held = AnyMechanism::held(scene.held);
         let has_joint_start = held[0].is_some();
-        let held = held.each_ref().map(|held| held.as_ref().map(AnyMechanism::system));
+        let held = held.each_ref().each(|held| held.as_ref().map(AnyMechanism::system));
         let assembly = initial::assemble_held(mechanism.system(), held, start, (&scene.q, &scene.v), &scene.hold);
         let mut assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
         check_switches(mechanism.system(), start, (&assembly.q, &assembly.v))?;

@@ -18,12 +18,12 @@ use crate::body::flexible::{Damping, FlexibleBeam, Profile, ReferenceLine, curva
 use crate::body::{Body, Build, Built, Initial, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
 use crate::error::{Error, Result, short};
 use crate::force::Beam;
+use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::math::rotation::{matrix_from_quaternion, quaternion_from_vector, quaternion_product};
 use crate::math::screw::dot3;
 use crate::tolerances::body as tolerances;
 use serde_json::{Map, Value};
-use std::array::from_fn;
 
 /// True for the type and keys of a beam in absolute coordinates.
 pub fn is_absolute_beam(kind: &str, json: &Map<String, Value>) -> bool {
@@ -103,7 +103,7 @@ impl<const D: usize> AbsoluteBeam<D> {
             let (ends, length) = ([ends[0], ends[1]], ends[1] - ends[0]);
             let mean = self.profile.mean(ends);
             Beam::new::<D>(&mean, length, self.line.curvature, self.damping)
-                .tapered::<D>(ends.map(|s| self.profile.within(ends, s)))
+                .tapered::<D>(ends.each(|s| self.profile.within(ends, s)))
         };
         let elements: Vec<Beam> = self.abscissae.windows(2).map(beam).collect();
         let mass = |node: usize| NodeMass::of(&self.profile, &self.abscissae, node);
@@ -242,8 +242,8 @@ impl<const D: usize> Start<D> {
             q.push(self.angle + line.curvature[2] * s);
             v.push(self.spin[2]);
         } else {
-            q.extend(quaternion_product(&turn, &quaternion_from_vector(&line.curvature.map(|k| k * s))));
-            v.extend(axes.map(|axis| dot3(&axis, &self.spin)));
+            q.extend(quaternion_product(&turn, &quaternion_from_vector(&line.curvature.each(|k| k * s))));
+            v.extend(axes.each(|axis| dot3(&axis, &self.spin)));
         }
         (q, v)
     }

@@ -7,8 +7,8 @@
 
 use crate::body::flexible::{Profile, Section, gauss_legendre, on_interval};
 use crate::force::Half;
+use crate::math::array::from_fn;
 use crate::tolerances::body as tolerances;
-use std::array::from_fn;
 
 /// Gauss points on an element.
 const POINTS: usize = 6;

@@ -8,6 +8,7 @@ use crate::body::flexible::{Line, Stretch};
 use crate::body::{Bent, Build, Marker, MarkerId};
 use crate::error::{Error, Result, short};
 use crate::force::{Beam, Force, Half};
+use crate::math::array::from_fn;
 
 /// The quantity that an output reads of the beam `of`: a body, or a massless beam among the forces.
 pub fn measure<const D: usize>(
@@ -80,7 +81,7 @@ fn on_massless<const D: usize>(
 fn reading(wanted: Wanted, relaxed: [f64; 3], compliance: &[f64; 6]) -> Reading {
     match wanted {
         Wanted::Deflection(axis) => Reading::Deflection { axis, rest: relaxed[axis] },
-        Wanted::Strain(factors) => Reading::Strain(std::array::from_fn(|i| factors[i] * compliance[i])),
+        Wanted::Strain(factors) => Reading::Strain(from_fn(|i| factors[i] * compliance[i])),
         Wanted::Force(component) => Reading::Force(component),
     }
 }
@@ -117,7 +118,7 @@ fn cut<const D: usize>(
     let mut all = Cut {
         body,
         at,
-        section: line.point(std::array::from_fn(|k| if k == 0 { at } else { 0.0 })),
+        section: line.point(from_fn(|k| if k == 0 { at } else { 0.0 })),
         axes: line.at_rest(at).carry(Marker::point([0.0; D])),
         beyond: line.beyond(at),
         joints: Vec::new(),
@@ -151,7 +152,7 @@ fn combination<const D: usize>(
     let mut sum = Sum { first, combination: Combination::default() };
     let mut weights = match wanted {
         Wanted::Deflection(axis) => {
-            let point = line.point(std::array::from_fn(|k| if k == 0 { at } else { 0.0 }));
+            let point = line.point(from_fn(|k| if k == 0 { at } else { 0.0 }));
             sum.add(&point.dofs, point.translation.iter().map(|t| t[axis]));
             if axis == 0 {
                 sum.add_squares(&point.dofs, &point.shortening, 0.5);

@@ -11,6 +11,7 @@ use super::repeat::{self, Written};
 use super::{folder, json, markers, place, read_text};
 use crate::body::{parse, show};
 use crate::error::{Error, Result, excerpt, suggest};
+use crate::math::array::Each;
 use crate::math::expression::{Number, Parameters};
 use serde_json::{Map, Value};
 use std::collections::HashSet;
@@ -153,7 +154,7 @@ fn add(
     let around: Vec<PathBuf> = around.iter().cloned().chain([real]).collect();
     let origins = completed(&mut inner, folder(Some(&path)), &overrides, (&around, budget)).map_err(within)?;
     let names = Names::of(&inner, prefix.clone(), folder(Some(Path::new(&include.file))));
-    let ranges = LISTS.map(|list| append(scene, list, &mut inner, &names));
+    let ranges = LISTS.each(|list| append(scene, list, &mut inner, &names));
     names.add_entries(scene, inner, &include.parameters)?;
     Ok(Origin { path, text, prefix, ranges, inner: origins })
 }

@@ -3,9 +3,9 @@
 use super::format::OrientedMarker;
 use crate::body::{Build, Marker, Orientation, parse, show};
 use crate::error::{Error, Result};
+use crate::math::array::from_fn;
 use crate::math::expression::{Number, Parameters};
 use serde_json::{Map, Value};
-use std::array::from_fn;
 
 /// The markers of one body, in the order of the scene. `origin` is added to their positions.
 pub fn markers<const D: usize>(

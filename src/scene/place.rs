@@ -4,6 +4,7 @@ use super::model::Reading;
 use crate::body::flexible::{Inertia, PointShape};
 use crate::body::{Frame, Marker, MarkerId, dot, sub};
 use crate::force::{Beam, Half, Load, Station};
+use crate::math::array::from_fn;
 use crate::math::{Scalar, Taylor};
 
 /// A place on an element of an absolute beam, or on a massless one.
@@ -45,7 +46,7 @@ impl Place {
             let Station { r, .. } = self.element.station(ends.each_ref(), self.x);
             return dot(&own.axes[axis], &sub(&r, &own.r)) - rest;
         }
-        let loads: [Load<S>; 2] = std::array::from_fn(|i| self.halves[i].load(&ends[i], gravity));
+        let loads: [Load<S>; 2] = from_fn(|i| self.halves[i].load(&ends[i], gravity));
         let Station { elastic, force, .. } = self.element.loaded_station(ends.each_ref(), &loads, self.x);
         match self.reading {
             Reading::Strain(factors) => elastic.iter().zip(factors).fold(S::zero(), |sum, (&x, f)| sum + x * f),

@@ -15,6 +15,7 @@ use crate::body::{
 use crate::error::{Error, Result, suggest};
 use crate::force::Force;
 use crate::joint::Joint;
+use crate::math::array::Each;
 use crate::math::expression::{Number, Parameters};
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -138,7 +139,7 @@ fn line_elements<const D: usize>(
         name: format!("{}.e{i}", beam.name),
         kind: "beam",
         element: Box::new(element.clone()) as _,
-        markers: [0, 1].map(|k| bodies[beam.first_body + i + k].first_marker).to_vec(),
+        markers: [0, 1].each(|k| bodies[beam.first_body + i + k].first_marker).to_vec(),
     })
 }
 

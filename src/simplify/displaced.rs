@@ -3,10 +3,10 @@
 use super::edit::{elements, text};
 use super::facts::{Facts, Placed};
 use crate::body::{dot, norm, sub};
+use crate::math::array::{Each, from_fn};
 use crate::math::rotation::{axes_from_quaternion, quaternion_from_axes, quaternion_from_vector, quaternion_product};
 use crate::math::screw::quaternion;
 use serde_json::{Value, json};
-use std::array::from_fn;
 use std::f64::consts::{PI, TAU};
 
 /// How far the bodies have gone at each state, as part of what they do at most.
@@ -51,13 +51,13 @@ pub fn start_at(body: &mut Value, place: &Placed, dimension: usize) {
         let keys = initial.as_object_mut().into_iter();
         keys.for_each(|keys| keys.retain(|key, _| !["z_axis", "x_axis"].contains(&key.as_str())));
         initial["rotation"] = json!(quaternion_from_axes(&place.axes));
-        initial["angular_velocity"] = json!(place.axes.map(|axis| dot(&axis, &place.spin)));
+        initial["angular_velocity"] = json!(place.axes.each(|axis| dot(&axis, &place.spin)));
     }
 }
 
 /// A place moved by a part of the displacement from `first` to `now`.
 pub fn further(place: &Placed, first: &Placed, now: &Placed, part: f64) -> Placed {
-    let turned = quaternion_from_vector(&rotation(first, now).map(|x| part * x));
+    let turned = quaternion_from_vector(&rotation(first, now).each(|x| part * x));
     Placed {
         r: from_fn(|i| place.r[i] + part * (now.r[i] - first.r[i])),
         axes: axes_from_quaternion(&quaternion_product(&turned, &quaternion_from_axes(&place.axes))),
@@ -73,7 +73,7 @@ fn rotation(first: &Placed, now: &Placed) -> [f64; 3] {
     let (w, x) = quaternion(&matrix);
     let half = norm(&x);
     let angle = 2.0 * half.atan2(w.abs());
-    x.map(|x| if half > 0.0 { w.signum() * angle * x / half } else { 0.0 })
+    x.each(|x| if half > 0.0 { w.signum() * angle * x / half } else { 0.0 })
 }
 
 /// Angle of the second of two markers against the first, about its z axis.

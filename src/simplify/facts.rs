@@ -8,11 +8,11 @@ use crate::compare::work_precision::Watched;
 use crate::formulation::Dynamics;
 use crate::linearize::State;
 use crate::math::Taylor;
+use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::prepared::{AnyMechanism, PreparedScene};
 use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
 use serde_json::{Map, Value, json};
-use std::array::from_fn;
 
 /// The largest number of states that the estimates look at.
 const STATES: usize = 200;
@@ -264,7 +264,7 @@ pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body:
                 start.extend(kept.map(|(key, value)| (key.clone(), value.clone())));
             }
         }
-        start.insert("angular_velocity".to_string(), json!(axes.map(|axis| dot(&axis, &spin))));
+        start.insert("angular_velocity".to_string(), json!(axes.each(|axis| dot(&axis, &spin))));
     }
     Some(Value::Object(start))
 }

@@ -7,12 +7,12 @@ use super::facts::{Facts, Placed, placed};
 use super::source::Source;
 use crate::body::dot;
 use crate::linearize::State;
+use crate::math::array::{Each, from_fn};
 use crate::prepared::PreparedScene;
 use crate::system::Scratch;
 use crate::tolerances::SAME;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use std::array::from_fn;
 
 /// What of the full model can be moved.
 pub struct Movable<'a> {
@@ -223,7 +223,7 @@ impl<'a> Movable<'a> {
         let plane = Plane::new(self.facts);
         let start = self.facts.place(body)?;
         let own = plane.seen_from(body, &start)[0];
-        let flat = |vector: &[f64; 3]| plane.axes.map(|axis| dot(&axis, vector));
+        let flat = |vector: &[f64; 3]| plane.axes.each(|axis| dot(&axis, vector));
         let direction = |place: &Placed| -> [f64; 3] { from_fn(|i| (0..3).map(|k| own[k] * place.axes[k][i]).sum()) };
         let before = plane.angle(&direction(&start));
         let now = plane.angle(&direction(place));

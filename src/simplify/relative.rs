@@ -3,8 +3,8 @@
 use super::edit::{elements, text};
 use super::facts::{Facts, Placed};
 use crate::body::{dot, norm, sub};
+use crate::math::array::{Each, from_fn};
 use crate::math::largest;
-use std::array::from_fn;
 
 /// Motion of a marker against another, seen from that.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,7 +32,7 @@ impl Facts {
         let local = |(a, b): &(Placed, Placed)| {
             let gap = sub(&b.r, &a.r);
             let rotation: [[f64; 3]; 3] = from_fn(|i| from_fn(|j| dot(&a.axes[j], &b.axes[i])));
-            (a.axes.map(|axis| dot(&axis, &gap)), rotation)
+            (a.axes.each(|axis| dot(&axis, &gap)), rotation)
         };
         let start = local(pairs.first()?);
         let mut most = Relative::default();

@@ -3,6 +3,7 @@
 use crate::error::{Error, Result, Warning, short};
 use crate::formulation;
 use crate::integrator::{self, Integrator, Setup, Steps, Tolerance};
+use crate::math::array::Each;
 use crate::method_spec::MethodSpec;
 use crate::projection;
 use crate::system::{Dimensions, MechanicalSystem};
@@ -98,7 +99,7 @@ impl Method {
         let Dimensions { v: n, lambda: m, .. } = system.dimensions();
         let is_dense = formulation::make(&self.formulation, system).is_ok_and(|made| made.is_dense());
         (is_dense && n >= tolerances::LARGE_FOR_DENSE).then(|| {
-            let (name, [n, m]) = (&self.formulation.name, [n, m].map(|count| count as f64));
+            let (name, [n, m]) = (&self.formulation.name, [n, m].each(|count| count as f64));
             let operations = 3.0 * n * m * m + 4.0 * n * n * (n - m).max(0.0);
             let text = format!("{name} is dense: an evaluation takes {operations:.0e} operations with {n} velocities and {m} constraints, growing with n^3");
             Warning::new(text, formulation::SPARSE)

@@ -2,6 +2,7 @@
 
 use crate::error::short;
 use crate::formulation::{Dynamics, free_directions, reduce};
+use crate::math::array::Each;
 use crate::math::{dot, largest, norm};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use crate::tolerances::initial::DENSE_EIGENVALUES;
@@ -204,7 +205,7 @@ fn fit(y0: &[f64], y1: &[f64], y2: &[f64]) -> Vec<SpectralMode> {
     if square > 0.0 {
         vec![SpectralMode { decay: 0.5 * p, swing: root }]
     } else {
-        [-1.0, 1.0].map(|sign| SpectralMode { decay: 0.5 * p + sign * root.copysign(p), swing: 0.0 }).to_vec()
+        [-1.0, 1.0].each(|sign| SpectralMode { decay: 0.5 * p + sign * root.copysign(p), swing: 0.0 }).to_vec()
     }
 }
 

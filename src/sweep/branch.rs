@@ -3,6 +3,7 @@
 use super::{Family, Limit, Nearest, Point, Range};
 use crate::error::{Error, Result};
 use crate::initial::{self, Assembly, Followed};
+use crate::math::array::Each;
 use crate::prepared::AnyMechanism;
 use crate::scene::Scene;
 use crate::system::{Column, Names, OperatingPoint, Scratch};
@@ -38,7 +39,7 @@ impl Ready {
     /// The state assembled from a guess with the velocities of the scene.
     fn assemble(&self, q: &[f64]) -> Result<Assembly> {
         let (_, v, hold) = &self.scene;
-        let held = self.held.each_ref().map(|held| held.as_ref().map(AnyMechanism::system));
+        let held = self.held.each_ref().each(|held| held.as_ref().map(AnyMechanism::system));
         initial::assemble_held(self.mechanism.system(), held, self.t, (q, v), hold)
     }
 

@@ -3,9 +3,9 @@
 use super::evaluate::RigidParts;
 use super::support::Support;
 use crate::joint::Lock;
+use crate::math::array::from_fn;
 use crate::math::kkt::Pattern;
 use crate::scene::{Connection, Model};
-use std::array::from_fn;
 use std::ops::Range;
 
 /// Places of the blocks of all bodies, joints and forces.

@@ -14,8 +14,8 @@
 use super::limits::{Extent, POINTS, Theory};
 use crate::body::Bent;
 use crate::body::flexible::{Line, Section};
+use crate::math::array::from_fn;
 use crate::scene::{Model, Part};
-use std::array::from_fn;
 use std::f64::consts::PI;
 use std::iter::zip;
 

@@ -11,6 +11,7 @@ use super::{Need, Terms};
 use crate::body::{Frame, Freedom, MOST_MARKERS, MarkerId, Pose, Wrench};
 use crate::force::Force;
 use crate::joint::{ClosedForm, Lock};
+use crate::math::array::Each;
 use crate::math::kkt::{Analysis, Lever};
 use crate::math::threads::each;
 use crate::math::{Taylor, Time};
@@ -282,7 +283,7 @@ impl<const D: usize> Mechanism<D> {
         match &self.rigid.freedoms[body] {
             Some(freedom) => {
                 let f = &mut f[part.first_v..part.first_v + part.nv];
-                freedom.pull_back(&poses[body], &frame.r.map(|x| x.x), wrench, f);
+                freedom.pull_back(&poses[body], &frame.r.each(|x| x.x), wrench, f);
             }
             None => self.supports[marker].add_to(f, pulled, |f| {
                 let index = marker - part.first_marker;

@@ -5,6 +5,7 @@ use super::tangent::OperatingPoint;
 use super::view::{Plain, View};
 use crate::body::MarkerId;
 use crate::math::Regime;
+use crate::math::array::Each;
 
 impl<const D: usize> Mechanism<D> {
     /// The piece that holds each line, and its two markers.
@@ -17,7 +18,7 @@ impl<const D: usize> Mechanism<D> {
 
     /// Writes the gap between two markers, m, along the axes of the world.
     pub(super) fn write_gap(&self, markers: [MarkerId; 2], q: &[f64], out: &mut [f64; 3]) {
-        let [a, b] = markers.map(|marker| self.origin_of(marker, q));
+        let [a, b] = markers.each(|marker| self.origin_of(marker, q));
         for (i, out) in out.iter_mut().take(D).enumerate() {
             *out = b[i] - a[i];
         }
@@ -27,6 +28,6 @@ impl<const D: usize> Mechanism<D> {
     fn origin_of(&self, marker: MarkerId, q: &[f64]) -> [f64; D] {
         let at = OperatingPoint { t: 0.0, q, v: q, vdot: &[], lambda: &[] };
         let view = Plain { model: self.model(), at, regime: Regime::FREE };
-        view.frame(marker).r.map(|r| r.x)
+        view.frame(marker).r.each(|r| r.x)
     }
 }

@@ -5,10 +5,10 @@ use super::variation::fixed;
 use super::view::{Plain, View, gathered};
 use super::workspace::Workspace;
 use crate::body::{Dual6, MOST_MARKERS, Wrench};
+use crate::math::array::from_fn;
 use crate::math::{Taylor, Time};
 use crate::scene::Target;
 use nalgebra::DMatrix;
-use std::array::from_fn;
 
 /// The equation that an input u is part of; it decides which derivatives of u are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

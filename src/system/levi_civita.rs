@@ -3,9 +3,9 @@
 use super::mechanism::of;
 use super::tangent::OperatingPoint;
 use crate::body::{cross, dot};
+use crate::math::array::from_fn;
 use crate::scene::Part;
 use nalgebra::DMatrix;
-use std::array::from_fn;
 
 /// The Levi-Civita connection of the kinetic energy along a motion, dense n_v x n_v: the covariant derivative of a
 /// field of directions x is x' + M^-1 W x, where in coordinates (N = I)

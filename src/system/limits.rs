@@ -4,9 +4,9 @@ use super::critical::{Load, loads};
 use super::mechanism::Mechanism;
 use crate::body::flexible::PointShape;
 use crate::body::{Bent, MarkerId, dot, norm};
+use crate::math::array::{Each, from_fn};
 use crate::scene::{Model, Part};
 use crate::tolerances::body as tolerances;
-use std::array::from_fn;
 use std::f64::consts::PI;
 
 /// Assumption of a part about its deformation.
@@ -152,7 +152,7 @@ impl<const D: usize> Mechanism<D> {
     /// where the line is straight up to round-off.
     fn roughness(&self, elements: &[[MarkerId; 2]], q: &[f64]) -> f64 {
         let last = elements.len() - 1;
-        let mut around = [0, 0, 1].map(|i| self.turn_between(elements[i], q));
+        let mut around = [0, 0, 1].each(|i| self.turn_between(elements[i], q));
         let mut change = 0.0;
         let mut whole = 0.0;
         let mut bend = 0.0;
@@ -181,6 +181,6 @@ impl<const D: usize> Mechanism<D> {
         let size = norm(&sine);
         let cosine = part(0, 0) + part(1, 1) + part(2, 2) - 1.0;
         let angle = size.atan2(cosine);
-        if size > 0.0 { sine.map(|x| x * angle / size) } else { [angle, 0.0, 0.0] }
+        if size > 0.0 { sine.each(|x| x * angle / size) } else { [angle, 0.0, 0.0] }
     }
 }

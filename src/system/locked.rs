@@ -14,8 +14,8 @@
 use super::solid::Solid;
 use crate::body::{Frame, Wrench, cross, dot, sub};
 use crate::joint::Lock;
+use crate::math::array::{Each, from_fn};
 use crate::math::{Scalar, Taylor};
-use std::array::from_fn;
 
 /// Gradient of row `row` with respect to the body that carries marker `slot`, as a wrench (t, m) about its centre c: a
 /// change of the row is t . dc + m . dtheta. With w held, d(phi', phi'')/dq are its rates along the motion, since
@@ -34,14 +34,14 @@ pub(super) fn row_gradient<S: Scalar, const D: usize>(
         if all == D {
             gradient.force[row] = S::constant(sign)
         } else {
-            gradient.force = lock.axis(a, lock.translation[row]).map(|e| e * sign)
+            gradient.force = lock.axis(a, lock.translation[row]).each(|e| e * sign)
         }
         gradient.torque = cross(&sub(&point, centre), &gradient.force);
     } else if D == 2 {
         gradient.torque[2] = S::constant(sign);
     } else {
         let (i, j) = lock.rotation[row - all];
-        gradient.torque = cross(&lock.axis(a, i), &lock.axis(b, j)).map(|m| m * -sign);
+        gradient.torque = cross(&lock.axis(a, i), &lock.axis(b, j)).each(|m| m * -sign);
     }
     gradient
 }
@@ -90,14 +90,14 @@ const B: Option<usize> = Some(1);
 impl<const D: usize> Stiffness<'_, D> {
     /// Adds that of a joint with the multipliers `lambda`.
     pub fn add(&mut self, lock: &Lock<D>, frames: [&Frame<Taylor<f64>, D>; 2], lambda: &[f64]) {
-        let [a, b] = frames.map(|frame| frame.map(|x| x.x));
+        let [a, b] = frames.each(|frame| frame.map(|x| x.x));
         let (pulls, turns) = lambda.split_at(lock.translation.len());
         let centre = |slot: usize, r: [f64; D]| self.solids[slot].as_ref().map_or(r, Solid::place);
         let centres = [centre(0, a.r), centre(1, b.r)];
         if pulls.len() == D {
             let force: [f64; D] = from_fn(|i| pulls[i]);
             self.product((None, force), (B, sub(&b.r, &centres[1])));
-            self.product((None, force.map(|f| -f)), (A, sub(&a.r, &centres[0])));
+            self.product((None, force.each(|f| -f)), (A, sub(&a.r, &centres[0])));
         } else if !pulls.is_empty() {
             // e . (r_B - r_A) = e . a_B + e . (c_B - c_A) - e . a_A, of which the last does not change.
             let mut force = [0.0; D];
@@ -109,7 +109,7 @@ impl<const D: usize> Stiffness<'_, D> {
         }
         if D == 3 {
             for (&lambda, &(i, j)) in turns.iter().zip(lock.rotation) {
-                self.product((A, lock.axis(&a, i).map(|e| lambda * e)), (B, lock.axis(&b, j)));
+                self.product((A, lock.axis(&a, i).each(|e| lambda * e)), (B, lock.axis(&b, j)));
             }
         }
     }
@@ -118,7 +118,7 @@ impl<const D: usize> Stiffness<'_, D> {
     /// y x^T - s, x y^T - s on the diagonal, and s - y x^T, s - x y^T beside it.
     fn product(&mut self, (own, x): (Option<usize>, [f64; D]), (other, y): (Option<usize>, [f64; D])) {
         let s = dot(&x, &y);
-        let minus = |v: &[f64; D]| v.map(|x| -x);
+        let minus = |v: &[f64; D]| v.each(|x| -x);
         self.turn((own, own), -s, (&y, &x));
         self.turn((other, other), -s, (&x, &y));
         self.turn((own, other), s, (&minus(&y), &x));

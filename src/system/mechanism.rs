@@ -18,12 +18,12 @@ use super::{
     Scratch, Structure, Terms,
 };
 use crate::body::{Frame, cross};
+use crate::math::array::from_fn;
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
 use crate::scene::{Input, Model, Part};
 use nalgebra::DMatrix;
-use std::array::from_fn;
 use std::ops::Range;
 
 /// A model with the places of its coordinates, rows and matrix entries fixed.

@@ -9,6 +9,7 @@ use super::{Column, Names, Scratch};
 use crate::body::{Energy, Frame, MOST_MARKERS, Probe, Quantity, Wrench, norm, twist_len};
 use crate::force::{Action, Force, ForceOver};
 use crate::joint::{Joint, JointOver, MOST_ROWS, markers_per_pass};
+use crate::math::array::Each;
 use crate::math::{Regime, Scalar, Taylor};
 use crate::scene::{Connection, FORCE_SIZE, Measure, Part, TORQUE_SIZE, Watched};
 
@@ -175,7 +176,7 @@ impl<const D: usize> Mechanism<D> {
         let (joint, lock) = (&self.model().joints[joint], &self.rigid.locks[joint]);
         let mut wrench = [S::zero(); 6];
         if let Some(lock) = lock {
-            let frames = [0, 1].map(|slot| view.frame(joint.markers[slot]).map(|x| x.x));
+            let frames = [0, 1].each(|slot| view.frame(joint.markers[slot]).map(|x| x.x));
             let both = [&frames[0], &frames[1]];
             let own = (slot, &frames[slot].r);
             for (row, multiplier) in rows.enumerate() {

@@ -19,10 +19,10 @@ use super::Need;
 use super::rows::JointRows;
 use crate::body::{Frame, Freedom, MarkerId, Pose, cross, dot, in_space, sub, twist_len};
 use crate::joint::{ClosedForm, Joint, Lock, within_half_turn};
+use crate::math::array::{Each, from_fn};
 use crate::math::kkt::Lever;
 use crate::math::{Scalar, Taylor};
 use crate::scene::{Connection, Model};
-use std::array::from_fn;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -123,7 +123,7 @@ impl<const D: usize> RigidJoint<D> {
         let JointTerms { phi, phi_dot, gamma, g, .. } = terms;
         let [a, b] = &self.sides;
         let gap = sub(&poses[1].place(&b.offset), &poses[0].place(&a.offset));
-        let sizes = [a, b].map(|side| self.rows.len() * side.freedom.count());
+        let sizes = [a, b].each(|side| self.rows.len() * side.freedom.count());
         let blocks = need.includes(Need::G).then(|| {
             let (first, second) = g[self.first_entry..][..sizes[0] + sizes[1]].split_at_mut(sizes[0]);
             [first, second]

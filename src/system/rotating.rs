@@ -7,6 +7,7 @@ use super::{
 };
 use crate::forward::forward;
 use crate::math::Rate;
+use crate::math::array::from_fn;
 use crate::math::expression::Switch;
 use crate::math::kkt::Pattern;
 use nalgebra::DMatrix;
@@ -328,7 +329,7 @@ impl Rotating<'_> {
     fn add_bracket(&self, g: &[f64], v: &[f64], values: &mut [f64]) {
         let blocks = self.placements.iter().map(|&placement| {
             let (first, size) = Spin::velocities(placement);
-            let own: [f64; 3] = std::array::from_fn(|k| if size == 3 { v[first + k] } else { 0.0 });
+            let own: [f64; 3] = from_fn(|k| if size == 3 { v[first + k] } else { 0.0 });
             let is_turn = matches!(placement, Placement::Axes { .. });
             let rows = if is_turn { super::spin::skew(&own) } else { [[0.0; 3]; 3] };
             [Block { first, size, rows }; 3]

@@ -8,6 +8,7 @@ use super::view::mapped;
 use super::{Group, OperatingPoint, Prescribed, Terms};
 use crate::body::{Dual6, Frame, Wrench, twist_len};
 use crate::joint::{Joint, Lock, MOST_ROWS, markers_per_pass};
+use crate::math::array::Each;
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Scalar, Taylor, Time};
 use crate::scene::{Connection, Model};
@@ -167,7 +168,7 @@ impl<const D: usize> PlacedJoint<'_, D> {
             let velocities = &self.mechanism.supports[markers[block.slot]].velocities;
             let width = velocities.len();
             if let (Some(lock), Some(solid)) = (self.lock, self.mechanism.solid(block.body, motion)) {
-                let frames = [0, 1].map(|slot| &motion[markers[slot]]);
+                let frames = [0, 1].each(|slot| &motion[markers[slot]]);
                 let place = |row: usize, velocity: usize| block.first_entry + row * width + velocity;
                 write_rates(lock, frames, (block.slot, &solid), |row, velocity, rate| {
                     write(place(row, velocity), rate)

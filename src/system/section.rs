@@ -10,9 +10,9 @@ use super::view::View;
 use crate::body::{Frame, MOST_MARKERS, Wrench, cross, floating, sub};
 use crate::force::{Force, ForceOver};
 use crate::joint::{Joint, JointOver};
+use crate::math::array::{Each, from_fn};
 use crate::math::{Scalar, Taylor};
 use crate::scene::{Cut, Part};
-use std::array::from_fn;
 
 /// A sum of wrenches about one point.
 struct Sum<S, const D: usize> {
@@ -41,14 +41,14 @@ impl<const D: usize> Mechanism<D> {
         let at = floating::place(&own.map(|x| x.x), &cut.section, &cut.axes, |i| view.q(q + i));
         let mut sum = Sum { about: at.r, wrench: Wrench::zero() };
         let coordinate = |i: usize| Taylor::new(view.q(q + i), view.v(v + i), view.vdot(v + i));
-        let origin = own.r.map(|x| x.x);
+        let origin = own.r.each(|x| x.x);
         for piece in &cut.beyond.pieces {
             sum.add(&origin, &floating::load(piece, &own, coordinate, &self.model().gravity));
         }
         for disc in &cut.beyond.discs {
             sum.add(&origin, &floating::resistance(disc, &own, coordinate));
         }
-        let place = |marker: usize| view.frame(marker).r.map(|x| x.x);
+        let place = |marker: usize| view.frame(marker).r.each(|x| x.x);
         for &(joint, slot) in &cut.joints {
             let wrench = Wrench::from_twist_order(&self.reaction_wrench(view, joint, slot));
             sum.add(&place(self.model().joints[joint].markers[slot]), &wrench);

@@ -3,9 +3,9 @@
 use super::mechanism::Mechanism;
 use super::variation::{SeedDirection, fix};
 use crate::body::{Dual6, Frame, Freedom, Wrench, cross, sub};
+use crate::math::array::{Each, from_fn};
 use crate::math::{Scalar, Taylor};
 use crate::scene::Part;
-use std::array::from_fn;
 
 /// A rigid body at a state. A direction of its velocities is a translation t of the centre c or a rotation u about it.
 /// With r = c + a for a point and e for an axis, and the angular velocity w,
@@ -65,7 +65,7 @@ impl<const D: usize> Solid<D> {
 
     /// The position of the centre.
     pub fn place(&self) -> [f64; D] {
-        self.centre.map(|c| c.x)
+        self.centre.each(|c| c.x)
     }
 
     /// Number of velocities.
@@ -141,14 +141,14 @@ impl<const D: usize> Solid<D> {
         a: &[Taylor<f64>; D],
         out: &mut [Taylor<Dual6>; D],
     ) {
-        let turned = self.turned(k, &a.map(|a| a.x));
+        let turned = self.turned(k, &a.each(|a| a.x));
         (0..D).for_each(|i| along.level(&mut out[i]).eps[direction] = turned[i]);
         if along == SeedDirection::Accelerations {
             return;
         }
-        let mut rate = self.turned(k, &a.map(|a| a.d));
+        let mut rate = self.turned(k, &a.each(|a| a.d));
         if along == SeedDirection::Coordinates {
-            let curvature = self.turned(k, &a.map(|a| a.dd));
+            let curvature = self.turned(k, &a.each(|a| a.dd));
             (0..D).for_each(|i| out[i].d.eps[direction] = rate[i]);
             rate = curvature;
         } else {
@@ -160,7 +160,7 @@ impl<const D: usize> Solid<D> {
 
     /// f += J^T w for a wrench at a point; `is_varied` if the derivatives are those along its own coordinates.
     pub fn pull_back(&self, is_varied: bool, at: &[Dual6; D], wrench: &Wrench<Dual6, D>, f: &mut [Dual6]) {
-        let mut centre = self.centre.map(|c| Dual6::fixed(c.x));
+        let mut centre = self.centre.each(|c| Dual6::fixed(c.x));
         for (i, velocity) in self.translations() {
             centre[i].eps[self.first + velocity] = f64::from(u8::from(is_varied));
             f[velocity] += wrench.force[i];

@@ -9,8 +9,8 @@
 //! ```
 
 use crate::body::cross;
+use crate::math::array::{Each, from_fn};
 use crate::math::rotation::{axes_from_quaternion, quaternion_from_vector, quaternion_product};
-use std::array::from_fn;
 
 /// A rotation about a fixed axis at a constant speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,7 +90,7 @@ impl Spin {
             }
             Placement::Angle { .. } => [self.velocity[2], 0.0, 0.0],
             Placement::Axes { q: first, .. } => {
-                axes_from_quaternion(&q[first..first + 4]).map(|axis| crate::body::dot(&axis, &self.velocity))
+                axes_from_quaternion(&q[first..first + 4]).each(|axis| crate::body::dot(&axis, &self.velocity))
             }
         }
     }
@@ -119,14 +119,14 @@ impl Spin {
         match placement {
             Placement::Place { .. } => {
                 let spin = skew(&self.velocity);
-                [block(spin), block(product(&spin, &spin)), block(spin.map(|row| row.map(|x| 2.0 * x)))]
+                [block(spin), block(product(&spin, &spin)), block(spin.each(|row| row.each(|x| 2.0 * x)))]
             }
             Placement::Angle { .. } => [none; 3],
             Placement::Axes { .. } => {
                 // A rotation of the body by d changes w by w x d in its axes.
                 let spin = skew(&self.carried(placement, q));
                 let own = skew(&from_fn(|k| v[first + k]));
-                let bent = product(&own, &spin).map(|row| row.map(|x| -x));
+                let bent = product(&own, &spin).each(|row| row.each(|x| -x));
                 [block(spin), block(bent), block(spin)]
             }
         }
@@ -134,7 +134,7 @@ impl Spin {
 
     /// Rotates q by `angle` about the axis.
     pub(super) fn turn(&self, placement: Placement, angle: f64, q: &mut [f64]) {
-        let whole: [f64; 3] = self.velocity.map(|w| w / self.speed() * angle);
+        let whole: [f64; 3] = self.velocity.each(|w| w / self.speed() * angle);
         let turn = quaternion_from_vector(&whole);
         match placement {
             Placement::Place { q: first, count, .. } => {
@@ -153,7 +153,7 @@ impl Spin {
     /// Rotates a change along the velocity directions by `angle`; components in body axes do not change.
     pub(super) fn turn_directions(&self, placement: Placement, angle: f64, x: &mut [f64]) {
         if let Placement::Place { v, count, .. } = placement {
-            let turn = quaternion_from_vector(&self.velocity.map(|w| w / self.speed() * angle));
+            let turn = quaternion_from_vector(&self.velocity.each(|w| w / self.speed() * angle));
             let turned = rotated(&turn, &from_fn(|k| if k < count { x[v + k] } else { 0.0 }));
             x[v..v + count].copy_from_slice(&turned[..count]);
         }

@@ -4,6 +4,7 @@ use super::mechanism::Mechanism;
 use super::spin::{Placement, Rotation, Spin};
 use crate::body::{Frame, MarkerId, in_space};
 use crate::joint::{Axis, Joint};
+use crate::math::array::{Each, from_fn};
 use crate::math::{Regime, Taylor, Time};
 use crate::scene::{Connection, Part};
 use crate::tolerances::body as tolerances;
@@ -64,7 +65,7 @@ impl<const D: usize> Mechanism<D> {
         };
         let frame = self.fixed(ground);
         match joint.element.joint_axis(&frame) {
-            Some(Axis::Turn(axis)) => Some(Spin { velocity: axis.map(|x| speed * x), point: in_space(&frame.r) }),
+            Some(Axis::Turn(axis)) => Some(Spin { velocity: axis.each(|x| speed * x), point: in_space(&frame.r) }),
             _ => None,
         }
     }
@@ -97,7 +98,7 @@ impl Spin {
     fn is_same(&self, other: &Spin) -> bool {
         let turn = |i: usize| (self.velocity[i] - other.velocity[i]).abs();
         let speed = self.speed();
-        let arm: [f64; 3] = std::array::from_fn(|i| other.point[i] - self.point[i]);
+        let arm: [f64; 3] = from_fn(|i| other.point[i] - self.point[i]);
         let across = crate::body::cross(&self.velocity, &arm);
         (0..3).all(|i| turn(i) <= tolerances::SAME * speed && across[i].abs() <= tolerances::SAME * speed)
     }

@@ -8,6 +8,7 @@ use super::variation::{SeedDirection, SeededBody, fix};
 use super::workspace::Workspace;
 use crate::body::{BodyState, Dual6, Frame, Wrench, twist_len};
 use crate::joint::{MOST_ROWS, markers_per_pass};
+use crate::math::array::Each;
 use crate::math::kkt::Pattern;
 use crate::math::{Regime, Scalar, Taylor, Time};
 
@@ -183,7 +184,7 @@ impl<const D: usize> Evaluation<'_, D> {
             f.clear();
             f.resize(row.velocities.len(), Dual6::fixed(0.0));
             for held in &row.markers {
-                solid.pull_back(is_moved, &gathered[held.slot].r.map(|x| x.x), &acting[held.slot], f);
+                solid.pull_back(is_moved, &gathered[held.slot].r.each(|x| x.x), &acting[held.slot], f);
             }
             for (column, solid) in pair.iter().enumerate() {
                 self.add((along, sign), &coupling.column(column)[place], 0, solid.first());
@@ -200,7 +201,7 @@ impl<const D: usize> Evaluation<'_, D> {
         f.resize(row.velocities.len(), Dual6::fixed(0.0));
         if let Some(solid) = self.mechanism.solid(row.body, motion) {
             for held in &row.markers {
-                solid.pull_back(is_moved, &gathered[held.slot].r.map(|x| x.x), &acting[held.slot], f);
+                solid.pull_back(is_moved, &gathered[held.slot].r.each(|x| x.x), &acting[held.slot], f);
             }
             return;
         }

@@ -4,9 +4,9 @@ use super::mechanism::of;
 use super::tangent::OperatingPoint;
 use super::variation::{SeededBody, fixed};
 use crate::body::{Dual6, Energy, Frame, MOST_MARKERS, MarkerId};
+use crate::math::array::from_fn;
 use crate::math::{Rate, Regime, Scalar, Taylor, Time};
 use crate::scene::{Model, Part};
-use std::array::from_fn;
 
 /// Access to the quantities of a state.
 pub(super) trait View<S: Scalar, const D: usize> {

@@ -6,6 +6,7 @@ use super::{Decay, decay, horizon};
 use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, Snapshot};
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State};
+use crate::math::array::Each;
 use crate::math::eigen::expm;
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
@@ -93,7 +94,7 @@ pub(super) fn sequence(
     let order_ltv =
         decay(&followed.epsilons, &errors_ltv, |eps| tolerances::SECOND_ORDER_RANGE * eps * size, floor(&errors_ltv));
     let drift_lti = followed.drift();
-    let horizons = [0.01, 0.1].map(|share| horizon(&followed.times, &drift_lti, share));
+    let horizons = [0.01, 0.1].each(|share| horizon(&followed.times, &drift_lti, share));
     let (curves, curve_epsilon) = followed.curves();
     let Followed { epsilons, times, .. } = followed;
     Ok(PerturbationSequence {

@@ -8,6 +8,7 @@
 use super::Branch;
 use super::path::PathPoint;
 use super::survey::Survey;
+use crate::math::array::Each;
 use crate::tolerances::report as tolerances;
 
 /// Returns the rank indicator below which drift of the positions and velocities, relative to their scales, can change
@@ -119,7 +120,7 @@ impl Open {
 fn integral(nodes: &[&PathPoint], (a, b): (f64, f64)) -> Vec<f64> {
     let middle = 0.5 * (a + b);
     let half = 0.5 * (b - a);
-    let points = [-1.0, 1.0].map(|sign| middle + sign * half / 3f64.sqrt());
+    let points = [-1.0, 1.0].each(|sign| middle + sign * half / 3f64.sqrt());
     let lagrange = |k: usize, t: f64| -> f64 {
         let others = nodes.iter().enumerate().filter(|(i, _)| *i != k);
         others.map(|(_, other)| (t - other.t) / (nodes[k].t - other.t)).product()

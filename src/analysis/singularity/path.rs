@@ -1,5 +1,6 @@
 //! Interpolation of the motion between accepted states.
 
+use crate::math::array::Each;
 use crate::simulate::Observation;
 
 /// An accepted state.
@@ -41,10 +42,10 @@ pub struct Path {
 impl Path {
     /// Interpolates; `rates` are q' at the samples.
     pub fn new(samples: &[PathPoint; 3], rates: &[Vec<f64>; 3]) -> Self {
-        let times = [0, 1, 2].map(|i: usize| samples[i].t);
-        let doubled = [0, 1, 2, 3, 4, 5].map(|i: usize| times[i / 2]);
+        let times = [0, 1, 2].each(|i: usize| samples[i].t);
+        let doubled = [0, 1, 2, 3, 4, 5].each(|i: usize| times[i / 2]);
         let coordinate = |k: usize| {
-            let mut table = [0, 1, 2, 3, 4, 5].map(|i: usize| samples[i / 2].q[k]);
+            let mut table = [0, 1, 2, 3, 4, 5].each(|i: usize| samples[i / 2].q[k]);
             for order in 1..6 {
                 for i in (order..6).rev() {
                     let width = doubled[i] - doubled[i - order];
@@ -58,7 +59,7 @@ impl Path {
     }
 
     pub fn at(&self, t: f64) -> Vec<f64> {
-        let [a, b, c] = self.times.map(|time| t - time);
+        let [a, b, c] = self.times.each(|time| t - time);
         let horner = |k: &[f64; 6]| k[0] + a * (k[1] + a * (k[2] + b * (k[3] + b * (k[4] + c * k[5]))));
         self.coefficients.iter().map(horner).collect()
     }

@@ -2,6 +2,7 @@
 
 use super::path::{Path, PathPoint};
 use crate::formulation::Dynamics;
+use crate::math::array::Each;
 use crate::math::kkt::dependent_rows;
 use crate::math::largest;
 use crate::system::{Dimensions, MechanicalSystem, Need};
@@ -118,7 +119,7 @@ impl<'a> Survey<'a> {
         // Steps near round-off of the time do not come closer.
         let shortest = (tolerances::GOLDEN_SHORTEST * width).max(8.0 * f64::EPSILON * from.abs().max(to.abs()));
         let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
-        let mut values = inner.map(|t| self.rank_indicator_on(path, t));
+        let mut values = inner.each(|t| self.rank_indicator_on(path, t));
         // The inner values of a symmetric minimum give no slope.
         let outer = [(indicators[0] - values[0]) / (inner[0] - from), (indicators[1] - values[1]) / (to - inner[1])];
         let mut steepest = 2.0 * outer[0].abs().max(outer[1].abs());
@@ -140,7 +141,7 @@ impl<'a> Survey<'a> {
         let least = values[0].min(values[1]);
         let t = if values[0] < values[1] { inner[0] } else { inner[1] };
         let mut aside = 1e-3 * width;
-        let mut sides = |aside: f64| [t - aside, t + aside].map(|t| self.rank_indicator_on(path, t));
+        let mut sides = |aside: f64| [t - aside, t + aside].each(|t| self.rank_indicator_on(path, t));
         let [before, after] = sides(aside);
         aside = (tolerances::LINES_ASIDE * bound * aside / before.max(after)).min(0.1 * width);
         let [before, after] = sides(aside);
@@ -178,7 +179,7 @@ impl<'a> Survey<'a> {
     /// Returns sqrt(v^T M v) of each of these with the masses at a position.
     pub fn sizes<const N: usize>(&mut self, (t, q): (f64, &[f64]), all: [&[f64]; N]) -> [f64; N] {
         let Dynamics { structure, terms, .. } = self.evaluate(t, q, Need::MASS);
-        all.map(|v| {
+        all.each(|v| {
             let mut momentum = vec![0.0; v.len()];
             structure.mass.multiply_symmetric(&terms.mass, v, &mut momentum);
             v.iter().zip(&momentum).map(|(v, p)| v * p).sum::<f64>().max(0.0).sqrt()

@@ -11,7 +11,7 @@ use super::reference::ReferenceLine;
 use super::section::Section;
 use super::spec::Axial;
 use crate::body::{cross, dot, norm, scale, sub};
-use std::array::from_fn;
+use crate::math::array::{Each, from_fn};
 
 /// One element, with the shear parameters of its bending along y and z.
 #[derive(Clone, Copy, Debug)]
@@ -37,13 +37,13 @@ impl Element {
         let ([_, side, _], middle) = line.at(0.5 * (from + to));
         let chord = sub(&end, &start);
         let length = norm(&chord);
-        let x = chord.map(|c| c / length);
+        let x = chord.each(|c| c / length);
         let y = sub(&side, &scale(&x, dot(&x, &side)));
-        let y = y.map(|c| c / norm(&y));
+        let y = y.each(|c| c / norm(&y));
         let axes = [x, y, cross(&x, &y)];
         // The mean of an arc is two thirds of its sagitta, up to the fourth power of its length.
         let sagitta: [f64; 3] = from_fn(|k| middle[k] - 0.5 * (start[k] + end[k]));
-        let arm = [0.0, dot(&y, &sagitta), dot(&axes[2], &sagitta)].map(|part| part * 2.0 / 3.0);
+        let arm = [0.0, dot(&y, &sagitta), dot(&axes[2], &sagitta)].each(|part| part * 2.0 / 3.0);
         let start = from_fn(|k| start[k] + arm[1] * y[k] + arm[2] * axes[2][k]);
         let ratio = |ei: f64, ga: f64| 12.0 * ei / (ga * length * length);
         let shear = [ratio(section.ei[1], section.ga[0]), ratio(section.ei[0], section.ga[1])];
@@ -55,7 +55,7 @@ impl Element {
     /// the element.
     pub fn shapes<const D: usize>(&self, r: &[f64; 3], axial: Axial) -> Vec<Cross> {
         let beside = sub(r, &self.start);
-        let [x, y, z] = self.axes.map(|axis| dot(&axis, &beside));
+        let [x, y, z] = self.axes.each(|axis| dot(&axis, &beside));
         let mut own = self.own_shapes::<D>((x / self.length).clamp(0.0, 1.0), axial);
         self.add_arms::<D>(&mut own);
         own.iter_mut().for_each(|shape| self.carry(shape, [y, z]));
@@ -136,7 +136,7 @@ impl Element {
                 [4.0 * xi - 3.0, 4.0 * xi - 1.0, 4.0 - 8.0 * xi],
             ],
         };
-        std::array::from_fn(|i| Cross::axial(values[i], slopes[i] / self.length))
+        from_fn(|i| Cross::axial(values[i], slopes[i] / self.length))
     }
 
     /// Deflection and turn at the left end, then at the right: the exact solutions of a Timoshenko beam without load
@@ -175,8 +175,8 @@ impl Element {
                 (6.0 * xi - 2.0 + shear) / l,
             ],
         ];
-        rows.map(|row| {
-            let [w, slope, turn, turn_rate] = row.map(|value| value / (1.0 + shear));
+        rows.each(|row| {
+            let [w, slope, turn, turn_rate] = row.each(|value| value / (1.0 + shear));
             Bending { w, slope, turn, turn_rate }
         })
     }

@@ -6,7 +6,7 @@ use super::reference::ReferenceLine;
 use super::section::Section;
 use super::shape::{Disc, Inertia, Piece, Stretch, Symmetric};
 use crate::body::{dot, scale};
-use std::array::from_fn;
+use crate::math::array::{Each, from_fn};
 use std::collections::BTreeMap;
 use std::iter::{once, zip};
 
@@ -39,7 +39,7 @@ impl IntegrationPoint {
         let turning = dofs.iter().zip(self.shapes.iter().map(|shape| self.turn(shape))).filter(|(_, turn)| turns(turn));
         let (dofs, rotation) = turning.unzip();
         // int rho z^2 is the moment about y, int rho y^2 that about z.
-        let [y, z] = self.section.rho_i.map(|density| density * self.weight);
+        let [y, z] = self.section.rho_i.each(|density| density * self.weight);
         let (axes, _) = &self.rest;
         let about =
             |i: usize, j: usize| zip(axes, [y + z, y, z]).map(|(axis, moment)| axis[i] * moment * axis[j]).sum();

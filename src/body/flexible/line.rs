@@ -16,7 +16,7 @@ use super::section::Section;
 use super::shape::{Inertia, Line, PointShape, SectionShape};
 use super::shorten::{shorten, shortening};
 use crate::body::{Frame, Marker, cross, in_space};
-use std::array::from_fn;
+use crate::math::array::from_fn;
 
 /// Displacement, rotation and strain of one section per unit of one coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

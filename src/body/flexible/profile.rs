@@ -4,9 +4,9 @@ use super::gauss::{gauss_legendre, on_interval};
 use super::section::{Matter, Section, Shape};
 use super::spec::Theory;
 use crate::error::{Error, Result, short};
+use crate::math::array::from_fn;
 use crate::math::expression::Expression;
 use crate::tolerances::body as tolerances;
-use std::array::from_fn;
 
 /// Number of equal parts of the beam at whose ends the section is checked.
 const LOOKED_AT: u32 = 2000;

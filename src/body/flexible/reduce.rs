@@ -22,9 +22,9 @@ use super::reference::ReferenceLine;
 use super::shape::{Disc, Elastic, Inertia, Piece, Stretch};
 use super::spec::FrameConditions;
 use crate::error::{Error, Result};
+use crate::math::array::from_fn;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
-use std::array::from_fn;
 
 /// Largest dense problem, in coordinates.
 const MOST: usize = 4000;

@@ -3,8 +3,8 @@
 use super::spec::OneOrMany;
 use crate::body::{Build, Frame};
 use crate::error::{Error, Result};
+use crate::math::array::from_fn;
 use crate::math::screw::exponential;
-use std::array::from_fn;
 
 /// A line of constant curvature, straight, an arc or a helix, with the axes of its sections: r0' = R0 e_x and
 /// R0' = R0 kappa~ from the left end on, in the axes there.

@@ -1,6 +1,7 @@
 //! Stiffness and inertia of a beam's section.
 
 use super::spec::Theory;
+use crate::math::array::{Each, from_fn};
 use std::f64::consts::PI;
 
 /// Stiffness and inertia of a section with principal axes y and z; in the plane those about z and along y are used.
@@ -23,7 +24,7 @@ pub struct Section {
 impl Section {
     /// Stiffness for extension, shear along y and z, twist and bending about y and z; zero for shear that is excluded.
     pub fn stiffness(&self) -> [f64; 6] {
-        let [gy, gz] = self.ga.map(|ga| if ga.is_finite() { ga } else { 0.0 });
+        let [gy, gz] = self.ga.each(|ga| if ga.is_finite() { ga } else { 0.0 });
         [self.ea, gy, gz, self.gj, self.ei[0], self.ei[1]]
     }
 
@@ -32,7 +33,7 @@ impl Section {
     pub fn compliance<const D: usize>(&self) -> [f64; 6] {
         let stiffness = [self.ea, self.ga[0], self.ga[1], self.gj, self.ei[0], self.ei[1]];
         let acts = |i: usize| D == 3 || matches!(i, 0 | 1 | 5);
-        std::array::from_fn(|i| if acts(i) { 1.0 / stiffness[i] } else { 0.0 })
+        from_fn(|i| if acts(i) { 1.0 / stiffness[i] } else { 0.0 })
     }
 
     pub(super) fn of_theory(self, theory: Theory) -> Section {
@@ -58,9 +59,9 @@ impl Matter {
             ea: e * shape.area,
             ga: [g * shape.area * shape.shear; 2],
             gj: if D == 3 { g * shape.torsion } else { 0.0 },
-            ei: shape.second.map(|i| e * i),
+            ei: shape.second.each(|i| e * i),
             rho_a: rho * shape.area,
-            rho_i: shape.second.map(|i| rho * i),
+            rho_i: shape.second.each(|i| rho * i),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::body::dot;
 use crate::math::Scalar;
-use std::array::from_fn;
+use crate::math::array::from_fn;
 use std::ops::Mul;
 
 pub(super) type Matrix<S, const D: usize> = [[S; D]; D];

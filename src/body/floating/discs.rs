@@ -17,8 +17,8 @@ use super::small_turn::SmallTurn;
 use super::{Floating, frame_coordinates, frame_velocities, turn_velocity, turns};
 use crate::body::flexible::Disc;
 use crate::body::{BodyState, cross, dot, unit};
+use crate::math::array::{Each, from_fn};
 use crate::math::{Dual, Scalar};
-use std::array::from_fn;
 
 type Matrix3 = [[f64; 3]; 3];
 
@@ -82,9 +82,9 @@ impl Mass {
         }
         let small = SmallTurn::of(turn(disc, q));
         let units: Matrix3 = from_fn(unit);
-        let [back, rate] = [units.map(|e| small.back(&e)), units.map(|e| small.rate(&e))];
-        let turned = back.map(|column| times(inertia, &column));
-        let pushed = rate.map(|column| times(inertia, &column));
+        let [back, rate] = [units.each(|e| small.back(&e)), units.each(|e| small.rate(&e))];
+        let turned = back.each(|column| times(inertia, &column));
+        let pushed = rate.each(|column| times(inertia, &column));
         let product = |a: &Matrix3, b: &Matrix3| from_fn(|i| from_fn(|j| dot(&a[i], &b[j])));
         Mass { frame: product(&back, &turned), mixed: product(&rate, &turned), own: product(&rate, &pushed) }
     }
@@ -209,7 +209,7 @@ fn turn<S: Scalar>(disc: &Disc, x: &[S]) -> [S; 3] {
 }
 
 fn times<S: Scalar>(m: &Matrix3, x: &[S; 3]) -> [S; 3] {
-    m.map(|row| x[0] * row[0] + x[1] * row[1] + x[2] * row[2])
+    m.each(|row| x[0] * row[0] + x[1] * row[1] + x[2] * row[2])
 }
 
 fn transposed_times(m: &Matrix3, x: &[f64; 3]) -> [f64; 3] {

@@ -15,7 +15,7 @@ use super::moving::{Moving, symmetric};
 use super::{Floating, frame, frame_coordinates, frame_velocities, turn_velocity, turns};
 use crate::body::{Energy, Frame, cross, dot, unit};
 use crate::math::Scalar;
-use std::array::from_fn;
+use crate::math::array::{Each, from_fn};
 
 /// Components of a world vector in the frame's axes.
 #[inline]
@@ -89,7 +89,7 @@ impl<const D: usize> Floating<D> {
         let own = frame::<f64, D>(q);
         let w = angular_velocity::<_, D>(v);
         // The weight is the inertia force of the acceleration -g.
-        let lift = local(&own, &gravity.map(|g| -g));
+        let lift = local(&own, &gravity.each(|g| -g));
         for moving in self.moving(q, v) {
             let (s, rate, (drift, swerve)) = (moving.s(), moving.momentum(moving.v), moving.swerve(moving.v));
             let whirl = spin(&w, &spin(&w, &s));

@@ -12,7 +12,7 @@
 use super::algebra::*;
 use crate::body::flexible::Piece;
 use crate::math::Scalar;
-use std::array::from_fn;
+use crate::math::array::{Each, from_fn};
 
 /// One piece at a state.
 pub(super) struct Moving<'a, S, const D: usize> {
@@ -90,7 +90,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
         if self.curves.bent.is_empty() {
             return self.against(i + 1);
         }
-        let mut sum = self.piece.products[i + 1].map(|row| row.map(S::constant));
+        let mut sum = self.piece.products[i + 1].each(|row| row.map(S::constant));
         for (j, &dof) in self.piece.dofs.iter().enumerate() {
             add_matrix(&mut sum, self.q[dof], &self.curves.bent[j * n + i]);
         }

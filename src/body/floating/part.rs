@@ -3,8 +3,8 @@
 use super::point::turn;
 use crate::body::flexible::{Disc, Piece};
 use crate::body::{Frame, Wrench, cross};
+use crate::math::array::{Each, from_fn};
 use crate::math::{Scalar, Taylor};
-use std::array::from_fn;
 
 /// Weight less inertia of a piece, about the origin of the floating frame; `coordinate` gives an elastic coordinate
 /// with its velocity and acceleration. With the axes e_k of the frame and u_k along them, as functions of time,
@@ -29,7 +29,7 @@ pub fn load<S: Scalar, const D: usize>(
     for (axis, (s, product)) in own.axes.iter().zip(s.iter().zip(&products)) {
         let inertia = turned(product);
         let pull: [S; D] = from_fn(|i| s.x * lift[i] - inertia[i]);
-        let moment = cross(&axis.map(|e| e.x), &pull);
+        let moment = cross(&axis.each(|e| e.x), &pull);
         (0..3).for_each(|i| torque[i] += moment[i]);
     }
     Wrench { force: from_fn(|i| lift[i] * piece.mass - moving[i]), torque }
@@ -56,7 +56,7 @@ pub fn resistance<S: Scalar, const D: usize>(
     let mut wrench = Wrench::zero();
     for (k, l) in (0..D).flat_map(|k| (0..D).map(move |l| (k, l))) {
         let product = if k == l { half - disc.inertia[k][k] } else { -disc.inertia[k][l] };
-        let moment = cross(&turned.axes[k].map(|e| e.x), &turned.axes[l].map(|e| e.dd));
+        let moment = cross(&turned.axes[k].each(|e| e.x), &turned.axes[l].each(|e| e.dd));
         (0..3).for_each(|i| wrench.torque[i] -= moment[i] * product);
     }
     wrench

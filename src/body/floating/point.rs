@@ -6,7 +6,7 @@ use super::turns;
 use crate::body::flexible::PointShape;
 use crate::body::{Frame, Marker, Wrench, cross, dot, sub};
 use crate::math::Scalar;
-use std::array::from_fn;
+use crate::math::array::from_fn;
 
 /// The frame of a marker: at rest + sum_i t_i q_i + (R - 1 - a~) arm, with axes rotated by R of a = sum_i r_i q_i. t_i
 /// has a x arm, the rotation of a point off the line to first order; (R - 1 - a~) arm completes it.

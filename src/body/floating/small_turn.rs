@@ -2,7 +2,7 @@
 
 use crate::body::cross;
 use crate::math::Scalar;
-use std::array::from_fn;
+use crate::math::array::from_fn;
 
 /// Cayley's rotation by a vector a: it agrees with the rotation by a to second order and is orthogonal for any a,
 ///

@@ -18,7 +18,7 @@ use super::inertia::{angular_velocity, local, world};
 use super::moving::Moving;
 use super::{Floating, frame, frame_velocities, turn_velocity, turns};
 use crate::body::{BodyState, Frame, cross, dot, unit};
-use std::array::from_fn;
+use crate::math::array::from_fn;
 
 /// Motion of the floating frame at a state.
 struct Motion<'a, const D: usize> {

@@ -1,16 +1,17 @@
 //! Polygons that cross themselves.
 
+use crate::math::array::Each;
 /// A run of edges in a box along the axes: least and largest x and y.
 #[derive(Clone, Copy)]
 struct Bounds([[f64; 2]; 2]);
 
 impl Bounds {
     fn of(a: [f64; 2], b: [f64; 2]) -> Self {
-        Bounds([0, 1].map(|i| [a[i].min(b[i]), a[i].max(b[i])]))
+        Bounds([0, 1].each(|i| [a[i].min(b[i]), a[i].max(b[i])]))
     }
 
     fn with(&self, other: &Bounds) -> Self {
-        Bounds([0, 1].map(|i| [self.0[i][0].min(other.0[i][0]), self.0[i][1].max(other.0[i][1])]))
+        Bounds([0, 1].each(|i| [self.0[i][0].min(other.0[i][0]), self.0[i][1].max(other.0[i][1])]))
     }
 
     fn is_apart(&self, other: &Bounds) -> bool {

@@ -1,8 +1,8 @@
 //! Closed forms of mass distributions of uniform density.
 
 use crate::body::{cross, dot, scale, sub};
+use crate::math::array::{Each, from_fn};
 use crate::math::rotation::Matrix3;
-use std::array::from_fn;
 
 /// A volume of uniform density: its spread is the integral of x x^T over its mass, with x from its centre, divided by
 /// the mass. The tensor of inertia of the mass m is m (tr(S) 1 - S).
@@ -39,7 +39,7 @@ impl Uniform {
 
     /// Edges along x, y and z.
     pub fn cuboid([a, b, c]: [f64; 3]) -> Self {
-        Self::centred(a * b * c, [a * a, b * b, c * c].map(|square| square / 12.0))
+        Self::centred(a * b * c, [a * a, b * b, c * c].each(|square| square / 12.0))
     }
 
     /// Hollow cylinder about z.
@@ -60,7 +60,7 @@ impl Uniform {
         let along = sub(&to, &from);
         let square_of_length = dot(&along, &along);
         let mut spread =
-            square(along, along).map(|row| row.map(|x| x * (1.0 / 12.0 - 0.25 * radius * radius / square_of_length)));
+            square(along, along).each(|row| row.each(|x| x * (1.0 / 12.0 - 0.25 * radius * radius / square_of_length)));
         add(&mut spread, 1.0, &diagonal([0.25 * radius * radius; 3]));
         let volume = std::f64::consts::PI * radius * radius * square_of_length.sqrt();
         Uniform { volume, centre: from_fn(|i| 0.5 * (from[i] + to[i])), spread }
@@ -83,7 +83,7 @@ impl Uniform {
             }
         }
         let middle = scale(&moment, 1.0 / area);
-        let mut spread = second.map(|row| row.map(|x| x / area));
+        let mut spread = second.each(|row| row.each(|x| x / area));
         add(&mut spread, -1.0, &square(middle, middle));
         spread[2][2] = thickness * thickness / 12.0;
         Uniform {
@@ -103,8 +103,8 @@ impl Uniform {
     /// The same at a place: `axes[i]` is its i-th axis.
     pub fn placed(&self, at: [f64; 3], axes: &Matrix3) -> Self {
         let turned = |v: &[f64; 3]| -> [f64; 3] { from_fn(|k| (0..3).map(|i| axes[i][k] * v[i]).sum()) };
-        let columns = self.spread.map(|row| turned(&row));
-        let spread = from_fn(|i| turned(&columns.map(|row| row[i])));
+        let columns = self.spread.each(|row| turned(&row));
+        let spread = from_fn(|i| turned(&columns.each(|row| row[i])));
         let offset = turned(&self.centre);
         Uniform { volume: self.volume, centre: from_fn(|i| at[i] + offset[i]), spread }
     }

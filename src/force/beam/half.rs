@@ -1,9 +1,9 @@
 //! Weight and inertia of a beam's mass, added to the forces of its massless elements.
 
 use crate::body::{Frame, cross};
+use crate::math::array::{Each, from_fn};
 use crate::math::screw::Vector;
 use crate::math::{Scalar, Taylor};
-use std::array::from_fn;
 
 /// Mass of half an element, as part of the rigid node at its end; zero for a massless beam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,13 +56,13 @@ impl Half {
     pub fn load<S: Scalar, const D: usize>(&self, node: &Frame<Taylor<S>, D>, gravity: &[f64; D]) -> Load<S> {
         let lift: [S; D] = from_fn(|k| -node.r[k].dd + gravity[k]);
         let along = node.axes[0];
-        let [axis, bent] = [along.map(|e| e.x), along.map(|e| e.dd)];
+        let [axis, bent] = [along.each(|e| e.x), along.each(|e| e.dd)];
         let hanging = cross(&axis, &lift);
         let whirling = cross(&axis, &bent);
         let turning = |moments: [f64; 2]| -> Vector<S> {
             let mut torque = [S::zero(); 3];
             for (axis, moment) in node.axes[1..].iter().zip(moments) {
-                let rate = cross(&axis.map(|e| e.x), &axis.map(|e| e.dd));
+                let rate = cross(&axis.each(|e| e.x), &axis.each(|e| e.dd));
                 (0..3).for_each(|k| torque[k] -= rate[k] * moment);
             }
             torque

@@ -4,8 +4,8 @@ use super::Beam;
 use super::station::{Carried, cubic};
 use super::strain::Strains;
 use crate::math::Scalar;
+use crate::math::array::{Each, from_fn};
 use crate::math::screw::{Vector, dot3, exponential};
-use std::array::from_fn;
 
 /// The line of an element: the helix between its ends, corrected for curvature and shear that change along it by a
 /// rotation and a displacement that are zero at the ends, cubics with the slopes that the strains there require. All in
@@ -30,9 +30,9 @@ type Axes<S> = [Vector<S>; 3];
 impl<S: Scalar> Line<S> {
     /// The line for the internal forces of the sections at both ends.
     pub fn new(beam: &Beam, strains: &Strains<S>, ends: &[Carried<S>; 2]) -> Self {
-        let shift = strains.shift.map(|x| x.re);
-        let turn = strains.turn.map(|x| x.re);
-        let gap = strains.gap.map(|x| x.re);
+        let shift = strains.shift.each(|x| x.re);
+        let turn = strains.turn.each(|x| x.re);
+        let gap = strains.gap.each(|x| x.re);
         let per_length = 1.0 / beam.length;
         let axes = [unit_axes(), exponential(&shift, &turn, 1.0).0];
         let strain = |end: usize, i: usize| {
@@ -50,12 +50,12 @@ impl<S: Scalar> Line<S> {
 
     /// Axes and position of the section at 0 <= `part` <= 1 of the element.
     pub fn at(&self, part: f64) -> (Axes<S>, Vector<S>) {
-        let [_, first, last] = cubic(part).map(|slope| slope * self.length);
+        let [_, first, last] = cubic(part).each(|slope| slope * self.length);
         let beside = |slopes: &[Vector<S>; 2]| -> Vector<S> { from_fn(|i| slopes[0][i] * first + slopes[1][i] * last) };
         let (helix, start) = exponential(&self.shift, &self.turn, part);
         let turned = exponential(&[S::zero(); 3], &beside(&self.bend), 1.0).0;
         let lean = compose(&helix, &beside(&self.lean));
-        (turned.map(|axis| compose(&helix, &axis)), from_fn(|i| start[i] + lean[i]))
+        (turned.each(|axis| compose(&helix, &axis)), from_fn(|i| start[i] + lean[i]))
     }
 }
 

@@ -18,10 +18,10 @@ pub use strain::Beam;
 
 use super::{Action, ForceKernel, Instant, Motion};
 use crate::body::{Frame, Wrench, dot};
+use crate::math::array::{Each, from_fn};
 use crate::math::screw::{Vector, cross3, dot3, planar_pull_back, pull_back};
 use crate::math::{Dual, Scalar, Taylor};
 use station::Carried;
-use std::array::from_fn;
 use strain::{Strains, components};
 
 /// A value with its rate.
@@ -29,7 +29,7 @@ pub(crate) type Moving<S> = Dual<S, 1>;
 
 impl<const D: usize> ForceKernel<D> for Beam {
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, _: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
-        let [a, b] = [&frames[0], &frames[1]].map(|frame| frame.map(|x| Moving { re: x.x, eps: [x.d] }));
+        let [a, b] = [&frames[0], &frames[1]].each(|frame| frame.map(|x| Moving { re: x.x, eps: [x.d] }));
         let strains = Strains::between(&a, &b);
         let strain = self.strain::<_, D>(&strains);
         let mut damped = [S::zero(); 6];
@@ -45,8 +45,8 @@ impl<const D: usize> ForceKernel<D> for Beam {
         }
         let [first, last] = self.carried::<_, D>(&strains, &damped);
         // The elastic forces oppose the strain.
-        let force = in_world(&a, &last.n.map(|x| -x));
-        let torque = in_world(&a, &last.m.map(|x| -x));
+        let force = in_world(&a, &last.n.each(|x| -x));
+        let torque = in_world(&a, &last.m.each(|x| -x));
         out[1] = Wrench { force: from_fn(|i| force[i]), torque };
         out[0] = Wrench { force: from_fn(|i| -force[i]), torque: in_world(&a, &first.m) };
         let potential = Taylor::new(twice_stored * (0.5 * self.length), power * self.length, S::zero());
@@ -66,13 +66,13 @@ impl Beam {
     /// Internal forces of the sections at both ends for these stresses, with no load on the element between them.
     fn carried<S: Scalar, const D: usize>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Carried<S>; 2] {
         let [n, m] = self.conjugate::<_, D>(strains, stress);
-        let turn = strains.turn.map(|x| x.re);
-        let gap = strains.gap.map(|x| x.re);
+        let turn = strains.turn.each(|x| x.re);
+        let gap = strains.gap.each(|x| x.re);
         if D == 2 {
             let ([nx, ny], torque) = planar_pull_back(turn[2], [gap[0], gap[1]], [n[0], n[1]], m[2]);
             let n = [nx, ny, n[2]];
             let lever = gap[0] * ny - gap[1] * nx;
-            return [torque + lever, torque].map(|torque| Carried { n, m: [m[0], m[1], torque] });
+            return [torque + lever, torque].each(|torque| Carried { n, m: [m[0], m[1], torque] });
         }
         let [n, m] = pull_back(&turn, &gap, &n, &m);
         let lever = cross3(&gap, &n);
@@ -91,5 +91,5 @@ fn in_world<S: Scalar, const D: usize>(frame: &Frame<Moving<S>, D>, v: &Vector<S
 /// Components of a world vector along the axes of a frame.
 fn in_axes<S: Scalar, const D: usize>(frame: &Frame<Moving<S>, D>, v: &Vector<S>) -> Vector<S> {
     let own = from_fn(|k| v[k]);
-    from_fn(|i| if i < D { dot(&frame.axes[i].map(|x| x.re), &own) } else { v[i] })
+    from_fn(|i| if i < D { dot(&frame.axes[i].each(|x| x.re), &own) } else { v[i] })
 }

@@ -5,9 +5,9 @@ use super::line::Line;
 use super::strain::Strains;
 use super::{Beam, Moving, in_axes};
 use crate::body::Frame;
+use crate::math::array::{Each, from_fn};
 use crate::math::screw::{Vector, cross3, dot3};
 use crate::math::{Scalar, Taylor};
-use std::array::from_fn;
 
 /// A section of a beam: its position and its internal forces.
 ///
@@ -51,10 +51,10 @@ impl Beam {
         loads: &[Load<S>; 2],
         x: f64,
     ) -> Station<S, D> {
-        let [a, b] = ends.map(|frame| frame.map(|x| Moving { re: x.x, eps: [x.d] }));
+        let [a, b] = ends.each(|frame| frame.map(|x| Moving { re: x.x, eps: [x.d] }));
         let strains = Strains::between(&a, &b);
         let middle = self.strain::<_, D>(&strains);
-        let loads = loads.each_ref().map(|load| load.map(|v| in_axes(&a, v)));
+        let loads = loads.each_ref().each(|load| load.map(|v| in_axes(&a, v)));
         let elastic: [S; 6] = from_fn(|i| (middle[i].re - self.rest[i]) * self.stiffness[i]);
         let viscous: [S; 6] = from_fn(|i| middle[i].eps[0] * (self.damping * self.stiffness[i]));
         let elastic = loaded(self.carried::<_, D>(&strains, &elastic), &loads);
@@ -102,7 +102,7 @@ impl<S: Scalar> Line<S> {
         let turned = cross3(&self.tangent, &growth);
         let arm = cross3(&self.gap, &a.n);
         let moved = cross3(place, &a.n);
-        let [f, l] = [loads.each_ref().map(|x| x.force_per_length), loads.each_ref().map(|x| x.torque_per_length)];
+        let [f, l] = [loads.each_ref().each(|x| x.force_per_length), loads.each_ref().each(|x| x.torque_per_length)];
         Carried {
             n: from_fn(|i| a.n[i] + growth[i] * value - f[0][i] * first - f[1][i] * last),
             m: from_fn(|i| {

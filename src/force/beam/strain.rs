@@ -4,8 +4,8 @@ use super::Moving;
 use crate::body::flexible::{ReferenceLine, Section};
 use crate::body::{Frame, dot, sub};
 use crate::math::Scalar;
+use crate::math::array::{Each, from_fn};
 use crate::math::screw::{Vector, planar_shift, rotation_vector, shift};
-use std::array::from_fn;
 
 /// A beam element: relaxed, its second frame lies `length` along the x axis of the first, bent by a curvature.
 ///
@@ -68,7 +68,7 @@ impl Beam {
     /// `curvature` is that of the relaxed element, 1/m: twist, about y and about z; `damping` is in s.
     pub fn new<const D: usize>(section: &Section, length: f64, curvature: [f64; 3], damping: f64) -> Self {
         let [about_y, about_z] = section.ei;
-        let bending = [about_z, about_y].map(|ei| length * length / (12.0 * ei));
+        let bending = [about_z, about_y].each(|ei| length * length / (12.0 * ei));
         let [along_y, along_z]: [f64; 2] = from_fn(|i| 1.0 / (1.0 / section.ga[i] + bending[i]));
         let [twist, about] = match D {
             2 => [0.0, 0.0],
@@ -83,7 +83,7 @@ impl Beam {
     /// An element of a tapered beam, given the sections at its ends; its own section must have the mean compliance.
     #[must_use]
     pub fn tapered<const D: usize>(self, ends: [Section; 2]) -> Self {
-        Beam { compliance: ends.map(|section| section.compliance::<D>()), ..self }
+        Beam { compliance: ends.each(|section| section.compliance::<D>()), ..self }
     }
 
     /// One over EA, GA along y and z, GJ, EI about y and z of the sections at the ends; zero for what the beam does not
@@ -116,7 +116,7 @@ impl Beam {
     }
 
     fn lengthening(&self) -> [f64; 2] {
-        self.bent.map(|bent| 2.0 * bent * (1.0 - 0.4 * bent))
+        self.bent.each(|bent| 2.0 * bent * (1.0 - 0.4 * bent))
     }
 
     /// The strains at the middle of the element, that of extension counted from zero length. A curvature that grows
@@ -132,8 +132,8 @@ impl Beam {
             let y = y * per_length;
             return [self.stretch::<_, D>([x, y, zero]), y, zero, zero, zero, k];
         }
-        let [x, y, z] = strains.shift.map(|u| u * per_length);
-        let k = strains.turn.map(|a| a * per_length);
+        let [x, y, z] = strains.shift.each(|u| u * per_length);
+        let k = strains.turn.each(|a| a * per_length);
         let gy = y * self.bent[0];
         let gz = z * self.bent[1];
         [self.stretch::<_, D>([x, y, z]), y, z, k[0] + gy * k[1] + gz * k[2], k[1] - gy * k[0], k[2] - gz * k[0]]
@@ -144,7 +144,7 @@ impl Beam {
     #[inline]
     pub(super) fn conjugate<S: Scalar, const D: usize>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Vector<S>; 2] {
         let per_length = 1.0 / self.length;
-        let [x, y, z] = strains.shift.map(|u| u.re * per_length);
+        let [x, y, z] = strains.shift.each(|u| u.re * per_length);
         let [long_y, long_z] = self.lengthening();
         let [n, qy, qz, torque, my, mz] = *stress;
         let long = self.stretch::<_, D>([x, y, z]);
@@ -152,7 +152,7 @@ impl Beam {
         if D == 2 {
             return [[x * tension, qy + y * tension * long_y, qz], [torque, my, mz]];
         }
-        let k = strains.turn.map(|a| a.re * per_length);
+        let k = strains.turn.each(|a| a.re * per_length);
         let gy = y * self.bent[0];
         let gz = z * self.bent[1];
         let force = [

@@ -6,6 +6,7 @@ use crate::error::{Error, Result, suggest};
 use crate::import::robot::{Coupling, Loop};
 use crate::import::transform::Transform;
 use crate::import::xml::{all, attribute, faulty, place};
+use crate::math::array::Each;
 use roxmltree::Node;
 use std::collections::HashMap;
 
@@ -57,7 +58,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         let size = turn.iter().map(|x| x * x).sum::<f64>().sqrt();
         // A quaternion of zeros stands for the pose in the file.
         let frames = if size > 0.0 {
-            [Some(Transform { r: [x, y, z], turn: turn.map(|x| x / size) }), Some(Transform::default())]
+            [Some(Transform { r: [x, y, z], turn: turn.each(|x| x / size) }), Some(Transform::default())]
         } else {
             [Some(Transform::default()), None]
         };

@@ -7,7 +7,7 @@ use crate::body::{MassProperties, norm, sub};
 use crate::error::{Result, excerpt};
 use crate::import::transform::Transform;
 use crate::import::xml::faulty;
-use std::array::from_fn;
+use crate::math::array::{Each, from_fn};
 use std::f64::consts::PI;
 
 /// kg/m^3, where a geom has neither mass nor density.
@@ -53,7 +53,7 @@ fn frame_and_size(element: &Element, settings: &Settings, kind: &str) -> Result<
     let radius = size.first().copied().unwrap_or(0.0);
     size = if kind == "capsule" || kind == "cylinder" { vec![radius] } else { vec![radius, radius] };
     size.push(0.5 * length);
-    let turn = from_z_to(along.map(|x| x / length));
+    let turn = from_z_to(along.each(|x| x / length));
     Ok((Transform { r: from_fn(|i| 0.5 * (from[i] + to[i])), turn }, size))
 }
 
@@ -80,7 +80,7 @@ fn solid(element: &Element, kind: &str, size: &[f64]) -> Result<Solid> {
 }
 
 fn ellipsoid(axes: [f64; 3]) -> Solid {
-    Solid { volume: 4.0 / 3.0 * PI * axes.iter().product::<f64>(), spread: axes.map(|a| 0.2 * a * a) }
+    Solid { volume: 4.0 / 3.0 * PI * axes.iter().product::<f64>(), spread: axes.each(|a| 0.2 * a * a) }
 }
 
 /// A cylinder of half length h between two half spheres; the mean of (h + z)^2 over one of these is

@@ -6,6 +6,7 @@ use crate::body::{aim, cross, norm};
 use crate::error::Result;
 use crate::import::transform::{Transform, UNTURNED, about};
 use crate::import::xml::{faulty, place as place_of_node};
+use crate::math::array::Each;
 use crate::math::rotation::{quaternion_from_axes, quaternion_from_vector, quaternion_product};
 
 impl Settings {
@@ -19,7 +20,7 @@ impl Settings {
     fn turn(&self, element: &Element) -> Result<[f64; 4]> {
         if let Some([x, y, z, angle]) = element.numbers("axisangle")? {
             let axis = aim(Some([x, y, z]), None)?[2];
-            return Ok(quaternion_from_vector(&axis.map(|x| x * angle * self.unit)));
+            return Ok(quaternion_from_vector(&axis.each(|x| x * angle * self.unit)));
         }
         if let Some([a, b, c, d, e, f]) = element.numbers("xyaxes")? {
             let x = [a, b, c];
@@ -33,7 +34,7 @@ impl Settings {
         }
         let Some(quaternion) = element.numbers::<4>("quat")? else { return Ok(UNTURNED) };
         let size = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if size > 0.0 { Ok(quaternion.map(|x| x / size)) } else { Err(faulty(element.node, "the quaternion is zero")) }
+        if size > 0.0 { Ok(quaternion.each(|x| x / size)) } else { Err(faulty(element.node, "the quaternion is zero")) }
     }
 
     /// The n-th angle about the n-th axis: about those of the frame as it has turned, or about those that stand.
@@ -52,5 +53,5 @@ pub fn from_z_to(unit: [f64; 3]) -> [f64; 4] {
     if sine == 0.0 {
         return if unit[2] > 0.0 { UNTURNED } else { about(0, std::f64::consts::PI) };
     }
-    quaternion_from_vector(&across.map(|x| x * sine.atan2(unit[2]) / sine))
+    quaternion_from_vector(&across.each(|x| x * sine.atan2(unit[2]) / sine))
 }

@@ -4,6 +4,7 @@ use super::Draft;
 use super::valid::{Repaired, repaired};
 use crate::body::MassProperties;
 use crate::error::{percent, short, short_list};
+use crate::math::array::Each;
 use crate::math::rotation::Matrix3;
 use serde_json::{Value, json};
 
@@ -31,7 +32,7 @@ impl Draft<'_> {
         json!({
             "name": self.links[body], "type": "rigid", "mass": mass,
             "inertia": [j[0][0], j[1][1], j[2][2], j[1][0], j[2][0], j[2][1]],
-            "origin": centre.map(|x| -x),
+            "origin": centre.each(|x| -x),
             "markers": self.markers[body],
             "initial": { "position": place.r, "rotation": place.turn },
         })

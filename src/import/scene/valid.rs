@@ -1,9 +1,9 @@
 //! Tensors of inertia that miss by a little those that a body can have.
 
+use crate::math::array::{Each, from_fn};
 use crate::math::rotation::Matrix3;
 use crate::tolerances::body::{ATOM, ROUNDED_INERTIA};
 use nalgebra::{Matrix3 as Tensor, SymmetricEigen, Vector3};
-use std::array::from_fn;
 
 /// A tensor that a body can have in the place of one that none has.
 pub struct Repaired {
@@ -29,7 +29,7 @@ pub fn repaired(tensor: &Matrix3, mass: f64) -> Option<Repaired> {
     let eigen = SymmetricEigen::new(Tensor::from_fn(|i, j| tensor[i][j]));
     let mut order = [0, 1, 2];
     order.sort_by(|i, j| eigen.eigenvalues[*i].total_cmp(&eigen.eigenvalues[*j]));
-    let before = order.map(|i| eigen.eigenvalues[i]);
+    let before = order.each(|i| eigen.eigenvalues[i]);
     let [a, b, c] = before;
     let slack = ROUNDED_INERTIA * c.abs();
     if a >= -slack && c <= a + b + slack {

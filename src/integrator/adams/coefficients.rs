@@ -1,5 +1,6 @@
 //! Constants of a step among steps of other sizes.
 
+use crate::math::array::from_fn;
 /// The highest order of the prediction; the corrected solution has one more.
 pub const MOST: usize = 12;
 
@@ -54,7 +55,7 @@ impl Coefficients {
     /// Weights, by i - 1, of the first `count` differences at the end of the step in the integral of the polynomial
     /// through them from there over `ahead` seconds (below zero within the step), over `ahead`.
     pub fn interpolation(&self, ahead: f64, count: usize) -> [f64; ROOM] {
-        let mut w: [f64; ROOM] = std::array::from_fn(|i| 1.0 / (i + 1) as f64);
+        let mut w: [f64; ROOM] = from_fn(|i| 1.0 / (i + 1) as f64);
         let mut g = [0.0; ROOM];
         let mut term = 0.0;
         g[0] = 1.0;

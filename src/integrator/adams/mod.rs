@@ -6,11 +6,11 @@ mod rows;
 use super::memory::Reader;
 use super::{Control, Entry, From, Integrator, Problem, Stability, Steps, Tightening, Tolerance, refuses, takes};
 use crate::formulation::StepError;
+use crate::math::array::{Each, from_fn};
 use crate::method_spec::OptionDoc;
 use crate::tolerances::integrator as tolerances;
 use coefficients::{Coefficients, MOST, ROOM, error_constants};
 use rows::{QUAD, Rows, plus, quad, store};
-use std::array::from_fn;
 
 /// ```text
 /// y~ = y + h sum_{i=1..k} g_i Phi*_i,   y_1 = y~ + h g_{k+1} (F(t_1, y~) - Phi~_1)
@@ -143,10 +143,10 @@ impl Adams {
             let mut y = quad(from.y, b);
             let mut sum = [0.0; QUAD];
             if *known > k {
-                sums[k] = rows[k].map(|x| beta[k] * x);
+                sums[k] = rows[k].each(|x| beta[k] * x);
             }
             for i in (0..k).rev() {
-                let row = rows[i].map(|x| beta[i] * x);
+                let row = rows[i].each(|x| beta[i] * x);
                 sum = plus(sum, 1.0, row);
                 y = plus(y, weights[i], row);
                 sums[i] = sum;
@@ -194,7 +194,7 @@ impl Adams {
                 *squares = from_fn(|i| squares[i] + (weight[i] * of_order[i]).powi(2));
             }
         }
-        squares.map(|squares| squares.iter().sum::<f64>().sqrt())
+        squares.each(|squares| squares.iter().sum::<f64>().sqrt())
     }
 
     /// Error of a formula of order `order` over the tolerated one, by a difference of that order and this norm.
@@ -310,7 +310,7 @@ impl Integrator for Adams {
     fn memory(&self) -> Option<Vec<f64>> {
         let Tried { h, order, next } = self.tried;
         let numbers = [self.order, self.known, order, next, usize::from(self.is_accepted), usize::from(self.is_rising)];
-        let mut memory = numbers.map(|number| number as f64).to_vec();
+        let mut memory = numbers.each(|number| number as f64).to_vec();
         memory.push(h);
         memory.extend(self.past);
         let (rows, count) =

@@ -1,6 +1,7 @@
 //! Rows of differences of y', by components.
 
 use super::coefficients::ROOM;
+use crate::math::array::from_fn;
 
 /// Components that stand together: sums over the rows stay in registers for them.
 pub const QUAD: usize = 4;
@@ -61,5 +62,5 @@ pub fn store(x: &mut [f64], block: usize, quad: Quad) {
 /// x + factor y
 #[inline(always)]
 pub fn plus(x: Quad, factor: f64, y: Quad) -> Quad {
-    std::array::from_fn(|i| x[i] + factor * y[i])
+    from_fn(|i| x[i] + factor * y[i])
 }

@@ -3,6 +3,7 @@
 use crate::integrator::memory::Reader;
 use crate::integrator::sums::accumulate;
 use crate::integrator::{From, Tolerance};
+use crate::math::array::from_fn;
 use crate::math::{lagrange, lagrange_rate};
 
 /// Highest order of the method.
@@ -66,7 +67,7 @@ impl History {
     }
 
     fn weights(&self, degree: usize, weight: impl Fn(&[f64], usize) -> f64) -> [f64; POINTS] {
-        std::array::from_fn(|i| if i <= degree { weight(&self.times[..=degree], i) } else { 0.0 })
+        from_fn(|i| if i <= degree { weight(&self.times[..=degree], i) } else { 0.0 })
     }
 
     /// Writes the polynomial of this degree at `t`, and its derivative.
@@ -103,7 +104,7 @@ impl History {
         let mut times = [end; POINTS];
         times[1..=order].copy_from_slice(&self.times[..order]);
         let weight = |i: usize| lagrange(&times[..=order], i, t);
-        let weights: [f64; POINTS] = std::array::from_fn(|i| if i < order { weight(i + 1) } else { 0.0 });
+        let weights: [f64; POINTS] = from_fn(|i| if i < order { weight(i + 1) } else { 0.0 });
         out.iter_mut().zip(to).for_each(|(out, to)| *out = weight(0) * to);
         accumulate(out, 1.0, &weights, &self.y);
     }

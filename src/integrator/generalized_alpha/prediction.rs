@@ -1,6 +1,7 @@
 //! The prediction of v' and lambda at the end of a step.
 
 use super::super::memory::Reader;
+use crate::math::array::from_fn;
 use crate::system::Dimensions;
 
 /// Number of points of the polynomials.
@@ -64,7 +65,7 @@ impl Prediction {
     /// Weights of the start and the states before it in the value after a step `h`: Lagrange's polynomials.
     fn weights(&self, degree: usize, h: f64) -> [f64; POINTS] {
         let points = [0.0, -self.past[0].age, -self.past[1].age];
-        std::array::from_fn(|i| {
+        from_fn(|i| {
             let others = points[..=degree].iter().enumerate().filter(|(j, _)| *j != i);
             if i > degree { 0.0 } else { others.map(|(_, x)| (h - x) / (points[i] - x)).product() }
         })

@@ -2,10 +2,10 @@
 
 use super::collocation::Collocation;
 use crate::integrator::sums::accumulate;
+use crate::math::array::from_fn;
 use crate::math::largest;
 use crate::math::rotation::{quaternion_from_vector, quaternion_product, rotation_vector_rate};
 use crate::system::{MechanicalSystem, Rotation};
-use std::array::from_fn;
 
 /// Rotation vectors a_i from the start of a step to its stages, which are collocated in the place of the quaternions:
 ///

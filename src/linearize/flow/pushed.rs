@@ -2,6 +2,7 @@
 
 use super::Pulse;
 use crate::forward::forward;
+use crate::math::array::Each;
 use crate::system::{
     Dimensions, Excitation, Group, MechanicalSystem, Names, Need, Rotation, Scratch, Structure, Terms,
 };
@@ -55,7 +56,7 @@ impl MechanicalSystem for Pushed<'_> {
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
         self.system.evaluate(t, q, v, need, terms, scratch);
-        let [u, rate, second] = self.pulse.jet(t).map(|x| self.amplitude * x);
+        let [u, rate, second] = self.pulse.jet(t).each(|x| self.amplitude * x);
         match self.excitation {
             _ if u == 0.0 => {}
             Excitation::Constraint(row) if need.includes(Need::CONSTRAINTS) => {

@@ -1,5 +1,6 @@
 //! Cubics between the points of a signal, with exact bounds on their values and derivatives.
 
+use crate::math::array::from_fn;
 /// Coefficients of 1, s, s^2 and s^3, with s the distance from the point to the left.
 pub type Cubic = [f64; 4];
 
@@ -51,9 +52,9 @@ impl BoundsTree {
     pub fn new(cubics: impl ExactSizeIterator<Item = (Cubic, f64)>) -> Self {
         let n = cubics.len();
         let mut nodes = vec![[NONE; ORDERS]; n];
-        nodes.extend(cubics.map(|(cubic, h)| std::array::from_fn(|k| bounds(&derived(&cubic, k), [0.0, h]))));
+        nodes.extend(cubics.map(|(cubic, h)| from_fn(|k| bounds(&derived(&cubic, k), [0.0, h]))));
         for k in (1..n).rev() {
-            nodes[k] = std::array::from_fn(|order| hull(nodes[2 * k][order], nodes[2 * k + 1][order]));
+            nodes[k] = from_fn(|order| hull(nodes[2 * k][order], nodes[2 * k + 1][order]));
         }
         BoundsTree { nodes }
     }

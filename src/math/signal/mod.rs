@@ -8,6 +8,7 @@
 //!
 //! A lookup takes O(1) where points are about equally apart, O(log n) elsewhere, and allocates nothing.
 
+use crate::math::array::Each;
 mod cubic;
 mod points;
 mod spline;
@@ -173,7 +174,7 @@ impl Signal {
     /// points. One that is nearer than `near` of the width counts as passed.
     pub fn point_ahead(&self, x: f64, grows: bool, near: f64) -> Option<(f64, f64)> {
         let (row, shift) = self.place(x);
-        let interval = |row: usize| Some([*self.knots.get(row)?, *self.knots.get(row + 1)?].map(|knot| knot + shift));
+        let interval = |row: usize| Some([*self.knots.get(row)?, *self.knots.get(row + 1)?].each(|knot| knot + shift));
         let ahead = |row: usize| {
             let [low, high] = interval(row)?;
             let point = if grows { high } else { low };

@@ -2,6 +2,7 @@
 
 use super::section::{area, expression};
 use super::two_force_link::Link;
+use crate::math::array::Each;
 use crate::simplify::edit::{add, elements, elements_mut, remove, text};
 use crate::simplify::{Facts, Proposal};
 use crate::tolerances::SAME;
@@ -11,7 +12,7 @@ use serde_json::{Value, json};
 pub fn massless(facts: &Facts, beam: &Value) -> Option<Proposal> {
     let name = text(beam, "name");
     let link = Link::between_pins(facts, beam).filter(|_| beam.get("curvature").is_none())?;
-    let ends = link.pins.each_ref().map(|pin| on_line(facts, beam, &pin.own));
+    let ends = link.pins.each_ref().each(|pin| on_line(facts, beam, &pin.own));
     let stiffness = format!("{}/({})", axial_stiffness(beam)?, link.length);
     let gap = (ends[0]? - ends[1]?).abs();
     let length = facts.number(&beam["length"])?;

@@ -3,6 +3,7 @@
 use super::beam_spring::massless;
 use super::section::{area, expression};
 use crate::error::percent;
+use crate::math::array::Each;
 use crate::simplify::edit::{elements, find_mut, remove, text};
 use crate::simplify::held::{Tie, acting};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
@@ -96,7 +97,7 @@ fn alternatives(facts: &Facts, beam: &Value) -> Vec<Proposal> {
     }
     all.extend(massless(facts, beam));
     if let (Some(n), None) = (mesh, modes) {
-        let fewer = [8, 4, 2].map(|part| n / part).into_iter().filter(|n| *n > 0);
+        let fewer = [8, 4, 2].each(|part| n / part).into_iter().filter(|n| *n > 0);
         all.extend(fewer.map(|k| proposal(format!("has {k} of its {n} elements"), finer(k), set("elements", k))));
     }
     all

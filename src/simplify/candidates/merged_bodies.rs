@@ -4,11 +4,11 @@ use super::absorbed::{Absorbed, absorb, markers};
 use super::plane::combined;
 use crate::body::{dot, sub};
 use crate::error::percent;
+use crate::math::array::{Each, from_fn};
 use crate::math::expression::{Number, Parameters};
 use crate::simplify::edit::{carrier, elements, find_mut, pair, remove, text};
 use crate::simplify::{Candidate, Facts, Placed, Proposal, Relative};
 use serde_json::{Value, json};
-use std::array::from_fn;
 
 /// Two rigid bodies that a joint connects become one, as they are to each other at the start: joints between the two
 /// go. Its mass and inertia are sums in the numbers of the scene; where its centre is stays as the numbers are. By
@@ -106,7 +106,7 @@ impl Merged {
         let [m, other] = [number(&masses[0])?, number(&masses[1])?];
         let arm = origin(&self.second);
         let centres = [
-            origin(own).map(|x| 0.0 - x),
+            origin(own).each(|x| 0.0 - x),
             from_fn(|i| self.place.r[i] - (0..3).map(|k| arm[k] * axes[k][i]).sum::<f64>()),
         ];
         let gap = sub(&centres[1], &centres[0]);
@@ -118,7 +118,7 @@ impl Merged {
         let inertias = [packed(&own["inertia"])?, packed(&self.second["inertia"])?];
         let moment = |(place, (i, j)): (usize, (usize, usize))| {
             // axes[k] is the k-th axis of the second body: a vector x of it is sum x_k axes[k].
-            let turned = PLACES.map(|(k, l)| {
+            let turned = PLACES.each(|(k, l)| {
                 let part = axes[k][i] * axes[l][j];
                 if k == l { part } else { part + axes[l][i] * axes[k][j] }
             });
@@ -143,14 +143,14 @@ pub const PLACES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2),
 /// xx, yy, zz, xy, xz and yz of an inertia; of a number that about all axes.
 pub fn packed(inertia: &Value) -> Option<[Value; 6]> {
     Some(match inertia {
-        Value::Array(all) => from_fn(|i| all.get(i).cloned().unwrap_or(json!(0))),
+        Value::Array(all) => std::array::from_fn(|i| all.get(i).cloned().unwrap_or(json!(0))),
         Value::Null => return None,
-        moment => from_fn(|i| if i < 3 { moment.clone() } else { json!(0) }),
+        moment => std::array::from_fn(|i| if i < 3 { moment.clone() } else { json!(0) }),
     })
 }
 
 /// A placement in the axes of another and from its origin.
 fn seen(base: &Placed, place: &Placed) -> Placed {
-    let local = |vector: [f64; 3]| base.axes.map(|axis| dot(&axis, &vector));
+    let local = |vector: [f64; 3]| base.axes.each(|axis| dot(&axis, &vector));
     Placed { r: local(sub(&place.r, &base.r)), axes: place.axes.map(local), turn: place.turn - base.turn, ..*place }
 }

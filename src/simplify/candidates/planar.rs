@@ -4,6 +4,7 @@ use super::planar_output::flat_output;
 use super::plane::{Plane, combined, flat, world};
 use crate::body::dot;
 use crate::error::percent;
+use crate::math::array::Each;
 use crate::simplify::edit::{elements, elements_mut, text};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use crate::tolerances::SAME;
@@ -30,7 +31,7 @@ fn proposal(facts: &Facts) -> Option<Proposal> {
     for body in elements(facts.scene(), "bodies") {
         let path = facts.path(text(body, "name"))?;
         let start = path.first()?;
-        let normal = start.axes.map(|axis| dot(&axis, plane.normal()));
+        let normal = start.axes.each(|axis| dot(&axis, plane.normal()));
         let mut out = 0.0f64;
         let mut tilt = 0.0f64;
         for place in &path {
@@ -146,7 +147,7 @@ fn flat_body(facts: &Facts, plane: &Plane, body: &Value) -> Option<Value> {
 /// Moment of inertia n . J n about an axis, of xx, yy, zz, xy, xz, yz.
 fn moment(n: &[f64; 3], inertia: &[Value]) -> Option<Value> {
     let pairs = [(0, 1), (0, 2), (1, 2)];
-    let squares = n.iter().map(|x| x * x).chain(pairs.map(|(i, j)| 2.0 * n[i] * n[j]));
+    let squares = n.iter().map(|x| x * x).chain(pairs.each(|(i, j)| 2.0 * n[i] * n[j]));
     let terms = squares.zip(inertia).filter(|(part, _)| *part != 0.0);
     let (parts, values): (Vec<f64>, Vec<Value>) = terms.map(|(part, value)| (part, value.clone())).unzip();
     combined(&parts, &json!(values))

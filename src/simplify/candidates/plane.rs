@@ -1,11 +1,11 @@
 //! A plane in space, and numbers of a scene seen in it.
 
 use crate::body::{cross, dot, norm, unit};
+use crate::math::array::{Each, from_fn};
 use crate::simplify::edit::{change_words, elements, text};
 use crate::simplify::{Facts, Placed};
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
-use std::array::from_fn;
 
 type Vector = [f64; 3];
 
@@ -23,12 +23,12 @@ impl Plane {
         let spins = bodies.filter_map(|body| facts.path(text(body, "name"))).flatten().map(|place| place.spin);
         let fastest = spins.max_by(|a, b| dot(a, a).total_cmp(&dot(b, b))).unwrap_or_default();
         let size = norm(&fastest);
-        let normal = if size > 0.0 { exact(fastest.map(|x| x / size)) } else { unit(2) };
+        let normal = if size > 0.0 { exact(fastest.each(|x| x / size)) } else { unit(2) };
         let hinges = elements(facts.scene(), "joints").iter().filter(|joint| text(joint, "type") == "revolute");
         let markers = hinges.filter_map(|joint| facts.place(joint["between"][0].as_str()?));
         let hinge = markers.map(|place| place.axes[2]).find(|z| (dot(z, &normal).abs() - 1.0).abs() < SAME);
         let is_turned = hinge.map_or(normal.iter().sum::<f64>() < 0.0, |z| dot(&z, &normal) < 0.0);
-        let normal = if is_turned { normal.map(|x| 0.0 - x) } else { normal };
+        let normal = if is_turned { normal.each(|x| 0.0 - x) } else { normal };
         // Of a coordinate plane its own axes.
         let axis = (0..3).find(|i| normal[*i].abs() == 1.0);
         let first = axis.map(|i| if normal[i] > 0.0 { unit((i + 1) % 3) } else { unit((i + 2) % 3) });
@@ -79,7 +79,7 @@ impl Plane {
 
     /// The axes of the plane as a body at `place` sees them: its own x axis first, if that lies in the plane.
     fn seen_by(&self, place: &Placed) -> [Vector; 3] {
-        basis(exact(place.axes.map(|axis| dot(&axis, self.normal()))))
+        basis(exact(place.axes.each(|axis| dot(&axis, self.normal()))))
     }
 
     /// A vector of the world in the plane.
@@ -115,7 +115,7 @@ pub fn world(frame: &Placed, direction: &Vector) -> Vector {
 
 /// A direction without what rounding has added to one along a coordinate axis.
 fn exact(direction: Vector) -> Vector {
-    direction.map(|x| if (x - x.round()).abs() < SAME { x.round() + 0.0 } else { x })
+    direction.each(|x| if (x - x.round()).abs() < SAME { x.round() + 0.0 } else { x })
 }
 
 /// Axes across and along `normal`: the first is the part of x, or of y where that is along the normal.
@@ -123,7 +123,7 @@ fn basis(normal: Vector) -> [Vector; 3] {
     let from = unit(usize::from((normal[0].abs() - 1.0).abs() < SAME));
     let part: Vector = from_fn(|i| from[i] - dot(&from, &normal) * normal[i]);
     let size = norm(&part);
-    let first = exact(part.map(|x| x / size));
+    let first = exact(part.each(|x| x / size));
     [first, exact(cross(&normal, &first)), normal]
 }
 

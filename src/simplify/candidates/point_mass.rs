@@ -3,6 +3,7 @@
 use super::merged_bodies::{PLACES, packed};
 use crate::body::dot;
 use crate::error::percent;
+use crate::math::array::Each;
 use crate::simplify::edit::{elements, elements_mut, find_mut, mentions, rename, rename_in_scene, text};
 use crate::simplify::{Candidate, Facts, Proposal};
 use crate::tolerances::SAME;
@@ -58,7 +59,7 @@ fn rotation(facts: &Facts, body: &Value) -> Option<f64> {
     let moments: Vec<f64> = inertia.iter().map(|moment| facts.number(moment)).collect::<Option<_>>()?;
     let path = facts.path(text(body, "name"))?;
     let energies = path.iter().map(|place| {
-        let spin = place.axes.map(|axis| dot(&axis, &place.spin));
+        let spin = place.axes.each(|axis| dot(&axis, &place.spin));
         let terms = PLACES.iter().zip(&moments).map(|((i, j), moment)| {
             let part = 0.5 * moment * spin[*i] * spin[*j];
             if i == j { part } else { 2.0 * part }

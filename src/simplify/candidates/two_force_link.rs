@@ -1,6 +1,7 @@
 //! A link between two pins, without mass.
 
 use crate::body::{dot, norm, sub};
+use crate::math::array::Each;
 use crate::simplify::edit::{carrier, drop_references, elements, mentions, remove_named, text};
 use crate::simplify::held::{Tie, acting};
 use crate::simplify::{Candidate, Facts, Proposal};
@@ -62,7 +63,7 @@ impl Link {
         let [first, second] = [facts.place(&pins[0].own)?, facts.place(&pins[1].own)?];
         let gap = sub(&second.r, &first.r);
         let size = norm(&gap);
-        let along = |axes: [[f64; 3]; 3]| axes.map(|axis| dot(&axis, &gap) / size);
+        let along = |axes: [[f64; 3]; 3]| axes.each(|axis| dot(&axis, &gap) / size);
         let markers = body["markers"].as_object()?.keys().map(|marker| format!("{name}.{marker}"));
         let axes =
             markers.map(|marker| Some((marker.clone(), along(facts.place(&marker)?.axes)))).collect::<Option<_>>()?;
@@ -77,7 +78,7 @@ impl Link {
 
     /// Markers of the other bodies at its ends.
     pub fn others(&self) -> [&str; 2] {
-        self.pins.each_ref().map(|pin| pin.other.as_str())
+        self.pins.each_ref().each(|pin| pin.other.as_str())
     }
 
     /// Puts a distance in its place.

@@ -6,6 +6,7 @@
 //! function and its rate over whole intervals; where these are too wide it is tested at samples as close as documented.
 //! A signal of the state is looked at as the function of t that it is if its argument goes on at its present rate.
 
+use crate::math::array::{Each, from_fn};
 use crate::math::expression::TimeFunction;
 use crate::math::signal::Signal;
 use crate::math::{Interval, Piece, Rate, Regime, Scalar, Taylor};
@@ -122,8 +123,8 @@ impl Watched<'_> {
     /// The time from which on the window that starts at `t` does not resolve the function; `None` where it does, or
     /// where the function is not finite.
     fn unseen(&mut self, regime: Regime, (t, window): (f64, f64), (shortest, beside): (f64, f64)) -> Option<f64> {
-        let times = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| t + part * window);
-        let nodes = times.map(|t| self.at(t, regime));
+        let times = [0.0, 0.25, 0.5, 0.75, 1.0].each(|part| t + part * window);
+        let nodes = times.each(|t| self.at(t, regime));
         if nodes.iter().any(|node| !node.x.is_finite()) {
             return None;
         }
@@ -194,14 +195,14 @@ impl Watched<'_> {
 
 /// Bounds in each quarter: the hull of its ends, widened by the smaller of the second differences at them.
 fn quarters(times: &[f64; 5], nodes: &[Taylor<f64>; 5]) -> [Quarter; 4] {
-    let levels = nodes.map(|node| [node.x, node.d]);
+    let levels = nodes.each(|node| [node.x, node.d]);
     let size = nodes.iter().fold(0.0, |size: f64, node| size.max(node.x.abs()));
     let bend = |i: usize, level: usize| match i {
         1..4 => (levels[i - 1][level] - 2.0 * levels[i][level] + levels[i + 1][level]).abs(),
         _ => f64::INFINITY,
     };
     std::array::from_fn(|i| {
-        let allowed = std::array::from_fn(|level| {
+        let allowed = from_fn(|level| {
             let small = (tolerances::SAME * size + tolerances::NO_FUNCTION) / (times[4] - times[0]).powi(level as i32);
             let margin = bend(i, level).min(bend(i + 1, level)) + small;
             let hull = Interval::new(levels[i][level], levels[i + 1][level]);

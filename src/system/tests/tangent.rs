@@ -4,10 +4,10 @@ use super::super::variation::{SeedDirection, SeededBody};
 use super::super::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Tangent, Terms};
 use crate::body::{Dual6, Frame, Wrench};
 use crate::joint::{ClosedForm, Joint, JointKernel, Lock};
+use crate::math::array::from_fn;
 use crate::math::{Scalar, Taylor, Time};
 use crate::scene::{AnyModel, Model, Scene};
 use serde_json::{Value, json};
-use std::array::from_fn;
 
 /// Sums of a few products of numbers up to 10.
 const ROUND_OFF: f64 = 1e-13;

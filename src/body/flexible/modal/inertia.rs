@@ -6,8 +6,8 @@ use crate::body::flexible::eigen::first_dependent;
 use crate::body::flexible::shape::Piece;
 use crate::body::{cross, in_space};
 use crate::error::{Error, Result};
+use crate::math::array::{Each, from_fn};
 use faer::Mat;
-use std::array::from_fn;
 
 /// Mass integrals of point masses with known motion in the modes: exact in every term.
 pub fn of_lumped<const D: usize>(masses: &[Lumped<Array>], n: usize) -> Result<Piece<D>> {
@@ -45,7 +45,7 @@ pub fn of_couplings<const D: usize>(data: &ModalData<Array>, mass: &Mat<f64>) ->
         piece.moments[1 + i] = from_fn(|k| linear[i * D + k]);
         let h = if D == 2 { [0.0, 0.0, angular[i]] } else { from_fn(|k| angular[i * 3 + k]) };
         piece.products[1 + i] = antisymmetric(h);
-        piece.products[(1 + i) * (1 + n)] = antisymmetric(h.map(|h| -h));
+        piece.products[(1 + i) * (1 + n)] = antisymmetric(h.each(|h| -h));
         for j in 0..n {
             let product = &mut piece.products[(1 + i) * (1 + n) + 1 + j];
             (0..D).for_each(|k| product[k][k] = mass[(i, j)] / D as f64);
@@ -79,7 +79,7 @@ fn rigid<const D: usize>(piece: &mut Piece<D>, data: &ModalData<Array>) -> Resul
         (_, 6) => spread(inertia.fit("inertia", &[6])?),
         _ => spread(&[inertia.fit("inertia", &[3])?, &[0.0; 3]].concat()),
     };
-    piece.moments[0] = center.map(|c| piece.mass * c);
+    piece.moments[0] = center.each(|c| piece.mass * c);
     piece.products[0] = from_fn(|k| from_fn(|m| inertia[k][m] + piece.mass * center[k] * center[m]));
     Ok(())
 }

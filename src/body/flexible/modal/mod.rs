@@ -13,9 +13,9 @@ use super::eigen::entries;
 use super::shape::{Elastic, Inertia, PointShape};
 use crate::body::{Build, parse};
 use crate::error::{Error, Result, short};
+use crate::math::array::from_fn;
 use crate::math::memory::refuse_dense;
 use faer::{Mat, Side};
-use std::array::from_fn;
 use std::path::Path;
 
 /// A body in modal coordinates with the nodes that its markers may name.

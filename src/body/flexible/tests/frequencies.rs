@@ -1,6 +1,7 @@
 //! Natural frequencies against closed forms, and how fast they converge with the number of elements.
 
 use super::*;
+use crate::math::array::from_fn;
 use std::f64::consts::PI;
 
 const L: f64 = 1.5;
@@ -82,7 +83,7 @@ fn bending_with_shear_meets_the_closed_form() {
 type Square = [[f64; 4]; 4];
 
 fn product(a: &Square, b: &Square) -> Square {
-    std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum()))
+    from_fn(|i| from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
 /// How (w, turn, moment, shear force) at the right end follow from those at the left: the exponential of length times
@@ -96,13 +97,13 @@ fn transfer(omega: f64, ga: f64, rho_i: f64) -> Square {
         [0.0, -rho_i * square, 0.0, -1.0],
         [-RHO_A * square, 0.0, 0.0, 0.0],
     ];
-    let identity: Square = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }));
+    let identity: Square = from_fn(|i| from_fn(|j| if i == j { 1.0 } else { 0.0 }));
     // Horner's scheme for the series, then ten squarings.
     let mut sum = identity;
     for k in (1..=8).rev() {
         let scaled = a.map(|row| row.map(|x| x * step / f64::from(k)));
         let next = product(&scaled, &sum);
-        sum = std::array::from_fn(|i| std::array::from_fn(|j| identity[i][j] + next[i][j]));
+        sum = from_fn(|i| from_fn(|j| identity[i][j] + next[i][j]));
     }
     (0..10).fold(sum, |power, _| product(&power, &power))
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::body::flexible::{Piece, gauss_legendre, on_interval};
-use std::array::from_fn;
+use crate::math::array::from_fn;
 use std::f64::consts::PI;
 
 const L: f64 = 1.5;

@@ -13,10 +13,10 @@ use super::integrals::mass_matrix;
 use super::{Elastic, FlexibleBeam, Piece, elastic_beam};
 use crate::body::{Build, MarkerTable, cross};
 use crate::error::Result;
+use crate::math::array::from_fn;
 use crate::math::expression::{Number, Parameters};
 use faer::Mat;
 use serde_json::{Value, json};
-use std::array::from_fn;
 
 /// A beam with parameters `l` = 1.5, `n` = 2.
 fn build<const D: usize>(scene: &Value, markers: &[f64]) -> Result<Elastic<D>> {

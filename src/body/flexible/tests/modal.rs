@@ -4,6 +4,7 @@ use super::npy::{bytes, npy};
 use super::*;
 use crate::body::flexible::modal::{Array, Lumped, ModalBody, ModalData, ModalShapes, Node, Nodes};
 use crate::body::flexible::{PointShape, gauss_legendre, on_interval};
+use crate::math::array::from_fn;
 use std::io::Write;
 use std::path::Path;
 
@@ -43,7 +44,7 @@ fn rotation<const D: usize>(point: &PointShape<D>) -> Array {
 }
 
 fn at<const D: usize>(rod: &Elastic<D>, place: [f64; 3]) -> PointShape<D> {
-    rod.line.as_ref().unwrap().point(std::array::from_fn(|k| place[k]))
+    rod.line.as_ref().unwrap().point(from_fn(|k| place[k]))
 }
 
 /// The beam as another program would export it: masses at its points of integration and at arms beside them.

@@ -10,6 +10,7 @@
 use super::groups::LARGEST;
 use super::judge::Judge;
 use super::lanes::Lanes;
+use crate::math::array::from_fn;
 use std::ops::Range;
 
 /// A body with its entries of M.
@@ -61,7 +62,7 @@ impl Dense {
     ) -> Result<(), usize> {
         let mut m = [[0.0; LARGEST]; LARGEST];
         self.entries.iter().for_each(|&(entry, p, q)| m[p][q] += mass[entry]);
-        let sizes: [f64; LARGEST] = std::array::from_fn(|p| m[p][p]);
+        let sizes: [f64; LARGEST] = from_fn(|p| m[p][p]);
         for p in 0..self.width {
             let own = judge.inverse(m[p][p], (sizes[p], 1.0), || self.first + p)?;
             inverse[self.first + p] = own;

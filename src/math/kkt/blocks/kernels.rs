@@ -4,7 +4,7 @@ use super::groups::LARGEST;
 use super::judge::Judge;
 use super::lanes::Lanes;
 use super::layout::{Layout, Run};
-use std::array::from_fn;
+use crate::math::array::from_fn;
 
 /// The first N numbers from `place` on.
 #[inline(always)]

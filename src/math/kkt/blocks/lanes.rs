@@ -1,5 +1,6 @@
 //! Right sides of a solution.
 
+use crate::math::array::Each;
 use std::ops::{Add, Mul, Sub};
 
 /// An entry of one right side, or of several side by side, for which a solution costs little more than for one.
@@ -33,6 +34,6 @@ impl Mul<f64> for Pair {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
-        Pair(self.0.map(|x| x * factor))
+        Pair(self.0.each(|x| x * factor))
     }
 }

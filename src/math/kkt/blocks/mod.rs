@@ -26,6 +26,7 @@ mod schur;
 
 use super::pivot::{Quality, Rule};
 use super::system::add;
+use crate::math::array::{Each, from_fn};
 use dense::Dense;
 use factors::Factors;
 pub(super) use groups::Groups;
@@ -35,7 +36,6 @@ use lanes::Pair;
 pub(super) use layout::Layout;
 use layout::Run;
 use schur::Schur;
-use std::array::from_fn;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -280,7 +280,7 @@ impl Blocks {
         let sizes = at::<_, W>(&self.sizes, first);
         let (Some(rows), Some(sizes)) = (rows.first_chunk::<W>(), sizes) else { return };
         let l = |i: usize, p: usize| if i == p { 1.0 } else { rows[i][p] };
-        let scale = sizes.map(|size| size.sqrt().recip());
+        let scale = sizes.each(|size| size.sqrt().recip());
         let mut block = [[0.0; W]; W];
         for (i, j) in (0..W).flat_map(|i| (0..=i).map(move |j| (i, j))) {
             let sum: f64 = (0..=j).map(|p| l(i, p) * -rows[p][p] * l(j, p)).sum();
@@ -294,7 +294,7 @@ impl Blocks {
             is_left[next] = false;
             *ratio = block[next][next];
             let row = block[next];
-            let part = row.map(|x| x / *ratio);
+            let part = row.each(|x| x / *ratio);
             for i in (0..W).filter(|&i| is_left[i]) {
                 (0..W).for_each(|j| block[i][j] -= row[i] * part[j]);
             }

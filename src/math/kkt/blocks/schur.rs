@@ -4,7 +4,7 @@ use super::bodies::{Bodies, Run, Side};
 use super::groups::LARGEST;
 use super::kernels::{at, at_mut, subtract};
 use super::lanes::Lanes;
-use std::array::from_fn;
+use crate::math::array::from_fn;
 use std::slice::Iter;
 
 /// The Schur complement as it is made.
