@@ -65,3 +65,28 @@ fn links_lead_to_chapters() {
         }
     }
 }
+
+/// The files that `![...](...)` and `src="..."` show, from a folder.
+fn pictures(text: &str, folder: &str) -> Vec<std::path::PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let named = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+    let tags = text.split("src=\"").skip(1).filter_map(|rest| rest.split('"').next());
+    let is_picture = |file: &&str| [".png", ".gif", ".svg"].iter().any(|ending| file.ends_with(ending));
+    named.chain(tags).filter(is_picture).map(|file| root.join(file)).collect()
+}
+
+#[test]
+fn pictures_are_there() {
+    let mut shown = pictures(&readme(), "");
+    assert!(shown.len() >= 6, "{shown:?}");
+    shown.extend(CHAPTERS.iter().flat_map(|chapter| pictures(chapter.text, "src/guide")));
+    for file in shown {
+        assert!(file.is_file(), "{}", file.display());
+    }
+}
+
+#[test]
+fn the_gallery_shows_each_of_its_mechanisms() {
+    let gallery = text("gallery");
+    assert_eq!(pictures(gallery, "src/guide").len(), gallery.matches("\n## ").count());
+}

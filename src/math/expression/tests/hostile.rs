@@ -44,7 +44,7 @@ fn survive(text: &str) {
         Err(error) => {
             let at = error.position.unwrap_or(1);
             assert!(at >= 1 && at <= text.chars().count() + 1 && !error.to_string().is_empty());
-            let _ = crate::Error::from(error).to_string();
+            let _ = crate::error::Error::from(error).to_string();
         }
     }
 }

@@ -1,0 +1,103 @@
+//! The tests inside of source files, which need what is private there.
+//!
+//! Only the files below are compiled for them, not the whole library a second time. They see each other as they do in
+//! the library. A test of something that needs more of it belongs into another folder of `tests`.
+#![allow(dead_code, unused_imports, unused_macros)]
+
+#[path = "../../src/body/mod.rs"]
+mod body;
+#[path = "../../src/clock.rs"]
+mod clock;
+#[path = "../../src/error.rs"]
+mod error;
+#[path = "../../src/files/mod.rs"]
+mod files;
+#[path = "../../src/forward.rs"]
+mod forward;
+#[path = "../../src/math/mod.rs"]
+mod math;
+#[path = "../../src/plot/mod.rs"]
+mod plot;
+#[path = "../../src/tolerances/mod.rs"]
+mod tolerances;
+
+#[path = "../../src/cli"]
+mod cli {
+    mod terminal;
+}
+
+#[path = "../../src/compare"]
+mod compare {
+    mod stress {
+        mod json;
+        mod queue;
+    }
+}
+
+#[path = "../../src/import"]
+mod import {
+    mod close;
+    mod names;
+    mod transform;
+    mod xml;
+    mod scene {
+        mod valid;
+    }
+}
+
+#[path = "../../src/integrator"]
+mod integrator {
+    mod stability;
+    mod adams {
+        mod coefficients;
+    }
+    mod radau_iia {
+        mod collocation;
+    }
+}
+
+#[path = "../../src/report"]
+mod report {
+    mod linear {
+        mod ranges;
+        mod rays;
+    }
+    mod mechanism {
+        mod hull;
+        mod view;
+    }
+}
+
+#[path = "../../src/scene"]
+mod scene {
+    mod budget;
+    mod fingerprint;
+    mod json;
+    mod locate;
+    mod refine;
+    mod repeat;
+    pub mod units;
+}
+
+#[path = "../../src/simplify"]
+mod simplify {
+    mod edit;
+}
+
+#[path = "../../src/simulate"]
+mod simulate {
+    mod passage;
+    mod events {
+        mod range;
+    }
+}
+
+#[path = "../../src/sweep"]
+mod sweep {
+    mod range;
+}
+
+#[path = "../../src/validate"]
+mod validate {
+    mod order;
+}
