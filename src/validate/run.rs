@@ -112,7 +112,7 @@ pub fn validate_until(
     Ok(Validation {
         t: start.t,
         chart: name,
-        followed,
+        followed: sequences.iter().map(|sequence| reached(sequence, followed)).reduce(f64::max).unwrap_or(followed),
         singular,
         rate: norm.rate,
         sequences,
@@ -124,10 +124,15 @@ pub fn validate_until(
     })
 }
 
-/// The part of a time over which a motion was followed, if it is not the whole.
-fn shortened(sequence: &PerturbationSequence, followed: f64) -> Option<String> {
-    let came = sequence.times.last().copied().filter(|t| *t < 0.999 * followed)?;
-    Some(format!("along {} the motion was followed for {came:.2e} s of {followed:.2e} s", sequence.direction))
+/// The time over which a motion was followed: all that was asked for, unless the budget ended it.
+fn reached(sequence: &PerturbationSequence, asked: f64) -> f64 {
+    sequence.times.last().copied().filter(|t| *t < 0.999 * asked).unwrap_or(asked)
+}
+
+/// A sentence on a motion that was not followed for all of the time.
+fn shortened(sequence: &PerturbationSequence, asked: f64) -> Option<String> {
+    let came = Some(reached(sequence, asked)).filter(|came| *came < asked)?;
+    Some(format!("along {} the motion was followed for {came:.2e} s of {asked:.2e} s", sequence.direction))
 }
 
 fn judge(sequences: &[PerturbationSequence], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {

@@ -80,7 +80,7 @@ fn turns_that_go_on_are_no_end() {
     for force in ["-5*sign(m.x - 1e-3) + 10*sin(500*t)", "10 + 0.01*sign(sin(20*m.x))"] {
         let scene = pushed(force);
         for names in ADAPTIVE {
-            let (outcome, _) = attempt(&scene, &method(names, 1e-6), 10.0);
+            let (outcome, _) = attempt(&scene, &method(names, 1e-6), 3.0);
             assert_eq!(outcome.failure, None, "{names:?} {force}");
         }
     }

@@ -79,7 +79,7 @@ fn norms(record: &Record) -> f64 {
     starts.flat_map(|i| rows.iter().map(move |row| (norm(i, row) - 1.0).abs())).fold(0.0, f64::max)
 }
 
-fn every_method_keeps_its_promises(numbers: std::ops::Range<u64>) {
+fn every_method_keeps_its_promises(numbers: impl Iterator<Item = u64>) {
     for number in numbers {
         let ready = recipe(number).scene();
         let reference = run(&ready, &tight(1e-12)).unwrap();
@@ -89,16 +89,17 @@ fn every_method_keeps_its_promises(numbers: std::ops::Range<u64>) {
     }
 }
 
+/// A loop in the plane, and one in space.
 #[test]
-fn every_method_keeps_its_promises_on_four_mechanisms() {
+fn every_method_keeps_its_promises_on_two_mechanisms() {
     assert!(all().len() > 280);
-    every_method_keeps_its_promises(0..4);
+    every_method_keeps_its_promises(2..4);
 }
 
 #[test]
 #[ignore = "takes minutes"]
 fn every_method_keeps_its_promises_on_more_mechanisms() {
-    every_method_keeps_its_promises(4..24);
+    every_method_keeps_its_promises((0..2).chain(4..24));
 }
 
 /// Exact on the constraints, and so accurate that the other way to see a scene shows.

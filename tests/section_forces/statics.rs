@@ -31,7 +31,7 @@ fn arc(frame: &str, theory: &str, elements: usize, force: f64) -> Ready {
 fn an_arc_carries_its_load_at_every_section() {
     let force = 1e-3;
     let cases = ["tangent", "mean", "absolute"].into_iter().flat_map(|frame| THEORIES.map(|theory| (frame, theory)));
-    for ((frame, theory), elements) in cases.flat_map(|case| [1, 4, 16, 64].map(|n| (case, n))) {
+    for ((frame, theory), elements) in cases.flat_map(|case| [1, 4, 16].map(|n| (case, n))) {
         let (_, out) = at_rest(&arc(frame, theory, elements, force), 0.0);
         for (part, section) in [0.0, 0.1, 0.37, 0.5, 0.77, 1.0].into_iter().zip(out.chunks(6)) {
             let (sin, cos) = ((1.0 - part) * FRAC_PI_2).sin_cos();

@@ -96,9 +96,10 @@ impl ValidationFile {
     pub fn text(&self, found: &Validation) -> String {
         let mut table = Table::new(&["perturbation", "order in eps", "decades", "1 % after (s)", "10 % after (s)"]);
         for sequence in &found.sequences {
+            let end = sequence.times.last().map_or(found.followed, |t| t.min(found.followed));
             let [one, ten] = sequence
                 .horizons
-                .map(|time| time.map_or(format!("> {}", significant(found.followed, 3)), |time| significant(time, 4)));
+                .map(|time| time.map_or(format!("> {}", significant(end, 3)), |time| significant(time, 4)));
             table.row([sequence.direction.clone(), order(&sequence.order_ltv), decades(&sequence.order_ltv), one, ten]);
         }
         for input in &found.inputs {
