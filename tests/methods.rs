@@ -25,6 +25,7 @@ mod restart;
 mod robot_arm;
 mod scenes;
 mod singular;
+mod spectrum;
 mod stability_limits;
 mod states;
 mod steady;

@@ -241,3 +241,10 @@ fn no_corner_and_no_method_takes_the_budget_of_others() {
         assert!((0..2).all(|method| stressed.cell(method, 4, 3).unwrap().status == Status::Completed), "{name}");
     }
 }
+
+#[test]
+fn unknown_extremes_suggest_the_nearest() {
+    assert!(find("mass-ratio").is_ok());
+    let error = find("stifness").err().map(|error| error.to_string());
+    assert!(error.is_some_and(|error| error.contains("did you mean `stiffness`?")));
+}

@@ -1,6 +1,6 @@
 //! Motions that a force feeds without end.
 
-use super::energy::Ledger;
+use super::ledger::Ledger;
 use crate::simulate::{Observation, Stop};
 use crate::system::{Feed, MechanicalSystem, Scratch};
 use crate::tolerances::report as tolerances;

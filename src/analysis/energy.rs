@@ -1,5 +1,6 @@
 //! The energy balance: kinetic + potential = initial + work.
 
+use super::ledger::Ledger;
 use crate::simulate::Observation;
 use crate::system::{MechanicalSystem, Scratch};
 use crate::tolerances::report as tolerances;
@@ -102,19 +103,6 @@ pub struct EnergyMeter {
     /// Error of the balance at the last state, J.
     error: f64,
     worst: WorstStep,
-}
-
-/// Energies at one state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ledger {
-    /// Kinetic energy, J.
-    pub kinetic: f64,
-    /// Potential energy, J.
-    pub potential: f64,
-    /// Work of non-conservative forces and moving constraints since the start, J.
-    pub work: f64,
-    /// kinetic + potential - initial - work, J.
-    pub error: f64,
 }
 
 impl EnergyBalance {

@@ -6,6 +6,7 @@ mod drift;
 mod energy;
 mod extremes;
 mod held;
+mod ledger;
 mod range;
 mod rank;
 mod recorder;
@@ -16,8 +17,10 @@ mod thinned;
 pub use drift::{Drift, DriftLevel};
 pub use energy::EnergyBalance;
 #[doc(hidden)]
-pub use energy::{EnergyMeter, Ledger, WorstRow, WorstStep};
+pub use energy::{EnergyMeter, WorstRow, WorstStep};
 pub use extremes::Extremes;
+#[doc(hidden)]
+pub use ledger::Ledger;
 #[doc(hidden)]
 pub use range::{LargestDeformation, Leap, Range};
 pub use rank::Rank;

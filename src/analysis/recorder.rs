@@ -2,8 +2,9 @@
 
 use super::divergence::Divergence;
 use super::drift::Drift;
-use super::energy::{EnergyBalance, EnergyMeter, Ledger, WorstRow, WorstStep};
+use super::energy::{EnergyBalance, EnergyMeter, WorstRow, WorstStep};
 use super::extremes::Extremes;
+use super::ledger::Ledger;
 use super::range::Range;
 use super::singularity::{Singularity, Watch};
 use super::thinned::thin;

@@ -16,6 +16,7 @@ mod frequency;
 mod independent;
 mod input_states;
 mod kink;
+mod least_norm;
 mod lift;
 mod lyapunov;
 mod matching;

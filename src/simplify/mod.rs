@@ -27,6 +27,7 @@ mod candidates;
 mod displaced;
 mod edit;
 mod facts;
+mod grid;
 mod held;
 mod modes;
 mod moved;

@@ -1,5 +1,6 @@
 //! A run of the full model with its states.
 
+use super::grid::rows_on_grid;
 use super::run::counted;
 use crate::analysis::{Singularity, Sizes, Watch};
 use crate::compare::work_precision::Watched;
@@ -8,7 +9,6 @@ use crate::linearize::State;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
 use crate::system::{MechanicalSystem, Scratch};
-use crate::tolerances::SAME;
 
 /// Reason of a run that was stopped.
 const INTERRUPTED: &str = "interrupted";
@@ -40,10 +40,11 @@ impl Recorded {
 
     /// Forgets the last row of a run that was stopped if that is where it was stopped, between the rows of others.
     pub fn end_on_grid(&mut self, span: Span) {
-        let rows = (self.end() - span.start) / span.output_step;
-        if self.stopped.is_some() && (rows - rows.round()).abs() > SAME {
-            self.rows.pop();
-            self.states.pop();
+        if self.stopped.is_some() {
+            let times = self.states.iter().map(|state| state.t);
+            let count = rows_on_grid(times, span.start, span.output_step);
+            self.rows.truncate(count);
+            self.states.truncate(count);
         }
     }
 }
@@ -110,26 +111,5 @@ impl Sink for Memory<'_> {
 
     fn stops(&self) -> Option<Stop> {
         (self.is_stopped)().then(|| Stop { reason: INTERRUPTED.to_string(), hint: "give it more time".to_string() })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_run_that_was_stopped_ends_on_a_row_that_others_have() {
-        let span = Span { start: 0.0, end: 1.0, output_step: 0.1 };
-        for (times, end) in [([0.0, 0.1, 0.15], 0.1), ([0.0, 0.1, 0.2], 0.2)] {
-            let states = times.iter().map(|&t| State { t, q: Vec::new(), v: Vec::new() }).collect();
-            let stopped = Some(Failure { reason: INTERRUPTED.to_string(), hint: String::new(), t: times[2] });
-            let rows = times.iter().map(|&t| vec![t]).collect();
-            let sizes = Sizes::default();
-            let redundant = Vec::new();
-            let singularity = Singularity::default();
-            let mut recorded = Recorded { rows, sizes, stopped, work: 0.0, states, redundant, singularity };
-            recorded.end_on_grid(span);
-            assert_eq!((recorded.end(), recorded.rows.last()), (end, Some(&vec![end])));
-        }
     }
 }

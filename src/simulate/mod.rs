@@ -14,6 +14,7 @@ mod observed;
 mod output;
 mod passage;
 mod plan;
+mod rate_bound;
 mod rows;
 mod segments;
 mod spectrum;

@@ -1,9 +1,10 @@
 //! The modes of a mechanism at one state of its motion.
 
+use super::rate_bound::rate_bound;
 use crate::error::short;
 use crate::formulation::{Dynamics, free_directions, reduce};
 use crate::math::array::Each;
-use crate::math::{dot, largest, norm};
+use crate::math::{dot, norm};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use crate::tolerances::initial::DENSE_EIGENVALUES;
 use crate::tolerances::simulate as tolerances;
@@ -74,10 +75,6 @@ pub fn fastest(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<S
 
 /// A rate that no mode exceeds, 1/s, from sums over rows of K, C and M alone; `None` as for [`Spectrum::at`], and where
 /// M has no dominant diagonal.
-///
-/// With M >= D, diagonal, a mode of velocity x has abs(s)^2 <= c abs(s) + k for the norms k and c of D^-1/2 K D^-1/2 and
-/// D^-1/2 C D^-1/2, which are at most the roots of their largest sums over rows times columns; constraints only take
-/// directions away.
 pub fn bound(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<f64> {
     let structure = system.structure();
     let mut scratch = Scratch::default();
@@ -87,25 +84,7 @@ pub fn bound(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<f64
     if !system.tangent(state, &mut tangent, &mut scratch) {
         return None;
     }
-    let mut least = vec![0.0; structure.mass.rows];
-    for (&(i, j), &mass) in structure.mass.entries.iter().zip(&terms.mass) {
-        if i == j { least[i] += mass } else { [i, j].iter().for_each(|&i| least[i] -= mass.abs()) }
-    }
-    let roots: Vec<f64> = least.iter().map(|mass| mass.sqrt()).collect();
-    let norm = |values: &[f64]| {
-        let mut rows = vec![0.0; roots.len()];
-        let mut columns = vec![0.0; roots.len()];
-        for (&(i, j), value) in structure.tangent.entries.iter().zip(values).filter(|(_, value)| **value != 0.0) {
-            let size = value.abs() / (roots[i] * roots[j]);
-            rows[i] += size;
-            columns[j] += size;
-        }
-        (largest(&rows) * largest(&columns)).sqrt()
-    };
-    let k = norm(&tangent.k);
-    let c = norm(&tangent.c);
-    let bound = 0.5 * (c + (c * c + 4.0 * k).sqrt());
-    (least.iter().all(|mass| *mass > 0.0) && bound.is_finite()).then_some(bound)
+    rate_bound((&structure.mass, &terms.mass), (&structure.tangent, [&tangent.k, &tangent.c]))
 }
 
 type Matrix = nalgebra::DMatrix<f64>;
@@ -226,62 +205,4 @@ fn modes(k: &Matrix, c: &Matrix) -> Option<Vec<SpectralMode>> {
     let mut modes: Vec<SpectralMode> = upper.map(|value| SpectralMode { decay: -value.re, swing: value.im }).collect();
     modes.sort_by(|a, b| a.rate().total_cmp(&b.rate()));
     Some(modes)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Frozen, SpectralMode, Spectrum};
-    use crate::math::Scalar;
-    use crate::system::{Equations, OperatingPoint};
-
-    /// Two masses, 1 and 3 kg, that a joint holds together, on a spring and a damper.
-    struct TwoMass {
-        stiffness: f64,
-        damping: f64,
-    }
-
-    impl Equations for TwoMass {
-        fn size(&self) -> (usize, usize) {
-            (2, 1)
-        }
-        fn mass<S: Scalar>(&self, _: S, _: &[S], mass: &mut [S]) {
-            mass.copy_from_slice(&[S::one(), S::zero(), S::zero(), S::constant(3.0)]);
-        }
-        fn force<S: Scalar>(&self, _: S, q: &[S], v: &[S], f: &mut [S]) {
-            f.copy_from_slice(&[-(q[0] * self.stiffness) - v[0] * self.damping, S::zero()]);
-        }
-        fn phi<S: Scalar>(&self, _: S, q: &[S], phi: &mut [S]) {
-            phi[0] = q[1] - q[0];
-        }
-    }
-
-    const STATE: OperatingPoint =
-        OperatingPoint { t: 0.0, q: &[0.0; 2], v: &[0.0; 2], vdot: &[0.0; 2], lambda: &[0.0] };
-
-    fn modes(stiffness: f64, damping: f64) -> [Option<Vec<SpectralMode>>; 2] {
-        let system = TwoMass { stiffness, damping };
-        let all = Spectrum::at(&system, STATE).map(|spectrum| spectrum.modes);
-        [all, Frozen::new(&system, STATE).and_then(|mut frozen| frozen.fastest())]
-    }
-
-    /// 4 x'' + c x' + k x = 0, all modes at once and the fastest by iteration.
-    #[test]
-    fn modes_are_those_of_the_free_coordinates() {
-        for (stiffness, damping, fast) in [
-            (100.0, 0.0, [0.0, 5.0]),
-            (100.0, 2.0, [0.25, (25.0f64 - 1.0 / 16.0).sqrt()]),
-            (100.0, 50.0, [10.0, 0.0]),
-            (-100.0, 0.0, [5.0, 0.0]),
-        ] {
-            let system = TwoMass { stiffness, damping };
-            let bound = super::bound(&system, STATE).unwrap_or(0.0);
-            assert!(bound >= fast[0].hypot(fast[1]), "{stiffness} {damping}: {bound}");
-            for modes in modes(stiffness, damping) {
-                let modes = modes.unwrap_or_default();
-                let last = modes.last().copied().unwrap_or(SpectralMode { decay: f64::NAN, swing: f64::NAN });
-                let off = (last.decay.abs() - fast[0]).abs() + (last.swing - fast[1]).abs();
-                assert!(off < 1e-9, "{stiffness} {damping}: {modes:?}");
-            }
-        }
-    }
 }

@@ -21,6 +21,16 @@ mod plot;
 #[path = "../../src/tolerances/mod.rs"]
 mod tolerances;
 
+#[path = "../../src/analysis"]
+mod analysis {
+    mod ledger;
+    mod thinned;
+    pub use ledger::Ledger;
+    mod held {
+        mod end;
+    }
+}
+
 #[path = "../../src/cli"]
 mod cli {
     mod terminal;
@@ -30,6 +40,8 @@ mod cli {
 mod compare {
     mod stress {
         mod json;
+        mod ladder;
+        mod period;
         mod queue;
     }
 }
@@ -56,9 +68,16 @@ mod integrator {
     }
 }
 
+#[path = "../../src/linearize"]
+mod linearize {
+    mod least_norm;
+    pub use nalgebra::Complex;
+}
+
 #[path = "../../src/report"]
 mod report {
     mod linear {
+        mod phase;
         mod ranges;
         mod rays;
     }
@@ -82,11 +101,13 @@ mod scene {
 #[path = "../../src/simplify"]
 mod simplify {
     mod edit;
+    mod grid;
 }
 
 #[path = "../../src/simulate"]
 mod simulate {
     mod passage;
+    mod rate_bound;
     mod events {
         mod range;
     }

@@ -1,6 +1,7 @@
 //! The stress parameters: quantities that a map can vary over many powers of ten.
 
 use super::json::{elements, faster, has, multiply, replace};
+use super::ladder::{decades, sequence};
 use super::subject::Case;
 use super::subject::Subject;
 use crate::error::{Error, Result};
@@ -296,41 +297,5 @@ fn quicken(scene: &mut Value, factor: f64) {
         for key in ["value", "expression"] {
             joint.get_mut(key).into_iter().for_each(|value| faster(value, factor));
         }
-    }
-}
-
-/// Returns 1, 2, 5, 10, 20 ... from `low` to `high`.
-fn sequence(low: f64, high: f64) -> Vec<f64> {
-    let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
-    let rungs = decades.flat_map(|exponent| [1, 2, 5].map(|digit| decimal(digit, exponent)));
-    rungs.filter(|rung| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(rung)).collect()
-}
-
-/// Returns every `stride`-th power of ten.
-fn decades(from: i32, to: i32, stride: usize) -> Vec<f64> {
-    (from..=to).step_by(stride).map(|exponent| decimal(1, exponent)).collect()
-}
-
-/// Returns the number nearest to digit 10^exponent.
-fn decimal(digit: u32, exponent: i32) -> f64 {
-    format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ladders_have_round_rungs() {
-        assert_eq!(sequence(4e-3, 0.11), [5e-3, 0.01, 0.02, 0.05, 0.1]);
-        assert_eq!(sequence(1.0, 1.0), [1.0]);
-        assert_eq!(decades(-4, 4, 4), [1e-4, 1.0, 1e4]);
-    }
-
-    #[test]
-    fn unknown_extremes_suggest_the_nearest() {
-        assert!(find("mass-ratio").is_ok());
-        let error = find("stifness").err().map(|error| error.to_string());
-        assert!(error.is_some_and(|error| error.contains("did you mean `stiffness`?")));
     }
 }
