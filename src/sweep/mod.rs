@@ -40,8 +40,6 @@
 mod branch;
 mod family;
 mod range;
-#[cfg(test)]
-mod tests;
 mod walk;
 
 pub use family::Family;

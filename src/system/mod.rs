@@ -30,8 +30,6 @@ mod support;
 mod switching;
 mod tangent;
 mod terms;
-#[cfg(test)]
-mod tests;
 mod turnings;
 mod variation;
 mod view;

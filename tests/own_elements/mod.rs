@@ -3,4 +3,5 @@
 
 mod bodies;
 mod equations;
+mod passes;
 mod refused;

@@ -3,8 +3,6 @@
 mod christoffel;
 mod jet;
 mod passes;
-#[cfg(test)]
-mod tests;
 
 use super::{
     Column, Dimensions, Energy, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Scratch, Tangent,

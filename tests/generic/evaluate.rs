@@ -1,7 +1,8 @@
-//! Poses and closed formulas against frames and kernels over Taylor and dual numbers, which define the equations.
+//! M, f, the constraints and G.
 
-use super::super::{MechanicalSystem, Mechanism, Need, Scratch, Terms};
-use crate::scene::{AnyModel, Model, Scene};
+use super::{planar, spatial, with_generic_bodies, with_generic_joints};
+use holonom::scene::Model;
+use holonom::system::{MechanicalSystem, Mechanism, Need, Scratch, Terms};
 use serde_json::{Map, Value, json};
 
 const AXIS: [f64; 3] = [0.2, -0.5, 0.7];
@@ -84,12 +85,8 @@ fn terms<const D: usize>(mechanism: &Mechanism<D>, q: &[f64], v: &[f64]) -> Map<
 /// Compares both ways at some states, on the constraints and off.
 fn agree<const D: usize>(model: impl Fn() -> Model<D>, case: &str) {
     let closed = Mechanism::new(model());
-    assert_eq!(closed.rigid.joints[0].joints.len(), 1, "{case}");
-    let mut generic = Mechanism::new(model());
-    generic.rigid.joints.clear();
-    generic.rigid.general_joints = vec![0, 1];
-    generic.rigid.freedoms.fill(None);
-    generic.rigid.are_all_rigid = false;
+    assert!(closed.model().joints[0].element.closed_form().is_some(), "{case}");
+    let generic = Mechanism::new(with_generic_bodies(with_generic_joints(model())));
     let n = closed.dimensions();
     for seed in 0..4 {
         let q = numbers(n.q, seed);
@@ -100,7 +97,9 @@ fn agree<const D: usize>(model: impl Fn() -> Model<D>, case: &str) {
         let largest = expected.values().flat_map(values).fold(1.0, |size: f64, x| size.max(x.abs()));
         let tolerance = 50.0 * f64::EPSILON * largest;
         for (name, expected) in &expected {
-            for (i, (x, y)) in values(&found[name]).into_iter().zip(values(expected)).enumerate() {
+            let found = values(&found[name]);
+            assert_eq!(found.len(), values(expected).len(), "{case}: {name}");
+            for (i, (x, y)) in found.into_iter().zip(values(expected)).enumerate() {
                 assert!((x - y).abs() <= tolerance, "{case}: {name}[{i}] is {x}, not {y}");
             }
         }
@@ -124,12 +123,11 @@ fn closed_formulas_give_what_the_kernels_give() {
                 pairs.extend([["D.p", "A.p"], ["C.p", "D.p"]]);
             }
             for between in pairs {
-                let text = scene(dimension, &joint, between).to_string();
-                let model = || Scene::parse(&text, &[]).unwrap_or_else(|error| panic!("{error}: {text}")).model;
+                let scene = scene(dimension, &joint, between);
                 let case = format!("{joint} between {between:?}");
                 match dimension {
-                    2 => agree(|| if let AnyModel::Planar(model) = model() { model } else { panic!() }, &case),
-                    _ => agree(|| if let AnyModel::Spatial(model) = model() { model } else { panic!() }, &case),
+                    2 => agree(|| planar(&scene), &case),
+                    _ => agree(|| spatial(&scene), &case),
                 }
             }
         }

@@ -1,7 +1,7 @@
-//! Branches against closed forms.
+//! Position sweeps: branches against closed forms.
 
-use super::*;
-use crate::prepared::Overrides;
+use holonom::prepared::Overrides;
+use holonom::sweep::{Family, Nearest, Point, Sweep};
 use std::f64::consts::TAU;
 
 /// Crank `a` at the origin, coupler `b`, rocker `c` at (g, 0); the crank is held at `angle`. The guess is that of
@@ -141,8 +141,7 @@ fn values_beyond_what_expressions_are_defined_for_are_ends() {
 
 #[test]
 fn redundant_constraints_are_not_singular() {
-    let family =
-        Family::parse(include_str!("../../models/parallelogram_redundant.json"), &Overrides::default()).unwrap();
+    let family = Family::parse(include_str!("../models/parallelogram_redundant.json"), &Overrides::default()).unwrap();
     let sweep = sweep(&family, "angle0=0.5..1.2:5");
     // The rank indicator depends on the order of elimination and on which dependent row is dropped. It is never below
     // the smallest singular value of the unit rows that are left, with the held one: 0.033 to 0.093 here over all

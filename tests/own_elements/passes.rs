@@ -1,9 +1,7 @@
-//! One pass over jets against one pass for each derivative.
+//! The derivatives of own equations: one pass over jets against one pass for each derivative.
 
-use super::passes::output_slopes;
-use super::{Equations, MechanicalSystem, Need, Scratch, Terms};
-use crate::math::{Dual, Scalar, Taylor};
-use nalgebra::DMatrix;
+use holonom::math::{Dual, Scalar, Taylor};
+use holonom::system::{Equations, MechanicalSystem, Need, Scratch, Terms};
 
 /// Every operation of a scalar, over `0` coordinates and time.
 struct Rich(usize);
@@ -43,8 +41,13 @@ fn one_pass_gives_what_a_pass_for_each_derivative_does() {
             system.phi(Taylor::time(t), &path, &mut levels);
             levels
         };
-        let mut g = DMatrix::zeros(2, n);
-        output_slopes(&q, |q, rows| system.phi(Dual::fixed(t), q, rows), &mut g);
+        let column = |j: usize| {
+            let seeded = q.iter().enumerate().map(|(k, &x)| if k == j { Dual::seeded(x, 0) } else { Dual::fixed(x) });
+            let mut rows = [Dual::<f64, 1>::fixed(0.0); 2];
+            system.phi(Dual::fixed(t), &seeded.collect::<Vec<_>>(), &mut rows);
+            rows.map(|row| row.eps[0])
+        };
+        let g: Vec<[f64; 2]> = (0..n).map(column).collect();
         let moving = along(&v);
         let fixed = along(&vec![0.0; n]);
         // The same operations in another order: round-off of sums of n terms of size up to 3.
@@ -54,7 +57,7 @@ fn one_pass_gives_what_a_pass_for_each_derivative_does() {
             same(terms.phi_dot[i], moving[i].d);
             same(terms.gamma[i], -moving[i].dd);
             same(terms.phi_t[i], fixed[i].d);
-            (0..n).for_each(|j| same(terms.g[i * n + j], g[(i, j)]));
+            (0..n).for_each(|j| same(terms.g[i * n + j], g[j][i]));
         }
         let lower = (0..n).flat_map(|i| (0..=i).map(move |j| (i * n + j) as f64 + 0.3));
         assert!(lower.eq(terms.mass.iter().copied()));

@@ -1,2 +1,0 @@
-mod evaluate;
-mod tangent;
