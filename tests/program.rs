@@ -7,6 +7,7 @@ mod dependencies;
 mod errors;
 mod guide;
 mod layers;
+mod report;
 mod robustness;
 mod scenes;
 mod simplify;

@@ -61,30 +61,3 @@ pub fn cut_short(bars: &ErrorBars) -> Option<Warning> {
     };
     Some(Warning::new(text, hint))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::error::Failure;
-
-    /// What was interrupted is not helped by another method.
-    #[test]
-    fn the_hint_is_that_of_the_failure() {
-        let hint = |hint: &str| {
-            let failure = Failure { t: 1.0, reason: "interrupted".to_string(), hint: hint.to_string() };
-            let bars = ErrorBars {
-                rtol: 1e-9,
-                atol: 1e-11,
-                step: None,
-                work: 0.5,
-                outputs: Vec::new(),
-                second_opinion: None,
-                amplification: Err(String::new()),
-                failure: Some(failure),
-            };
-            cut_short(&bars).map(|warning| warning.hint)
-        };
-        assert_eq!(hint("it is in here"), Some("it is in here".to_string()));
-        assert!(hint("").is_some_and(|hint| hint.starts_with("compare with")));
-    }
-}

@@ -167,27 +167,3 @@ fn read_arrays(path: &Path) -> Result<Rows> {
 fn read_arrays(_: &Path) -> Result<Rows> {
     Err(Error::input("files of NumPy are not read without the feature `npz`"))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::fmt::Write;
-
-    /// 150,000 rows of two columns are more than are kept.
-    #[test]
-    fn long_tables_are_thinned_as_they_are_read() {
-        let mut text = "t,x\n".to_string();
-        for row in 0..150_000 {
-            let x = if row == 77_777 { 2.0 } else { (0.1 * f64::from(row)).sin() };
-            writeln!(text, "{row},{x}").unwrap();
-        }
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("trajectory.csv");
-        std::fs::write(&path, text).unwrap();
-        let (headings, all) = read_table(&path, false).unwrap();
-        assert!(headings == ["t", "x"] && all.len() == 150_000);
-        let (_, few) = read_table(&path, true).unwrap();
-        assert!(few.len() < 120_000 && few.contains(&vec![77_777.0, 2.0]), "{}", few.len());
-        assert_eq!([few.first(), few.last()], [all.first(), all.last()]);
-    }
-}

@@ -142,26 +142,3 @@ fn plain(value: &Value) -> String {
         other => other.as_str().map_or(other.to_string(), str::to_string),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::Settings;
-    use serde_json::json;
-
-    fn settings(command: &[&str], l: f64, rtol: f64) -> Settings {
-        let file = json!({ "command": command, "parameters": { "l": l }, "method": { "rtol": rtol }, "files": [] });
-        serde_json::from_str(&file.to_string()).unwrap()
-    }
-
-    #[test]
-    fn what_differs_is_told_and_what_changes_nothing_is_not() {
-        let old = settings(&["holonom", "simulate", "a.json", "--rtol", "1e-6", "--json"], 1.0, 1e-6);
-        let same = settings(&["x", "simulate", "a.json", "--figures", "png", "--rtol", "1e-6", "-o=b"], 1.0, 1e-6);
-        assert_eq!(old.replaced_by(&same), None);
-        let told = "the results of `holonom simulate a.json --rtol 1e-6`";
-        let other = settings(&["holonom", "simulate", "a.json"], 2.0, 1e-8);
-        assert_eq!(old.replaced_by(&other), Some(format!("{told} (l was 1, rtol was 1e-6)")));
-        let later = settings(&["holonom", "simulate", "a.json", "--rtol", "1e-6", "--until", "2"], 1.0, 1e-6);
-        assert_eq!(old.replaced_by(&later), Some(told.to_string()));
-    }
-}

@@ -52,6 +52,7 @@ fn what_is_replaced_is_said_where_settings_differ() {
     let run = |more: &[&str]| err(&place.run(&[&["simulate", "scene.json"], more].concat()));
     assert_eq!(run(&["--rtol", "1e-6"]), "");
     assert_eq!(run(&["--rtol", "1e-6", "--json"]), "", "the same run again");
+    assert_eq!(run(&["--figures", "svg", "--rtol", "1e-6", "-o=out/pendulum"]), "", "and again");
     assert_eq!(
         run(&["--set", "l=2"]),
         "note: replaced in out/pendulum the results of `holonom simulate scene.json --rtol 1e-6` \
@@ -59,6 +60,8 @@ fn what_is_replaced_is_said_where_settings_differ() {
     );
     assert_eq!(run(&["--quiet"]), "");
     assert_eq!(run(&["-o", "elsewhere"]), "");
+    let told = "note: replaced in elsewhere the results of `holonom simulate scene.json`; -o DIR keeps both\n";
+    assert_eq!(run(&["-o", "elsewhere", "--until", "0.5"]), told);
 }
 
 #[test]

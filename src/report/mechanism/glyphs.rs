@@ -81,19 +81,3 @@ fn depth(pen: &Canvas, link: &Link, bodies: &[f64], is_long: bool) -> f64 {
     let joined = link.carriers.iter().flatten().map(|body| bodies[*body]);
     own.chain(joined).fold(f64::NEG_INFINITY, f64::max)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn has_all(known: &[&str], table: &[Glyph]) {
-        let missing: Vec<&&str> = known.iter().filter(|kind| table.iter().all(|glyph| glyph.kind != **kind)).collect();
-        assert!(missing.is_empty(), "no sign for {missing:?}");
-    }
-
-    #[test]
-    fn every_kind_of_joint_and_force_has_a_sign() {
-        has_all(&crate::joint::registry::<3>().iter().map(|entry| entry.name).collect::<Vec<_>>(), JOINTS);
-        has_all(&crate::force::registry::<3>().iter().map(|entry| entry.name).collect::<Vec<_>>(), FORCES);
-    }
-}
