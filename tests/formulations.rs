@@ -7,7 +7,7 @@ use holonom::formulation::{Dynamics, make};
 use holonom::initial::assemble;
 use holonom::math::Scalar;
 use holonom::method_spec::MethodSpec;
-use holonom::simulate::Span;
+use holonom::simulate::{Method, Span};
 use holonom::system::{Equations, MechanicalSystem};
 
 /// v' and lambda of `formulation` at a state.
@@ -241,5 +241,15 @@ fn mass_is_needed_along_the_motions_that_constraints_allow_only() {
 fn options_out_of_range_are_refused() {
     for wrong in ["penalty:penalty=0", "augmented_lagrangian:iterations=0", "udwadia_kalaba:tolerance=-1"] {
         assert!(make(&MethodSpec::parse(wrong).unwrap(), &DrivenPendulum).is_err(), "{wrong}");
+    }
+}
+
+#[test]
+fn a_method_is_read_as_it_is_written() {
+    for text in ["ggl + radau_iia", "baumgarte:alpha=5,beta=5 + dop853", "index1 + dop853 + manifold"] {
+        assert_eq!(text.parse::<Method>().unwrap().triple(), text);
+    }
+    for text in ["", "ggl", "a + b + c + d", "baumgarte:alpha + dop853"] {
+        assert!(text.parse::<Method>().is_err(), "{text}");
     }
 }

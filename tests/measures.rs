@@ -1,8 +1,9 @@
 //! Outputs, springs, gravity and bodies of one axis against closed forms.
 
 use crate::scenes::{Ready, Run, parse};
-use holonom::analysis::Recorder;
+use holonom::analysis::{Extremes, Recorder};
 use holonom::simulate::{Span, simulate_automatic};
+use holonom::system::Column;
 use serde_json::{Value, json};
 
 fn scene(dimension: usize, ground: Value, bodies: Value, joints: Value, forces: Value, outputs: Value) -> Ready {
@@ -311,4 +312,26 @@ fn works_of_forces() {
     let pulled = recorder.finish().trajectory.column("pulled").unwrap()[1];
     // README: errors within ten tolerances.
     assert!((pulled - 3.0 * x(6.0)).abs() < 1e-9, "{pulled}");
+}
+
+fn extremes(values: &[(f64, f64)]) -> Extremes {
+    let mut extremes = Extremes::of(&Column { name: "x".to_string(), unit: "m".to_string() });
+    values.iter().for_each(|&(t, value)| extremes.add(t, value));
+    extremes
+}
+
+/// The mean square of t from -1 to 2 is 1.
+#[test]
+fn a_line_has_its_closed_form() {
+    let found = extremes(&[(-1.0, -1.0), (0.5, 0.5), (2.0, 2.0)]);
+    assert_eq!((found.min, found.t_min, found.max, found.t_max), (Some(-1.0), Some(-1.0), Some(2.0), Some(2.0)));
+    assert!(found.rms.is_some_and(|rms| (rms - 1.0).abs() < 1e-15), "{found:?}");
+}
+
+#[test]
+fn rows_without_a_value_are_left_out() {
+    let found = extremes(&[(0.0, f64::NAN), (1.0, 3.0), (2.0, f64::INFINITY), (3.0, -4.0), (4.0, -4.0)]);
+    assert_eq!((found.min, found.t_min, found.max, found.rms), (Some(-4.0), Some(3.0), Some(3.0), Some(4.0)));
+    assert_eq!(extremes(&[(0.0, f64::NAN)]).rms, None);
+    assert_eq!(extremes(&[(0.0, -2.0)]).rms, Some(2.0));
 }

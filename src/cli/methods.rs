@@ -212,19 +212,3 @@ fn purpose(name: &str) -> &'static str {
         _ => "",
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::purpose;
-    use crate::{formulation, integrator, projection};
-
-    #[test]
-    fn every_method_is_for_something() {
-        let formulations = formulation::registry().iter().map(|entry| entry.name);
-        let integrators = integrator::registry().iter().map(|entry| entry.name);
-        let projections = projection::registry().iter().map(|entry| entry.name);
-        let useless: Vec<&str> =
-            formulations.chain(integrators).chain(projections).filter(|name| purpose(name).is_empty()).collect();
-        assert!(useless.is_empty(), "give these a line above: {useless:?}");
-    }
-}

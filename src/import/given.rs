@@ -50,16 +50,3 @@ pub fn positions(robot: &Robot, given: &[Given]) -> Result<Vec<f64>> {
     let all = positions.into_iter().zip(&robot.joints);
     Ok(all.map(|(position, joint)| position.unwrap_or(joint.reference)).collect())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::Given;
-
-    #[test]
-    fn positions_are_read_or_refused() {
-        let read = |text: &str| text.parse::<Given>().map_err(|error| error.to_string());
-        assert_eq!(read("knee=-pi/2").map(|given| given.value), Ok(-std::f64::consts::FRAC_PI_2));
-        assert!(read("knee").unwrap_err().starts_with("`knee` has no value"));
-        assert!(read("knee=x").unwrap_err().starts_with("the position of `knee` is no number"));
-    }
-}

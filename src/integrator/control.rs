@@ -277,30 +277,3 @@ pub fn first_step(
     let step = if largest <= 1e-15 { (guess * 1e-3).max(1e-6) } else { (0.01 / largest).powf(1.0 / order as f64) };
     Ok(step.min(100.0 * guess).min(span))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn steps_are_never_looser_than_asked_nor_tighter_than_round_off() {
-        let asked = |rtol: f64| Tolerance { rtol, atol: 1e-2 * rtol, turning: [0, 0], motion: 0 };
-        let steps = |rtol: f64| Tightening::new(10.0, 1.5).of_steps(&asked(rtol)).rtol;
-        assert_eq!(steps(1.0), 1.0);
-        assert!((steps(1e-4) / 1e-5 - 1.0).abs() < 1e-12 && steps(1e-10) == 1e-11 && steps(1e-15) == 1e-15);
-        let reached = |rtol: f64| Tightening::new(10.0, 1.5).reached(&asked(rtol));
-        assert!((reached(1e-6) / 1e-6 - 1.0).abs() < 1e-12 && (reached(1e-10) / 1e-8 - 1.0).abs() < 1e-12);
-        assert_eq!(Tightening::NONE.of_steps(&asked(1e-8)), asked(1e-8));
-    }
-
-    #[test]
-    fn half_the_gain_near_the_tolerated_error_and_all_of_it_far_below() {
-        let next = |error: f64| Control::new(2.0, 0.1, 100.0).accept(1.0, error, true);
-        let close = |found: f64, exact: f64| assert!((found / exact - 1.0).abs() < 1e-12, "{found} {exact}");
-        close(next(1.0), 0.9);
-        close(next(0.0625), 1.8);
-        close(next(1e-2), 0.9 * 10f64.sqrt());
-        close(next(1e-4) / next(1e-2), 10.0);
-        assert_eq!(Control::new(2.0, 0.1, 100.0).accept(1.0, 1e-4, false), 1.0);
-    }
-}

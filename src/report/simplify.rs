@@ -222,24 +222,3 @@ fn stairs(front: &[(f64, f64)], end: f64) -> Vec<(f64, f64)> {
     let next = front.iter().skip(1).map(|point| point.0).chain([end]);
     front.iter().zip(next).flat_map(|(point, next)| [*point, (next, point.1)]).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::plot::Scale;
-
-    #[test]
-    fn the_axis_is_that_of_the_models() {
-        assert_eq!(least_error([3e-3, 2e-2, 0.4].into_iter(), 0.05), 3e-3);
-        assert_eq!(least_error([2e-12, 2e-2].into_iter(), 0.05), 5e-6);
-        assert_eq!(least_error(std::iter::empty(), 0.05), 0.05);
-    }
-
-    #[test]
-    fn times_that_are_alike_have_marks() {
-        let (alike, end) = time_axis([4e-3, 6e-3, 25e-3].into_iter());
-        assert_eq!((alike.scale, alike.range, end), (Scale::Linear, Some((0.0, 1.1 * 25e-3)), 1.1 * 25e-3));
-        let (far, end) = time_axis([4e-3, 4.0].into_iter());
-        assert_eq!((far.scale, far.range, end), (Scale::Log, Some((2e-3, 8.0)), 8.0));
-    }
-}

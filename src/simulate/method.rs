@@ -188,18 +188,3 @@ pub fn check_pair(entry: &integrator::Entry, formulation: &MethodSpec) -> Result
         accepted.join(", ")
     )))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_method_is_read_as_it_is_written() {
-        for text in ["ggl + radau_iia", "baumgarte:alpha=5,beta=5 + dop853", "index1 + dop853 + manifold"] {
-            assert_eq!(text.parse::<Method>().unwrap().triple(), text);
-        }
-        for text in ["", "ggl", "a + b + c + d", "baumgarte:alpha + dop853"] {
-            assert!(text.parse::<Method>().is_err(), "{text}");
-        }
-    }
-}

@@ -1,6 +1,7 @@
 //! Scenes from URDF: the same motion as by hand, merged links, closed loops, and what is refused.
 
 use crate::scenes::parse;
+use holonom::import::Given;
 use holonom::import::urdf::{Imported, Options, import};
 use holonom::report::check;
 use serde_json::Value;
@@ -230,4 +231,12 @@ fn scenes_of_robots_are_valid() {
     for scene in [imported(ARM, None, &[]).scene, imported(CHAIN, Some("rocker"), &[]).scene] {
         assert_eq!(crate::common::json_schema::faults(&schema, &scene), [""; 0]);
     }
+}
+
+#[test]
+fn positions_are_read_or_refused() {
+    let read = |text: &str| text.parse::<Given>().map_err(|error| error.to_string());
+    assert_eq!(read("knee=-pi/2").map(|given| given.value), Ok(-std::f64::consts::FRAC_PI_2));
+    assert!(read("knee").unwrap_err().starts_with("`knee` has no value"));
+    assert!(read("knee=x").unwrap_err().starts_with("the position of `knee` is no number"));
 }

@@ -1,7 +1,9 @@
 //! Only what a motion requires: what is left out, what stays, and that the promise is what is measured.
 
+mod figure;
 mod light_bodies;
 mod nearby;
+mod promise;
 
 use crate::scenes::model;
 use holonom::clock;

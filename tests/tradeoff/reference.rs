@@ -4,7 +4,7 @@ use super::{ROWS, filter, fresh, measured, motion, plan};
 use crate::common::unconstrained::Exponential;
 use crate::scenes::shipped;
 use holonom::analysis::Sizes;
-use holonom::compare::work_precision::{ErrorMetric, Given, Motion, Plan, Runner, Watched};
+use holonom::compare::work_precision::{ErrorMetric, Given, Motion, Plan, Runner, SecondOpinion, Watched};
 use holonom::system::Column;
 
 fn column(name: &str, unit: &str) -> Column {
@@ -86,4 +86,14 @@ fn tables_that_are_none_are_refused() {
     assert_eq!(early.names().collect::<Vec<_>>(), ["x1"]);
     let fine = Given::parse("table", "t,x1\n0,1\n0.25,1\n0.5,1\n0.75,1\n1,2\n").unwrap();
     assert_eq!([1, 2, 3, 4, 9].map(|most| fine.parts((0.0, 1.0), most).unwrap()), [1, 2, 2, 4, 4]);
+}
+
+#[test]
+fn a_run_that_differs_confirms_nothing() {
+    let opinion = |difference| {
+        let method = "ggl + bdf".to_string();
+        SecondOpinion { method, difference: Some(difference), about: "x".to_string() }.to_string()
+    };
+    assert!(opinion(1e-6).starts_with("confirmed by diffsol"));
+    assert!(opinion(2.0).starts_with("not confirmed by diffsol"));
 }
