@@ -3,6 +3,8 @@
 //! Only the files below are compiled for them, not the whole library a second time. They see each other as they do in
 //! the library. A test of something that needs more of it belongs into another folder of `tests`.
 #![allow(dead_code, unused_imports, unused_macros)]
+// As in the library.
+#![allow(clippy::suspicious_arithmetic_impl)]
 
 #[path = "../../src/body/mod.rs"]
 mod body;
