@@ -223,23 +223,21 @@ fn scenes_get_the_maps_that_make_sense() {
 /// Less time than all cells take is spent on cells of all methods, from the scene's own values on, and no more than that.
 #[test]
 fn no_corner_and_no_method_takes_the_budget_of_others() {
-    for name in ["quarter_car", "five_link_suspension"] {
-        let subject = scene(name, Overrides::default());
-        let budget = Limits { cell: readings(10_000), all: readings(80_000) };
-        // Read on the thread that works, after each cell.
-        let watch: Mutex<Option<Stopwatch>> = Mutex::new(None);
-        let spent = Mutex::new(Duration::ZERO);
-        let progress = || *spent.lock().unwrap() = watch.lock().unwrap().get_or_insert_with(Stopwatch::start).wall();
-        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-        let stressed = one.install(|| stress(&subject, named(&subject, "stiffness"), budget, &progress));
-        assert!(*spent.lock().unwrap() <= budget.all + 10 * TICK, "{name}: {spent:?}");
-        assert!(stressed.cells.iter().any(|cell| cell.status == Status::LeftOut), "{name}: the budget binds");
-        for verdict in stressed.verdicts() {
-            assert!(verdict.completed >= 5, "{name}: {verdict:?}");
-        }
-        // The scene's own mass, at stiffnesses about its own.
-        assert!((0..2).all(|method| stressed.cell(method, 4, 3).unwrap().status == Status::Completed), "{name}");
+    let subject = scene("quarter_car", Overrides::default());
+    let budget = Limits { cell: readings(10_000), all: readings(80_000) };
+    // Read on the thread that works, after each cell.
+    let watch: Mutex<Option<Stopwatch>> = Mutex::new(None);
+    let spent = Mutex::new(Duration::ZERO);
+    let progress = || *spent.lock().unwrap() = watch.lock().unwrap().get_or_insert_with(Stopwatch::start).wall();
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let stressed = one.install(|| stress(&subject, named(&subject, "stiffness"), budget, &progress));
+    assert!(*spent.lock().unwrap() <= budget.all + 10 * TICK, "{spent:?}");
+    assert!(stressed.cells.iter().any(|cell| cell.status == Status::LeftOut), "the budget binds");
+    for verdict in stressed.verdicts() {
+        assert!(verdict.completed >= 5, "{verdict:?}");
     }
+    // The scene's own mass, at stiffnesses about its own.
+    assert!((0..2).all(|method| stressed.cell(method, 4, 3).unwrap().status == Status::Completed));
 }
 
 #[test]

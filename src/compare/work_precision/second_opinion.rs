@@ -7,6 +7,7 @@ use crate::method_spec::MethodSpec;
 use crate::simulate::{Method, Span};
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::time::Duration;
 
 /// Methods of diffsol that confirm others, which share no code with them: for motions that are not stiff, and for stiff
 /// ones.
@@ -14,6 +15,10 @@ pub(super) const METHODS: [[&str; 3]; 2] = [["index1", "tsit45", "exact"], ["ggl
 
 /// Largest relative difference that confirms a run, to two digits.
 const CONFIRMED: f64 = 1e-2;
+
+/// CPU time for a second opinion. On what is very stiff diffsol can take hundreds of times as long as the run that it
+/// confirms, and nobody waits for that.
+const LONGEST: Duration = Duration::from_secs(5);
 
 /// Difference of a run of diffsol from reference values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,7 +39,7 @@ impl SecondOpinion {
 }
 
 /// Compares `rows`, values of the watched quantities along the motion that `of` computed, with a run of diffsol at its
-/// tolerance: by an explicit method where `of` is one.
+/// tolerance: by an explicit method where `of` is one. It is given up after [`LONGEST`].
 pub(crate) fn second_opinion(
     motion: &Motion,
     watched: &Watched,
@@ -46,6 +51,7 @@ pub(crate) fn second_opinion(
     let [formulation, integrator, projection] = METHODS[usize::from(!is_explicit)].map(MethodSpec::named);
     let Method { rtol, atol, .. } = if of.step.is_some() { Method::default() } else { of.clone() };
     let method = Method { formulation, integrator, projection, rtol, atol, step: None };
+    let allowed = Allowed { cpu: allowed.cpu.min(LONGEST), wall: allowed.wall.min(3 * LONGEST) };
     let name = format!("{}, rtol {rtol:e}", method.triple());
     let failed = |reason: String| SecondOpinion { method: name.clone(), difference: None, about: reason };
     match sample(motion, watched, &method, span, allowed) {

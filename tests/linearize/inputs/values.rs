@@ -24,14 +24,14 @@ fn values_add_to_what_drivers_prescribe() {
 #[test]
 fn a_value_may_turn_a_drive_around() {
     let scene = |value: &str, input: &str| {
-        changed("rotating_blade", |json| {
-            json["joints"][1]["value"] = value.into();
-            json["inputs"] = json!([{ "name": "turn", "driver": json["joints"][1]["name"], "value": input }]);
+        changed("double_cardan", |json| {
+            json["joints"][4]["value"] = value.into();
+            json["inputs"] = json!([{ "name": "turn", "driver": json["joints"][4]["name"], "value": input }]);
         })
     };
-    let split = scene("2*t", "3*t");
-    let whole = scene("5*t", "0");
-    let end = |scene: &Ready| scene.tight(1e-9, 3.0, 3.0).outcome;
+    let split = scene("4*t", "6*t");
+    let whole = scene("10*t", "0");
+    let end = |scene: &Ready| scene.tight(1e-9, 1.0, 1.0).outcome;
     let [a, b] = [end(&split), end(&whole)].map(|outcome| outcome.q);
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-7), "{a:?} {b:?}");
 }
