@@ -6,6 +6,8 @@ mod check_error;
 mod drift;
 mod equilibrium;
 mod examples;
+#[cfg(target_os = "linux")]
+mod faults;
 mod generate;
 mod import;
 #[cfg(unix)]

@@ -5,6 +5,7 @@
 //! --nocapture`.
 
 mod binary;
+mod files;
 mod grow;
 mod mutate;
 mod random;
