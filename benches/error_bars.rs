@@ -1,4 +1,4 @@
-//! Error bars against true errors: `cargo bench --bench error_bars`, some 40 minutes on two cores. `-- N SEED` makes N
+//! Error bars against true errors: `cargo bench --bench error_bars`, some two hours. `-- N SEED` makes N
 //! cases from another seed.
 //!
 //! Each case is a shipped scene with parameters moved by up to a fifth, a part of its span, a method that goes with it,

@@ -237,7 +237,10 @@ pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
 
 /// "did you mean" for a name that is not in the list, or the list itself when nothing is near.
 pub fn suggest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    let mut known: Vec<&str> = known.into_iter().collect();
+    suggest_one_of(found, known.into_iter().collect())
+}
+
+fn suggest_one_of(found: &str, mut known: Vec<&str>) -> String {
     if let Some(near) = nearest(found, known.iter().copied()) {
         return format!("did you mean `{near}`?");
     }

@@ -18,7 +18,7 @@ pub struct Gear {
     /// Markers `body.marker` of the two wheels.
     pub between: [String; 2],
     /// Numbers of teeth, whole and not zero.
-    pub teeth: [i32; 2],
+    pub teeth: [Number; 2],
     /// Markers against which the wheels turn; in space about their z axes. Default in the plane: the ground.
     pub carrier: Option<[String; 2]>,
     /// rad. Default: zero.
@@ -29,9 +29,7 @@ impl JointSpec for Gear {
     const TYPE: &'static str = "gear";
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
-        if self.teeth.contains(&0) {
-            return Err(Error::input("a wheel has no teeth").under("teeth").hint("give two whole numbers, not zero"));
-        }
+        let teeth = [self.count(0, build)?, self.count(1, build)?];
         let mut markers = build.between(&self.between)?;
         match &self.carrier {
             Some(carrier) => {
@@ -47,7 +45,6 @@ impl JointSpec for Gear {
         }
         build.oriented("between", &markers)?;
         let offset = build.number_or("offset", &self.offset, 0.0)?;
-        let teeth = self.teeth.map(f64::from);
         let wheel = |i: usize| Some(Turned { of: markers[i], to: *markers.get(i + 2)?, factor: teeth[i], axes: None });
         let turning = build.turning((0..2).filter_map(wheel).collect(), offset);
         Ok(Built { joint: Box::new(Pair { teeth, offset, turning }), markers })
@@ -55,6 +52,18 @@ impl JointSpec for Gear {
 }
 
 impl Gear {
+    /// The number of teeth of a wheel.
+    fn count<const D: usize>(&self, wheel: usize, build: &Build<D>) -> Result<f64> {
+        let field = format!("teeth[{wheel}]");
+        let teeth = build.number(&field, &self.teeth[wheel])?;
+        if teeth.fract() == 0.0 && (1.0..=MOST_TEETH).contains(&teeth.abs()) {
+            return Ok(teeth);
+        }
+        Err(Error::input(format!("a wheel cannot have {teeth} teeth"))
+            .under(field)
+            .hint("give a whole number, not zero; it is negative for an internal gear"))
+    }
+
     /// A wheel that is one body with its carrier never turns against it.
     fn refuse_wheels_of_carrier<const D: usize>(&self, markers: &[usize], build: &Build<D>) -> Result<()> {
         let body = |marker: usize| build.markers.bodies[markers[marker]];
@@ -65,6 +74,9 @@ impl Gear {
             .hint("name a marker of the body that the wheel turns on"))
     }
 }
+
+/// More would be a mistake.
+const MOST_TEETH: f64 = 1e6;
 
 struct Pair {
     teeth: [f64; 2],

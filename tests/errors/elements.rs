@@ -285,18 +285,18 @@ cases! {
     gear_0:
         pendulum()
             .joint("{ 'name': 'g', 'type': 'gear', 'between': ['ground.O', 'rod.A'], 'teeth': [0, 10] }") => [
-            "scene.json:13:79: at joints[0].teeth (`g`): a wheel has no teeth",
-            "give two whole numbers, not zero",
+            "scene.json:13:80: at joints[0].teeth[0] (`g`): a wheel cannot have 0 teeth",
+            "give a whole number, not zero; it is negative for an internal gear",
         ];
     gear_frac:
         pendulum()
             .joint("{ 'name': 'g', 'type': 'gear', 'between': ['ground.O', 'rod.A'], 'teeth': [1.5, 10] }") => [
-            "scene.json:13:80: at joints[0].teeth[0] (`g`): expected a whole number, found 1.5",
+            "scene.json:13:80: at joints[0].teeth[0] (`g`): a wheel cannot have 1.5 teeth",
         ];
     gear_huge:
         pendulum()
             .joint("{ 'name': 'g', 'type': 'gear', 'between': ['ground.O', 'rod.A'], 'teeth': [10, 99999999999] }") => [
-            "scene.json:13:84: at joints[0].teeth[1] (`g`): 99999999999 is out of range",
+            "scene.json:13:84: at joints[0].teeth[1] (`g`): a wheel cannot have 99999999999 teeth",
         ];
     distance_0:
         pendulum()

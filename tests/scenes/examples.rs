@@ -33,7 +33,7 @@ pub const JOINTS: &[Joint] = &[
     Joint { kind: "point_on_line", planar: Some((PLANAR_AXIS, 1)), spatial: Some((SPATIAL_AXIS, 2)) },
     Joint {
         kind: "gear",
-        planar: Some((r#""between": ["A.p", "B.p"], "teeth": [17, 40], "offset": 0.3"#, 1)),
+        planar: Some((r#""between": ["A.p", "B.p"], "teeth": ["10 + 7", 40], "offset": 0.3"#, 1)),
         spatial: Some((r#""between": ["A.p", "B.p"], "teeth": [17, 40], "carrier": ["B.r", "A.r"]"#, 1)),
     },
     Joint {
