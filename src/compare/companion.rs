@@ -205,6 +205,8 @@ const GROWTH: f64 = 0.75;
 /// Twice the step leaves 2^p times the error: two thirds of the difference hold that of a method of order three and more
 /// where order 1.3 is seen, as with steps over kinks.
 const OF_FIXED_STEPS: f64 = 2.0 / 3.0;
+/// Twice the difference holds the error of a method of lower order where order 0.6 is seen.
+const OF_LOW_ORDER: f64 = 2.0;
 /// Half the step leaves half of the error of order one.
 const OF_FINER: f64 = 2.0;
 
@@ -217,7 +219,7 @@ impl Changed {
         let order = entry.as_ref().map_or(1, |entry| entry.order);
         if let Some(step) = method.step {
             let method = Method { formulation: softer(&method.formulation), step: Some(2.0 * step), ..method.clone() };
-            return Changed { method, part: if order >= 3 { OF_FIXED_STEPS } else { MARGIN }, order };
+            return Changed { method, part: if order >= 3 { OF_FIXED_STEPS } else { OF_LOW_ORDER }, order };
         }
         let tightening = entry.map_or(Tightening::NONE, |entry| entry.tightening);
         let at = |rtol: f64| Tolerance::new(rtol, method.atol * rtol / method.rtol, system);
