@@ -422,6 +422,28 @@ fn every_test_is_run() {
     }
 }
 
+/// The tests inside of a source file run only where the program `unit` compiles that file.
+#[test]
+fn tests_inside_of_files_are_run() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let unit = fs::read_to_string(folder.join("tests/unit/main.rs")).unwrap();
+    let has_tests = |source: &&Source| fs::read_to_string(folder.join(&source.path)).unwrap().contains("#[cfg(test)]");
+    let sources = sources();
+    let tested: Vec<&Source> = sources.iter().filter(has_tests).collect();
+    assert!(tested.len() > 50, "{} files with tests", tested.len());
+    for source in tested {
+        let [room, .., name] = source.module.as_slice() else {
+            let name = &source.module[0];
+            assert!(unit.contains(&format!("src/{name}.rs\"]")) || unit.contains(&format!("src/{name}/mod.rs\"]")));
+            continue;
+        };
+        let is_whole = unit.contains(&format!("src/{room}/mod.rs\"]"));
+        let part = unit.split(&format!("\nmod {room} {{")).nth(1).and_then(|rest| rest.split("\n}").next());
+        let is_named = part.is_some_and(|part| part.contains(&format!("mod {name};")));
+        assert!(is_whole || is_named, "tests/unit/main.rs does not compile {}", source.path.display());
+    }
+}
+
 fn source(module: &[&str], text: &str) -> Source {
     let module = module.iter().map(|part| part.to_string()).collect();
     let code = text.lines().enumerate().map(|(i, line)| (i + 1, line.to_string())).collect();
