@@ -42,7 +42,8 @@ pub fn cheapest(bench: &mut Bench, found: &mut Found) {
 
 /// The first tolerance that is tried.
 fn first(bench: &Bench, own: &Method) -> f64 {
-    (FIRST * bench.promise.within).clamp(own.rtol, LOOSEST)
+    // A scene may ask for less than the loosest tolerance that is tried.
+    (FIRST * bench.promise.within).clamp(own.rtol, LOOSEST.max(own.rtol))
 }
 
 /// From a loose tolerance to tighter ones until one will do; where the first does, to looser ones.
