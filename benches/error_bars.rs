@@ -1,5 +1,5 @@
-//! Error bars against true errors: `cargo bench --bench error_bars`, some two hours. `-- N SEED` makes N
-//! cases from another seed.
+//! Error bars against true errors: `cargo bench --bench error_bars`, an hour and a half. `-- N SEED` makes N cases from
+//! another seed.
 //!
 //! Each case is a shipped scene with parameters moved by up to a fifth, a part of its span, a method that goes with it,
 //! and a tolerance of 1e-3 to 1e-11 or a fixed step. The bars of `simulate --check-error` are compared with the largest

@@ -122,9 +122,10 @@ fn seen_part(companion: &Companion, fewer: f64) -> f64 {
     companion.part.max(seen)
 }
 
-/// The part of the difference that holds the error where the companion's error is `factor` times as large.
+/// The part of the difference that holds the error where the companion's error is `factor` times as large: all of it up
+/// to ten times.
 fn part_of(factor: f64) -> f64 {
-    MARGIN * (10.0 / factor).min(1.0).powf(GROWTH)
+    (10.0 / factor).min(1.0).powf(GROWTH)
 }
 
 /// A companion whose values are so many times the largest one of the run is beyond its limit of stability.
@@ -198,8 +199,6 @@ const HIGH_ORDER: usize = 8;
 const AT_ROUND_OFF: f64 = 0.3;
 /// The coarsest tolerance of a companion, where that of the run is not coarser.
 const COARSEST: f64 = 0.1;
-/// The difference to a companion at ten times the tolerance, whose error is larger by about ten.
-const MARGIN: f64 = 1.0;
 /// Errors of loose tolerances grow less than in proportion to them.
 const GROWTH: f64 = 0.75;
 /// Twice the step leaves 2^p times the error: two thirds of the difference hold that of a method of order three and more
@@ -233,7 +232,7 @@ impl Changed {
         let rtol = rounded((factor * method.rtol).min(coarsest));
         // Steps at their tightest are those of a looser tolerance.
         let factor = rtol / tightening.reached(&at(method.rtol)).max(method.rtol);
-        let part = if is_at_round_off { MARGIN } else { part_of(factor) };
+        let part = if is_at_round_off { 1.0 } else { part_of(factor) };
         let formulation = softer(&method.formulation);
         Changed { method: Method { formulation, rtol, atol: rounded(at(rtol).atol), ..method.clone() }, part, order }
     }

@@ -25,6 +25,13 @@ fn a_promise_is_in_per_cent() {
     }
 }
 
+/// Looser than any tolerance that is tried.
+#[test]
+fn a_scene_of_any_tolerance_is_simplified() {
+    let place = Place::new(PENDULUM.replace(r#""output_step": 0.1"#, r#""output_step": 0.1, "rtol": 1.0"#));
+    place.done(&["simplify", "scene.json", "--within", "10%", "--until", "0.01", "-o", "here"]);
+}
+
 /// States are bodies without a place; files and what is included or repeated are found from anywhere.
 #[test]
 fn controllers_roads_and_included_scenes_are_simplified() {
