@@ -18,6 +18,7 @@
 //! [`Unsymmetric`] solves the systems of implicit methods, which add stiffness and damping to M, and of half-explicit
 //! ones, whose two G differ.
 
+mod alike;
 mod analysis;
 mod blocks;
 mod dependence;
@@ -36,9 +37,9 @@ mod system;
 mod tests;
 mod unsymmetric;
 
-pub use analysis::{Analysis, Lever};
+pub use analysis::Analysis;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
-pub use pattern::Pattern;
+pub use pattern::{Lever, Pattern};
 pub use rank_revealing::{Chart, Reduced};
 pub use saddle::SaddlePoint;
 pub use unsymmetric::{Field, Places, Unsymmetric};

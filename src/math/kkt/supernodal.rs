@@ -3,7 +3,6 @@
 use super::Pattern;
 use super::order::order;
 use super::pivot::{Quality, Rule};
-use super::system::balance;
 use crate::tolerances::math as tolerances;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
@@ -205,4 +204,36 @@ fn read_diagonal(cholesky: &SymbolicCholesky<usize>, factor: &[f64], diagonal: &
             }
         }
     }
+}
+
+/// Scales that make the masses one and the rows of G of unit norm in the mass metric, (G diag(M)^-1 G^T)_jj = 1, by
+/// node. Late coordinates (by default those without mass) are scaled by the entries of the scaled rows.
+pub(super) fn balance(
+    (mass, mass_values): (&Pattern, &[f64]),
+    (g, g_values): (&Pattern, &[f64]),
+    late: Option<&[bool]>,
+    scale: &mut [f64],
+) {
+    scale.fill(0.0);
+    let (coordinates, rows) = scale.split_at_mut(mass.rows);
+    mass.add_diagonal(mass_values, coordinates);
+    for (i, s) in coordinates.iter_mut().enumerate() {
+        let is_late = late.map_or(*s <= 0.0, |late| late[i]);
+        *s = if is_late { 0.0 } else { inverse_root(*s) };
+    }
+    for (&(j, i), value) in g.entries.iter().zip(g_values) {
+        rows[j] += (value * coordinates[i]).powi(2);
+    }
+    rows.iter_mut().for_each(|s| *s = inverse_root(*s));
+    // Squares of late coordinates are summed with negative sign, which tells them from scales.
+    for (&(j, i), value) in g.entries.iter().zip(g_values) {
+        if coordinates[i] <= 0.0 {
+            coordinates[i] -= (value * rows[j]).powi(2);
+        }
+    }
+    coordinates.iter_mut().filter(|s| **s <= 0.0).for_each(|s| *s = inverse_root(-*s));
+}
+
+fn inverse_root(square: f64) -> f64 {
+    if square > 0.0 { square.sqrt().recip() } else { 1.0 }
 }

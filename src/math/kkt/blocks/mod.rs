@@ -25,7 +25,7 @@ mod layout;
 mod schur;
 
 use super::pivot::{Quality, Rule};
-use super::system::add;
+use crate::math::add;
 use crate::math::array::{Each, from_fn};
 use dense::Dense;
 use factors::Factors;

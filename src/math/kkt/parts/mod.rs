@@ -21,7 +21,7 @@ pub use plan::{Division, Plan};
 
 use super::blocks::Blocks;
 use super::pivot::{Quality, Rule};
-use super::system::add;
+use crate::math::add;
 use crate::math::threads::{Divisible, each};
 use plan::{PartPlan, Share};
 use std::sync::Arc;

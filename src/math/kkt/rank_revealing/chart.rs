@@ -1,10 +1,9 @@
 //! Corrections along the normal directions of a base state: its tangent space is a chart of the manifold around it.
 
 use super::super::Pattern;
-use super::super::system::add_scaled;
 use super::pivoted::PivotedQr;
 use super::scaled_rows;
-use crate::math::dot;
+use crate::math::{add_scaled, dot};
 use crate::tolerances::math as tolerances;
 
 /// Corrections d = Y c with G d = r at a nearby state, where S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G

@@ -8,9 +8,9 @@ pub use chart::Chart;
 pub use reduced::Reduced;
 
 use super::orthonormal::{normalize, orthonormalize, project_out};
-use super::system::{System, add, index_of_largest};
+use super::system::System;
 use super::{Pattern, Singular};
-use crate::math::norm;
+use crate::math::{add, index_of_largest, norm};
 use crate::tolerances::math as tolerances;
 use pivoted::{PivotedCholesky, PivotedQr};
 

@@ -3,30 +3,23 @@
 //! With all coordinates before all multipliers the elimination of the latter acts on -G M^-1 G^T. A pivot that vanishes
 //! there has a vanishing row, so its multiplier can be dropped (zero) and nothing else changes: the others solve the
 //! system exactly if the right side lies in the range of G, which `least` makes sure of, and multipliers of least norm
-//! are made of any by the same projection. Rows that are known to be dependent, or are found so among rows over the same
-//! coordinates (`alike`), are not factored at all (`kept`).
+//! are made of any by the same projection.
 
-mod alike;
-mod kept;
-pub(super) mod least;
-mod nearly;
+mod least;
 
-pub use alike::Alike;
-pub use kept::Kept;
+pub use least::Least;
 
 use super::Singular;
 use super::ldlt::Ldlt;
 use super::pivot::{Quality, Rule};
-use super::system::{System, add, index_of_largest, iterate};
+use super::system::System;
+use crate::math::{add, index_of_largest, largest};
 use crate::tolerances::math as tolerances;
-use least::Least;
 
 pub(super) struct RedundantRowSolve {
     factor: Ldlt,
     skipped: Vec<usize>,
     replaced: bool,
-    /// Ratio of a pivot to its size below which rows are dropped.
-    collapsed: f64,
     inconsistency: f64,
     least: Least,
     /// Scratch: n and m numbers.
@@ -49,7 +42,6 @@ impl RedundantRowSolve {
             factor: Ldlt::of(analysis.single(mass, g), mass, g, &vec![false; n]),
             skipped: Vec::with_capacity(m),
             replaced: false,
-            collapsed: 0.0,
             inconsistency: 0.0,
             least: Least::new(g),
             a: vec![0.0; n],
@@ -71,7 +63,7 @@ impl RedundantRowSolve {
         let rule = Rule::lenient(collapsed, &self.a);
         let result = self.factor.factor(&system.mass_values, &system.g_values, rule, &mut self.skipped);
         let quality = result.map_err(|_| Singular::NotFinite)?;
-        (self.replaced, self.collapsed) = (quality.replaced, collapsed);
+        self.replaced = quality.replaced;
         self.least.clear();
         Ok(quality)
     }
@@ -157,9 +149,8 @@ impl RedundantRowSolve {
 
     /// v := P v; returns the norm of the removed part.
     fn project(&mut self, system: &System, v: &mut [f64]) -> f64 {
-        let RedundantRowSolve { factor, least, skipped, collapsed, .. } = self;
-        let rank_indicator = factor.smallest_ratio(collapsed.max(tolerances::ROUND_OFF_OF_FACTORS)).0.sqrt();
-        least.project(system, skipped, (rank_indicator, false), &mut |top, bottom| factor.solve(top, bottom), v)
+        let RedundantRowSolve { factor, least, skipped, .. } = self;
+        least.project(system, skipped, &mut |top, bottom| factor.solve(top, bottom), v)
     }
 
     /// image = N direction, where `direction` is zero except on the dropped rows.
@@ -179,4 +170,37 @@ impl RedundantRowSolve {
 /// Numbers in [-1, 1] without pattern.
 fn arbitrary(i: usize) -> f64 {
     (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin()
+}
+
+/// Solves [M G^T; G 0] [a; lambda] = [top; bottom] with a factor that may be of a nearby matrix, in at most `sweeps`
+/// corrections, until a correction is round-off. `residual` is scratch.
+fn iterate(
+    factor: &mut Ldlt,
+    system: &System,
+    (top, bottom): (&[f64], &[f64]),
+    (a, lambda): (&mut [f64], &mut [f64]),
+    (r1, r2): (&mut [f64], &mut [f64]),
+    sweeps: usize,
+) {
+    a.fill(0.0);
+    lambda.fill(0.0);
+    let mut last = [f64::INFINITY; 2];
+    for _ in 0..sweeps {
+        r1.copy_from_slice(top);
+        r2.copy_from_slice(bottom);
+        system.residual(a, lambda, r1, r2);
+        factor.solve(r1, r2);
+        let sizes = [largest(r1), largest(r2)];
+        // A correction that does not shrink is round-off.
+        if !(sizes[0] < 0.5 * last[0] || sizes[1] < 0.5 * last[1]) {
+            break;
+        }
+        add(r1, a);
+        add(r2, lambda);
+        let small = 1e-16;
+        if sizes[0] <= small * largest(a) && sizes[1] <= small * largest(lambda) {
+            break;
+        }
+        last = sizes;
+    }
 }

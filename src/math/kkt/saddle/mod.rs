@@ -2,15 +2,18 @@
 
 mod condition;
 mod findings;
+mod kept;
 mod orders;
 
+use super::alike::Alike;
 use super::ldlt::Ldlt;
 use super::rank_revealing::NullSpace;
-use super::redundant_rows::{Alike, Kept, RedundantRowSolve};
-use super::system::{System, add};
+use super::redundant_rows::RedundantRowSolve;
+use super::system::System;
 use super::{Analysis, Pattern, Singular};
-use crate::math::all_finite;
+use crate::math::{add, all_finite};
 use crate::tolerances::math as tolerances;
+use kept::Kept;
 use orders::Orders;
 use std::sync::Arc;
 
