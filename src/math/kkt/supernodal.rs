@@ -2,7 +2,7 @@
 
 use super::Pattern;
 use super::order::order;
-use super::pivot::{Quality, Rule};
+use super::pivot::{Judge, Quality, Rule};
 use crate::tolerances::math as tolerances;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
@@ -130,15 +130,15 @@ impl Supernodal {
     }
 
     fn judge(&self, rule: Rule, skipped: &mut Vec<usize>, replaced: bool) -> Result<Quality, usize> {
-        let mut quality = Quality { replaced, ..Quality::GOOD };
+        let mut judge = Judge { n: self.n, rule, skipped, quality: Quality { replaced, ..Quality::GOOD } };
         for ((&d, &node), &sign) in self.diagonal.iter().zip(&self.order).zip(&self.signs) {
             let pivot = d * f64::from(sign);
             let left_out = pivot.abs() >= 1e-3 * tolerances::PLACE_OF_A_VANISHED_ROW || pivot.is_nan();
             if left_out || pivot <= rule.weak {
-                quality.judge((node, self.n), (if left_out { 0.0 } else { pivot }, 1.0), rule, skipped)?;
+                judge.judge(node, if left_out { 0.0 } else { pivot }, 1.0)?;
             }
         }
-        Ok(quality)
+        Ok(judge.quality)
     }
 
     /// Solves in place; dropped multipliers are zero.

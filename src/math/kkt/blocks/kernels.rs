@@ -1,7 +1,7 @@
 //! The arithmetic of columns of blocks, W unknowns wide.
 
+use super::super::pivot::Judge;
 use super::groups::LARGEST;
-use super::judge::Judge;
 use super::lanes::Lanes;
 use super::layout::{Layout, Run};
 use crate::math::array::from_fn;

@@ -7,7 +7,6 @@ mod dense;
 mod dense_rows;
 mod field;
 mod matrix;
-mod redundancy;
 mod sparse;
 #[cfg(test)]
 mod tests;
@@ -15,12 +14,13 @@ mod unpivoted;
 
 pub use field::Field;
 
+use super::ldlt::Ldlt;
+use super::pivot::Rule;
 use super::{Pattern, Singular};
 use dense::Dense;
 use dense_rows::DenseRows;
 use faer::sparse::SymbolicSparseColMat;
 use matrix::Matrix;
-use redundancy::Redundancy;
 use sparse::Sparse;
 use unpivoted::Unpivoted;
 
@@ -60,7 +60,8 @@ pub struct Unsymmetric<T> {
     g_places: Vec<[u32; 2]>,
     /// Values of b L at the places of G.
     coupling: Vec<T>,
-    redundancy: Option<Redundancy>,
+    /// Factors of G diag(weight)^-1 G^T, which stay sparse where G is, and the rows whose pivots collapse in them.
+    redundancy: Option<(Ldlt, Vec<usize>)>,
     /// Rows of G that are dropped.
     left_out: Vec<bool>,
     keeps_rows: bool,
@@ -278,10 +279,18 @@ impl<T: Field> Unsymmetric<T> {
         }
     }
 
-    /// Drops dependent rows; returns true if there are any.
-    fn leave_out(&mut self, g: &[f64]) -> bool {
-        let redundancy = self.redundancy.get_or_insert_with(|| Redundancy::new(&self.g));
-        redundancy.find(&self.weight, g, &mut self.left_out) > 0
+    /// Drops dependent rows; returns true if there are any. The order of elimination is frozen, so that the same rows of
+    /// a mechanism are dropped from state to state.
+    fn leave_out(&mut self, values: &[f64]) -> bool {
+        let g = &self.g;
+        let factors = || Ldlt::new(&Pattern::diagonal(g.cols), g, &vec![false; g.cols]);
+        let (fast, skipped) = self.redundancy.get_or_insert_with(|| (factors(), Vec::with_capacity(g.rows)));
+        let rule = Rule::lenient(tolerances::COLLAPSED, &self.weight);
+        if fast.factor(&self.weight, values, rule, skipped).is_err() {
+            return false;
+        }
+        skipped.iter().for_each(|&row| self.left_out[row] = true);
+        !skipped.is_empty()
     }
 
     /// Factors the scaled matrix; returns false if it is singular.
