@@ -9,41 +9,30 @@ mod interval;
 #[doc(hidden)]
 pub mod kkt;
 mod lagrange;
-#[doc(hidden)]
-pub mod memory;
-#[doc(hidden)]
-pub mod newton;
+pub(crate) mod memory;
+pub(crate) mod newton;
 mod regime;
 #[doc(hidden)]
 pub mod rotation;
 mod scalar;
-#[doc(hidden)]
-pub mod screw;
+pub(crate) mod screw;
 mod side;
-#[doc(hidden)]
-pub mod signal;
+pub(crate) mod signal;
 mod taylor;
-#[doc(hidden)]
-pub mod threads;
+pub(crate) mod threads;
 mod vector;
 
 pub use dual::Dual;
 #[doc(hidden)]
 pub use dual::Rate;
-#[doc(hidden)]
-pub use interval::Interval;
-#[doc(hidden)]
-pub use lagrange::{lagrange, lagrange_rate};
-#[doc(hidden)]
-pub use regime::{Piece, Thresholds, piece_of, piece_of_whole, whole_below};
+pub(crate) use interval::Interval;
+pub(crate) use lagrange::{lagrange, lagrange_rate};
+pub(crate) use regime::{Piece, Thresholds, piece_of, piece_of_whole, whole_below};
 pub use regime::{Regime, Time};
 pub use scalar::Scalar;
-#[doc(hidden)]
-pub use scalar::Unary;
-pub(crate) use scalar::operators;
-#[doc(hidden)]
-pub use side::Side;
+pub(crate) use scalar::{Unary, operators};
+pub(crate) use side::Side;
 pub use taylor::Taylor;
-pub(crate) use vector::{add, add_scaled, bounds, dot, index_of_largest, norm};
 #[doc(hidden)]
-pub use vector::{all_finite, largest, largest_in};
+pub use vector::largest;
+pub(crate) use vector::{add, add_scaled, all_finite, bounds, dot, index_of_largest, largest_in, norm};

@@ -2,7 +2,7 @@
 
 use super::Field;
 use super::columns::Columns;
-use crate::math::kkt::order::ordered;
+use crate::math::kkt::order::{delayed, ordered};
 use crate::math::kkt::parts::{SEPARATOR, divide};
 use crate::math::threads::each;
 use crate::tolerances::math as tolerances;
@@ -145,23 +145,9 @@ fn division(places: &SymbolicSparseColMat<usize>, n: usize) -> (Vec<u32>, usize)
 
 /// These nodes in approximate minimum degree, with multipliers (from `n` on) moved behind their coordinates.
 fn order(places: &SymbolicSparseColMat<usize>, n: usize, nodes: Vec<usize>) -> Vec<usize> {
-    let mut is_here = vec![false; places.nrows()];
+    let total = places.nrows();
+    let mut is_here = vec![false; total];
     nodes.iter().for_each(|&node| is_here[node] = true);
-    let mut waiting: Vec<usize> =
-        (0..is_here.len()).map(|node| coordinates(places, n, node).filter(|&i| is_here[i]).count()).collect();
-    let mut is_reached = vec![false; is_here.len()];
-    let mut order = Vec::with_capacity(nodes.len());
-    for node in ordered(&nodes, is_here.len(), entries(places)) {
-        is_reached[node] = true;
-        if node >= n {
-            order.extend((waiting[node] == 0).then_some(node));
-            continue;
-        }
-        order.push(node);
-        for &row in places.row_idx_of_col_raw(node).iter().filter(|row| **row >= n && is_here[**row]) {
-            waiting[row] -= 1;
-            order.extend((waiting[row] == 0 && is_reached[row]).then_some(row));
-        }
-    }
-    order
+    let behind = nodes.iter().flat_map(|&row| coordinates(places, n, row).map(move |i| (row, i)));
+    delayed(&ordered(&nodes, total, entries(places)), total, behind.filter(|(_, i)| is_here[*i]))
 }
