@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// One group: its diagonal block, then the blocks below it, row by row.
+#[derive(Default)]
 struct Column {
     /// Number of its unknowns, and the first of them in the order of elimination.
     width: usize,
@@ -181,11 +182,7 @@ impl Layout {
 
     fn push(&mut self, first: usize, is_coordinate: bool, is_diagonal: bool) {
         let width = self.nodes.len() - first;
-        let diagonal = 0;
-        let partners = 0..0;
-        let rows = 0;
-        let targets = 0;
-        self.columns.push(Column { width, first, diagonal, partners, rows, targets, is_diagonal, is_coordinate });
+        self.columns.push(Column { width, first, is_diagonal, is_coordinate, ..Column::default() });
     }
 
     /// Gives every block its place.

@@ -2,7 +2,7 @@
 
 use super::super::Pattern;
 use super::pivoted::PivotedQr;
-use super::scaled_rows;
+use super::{scaled_rows, truncated};
 use crate::math::{add_scaled, dot};
 use crate::tolerances::math as tolerances;
 
@@ -73,7 +73,7 @@ impl Chart {
             add_scaled(value / self.norms[i], &self.normal[j * rank..(j + 1) * rank], row);
         }
         // Near a singular state, components below round-off are left to the next step.
-        self.place.factor_truncated(tolerances::RANK, reference);
+        self.place.factor(truncated(tolerances::RANK, reference));
     }
 
     /// d = Y c with G d = r.

@@ -24,7 +24,7 @@ pub(super) struct Kept {
 impl Kept {
     pub fn new(system: &System, dropped: &[usize]) -> Self {
         let mut is_kept = vec![true; system.g.rows];
-        dropped.iter().for_each(|row| is_kept[*row] = false);
+        dropped.iter().filter(|row| **row < system.g.rows).for_each(|row| is_kept[*row] = false);
         let rows: Vec<usize> = (0..system.g.rows).filter(|row| is_kept[*row]).collect();
         let mut number = vec![0; system.g.rows];
         rows.iter().enumerate().for_each(|(k, row)| number[*row] = k);

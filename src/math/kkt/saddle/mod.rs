@@ -46,8 +46,7 @@ pub struct SaddlePoint {
     /// Reference value of [`Self::rank_indicator`], that of a regular state, against which a
     /// truncated factorization compares; zero before it is known.
     pub rank_reference: f64,
-    /// Rows that are dropped by [`Self::drop_rows`]; `drops_rows` is true if there are any.
-    dropped: Vec<bool>,
+    /// True if rows are dropped by [`Self::drop_rows`].
     drops_rows: bool,
     /// True if rows are dropped that are not surely dependent.
     is_truncated: bool,
@@ -84,7 +83,6 @@ impl SaddlePoint {
             dense: None,
             way: Way::None,
             rank_reference: 0.0,
-            dropped: vec![false; m],
             drops_rows: false,
             is_truncated: false,
             skipped: Vec::with_capacity(m),
@@ -97,7 +95,7 @@ impl SaddlePoint {
     /// Factors the matrix with these values. A pivot collapses on the fast path when elimination reduces it to less
     /// than 1e-11 of its size; below 1e-7 solutions are refined once.
     pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
-        if self.goes_fast(mass, g)? || self.drops_rows(None)? { Ok(()) } else { self.finish_rank_revealing() }
+        if self.goes_fast(mass, g)? || self.factor_kept(None)? { Ok(()) } else { self.factor_rank_revealing() }
     }
 
     /// True if the fast path succeeds; the values are stored if not, or if solutions need a refinement.
@@ -122,18 +120,18 @@ impl SaddlePoint {
     /// velocities after a projection; the next projection farther away corrects the motion along them.
     pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64], part: f64) -> Result<(), Singular> {
         let is_fast = self.goes_fast(mass, g)?;
-        if !is_fast && self.drops_rows(Some(part))? {
+        if !is_fast && self.factor_kept(Some(part))? {
             return Ok(());
         }
         let least = part * self.rank_reference;
         if is_fast && self.is_regular(part) || least * least <= tolerances::COLLAPSED {
-            return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
+            return if is_fast { Ok(()) } else { self.factor_rank_revealing() };
         }
         let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(&self.system)));
         let quality = skipping.factor(&self.system, least * least)?;
         // Coordinates with little mass of their own look the same as nearly dependent rows.
         if quality.replaced {
-            return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
+            return if is_fast { Ok(()) } else { self.factor_rank_revealing() };
         }
         (self.way, self.is_truncated) = (Way::RedundantRowSolve, quality.doubtful);
         Ok(())
@@ -141,7 +139,7 @@ impl SaddlePoint {
 
     /// True if there are rows that are dropped, or that depend on others over the same coordinates; the others are then
     /// factored.
-    fn drops_rows(&mut self, part: Option<f64>) -> Result<bool, Singular> {
+    fn factor_kept(&mut self, part: Option<f64>) -> Result<bool, Singular> {
         if !self.drops_rows {
             let alike = self.alike.get_or_insert_with(|| Alike::new(&self.system.g));
             let rows = alike.dependent(&self.system.g_values, self.rank_tolerance);
@@ -158,17 +156,10 @@ impl SaddlePoint {
         Ok(true)
     }
 
-    fn finish_rank_revealing(&mut self) -> Result<(), Singular> {
-        self.way = self.factor_rank_revealing()?;
-        Ok(())
-    }
-
     /// Drops these rows, and no others, from now on, whatever their pivots. Rows that depend on the others
     /// wherever phi = 0 do not where phi != 0: there their small pivots would lock the motion if they were kept.
     pub fn drop_rows(&mut self, rows: &[usize]) {
-        self.dropped.fill(false);
-        rows.iter().filter(|row| **row < self.m).for_each(|row| self.dropped[*row] = true);
-        self.drops_rows = self.dropped.contains(&true);
+        self.drops_rows = rows.iter().any(|row| *row < self.m);
         self.kept = self.drops_rows.then(|| Box::new(Kept::new(&self.system, rows)));
         self.way = Way::None;
     }
@@ -183,7 +174,7 @@ impl SaddlePoint {
         true
     }
 
-    fn factor_rank_revealing(&mut self) -> Result<Way, Singular> {
+    fn factor_rank_revealing(&mut self) -> Result<(), Singular> {
         let total = self.n + self.m;
         let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(&self.system)));
         let mut quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
@@ -191,7 +182,8 @@ impl SaddlePoint {
             // Round-off in pivots of dependent rows grows with the condition of the others. Null vectors tell them.
             skipping.factor(&self.system, tolerances::DOUBTED)?;
             if skipping.rank_indicator(&self.system) < self.rank_tolerance {
-                return Ok(Way::RedundantRowSolve);
+                self.way = Way::RedundantRowSolve;
+                return Ok(());
             }
             quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
         }
@@ -209,11 +201,13 @@ impl SaddlePoint {
             true
         };
         if is_accepted {
-            return Ok(Way::RedundantRowSolve);
+            self.way = Way::RedundantRowSolve;
+            return Ok(());
         }
         let dense = self.dense.get_or_insert_with(|| Box::new(NullSpace::new(&self.system.mass, &self.system.g)));
         dense.factor(&self.system, self.rank_tolerance)?;
-        Ok(Way::Dense)
+        self.way = Way::Dense;
+        Ok(())
     }
 
     /// Solves in place: (r1, r2) -> (a, lambda).
