@@ -236,9 +236,7 @@ impl SaddlePoint {
         ) {
             (Way::Ldlt { refine: false }, Some(fast), ..) => fast.solve(top, bottom),
             (Way::Ldlt { refine: true }, Some(fast), ..) => {
-                refine(fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
-                    system.residual(a, lambda, top, bottom)
-                })
+                refine(fast, system, (top, bottom), (&mut self.top, &mut self.bottom))
             }
             (Way::Kept, _, Some(kept), ..) => kept.solve(system, (top, bottom), counts_all, is_least)?,
             (Way::RedundantRowSolve, .., Some(skipping), _) => skipping.solve(system, top, bottom, is_least),
@@ -248,7 +246,7 @@ impl SaddlePoint {
         finite(top, bottom)
     }
 
-    /// Like [`Self::solve`] with one step of iterative refinement against these values.
+    /// Like [`Self::solve`] with one step of iterative refinement against these values, which are stored.
     pub fn solve_refined(
         &mut self,
         mass: &[f64],
@@ -256,19 +254,17 @@ impl SaddlePoint {
         top: &mut [f64],
         bottom: &mut [f64],
     ) -> Result<(), Singular> {
-        let Way::Ldlt { .. } = self.way else { return self.solve(top, bottom) };
-        let fits = mass.len() == self.system.mass.entries.len() && g.len() == self.system.g.entries.len();
-        if !fits || top.len() != self.n || bottom.len() != self.m {
-            return Err(Singular::Shape);
+        let way = self.way;
+        if let Way::Ldlt { .. } = way {
+            if mass.len() != self.system.mass.entries.len() || g.len() != self.system.g.entries.len() {
+                return Err(Singular::Shape);
+            }
+            self.system.store(mass, g);
+            self.way = Way::Ldlt { refine: true };
         }
-        let System { mass: m, g: j, .. } = &self.system;
-        let Some(fast) = self.fast.as_mut().and_then(Orders::taken) else { return Err(Singular::NotFactored) };
-        refine(fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
-            m.subtract_symmetric(mass, a, top);
-            j.subtract_transposed(g, lambda, top);
-            j.subtract(g, a, bottom);
-        });
-        finite(top, bottom)
+        let solved = self.solve(top, bottom);
+        self.way = way;
+        solved
     }
 
     /// The smallest correction in the mass metric that meets G d = b: [M G^T; G 0] [d; .] = [0; b].
@@ -297,17 +293,17 @@ impl SaddlePoint {
     }
 }
 
-/// Solves with one step of refinement. `matrix(a, lambda, top, bottom)` subtracts the product from (top, bottom).
+/// Solves with one step of refinement against the values of the system.
 fn refine(
     fast: &mut Ldlt,
+    system: &System,
     (top, bottom): (&mut [f64], &mut [f64]),
     (a, lambda): (&mut [f64], &mut [f64]),
-    matrix: impl Fn(&[f64], &[f64], &mut [f64], &mut [f64]),
 ) {
     a.copy_from_slice(top);
     lambda.copy_from_slice(bottom);
     fast.solve(a, lambda);
-    matrix(a, lambda, top, bottom);
+    system.residual(a, lambda, top, bottom);
     fast.solve(top, bottom);
     add(a, top);
     add(lambda, bottom);
