@@ -2,7 +2,8 @@
 //!
 //! Every dropped row j gives a null vector of G^T, e_j - c, where G^T c = G_j^T is solved by the solver of the system
 //! without these rows. Every other row i gives G x in the range, where x moves row i by one and no other of the solver.
-//! With an orthonormal basis Q of these, whichever are fewer, P = I - Q Q^T or P = Q Q^T.
+//! With an orthonormal basis Q of these, whichever are fewer, P = I - Q Q^T or P = Q Q^T. Where both are very many, right
+//! sides of dropped rows are not read, and their multipliers stay zero.
 
 use super::super::Pattern;
 use super::super::orthonormal::{orthogonalize, orthonormalize, project_out};
@@ -43,10 +44,17 @@ impl Least {
         self.is_current = false;
     }
 
-    /// v := P v with these rows dropped; returns the norm of the removed part.
+    /// v := P v with these rows dropped; returns the norm of the removed part. Very many rows leave v as it is, and the
+    /// norm is that of what the dropped ones miss of it where the others are met: zero for the same v, else larger.
     pub fn project(&mut self, system: &System, rows: &[usize], solve: Solve, v: &mut [f64]) -> f64 {
         if rows.is_empty() {
             return 0.0;
+        }
+        let fewer = rows.len().min(system.g.rows - rows.len());
+        if fewer > tolerances::NULL_VECTORS && system.g.rows + system.g.cols > tolerances::DENSE_EQUATIONS {
+            self.correction.copy_from_slice(v);
+            self.image(system, solve);
+            return rows.iter().map(|&row| (v[row] - self.vector[row]).powi(2)).sum::<f64>().sqrt();
         }
         if !self.is_current {
             self.span(system, rows, solve);
@@ -73,7 +81,9 @@ impl Least {
             return;
         }
         for row in (0..system.g.rows).filter(|row| !rows.contains(row)) {
-            self.range_vector(system, row, solve);
+            self.correction.fill(0.0);
+            self.correction[row] = 1.0;
+            self.image(system, solve);
             let length = norm(&self.vector);
             let left = orthogonalize(&self.basis, &mut self.vector);
             // The solver may have further dependent rows.
@@ -97,11 +107,9 @@ impl Least {
         }
     }
 
-    /// vector := G x of a row that is not dropped.
-    fn range_vector(&mut self, system: &System, row: usize, solve: Solve) {
+    /// vector := G x, where x moves the rows that are not dropped by `correction`.
+    fn image(&mut self, system: &System, solve: Solve) {
         self.a.fill(0.0);
-        self.correction.fill(0.0);
-        self.correction[row] = 1.0;
         solve(&mut self.a, &mut self.correction);
         self.vector.fill(0.0);
         system.g.multiply(&system.g_values, &self.a, &mut self.vector);

@@ -120,7 +120,7 @@ fn the_fast_way_is_taken_wherever_it_can_be() {
 fn least_multipliers_take_no_more_solutions_than_rows() {
     let mut random = Random(31);
     let reduced = Sample::chain(60, &mut random);
-    for count in [10, 40, 110, 240] {
+    for count in [10, 40, 64, 110, 240] {
         let mut sample = reduced.clone();
         let row = |k: usize| k % 110;
         (0..count).for_each(|k| sample.append(&[(row(k), 1.0), (row(k) + 5, -0.5), (row(k) + 9, 0.25)]));
@@ -151,6 +151,25 @@ fn least_multipliers_take_no_more_solutions_than_rows() {
             assert!(along.abs() < 1e-11, "{count} rows: {along:e}");
         }
     }
+}
+
+/// The others are met, and what contradicts them is told.
+#[test]
+fn very_many_redundant_rows_carry_no_force() {
+    let mut random = Random(33);
+    let reduced = Sample::chain(130, &mut random);
+    let mut sample = reduced.clone();
+    (0..70).for_each(|k| sample.append(&[(3 * k, 1.0), (3 * k + 50, 0.5)]));
+    let r1 = random.vector(390);
+    let mut r2 = reachable(&sample, &mut random);
+    let (a, _, _) = solved(&reduced, &r1, &r2[..260]);
+    let (all, lambda, solver) = solved(&sample, &r1, &r2);
+    assert_eq!((solver.rank(), solver.left_out().len()), (260, 70));
+    assert!(solver.left_out().iter().all(|row| lambda[*row] == 0.0));
+    assert!(distance(&all, &a) < 1e-8 && solver.inconsistency() < 1e-8, "{:e}", solver.inconsistency());
+    r2[260] += 1.0;
+    let (_, _, solver) = solved(&sample, &r1, &r2);
+    assert!(solver.inconsistency() > 0.1);
 }
 
 /// Copies of rows are found within their group, so that no factor couples all of them.

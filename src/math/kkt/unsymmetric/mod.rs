@@ -66,7 +66,8 @@ pub struct Unsymmetric<T> {
     left_out: Vec<bool>,
     keeps_rows: bool,
     right: Vec<T>,
-    state: State,
+    is_factored: bool,
+    /// True if all entries so far are in the pattern.
     fits: bool,
 }
 
@@ -76,13 +77,6 @@ pub type Places = Vec<(u32, u32)>;
 enum Factors<T> {
     Dense(Dense<T>),
     Sparse(Sparse<T>),
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum State {
-    /// The last factorization failed, or there is a new matrix.
-    Open,
-    Factored,
 }
 
 impl<T: Field> Unsymmetric<T> {
@@ -121,7 +115,7 @@ impl<T: Field> Unsymmetric<T> {
             left_out: vec![false; g.rows],
             keeps_rows: false,
             right: vec![T::ZERO; size],
-            state: State::Open,
+            is_factored: false,
             fits: true,
             matrix,
         })
@@ -155,7 +149,7 @@ impl<T: Field> Unsymmetric<T> {
         self.matrix.values.fill(T::ZERO);
         self.coupling.fill(T::ZERO);
         self.fits = true;
-        self.state = State::Open;
+        self.is_factored = false;
     }
 
     /// Places of the entries of a part of A, or `None` where one is missing, for [`add_at`](Self::add_at).
@@ -225,7 +219,7 @@ impl<T: Field> Unsymmetric<T> {
             self.left_out.fill(false);
         }
         if self.factor_scaled(values) || !self.keeps_rows && self.leave_out(values) && self.factor_scaled(values) {
-            self.state = State::Factored;
+            self.is_factored = true;
             return Ok(());
         }
         Err(Singular::Collapsed)
@@ -332,7 +326,7 @@ impl<T: Field> Unsymmetric<T> {
 
     /// Solves in place.
     pub fn solve(&mut self, top: &mut [T], bottom: &mut [T]) -> Result<(), Singular> {
-        if self.state != State::Factored || top.len() != self.n || bottom.len() != self.g.rows {
+        if !self.is_factored || top.len() != self.n || bottom.len() != self.g.rows {
             return Err(Singular::NotFactored);
         }
         let (of_top, of_bottom) = self.right.split_at_mut(self.n);
