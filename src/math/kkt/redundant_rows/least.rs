@@ -74,7 +74,7 @@ impl Least {
         self.is_range = 2 * rows.len() > system.g.rows;
         if !self.is_range {
             for &row in rows {
-                self.null_vector(system, row, solve);
+                self.null(system, |vector| vector[row] = 1.0, solve);
                 orthonormalize(&self.basis, &mut self.vector);
                 self.basis.extend_from_slice(&self.vector);
             }
@@ -93,10 +93,10 @@ impl Least {
         }
     }
 
-    /// vector := e_j - c of a dropped row j.
-    fn null_vector(&mut self, system: &System, row: usize, solve: Solve) {
+    /// The null vector of G^T with what `direction` writes on the dropped rows: e_j - c for e_j.
+    pub fn null(&mut self, system: &System, direction: impl Fn(&mut [f64]), solve: Solve) -> &[f64] {
         self.vector.fill(0.0);
-        self.vector[row] = 1.0;
+        direction(&mut self.vector);
         // Corrected once, since multipliers of rows in small units multiply the errors of a solution.
         for _ in 0..2 {
             self.a.fill(0.0);
@@ -105,6 +105,7 @@ impl Least {
             solve(&mut self.a, &mut self.correction);
             add(&self.correction, &mut self.vector);
         }
+        &self.vector
     }
 
     /// vector := G x, where x moves the rows that are not dropped by `correction`.

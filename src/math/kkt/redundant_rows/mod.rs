@@ -27,9 +27,7 @@ pub(super) struct RedundantRowSolve {
     top: Vec<f64>,
     lambda: Vec<f64>,
     bottom: Vec<f64>,
-    weights: Vec<f64>,
-    direction: Vec<f64>,
-    image: Vec<f64>,
+    lengths: Vec<f64>,
     probe: (Vec<f64>, Vec<f64>),
 }
 
@@ -48,9 +46,7 @@ impl RedundantRowSolve {
             top: vec![0.0; n],
             lambda: zeros(),
             bottom: zeros(),
-            weights: zeros(),
-            direction: zeros(),
-            image: zeros(),
+            lengths: zeros(),
             probe: (vec![0.0; n], zeros()),
         }
     }
@@ -92,23 +88,23 @@ impl RedundantRowSolve {
         if self.skipped.is_empty() {
             return 0.0;
         }
-        self.top.fill(0.0);
-        system.mass.add_diagonal(&system.mass_values, &mut self.top);
-        self.weights.fill(0.0);
+        let RedundantRowSolve { factor, skipped, least, a, top: mass, lengths, .. } = self;
+        mass.fill(0.0);
+        system.mass.add_diagonal(&system.mass_values, mass);
+        lengths.fill(0.0);
         for (&(j, i), value) in system.g.entries.iter().zip(&system.g_values) {
-            self.weights[j] += value * value / self.top[i];
+            lengths[j] += value * value / mass[i];
         }
-        self.direction.fill(0.0);
-        for &j in &self.skipped {
-            let length = self.weights[j].sqrt();
-            self.direction[j] = if length > 0.0 { (1.0 + 0.5 * arbitrary(j)) / length } else { 0.0 };
-        }
-        self.refine_null(system);
-        self.a.fill(0.0);
-        system.g.subtract_transposed(&system.g_values, &self.image, &mut self.a);
-        self.top.fill(0.0);
-        system.mass.add_diagonal(&system.mass_values, &mut self.top);
-        self.a.iter().zip(&self.top).map(|(a, mass)| a * a / mass).sum::<f64>().sqrt()
+        lengths.iter_mut().for_each(|square| *square = square.sqrt());
+        let combine = |direction: &mut [f64]| {
+            for &j in skipped.iter().filter(|j| lengths[**j] > 0.0) {
+                direction[j] = (1.0 + 0.5 * arbitrary(j)) / lengths[j];
+            }
+        };
+        let null = least.null(system, combine, &mut |top, bottom| factor.solve(top, bottom));
+        a.fill(0.0);
+        system.g.subtract_transposed(&system.g_values, null, a);
+        a.iter().zip(&*mass).map(|(a, mass)| a * a / mass).sum::<f64>().sqrt()
     }
 
     /// Rows that the last factorization dropped.
@@ -151,19 +147,6 @@ impl RedundantRowSolve {
     fn project(&mut self, system: &System, v: &mut [f64]) -> f64 {
         let RedundantRowSolve { factor, least, skipped, .. } = self;
         least.project(system, skipped, &mut |top, bottom| factor.solve(top, bottom), v)
-    }
-
-    /// image = N direction, where `direction` is zero except on the dropped rows.
-    fn refine_null(&mut self, system: &System) {
-        let RedundantRowSolve {
-            factor, a, lambda, top: r1, bottom: r2, direction, image, probe: (top, bottom), ..
-        } = self;
-        top.fill(0.0);
-        bottom.fill(0.0);
-        system.g.subtract_transposed(&system.g_values, direction, top);
-        iterate(factor, system, (top, bottom), (a, lambda), (r1, r2), tolerances::REFINEMENTS[0]);
-        image.copy_from_slice(direction);
-        add(lambda, image);
     }
 }
 
