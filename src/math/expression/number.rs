@@ -1,6 +1,6 @@
 //! Numbers in scenes: plain, or expressions over the parameters.
 
-use super::{Expression, ExpressionError, Names, Parameters, finite};
+use super::{Expression, ExpressionError, Names, finite};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
 use serde::de::{Deserialize, Deserializer, Error};
@@ -26,7 +26,7 @@ impl Number {
     /// # Errors
     ///
     /// If the expression cannot be parsed, depends on anything but parameters, or its value is not finite.
-    pub fn evaluate(&self, parameters: &Parameters) -> Result<f64, ExpressionError> {
+    pub fn evaluate(&self, parameters: &dyn Names) -> Result<f64, ExpressionError> {
         match self {
             Number::Value(value) if value.is_finite() => Ok(*value),
             Number::Value(value) => finite(*value, &value.to_string()),
@@ -49,12 +49,6 @@ impl Number {
         }
         Ok(expression)
     }
-}
-
-/// The value of a text without parameters, such as `2.5` or `pi/2`.
-pub fn constant(text: &str) -> Option<f64> {
-    let evaluated = || Number::from(text).evaluate(&Parameters::default()).ok();
-    text.trim().parse().ok().or_else(evaluated)
 }
 
 impl Default for Number {
@@ -121,6 +115,7 @@ impl JsonSchema for Number {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Parameters;
     use super::*;
 
     fn read(json: &str) -> Result<Number, String> {
