@@ -50,8 +50,9 @@ impl Least {
         if rows.is_empty() {
             return 0.0;
         }
-        let fewer = rows.len().min(system.g.rows - rows.len());
-        if fewer > tolerances::NULL_VECTORS && system.g.rows + system.g.cols > tolerances::DENSE_EQUATIONS {
+        let m = system.g.rows;
+        let vectors = rows.len().min(m - rows.len());
+        if vectors.saturating_mul(vectors).saturating_mul(m) > tolerances::LEAST_NORM {
             self.correction.copy_from_slice(v);
             self.image(system, solve);
             return rows.iter().map(|&row| (v[row] - self.vector[row]).powi(2)).sum::<f64>().sqrt();
