@@ -15,9 +15,7 @@ pub struct Analysis {
     levers: Vec<Lever>,
     is_crowded: OnceLock<bool>,
     found: Mutex<Vec<(Vec<bool>, Arc<Plan>)>>,
-    /// Where rows depend on others: without levers, which single rows are dropped from; what is known of G without the
-    /// rows that were dropped last.
-    single: OnceLock<Plan>,
+    /// The analysis of G without the rows that were dropped last.
     without: Mutex<Option<(Vec<usize>, Arc<Analysis>)>>,
 }
 
@@ -41,11 +39,6 @@ impl Analysis {
         let plan = Arc::new(Plan::new(mass, g, late, &self.levers));
         found.push((late.to_vec(), plan.clone()));
         plan
-    }
-
-    /// The structure with no late coordinates, and no levers.
-    pub(super) fn single(&self, mass: &Pattern, g: &Pattern) -> &Plan {
-        self.single.get_or_init(|| Plan::new(mass, g, &vec![false; g.cols], &[]))
     }
 
     /// The analysis of G without these rows.

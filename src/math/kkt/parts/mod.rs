@@ -22,7 +22,7 @@ pub use plan::{Division, Plan};
 use super::blocks::Blocks;
 use super::pivot::{Quality, Rule};
 use crate::math::add;
-use crate::math::threads::{Divisible, each};
+use crate::math::threads::{Divisible, each, each_of};
 use crate::tolerances::system::NUMBERS_OF_A_PORTION;
 use plan::{PartPlan, Piece};
 use std::sync::Arc;
@@ -83,9 +83,7 @@ impl Parts {
     /// See [`Blocks::factor`].
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         let Parts { division, all } = self;
-        each(&mut all[..], &|parts: &mut [Part]| {
-            parts.iter_mut().for_each(|part| part.factor(&division.parts[part.number], (mass, g), rule));
-        });
+        each_of(all, |part| part.factor(&division.parts[part.number], (mass, g), rule));
         let mut quality = Quality::GOOD;
         for part in &*all {
             quality = quality.with(part.quality.map_err(|node| division.node(part.number, node))?);
@@ -105,18 +103,14 @@ impl Parts {
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
         let Parts { division, all } = self;
         let given: (&[f64], &[f64]) = (top, bottom);
-        each(&mut all[..], &|parts: &mut [Part]| {
-            parts.iter_mut().for_each(|part| part.forward(&division.parts[part.number], given));
-        });
+        each_of(all, |part| part.forward(&division.parts[part.number], given));
         let Some((first, others)) = all.split_first_mut() else { return };
         let last = first.blocks.last();
         others.iter_mut().for_each(|other| add(other.blocks.last(), last));
         first.blocks.solve_last();
         let last = first.blocks.last();
         others.iter_mut().for_each(|other| other.blocks.last().copy_from_slice(last));
-        each(&mut all[..], &|parts: &mut [Part]| {
-            parts.iter_mut().for_each(|part| part.blocks.backward(&mut part.top, &mut part.bottom));
-        });
+        each_of(all, |part| part.blocks.backward(&mut part.top, &mut part.bottom));
         let all = &*all;
         collect(&division.coordinates, |part| &all[part].top, top);
         collect(&division.rows, |part| &all[part].bottom, bottom);

@@ -35,9 +35,10 @@ impl RedundantRowSolve {
     pub fn new(System { mass, g, analysis, .. }: &System) -> Self {
         let n = g.cols;
         let m = g.rows;
+        let early = vec![false; n];
         let zeros = || vec![0.0; m];
         RedundantRowSolve {
-            factor: Ldlt::of(analysis.single(mass, g), mass, g, &vec![false; n]),
+            factor: Ldlt::of(&analysis.plan(mass, g, &early), mass, g, &early),
             skipped: Vec::with_capacity(m),
             replaced: false,
             inconsistency: 0.0,

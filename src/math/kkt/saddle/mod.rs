@@ -50,7 +50,6 @@ pub struct SaddlePoint {
     drops_rows: bool,
     /// True if rows are dropped that are not surely dependent.
     is_truncated: bool,
-    skipped: Vec<usize>,
     top: Vec<f64>,
     bottom: Vec<f64>,
     multipliers: Vec<f64>,
@@ -85,7 +84,6 @@ impl SaddlePoint {
             rank_reference: 0.0,
             drops_rows: false,
             is_truncated: false,
-            skipped: Vec::with_capacity(m),
             top: vec![0.0; n],
             bottom: vec![0.0; m],
             multipliers: vec![0.0; m],
@@ -166,7 +164,7 @@ impl SaddlePoint {
 
     fn factor_fast(&mut self, mass: &[f64], g: &[f64]) -> bool {
         let Some(orders) = &mut self.fast else { return false };
-        let Some(quality) = orders.factor(&self.system, (mass, g), &mut self.skipped) else { return false };
+        let Some(quality) = orders.factor(&self.system, (mass, g)) else { return false };
         if quality.weak {
             self.system.store(mass, g);
         }

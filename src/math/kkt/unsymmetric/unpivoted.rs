@@ -4,7 +4,7 @@ use super::Field;
 use super::columns::Columns;
 use crate::math::kkt::order::{delayed, ordered};
 use crate::math::kkt::parts::{SEPARATOR, divide};
-use crate::math::threads::each;
+use crate::math::threads::each_of;
 use crate::tolerances::math as tolerances;
 use faer::sparse::SymbolicSparseColMat;
 
@@ -43,7 +43,7 @@ impl<T: Field> Unpivoted<T> {
     /// Factors the matrix with these values at its places; returns false where a pivot is too small.
     pub fn factor(&mut self, values: &[T]) -> bool {
         let Unpivoted { parts, last } = self;
-        each(&mut parts[..], &|parts: &mut [Part<T>]| parts.iter_mut().for_each(|part| part.factor(values)));
+        each_of(parts, |part| part.factor(values));
         last.load(values);
         parts.iter().for_each(|part| last.columns.add_left(&part.columns));
         parts.iter().all(|part| part.is_stable) && last.columns.factor()
@@ -53,7 +53,7 @@ impl<T: Field> Unpivoted<T> {
     pub fn solve(&mut self, x: &mut [T]) {
         let Unpivoted { parts, last } = self;
         let given: &[T] = x;
-        each(&mut parts[..], &|parts: &mut [Part<T>]| parts.iter_mut().for_each(|part| part.forward(given)));
+        each_of(parts, |part| part.forward(given));
         last.read(given);
         for part in &*parts {
             let moved = &part.columns.x[part.nodes.len()..];
@@ -62,7 +62,7 @@ impl<T: Field> Unpivoted<T> {
         last.columns.forward();
         last.columns.backward();
         let of_separator = &last.columns.x;
-        each(&mut parts[..], &|parts: &mut [Part<T>]| parts.iter_mut().for_each(|part| part.backward(of_separator)));
+        each_of(parts, |part| part.backward(of_separator));
         for Part { nodes, columns, .. } in parts.iter().chain([&*last]) {
             nodes.iter().zip(&columns.x).for_each(|(&node, solution)| x[node] = *solution);
         }
