@@ -68,26 +68,8 @@ impl Schur<'_> {
         });
     }
 
-    /// Subtracts the products of bodies whose blocks have all R rows; WR = W R.
-    pub fn alike<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
-        self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
-            for (l, side) in sides.iter().enumerate() {
-                let Some(x) = at::<_, WR>(g, side.entries as usize) else { return };
-                let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j * W + p] * inverse[p]));
-                for (side, &target) in sides[l..].iter().zip(targets.by_ref()) {
-                    let Some(x) = at::<_, WR>(g, side.entries as usize) else { return };
-                    for i in 0..R {
-                        if let Some(row) = at_mut::<_, R>(work, target as usize + i * R) {
-                            subtract(row, &from_fn(|p| x[i * W + p]), &scaled);
-                        }
-                    }
-                }
-            }
-        });
-    }
-
-    /// Subtracts the products of bodies with blocks of any number of rows.
-    pub fn mixed<const W: usize>(&mut self, run: &Run) {
+    /// Subtracts the products of other blocks.
+    pub fn blocks<const W: usize>(&mut self, run: &Run) {
         self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
             for (l, side) in sides.iter().enumerate() {
                 let part = (inverse, &sides[l..], &mut *targets);
@@ -194,26 +176,8 @@ impl<N: Lanes> Passage<'_, N> {
         });
     }
 
-    /// Forwards through blocks of R rows; WR = W R.
-    pub fn forward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
-        self.forward_by::<W>(run, |side, g, mine, x| {
-            let block = at::<_, WR>(g, side.entries as usize);
-            let (Some(block), Some(x)) = (block, at_mut::<_, R>(x, side.position as usize)) else { return };
-            *x = from_fn(|i| (0..W).fold(x[i], |x, p| x - mine[p] * block[i * W + p]));
-        });
-    }
-
-    /// Backwards through blocks of R rows; WR = W R.
-    pub fn backward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
-        self.backward_by::<W>(run, |side, g, sum, x| {
-            let block = at::<_, WR>(g, side.entries as usize);
-            let (Some(block), Some(x)) = (block, at::<_, R>(x, side.position as usize)) else { return };
-            (0..R).for_each(|i| (0..W).for_each(|p| sum[p] = sum[p] + x[i] * block[i * W + p]));
-        });
-    }
-
-    /// Forwards through blocks of any number of rows.
-    pub fn forward_by_rows<const W: usize>(&mut self, run: &Run) {
+    /// Forwards through other blocks.
+    pub fn forward<const W: usize>(&mut self, run: &Run) {
         self.forward_by::<W>(run, |side, g, mine, x| {
             for (row, x) in block::<W>(g, side).iter().zip(&mut x[side.position as usize..]) {
                 *x = (0..W).fold(*x, |x, p| x - mine[p] * row[p]);
@@ -221,8 +185,8 @@ impl<N: Lanes> Passage<'_, N> {
         });
     }
 
-    /// Backwards through blocks of any number of rows.
-    pub fn backward_by_rows<const W: usize>(&mut self, run: &Run) {
+    /// Backwards through other blocks.
+    pub fn backward<const W: usize>(&mut self, run: &Run) {
         self.backward_by::<W>(run, |side, g, sum, x| {
             for (row, x) in block::<W>(g, side).iter().zip(&x[side.position as usize..]) {
                 (0..W).for_each(|p| sum[p] = sum[p] + *x * row[p]);
