@@ -33,7 +33,7 @@ impl Factors<'_> {
         let Factors { layout, work, inverse, .. } = self;
         let mut part = Solution { layout, work, inverse, x };
         for run in &layout.runs[runs] {
-            by_widths!(run, part, forward, forward_by_rows);
+            by_width!(run.width, part.forward(run));
         }
     }
 
@@ -41,7 +41,7 @@ impl Factors<'_> {
         let Factors { layout, work, inverse, .. } = self;
         let mut part = Solution { layout, work, inverse, x };
         for run in layout.runs[runs].iter().rev() {
-            by_widths!(run, part, backward, backward_by_rows);
+            by_width!(run.width, part.backward(run));
         }
     }
 

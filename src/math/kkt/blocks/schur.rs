@@ -1,7 +1,6 @@
 //! The arithmetic of bodies, W coordinates wide: S -= G M^-1 G^T, and both ways through G.
 
 use super::bodies::{Bodies, Run, Side};
-use super::groups::LARGEST;
 use super::kernels::{at, at_mut, subtract};
 use super::lanes::Lanes;
 use crate::math::array::from_fn;
@@ -72,34 +71,30 @@ impl Schur<'_> {
     pub fn blocks<const W: usize>(&mut self, run: &Run) {
         self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
             for (l, side) in sides.iter().enumerate() {
-                let part = (inverse, &sides[l..], &mut *targets);
-                match side.rows {
-                    1 => column::<W, 1>(part, g, work),
-                    2 => column::<W, 2>(part, g, work),
-                    3 => column::<W, 3>(part, g, work),
-                    4 => column::<W, 4>(part, g, work),
-                    5 => column::<W, 5>(part, g, work),
-                    6 => column::<W, 6>(part, g, work),
-                    7 => column::<W, 7>(part, g, work),
-                    _ => column::<W, LARGEST>(part, g, work),
-                }
+                let part = Products { inverse, sides: &sides[l..], targets: &mut *targets };
+                by_width!(side.rows, part.subtract(g, work));
             }
         });
     }
 }
 
-/// Subtracts the products of the first block, with R rows, and all.
-#[inline]
-fn column<const W: usize, const R: usize>(
-    (inverse, sides, targets): (&[f64; W], &[Side], &mut Iter<u32>),
-    g: &[f64],
-    work: &mut [f64],
-) {
-    let Some(x) = block::<W>(g, &sides[0]).first_chunk::<R>() else { return };
-    let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j][p] * inverse[p]));
-    for (side, &target) in sides.iter().zip(targets) {
-        let target = work[target as usize..].as_chunks_mut::<R>().0;
-        block::<W>(g, side).iter().zip(target).for_each(|(x, row)| subtract(row, x, &scaled));
+/// The products of a body that are still to be subtracted: from some block on.
+struct Products<'a, 'b, const W: usize> {
+    inverse: &'a [f64; W],
+    sides: &'a [Side],
+    targets: &'a mut Iter<'b, u32>,
+}
+
+impl<const W: usize> Products<'_, '_, W> {
+    /// Subtracts the products of the first block, with R rows, and all.
+    #[inline]
+    fn subtract<const R: usize>(self, g: &[f64], work: &mut [f64]) {
+        let Some(x) = block::<W>(g, &self.sides[0]).first_chunk::<R>() else { return };
+        let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j][p] * self.inverse[p]));
+        for (side, &target) in self.sides.iter().zip(self.targets) {
+            let target = work[target as usize..].as_chunks_mut::<R>().0;
+            block::<W>(g, side).iter().zip(target).for_each(|(x, row)| subtract(row, x, &scaled));
+        }
     }
 }
 
