@@ -7,14 +7,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// one without bounds gives all numbers. Source: Moore, Kearfott, Cloud, Introduction to Interval Analysis, 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
-    /// Lower bound.
     pub low: f64,
-    /// Upper bound.
     pub high: f64,
 }
 
 impl Interval {
-    /// All numbers.
     pub const WHOLE: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
     /// From the smaller of two numbers to the larger; all numbers if one is NaN.
@@ -22,12 +19,10 @@ impl Interval {
         if a.is_nan() || b.is_nan() { Self::WHOLE } else { Interval { low: a.min(b), high: a.max(b) } }
     }
 
-    /// `high` - `low`.
     pub fn width(&self) -> f64 {
         self.high - self.low
     }
 
-    /// True if low <= x <= high.
     pub fn contains(&self, x: f64) -> bool {
         self.low <= x && x <= self.high
     }

@@ -41,7 +41,6 @@ impl Limits {
 /// Decision after a correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Correct again.
     Continue,
     /// The error left is within the tolerance.
     Converged,

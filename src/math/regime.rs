@@ -135,8 +135,7 @@ impl Thresholds {
 
 /// Discrete state of an evaluation: the piece of each function of a scene, by the number of its switching function, or
 /// none, and each takes the piece of its argument; and the values of the counted angles in space, rad, by the number of
-/// their
-/// [`Turning`](crate::body::Turning).
+/// their [`Turning`](crate::body::Turning).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Regime<'a> {
     pieces: Option<&'a [Piece]>,

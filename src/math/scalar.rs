@@ -190,21 +190,13 @@ pub trait Scalar:
 /// The elementary functions, each with its first two derivatives over any scalar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unary {
-    /// Square root.
     Sqrt,
-    /// Sine.
     Sin,
-    /// Cosine.
     Cos,
-    /// Exponential.
     Exp,
-    /// Natural logarithm.
     Ln,
-    /// Arc tangent.
     Atan,
-    /// Hyperbolic sine.
     Sinh,
-    /// Hyperbolic cosine.
     Cosh,
 }
 

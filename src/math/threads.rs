@@ -62,6 +62,11 @@ pub fn each<P: Divisible>(all: P, work: &(impl Fn(P) + Sync)) {
     }
 }
 
+/// The same for each number of a list.
+pub fn each_of<T: Send>(all: &mut [T], work: impl Fn(&mut T) + Sync) {
+    each(all, &|some: &mut [T]| some.iter_mut().for_each(&work));
+}
+
 fn at_once<P: Divisible>(all: P, work: &(impl Fn(P) + Sync)) {
     if all.is_whole() {
         return work(all);

@@ -4,7 +4,7 @@ use super::{Complex, ComplexMatrix, Matrix, Unsolved};
 use crate::math::kkt::Field;
 use faer::linalg::matmul::matmul;
 use faer::traits::Conjugate;
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::DMatrix;
 
 pub fn view<T>(matrix: &DMatrix<T>) -> MatRef<'_, T> {
@@ -103,8 +103,4 @@ pub fn direction(n: usize, seed: u64) -> impl Iterator<Item = f64> {
         state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (state >> 33) as f64 / (1u64 << 30) as f64 - 1.0
     })
-}
-
-pub fn zeros(n: usize) -> Mat<f64> {
-    Mat::zeros(n, n)
 }

@@ -73,7 +73,7 @@ fn decompose(pencil: &Balanced) -> Result<Decomposed, Unsolved> {
     re.as_mut().column_vector_mut().fill(f64::NAN);
     let mut im = Diag::<f64>::zeros(n);
     let mut beta = re.clone();
-    let mut right = dense::zeros(n);
+    let mut right = Mat::zeros(n, n);
     let mut options = Spec::<GevdParams, f64>::default();
     // The blocked algorithm does not get along with many infinite eigenvalues: seconds for a hundred rows.
     options.config.schur.blocking_threshold = 10 * n.max(8);

@@ -83,8 +83,8 @@ fn decompose(a: &Matrix) -> Result<Decomposed, Unsolved> {
     let n = a.nrows();
     let mut re = Diag::<f64>::zeros(n);
     let mut im = Diag::<f64>::zeros(n);
-    let mut right = dense::zeros(n);
-    let mut left = dense::zeros(n);
+    let mut right = Mat::zeros(n, n);
+    let mut left = Mat::zeros(n, n);
     let options = Default::default();
     let yes = ComputeEigenvectors::Yes;
     let mut memory = MemBuffer::new(evd_scratch::<f64>(n, yes, yes, Par::Seq, options));

@@ -1,28 +1,18 @@
 //! Lexer: from characters to tokens.
 
 use super::error::{ExpressionError, excerpt};
+use super::operation::Two;
 
 /// Kind of a token; the text of names and numbers is found by position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     Number(f64),
     Name,
-    Plus,
-    Minus,
-    Star,
-    Slash,
-    Caret,
+    /// The sign of an operation on two numbers; those of sum and difference stand before one number too.
+    Infix(Two),
     Open,
     Close,
     Comma,
-    Less,
-    AtMost,
-    Greater,
-    AtLeast,
-    Equal,
-    Unequal,
-    And,
-    Or,
     /// The word `not`, which binds less tightly than a comparison.
     Not,
     /// The sign `!`, which binds as tightly as a unary minus.
@@ -40,23 +30,23 @@ pub(super) struct Token {
 
 /// Signs of two characters, looked for before any that they begin with.
 const DOUBLE: [(&str, Kind); 6] = [
-    ("<=", Kind::AtMost),
-    (">=", Kind::AtLeast),
-    ("==", Kind::Equal),
-    ("!=", Kind::Unequal),
-    ("&&", Kind::And),
-    ("||", Kind::Or),
+    ("<=", Kind::Infix(Two::AtMost)),
+    (">=", Kind::Infix(Two::AtLeast)),
+    ("==", Kind::Infix(Two::Equal)),
+    ("!=", Kind::Infix(Two::Unequal)),
+    ("&&", Kind::Infix(Two::And)),
+    ("||", Kind::Infix(Two::Or)),
 ];
 
 const SINGLE: [(&str, Kind); 11] = [
-    ("<", Kind::Less),
-    (">", Kind::Greater),
+    ("<", Kind::Infix(Two::Less)),
+    (">", Kind::Infix(Two::Greater)),
     ("!", Kind::Bang),
-    ("+", Kind::Plus),
-    ("-", Kind::Minus),
-    ("*", Kind::Star),
-    ("/", Kind::Slash),
-    ("^", Kind::Caret),
+    ("+", Kind::Infix(Two::Add)),
+    ("-", Kind::Infix(Two::Sub)),
+    ("*", Kind::Infix(Two::Mul)),
+    ("/", Kind::Infix(Two::Div)),
+    ("^", Kind::Infix(Two::Pow)),
     ("(", Kind::Open),
     (")", Kind::Close),
     (",", Kind::Comma),
@@ -154,8 +144,8 @@ fn number(text: &str, start: usize, digits: &str) -> Result<f64, ExpressionError
 
 fn word(name: &str) -> Kind {
     match name {
-        "and" => Kind::And,
-        "or" => Kind::Or,
+        "and" => Kind::Infix(Two::And),
+        "or" => Kind::Infix(Two::Or),
         "not" => Kind::Not,
         _ => Kind::Name,
     }

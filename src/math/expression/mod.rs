@@ -20,11 +20,9 @@ mod tests;
 #[doc(hidden)]
 pub use error::ExpressionError;
 pub use number::Number;
-#[doc(hidden)]
-pub use number::constant;
 pub use parameters::Parameters;
 #[doc(hidden)]
-pub use parameters::{ParameterError, ParameterSource};
+pub use parameters::{ParameterError, ParameterSource, constant};
 #[doc(hidden)]
 pub use scope::Scope;
 #[doc(hidden)]

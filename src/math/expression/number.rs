@@ -1,16 +1,18 @@
 //! Numbers in scenes: plain, or expressions over the parameters.
 
-use super::{Expression, ExpressionError, Names, Parameters, finite};
+use super::{Expression, ExpressionError, Names, finite};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{self, Deserialize, Deserializer, Visitor};
-use serde::{Serialize, Serializer};
+use serde::Serialize;
+use serde::de::{Deserialize, Deserializer, Error};
+use serde_json::Value;
 use std::borrow::Cow;
 use std::fmt;
 
 const EXPECTED: &str = "a number or an expression such as \"sqrt(2)*l\"";
 
 /// A JSON number, or a JSON string with an expression.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Serialize, Clone, Debug, PartialEq)]
+#[serde(untagged)]
 pub enum Number {
     /// A finite number.
     Value(f64),
@@ -24,7 +26,7 @@ impl Number {
     /// # Errors
     ///
     /// If the expression cannot be parsed, depends on anything but parameters, or its value is not finite.
-    pub fn evaluate(&self, parameters: &Parameters) -> Result<f64, ExpressionError> {
+    pub fn evaluate(&self, parameters: &dyn Names) -> Result<f64, ExpressionError> {
         match self {
             Number::Value(value) if value.is_finite() => Ok(*value),
             Number::Value(value) => finite(*value, &value.to_string()),
@@ -47,12 +49,6 @@ impl Number {
         }
         Ok(expression)
     }
-}
-
-/// The value of a text without parameters, such as `2.5` or `pi/2`.
-pub fn constant(text: &str) -> Option<f64> {
-    let evaluated = || Number::from(text).evaluate(&Parameters::default()).ok();
-    text.trim().parse().ok().or_else(evaluated)
 }
 
 impl Default for Number {
@@ -82,57 +78,18 @@ impl fmt::Display for Number {
     }
 }
 
-impl Serialize for Number {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Number::Value(value) => serializer.serialize_f64(*value),
-            Number::Text(text) => serializer.serialize_str(text),
-        }
-    }
-}
-
 impl<'de> Deserialize<'de> for Number {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(NumberVisitor)
-    }
-}
-
-struct NumberVisitor;
-
-/// Error for a value of a wrong type, with the expected type first, unlike serde's message.
-fn wrong<E: de::Error>(found: impl fmt::Display) -> Result<Number, E> {
-    Err(E::custom(format_args!("expected {EXPECTED}, found {found}")))
-}
-
-impl<'de> Visitor<'de> for NumberVisitor {
-    type Value = Number;
-
-    fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(EXPECTED)
-    }
-    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Number, E> {
-        Ok(Number::Value(value))
-    }
-    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Number, E> {
-        Ok(Number::Value(value as f64))
-    }
-    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Number, E> {
-        Ok(Number::Value(value as f64))
-    }
-    fn visit_str<E: de::Error>(self, text: &str) -> Result<Number, E> {
-        Ok(Number::Text(text.to_string()))
-    }
-    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Number, E> {
-        wrong(format_args!("`{value}`"))
-    }
-    fn visit_unit<E: de::Error>(self) -> Result<Number, E> {
-        wrong("null")
-    }
-    fn visit_seq<A: de::SeqAccess<'de>>(self, _: A) -> Result<Number, A::Error> {
-        wrong("a list")
-    }
-    fn visit_map<A: de::MapAccess<'de>>(self, _: A) -> Result<Number, A::Error> {
-        wrong("an object")
+        let found = match Value::deserialize(deserializer)? {
+            Value::Number(number) => return Ok(Number::Value(number.as_f64().unwrap_or(f64::NAN))),
+            Value::String(text) => return Ok(Number::Text(text)),
+            Value::Bool(value) => &format!("`{value}`"),
+            Value::Null => "null",
+            Value::Array(_) => "a list",
+            Value::Object(_) => "an object",
+        };
+        // With the expected type first, unlike serde's message.
+        Err(D::Error::custom(format_args!("expected {EXPECTED}, found {found}")))
     }
 }
 
@@ -158,6 +115,7 @@ impl JsonSchema for Number {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Parameters;
     use super::*;
 
     fn read(json: &str) -> Result<Number, String> {

@@ -176,6 +176,12 @@ impl Parameters {
     }
 }
 
+/// The value of a text without parameters, such as `2.5` or `pi/2`.
+pub fn constant(text: &str) -> Option<f64> {
+    let evaluated = || Number::from(text).evaluate(&Parameters::default()).ok();
+    text.trim().parse().ok().or_else(evaluated)
+}
+
 /// Text `a -> b -> a` of a cycle, without the middle of a long one.
 fn chain(names: &[&str]) -> String {
     match names {

@@ -1,8 +1,8 @@
 //! The symbolic analysis of a saddle-point matrix, shared by all who factor it.
 
-use super::Pattern;
+use super::alike::Alike;
 use super::parts::Plan;
-use super::redundant_rows::Alike;
+use super::{Lever, Pattern};
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -15,21 +15,8 @@ pub struct Analysis {
     levers: Vec<Lever>,
     is_crowded: OnceLock<bool>,
     found: Mutex<Vec<(Vec<bool>, Arc<Plan>)>>,
-    /// Where rows depend on others: without levers, which single rows are dropped from; the matrix that gives the parts in
-    /// the null space of G^T; what is known of G without the rows that were dropped last.
-    single: OnceLock<Plan>,
-    nearly: OnceLock<(Pattern, Pattern, Plan)>,
+    /// The analysis of G without the rows that were dropped last.
     without: Mutex<Option<(Vec<usize>, Arc<Analysis>)>>,
-}
-
-/// A block of G in the rows of a point that all translations of its body move, and that turns about the body's origin:
-/// [s I | a], with s = 1 or -1 and its entries row by row.
-#[derive(Clone, Copy, Debug)]
-pub struct Lever {
-    /// Index of its first entry in G.
-    pub first_entry: usize,
-    /// The sign s.
-    pub sign: f64,
 }
 
 impl Analysis {
@@ -52,20 +39,6 @@ impl Analysis {
         let plan = Arc::new(Plan::new(mass, g, late, &self.levers));
         found.push((late.to_vec(), plan.clone()));
         plan
-    }
-
-    /// The structure with no late coordinates, and no levers.
-    pub(super) fn single(&self, mass: &Pattern, g: &Pattern) -> &Plan {
-        self.single.get_or_init(|| Plan::new(mass, g, &vec![false; g.cols], &[]))
-    }
-
-    /// Patterns and structure of another matrix that `make` forms from the patterns.
-    pub(super) fn nearly(&self, make: impl FnOnce() -> [Pattern; 2]) -> &(Pattern, Pattern, Plan) {
-        self.nearly.get_or_init(|| {
-            let [mass, g] = make();
-            let plan = Plan::new(&mass, &g, &vec![false; g.cols], &[]);
-            (mass, g, plan)
-        })
     }
 
     /// The analysis of G without these rows.

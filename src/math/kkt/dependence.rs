@@ -1,8 +1,7 @@
 //! Linearly dependent rows of a matrix.
 
 use super::Pattern;
-use super::system::add_scaled;
-use crate::math::{dot, norm};
+use crate::math::{add_scaled, dot, norm};
 use crate::tolerances::math as tolerances;
 
 /// The rank of a matrix, and its dependent rows.

@@ -10,14 +10,16 @@
 //! 1. L D L^T without pivoting in an order that makes this safe (`order`), over the blocks of bodies and joints (`blocks`)
 //!    or, where L fills, over faer's (`supernodal`). Each pivot is compared with its size before
 //!    elimination.
-//! 2. When a pivot collapses: the same with dependent rows dropped (`redundant_rows`), if it is clear which these are.
-//!    Multipliers are then those of least norm, and contradicting right sides get a least-squares solution.
+//! 2. When a pivot collapses: the same with dependent rows dropped, those that are named or copies of others before the
+//!    factorization (`saddle::kept`), others in it (`redundant_rows`), if it is clear which these are. Multipliers are
+//!    then those of least norm, and contradicting right sides get a least-squares solution, unless very many are dropped.
 //! 3. Else, and not too large: a dense pivoted QR (`rank_revealing`). [`Reduced`] is this alone; [`Chart`] moves states
 //!    to the constraints along the directions that it finds.
 //!
 //! [`Unsymmetric`] solves the systems of implicit methods, which add stiffness and damping to M, and of half-explicit
 //! ones, whose two G differ.
 
+mod alike;
 mod analysis;
 mod blocks;
 mod dependence;
@@ -36,9 +38,9 @@ mod system;
 mod tests;
 mod unsymmetric;
 
-pub use analysis::{Analysis, Lever};
+pub use analysis::Analysis;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
-pub use pattern::Pattern;
+pub use pattern::{Lever, Pattern};
 pub use rank_revealing::{Chart, Reduced};
 pub use saddle::SaddlePoint;
 pub use unsymmetric::{Field, Places, Unsymmetric};

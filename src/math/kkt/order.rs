@@ -33,7 +33,8 @@ pub(super) fn order_before(mass: &Pattern, g: &Pattern, late: &[bool], last: &[u
     heavy.iter().for_each(|&node| is_last[node] = true);
     rest.retain(|&node| !is_last[node]);
     let mut nodes = left.all[..left.early].to_vec();
-    nodes.extend(delayed(&rest, n, g, late));
+    let behind = g.entries.iter().filter(|(_, i)| late[*i]).map(|&(row, i)| (i, n + row));
+    nodes.extend(delayed(&rest, total, behind));
     nodes
 }
 
@@ -118,30 +119,25 @@ fn minimum_degree(size: usize, upper: &[Pair<usize, usize>]) -> Option<Vec<usize
     Some(order)
 }
 
-/// `rest` with every late coordinate moved behind the last of its multipliers.
-fn delayed(rest: &[usize], n: usize, g: &Pattern, late: &[bool]) -> Vec<usize> {
-    let mut waiting = vec![0_usize; n];
-    let mut coordinates = vec![Vec::new(); g.rows];
-    for &(j, i) in g.entries.iter().filter(|&&(_, i)| late[i]) {
-        waiting[i] += 1;
-        coordinates[j].push(i);
+/// An order with nodes delayed: each pair is one of them and a node that it has to come behind, itself not delayed.
+pub(super) fn delayed(order: &[usize], total: usize, pairs: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
+    let mut waiting = vec![0_usize; total];
+    let mut waited_for = vec![Vec::new(); total];
+    for (late, early) in pairs {
+        waiting[late] += 1;
+        waited_for[early].push(late);
     }
-    let mut reached = vec![false; n];
-    let mut nodes = Vec::with_capacity(rest.len());
-    for &node in rest {
-        if node < n {
-            reached[node] = true;
-            if waiting[node] == 0 {
-                nodes.push(node);
-            }
+    let mut is_reached = vec![false; total];
+    let mut nodes = Vec::with_capacity(order.len());
+    for &node in order {
+        is_reached[node] = true;
+        if waiting[node] > 0 {
             continue;
         }
         nodes.push(node);
-        for &i in &coordinates[node - n] {
-            waiting[i] -= 1;
-            if waiting[i] == 0 && reached[i] {
-                nodes.push(i);
-            }
+        for &late in &waited_for[node] {
+            waiting[late] -= 1;
+            nodes.extend((waiting[late] == 0 && is_reached[late]).then_some(late));
         }
     }
     nodes

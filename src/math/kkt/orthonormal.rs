@@ -1,7 +1,6 @@
 //! Gram and Schmidt's method against orthonormal vectors that stand one after the other.
 
-use super::system::add_scaled;
-use crate::math::{dot, norm};
+use crate::math::{add_scaled, dot, norm};
 
 /// Removes the part of a vector along these; returns the norm of the part.
 pub(super) fn project_out(basis: &[f64], v: &mut [f64]) -> f64 {

@@ -12,6 +12,16 @@ pub struct Pattern {
     pub entries: Vec<(usize, usize)>,
 }
 
+/// A block of G in the rows of a point that all translations of its body move, and that turns about the body's origin:
+/// [s I | a], with s = 1 or -1 and its entries row by row.
+#[derive(Clone, Copy, Debug)]
+pub struct Lever {
+    /// Index of its first entry in G.
+    pub first_entry: usize,
+    /// The sign s.
+    pub sign: f64,
+}
+
 impl Pattern {
     /// All places, row after row.
     pub fn dense(rows: usize, cols: usize) -> Self {

@@ -48,30 +48,49 @@ impl Quality {
             replaced: self.replaced || other.replaced,
         }
     }
+}
 
-    /// Checks a pivot at node `node`, with its sign changed so that it should be positive, and returns its inverse;
-    /// that of a dropped multiplier is zero. The error is the node.
-    pub fn judge(
-        &mut self,
-        (node, n): (usize, usize),
-        (pivot, size): (f64, f64),
-        rule: Rule,
-        skipped: &mut Vec<usize>,
-    ) -> Result<f64, usize> {
-        let sign = if node < n { 1.0 } else { -1.0 };
+/// The judgement of pivots of one factorization.
+pub(super) struct Judge<'a> {
+    /// Number of coordinates.
+    pub n: usize,
+    pub rule: Rule,
+    pub skipped: &'a mut Vec<usize>,
+    pub quality: Quality,
+}
+
+impl Judge<'_> {
+    /// The inverse of a pivot, whose sign is that of `sign`.
+    #[inline(always)]
+    pub fn inverse(&mut self, pivot: f64, (size, sign): (f64, f64), node: impl Fn() -> usize) -> Result<f64, usize> {
+        let positive = sign * pivot;
+        // Written so that a NaN is judged too.
+        if positive > self.rule.weak * size && positive < f64::INFINITY {
+            Ok(1.0 / pivot)
+        } else {
+            self.judge(node(), positive, size)
+        }
+    }
+
+    /// Checks a pivot at a node, with its sign changed so that it should be positive, and returns its inverse; that of
+    /// a dropped multiplier is zero. The error is the node.
+    #[cold]
+    #[inline(never)]
+    pub fn judge(&mut self, node: usize, pivot: f64, size: f64) -> Result<f64, usize> {
+        let sign = if node < self.n { 1.0 } else { -1.0 };
         // Written so that a NaN collapses.
-        if pivot > rule.collapsed * size && pivot < f64::INFINITY {
-            self.weak = true;
-            self.doubtful = true;
+        if pivot > self.rule.collapsed * size && pivot < f64::INFINITY {
+            self.quality.weak = true;
+            self.quality.doubtful = true;
             return Ok(sign / pivot);
         }
-        let Some(floor) = rule.floor else { return Err(node) };
-        if node < n {
-            self.replaced = true;
+        let Some(floor) = self.rule.floor else { return Err(node) };
+        if node < self.n {
+            self.quality.replaced = true;
             return Ok(1.0 / (tolerances::REPLACED_MASS * size).max(floor));
         }
-        self.doubtful |= pivot.abs() > tolerances::ROUND_OFF_OF_FACTORS * size;
-        skipped.push(node - n);
+        self.quality.doubtful |= pivot.abs() > tolerances::ROUND_OFF_OF_FACTORS * size;
+        self.skipped.push(node - self.n);
         Ok(0.0)
     }
 }

@@ -2,8 +2,7 @@
 
 use super::Pattern;
 use super::order::order;
-use super::pivot::{Quality, Rule};
-use super::system::balance;
+use super::pivot::{Judge, Quality, Rule};
 use crate::tolerances::math as tolerances;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
@@ -131,15 +130,15 @@ impl Supernodal {
     }
 
     fn judge(&self, rule: Rule, skipped: &mut Vec<usize>, replaced: bool) -> Result<Quality, usize> {
-        let mut quality = Quality { replaced, ..Quality::GOOD };
+        let mut judge = Judge { n: self.n, rule, skipped, quality: Quality { replaced, ..Quality::GOOD } };
         for ((&d, &node), &sign) in self.diagonal.iter().zip(&self.order).zip(&self.signs) {
             let pivot = d * f64::from(sign);
             let left_out = pivot.abs() >= 1e-3 * tolerances::PLACE_OF_A_VANISHED_ROW || pivot.is_nan();
             if left_out || pivot <= rule.weak {
-                quality.judge((node, self.n), (if left_out { 0.0 } else { pivot }, 1.0), rule, skipped)?;
+                judge.judge(node, if left_out { 0.0 } else { pivot }, 1.0)?;
             }
         }
-        Ok(quality)
+        Ok(judge.quality)
     }
 
     /// Solves in place; dropped multipliers are zero.
@@ -205,4 +204,36 @@ fn read_diagonal(cholesky: &SymbolicCholesky<usize>, factor: &[f64], diagonal: &
             }
         }
     }
+}
+
+/// Scales that make the masses one and the rows of G of unit norm in the mass metric, (G diag(M)^-1 G^T)_jj = 1, by
+/// node. Late coordinates (by default those without mass) are scaled by the entries of the scaled rows.
+pub(super) fn balance(
+    (mass, mass_values): (&Pattern, &[f64]),
+    (g, g_values): (&Pattern, &[f64]),
+    late: Option<&[bool]>,
+    scale: &mut [f64],
+) {
+    scale.fill(0.0);
+    let (coordinates, rows) = scale.split_at_mut(mass.rows);
+    mass.add_diagonal(mass_values, coordinates);
+    for (i, s) in coordinates.iter_mut().enumerate() {
+        let is_late = late.map_or(*s <= 0.0, |late| late[i]);
+        *s = if is_late { 0.0 } else { inverse_root(*s) };
+    }
+    for (&(j, i), value) in g.entries.iter().zip(g_values) {
+        rows[j] += (value * coordinates[i]).powi(2);
+    }
+    rows.iter_mut().for_each(|s| *s = inverse_root(*s));
+    // Squares of late coordinates are summed with negative sign, which tells them from scales.
+    for (&(j, i), value) in g.entries.iter().zip(g_values) {
+        if coordinates[i] <= 0.0 {
+            coordinates[i] -= (value * rows[j]).powi(2);
+        }
+    }
+    coordinates.iter_mut().filter(|s| **s <= 0.0).for_each(|s| *s = inverse_root(-*s));
+}
+
+fn inverse_root(square: f64) -> f64 {
+    if square > 0.0 { square.sqrt().recip() } else { 1.0 }
 }

@@ -8,7 +8,6 @@
 //!
 //! A lookup takes O(1) where points are about equally apart, O(log n) elsewhere, and allocates nothing.
 
-use crate::math::array::Each;
 mod cubic;
 mod points;
 mod spline;
@@ -19,6 +18,7 @@ pub use points::{Beyond, Interpolation, PointsError};
 
 use super::regime::{Piece, Thresholds};
 use super::scalar::Scalar;
+use crate::math::array::Each;
 use crate::tolerances::math as tolerances;
 use cubic::{BoundsTree, Cubic, bounds, derived, hull, value};
 use std::sync::Arc;
@@ -71,7 +71,6 @@ impl Signal {
         Ok(Signal { name: name.to_string(), beyond, is_cubic, knots, cubics, last, thresholds, tree })
     }
 
-    /// Name in the scene.
     pub fn name(&self) -> &str {
         &self.name
     }

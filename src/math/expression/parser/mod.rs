@@ -124,8 +124,8 @@ impl<'a> Parser<'a> {
             Kind::Number(value) => self.builder.push(Op::Constant(value)),
             Kind::Name if self.peek().kind == Kind::Open => return self.call(token),
             Kind::Name => return self.name(token),
-            Kind::Plus => return self.operation(level::SIGN),
-            Kind::Minus => return self.prefix(One::Neg, level::SIGN),
+            Kind::Infix(Two::Add) => return self.operation(level::SIGN),
+            Kind::Infix(Two::Sub) => return self.prefix(One::Neg, level::SIGN),
             Kind::Bang => return self.prefix(One::Not, level::SIGN),
             Kind::Not => return self.prefix(One::Not, level::NOT),
             Kind::Open => {
@@ -275,20 +275,14 @@ impl<'a> Parser<'a> {
 
 /// Operation and binding level of an infix operator.
 fn binary(kind: Kind) -> Option<(Two, u8)> {
-    Some(match kind {
-        Kind::Or => (Two::Or, level::OR),
-        Kind::And => (Two::And, level::AND),
-        Kind::Less => (Two::Less, level::COMPARISON),
-        Kind::AtMost => (Two::AtMost, level::COMPARISON),
-        Kind::Greater => (Two::Greater, level::COMPARISON),
-        Kind::AtLeast => (Two::AtLeast, level::COMPARISON),
-        Kind::Equal => (Two::Equal, level::COMPARISON),
-        Kind::Unequal => (Two::Unequal, level::COMPARISON),
-        Kind::Plus => (Two::Add, level::SUM),
-        Kind::Minus => (Two::Sub, level::SUM),
-        Kind::Star => (Two::Mul, level::PRODUCT),
-        Kind::Slash => (Two::Div, level::PRODUCT),
-        Kind::Caret => (Two::Pow, level::POWER),
-        _ => return None,
-    })
+    let Kind::Infix(two) = kind else { return None };
+    let level = match two {
+        Two::Or => level::OR,
+        Two::And => level::AND,
+        Two::Add | Two::Sub => level::SUM,
+        Two::Mul | Two::Div => level::PRODUCT,
+        Two::Pow => level::POWER,
+        _ => level::COMPARISON,
+    };
+    Some((two, level))
 }

@@ -34,9 +34,8 @@ pub struct Run {
     /// For each pair of blocks (l, k >= l) of a body the place where the product of k and l goes, in
     /// [`Bodies::targets`].
     pub targets: Range<usize>,
-    /// Number of coordinates of a body, and of the rows of each of its blocks, 0 if these differ.
+    /// Number of coordinates of a body.
     pub width: usize,
-    pub partner_width: usize,
     /// True if all blocks are levers.
     pub are_levers: bool,
 }
@@ -114,25 +113,28 @@ impl Bodies {
         for l in 0..sides.len() {
             self.targets.extend((l..sides.len()).map(|k| target(sides[k].position, sides[l].position) as u32));
         }
-        let alike = sides.first().filter(|side| sides.iter().all(|other| other.rows == side.rows));
-        let partner_width = alike.map_or(0, |side| side.rows as usize);
         let blocks = sides.iter().map(|side| side.entries as usize..(side.entries + side.rows * width as u32) as usize);
         let dense = Dense::new((first, width), mass, blocks.collect(), self.dense.last().map_or(0, Dense::end));
-        let are_levers = partner_width > 0
-            && sides.iter().all(|side| side.sign != 0.0)
-            && dense.as_ref().is_none_or(|dense| dense.leaves_alone(partner_width));
+        // A point's rows, one for each translation: 2 of 3 coordinates in the plane, 3 of 6 in space.
+        let translations = match width {
+            3 => 2,
+            6 => 3,
+            _ => 0,
+        };
+        let are_levers = !sides.is_empty()
+            && sides.iter().all(|side| side.sign != 0.0 && side.rows == translations)
+            && dense.as_ref().is_none_or(|dense| dense.leaves_alone(translations as usize));
         match dense {
             Some(dense) => self.dense.push(dense),
             None => self.masses.extend(mass.iter().map(|&(entry, (i, _))| (entry, i))),
         }
         self.all.push(Body { first: first as u32, sides: sides.len() as u32 });
         self.sides.extend(sides);
-        let kind = |run: &Run| (run.width, run.partner_width, run.are_levers);
-        if self.runs.last().is_none_or(|run| kind(run) != (width, partner_width, are_levers)) {
+        if self.runs.last().is_none_or(|run| (run.width, run.are_levers) != (width, are_levers)) {
             let bodies = starts.0..0;
             let sides = starts.1..0;
             let targets = starts.2..0;
-            self.runs.push(Run { bodies, sides, targets, width, partner_width, are_levers });
+            self.runs.push(Run { bodies, sides, targets, width, are_levers });
         }
         if let Some(run) = self.runs.last_mut() {
             (run.bodies.end, run.sides.end, run.targets.end) = (self.all.len(), self.sides.len(), self.targets.len());

@@ -7,8 +7,8 @@
 //! [G   0 ] = [   I] [G̃         0 ] [     I],    G̃ = G L^-T
 //! ```
 
+use super::super::pivot::Judge;
 use super::groups::LARGEST;
-use super::judge::Judge;
 use super::lanes::Lanes;
 use crate::math::array::from_fn;
 use std::ops::Range;

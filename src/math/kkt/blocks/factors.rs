@@ -25,7 +25,7 @@ impl Factors<'_> {
         layout.g_rows.iter().zip(bottom).for_each(|(&p, value)| x[p as usize] = *value);
         let mut bodies = Passage { bodies: &layout.bodies, g, inverse, top, x };
         for run in &layout.bodies.runs {
-            by_kinds!(run, bodies, forward_levers::<[2, 1, 3, 6], [3, 3, 6, 18]>, forward, forward_by_rows);
+            by_kinds!(run, bodies, forward_levers::<[2, 1, 3, 6], [3, 3, 6, 18]>, forward);
         }
     }
 
@@ -33,7 +33,7 @@ impl Factors<'_> {
         let Factors { layout, work, inverse, .. } = self;
         let mut part = Solution { layout, work, inverse, x };
         for run in &layout.runs[runs] {
-            by_widths!(run, part, forward, forward_by_rows);
+            by_width!(run.width, part.forward(run));
         }
     }
 
@@ -41,7 +41,7 @@ impl Factors<'_> {
         let Factors { layout, work, inverse, .. } = self;
         let mut part = Solution { layout, work, inverse, x };
         for run in layout.runs[runs].iter().rev() {
-            by_widths!(run, part, backward, backward_by_rows);
+            by_width!(run.width, part.backward(run));
         }
     }
 
@@ -50,7 +50,7 @@ impl Factors<'_> {
         let Factors { layout, g, inverse_masses: inverse, lower, .. } = self;
         let mut bodies = Passage { bodies: &layout.bodies, g, inverse, top, x };
         for run in &layout.bodies.runs {
-            by_kinds!(run, bodies, backward_levers::<[2, 1, 3, 6], [3, 3, 6, 18]>, backward, backward_by_rows);
+            by_kinds!(run, bodies, backward_levers::<[2, 1, 3, 6], [3, 3, 6, 18]>, backward);
         }
         layout.bodies.dense.iter().for_each(|body| body.leave(lower, top));
         layout.coordinates.iter().for_each(|&(i, p)| top[i as usize] = x[p as usize]);

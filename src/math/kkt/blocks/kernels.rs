@@ -1,7 +1,6 @@
 //! The arithmetic of columns of blocks, W unknowns wide.
 
-use super::groups::LARGEST;
-use super::judge::Judge;
+use super::super::pivot::Judge;
 use super::lanes::Lanes;
 use super::layout::{Layout, Run};
 use crate::math::array::from_fn;
@@ -43,23 +42,19 @@ impl Elimination<'_, '_> {
     pub fn alike<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) -> Result<(), usize> {
         let layout = self.layout;
         let mut targets = layout.targets[run.targets.clone()].iter();
-        self.columns::<W>(
-            run,
-            |count| count * WR,
-            |xs, inverse, later| {
-                let xs = xs.as_chunks::<WR>().0;
-                for (l, x) in xs.iter().enumerate() {
-                    let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j * W + p] * inverse[p]));
-                    for (x, &target) in xs[l..].iter().zip(targets.by_ref()) {
-                        for i in 0..R {
-                            if let Some(row) = at_mut::<_, R>(later, target as usize + i * R) {
-                                subtract(row, &from_fn(|p| x[i * W + p]), &scaled);
-                            }
+        self.columns::<W>(run, |xs, inverse, later| {
+            let xs = xs.as_chunks::<WR>().0;
+            for (l, x) in xs.iter().enumerate() {
+                let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j * W + p] * inverse[p]));
+                for (x, &target) in xs[l..].iter().zip(targets.by_ref()) {
+                    for i in 0..R {
+                        if let Some(row) = at_mut::<_, R>(later, target as usize + i * R) {
+                            subtract(row, &from_fn(|p| x[i * W + p]), &scaled);
                         }
                     }
                 }
-            },
-        )
+            }
+        })
     }
 
     /// Eliminates columns with partners of any width.
@@ -67,48 +62,31 @@ impl Elimination<'_, '_> {
         let layout = self.layout;
         let mut targets = &layout.targets[run.targets.clone()];
         let mut widths = &layout.widths[run.partners.clone()];
-        let mut lengths = widths;
-        let length = |count: usize| {
-            let (own, others) = lengths.split_at(count);
-            lengths = others;
-            own.iter().map(|&width| W * usize::from(width)).sum()
-        };
-        self.columns::<W>(run, length, |xs, inverse, later| {
+        self.columns::<W>(run, |xs, inverse, later| {
             let mut xs = xs.as_chunks::<W>().0;
             while let (false, Some(&width)) = (xs.is_empty(), widths.first()) {
                 let part = Products { xs, widths, inverse, targets, later: &mut *later };
-                let products = match width {
-                    1 => part.subtract::<1>(),
-                    2 => part.subtract::<2>(),
-                    3 => part.subtract::<3>(),
-                    4 => part.subtract::<4>(),
-                    5 => part.subtract::<5>(),
-                    6 => part.subtract::<6>(),
-                    7 => part.subtract::<7>(),
-                    _ => part.subtract::<LARGEST>(),
-                };
+                let products = by_width!(width, part.subtract());
                 (xs, widths, targets) = (&xs[usize::from(width)..], &widths[1..], &targets[products..]);
             }
         })
     }
 
-    /// Factors the diagonal block of each column and makes X of the blocks below, which have `length` numbers for their
-    /// count. `update` subtracts the products of X from the columns behind it, with the inverse of D.
+    /// Factors the diagonal block of each column and makes X of the blocks below. `update` subtracts the products of X
+    /// from the columns behind it, with the inverse of D.
     #[inline(always)]
     fn columns<const W: usize>(
         &mut self,
         run: &Run,
-        mut length: impl FnMut(usize) -> usize,
         mut update: impl FnMut(&[f64], &[f64; W], &mut [f64]),
     ) -> Result<(), usize> {
         let Elimination { layout, work, inverse, sizes, judge } = self;
         let mut rest = &mut work[run.place..];
         let inverses = inverse[run.first..].as_chunks_mut::<W>().0.iter_mut();
         let sizes = sizes[run.first..].as_chunks::<W>().0.iter();
-        for (j, ((&count, inverse), sizes)) in
-            layout.counts[run.columns.clone()].iter().zip(inverses).zip(sizes).enumerate()
-        {
-            let (own, later) = rest.split_at_mut(W * W + length(count as usize));
+        let heights = layout.heights[run.columns.clone()].iter();
+        for (j, ((&height, inverse), sizes)) in heights.zip(inverses).zip(sizes).enumerate() {
+            let (own, later) = rest.split_at_mut(W * (W + height as usize));
             rest = later;
             let (diagonal, below) = own.split_at_mut(W * W);
             let Some(diagonal) = diagonal.as_chunks_mut::<W>().0.first_chunk_mut::<W>() else { return Ok(()) };
@@ -174,118 +152,43 @@ pub(super) struct Solution<'a, T> {
 }
 
 impl<T: Lanes> Solution<'_, T> {
-    /// x := L^-1 x for columns whose partners are R wide; WR = W R.
-    pub fn forward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
+    /// x := L^-1 x
+    pub fn forward<const W: usize>(&mut self, run: &Run) {
         let Solution { layout, work, inverse, x } = self;
         let mut work = &work[run.place..];
-        let mut partners = &layout.partners[run.partners.clone()];
+        let mut below = &layout.below[run.rows.clone()];
         let inverses = inverse[run.first..].as_chunks::<W>().0;
-        for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate() {
-            let (own, rest) = work.split_at(W * W + count as usize * WR);
-            let (positions, others) = partners.split_at(count as usize);
-            (work, partners) = (rest, others);
-            let Some(mine) = solved_forward(run, own, inverse, (run.first + j * W, x)) else { return };
-            for (block, &position) in own[W * W..].as_chunks::<WR>().0.iter().zip(positions) {
-                if let Some(x) = at_mut::<_, R>(x, position as usize) {
-                    *x = from_fn(|i| (0..W).fold(x[i], |x, p| x - mine[p] * block[i * W + p]));
-                }
-            }
-        }
-    }
-
-    /// The same for partners of any width.
-    pub fn forward_by_rows<const W: usize>(&mut self, run: &Run) {
-        let Solution { layout, work, inverse, x } = self;
-        let mut work = &work[run.place..];
-        let mut partners = Partners::of(layout, run);
-        let inverses = inverse[run.first..].as_chunks::<W>().0;
-        for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate() {
-            let own = partners.first(count as usize);
-            let (block, rest) = work.split_at(W * W + W * own.rows());
+        for (j, (&height, inverse)) in layout.heights[run.columns.clone()].iter().zip(inverses).enumerate() {
+            let (own, rest) = work.split_at(W * (W + height as usize));
+            let (positions, others) = below.split_at(height as usize);
             work = rest;
-            let Some(mine) = solved_forward(run, block, inverse, (run.first + j * W, x)) else { return };
-            for (row, position) in block[W * W..].as_chunks::<W>().0.iter().zip(own.unknowns()) {
-                x[position] = (0..W).fold(x[position], |x, p| x - mine[p] * row[p]);
+            below = others;
+            let Some(mine) = solved_forward(run, own, inverse, (run.first + j * W, x)) else { return };
+            for (row, &position) in own[W * W..].as_chunks::<W>().0.iter().zip(positions) {
+                let x = &mut x[position as usize];
+                *x = (0..W).fold(*x, |x, p| x - mine[p] * row[p]);
             }
         }
     }
 
-    /// x := L^-T D^-1 x for columns whose partners are R wide, the last first; WR = W R.
-    pub fn backward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
+    /// x := L^-T D^-1 x, the last column first.
+    pub fn backward<const W: usize>(&mut self, run: &Run) {
         let Solution { layout, work, inverse, x } = self;
         let mut work = &work[..run.end];
-        let mut partners = &layout.partners[run.partners.clone()];
+        let mut below = &layout.below[run.rows.clone()];
         let inverses = inverse[run.first..].as_chunks::<W>().0;
-        for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate().rev() {
-            let (rest, own) = work.split_at(work.len() - W * W - count as usize * WR);
-            let (others, positions) = partners.split_at(partners.len() - count as usize);
-            (work, partners) = (rest, others);
+        for (j, (&height, inverse)) in layout.heights[run.columns.clone()].iter().zip(inverses).enumerate().rev() {
+            let (rest, own) = work.split_at(work.len() - W * (W + height as usize));
+            let (others, positions) = below.split_at(below.len() - height as usize);
+            work = rest;
+            below = others;
             let mut sum = [T::default(); W];
-            for (block, &position) in own[W * W..].as_chunks::<WR>().0.iter().zip(positions) {
-                if let Some(x) = at::<_, R>(x, position as usize) {
-                    (0..R).for_each(|i| (0..W).for_each(|p| sum[p] = sum[p] + x[i] * block[i * W + p]));
-                }
+            for (row, &position) in own[W * W..].as_chunks::<W>().0.iter().zip(positions) {
+                let x = x[position as usize];
+                (0..W).for_each(|p| sum[p] = sum[p] + x * row[p]);
             }
             solve_backward(run, own, (inverse, &sum), (run.first + j * W, x));
         }
-    }
-
-    /// The same for partners of any width.
-    pub fn backward_by_rows<const W: usize>(&mut self, run: &Run) {
-        let Solution { layout, work, inverse, x } = self;
-        let mut work = &work[..run.end];
-        let mut partners = Partners::of(layout, run);
-        let inverses = inverse[run.first..].as_chunks::<W>().0;
-        for (j, (&count, inverse)) in layout.counts[run.columns.clone()].iter().zip(inverses).enumerate().rev() {
-            let own = partners.last(count as usize);
-            let (rest, block) = work.split_at(work.len() - W * W - W * own.rows());
-            work = rest;
-            let mut sum = [T::default(); W];
-            for (row, position) in block[W * W..].as_chunks::<W>().0.iter().zip(own.unknowns()) {
-                let x = x[position];
-                (0..W).for_each(|p| sum[p] = sum[p] + x * row[p]);
-            }
-            solve_backward(run, block, (inverse, &sum), (run.first + j * W, x));
-        }
-    }
-}
-
-/// Positions and widths of the groups below columns.
-struct Partners<'a> {
-    positions: &'a [u32],
-    widths: &'a [u8],
-}
-
-impl<'a> Partners<'a> {
-    fn of(layout: &'a Layout, run: &Run) -> Self {
-        Partners { positions: &layout.partners[run.partners.clone()], widths: &layout.widths[run.partners.clone()] }
-    }
-
-    /// Takes the first ones off.
-    fn first(&mut self, count: usize) -> Self {
-        let positions = self.positions.split_at(count);
-        let widths = self.widths.split_at(count);
-        *self = Partners { positions: positions.1, widths: widths.1 };
-        Partners { positions: positions.0, widths: widths.0 }
-    }
-
-    /// Takes the last ones off.
-    fn last(&mut self, count: usize) -> Self {
-        let at = self.positions.len() - count;
-        let positions = self.positions.split_at(at);
-        let widths = self.widths.split_at(at);
-        *self = Partners { positions: positions.0, widths: widths.0 };
-        Partners { positions: positions.1, widths: widths.1 }
-    }
-
-    fn rows(&self) -> usize {
-        self.widths.iter().map(|&width| usize::from(width)).sum()
-    }
-
-    /// Positions of all of their unknowns.
-    fn unknowns(&self) -> impl Iterator<Item = usize> {
-        let groups = self.positions.iter().zip(self.widths);
-        groups.flat_map(|(&first, &width)| first as usize..first as usize + usize::from(width))
     }
 }
 

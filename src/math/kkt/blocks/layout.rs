@@ -8,15 +8,16 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// One group: its diagonal block, then the blocks below it, row by row.
+#[derive(Default)]
 struct Column {
     /// Number of its unknowns, and the first of them in the order of elimination.
     width: usize,
     first: usize,
     /// Place of the diagonal block.
     diagonal: usize,
-    /// The groups below it, in [`Layout::partners`], and the number of their unknowns.
+    /// The groups below it in [`Layout::widths`], and their unknowns in [`Layout::below`].
     partners: Range<usize>,
-    rows: usize,
+    rows: Range<usize>,
     /// Where its products begin in [`Layout::targets`].
     targets: usize,
     /// True if the diagonal block has no entry off its diagonal.
@@ -28,6 +29,7 @@ struct Column {
 pub struct Run {
     pub columns: Range<usize>,
     pub partners: Range<usize>,
+    pub rows: Range<usize>,
     pub targets: Range<usize>,
     /// Position of the first unknown.
     pub first: usize,
@@ -49,12 +51,11 @@ pub struct Layout {
     pub bodies: Bodies,
     columns: Vec<Column>,
     pub runs: Vec<Run>,
-    /// Number of groups below each column.
-    pub counts: Vec<u32>,
-    /// Position of the first unknown of the groups below each column, their widths, and the rows before each of them.
-    pub partners: Vec<u32>,
+    /// Number of unknowns below each column, and their positions.
+    pub heights: Vec<u32>,
+    pub below: Vec<u32>,
+    /// Widths of the groups below each column.
     pub widths: Vec<u8>,
-    before: Vec<u32>,
     /// For each pair of partners (l, k >= l) of a column the place of block (k, l), from the end of the column.
     pub targets: Vec<u32>,
     /// Coordinate i, or n + row of G, by position in the order of elimination.
@@ -181,29 +182,25 @@ impl Layout {
 
     fn push(&mut self, first: usize, is_coordinate: bool, is_diagonal: bool) {
         let width = self.nodes.len() - first;
-        let diagonal = 0;
-        let partners = 0..0;
-        let rows = 0;
-        let targets = 0;
-        self.columns.push(Column { width, first, diagonal, partners, rows, targets, is_diagonal, is_coordinate });
+        self.columns.push(Column { width, first, is_diagonal, is_coordinate, ..Column::default() });
     }
 
     /// Gives every block its place.
     fn place(&mut self, below: &[Vec<u32>]) {
         for (j, below) in below.iter().enumerate() {
-            let start = self.partners.len();
-            let mut rows = 0;
+            let partners = self.widths.len();
+            let rows = self.below.len();
             for &k in below {
                 let Column { width, first, .. } = self.columns[k as usize];
-                self.before.push(rows as u32);
-                self.partners.push(first as u32);
                 self.widths.push(width as u8);
-                rows += width;
+                self.below.extend((first..first + width).map(|position| position as u32));
             }
-            self.counts.push(below.len() as u32);
-            let column = &mut self.columns[j];
             let len = self.len;
-            (column.diagonal, column.partners, column.rows) = (len, start..self.partners.len(), rows);
+            let column = &mut self.columns[j];
+            column.diagonal = len;
+            column.partners = partners..self.widths.len();
+            column.rows = rows..self.below.len();
+            self.heights.push(column.rows.len() as u32);
             self.diagonals.extend((0..column.width).map(|p| (len + p * column.width + p) as u32));
             self.len = column.end();
         }
@@ -228,8 +225,7 @@ impl Layout {
     fn block(&self, row: usize, column: usize) -> usize {
         let first = self.columns[row].first as u32;
         let column = &self.columns[column];
-        let partner = self.partners[column.partners.clone()].partition_point(|&position| position < first);
-        let before = self.before[column.partners.clone()].get(partner).map_or(0, |&before| before as usize);
+        let before = self.below[column.rows.clone()].partition_point(|&position| position < first);
         column.diagonal + column.width * (column.width + before)
     }
 
@@ -270,6 +266,7 @@ impl Layout {
             let run = Run {
                 columns: k..k + 1,
                 partners: column.partners.clone(),
+                rows: column.rows.clone(),
                 targets: column.targets..self.columns.get(k + 1).map_or(self.targets.len(), |next| next.targets),
                 first: column.first,
                 place: column.diagonal,
@@ -300,14 +297,14 @@ impl Layout {
 
     /// Multiplications of a factorization.
     pub fn operations(&self) -> usize {
-        let products = |column: &Column| column.width * column.rows * (column.rows + 1) / 2;
+        let products = |column: &Column| column.width * column.rows.len() * (column.rows.len() + 1) / 2;
         self.columns.iter().map(products).sum::<usize>() + self.bodies.operations()
     }
 }
 
 impl Column {
     fn end(&self) -> usize {
-        self.diagonal + self.width * (self.width + self.rows)
+        self.diagonal + self.width * (self.width + self.rows.len())
     }
 }
 
@@ -331,8 +328,10 @@ impl Run {
         if self.partners.is_empty() {
             self.partner_width = next.partner_width;
         }
-        (self.columns.end, self.partners.end, self.targets.end) =
-            (next.columns.end, next.partners.end, next.targets.end);
+        self.columns.end = next.columns.end;
+        self.partners.end = next.partners.end;
+        self.rows.end = next.rows.end;
+        self.targets.end = next.targets.end;
         self.end = next.end;
     }
 }

@@ -18,19 +18,17 @@ mod bodies;
 mod dense;
 mod factors;
 mod groups;
-mod judge;
 mod kernels;
 mod lanes;
 mod layout;
 mod schur;
 
-use super::pivot::{Quality, Rule};
-use super::system::add;
+use super::pivot::{Judge, Quality, Rule};
+use crate::math::add;
 use crate::math::array::{Each, from_fn};
 use dense::Dense;
 use factors::Factors;
 pub(super) use groups::Groups;
-pub(super) use judge::Judge;
 use kernels::{Elimination, at};
 use lanes::Pair;
 pub(super) use layout::Layout;
@@ -156,7 +154,7 @@ impl Blocks {
         let Blocks { layout, work, g, inverse_masses, .. } = self;
         let mut part = Schur { bodies: &layout.bodies, g, inverse: inverse_masses, work };
         for run in &layout.bodies.runs {
-            by_kinds!(run, part, levers::<[2, 1, 3, 6, 4], [3, 3, 6, 18, 9]>, alike, mixed);
+            by_kinds!(run, part, levers::<[2, 1, 3, 6, 4], [3, 3, 6, 18, 9]>, blocks);
         }
     }
 
@@ -241,16 +239,7 @@ impl Blocks {
 
     fn smaller_ratio(&self, found: (f64, usize), runs: &[Run], collapsed: f64) -> (f64, usize) {
         // The last joints first: their ratios are the smallest, as a rule.
-        runs.iter().rev().fold(found, |found, run| match run.width {
-            1 => self.smaller_of::<1>(run, found, collapsed),
-            2 => self.smaller_of::<2>(run, found, collapsed),
-            3 => self.smaller_of::<3>(run, found, collapsed),
-            4 => self.smaller_of::<4>(run, found, collapsed),
-            5 => self.smaller_of::<5>(run, found, collapsed),
-            6 => self.smaller_of::<6>(run, found, collapsed),
-            7 => self.smaller_of::<7>(run, found, collapsed),
-            _ => self.smaller_of::<{ groups::LARGEST }>(run, found, collapsed),
-        })
+        runs.iter().rev().fold(found, |found, run| by_width!(run.width, self.smaller_of(run, found, collapsed)))
     }
 
     fn smaller_of<const W: usize>(&self, run: &Run, mut found: (f64, usize), collapsed: f64) -> (f64, usize) {

@@ -1,7 +1,6 @@
 //! The arithmetic of bodies, W coordinates wide: S -= G M^-1 G^T, and both ways through G.
 
 use super::bodies::{Bodies, Run, Side};
-use super::groups::LARGEST;
 use super::kernels::{at, at_mut, subtract};
 use super::lanes::Lanes;
 use crate::math::array::from_fn;
@@ -68,56 +67,34 @@ impl Schur<'_> {
         });
     }
 
-    /// Subtracts the products of bodies whose blocks have all R rows; WR = W R.
-    pub fn alike<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
+    /// Subtracts the products of other blocks.
+    pub fn blocks<const W: usize>(&mut self, run: &Run) {
         self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
             for (l, side) in sides.iter().enumerate() {
-                let Some(x) = at::<_, WR>(g, side.entries as usize) else { return };
-                let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j * W + p] * inverse[p]));
-                for (side, &target) in sides[l..].iter().zip(targets.by_ref()) {
-                    let Some(x) = at::<_, WR>(g, side.entries as usize) else { return };
-                    for i in 0..R {
-                        if let Some(row) = at_mut::<_, R>(work, target as usize + i * R) {
-                            subtract(row, &from_fn(|p| x[i * W + p]), &scaled);
-                        }
-                    }
-                }
-            }
-        });
-    }
-
-    /// Subtracts the products of bodies with blocks of any number of rows.
-    pub fn mixed<const W: usize>(&mut self, run: &Run) {
-        self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
-            for (l, side) in sides.iter().enumerate() {
-                let part = (inverse, &sides[l..], &mut *targets);
-                match side.rows {
-                    1 => column::<W, 1>(part, g, work),
-                    2 => column::<W, 2>(part, g, work),
-                    3 => column::<W, 3>(part, g, work),
-                    4 => column::<W, 4>(part, g, work),
-                    5 => column::<W, 5>(part, g, work),
-                    6 => column::<W, 6>(part, g, work),
-                    7 => column::<W, 7>(part, g, work),
-                    _ => column::<W, LARGEST>(part, g, work),
-                }
+                let part = Products { inverse, sides: &sides[l..], targets: &mut *targets };
+                by_width!(side.rows, part.subtract(g, work));
             }
         });
     }
 }
 
-/// Subtracts the products of the first block, with R rows, and all.
-#[inline]
-fn column<const W: usize, const R: usize>(
-    (inverse, sides, targets): (&[f64; W], &[Side], &mut Iter<u32>),
-    g: &[f64],
-    work: &mut [f64],
-) {
-    let Some(x) = block::<W>(g, &sides[0]).first_chunk::<R>() else { return };
-    let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j][p] * inverse[p]));
-    for (side, &target) in sides.iter().zip(targets) {
-        let target = work[target as usize..].as_chunks_mut::<R>().0;
-        block::<W>(g, side).iter().zip(target).for_each(|(x, row)| subtract(row, x, &scaled));
+/// The products of a body that are still to be subtracted: from some block on.
+struct Products<'a, 'b, const W: usize> {
+    inverse: &'a [f64; W],
+    sides: &'a [Side],
+    targets: &'a mut Iter<'b, u32>,
+}
+
+impl<const W: usize> Products<'_, '_, W> {
+    /// Subtracts the products of the first block, with R rows, and all.
+    #[inline]
+    fn subtract<const R: usize>(self, g: &[f64], work: &mut [f64]) {
+        let Some(x) = block::<W>(g, &self.sides[0]).first_chunk::<R>() else { return };
+        let scaled: [[f64; R]; W] = from_fn(|p| from_fn(|j| x[j][p] * self.inverse[p]));
+        for (side, &target) in self.sides.iter().zip(self.targets) {
+            let target = work[target as usize..].as_chunks_mut::<R>().0;
+            block::<W>(g, side).iter().zip(target).for_each(|(x, row)| subtract(row, x, &scaled));
+        }
     }
 }
 
@@ -194,26 +171,8 @@ impl<N: Lanes> Passage<'_, N> {
         });
     }
 
-    /// Forwards through blocks of R rows; WR = W R.
-    pub fn forward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
-        self.forward_by::<W>(run, |side, g, mine, x| {
-            let block = at::<_, WR>(g, side.entries as usize);
-            let (Some(block), Some(x)) = (block, at_mut::<_, R>(x, side.position as usize)) else { return };
-            *x = from_fn(|i| (0..W).fold(x[i], |x, p| x - mine[p] * block[i * W + p]));
-        });
-    }
-
-    /// Backwards through blocks of R rows; WR = W R.
-    pub fn backward<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) {
-        self.backward_by::<W>(run, |side, g, sum, x| {
-            let block = at::<_, WR>(g, side.entries as usize);
-            let (Some(block), Some(x)) = (block, at::<_, R>(x, side.position as usize)) else { return };
-            (0..R).for_each(|i| (0..W).for_each(|p| sum[p] = sum[p] + x[i] * block[i * W + p]));
-        });
-    }
-
-    /// Forwards through blocks of any number of rows.
-    pub fn forward_by_rows<const W: usize>(&mut self, run: &Run) {
+    /// Forwards through other blocks.
+    pub fn forward<const W: usize>(&mut self, run: &Run) {
         self.forward_by::<W>(run, |side, g, mine, x| {
             for (row, x) in block::<W>(g, side).iter().zip(&mut x[side.position as usize..]) {
                 *x = (0..W).fold(*x, |x, p| x - mine[p] * row[p]);
@@ -221,8 +180,8 @@ impl<N: Lanes> Passage<'_, N> {
         });
     }
 
-    /// Backwards through blocks of any number of rows.
-    pub fn backward_by_rows<const W: usize>(&mut self, run: &Run) {
+    /// Backwards through other blocks.
+    pub fn backward<const W: usize>(&mut self, run: &Run) {
         self.backward_by::<W>(run, |side, g, sum, x| {
             for (row, x) in block::<W>(g, side).iter().zip(&x[side.position as usize..]) {
                 (0..W).for_each(|p| sum[p] = sum[p] + *x * row[p]);

@@ -1,5 +1,21 @@
 //! Kernels with the widths of blocks as constants.
 
+/// Calls a method with the number of unknowns of a group as a constant.
+macro_rules! by_width {
+    ($width:expr, $part:ident.$method:ident($($argument:expr),*)) => {
+        match $width {
+            1 => $part.$method::<1>($($argument),*),
+            2 => $part.$method::<2>($($argument),*),
+            3 => $part.$method::<3>($($argument),*),
+            4 => $part.$method::<4>($($argument),*),
+            5 => $part.$method::<5>($($argument),*),
+            6 => $part.$method::<6>($($argument),*),
+            7 => $part.$method::<7>($($argument),*),
+            _ => $part.$method::<{ crate::math::kkt::blocks::groups::LARGEST }>($($argument),*),
+        }
+    };
+}
+
 /// Calls a method with the widths of a run's columns and of their partners as constants, and their product: those of
 /// usual joints (one row, hinge and sphere in the plane and in space), or another method for the other runs.
 macro_rules! by_widths {
@@ -15,25 +31,18 @@ macro_rules! by_widths {
             (6, 1) => $part.$alike::<6, 1, 6>($run),
             (6, 3) => $part.$alike::<6, 3, 18>($run),
             (6, 5) => $part.$alike::<6, 5, 30>($run),
-            (1, _) => $part.$mixed::<1>($run),
-            (2, _) => $part.$mixed::<2>($run),
-            (3, _) => $part.$mixed::<3>($run),
-            (4, _) => $part.$mixed::<4>($run),
-            (5, _) => $part.$mixed::<5>($run),
-            (6, _) => $part.$mixed::<6>($run),
-            (7, _) => $part.$mixed::<7>($run),
-            _ => $part.$mixed::<{ crate::math::kkt::blocks::groups::LARGEST }>($run),
+            _ => by_width!($run.width, $part.$mixed($run)),
         }
     };
 }
 
-/// The same for bodies, whose points with all their translations in the plane and in space are levers.
+/// Calls a method for levers, points with all their translations in the plane and in space, or another one.
 macro_rules! by_kinds {
-    ($run:ident, $part:ident, $levers:ident::<$plane:tt, $space:tt>, $alike:ident, $mixed:ident) => {
-        match ($run.are_levers, $run.width, $run.partner_width) {
-            (true, 3, 2) => by_kinds!(@ $part.$levers $plane($run)),
-            (true, 6, 3) => by_kinds!(@ $part.$levers $space($run)),
-            _ => by_widths!($run, $part, $alike, $mixed),
+    ($run:ident, $part:ident, $levers:ident::<$plane:tt, $space:tt>, $blocks:ident) => {
+        match ($run.are_levers, $run.width) {
+            (true, 3) => by_kinds!(@ $part.$levers $plane($run)),
+            (true, 6) => by_kinds!(@ $part.$levers $space($run)),
+            _ => by_width!($run.width, $part.$blocks($run)),
         }
     };
     (@ $part:ident.$levers:ident [$($n:literal),*]($run:ident)) => { $part.$levers::<$($n),*>($run) };

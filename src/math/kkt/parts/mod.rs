@@ -21,9 +21,10 @@ pub use plan::{Division, Plan};
 
 use super::blocks::Blocks;
 use super::pivot::{Quality, Rule};
-use super::system::add;
-use crate::math::threads::{Divisible, each};
-use plan::{PartPlan, Share};
+use crate::math::add;
+use crate::math::threads::{Divisible, each, each_of};
+use crate::tolerances::system::NUMBERS_OF_A_PORTION;
+use plan::{PartPlan, Piece};
 use std::sync::Arc;
 
 /// The factors of all parts, with the memory to make them and to solve.
@@ -44,26 +45,33 @@ struct Part {
     quality: Result<Quality, usize>,
 }
 
-/// Shares of a solution that are put together.
+/// Pieces of a solution that are put together.
 struct Collection<'a> {
-    shares: &'a [Share],
-    top: &'a mut [f64],
-    bottom: &'a mut [f64],
+    pieces: &'a [Piece],
+    to: &'a mut [f64],
 }
 
 impl Divisible for Collection<'_> {
     fn is_whole(&self) -> bool {
-        self.shares.len() < 2
+        self.pieces.len() < 2 || self.to.len() < NUMBERS_OF_A_PORTION
     }
 
     fn divided(self) -> [Self; 2] {
-        let (shares, others) = self.shares.split_at(self.shares.len() / 2);
-        let sizes = shares.iter().map(Share::sizes).fold([0, 0], |[n, m], [own, rows]| [n + own, m + rows]);
-        let top = self.top.split_at_mut(sizes[0]);
-        let bottom = self.bottom.split_at_mut(sizes[1]);
-        let first = Collection { shares, top: top.0, bottom: bottom.0 };
-        [first, Collection { shares: others, top: top.1, bottom: bottom.1 }]
+        let (pieces, others) = self.pieces.split_at(self.pieces.len() / 2);
+        let (to, rest) = self.to.split_at_mut(others[0].first - pieces[0].first);
+        [Collection { pieces, to }, Collection { pieces: others, to: rest }]
     }
+}
+
+/// Puts a list together from the lists of the parts.
+fn collect<'p>(pieces: &[Piece], of: impl Fn(usize) -> &'p [f64] + Sync, to: &mut [f64]) {
+    each(Collection { pieces, to }, &|Collection { pieces, mut to }| {
+        for piece in pieces {
+            let Some((own, rest)) = to.split_at_mut_checked(piece.len) else { return };
+            own.copy_from_slice(&of(piece.part)[piece.place..][..piece.len]);
+            to = rest;
+        }
+    });
 }
 
 impl Parts {
@@ -75,9 +83,7 @@ impl Parts {
     /// See [`Blocks::factor`].
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         let Parts { division, all } = self;
-        each(&mut all[..], &|parts: &mut [Part]| {
-            parts.iter_mut().for_each(|part| part.factor(&division.parts[part.number], (mass, g), rule));
-        });
+        each_of(all, |part| part.factor(&division.parts[part.number], (mass, g), rule));
         let mut quality = Quality::GOOD;
         for part in &*all {
             quality = quality.with(part.quality.map_err(|node| division.node(part.number, node))?);
@@ -97,23 +103,17 @@ impl Parts {
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
         let Parts { division, all } = self;
         let given: (&[f64], &[f64]) = (top, bottom);
-        each(&mut all[..], &|parts: &mut [Part]| {
-            parts.iter_mut().for_each(|part| part.forward(&division.parts[part.number], given));
-        });
+        each_of(all, |part| part.forward(&division.parts[part.number], given));
         let Some((first, others)) = all.split_first_mut() else { return };
         let last = first.blocks.last();
         others.iter_mut().for_each(|other| add(other.blocks.last(), last));
         first.blocks.solve_last();
         let last = first.blocks.last();
         others.iter_mut().for_each(|other| other.blocks.last().copy_from_slice(last));
-        each(&mut all[..], &|parts: &mut [Part]| {
-            parts.iter_mut().for_each(|part| part.blocks.backward(&mut part.top, &mut part.bottom));
-        });
+        each_of(all, |part| part.blocks.backward(&mut part.top, &mut part.bottom));
         let all = &*all;
-        each(Collection { shares: &division.shares, top, bottom }, &|Collection { shares, top, bottom }| {
-            collect(shares.iter().flat_map(|share| &share.coordinates), |part| &all[part].top, top);
-            collect(shares.iter().flat_map(|share| &share.rows), |part| &all[part].bottom, bottom);
-        });
+        collect(&division.coordinates, |part| &all[part].top, top);
+        collect(&division.rows, |part| &all[part].bottom, bottom);
     }
 
     /// See [`Blocks::smallest_ratio`].
@@ -121,19 +121,6 @@ impl Parts {
         let Some((first, others)) = self.all.split_first() else { return (1.0, 0) };
         let found = first.blocks.smallest_ratio(collapsed);
         others.iter().fold(found, |found, part| part.blocks.smaller_own_ratio(found, collapsed))
-    }
-}
-
-/// Copies pieces of the parts one behind the other.
-fn collect<'a, 's>(
-    pieces: impl Iterator<Item = &'s (usize, usize, usize)>,
-    of: impl Fn(usize) -> &'a Vec<f64>,
-    mut to: &mut [f64],
-) {
-    for &(part, place, len) in pieces {
-        let Some((own, rest)) = to.split_at_mut_checked(len) else { return };
-        own.copy_from_slice(&of(part)[place..][..len]);
-        to = rest;
     }
 }
 

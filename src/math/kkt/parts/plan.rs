@@ -18,8 +18,9 @@ pub struct Division {
     /// Number of coordinates.
     pub n: usize,
     pub parts: Vec<PartPlan>,
-    /// Shares of the solution, as it is put together from those of the parts.
-    pub shares: Vec<Share>,
+    /// Coordinates and rows, as the solution is put together from those of the parts.
+    pub coordinates: Vec<Piece>,
+    pub rows: Vec<Piece>,
 }
 
 /// One part: a saddle-point matrix of its own unknowns and, behind them, of those of the separator.
@@ -63,45 +64,24 @@ impl Places {
     }
 }
 
-/// Coordinates in sequence and rows in sequence, piece by piece: the part that has it, its place there, and its length.
-pub struct Share {
-    pub coordinates: Vec<(usize, usize, usize)>,
-    pub rows: Vec<(usize, usize, usize)>,
+/// Numbers in sequence that one part has.
+pub struct Piece {
+    /// First place in the whole list, and number.
+    pub first: usize,
+    pub len: usize,
+    /// The part, and the first place in its list.
+    pub part: usize,
+    pub place: usize,
 }
 
-impl Share {
-    /// Number of coordinates, and of rows.
-    pub fn sizes(&self) -> [usize; 2] {
-        [&self.coordinates, &self.rows].map(|pieces| pieces.iter().map(|(_, _, len)| len).sum())
-    }
-
-    /// Equal shares, as many as there are parts.
-    fn all(parts: &[PartPlan], [n, m]: [usize; 2]) -> Vec<Share> {
-        let coordinates = shares(parts.iter().map(|part| &part.coordinates), n, parts.len());
-        let rows = shares(parts.iter().map(|part| &part.rows), m, parts.len());
-        coordinates.into_iter().zip(rows).map(|(coordinates, rows)| Share { coordinates, rows }).collect()
-    }
-}
-
-/// Pieces of `count` equal shares of a list that the parts have copies of.
-fn shares<'a>(parts: impl Iterator<Item = &'a Places>, len: usize, count: usize) -> Vec<Vec<(usize, usize, usize)>> {
-    let mut sources = vec![(0, 0); len];
-    for (number, places) in parts.enumerate() {
-        for &(from, to, len) in &places.pieces {
-            (0..len).for_each(|k| sources[from + k] = (number, to + k));
-        }
-    }
-    let share = |k: usize| {
-        let mut pieces: Vec<(usize, usize, usize)> = Vec::new();
-        for &(part, place) in &sources[k * len / count..(k + 1) * len / count] {
-            match pieces.last_mut().filter(|(its, first, len)| (*its, first + len) == (part, place)) {
-                Some(last) => last.2 += 1,
-                None => pieces.push((part, place, 1)),
-            }
-        }
-        pieces
+/// The pieces of a list that the parts have copies of.
+fn pieces<'a>(parts: impl Iterator<Item = &'a Places>) -> Vec<Piece> {
+    let of_part = |(part, places): (usize, &'a Places)| {
+        places.pieces.iter().map(move |&(first, place, len)| Piece { first, len, part, place })
     };
-    (0..count).map(share).collect()
+    let mut pieces: Vec<Piece> = parts.enumerate().flat_map(of_part).collect();
+    pieces.sort_unstable_by_key(|piece| piece.first);
+    pieces
 }
 
 impl Plan {
@@ -133,7 +113,12 @@ impl Division {
     pub fn new((mass, g): (&Pattern, &Pattern), late: &[bool], levers: &[Lever], most: usize) -> Option<Self> {
         let whole = Whole::new((mass, g), late, most)?;
         let parts: Vec<_> = (0..whole.parts as u32).map(|part| whole.part((mass, g), late, levers, part)).collect();
-        Some(Division { n: g.cols, shares: Share::all(&parts, [g.cols, g.rows]), parts })
+        Some(Division {
+            n: g.cols,
+            coordinates: pieces(parts.iter().map(|part| &part.coordinates)),
+            rows: pieces(parts.iter().map(|part| &part.rows)),
+            parts,
+        })
     }
 
     /// Coordinate i, or n + row, that is this node of a part.

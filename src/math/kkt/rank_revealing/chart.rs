@@ -1,10 +1,9 @@
 //! Corrections along the normal directions of a base state: its tangent space is a chart of the manifold around it.
 
 use super::super::Pattern;
-use super::super::system::add_scaled;
 use super::pivoted::PivotedQr;
-use super::scaled_rows;
-use crate::math::dot;
+use super::{scaled_rows, truncated};
+use crate::math::{add_scaled, dot};
 use crate::tolerances::math as tolerances;
 
 /// Corrections d = Y c with G d = r at a nearby state, where S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G
@@ -74,7 +73,7 @@ impl Chart {
             add_scaled(value / self.norms[i], &self.normal[j * rank..(j + 1) * rank], row);
         }
         // Near a singular state, components below round-off are left to the next step.
-        self.place.factor_truncated(tolerances::RANK, reference);
+        self.place.factor(truncated(tolerances::RANK, reference));
     }
 
     /// d = Y c with G d = r.

@@ -8,9 +8,9 @@ pub use chart::Chart;
 pub use reduced::Reduced;
 
 use super::orthonormal::{normalize, orthonormalize, project_out};
-use super::system::{System, add, index_of_largest};
+use super::system::System;
 use super::{Pattern, Singular};
-use crate::math::norm;
+use crate::math::{add, index_of_largest, norm};
 use crate::tolerances::math as tolerances;
 use pivoted::{PivotedCholesky, PivotedQr};
 
@@ -84,26 +84,12 @@ impl NullSpace {
         self.qr.smallest_ratio().powi(2)
     }
 
+    /// Factors; rows count as dependent below `tolerance` of the largest pivot.
     pub fn factor(&mut self, system: &System, tolerance: f64) -> Result<(), Singular> {
-        self.scale_rows(system);
-        self.qr.factor(tolerance);
-        self.finish(system)
-    }
-
-    /// See [`PivotedQr::factor_truncated`].
-    pub fn factor_truncated(&mut self, system: &System, tolerance: f64, reference: f64) -> Result<(), Singular> {
-        self.scale_rows(system);
-        self.qr.factor_truncated(tolerance, reference);
-        self.finish(system)
-    }
-
-    fn scale_rows(&mut self, system: &System) {
         let mass = (&*system.mass, &system.mass_values[..]);
         let g = (&*system.g, &system.g_values[..]);
         scaled_rows(mass, g, &mut self.scale, &mut self.norms, &mut self.qr.values);
-    }
-
-    fn finish(&mut self, system: &System) -> Result<(), Singular> {
+        self.qr.factor(tolerance);
         self.factor_reduced(system)?;
         self.span_null();
         Ok(())
@@ -203,6 +189,12 @@ impl NullSpace {
         scale_by(&self.scale, &mut self.w);
         self.qr.apply_transposed(&mut self.w);
     }
+}
+
+/// The tolerance of a QR below which rows also count as dependent near singular states, where the smallest ratio of
+/// pivots at regular ones is `reference`: see `tolerances::TRUNCATED_RANK`.
+fn truncated(tolerance: f64, reference: f64) -> f64 {
+    tolerance.max(tolerances::TRUNCATED_RANK * reference)
 }
 
 /// S, the sizes of the rows of G S, and (D^-1 G S)^T by columns.

@@ -4,9 +4,7 @@
 //! the norms of columns, which hides norms below 1e-8: of 140 columns, four of them dependent and a fifth but for 1.8e-9,
 //! it took one with 7e-17 left before the fifth, and the rank at 1e-10 was one too low.
 
-use super::super::system::add_scaled;
-use crate::math::dot;
-use crate::tolerances::math as tolerances;
+use crate::math::{add_scaled, dot};
 
 /// A Pi = Q R of a tall or wide `rows` x `cols` matrix, in place: R above, the reflectors (leading 1 not stored) below.
 pub struct PivotedQr {
@@ -65,12 +63,6 @@ impl PivotedQr {
             self.step(k, norm);
             self.rank = k + 1;
         }
-    }
-
-    /// Factors; columns also count as dependent below 1e-4 of `reference`, the smallest ratio at regular states: see
-    /// `tolerances::TRUNCATED_RANK`.
-    pub fn factor_truncated(&mut self, tolerance: f64, reference: f64) {
-        self.factor(tolerance.max(tolerances::TRUNCATED_RANK * reference));
     }
 
     /// True if columns are dependent to `tolerance`.

@@ -2,7 +2,7 @@
 
 use super::super::system::System;
 use super::super::{Pattern, Singular};
-use super::NullSpace;
+use super::{NullSpace, truncated};
 
 /// [M G^T; G 0] always by a pivoted QR of G^T: a = Y y + Z z with G Z = 0, then Z^T M Z z = Z^T (r1 - M Y y), then
 /// lambda from r1 - M a. Dependent rows get multipliers of least norm, contradictions a least-squares solution.
@@ -46,7 +46,7 @@ impl Reduced {
             return Err(Singular::NotFinite);
         }
         self.system.store(mass, g);
-        self.null_space.factor_truncated(&self.system, self.rank_tolerance, reference)?;
+        self.null_space.factor(&self.system, truncated(self.rank_tolerance, reference))?;
         self.is_factored = true;
         Ok(())
     }

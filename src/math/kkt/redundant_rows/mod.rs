@@ -3,30 +3,23 @@
 //! With all coordinates before all multipliers the elimination of the latter acts on -G M^-1 G^T. A pivot that vanishes
 //! there has a vanishing row, so its multiplier can be dropped (zero) and nothing else changes: the others solve the
 //! system exactly if the right side lies in the range of G, which `least` makes sure of, and multipliers of least norm
-//! are made of any by the same projection. Rows that are known to be dependent, or are found so among rows over the same
-//! coordinates (`alike`), are not factored at all (`kept`).
+//! are made of any by the same projection.
 
-mod alike;
-mod kept;
-pub(super) mod least;
-mod nearly;
+mod least;
 
-pub use alike::Alike;
-pub use kept::Kept;
+pub use least::Least;
 
 use super::Singular;
 use super::ldlt::Ldlt;
 use super::pivot::{Quality, Rule};
-use super::system::{System, add, index_of_largest, iterate};
+use super::system::System;
+use crate::math::{add, index_of_largest, largest};
 use crate::tolerances::math as tolerances;
-use least::Least;
 
 pub(super) struct RedundantRowSolve {
     factor: Ldlt,
     skipped: Vec<usize>,
     replaced: bool,
-    /// Ratio of a pivot to its size below which rows are dropped.
-    collapsed: f64,
     inconsistency: f64,
     least: Least,
     /// Scratch: n and m numbers.
@@ -34,9 +27,7 @@ pub(super) struct RedundantRowSolve {
     top: Vec<f64>,
     lambda: Vec<f64>,
     bottom: Vec<f64>,
-    weights: Vec<f64>,
-    direction: Vec<f64>,
-    image: Vec<f64>,
+    lengths: Vec<f64>,
     probe: (Vec<f64>, Vec<f64>),
 }
 
@@ -44,21 +35,19 @@ impl RedundantRowSolve {
     pub fn new(System { mass, g, analysis, .. }: &System) -> Self {
         let n = g.cols;
         let m = g.rows;
+        let early = vec![false; n];
         let zeros = || vec![0.0; m];
         RedundantRowSolve {
-            factor: Ldlt::of(analysis.single(mass, g), mass, g, &vec![false; n]),
+            factor: Ldlt::of(&analysis.plan(mass, g, &early), mass, g, &early),
             skipped: Vec::with_capacity(m),
             replaced: false,
-            collapsed: 0.0,
             inconsistency: 0.0,
             least: Least::new(g),
             a: vec![0.0; n],
             top: vec![0.0; n],
             lambda: zeros(),
             bottom: zeros(),
-            weights: zeros(),
-            direction: zeros(),
-            image: zeros(),
+            lengths: zeros(),
             probe: (vec![0.0; n], zeros()),
         }
     }
@@ -71,7 +60,7 @@ impl RedundantRowSolve {
         let rule = Rule::lenient(collapsed, &self.a);
         let result = self.factor.factor(&system.mass_values, &system.g_values, rule, &mut self.skipped);
         let quality = result.map_err(|_| Singular::NotFinite)?;
-        (self.replaced, self.collapsed) = (quality.replaced, collapsed);
+        self.replaced = quality.replaced;
         self.least.clear();
         Ok(quality)
     }
@@ -100,23 +89,23 @@ impl RedundantRowSolve {
         if self.skipped.is_empty() {
             return 0.0;
         }
-        self.top.fill(0.0);
-        system.mass.add_diagonal(&system.mass_values, &mut self.top);
-        self.weights.fill(0.0);
+        let RedundantRowSolve { factor, skipped, least, a, top: mass, lengths, .. } = self;
+        mass.fill(0.0);
+        system.mass.add_diagonal(&system.mass_values, mass);
+        lengths.fill(0.0);
         for (&(j, i), value) in system.g.entries.iter().zip(&system.g_values) {
-            self.weights[j] += value * value / self.top[i];
+            lengths[j] += value * value / mass[i];
         }
-        self.direction.fill(0.0);
-        for &j in &self.skipped {
-            let length = self.weights[j].sqrt();
-            self.direction[j] = if length > 0.0 { (1.0 + 0.5 * arbitrary(j)) / length } else { 0.0 };
-        }
-        self.refine_null(system);
-        self.a.fill(0.0);
-        system.g.subtract_transposed(&system.g_values, &self.image, &mut self.a);
-        self.top.fill(0.0);
-        system.mass.add_diagonal(&system.mass_values, &mut self.top);
-        self.a.iter().zip(&self.top).map(|(a, mass)| a * a / mass).sum::<f64>().sqrt()
+        lengths.iter_mut().for_each(|square| *square = square.sqrt());
+        let combine = |direction: &mut [f64]| {
+            for &j in skipped.iter().filter(|j| lengths[**j] > 0.0) {
+                direction[j] = (1.0 + 0.5 * arbitrary(j)) / lengths[j];
+            }
+        };
+        let null = least.null(system, combine, &mut |top, bottom| factor.solve(top, bottom));
+        a.fill(0.0);
+        system.g.subtract_transposed(&system.g_values, null, a);
+        a.iter().zip(&*mass).map(|(a, mass)| a * a / mass).sum::<f64>().sqrt()
     }
 
     /// Rows that the last factorization dropped.
@@ -157,26 +146,45 @@ impl RedundantRowSolve {
 
     /// v := P v; returns the norm of the removed part.
     fn project(&mut self, system: &System, v: &mut [f64]) -> f64 {
-        let RedundantRowSolve { factor, least, skipped, collapsed, .. } = self;
-        let rank_indicator = factor.smallest_ratio(collapsed.max(tolerances::ROUND_OFF_OF_FACTORS)).0.sqrt();
-        least.project(system, skipped, (rank_indicator, false), &mut |top, bottom| factor.solve(top, bottom), v)
-    }
-
-    /// image = N direction, where `direction` is zero except on the dropped rows.
-    fn refine_null(&mut self, system: &System) {
-        let RedundantRowSolve {
-            factor, a, lambda, top: r1, bottom: r2, direction, image, probe: (top, bottom), ..
-        } = self;
-        top.fill(0.0);
-        bottom.fill(0.0);
-        system.g.subtract_transposed(&system.g_values, direction, top);
-        iterate(factor, system, (top, bottom), (a, lambda), (r1, r2), tolerances::REFINEMENTS[0]);
-        image.copy_from_slice(direction);
-        add(lambda, image);
+        let RedundantRowSolve { factor, least, skipped, .. } = self;
+        least.project(system, skipped, &mut |top, bottom| factor.solve(top, bottom), v)
     }
 }
 
 /// Numbers in [-1, 1] without pattern.
 fn arbitrary(i: usize) -> f64 {
     (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin()
+}
+
+/// Solves [M G^T; G 0] [a; lambda] = [top; bottom] with a factor that may be of a nearby matrix, in at most `sweeps`
+/// corrections, until a correction is round-off. `residual` is scratch.
+fn iterate(
+    factor: &mut Ldlt,
+    system: &System,
+    (top, bottom): (&[f64], &[f64]),
+    (a, lambda): (&mut [f64], &mut [f64]),
+    (r1, r2): (&mut [f64], &mut [f64]),
+    sweeps: usize,
+) {
+    a.fill(0.0);
+    lambda.fill(0.0);
+    let mut last = [f64::INFINITY; 2];
+    for _ in 0..sweeps {
+        r1.copy_from_slice(top);
+        r2.copy_from_slice(bottom);
+        system.residual(a, lambda, r1, r2);
+        factor.solve(r1, r2);
+        let sizes = [largest(r1), largest(r2)];
+        // A correction that does not shrink is round-off.
+        if !(sizes[0] < 0.5 * last[0] || sizes[1] < 0.5 * last[1]) {
+            break;
+        }
+        add(r1, a);
+        add(r2, lambda);
+        let small = 1e-16;
+        if sizes[0] <= small * largest(a) && sizes[1] <= small * largest(lambda) {
+            break;
+        }
+        last = sizes;
+    }
 }

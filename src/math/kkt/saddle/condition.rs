@@ -1,8 +1,9 @@
 //! Condition number of the saddle-point matrix, for reports.
 
-use super::super::system::{System, add, balance};
+use super::super::supernodal::balance;
+use super::super::system::System;
 use super::{SaddlePoint, Singular};
-use crate::math::norm;
+use crate::math::{add, norm};
 use crate::tolerances::math as tolerances;
 use faer::{Mat, Side};
 

@@ -2,15 +2,18 @@
 
 mod condition;
 mod findings;
+mod kept;
 mod orders;
 
+use super::alike::Alike;
 use super::ldlt::Ldlt;
 use super::rank_revealing::NullSpace;
-use super::redundant_rows::{Alike, Kept, RedundantRowSolve};
-use super::system::{System, add};
+use super::redundant_rows::RedundantRowSolve;
+use super::system::System;
 use super::{Analysis, Pattern, Singular};
-use crate::math::all_finite;
+use crate::math::{add, all_finite};
 use crate::tolerances::math as tolerances;
+use kept::Kept;
 use orders::Orders;
 use std::sync::Arc;
 
@@ -43,12 +46,10 @@ pub struct SaddlePoint {
     /// Reference value of [`Self::rank_indicator`], that of a regular state, against which a
     /// truncated factorization compares; zero before it is known.
     pub rank_reference: f64,
-    /// Rows that are dropped by [`Self::drop_rows`]; `drops_rows` is true if there are any.
-    dropped: Vec<bool>,
+    /// True if rows are dropped by [`Self::drop_rows`].
     drops_rows: bool,
     /// True if rows are dropped that are not surely dependent.
     is_truncated: bool,
-    skipped: Vec<usize>,
     top: Vec<f64>,
     bottom: Vec<f64>,
     multipliers: Vec<f64>,
@@ -81,10 +82,8 @@ impl SaddlePoint {
             dense: None,
             way: Way::None,
             rank_reference: 0.0,
-            dropped: vec![false; m],
             drops_rows: false,
             is_truncated: false,
-            skipped: Vec::with_capacity(m),
             top: vec![0.0; n],
             bottom: vec![0.0; m],
             multipliers: vec![0.0; m],
@@ -94,7 +93,7 @@ impl SaddlePoint {
     /// Factors the matrix with these values. A pivot collapses on the fast path when elimination reduces it to less
     /// than 1e-11 of its size; below 1e-7 solutions are refined once.
     pub fn factor(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
-        if self.goes_fast(mass, g)? || self.drops_rows(None)? { Ok(()) } else { self.finish_rank_revealing() }
+        if self.goes_fast(mass, g)? || self.factor_kept(None)? { Ok(()) } else { self.factor_rank_revealing() }
     }
 
     /// True if the fast path succeeds; the values are stored if not, or if solutions need a refinement.
@@ -119,18 +118,18 @@ impl SaddlePoint {
     /// velocities after a projection; the next projection farther away corrects the motion along them.
     pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64], part: f64) -> Result<(), Singular> {
         let is_fast = self.goes_fast(mass, g)?;
-        if !is_fast && self.drops_rows(Some(part))? {
+        if !is_fast && self.factor_kept(Some(part))? {
             return Ok(());
         }
         let least = part * self.rank_reference;
         if is_fast && self.is_regular(part) || least * least <= tolerances::COLLAPSED {
-            return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
+            return if is_fast { Ok(()) } else { self.factor_rank_revealing() };
         }
         let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(&self.system)));
         let quality = skipping.factor(&self.system, least * least)?;
         // Coordinates with little mass of their own look the same as nearly dependent rows.
         if quality.replaced {
-            return if is_fast { Ok(()) } else { self.finish_rank_revealing() };
+            return if is_fast { Ok(()) } else { self.factor_rank_revealing() };
         }
         (self.way, self.is_truncated) = (Way::RedundantRowSolve, quality.doubtful);
         Ok(())
@@ -138,7 +137,7 @@ impl SaddlePoint {
 
     /// True if there are rows that are dropped, or that depend on others over the same coordinates; the others are then
     /// factored.
-    fn drops_rows(&mut self, part: Option<f64>) -> Result<bool, Singular> {
+    fn factor_kept(&mut self, part: Option<f64>) -> Result<bool, Singular> {
         if !self.drops_rows {
             let alike = self.alike.get_or_insert_with(|| Alike::new(&self.system.g));
             let rows = alike.dependent(&self.system.g_values, self.rank_tolerance);
@@ -155,24 +154,17 @@ impl SaddlePoint {
         Ok(true)
     }
 
-    fn finish_rank_revealing(&mut self) -> Result<(), Singular> {
-        self.way = self.factor_rank_revealing()?;
-        Ok(())
-    }
-
     /// Drops these rows, and no others, from now on, whatever their pivots. Rows that depend on the others
     /// wherever phi = 0 do not where phi != 0: there their small pivots would lock the motion if they were kept.
     pub fn drop_rows(&mut self, rows: &[usize]) {
-        self.dropped.fill(false);
-        rows.iter().filter(|row| **row < self.m).for_each(|row| self.dropped[*row] = true);
-        self.drops_rows = self.dropped.contains(&true);
+        self.drops_rows = rows.iter().any(|row| *row < self.m);
         self.kept = self.drops_rows.then(|| Box::new(Kept::new(&self.system, rows)));
         self.way = Way::None;
     }
 
     fn factor_fast(&mut self, mass: &[f64], g: &[f64]) -> bool {
         let Some(orders) = &mut self.fast else { return false };
-        let Some(quality) = orders.factor(&self.system, (mass, g), &mut self.skipped) else { return false };
+        let Some(quality) = orders.factor(&self.system, (mass, g)) else { return false };
         if quality.weak {
             self.system.store(mass, g);
         }
@@ -180,7 +172,7 @@ impl SaddlePoint {
         true
     }
 
-    fn factor_rank_revealing(&mut self) -> Result<Way, Singular> {
+    fn factor_rank_revealing(&mut self) -> Result<(), Singular> {
         let total = self.n + self.m;
         let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(&self.system)));
         let mut quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
@@ -188,7 +180,8 @@ impl SaddlePoint {
             // Round-off in pivots of dependent rows grows with the condition of the others. Null vectors tell them.
             skipping.factor(&self.system, tolerances::DOUBTED)?;
             if skipping.rank_indicator(&self.system) < self.rank_tolerance {
-                return Ok(Way::RedundantRowSolve);
+                self.way = Way::RedundantRowSolve;
+                return Ok(());
             }
             quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
         }
@@ -206,11 +199,13 @@ impl SaddlePoint {
             true
         };
         if is_accepted {
-            return Ok(Way::RedundantRowSolve);
+            self.way = Way::RedundantRowSolve;
+            return Ok(());
         }
         let dense = self.dense.get_or_insert_with(|| Box::new(NullSpace::new(&self.system.mass, &self.system.g)));
         dense.factor(&self.system, self.rank_tolerance)?;
-        Ok(Way::Dense)
+        self.way = Way::Dense;
+        Ok(())
     }
 
     /// Solves in place: (r1, r2) -> (a, lambda).
@@ -239,9 +234,7 @@ impl SaddlePoint {
         ) {
             (Way::Ldlt { refine: false }, Some(fast), ..) => fast.solve(top, bottom),
             (Way::Ldlt { refine: true }, Some(fast), ..) => {
-                refine(fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
-                    system.residual(a, lambda, top, bottom)
-                })
+                refine(fast, system, (top, bottom), (&mut self.top, &mut self.bottom))
             }
             (Way::Kept, _, Some(kept), ..) => kept.solve(system, (top, bottom), counts_all, is_least)?,
             (Way::RedundantRowSolve, .., Some(skipping), _) => skipping.solve(system, top, bottom, is_least),
@@ -251,7 +244,7 @@ impl SaddlePoint {
         finite(top, bottom)
     }
 
-    /// Like [`Self::solve`] with one step of iterative refinement against these values.
+    /// Like [`Self::solve`] with one step of iterative refinement against these values, which are stored.
     pub fn solve_refined(
         &mut self,
         mass: &[f64],
@@ -259,19 +252,17 @@ impl SaddlePoint {
         top: &mut [f64],
         bottom: &mut [f64],
     ) -> Result<(), Singular> {
-        let Way::Ldlt { .. } = self.way else { return self.solve(top, bottom) };
-        let fits = mass.len() == self.system.mass.entries.len() && g.len() == self.system.g.entries.len();
-        if !fits || top.len() != self.n || bottom.len() != self.m {
-            return Err(Singular::Shape);
+        let way = self.way;
+        if let Way::Ldlt { .. } = way {
+            if mass.len() != self.system.mass.entries.len() || g.len() != self.system.g.entries.len() {
+                return Err(Singular::Shape);
+            }
+            self.system.store(mass, g);
+            self.way = Way::Ldlt { refine: true };
         }
-        let System { mass: m, g: j, .. } = &self.system;
-        let Some(fast) = self.fast.as_mut().and_then(Orders::taken) else { return Err(Singular::NotFactored) };
-        refine(fast, (top, bottom), (&mut self.top, &mut self.bottom), |a, lambda, top, bottom| {
-            m.subtract_symmetric(mass, a, top);
-            j.subtract_transposed(g, lambda, top);
-            j.subtract(g, a, bottom);
-        });
-        finite(top, bottom)
+        let solved = self.solve(top, bottom);
+        self.way = way;
+        solved
     }
 
     /// The smallest correction in the mass metric that meets G d = b: [M G^T; G 0] [d; .] = [0; b].
@@ -300,17 +291,17 @@ impl SaddlePoint {
     }
 }
 
-/// Solves with one step of refinement. `matrix(a, lambda, top, bottom)` subtracts the product from (top, bottom).
+/// Solves with one step of refinement against the values of the system.
 fn refine(
     fast: &mut Ldlt,
+    system: &System,
     (top, bottom): (&mut [f64], &mut [f64]),
     (a, lambda): (&mut [f64], &mut [f64]),
-    matrix: impl Fn(&[f64], &[f64], &mut [f64], &mut [f64]),
 ) {
     a.copy_from_slice(top);
     lambda.copy_from_slice(bottom);
     fast.solve(a, lambda);
-    matrix(a, lambda, top, bottom);
+    system.residual(a, lambda, top, bottom);
     fast.solve(top, bottom);
     add(a, top);
     add(lambda, bottom);

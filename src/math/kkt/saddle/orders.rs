@@ -41,12 +41,7 @@ impl Orders {
     }
 
     /// Factors; `None` if a pivot collapses in each order.
-    pub fn factor(
-        &mut self,
-        System { mass: m, g: j, .. }: &System,
-        (mass, g): (&[f64], &[f64]),
-        skipped: &mut Vec<usize>,
-    ) -> Option<Quality> {
+    pub fn factor(&mut self, System { mass: m, g: j, .. }: &System, (mass, g): (&[f64], &[f64])) -> Option<Quality> {
         self.meet(mass);
         for (order, factors) in self.factors.iter_mut().enumerate() {
             let late = |(massless, hub): (&bool, &bool)| *massless || *hub && order == 0;
@@ -54,7 +49,8 @@ impl Orders {
                 let late: Vec<bool> = self.massless.iter().zip(&self.hubs).map(late).collect();
                 Ldlt::of(&self.analysis.plan(m, j, &late), m, j, &late)
             });
-            match fast.factor(mass, g, Rule::STRICT, skipped) {
+            // This rule drops no rows.
+            match fast.factor(mass, g, Rule::STRICT, &mut Vec::new()) {
                 Ok(quality) => {
                     self.taken = order;
                     return Some(quality);

@@ -7,7 +7,6 @@ mod dense;
 mod dense_rows;
 mod field;
 mod matrix;
-mod redundancy;
 mod sparse;
 #[cfg(test)]
 mod tests;
@@ -15,12 +14,13 @@ mod unpivoted;
 
 pub use field::Field;
 
+use super::ldlt::Ldlt;
+use super::pivot::Rule;
 use super::{Pattern, Singular};
 use dense::Dense;
 use dense_rows::DenseRows;
 use faer::sparse::SymbolicSparseColMat;
 use matrix::Matrix;
-use redundancy::Redundancy;
 use sparse::Sparse;
 use unpivoted::Unpivoted;
 
@@ -60,12 +60,14 @@ pub struct Unsymmetric<T> {
     g_places: Vec<[u32; 2]>,
     /// Values of b L at the places of G.
     coupling: Vec<T>,
-    redundancy: Option<Redundancy>,
+    /// Factors of G diag(weight)^-1 G^T, which stay sparse where G is, and the rows whose pivots collapse in them.
+    redundancy: Option<(Ldlt, Vec<usize>)>,
     /// Rows of G that are dropped.
     left_out: Vec<bool>,
     keeps_rows: bool,
     right: Vec<T>,
-    state: State,
+    is_factored: bool,
+    /// True if all entries so far are in the pattern.
     fits: bool,
 }
 
@@ -75,13 +77,6 @@ pub type Places = Vec<(u32, u32)>;
 enum Factors<T> {
     Dense(Dense<T>),
     Sparse(Sparse<T>),
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum State {
-    /// The last factorization failed, or there is a new matrix.
-    Open,
-    Factored,
 }
 
 impl<T: Field> Unsymmetric<T> {
@@ -120,7 +115,7 @@ impl<T: Field> Unsymmetric<T> {
             left_out: vec![false; g.rows],
             keeps_rows: false,
             right: vec![T::ZERO; size],
-            state: State::Open,
+            is_factored: false,
             fits: true,
             matrix,
         })
@@ -154,7 +149,7 @@ impl<T: Field> Unsymmetric<T> {
         self.matrix.values.fill(T::ZERO);
         self.coupling.fill(T::ZERO);
         self.fits = true;
-        self.state = State::Open;
+        self.is_factored = false;
     }
 
     /// Places of the entries of a part of A, or `None` where one is missing, for [`add_at`](Self::add_at).
@@ -224,7 +219,7 @@ impl<T: Field> Unsymmetric<T> {
             self.left_out.fill(false);
         }
         if self.factor_scaled(values) || !self.keeps_rows && self.leave_out(values) && self.factor_scaled(values) {
-            self.state = State::Factored;
+            self.is_factored = true;
             return Ok(());
         }
         Err(Singular::Collapsed)
@@ -278,10 +273,18 @@ impl<T: Field> Unsymmetric<T> {
         }
     }
 
-    /// Drops dependent rows; returns true if there are any.
-    fn leave_out(&mut self, g: &[f64]) -> bool {
-        let redundancy = self.redundancy.get_or_insert_with(|| Redundancy::new(&self.g));
-        redundancy.find(&self.weight, g, &mut self.left_out) > 0
+    /// Drops dependent rows; returns true if there are any. The order of elimination is frozen, so that the same rows of
+    /// a mechanism are dropped from state to state.
+    fn leave_out(&mut self, values: &[f64]) -> bool {
+        let g = &self.g;
+        let factors = || Ldlt::new(&Pattern::diagonal(g.cols), g, &vec![false; g.cols]);
+        let (fast, skipped) = self.redundancy.get_or_insert_with(|| (factors(), Vec::with_capacity(g.rows)));
+        let rule = Rule::lenient(tolerances::COLLAPSED, &self.weight);
+        if fast.factor(&self.weight, values, rule, skipped).is_err() {
+            return false;
+        }
+        skipped.iter().for_each(|&row| self.left_out[row] = true);
+        !skipped.is_empty()
     }
 
     /// Factors the scaled matrix; returns false if it is singular.
@@ -323,7 +326,7 @@ impl<T: Field> Unsymmetric<T> {
 
     /// Solves in place.
     pub fn solve(&mut self, top: &mut [T], bottom: &mut [T]) -> Result<(), Singular> {
-        if self.state != State::Factored || top.len() != self.n || bottom.len() != self.g.rows {
+        if !self.is_factored || top.len() != self.n || bottom.len() != self.g.rows {
             return Err(Singular::NotFactored);
         }
         let (of_top, of_bottom) = self.right.split_at_mut(self.n);

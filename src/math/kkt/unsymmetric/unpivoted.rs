@@ -2,9 +2,9 @@
 
 use super::Field;
 use super::columns::Columns;
-use crate::math::kkt::order::ordered;
+use crate::math::kkt::order::{delayed, ordered};
 use crate::math::kkt::parts::{SEPARATOR, divide};
-use crate::math::threads::each;
+use crate::math::threads::each_of;
 use crate::tolerances::math as tolerances;
 use faer::sparse::SymbolicSparseColMat;
 
@@ -43,7 +43,7 @@ impl<T: Field> Unpivoted<T> {
     /// Factors the matrix with these values at its places; returns false where a pivot is too small.
     pub fn factor(&mut self, values: &[T]) -> bool {
         let Unpivoted { parts, last } = self;
-        each(&mut parts[..], &|parts: &mut [Part<T>]| parts.iter_mut().for_each(|part| part.factor(values)));
+        each_of(parts, |part| part.factor(values));
         last.load(values);
         parts.iter().for_each(|part| last.columns.add_left(&part.columns));
         parts.iter().all(|part| part.is_stable) && last.columns.factor()
@@ -53,7 +53,7 @@ impl<T: Field> Unpivoted<T> {
     pub fn solve(&mut self, x: &mut [T]) {
         let Unpivoted { parts, last } = self;
         let given: &[T] = x;
-        each(&mut parts[..], &|parts: &mut [Part<T>]| parts.iter_mut().for_each(|part| part.forward(given)));
+        each_of(parts, |part| part.forward(given));
         last.read(given);
         for part in &*parts {
             let moved = &part.columns.x[part.nodes.len()..];
@@ -62,7 +62,7 @@ impl<T: Field> Unpivoted<T> {
         last.columns.forward();
         last.columns.backward();
         let of_separator = &last.columns.x;
-        each(&mut parts[..], &|parts: &mut [Part<T>]| parts.iter_mut().for_each(|part| part.backward(of_separator)));
+        each_of(parts, |part| part.backward(of_separator));
         for Part { nodes, columns, .. } in parts.iter().chain([&*last]) {
             nodes.iter().zip(&columns.x).for_each(|(&node, solution)| x[node] = *solution);
         }
@@ -145,23 +145,9 @@ fn division(places: &SymbolicSparseColMat<usize>, n: usize) -> (Vec<u32>, usize)
 
 /// These nodes in approximate minimum degree, with multipliers (from `n` on) moved behind their coordinates.
 fn order(places: &SymbolicSparseColMat<usize>, n: usize, nodes: Vec<usize>) -> Vec<usize> {
-    let mut is_here = vec![false; places.nrows()];
+    let total = places.nrows();
+    let mut is_here = vec![false; total];
     nodes.iter().for_each(|&node| is_here[node] = true);
-    let mut waiting: Vec<usize> =
-        (0..is_here.len()).map(|node| coordinates(places, n, node).filter(|&i| is_here[i]).count()).collect();
-    let mut is_reached = vec![false; is_here.len()];
-    let mut order = Vec::with_capacity(nodes.len());
-    for node in ordered(&nodes, is_here.len(), entries(places)) {
-        is_reached[node] = true;
-        if node >= n {
-            order.extend((waiting[node] == 0).then_some(node));
-            continue;
-        }
-        order.push(node);
-        for &row in places.row_idx_of_col_raw(node).iter().filter(|row| **row >= n && is_here[**row]) {
-            waiting[row] -= 1;
-            order.extend((waiting[row] == 0 && is_reached[row]).then_some(row));
-        }
-    }
-    order
+    let behind = nodes.iter().flat_map(|&row| coordinates(places, n, row).map(move |i| (row, i)));
+    delayed(&ordered(&nodes, total, entries(places)), total, behind.filter(|(_, i)| is_here[*i]))
 }

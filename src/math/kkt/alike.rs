@@ -1,7 +1,7 @@
 //! Rows of G over the same coordinates: copies of one joint, or more joints between two bodies than these can move.
 
-use super::super::Pattern;
-use super::super::orthonormal::orthogonalize;
+use super::Pattern;
+use super::orthonormal::orthogonalize;
 use crate::math::norm;
 use std::collections::HashMap;
 

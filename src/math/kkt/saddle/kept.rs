@@ -1,12 +1,12 @@
 //! The saddle-point system without some rows of G.
 
+use super::super::redundant_rows::Least;
 use super::super::system::System;
-use super::super::{Pattern, SaddlePoint, Singular};
-use super::least::Least;
+use super::{Pattern, SaddlePoint, Singular};
 use std::sync::Arc;
 
 /// A separate solver over the rows that are kept, so that dropped rows cost nothing.
-pub struct Kept {
+pub(super) struct Kept {
     pub inner: SaddlePoint,
     /// Rows that are kept. `dropped`: rows that are never factored; `left_out`: all rows without a multiplier at the
     /// last factorization.
@@ -24,7 +24,7 @@ pub struct Kept {
 impl Kept {
     pub fn new(system: &System, dropped: &[usize]) -> Self {
         let mut is_kept = vec![true; system.g.rows];
-        dropped.iter().for_each(|row| is_kept[*row] = false);
+        dropped.iter().filter(|row| **row < system.g.rows).for_each(|row| is_kept[*row] = false);
         let rows: Vec<usize> = (0..system.g.rows).filter(|row| is_kept[*row]).collect();
         let mut number = vec![0; system.g.rows];
         rows.iter().enumerate().for_each(|(k, row)| number[*row] = k);
@@ -99,13 +99,12 @@ impl Kept {
     /// null space stays, orthogonal to the removed part.
     fn project(&mut self, system: &System, v: &mut [f64]) -> Result<f64, Singular> {
         let Kept { inner, rows, dropped, bottom: short, least, .. } = self;
-        let indicator = (inner.rank_indicator(), !inner.is_fast());
         let mut result = Ok(());
         let mut inverse = |top: &mut [f64], bottom: &mut [f64]| {
             let solved = solve(inner, rows, (top, bottom, short), true);
             result = result.and(solved);
         };
-        let norm = least.project(system, dropped, indicator, &mut inverse, v);
+        let norm = least.project(system, dropped, &mut inverse, v);
         result.map(|()| norm)
     }
 }
