@@ -1,13 +1,14 @@
 //! A scene ready to run: its mechanism, a consistent start, and the method of simulation.
 
-use crate::math::array::Each;
 mod any_mechanism;
 mod doubts;
+mod family;
 mod far;
 mod rest;
 mod schema;
 
 pub use any_mechanism::AnyMechanism;
+pub use family::Family;
 pub use schema::schema;
 
 use doubts::{doubts, explained, of_scene, pulling};
@@ -17,6 +18,7 @@ use rest::at_rest;
 use crate::error::{Error, Result, Warning, clock, short};
 use crate::initial::{self, Assembly};
 use crate::integrator::{self, Steps};
+use crate::math::array::Each;
 use crate::math::expression::{Number, Parameters};
 use crate::math::{Rate, Scalar, Thresholds};
 use crate::method_spec::MethodSpec;

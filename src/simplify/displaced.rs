@@ -1,11 +1,11 @@
 //! Places of bodies that start elsewhere.
 
-use super::edit::{elements, text};
 use super::facts::{Facts, Placed};
 use crate::body::{dot, norm, sub};
 use crate::math::array::{Each, from_fn};
 use crate::math::rotation::{axes_from_quaternion, quaternion_from_axes, quaternion_from_vector, quaternion_product};
 use crate::math::screw::quaternion;
+use crate::scene::document::{elements, text};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 

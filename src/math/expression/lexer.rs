@@ -107,8 +107,40 @@ pub(super) fn names(text: &str) -> Result<Vec<&str>, ExpressionError> {
     Ok(named.filter_map(|token| text.get(token.start..token.end)).collect())
 }
 
+/// The words of a text, which may be no expression, with what follows each: names with their dots and primes, numbers,
+/// and single other characters.
+pub(crate) fn words(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    let mut rest = text;
+    std::iter::from_fn(move || {
+        let first = rest.chars().next()?;
+        let length = if begins_name(first) {
+            name_length(rest)
+        } else {
+            // Letters after a number, as in `2nd`, are no name.
+            number_length(rest).map_or(first.len_utf8(), |length| length + word_length(&rest[length..]))
+        };
+        let (word, after) = rest.split_at(length);
+        rest = after;
+        Some((word, after))
+    })
+}
+
+/// The text with other words in the place of its names; `change` is given a name and what follows it, and returns `None`
+/// where the name stays.
+pub(crate) fn with_names<E>(
+    text: &str,
+    mut change: impl FnMut(&str, &str) -> Result<Option<String>, E>,
+) -> Result<String, E> {
+    let mut result = String::with_capacity(text.len());
+    for (word, after) in words(text) {
+        let other = if word.starts_with(begins_name) { change(word, after)? } else { None };
+        result.push_str(other.as_deref().unwrap_or(word));
+    }
+    Ok(result)
+}
+
 /// True if `text` is one name without dots and primes.
-pub(super) fn is_plain_name(text: &str) -> bool {
+pub(crate) fn is_plain_name(text: &str) -> bool {
     word_length(text) == text.len() && text.starts_with(begins_name)
 }
 

@@ -6,7 +6,7 @@ use crate::body::{dot, sub};
 use crate::error::percent;
 use crate::math::array::{Each, from_fn};
 use crate::math::expression::{Number, Parameters};
-use crate::simplify::edit::{carrier, elements, find_mut, pair, remove, text};
+use crate::scene::document::{carrier, elements, find_mut, pair, remove, text};
 use crate::simplify::{Candidate, Facts, Placed, Proposal, Relative};
 use serde_json::{Value, json};
 

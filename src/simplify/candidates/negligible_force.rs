@@ -1,7 +1,7 @@
 //! Forces, dampers and gravity that hardly do any work.
 
 use crate::error::percent;
-use crate::simplify::edit::{elements, find_mut, remove_named, text};
+use crate::scene::document::{elements, find_mut, remove_named, text};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use serde_json::Value;
 

@@ -5,7 +5,7 @@ use super::plane::{Plane, combined, flat, world};
 use crate::body::dot;
 use crate::error::percent;
 use crate::math::array::Each;
-use crate::simplify::edit::{elements, elements_mut, text};
+use crate::scene::document::{elements, elements_mut, text};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Map, Value, json};

@@ -2,7 +2,7 @@
 
 use crate::error::percent;
 use crate::formulation::Dynamics;
-use crate::simplify::edit::{elements, elements_mut, remove, rename, text};
+use crate::scene::document::{elements, elements_mut, remove, rename, text};
 use crate::simplify::{Candidate, Facts, Proposal};
 use crate::system::{OperatingPoint, Tangent};
 use serde_json::Value;

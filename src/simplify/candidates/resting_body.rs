@@ -2,7 +2,7 @@
 
 use super::absorbed::{Absorbed, absorb, markers};
 use crate::error::percent;
-use crate::simplify::edit::{elements, find_mut, remove, text};
+use crate::scene::document::{elements, find_mut, remove, text};
 use crate::simplify::held::acting;
 use crate::simplify::{Candidate, Facts, Proposal, Relative};
 use serde_json::Value;

@@ -2,7 +2,7 @@
 
 use crate::body::{dot, norm, sub};
 use crate::math::array::Each;
-use crate::simplify::edit::{carrier, drop_references, elements, mentions, remove_named, text};
+use crate::scene::document::{carrier, drop_references, elements, mentions, remove_named, text};
 use crate::simplify::held::{Tie, acting};
 use crate::simplify::{Candidate, Facts, Proposal};
 use serde_json::{Value, json};
