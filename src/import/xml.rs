@@ -71,6 +71,13 @@ pub fn attribute<'a>(node: Node<'a, '_>, key: &str) -> Result<&'a str> {
     node.attribute(key).ok_or_else(|| faulty(node, format!("<{tag}> has no `{key}`")))
 }
 
+/// The texts of an attribute of these nodes, each once in a row.
+pub fn texts<'a, 'i: 'a>(nodes: impl Iterator<Item = Node<'a, 'i>>, key: &str) -> Vec<String> {
+    let mut texts: Vec<String> = nodes.filter_map(|node| node.attribute(key).map(str::to_string)).collect();
+    texts.dedup();
+    texts
+}
+
 /// A number, or `default` where it is not given.
 pub fn number(node: Node, key: &str, default: Option<f64>) -> Result<f64> {
     match (node.attribute(key), default) {

@@ -1,19 +1,15 @@
 //! Actuators: motors become inputs; inertia and damping of any are those of its joint.
 
-use super::Reader;
 use super::element::Element;
+use super::{Reader, named};
 use crate::error::{Error, Result};
 use crate::import::robot::Motor;
-use crate::import::xml::all;
-use roxmltree::Node;
 use std::collections::HashMap;
 
 impl<'a, 'i> Reader<'a, 'i> {
     pub fn actuators(&mut self, joints: &HashMap<String, usize>) -> Result<()> {
-        let nodes = all(self.root, "actuator").flat_map(|section| section.children()).filter(Node::is_element);
-        for (number, node) in nodes.enumerate() {
+        for (node, name) in named(self.root, "actuator") {
             let tag = node.tag_name().name();
-            let name = node.attribute("name").map_or_else(|| format!("{tag}_{}", number + 1), str::to_string);
             let Some(joint) = node.attribute("joint").or(node.attribute("jointinparent")) else {
                 self.told.add(format!("actuators of the type {tag}:"), &name);
                 continue;

@@ -1,7 +1,7 @@
 //! Settings of a whole model: `<compiler>` and `<option>`.
 
-use super::told::Told;
 use crate::error::{Result, excerpt};
+use crate::import::told::Told;
 use crate::import::xml::{all, exactly, faulty, list, parsed};
 use roxmltree::Node;
 
