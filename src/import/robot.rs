@@ -1,11 +1,12 @@
 //! A robot as its file describes it, in any of the formats.
 
 use super::transform::Transform;
-use super::xml::{faulty, place_of};
+use super::xml::faulty;
 use crate::body::{MassProperties, norm};
 use crate::error::{Error, Result, excerpt, suggest};
 use crate::math::array::Each;
 use crate::math::rotation::quaternion_from_vector;
+use crate::scene::locate::line_and_column;
 use roxmltree::Node;
 
 /// Links joined by joints to a tree, and what closes loops.
@@ -45,7 +46,7 @@ impl<'a> Robot<'a> {
 
     /// Adds the element and its line and column to an error.
     pub fn blame(&self, error: Error, name: &str, at: usize) -> Error {
-        error.element(name).placed(place_of(self.text, at))
+        error.element(name).placed(line_and_column(self.text, at))
     }
 }
 

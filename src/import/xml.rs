@@ -1,6 +1,7 @@
 //! Elements and attributes of XML, with their places in errors.
 
 use crate::error::{Error, Result, excerpt};
+use crate::scene::locate::line_and_column;
 use roxmltree::{Document, Node};
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -26,16 +27,9 @@ pub fn document(text: &str) -> Result<Document<'_>> {
     })
 }
 
-/// Line and column of a byte of the text.
-pub fn place_of(text: &str, at: usize) -> (usize, usize) {
-    let before = &text[..at];
-    let line = before.rsplit('\n').next().unwrap_or_default();
-    (before.matches('\n').count() + 1, line.chars().count() + 1)
-}
-
 /// Line and column of a node.
 pub fn place(node: Node) -> (usize, usize) {
-    place_of(node.document().input_text(), node.range().start)
+    line_and_column(node.document().input_text(), node.range().start)
 }
 
 /// An error at a node.

@@ -19,7 +19,7 @@ mod gravity;
 mod inputs;
 mod json;
 mod kinematics;
-mod locate;
+pub(crate) mod locate;
 mod markers;
 mod measures;
 mod model;

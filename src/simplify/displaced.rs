@@ -5,7 +5,7 @@ use crate::body::{dot, norm, sub};
 use crate::math::array::{Each, from_fn};
 use crate::math::rotation::{axes_from_quaternion, quaternion_from_axes, quaternion_from_vector, quaternion_product};
 use crate::math::screw::quaternion;
-use crate::scene::document::{elements, text};
+use crate::scene::document::{elements, take, text};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 
@@ -48,8 +48,7 @@ pub fn start_at(body: &mut Value, place: &Placed, dimension: usize) {
     if dimension == 2 && !is_point {
         (initial["angle"], initial["angular_velocity"]) = (json!(place.turn), json!(place.spin[2]));
     } else if !is_point && !is_guided {
-        let keys = initial.as_object_mut().into_iter();
-        keys.for_each(|keys| keys.retain(|key, _| !["z_axis", "x_axis"].contains(&key.as_str())));
+        ["z_axis", "x_axis"].iter().for_each(|key| drop(take(initial, key)));
         initial["rotation"] = json!(quaternion_from_axes(&place.axes));
         initial["angular_velocity"] = json!(place.axes.each(|axis| dot(&axis, &place.spin)));
     }

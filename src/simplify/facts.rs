@@ -10,7 +10,7 @@ use crate::math::Taylor;
 use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::prepared::{AnyMechanism, PreparedScene};
-use crate::scene::document::{carrier, elements, text};
+use crate::scene::document::{carrier, find, text};
 use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
 use serde_json::{Map, Value, json};
 
@@ -133,7 +133,7 @@ impl Facts {
 
     /// The element of this name in a list of the scene.
     pub fn element(&self, list: &str, name: &str) -> Option<&Value> {
-        elements(self.scene(), list).iter().find(|element| text(element, "name") == name)
+        find(self.scene(), list, name)
     }
 
     /// Start of a rigid body or point mass as assembled: the keys of its `initial`.

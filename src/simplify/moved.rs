@@ -8,7 +8,9 @@ use crate::body::dot;
 use crate::linearize::State;
 use crate::math::array::{Each, from_fn};
 use crate::prepared::PreparedScene;
-use crate::scene::document::{elements, elements_mut, find_mut, mentions, multiply, multiply_velocities, pair, text};
+use crate::scene::document::{
+    elements, elements_mut, find_mut, mentions, multiply, multiply_velocities, number, pair, take, text,
+};
 use crate::system::Scratch;
 use crate::tolerances::SAME;
 use rayon::prelude::*;
@@ -203,8 +205,7 @@ impl<'a> Movable<'a> {
         }
         for (key, change) in &change.joints {
             if let Some(value) = scene.get_mut("initial").and_then(|initial| initial.get_mut(key)) {
-                let given = value.as_str().map_or_else(|| value.to_string(), str::to_string);
-                *value = json!(format!("({given}) + {change}"));
+                *value = json!(format!("({}) + {change}", number(value)));
             }
         }
         let dimension = if scene["dimension"] == 2 { 2 } else { 3 };
@@ -247,8 +248,7 @@ impl<'a> Movable<'a> {
                 && signal.get("points").is_none()
             {
                 signal["points"] = points.clone();
-                let keys = signal.as_object_mut().into_iter();
-                keys.for_each(|keys| keys.retain(|key, _| !["file", "columns"].contains(&key.as_str())));
+                ["file", "columns"].iter().for_each(|key| drop(take(signal, key)));
             }
             elements_mut(signal, "points")
                 .filter_map(|point| point.get_mut(1))

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::prepared::{Overrides, PreparedScene};
-use crate::scene::document::{complete, elements_mut, read};
+use crate::scene::document::{complete, elements_mut, read, take};
 use crate::scene::{self, Elements};
 use crate::simulate::Method;
 use serde_json::{Value, json};
@@ -72,9 +72,7 @@ impl Source {
                 *value = json!(whole);
             }
         };
-        if let Some(keys) = scene.as_object_mut() {
-            keys.shift_remove("$schema");
-        }
+        take(&mut scene, "$schema");
         if let Some(reference) = scene.get_mut("simulation").and_then(|simulation| simulation.get_mut("reference")) {
             place(reference);
         }
@@ -93,9 +91,9 @@ pub fn write_method(scene: &mut Value, method: &Method) {
         simulation[key] = json!(spec.to_string());
     }
     (simulation["rtol"], simulation["atol"]) = (json!(rtol), json!(atol));
-    let keys = simulation.as_object_mut().into_iter();
-    keys.for_each(|keys| keys.retain(|key, _| key != "method" && (key != "step" || step.is_some())));
-    if let Some(step) = step {
-        simulation["step"] = json!(step);
+    take(simulation, "method");
+    match step {
+        Some(step) => simulation["step"] = json!(step),
+        None => drop(take(simulation, "step")),
     }
 }

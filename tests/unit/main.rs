@@ -92,7 +92,7 @@ mod report {
 mod scene {
     mod fingerprint;
     mod json;
-    mod locate;
+    pub mod locate;
     pub mod units;
     mod document {
         mod budget;

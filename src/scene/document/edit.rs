@@ -1,7 +1,7 @@
 //! Elements of a scene, and the names by which they refer to each other.
 
 use crate::math::expression::{with_names, words};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::convert::Infallible;
 
 /// The elements of a list of the scene, such as `bodies`; none where it is missing.
@@ -20,6 +20,27 @@ pub fn text<'a>(element: &'a Value, key: &str) -> &'a str {
 }
 
 /// The element of this name in a list of the scene.
+pub fn find<'a>(scene: &'a Value, list: &str, name: &str) -> Option<&'a Value> {
+    elements(scene, list).iter().find(|element| text(element, "name") == name)
+}
+
+/// A number or expression as text.
+pub fn number(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_string)
+}
+
+/// The object at these keys, one in the other, made where it is missing; `None` if another type of value is there, which
+/// the checks then refuse.
+pub fn object<'a>(map: &'a mut Map<String, Value>, keys: &[&str]) -> Option<&'a mut Map<String, Value>> {
+    keys.iter().try_fold(map, |map, key| map.entry(*key).or_insert_with(|| json!({})).as_object_mut())
+}
+
+/// Takes a key of an object away.
+pub fn take(object: &mut Value, key: &str) -> Option<Value> {
+    object.as_object_mut()?.shift_remove(key)
+}
+
+/// The element of this name in a list of the scene, to change it.
 ///
 /// # Errors
 /// There is none, as after an earlier change.

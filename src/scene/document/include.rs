@@ -5,7 +5,7 @@
 //! parameters among them, begin with `left_`.
 
 use super::budget::Budget;
-use super::edit::{carrier, change_names, changed, elements};
+use super::edit::{carrier, change_names, changed, elements, object};
 use super::repeat::{self, Written};
 use crate::body::{parse, show};
 use crate::error::{Error, Result, excerpt, suggest};
@@ -251,6 +251,7 @@ impl<'a> Names<'a> {
 
     /// Adds parameters, markers of the ground and the start; `given` are parameters in terms of the including scene.
     fn add_entries(&self, scene: &mut Value, mut inner: Value, given: &Map<String, Value>) -> Result<()> {
+        let Some(scene) = scene.as_object_mut() else { return Ok(()) };
         let mut taken = |pointer: &str| match inner.pointer_mut(pointer).map(Value::take) {
             Some(Value::Object(map)) => map,
             _ => Map::new(),
@@ -318,11 +319,4 @@ fn extend(all: Option<&mut Map<String, Value>>, added: impl Iterator<Item = (Str
         all.insert(name, value);
     }
     Ok(())
-}
-
-/// The object at these keys of the scene, one in the other, made if it is missing.
-fn object<'a>(scene: &'a mut Value, keys: &[&str]) -> Option<&'a mut Map<String, Value>> {
-    keys.iter().try_fold(scene.as_object_mut()?, |map, key| {
-        map.entry(*key).or_insert_with(|| Value::Object(Map::new())).as_object_mut()
-    })
 }

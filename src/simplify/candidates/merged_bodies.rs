@@ -6,6 +6,7 @@ use crate::body::{dot, sub};
 use crate::error::percent;
 use crate::math::array::{Each, from_fn};
 use crate::math::expression::{Number, Parameters};
+use crate::scene::document::number as written;
 use crate::scene::document::{carrier, elements, find_mut, pair, remove, text};
 use crate::simplify::{Candidate, Facts, Placed, Proposal, Relative};
 use serde_json::{Value, json};
@@ -110,8 +111,7 @@ impl Merged {
             from_fn(|i| self.place.r[i] - (0..3).map(|k| arm[k] * axes[k][i]).sum::<f64>()),
         ];
         let gap = sub(&centres[1], &centres[0]);
-        let [own_mass, other_mass] =
-            masses.each_ref().map(|mass| mass.as_str().map_or_else(|| mass.to_string(), str::to_string));
+        let [own_mass, other_mass] = masses.each_ref().map(written);
         // Of no mass at all there is no centre.
         let reduced = if m + other > 0.0 { format!("({own_mass})*({other_mass})/{total}") } else { "0".to_string() };
         let centre = |i: usize| format!("-({}) - {}*({other_mass})/{total}", centres[0][i], gap[i]);

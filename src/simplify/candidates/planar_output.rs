@@ -2,7 +2,7 @@
 
 use super::plane::Plane;
 use crate::body::{cross, dot};
-use crate::scene::document::text;
+use crate::scene::document::{take, text};
 use crate::simplify::Facts;
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
@@ -35,7 +35,7 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
             return None;
         }
         if turns {
-            drop(own.as_object_mut()?.shift_remove("component"))
+            drop(take(&mut own, "component"))
         } else {
             own["component"] = json!("mz")
         }
