@@ -11,9 +11,9 @@
 //! one end to the other: bending under shear forces then converges with the second power of the length.
 
 use super::beam_mass::NodeMass;
+use super::keys::start_and_markers;
 use super::markers;
 use super::model::BeamLine;
-use super::resolve::start_and_markers;
 use crate::body::flexible::{Damping, FlexibleBeam, Profile, ReferenceLine, curvature};
 use crate::body::{Body, Build, Built, Initial, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
 use crate::error::{Error, Result, short};

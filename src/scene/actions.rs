@@ -1,12 +1,12 @@
 //! Outputs of joints and forces: what they exert, and its power.
 
+use super::keys::{find, wrong_component};
+use super::kinematics::Elements;
 use super::measures::{On, OutputSpec, Side};
-use super::model::{Connection, FORCE_SIZE, Measure, TORQUE_SIZE};
-use super::outputs::{Elements, find, wrong_component};
+use super::model::{Connection, FORCE_SIZE, Measure, ModelJoint, TORQUE_SIZE};
 use crate::body::Build;
 use crate::error::{Error, Result};
 use crate::force::InputKind;
-use crate::joint::Joint;
 
 /// Components of a force and a torque, with their places in [`Measure::Reaction`].
 fn components(dimension: usize) -> &'static [(&'static str, usize)] {
@@ -56,7 +56,7 @@ pub fn reaction<const D: usize>(
 }
 
 /// Place, among the markers of a joint, of that on whose body a reaction acts.
-fn slot<const D: usize>(spec: &OutputSpec, given: &Connection<Box<dyn Joint<D>>>, build: &Build<D>) -> Result<usize> {
+fn slot<const D: usize>(spec: &OutputSpec, given: &ModelJoint<D>, build: &Build<D>) -> Result<usize> {
     let name = match &spec.on {
         Some(On::Side(Side::First)) => return Ok(0),
         Some(On::Side(Side::Second)) => return Ok(second(given)),
@@ -122,7 +122,7 @@ pub fn power<const D: usize>(of: &str, elements: Elements<D>) -> Result<Measure>
     if let Some(force) = elements.forces.iter().position(|force| force.name == of) {
         return Ok(Measure::Power { force });
     }
-    let drives = |joint: &&Connection<Box<dyn Joint<D>>>| joint.element.depends_on_time();
+    let drives = |joint: &&ModelJoint<D>| joint.element.depends_on_time();
     if let Some(joint) = elements.joints.iter().position(|joint| joint.name == of) {
         return if drives(&&elements.joints[joint]) {
             Ok(Measure::DrivePower { joint })

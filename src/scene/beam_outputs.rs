@@ -1,13 +1,14 @@
 //! Outputs of a beam at a place on its line.
 
+use super::keys::{find, missing, named_component};
+use super::kinematics::Elements;
 use super::measures::{MeasureKind, OutputSpec};
-use super::model::{BeamLine, Combination, Connection, Measure, Reading};
-use super::outputs::{Elements, find, missing, named_component};
-use super::place::{Cut, Place};
+use super::model::{BeamLine, Combination, Measure, ModelForce};
+use super::place::{Cut, Place, Reading};
 use crate::body::flexible::{Line, Stretch};
 use crate::body::{Bent, Build, Marker, MarkerId};
 use crate::error::{Error, Result, short};
-use crate::force::{Beam, Force, Half};
+use crate::force::{Beam, Half};
 use crate::math::array::from_fn;
 
 /// The quantity that an output reads of the beam `of`: a body, or a massless beam among the forces.
@@ -68,7 +69,7 @@ fn on_absolute<const D: usize>(
 
 fn on_massless<const D: usize>(
     spec: &OutputSpec,
-    force: &Connection<Box<dyn Force<D>>>,
+    force: &ModelForce<D>,
     beam: &Beam,
     build: &Build<D>,
 ) -> Result<Place> {

@@ -1,12 +1,12 @@
 //! Joints and forces of a scene, read one after the other.
 
+use super::keys::{object, take_kind, take_name};
 use super::kinematics::Named;
-use super::model::Connection;
-use super::resolve::{object, take_kind, take_name};
+use super::model::{Connection, ModelForce, ModelJoint};
 use crate::body::{Build, ElementKind};
 use crate::error::{Error, Result};
 use crate::force::{Force, ForceKind, InputKind};
-use crate::joint::{Joint, JointKind};
+use crate::joint::JointKind;
 use serde_json::Value;
 use std::collections::HashSet;
 
@@ -15,10 +15,9 @@ pub fn joints<const D: usize>(
     named: &Named<D>,
     kinds: &[JointKind<D>],
     build: &Build<D>,
-) -> Result<Vec<Connection<Box<dyn Joint<D>>>>> {
+) -> Result<Vec<ModelJoint<D>>> {
     let make = |make: &BuildJoint<D>, json| make(json, build).map(|built| (built.joint, built.markers));
-    let see =
-        |joint: &Connection<Box<dyn Joint<D>>>| named.add(joint, joint.markers.len() == 2, joint.element.closed_form());
+    let see = |joint: &ModelJoint<D>| named.add(joint, joint.markers.len() == 2, joint.element.closed_form());
     elements((&named.file.joints, "joints", "joint"), kinds, build, make, see)
 }
 
@@ -30,11 +29,11 @@ pub fn forces<const D: usize>(
     named: &Named<D>,
     kinds: &[ForceKind<D>],
     build: &Build<D>,
-) -> Result<Vec<Connection<Box<dyn Force<D>>>>> {
+) -> Result<Vec<ModelForce<D>>> {
     let make = |make: &BuildForce<D>, json| make(json, build).map(|built| (built.force, built.markers));
     let is_between =
         |element: &dyn Force<D>, markers| element.acted(markers) == 2 && element.input() != InputKind::Component;
-    let see = |force: &Connection<Box<dyn Force<D>>>| {
+    let see = |force: &ModelForce<D>| {
         named.add(force, is_between(force.element.as_ref(), force.markers.len()), None);
     };
     elements((&named.file.forces, "forces", "force"), kinds, build, make, see)

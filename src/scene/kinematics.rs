@@ -1,9 +1,9 @@
 //! Outputs that are read off markers: positions, angles and distances with their rates, of joints too.
 
 use super::format::SceneFile;
+use super::keys::{missing, named_component};
 use super::measures::{MeasureKind, OutputSpec};
-use super::model::Connection;
-use super::outputs::{missing, named_component};
+use super::model::{BeamLine, Connection, ModelForce, ModelJoint, Part};
 use crate::body::{Build, MarkerId, NamedOutput, NamedOutputs, Probe, Quantity, TurnAxes, Turned, in_space};
 use crate::error::{Error, Result, suggest};
 use crate::joint::{ClosedForm, JointCoordinate};
@@ -19,6 +19,17 @@ pub struct Placed<const D: usize> {
     pub ends: Option<[MarkerId; 2]>,
     /// The form of a joint, if it is known.
     pub form: Option<ClosedForm<D>>,
+}
+
+/// The elements of the model that outputs may read.
+#[derive(Clone, Copy)]
+pub struct Elements<'a, const D: usize> {
+    pub bodies: &'a [Part<D>],
+    pub beams: &'a [BeamLine],
+    pub joints: &'a [ModelJoint<D>],
+    pub forces: &'a [ModelForce<D>],
+    /// Joints and given forces as kinematic outputs see them.
+    pub placed: &'a [Placed<D>],
 }
 
 /// The outputs of a scene by name, with the joints and forces that are read so far.

@@ -18,6 +18,7 @@ pub mod generate;
 mod gravity;
 mod inputs;
 mod json;
+mod keys;
 mod kinematics;
 pub(crate) mod locate;
 mod markers;
@@ -25,6 +26,7 @@ mod measures;
 mod model;
 mod names;
 mod outputs;
+mod parts;
 mod place;
 mod resolve;
 mod schema;
@@ -44,11 +46,13 @@ pub use format::{Automatic, Simulation};
 pub use measures::MeasureKind;
 pub use model::Model;
 #[doc(hidden)]
-pub use model::{BeamLine, Combination, Connection, EnergyPart, Input, Measure, Part, Reading, Target, Watched};
+pub use model::{
+    BeamLine, Combination, Connection, EnergyPart, Input, Measure, ModelForce, ModelJoint, Part, Target, Watched,
+};
 #[doc(hidden)]
 pub use model::{FORCE_SIZE, TORQUE_SIZE};
 #[doc(hidden)]
-pub use place::{Cut, Place};
+pub use place::{Cut, Place, Reading};
 #[doc(hidden)]
 pub use start::KIND as INITIAL;
 

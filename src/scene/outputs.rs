@@ -1,19 +1,15 @@
 //! Outputs of a scene.
 
-use super::kinematics::Placed;
+use super::keys::{missing, wrong_component};
+use super::kinematics::Elements;
 use super::measures::{MeasureKind, On, OutputSpec};
-use super::model::{BeamLine, Connection, EnergyPart, Measure, Part, TORQUE_SIZE, Watched};
+use super::model::{EnergyPart, Measure, TORQUE_SIZE, Watched};
 use super::place::Cut;
 use super::units::{Dimension, Unit, dimension_of};
 use super::{actions, beam_outputs, kinematics};
 use crate::body::Build;
 use crate::error::{Error, Result};
-use crate::force::Force;
-use crate::joint::Joint;
 use std::collections::HashSet;
-
-pub type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
-pub type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
 
 /// Refuses names of outputs that are `t`, taken or not valid: they are columns of the trajectory.
 pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
@@ -79,17 +75,6 @@ pub fn outputs<const D: usize>(
         kind.push(Watched { name: spec.name.clone(), unit, measure });
     }
     Ok((all, works, cuts))
-}
-
-/// The elements of the model that outputs may read.
-#[derive(Clone, Copy)]
-pub struct Elements<'a, const D: usize> {
-    pub bodies: &'a [Part<D>],
-    pub beams: &'a [BeamLine],
-    pub joints: &'a Joints<D>,
-    pub forces: &'a Forces<D>,
-    /// Joints and given forces as kinematic outputs see them.
-    pub placed: &'a [Placed<D>],
 }
 
 struct Reader<'a, const D: usize> {
@@ -160,23 +145,4 @@ fn unit(spec: &OutputSpec, dimension: Option<Dimension>) -> Result<Unit> {
         },
         (None, None) => Ok(Unit { name: String::new(), per_si: 1.0 }),
     }
-}
-
-pub(super) fn missing(key: &str, hint: &str) -> Error {
-    Error::input(format!("the key `{key}` is missing")).hint(hint)
-}
-
-pub(super) fn wrong_component(found: &str, known: &[&str]) -> Error {
-    Error::input(format!("there is no component `{found}`"))
-        .under("component")
-        .hint(format!("choose one of {}", known.join(", ")))
-}
-
-/// Index of a component among the `known` ones.
-pub(super) fn named_component(name: &str, known: &[&str]) -> Result<usize> {
-    known.iter().position(|known| *known == name).ok_or_else(|| wrong_component(name, known))
-}
-
-pub(super) fn find<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Result<usize> {
-    crate::error::find(what, name, known).map_err(|error| error.under("of"))
 }
