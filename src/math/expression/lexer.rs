@@ -288,6 +288,18 @@ mod tests {
     }
 
     #[test]
+    fn names_in_any_text_are_replaced() {
+        let words: Vec<&str> = super::words("2nd-a.b'(1e-3x").map(|(word, _)| word).collect();
+        assert_eq!(words, ["2nd", "-", "a.b'", "(", "1e-3x"]);
+        let change = |name: &str, after: &str| match name {
+            "l" => Err(()),
+            _ => Ok((name != "t").then(|| format!("{name}_{}", after.len()))),
+        };
+        assert_eq!(with_names("2e3*t + f(ä.x'') crank.", change), Ok("2e3*t + f_15(ä.x''_8) crank_1.".to_string()));
+        assert_eq!(with_names("t*l", change), Err(()));
+    }
+
+    #[test]
     fn plain_names_have_neither_dots_nor_primes() {
         ["l", "m3", "_k", "β"].iter().for_each(|name| assert!(is_plain_name(name), "{name}"));
         ["", "3m", "a.b", "a'", "a b", "a-b"].iter().for_each(|name| assert!(!is_plain_name(name), "{name}"));

@@ -26,7 +26,7 @@ pub fn has_velocities(scene: &Value) -> bool {
 /// Multiplies all velocities at the start.
 pub fn multiply_velocities(scene: &mut Value, factor: f64) {
     for start in elements_mut(scene, "bodies").filter_map(|body| body.get_mut("initial")) {
-        VELOCITIES.iter().filter_map(|key| Some(multiply(start.get_mut(key)?, factor))).for_each(drop);
+        VELOCITIES.iter().for_each(|key| start.get_mut(key).into_iter().for_each(|value| multiply(value, factor)));
     }
     let of_joints = scene.get_mut("initial").and_then(Value::as_object_mut).into_iter().flatten();
     of_joints.filter(|(name, _)| is_rate(name)).for_each(|(_, value)| multiply(value, factor));
