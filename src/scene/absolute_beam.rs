@@ -14,7 +14,7 @@ use super::beam_mass::NodeMass;
 use super::keys::start_and_markers;
 use super::markers;
 use super::model::BeamLine;
-use crate::body::flexible::{Damping, FlexibleBeam, Profile, ReferenceLine, curvature};
+use crate::body::flexible::{Damping, FlexibleBeam, MOST_ELEMENTS, Profile, ReferenceLine, curvature};
 use crate::body::{Body, Build, Built, Initial, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
 use crate::error::{Error, Result, short};
 use crate::force::Beam;
@@ -45,9 +45,6 @@ pub struct AbsoluteBeam<const D: usize> {
 
 /// Keys of a beam in a floating frame, refused here.
 const FLOATING: [&str; 6] = ["frame_conditions", "axial", "rotary_inertia", "geometric_stiffening", "modes", "ritz"];
-
-/// A larger number of elements is taken for a mistake.
-const MOST_ELEMENTS: u32 = 10_000;
 
 impl<const D: usize> AbsoluteBeam<D> {
     /// Reads the body's JSON without `name` and `type`.

@@ -8,9 +8,8 @@ use crate::formulation::Dynamics;
 use crate::linearize::State;
 use crate::math::Taylor;
 use crate::math::array::{Each, from_fn};
-use crate::math::expression::Number;
 use crate::prepared::{AnyMechanism, PreparedScene};
-use crate::scene::document::{carrier, find, text};
+use crate::scene::document::{self, carrier, find, text};
 use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
 use serde_json::{Map, Value, json};
 
@@ -99,7 +98,7 @@ impl Facts {
 
     /// Value of a number of the scene.
     pub fn number(&self, value: &Value) -> Option<f64> {
-        serde_json::from_value::<Number>(value.clone()).ok()?.evaluate(&self.prepared.parameters).ok()
+        document::value(value, &self.prepared.parameters)
     }
 
     /// Largest kinetic energy of a body, nodes of an absolute beam taken together, relative to that of all.

@@ -1,6 +1,7 @@
 //! Elements of a scene, and the names by which they refer to each other.
 
-use crate::math::expression::{with_names, words};
+use crate::math::expression::{Number, Parameters, with_names, words};
+use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::convert::Infallible;
 
@@ -33,6 +34,11 @@ pub fn number(value: &Value) -> String {
 /// the checks then refuse.
 pub fn object<'a>(map: &'a mut Map<String, Value>, keys: &[&str]) -> Option<&'a mut Map<String, Value>> {
     keys.iter().try_fold(map, |map, key| map.entry(*key).or_insert_with(|| json!({})).as_object_mut())
+}
+
+/// Value of a number or expression over parameters.
+pub fn value(number: &Value, parameters: &Parameters) -> Option<f64> {
+    Number::deserialize(number).ok()?.evaluate(parameters).ok()
 }
 
 /// Takes a key of an object away.

@@ -5,9 +5,8 @@ use super::plane::combined;
 use crate::body::{dot, sub};
 use crate::error::percent;
 use crate::math::array::{Each, from_fn};
-use crate::math::expression::{Number, Parameters};
-use crate::scene::document::number as written;
-use crate::scene::document::{carrier, elements, find_mut, pair, remove, text};
+use crate::math::expression::Parameters;
+use crate::scene::document::{carrier, elements, find_mut, number as written, pair, remove, text, value};
 use crate::simplify::{Candidate, Facts, Placed, Proposal, Relative};
 use serde_json::{Value, json};
 
@@ -99,8 +98,7 @@ impl Merged {
     /// Adds the second body to `own`, in the numbers of the scene, by the theorem of parallel axes; the parameter
     /// `total` is to be the mass that is returned.
     fn add(&self, own: &mut Value, total: &str) -> Option<Value> {
-        let number =
-            |value: &Value| serde_json::from_value::<Number>(value.clone()).ok()?.evaluate(&self.parameters).ok();
+        let number = |number: &Value| value(number, &self.parameters);
         let origin = |body: &Value| -> [f64; 3] { from_fn(|i| number(&body["origin"][i]).unwrap_or(0.0)) };
         let masses = [own["mass"].clone(), self.second["mass"].clone()];
         let axes = &self.place.axes;
