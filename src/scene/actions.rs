@@ -4,7 +4,7 @@ use super::keys::{find, wrong_component};
 use super::kinematics::Elements;
 use super::measures::{On, OutputSpec, Side};
 use super::model::{Connection, FORCE_SIZE, Measure, ModelJoint, TORQUE_SIZE};
-use crate::body::Build;
+use crate::body::{Build, MarkerId};
 use crate::error::{Error, Result};
 use crate::force::InputKind;
 
@@ -29,14 +29,10 @@ pub fn reaction<const D: usize>(
     elements: Elements<D>,
     build: &Build<D>,
 ) -> Result<Measure> {
-    let names = elements.joints.iter().map(|joint| joint.name.as_str());
-    let joint = find("joint", of, names).map_err(|error| {
-        if elements.forces.iter().any(|force| force.name == of) { is_a(of, "force", "joint", "force") } else { error }
-    })?;
+    let joint = named(of, ("joint", elements.joints), ("force", elements.forces), "force")?;
     let given = &elements.joints[joint];
-    let holds = elements.joints[joint].element.row_names();
-    let axes = build.marker("relative_to", spec.relative_to.as_deref().unwrap_or("ground"))?;
-    build.oriented("relative_to", &[axes])?;
+    let holds = given.element.row_names();
+    let axes = axes(spec, build)?;
     let Some(name) = spec.component.as_deref() else {
         return Ok(match given.kind {
             "driver" => Measure::Push { joint },
@@ -85,18 +81,10 @@ fn second<E>(element: &Connection<E>) -> usize {
 
 /// Magnitude of a force, or a component of what it exerts on a body.
 pub fn force<const D: usize>(spec: &OutputSpec, of: &str, elements: Elements<D>, build: &Build<D>) -> Result<Measure> {
-    let names = elements.forces.iter().map(|force| force.name.as_str());
-    let force = find("force", of, names).map_err(|error| {
-        if elements.joints.iter().any(|joint| joint.name == of) {
-            is_a(of, "joint", "force", "reaction")
-        } else {
-            error
-        }
-    })?;
+    let force = named(of, ("force", elements.forces), ("joint", elements.joints), "reaction")?;
     let Some(name) = spec.component.as_deref() else { return Ok(Measure::Force(force)) };
     let component = component::<D>(name, None)?;
-    let axes = build.marker("relative_to", spec.relative_to.as_deref().unwrap_or("ground"))?;
-    build.oriented("relative_to", &[axes])?;
+    let axes = axes(spec, build)?;
     let given = &elements.forces[force];
     let acted = given.element.acted(given.markers.len());
     let slot = match &spec.on {
@@ -147,8 +135,26 @@ pub fn work<const D: usize>(of: &str, elements: Elements<D>) -> Result<Measure> 
     }
 }
 
-fn is_a(of: &str, found: &str, wanted: &str, measure: &str) -> Error {
-    Error::input(format!("`{of}` is a {found}, not a {wanted}"))
-        .under("of")
-        .hint(format!("\"measure\": \"{measure}\" gives what a {found} exerts"))
+/// Marker in whose axes components are.
+fn axes<const D: usize>(spec: &OutputSpec, build: &Build<D>) -> Result<MarkerId> {
+    let axes = build.marker("relative_to", spec.relative_to.as_deref().unwrap_or("ground"))?;
+    build.oriented("relative_to", &[axes])?;
+    Ok(axes)
+}
+
+/// Index of the element `of`; where there is one of the other kind, `measure` is what that has.
+fn named<E, O>(
+    of: &str,
+    (wanted, all): (&str, &[Connection<E>]),
+    (found, others): (&str, &[Connection<O>]),
+    measure: &str,
+) -> Result<usize> {
+    find(wanted, of, all.iter().map(|element| element.name.as_str())).map_err(|error| {
+        if others.iter().all(|other| other.name != of) {
+            return error;
+        }
+        Error::input(format!("`{of}` is a {found}, not a {wanted}"))
+            .under("of")
+            .hint(format!("\"measure\": \"{measure}\" gives what a {found} exerts"))
+    })
 }

@@ -1,10 +1,10 @@
 //! Joints and forces of a scene, read one after the other.
 
-use super::keys::{object, take_kind, take_name};
+use super::keys::{object, take_kind, take_name, taken};
 use super::kinematics::Named;
 use super::model::{Connection, ModelForce, ModelJoint};
 use crate::body::{Build, ElementKind};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::force::{Force, ForceKind, InputKind};
 use crate::joint::JointKind;
 use serde_json::Value;
@@ -54,9 +54,7 @@ fn elements<E, Make, const D: usize>(
             let mut json = object(json.clone())?;
             let name = take_name(&mut json)?;
             if !names.insert(name.clone()) {
-                return Err(Error::input(format!("the name `{name}` is taken"))
-                    .under("name")
-                    .hint(format!("give each {what} its own")));
+                return Err(taken(&name, what));
             }
             let kind = take_kind(&mut json, what, kinds).map_err(|error| error.element(&name))?;
             let made = make(&kind.build, Value::Object(json));

@@ -1,7 +1,7 @@
 //! Inputs of a scene, and the elements that their values act on.
 
 use super::format::InputSpec;
-use super::keys::{find, missing, named_component};
+use super::keys::{find, missing, named_component, taken};
 use super::model::{Connection, Input, ModelForce, ModelJoint, Target};
 use crate::body::{Build, Formula, MOST_MARKERS};
 use crate::error::{Error, Result};
@@ -20,8 +20,7 @@ pub fn inputs<const D: usize>(
         let place = |error: Error| error.element(&spec.name).under(format!("inputs[{i}]"));
         let named = |error: Error| error.under("name").under(format!("inputs[{i}]"));
         if all.iter().any(|known| known.name == spec.name) {
-            let taken = Error::input(format!("the name `{}` is taken", spec.name)).hint("give each input its own");
-            return Err(named(taken));
+            return Err(taken(&spec.name, "input").under(format!("inputs[{i}]")));
         }
         super::names::check_name(&spec.name).map_err(named)?;
         let mut input = input::<D>(spec, (joints, forces)).map_err(place)?;

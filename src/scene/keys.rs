@@ -54,6 +54,11 @@ pub fn take_name(json: &mut Map<String, Value>) -> Result<String> {
     Ok(name)
 }
 
+/// The name is that of another element of its kind.
+pub fn taken(name: &str, what: &str) -> Error {
+    Error::input(format!("the name `{name}` is taken")).under("name").hint(format!("give each {what} its own"))
+}
+
 pub fn missing(key: &str, hint: &str) -> Error {
     Error::input(format!("the key `{key}` is missing")).hint(hint)
 }

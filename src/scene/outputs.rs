@@ -1,9 +1,10 @@
 //! Outputs of a scene.
 
-use super::keys::{missing, wrong_component};
+use super::keys::{missing, taken, wrong_component};
 use super::kinematics::Elements;
 use super::measures::{MeasureKind, On, OutputSpec};
 use super::model::{EnergyPart, Measure, TORQUE_SIZE, Watched};
+use super::names::check_name;
 use super::place::Cut;
 use super::units::{Dimension, Unit, dimension_of};
 use super::{actions, beam_outputs, kinematics};
@@ -15,13 +16,12 @@ use std::collections::HashSet;
 pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
     let mut known = HashSet::new();
     for (i, OutputSpec { name, .. }) in specs.iter().enumerate() {
-        let taken = |by: &str| Error::input(format!("the name `{name}` is taken{by}")).hint("give each output its own");
         let checked = match name.as_str() {
-            "t" => Err(taken(" by time")),
-            _ if !known.insert(name) => Err(taken("")),
-            _ => super::names::check_name(name),
+            "t" => Err(Error::input("the name `t` is taken by time").under("name").hint("give each output its own")),
+            _ if !known.insert(name) => Err(taken(name, "output")),
+            _ => check_name(name).map_err(|error| error.under("name")),
         };
-        checked.map_err(|error| error.under("name").under(format!("outputs[{i}]")))?;
+        checked.map_err(|error| error.under(format!("outputs[{i}]")))?;
     }
     Ok(())
 }

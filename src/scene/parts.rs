@@ -2,7 +2,7 @@
 
 use super::absolute_beam::{AbsoluteBeam, is_absolute_beam};
 use super::format::SceneFile;
-use super::keys::{object, start_and_markers, take_kind, take_name};
+use super::keys::{object, start_and_markers, take_kind, take_name, taken};
 use super::markers;
 use super::model::{BeamLine, Part};
 use crate::body::{BodyKind, Build, Built, Marker, MarkerId, MarkerTable, parse};
@@ -63,9 +63,7 @@ impl<const D: usize> Parts<D> {
         let mut json = object(json)?;
         let name = take_name(&mut json)?;
         if self.table.has_body(&name) {
-            return Err(Error::input(format!("the name `{name}` is taken"))
-                .under("name")
-                .hint("give each body its own"));
+            return Err(taken(&name, "body"));
         }
         self.read(&name, json, kinds, build).map_err(|error| error.element(&name))?;
         build.own("body", &name);
