@@ -19,7 +19,6 @@ pub fn without_late_declaration(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// The document of a text.
 pub fn document(text: &str) -> Result<Document<'_>> {
     Document::parse(text).map_err(|error| {
         let at = error.pos();
@@ -86,7 +85,6 @@ pub fn parsed(node: Node, key: &str, text: &str) -> Result<f64> {
     value.ok_or_else(|| faulty(node, format!("expected a number in `{key}`, found \"{}\"", excerpt(text))))
 }
 
-/// The numbers of an attribute.
 pub fn list(node: Node, key: &str, text: &str) -> Result<Vec<f64>> {
     text.split_whitespace().map(|word| parsed(node, key, word)).collect()
 }
@@ -97,7 +95,6 @@ pub fn numbers<const N: usize>(node: Node, key: &str, default: [f64; N]) -> Resu
     exactly(node, key, list(node, key, text)?)
 }
 
-/// N numbers.
 pub fn exactly<const N: usize>(node: Node, key: &str, all: Vec<f64>) -> Result<[f64; N]> {
     all.try_into()
         .map_err(|all: Vec<f64>| faulty(node, format!("expected {N} numbers in `{key}`, found {}", all.len())))

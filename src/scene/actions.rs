@@ -22,7 +22,6 @@ fn component<const D: usize>(name: &str, further: Option<&'static str>) -> Resul
     found.ok_or_else(|| wrong_component(name, &known.iter().map(|(name, _)| *name).chain(further).collect::<Vec<_>>()))
 }
 
-/// Reaction of a joint.
 pub fn reaction<const D: usize>(
     spec: &OutputSpec,
     of: &str,
@@ -105,7 +104,6 @@ pub fn force<const D: usize>(spec: &OutputSpec, of: &str, elements: Elements<D>,
     Ok(Measure::Load { force, slot, component, axes })
 }
 
-/// Power of a force or a driver.
 pub fn power<const D: usize>(of: &str, elements: Elements<D>) -> Result<Measure> {
     if let Some(force) = elements.forces.iter().position(|force| force.name == of) {
         return Ok(Measure::Power { force });

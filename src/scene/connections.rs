@@ -10,7 +10,6 @@ use crate::joint::JointKind;
 use serde_json::Value;
 use std::collections::HashSet;
 
-/// The joints of the scene.
 pub fn joints<const D: usize>(
     named: &Named<D>,
     kinds: &[JointKind<D>],
@@ -24,7 +23,6 @@ pub fn joints<const D: usize>(
 type BuildJoint<const D: usize> = fn(Value, &Build<D>) -> Result<crate::joint::Built<D>>;
 type BuildForce<const D: usize> = fn(Value, &Build<D>) -> Result<crate::force::Built<D>>;
 
-/// The forces of the scene.
 pub fn forces<const D: usize>(
     named: &Named<D>,
     kinds: &[ForceKind<D>],

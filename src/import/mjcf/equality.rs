@@ -100,7 +100,6 @@ impl<'a, 'i> Reader<'a, 'i> {
 /// Reads the frames of a [`Loop`] on two bodies.
 type Frames = fn(&Element) -> Result<[Option<Transform>; 2]>;
 
-/// A point.
 fn connected(element: &Element) -> Result<[Option<Transform>; 2]> {
     let anchor = element.numbers("anchor")?.ok_or_else(|| faulty(element.node, "<connect> has no `anchor`"))?;
     Ok([Some(Transform { r: anchor, ..Transform::default() }), None])

@@ -47,7 +47,6 @@ struct Reader<'a, 'i> {
     told: Told,
 }
 
-/// Reads a model.
 pub(super) fn read<'i>(root: Node<'_, 'i>, options: &Options) -> Result<Robot<'i>> {
     refuse(root, options)?;
     let mut told = Told::default();

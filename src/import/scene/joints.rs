@@ -143,7 +143,6 @@ fn back(joint: &Joint) -> Transform {
     }
 }
 
-/// Spring and damper of a hinge.
 fn hinge_force(joint: &Joint, name: &str, between: [&str; 2]) -> Option<Value> {
     let Joint { stiffness, damping, relaxed, reference, .. } = joint;
     if *stiffness == 0.0 && *damping == 0.0 {
@@ -167,7 +166,6 @@ fn hinge_force(joint: &Joint, name: &str, between: [&str; 2]) -> Option<Value> {
     Some(force)
 }
 
-/// Spring and damper of a slider.
 fn slider_force(joint: &Joint, name: &str, [from, to]: [&str; 2]) -> Option<Value> {
     let Joint { stiffness, damping, relaxed, .. } = joint;
     let spring = (*stiffness != 0.0).then(|| format!("-({stiffness})*({name} - ({relaxed}))"));

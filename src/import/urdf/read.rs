@@ -19,7 +19,6 @@ const KINDS: [(&str, Kind); 6] = [
     ("fixed", Kind::Fixed),
 ];
 
-/// Reads a robot.
 pub fn read<'i>(root: Node<'_, 'i>) -> Result<Robot<'i>> {
     if root.descendants().any(|node| node.tag_name().namespace().is_some_and(|space| space.contains("xacro"))) {
         return Err(faulty(root, "this is a xacro file").hint("expand it first: xacro FILE.xacro > FILE.urdf"));

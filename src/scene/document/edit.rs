@@ -55,7 +55,6 @@ pub fn find_mut<'a>(scene: &'a mut Value, list: &str, name: &str) -> Result<&'a 
     found.ok_or_else(|| format!("`{name}` is no longer there"))
 }
 
-/// Adds an element to a list of the scene.
 pub fn add(scene: &mut Value, list: &str, element: Value) {
     match scene[list].as_array_mut() {
         Some(all) => all.push(element),

@@ -81,7 +81,6 @@ impl Around<'_> {
         markers::resolve(given, &own)
     }
 
-    /// Adds an included scene.
     fn add(&self, scene: &mut Value, include: &Include, outer: &Parameters, budget: &mut Budget) -> Result<Origin> {
         check_name(&include.prefix).map_err(|error| error.under("as"))?;
         let path = self.folder.join(&include.file);

@@ -17,7 +17,6 @@ pub fn multiply(value: &mut Value, factor: f64) {
     }
 }
 
-/// True if the scene gives velocities at the start.
 pub fn has_velocities(scene: &Value) -> bool {
     elements(scene, "bodies").iter().any(|body| VELOCITIES.iter().any(|key| body["initial"].get(key).is_some()))
         || scene["initial"].as_object().is_some_and(|given| given.keys().any(|name| is_rate(name)))
