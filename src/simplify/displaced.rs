@@ -5,7 +5,7 @@ use crate::body::{dot, norm, sub};
 use crate::math::array::{Each, from_fn};
 use crate::math::rotation::{axes_from_quaternion, quaternion_from_axes, quaternion_from_vector, quaternion_product};
 use crate::math::screw::quaternion;
-use crate::scene::document::{elements, take, text};
+use crate::scene::document::{elements, is_rigid, take, text};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 
@@ -25,11 +25,6 @@ pub fn progress(facts: &Facts) -> Vec<f64> {
         }
     }
     most
-}
-
-/// True if a body is where its frame is: no other place strains it.
-pub fn is_rigid(body: &Value) -> bool {
-    ["rigid", "point_mass"].contains(&text(body, "type"))
 }
 
 /// Writes the start of a body. One in space with freedoms of its own keeps the rotation from which they count.

@@ -9,7 +9,7 @@ use crate::linearize::State;
 use crate::math::Taylor;
 use crate::math::array::{Each, from_fn};
 use crate::prepared::{AnyMechanism, PreparedScene};
-use crate::scene::document::{self, carrier, find, text};
+use crate::scene::document::{self, carrier, find, is_rigid, text};
 use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
 use serde_json::{Map, Value, json};
 
@@ -241,7 +241,7 @@ impl Facts {
 pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body: &Value) -> Option<Value> {
     let name = text(body, "name");
     let kind = text(body, "type");
-    if !["rigid", "point_mass"].contains(&kind) {
+    if !is_rigid(body) {
         return None;
     }
     let dimension = prepared.mechanism.dimension();

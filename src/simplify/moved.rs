@@ -1,7 +1,7 @@
 //! What is moved in a motion nearby.
 
 use super::candidates::Plane;
-use super::displaced::{angle, further, is_rigid, progress, slide, start_at, wrapped};
+use super::displaced::{angle, further, progress, slide, start_at, wrapped};
 use super::facts::{Facts, Placed, placed};
 use super::source::Source;
 use crate::body::dot;
@@ -9,7 +9,7 @@ use crate::linearize::State;
 use crate::math::array::{Each, from_fn};
 use crate::prepared::PreparedScene;
 use crate::scene::document::{
-    elements, elements_mut, find_mut, mentions, multiply, multiply_velocities, number, pair, take, text,
+    elements, elements_mut, find_mut, is_rigid, mentions, multiply, multiply_velocities, number, pair, take, text,
 };
 use crate::system::Scratch;
 use crate::tolerances::SAME;

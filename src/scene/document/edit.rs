@@ -106,6 +106,11 @@ pub fn pair(element: &Value) -> Option<[&str; 2]> {
     Some([between[0].as_str()?, between[1].as_str()?])
 }
 
+/// True if a body is where its frame is: no other place strains it.
+pub fn is_rigid(body: &Value) -> bool {
+    ["rigid", "point_mass"].contains(&text(body, "type"))
+}
+
 /// Name of the body that carries a marker, or of the element that has a coordinate.
 pub fn carrier(name: &str) -> &str {
     name.split(['.', '\'']).next().unwrap_or(name)

@@ -8,8 +8,8 @@ mod repeat;
 mod scaled;
 
 pub use edit::{
-    add, carrier, change_names, drop_references, elements, elements_mut, find, find_mut, mentions, number, object,
-    pair, remove, remove_all, remove_named, rename, rename_in_scene, take, text, value,
+    add, carrier, change_names, drop_references, elements, elements_mut, find, find_mut, is_rigid, mentions, number,
+    object, pair, remove, remove_all, remove_named, rename, rename_in_scene, take, text, value,
 };
 pub use include::complete;
 pub use refine::refined;
