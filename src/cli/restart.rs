@@ -25,7 +25,7 @@ struct State {
 
 /// Reads the state from which the run of this summary can continue, with a scene that may be `changed` since.
 pub fn read(path: &Path, prepared: &PreparedScene, changed: bool) -> Result<Checkpoint> {
-    let text = crate::files::read_text(path).map_err(|error| Error::file(path, error))?;
+    let text = crate::files::read_json(path).map_err(|error| Error::file(path, error))?;
     let saved = parse(&text).and_then(|saved| checked(saved, prepared, changed));
     saved.map_err(|error| error.under("--start").in_file(path))
 }

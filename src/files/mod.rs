@@ -9,7 +9,7 @@ mod read;
 mod staging;
 
 pub use array::Array;
-pub use read::{open, read, read_limited, read_text, refuse_large};
+pub use read::{open, read, read_json, read_limited, read_text, refuse_large, refuse_many_values};
 pub use staging::{Staging, abandon};
 
 use std::fs::OpenOptions;

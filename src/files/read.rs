@@ -7,6 +7,8 @@ use std::path::Path;
 
 /// Largest size of a file, bytes.
 const MOST: u64 = 256_000_000;
+/// Largest number of values of a JSON document. serde_json keeps a value in 72 bytes, however short its text is.
+const VALUES: usize = 6_000_000;
 
 /// The contents of a regular file of up to 256 MB. Pipes and devices are refused: they need have no end.
 ///
@@ -52,6 +54,28 @@ pub fn read_text(path: &Path) -> io::Result<String> {
     String::from_utf8(read(path)?).map_err(|_| io::Error::other("this is not text in UTF-8"))
 }
 
+/// The text of a JSON document, as [`read_text`].
+///
+/// # Errors
+/// As [`read_text`] and [`refuse_many_values`].
+pub fn read_json(path: &Path) -> io::Result<String> {
+    let text = read_text(path)?;
+    refuse_many_values(&text)?;
+    Ok(text)
+}
+
+/// Refuses a JSON document before it takes more than some 500 MB. Commas inside of texts count as well.
+///
+/// # Errors
+/// More than six million values.
+pub fn refuse_many_values(json: &str) -> io::Result<()> {
+    let separators = json.bytes().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
+    if separators <= VALUES {
+        return Ok(());
+    }
+    Err(io::Error::other(format!("this has more than the {} million values that are read", VALUES / 1_000_000)))
+}
+
 /// Everything from a source of unknown size: a file that grows, or one that is compressed.
 ///
 /// # Errors
@@ -71,6 +95,13 @@ mod tests {
         assert_eq!(read_limited(&b"ab"[..]).unwrap(), b"ab");
         let error = read_limited(io::repeat(0)).unwrap_err().to_string();
         assert_eq!(error, "this is larger than the 256 MB that are read");
+    }
+
+    #[test]
+    fn documents_of_too_many_values_are_refused() {
+        assert!(refuse_many_values(r#"{"a": [0, 1]}"#).is_ok());
+        let error = refuse_many_values(&"[".repeat(VALUES + 1)).unwrap_err().to_string();
+        assert_eq!(error, "this has more than the 6 million values that are read");
     }
 
     #[test]

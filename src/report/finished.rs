@@ -72,7 +72,7 @@ impl FinishedRun {
     pub fn read(path: &Path, is_thinned: bool) -> Result<FinishedRun> {
         let summary = if path.is_dir() { path.join("summary.json") } else { path.to_path_buf() };
         let written = "name the folder that `holonom simulate` has written";
-        let text = files::read_text(&summary)
+        let text = files::read_json(&summary)
             .map_err(|error| Error::input(error.to_string()).hint(written).in_file(&summary))?;
         let saved: Saved = serde_json::from_str(&text).map_err(|error| {
             Error::input(format!("it is no summary of a run: {error}")).hint(written).in_file(&summary)

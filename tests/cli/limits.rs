@@ -151,6 +151,14 @@ fn files_that_are_too_large() {
     refused(&place, &["check", "large.json"], &["large.json: this is larger than the 256 MB that are read"]);
 }
 
+/// Text of 2 bytes a value would take 36 times its size.
+#[test]
+fn a_scene_of_too_many_values_is_refused() {
+    let place = Place::new(&format!("[0{}]", ",0".repeat(6_000_000)));
+    let message = "scene.json: this has more than the 6 million values that are read";
+    refused(&place, &["check", "scene.json"], &[message, "signals as CSV, modes as npz"]);
+}
+
 /// At 1e9 m a position is known to 1e-7 m: the tolerance is refused, and one that is a thousand times nearer is not.
 #[test]
 fn a_tolerance_below_the_rounding_of_positions_is_refused() {

@@ -50,7 +50,7 @@ fn read<const D: usize>(path: &Path, build: &Build<D>) -> Result<ModalData<Array
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npz")) {
         return read_npz(path);
     }
-    let text = crate::files::read_text(path).map_err(|problem| Error::input(problem.to_string()))?;
+    let text = crate::files::read_json(path).map_err(|problem| Error::input(problem.to_string()))?;
     let json: serde_json::Value =
         serde_json::from_str(&text).map_err(|problem| Error::input(format!("not JSON: {problem}")))?;
     resolve(&parse::<ModalData<Table>>(json)?, build)
