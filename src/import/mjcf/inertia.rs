@@ -6,7 +6,7 @@ use super::element::Element;
 use super::geom;
 use crate::body::MassProperties;
 use crate::error::{Result, short};
-use crate::import::xml::faulty;
+use crate::import::xml::{faulty, number};
 
 impl<'a, 'i> Reader<'a, 'i> {
     /// Mass properties of a body from its origin, in its axes.
@@ -24,15 +24,14 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     fn inertial(&self, part: &Placed<'a, 'i>) -> Result<MassProperties> {
         let element = Element::plain(part.node);
-        let missing = |key: &str| faulty(part.node, format!("<inertial> has no `{key}`"));
-        let mass = element.number("mass")?.ok_or_else(|| missing("mass"))?;
+        let mass = number(part.node, "mass", None)?;
         if mass < 0.0 {
             return Err(faulty(part.node, format!("the mass is {}, but cannot be negative", short(mass))));
         }
         let [xx, yy, zz, xy, xz, yz] = match (element.numbers::<6>("fullinertia")?, element.numbers("diaginertia")?) {
             (Some(full), _) => full,
             (None, Some([x, y, z])) => [x, y, z, 0.0, 0.0, 0.0],
-            (None, None) => return Err(missing("diaginertia")),
+            (None, None) => return Err(faulty(part.node, "<inertial> has no `diaginertia`")),
         };
         let inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         let frame = part.frame.then(&self.settings.place(&element)?);
