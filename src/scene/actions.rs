@@ -22,13 +22,8 @@ fn component<const D: usize>(name: &str, further: Option<&'static str>) -> Resul
     found.ok_or_else(|| wrong_component(name, &known.iter().map(|(name, _)| *name).chain(further).collect::<Vec<_>>()))
 }
 
-pub fn reaction<const D: usize>(
-    spec: &OutputSpec,
-    of: &str,
-    elements: Elements<D>,
-    build: &Build<D>,
-) -> Result<Measure> {
-    let joint = named(of, ("joint", elements.joints), ("force", elements.forces), "force")?;
+pub fn reaction<const D: usize>(spec: &OutputSpec, elements: Elements<D>, build: &Build<D>) -> Result<Measure> {
+    let joint = named(spec.subject()?, ("joint", elements.joints), ("force", elements.forces), "force")?;
     let given = &elements.joints[joint];
     let holds = given.element.row_names();
     let axes = axes(spec, build)?;
@@ -79,7 +74,8 @@ fn second<E>(element: &Connection<E>) -> usize {
 }
 
 /// Magnitude of a force, or a component of what it exerts on a body.
-pub fn force<const D: usize>(spec: &OutputSpec, of: &str, elements: Elements<D>, build: &Build<D>) -> Result<Measure> {
+pub fn force<const D: usize>(spec: &OutputSpec, elements: Elements<D>, build: &Build<D>) -> Result<Measure> {
+    let of = spec.subject()?;
     let force = named(of, ("force", elements.forces), ("joint", elements.joints), "reaction")?;
     let Some(name) = spec.component.as_deref() else { return Ok(Measure::Force(force)) };
     let component = component::<D>(name, None)?;
@@ -135,7 +131,7 @@ pub fn work<const D: usize>(of: &str, elements: Elements<D>) -> Result<Measure> 
 
 /// Marker in whose axes components are.
 fn axes<const D: usize>(spec: &OutputSpec, build: &Build<D>) -> Result<MarkerId> {
-    let axes = build.marker("relative_to", spec.relative_to.as_deref().unwrap_or("ground"))?;
+    let axes = spec.reference(build)?;
     build.oriented("relative_to", &[axes])?;
     Ok(axes)
 }

@@ -1,6 +1,6 @@
 //! Outputs of a scene.
 
-use super::keys::{missing, taken, wrong_component};
+use super::keys::{missing, taken};
 use super::kinematics::Elements;
 use super::measures::{MeasureKind, On, OutputSpec};
 use super::model::{EnergyPart, Measure, TORQUE_SIZE, Watched};
@@ -67,8 +67,7 @@ pub fn outputs<const D: usize>(
     for (i, spec) in specs.iter().enumerate() {
         let place = |error: Error| error.element(&spec.name).under(format!("outputs[{i}]"));
         refuse_idle_keys(spec).map_err(place)?;
-        let reader = Reader { spec, build };
-        let measure = reader.measure(elements, &mut cuts).map_err(place)?;
+        let measure = measure(spec, elements, &mut cuts, build).map_err(place)?;
         build.own("output", &spec.name);
         let unit = unit(spec, dimension(spec.measure, &measure, elements)).map_err(place)?;
         let kind = if spec.measure == MeasureKind::Work { &mut works } else { &mut all };
@@ -77,38 +76,30 @@ pub fn outputs<const D: usize>(
     Ok((all, works, cuts))
 }
 
-struct Reader<'a, const D: usize> {
-    spec: &'a OutputSpec,
-    build: &'a Build<'a, D>,
-}
-
-impl<const D: usize> Reader<'_, D> {
-    fn measure(&self, elements: Elements<D>, cuts: &mut Vec<Cut<D>>) -> Result<Measure> {
-        if let Some(probe) = kinematics::probe(self.spec, elements.placed, self.build)? {
-            return Ok(Measure::Probe(probe));
-        }
-        match self.spec.measure {
-            MeasureKind::Reaction => actions::reaction(self.spec, self.of()?, elements, self.build),
-            MeasureKind::Force => actions::force(self.spec, self.of()?, elements, self.build),
-            MeasureKind::Power => actions::power(self.of()?, elements),
-            MeasureKind::Work => actions::work(self.of()?, elements),
-            MeasureKind::Energy => Ok(Measure::Energy(match self.spec.component.as_deref() {
-                Some("kinetic") => EnergyPart::Kinetic,
-                Some("potential") => EnergyPart::Potential,
-                None | Some("total") => EnergyPart::Total,
-                Some(other) => return Err(wrong_component(other, &["kinetic", "potential", "total"])),
-            })),
-            MeasureKind::Expression => {
-                let value = self.spec.value.as_ref();
-                let value = value.ok_or_else(|| missing("value", "give an expression over t and marker quantities"))?;
-                Ok(Measure::Formula(self.build.observing("value", value)?))
-            }
-            _ => beam_outputs::measure(self.spec, self.of()?, elements, cuts, self.build),
-        }
+fn measure<const D: usize>(
+    spec: &OutputSpec,
+    elements: Elements<D>,
+    cuts: &mut Vec<Cut<D>>,
+    build: &Build<D>,
+) -> Result<Measure> {
+    if let Some(probe) = kinematics::probe(spec, elements.placed, build)? {
+        return Ok(Measure::Probe(probe));
     }
-
-    fn of(&self) -> Result<&str> {
-        self.spec.of.as_deref().ok_or_else(|| missing("of", "name what is measured: a body, marker, joint or force"))
+    match spec.measure {
+        MeasureKind::Reaction => actions::reaction(spec, elements, build),
+        MeasureKind::Force => actions::force(spec, elements, build),
+        MeasureKind::Power => actions::power(spec.subject()?, elements),
+        MeasureKind::Work => actions::work(spec.subject()?, elements),
+        MeasureKind::Energy => {
+            let part = spec.component_of("total", &["kinetic", "potential", "total"])?;
+            Ok(Measure::Energy([EnergyPart::Kinetic, EnergyPart::Potential, EnergyPart::Total][part]))
+        }
+        MeasureKind::Expression => {
+            let value = spec.value.as_ref();
+            let value = value.ok_or_else(|| missing("value", "give an expression over t and marker quantities"))?;
+            Ok(Measure::Formula(build.observing("value", value)?))
+        }
+        _ => beam_outputs::measure(spec, elements, cuts, build),
     }
 }
 
