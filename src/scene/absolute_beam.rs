@@ -97,9 +97,9 @@ impl<const D: usize> AbsoluteBeam<D> {
     /// The beam for the model: its first node is body `first_body`, its first element force `first_force`.
     pub fn line(self, first_body: usize, first_force: usize) -> BeamLine {
         let beam = |ends: &[f64]| {
-            let (ends, length) = ([ends[0], ends[1]], ends[1] - ends[0]);
+            let ends = [ends[0], ends[1]];
             let mean = self.profile.mean(ends);
-            Beam::new::<D>(&mean, length, self.line.curvature, self.damping)
+            Beam::new::<D>(&mean, ends[1] - ends[0], self.line.curvature, self.damping)
                 .tapered::<D>(ends.each(|s| self.profile.within(ends, s)))
         };
         let elements: Vec<Beam> = self.abscissae.windows(2).map(beam).collect();
@@ -112,7 +112,8 @@ impl<const D: usize> AbsoluteBeam<D> {
 }
 
 fn body<const D: usize>(node: &NodeMass, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {
-    let (mass, [y, z]) = (node.mass(), node.about());
+    let mass = node.mass();
+    let [y, z] = node.about();
     match D {
         2 => Box::new(RigidPlanar::new(mass, z, from_fn(|i| q[i]), &[0, 1, 2], markers)),
         _ => {

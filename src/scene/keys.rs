@@ -27,7 +27,7 @@ fn take_text(json: &mut Map<String, Value>, key: &str) -> Result<String> {
     match json.remove(key) {
         Some(Value::String(text)) => Ok(text),
         Some(other) => Err(Error::input(format!("expected text in quotes, found {}", show(&other))).under(key)),
-        None => Err(Error::input(format!("the key `{key}` is missing")).hint(format!("give a \"{key}\""))),
+        None => Err(missing(key, &format!("give a \"{key}\""))),
     }
 }
 
@@ -39,8 +39,7 @@ pub fn take_kind<'k, Make>(
 ) -> Result<&'k ElementKind<Make>> {
     let names = || known.iter().map(|kind| kind.name);
     if !json.contains_key("type") {
-        return Err(Error::input("the key `type` is missing")
-            .hint(format!("give the {what} a type: {}", names().collect::<Vec<_>>().join(", "))));
+        return Err(missing("type", &format!("give the {what} a type: {}", names().collect::<Vec<_>>().join(", "))));
     }
     let name = take_text(json, "type")?;
     known.iter().find(|kind| kind.name == name).ok_or_else(|| {

@@ -199,24 +199,22 @@ impl<const D: usize> Reader<'_, D> {
         }
         let Some(ClosedForm::Lock(lock)) = &element.form else { return Err(none()) };
         let has = |wanted| lock.coordinates().iter().any(|(_, coordinate)| *coordinate == wanted);
-        match () {
-            _ if has(JointCoordinate::FirstPin) => {
-                let about = self.spec.component.as_deref();
-                let about = about.ok_or_else(|| missing("component", "x or y: the pin on the first or second body"))?;
-                let term = universal([a, b], named_component(about, &["x", "y"])?);
-                Ok(self.turn(term, None, order))
-            }
-            _ if has(JointCoordinate::Angle) => {
-                self.spec.component_of("z", &["z"])?;
-                self.build.oriented("of", &[a, b])?;
-                let about = |triad: &[[f64; D]; D]| {
-                    let [x, y] = [in_space(&triad[0]), in_space(&triad[1])];
-                    TurnAxes { of: x, to: [x, y] }
-                };
-                Ok(self.between([a, b], (lock.triad.as_ref().map(about), None), order))
-            }
-            _ => Err(none()),
+        if has(JointCoordinate::FirstPin) {
+            let about = self.spec.component.as_deref();
+            let about = about.ok_or_else(|| missing("component", "x or y: the pin on the first or second body"))?;
+            let term = universal([a, b], named_component(about, &["x", "y"])?);
+            return Ok(self.turn(term, None, order));
         }
+        if !has(JointCoordinate::Angle) {
+            return Err(none());
+        }
+        self.spec.component_of("z", &["z"])?;
+        self.build.oriented("of", &[a, b])?;
+        let about = |triad: &[[f64; D]; D]| {
+            let [x, y] = [in_space(&triad[0]), in_space(&triad[1])];
+            TurnAxes { of: x, to: [x, y] }
+        };
+        Ok(self.between([a, b], (lock.triad.as_ref().map(about), None), order))
     }
 
     fn between(&self, [a, b]: [MarkerId; 2], (axes, spring): (Option<TurnAxes>, Option<&str>), order: usize) -> Probe {
