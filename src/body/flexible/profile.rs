@@ -97,13 +97,9 @@ pub(super) enum Make {
 impl Laws {
     pub fn at(&self, s: f64) -> Section {
         let value = |i: usize| self.laws[i].at(s);
-        let fill = |matter: Matter, shape| match self.dimension {
-            2 => matter.fill::<2>(&shape),
-            _ => matter.fill::<3>(&shape),
-        };
         let section = match self.make {
-            Make::Rectangle(matter) => fill(matter, Shape::rectangle(value(0), value(1))),
-            Make::Circle(matter) => fill(matter, Shape::circle(value(0), value(1))),
+            Make::Rectangle(matter) => matter.fill(&Shape::rectangle(value(0), value(1)), self.dimension),
+            Make::Circle(matter) => matter.fill(&Shape::circle(value(0), value(1)), self.dimension),
             Make::Numbers => Section::of(from_fn(value)),
         };
         section.of_theory(self.theory)

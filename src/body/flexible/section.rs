@@ -64,12 +64,12 @@ pub(super) struct Matter {
 }
 
 impl Matter {
-    pub fn fill<const D: usize>(&self, shape: &Shape) -> Section {
+    pub fn fill(&self, shape: &Shape, dimension: usize) -> Section {
         let Matter { e, g, rho } = *self;
         Section {
             ea: e * shape.area,
             ga: [g * shape.area * shape.shear; 2],
-            gj: if D == 3 { g * shape.torsion } else { 0.0 },
+            gj: if dimension == 3 { g * shape.torsion } else { 0.0 },
             ei: shape.second.each(|i| e * i),
             rho_a: rho * shape.area,
             rho_i: shape.second.each(|i| rho * i),
