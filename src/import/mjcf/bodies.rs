@@ -1,11 +1,10 @@
 //! The tree of bodies.
 
 use super::Reader;
-use super::element::Element;
 use crate::error::{Error, Result};
 use crate::import::robot::{Joint, Kind, Link};
 use crate::import::transform::Transform;
-use crate::import::xml::{all, place, texts};
+use crate::import::xml::{Element, all, place, texts};
 use roxmltree::Node;
 
 /// An element of a body, in a frame of it.

@@ -1,11 +1,10 @@
 //! Equalities: constraints that close loops and couple joints.
 
-use super::element::Element;
 use super::{Reader, named};
 use crate::error::{Error, Result, suggest};
 use crate::import::robot::{Coupling, Loop};
 use crate::import::transform::Transform;
-use crate::import::xml::{attribute, faulty, place};
+use crate::import::xml::{Element, attribute, faulty, place};
 use crate::math::array::Each;
 use roxmltree::Node;
 use std::collections::HashMap;

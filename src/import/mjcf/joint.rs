@@ -2,11 +2,10 @@
 
 use super::Reader;
 use super::bodies::Placed;
-use super::element::Element;
 use crate::error::{Error, Result, excerpt};
 use crate::import::robot::{Joint, Kind};
 use crate::import::transform::Transform;
-use crate::import::xml::place;
+use crate::import::xml::{Element, place};
 
 const KINDS: [(&str, Kind); 4] =
     [("hinge", Kind::Revolute), ("slide", Kind::Prismatic), ("ball", Kind::Spherical), ("free", Kind::Floating)];
@@ -30,10 +29,10 @@ impl<'a, 'i> Reader<'a, 'i> {
         let mut joint = Joint::new(name.clone(), node.range().start, kind, ends, origin);
         let point = Transform { r: element.numbers("pos")?.unwrap_or_default(), ..Transform::default() };
         joint.anchor = part.frame.then(&point).r;
-        joint.axis = part.frame.rotated(&element.numbers("axis")?.unwrap_or([0.0, 0.0, 1.0]));
-        joint.reference = unit * element.number("ref")?.unwrap_or(0.0);
-        joint.relaxed = unit * element.number("springref")?.unwrap_or(0.0);
-        joint.armature = element.number("armature")?.unwrap_or(0.0);
+        joint.axis = part.frame.rotated(&element.numbers_or("axis", [0.0, 0.0, 1.0])?);
+        joint.reference = unit * element.number_or("ref", 0.0)?;
+        joint.relaxed = unit * element.number_or("springref", 0.0)?;
+        joint.armature = element.number_or("armature", 0.0)?;
         joint.stiffness = self.linear(&element, "stiffness", &name)?;
         joint.damping = self.linear(&element, "damping", &name)?;
         Ok(joint)

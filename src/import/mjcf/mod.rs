@@ -5,7 +5,7 @@
 
 mod actuator;
 mod bodies;
-mod element;
+mod classes;
 mod equality;
 mod geom;
 mod inertia;
@@ -20,7 +20,7 @@ use super::told::Told;
 use super::transform::Transform;
 use super::xml::{all, faulty, unused};
 use crate::error::{Error, Result, short_list};
-use element::Classes;
+use classes::Classes;
 use roxmltree::Node;
 use settings::Settings;
 use std::collections::HashMap;

@@ -6,7 +6,7 @@ use crate::error::{Error, Result, short, short_list};
 use crate::import::robot::{Joint, Kind, Link, Robot};
 use crate::import::told::Told;
 use crate::import::transform::Transform;
-use crate::import::xml::{all, attribute, child, faulty, number, numbers, place, texts, unused};
+use crate::import::xml::{Element, all, attribute, child, faulty, place, texts, unused};
 use roxmltree::Node;
 use std::collections::HashMap;
 
@@ -65,10 +65,10 @@ fn link(node: Node) -> Result<Link> {
 fn inertial(node: Node) -> Result<MassProperties> {
     let of_mass = child(node, "mass").ok_or_else(|| faulty(node, "the inertial has no mass"))?;
     let inertia = child(node, "inertia").ok_or_else(|| faulty(node, "the inertial has no inertia"))?;
-    let [xx, xy, xz, yy, yz, zz] =
-        ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(|key| number(inertia, key, Some(0.0)));
+    let inertia = Element::plain(inertia);
+    let [xx, xy, xz, yy, yz, zz] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(|key| inertia.number_or(key, 0.0));
     let [xx, xy, xz, yy, yz, zz] = [xx?, xy?, xz?, yy?, yz?, zz?];
-    let mass = number(of_mass, "value", None)?;
+    let mass = Element::plain(of_mass).needed("value")?;
     if mass < 0.0 {
         return Err(faulty(of_mass, format!("the mass is {}, but cannot be negative", short(mass)))
             .hint("correct its sign; a hole belongs into the mass and inertia of the link that it is in"));
@@ -80,14 +80,15 @@ fn inertial(node: Node) -> Result<MassProperties> {
 fn joint(node: Node, name: &str, links: &HashMap<&str, usize>, told: &mut Told) -> Result<Joint> {
     let kind = Kind::find(node, attribute(node, "type")?, &KINDS)?;
     let ends = [end(node, "parent", links)?, end(node, "child", links)?];
-    let dynamics = child(node, "dynamics");
-    let of = |key| dynamics.map_or(Ok(0.0), |dynamics| number(dynamics, key, Some(0.0)));
+    let dynamics = child(node, "dynamics").map(Element::plain);
+    let of = |key| dynamics.as_ref().map_or(Ok(0.0), |dynamics| dynamics.number_or(key, 0.0));
     let unused = unused(node, &["parent", "child", "origin", "axis", "dynamics", "mimic"]);
     unused.iter().for_each(|tag| told.add(format!("{tag} of the joints"), name));
     told.add_if(of("friction")? != 0.0, "friction of the joints", name);
     let mut joint = Joint::new(name.to_string(), node.range().start, kind, ends, origin(node)?);
     joint.damping = of("damping")?;
-    joint.axis = child(node, "axis").map_or(Ok([1.0, 0.0, 0.0]), |axis| numbers(axis, "xyz", [1.0, 0.0, 0.0]))?;
+    joint.axis = child(node, "axis")
+        .map_or(Ok([1.0, 0.0, 0.0]), |axis| Element::plain(axis).numbers_or("xyz", [1.0, 0.0, 0.0]))?;
     Ok(joint)
 }
 
@@ -103,6 +104,6 @@ fn end(node: Node, tag: &'static str, links: &HashMap<&str, usize>) -> Result<us
 }
 
 fn origin(node: Node) -> Result<Transform> {
-    let Some(origin) = child(node, "origin") else { return Ok(Transform::default()) };
-    Ok(Transform::new(numbers(origin, "xyz", [0.0; 3])?, numbers(origin, "rpy", [0.0; 3])?))
+    let Some(origin) = child(node, "origin").map(Element::plain) else { return Ok(Transform::default()) };
+    Ok(Transform::new(origin.numbers_or("xyz", [0.0; 3])?, origin.numbers_or("rpy", [0.0; 3])?))
 }
