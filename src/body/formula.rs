@@ -2,7 +2,7 @@
 
 use super::{Build, Frame, MarkerId, Probe};
 use crate::error::{Error, Result};
-use crate::math::expression::{Expression, Name, Names};
+use crate::math::expression::{Expression, Name, Names, with_names, words};
 use crate::math::signal::Signal;
 use crate::math::{Scalar, Taylor, Time};
 use std::cell::RefCell;
@@ -60,7 +60,7 @@ impl Formula {
                 Some(Ok(NamedOutput::Probe(own))) => own != *probe,
                 found => matches!(found, Some(Ok(_))),
             };
-            let is_output = || words(text).any(|word| word == *name) && means_another();
+            let is_output = || words(text).any(|(word, _)| word.trim_end_matches('\'') == *name) && means_another();
             let other = match () {
                 _ if build.parameters.get(name).is_some() => Some("parameter"),
                 _ if build.probe(name).is_some() => Some("state"),
@@ -185,11 +185,6 @@ fn slot<'f, F>(markers: &[MarkerId], marker: MarkerId, frames: &'f [F]) -> &'f F
     &frames[markers.iter().position(|&known| known == marker).unwrap_or(0)]
 }
 
-/// Names and numbers of an expression, without the primes of rates.
-fn words(text: &str) -> impl Iterator<Item = &str> {
-    text.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.'))
-}
-
 /// Largest length of an expression with its outputs replaced, bytes.
 const LONGEST: usize = 1_000_000;
 
@@ -225,20 +220,10 @@ fn replace_names<const D: usize>(
     order: usize,
     named: &mut Vec<(String, Probe)>,
 ) -> Result<String> {
-    let is_name = |c: char| c.is_alphanumeric() || c == '_' || c == '.' || c == '\'';
-    let mut result = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(start) = rest.find(is_name) {
-        let (before, tail) = rest.split_at(start);
-        let (word, after) = tail.split_at(tail.find(|c| !is_name(c)).unwrap_or(tail.len()));
-        result.push_str(before);
-        match find(word, build, order, named)? {
-            Some(expression) => result.push_str(&format!("({expression})")),
-            None => result.push_str(word),
-        }
-        rest = after;
-    }
-    Ok(result + rest)
+    with_names(text, |word, _| {
+        let expression = find(word, build, order, named)?;
+        Ok(expression.map(|expression| format!("({expression})")))
+    })
 }
 
 /// The expression of the output that `word` names; an output that is read off markers is added to `named`.

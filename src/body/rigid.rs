@@ -144,6 +144,17 @@ impl Initial {
         Ok((position, start_vector::<D>("initial.velocity", &self.velocity, build)?))
     }
 
+    /// Coordinates and velocities of a frame that moves freely: position with angle or quaternion, velocity with spin.
+    pub fn motion<const D: usize>(&self, build: &Build<D>) -> Result<(Vec<f64>, Vec<f64>)> {
+        let (position, velocity) = self.translation::<D>(build)?;
+        if D == 2 {
+            let (angle, spin) = self.planar(build)?;
+            return Ok(([&position[..], &[angle]].concat(), [&velocity[..], &[spin]].concat()));
+        }
+        let (quaternion, spin) = self.spatial(build)?;
+        Ok(([&position[..], &quaternion].concat(), [&velocity[..], &spin].concat()))
+    }
+
     /// Refuses an initial rotation, for point masses.
     pub fn refuse_rotation(&self) -> Result<()> {
         let is_turned = self.angle.is_some() || self.orientation().given().is_some();

@@ -10,6 +10,7 @@ pub mod mjcf;
 mod names;
 mod robot;
 mod scene;
+mod told;
 mod transform;
 mod tree;
 pub mod urdf;

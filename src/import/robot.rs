@@ -1,11 +1,13 @@
 //! A robot as its file describes it, in any of the formats.
 
 use super::transform::Transform;
-use super::xml::place_of;
+use super::xml::faulty;
 use crate::body::{MassProperties, norm};
-use crate::error::Error;
+use crate::error::{Error, Result, excerpt, suggest};
 use crate::math::array::Each;
 use crate::math::rotation::quaternion_from_vector;
+use crate::scene::locate::line_and_column;
+use roxmltree::Node;
 
 /// Links joined by joints to a tree, and what closes loops.
 pub struct Robot<'a> {
@@ -25,10 +27,26 @@ pub struct Robot<'a> {
     pub left_out: Vec<String>,
 }
 
-impl Robot<'_> {
+impl<'a> Robot<'a> {
+    /// A robot without links.
+    pub fn new(root: Node<'_, 'a>, format: &'static str, name: &str) -> Self {
+        Robot {
+            text: root.document().input_text(),
+            format,
+            name: name.to_string(),
+            gravity: [0.0, 0.0, -9.81],
+            links: Vec::new(),
+            joints: Vec::new(),
+            couplings: Vec::new(),
+            loops: Vec::new(),
+            motors: Vec::new(),
+            left_out: Vec::new(),
+        }
+    }
+
     /// Adds the element and its line and column to an error.
     pub fn blame(&self, error: Error, name: &str, at: usize) -> Error {
-        error.element(name).placed(place_of(self.text, at))
+        error.element(name).placed(line_and_column(self.text, at))
     }
 }
 
@@ -44,6 +62,14 @@ pub struct Link {
     pub meshes: Vec<String>,
     /// True if it stands between two joints of one link of the file.
     pub is_between: bool,
+}
+
+impl Link {
+    /// A link without mass.
+    pub fn new(name: String, node: Node) -> Self {
+        let at = node.range().start;
+        Link { name, at, mass: None, markers: Vec::new(), meshes: Vec::new(), is_between: false }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,6 +107,16 @@ pub struct Joint {
     pub relaxed: f64,
     /// Inertia of the coordinate itself, kg m^2 or kg, as of a rotor behind a gear.
     pub armature: f64,
+}
+
+impl Kind {
+    /// The kind that a file of these kinds calls `found`.
+    pub fn find(node: Node, found: &str, known: &[(&str, Kind)]) -> Result<Kind> {
+        known.iter().find(|(name, _)| *name == found).map(|(_, kind)| *kind).ok_or_else(|| {
+            faulty(node, format!("there is no joint of type `{}`", excerpt(found)))
+                .hint(suggest(found, known.iter().map(|(name, _)| *name)))
+        })
+    }
 }
 
 impl Joint {

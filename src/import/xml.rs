@@ -1,6 +1,7 @@
 //! Elements and attributes of XML, with their places in errors.
 
 use crate::error::{Error, Result, excerpt};
+use crate::scene::locate::line_and_column;
 use roxmltree::{Document, Node};
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -18,7 +19,6 @@ pub fn without_late_declaration(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// The document of a text.
 pub fn document(text: &str) -> Result<Document<'_>> {
     Document::parse(text).map_err(|error| {
         let at = error.pos();
@@ -26,16 +26,9 @@ pub fn document(text: &str) -> Result<Document<'_>> {
     })
 }
 
-/// Line and column of a byte of the text.
-pub fn place_of(text: &str, at: usize) -> (usize, usize) {
-    let before = &text[..at];
-    let line = before.rsplit('\n').next().unwrap_or_default();
-    (before.matches('\n').count() + 1, line.chars().count() + 1)
-}
-
 /// Line and column of a node.
 pub fn place(node: Node) -> (usize, usize) {
-    place_of(node.document().input_text(), node.range().start)
+    line_and_column(node.document().input_text(), node.range().start)
 }
 
 /// An error at a node.
@@ -67,37 +60,100 @@ pub fn child<'a, 'i>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
 
 /// The text of an attribute that must be there.
 pub fn attribute<'a>(node: Node<'a, '_>, key: &str) -> Result<&'a str> {
-    let tag = node.tag_name().name().to_string();
-    node.attribute(key).ok_or_else(|| faulty(node, format!("<{tag}> has no `{key}`")))
+    node.attribute(key).ok_or_else(|| lacking(node, key))
 }
 
-/// A number, or `default` where it is not given.
-pub fn number(node: Node, key: &str, default: Option<f64>) -> Result<f64> {
-    match (node.attribute(key), default) {
-        (None, Some(default)) => Ok(default),
-        _ => parsed(node, key, attribute(node, key)?),
+fn lacking(node: Node, key: &str) -> Error {
+    faulty(node, format!("<{}> has no `{key}`", node.tag_name().name()))
+}
+
+/// The texts of an attribute of these nodes, each once in a row.
+pub fn texts<'a, 'i: 'a>(nodes: impl Iterator<Item = Node<'a, 'i>>, key: &str) -> Vec<String> {
+    let mut texts: Vec<String> = nodes.filter_map(|node| node.attribute(key).map(str::to_string)).collect();
+    texts.dedup();
+    texts
+}
+
+/// An element whose missing attributes are those of others.
+pub struct Element<'a, 'i> {
+    pub node: Node<'a, 'i>,
+    pub defaults: Vec<Node<'a, 'i>>,
+}
+
+impl<'a, 'i> Element<'a, 'i> {
+    /// An element that has no defaults.
+    pub fn plain(node: Node<'a, 'i>) -> Self {
+        Element { node, defaults: Vec::new() }
+    }
+
+    /// What all children of this tag say together; of an attribute the last one that has it.
+    pub fn merged(parent: Node<'a, 'i>, tag: &str) -> Self {
+        let defaults = parent.children().rev().filter(|child| child.has_tag_name(tag)).collect();
+        Element { node: parent, defaults }
+    }
+
+    /// The text of an attribute, with the node that has it.
+    pub fn found(&self, key: &str) -> Option<(Node<'a, 'i>, &'a str)> {
+        let all = std::iter::once(&self.node).chain(&self.defaults);
+        all.filter_map(|node| Some((*node, node.attribute(key)?))).next()
+    }
+
+    pub fn text(&self, key: &str) -> Option<&'a str> {
+        self.found(key).map(|(_, text)| text)
+    }
+
+    pub fn is(&self, key: &str, value: &str) -> bool {
+        self.text(key) == Some(value)
+    }
+
+    pub fn number(&self, key: &str) -> Result<Option<f64>> {
+        self.found(key).map(|(node, text)| parsed(node, key, text)).transpose()
+    }
+
+    pub fn number_or(&self, key: &str, default: f64) -> Result<f64> {
+        Ok(self.number(key)?.unwrap_or(default))
+    }
+
+    /// A number that must be there.
+    pub fn needed(&self, key: &str) -> Result<f64> {
+        self.number(key)?.ok_or_else(|| lacking(self.node, key))
+    }
+
+    /// The numbers of an attribute; none where it is not given.
+    pub fn list(&self, key: &str) -> Result<Vec<f64>> {
+        self.found(key).map_or(Ok(Vec::new()), |(node, text)| list(node, key, text))
+    }
+
+    /// The first number of an attribute.
+    pub fn first_or(&self, key: &str, default: f64) -> Result<f64> {
+        Ok(self.list(key)?.first().copied().unwrap_or(default))
+    }
+
+    /// True if one of the numbers of an attribute is not zero.
+    pub fn has(&self, key: &str) -> Result<bool> {
+        Ok(self.list(key)?.iter().any(|x| *x != 0.0))
+    }
+
+    pub fn numbers<const N: usize>(&self, key: &str) -> Result<Option<[f64; N]>> {
+        self.found(key).map(|(node, text)| exactly(node, key, list(node, key, text)?)).transpose()
+    }
+
+    pub fn numbers_or<const N: usize>(&self, key: &str, default: [f64; N]) -> Result<[f64; N]> {
+        Ok(self.numbers(key)?.unwrap_or(default))
     }
 }
 
 /// The number of a word in an attribute.
-pub fn parsed(node: Node, key: &str, text: &str) -> Result<f64> {
+fn parsed(node: Node, key: &str, text: &str) -> Result<f64> {
     let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite());
     value.ok_or_else(|| faulty(node, format!("expected a number in `{key}`, found \"{}\"", excerpt(text))))
 }
 
-/// The numbers of an attribute.
 pub fn list(node: Node, key: &str, text: &str) -> Result<Vec<f64>> {
     text.split_whitespace().map(|word| parsed(node, key, word)).collect()
 }
 
-/// N numbers of an attribute, or `default` where it is not given.
-pub fn numbers<const N: usize>(node: Node, key: &str, default: [f64; N]) -> Result<[f64; N]> {
-    let Some(text) = node.attribute(key) else { return Ok(default) };
-    exactly(node, key, list(node, key, text)?)
-}
-
-/// N numbers.
-pub fn exactly<const N: usize>(node: Node, key: &str, all: Vec<f64>) -> Result<[f64; N]> {
+fn exactly<const N: usize>(node: Node, key: &str, all: Vec<f64>) -> Result<[f64; N]> {
     all.try_into()
         .map_err(|all: Vec<f64>| faulty(node, format!("expected {N} numbers in `{key}`, found {}", all.len())))
 }

@@ -4,9 +4,9 @@ use super::AnyMechanism;
 use crate::body::{dot, norm};
 use crate::error::{Error, Warning, short, significant};
 use crate::initial::{Assembly, Move};
-use crate::joint::{Axis, Joint};
+use crate::joint::Axis;
 use crate::math::array::{Each, from_fn};
-use crate::scene::Connection;
+use crate::scene::ModelJoint;
 use crate::system::{MechanicalSystem, Mechanism, Road, Scratch};
 use crate::tolerances::report as tolerances;
 use std::f64::consts::FRAC_PI_2;
@@ -119,7 +119,7 @@ fn turned_over(mechanism: &Mechanism<3>, guess: &[f64], q: &[f64]) -> Vec<Warnin
     let still = vec![0.0; mechanism.dimensions().v];
     let cosines = |q: &[f64]| {
         let frames = mechanism.frames(q, &still, &mut Scratch::default());
-        let cosine = |joint: &Connection<Box<dyn Joint<3>>>| {
+        let cosine = |joint: &ModelJoint<3>| {
             let axis = |k: usize| joint.element.joint_axis(&frames[joint.markers[k]].map(|x| x.x));
             let rows = joint.element.row_names();
             match ["rx", "ry"].iter().all(|row| rows.contains(row)).then(|| [axis(0), axis(1)]) {
@@ -131,7 +131,7 @@ fn turned_over(mechanism: &Mechanism<3>, guess: &[f64], q: &[f64]) -> Vec<Warnin
     };
     let joints = mechanism.model().joints.iter().zip(cosines(guess).into_iter().zip(cosines(q)));
     let over = joints.filter(|(_, (guess, found))| *guess > tolerances::AXES_AGAINST && *found < 0.0);
-    let warning = |(joint, _): (&Connection<Box<dyn Joint<3>>>, _)| {
+    let warning = |(joint, _): (&ModelJoint<3>, _)| {
         Warning::new(
             format!(
                 "the axes of the joint `{}` point against each other after assembly, and not in the guess",

@@ -11,11 +11,11 @@
 //! one end to the other: bending under shear forces then converges with the second power of the length.
 
 use super::beam_mass::NodeMass;
+use super::keys::start_and_markers;
 use super::markers;
 use super::model::BeamLine;
-use super::resolve::start_and_markers;
-use crate::body::flexible::{Damping, FlexibleBeam, Profile, ReferenceLine, curvature};
-use crate::body::{Body, Build, Built, Initial, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
+use crate::body::flexible::{Damping, FlexibleBeam, MOST_ELEMENTS, Profile, ReferenceLine, curvature};
+use crate::body::{Body, Build, Built, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
 use crate::error::{Error, Result, short};
 use crate::force::Beam;
 use crate::math::array::{Each, from_fn};
@@ -46,9 +46,6 @@ pub struct AbsoluteBeam<const D: usize> {
 /// Keys of a beam in a floating frame, refused here.
 const FLOATING: [&str; 6] = ["frame_conditions", "axial", "rotary_inertia", "geometric_stiffening", "modes", "ritz"];
 
-/// A larger number of elements is taken for a mistake.
-const MOST_ELEMENTS: u32 = 10_000;
-
 impl<const D: usize> AbsoluteBeam<D> {
     /// Reads the body's JSON without `name` and `type`.
     pub fn read(name: &str, mut json: Map<String, Value>, build: &Build<D>) -> Result<Self> {
@@ -72,7 +69,7 @@ impl<const D: usize> AbsoluteBeam<D> {
             damping: damping(spec.damping.as_ref(), build).map_err(|error| error.under("damping"))?,
             markers: named.into_iter().map(at_node).collect::<Result<_>>()?,
             abscissae,
-            start: Start::read(&initial, build)?,
+            start: initial.motion(build).map(|(q, v)| Start { q, v })?,
         })
     }
 
@@ -100,9 +97,9 @@ impl<const D: usize> AbsoluteBeam<D> {
     /// The beam for the model: its first node is body `first_body`, its first element force `first_force`.
     pub fn line(self, first_body: usize, first_force: usize) -> BeamLine {
         let beam = |ends: &[f64]| {
-            let (ends, length) = ([ends[0], ends[1]], ends[1] - ends[0]);
+            let ends = [ends[0], ends[1]];
             let mean = self.profile.mean(ends);
-            Beam::new::<D>(&mean, length, self.line.curvature, self.damping)
+            Beam::new::<D>(&mean, ends[1] - ends[0], self.line.curvature, self.damping)
                 .tapered::<D>(ends.each(|s| self.profile.within(ends, s)))
         };
         let elements: Vec<Beam> = self.abscissae.windows(2).map(beam).collect();
@@ -115,7 +112,8 @@ impl<const D: usize> AbsoluteBeam<D> {
 }
 
 fn body<const D: usize>(node: &NodeMass, q: &[f64], markers: Vec<Marker<D>>) -> Box<dyn Body<D>> {
-    let (mass, [y, z]) = (node.mass(), node.about());
+    let mass = node.mass();
+    let [y, z] = node.about();
     match D {
         2 => Box::new(RigidPlanar::new(mass, z, from_fn(|i| q[i]), &[0, 1, 2], markers)),
         _ => {
@@ -202,48 +200,34 @@ fn check_marker(name: &str, s: f64, abscissae: &[f64]) -> Result<usize> {
     Ok(abscissae.partition_point(|abscissa| *abscissa < s - slack).min(abscissae.len() - 1))
 }
 
-/// Position and velocity of the beam at the start, as of a rigid body with its origin at the left end.
+/// Coordinates and velocities of the beam at the start, as of a rigid body with its origin at the left end.
 struct Start<const D: usize> {
-    position: [f64; D],
-    velocity: [f64; D],
-    /// Rotation in the plane, rad.
-    angle: f64,
-    /// Rotation in space: unit quaternion [w, x, y, z].
-    quaternion: [f64; 4],
-    /// Angular velocity in the axes of the left end, rad/s.
-    spin: [f64; 3],
+    q: Vec<f64>,
+    v: Vec<f64>,
 }
 
 impl<const D: usize> Start<D> {
-    fn read(initial: &Initial, build: &Build<D>) -> Result<Self> {
-        let (position, velocity) = initial.translation(build)?;
-        let (angle, quaternion, spin) = match D {
-            2 => initial.planar(build).map(|(angle, rate)| (angle, [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, rate]))?,
-            _ => initial.spatial(build).map(|(quaternion, spin)| (0.0, quaternion, spin))?,
-        };
-        Ok(Start { position, velocity, angle, quaternion, spin })
-    }
-
     /// Coordinates and velocities of the node at `s`, with its centre of mass `ahead` of it.
     fn at(&self, s: f64, ahead: f64, line: &ReferenceLine) -> (Vec<f64>, Vec<f64>) {
         let (axes, node) = line.at(s);
         let centre: [f64; 3] = from_fn(|i| node[i] + ahead * axes[0][i]);
-        let turn = match D {
-            2 => quaternion_from_vector(&[0.0, 0.0, self.angle]),
-            _ => self.quaternion,
+        // Unit quaternion, and angular velocity in the axes of the left end.
+        let (turn, spin): ([f64; 4], [f64; 3]) = match D {
+            2 => (quaternion_from_vector(&[0.0, 0.0, self.q[2]]), [0.0, 0.0, self.v[2]]),
+            _ => (from_fn(|i| self.q[3 + i]), from_fn(|i| self.v[3 + i])),
         };
         let matrix = matrix_from_quaternion(&turn);
         let in_world = |v: &[f64; 3]| -> [f64; 3] { from_fn(|i| dot3(&matrix[i], v)) };
         let arm = in_world(&centre);
-        let lever = cross(&in_world(&self.spin), &arm);
-        let mut q: Vec<f64> = (0..D).map(|i| self.position[i] + arm[i]).collect();
-        let mut v: Vec<f64> = (0..D).map(|i| self.velocity[i] + lever[i]).collect();
+        let lever = cross(&in_world(&spin), &arm);
+        let mut q: Vec<f64> = (0..D).map(|i| self.q[i] + arm[i]).collect();
+        let mut v: Vec<f64> = (0..D).map(|i| self.v[i] + lever[i]).collect();
         if D == 2 {
-            q.push(self.angle + line.curvature[2] * s);
-            v.push(self.spin[2]);
+            q.push(self.q[2] + line.curvature[2] * s);
+            v.push(self.v[2]);
         } else {
             q.extend(quaternion_product(&turn, &quaternion_from_vector(&line.curvature.each(|k| k * s))));
-            v.extend(axes.each(|axis| dot3(&axis, &self.spin)));
+            v.extend(axes.each(|axis| dot3(&axis, &spin)));
         }
         (q, v)
     }

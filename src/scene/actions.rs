@@ -1,12 +1,12 @@
 //! Outputs of joints and forces: what they exert, and its power.
 
+use super::keys::{find, wrong_component};
+use super::kinematics::Elements;
 use super::measures::{On, OutputSpec, Side};
-use super::model::{Connection, FORCE_SIZE, Measure, TORQUE_SIZE};
-use super::outputs::{Elements, find, wrong_component};
-use crate::body::Build;
+use super::model::{Connection, FORCE_SIZE, Measure, ModelJoint, TORQUE_SIZE};
+use crate::body::{Build, MarkerId};
 use crate::error::{Error, Result};
 use crate::force::InputKind;
-use crate::joint::Joint;
 
 /// Components of a force and a torque, with their places in [`Measure::Reaction`].
 fn components(dimension: usize) -> &'static [(&'static str, usize)] {
@@ -22,21 +22,11 @@ fn component<const D: usize>(name: &str, further: Option<&'static str>) -> Resul
     found.ok_or_else(|| wrong_component(name, &known.iter().map(|(name, _)| *name).chain(further).collect::<Vec<_>>()))
 }
 
-/// Reaction of a joint.
-pub fn reaction<const D: usize>(
-    spec: &OutputSpec,
-    of: &str,
-    elements: Elements<D>,
-    build: &Build<D>,
-) -> Result<Measure> {
-    let names = elements.joints.iter().map(|joint| joint.name.as_str());
-    let joint = find("joint", of, names).map_err(|error| {
-        if elements.forces.iter().any(|force| force.name == of) { is_a(of, "force", "joint", "force") } else { error }
-    })?;
+pub fn reaction<const D: usize>(spec: &OutputSpec, elements: Elements<D>, build: &Build<D>) -> Result<Measure> {
+    let joint = named(spec.subject()?, ("joint", elements.joints), ("force", elements.forces), "force")?;
     let given = &elements.joints[joint];
-    let holds = elements.joints[joint].element.row_names();
-    let axes = build.marker("relative_to", spec.relative_to.as_deref().unwrap_or("ground"))?;
-    build.oriented("relative_to", &[axes])?;
+    let holds = given.element.row_names();
+    let axes = axes(spec, build)?;
     let Some(name) = spec.component.as_deref() else {
         return Ok(match given.kind {
             "driver" => Measure::Push { joint },
@@ -56,7 +46,7 @@ pub fn reaction<const D: usize>(
 }
 
 /// Place, among the markers of a joint, of that on whose body a reaction acts.
-fn slot<const D: usize>(spec: &OutputSpec, given: &Connection<Box<dyn Joint<D>>>, build: &Build<D>) -> Result<usize> {
+fn slot<const D: usize>(spec: &OutputSpec, given: &ModelJoint<D>, build: &Build<D>) -> Result<usize> {
     let name = match &spec.on {
         Some(On::Side(Side::First)) => return Ok(0),
         Some(On::Side(Side::Second)) => return Ok(second(given)),
@@ -84,19 +74,12 @@ fn second<E>(element: &Connection<E>) -> usize {
 }
 
 /// Magnitude of a force, or a component of what it exerts on a body.
-pub fn force<const D: usize>(spec: &OutputSpec, of: &str, elements: Elements<D>, build: &Build<D>) -> Result<Measure> {
-    let names = elements.forces.iter().map(|force| force.name.as_str());
-    let force = find("force", of, names).map_err(|error| {
-        if elements.joints.iter().any(|joint| joint.name == of) {
-            is_a(of, "joint", "force", "reaction")
-        } else {
-            error
-        }
-    })?;
+pub fn force<const D: usize>(spec: &OutputSpec, elements: Elements<D>, build: &Build<D>) -> Result<Measure> {
+    let of = spec.subject()?;
+    let force = named(of, ("force", elements.forces), ("joint", elements.joints), "reaction")?;
     let Some(name) = spec.component.as_deref() else { return Ok(Measure::Force(force)) };
     let component = component::<D>(name, None)?;
-    let axes = build.marker("relative_to", spec.relative_to.as_deref().unwrap_or("ground"))?;
-    build.oriented("relative_to", &[axes])?;
+    let axes = axes(spec, build)?;
     let given = &elements.forces[force];
     let acted = given.element.acted(given.markers.len());
     let slot = match &spec.on {
@@ -117,12 +100,11 @@ pub fn force<const D: usize>(spec: &OutputSpec, of: &str, elements: Elements<D>,
     Ok(Measure::Load { force, slot, component, axes })
 }
 
-/// Power of a force or a driver.
 pub fn power<const D: usize>(of: &str, elements: Elements<D>) -> Result<Measure> {
     if let Some(force) = elements.forces.iter().position(|force| force.name == of) {
         return Ok(Measure::Power { force });
     }
-    let drives = |joint: &&Connection<Box<dyn Joint<D>>>| joint.element.depends_on_time();
+    let drives = |joint: &&ModelJoint<D>| joint.element.depends_on_time();
     if let Some(joint) = elements.joints.iter().position(|joint| joint.name == of) {
         return if drives(&&elements.joints[joint]) {
             Ok(Measure::DrivePower { joint })
@@ -147,8 +129,26 @@ pub fn work<const D: usize>(of: &str, elements: Elements<D>) -> Result<Measure> 
     }
 }
 
-fn is_a(of: &str, found: &str, wanted: &str, measure: &str) -> Error {
-    Error::input(format!("`{of}` is a {found}, not a {wanted}"))
-        .under("of")
-        .hint(format!("\"measure\": \"{measure}\" gives what a {found} exerts"))
+/// Marker in whose axes components are.
+fn axes<const D: usize>(spec: &OutputSpec, build: &Build<D>) -> Result<MarkerId> {
+    let axes = spec.reference(build)?;
+    build.oriented("relative_to", &[axes])?;
+    Ok(axes)
+}
+
+/// Index of the element `of`; where there is one of the other kind, `measure` is what that has.
+fn named<E, O>(
+    of: &str,
+    (wanted, all): (&str, &[Connection<E>]),
+    (found, others): (&str, &[Connection<O>]),
+    measure: &str,
+) -> Result<usize> {
+    find(wanted, of, all.iter().map(|element| element.name.as_str())).map_err(|error| {
+        if others.iter().all(|other| other.name != of) {
+            return error;
+        }
+        Error::input(format!("`{of}` is a {found}, not a {wanted}"))
+            .under("of")
+            .hint(format!("\"measure\": \"{measure}\" gives what a {found} exerts"))
+    })
 }

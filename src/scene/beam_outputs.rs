@@ -1,23 +1,24 @@
 //! Outputs of a beam at a place on its line.
 
+use super::keys::{find, missing};
+use super::kinematics::Elements;
 use super::measures::{MeasureKind, OutputSpec};
-use super::model::{BeamLine, Combination, Connection, Measure, Reading};
-use super::outputs::{Elements, find, missing, named_component};
-use super::place::{Cut, Place};
+use super::model::{BeamLine, Combination, Measure, ModelForce};
+use super::place::{Cut, Place, Reading};
 use crate::body::flexible::{Line, Stretch};
 use crate::body::{Bent, Build, Marker, MarkerId};
 use crate::error::{Error, Result, short};
-use crate::force::{Beam, Force, Half};
+use crate::force::{Beam, Half};
 use crate::math::array::from_fn;
 
-/// The quantity that an output reads of the beam `of`: a body, or a massless beam among the forces.
+/// The quantity that an output reads of a beam: a body, or a massless beam among the forces.
 pub fn measure<const D: usize>(
     spec: &OutputSpec,
-    of: &str,
     elements: Elements<D>,
     cuts: &mut Vec<Cut<D>>,
     build: &Build<D>,
 ) -> Result<Measure> {
+    let of = spec.subject()?;
     let Elements { bodies, beams, forces, .. } = elements;
     if let Some(beam) = beams.iter().find(|beam| beam.name == of) {
         return Ok(Measure::Station(Box::new(on_absolute(spec, beam, elements, build)?)));
@@ -68,7 +69,7 @@ fn on_absolute<const D: usize>(
 
 fn on_massless<const D: usize>(
     spec: &OutputSpec,
-    force: &Connection<Box<dyn Force<D>>>,
+    force: &ModelForce<D>,
     beam: &Beam,
     build: &Build<D>,
 ) -> Result<Place> {
@@ -212,10 +213,6 @@ fn place<const D: usize>(spec: &OutputSpec, length: f64, build: &Build<D>) -> Re
     }
 }
 
-fn component(spec: &OutputSpec, default: &str, known: &[&str]) -> Result<usize> {
-    named_component(spec.component.as_deref().unwrap_or(default), known)
-}
-
 /// Quantity of a section that an output asks for.
 enum Wanted {
     /// Deflection along this axis.
@@ -228,7 +225,7 @@ enum Wanted {
 
 fn wanted<const D: usize>(spec: &OutputSpec, build: &Build<D>) -> Result<Wanted> {
     Ok(match spec.measure {
-        MeasureKind::Deflection => Wanted::Deflection(component(spec, "y", &["x", "y", "z"][..D])?),
+        MeasureKind::Deflection => Wanted::Deflection(spec.component_of("y", &["x", "y", "z"][..D])?),
         MeasureKind::Strain => {
             let mut y = 0.0;
             let mut z = 0.0;
@@ -240,7 +237,7 @@ fn wanted<const D: usize>(spec: &OutputSpec, build: &Build<D>) -> Result<Wanted>
             Wanted::Strain([1.0, 0.0, 0.0, 0.0, z, -y])
         }
         MeasureKind::AxialForce => Wanted::Force(0),
-        MeasureKind::ShearForce => Wanted::Force(1 + component(spec, "y", &["y", "z"][..D - 1])?),
+        MeasureKind::ShearForce => Wanted::Force(1 + spec.component_of("y", &["y", "z"][..D - 1])?),
         MeasureKind::Torque if D == 2 => {
             return Err(Error::input("a planar beam carries no torque")
                 .under("measure")
@@ -249,7 +246,7 @@ fn wanted<const D: usize>(spec: &OutputSpec, build: &Build<D>) -> Result<Wanted>
         MeasureKind::Torque => Wanted::Force(3),
         _ => {
             let known: &[&str] = if D == 2 { &["z"] } else { &["y", "z"] };
-            Wanted::Force(if known[component(spec, "z", known)?] == "y" { 4 } else { 5 })
+            Wanted::Force(if known[spec.component_of("z", known)?] == "y" { 4 } else { 5 })
         }
     })
 }

@@ -1,13 +1,9 @@
 //! Scenes written in code.
 
+use super::document::object;
 use super::{Elements, Scene, folder};
 use crate::error::Result;
 use serde_json::{Map, Value, json};
-
-/// The object at `key`, made if it is missing; `None` if another type of value is there, which the checks then refuse.
-fn object<'k>(keys: &'k mut Map<String, Value>, key: &str) -> Option<&'k mut Map<String, Value>> {
-    keys.entry(key).or_insert_with(|| json!({})).as_object_mut()
-}
 
 /// A scene written in code: the keys of a scene file, with the same checks, and errors that name the same places.
 ///
@@ -48,16 +44,12 @@ impl SceneBuilder {
 
     /// A number, or an expression over other parameters.
     pub fn parameter(self, name: &str, value: impl Into<Value>) -> Self {
-        self.within("parameters", name, value.into())
+        self.within(&["parameters"], name, value.into())
     }
 
     /// A marker of the ground: its position, or an object with an orientation.
-    pub fn ground_marker(mut self, name: &str, marker: impl Into<Value>) -> Self {
-        let ground = object(&mut self.keys, "ground");
-        if let Some(markers) = ground.and_then(|ground| object(ground, "markers")) {
-            markers.insert(name.to_string(), marker.into());
-        }
-        self
+    pub fn ground_marker(self, name: &str, marker: impl Into<Value>) -> Self {
+        self.within(&["ground", "markers"], name, marker.into())
     }
 
     /// A body of type `kind` with its other keys, an object.
@@ -87,7 +79,7 @@ impl SceneBuilder {
 
     /// One setting of the simulation, such as `t_end`.
     pub fn simulation(self, key: &str, value: impl Into<Value>) -> Self {
-        self.within("simulation", key, value.into())
+        self.within(&["simulation"], key, value.into())
     }
 
     /// The scene as a file would have it.
@@ -103,8 +95,8 @@ impl SceneBuilder {
         elements.resolve(folder(None), self.json(), &[])
     }
 
-    fn within(mut self, name: &str, key: &str, value: Value) -> Self {
-        if let Some(object) = object(&mut self.keys, name) {
+    fn within(mut self, path: &[&str], key: &str, value: Value) -> Self {
+        if let Some(object) = object(&mut self.keys, path) {
             object.insert(key.to_string(), value);
         }
         self

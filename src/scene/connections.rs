@@ -1,40 +1,37 @@
 //! Joints and forces of a scene, read one after the other.
 
+use super::keys::{object, take_kind, take_name, taken};
 use super::kinematics::Named;
-use super::model::Connection;
-use super::resolve::{object, take_kind, take_name};
+use super::model::{Connection, ModelForce, ModelJoint};
 use crate::body::{Build, ElementKind};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::force::{Force, ForceKind, InputKind};
-use crate::joint::{Joint, JointKind};
+use crate::joint::JointKind;
 use serde_json::Value;
 use std::collections::HashSet;
 
-/// The joints of the scene.
 pub fn joints<const D: usize>(
     named: &Named<D>,
     kinds: &[JointKind<D>],
     build: &Build<D>,
-) -> Result<Vec<Connection<Box<dyn Joint<D>>>>> {
+) -> Result<Vec<ModelJoint<D>>> {
     let make = |make: &BuildJoint<D>, json| make(json, build).map(|built| (built.joint, built.markers));
-    let see =
-        |joint: &Connection<Box<dyn Joint<D>>>| named.add(joint, joint.markers.len() == 2, joint.element.closed_form());
+    let see = |joint: &ModelJoint<D>| named.add(joint, joint.markers.len() == 2, joint.element.closed_form());
     elements((&named.file.joints, "joints", "joint"), kinds, build, make, see)
 }
 
 type BuildJoint<const D: usize> = fn(Value, &Build<D>) -> Result<crate::joint::Built<D>>;
 type BuildForce<const D: usize> = fn(Value, &Build<D>) -> Result<crate::force::Built<D>>;
 
-/// The forces of the scene.
 pub fn forces<const D: usize>(
     named: &Named<D>,
     kinds: &[ForceKind<D>],
     build: &Build<D>,
-) -> Result<Vec<Connection<Box<dyn Force<D>>>>> {
+) -> Result<Vec<ModelForce<D>>> {
     let make = |make: &BuildForce<D>, json| make(json, build).map(|built| (built.force, built.markers));
     let is_between =
         |element: &dyn Force<D>, markers| element.acted(markers) == 2 && element.input() != InputKind::Component;
-    let see = |force: &Connection<Box<dyn Force<D>>>| {
+    let see = |force: &ModelForce<D>| {
         named.add(force, is_between(force.element.as_ref(), force.markers.len()), None);
     };
     elements((&named.file.forces, "forces", "force"), kinds, build, make, see)
@@ -55,9 +52,7 @@ fn elements<E, Make, const D: usize>(
             let mut json = object(json.clone())?;
             let name = take_name(&mut json)?;
             if !names.insert(name.clone()) {
-                return Err(Error::input(format!("the name `{name}` is taken"))
-                    .under("name")
-                    .hint(format!("give each {what} its own")));
+                return Err(taken(&name, what));
             }
             let kind = take_kind(&mut json, what, kinds).map_err(|error| error.element(&name))?;
             let made = make(&kind.build, Value::Object(json));

@@ -1,11 +1,11 @@
 //! Gravity of a scene: uniform, or towards a point of the ground.
 
 use super::format::CentralGravity as Spec;
-use super::model::{Connection, Part};
-use super::resolve::Parts;
+use super::model::{Connection, ModelForce, Part};
+use super::parts::Parts;
 use crate::body::{Build, parse};
 use crate::error::{Error, Result};
-use crate::force::{CentralGravity, Force};
+use crate::force::CentralGravity;
 use crate::math::expression::Number;
 use serde_json::Value;
 
@@ -25,7 +25,7 @@ pub fn central<const D: usize>(
     given: &Option<Value>,
     Parts { bodies, beams, ground, .. }: &Parts<D>,
     build: &Build<D>,
-) -> Result<Vec<Connection<Box<dyn Force<D>>>>> {
+) -> Result<Vec<ModelForce<D>>> {
     let Some(given @ Value::Object(_)) = given else { return Ok(Vec::new()) };
     let in_gravity = |error: Error| error.under("gravity");
     let spec: Spec = parse(given).map_err(in_gravity)?;
@@ -39,7 +39,7 @@ pub fn central<const D: usize>(
         return Err(in_gravity(flexible(&beam.name)));
     }
     let mu = build.not_negative("mu", &spec.mu).map_err(in_gravity)?;
-    let mut all: Vec<Connection<Box<dyn Force<D>>>> = Vec::new();
+    let mut all: Vec<ModelForce<D>> = Vec::new();
     // States are the last bodies.
     for part in &bodies[..bodies.len() - build.markers.states.len()] {
         let mass = mass(part).map_err(in_gravity)?;

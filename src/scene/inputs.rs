@@ -1,21 +1,18 @@
 //! Inputs of a scene, and the elements that their values act on.
 
 use super::format::InputSpec;
-use super::model::{Connection, Input, Target};
-use super::outputs::{find, missing, named_component};
+use super::keys::{find, missing, named_component, taken};
+use super::model::{Connection, Input, ModelForce, ModelJoint, Target};
 use crate::body::{Build, Formula, MOST_MARKERS};
 use crate::error::{Error, Result};
-use crate::force::{self, Force, InputKind};
-use crate::joint::{self, Joint};
+use crate::force::{self, InputKind};
+use crate::joint;
 use crate::math::expression::Number;
-
-type Joints<const D: usize> = Vec<Connection<Box<dyn Joint<D>>>>;
-type Forces<const D: usize> = Vec<Connection<Box<dyn Force<D>>>>;
 
 /// The inputs with what they add to. Their values become part of the elements that they drive.
 pub fn inputs<const D: usize>(
     specs: &[InputSpec],
-    (joints, forces): (&mut Joints<D>, &mut Forces<D>),
+    (joints, forces): (&mut Vec<ModelJoint<D>>, &mut Vec<ModelForce<D>>),
     build: &Build<D>,
 ) -> Result<Vec<Input>> {
     let mut all: Vec<Input> = Vec::new();
@@ -23,8 +20,7 @@ pub fn inputs<const D: usize>(
         let place = |error: Error| error.element(&spec.name).under(format!("inputs[{i}]"));
         let named = |error: Error| error.under("name").under(format!("inputs[{i}]"));
         if all.iter().any(|known| known.name == spec.name) {
-            let taken = Error::input(format!("the name `{}` is taken", spec.name)).hint("give each input its own");
-            return Err(named(taken));
+            return Err(taken(&spec.name, "input").under(format!("inputs[{i}]")));
         }
         super::names::check_name(&spec.name).map_err(named)?;
         let mut input = input::<D>(spec, (joints, forces)).map_err(place)?;
@@ -39,7 +35,7 @@ pub fn inputs<const D: usize>(
 
 const ONE_OF: &str = "give one of `force`, an applied force or torque, `driver`, a joint, and `tyre`, a force";
 
-fn input<const D: usize>(spec: &InputSpec, (joints, forces): (&Joints<D>, &Forces<D>)) -> Result<Input> {
+fn input<const D: usize>(spec: &InputSpec, (joints, forces): (&[ModelJoint<D>], &[ModelForce<D>])) -> Result<Input> {
     let (target, unit) = match (&spec.force, &spec.driver, &spec.tyre) {
         (Some(force), None, None) => component(force, spec.component.as_deref(), forces)?,
         (None, Some(joint), None) => driver(joint, joints)?,
@@ -67,7 +63,11 @@ fn undriven<E>(key: &str, Connection { name, kind, .. }: &Connection<E>, hint: &
     Error::input(format!("`{name}` is a {kind}, which an input cannot drive")).under(key).hint(hint)
 }
 
-fn component<const D: usize>(name: &str, axis: Option<&str>, forces: &Forces<D>) -> Result<(Target, &'static str)> {
+fn component<const D: usize>(
+    name: &str,
+    axis: Option<&str>,
+    forces: &[ModelForce<D>],
+) -> Result<(Target, &'static str)> {
     let force = named("force", "force", name, forces)?;
     let element = &forces[force].element;
     match element.input() {
@@ -87,7 +87,7 @@ fn component<const D: usize>(name: &str, axis: Option<&str>, forces: &Forces<D>)
     Ok((Target::Component { force, component }, if element.is_torque() { "N m" } else { "N" }))
 }
 
-fn road<const D: usize>(name: &str, forces: &Forces<D>) -> Result<(Target, &'static str)> {
+fn road<const D: usize>(name: &str, forces: &[ModelForce<D>]) -> Result<(Target, &'static str)> {
     let force = named("tyre", "tyre", name, forces)?;
     match forces[force].element.input() {
         InputKind::Displacement { rate } => Ok((Target::Road { force, rate }, "m")),
@@ -95,7 +95,7 @@ fn road<const D: usize>(name: &str, forces: &Forces<D>) -> Result<(Target, &'sta
     }
 }
 
-fn driver<const D: usize>(name: &str, joints: &Joints<D>) -> Result<(Target, &'static str)> {
+fn driver<const D: usize>(name: &str, joints: &[ModelJoint<D>]) -> Result<(Target, &'static str)> {
     let joint = named("driver", "driver", name, joints)?;
     let element = &joints[joint].element;
     if element.prescribes() {
@@ -109,7 +109,7 @@ fn driver<const D: usize>(name: &str, joints: &Joints<D>) -> Result<(Target, &'s
 fn add<const D: usize>(
     target: &Target,
     value: &Number,
-    (joints, forces): (&mut Joints<D>, &mut Forces<D>),
+    (joints, forces): (&mut Vec<ModelJoint<D>>, &mut Vec<ModelForce<D>>),
     build: &Build<D>,
 ) -> Result<Formula> {
     let reads_markers = matches!(target, Target::Component { .. });

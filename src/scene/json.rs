@@ -7,8 +7,9 @@ use serde_json::map::Entry;
 use serde_json::{Map, Number, Value};
 use std::fmt;
 
-/// Reads JSON text.
+/// Reads JSON text, which may begin with a byte order mark.
 pub fn read(text: &str) -> Result<Value> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let hint = "give long tables as files: signals as CSV, modes as npz";
     crate::files::refuse_many_values(text).map_err(|error| Error::input(error.to_string()).hint(hint))?;
     serde_json::from_str::<Strict>(text).map(|strict| strict.0).map_err(|error| explain(text, &error))

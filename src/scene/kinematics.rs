@@ -1,9 +1,9 @@
 //! Outputs that are read off markers: positions, angles and distances with their rates, of joints too.
 
 use super::format::SceneFile;
+use super::keys::{missing, named_component};
 use super::measures::{MeasureKind, OutputSpec};
-use super::model::Connection;
-use super::outputs::{missing, named_component};
+use super::model::{BeamLine, Connection, ModelForce, ModelJoint, Part};
 use crate::body::{Build, MarkerId, NamedOutput, NamedOutputs, Probe, Quantity, TurnAxes, Turned, in_space};
 use crate::error::{Error, Result, suggest};
 use crate::joint::{ClosedForm, JointCoordinate};
@@ -19,6 +19,17 @@ pub struct Placed<const D: usize> {
     pub ends: Option<[MarkerId; 2]>,
     /// The form of a joint, if it is known.
     pub form: Option<ClosedForm<D>>,
+}
+
+/// The elements of the model that outputs may read.
+#[derive(Clone, Copy)]
+pub struct Elements<'a, const D: usize> {
+    pub bodies: &'a [Part<D>],
+    pub beams: &'a [BeamLine],
+    pub joints: &'a [ModelJoint<D>],
+    pub forces: &'a [ModelForce<D>],
+    /// Joints and given forces as kinematic outputs see them.
+    pub placed: &'a [Placed<D>],
 }
 
 /// The outputs of a scene by name, with the joints and forces that are read so far.
@@ -116,8 +127,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl<const D: usize> Reader<'_, D> {
     fn of(&self) -> Result<Of<'_, D>> {
-        let name = self.spec.of.as_deref();
-        let name = name.ok_or_else(|| missing("of", "name what is measured: a body, marker, joint or force"))?;
+        let name = self.spec.subject()?;
         if let Ok(marker) = self.build.markers.find(name) {
             return Ok(Of::Marker(marker));
         }
@@ -136,19 +146,11 @@ impl<const D: usize> Reader<'_, D> {
         Err(Error::unknown("marker, joint or force", name, known).under("of"))
     }
 
-    fn reference(&self) -> Result<MarkerId> {
-        self.build.marker("relative_to", self.spec.relative_to.as_deref().unwrap_or("ground"))
-    }
-
-    fn component(&self, default: &str, known: &[&str]) -> Result<usize> {
-        named_component(self.spec.component.as_deref().unwrap_or(default), known)
-    }
-
     fn position(&self, order: usize) -> Result<Probe> {
         match self.of()? {
             Of::Marker(of) => {
-                let axis = self.component("x", &AXES[..D])?;
-                Ok(Probe::new(of, self.reference()?, Quantity::Position(axis), order))
+                let axis = self.spec.component_of("x", &AXES[..D])?;
+                Ok(Probe::new(of, self.spec.reference(self.build)?, Quantity::Position(axis), order))
             }
             Of::Element(joint) => {
                 let (Some(ClosedForm::Lock(lock)), Some([a, b])) = (&joint.form, joint.ends) else {
@@ -161,7 +163,7 @@ impl<const D: usize> Reader<'_, D> {
                 let free: Vec<usize> = lock.coordinates().into_iter().filter_map(translation).collect();
                 let names: Vec<&str> = free.iter().map(|&axis| AXES[axis]).collect();
                 let Some(first) = names.first() else { return Err(immeasurable(joint, "position")) };
-                let axis = free[self.component(first, &names)?];
+                let axis = free[self.spec.component_of(first, &names)?];
                 let along = |triad: &[[f64; D]; D]| Quantity::Along(in_space(&triad[axis]));
                 let quantity = lock.triad.as_ref().map_or(Quantity::Position(axis), along);
                 Ok(Probe::new(b, a, quantity, order))
@@ -174,9 +176,13 @@ impl<const D: usize> Reader<'_, D> {
             Of::Marker(of) => of,
             Of::Element(element) => return self.angle_of(element, order),
         };
-        let to = self.reference()?;
+        let to = self.spec.reference(self.build)?;
         self.build.oriented("of", &[of, to])?;
-        let about = if D == 2 || order == 0 { 2 + self.component("z", &["z"])? } else { self.component("z", &AXES)? };
+        let about = if D == 2 || order == 0 {
+            2 + self.spec.component_of("z", &["z"])?
+        } else {
+            self.spec.component_of("z", &AXES)?
+        };
         Ok(match (order, D) {
             (0, 2) => Probe::new(of, to, Quantity::Angle, 0),
             (0, _) => self.turn(Turned { of, to, factor: 1.0, axes: None }, None, 0),
@@ -193,24 +199,22 @@ impl<const D: usize> Reader<'_, D> {
         }
         let Some(ClosedForm::Lock(lock)) = &element.form else { return Err(none()) };
         let has = |wanted| lock.coordinates().iter().any(|(_, coordinate)| *coordinate == wanted);
-        match () {
-            _ if has(JointCoordinate::FirstPin) => {
-                let about = self.spec.component.as_deref();
-                let about = about.ok_or_else(|| missing("component", "x or y: the pin on the first or second body"))?;
-                let term = universal([a, b], named_component(about, &["x", "y"])?);
-                Ok(self.turn(term, None, order))
-            }
-            _ if has(JointCoordinate::Angle) => {
-                self.component("z", &["z"])?;
-                self.build.oriented("of", &[a, b])?;
-                let about = |triad: &[[f64; D]; D]| {
-                    let [x, y] = [in_space(&triad[0]), in_space(&triad[1])];
-                    TurnAxes { of: x, to: [x, y] }
-                };
-                Ok(self.between([a, b], (lock.triad.as_ref().map(about), None), order))
-            }
-            _ => Err(none()),
+        if has(JointCoordinate::FirstPin) {
+            let about = self.spec.component.as_deref();
+            let about = about.ok_or_else(|| missing("component", "x or y: the pin on the first or second body"))?;
+            let term = universal([a, b], named_component(about, &["x", "y"])?);
+            return Ok(self.turn(term, None, order));
         }
+        if !has(JointCoordinate::Angle) {
+            return Err(none());
+        }
+        self.spec.component_of("z", &["z"])?;
+        self.build.oriented("of", &[a, b])?;
+        let about = |triad: &[[f64; D]; D]| {
+            let [x, y] = [in_space(&triad[0]), in_space(&triad[1])];
+            TurnAxes { of: x, to: [x, y] }
+        };
+        Ok(self.between([a, b], (lock.triad.as_ref().map(about), None), order))
     }
 
     fn between(&self, [a, b]: [MarkerId; 2], (axes, spring): (Option<TurnAxes>, Option<&str>), order: usize) -> Probe {

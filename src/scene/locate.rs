@@ -7,16 +7,19 @@ use std::collections::HashMap;
 /// that exists.
 pub fn locate(text: &str, path: &str) -> (usize, usize) {
     let Ok(whole) = serde_json::from_str::<&RawValue>(text) else { return (1, 1) };
-    let found = segments(path).iter().try_fold(whole, |value, segment| part(value, segment).ok_or(value));
+    let mut segments = path.split(['.', '[']).filter(|segment| !segment.is_empty());
+    let found = segments.try_fold(whole, |value, segment| part(value, segment).ok_or(value));
     let (Ok(value) | Err(value)) = found;
     line_and_column(text, value.get().as_ptr().addr() - text.as_ptr().addr())
 }
 
-/// The part of a value, which borrows from the same text.
-fn part<'t>(value: &'t RawValue, segment: &Segment) -> Option<&'t RawValue> {
-    match segment {
-        Segment::Key(key) => serde_json::from_str::<HashMap<String, &RawValue>>(value.get()).ok()?.remove(key),
-        Segment::Index(index) => serde_json::from_str::<Vec<&RawValue>>(value.get()).ok()?.get(*index).copied(),
+/// The part of a value at a key or an index such as `2]`; it borrows from the same text.
+fn part<'t>(value: &'t RawValue, segment: &str) -> Option<&'t RawValue> {
+    match segment.strip_suffix(']') {
+        None => serde_json::from_str::<HashMap<String, &RawValue>>(value.get()).ok()?.remove(segment),
+        Some(index) => {
+            serde_json::from_str::<Vec<&RawValue>>(value.get()).ok()?.get(index.parse::<usize>().ok()?).copied()
+        }
     }
 }
 
@@ -25,24 +28,6 @@ pub fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     let before = text.get(..offset).unwrap_or(text);
     let last = before.rsplit('\n').next().unwrap_or("");
     (before.matches('\n').count() + 1, last.chars().count() + 1)
-}
-
-enum Segment {
-    Key(String),
-    Index(usize),
-}
-
-fn segments(path: &str) -> Vec<Segment> {
-    let mut segments = Vec::new();
-    for part in path.split('.') {
-        let (key, indices) = part.split_once('[').unwrap_or((part, ""));
-        if !key.is_empty() {
-            segments.push(Segment::Key(key.to_string()));
-        }
-        let numbers = indices.split(['[', ']']).filter_map(|number| number.parse().ok());
-        segments.extend(numbers.map(Segment::Index));
-    }
-    segments
 }
 
 #[cfg(test)]

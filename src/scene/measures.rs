@@ -1,7 +1,9 @@
 //! What an output of a scene may measure: its keys, and the dimensions of its values.
 
+use super::keys::{missing, named_component};
 use super::units::Dimension;
-use crate::body::Repeat;
+use crate::body::{Build, MarkerId, Repeat};
+use crate::error::Result;
 use crate::math::expression::Number;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -115,6 +117,23 @@ pub enum Side {
     First,
     /// That of the second marker.
     Second,
+}
+
+impl OutputSpec {
+    /// Name of what is measured.
+    pub fn subject(&self) -> Result<&str> {
+        self.of.as_deref().ok_or_else(|| missing("of", "name what is measured: a body, marker, joint or force"))
+    }
+
+    /// Index of its component among the `known` ones.
+    pub fn component_of(&self, default: &str, known: &[&str]) -> Result<usize> {
+        named_component(self.component.as_deref().unwrap_or(default), known)
+    }
+
+    /// Marker in whose axes, and against which, it is measured.
+    pub fn reference<const D: usize>(&self, build: &Build<D>) -> Result<MarkerId> {
+        build.marker("relative_to", self.relative_to.as_deref().unwrap_or("ground"))
+    }
 }
 
 impl MeasureKind {

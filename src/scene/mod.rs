@@ -7,28 +7,27 @@ mod absolute_beam;
 mod actions;
 mod beam_mass;
 mod beam_outputs;
-mod budget;
 mod builder;
 mod connections;
+pub(crate) mod document;
 mod elements;
 mod fingerprint;
 mod format;
 #[doc(hidden)]
 pub mod generate;
 mod gravity;
-mod include;
 mod inputs;
 mod json;
+mod keys;
 mod kinematics;
-mod locate;
+pub(crate) mod locate;
 mod markers;
 mod measures;
 mod model;
 mod names;
 mod outputs;
+mod parts;
 mod place;
-mod refine;
-mod repeat;
 mod resolve;
 mod schema;
 mod signals;
@@ -38,22 +37,22 @@ mod states;
 pub mod units;
 
 pub use builder::SceneBuilder;
+pub(crate) use document::refined;
 pub use elements::Elements;
 #[doc(hidden)]
 pub use format::Assembly;
 pub use format::{Automatic, Simulation};
-pub(crate) use include::complete;
 #[doc(hidden)]
 pub use measures::MeasureKind;
 pub use model::Model;
 #[doc(hidden)]
-pub use model::{BeamLine, Combination, Connection, EnergyPart, Input, Measure, Part, Reading, Target, Watched};
+pub use model::{
+    BeamLine, Combination, Connection, EnergyPart, Input, Measure, ModelForce, ModelJoint, Part, Target, Watched,
+};
 #[doc(hidden)]
 pub use model::{FORCE_SIZE, TORQUE_SIZE};
 #[doc(hidden)]
-pub use place::{Cut, Place};
-#[doc(hidden)]
-pub use refine::refined;
+pub use place::{Cut, Place, Reading};
 #[doc(hidden)]
 pub use start::KIND as INITIAL;
 
@@ -153,20 +152,19 @@ impl Elements {
     /// # Errors
     /// As [`Scene::parse`].
     pub fn parse_in(&self, folder: &Path, text: &str, overrides: &[(String, Number)]) -> Result<Scene> {
-        // Byte order mark.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        if text.trim().is_empty() {
+        if text.trim_start_matches('\u{feff}').trim().is_empty() {
             return Err(Error::input("the file is empty").hint("a scene is a JSON object; see `holonom schema`"));
         }
         self.resolve(folder, json::read(text)?, overrides)
     }
 
-    fn resolve(&self, folder: &Path, mut json: Value, overrides: &[(String, Number)]) -> Result<Scene> {
+    /// The scene of a document; files that it names are in `folder`.
+    pub(crate) fn resolve(&self, folder: &Path, mut json: Value, overrides: &[(String, Number)]) -> Result<Scene> {
         if !json.is_object() {
             return Err(Error::input(format!("a scene is a JSON object, found {}", crate::body::show(&json)))
                 .hint("begin with {\"name\": ..., \"dimension\": 2, ...}"));
         }
-        let origins = include::complete(&mut json, folder, overrides)?;
+        let origins = document::complete(&mut json, folder, overrides)?;
         let fingerprint = fingerprint::fingerprint(&json, folder);
         // The long lists are moved, not copied.
         let mut taken = |key: &str| json.get_mut(key).and_then(Value::as_array_mut).map(std::mem::take);

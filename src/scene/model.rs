@@ -20,9 +20,9 @@ pub struct Model<const D: usize> {
     /// Bodies in the order of the scene; each node of an absolute beam is one, and, after them, each state.
     pub bodies: Vec<Part<D>>,
     /// Joints in the order of the scene.
-    pub joints: Vec<Connection<Box<dyn Joint<D>>>>,
+    pub joints: Vec<ModelJoint<D>>,
     /// Forces of the scene, then the elements of absolute beams, then the rates of states.
-    pub forces: Vec<Connection<Box<dyn Force<D>>>>,
+    pub forces: Vec<ModelForce<D>>,
     /// Flexible beams in absolute coordinates.
     pub beams: Vec<BeamLine>,
     /// Outputs in the order of the scene.
@@ -144,6 +144,11 @@ pub struct Connection<E> {
     pub markers: Vec<MarkerId>,
 }
 
+/// A joint of a model.
+pub type ModelJoint<const D: usize> = Connection<Box<dyn Joint<D>>>;
+/// A force of a model.
+pub type ModelForce<const D: usize> = Connection<Box<dyn Force<D>>>;
+
 /// A named output.
 pub struct Watched {
     /// Name of the output: a column of the trajectory and a row of C.
@@ -251,22 +256,6 @@ pub const FORCE_SIZE: usize = 6;
 /// Component of a reaction: the size of its torque.
 pub const TORQUE_SIZE: usize = 7;
 
-/// Quantity of a section of an absolute or massless beam.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reading {
-    /// Displacement from the relaxed beam along an axis of the beam's left end, m.
-    Deflection {
-        /// Axis of the left end.
-        axis: usize,
-        /// Position of the relaxed beam along it, m.
-        rest: f64,
-    },
-    /// Sum of the elastic forces of the section times these: compliances times weights of the strains.
-    Strain([f64; 6]),
-    /// A component of force or moment.
-    Force(usize),
-}
-
 /// A quadratic function of the coordinates: sum a_i q_i + sum b_ij q_i q_j.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Combination {
@@ -369,13 +358,13 @@ impl<const D: usize> Model<D> {
     }
 
     /// The forces of the scene, without the elements of absolute beams and the rates of states.
-    pub fn given_forces(&self) -> &[Connection<Box<dyn Force<D>>>] {
+    pub fn given_forces(&self) -> &[ModelForce<D>] {
         let count = self.beams.first().map_or(self.forces.len() - self.states, |beam| beam.first_force);
         &self.forces[..count]
     }
 
     /// The rates of the states.
-    pub fn rates(&self) -> &[Connection<Box<dyn Force<D>>>] {
+    pub fn rates(&self) -> &[ModelForce<D>] {
         &self.forces[self.forces.len() - self.states..]
     }
 

@@ -1,6 +1,7 @@
 //! What names may be made of.
 
 use crate::error::{Error, Result, excerpt};
+use crate::math::expression::is_plain_name;
 
 /// The name of a scene is that of its folder of results.
 pub fn check_scene_name(name: &str) -> Result<()> {
@@ -16,9 +17,7 @@ pub fn check_scene_name(name: &str) -> Result<()> {
 
 /// Names appear in expressions and columns: a letter, then letters, digits and underscores.
 pub fn check_name(name: &str) -> Result<()> {
-    let mut characters = name.chars();
-    let starts = characters.next().is_some_and(|c| c.is_alphabetic() || c == '_');
-    if starts && characters.all(|c| c.is_alphabetic() || c.is_ascii_digit() || c == '_') {
+    if is_plain_name(name) {
         Ok(())
     } else {
         Err(Error::input(format!("`{}` cannot be a name", excerpt(name))).hint(if name.contains('{') {

@@ -1,31 +1,27 @@
 //! Outputs of a scene.
 
-use super::kinematics::Placed;
+use super::keys::{missing, taken};
+use super::kinematics::Elements;
 use super::measures::{MeasureKind, On, OutputSpec};
-use super::model::{BeamLine, Connection, EnergyPart, Measure, Part, TORQUE_SIZE, Watched};
+use super::model::{EnergyPart, Measure, TORQUE_SIZE, Watched};
+use super::names::check_name;
 use super::place::Cut;
 use super::units::{Dimension, Unit, dimension_of};
 use super::{actions, beam_outputs, kinematics};
 use crate::body::Build;
 use crate::error::{Error, Result};
-use crate::force::Force;
-use crate::joint::Joint;
 use std::collections::HashSet;
-
-pub type Joints<const D: usize> = [Connection<Box<dyn Joint<D>>>];
-pub type Forces<const D: usize> = [Connection<Box<dyn Force<D>>>];
 
 /// Refuses names of outputs that are `t`, taken or not valid: they are columns of the trajectory.
 pub fn check_names(specs: &[OutputSpec]) -> Result<()> {
     let mut known = HashSet::new();
     for (i, OutputSpec { name, .. }) in specs.iter().enumerate() {
-        let taken = |by: &str| Error::input(format!("the name `{name}` is taken{by}")).hint("give each output its own");
         let checked = match name.as_str() {
-            "t" => Err(taken(" by time")),
-            _ if !known.insert(name) => Err(taken("")),
-            _ => super::names::check_name(name),
+            "t" => Err(Error::input("the name `t` is taken by time").under("name").hint("give each output its own")),
+            _ if !known.insert(name) => Err(taken(name, "output")),
+            _ => check_name(name).map_err(|error| error.under("name")),
         };
-        checked.map_err(|error| error.under("name").under(format!("outputs[{i}]")))?;
+        checked.map_err(|error| error.under(format!("outputs[{i}]")))?;
     }
     Ok(())
 }
@@ -71,8 +67,7 @@ pub fn outputs<const D: usize>(
     for (i, spec) in specs.iter().enumerate() {
         let place = |error: Error| error.element(&spec.name).under(format!("outputs[{i}]"));
         refuse_idle_keys(spec).map_err(place)?;
-        let reader = Reader { spec, build };
-        let measure = reader.measure(elements, &mut cuts).map_err(place)?;
+        let measure = measure(spec, elements, &mut cuts, build).map_err(place)?;
         build.own("output", &spec.name);
         let unit = unit(spec, dimension(spec.measure, &measure, elements)).map_err(place)?;
         let kind = if spec.measure == MeasureKind::Work { &mut works } else { &mut all };
@@ -81,49 +76,30 @@ pub fn outputs<const D: usize>(
     Ok((all, works, cuts))
 }
 
-/// The elements of the model that outputs may read.
-#[derive(Clone, Copy)]
-pub struct Elements<'a, const D: usize> {
-    pub bodies: &'a [Part<D>],
-    pub beams: &'a [BeamLine],
-    pub joints: &'a Joints<D>,
-    pub forces: &'a Forces<D>,
-    /// Joints and given forces as kinematic outputs see them.
-    pub placed: &'a [Placed<D>],
-}
-
-struct Reader<'a, const D: usize> {
-    spec: &'a OutputSpec,
-    build: &'a Build<'a, D>,
-}
-
-impl<const D: usize> Reader<'_, D> {
-    fn measure(&self, elements: Elements<D>, cuts: &mut Vec<Cut<D>>) -> Result<Measure> {
-        if let Some(probe) = kinematics::probe(self.spec, elements.placed, self.build)? {
-            return Ok(Measure::Probe(probe));
-        }
-        match self.spec.measure {
-            MeasureKind::Reaction => actions::reaction(self.spec, self.of()?, elements, self.build),
-            MeasureKind::Force => actions::force(self.spec, self.of()?, elements, self.build),
-            MeasureKind::Power => actions::power(self.of()?, elements),
-            MeasureKind::Work => actions::work(self.of()?, elements),
-            MeasureKind::Energy => Ok(Measure::Energy(match self.spec.component.as_deref() {
-                Some("kinetic") => EnergyPart::Kinetic,
-                Some("potential") => EnergyPart::Potential,
-                None | Some("total") => EnergyPart::Total,
-                Some(other) => return Err(wrong_component(other, &["kinetic", "potential", "total"])),
-            })),
-            MeasureKind::Expression => {
-                let value = self.spec.value.as_ref();
-                let value = value.ok_or_else(|| missing("value", "give an expression over t and marker quantities"))?;
-                Ok(Measure::Formula(self.build.observing("value", value)?))
-            }
-            _ => beam_outputs::measure(self.spec, self.of()?, elements, cuts, self.build),
-        }
+fn measure<const D: usize>(
+    spec: &OutputSpec,
+    elements: Elements<D>,
+    cuts: &mut Vec<Cut<D>>,
+    build: &Build<D>,
+) -> Result<Measure> {
+    if let Some(probe) = kinematics::probe(spec, elements.placed, build)? {
+        return Ok(Measure::Probe(probe));
     }
-
-    fn of(&self) -> Result<&str> {
-        self.spec.of.as_deref().ok_or_else(|| missing("of", "name what is measured: a body, marker, joint or force"))
+    match spec.measure {
+        MeasureKind::Reaction => actions::reaction(spec, elements, build),
+        MeasureKind::Force => actions::force(spec, elements, build),
+        MeasureKind::Power => actions::power(spec.subject()?, elements),
+        MeasureKind::Work => actions::work(spec.subject()?, elements),
+        MeasureKind::Energy => {
+            let part = spec.component_of("total", &["kinetic", "potential", "total"])?;
+            Ok(Measure::Energy([EnergyPart::Kinetic, EnergyPart::Potential, EnergyPart::Total][part]))
+        }
+        MeasureKind::Expression => {
+            let value = spec.value.as_ref();
+            let value = value.ok_or_else(|| missing("value", "give an expression over t and marker quantities"))?;
+            Ok(Measure::Formula(build.observing("value", value)?))
+        }
+        _ => beam_outputs::measure(spec, elements, cuts, build),
     }
 }
 
@@ -160,23 +136,4 @@ fn unit(spec: &OutputSpec, dimension: Option<Dimension>) -> Result<Unit> {
         },
         (None, None) => Ok(Unit { name: String::new(), per_si: 1.0 }),
     }
-}
-
-pub(super) fn missing(key: &str, hint: &str) -> Error {
-    Error::input(format!("the key `{key}` is missing")).hint(hint)
-}
-
-pub(super) fn wrong_component(found: &str, known: &[&str]) -> Error {
-    Error::input(format!("there is no component `{found}`"))
-        .under("component")
-        .hint(format!("choose one of {}", known.join(", ")))
-}
-
-/// Index of a component among the `known` ones.
-pub(super) fn named_component(name: &str, known: &[&str]) -> Result<usize> {
-    known.iter().position(|known| *known == name).ok_or_else(|| wrong_component(name, known))
-}
-
-pub(super) fn find<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Result<usize> {
-    crate::error::find(what, name, known).map_err(|error| error.under("of"))
 }

@@ -1,11 +1,26 @@
 //! Places on beams that outputs watch.
 
-use super::model::Reading;
 use crate::body::flexible::{Inertia, PointShape};
 use crate::body::{Frame, Marker, MarkerId, dot, sub};
 use crate::force::{Beam, Half, Load, Station};
 use crate::math::array::from_fn;
 use crate::math::{Scalar, Taylor};
+
+/// Quantity of a section of an absolute or massless beam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reading {
+    /// Displacement from the relaxed beam along an axis of the beam's left end, m.
+    Deflection {
+        /// Axis of the left end.
+        axis: usize,
+        /// Position of the relaxed beam along it, m.
+        rest: f64,
+    },
+    /// Sum of the elastic forces of the section times these: compliances times weights of the strains.
+    Strain([f64; 6]),
+    /// A component of force or moment.
+    Force(usize),
+}
 
 /// A place on an element of an absolute beam, or on a massless one.
 pub struct Place {

@@ -30,47 +30,30 @@ fn read(spec: &SignalSpec, file: &SceneFile, folder: &Path, parameters: &Paramet
         let error = Error::input(format!("`{name}` cannot name a signal: it is the name of {what}"));
         return Err(under_name(error.hint("rename one of them")));
     }
-    let Points { points, places, field } = match (&spec.file, &spec.points) {
-        (Some(file), None) => table(folder, file, spec.columns.as_ref()).map_err(|error| error.under("file"))?,
+    let (points, lines) = match (&spec.file, &spec.points) {
+        (Some(file), None) => {
+            let table = table(folder, file, spec.columns.as_ref()).map_err(|error| error.under("file"))?;
+            (table.points, Some((file, table.lines)))
+        }
         (None, Some(_)) if spec.columns.is_some() => {
             return Err(Error::input("columns are those of a file").under("columns").hint("remove them"));
         }
-        (None, Some(points)) => given(points, parameters)?,
+        (None, Some(points)) => (given(points, parameters)?, None),
         _ => {
             return Err(Error::input("expected either a file or points")
                 .hint("give \"file\": \"road.csv\", or \"points\": [[x, y], ...]"));
         }
     };
     let signal = Signal::new(&spec.name, &points, spec.interpolation, spec.beyond);
-    signal.map_err(|problem| fault(problem, &points, &places, field))
+    let place = |i: usize| match &lines {
+        Some((file, lines)) => format!("{file}, line {}", lines[i]),
+        None => format!("points[{i}]"),
+    };
+    signal.map_err(|problem| fault(problem, &points, place, if lines.is_some() { "file" } else { "points" }))
 }
 
-/// Points with the place of each.
-struct Points {
-    points: Vec<[f64; 2]>,
-    places: Places,
-    field: &'static str,
-}
-
-/// Where points are written.
-enum Places {
-    /// In the scene.
-    Points,
-    /// In a file, each on its line.
-    Lines { file: String, lines: Vec<u64> },
-}
-
-impl Places {
-    /// The place of a point, such as `road.csv, line 7`.
-    fn at(&self, i: usize) -> String {
-        match self {
-            Places::Points => format!("points[{i}]"),
-            Places::Lines { file, lines } => format!("{file}, line {}", lines[i]),
-        }
-    }
-}
-
-fn fault(problem: PointsError, points: &[[f64; 2]], places: &Places, field: &str) -> Error {
+/// The error of points that are no signal; `place` tells where one is written, such as `road.csv, line 7`.
+fn fault(problem: PointsError, points: &[[f64; 2]], place: impl Fn(usize) -> String, field: &str) -> Error {
     match problem {
         PointsError::TooFew => {
             Error::input(format!("a signal takes at least 2 points, found {}", points.len())).under(field)
@@ -78,7 +61,7 @@ fn fault(problem: PointsError, points: &[[f64; 2]], places: &Places, field: &str
         PointsError::NotIncreasing(i) => {
             let now = points[i][0];
             let before = points[i - 1][0];
-            Error::input(format!("{}: x must increase, found {now} after {before}", places.at(i)))
+            Error::input(format!("{}: x must increase, found {now} after {before}", place(i)))
                 .under(field)
                 .hint("give each x once, in order")
         }
@@ -92,22 +75,27 @@ fn fault(problem: PointsError, points: &[[f64; 2]], places: &Places, field: &str
     }
 }
 
-fn given(points: &[[Number; 2]], parameters: &Parameters) -> Result<Points> {
-    let place = |i: usize| Places::Points.at(i);
+fn given(points: &[[Number; 2]], parameters: &Parameters) -> Result<Vec<[f64; 2]>> {
     let value = |(i, point): (usize, &[Number; 2])| {
         let number = |k: usize| {
             let value = point[k].evaluate(parameters);
-            value.map_err(|error| Error::from(error).under(format!("[{k}]")).under(place(i)))
+            value.map_err(|error| Error::from(error).under(format!("points[{i}][{k}]")))
         };
         Ok([number(0)?, number(1)?])
     };
-    let values = points.iter().enumerate().map(value).collect::<Result<_>>()?;
-    Ok(Points { points: values, places: Places::Points, field: "points" })
+    points.iter().enumerate().map(value).collect()
+}
+
+/// Two columns of a table.
+struct Table {
+    points: Vec<[f64; 2]>,
+    /// Line of each point.
+    lines: Vec<u64>,
 }
 
 /// Two columns of a table with headings: CSV with commas, semicolons, tabs or blanks. Lines that begin with # are
 /// comments; a first line without numbers has the units.
-fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Points> {
+fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Table> {
     let path = folder.join(file);
     let text = crate::files::read_text(&path).map_err(|problem| {
         let problem = super::explain(&path, &problem);
@@ -127,21 +115,19 @@ fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Poi
     let broken = |error: csv::Error| Error::input(format!("{file}: this is no table: {error}"));
     let headings: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_string).collect();
     let chosen = choose(file, &headings, columns)?;
-    let mut points = Vec::new();
-    let mut lines = Vec::new();
+    let mut table = Table { points: Vec::new(), lines: Vec::new() };
     let mut record = csv::StringRecord::new();
     while reader.read_record(&mut record).map_err(broken)? {
         let line = record.position().map_or(0, |at| line(&text, at));
         let row = Row { file, line, headings: &headings, record: &record };
-        if points.is_empty() && row.has_units() {
+        if table.points.is_empty() && row.has_units() {
             row.check_units(chosen)?;
             continue;
         }
-        points.push(row.values(chosen)?);
-        lines.push(line);
+        table.points.push(row.values(chosen)?);
+        table.lines.push(line);
     }
-    let places = Places::Lines { file: file.to_string(), lines };
-    Ok(Points { points, places, field: "file" })
+    Ok(table)
 }
 
 /// The text with a comma in the place of blanks within its lines.

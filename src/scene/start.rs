@@ -1,25 +1,24 @@
 //! The start by coordinates of joints: rows that hold them while the scene is assembled.
 
-use super::model::Connection;
+use super::model::{Connection, ModelJoint};
 use crate::body::Build;
 use crate::error::{Error, Result, excerpt, suggest};
-use crate::joint::{ClosedForm, Joint, given};
+use crate::joint::{ClosedForm, given};
 use crate::math::expression::Number;
 use std::collections::{BTreeMap, HashMap};
 
 /// `kind` of these rows.
 pub const KIND: &str = "initial";
 
-type Joints<const D: usize> = Vec<Connection<Box<dyn Joint<D>>>>;
 /// Joints by name.
-type Index<'j, const D: usize> = HashMap<&'j str, &'j Connection<Box<dyn Joint<D>>>>;
+type Index<'j, const D: usize> = HashMap<&'j str, &'j ModelJoint<D>>;
 
 /// Rows for the coordinates, and rows for the rates, that `initial` gives.
 pub fn rows<const D: usize>(
     initial: &BTreeMap<String, Number>,
-    joints: &Joints<D>,
+    joints: &[ModelJoint<D>],
     build: &Build<D>,
-) -> Result<[Joints<D>; 2]> {
+) -> Result<[Vec<ModelJoint<D>>; 2]> {
     let index: Index<D> = joints.iter().rev().map(|joint| (joint.name.as_str(), joint)).collect();
     let mut rows = [Vec::new(), Vec::new()];
     for (name, number) in initial {
@@ -35,9 +34,9 @@ pub fn rows<const D: usize>(
 fn row<const D: usize>(
     name: &str,
     number: &Number,
-    (joints, index): (&Joints<D>, &Index<D>),
+    (joints, index): (&[ModelJoint<D>], &Index<D>),
     build: &Build<D>,
-) -> Result<Connection<Box<dyn Joint<D>>>> {
+) -> Result<ModelJoint<D>> {
     let base = name.trim_end_matches('\'');
     let Some((of, coordinate)) = base.split_once('.') else {
         return Err(Error::input(format!("`{}` is no coordinate of a joint", excerpt(name)))

@@ -2,9 +2,9 @@
 
 use super::format::StateSpec;
 use super::measures::OutputSpec;
-use super::model::Connection;
+use super::model::{Connection, ModelForce};
 use super::names::check_name;
-use super::resolve::Parts;
+use super::parts::Parts;
 use crate::body::{Build, Built, State};
 use crate::error::{Error, Result};
 use crate::force::{Force, StateRate};
@@ -41,7 +41,7 @@ pub fn place<const D: usize>(
 }
 
 /// The rates of the states, which may use all of them.
-pub fn rates<const D: usize>(specs: &[StateSpec], build: &Build<D>) -> Result<Vec<Connection<Box<dyn Force<D>>>>> {
+pub fn rates<const D: usize>(specs: &[StateSpec], build: &Build<D>) -> Result<Vec<ModelForce<D>>> {
     let rate = |(i, (spec, &(_, marker))): (usize, (&StateSpec, &(String, usize)))| {
         let acting = build.acting("rate", &spec.rate, true).and_then(|rate| StateRate::new(marker, rate));
         let rate = acting.map_err(|error| error.element(&spec.name).under(format!("states[{i}]")))?;

@@ -6,27 +6,16 @@ use std::f64::consts::{PI, TAU};
 /// Physical dimension of an output, with the units known for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
-    /// rad
     Angle,
-    /// rad/s
     AngularVelocity,
-    /// rad/s^2
     AngularAcceleration,
-    /// m
     Length,
-    /// m/s
     Velocity,
-    /// m/s^2
     Acceleration,
-    /// N
     Force,
-    /// N m
     Torque,
-    /// J
     Energy,
-    /// W
     Power,
-    /// No unit.
     Strain,
 }
 

@@ -1,10 +1,10 @@
 //! The start as assembled, in the words of the scene.
 
-use super::edit::{carrier, elements, find_mut, text};
 use super::facts::{initial, placed};
 use super::source::Source;
 use crate::linearize::State;
 use crate::prepared::PreparedScene;
+use crate::scene::document::{carrier, elements, find_mut, text};
 use crate::tolerances::SAME;
 use serde_json::Value;
 

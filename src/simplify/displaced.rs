@@ -1,11 +1,11 @@
 //! Places of bodies that start elsewhere.
 
-use super::edit::{elements, text};
 use super::facts::{Facts, Placed};
 use crate::body::{dot, norm, sub};
 use crate::math::array::{Each, from_fn};
 use crate::math::rotation::{axes_from_quaternion, quaternion_from_axes, quaternion_from_vector, quaternion_product};
 use crate::math::screw::quaternion;
+use crate::scene::document::{elements, is_rigid, take, text};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
 
@@ -27,11 +27,6 @@ pub fn progress(facts: &Facts) -> Vec<f64> {
     most
 }
 
-/// True if a body is where its frame is: no other place strains it.
-pub fn is_rigid(body: &Value) -> bool {
-    ["rigid", "point_mass"].contains(&text(body, "type"))
-}
-
 /// Writes the start of a body. One in space with freedoms of its own keeps the rotation from which they count.
 pub fn start_at(body: &mut Value, place: &Placed, dimension: usize) {
     if !is_rigid(body) {
@@ -48,8 +43,7 @@ pub fn start_at(body: &mut Value, place: &Placed, dimension: usize) {
     if dimension == 2 && !is_point {
         (initial["angle"], initial["angular_velocity"]) = (json!(place.turn), json!(place.spin[2]));
     } else if !is_point && !is_guided {
-        let keys = initial.as_object_mut().into_iter();
-        keys.for_each(|keys| keys.retain(|key, _| !["z_axis", "x_axis"].contains(&key.as_str())));
+        ["z_axis", "x_axis"].iter().for_each(|key| drop(take(initial, key)));
         initial["rotation"] = json!(quaternion_from_axes(&place.axes));
         initial["angular_velocity"] = json!(place.axes.each(|axis| dot(&axis, &place.spin)));
     }

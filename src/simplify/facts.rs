@@ -1,6 +1,5 @@
 //! What one run of the full model tells about its parts.
 
-use super::edit::{carrier, text};
 use super::recorded::Recorded;
 use super::source::Source;
 use crate::body::{Energy, Frame, dot, in_space};
@@ -9,8 +8,8 @@ use crate::formulation::Dynamics;
 use crate::linearize::State;
 use crate::math::Taylor;
 use crate::math::array::{Each, from_fn};
-use crate::math::expression::Number;
 use crate::prepared::{AnyMechanism, PreparedScene};
+use crate::scene::document::{self, carrier, find, is_rigid, text};
 use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
 use serde_json::{Map, Value, json};
 
@@ -99,7 +98,7 @@ impl Facts {
 
     /// Value of a number of the scene.
     pub fn number(&self, value: &Value) -> Option<f64> {
-        serde_json::from_value::<Number>(value.clone()).ok()?.evaluate(&self.prepared.parameters).ok()
+        document::value(value, &self.prepared.parameters)
     }
 
     /// Largest kinetic energy of a body, nodes of an absolute beam taken together, relative to that of all.
@@ -133,7 +132,7 @@ impl Facts {
 
     /// The element of this name in a list of the scene.
     pub fn element(&self, list: &str, name: &str) -> Option<&Value> {
-        super::edit::elements(self.scene(), list).iter().find(|element| text(element, "name") == name)
+        find(self.scene(), list, name)
     }
 
     /// Start of a rigid body or point mass as assembled: the keys of its `initial`.
@@ -242,7 +241,7 @@ impl Facts {
 pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body: &Value) -> Option<Value> {
     let name = text(body, "name");
     let kind = text(body, "type");
-    if !["rigid", "point_mass"].contains(&kind) {
+    if !is_rigid(body) {
         return None;
     }
     let dimension = prepared.mechanism.dimension();

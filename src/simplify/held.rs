@@ -1,6 +1,6 @@
 //! What holds a body.
 
-use super::edit::{carrier, elements, mentions, pair, remove_all, remove_named, text};
+use crate::scene::document::{carrier, elements, mentions, pair, remove_all, remove_named, text};
 use serde_json::Value;
 
 /// A joint or force between a marker of a body and one of another.

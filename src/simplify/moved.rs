@@ -1,14 +1,16 @@
 //! What is moved in a motion nearby.
 
 use super::candidates::Plane;
-use super::displaced::{angle, further, is_rigid, progress, slide, start_at, wrapped};
-use super::edit::{elements, elements_mut, find_mut, mentions, pair, text};
+use super::displaced::{angle, further, progress, slide, start_at, wrapped};
 use super::facts::{Facts, Placed, placed};
 use super::source::Source;
 use crate::body::dot;
 use crate::linearize::State;
 use crate::math::array::{Each, from_fn};
 use crate::prepared::PreparedScene;
+use crate::scene::document::{
+    elements, elements_mut, find_mut, is_rigid, mentions, multiply, multiply_velocities, number, pair, take, text,
+};
 use crate::system::Scratch;
 use crate::tolerances::SAME;
 use rayon::prelude::*;
@@ -195,14 +197,15 @@ impl<'a> Movable<'a> {
         for (name, u) in self.parameters.iter().zip(&change.parameters) {
             move_parameter(&mut scene, name, *u);
         }
-        faster(&mut scene, 1.0 + change.velocities);
+        if change.velocities != 0.0 {
+            multiply_velocities(&mut scene, 1.0 + change.velocities);
+        }
         if change.inputs != 0.0 {
             self.scale_inputs(&mut scene, 1.0 + change.inputs);
         }
         for (key, change) in &change.joints {
             if let Some(value) = scene.get_mut("initial").and_then(|initial| initial.get_mut(key)) {
-                let given = value.as_str().map_or_else(|| value.to_string(), str::to_string);
-                *value = json!(format!("({given}) + {change}"));
+                *value = json!(format!("({}) + {change}", number(value)));
             }
         }
         let dimension = if scene["dimension"] == 2 { 2 } else { 3 };
@@ -238,17 +241,18 @@ impl<'a> Movable<'a> {
 
     fn scale_inputs(&self, scene: &mut Value, factor: f64) {
         for input in elements_mut(scene, "inputs") {
-            input.get_mut("value").map(|value| scale(value, factor)).unwrap_or_default();
+            input.get_mut("value").into_iter().for_each(|value| multiply(value, factor));
         }
         for signal in elements_mut(scene, "signals") {
             if let Some((_, points)) = self.points.iter().find(|(name, _)| *name == text(signal, "name"))
                 && signal.get("points").is_none()
             {
                 signal["points"] = points.clone();
-                let keys = signal.as_object_mut().into_iter();
-                keys.for_each(|keys| keys.retain(|key, _| !["file", "columns"].contains(&key.as_str())));
+                ["file", "columns"].iter().for_each(|key| drop(take(signal, key)));
             }
-            elements_mut(signal, "points").filter_map(|point| point.get_mut(1)).for_each(|value| scale(value, factor));
+            elements_mut(signal, "points")
+                .filter_map(|point| point.get_mut(1))
+                .for_each(|value| multiply(value, factor));
         }
     }
 }
@@ -271,31 +275,6 @@ fn points(facts: &Facts, signal: &Value) -> Option<(String, Value)> {
 fn move_parameter(scene: &mut Value, name: &str, u: f64) {
     let value = scene["parameters"][name].as_f64().unwrap_or(0.0);
     scene["parameters"][name] = json!(value * (1.0 + u));
-}
-
-const VELOCITIES: [&str; 3] = ["velocity", "angular_velocity", "elastic_velocity"];
-
-/// Multiplies all velocities at the start.
-fn faster(scene: &mut Value, factor: f64) {
-    if factor == 1.0 {
-        return;
-    }
-    for initial in elements_mut(scene, "bodies").filter_map(|body| body.get_mut("initial")) {
-        VELOCITIES.iter().filter_map(|key| initial.get_mut(key).map(|value| scale(value, factor))).for_each(drop);
-    }
-    let of_joints = scene.get_mut("initial").and_then(Value::as_object_mut).into_iter().flatten();
-    of_joints.filter(|(name, _)| name.ends_with('\'')).for_each(|(_, value)| scale(value, factor));
-}
-
-/// Multiplies all numbers of a value.
-fn scale(value: &mut Value, factor: f64) {
-    match value {
-        Value::Number(number) => *value = json!(factor * number.as_f64().unwrap_or(0.0)),
-        Value::String(text) => *text = format!("{factor}*({text})"),
-        Value::Array(all) => all.iter_mut().for_each(|value| scale(value, factor)),
-        Value::Object(keys) => keys.values_mut().for_each(|value| scale(value, factor)),
-        _ => {}
-    }
 }
 
 /// Numbers evenly distributed between -1 and 1 (splitmix64, Steele, Lea, Flood 2014).

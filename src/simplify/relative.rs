@@ -1,10 +1,10 @@
 //! Motions of markers against each other.
 
-use super::edit::{elements, text};
 use super::facts::{Facts, Placed};
 use crate::body::{dot, norm, sub};
 use crate::math::array::{Each, from_fn};
 use crate::math::largest;
+use crate::scene::document::{elements, text};
 
 /// Motion of a marker against another, seen from that.
 #[derive(Clone, Copy, Debug, Default)]

@@ -2,10 +2,10 @@
 
 use super::bench::mechanism;
 use super::candidates::Link;
-use super::edit::{elements, text};
 use super::facts::{Facts, Placed};
 use super::held::Tie;
 use crate::body::{norm, sub};
+use crate::scene::document::{elements, text};
 use crate::tolerances::SAME;
 use serde::Serialize;
 use serde_json::{Value, json};

@@ -1,8 +1,8 @@
 //! The full model as JSON, from which poorer ones are made.
 
-use super::edit::elements_mut;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::prepared::{Overrides, PreparedScene};
+use crate::scene::document::{complete, elements_mut, read, take};
 use crate::scene::{self, Elements};
 use crate::simulate::Method;
 use serde_json::{Value, json};
@@ -26,36 +26,32 @@ impl Source {
     /// As [`PreparedScene::load`]; no end time.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Source> {
         let prepared = PreparedScene::load(path, overrides)?;
-        let text = scene::read_text(path)?;
-        let parsed = serde_json::from_str(text.trim_start_matches('\u{feff}'));
-        let mut scene = parsed.map_err(|error| Error::file(path, error))?;
-        let folder = scene::folder(Some(path)).to_path_buf();
-        scene::complete(&mut scene, &folder, &overrides.set).map_err(|error| error.in_file(path))?;
-        let source = Source { scene, folder, elements: overrides.elements.clone() };
-        source.settled(prepared, overrides).map_err(|error| error.in_file(path))
+        let scene = read(&scene::read_text(path)?)?;
+        let folder = scene::folder(Some(path));
+        Source::settled(scene, folder, prepared, overrides).map_err(|error| error.in_file(path))
     }
 
     /// A scene that files in the current folder belong to.
     ///
     /// # Errors
     /// It is none, or has no end time.
-    pub fn new(mut scene: Value, overrides: &Overrides) -> Result<Source> {
-        scene::complete(&mut scene, Path::new(""), &overrides.set)?;
-        let source = Source { scene, folder: PathBuf::new(), elements: overrides.elements.clone() };
-        let scene = source.elements.parse_in(&source.folder, &source.scene.to_string(), &overrides.set)?;
-        source.settled(PreparedScene::new(scene, overrides)?, overrides)
+    pub fn new(scene: Value, overrides: &Overrides) -> Result<Source> {
+        let folder = Path::new("");
+        let whole = overrides.elements.resolve(folder, scene.clone(), &overrides.set)?;
+        Source::settled(scene, folder, PreparedScene::new(whole, overrides)?, overrides)
     }
 
-    fn settled(mut self, prepared: PreparedScene, overrides: &Overrides) -> Result<Source> {
+    fn settled(mut scene: Value, folder: &Path, prepared: PreparedScene, overrides: &Overrides) -> Result<Source> {
+        complete(&mut scene, folder, &overrides.set)?;
         let prepared = prepared.settled()?;
         let span = prepared.span()?;
         for (name, value) in &overrides.set {
-            self.scene["parameters"][name] = json!(value);
+            scene["parameters"][name] = json!(value);
         }
-        self.scene["simulation"]["t_end"] = json!(span.end);
-        self.scene["simulation"]["output_step"] = json!(span.output_step);
-        write_method(&mut self.scene, &prepared.method);
-        Ok(self)
+        scene["simulation"]["t_end"] = json!(span.end);
+        scene["simulation"]["output_step"] = json!(span.output_step);
+        write_method(&mut scene, &prepared.method);
+        Ok(Source { scene, folder: folder.to_path_buf(), elements: overrides.elements.clone() })
     }
 
     /// A model of it, ready to run.
@@ -63,7 +59,7 @@ impl Source {
     /// # Errors
     /// What the change has made of the scene is none, or cannot be assembled.
     pub fn prepare(&self, scene: &Value) -> Result<PreparedScene> {
-        let scene = self.elements.parse_in(&self.folder, &scene.to_string(), &[])?;
+        let scene = self.elements.resolve(&self.folder, scene.clone(), &[])?;
         PreparedScene::new(scene, &Overrides::default())
     }
 
@@ -76,9 +72,7 @@ impl Source {
                 *value = json!(whole);
             }
         };
-        if let Some(keys) = scene.as_object_mut() {
-            keys.shift_remove("$schema");
-        }
+        take(&mut scene, "$schema");
         if let Some(reference) = scene.get_mut("simulation").and_then(|simulation| simulation.get_mut("reference")) {
             place(reference);
         }
@@ -97,9 +91,9 @@ pub fn write_method(scene: &mut Value, method: &Method) {
         simulation[key] = json!(spec.to_string());
     }
     (simulation["rtol"], simulation["atol"]) = (json!(rtol), json!(atol));
-    let keys = simulation.as_object_mut().into_iter();
-    keys.for_each(|keys| keys.retain(|key, _| key != "method" && (key != "step" || step.is_some())));
-    if let Some(step) = step {
-        simulation["step"] = json!(step);
+    take(simulation, "method");
+    match step {
+        Some(step) => simulation["step"] = json!(step),
+        None => drop(take(simulation, "step")),
     }
 }

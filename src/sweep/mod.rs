@@ -38,11 +38,10 @@
 //! and nothing moves.
 
 mod branch;
-mod family;
 mod range;
 mod walk;
 
-pub use family::Family;
+pub use crate::prepared::Family;
 pub use range::Range;
 
 use crate::math::largest;

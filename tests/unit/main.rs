@@ -41,7 +41,6 @@ mod cli {
 #[path = "../../src/compare"]
 mod compare {
     mod stress {
-        mod json;
         mod ladder;
         mod period;
         mod queue;
@@ -91,18 +90,21 @@ mod report {
 
 #[path = "../../src/scene"]
 mod scene {
-    mod budget;
     mod fingerprint;
     mod json;
-    mod locate;
-    mod refine;
-    mod repeat;
+    pub mod locate;
     pub mod units;
+    mod document {
+        mod budget;
+        mod edit;
+        mod refine;
+        mod repeat;
+        mod scaled;
+    }
 }
 
 #[path = "../../src/simplify"]
 mod simplify {
-    mod edit;
     mod grid;
 }
 

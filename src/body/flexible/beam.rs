@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 /// Gauss points that integrate w'^2 exactly.
 const STRETCH_POINTS: usize = 3;
 /// Largest number of finite elements of a beam.
-const MOST_ELEMENTS: u32 = 10_000;
+pub const MOST_ELEMENTS: u32 = 10_000;
 /// Largest rotation of the line over an element of a curved beam, rad, whose axis is parallel to the chord.
 const MOST_TURN: f64 = 0.5 * PI;
 

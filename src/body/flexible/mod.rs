@@ -21,7 +21,7 @@ mod spec;
 #[cfg(test)]
 mod tests;
 
-pub use beam::elastic_beam;
+pub use beam::{MOST_ELEMENTS, elastic_beam};
 pub use gauss::{gauss_legendre, on_interval};
 pub use profile::Profile;
 pub use reference::{ReferenceLine, curvature};

@@ -63,19 +63,14 @@ impl Profile {
     /// under a constant moment.
     pub fn mean(&self, ends: [f64; 2]) -> Section {
         let Form::Tapered(laws) = &self.form else { return self.at(ends[0]) };
-        let mean = |of: &dyn Fn(&Section) -> f64| {
-            let sum: f64 = on_interval(&gauss_legendre(POINTS), ends).map(|(s, weight)| weight * of(&laws.at(s))).sum();
-            sum / (ends[1] - ends[0])
-        };
-        let inverse = |of: &dyn Fn(&Section) -> f64| 1.0 / mean(&|section| 1.0 / of(section));
-        Section {
-            ea: inverse(&|section| section.ea),
-            ga: from_fn(|i| inverse(&|section| section.ga[i])),
-            gj: inverse(&|section| section.gj),
-            ei: from_fn(|i| inverse(&|section| section.ei[i])),
-            rho_a: mean(&|section| section.rho_a),
-            rho_i: from_fn(|i| mean(&|section| section.rho_i[i])),
-        }
+        let points: Vec<([f64; 9], f64)> =
+            on_interval(&gauss_legendre(POINTS), ends).map(|(s, weight)| (laws.at(s).numbers(), weight)).collect();
+        Section::of(from_fn(|i| {
+            // Stiffness counts by its inverse.
+            let seen = |x: f64| if i < 6 { 1.0 / x } else { x };
+            let sum: f64 = points.iter().map(|(numbers, weight)| weight * seen(numbers[i])).sum();
+            seen(sum / (ends[1] - ends[0]))
+        }))
     }
 }
 
@@ -95,28 +90,17 @@ pub(super) enum Make {
     Rectangle(Matter),
     /// Radius and inner radius.
     Circle(Matter),
-    /// EA, GA along y and z, GJ, EI about y and z, rho A, rho I about y and z.
+    /// Those of [`Section::of`].
     Numbers,
 }
 
 impl Laws {
     pub fn at(&self, s: f64) -> Section {
         let value = |i: usize| self.laws[i].at(s);
-        let fill = |matter: Matter, shape| match self.dimension {
-            2 => matter.fill::<2>(&shape),
-            _ => matter.fill::<3>(&shape),
-        };
         let section = match self.make {
-            Make::Rectangle(matter) => fill(matter, Shape::rectangle(value(0), value(1))),
-            Make::Circle(matter) => fill(matter, Shape::circle(value(0), value(1))),
-            Make::Numbers => Section {
-                ea: value(0),
-                ga: [value(1), value(2)],
-                gj: value(3),
-                ei: [value(4), value(5)],
-                rho_a: value(6),
-                rho_i: [value(7), value(8)],
-            },
+            Make::Rectangle(matter) => matter.fill(&Shape::rectangle(value(0), value(1)), self.dimension),
+            Make::Circle(matter) => matter.fill(&Shape::circle(value(0), value(1)), self.dimension),
+            Make::Numbers => Section::of(from_fn(value)),
         };
         section.of_theory(self.theory)
     }
@@ -145,8 +129,6 @@ impl Laws {
 pub(super) struct Law {
     /// JSON path from the body on.
     pub path: String,
-    /// Last segment of the path.
-    pub field: String,
     pub value: Expression,
     /// True if it may be zero.
     pub may_vanish: bool,
@@ -154,11 +136,16 @@ pub(super) struct Law {
 
 impl Law {
     pub fn constant(value: f64) -> Self {
-        Law { path: String::new(), field: String::new(), value: Expression::from(value), may_vanish: true }
+        Law { path: String::new(), value: Expression::from(value), may_vanish: true }
     }
 
     fn at(&self, s: f64) -> f64 {
         self.value.eval(&[s])
+    }
+
+    /// Its path without the first key, as messages name it.
+    pub fn field(&self) -> &str {
+        self.path.split_once('.').map_or("", |(_, field)| field)
     }
 
     fn varies(&self) -> bool {
@@ -168,7 +155,7 @@ impl Law {
     /// Checks the value at `s`; constants are checked when they are read.
     fn check(&self, s: f64) -> Result<()> {
         let value = self.at(s);
-        let field = &self.field;
+        let field = self.field();
         let place = short(s);
         let error = |what: String| Err(Error::input(what).under(&self.path));
         match value {

@@ -102,12 +102,12 @@ impl<const D: usize> Reader<'_, D> {
         let matter = Matter { e, g, rho };
         match shape {
             SectionShape::Rectangle { height, width } => {
-                let height = self.positive("section", "rectangle.height", height)?;
-                Ok((Make::Rectangle(matter), vec![height, self.positive("section", "rectangle.width", width)?]))
+                let height = self.positive("section.rectangle.height", height)?;
+                Ok((Make::Rectangle(matter), vec![height, self.positive("section.rectangle.width", width)?]))
             }
             SectionShape::Circle { radius, inner_radius } => {
-                let outer = self.positive("section", "circle.radius", radius)?;
-                let inner = inner_radius.as_ref().map(|r| self.law("section", "circle.inner_radius", r, true));
+                let outer = self.positive("section.circle.radius", radius)?;
+                let inner = inner_radius.as_ref().map(|r| self.law("section.circle.inner_radius", r, true));
                 Ok((Make::Circle(matter), vec![outer, inner.unwrap_or(Ok(Law::constant(0.0)))?]))
             }
         }
@@ -133,15 +133,15 @@ impl<const D: usize> Reader<'_, D> {
         let missing = |key: &str, what: &str| {
             Error::input(format!("{what} needs `{key}`")).under("stiffness").hint(format!("give \"{key}\""))
         };
-        let ea = self.positive("stiffness", "EA", &stiffness.ea)?;
-        let ei = self.pair("stiffness", "EI", &stiffness.ei)?;
+        let ea = self.positive("stiffness.EA", &stiffness.ea)?;
+        let ei = self.pair("stiffness.EI", &stiffness.ei)?;
         let ga = match &stiffness.ga {
-            Some(ga) => self.pair("stiffness", "GA", ga)?,
+            Some(ga) => self.pair("stiffness.GA", ga)?,
             None if theory == Theory::Timoshenko => return Err(missing("GA", "a Timoshenko beam")),
             None => [f64::INFINITY; 2].map(Law::constant),
         };
         let gj = match &stiffness.gj {
-            Some(gj) => self.positive("stiffness", "GJ", gj)?,
+            Some(gj) => self.positive("stiffness.GJ", gj)?,
             None if D == 3 => return Err(missing("GJ", "a beam in space")),
             None => Law::constant(0.0),
         };
@@ -150,9 +150,9 @@ impl<const D: usize> Reader<'_, D> {
     }
 
     fn inertia(&self, inertia: &SectionInertia) -> Result<[Law; 3]> {
-        let rho_a = self.positive("inertia", "rhoA", &inertia.rho_a)?;
+        let rho_a = self.positive("inertia.rhoA", &inertia.rho_a)?;
         let [y, z] = match &inertia.rho_i {
-            Some(rho_i) => self.pair("inertia", "rhoI", rho_i)?,
+            Some(rho_i) => self.pair("inertia.rhoI", rho_i)?,
             None if D == 3 => {
                 return Err(Error::input("a beam in space turns about its own line, which needs `rhoI`")
                     .under("inertia")
@@ -164,37 +164,37 @@ impl<const D: usize> Reader<'_, D> {
     }
 
     /// Laws for two directions, [about y, about z] or [along y, along z].
-    fn pair(&self, under: &str, field: &str, numbers: &OneOrMany) -> Result<[Law; 2]> {
+    fn pair(&self, path: &str, numbers: &OneOrMany) -> Result<[Law; 2]> {
         match numbers {
-            OneOrMany::One(number) => self.positive(under, field, number).map(|law| [law.clone(), law]),
+            OneOrMany::One(number) => self.positive(path, number).map(|law| [law.clone(), law]),
             OneOrMany::Many(numbers) if D == 3 && numbers.len() == 2 => {
-                let one = |i: usize| self.positive(under, &format!("{field}[{i}]"), &numbers[i]);
+                let one = |i: usize| self.positive(&format!("{path}[{i}]"), &numbers[i]);
                 Ok([one(0)?, one(1)?])
             }
             OneOrMany::Many(numbers) => {
                 let expected = if D == 3 { "one number or two" } else { "one number" };
-                Err(Error::input(format!("expected {expected}, found {}", numbers.len())).under(field).under(under))
+                Err(Error::input(format!("expected {expected}, found {}", numbers.len())).under(path))
             }
         }
     }
 
-    fn positive(&self, under: &str, field: &str, number: &Number) -> Result<Law> {
-        self.law(under, field, number, false)
+    fn positive(&self, path: &str, number: &Number) -> Result<Law> {
+        self.law(path, number, false)
     }
 
-    fn law(&self, under: &str, field: &str, number: &Number, may_vanish: bool) -> Result<Law> {
-        let path = format!("{under}.{field}");
+    fn law(&self, path: &str, number: &Number, may_vanish: bool) -> Result<Law> {
         let names = Scope { parameters: self.build.parameters, variables: self.variables };
-        let value = number.expression(&names).map_err(|error| Error::from(error).under(&path))?;
-        if value.is_constant() {
+        let value = number.expression(&names).map_err(|error| Error::from(error).under(path))?;
+        let law = Law { path: path.to_string(), value, may_vanish };
+        if law.value.is_constant() {
             let check = if may_vanish { Build::not_negative } else { Build::positive };
-            check(self.build, field, number).map_err(|error| error.under(under))?;
+            check(self.build, law.field(), number).map_err(|error| error.at(path))?;
         } else if self.build.parameters.get("s").is_some() {
             return Err(Error::input("`s` is the place along the beam here, but a parameter has this name too")
                 .under(path)
                 .hint("rename the parameter"));
         }
-        Ok(Law { path, field: field.to_string(), value, may_vanish })
+        Ok(law)
     }
 }
 

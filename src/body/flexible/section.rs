@@ -22,18 +22,29 @@ pub struct Section {
 }
 
 impl Section {
+    /// The section of these numbers: EA, GA along y and z, GJ, EI about y and z, rho A, rho I about y and z.
+    pub(super) fn of([ea, gy, gz, gj, ey, ez, rho_a, iy, iz]: [f64; 9]) -> Self {
+        Section { ea, ga: [gy, gz], gj, ei: [ey, ez], rho_a, rho_i: [iy, iz] }
+    }
+
+    /// Its numbers in the same order.
+    pub(super) fn numbers(&self) -> [f64; 9] {
+        let Section { ea, ga, gj, ei, rho_a, rho_i } = *self;
+        [ea, ga[0], ga[1], gj, ei[0], ei[1], rho_a, rho_i[0], rho_i[1]]
+    }
+
     /// Stiffness for extension, shear along y and z, twist and bending about y and z; zero for shear that is excluded.
     pub fn stiffness(&self) -> [f64; 6] {
-        let [gy, gz] = self.ga.each(|ga| if ga.is_finite() { ga } else { 0.0 });
-        [self.ea, gy, gz, self.gj, self.ei[0], self.ei[1]]
+        let numbers = self.numbers();
+        from_fn(|i| if numbers[i].is_finite() { numbers[i] } else { 0.0 })
     }
 
     /// Compliance in the same order; zero for shear that is excluded and for components that a planar beam does not
     /// have.
     pub fn compliance<const D: usize>(&self) -> [f64; 6] {
-        let stiffness = [self.ea, self.ga[0], self.ga[1], self.gj, self.ei[0], self.ei[1]];
+        let numbers = self.numbers();
         let acts = |i: usize| D == 3 || matches!(i, 0 | 1 | 5);
-        from_fn(|i| if acts(i) { 1.0 / stiffness[i] } else { 0.0 })
+        from_fn(|i| if acts(i) { 1.0 / numbers[i] } else { 0.0 })
     }
 
     pub(super) fn of_theory(self, theory: Theory) -> Section {
@@ -53,12 +64,12 @@ pub(super) struct Matter {
 }
 
 impl Matter {
-    pub fn fill<const D: usize>(&self, shape: &Shape) -> Section {
+    pub fn fill(&self, shape: &Shape, dimension: usize) -> Section {
         let Matter { e, g, rho } = *self;
         Section {
             ea: e * shape.area,
             ga: [g * shape.area * shape.shear; 2],
-            gj: if D == 3 { g * shape.torsion } else { 0.0 },
+            gj: if dimension == 3 { g * shape.torsion } else { 0.0 },
             ei: shape.second.each(|i| e * i),
             rho_a: rho * shape.area,
             rho_i: shape.second.each(|i| rho * i),

@@ -90,18 +90,7 @@ pub(super) fn start<const D: usize>(
     names: &[String],
     build: &Build<D>,
 ) -> Result<(Vec<f64>, Vec<f64>)> {
-    let (position, velocity) = initial.translation::<D>(build)?;
-    let mut q = position.to_vec();
-    let mut v = velocity.to_vec();
-    if D == 2 {
-        let (angle, spin) = initial.planar(build)?;
-        q.push(angle);
-        v.push(spin);
-    } else {
-        let (quaternion, spin) = initial.spatial(build)?;
-        q.extend(quaternion);
-        v.extend(spin);
-    }
+    let (mut q, mut v) = initial.motion(build)?;
     q.extend(elastic("initial.elastic", &initial.elastic, names, build)?);
     v.extend(elastic("initial.elastic_velocity", &initial.elastic_velocity, names, build)?);
     Ok((q, v))

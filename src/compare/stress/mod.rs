@@ -11,7 +11,6 @@ mod cell;
 mod change;
 mod deadline;
 mod gains;
-mod json;
 mod ladder;
 mod map;
 mod maps;

@@ -1,11 +1,11 @@
 //! The stress parameters: quantities that a map can vary over many powers of ten.
 
-use super::json::{elements, faster, has, multiply, replace};
 use super::ladder::{decades, sequence};
 use super::subject::Case;
 use super::subject::Subject;
 use crate::error::{Error, Result};
 use crate::method_spec::MethodSpec;
+use crate::scene::document::{elements, elements_mut, faster, has_velocities, multiply, multiply_velocities, text};
 use crate::scene::generate;
 use serde_json::Value;
 use std::sync::Arc;
@@ -93,7 +93,7 @@ pub fn registry() -> &'static [StressParameter] {
             unit: "",
             about: "factor on mass and inertia of the last body",
             keeps_motion: false,
-            suits: |subject| has(&subject.base.scene, "bodies", &["mass"]),
+            suits: |subject| has(&subject.base.scene, "bodies", "mass"),
             values: |_| decades(-8, 8, 2),
             apply: |case, factor| scale(Arc::make_mut(&mut case.scene), factor),
         },
@@ -102,7 +102,7 @@ pub fn registry() -> &'static [StressParameter] {
             unit: "N/m",
             about: "stiffness of all springs (N/m, N m/rad), bushings and tyres",
             keeps_motion: false,
-            suits: |subject| has(&subject.base.scene, "forces", &["stiffness"]),
+            suits: |subject| has(&subject.base.scene, "forces", "stiffness"),
             values: |_| decades(-2, 12, 2),
             apply: |case, value| set(Arc::make_mut(&mut case.scene), "stiffness", value),
         },
@@ -111,7 +111,7 @@ pub fn registry() -> &'static [StressParameter] {
             unit: "N s/m",
             about: "damping of all springs (N s/m, N m s/rad), bushings and tyres",
             keeps_motion: false,
-            suits: |subject| has(&subject.base.scene, "forces", &["damping"]),
+            suits: |subject| has(&subject.base.scene, "forces", "damping"),
             values: |_| decades(-2, 12, 2),
             apply: |case, value| set(Arc::make_mut(&mut case.scene), "damping", value),
         },
@@ -241,8 +241,13 @@ fn kind(scene: &Value) -> Result<fn(usize) -> Value> {
     found.map(|(_, make)| *make).ok_or_else(|| Error::input(format!("`{name}` is no generated scene")))
 }
 
+/// True if some element of a list has this key.
+fn has(scene: &Value, list: &str, key: &str) -> bool {
+    elements(scene, list).iter().any(|element| element.get(key).is_some())
+}
+
 fn scale(scene: &mut Value, factor: f64) -> Result<()> {
-    let body = elements(scene, "bodies").filter(|body| body.get("mass").is_some()).last();
+    let body = elements_mut(scene, "bodies").filter(|body| body.get("mass").is_some()).last();
     let body = body.ok_or_else(|| Error::input("no body of the scene has a mass to change"))?;
     for key in ["mass", "inertia"] {
         body.get_mut(key).into_iter().for_each(|value| multiply(value, factor));
@@ -252,48 +257,34 @@ fn scale(scene: &mut Value, factor: f64) -> Result<()> {
 
 /// Sets this coefficient of every force that has it.
 fn set(scene: &mut Value, key: &str, value: f64) -> Result<()> {
-    let mut found = false;
-    for coefficient in elements(scene, "forces").filter_map(|force| force.get_mut(key)) {
-        replace(coefficient, value);
-        found = true;
+    if !has(scene, "forces", key) {
+        return Err(Error::input(format!("no force of the scene has a {key} to change")));
     }
-    if found { Ok(()) } else { Err(Error::input(format!("no force of the scene has a {key} to change"))) }
+    elements_mut(scene, "forces").filter_map(|force| force.get_mut(key)).for_each(|number| replace(number, value));
+    Ok(())
 }
 
-const VELOCITIES: [&str; 3] = ["velocity", "angular_velocity", "elastic_velocity"];
-const DRIVEN: [&str; 2] = ["driver", "equation"];
+/// Replaces a number or an expression, or each of a list of them that is not zero.
+fn replace(value: &mut Value, by: f64) {
+    match value {
+        Value::Array(entries) => {
+            entries.iter_mut().filter(|entry| entry.as_f64() != Some(0.0)).for_each(|entry| replace(entry, by))
+        }
+        _ => *value = Value::from(by),
+    }
+}
+
+fn is_driven(joint: &Value) -> bool {
+    ["driver", "equation"].contains(&text(joint, "type"))
+}
 
 fn moves(scene: &Value) -> bool {
-    let bodies = scene.get("bodies").and_then(Value::as_array).into_iter().flatten();
-    let starts = bodies.filter_map(|body| body.get("initial"));
-    let joints = scene.get("joints").and_then(Value::as_array).into_iter().flatten();
-    let mut kinds = joints.filter_map(|joint| joint.get("type")?.as_str());
-    starts.into_iter().any(|start| VELOCITIES.iter().any(|key| start.get(key).is_some()))
-        || scene.get("initial").and_then(Value::as_object).is_some_and(|given| given.keys().any(|key| is_rate(key)))
-        || has(scene, "bodies", &["motion"])
-        || kinds.any(|kind| DRIVEN.contains(&kind))
-}
-
-/// True for the rate of a joint coordinate at the start.
-fn is_rate(key: &str) -> bool {
-    key.ends_with('\'')
+    has_velocities(scene) || has(scene, "bodies", "motion") || elements(scene, "joints").iter().any(is_driven)
 }
 
 fn quicken(scene: &mut Value, factor: f64) {
-    let given = scene.get_mut("initial").and_then(Value::as_object_mut);
-    given.into_iter().flatten().filter(|(key, _)| is_rate(key)).for_each(|(_, value)| multiply(value, factor));
-    for start in elements(scene, "bodies").filter_map(|body| body.get_mut("initial")) {
-        for key in VELOCITIES {
-            match start.get_mut(key) {
-                Some(Value::Object(map)) => map.values_mut().for_each(|value| multiply(value, factor)),
-                Some(value) => multiply(value, factor),
-                None => {}
-            }
-        }
-    }
-    let is_driven =
-        |joint: &&mut Value| joint.get("type").and_then(Value::as_str).is_some_and(|kind| DRIVEN.contains(&kind));
-    for joint in elements(scene, "joints").filter(is_driven) {
+    multiply_velocities(scene, factor);
+    for joint in elements_mut(scene, "joints").filter(|joint| is_driven(joint)) {
         for key in ["value", "expression"] {
             joint.get_mut(key).into_iter().for_each(|value| faster(value, factor));
         }

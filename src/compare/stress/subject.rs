@@ -82,10 +82,8 @@ impl Subject<'static> {
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Self> {
         let prepared = PreparedScene::load(path, overrides)?.settled()?;
         let span = prepared.span().map_err(|error| error.in_file(path))?;
-        let text = scene::read_text(path)?;
-        let json = serde_json::from_str(text.trim_start_matches('\u{feff}')).unwrap_or(Value::Null);
         let base = Case {
-            scene: Arc::new(json),
+            scene: Arc::new(scene::document::read(&scene::read_text(path)?)?),
             set: overrides
                 .set
                 .iter()
@@ -164,7 +162,7 @@ impl<'a> Subject<'a> {
             return moved(own.system, own.start, &own.q, &own.v);
         }
         let set: Vec<(String, Number)> = case.set.iter().map(|(name, value)| (name.clone(), (*value).into())).collect();
-        let scene = self.elements.parse_in(&self.folder, &case.scene.to_string(), &set)?;
+        let scene = self.elements.resolve(&self.folder, Value::clone(&case.scene), &set)?;
         let span = span(scene.start_time()?);
         let method = &case.method;
         let overrides = Overrides {

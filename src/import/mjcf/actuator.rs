@@ -1,19 +1,15 @@
 //! Actuators: motors become inputs; inertia and damping of any are those of its joint.
 
-use super::Reader;
-use super::element::Element;
-use crate::error::{Error, Result};
+use super::{Reader, named};
+use crate::error::Result;
 use crate::import::robot::Motor;
-use crate::import::xml::all;
-use roxmltree::Node;
+use crate::import::xml::Element;
 use std::collections::HashMap;
 
 impl<'a, 'i> Reader<'a, 'i> {
     pub fn actuators(&mut self, joints: &HashMap<String, usize>) -> Result<()> {
-        let nodes = all(self.root, "actuator").flat_map(|section| section.children()).filter(Node::is_element);
-        for (number, node) in nodes.enumerate() {
+        for (node, name) in named(self.root, "actuator") {
             let tag = node.tag_name().name();
-            let name = node.attribute("name").map_or_else(|| format!("{tag}_{}", number + 1), str::to_string);
             let Some(joint) = node.attribute("joint").or(node.attribute("jointinparent")) else {
                 self.told.add(format!("actuators of the type {tag}:"), &name);
                 continue;
@@ -40,17 +36,16 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     /// Inertia and damping of an actuator at the joint behind its gear: both times the square of the ratio.
     fn reflect(&mut self, element: &Element, joint: usize) -> Result<()> {
-        let ratio = element.list("gear")?.first().copied().unwrap_or(1.0);
-        let first = |key: &str| Ok::<f64, Error>(element.list(key)?.first().copied().unwrap_or(0.0));
-        let armature = first("armature")?;
-        let damping = first("damping")?;
+        let ratio = element.first_or("gear", 1.0)?;
+        let armature = element.first_or("armature", 0.0)?;
+        let damping = element.first_or("damping", 0.0)?;
         self.robot.joints[joint].armature += ratio * ratio * armature;
         self.robot.joints[joint].damping += ratio * ratio * damping;
         Ok(())
     }
 
     fn tell_motor(&mut self, element: &Element, name: &str) -> Result<()> {
-        let gear = element.list("gear")?.first().copied().unwrap_or(1.0);
+        let gear = element.first_or("gear", 1.0)?;
         self.told.add_if(gear != 1.0, "gear of the motors, whose inputs are gear times the control in N m or N:", name);
         let is_bounded = element.has("ctrlrange")? || element.has("forcerange")?;
         self.told.add_if(is_bounded, "bounds of the motors", name);

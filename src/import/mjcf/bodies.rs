@@ -1,11 +1,10 @@
 //! The tree of bodies.
 
 use super::Reader;
-use super::element::Element;
 use crate::error::{Error, Result};
 use crate::import::robot::{Joint, Kind, Link};
 use crate::import::transform::Transform;
-use crate::import::xml::{all, place};
+use crate::import::xml::{Element, all, place, texts};
 use roxmltree::Node;
 
 /// An element of a body, in a frame of it.
@@ -81,16 +80,12 @@ impl<'a, 'i> Reader<'a, 'i> {
         let pose = body.frame.then(&self.settings.place(&element)?);
         let class = node.attribute("childclass").or(body.class);
         let parts = self.contents(node, Transform::default(), class)?;
-        self.robot.links.push(self.link(node, name.clone(), false));
-        self.robot.links[link].meshes = meshes(&parts);
+        let geoms = parts.iter().filter(|part| part.node.has_tag_name("geom")).map(|part| part.node);
+        self.robot.links.push(Link { meshes: texts(geoms, "mesh"), ..Link::new(name.clone(), node) });
         self.robot.links[link].mass = self.mass(&parts, &name).map_err(|error| error.element(&name))?;
         self.hold(&parts, [parent, link], pose).map_err(|error| error.element(&name))?;
         self.sites(&parts, link)?;
         Ok(self.children(parts, link))
-    }
-
-    fn link(&self, node: Node, name: String, is_between: bool) -> Link {
-        Link { name, at: node.range().start, mass: None, markers: Vec::new(), meshes: Vec::new(), is_between }
     }
 
     /// Adds the joints of a body, each between two links in a row; between the first and the last one are links without
@@ -110,8 +105,8 @@ impl<'a, 'i> Reader<'a, 'i> {
             let mut to = link;
             if number + 1 < joints.len() {
                 to = self.robot.links.len();
-                let between = self.link(part.node, format!("{name}_{}", number + 1), true);
-                self.robot.links.push(between);
+                let between = Link::new(format!("{name}_{}", number + 1), part.node);
+                self.robot.links.push(Link { is_between: true, ..between });
             }
             let joint = self.joint(part, &name, [from, to], origin)?;
             self.robot.joints.push(joint);
@@ -136,11 +131,4 @@ impl<'a, 'i> Reader<'a, 'i> {
 
 fn is_joint(node: Node) -> bool {
     node.has_tag_name("joint") || node.has_tag_name("freejoint")
-}
-
-fn meshes(parts: &[Placed]) -> Vec<String> {
-    let geoms = parts.iter().filter(|part| part.node.has_tag_name("geom"));
-    let mut meshes: Vec<String> = geoms.filter_map(|geom| geom.node.attribute("mesh").map(str::to_string)).collect();
-    meshes.dedup();
-    meshes
 }

@@ -1,29 +1,26 @@
 //! Equalities: constraints that close loops and couple joints.
 
-use super::Reader;
-use super::element::Element;
+use super::{Reader, named};
 use crate::error::{Error, Result, suggest};
 use crate::import::robot::{Coupling, Loop};
 use crate::import::transform::Transform;
-use crate::import::xml::{all, attribute, faulty, place};
+use crate::import::xml::{Element, attribute, faulty, place};
 use crate::math::array::Each;
 use roxmltree::Node;
 use std::collections::HashMap;
 
 impl<'a, 'i> Reader<'a, 'i> {
     pub fn equalities(&mut self, joints: &HashMap<String, usize>) -> Result<()> {
-        let nodes = all(self.root, "equality").flat_map(|section| section.children()).filter(Node::is_element);
-        for (number, node) in nodes.enumerate() {
+        for (node, name) in named(self.root, "equality") {
             let tag = node.tag_name().name();
-            let name = node.attribute("name").map_or_else(|| format!("{tag}_{}", number + 1), str::to_string);
             let element = self.classes.element(node, &["equality"], None)?;
             if element.is("active", "false") {
                 self.told.add("equalities that are not active:", &name);
                 continue;
             }
             match tag {
-                "connect" => self.connect(&element, &name)?,
-                "weld" => self.weld(&element, &name)?,
+                "connect" => self.close(&element, &name, "spherical", connected)?,
+                "weld" => self.close(&element, &name, "weld", welded)?,
                 "joint" => self.couple(node, &name, joints)?,
                 _ => {
                     self.told.add(format!("equalities of the type {tag}:"), &name);
@@ -35,35 +32,17 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(())
     }
 
-    /// A point of two bodies, or the origins of two sites.
-    fn connect(&mut self, element: &Element, name: &str) -> Result<()> {
-        if let Some(closed) = self.between_sites(element.node, name, "spherical")? {
-            self.robot.loops.push(closed);
-            return Ok(());
-        }
-        let anchor = element.numbers("anchor")?.ok_or_else(|| faulty(element.node, "<connect> has no `anchor`"))?;
-        let frames = [Some(Transform { r: anchor, ..Transform::default() }), None];
-        let links = self.two_bodies(element.node)?;
-        self.robot.loops.push(Loop { name: name.to_string(), kind: "spherical", links, frames });
-        Ok(())
-    }
-
-    /// The second body at `relpose` in the first one, or where it is in the file; or two sites.
-    fn weld(&mut self, element: &Element, name: &str) -> Result<()> {
-        if let Some(closed) = self.between_sites(element.node, name, "weld")? {
-            self.robot.loops.push(closed);
-            return Ok(());
-        }
-        let [x, y, z, turn @ ..] = element.numbers::<7>("relpose")?.unwrap_or_default();
-        let size = turn.iter().map(|x| x * x).sum::<f64>().sqrt();
-        // A quaternion of zeros stands for the pose in the file.
-        let frames = if size > 0.0 {
-            [Some(Transform { r: [x, y, z], turn: turn.each(|x| x / size) }), Some(Transform::default())]
+    /// A joint between two sites, or where `frames` says on two bodies.
+    fn close(&mut self, element: &Element, name: &str, kind: &'static str, frames: Frames) -> Result<()> {
+        let node = element.node;
+        let (links, frames) = if node.has_attribute("site1") {
+            let [(a, at_a), (b, at_b)] = [self.site(node, "site1")?, self.site(node, "site2")?];
+            ([a, b], [Some(at_a), Some(at_b)])
         } else {
-            [Some(Transform::default()), None]
+            let frames = frames(element)?;
+            (self.two_bodies(node)?, frames)
         };
-        let links = self.two_bodies(element.node)?;
-        self.robot.loops.push(Loop { name: name.to_string(), kind: "weld", links, frames });
+        self.robot.loops.push(Loop { name: name.to_string(), kind, links, frames });
         Ok(())
     }
 
@@ -77,19 +56,14 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok([find(attribute(node, "body1")?)?, find(node.attribute("body2").unwrap_or("world"))?])
     }
 
-    fn between_sites(&self, node: Node, name: &str, kind: &'static str) -> Result<Option<Loop>> {
-        if node.attribute("site1").is_none() {
-            return Ok(None);
-        }
-        let find = |key: &str| {
-            let name = attribute(node, key)?;
-            let found = self.sites.get(name).copied();
+    /// Link and frame of the site that an attribute names.
+    fn site(&self, node: Node, key: &str) -> Result<(usize, Transform)> {
+        let name = attribute(node, key)?;
+        self.sites.get(name).copied().ok_or_else(|| {
             let mut known: Vec<&str> = self.sites.keys().map(String::as_str).collect();
             known.sort_unstable();
-            found.ok_or_else(|| Error::unknown("site", name, known).placed(place(node)))
-        };
-        let [(a, at_a), (b, at_b)] = [find("site1")?, find("site2")?];
-        Ok(Some(Loop { name: name.to_string(), kind, links: [a, b], frames: [Some(at_a), Some(at_b)] }))
+            Error::unknown("site", name, known).placed(place(node))
+        })
     }
 
     /// q1 - q1_0 = a0 + a1 (q2 - q2_0) + ... + a4 (q2 - q2_0)^4; a0 alone without a second joint.
@@ -120,4 +94,24 @@ impl<'a, 'i> Reader<'a, 'i> {
             Err(faulty(node, format!("`{name}` has no coordinate")).hint("name a hinge or a slide"))
         }
     }
+}
+
+/// Reads the frames of a [`Loop`] on two bodies.
+type Frames = fn(&Element) -> Result<[Option<Transform>; 2]>;
+
+fn connected(element: &Element) -> Result<[Option<Transform>; 2]> {
+    let anchor = element.numbers("anchor")?.ok_or_else(|| faulty(element.node, "<connect> has no `anchor`"))?;
+    Ok([Some(Transform { r: anchor, ..Transform::default() }), None])
+}
+
+/// The second body at `relpose` in the first one, or where it is in the file.
+fn welded(element: &Element) -> Result<[Option<Transform>; 2]> {
+    let [x, y, z, turn @ ..] = element.numbers::<7>("relpose")?.unwrap_or_default();
+    let size = turn.iter().map(|x| x * x).sum::<f64>().sqrt();
+    // A quaternion of zeros stands for the pose in the file.
+    Ok(if size > 0.0 {
+        [Some(Transform { r: [x, y, z], turn: turn.each(|x| x / size) }), Some(Transform::default())]
+    } else {
+        [Some(Transform::default()), None]
+    })
 }

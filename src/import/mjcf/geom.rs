@@ -1,12 +1,11 @@
 //! Mass properties of geoms.
 
-use super::element::Element;
 use super::place::from_z_to;
 use super::settings::Settings;
 use crate::body::{MassProperties, norm, sub};
 use crate::error::{Result, excerpt};
 use crate::import::transform::Transform;
-use crate::import::xml::faulty;
+use crate::import::xml::{Element, faulty};
 use crate::math::array::{Each, from_fn};
 use std::f64::consts::PI;
 
@@ -23,7 +22,7 @@ struct Solid {
 pub fn mass(element: &Element, settings: &Settings) -> Result<Option<MassProperties>> {
     let kind = element.text("type").unwrap_or("sphere");
     let given = element.number("mass")?;
-    let density = element.number("density")?.unwrap_or(WATER);
+    let density = element.number_or("density", WATER)?;
     let has_none = given.map_or(density == 0.0, |mass| mass == 0.0) || ["plane", "hfield"].contains(&kind);
     if !has_none && (["mesh", "sdf"].contains(&kind) || element.text("mesh").is_some()) {
         return Ok(None);

@@ -2,11 +2,10 @@
 
 use super::Reader;
 use super::bodies::Placed;
-use super::element::Element;
 use super::geom;
 use crate::body::MassProperties;
 use crate::error::{Result, short};
-use crate::import::xml::faulty;
+use crate::import::xml::{Element, faulty};
 
 impl<'a, 'i> Reader<'a, 'i> {
     /// Mass properties of a body from its origin, in its axes.
@@ -24,15 +23,14 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     fn inertial(&self, part: &Placed<'a, 'i>) -> Result<MassProperties> {
         let element = Element::plain(part.node);
-        let missing = |key: &str| faulty(part.node, format!("<inertial> has no `{key}`"));
-        let mass = element.number("mass")?.ok_or_else(|| missing("mass"))?;
+        let mass = element.needed("mass")?;
         if mass < 0.0 {
             return Err(faulty(part.node, format!("the mass is {}, but cannot be negative", short(mass))));
         }
         let [xx, yy, zz, xy, xz, yz] = match (element.numbers::<6>("fullinertia")?, element.numbers("diaginertia")?) {
             (Some(full), _) => full,
             (None, Some([x, y, z])) => [x, y, z, 0.0, 0.0, 0.0],
-            (None, None) => return Err(missing("diaginertia")),
+            (None, None) => return Err(faulty(part.node, "<inertial> has no `diaginertia`")),
         };
         let inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         let frame = part.frame.then(&self.settings.place(&element)?);
@@ -43,7 +41,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         let mut parts = Vec::new();
         for part in geoms {
             let element = self.classes.element(part.node, &["geom"], part.class)?;
-            let group = element.number("group")?.unwrap_or(0.0);
+            let group = element.number_or("group", 0.0)?;
             if group < self.settings.groups[0] || group > self.settings.groups[1] {
                 continue;
             }

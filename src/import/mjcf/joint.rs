@@ -2,11 +2,10 @@
 
 use super::Reader;
 use super::bodies::Placed;
-use super::element::Element;
-use crate::error::{Error, Result, excerpt, suggest};
+use crate::error::{Error, Result, excerpt};
 use crate::import::robot::{Joint, Kind};
 use crate::import::transform::Transform;
-use crate::import::xml::{faulty, place};
+use crate::import::xml::{Element, place};
 
 const KINDS: [(&str, Kind); 4] =
     [("hinge", Kind::Revolute), ("slide", Kind::Prismatic), ("ball", Kind::Spherical), ("free", Kind::Floating)];
@@ -18,7 +17,8 @@ impl<'a, 'i> Reader<'a, 'i> {
         let is_free = node.has_tag_name("freejoint");
         let element =
             if is_free { Element::plain(node) } else { self.classes.element(node, &["joint"], part.class)? };
-        let kind = kind(&element, is_free)?;
+        let found = if is_free { "free" } else { element.text("type").unwrap_or("hinge") };
+        let kind = Kind::find(node, found, &KINDS)?;
         let name = node.attribute("name").map_or_else(|| format!("{body}_joint"), str::to_string);
         if kind == Kind::Floating && ends[0] != 0 {
             return Err(Error::input(format!("the free joint `{}` is not in a body of the world", excerpt(&name)))
@@ -29,10 +29,10 @@ impl<'a, 'i> Reader<'a, 'i> {
         let mut joint = Joint::new(name.clone(), node.range().start, kind, ends, origin);
         let point = Transform { r: element.numbers("pos")?.unwrap_or_default(), ..Transform::default() };
         joint.anchor = part.frame.then(&point).r;
-        joint.axis = part.frame.rotated(&element.numbers("axis")?.unwrap_or([0.0, 0.0, 1.0]));
-        joint.reference = unit * element.number("ref")?.unwrap_or(0.0);
-        joint.relaxed = unit * element.number("springref")?.unwrap_or(0.0);
-        joint.armature = element.number("armature")?.unwrap_or(0.0);
+        joint.axis = part.frame.rotated(&element.numbers_or("axis", [0.0, 0.0, 1.0])?);
+        joint.reference = unit * element.number_or("ref", 0.0)?;
+        joint.relaxed = unit * element.number_or("springref", 0.0)?;
+        joint.armature = element.number_or("armature", 0.0)?;
         joint.stiffness = self.linear(&element, "stiffness", &name)?;
         joint.damping = self.linear(&element, "damping", &name)?;
         Ok(joint)
@@ -54,13 +54,4 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.told.add_if(element.has("actuatorfrcrange")?, "bounds of the actuator forces at the joints", name);
         Ok(())
     }
-}
-
-fn kind(element: &Element, is_free: bool) -> Result<Kind> {
-    let found = if is_free { "free" } else { element.text("type").unwrap_or("hinge") };
-    let known = KINDS.iter().find(|(known, _)| *known == found);
-    known.map(|(_, kind)| *kind).ok_or_else(|| {
-        faulty(element.node, format!("there is no joint of type `{}`", excerpt(found)))
-            .hint(suggest(found, KINDS.iter().map(|(name, _)| *name)))
-    })
 }

@@ -5,26 +5,25 @@
 
 mod actuator;
 mod bodies;
-mod element;
+mod classes;
 mod equality;
 mod geom;
 mod inertia;
 mod joint;
 mod place;
 mod settings;
-mod told;
 
 pub use super::{Closure, Given, Imported, Options};
 
 use super::robot::{Link, Robot};
+use super::told::Told;
 use super::transform::Transform;
-use super::xml::{faulty, unused};
+use super::xml::{all, faulty, unused};
 use crate::error::{Error, Result, short_list};
-use element::Classes;
+use classes::Classes;
 use roxmltree::Node;
 use settings::Settings;
 use std::collections::HashMap;
-use told::Told;
 
 /// The scene of an MJCF text.
 ///
@@ -48,12 +47,13 @@ struct Reader<'a, 'i> {
     told: Told,
 }
 
-/// Reads a model.
 pub(super) fn read<'i>(root: Node<'_, 'i>, options: &Options) -> Result<Robot<'i>> {
     refuse(root, options)?;
     let mut told = Told::default();
     let settings = Settings::read(root, &mut told)?;
-    let robot = empty(root, settings.gravity);
+    let mut robot = Robot::new(root, "MJCF", root.attribute("model").unwrap_or("model"));
+    robot.gravity = settings.gravity;
+    robot.links.push(Link::new("world".to_string(), root));
     let bodies = HashMap::new();
     let sites = HashMap::new();
     let mut reader = Reader { root, classes: Classes::read(root), settings, robot, bodies, sites, told };
@@ -86,25 +86,11 @@ fn refuse(root: Node, options: &Options) -> Result<()> {
     }
 }
 
-fn empty<'i>(root: Node<'_, 'i>, gravity: [f64; 3]) -> Robot<'i> {
-    let world = Link {
-        name: "world".to_string(),
-        at: root.range().start,
-        mass: None,
-        markers: Vec::new(),
-        meshes: Vec::new(),
-        is_between: false,
-    };
-    Robot {
-        text: root.document().input_text(),
-        format: "MJCF",
-        name: root.attribute("model").unwrap_or("model").to_string(),
-        gravity,
-        links: vec![world],
-        joints: Vec::new(),
-        couplings: Vec::new(),
-        loops: Vec::new(),
-        motors: Vec::new(),
-        left_out: Vec::new(),
-    }
+/// The elements in the sections of this tag, with their names, or their tags with a number.
+fn named<'a, 'i>(root: Node<'a, 'i>, section: &'static str) -> impl Iterator<Item = (Node<'a, 'i>, String)> {
+    let nodes = all(root, section).flat_map(|section| section.children()).filter(Node::is_element);
+    nodes.enumerate().map(|(number, node)| {
+        let unnamed = || format!("{}_{}", node.tag_name().name(), number + 1);
+        (node, node.attribute("name").map_or_else(unnamed, str::to_string))
+    })
 }

@@ -1,11 +1,10 @@
 //! Places of frames: `pos` with one of `quat`, `axisangle`, `xyaxes`, `zaxis` and `euler`.
 
-use super::element::Element;
 use super::settings::Settings;
 use crate::body::{aim, cross, norm};
 use crate::error::Result;
 use crate::import::transform::{Transform, UNTURNED, about};
-use crate::import::xml::{faulty, place as place_of_node};
+use crate::import::xml::{Element, faulty, place as place_of_node};
 use crate::math::array::Each;
 use crate::math::rotation::{quaternion_from_axes, quaternion_from_vector, quaternion_product};
 

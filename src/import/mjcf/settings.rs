@@ -1,8 +1,8 @@
 //! Settings of a whole model: `<compiler>` and `<option>`.
 
-use super::told::Told;
 use crate::error::{Result, excerpt};
-use crate::import::xml::{all, exactly, faulty, list, parsed};
+use crate::import::told::Told;
+use crate::import::xml::{Element, all, faulty, list};
 use roxmltree::Node;
 
 pub struct Settings {
@@ -25,38 +25,28 @@ const OPTIONS: [&str; 4] = ["density", "viscosity", "wind", "magnetic"];
 
 impl Settings {
     pub fn read(root: Node, told: &mut Told) -> Result<Settings> {
-        let compiler = |key: &'static str| last(root, "compiler", key);
-        if let Some((node, "global")) = compiler("coordinate") {
+        let compiler = Element::merged(root, "compiler");
+        if let Some((node, "global")) = compiler.found("coordinate") {
             return Err(faulty(node, "global coordinates are no part of the format any more")
                 .hint("save the model with local coordinates"));
         }
-        tell_bounds(root, told)?;
+        tell_bounds(&compiler, told)?;
         tell_options(root, told)?;
-        let total_mass = compiler("settotalmass").map(|(node, text)| parsed(node, "settotalmass", text)).transpose()?;
-        let from_geoms = compiler("inertiafromgeom").and_then(|(_, text)| text.parse().ok());
-        let groups = numbers(root, "compiler", "inertiagrouprange")?;
+        let total_mass = compiler.number("settotalmass")?;
+        let groups = compiler.numbers_or("inertiagrouprange", [0.0, 5.0])?;
         Ok(Settings {
-            unit: if compiler("angle").is_some_and(|(_, text)| text == "radian") { 1.0 } else { 1f64.to_radians() },
-            euler: euler(root)?,
-            from_geoms,
-            groups: groups.unwrap_or([0.0, 5.0]),
+            unit: if compiler.is("angle", "radian") { 1.0 } else { 1f64.to_radians() },
+            euler: euler(&compiler)?,
+            from_geoms: compiler.text("inertiafromgeom").and_then(|text| text.parse().ok()),
+            groups,
             total_mass: total_mass.filter(|mass| *mass > 0.0),
             gravity: gravity(root)?,
         })
     }
 }
 
-/// An attribute of the last element of this tag that has it.
-fn last<'a, 'i>(root: Node<'a, 'i>, tag: &'static str, key: &str) -> Option<(Node<'a, 'i>, &'a str)> {
-    all(root, tag).filter_map(|node| Some((node, node.attribute(key)?))).last()
-}
-
-fn numbers<const N: usize>(root: Node, tag: &'static str, key: &str) -> Result<Option<[f64; N]>> {
-    last(root, tag, key).map(|(node, text)| exactly(node, key, list(node, key, text)?)).transpose()
-}
-
-fn euler(root: Node) -> Result<[(usize, bool); 3]> {
-    let Some((node, text)) = last(root, "compiler", "eulerseq") else {
+fn euler(compiler: &Element) -> Result<[(usize, bool); 3]> {
+    let Some((node, text)) = compiler.found("eulerseq") else {
         return Ok([(0, false), (1, false), (2, false)]);
     };
     let axes: Option<Vec<(usize, bool)>> = text.chars().map(|c| "xyzXYZ".find(c).map(|i| (i % 3, i > 2))).collect();
@@ -70,14 +60,13 @@ fn gravity(root: Node) -> Result<[f64; 3]> {
     if flags.filter_map(|flag| flag.attribute("gravity")).last() == Some("disable") {
         return Ok([0.0; 3]);
     }
-    Ok(numbers(root, "option", "gravity")?.unwrap_or([0.0, 0.0, -9.81]))
+    Element::merged(root, "option").numbers_or("gravity", [0.0, 0.0, -9.81])
 }
 
 /// Bounds that change masses.
-fn tell_bounds(root: Node, told: &mut Told) -> Result<()> {
+fn tell_bounds(compiler: &Element, told: &mut Told) -> Result<()> {
     for key in ["boundmass", "boundinertia"] {
-        let bound = last(root, "compiler", key).map(|(node, text)| parsed(node, key, text)).transpose()?;
-        told.add_if(bound.is_some_and(|bound| bound > 0.0), "bounds from below by the compiler:", key);
+        told.add_if(compiler.number_or(key, 0.0)? > 0.0, "bounds from below by the compiler:", key);
     }
     Ok(())
 }

@@ -56,14 +56,8 @@ impl Draft<'_> {
         if joint.kind == Kind::Prismatic {
             (output["measure"], output["component"]) = (json!("position"), json!("z"));
         }
-        let force = if joint.kind == Kind::Revolute { hinge_force(joint) } else { slider_force(joint, name, to, from) };
-        if let Some(mut force) = force {
-            force["name"] = json!(name);
-            if joint.kind == Kind::Revolute {
-                force["between"] = json!([from, to]);
-            }
-            self.scene.forces.push(force);
-        }
+        let force = if joint.kind == Kind::Revolute { hinge_force } else { slider_force };
+        self.scene.forces.extend(force(joint, name, [from, to]));
         self.scene.outputs.push(output);
         if !self.joints.follows[index] {
             self.scene.initial.insert(format!("{name}.{coordinate}"), whole(self.tree.positions[index]));
@@ -149,21 +143,20 @@ fn back(joint: &Joint) -> Transform {
     }
 }
 
-/// Spring and damper of a hinge.
-fn hinge_force(joint: &Joint) -> Option<Value> {
+fn hinge_force(joint: &Joint, name: &str, between: [&str; 2]) -> Option<Value> {
     let Joint { stiffness, damping, relaxed, reference, .. } = joint;
     if *stiffness == 0.0 && *damping == 0.0 {
         return None;
     }
+    let mut force = json!({ "name": name, "type": "torsion_spring", "between": between });
     // The scene's own spring counts its angle from within half a turn of the relaxed one, and feeds no energy.
     let is_usual = *stiffness >= 0.0 && *damping >= 0.0;
     if !is_usual || (*stiffness != 0.0 && (relaxed - reference).abs() > PI) {
         let law = format!("({stiffness})*(angle - ({relaxed})) + ({damping})*rate");
-        return Some(
-            json!({ "name": "", "type": "torsion_spring", "between": [], "law": law, "free_angle": reference }),
-        );
+        force["law"] = json!(law);
+        force["free_angle"] = json!(reference);
+        return Some(force);
     }
-    let mut force = json!({ "name": "", "type": "torsion_spring", "between": [] });
     let given = [
         ("damping", *damping),
         ("stiffness", *stiffness),
@@ -173,8 +166,7 @@ fn hinge_force(joint: &Joint) -> Option<Value> {
     Some(force)
 }
 
-/// Spring and damper of a slider.
-fn slider_force(joint: &Joint, name: &str, to: &str, from: &str) -> Option<Value> {
+fn slider_force(joint: &Joint, name: &str, [from, to]: [&str; 2]) -> Option<Value> {
     let Joint { stiffness, damping, relaxed, .. } = joint;
     let spring = (*stiffness != 0.0).then(|| format!("-({stiffness})*({name} - ({relaxed}))"));
     let damper = (*damping != 0.0).then(|| format!("-({damping})*{name}'"));

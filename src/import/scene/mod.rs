@@ -46,7 +46,6 @@ pub fn build(robot: &Robot, tree: &Tree, options: &Options) -> Result<Imported> 
     Ok(Imported { scene, left_out, warnings })
 }
 
-/// Elements of the scene so far.
 #[derive(Default)]
 struct Lists {
     bodies: Vec<Value>,

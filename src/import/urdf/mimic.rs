@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, excerpt, short_list, suggest};
 use crate::import::robot::{Coupling, Joint, Kind, Robot};
-use crate::import::xml::{all, attribute, child, number};
+use crate::import::xml::{Element, all, attribute, child};
 use roxmltree::Node;
 use std::collections::HashMap;
 
@@ -49,6 +49,7 @@ fn coupling(mimic: Node, own: usize, robot: &Robot, index: &HashMap<&str, usize>
         let message = format!("it mimics another joint, and `{}` has no coordinate", other.name);
         return Err(Error::input(message).hint("joints that turn or slide mimic others of these"));
     }
-    let coefficients = vec![number(mimic, "offset", Some(0.0))?, number(mimic, "multiplier", Some(1.0))?];
+    let follower = Element::plain(mimic);
+    let coefficients = vec![follower.number_or("offset", 0.0)?, follower.number_or("multiplier", 1.0)?];
     Ok(Coupling { follower: own, leader: (!is_fixed).then_some(leader), coefficients, name: None })
 }

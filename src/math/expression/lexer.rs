@@ -97,8 +97,40 @@ pub(super) fn names(text: &str) -> Result<Vec<&str>, ExpressionError> {
     Ok(named.filter_map(|token| text.get(token.start..token.end)).collect())
 }
 
+/// The words of a text, which may be no expression, with what follows each: names with their dots and primes, numbers,
+/// and single other characters.
+pub(crate) fn words(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    let mut rest = text;
+    std::iter::from_fn(move || {
+        let first = rest.chars().next()?;
+        let length = if begins_name(first) {
+            name_length(rest)
+        } else {
+            // Letters after a number, as in `2nd`, are no name.
+            number_length(rest).map_or(first.len_utf8(), |length| length + word_length(&rest[length..]))
+        };
+        let (word, after) = rest.split_at(length);
+        rest = after;
+        Some((word, after))
+    })
+}
+
+/// The text with other words in the place of its names; `change` is given a name and what follows it, and returns `None`
+/// where the name stays.
+pub(crate) fn with_names<E>(
+    text: &str,
+    mut change: impl FnMut(&str, &str) -> Result<Option<String>, E>,
+) -> Result<String, E> {
+    let mut result = String::with_capacity(text.len());
+    for (word, after) in words(text) {
+        let other = if word.starts_with(begins_name) { change(word, after)? } else { None };
+        result.push_str(other.as_deref().unwrap_or(word));
+    }
+    Ok(result)
+}
+
 /// True if `text` is one name without dots and primes.
-pub(super) fn is_plain_name(text: &str) -> bool {
+pub(crate) fn is_plain_name(text: &str) -> bool {
     word_length(text) == text.len() && text.starts_with(begins_name)
 }
 
@@ -243,6 +275,18 @@ mod tests {
         ];
         table.iter().for_each(|(text, expected)| assert_eq!(message(text), *expected));
         assert_eq!(words("a<=b==c!=d&&!e||f"), ["a", "<=", "b", "==", "c", "!=", "d", "&&", "!", "e", "||", "f"]);
+    }
+
+    #[test]
+    fn names_in_any_text_are_replaced() {
+        let words: Vec<&str> = super::words("2nd-a.b'(1e-3x").map(|(word, _)| word).collect();
+        assert_eq!(words, ["2nd", "-", "a.b'", "(", "1e-3x"]);
+        let change = |name: &str, after: &str| match name {
+            "l" => Err(()),
+            _ => Ok((name != "t").then(|| format!("{name}_{}", after.len()))),
+        };
+        assert_eq!(with_names("2e3*t + f(ä.x'') crank.", change), Ok("2e3*t + f_15(ä.x''_8) crank_1.".to_string()));
+        assert_eq!(with_names("t*l", change), Err(()));
     }
 
     #[test]

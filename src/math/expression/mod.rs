@@ -19,6 +19,7 @@ mod tests;
 
 #[doc(hidden)]
 pub use error::ExpressionError;
+pub(crate) use lexer::{is_plain_name, with_names, words};
 pub use number::Number;
 pub use parameters::Parameters;
 #[doc(hidden)]

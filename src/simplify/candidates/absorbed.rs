@@ -1,6 +1,6 @@
 //! A body that becomes a part of another one, or of the ground.
 
-use crate::simplify::edit::{carrier, pair, remove_all, rename_in_scene, text};
+use crate::scene::document::{carrier, pair, remove_all, rename_in_scene, text};
 use serde_json::Value;
 
 /// A marker of the body.

@@ -3,7 +3,7 @@
 use super::section::{area, expression};
 use super::two_force_link::Link;
 use crate::math::array::Each;
-use crate::simplify::edit::{add, elements, elements_mut, remove, text};
+use crate::scene::document::{add, elements, elements_mut, remove, text};
 use crate::simplify::{Facts, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Value, json};

@@ -1,7 +1,7 @@
 //! Bodies on which nothing depends.
 
 use crate::error::{percent, short_list};
-use crate::simplify::edit::{elements, mentions, text};
+use crate::scene::document::{elements, mentions, text};
 use crate::simplify::held::remove_body;
 use crate::simplify::{Candidate, Facts, Proposal};
 use serde_json::Value;

@@ -4,7 +4,7 @@ use super::beam_spring::massless;
 use super::section::{area, expression};
 use crate::error::percent;
 use crate::math::array::Each;
-use crate::simplify::edit::{elements, find_mut, remove, text};
+use crate::scene::document::{elements, find_mut, remove, text};
 use crate::simplify::held::{Tie, acting};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use serde_json::{Map, Value, json};

@@ -1,7 +1,7 @@
 //! A beam whose bending the axial force does not stiffen.
 
 use crate::error::percent;
-use crate::simplify::edit::{elements, find_mut, text};
+use crate::scene::document::{elements, find_mut, text};
 use crate::simplify::{Candidate, Facts, Proposal};
 use serde_json::{Value, json};
 

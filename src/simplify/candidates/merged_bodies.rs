@@ -5,8 +5,8 @@ use super::plane::combined;
 use crate::body::{dot, sub};
 use crate::error::percent;
 use crate::math::array::{Each, from_fn};
-use crate::math::expression::{Number, Parameters};
-use crate::simplify::edit::{carrier, elements, find_mut, pair, remove, text};
+use crate::math::expression::Parameters;
+use crate::scene::document::{carrier, elements, find_mut, number as written, pair, remove, text, value};
 use crate::simplify::{Candidate, Facts, Placed, Proposal, Relative};
 use serde_json::{Value, json};
 
@@ -98,8 +98,7 @@ impl Merged {
     /// Adds the second body to `own`, in the numbers of the scene, by the theorem of parallel axes; the parameter
     /// `total` is to be the mass that is returned.
     fn add(&self, own: &mut Value, total: &str) -> Option<Value> {
-        let number =
-            |value: &Value| serde_json::from_value::<Number>(value.clone()).ok()?.evaluate(&self.parameters).ok();
+        let number = |number: &Value| value(number, &self.parameters);
         let origin = |body: &Value| -> [f64; 3] { from_fn(|i| number(&body["origin"][i]).unwrap_or(0.0)) };
         let masses = [own["mass"].clone(), self.second["mass"].clone()];
         let axes = &self.place.axes;
@@ -110,8 +109,7 @@ impl Merged {
             from_fn(|i| self.place.r[i] - (0..3).map(|k| arm[k] * axes[k][i]).sum::<f64>()),
         ];
         let gap = sub(&centres[1], &centres[0]);
-        let [own_mass, other_mass] =
-            masses.each_ref().map(|mass| mass.as_str().map_or_else(|| mass.to_string(), str::to_string));
+        let [own_mass, other_mass] = masses.each_ref().map(written);
         // Of no mass at all there is no centre.
         let reduced = if m + other > 0.0 { format!("({own_mass})*({other_mass})/{total}") } else { "0".to_string() };
         let centre = |i: usize| format!("-({}) - {}*({other_mass})/{total}", centres[0][i], gap[i]);

@@ -1,7 +1,7 @@
 //! Forces, dampers and gravity that hardly do any work.
 
 use crate::error::percent;
-use crate::simplify::edit::{elements, find_mut, remove_named, text};
+use crate::scene::document::{elements, find_mut, remove_named, take, text};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use serde_json::Value;
 
@@ -53,15 +53,12 @@ fn undamped(list: &'static str, element: &Value) -> Option<Change> {
     let subject = name.clone();
     let what = format!("{name} is not damped");
     let edit = move |scene: &mut Value| {
-        let keys = find_mut(scene, list, &name)?.as_object_mut();
-        keys.and_then(|keys| keys.shift_remove("damping")).map(|_| ()).ok_or(format!("`{name}` has no damping"))
+        take(find_mut(scene, list, &name)?, "damping").map(|_| ()).ok_or(format!("`{name}` has no damping"))
     };
     Some((subject, what, Box::new(edit)))
 }
 
 fn gravity() -> Change {
-    let edit = |scene: &mut Value| {
-        scene.as_object_mut().and_then(|keys| keys.shift_remove("gravity")).map(|_| ()).ok_or("no gravity".to_string())
-    };
+    let edit = |scene: &mut Value| take(scene, "gravity").map(|_| ()).ok_or("no gravity".to_string());
     ("gravity".to_string(), "gravity is left out".to_string(), Box::new(edit))
 }

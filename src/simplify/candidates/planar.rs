@@ -5,7 +5,7 @@ use super::plane::{Plane, combined, flat, world};
 use crate::body::dot;
 use crate::error::percent;
 use crate::math::array::Each;
-use crate::simplify::edit::{elements, elements_mut, text};
+use crate::scene::document::{elements, elements_mut, is_rigid, text};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Map, Value, json};
@@ -106,7 +106,7 @@ fn flat_markers(facts: &Facts, plane: &Plane, body: &str, markers: &Map<String, 
 }
 
 fn flat_body(facts: &Facts, plane: &Plane, body: &Value) -> Option<Value> {
-    if !["rigid", "point_mass"].contains(&text(body, "type")) || body.get("shapes").is_some() {
+    if !is_rigid(body) || body.get("shapes").is_some() {
         return None;
     }
     let mut own = body.clone();

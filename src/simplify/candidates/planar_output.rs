@@ -2,8 +2,8 @@
 
 use super::plane::Plane;
 use crate::body::{cross, dot};
+use crate::scene::document::{take, text};
 use crate::simplify::Facts;
-use crate::simplify::edit::text;
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
 
@@ -23,7 +23,7 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
     }
     let of = text(output, "of");
     let pair = ["joints", "forces"].iter().find_map(|list| facts.element(list, of));
-    let pair = pair.filter(|_| turns).and_then(super::super::edit::pair);
+    let pair = pair.filter(|_| turns).and_then(crate::scene::document::pair);
     // What is measured, and against what.
     let [base, end] = pair.unwrap_or([output["relative_to"].as_str().unwrap_or("ground"), of]);
     let frame = facts.place(base)?;
@@ -35,7 +35,7 @@ pub fn flat_output(facts: &Facts, plane: &Plane, output: &Value) -> Option<Vec<V
             return None;
         }
         if turns {
-            drop(own.as_object_mut()?.shift_remove("component"))
+            drop(take(&mut own, "component"))
         } else {
             own["component"] = json!("mz")
         }

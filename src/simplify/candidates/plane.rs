@@ -2,7 +2,7 @@
 
 use crate::body::{cross, dot, norm, unit};
 use crate::math::array::{Each, from_fn};
-use crate::simplify::edit::{change_words, elements, text};
+use crate::scene::document::{change_names, elements, text};
 use crate::simplify::{Facts, Placed};
 use crate::tolerances::SAME;
 use serde_json::{Value, json};
@@ -100,11 +100,19 @@ impl Plane {
 
     /// Quantities of markers such as `crank.tip.z` in the plane, in all texts of a value; `None` where one has none.
     pub fn translate(&self, value: &mut Value) -> Option<()> {
-        change_words(value, &|word, primes| match word.rsplit_once('.') {
-            Some((of, name @ ("x" | "y" | "z"))) => Some(format!("{of}.{}{primes}", self.component(name)?)),
-            Some((_, "wx" | "wy" | "wz")) => None,
-            _ => Some(format!("{word}{primes}")),
-        })
+        let mut is_possible = true;
+        change_names(value, &mut |word, _| {
+            let (of, name) = word.rsplit_once('.')?;
+            let quantity = name.trim_end_matches('\'');
+            let seen = match quantity {
+                "x" | "y" | "z" => self.component(quantity),
+                "wx" | "wy" | "wz" => None,
+                _ => return None,
+            };
+            is_possible &= seen.is_some();
+            Some(format!("{of}.{}{}", seen?, &name[quantity.len()..]))
+        });
+        is_possible.then_some(())
     }
 }
 

@@ -4,7 +4,7 @@ use super::merged_bodies::{PLACES, packed};
 use crate::body::dot;
 use crate::error::percent;
 use crate::math::array::Each;
-use crate::simplify::edit::{elements, elements_mut, find_mut, mentions, rename, rename_in_scene, text};
+use crate::scene::document::{elements, elements_mut, find_mut, mentions, rename, rename_in_scene, text};
 use crate::simplify::{Candidate, Facts, Proposal};
 use crate::tolerances::SAME;
 use serde_json::{Value, json};

@@ -2,7 +2,7 @@
 
 use crate::error::percent;
 use crate::formulation::Dynamics;
-use crate::simplify::edit::{elements, elements_mut, remove, rename, text};
+use crate::scene::document::{elements, elements_mut, find, remove, rename, text};
 use crate::simplify::{Candidate, Facts, Proposal};
 use crate::system::{OperatingPoint, Tangent};
 use serde_json::Value;
@@ -64,8 +64,7 @@ fn lag(facts: &Facts, index: usize) -> Option<f64> {
 
 /// Puts the value at which the rate is zero in the place of the state.
 fn settle(scene: &mut Value, name: &str) -> Result<(), String> {
-    let state = elements(scene, "states").iter().find(|state| text(state, "name") == name);
-    let rate = state.ok_or_else(|| format!("`{name}` is no longer there"))?["rate"].clone();
+    let rate = find(scene, "states", name).ok_or_else(|| format!("`{name}` is no longer there"))?["rate"].clone();
     let at = |x: &str| {
         let mut rate = rate.clone();
         rename(&mut rate, name, x);

@@ -1,6 +1,6 @@
 //! Joints that lock what others lock already.
 
-use crate::simplify::edit::{find_mut, remove_named};
+use crate::scene::document::{find_mut, remove_named};
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use crate::system::Group;
 use serde_json::{Value, json};

@@ -2,7 +2,7 @@
 
 use super::absorbed::{Absorbed, absorb, markers};
 use crate::error::percent;
-use crate::simplify::edit::{elements, find_mut, remove, text};
+use crate::scene::document::{elements, find_mut, is_rigid, remove, text};
 use crate::simplify::held::acting;
 use crate::simplify::{Candidate, Facts, Proposal, Relative};
 use serde_json::Value;
@@ -16,8 +16,7 @@ impl Candidate for RestingBody {
     }
 
     fn propose(&self, facts: &Facts) -> Vec<Proposal> {
-        let bodies = elements(facts.scene(), "bodies").iter();
-        let bodies = bodies.filter(|body| ["rigid", "point_mass"].contains(&text(body, "type")));
+        let bodies = elements(facts.scene(), "bodies").iter().filter(|body| is_rigid(body));
         let travel = facts.travel();
         bodies.filter_map(|body| proposal(facts, body, &travel)).collect()
     }

@@ -1,7 +1,7 @@
 //! Springs and bushings that hardly give way.
 
 use crate::error::percent;
-use crate::simplify::edit::{add, elements, elements_mut, find_mut, pair, remove, text};
+use crate::scene::document::{add, elements, elements_mut, find_mut, pair, remove, text};
 use crate::simplify::{Candidate, Facts, Proposal, Relative};
 use serde_json::{Value, json};
 

@@ -2,7 +2,7 @@
 
 use crate::body::{dot, norm, sub};
 use crate::math::array::Each;
-use crate::simplify::edit::{carrier, drop_references, elements, mentions, remove_named, text};
+use crate::scene::document::{carrier, drop_references, elements, mentions, number, remove_named, take, text};
 use crate::simplify::held::{Tie, acting};
 use crate::simplify::{Candidate, Facts, Proposal};
 use serde_json::{Value, json};
@@ -134,7 +134,7 @@ impl Link {
         let along = self.axes.iter().find(|(marker, _)| marker == axes)?.1[index];
         let sign = if is_at_second == pin.is_second { along } else { -along };
         output["component"] = json!("axial");
-        output.as_object_mut()?.shift_remove("relative_to");
+        take(&mut output, "relative_to");
         ((sign - 1.0).abs() < ALIGNED).then_some(output)
     }
 }
@@ -148,7 +148,6 @@ fn length(body: &Value, markers: [&str; 2]) -> Option<String> {
         let given = &body["markers"][marker.split_once('.')?.1];
         given.as_array().or_else(|| given["position"].as_array())
     };
-    let number = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_string);
     let [a, b] = [position(markers[0])?, position(markers[1])?];
     let squares = a.iter().zip(b).map(|(a, b)| format!("({} - ({}))^2", number(b), number(a)));
     Some(format!("sqrt({})", squares.collect::<Vec<_>>().join(" + ")))

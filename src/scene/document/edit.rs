@@ -1,6 +1,9 @@
-//! Changes of a scene as JSON.
+//! Elements of a scene, and the names by which they refer to each other.
 
-use serde_json::{Value, json};
+use crate::math::expression::{Number, Parameters, with_names, words};
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+use std::convert::Infallible;
 
 /// The elements of a list of the scene, such as `bodies`; none where it is missing.
 pub fn elements<'a>(scene: &'a Value, list: &str) -> &'a [Value] {
@@ -18,6 +21,32 @@ pub fn text<'a>(element: &'a Value, key: &str) -> &'a str {
 }
 
 /// The element of this name in a list of the scene.
+pub fn find<'a>(scene: &'a Value, list: &str, name: &str) -> Option<&'a Value> {
+    elements(scene, list).iter().find(|element| text(element, "name") == name)
+}
+
+/// A number or expression as text.
+pub fn number(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_string)
+}
+
+/// The object at these keys, one in the other, made where it is missing; `None` if another type of value is there, which
+/// the checks then refuse.
+pub fn object<'a>(map: &'a mut Map<String, Value>, keys: &[&str]) -> Option<&'a mut Map<String, Value>> {
+    keys.iter().try_fold(map, |map, key| map.entry(*key).or_insert_with(|| json!({})).as_object_mut())
+}
+
+/// Value of a number or expression over parameters.
+pub fn value(number: &Value, parameters: &Parameters) -> Option<f64> {
+    Number::deserialize(number).ok()?.evaluate(parameters).ok()
+}
+
+/// Takes a key of an object away.
+pub fn take(object: &mut Value, key: &str) -> Option<Value> {
+    object.as_object_mut()?.shift_remove(key)
+}
+
+/// The element of this name in a list of the scene, to change it.
 ///
 /// # Errors
 /// There is none, as after an earlier change.
@@ -26,7 +55,6 @@ pub fn find_mut<'a>(scene: &'a mut Value, list: &str, name: &str) -> Result<&'a 
     found.ok_or_else(|| format!("`{name}` is no longer there"))
 }
 
-/// Adds an element to a list of the scene.
 pub fn add(scene: &mut Value, list: &str, element: Value) {
     match scene[list].as_array_mut() {
         Some(all) => all.push(element),
@@ -78,29 +106,40 @@ pub fn pair(element: &Value) -> Option<[&str; 2]> {
     Some([between[0].as_str()?, between[1].as_str()?])
 }
 
-/// Name of the body that carries a marker.
-pub fn carrier(marker: &str) -> &str {
-    marker.split('.').next().unwrap_or(marker)
+/// True if a body is where its frame is: no other place strains it.
+pub fn is_rigid(body: &Value) -> bool {
+    ["rigid", "point_mass"].contains(&text(body, "type"))
 }
 
-/// True if a text of `value` refers to the element `name`, or to a marker or coordinate of it; its own name and type
-/// do not count.
+/// Name of the body that carries a marker, or of the element that has a coordinate.
+pub fn carrier(name: &str) -> &str {
+    name.split(['.', '\'']).next().unwrap_or(name)
+}
+
+/// Keys whose text refers to nothing: what an element is, words of the format, and files.
+const ASIDE: [&str; 12] = [
+    "name",
+    "file",
+    "type",
+    "measure",
+    "component",
+    "coordinate",
+    "unit",
+    "free",
+    "frame",
+    "columns",
+    "interpolation",
+    "beyond",
+];
+
+/// True if a text of `value` refers to the element `name`, or to a marker or coordinate of it.
 pub fn mentions(value: &Value, name: &str) -> bool {
-    !all_words(value, &|word| carrier(word) != name)
-}
-
-fn all_words(value: &Value, is_such: &impl Fn(&str) -> bool) -> bool {
     match value {
-        Value::String(text) => words(text).all(is_such),
-        Value::Array(all) => all.iter().all(|value| all_words(value, is_such)),
-        Value::Object(keys) => keys.iter().all(|(key, value)| is_own(key) || all_words(value, is_such)),
-        _ => true,
+        Value::String(text) => words(text).any(|(word, _)| carrier(word) == name),
+        Value::Array(all) => all.iter().any(|value| mentions(value, name)),
+        Value::Object(keys) => keys.iter().any(|(key, value)| !ASIDE.contains(&key.as_str()) && mentions(value, name)),
+        _ => false,
     }
-}
-
-/// True of keys that tell what an element is, not what it refers to.
-fn is_own(key: &str) -> bool {
-    ["name", "type", "measure"].contains(&key)
 }
 
 /// Replaces the marker or body `from` by `to` in what is on bodies, and what is measured there.
@@ -112,43 +151,30 @@ pub fn rename_in_scene(scene: &mut Value, from: &str, to: &str) {
 
 /// Replaces the marker or body `from`, also where a quantity of it follows, by `to` in all texts of `value`.
 pub fn rename(value: &mut Value, from: &str, to: &str) {
-    change_words(value, &|word, primes| match word.strip_prefix(from) {
-        Some(tail) if tail.is_empty() || tail.starts_with('.') => Some(format!("{to}{tail}{primes}")),
-        _ => Some(format!("{word}{primes}")),
+    change_names(value, &mut |word, _| match word.strip_prefix(from) {
+        Some(tail) if tail.is_empty() || tail.starts_with(['.', '\'']) => Some(format!("{to}{tail}")),
+        _ => None,
     });
 }
 
-/// Changes each name in the texts of `value`, with the primes that follow it; `None` where `change` has none for one.
-pub fn change_words(value: &mut Value, change: &impl Fn(&str, &str) -> Option<String>) -> Option<()> {
+/// Changes names in the texts of `value`; `change` is given each with its primes and what follows it, and returns `None`
+/// where it stays.
+pub fn change_names(value: &mut Value, change: &mut impl FnMut(&str, &str) -> Option<String>) {
     match value {
-        Value::String(text) => *text = changed(text, change)?,
-        Value::Array(all) => all.iter_mut().try_for_each(|value| change_words(value, change))?,
+        Value::String(text) => *text = changed(text, change),
+        Value::Array(all) => all.iter_mut().for_each(|value| change_names(value, change)),
         Value::Object(keys) => {
-            let mut others = keys.iter_mut().filter(|(key, _)| !is_own(key));
-            others.try_for_each(|(_, value)| change_words(value, change))?;
+            let others = keys.iter_mut().filter(|(key, _)| !ASIDE.contains(&key.as_str()));
+            others.for_each(|(_, value)| change_names(value, change));
         }
         _ => {}
     }
-    Some(())
 }
 
-fn changed(text: &str, change: &impl Fn(&str, &str) -> Option<String>) -> Option<String> {
-    let mut result = String::new();
-    let mut rest = text;
-    while let Some(word) = words(rest).next() {
-        let at = word.as_ptr() as usize - rest.as_ptr() as usize;
-        result += &rest[..at];
-        rest = &rest[at + word.len()..];
-        let primes = rest.len() - rest.trim_start_matches('\'').len();
-        result += &change(word, &rest[..primes])?;
-        rest = &rest[primes..];
-    }
-    Some(result + rest)
-}
-
-/// Names in a text, such as `rod.A.x` and `sin`.
-fn words(text: &str) -> impl Iterator<Item = &str> {
-    text.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.')).filter(|word| !word.is_empty())
+/// As [`change_names`] for one text.
+pub fn changed(text: &str, change: &mut impl FnMut(&str, &str) -> Option<String>) -> String {
+    let Ok(text) = with_names(text, |word, after| Ok::<_, Infallible>(change(word, after)));
+    text
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
-//! Elements with the defaults of their classes.
+//! Default classes of elements.
 
 use crate::error::{Error, Result};
-use crate::import::xml::{all, exactly, list, parsed, place};
+use crate::import::xml::{Element, all, place};
 use roxmltree::Node;
 use std::collections::HashMap;
 
@@ -45,50 +45,5 @@ impl<'a, 'i> Classes<'a, 'i> {
             class.children().rev().filter(|child| tags.contains(&child.tag_name().name())).collect()
         };
         Ok(Element { node, defaults: chain.iter().flat_map(of_class).collect() })
-    }
-}
-
-/// An element whose missing attributes are those of its class.
-pub struct Element<'a, 'i> {
-    pub node: Node<'a, 'i>,
-    defaults: Vec<Node<'a, 'i>>,
-}
-
-impl<'a, 'i> Element<'a, 'i> {
-    /// An element that has no defaults.
-    pub fn plain(node: Node<'a, 'i>) -> Self {
-        Element { node, defaults: Vec::new() }
-    }
-
-    /// The text of an attribute, with the node that has it.
-    fn found(&self, key: &str) -> Option<(Node<'a, 'i>, &'a str)> {
-        let all = std::iter::once(&self.node).chain(&self.defaults);
-        all.filter_map(|node| Some((*node, node.attribute(key)?))).next()
-    }
-
-    pub fn text(&self, key: &str) -> Option<&'a str> {
-        self.found(key).map(|(_, text)| text)
-    }
-
-    pub fn is(&self, key: &str, value: &str) -> bool {
-        self.text(key) == Some(value)
-    }
-
-    pub fn number(&self, key: &str) -> Result<Option<f64>> {
-        self.found(key).map(|(node, text)| parsed(node, key, text)).transpose()
-    }
-
-    /// The numbers of an attribute; none where it is not given.
-    pub fn list(&self, key: &str) -> Result<Vec<f64>> {
-        self.found(key).map_or(Ok(Vec::new()), |(node, text)| list(node, key, text))
-    }
-
-    /// True if one of the numbers of an attribute is not zero.
-    pub fn has(&self, key: &str) -> Result<bool> {
-        Ok(self.list(key)?.iter().any(|x| *x != 0.0))
-    }
-
-    pub fn numbers<const N: usize>(&self, key: &str) -> Result<Option<[f64; N]>> {
-        self.found(key).map(|(node, text)| exactly(node, key, list(node, key, text)?)).transpose()
     }
 }

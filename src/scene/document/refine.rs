@@ -1,5 +1,6 @@
 //! The same scene with a finer mesh.
 
+use super::edit::elements_mut;
 use serde_json::{Value, json};
 
 /// Keys of a beam whose values are doubled.
@@ -7,10 +8,9 @@ const KEYS: [&str; 2] = ["elements", "modes"];
 
 /// The text of a scene with twice the elements and modes of every beam; `None` if no beam has either key.
 pub fn refined(text: &str) -> Option<String> {
-    let mut scene: Value = serde_json::from_str(text.trim_start_matches('\u{feff}')).ok()?;
-    let bodies = scene.get_mut("bodies")?.as_array_mut()?;
+    let mut scene = serde_json::from_str(text.trim_start_matches('\u{feff}')).ok()?;
     let mut is_refined = false;
-    for body in bodies.iter_mut().filter(|body| body["type"] == "flexible_beam") {
+    for body in elements_mut(&mut scene, "bodies").filter(|body| body["type"] == "flexible_beam") {
         for key in KEYS {
             let Some(number) = body.get_mut(key) else { continue };
             let finer = match &*number {

@@ -1,8 +1,8 @@
 //! A scene as a function of one of its parameters.
 
+use super::{AnyMechanism, Overrides, PreparedScene};
 use crate::error::{Error, Result, Warning, suggest};
 use crate::math::expression::Number;
-use crate::prepared::{AnyMechanism, Overrides, PreparedScene};
 use crate::scene::{self, Elements, Scene};
 use crate::system::Column;
 use std::path::{Path, PathBuf};
@@ -86,7 +86,7 @@ impl Family {
         })
     }
 
-    pub(super) fn place(&self, error: Error) -> Error {
+    pub(crate) fn place(&self, error: Error) -> Error {
         match &self.path {
             Some(path) => scene::place(error, path, &self.text),
             None => error,
