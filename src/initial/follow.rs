@@ -1,6 +1,6 @@
 //! Continuation of an assembled state to a nearby one on the same branch.
 
-use super::{Metric, holds};
+use super::{Metric, continuation, holds};
 use crate::error::Result;
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
@@ -85,22 +85,18 @@ pub(super) fn path(all: &mut Metric, rows: &[usize], t: f64, q: &mut [f64], move
     all.residual(t, q);
     let mut gap = vec![0.0; all.terms.phi.len()];
     rows.iter().for_each(|row| gap[*row] = all.terms.phi[*row]);
-    let mut done = 0.0;
-    let mut part = 1.0;
-    while done < 1.0 && part > tolerances::LEAST_PART {
-        let next = f64::min(done + part, 1.0);
+    let (done, _) = continuation(0.0, 1.0, (1.0, tolerances::LEAST_PART), |next| {
         let mut ahead = q.to_vec();
         let mut change = moved.to_vec();
         all.ahead = gap.iter().map(|gap| (1.0 - next) * gap).collect();
         let contracts = newton(all, t, &mut ahead, &mut change).unwrap_or(false);
-        if contracts && all.residual(t, &ahead).is_finite() && all.is_closed(&ahead) {
+        let is_there = contracts && all.residual(t, &ahead).is_finite() && all.is_closed(&ahead);
+        is_there.then(|| {
             q.copy_from_slice(&ahead);
             moved.copy_from_slice(&change);
-            (done, part) = (next, 2.0 * part);
-        } else {
-            part *= 0.5;
-        }
-    }
+            2.0
+        })
+    });
     all.ahead.clear();
     all.residual(t, q);
     done

@@ -2,7 +2,7 @@
 
 use super::{Family, Limit, Nearest, Point, Range};
 use crate::error::{Error, Result};
-use crate::initial::{self, Assembly, Followed};
+use crate::initial::{self, Assembly, Followed, continuation};
 use crate::math::array::Each;
 use crate::prepared::AnyMechanism;
 use crate::scene::Scene;
@@ -117,30 +117,23 @@ impl<'a> Branch<'a> {
 
     /// Continues to a value in steps that are halved until the branch is kept; returns its end if that comes before.
     pub fn go(&mut self, target: f64) -> Option<Limit> {
-        let mut step = target - self.last.point.value;
+        let start = self.last.point.value;
         let mut problem = None;
-        for _ in 0..tolerances::BRANCH_STEPS {
-            let rest = target - self.last.point.value;
-            if rest == 0.0 {
-                return None;
+        let steps = (target - start, self.resolution);
+        let (reached, step) = continuation(start, target, steps, |value| match self.reach(value) {
+            Ok(Some(state)) => {
+                self.accept(state);
+                Some(2.0)
             }
-            let value = if step.abs() < rest.abs() { self.last.point.value + step } else { target };
-            step = value - self.last.point.value;
-            match self.reach(value) {
-                Ok(Some(state)) => {
-                    self.accept(state);
-                    step *= 2.0;
-                }
-                failed => {
-                    problem = failed.err();
-                    step *= 0.5;
-                }
+            failed => {
+                problem = failed.err();
+                None
             }
-            if step.abs() < self.resolution {
-                break;
-            }
+        });
+        if reached == target {
+            return None;
         }
-        let is_near = (target - self.last.point.value).abs() < 4.0 * self.resolution;
+        let is_near = (target - reached).abs() < 4.0 * self.resolution;
         match is_near.then(|| self.at_the_end(target)).flatten() {
             Some(state) => {
                 self.accept(state);

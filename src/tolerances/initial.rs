@@ -72,13 +72,16 @@ pub const LOADED: f64 = 1e-6;
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const LOAD_FIRST: f64 = 0.1;
 
-/// The smallest part of the load by which it is put back on; where that fails there is no equilibrium on this branch.
-/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
-pub const LOAD_SMALLEST: f64 = 1e-4;
+/// The least step of a continuation, in the load of an equilibrium or to the coordinates in `initial`, before it is taken
+/// to end.
+/// Unit: `[1]` of all. Why: near a dead centre steps shrink with the root of what is left. Test:
+/// `a_loop_is_turned_to_an_angle_far_from_the_guess`.
+pub const LEAST_PART: f64 = 1e-4;
 
-/// How often the load may change on the way back to all of it.
-/// Unit: `[steps]`. Why: a choice. Test: none: a count of work, not tried.
-pub const LOAD_CHANGES: usize = 400;
+/// Steps at most of a continuation.
+/// Unit: `[steps]`. Why: a choice: halving to the resolution of a sweep takes 27, to that of a travel 40. Test: none: a
+/// bound of work, not tried.
+pub const CONTINUATION_STEPS: usize = 1000;
 
 /// What is left of the forces of an equilibrium that was found.
 /// Unit: `[1]` of those that balance. Why: a choice, far above round-off, which stiff beams amplify. Test: none: not
@@ -225,11 +228,6 @@ pub const UNLIKE_LENGTHS: f64 = 500.0;
 /// Digits of the value that a driver asks for, and of the end of its travel.
 /// Unit: `[digits]`. Why: the end is known to some ten. Test: `a_driver_beyond_its_travel_is_named`.
 pub const DIGITS_OF_TRAVEL: usize = 9;
-
-/// The least part of the way to the coordinates in `initial` that is tried before the path is taken to end.
-/// Unit: `[1]`. Why: near a dead centre steps shrink with the root of what is left. Test:
-/// `a_loop_is_turned_to_an_angle_far_from_the_guess`.
-pub const LEAST_PART: f64 = 1e-4;
 
 /// The largest phi of a closed loop after assembly, beside round-off of the largest coordinate.
 /// Unit: `[1]` of the scene's scale. Why: round-off of chains of transformations, up to thousands of them. Test: none:
