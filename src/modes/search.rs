@@ -1,11 +1,10 @@
 //! Invariant spaces of the eigenvalues nearest to a shift.
 
-use super::quadratic::Quadratic;
+use super::Quadratic;
 use super::shifted::Shifted;
-use crate::linearize::{Complex, Matrix};
-use crate::math::eigen::{Options, Partial, Scalar, Unsolved, nearest};
+use crate::math::eigen::{Complex, Matrix, Options, Partial, Scalar, Unsolved, nearest};
 use crate::math::kkt::Singular;
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances::modes as tolerances;
 
 type C = Complex<f64>;
 

@@ -9,7 +9,7 @@
 use super::checkpoint::flat;
 use super::contest::{Contest, Mark, Quiet, View, unseen};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
-use crate::error::{Failure, Result, clock, short};
+use crate::error::{Failure, Result, clock, two_digits};
 use crate::formulation::Statistics;
 use crate::integrator;
 use crate::math::expression::Switch;
@@ -366,7 +366,6 @@ fn words(
     are_explicit: [bool; 2],
     wins: bool,
 ) -> String {
-    let two = |x: f64| short(format!("{x:.1e}").parse().unwrap_or(x));
     let own = &own.integrator.name;
     let other = &other.integrator.name;
     let kind = match (are_explicit, wins) {
@@ -381,8 +380,8 @@ fn words(
     format!(
         "{kind}. At t = {} s the fastest mode {mode} and {own} takes steps of {} s; tried there, {other} {verdict} {} \
          times as far for the same work{filter}",
-        two(*t),
-        two(*step),
-        two(*gain)
+        two_digits(*t),
+        two_digits(*step),
+        two_digits(*gain)
     )
 }

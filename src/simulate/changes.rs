@@ -3,7 +3,7 @@
 use super::events::{Passage, Turn};
 use super::rows::project;
 use super::{Run, Sink};
-use crate::error::{Failure, short};
+use crate::error::{Failure, two_digits};
 use crate::formulation::{Dynamics, StepError};
 use crate::integrator::{From, first_step};
 use crate::math::{Piece, largest};
@@ -174,7 +174,7 @@ impl Run<'_> {
         let kink = jumps(&rate, &phi_dot);
         if let Some(row) = (0..jump.len()).find(|&row| jump[row].abs() > tolerances::SAME * self.scales[row]) {
             let names = self.problem.dynamics.system.names().lambda;
-            let by = short(format!("{:.1e}", jump[row].abs()).parse().unwrap_or(0.0));
+            let by = two_digits(jump[row].abs());
             let reason = format!("what `{}` prescribes jumps by {by} m or rad", names[row]);
             return Err(
                 self.failure(reason, Some("prescribe a motion without jumps: no mechanism follows one in no time"))
@@ -226,7 +226,7 @@ impl Run<'_> {
         let jump = |(old, new): &(Road, Road)| new.is_damped && (new.height - old.height).abs() > same;
         let Some((old, Road { tyre, height, .. })) = roads.into_iter().zip(now).find(jump) else { return Ok(()) };
         let signal = self.events.changed_signal(pieces, &format!("the force `{tyre}`"));
-        let by = short(format!("{:.1e}", height - old.height).parse().unwrap_or(0.0));
+        let by = two_digits(height - old.height);
         let reason = format!("the road{signal} under `{tyre}` jumps by {by} m, which its damper cannot follow");
         Err(self.failure(reason, Some(STEEP)))
     }

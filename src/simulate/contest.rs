@@ -5,10 +5,11 @@
 //! simulates more time for the same work. The spectrum only decides when to try: where the fastest mode of the state is
 //! related to the size of the steps.
 
-use super::spectrum::{SpectralMode, fastest};
+use super::spectrum::fastest;
 use super::{Method, Run, Sink, Span, Stop};
 use crate::error::{Failure, Result};
 use crate::formulation::{Dynamics, Statistics};
+use crate::modes::SpectralMode;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::simulate as tolerances;
 

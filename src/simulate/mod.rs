@@ -14,7 +14,6 @@ mod observed;
 mod output;
 mod passage;
 mod plan;
-mod rate_bound;
 mod rows;
 mod segments;
 mod spectrum;
@@ -24,6 +23,8 @@ mod stiffness;
 mod travel;
 
 pub use crate::math::threads::spread;
+#[doc(hidden)]
+pub use crate::modes::SpectralMode;
 pub(crate) use automatic::known_methods;
 pub use automatic::{Leg, Trial, advise, simulate_automatic};
 pub use checkpoint::{Checkpoint, Start, simulate_from};
@@ -33,7 +34,7 @@ pub use method::{atol_of, check_pair};
 pub use observation::{Observation, Sink, Span, Stop};
 pub(crate) use segments::Segments;
 #[doc(hidden)]
-pub use spectrum::{SpectralMode, Spectrum};
+pub use spectrum::Spectrum;
 pub use start::refused;
 #[doc(hidden)]
 pub use stiffness::explicit;

@@ -1,10 +1,11 @@
 //! Test before a run whether stability limits the steps of an explicit method.
 
 use super::automatic::rival;
-use super::spectrum::{SpectralMode, Spectrum, bound, fastest};
+use super::spectrum::{Spectrum, bound, fastest};
 use super::{Method, Span};
-use crate::error::{Warning, short};
+use crate::error::{Warning, short, two_digits};
 use crate::integrator::Stability;
+use crate::modes::SpectralMode;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
@@ -112,15 +113,10 @@ fn advice(method: &Method, step: f64) -> String {
     match method.step {
         Some(_) => format!(
             "take steps below {} s, or {implicit}; generalized_alpha on ggl damps what is too fast for its steps away",
-            two(step)
+            two_digits(step)
         ),
         None => format!("take {implicit}; `--method auto` chooses on the way"),
     }
-}
-
-/// The number with two digits.
-fn two(value: f64) -> String {
-    short(format!("{value:.1e}").parse().unwrap_or(value))
 }
 
 impl From<&Stiffness> for Warning {
@@ -137,14 +133,14 @@ impl fmt::Display for Stiffness {
                 out,
                 "a mode of the start {mode}: {integrator} with steps of {} s is unstable above {} 1/s",
                 short(step),
-                two(limit / step)
+                two_digits(limit / step)
             ),
             None => write!(
                 out,
                 "the fastest mode of the start {mode}: {integrator} needs {} steps to stay stable, and radau_iia advances {} \
                  times as far for the same work",
-                two(self.steps_for_stability.ceil()),
-                two(self.implicit_gain.unwrap_or(1.0))
+                two_digits(self.steps_for_stability.ceil()),
+                two_digits(self.implicit_gain.unwrap_or(1.0))
             ),
         }
     }

@@ -302,14 +302,6 @@ pub const SHOWN_BY_CUBIC: f64 = 0.25;
 /// Unit: `[1]` of the step. Why: a choice. Test: `a_run_is_stopped_between_steps`.
 pub const PASSED_GRID_TIME: f64 = 1e-3;
 
-/// A mode that is slower is one of rounding, or as good as none.
-/// Unit: `[1/s]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
-pub const SLOWEST_MODE: f64 = 1e-6;
-
-/// Iterations for the fastest mode alone.
-/// Unit: `[iterations]`. Why: a few percent where others are as fast. Test: `shipped_scenes_are_not_warned_of`.
-pub const POWER_ITERATIONS: usize = 60;
-
 /// What round-off may leave of accelerations of constraints, and of their lengths, at a singular start.
 /// Unit: `[1]` of the usual ones. Why: a choice. Test: none: with a thousand times more or less the tests of its room
 /// pass.

@@ -1,9 +1,6 @@
 //! Static gain of the truncated modes.
 
 use super::changes;
-use super::quadratic::{Quadratic, Sparse};
-use super::search::{Found, Operator, Space};
-use super::shifted::Shifted;
 use crate::error::Result;
 use crate::linearize::changes::beside;
 use crate::linearize::entry::Built;
@@ -11,13 +8,16 @@ use crate::linearize::perturbation::Perturbation;
 use crate::linearize::response::observe;
 use crate::linearize::spectrum::refused;
 use crate::linearize::{Matrix, Response, Variation};
+use crate::modes::search::{Found, Operator, Space};
+use crate::modes::shifted::Shifted;
+use crate::modes::{Quadratic, Sparse};
 use crate::tolerances::linearize as tolerances;
 
 /// Adds H(s) - C (s - A)^-1 B at s = 0 to the direct part of each column, H the transfer function of all modes. `forces`
 /// are those of a unit of each state of the inputs and of each input.
 pub fn add_residual<'a>(
     variation: &mut Variation,
-    equations: &'a Quadratic,
+    (equations, turn): (&'a Quadratic, &Sparse),
     found: &mut Found<'a>,
     (built, forces): (&mut Built, &Matrix),
 ) -> Result<()> {
@@ -37,7 +37,7 @@ pub fn add_residual<'a>(
         to.copy_from(&force);
         at.solve(to.as_mut_slice()).map_err(|unsolved| refused(t, &unsolved))?;
     }
-    let changes = changes(equations, &Space { u: &p * s, p });
+    let changes = changes(variation, turn, &Space { u: &p * s, p });
     let perturbation = Perturbation::new(variation, &changes, |_, _| None);
     let response = Response::exact(variation, &perturbation)?;
     let gain = observe(&variation.outputs()?, &perturbation, &response).state;
