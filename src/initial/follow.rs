@@ -24,7 +24,7 @@ pub struct Followed {
 /// Deuflhard, Newton Methods for Nonlinear Problems, 2011, section 5.1).
 const LIMITS: Limits = Limits {
     most: tolerances::FOLLOWING_ITERATIONS,
-    round_off: tolerances::FOLLOWED,
+    round_off: tolerances::ROUND_OFF_OF_PHI,
     contraction: tolerances::UNIQUE_CONTRACTION,
     ..Limits::NONE
 };

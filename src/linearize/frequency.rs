@@ -129,7 +129,7 @@ impl Resonances {
     pub fn around(model: &LinearModel) -> Self {
         let sizes = || model.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.frequency());
         let fastest = sizes().fold(0.0, f64::max);
-        let slowest = sizes().filter(|f| *f > tolerances::NO_MODE * fastest).fold(fastest, f64::min);
+        let slowest = sizes().filter(|f| *f > tolerances::EIGENVALUES_AGREE * fastest).fold(fastest, f64::min);
         if slowest > 0.0 && fastest.is_finite() {
             Resonances { from: slowest / 10.0, to: fastest * 10.0 }
         } else {

@@ -157,8 +157,6 @@ struct Drive<'a> {
     window: f64,
     /// Result of the best of the last trials.
     contest: Option<Contest>,
-    /// Methods that are not tried at the next comparison.
-    sits_out: Vec<bool>,
     /// The legs before, and that of the present method.
     legs: Vec<Leg>,
     leg: Leg,
@@ -179,8 +177,7 @@ impl<'a> Drive<'a> {
         let window = tolerances::IMPLICIT_TRIED;
         let contest = None;
         let legs = Vec::new();
-        let sits_out = vec![false; methods.len()];
-        Ok(Drive { system, methods, span, start, run, carrier, stopped, window, contest, sits_out, legs, leg })
+        Ok(Drive { system, methods, span, start, run, carrier, stopped, window, contest, legs, leg })
     }
 
     /// Continues to the end, to a failure that all methods have, or until `is_enough`, which is called after each
@@ -238,7 +235,7 @@ impl<'a> Drive<'a> {
         let Some((place, contest)) = self.best(mark)? else { return Ok(None) };
         self.contest = Some(contest);
         let kinds = [self.is_explicit(self.carrier)?, self.is_explicit(place)?];
-        let wins = contest.gain > if kinds[0] { tolerances::WORTH } else { tolerances::WORTH_AFTER_IMPLICIT };
+        let wins = contest.gain > tolerances::WORTH;
         let because = words(&contest, [own, &self.methods[place]], kinds, wins);
         if !wins && self.leg.because == CALM {
             self.leg.because.clone_from(&because);
@@ -247,8 +244,8 @@ impl<'a> Drive<'a> {
     }
 
     /// The method that comes farthest in a trial from here. An explicit method tries where the length of the steps
-    /// allows for one, and any instead of one whose steps may be limited by stability; one that was hopelessly behind
-    /// sits out the next comparison, and one that is far ahead is not compared with others before it has shown more.
+    /// allows for one, and any instead of one whose steps may be limited by stability; one that is far ahead is not
+    /// compared with others before it has shown more.
     fn best(&mut self, mark: Mark) -> Result<Option<(usize, Contest)>> {
         if !self.run.leaves_trials(mark, 1) {
             return Ok(None);
@@ -261,14 +258,12 @@ impl<'a> Drive<'a> {
         let mut best: Option<(usize, Contest)> = None;
         for &place in &rivals {
             let least = best.map_or(1.0, |(_, contest)| contest.gain.max(1.0));
-            if std::mem::take(&mut self.sits_out[place]) || least > tolerances::FAR_AHEAD {
-                continue;
+            if least > tolerances::FAR_AHEAD {
+                break;
             }
             let method = &self.methods[place];
-            let tried = self.run.contest(mark, view, (rivals.len(), least), method, self.system)?;
-            let Some((contest, work)) = tried else { continue };
+            let (contest, work) = self.run.contest(mark, view, (rivals.len(), least), method, self.system)?;
             self.leg.add(method, work);
-            self.sits_out[place] = contest.gain < tolerances::NO_ALTERNATIVE;
             if best.is_none_or(|(_, best)| contest.gain > best.gain) {
                 best = Some((place, contest));
             }

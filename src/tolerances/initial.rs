@@ -1,7 +1,8 @@
 //! Assembly, static equilibrium, charts and projections: what makes a state consistent.
 
 pub use super::{
-    NEWTON_HALVES, NEWTON_STAGNATION, REDUNDANT_ROWS_CLOSED, ROUND_OFF, ROUND_OFF_OF_PHI, ROUND_OFF_OF_SUMS, SAME,
+    NEWTON_HALVES, NEWTON_STAGNATION, REDUNDANT_ROWS_CLOSED, ROUND_OFF, ROUND_OFF_OF_FACTORS, ROUND_OFF_OF_PHI,
+    ROUND_OFF_OF_SUMS, SAME,
 };
 
 /// What is left of a column of Z Z^T where all directions of motion are found.
@@ -64,10 +65,6 @@ pub const CLOSING_ITERATIONS: usize = 12;
 /// Unit: `[iterations]`. Why: a choice. Test: none: a count of work, not tried.
 pub const RELAXATIONS: usize = 6;
 
-/// A direction that nothing holds is loaded where the force along it is this part of all.
-/// Unit: `[1]`. Why: a choice, far above round-off. Test: none: not tried with other values.
-pub const LOADED: f64 = 1e-6;
-
 /// First part of the missing force that is put back on.
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const LOAD_FIRST: f64 = 0.1;
@@ -83,15 +80,10 @@ pub const LEAST_PART: f64 = 1e-4;
 /// bound of work, not tried.
 pub const CONTINUATION_STEPS: usize = 1000;
 
-/// What is left of the forces of an equilibrium that was found.
+/// The part of the forces that may be left at an equilibrium, and beyond which a direction that nothing holds is loaded.
 /// Unit: `[1]` of those that balance. Why: a choice, far above round-off, which stiff beams amplify. Test: none: not
 /// tried with other values.
 pub const FORCE_LEFT: f64 = 1e-6;
-
-/// Round-off of coordinates where a search for an equilibrium began, times the stiffness: a force that cannot be taken
-/// away.
-/// Unit: `[1]` of the largest q. Why: 450 ulps, as ROUND_OFF_OF_FACTORS. Test: none: not tried with other values.
-pub const COORDINATES_ROUNDED: f64 = 1e-13;
 
 /// How far an element of a beam may turn at an equilibrium, over what is warned of.
 /// Unit: `[1]`. Why: 0.95 of what it can turn at all. Test: none: not tried with other values.
@@ -139,11 +131,6 @@ pub const TAKES_PART: f64 = 0.3;
 /// Newton's iterations at most from a guess to the state that continues the one it was taken from.
 /// Unit: `[iterations]`. Why: a choice. Test: none: a bound of work, not tried.
 pub const FOLLOWING_ITERATIONS: usize = 20;
-
-/// Changes of q at which Newton's method from such a guess ends.
-/// Unit: `[m, rad]` over 1 and the largest q. Why: round-off, also near a singular state. Test: none: not tried with
-/// other values.
-pub const FOLLOWED: f64 = 1e-11;
 
 /// Weight of directions without mass in the metric of the assembly.
 /// Unit: `[1]` of the largest mass. Why: a choice: they move freely, and the matrix is still far from singular. Test:

@@ -47,11 +47,6 @@ pub const FLOW_ATOL: f64 = 1e-13;
 /// Unit: `[steps]`. Why: a choice. Test: `a_double_pendulum_is_chaotic`.
 pub const FLOW_STEPS: usize = 2_000_000;
 
-/// Modes that are slower do not count: they are rigid motions with round-off.
-/// Unit: `[1]` of the fastest. Why: a choice, above the square root of rounding. Test: none: not tried with other
-/// values.
-pub const NO_MODE: f64 = 1e-6;
-
 /// Least damping ratio of a peak that can be drawn, and the largest of one that points might miss.
 /// Unit: `[1]`. Why: a choice: a millionth of the axis; the spacing of points. Test: none: not tried with other values.
 pub const PEAKS: (f64, f64) = (1e-6, 0.2);

@@ -1,7 +1,7 @@
 //! The time loop: events, singular states, choice of methods, rows.
 
 pub use super::contest::*;
-pub use super::{ROUND_OFF_OF_PHI, SAME};
+pub use super::{ROUND_OFF_OF_PHI, ROUND_OFF_OF_SUMS, SAME};
 
 /// A gap that reverses is on one line with itself before within this.
 /// Unit: `[1]`, sine of the angle. Why: round-off of positions over the gap; one that turns by half a revolution in a
@@ -264,10 +264,6 @@ pub const ERROR_OF_MOTION: f64 = 10.0;
 /// Unit: `[1]`. Why: half of the tenfold tolerance that a companion has. Test:
 /// `steps_at_their_tightest_have_a_companion_with_longer_ones`.
 pub const COARSER_STEPS: f64 = 5.0;
-
-/// Part of the largest value of an output that its error bar is not smaller than.
-/// Unit: `[1]` of the value. Why: round-off of some fifty operations. Test: `an_error_bar_is_not_below_round_off`.
-pub const ROUND_OFF_OF_ROWS: f64 = 1e-14;
 
 /// A step that is undecided about a threshold is not made shorter than so many of those that make no sense.
 /// Unit: `[1]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
