@@ -72,7 +72,7 @@ impl Floquet {
     fn vectors_of(&self, multiplier: Complex<f64>) -> Result<usize> {
         let mut shifted = self.monodromy.map(Complex::from);
         (0..shifted.nrows()).for_each(|i| shifted[(i, i)] -= multiplier);
-        let sizes = singular_values(&shifted).map_err(|unsolved| Error::input(unsolved.to_string()))?;
+        let sizes = singular_values(&shifted)?;
         Ok(sizes.iter().filter(|size| **size <= tolerances::NO_MULTIPLIER * sizes[0]).count())
     }
 }
@@ -99,7 +99,7 @@ pub fn floquet(system: &dyn MechanicalSystem, start: &State, period: f64) -> Res
     }
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
     let monodromy = Chart::MassOrthogonal.at(&mut variation)?.states_of(&found.changes);
-    let values = eigen(&monodromy).map_err(|unsolved| Error::input(unsolved.to_string()))?.values;
+    let values = eigen(&monodromy)?.values;
     Ok(Floquet { period, monodromy, multipliers: values.into_iter().rev().collect(), gap })
 }
 

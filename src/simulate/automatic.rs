@@ -45,7 +45,6 @@ pub struct Trial {
 
 const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
 
-/// Method of a formulation, an integrator and a projection.
 fn method([formulation, integrator, projection]: [&str; 3], (rtol, atol): (f64, f64)) -> Method {
     let formulation = MethodSpec::named(formulation);
     let integrator = MethodSpec::named(integrator);

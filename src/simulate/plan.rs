@@ -20,17 +20,20 @@ impl Run<'_> {
     pub fn first_step(&mut self) -> Result<f64, StepError> {
         match self.fixed {
             Some(step) => Ok(step),
-            None => {
-                let span = (self.t, self.span.end - self.t);
-                let order = self.integrator.order();
-                let lambda = self.problem.dynamics.lambda.clone();
-                let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order)?;
-                // `first_step` evaluates ahead; lambda is that of the start.
-                self.problem.dynamics.lambda = lambda;
-                // The control increases it, or reports why it cannot.
-                Ok(step.max(2.0 * self.smallest()))
-            }
+            // The control increases it, or reports why it cannot.
+            None => Ok(self.estimated_step()?.max(2.0 * self.smallest())),
         }
+    }
+
+    /// The step from the present state whose error is estimated to be a hundredth of the tolerance.
+    pub fn estimated_step(&mut self) -> Result<f64, StepError> {
+        let span = (self.t, self.span.end - self.t);
+        let order = self.integrator.order();
+        let lambda = self.problem.dynamics.lambda.clone();
+        let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order);
+        // `first_step` evaluates ahead; lambda is that of the start.
+        self.problem.dynamics.lambda = lambda;
+        step
     }
 
     /// The step of size `h`, unless a singular state suggests another.
