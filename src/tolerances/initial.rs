@@ -15,11 +15,6 @@ pub const NO_DIRECTION: f64 = 1e-10;
 /// more or less the tests of its room pass.
 pub const ORTHONORMAL: f64 = 1e-6;
 
-/// Changes in the chart of minimal coordinates that no longer fall are round-off up to here.
-/// Unit: `[1]` of the largest component. Why: a choice: nearly dependent rows amplify an ulp. Test: none: not tried
-/// with other values.
-pub const CHART_STAGNATION: f64 = 1e-9;
-
 /// Newton's iterations of an exact projection; who asks for fewer takes what they leave.
 /// Unit: `[iterations]`. Why: a choice. Test: `a_low_penalty_has_the_order_of_its_integrator_and_an_error_of_its_own`.
 pub const PROJECTIONS: usize = 10;
@@ -89,14 +84,10 @@ pub const FORCE_LEFT: f64 = 1e-6;
 /// Unit: `[1]`. Why: 0.95 of what it can turn at all. Test: none: not tried with other values.
 pub const TOO_FAR_TURNED: f64 = 0.95 / 0.75;
 
-/// Undamped iterations at most of Newton's method on the forces.
+/// Iterations at most of Newton's method on the forces, plain or damped.
 /// Unit: `[iterations]`. Why: bent beams need steps that grow before they shrink. Test: none: a bound of work, not
 /// tried.
-pub const FULL_ITERATIONS: usize = 40;
-
-/// Damped iterations at most.
-/// Unit: `[iterations]`. Why: a choice: the descent comes next. Test: none: a bound of work, not tried.
-pub const DAMPED_ITERATIONS: usize = 60;
+pub const BALANCING_ITERATIONS: usize = 60;
 
 /// Changes of Newton's method that shrink to this part lead to the one solution around the start.
 /// Unit: `[1]`. Why: P. Deuflhard, Newton Methods for Nonlinear Problems, 2011, section 5.1. Test: none: with a
