@@ -97,9 +97,7 @@ impl Norm {
     pub fn states(&self, chart: &Coordinates, x: &Matrix) -> f64 {
         self.size(x.as_slice().split_at(chart.freedom()))
     }
-}
 
-impl Norm {
     /// Returns |difference of the motions - eps changes| of each perturbed motion.
     pub fn errors(
         &self,
