@@ -201,7 +201,9 @@ impl<'a> Branch<'a> {
     }
 
     fn limit(&self, target: f64, problem: Option<Error>, within: f64) -> Limit {
-        let reason = problem.or_else(|| self.obstacle(target).err()).map(message);
+        // The error of an assembly beyond the end.
+        let obstacle = || Ready::at(self.family, self.parameter, target)?.assemble(&self.last.point.q);
+        let reason = problem.or_else(|| obstacle().err()).map(message);
         let elsewhere = "the joints close only in another configuration, to which no motion leads from here";
         Limit {
             point: self.last.point.clone(),
@@ -209,11 +211,6 @@ impl<'a> Branch<'a> {
             unreached: target,
             reason: reason.unwrap_or_else(|| elsewhere.to_string()),
         }
-    }
-
-    /// The error of an assembly beyond the end.
-    fn obstacle(&self, target: f64) -> Result<()> {
-        Ready::at(self.family, self.parameter, target)?.assemble(&self.last.point.q).map(|_| ())
     }
 }
 
