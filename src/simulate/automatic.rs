@@ -7,7 +7,7 @@
 //! still far from the slow motion in the norm of the stiff forces that it would have to follow.
 
 use super::checkpoint::flat;
-use super::contest::{Contest, Mark, Quiet, View, unseen};
+use super::contest::{Contest, Mark, Quiet, unseen};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, two_digits};
 use crate::formulation::Statistics;
@@ -145,6 +145,8 @@ pub fn simulate_automatic(
 struct Drive<'a> {
     system: &'a dyn MechanicalSystem,
     methods: &'a [Method],
+    /// True for each explicit one.
+    are_explicit: Vec<bool>,
     span: Span,
     /// The flat state at the start.
     start: Vec<f64>,
@@ -169,14 +171,21 @@ impl<'a> Drive<'a> {
         (q, v): (&[f64], &[f64]),
     ) -> Result<Self> {
         let start = flat(system, q, v);
-        let run = Run::new(system, &methods[FIRST], span, start.clone())?;
-        let leg = Leg::of(span.start, &methods[FIRST], CALM.to_string());
-        let carrier = FIRST;
-        let stopped = 0;
-        let window = tolerances::IMPLICIT_TRIED;
-        let contest = None;
-        let legs = Vec::new();
-        Ok(Drive { system, methods, span, start, run, carrier, stopped, window, contest, legs, leg })
+        let is_explicit = |method: &Method| Ok(integrator::find(&method.integrator)?.follows_fields());
+        Ok(Drive {
+            system,
+            methods,
+            are_explicit: methods.iter().map(is_explicit).collect::<Result<_>>()?,
+            span,
+            run: Run::new(system, &methods[FIRST], span, start.clone())?,
+            start,
+            carrier: FIRST,
+            stopped: 0,
+            window: tolerances::IMPLICIT_TRIED,
+            contest: None,
+            legs: Vec::new(),
+            leg: Leg::of(span.start, &methods[FIRST], CALM.to_string()),
+        })
     }
 
     /// Continues to the end, to a failure that all methods have, or until `is_enough`, which is called after each
@@ -198,7 +207,7 @@ impl<'a> Drive<'a> {
             }
             let wins = failure.is_none();
             failure = match next {
-                Some((next, because)) if wins && self.begins_again(next)? => self.begin_again(next, because, sink)?,
+                Some((next, because)) if wins && self.begins_again(next) => self.begin_again(next, because, sink)?,
                 Some((next, because)) => self.change(next, because)?,
                 None => None,
             };
@@ -220,10 +229,6 @@ impl<'a> Drive<'a> {
         self.window > tolerances::ADVICE_WORK || self.run.has_shown_itself(mark)
     }
 
-    fn is_explicit(&self, place: usize) -> Result<bool> {
-        Ok(integrator::find(&self.methods[place].integrator)?.follows_fields())
-    }
-
     /// Another method and the reason, if it should continue: after the work since `mark`, or after a failure.
     fn look(&mut self, mark: Mark, failure: Option<&Failure>) -> Result<Option<(usize, String)>> {
         let own = &self.methods[self.carrier];
@@ -233,7 +238,7 @@ impl<'a> Drive<'a> {
         }
         let Some((place, contest)) = self.best(mark)? else { return Ok(None) };
         self.contest = Some(contest);
-        let kinds = [self.is_explicit(self.carrier)?, self.is_explicit(place)?];
+        let kinds = [self.are_explicit[self.carrier], self.are_explicit[place]];
         let wins = contest.gain > tolerances::WORTH;
         let because = words(&contest, [own, &self.methods[place]], kinds, wins);
         if !wins && self.leg.because == CALM {
@@ -250,7 +255,11 @@ impl<'a> Drive<'a> {
             return Ok(None);
         }
         let Some(view) = self.run.view(mark) else { return Ok(None) };
-        let rivals = self.rivals(view)?;
+        let is_rival = |&place: &usize| {
+            let are_implicit = !self.are_explicit[self.carrier] && !self.are_explicit[place];
+            place != self.carrier && (view.is_between || are_implicit)
+        };
+        let rivals: Vec<usize> = (0..self.methods.len()).filter(is_rival).collect();
         if !self.run.leaves_trials(mark, rivals.len()) {
             return Ok(None);
         }
@@ -270,18 +279,6 @@ impl<'a> Drive<'a> {
         Ok(best)
     }
 
-    /// The methods that may be better than the present one.
-    fn rivals(&self, view: View) -> Result<Vec<usize>> {
-        let carrier = self.is_explicit(self.carrier)?;
-        let mut rivals = Vec::new();
-        for place in (0..self.methods.len()).filter(|place| *place != self.carrier) {
-            if view.is_between || !carrier && !self.is_explicit(place)? {
-                rivals.push(place);
-            }
-        }
-        Ok(rivals)
-    }
-
     /// Continues the motion with another method.
     fn change(&mut self, carrier: usize, because: String) -> Result<Option<Failure>> {
         let next = self.run.rival(&self.methods[carrier], self.system, self.span)?;
@@ -291,9 +288,9 @@ impl<'a> Drive<'a> {
 
     /// True if the motion so far costs an implicit method little: it may begin at the start, where no errors of steps
     /// of the first method excite stiff modes, which it would have to follow.
-    fn begins_again(&self, place: usize) -> Result<bool> {
+    fn begins_again(&self, place: usize) -> bool {
         let is_early = self.run.t - self.span.start < tolerances::BEGINNING * (self.span.end - self.span.start);
-        Ok(is_early && self.legs.is_empty() && !self.is_explicit(place)?)
+        is_early && self.legs.is_empty() && !self.are_explicit[place]
     }
 
     /// Continues the motion with another method, which comes to the present time from the start, unseen. From the
