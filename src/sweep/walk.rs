@@ -3,6 +3,7 @@
 use super::branch::{Branch, State};
 use super::{Family, Limit, Point, Range, Sweep};
 use crate::error::{Error, Result};
+use crate::prepared::AnyMechanism;
 
 impl Family {
     /// Assembles the scene at the values of a range; `progress` is called with the number of values done.
@@ -17,7 +18,6 @@ impl Family {
         let near = |value: &f64| (value - own).abs() <= 1e-12 * range.length();
         let own = values.iter().copied().find(near).unwrap_or(own);
         let (start, is_own) = self.start(range, &values, own)?;
-        let (names, outputs) = start.columns();
         let begin = start.point.value;
         // The range may run downwards: `before` has the values that come before the start in it.
         let forward = range.to > range.from;
@@ -48,12 +48,14 @@ impl Family {
         let (mut first, lower) = side(&before);
         let (second, upper) = side(&after);
         first.reverse();
+        let scene = self.scene()?;
+        let mechanism = AnyMechanism::new(scene.model);
         let middle = values.contains(&begin).then(|| start.point.clone());
         Ok(Sweep {
-            scene: self.scene()?.name,
+            scene: scene.name,
             range: range.clone(),
-            names,
-            outputs,
+            names: mechanism.system().names(),
+            outputs: mechanism.system().columns(),
             own_value: own,
             own: (is_own && range.contains(own)).then(|| start.point.clone()),
             points: first.into_iter().chain(middle).chain(second).collect(),
