@@ -25,8 +25,8 @@ mod travel;
 pub use crate::math::threads::spread;
 #[doc(hidden)]
 pub use crate::modes::SpectralMode;
-pub use automatic::{Leg, Trial, simulate_automatic};
-pub(crate) use automatic::{advise, known_methods};
+pub(crate) use automatic::known_methods;
+pub use automatic::{Leg, Trial, advise, simulate_automatic};
 pub use checkpoint::{Checkpoint, Start, simulate_from};
 pub use method::Method;
 #[doc(hidden)]
