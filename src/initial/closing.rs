@@ -88,7 +88,7 @@ fn advance(
     let mut factor = full;
     for _ in 0..tolerances::STEP_HALVINGS {
         metric.go(start, d, factor, q);
-        if metric.residual(t, q) < residual * (1.0 - tolerances::FALL_OF_RESIDUAL * factor) {
+        if metric.residual(t, q) < residual * (1.0 - tolerances::SUFFICIENT_STEP * factor) {
             return Some(factor);
         }
         factor *= 0.5;

@@ -97,7 +97,7 @@ impl Run<'_> {
         self.cut = None;
         let jump: Vec<f64> = self.slope.iter().zip(&before).map(|(after, before)| self.h * (after - before)).collect();
         let begins_anew = self.integrator.begins_anew();
-        if self.fixed.is_none() && (begins_anew || self.tolerance.norm(&self.y, &jump) > tolerances::SMALL_JUMP) {
+        if self.fixed.is_none() && (begins_anew || self.tolerance.norm(&self.y, &jump) > 1.0) {
             self.start_small()?;
         }
         Ok(())

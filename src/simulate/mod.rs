@@ -55,7 +55,6 @@ use crate::integrator::{self, Integrator, Problem, Tolerance};
 use crate::method_spec::MethodSpec;
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
-use crate::tolerances::simulate as tolerances;
 
 /// The end of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -343,10 +342,7 @@ impl<'a> Run<'a> {
             Some(Passage::AtStart(number)) => {
                 self.change_form_seen(Some(number), sink)?;
                 // A step after which the function is on neither side is longer than the time to the threshold.
-                if self.fixed.is_none()
-                    && 0.1 * self.h > tolerances::UNDECIDED_STEP * self.smallest()
-                    && self.events.is_undecided(number)
-                {
+                if self.fixed.is_none() && 0.1 * self.h > 2.0 * self.smallest() && self.events.is_undecided(number) {
                     self.h *= 0.1;
                 }
             }

@@ -1,5 +1,6 @@
 //! Assembly, static equilibrium, charts and projections: what makes a state consistent.
 
+pub use super::modes::ROUNDING_OF_K;
 pub use super::{
     NEWTON_HALVES, NEWTON_STAGNATION, REDUNDANT_ROWS_CLOSED, ROUND_OFF, ROUND_OFF_OF_FACTORS, ROUND_OFF_OF_PHI,
     ROUND_OFF_OF_SUMS, SAME,
@@ -31,9 +32,10 @@ pub const DESCENT_FIRST: f64 = 0.1;
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const DESCENT_FALL: f64 = 0.03;
 
-/// Work of a step of the descent over what K predicts, below which it is taken back.
-/// Unit: `[1]`. Why: a choice, as in trust regions. Test: none: not tried with other values.
-pub const DESCENT_TAKEN_BACK: f64 = 0.1;
+/// A step that does less than this part of what is predicted to first order is taken back: of the fall of |phi| where phi
+/// is linear, of the work by K.
+/// Unit: `[1]`. Why: a choice, as in line searches and trust regions. Test: none: not tried with other values.
+pub const SUFFICIENT_STEP: f64 = 0.1;
 
 /// Work of a step of the descent over what K predicts, below which the next step is shorter.
 /// Unit: `[1]`. Why: a choice, as in trust regions. Test: none: not tried with other values.
@@ -111,10 +113,6 @@ pub const DENSE_EIGENVALUES: usize = 300;
 /// Unit: `[1]` of the largest entry. Why: a choice, far above round-off. Test: none: not tried with other values.
 pub const SKEW: f64 = 1e-6;
 
-/// Growth or decay of a small motion that tells stability where K is not symmetric. Unit: `[1]` of the fastest rate.
-/// Why: twice the zero of a rigid motion is parted by the root of round-off. Test: none: not tried with other values.
-pub const SURE_GROWTH: f64 = 1e-7;
-
 /// A coordinate that is named takes part in a direction by this part of the largest.
 /// Unit: `[1]`. Why: a choice of how much a message says. Test: none: not tried with other values.
 pub const TAKES_PART: f64 = 0.3;
@@ -140,10 +138,6 @@ pub const LARGEST_TURN: f64 = 0.7;
 /// Halvings of a step of the assembly before it is given up.
 /// Unit: `[halvings]`. Why: a choice. Test: none: a bound of work, not tried.
 pub const STEP_HALVINGS: usize = 12;
-
-/// A step of Newton's method reduces |phi| by this part of what it would where phi is linear.
-/// Unit: `[1]`. Why: a choice, as of other line searches. Test: none: not tried with other values.
-pub const FALL_OF_RESIDUAL: f64 = 0.1;
 
 /// Beginnings of the assembly beside its guess where it does not close from there.
 /// Unit: `[beginnings]`. Why: of 199 loops with random angles one needs four. Test: `loops_close_from_random_angles`.

@@ -138,10 +138,6 @@ pub const CARRIED_STATES: f64 = 2.0;
 /// other values.
 pub const CARRIED_MOST: f64 = 1e6;
 
-/// Rounding of the integration of columns of size 1.
-/// Unit: `[1]`. Why: three times FLOW_ATOL. Test: none: not tried with other values.
-pub const COLUMN_ROUND_OFF: f64 = 3e-13;
-
 /// Errors up to here are in the range where the lowest power of h rules.
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const LOWEST_POWER: f64 = 3e-3;

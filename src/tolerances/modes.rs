@@ -34,7 +34,7 @@ pub const SHIFT_OF_SLOWEST: f64 = 0.02;
 /// Unit: `[1]` of itself. Why: a choice. Test: none: not tried with other values.
 pub const SHIFT_BESIDE: f64 = 1e-3;
 
-/// The slowest rate that rounding in K leaves.
+/// The slowest rate that rounding in K leaves: slower growth or decay does not tell stability.
 /// Unit: `[1]` of the fastest. Why: some ten times the square root of rounding. Test: none: not tried with other
 /// values.
 pub const ROUNDING_OF_K: f64 = 1e-7;

@@ -125,19 +125,16 @@ pub const TURNS_IN_WINDOW: usize = 250;
 /// Unit: `[turns]`. Why: a choice. Test: none: not tried with other values.
 pub const TURNS: f64 = 5e7;
 
+/// Windows of turns in a row that show a motion coming to rest at a threshold, each shorter and slower than the one before,
+/// or a motion that is lost, all turns nearer to each other than the tolerance.
+/// Unit: `[windows]`. Why: a choice. Test: none: a count of work, not tried.
+pub const WINDOWS_IN_ROW: usize = 4;
+
 /// Turns before a run, at the rate of the last window, with which it does not come to its end where the last windows
 /// were each shorter and slower than the one before.
 /// Unit: `[turns]`. Why: a choice: the motion comes to rest at the threshold, and the turns get ever more. Test: none:
 /// not tried with other values.
 pub const TURNS_IN_DECAY: f64 = 1e5;
-
-/// Windows of turns, each shorter and slower than the one before, that show a motion coming to rest at a threshold.
-/// Unit: `[windows]`. Why: a choice. Test: none: a count of work, not tried.
-pub const WINDOWS_IN_DECAY: usize = 4;
-
-/// Windows of turns nearer to each other than the tolerance, after which a run has lost the motion.
-/// Unit: `[windows]`. Why: a choice. Test: none: a count of work, not tried.
-pub const WINDOWS_UNSEEN: usize = 2;
 
 /// Steps that together come no farther than CRAWL end the run.
 /// Unit: `[steps]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
@@ -231,11 +228,6 @@ pub const NEAR_POINTS: f64 = 1.5;
 /// the point, 0.05 left a thousand times the tolerated error. Test: `steps_end_at_points_that_are_near`.
 pub const AT_POINT: f64 = 1e-3;
 
-/// A jump of v' that makes the next step start small.
-/// Unit: `[tolerated errors]` over a step. Why: a smaller one is within the tolerance. Test: none: with a thousand
-/// times more or less the tests of its room pass.
-pub const SMALL_JUMP: f64 = 1.0;
-
 /// How often a step is cut to passages on its dense output at most.
 /// Unit: `[cuts]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const CUTS: usize = 10;
@@ -259,10 +251,6 @@ pub const ERROR_OF_MOTION: f64 = 10.0;
 /// Unit: `[1]`. Why: half of the tenfold tolerance that a companion has. Test:
 /// `steps_at_their_tightest_have_a_companion_with_longer_ones`.
 pub const COARSER_STEPS: f64 = 5.0;
-
-/// A step that is undecided about a threshold is not made shorter than so many of those that make no sense.
-/// Unit: `[1]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
-pub const UNDECIDED_STEP: f64 = 1e3;
 
 /// v' of the dense output is a difference over this.
 /// Unit: `[1]` of the step. Why: a choice. Test: `rows_do_not_change_the_steps`.
@@ -306,10 +294,6 @@ pub const START_AT_REST: f64 = 1e-12;
 /// What a rough estimate of the fastest mode may be off by.
 /// Unit: `[1]`. Why: a choice. Test: `fixed_steps_that_are_too_long_are_told`.
 pub const DOUBTED_MODE: f64 = 0.5;
-
-/// Powers of e that an unstable mode grows by over a run before it counts.
-/// Unit: `[1]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
-pub const UNSTABLE_MODE: f64 = 1.0;
 
 /// Part of the limit of stability that is advised.
 /// Unit: `[1]`. Why: a choice, as of step control. Test: `fixed_steps_that_are_too_long_are_told`.

@@ -41,7 +41,7 @@ pub fn frozen(start: &State, carried: &Carried, (a, speed): (&Matrix, &Speed), l
     // Fast modes are accurate relative to the fastest rate, not the slow one; and the error of the shortest step counts
     // as rounding.
     let floor =
-        (tolerances::COLUMN_ROUND_OFF * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
+        (3.0 * tolerances::FLOW_ATOL * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
     let steps = steps[..errors.len()].to_vec();
     let decay = decay(&steps, &errors, |_| tolerances::LOWEST_POWER, floor);
     Ok(Frozen { steps, errors, decay })

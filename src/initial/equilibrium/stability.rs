@@ -86,7 +86,7 @@ fn by_modes(rest: &EquilibriumSystem, Soft { z, k, .. }: &Soft) -> Option<Stabil
     let values = eigenvalues(k, &c, moving)?;
     let size = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
     let growth = values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
-    let is_sure = growth.abs() > tolerances::SURE_GROWTH * size;
+    let is_sure = growth.abs() > tolerances::ROUNDING_OF_K * size;
     is_sure.then_some(if growth > 0.0 { Stability::Unstable } else { Stability::Stable })
 }
 
