@@ -30,7 +30,7 @@ const LIMITS: Limits = Limits {
 };
 
 /// Closes the joints from a nearby guess; `None` where Newton's method does not contract from its first step on, so
-/// that it may lead to another branch or nowhere. Rows named in `dependent` are dropped and checked at the end.
+/// that it may lead to another branch or nowhere, or leaves one open. Rows named in `dependent` are dropped and checked at the end.
 ///
 /// # Errors
 /// Constraints that are infinite at the guess or on the way, names in `hold` that do not exist.
@@ -46,28 +46,10 @@ pub fn follow(
     let mut q = guess.to_vec();
     let mut moved = vec![0.0; system.dimensions().v];
     system.normalize(&mut q);
-    let contracts = newton(&mut metric, t, &mut q, &mut moved)?;
-    if contracts { end(metric, t, q, &vec![0.0; moved.len()]) } else { Ok(None) }
-}
-
-/// Newton's method on phi; true if it contracts from its first step on. Adds its steps to `moved`.
-fn newton(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
-    let mut d = vec![0.0; moved.len()];
-    let mut rate = vec![0.0; q.len()];
-    Monitor::default().solve(LIMITS, |_| {
-        metric.at_rest(t, q)?;
-        metric.step(None, &mut d)?;
-        metric.system.rate(q, &d, &mut rate);
-        q.iter_mut().zip(&rate).for_each(|(q, rate)| *q += rate);
-        metric.system.normalize(q);
-        moved.iter_mut().zip(&d).for_each(|(moved, d)| *moved += d);
-        Ok(largest(&d) / largest(q).max(1.0))
-    })
-}
-
-/// Rank indicator and dependent rows of a state; `None` if a joint is open.
-fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<Followed>> {
-    metric.at(t, &q, still)?;
+    if !newton(&mut metric, t, &mut q, &mut moved)? {
+        return Ok(None);
+    }
+    metric.at_rest(t, &q)?;
     if !metric.is_closed(&q) {
         return Ok(None);
     }
@@ -75,8 +57,21 @@ fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<
     let dependent: Vec<usize> = rows.filter(|row| *row < metric.terms.phi.len()).collect();
     // The rank indicator of the other rows.
     metric.kkt.drop_rows(&dependent);
-    metric.at(t, &q, still)?;
+    metric.at_rest(t, &q)?;
     Ok(Some(Followed { q, rank_indicator: metric.kkt.rank_indicator(), dependent }))
+}
+
+/// Newton's method on phi; true if it contracts from its first step on. Adds its steps to `moved`.
+fn newton(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
+    let mut d = vec![0.0; moved.len()];
+    Monitor::default().solve(LIMITS, |_| {
+        metric.at_rest(t, q)?;
+        metric.step(None, &mut d)?;
+        let start = q.to_vec();
+        metric.go(&start, &d, 1.0, q);
+        moved.iter_mut().zip(&d).for_each(|(moved, d)| *moved += d);
+        Ok(largest(&d) / largest(q).max(1.0))
+    })
 }
 
 /// Moves q along the path on which phi of some rows, open by `gap` at q, goes to zero as (1 - s) gap. Returns s where it

@@ -3,7 +3,7 @@
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Mat, MatRef, Par, Side};
 
-/// The entries (i, j, value) of one triangle of a symmetric matrix.
+/// A symmetric sparse matrix: entries (i, j, value) with i >= j, each place once.
 pub type Symmetric = Vec<(usize, usize, f64)>;
 
 /// Natural modes: K phi = omega^2 M phi.
