@@ -10,7 +10,6 @@ mod events;
 mod gaps;
 mod method;
 mod observation;
-mod observed;
 mod output;
 mod passage;
 mod plan;
