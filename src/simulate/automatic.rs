@@ -136,7 +136,7 @@ pub fn simulate_automatic(
         Ok(()) => drive.go(sink, |_, _, _| false)?,
         Err(failure) => Some(failure),
     };
-    let saved = has_begun.then(|| drive.run.checkpoint(&methods[drive.carrier]));
+    let saved = has_begun.then(|| drive.run.checkpoint(&methods[drive.current]));
     let (outcome, legs) = drive.finish(failure, sink);
     Ok((outcome, legs, saved))
 }
@@ -151,7 +151,8 @@ struct Drive<'a> {
     /// The flat state at the start.
     start: Vec<f64>,
     run: Run<'a>,
-    carrier: usize,
+    /// Index of the present method.
+    current: usize,
     /// Number of methods that failed at the present state.
     stopped: usize,
     /// Work until the next comparison, in evaluations.
@@ -179,7 +180,7 @@ impl<'a> Drive<'a> {
             span,
             run: Run::new(system, &methods[FIRST], span, start.clone())?,
             start,
-            carrier: FIRST,
+            current: FIRST,
             stopped: 0,
             window: tolerances::IMPLICIT_TRIED,
             contest: None,
@@ -231,14 +232,14 @@ impl<'a> Drive<'a> {
 
     /// Another method and the reason, if it should continue: after the work since `mark`, or after a failure.
     fn look(&mut self, mark: Mark, failure: Option<&Failure>) -> Result<Option<(usize, String)>> {
-        let own = &self.methods[self.carrier];
+        let own = &self.methods[self.current];
         if let Some(Failure { t, reason, .. }) = failure {
             let because = format!("{} stopped at t = {} s: {reason}", own.triple(), clock(*t));
-            return Ok(Some(((self.carrier + 1) % self.methods.len(), because)));
+            return Ok(Some(((self.current + 1) % self.methods.len(), because)));
         }
         let Some((place, contest)) = self.best(mark)? else { return Ok(None) };
         self.contest = Some(contest);
-        let kinds = [self.are_explicit[self.carrier], self.are_explicit[place]];
+        let kinds = [self.are_explicit[self.current], self.are_explicit[place]];
         let wins = contest.gain > tolerances::WORTH;
         let because = words(&contest, [own, &self.methods[place]], kinds, wins);
         if !wins && self.leg.because == CALM {
@@ -256,8 +257,8 @@ impl<'a> Drive<'a> {
         }
         let Some(view) = self.run.view(mark) else { return Ok(None) };
         let is_rival = |&place: &usize| {
-            let are_implicit = !self.are_explicit[self.carrier] && !self.are_explicit[place];
-            place != self.carrier && (view.is_between || are_implicit)
+            let are_implicit = !self.are_explicit[self.current] && !self.are_explicit[place];
+            place != self.current && (view.is_between || are_implicit)
         };
         let rivals: Vec<usize> = (0..self.methods.len()).filter(is_rival).collect();
         if !self.run.leaves_trials(mark, rivals.len()) {
@@ -280,9 +281,9 @@ impl<'a> Drive<'a> {
     }
 
     /// Continues the motion with another method.
-    fn change(&mut self, carrier: usize, because: String) -> Result<Option<Failure>> {
-        let next = self.run.rival(&self.methods[carrier], self.system, self.span)?;
-        let before = self.replace(next, carrier, because);
+    fn change(&mut self, place: usize, because: String) -> Result<Option<Failure>> {
+        let next = self.run.rival(&self.methods[place], self.system, self.span)?;
+        let before = self.replace(next, place, because);
         Ok(self.run.go_on(&before.problem.dynamics.dropped, before.h).err())
     }
 
@@ -295,22 +296,22 @@ impl<'a> Drive<'a> {
 
     /// Continues the motion with another method, which comes to the present time from the start, unseen. From the
     /// present state where it does not come there for the work that this took.
-    fn begin_again(&mut self, carrier: usize, because: String, sink: &mut dyn Sink) -> Result<Option<Failure>> {
-        let mut next = Run::new(self.system, &self.methods[carrier], self.span, self.start.clone())?;
+    fn begin_again(&mut self, place: usize, because: String, sink: &mut dyn Sink) -> Result<Option<Failure>> {
+        let mut next = Run::new(self.system, &self.methods[place], self.span, self.start.clone())?;
         let mut quiet = Quiet(Some(sink));
-        if next.begin(&mut quiet).is_err() || !next.comes_to(&self.run, &mut quiet) {
-            self.leg.add(&self.methods[carrier], next.statistics());
-            return self.change(carrier, because);
+        if next.begin(&mut quiet).is_err() || !next.reaches(&self.run, &mut quiet) {
+            self.leg.add(&self.methods[place], next.statistics());
+            return self.change(place, because);
         }
-        self.replace(next, carrier, format!("{because}; it began again at the start"));
+        self.replace(next, place, format!("{because}; it began again at the start"));
         Ok(None)
     }
 
     /// Replaces the run by one that is at the same time; returns the one before.
-    fn replace(&mut self, next: Run<'a>, carrier: usize, because: String) -> Run<'a> {
-        self.carrier = carrier;
+    fn replace(&mut self, next: Run<'a>, place: usize, because: String) -> Run<'a> {
+        self.current = place;
         let before = std::mem::replace(&mut self.run, next);
-        let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, &self.methods[carrier], because));
+        let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, &self.methods[place], because));
         self.legs.push(Leg { statistics: before.statistics(), ..leg });
         before
     }

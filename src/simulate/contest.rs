@@ -76,9 +76,9 @@ impl Run<'_> {
         Ok(rival)
     }
 
-    /// Comes from its start to the time of another run, whose rows it does not repeat; false if it does not, or not for
-    /// the same work.
-    pub fn comes_to(&mut self, other: &Run, sink: &mut dyn Sink) -> bool {
+    /// Runs from its start to the time of another run, whose rows it does not repeat; false if it fails, or takes more
+    /// work than that.
+    pub fn reaches(&mut self, other: &Run, sink: &mut dyn Sink) -> bool {
         let end = std::mem::replace(&mut self.span.end, other.t);
         (self.rows.next, self.allowance) = (u64::MAX, self.mark().work + other.mark().work);
         let came = self.advance(sink).is_ok() && self.t >= other.t;

@@ -25,9 +25,9 @@ pub fn add_residual<'a>(
         return Ok(());
     }
     let t = variation.point.t;
-    let mut held = held(equations);
-    let at = match (&mut held, &mut found.operator) {
-        (Some(held), _) => held,
+    let mut at_zero = at_zero(equations);
+    let at = match (&mut at_zero, &mut found.operator) {
+        (Some(at_zero), _) => at_zero,
         (None, Operator::Real(operator)) => operator,
         (None, Operator::Complex(_)) => return Ok(()),
     };
@@ -53,7 +53,7 @@ pub fn add_residual<'a>(
 }
 
 /// Returns the equations at s = 0 if they have a stiffness above rounding along the softest direction; none otherwise.
-fn held(equations: &Quadratic) -> Option<Shifted<'_, f64>> {
+fn at_zero(equations: &Quadratic) -> Option<Shifted<'_, f64>> {
     let mut operator = Shifted::new(equations, 0.0, 1.0).ok()?;
     let mut p: Vec<f64> = (0..equations.len()).map(|i| 1.0 + (i as f64).sin()).collect();
     for _ in 0..2 {
