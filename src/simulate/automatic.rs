@@ -225,9 +225,9 @@ impl<'a> Drive<'a> {
         sink.stops().is_some() || self.stopped == self.methods.len()
     }
 
-    /// True if the work since `mark` is representative of the motion.
+    /// True if the work since `mark` is representative of the motion: a good part of what is left at that pace.
     fn is_known(&self, mark: Mark) -> bool {
-        self.window > tolerances::ADVICE_WORK || self.run.has_shown_itself(mark)
+        self.window > tolerances::ADVICE_WORK || self.run.mark().work > tolerances::TRIAL_SHOWS * self.run.left(mark)
     }
 
     /// Another method and the reason, if it should continue: after the work since `mark`, or after a failure.

@@ -124,13 +124,8 @@ impl Run<'_> {
         (mark, None)
     }
 
-    /// True if the work so far is a good part of the estimated total at the pace since `mark`.
-    pub fn has_shown_itself(&self, mark: Mark) -> bool {
-        self.mark().work > tolerances::TRIAL_SHOWS * self.left(mark)
-    }
-
     /// Work of the steps to the end at the pace since `mark`.
-    fn left(&self, mark: Mark) -> f64 {
+    pub fn left(&self, mark: Mark) -> f64 {
         let now = self.mark();
         (self.span.end - now.t) * (now.work - mark.work) / (now.t - mark.t)
     }

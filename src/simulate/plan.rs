@@ -87,7 +87,7 @@ impl Run<'_> {
         };
         let (size, end) = match self.fixed {
             _ if stretched >= left => (left, Some(stop.t)),
-            Some(step) => (placed, self.end_of_fixed(step, placed)),
+            Some(step) => (placed, (placed == self.to_grid(step)).then(|| self.next_of_grid(step))),
             None => (placed, None),
         };
         let resolved = self.resolved(size, stop.t);
@@ -131,10 +131,5 @@ impl Run<'_> {
     fn to_grid(&self, h: f64) -> f64 {
         let left = self.next_of_grid(h) - self.t;
         if (left - h).abs() < tolerances::SAME * h + 4.0 * f64::EPSILON * self.t.abs() { h } else { left }
-    }
-
-    /// The point of the grid at which a step of size `size` ends, if it does, in a run with fixed steps `h`.
-    fn end_of_fixed(&self, h: f64, size: f64) -> Option<f64> {
-        (size == self.to_grid(h)).then(|| self.next_of_grid(h))
     }
 }
