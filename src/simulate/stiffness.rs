@@ -57,23 +57,25 @@ pub fn stiffness(
     if is_slow(rough.rate(), &[(rough.decay, rough.swing), axes[0], axes[1]]) {
         return None;
     }
-    match method.step {
-        Some(step) => too_long(system, state, step, duration, &stability),
-        None => too_many(system, method, state, span),
-    }
-    .map(|(mode, gain)| {
-        let limit = stability.limit(mode.decay, mode.swing);
-        let stable_step = limit / mode.rate().max(f64::MIN_POSITIVE);
-        Stiffness {
-            integrator: method.integrator.name.clone(),
-            mode,
-            limit,
-            step: method.step,
-            stable_step,
-            steps_for_stability: duration / stable_step,
-            implicit_gain: gain,
-            advice: advice(method, tolerances::ADVISED_STEP * stable_step),
+    let (mode, implicit_gain) = match method.step {
+        Some(step) => (too_long(system, state, (step, duration), &stability)?, None),
+        None => {
+            let contest = rival(system, method, span, (state.q, state.v))?;
+            let gain = Some(contest.gain).filter(|gain| *gain > tolerances::ANOTHER_METHOD)?;
+            (contest.mode, Some(gain))
         }
+    };
+    let limit = stability.limit(mode.decay, mode.swing);
+    let stable_step = limit / mode.rate().max(f64::MIN_POSITIVE);
+    Some(Stiffness {
+        integrator: method.integrator.name.clone(),
+        mode,
+        limit,
+        step: method.step,
+        stable_step,
+        steps_for_stability: duration / stable_step,
+        implicit_gain,
+        advice: advice(method, tolerances::ADVISED_STEP * stable_step),
     })
 }
 
@@ -81,26 +83,14 @@ pub fn stiffness(
 fn too_long(
     system: &dyn MechanicalSystem,
     state: OperatingPoint,
-    step: f64,
-    duration: f64,
+    (step, duration): (f64, f64),
     stability: &Stability,
-) -> Option<(SpectralMode, Option<f64>)> {
-    let spectrum = Spectrum::at(system, state)?;
+) -> Option<SpectralMode> {
     let stable = |mode: &SpectralMode| stability.limit(mode.decay, mode.swing) / mode.rate().max(f64::MIN_POSITIVE);
-    let &mode = spectrum.modes.iter().min_by(|a, b| stable(a).total_cmp(&stable(b)))?;
-    let grows = duration / step * stability.growth(mode.decay, mode.swing, step) > 1.0;
-    (step > stable(&mode) && grows).then_some((mode, None))
-}
-
-/// The mode that limits the steps of an adaptive method by stability alone.
-fn too_many(
-    system: &dyn MechanicalSystem,
-    method: &Method,
-    state: OperatingPoint,
-    span: Span,
-) -> Option<(SpectralMode, Option<f64>)> {
-    let contest = rival(system, method, span, (state.q, state.v))?;
-    (contest.gain > tolerances::ANOTHER_METHOD).then_some((contest.mode, Some(contest.gain)))
+    let modes = Spectrum::at(system, state)?.modes;
+    let mode = modes.into_iter().min_by(|a, b| stable(a).total_cmp(&stable(b)))?;
+    let growth = duration / step * stability.growth(mode.decay, mode.swing, step);
+    (step > stable(&mode) && growth > 1.0).then_some(mode)
 }
 
 /// Stability region of the method; `None` for a method without a limit.
