@@ -125,8 +125,8 @@ pub const TURNS_IN_WINDOW: usize = 250;
 /// Unit: `[turns]`. Why: a choice. Test: none: not tried with other values.
 pub const TURNS: f64 = 5e7;
 
-/// Windows of turns in a row that show a motion coming to rest at a threshold, each shorter and slower than the one before,
-/// or a motion that is lost, all turns nearer to each other than the tolerance.
+/// Windows of turns in a row that decide. Where each is shorter and slower than the one before, the motion comes to rest at
+/// the threshold. Where all turns are nearer to each other than the tolerance, the motion is lost.
 /// Unit: `[windows]`. Why: a choice. Test: none: a count of work, not tried.
 pub const WINDOWS_IN_ROW: usize = 4;
 
