@@ -146,6 +146,7 @@ pub mod joint;
 pub mod linearize;
 pub mod math;
 pub mod method_spec;
+mod modes;
 #[doc(hidden)]
 pub mod plot;
 pub mod prepared;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const LAYERS: &[&[&str]] = &[
     &["clock", "forward", "tolerances"],
     &["error", "files", "method_spec", "math"],
-    &["state"],
+    &["modes"],
     &["body"],
     &["joint", "force"],
     &["scene"],

@@ -17,16 +17,17 @@ mod thinned;
 pub use drift::{Drift, DriftLevel};
 pub use energy::EnergyBalance;
 #[doc(hidden)]
-pub use energy::{EnergyMeter, WorstRow, WorstStep};
+pub use energy::{WorstRow, WorstStep};
 pub use extremes::Extremes;
 #[doc(hidden)]
 pub use ledger::Ledger;
 #[doc(hidden)]
-pub use range::{LargestDeformation, Leap, Range};
+pub use range::Range;
 pub use rank::Rank;
 #[doc(hidden)]
 pub use rank::{Redundant, dependent_nearby};
-pub use recorder::{MOST_JUMPS, Record, Recorder, Row};
+pub(crate) use recorder::MOST_JUMPS;
+pub use recorder::{Record, Recorder, Row};
 #[doc(hidden)]
 pub use scale::{Sizes, scales};
 #[doc(hidden)]

@@ -1,7 +1,7 @@
 //! Range of validity of the models and of measured data, and rotation between evaluations.
 
 use super::held::HeldSignals;
-use crate::error::{Warning, short};
+use crate::error::{Warning, short, two_digits};
 use crate::simulate::Observation;
 use crate::system::{Limited, MechanicalSystem, Road, Scratch, Theory};
 use std::f64::consts::PI;
@@ -115,9 +115,9 @@ impl Range {
     /// The force of a tyre has no meaning where its wheel's centre is below the road.
     fn sinking(&self) -> Option<Warning> {
         let (road, t) = self.sunk.as_ref()?;
-        let compression = short(two_digits(road.radius - road.clearance));
+        let compression = two_digits(road.radius - road.clearance);
         let radius = short(road.radius);
-        let t = short(two_digits(*t));
+        let t = two_digits(*t);
         let text = format!(
             "the tyre `{}` is compressed by {compression} m at t = {t} s, more than its radius of {radius} m",
             road.tyre
@@ -128,9 +128,9 @@ impl Range {
     /// From half a revolution on, a rotation the other way round would fit as well.
     fn leaping(&self) -> Option<Warning> {
         let Leap { angle, body, t, apart, is_fixed } = self.leap.filter(|leap| leap.angle >= PI)?;
-        let shorter = short(two_digits(0.5 * apart * PI / angle));
-        let angle = short(two_digits(angle));
-        let t = short(two_digits(t));
+        let shorter = two_digits(0.5 * apart * PI / angle);
+        let angle = two_digits(angle);
+        let t = two_digits(t);
         let text = format!(
             "`{}` turns by {angle} rad, half a revolution or more, between two evaluations of the equations at t = {t} s: \
              steps so long do not see the motion",
@@ -148,9 +148,9 @@ impl Range {
 impl LargestDeformation {
     fn warning(&self) -> Warning {
         let Limited { part, theory } = &self.limited;
-        let t = short(two_digits(self.t));
-        let deformation = short(two_digits(self.deformation));
-        let most = short(two_digits(theory.most()));
+        let t = two_digits(self.t);
+        let deformation = two_digits(self.deformation);
+        let most = two_digits(theory.most());
         let (text, hint) = match theory {
             Theory::SmallDisplacements => (
                 format!(
@@ -191,16 +191,11 @@ impl LargestDeformation {
                 format!(
                     "the curvature of the beam `{part}` changes so much from one of its {elements} elements to the next that \
                      they miss some {} % of the energy of bending at t = {t} s",
-                    short(two_digits(100.0 * self.deformation))
+                    two_digits(100.0 * self.deformation)
                 ),
                 format!("take {} elements or more", theory.elements_for(self.deformation)),
             ),
         };
         Warning::new(text, hint)
     }
-}
-
-/// Rounds to two digits, for a message.
-fn two_digits(x: f64) -> f64 {
-    format!("{x:.1e}").parse().unwrap_or(x)
 }

@@ -59,8 +59,8 @@ impl Rank {
         } else {
             (all - dependent_nearby(system, t, q).len(), dependent_rows(&structure.g, &terms.g, RANK))
         };
-        let (groups, names) =
-            if rows.is_empty() { (Vec::new(), Vec::new()) } else { (system.groups(), system.names().lambda) };
+        let groups = system.groups();
+        let names = system.names().lambda;
         let redundant = dependence.rows.iter().map(|row| {
             let others = row.combination.iter().map(|(other, _)| owner(&groups, *other));
             redundant(&names[row.row], owner(&groups, row.row), others)
@@ -83,7 +83,6 @@ fn owner(groups: &[Group], row: usize) -> String {
 
 fn redundant(name: &str, joint: String, others: impl Iterator<Item = String>) -> Redundant {
     let mut follows_from: Vec<String> = others.filter(|other| *other != joint).collect();
-    follows_from.dedup();
     follows_from.sort();
     follows_from.dedup();
     let row = name.rsplit('.').next().unwrap_or_default().to_string();

@@ -132,7 +132,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Adds two rows at each time at which an output, a velocity or a multiplier jumps: that before the jump and that
-    /// after it; at no more than [`MOST_JUMPS`] times.
+    /// after it; at no more than 1000 times.
     pub fn with_jumps(mut self) -> Self {
         self.shows_jumps = true;
         self

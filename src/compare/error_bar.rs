@@ -102,7 +102,7 @@ fn bars(run: &Completed, companion: &Companion) -> Vec<(String, ErrorBar)> {
     let part = companion.part;
     let rows = differences(trajectory, &companion.rows);
     let bar = |(i, (name, unit)): (usize, (&str, &str))| {
-        let round_off = tolerances::ROUND_OFF_OF_ROWS * largest_of(trajectory, i);
+        let round_off = tolerances::ROUND_OFF_OF_SUMS * largest_of(trajectory, i);
         let differences: Vec<f64> = rows.iter().map(|row| part * row[i] + round_off).collect();
         let rows = envelope(&differences);
         let max = rows.iter().copied().fold(f64::NAN, f64::max);

@@ -70,7 +70,7 @@ struct TangentSpace {
 /// in the chart, or on another branch of the constraints.
 const LIMITS: Limits = Limits {
     round_off: f64::EPSILON,
-    stagnation: tolerances::CHART_STAGNATION,
+    stagnation: tolerances::NEWTON_STAGNATION,
     contraction: tolerances::NEWTON_HALVES,
     ..Limits::NONE
 };

@@ -16,7 +16,9 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> R
         return Ok(true);
     }
     let mut least = metric.residual(t, q);
-    for number in 1..=restarts(moved.len()) {
+    let is_large = moved.len() > tolerances::LARGE_ASSEMBLY;
+    let restarts = if is_large { tolerances::FEW_RESTARTS } else { tolerances::RESTARTS };
+    for number in 1..=restarts {
         let (mut from, mut way) = guess.clone();
         beside(metric, number, &mut from, &mut way);
         // A state beside the guess may be where an expression has no value.
@@ -34,11 +36,6 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> R
     }
     metric.residual(t, q);
     Ok(false)
-}
-
-/// Number of further beginnings: fewer for large systems, where each takes long.
-fn restarts(velocities: usize) -> usize {
-    if velocities > tolerances::LARGE_ASSEMBLY { tolerances::FEW_RESTARTS } else { tolerances::RESTARTS }
 }
 
 /// Damped Newton's method from one guess; true if it ends closed, as far as round-off lets the residual fall.
@@ -88,7 +85,7 @@ fn advance(
     let mut factor = full;
     for _ in 0..tolerances::STEP_HALVINGS {
         metric.go(start, d, factor, q);
-        if metric.residual(t, q) < residual * (1.0 - tolerances::FALL_OF_RESIDUAL * factor) {
+        if metric.residual(t, q) < residual * (1.0 - tolerances::SUFFICIENT_STEP * factor) {
             return Some(factor);
         }
         factor *= 0.5;

@@ -1,10 +1,9 @@
 //! The reason why joints cannot be closed.
 
 use super::follow::path;
-use super::nearest::corrected;
+use super::nearest::halved;
 use super::{Metric, closing, nearest};
 use crate::error::{Error, short, significant};
-
 use crate::system::{Group, Prescribed};
 use crate::tolerances::initial as tolerances;
 use std::cmp::Reverse;
@@ -107,20 +106,10 @@ fn with_less_gap(metric: &mut Metric, rows: &[usize], t: f64, q: &[f64], gap: f6
     let falls: f64 = d.iter().zip(&slopes).map(|(d, slope)| -d * slope).sum();
     let curvature = metric.squared_rates(rows, &d);
     let turn = tolerances::LARGEST_TURN / metric.largest_turn(q, &d);
-    let mut factor = (falls / curvature).min(turn);
-    for _ in 0..2 * tolerances::STEP_HALVINGS {
-        let mut ahead = q.to_vec();
-        let mut way = metric.still.clone();
-        metric.go(q, &d, factor, &mut ahead);
-        if corrected(metric, t, &mut ahead, &mut way) {
-            let now = metric.size_of(rows);
-            if now < gap {
-                return Some((ahead, now));
-            }
-        }
-        factor *= 0.5;
-    }
-    None
+    let step = (&d[..], (falls / curvature).min(turn), 2 * tolerances::STEP_HALVINGS);
+    let still = metric.still.clone();
+    let (ahead, _) = halved(metric, t, (q, &still), step, |metric, _| metric.size_of(rows) < gap)?;
+    Some((ahead, metric.size_of(rows)))
 }
 
 /// Drivers, and joints that are open: drivers first, then those with the fewest rows, and the last in the scene, which close loops.

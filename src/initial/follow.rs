@@ -1,6 +1,6 @@
 //! Continuation of an assembled state to a nearby one on the same branch.
 
-use super::{Metric, holds};
+use super::{Metric, continuation, holds};
 use crate::error::Result;
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
@@ -24,13 +24,13 @@ pub struct Followed {
 /// Deuflhard, Newton Methods for Nonlinear Problems, 2011, section 5.1).
 const LIMITS: Limits = Limits {
     most: tolerances::FOLLOWING_ITERATIONS,
-    round_off: tolerances::FOLLOWED,
+    round_off: tolerances::ROUND_OFF_OF_PHI,
     contraction: tolerances::UNIQUE_CONTRACTION,
     ..Limits::NONE
 };
 
 /// Closes the joints from a nearby guess; `None` where Newton's method does not contract from its first step on, so
-/// that it may lead to another branch or nowhere. Rows named in `dependent` are dropped and checked at the end.
+/// that it may lead to another branch or nowhere, or leaves one open. Rows named in `dependent` are dropped and checked at the end.
 ///
 /// # Errors
 /// Constraints that are infinite at the guess or on the way, names in `hold` that do not exist.
@@ -46,28 +46,10 @@ pub fn follow(
     let mut q = guess.to_vec();
     let mut moved = vec![0.0; system.dimensions().v];
     system.normalize(&mut q);
-    let contracts = newton(&mut metric, t, &mut q, &mut moved)?;
-    if contracts { end(metric, t, q, &vec![0.0; moved.len()]) } else { Ok(None) }
-}
-
-/// Newton's method on phi; true if it contracts from its first step on. Adds its steps to `moved`.
-fn newton(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
-    let mut d = vec![0.0; moved.len()];
-    let mut rate = vec![0.0; q.len()];
-    Monitor::default().solve(LIMITS, |_| {
-        metric.at_rest(t, q)?;
-        metric.step(None, &mut d)?;
-        metric.system.rate(q, &d, &mut rate);
-        q.iter_mut().zip(&rate).for_each(|(q, rate)| *q += rate);
-        metric.system.normalize(q);
-        moved.iter_mut().zip(&d).for_each(|(moved, d)| *moved += d);
-        Ok(largest(&d) / largest(q).max(1.0))
-    })
-}
-
-/// Rank indicator and dependent rows of a state; `None` if a joint is open.
-fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<Followed>> {
-    metric.at(t, &q, still)?;
+    if !newton(&mut metric, t, &mut q, &mut moved)? {
+        return Ok(None);
+    }
+    metric.at_rest(t, &q)?;
     if !metric.is_closed(&q) {
         return Ok(None);
     }
@@ -75,8 +57,21 @@ fn end(mut metric: Metric, t: f64, q: Vec<f64>, still: &[f64]) -> Result<Option<
     let dependent: Vec<usize> = rows.filter(|row| *row < metric.terms.phi.len()).collect();
     // The rank indicator of the other rows.
     metric.kkt.drop_rows(&dependent);
-    metric.at(t, &q, still)?;
+    metric.at_rest(t, &q)?;
     Ok(Some(Followed { q, rank_indicator: metric.kkt.rank_indicator(), dependent }))
+}
+
+/// Newton's method on phi; true if it contracts from its first step on. Adds its steps to `moved`.
+fn newton(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
+    let mut d = vec![0.0; moved.len()];
+    Monitor::default().solve(LIMITS, |_| {
+        metric.at_rest(t, q)?;
+        metric.step(None, &mut d)?;
+        let start = q.to_vec();
+        metric.go(&start, &d, 1.0, q);
+        moved.iter_mut().zip(&d).for_each(|(moved, d)| *moved += d);
+        Ok(largest(&d) / largest(q).max(1.0))
+    })
 }
 
 /// Moves q along the path on which phi of some rows, open by `gap` at q, goes to zero as (1 - s) gap. Returns s where it
@@ -85,22 +80,18 @@ pub(super) fn path(all: &mut Metric, rows: &[usize], t: f64, q: &mut [f64], move
     all.residual(t, q);
     let mut gap = vec![0.0; all.terms.phi.len()];
     rows.iter().for_each(|row| gap[*row] = all.terms.phi[*row]);
-    let mut done = 0.0;
-    let mut part = 1.0;
-    while done < 1.0 && part > tolerances::LEAST_PART {
-        let next = f64::min(done + part, 1.0);
+    let (done, _) = continuation(0.0, 1.0, (1.0, tolerances::LEAST_PART), |next| {
         let mut ahead = q.to_vec();
         let mut change = moved.to_vec();
         all.ahead = gap.iter().map(|gap| (1.0 - next) * gap).collect();
         let contracts = newton(all, t, &mut ahead, &mut change).unwrap_or(false);
-        if contracts && all.residual(t, &ahead).is_finite() && all.is_closed(&ahead) {
+        let is_there = contracts && all.residual(t, &ahead).is_finite() && all.is_closed(&ahead);
+        is_there.then(|| {
             q.copy_from_slice(&ahead);
             moved.copy_from_slice(&change);
-            (done, part) = (next, 2.0 * part);
-        } else {
-            part *= 0.5;
-        }
-    }
+            2.0
+        })
+    });
     all.ahead.clear();
     all.residual(t, q);
     done

@@ -1,6 +1,7 @@
 //! Consistent initial values: q, then v, then v' and lambda; static equilibrium.
 
 mod closing;
+mod continuation;
 mod diagnosis;
 mod equilibrium;
 mod follow;
@@ -13,6 +14,7 @@ mod report;
 mod travel;
 mod velocity;
 
+pub(crate) use continuation::continuation;
 pub use equilibrium::{Equilibrium, Stability, Way, equilibrium};
 #[doc(hidden)]
 pub use follow::{Followed, follow};

@@ -27,29 +27,32 @@ pub fn approach(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -
             break;
         }
         smallest = smallest.min(size);
-        let Some(next) = tried(metric, t, (q, moved), &d, is_close) else { break };
+        let before = metric.distance(moved);
+        let factor = (tolerances::LARGEST_TURN / metric.largest_turn(q, &d)).min(1.0);
+        let step = (&d[..], factor, tolerances::STEP_HALVINGS);
+        let next = halved(metric, t, (q, moved), step, |metric, way| is_close || metric.distance(way) < before);
+        let Some(next) = next else { break };
         q.copy_from_slice(&next.0);
         moved.copy_from_slice(&next.1);
     }
     Ok(())
 }
 
-/// The closed state after a step, with the way to it.
-fn tried(
+/// The closed state after `factor` of a step, with the way to it, if it `is_better` with that way; else after half, and
+/// so on, up to `most` times.
+pub(super) fn halved(
     metric: &mut Metric,
     t: f64,
     (q, moved): (&[f64], &[f64]),
-    d: &[f64],
-    is_close: bool,
+    (d, mut factor, most): (&[f64], f64, usize),
+    is_better: impl Fn(&Metric, &[f64]) -> bool,
 ) -> Option<(Vec<f64>, Vec<f64>)> {
-    let before = metric.distance(moved);
-    let mut factor = (tolerances::LARGEST_TURN / metric.largest_turn(q, d)).min(1.0);
-    for _ in 0..tolerances::STEP_HALVINGS {
+    for _ in 0..most {
         let mut ahead = q.to_vec();
         let mut way = moved.to_vec();
         metric.go(q, d, factor, &mut ahead);
         way.iter_mut().zip(d).for_each(|(way, d)| *way += factor * d);
-        if corrected(metric, t, &mut ahead, &mut way) && (is_close || metric.distance(&way) < before) {
+        if corrected(metric, t, &mut ahead, &mut way) && is_better(metric, &way) {
             return Some((ahead, way));
         }
         factor *= 0.5;
@@ -58,7 +61,7 @@ fn tried(
 }
 
 /// Newton's method with the matrix at hand; true if it closes the joints.
-pub(super) fn corrected(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> bool {
+fn corrected(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> bool {
     let mut d = vec![0.0; moved.len()];
     let mut last = f64::INFINITY;
     for _ in 0..tolerances::CLOSING_ITERATIONS {

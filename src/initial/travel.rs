@@ -3,7 +3,7 @@
 //! There G(q, t) loses rank, and phi_t has a part along the lost row: phi' = G v + phi_t = 0 has no solution v.
 
 use super::diagnosis::is_length;
-use super::{Metric, closing};
+use super::{Metric, closing, continuation};
 use crate::error::significant;
 use crate::math::largest;
 use crate::system::{Group, MechanicalSystem};
@@ -61,17 +61,14 @@ impl<'a> Travel<'a> {
             return None;
         }
         let start = self.last.0;
-        let mut step = t - self.last.0;
         let resolution = tolerances::TRAVEL_RESOLVED * (until - start).abs() + f64::EPSILON * t.abs();
-        while self.last.0 < t && step > resolution {
-            let next = f64::min(self.last.0 + step, t);
-            if self.closes_from_last(next) {
+        continuation(start, t, (t - start, resolution), |next| {
+            let is_closed = self.closes_from_last(next);
+            if is_closed {
                 self.take(next);
-                step *= 2.0;
-            } else {
-                step *= 0.5;
             }
-        }
+            is_closed.then_some(2.0)
+        });
         if self.last.0 >= t { None } else { Some(self.end(until)) }
     }
 

@@ -33,9 +33,8 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
         let message = format!("{problem}; rates that remain (m/s, rad/s): {culprits}");
         return Err(Error::input(message).under(place).hint(hint));
     }
-    let size = |metric: &Metric, v: &[f64]| v.iter().zip(metric.weigh(v)).map(|(a, b)| a * b).sum::<f64>();
-    let before = size(metric, &given);
-    let after = size(metric, v);
+    let before = metric.distance(&given);
+    let after = metric.distance(v);
     let driven = metric.terms.phi_t.iter().any(|rate| *rate != 0.0);
     if before > 0.0 && !driven && after < tolerances::VELOCITIES_KEPT * tolerances::VELOCITIES_KEPT * before {
         let names = metric.system.names().v;

@@ -1,5 +1,6 @@
 //! The modes of two models of one mechanism: which are lost, and which shift.
 
+use super::matching::{apart, floor};
 use super::{Branch, Complex, Kind, LinearModel, Matrix, Mode, pairs, seen, visible};
 use crate::math::eigen::assign;
 use crate::tolerances::linearize as tolerances;
@@ -132,16 +133,6 @@ fn part_within(basis: &[Vec<Complex<f64>>], y: &[Complex<f64>]) -> Option<f64> {
 /// x^H y
 fn product(x: &[Complex<f64>], y: &[Complex<f64>]) -> Complex<f64> {
     x.iter().zip(y).map(|(x, y)| x.conj() * y).sum()
-}
-
-/// |lambda - mu| / (|lambda| + |mu|), zero for two that are rounding.
-fn apart(a: Complex<f64>, b: Complex<f64>, floor: f64) -> f64 {
-    (a - b).norm() / (a.norm() + b.norm() + floor)
-}
-
-fn floor<'a>(values: impl Iterator<Item = &'a Complex<f64>>) -> f64 {
-    let largest = values.map(|value| value.norm()).filter(|size| size.is_finite()).fold(0.0, f64::max);
-    (tolerances::EIGENVALUES_AGREE * largest).max(f64::MIN_POSITIVE)
 }
 
 /// The column of each row; none where that costs too much.

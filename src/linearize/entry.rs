@@ -110,12 +110,10 @@ impl Built {
     }
 }
 
-/// A method as the command line and the table of methods list it.
+/// A method as the command line lists it.
 pub struct Entry {
     /// Name on the command line.
     pub name: &'static str,
-    /// One line of description.
-    pub about: &'static str,
     /// Options that it takes.
     pub options: &'static [OptionDoc],
     /// Builds the matrices at the state of a variation.

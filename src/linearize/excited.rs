@@ -71,14 +71,6 @@ impl Variation<'_> {
         rows
     }
 
-    /// Refuses drivers of inputs that other constraints hold.
-    ///
-    /// # Errors
-    /// See [`Variation::prescribed`].
-    pub(super) fn refuse_held_drivers(&mut self) -> Result<()> {
-        if self.has_drivers() { self.prescribed().map(|_| ()) } else { Ok(()) }
-    }
-
     /// Returns the least change of q in the mass metric that a unit of each input prescribes, n_v x n_u.
     ///
     /// # Errors

@@ -20,19 +20,6 @@ pub struct Floquet {
     pub gap: f64,
 }
 
-impl Floquet {
-    /// log(multiplier) / period, 1/s: growth rate and frequency, the latter up to multiples of that of the motion.
-    pub fn exponents(&self) -> Vec<Complex<f64>> {
-        self.multipliers.iter().map(|multiplier| multiplier.ln() / self.period).collect()
-    }
-
-    /// True if no multiplier is outside the unit circle by more than `slack`. A double multiplier 1 is computed with an
-    /// error of the square root of rounding.
-    pub fn is_stable(&self, slack: f64) -> bool {
-        self.multipliers.iter().all(|multiplier| multiplier.norm() <= 1.0 + slack)
-    }
-}
-
 /// A defective multiplier on the unit circle, with fewer eigenvectors than its multiplicity: small changes grow like t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Defect {
@@ -45,6 +32,17 @@ pub struct Defect {
 }
 
 impl Floquet {
+    /// log(multiplier) / period, 1/s: growth rate and frequency, the latter up to multiples of that of the motion.
+    pub fn exponents(&self) -> Vec<Complex<f64>> {
+        self.multipliers.iter().map(|multiplier| multiplier.ln() / self.period).collect()
+    }
+
+    /// True if no multiplier is outside the unit circle by more than `slack`. A double multiplier 1 is computed with an
+    /// error of the square root of rounding.
+    pub fn is_stable(&self, slack: f64) -> bool {
+        self.multipliers.iter().all(|multiplier| multiplier.norm() <= 1.0 + slack)
+    }
+
     /// Returns the multipliers on the unit circle, up to `slack`, that are defective, each once. Multipliers that
     /// rounding has parted by the root of `slack` or less count as one.
     ///
@@ -72,7 +70,7 @@ impl Floquet {
     fn vectors_of(&self, multiplier: Complex<f64>) -> Result<usize> {
         let mut shifted = self.monodromy.map(Complex::from);
         (0..shifted.nrows()).for_each(|i| shifted[(i, i)] -= multiplier);
-        let sizes = singular_values(&shifted).map_err(|unsolved| Error::input(unsolved.to_string()))?;
+        let sizes = singular_values(&shifted)?;
         Ok(sizes.iter().filter(|size| **size <= tolerances::NO_MULTIPLIER * sizes[0]).count())
     }
 }
@@ -99,7 +97,7 @@ pub fn floquet(system: &dyn MechanicalSystem, start: &State, period: f64) -> Res
     }
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
     let monodromy = Chart::MassOrthogonal.at(&mut variation)?.states_of(&found.changes);
-    let values = eigen(&monodromy).map_err(|unsolved| Error::input(unsolved.to_string()))?.values;
+    let values = eigen(&monodromy)?.values;
     Ok(Floquet { period, monodromy, multipliers: values.into_iter().rev().collect(), gap })
 }
 

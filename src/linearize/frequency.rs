@@ -34,31 +34,22 @@ struct Reduced {
 
 impl Reduced {
     fn new(model: &LinearModel) -> Self {
-        let complex = |matrix: &Matrix| matrix.map(Complex::from);
-        let d = complex(&model.d);
-        let orders = model.orders.clone();
-        let sizes = model.c.row_iter().map(|row| row.norm()).collect();
-        if let Some(e) = &model.e {
+        let (a, e, b, c) = if let Some(e) = &model.e {
             // Rows of equations in different units are scaled to one size, since sizes decide on pivots.
             let scale: Vec<f64> = (0..e.nrows()).map(|i| e.row(i).amax().max(model.a.row(i).amax())).collect();
             let scaled = |matrix: &Matrix| {
                 Matrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / scale[i].max(f64::MIN_POSITIVE))
             };
-            return Reduced {
-                a: scaled(&model.a),
-                e: Some(scaled(e)),
-                b: scaled(&model.b),
-                c: complex(&model.c),
-                d,
-                orders,
-                sizes,
-            };
-        }
-        if model.a.nrows() < 3 {
-            return Reduced { a: model.a.clone(), e: None, b: model.b.clone(), c: complex(&model.c), d, orders, sizes };
-        }
-        let (q, h) = Hessenberg::new(model.a.clone()).unpack();
-        Reduced { a: h, e: None, b: q.transpose() * &model.b, c: complex(&(&model.c * q)), d, orders, sizes }
+            (scaled(&model.a), Some(scaled(e)), scaled(&model.b), model.c.clone())
+        } else if model.a.nrows() < 3 {
+            (model.a.clone(), None, model.b.clone(), model.c.clone())
+        } else {
+            let (q, h) = Hessenberg::new(model.a.clone()).unpack();
+            (h, None, q.transpose() * &model.b, &model.c * q)
+        };
+        let sizes = model.c.row_iter().map(|row| row.norm()).collect();
+        let complex = |matrix: &Matrix| matrix.map(Complex::from);
+        Reduced { a, e, b, c: complex(&c), d: complex(&model.d), orders: model.orders.clone(), sizes }
     }
 
     fn at(&self, s: Complex<f64>) -> Option<ComplexMatrix> {
@@ -129,7 +120,7 @@ impl Resonances {
     pub fn around(model: &LinearModel) -> Self {
         let sizes = || model.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.frequency());
         let fastest = sizes().fold(0.0, f64::max);
-        let slowest = sizes().filter(|f| *f > tolerances::NO_MODE * fastest).fold(fastest, f64::min);
+        let slowest = sizes().filter(|f| *f > tolerances::EIGENVALUES_AGREE * fastest).fold(fastest, f64::min);
         if slowest > 0.0 && fastest.is_finite() {
             Resonances { from: slowest / 10.0, to: fastest * 10.0 }
         } else {

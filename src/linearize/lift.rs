@@ -48,16 +48,7 @@ impl Lift {
         }
         all
     }
-}
 
-/// P and the least corrections of the velocity, G S + Gd P = 0.
-fn least(variation: &mut Variation) -> Result<[Matrix; 2]> {
-    let p = variation.prescribed()?;
-    let s = -variation.correct(&variation.gd_times(&p))?;
-    Ok([p, s])
-}
-
-impl Lift {
     /// No input moves a driver.
     fn none(n: usize, k: usize, inputs: usize) -> Self {
         let zeros = |rows| Matrix::zeros(rows, inputs);
@@ -69,15 +60,16 @@ impl Lift {
     /// # Errors
     /// A driver that redundant constraints do not let move.
     pub(super) fn constant(variation: &mut Variation, (r, b): (&Matrix, &Matrix)) -> Result<Self> {
+        let none = Lift::none(r.nrows(), r.ncols(), variation.input_count());
         if !variation.has_drivers() {
-            return Ok(Lift::none(r.nrows(), r.ncols(), variation.input_count()));
+            return Ok(none);
         }
         let p = variation.prescribed()?;
         let p = &p - r * (b * &p);
         let s = -variation.correct(&variation.gd_times(&p))?;
         let s = &s - r * (b * &s);
         let turn = -b * variation.bracket_with(&p);
-        Ok(Lift { s, turn, ..Lift::none(r.nrows(), r.ncols(), p.ncols()) }.with(p))
+        Ok(Lift { p, s, turn, ..none })
     }
 
     /// That of the plain projection: the terms of `constant` at rest, and those of [v, .] where the body turns.
@@ -92,7 +84,7 @@ impl Lift {
         let p = variation.prescribed()?;
         let s = variation.bracket_with(&p);
         let drift = [none.drift[0].clone(), b * &s];
-        Ok(Lift { s, drift, ..none }.with(p))
+        Ok(Lift { p, s, drift, ..none })
     }
 
     /// That of the intrinsic chart, B = N^T M with N parallel. With B', B'' along the motion and Q = -[v, .],
@@ -113,7 +105,8 @@ impl Lift {
         if !variation.has_drivers() {
             return Ok(none);
         }
-        let [p, least] = least(variation)?;
+        let p = variation.prescribed()?;
+        let least = -variation.correct(&variation.gd_times(&p))?;
         let v = variation.point.v.clone();
         let turned = |variation: &Variation, x: &Matrix| -variation.bracket_of(&v, x);
         let b_dot = |variation: &Variation, x: &Matrix| {
@@ -128,11 +121,7 @@ impl Lift {
         let rate = &s + &qp;
         let turned_later = turned(variation, &rate) - variation.bracket_of(&variation.point.vdot, &p);
         let drift = [-b_ddot - b_dot(variation, &rate) * 2.0 - b * turned_later, -b_dot(variation, &p) * 2.0 - b * qp];
-        Ok(Lift { s, drift, ..none }.with(p))
-    }
-
-    fn with(self, p: Matrix) -> Self {
-        Lift { p, ..self }
+        Ok(Lift { p, s, drift, ..none })
     }
 }
 

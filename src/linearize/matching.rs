@@ -113,15 +113,23 @@ fn cost(starts: &[&Node], predicted: &[Complex<f64>], ends: &[Node], mass: &Matr
     let of_x = sizes(&x, &mx);
     let of_y = sizes(&y, &my);
     let product = x.adjoint() * &my;
-    let largest = predicted.iter().chain(ends.iter().map(|end| &end.value)).fold(0.0f64, |most, z| most.max(z.norm()));
-    let floor = (tolerances::EIGENVALUES_AGREE * largest).max(f64::MIN_POSITIVE);
+    let floor = floor(predicted.iter().chain(ends.iter().map(|end| &end.value)));
     Matrix::from_fn(starts.len(), ends.len(), |i, j| {
-        let a = predicted[i];
-        let b = ends[j].value;
         let sizes = of_x[i] * of_y[j];
         let mac = if sizes > 0.0 { product[(i, j)].norm_sqr() / sizes } else { 0.0 };
-        1.0 - mac + (a - b).norm() / (a.norm() + b.norm() + floor)
+        1.0 - mac + apart(predicted[i], ends[j].value, floor)
     })
+}
+
+/// |lambda - mu| / (|lambda| + |mu|), zero for two that are rounding.
+pub(super) fn apart(a: Complex<f64>, b: Complex<f64>, floor: f64) -> f64 {
+    (a - b).norm() / (a.norm() + b.norm() + floor)
+}
+
+/// Rounding of the largest finite value.
+pub(super) fn floor<'a>(values: impl Iterator<Item = &'a Complex<f64>>) -> f64 {
+    let largest = values.map(|value| value.norm()).filter(|size| size.is_finite()).fold(0.0, f64::max);
+    (tolerances::EIGENVALUES_AGREE * largest).max(f64::MIN_POSITIVE)
 }
 
 fn shapes<'a>(n: usize, nodes: impl Iterator<Item = &'a Node>) -> ComplexMatrix {

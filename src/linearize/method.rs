@@ -35,7 +35,9 @@ pub fn linearize(variation: &mut Variation, request: &Request) -> Result<LinearM
     let entry = request.method.entry(registry())?;
     refuse_large(variation.velocities())?;
     let clock = Instant::now();
-    variation.refuse_held_drivers()?;
+    if variation.has_drivers() {
+        variation.prescribed()?;
+    }
     let built = (entry.build)(variation, request)?;
     let assembly_seconds = clock.elapsed().as_secs_f64();
     let clock = Instant::now();

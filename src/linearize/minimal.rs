@@ -19,7 +19,6 @@ pub struct Minimal {
 /// Minimal coordinates: see [`minimal`].
 pub(super) const MCS: Entry = Entry {
     name: "mcs",
-    about: "minimal coordinates in a chart: exact at every state, no spurious eigenvalues",
     options: &[],
     build: |variation, request| {
         let chart = request.chart(variation);

@@ -39,10 +39,12 @@ mod variation;
 mod visible;
 
 #[doc(hidden)]
-pub use against::{Against, Fate, against, both, branch_places};
-pub use along::{State, states};
+pub use against::{Against, against, both};
+pub(crate) use against::{Fate, branch_places};
+pub(crate) use along::tighten;
 #[doc(hidden)]
-pub use along::{tighten, within_run};
+pub use along::within_run;
+pub use along::{State, states};
 #[doc(hidden)]
 pub use amplification::amplified;
 #[doc(hidden)]
@@ -64,19 +66,17 @@ pub use frequency::Resonances;
 pub use frequency::frequency_response;
 #[doc(hidden)]
 pub use kink::kinks;
-#[doc(hidden)]
-pub use lift::Lift;
+use lift::Lift;
 pub use lyapunov::{Lyapunov, lyapunov};
-#[doc(hidden)]
-pub use method::refuse_large;
+pub(crate) use method::refuse_large;
 pub use method::{linearize, registry};
 #[doc(hidden)]
 pub use minimal::{Minimal, minimal};
+pub(crate) use model::Pair;
 pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode};
 #[doc(hidden)]
-pub use model::{Pair, are_conjugate, damping, frequency, pairs};
-#[doc(hidden)]
-pub use perturbation::Perturbation;
+pub use model::{are_conjugate, damping, frequency, pairs};
+use perturbation::Perturbation;
 pub use point::LinearizationPoint;
 pub use response::Response;
 pub use sparse::modal;
@@ -89,5 +89,6 @@ pub use tracking::track;
 pub use tracking::{Branch, LociPoint};
 pub use transition::{Transition, transition};
 pub use variation::Variation;
+pub(crate) use visible::visible;
 #[doc(hidden)]
-pub use visible::{amplitude, seen, visible};
+pub use visible::{amplitude, seen};

@@ -1,7 +1,7 @@
 //! The state that is perturbed.
 
 use crate::formulation::Dynamics;
-use crate::math::largest;
+use crate::math::{largest, largest_in};
 use crate::system::{OperatingPoint, Spin};
 use crate::tolerances::linearize as tolerances;
 
@@ -44,7 +44,6 @@ impl LinearizationPoint {
     pub(super) fn new(dynamics: &Dynamics, k: &[f64], t: f64, q: &[f64], v: &[f64]) -> Self {
         let terms = &dynamics.terms;
         let scales = dynamics.system.scales();
-        let worst = |rows: &[f64]| rows.iter().zip(&scales).fold(0.0f64, |worst, (row, s)| worst.max((row / s).abs()));
         LinearizationPoint {
             t,
             q: q.to_vec(),
@@ -53,8 +52,8 @@ impl LinearizationPoint {
             vdot: dynamics.vdot.clone(),
             lambda: dynamics.lambda.clone(),
             u: Vec::new(),
-            phi: worst(&terms.phi),
-            phi_dot: worst(&terms.phi_dot),
+            phi: largest_in(&scales, &terms.phi),
+            phi_dot: largest_in(&scales, &terms.phi_dot),
             is_equilibrium: is_at_rest(dynamics, &rounding(dynamics, k, q), v),
             axes: dynamics.system.axes(),
             driven: dynamics.system.prescribed_spin(t),

@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::system::OutputTangent;
 use crate::tolerances::linearize as tolerances;
 
-/// dv' and dlambda of a formulation, one column for each change of a [`Perturbation`].
+/// dv' and dlambda of a formulation, one column for each change of a perturbation.
 #[derive(Clone, Debug)]
 pub struct Response {
     /// dv' of each change, n_v rows.

@@ -201,6 +201,12 @@ fn complex(matrix: &Matrix) -> ComplexMatrix {
     matrix.map(Complex::from)
 }
 
+impl From<Unsolved> for Error {
+    fn from(unsolved: Unsolved) -> Error {
+        Error::input(unsolved.to_string())
+    }
+}
+
 pub(super) fn refused(t: f64, unsolved: &Unsolved) -> Error {
     Error::input(format!("the linear model at t = {} s has no reliable eigenvalues: {unsolved}", clock(t)))
         .hint("take --method mcs, or another time")

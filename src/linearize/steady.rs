@@ -4,6 +4,7 @@ use super::point::rounding;
 use super::{Changes, Matrix, State, Variation};
 use crate::error::{Error, Result, Warning, short};
 use crate::initial::{assemble, equilibrium};
+use crate::math::largest;
 use crate::prepared::PreparedScene;
 use crate::system::{MechanicalSystem, Rotating};
 use crate::tolerances::linearize as tolerances;
@@ -102,12 +103,8 @@ fn is_same_all_around(axes: &Rotating, prepared: &PreparedScene, state: &State) 
     let rounding = rounding(&here.dynamics, &here.tangent.k, &here.point.q);
     let is_closed = there.point.phi <= tolerances::STEADY && leaves.norm() <= tolerances::STEADY * y.norm();
     Ok(is_closed
-        && agree(&carried, &pushed, &rounding)
-        && agree(
-            &products(&here, &x),
-            &products(&there, &y),
-            &[0.0; 2 * tolerances::STEADY_DIRECTIONS * tolerances::STEADY_DIRECTIONS],
-        ))
+        && agree(&carried, &pushed, rounding.into_iter())
+        && agree(&products(&here, &x), &products(&there, &y), std::iter::repeat(0.0)))
 }
 
 /// Returns M v'.
@@ -136,7 +133,7 @@ fn products(variation: &Variation, x: &Matrix) -> Vec<f64> {
     [x.transpose() * stiff, x.transpose() * damped].iter().flat_map(|m| m.iter().copied().collect::<Vec<_>>()).collect()
 }
 
-fn agree(a: &[f64], b: &[f64], rounding: &[f64]) -> bool {
-    let size = crate::math::largest(a).max(crate::math::largest(b));
+fn agree(a: &[f64], b: &[f64], rounding: impl Iterator<Item = f64>) -> bool {
+    let size = largest(a).max(largest(b));
     a.iter().zip(b).zip(rounding).all(|((a, b), rounding)| (a - b).abs() <= tolerances::STEADY * size + rounding)
 }

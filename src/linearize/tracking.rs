@@ -28,9 +28,7 @@ impl LociPoint {
     pub fn gap(at: f64) -> Self {
         LociPoint { at, modes: Vec::new(), mass: Matrix::zeros(0, 0) }
     }
-}
 
-impl LociPoint {
     fn nodes(&self, kind: Kind) -> Vec<Node> {
         self.modes.iter().filter(|mode| mode.kind == kind).map(Node::new).collect()
     }

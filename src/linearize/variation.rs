@@ -153,10 +153,7 @@ impl<'a> Variation<'a> {
 
     /// Returns G x, a column each.
     pub fn g_times(&self, x: &Matrix) -> Matrix {
-        let Dynamics { structure, terms, .. } = &self.dynamics;
-        let mut rows = Matrix::zeros(structure.g.rows, x.ncols());
-        add_product(&structure.g, &terms.g, x, 1.0, &mut rows);
-        rows
+        self.rows_times(&self.dynamics.terms.g, x)
     }
 
     /// Returns G dv' for phi'' + c1 phi' + c0 phi = 0, a column each: -(Gdd + c1 Gd + c0 G) dq - (G1 + c1 G) dv.
@@ -179,9 +176,14 @@ impl<'a> Variation<'a> {
 
     /// Returns Gd x, a column each.
     pub fn gd_times(&self, x: &Matrix) -> Matrix {
-        let Dynamics { structure, terms, .. } = &self.dynamics;
-        let mut rows = Matrix::zeros(structure.g.rows, x.ncols());
-        add_product(&structure.g, &terms.l, x, 1.0, &mut rows);
+        self.rows_times(&self.dynamics.terms.l, x)
+    }
+
+    /// Returns the product of a matrix with the places of G.
+    fn rows_times(&self, values: &[f64], x: &Matrix) -> Matrix {
+        let pattern = &self.dynamics.structure.g;
+        let mut rows = Matrix::zeros(pattern.rows, x.ncols());
+        add_product(pattern, values, x, 1.0, &mut rows);
         rows
     }
 

@@ -7,9 +7,9 @@
 //! still far from the slow motion in the norm of the stiff forces that it would have to follow.
 
 use super::checkpoint::flat;
-use super::contest::{Contest, Mark, Quiet, View, unseen};
+use super::contest::{Contest, Mark, Quiet, unseen};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
-use crate::error::{Failure, Result, clock, short};
+use crate::error::{Failure, Result, clock, two_digits};
 use crate::formulation::Statistics;
 use crate::integrator;
 use crate::math::expression::Switch;
@@ -45,7 +45,6 @@ pub struct Trial {
 
 const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
 
-/// Method of a formulation, an integrator and a projection.
 fn method([formulation, integrator, projection]: [&str; 3], (rtol, atol): (f64, f64)) -> Method {
     let formulation = MethodSpec::named(formulation);
     let integrator = MethodSpec::named(integrator);
@@ -137,7 +136,7 @@ pub fn simulate_automatic(
         Ok(()) => drive.go(sink, |_, _, _| false)?,
         Err(failure) => Some(failure),
     };
-    let saved = has_begun.then(|| drive.run.checkpoint(&methods[drive.carrier]));
+    let saved = has_begun.then(|| drive.run.checkpoint(&methods[drive.current]));
     let (outcome, legs) = drive.finish(failure, sink);
     Ok((outcome, legs, saved))
 }
@@ -146,19 +145,20 @@ pub fn simulate_automatic(
 struct Drive<'a> {
     system: &'a dyn MechanicalSystem,
     methods: &'a [Method],
+    /// True for each explicit one.
+    are_explicit: Vec<bool>,
     span: Span,
     /// The flat state at the start.
     start: Vec<f64>,
     run: Run<'a>,
-    carrier: usize,
+    /// Index of the present method.
+    current: usize,
     /// Number of methods that failed at the present state.
     stopped: usize,
     /// Work until the next comparison, in evaluations.
     window: f64,
     /// Result of the best of the last trials.
     contest: Option<Contest>,
-    /// Methods that are not tried at the next comparison.
-    sits_out: Vec<bool>,
     /// The legs before, and that of the present method.
     legs: Vec<Leg>,
     leg: Leg,
@@ -172,15 +172,21 @@ impl<'a> Drive<'a> {
         (q, v): (&[f64], &[f64]),
     ) -> Result<Self> {
         let start = flat(system, q, v);
-        let run = Run::new(system, &methods[FIRST], span, start.clone())?;
-        let leg = Leg::of(span.start, &methods[FIRST], CALM.to_string());
-        let carrier = FIRST;
-        let stopped = 0;
-        let window = tolerances::IMPLICIT_TRIED;
-        let contest = None;
-        let legs = Vec::new();
-        let sits_out = vec![false; methods.len()];
-        Ok(Drive { system, methods, span, start, run, carrier, stopped, window, contest, sits_out, legs, leg })
+        let is_explicit = |method: &Method| Ok(integrator::find(&method.integrator)?.follows_fields());
+        Ok(Drive {
+            system,
+            methods,
+            are_explicit: methods.iter().map(is_explicit).collect::<Result<_>>()?,
+            span,
+            run: Run::new(system, &methods[FIRST], span, start.clone())?,
+            start,
+            current: FIRST,
+            stopped: 0,
+            window: tolerances::IMPLICIT_TRIED,
+            contest: None,
+            legs: Vec::new(),
+            leg: Leg::of(span.start, &methods[FIRST], CALM.to_string()),
+        })
     }
 
     /// Continues to the end, to a failure that all methods have, or until `is_enough`, which is called after each
@@ -202,7 +208,7 @@ impl<'a> Drive<'a> {
             }
             let wins = failure.is_none();
             failure = match next {
-                Some((next, because)) if wins && self.begins_again(next)? => self.begin_again(next, because, sink)?,
+                Some((next, because)) if wins && self.begins_again(next) => self.begin_again(next, because, sink)?,
                 Some((next, because)) => self.change(next, because)?,
                 None => None,
             };
@@ -219,26 +225,22 @@ impl<'a> Drive<'a> {
         sink.stops().is_some() || self.stopped == self.methods.len()
     }
 
-    /// True if the work since `mark` is representative of the motion.
+    /// True if the work since `mark` is representative of the motion: a good part of what is left at that pace.
     fn is_known(&self, mark: Mark) -> bool {
-        self.window > tolerances::ADVICE_WORK || self.run.has_shown_itself(mark)
-    }
-
-    fn is_explicit(&self, place: usize) -> Result<bool> {
-        Ok(integrator::find(&self.methods[place].integrator)?.follows_fields())
+        self.window > tolerances::ADVICE_WORK || self.run.mark().work > tolerances::TRIAL_SHOWS * self.run.left(mark)
     }
 
     /// Another method and the reason, if it should continue: after the work since `mark`, or after a failure.
     fn look(&mut self, mark: Mark, failure: Option<&Failure>) -> Result<Option<(usize, String)>> {
-        let own = &self.methods[self.carrier];
+        let own = &self.methods[self.current];
         if let Some(Failure { t, reason, .. }) = failure {
             let because = format!("{} stopped at t = {} s: {reason}", own.triple(), clock(*t));
-            return Ok(Some(((self.carrier + 1) % self.methods.len(), because)));
+            return Ok(Some(((self.current + 1) % self.methods.len(), because)));
         }
         let Some((place, contest)) = self.best(mark)? else { return Ok(None) };
         self.contest = Some(contest);
-        let kinds = [self.is_explicit(self.carrier)?, self.is_explicit(place)?];
-        let wins = contest.gain > if kinds[0] { tolerances::WORTH } else { tolerances::WORTH_AFTER_IMPLICIT };
+        let kinds = [self.are_explicit[self.current], self.are_explicit[place]];
+        let wins = contest.gain > tolerances::WORTH;
         let because = words(&contest, [own, &self.methods[place]], kinds, wins);
         if !wins && self.leg.because == CALM {
             self.leg.because.clone_from(&because);
@@ -247,28 +249,30 @@ impl<'a> Drive<'a> {
     }
 
     /// The method that comes farthest in a trial from here. An explicit method tries where the length of the steps
-    /// allows for one, and any instead of one whose steps may be limited by stability; one that was hopelessly behind
-    /// sits out the next comparison, and one that is far ahead is not compared with others before it has shown more.
+    /// allows for one, and any instead of one whose steps may be limited by stability; one that is far ahead is not
+    /// compared with others before it has shown more.
     fn best(&mut self, mark: Mark) -> Result<Option<(usize, Contest)>> {
         if !self.run.leaves_trials(mark, 1) {
             return Ok(None);
         }
         let Some(view) = self.run.view(mark) else { return Ok(None) };
-        let rivals = self.rivals(view)?;
+        let is_rival = |&place: &usize| {
+            let are_implicit = !self.are_explicit[self.current] && !self.are_explicit[place];
+            place != self.current && (view.is_between || are_implicit)
+        };
+        let rivals: Vec<usize> = (0..self.methods.len()).filter(is_rival).collect();
         if !self.run.leaves_trials(mark, rivals.len()) {
             return Ok(None);
         }
         let mut best: Option<(usize, Contest)> = None;
         for &place in &rivals {
             let least = best.map_or(1.0, |(_, contest)| contest.gain.max(1.0));
-            if std::mem::take(&mut self.sits_out[place]) || least > tolerances::FAR_AHEAD {
-                continue;
+            if least > tolerances::FAR_AHEAD {
+                break;
             }
             let method = &self.methods[place];
-            let tried = self.run.contest(mark, view, (rivals.len(), least), method, self.system)?;
-            let Some((contest, work)) = tried else { continue };
+            let (contest, work) = self.run.contest(mark, view, (rivals.len(), least), method, self.system)?;
             self.leg.add(method, work);
-            self.sits_out[place] = contest.gain < tolerances::NO_ALTERNATIVE;
             if best.is_none_or(|(_, best)| contest.gain > best.gain) {
                 best = Some((place, contest));
             }
@@ -276,50 +280,38 @@ impl<'a> Drive<'a> {
         Ok(best)
     }
 
-    /// The methods that may be better than the present one.
-    fn rivals(&self, view: View) -> Result<Vec<usize>> {
-        let carrier = self.is_explicit(self.carrier)?;
-        let mut rivals = Vec::new();
-        for place in (0..self.methods.len()).filter(|place| *place != self.carrier) {
-            if view.is_between || !carrier && !self.is_explicit(place)? {
-                rivals.push(place);
-            }
-        }
-        Ok(rivals)
-    }
-
     /// Continues the motion with another method.
-    fn change(&mut self, carrier: usize, because: String) -> Result<Option<Failure>> {
-        let next = self.run.rival(&self.methods[carrier], self.system, self.span)?;
-        let before = self.replace(next, carrier, because);
+    fn change(&mut self, place: usize, because: String) -> Result<Option<Failure>> {
+        let next = self.run.rival(&self.methods[place], self.system, self.span)?;
+        let before = self.replace(next, place, because);
         Ok(self.run.go_on(&before.problem.dynamics.dropped, before.h).err())
     }
 
     /// True if the motion so far costs an implicit method little: it may begin at the start, where no errors of steps
     /// of the first method excite stiff modes, which it would have to follow.
-    fn begins_again(&self, place: usize) -> Result<bool> {
+    fn begins_again(&self, place: usize) -> bool {
         let is_early = self.run.t - self.span.start < tolerances::BEGINNING * (self.span.end - self.span.start);
-        Ok(is_early && self.legs.is_empty() && !self.is_explicit(place)?)
+        is_early && self.legs.is_empty() && !self.are_explicit[place]
     }
 
     /// Continues the motion with another method, which comes to the present time from the start, unseen. From the
     /// present state where it does not come there for the work that this took.
-    fn begin_again(&mut self, carrier: usize, because: String, sink: &mut dyn Sink) -> Result<Option<Failure>> {
-        let mut next = Run::new(self.system, &self.methods[carrier], self.span, self.start.clone())?;
+    fn begin_again(&mut self, place: usize, because: String, sink: &mut dyn Sink) -> Result<Option<Failure>> {
+        let mut next = Run::new(self.system, &self.methods[place], self.span, self.start.clone())?;
         let mut quiet = Quiet(Some(sink));
-        if next.begin(&mut quiet).is_err() || !next.comes_to(&self.run, &mut quiet) {
-            self.leg.add(&self.methods[carrier], next.statistics());
-            return self.change(carrier, because);
+        if next.begin(&mut quiet).is_err() || !next.reaches(&self.run, &mut quiet) {
+            self.leg.add(&self.methods[place], next.statistics());
+            return self.change(place, because);
         }
-        self.replace(next, carrier, format!("{because}; it began again at the start"));
+        self.replace(next, place, format!("{because}; it began again at the start"));
         Ok(None)
     }
 
     /// Replaces the run by one that is at the same time; returns the one before.
-    fn replace(&mut self, next: Run<'a>, carrier: usize, because: String) -> Run<'a> {
-        self.carrier = carrier;
+    fn replace(&mut self, next: Run<'a>, place: usize, because: String) -> Run<'a> {
+        self.current = place;
         let before = std::mem::replace(&mut self.run, next);
-        let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, &self.methods[carrier], because));
+        let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, &self.methods[place], because));
         self.legs.push(Leg { statistics: before.statistics(), ..leg });
         before
     }
@@ -366,7 +358,6 @@ fn words(
     are_explicit: [bool; 2],
     wins: bool,
 ) -> String {
-    let two = |x: f64| short(format!("{x:.1e}").parse().unwrap_or(x));
     let own = &own.integrator.name;
     let other = &other.integrator.name;
     let kind = match (are_explicit, wins) {
@@ -381,8 +372,8 @@ fn words(
     format!(
         "{kind}. At t = {} s the fastest mode {mode} and {own} takes steps of {} s; tried there, {other} {verdict} {} \
          times as far for the same work{filter}",
-        two(*t),
-        two(*step),
-        two(*gain)
+        two_digits(*t),
+        two_digits(*step),
+        two_digits(*gain)
     )
 }

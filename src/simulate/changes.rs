@@ -3,9 +3,9 @@
 use super::events::{Passage, Turn};
 use super::rows::project;
 use super::{Run, Sink};
-use crate::error::{Failure, short};
+use crate::error::{Failure, two_digits};
 use crate::formulation::{Dynamics, StepError};
-use crate::integrator::{From, first_step};
+use crate::integrator::From;
 use crate::math::{Piece, largest};
 use crate::system::{Need, OperatingPoint, Road, Scratch};
 use crate::tolerances::simulate as tolerances;
@@ -97,7 +97,7 @@ impl Run<'_> {
         self.cut = None;
         let jump: Vec<f64> = self.slope.iter().zip(&before).map(|(after, before)| self.h * (after - before)).collect();
         let begins_anew = self.integrator.begins_anew();
-        if self.fixed.is_none() && (begins_anew || self.tolerance.norm(&self.y, &jump) > tolerances::SMALL_JUMP) {
+        if self.fixed.is_none() && (begins_anew || self.tolerance.norm(&self.y, &jump) > 1.0) {
             self.start_small()?;
         }
         Ok(())
@@ -128,14 +128,8 @@ impl Run<'_> {
 
     /// Makes the next step not longer than one whose error is estimated to be about the tolerance.
     fn start_small(&mut self) -> Result<(), Failure> {
-        let span = (self.t, self.span.end - self.t);
-        let order = self.integrator.order();
-        let lambda = self.problem.dynamics.lambda.clone();
-        let first = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order);
-        // `first_step` evaluates ahead; lambda is that of the start.
-        self.problem.dynamics.lambda = lambda;
-        // `first_step` aims at a hundredth of the tolerance.
-        let step = 100f64.powf(1.0 / order as f64) * first.map_err(|halt| self.halted(&halt))?;
+        let first = self.estimated_step().map_err(|halt| self.halted(&halt))?;
+        let step = 100f64.powf(1.0 / self.integrator.order() as f64) * first;
         self.h = self.h.min(step.max(2.0 * self.smallest()));
         Ok(())
     }
@@ -146,14 +140,19 @@ impl Run<'_> {
             return Err(self.failure(signal.left_by(self.events.owner(number)), Some(BEYOND)));
         }
         let old = self.constraints();
-        for dynamics in [&mut self.problem.dynamics, &mut self.rows.problem.dynamics] {
-            dynamics.scratch.pieces.clone_from(&self.events.pieces);
-        }
+        self.share_pieces();
         self.meet_constraints(old)?;
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         let ((q, v), (_, vdot)) = (self.problem.split(&self.y), self.problem.split(&self.slope));
         self.events.start_at(OperatingPoint { t: self.t, q, v, vdot, lambda: &[] });
         Ok(())
+    }
+
+    /// Evaluates all on the pieces of the events from now on.
+    pub fn share_pieces(&mut self) {
+        for dynamics in [&mut self.problem.dynamics, &mut self.rows.problem.dynamics] {
+            dynamics.scratch.pieces.clone_from(&self.events.pieces);
+        }
     }
 
     /// phi and phi' at the present state.
@@ -174,7 +173,7 @@ impl Run<'_> {
         let kink = jumps(&rate, &phi_dot);
         if let Some(row) = (0..jump.len()).find(|&row| jump[row].abs() > tolerances::SAME * self.scales[row]) {
             let names = self.problem.dynamics.system.names().lambda;
-            let by = short(format!("{:.1e}", jump[row].abs()).parse().unwrap_or(0.0));
+            let by = two_digits(jump[row].abs());
             let reason = format!("what `{}` prescribes jumps by {by} m or rad", names[row]);
             return Err(
                 self.failure(reason, Some("prescribe a motion without jumps: no mechanism follows one in no time"))
@@ -226,7 +225,7 @@ impl Run<'_> {
         let jump = |(old, new): &(Road, Road)| new.is_damped && (new.height - old.height).abs() > same;
         let Some((old, Road { tyre, height, .. })) = roads.into_iter().zip(now).find(jump) else { return Ok(()) };
         let signal = self.events.changed_signal(pieces, &format!("the force `{tyre}`"));
-        let by = short(format!("{:.1e}", height - old.height).parse().unwrap_or(0.0));
+        let by = two_digits(height - old.height);
         let reason = format!("the road{signal} under `{tyre}` jumps by {by} m, which its damper cannot follow");
         Err(self.failure(reason, Some(STEEP)))
     }

@@ -250,13 +250,11 @@ impl Run<'_> {
     }
 
     fn recall_events(&mut self, saved: &Checkpoint) {
-        let Run { events, problem, rows, t, .. } = self;
+        let Run { events, t, .. } = self;
         events.pieces.clone_from(&saved.pieces);
         events.turned.clone_from(&saved.turned);
         events.timetable.recall(*t, saved.next_change, saved.span.end, &saved.pieces);
         events.timetable.watch.recall(saved.watched.0, &saved.watched.1);
-        for dynamics in [&mut problem.dynamics, &mut rows.problem.dynamics] {
-            dynamics.scratch.pieces.clone_from(&saved.pieces);
-        }
+        self.share_pieces();
     }
 }

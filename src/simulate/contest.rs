@@ -5,20 +5,21 @@
 //! simulates more time for the same work. The spectrum only decides when to try: where the fastest mode of the state is
 //! related to the size of the steps.
 
-use super::spectrum::{SpectralMode, fastest};
+use super::spectrum::fastest;
 use super::{Method, Run, Sink, Span, Stop};
 use crate::error::{Failure, Result};
 use crate::formulation::{Dynamics, Statistics};
+use crate::modes::SpectralMode;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::simulate as tolerances;
 
-/// Time reached by a run, s, its work in evaluations, the part of it for output rows, and the number of steps.
+/// Time reached by a run, s, the work of its steps in evaluations, and their number. Output rows do not count, so that
+/// the choice of a method does not depend on them.
 #[derive(Clone, Copy, Debug)]
 pub struct Mark {
-    pub t: f64,
+    t: f64,
     pub work: f64,
-    pub rows: f64,
-    pub steps: u64,
+    steps: u64,
 }
 
 impl Mark {
@@ -75,9 +76,9 @@ impl Run<'_> {
         Ok(rival)
     }
 
-    /// Comes from its start to the time of another run, whose rows it does not repeat; false if it does not, or not for
-    /// the same work.
-    pub fn comes_to(&mut self, other: &Run, sink: &mut dyn Sink) -> bool {
+    /// Runs from its start to the time of another run, whose rows it does not repeat; false if it fails, or takes more
+    /// work than that.
+    pub fn reaches(&mut self, other: &Run, sink: &mut dyn Sink) -> bool {
         let end = std::mem::replace(&mut self.span.end, other.t);
         (self.rows.next, self.allowance) = (u64::MAX, self.mark().work + other.mark().work);
         let came = self.advance(sink).is_ok() && self.t >= other.t;
@@ -85,16 +86,10 @@ impl Run<'_> {
         came && self.meet_change().is_ok()
     }
 
-    /// Work of an evaluation.
-    fn price(&self) -> f64 {
-        if self.is_explicit { 1.0 } else { tolerances::IMPLICIT_WORK }
-    }
-
     pub fn mark(&self) -> Mark {
-        let Statistics { steps, rhs_evaluations, rows, .. } = self.statistics();
-        let own = self.price() * rhs_evaluations as f64;
-        let rows = self.price() * rows.rhs_evaluations as f64;
-        Mark { t: self.t, work: own + rows, rows, steps }
+        let price = if self.is_explicit { 1.0 } else { tolerances::IMPLICIT_WORK };
+        let Statistics { steps, rhs_evaluations, .. } = self.statistics();
+        Mark { t: self.t, work: price * rhs_evaluations as f64, steps }
     }
 
     /// Continues for this `work`, of which the first half is not measured, since the first steps may be small and grow.
@@ -129,15 +124,10 @@ impl Run<'_> {
         (mark, None)
     }
 
-    /// True if the work so far is a good part of the estimated total at the pace since `mark`.
-    pub fn has_shown_itself(&self, mark: Mark) -> bool {
-        self.mark().work > tolerances::TRIAL_SHOWS * self.left(mark)
-    }
-
-    /// Work of the steps to the end at the pace since `mark`, without that of output rows, which any method has.
-    fn left(&self, mark: Mark) -> f64 {
+    /// Work of the steps to the end at the pace since `mark`.
+    pub fn left(&self, mark: Mark) -> f64 {
         let now = self.mark();
-        (self.span.end - now.t) * (now.work - now.rows - mark.work + mark.rows) / (now.t - mark.t)
+        (self.span.end - now.t) * (now.work - mark.work) / (now.t - mark.t)
     }
 
     /// Mean step since `mark`, s.
@@ -166,27 +156,14 @@ impl Run<'_> {
         Some(View { mode, step, is_between })
     }
 
-    /// True if output rows alone would cost the method of `rival` more than it could save.
-    fn rows_decide(&self, mark: Mark, rival: &Run) -> bool {
-        let row = if rival.integrator.rows_are_steps() { tolerances::IMPLICIT_ROW } else { 1.0 };
-        self.is_explicit && self.span.output_step < tolerances::WORTH * row * rival.price() * self.mark().pace(mark)
+    /// The factor by which the steps of a multistep method, which begins with short ones, go on growing.
+    fn growth(&self, mark: Mark) -> f64 {
+        if self.integrator.begins_anew() { (self.h / self.step_since(mark)).max(1.0) } else { 1.0 }
     }
 
-    /// Time simulated since `mark` per unit of work, with steps that are `growth` times as long and with the work of
-    /// output rows that were not made: about an evaluation each where they are no steps of their own.
-    fn pace_with_rows(&self, mark: Mark, growth: f64, output_step: f64) -> f64 {
-        let now = self.mark();
-        let time = growth * (now.t - mark.t);
-        let work = now.work - mark.work;
-        let row =
-            if self.integrator.rows_are_steps() { work / (now.steps - mark.steps).max(1) as f64 } else { self.price() };
-        time / (work + time / output_step * row).max(1.0)
-    }
-
-    /// Lets `other` try from the state of this run, whose pace since `mark` is known. Its output rows are not made, but
-    /// estimated. While its steps grow it goes on, up to all work so far, unless it is hopelessly behind the pace of
-    /// this run times `least`. `rivals` share the work of trials. Returns the result and the work of the trial; `None`
-    /// where its output rows leave nothing to try.
+    /// Lets `other` try from the state of this run, whose pace since `mark` is known. While its steps grow it goes on,
+    /// up to all work so far, unless it is hopelessly behind the pace of this run times `least`. `rivals` share the
+    /// work of trials. Returns the result and the work of the trial.
     pub fn contest(
         &self,
         mark: Mark,
@@ -194,30 +171,21 @@ impl Run<'_> {
         (rivals, least): (usize, f64),
         other: &Method,
         system: &dyn MechanicalSystem,
-    ) -> Result<Option<(Contest, Statistics)>> {
+    ) -> Result<(Contest, Statistics)> {
         let own = self.mark();
         let share = |work: f64| tolerances::TRIAL_SHARE * work;
         let budget = tolerances::TRIAL_WORK.max(share(own.work - mark.work) / rivals as f64);
         let most = share(self.left(mark)).min(own.work);
         let mut rival = self.rival(other, system, unseen(self.span))?;
-        if self.rows_decide(mark, &rival) {
-            return Ok(None);
-        }
-        let failure = rival.go_on(&self.problem.dynamics.dropped, self.h).err();
-        let pace = |rival: &Run, since, growth| rival.pace_with_rows(since, growth, self.span.output_step);
         let is_hopeless = |rival: &Run, since: Mark, growth: f64| {
-            pace(rival, since, growth) < tolerances::NO_ALTERNATIVE * least * own.pace(mark)
+            growth * rival.mark().pace(since) < tolerances::NO_ALTERNATIVE * least * own.pace(mark)
         };
-        let (since, stopped) = match failure {
-            None => rival.window(budget, most, &mut Quiet(None), is_hopeless),
-            failure => (rival.mark(), failure),
+        let (since, failure) = match rival.go_on(&self.problem.dynamics.dropped, self.h) {
+            Ok(()) => rival.window(budget, most, &mut Quiet(None), is_hopeless),
+            Err(failure) => (rival.mark(), Some(failure)),
         };
-        // Steps of a multistep method, which begins with short ones, go on growing.
-        let growing =
-            |run: &Run, mark| if run.integrator.begins_anew() { (run.h / run.step_since(mark)).max(1.0) } else { 1.0 };
-        let theirs = if stopped.is_some() { 0.0 } else { pace(&rival, since, growing(&rival, since)) };
-        let ours = growing(self, mark) * own.pace(mark);
-        let contest = Contest { t: self.t, mode, step, gain: theirs / ours };
-        Ok(Some((contest, rival.statistics())))
+        let theirs = if failure.is_some() { 0.0 } else { rival.growth(since) * rival.mark().pace(since) };
+        let ours = self.growth(mark) * own.pace(mark);
+        Ok((Contest { t: self.t, mode, step, gain: theirs / ours }, rival.statistics()))
     }
 }

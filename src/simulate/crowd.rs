@@ -46,8 +46,8 @@ impl Crowd {
         let duration = self.last?.duration;
         let ahead = tolerances::TURNS_IN_WINDOW as f64 * left / duration;
         let is_endless = ahead > tolerances::TURNS
-            || self.decaying >= tolerances::WINDOWS_IN_DECAY && ahead > tolerances::TURNS_IN_DECAY
-            || self.unseen >= tolerances::WINDOWS_UNSEEN;
+            || self.decaying >= tolerances::WINDOWS_IN_ROW && ahead > tolerances::TURNS_IN_DECAY
+            || self.unseen >= tolerances::WINDOWS_IN_ROW;
         is_endless.then_some((tolerances::TURNS_IN_WINDOW, duration))
     }
 }

@@ -77,9 +77,7 @@ impl Run<'_> {
 
     /// The pieces of the events for all evaluations from now on.
     fn take_pieces(&mut self) {
-        for dynamics in [&mut self.problem.dynamics, &mut self.rows.problem.dynamics] {
-            dynamics.scratch.pieces.clone_from(&self.events.pieces);
-        }
+        self.share_pieces();
         if self.integrator.leads() {
             self.integrator.restart();
         }

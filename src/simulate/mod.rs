@@ -10,11 +10,9 @@ mod events;
 mod gaps;
 mod method;
 mod observation;
-mod observed;
 mod output;
 mod passage;
 mod plan;
-mod rate_bound;
 mod rows;
 mod segments;
 mod spectrum;
@@ -24,6 +22,8 @@ mod stiffness;
 mod travel;
 
 pub use crate::math::threads::spread;
+#[doc(hidden)]
+pub use crate::modes::SpectralMode;
 pub(crate) use automatic::known_methods;
 pub use automatic::{Leg, Trial, advise, simulate_automatic};
 pub use checkpoint::{Checkpoint, Start, simulate_from};
@@ -33,7 +33,7 @@ pub use method::{atol_of, check_pair};
 pub use observation::{Observation, Sink, Span, Stop};
 pub(crate) use segments::Segments;
 #[doc(hidden)]
-pub use spectrum::{SpectralMode, Spectrum};
+pub use spectrum::Spectrum;
 pub use start::refused;
 #[doc(hidden)]
 pub use stiffness::explicit;
@@ -54,7 +54,6 @@ use crate::integrator::{self, Integrator, Problem, Tolerance};
 use crate::method_spec::MethodSpec;
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
-use crate::tolerances::simulate as tolerances;
 
 /// The end of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -342,10 +341,7 @@ impl<'a> Run<'a> {
             Some(Passage::AtStart(number)) => {
                 self.change_form_seen(Some(number), sink)?;
                 // A step after which the function is on neither side is longer than the time to the threshold.
-                if self.fixed.is_none()
-                    && 0.1 * self.h > tolerances::UNDECIDED_STEP * self.smallest()
-                    && self.events.is_undecided(number)
-                {
+                if self.fixed.is_none() && 0.1 * self.h > 2.0 * self.smallest() && self.events.is_undecided(number) {
                     self.h *= 0.1;
                 }
             }

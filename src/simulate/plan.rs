@@ -20,17 +20,20 @@ impl Run<'_> {
     pub fn first_step(&mut self) -> Result<f64, StepError> {
         match self.fixed {
             Some(step) => Ok(step),
-            None => {
-                let span = (self.t, self.span.end - self.t);
-                let order = self.integrator.order();
-                let lambda = self.problem.dynamics.lambda.clone();
-                let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order)?;
-                // `first_step` evaluates ahead; lambda is that of the start.
-                self.problem.dynamics.lambda = lambda;
-                // The control increases it, or reports why it cannot.
-                Ok(step.max(2.0 * self.smallest()))
-            }
+            // The control increases it, or reports why it cannot.
+            None => Ok(self.estimated_step()?.max(2.0 * self.smallest())),
         }
+    }
+
+    /// The step from the present state whose error is estimated to be a hundredth of the tolerance.
+    pub fn estimated_step(&mut self) -> Result<f64, StepError> {
+        let span = (self.t, self.span.end - self.t);
+        let order = self.integrator.order();
+        let lambda = self.problem.dynamics.lambda.clone();
+        let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order);
+        // `first_step` evaluates ahead; lambda is that of the start.
+        self.problem.dynamics.lambda = lambda;
+        step
     }
 
     /// The step of size `h`, unless a singular state suggests another.
@@ -84,7 +87,7 @@ impl Run<'_> {
         };
         let (size, end) = match self.fixed {
             _ if stretched >= left => (left, Some(stop.t)),
-            Some(step) => (placed, self.end_of_fixed(step, placed)),
+            Some(step) => (placed, (placed == self.to_grid(step)).then(|| self.next_of_grid(step))),
             None => (placed, None),
         };
         let resolved = self.resolved(size, stop.t);
@@ -128,10 +131,5 @@ impl Run<'_> {
     fn to_grid(&self, h: f64) -> f64 {
         let left = self.next_of_grid(h) - self.t;
         if (left - h).abs() < tolerances::SAME * h + 4.0 * f64::EPSILON * self.t.abs() { h } else { left }
-    }
-
-    /// The point of the grid at which a step of size `size` ends, if it does, in a run with fixed steps `h`.
-    fn end_of_fixed(&self, h: f64, size: f64) -> Option<f64> {
-        (size == self.to_grid(h)).then(|| self.next_of_grid(h))
     }
 }

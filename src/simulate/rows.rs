@@ -1,6 +1,6 @@
 //! Output rows, and the observation of a state.
 
-use super::Observation;
+use super::{Observation, Run, Sink};
 use crate::formulation::{Statistics, StepError};
 use crate::integrator::Problem;
 use crate::math::all_finite;
@@ -33,7 +33,7 @@ impl<'a> OutputRows<'a> {
     }
 
     /// Evaluates the state in `y` and passes it to the sink.
-    pub fn emit(&mut self, t: f64, sink: &mut dyn super::Sink) -> Result<(), StepError> {
+    pub fn emit(&mut self, t: f64, sink: &mut dyn Sink) -> Result<(), StepError> {
         self.evaluate(t)?;
         self.show(t, sink);
         Ok(())
@@ -52,7 +52,7 @@ impl<'a> OutputRows<'a> {
     }
 
     /// Shows one side of a change of form at the state in `y`.
-    pub fn show_event(&mut self, t: f64, is_after: bool, sink: &mut dyn super::Sink) -> Result<(), StepError> {
+    pub fn show_event(&mut self, t: f64, is_after: bool, sink: &mut dyn Sink) -> Result<(), StepError> {
         self.evaluate(t)?;
         let state = observation(t, &self.y, &self.problem, None, &mut self.phi_ddot);
         if is_after {
@@ -63,7 +63,7 @@ impl<'a> OutputRows<'a> {
         Ok(())
     }
 
-    pub fn show(&mut self, t: f64, sink: &mut dyn super::Sink) {
+    pub fn show(&mut self, t: f64, sink: &mut dyn Sink) {
         sink.row(&observation(t, &self.y, &self.problem, None, &mut self.phi_ddot));
     }
 }
@@ -90,11 +90,46 @@ pub fn project(
     Ok(())
 }
 
-impl super::Run<'_> {
+impl Run<'_> {
     /// Work of steps, and separately that of output rows.
     pub fn statistics(&self) -> Statistics {
         let rows = self.rows.problem.dynamics.statistics.of_steps();
         Statistics { rows, ..self.problem.dynamics.statistics }
+    }
+
+    /// Updates the reference values of the rank at an accepted state, and shows the state with the size of its step.
+    pub fn observe(&mut self, size: Option<f64>, sink: &mut dyn Sink) {
+        let deficient = self.problem.dynamics.is_rank_deficient;
+        self.problem.dynamics.statistics.rank_deficient += u64::from(deficient);
+        let dynamics = &self.problem.dynamics;
+        // Without a new factorization, as in `penalty`, the rank indicator belongs to another state.
+        let is_factored = dynamics.statistics.factorizations > self.factored;
+        self.factored = dynamics.statistics.factorizations;
+        let own = || (is_factored && dynamics.kkt.is_factored()).then(|| dynamics.kkt.rank_indicator());
+        let rank_indicator = dynamics.rank_indicator.or_else(own);
+        if let Some(rank_indicator) = rank_indicator {
+            self.approach.add(self.t, rank_indicator);
+        }
+        let dense = dynamics.dense_reference.max(dynamics.dense_indicator);
+        self.refer_to(dense);
+        self.show(rank_indicator, size, sink);
+    }
+
+    /// Sets the reference values of the rank indicators, that of a dense solver to `dense`.
+    pub fn refer_to(&mut self, dense: f64) {
+        let Run { problem, rows, approach, .. } = self;
+        [problem, &mut rows.problem].into_iter().for_each(|p| p.dynamics.refer_to(approach.largest, dense));
+    }
+
+    pub fn show(&mut self, rank_indicator: Option<f64>, size: Option<f64>, sink: &mut dyn Sink) {
+        if !sink.watches() {
+            return;
+        }
+        let tolerated = self.fixed.is_none().then(|| self.tolerated_energy());
+        let effort = Some(self.effort());
+        let state = observation(self.t, &self.y, &self.problem, rank_indicator, &mut self.phi_ddot);
+        let apart = size.map(|size| size * self.integrator.spacing());
+        sink.accepted(&Observation { tolerated, apart, effort, ..state });
     }
 }
 

@@ -1,10 +1,11 @@
 //! Test before a run whether stability limits the steps of an explicit method.
 
 use super::automatic::rival;
-use super::spectrum::{SpectralMode, Spectrum, bound, fastest};
+use super::spectrum::{Spectrum, bound, fastest};
 use super::{Method, Span};
-use crate::error::{Warning, short};
+use crate::error::{Warning, short, two_digits};
 use crate::integrator::Stability;
+use crate::modes::SpectralMode;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
@@ -56,50 +57,40 @@ pub fn stiffness(
     if is_slow(rough.rate(), &[(rough.decay, rough.swing), axes[0], axes[1]]) {
         return None;
     }
-    match method.step {
-        Some(step) => too_long(system, state, step, duration, &stability),
-        None => too_many(system, method, state, span),
-    }
-    .map(|(mode, gain)| {
-        let limit = stability.limit(mode.decay, mode.swing);
-        let stable_step = limit / mode.rate().max(f64::MIN_POSITIVE);
-        Stiffness {
-            integrator: method.integrator.name.clone(),
-            mode,
-            limit,
-            step: method.step,
-            stable_step,
-            steps_for_stability: duration / stable_step,
-            implicit_gain: gain,
-            advice: advice(method, tolerances::ADVISED_STEP * stable_step),
+    let (mode, implicit_gain) = match method.step {
+        Some(step) => (too_long(system, state, (step, duration), &stability)?, None),
+        None => {
+            let contest = rival(system, method, span, (state.q, state.v))?;
+            let gain = Some(contest.gain).filter(|gain| *gain > tolerances::ANOTHER_METHOD)?;
+            (contest.mode, Some(gain))
         }
+    };
+    let limit = stability.limit(mode.decay, mode.swing);
+    let stable_step = limit / mode.rate().max(f64::MIN_POSITIVE);
+    Some(Stiffness {
+        integrator: method.integrator.name.clone(),
+        mode,
+        limit,
+        step: method.step,
+        stable_step,
+        steps_for_stability: duration / stable_step,
+        implicit_gain,
+        advice: advice(method, tolerances::ADVISED_STEP * stable_step),
     })
 }
 
-/// The mode that a fixed step makes grow. Growth that is small over the whole run is an error of accuracy.
+/// The mode that a fixed step makes grow. Growth by less than e over the whole run is an error of accuracy.
 fn too_long(
     system: &dyn MechanicalSystem,
     state: OperatingPoint,
-    step: f64,
-    duration: f64,
+    (step, duration): (f64, f64),
     stability: &Stability,
-) -> Option<(SpectralMode, Option<f64>)> {
-    let spectrum = Spectrum::at(system, state)?;
+) -> Option<SpectralMode> {
     let stable = |mode: &SpectralMode| stability.limit(mode.decay, mode.swing) / mode.rate().max(f64::MIN_POSITIVE);
-    let &mode = spectrum.modes.iter().min_by(|a, b| stable(a).total_cmp(&stable(b)))?;
-    let grows = duration / step * stability.growth(mode.decay, mode.swing, step) > tolerances::UNSTABLE_MODE;
-    (step > stable(&mode) && grows).then_some((mode, None))
-}
-
-/// The mode that limits the steps of an adaptive method by stability alone.
-fn too_many(
-    system: &dyn MechanicalSystem,
-    method: &Method,
-    state: OperatingPoint,
-    span: Span,
-) -> Option<(SpectralMode, Option<f64>)> {
-    let contest = rival(system, method, span, (state.q, state.v))?;
-    (contest.gain > tolerances::ANOTHER_METHOD).then_some((contest.mode, Some(contest.gain)))
+    let modes = Spectrum::at(system, state)?.modes;
+    let mode = modes.into_iter().min_by(|a, b| stable(a).total_cmp(&stable(b)))?;
+    let growth = duration / step * stability.growth(mode.decay, mode.swing, step);
+    (step > stable(&mode) && growth > 1.0).then_some(mode)
 }
 
 /// Stability region of the method; `None` for a method without a limit.
@@ -112,15 +103,10 @@ fn advice(method: &Method, step: f64) -> String {
     match method.step {
         Some(_) => format!(
             "take steps below {} s, or {implicit}; generalized_alpha on ggl damps what is too fast for its steps away",
-            two(step)
+            two_digits(step)
         ),
         None => format!("take {implicit}; `--method auto` chooses on the way"),
     }
-}
-
-/// The number with two digits.
-fn two(value: f64) -> String {
-    short(format!("{value:.1e}").parse().unwrap_or(value))
 }
 
 impl From<&Stiffness> for Warning {
@@ -137,14 +123,14 @@ impl fmt::Display for Stiffness {
                 out,
                 "a mode of the start {mode}: {integrator} with steps of {} s is unstable above {} 1/s",
                 short(step),
-                two(limit / step)
+                two_digits(limit / step)
             ),
             None => write!(
                 out,
                 "the fastest mode of the start {mode}: {integrator} needs {} steps to stay stable, and radau_iia advances {} \
                  times as far for the same work",
-                two(self.steps_for_stability.ceil()),
-                two(self.implicit_gain.unwrap_or(1.0))
+                two_digits(self.steps_for_stability.ceil()),
+                two_digits(self.implicit_gain.unwrap_or(1.0))
             ),
         }
     }

@@ -2,19 +2,17 @@
 
 use super::{Family, Limit, Nearest, Point, Range};
 use crate::error::{Error, Result};
-use crate::initial::{self, Assembly, Followed};
+use crate::initial::{self, Assembly, Followed, continuation};
 use crate::math::array::Each;
 use crate::prepared::AnyMechanism;
 use crate::scene::Scene;
-use crate::system::{Column, Names, OperatingPoint, Scratch};
+use crate::system::{OperatingPoint, Scratch};
 use crate::tolerances::report as tolerances;
-use std::sync::Arc;
 
-/// An assembled state with the scene that it belongs to.
+/// An assembled state.
 #[derive(Clone)]
 pub struct State {
-    mechanism: Arc<AnyMechanism>,
-    /// The scene's own guess.
+    /// The guess of its scene.
     guess: Vec<f64>,
     dependent: Vec<usize>,
     pub point: Point,
@@ -25,28 +23,29 @@ struct Ready {
     mechanism: AnyMechanism,
     held: [Option<AnyMechanism>; 2],
     t: f64,
-    scene: (Vec<f64>, Vec<f64>, Vec<String>),
+    guess: Vec<f64>,
+    v: Vec<f64>,
+    hold: Vec<String>,
 }
 
 impl Ready {
     fn at(family: &Family, parameter: &str, value: f64) -> Result<Ready> {
         let scene = family.scene_at(parameter, value)?;
         let t = scene.start_time()?;
-        let Scene { model, held, q, v, hold, .. } = scene;
-        Ok(Ready { mechanism: AnyMechanism::new(model), held: AnyMechanism::held(held), t, scene: (q, v, hold) })
+        let Scene { model, held, q: guess, v, hold, .. } = scene;
+        Ok(Ready { mechanism: AnyMechanism::new(model), held: AnyMechanism::held(held), t, guess, v, hold })
     }
 
     /// The state assembled from a guess with the velocities of the scene.
     fn assemble(&self, q: &[f64]) -> Result<Assembly> {
-        let (_, v, hold) = &self.scene;
         let held = self.held.each_ref().each(|held| held.as_ref().map(AnyMechanism::system));
-        initial::assemble_held(self.mechanism.system(), held, self.t, (q, v), hold)
+        initial::assemble_held(self.mechanism.system(), held, self.t, (q, &self.v), &self.hold)
     }
 
     /// Newton's method from a nearby guess.
     fn follow(&self, guess: &[f64], dependent: &[usize]) -> Result<Option<Followed>> {
         let system = self.held[0].as_ref().unwrap_or(&self.mechanism).system();
-        initial::follow(system, self.t, guess, &self.scene.2, dependent)
+        initial::follow(system, self.t, guess, &self.hold, dependent)
     }
 
     /// The state with velocities, accelerations, multipliers and outputs.
@@ -59,7 +58,7 @@ impl Ready {
         let at = OperatingPoint { t: self.t, q: &q, v: &v, vdot: &vdot, lambda: &lambda };
         system.outputs(at, &mut outputs, &mut Scratch::default());
         let point = Point { value, q, v, lambda, outputs, rank_indicator };
-        Ok(State { mechanism: Arc::new(self.mechanism), guess: self.scene.0, dependent, point })
+        Ok(State { guess: self.guess, dependent, point })
     }
 }
 
@@ -67,14 +66,10 @@ impl State {
     /// The state assembled from the scene's own guess.
     pub fn assembled(family: &Family, parameter: &str, value: f64) -> Result<State> {
         let ready = Ready::at(family, parameter, value)?;
-        let q = ready.assemble(&ready.scene.0)?.q;
+        let q = ready.assemble(&ready.guess)?.q;
         // Following a state on the constraints gives the same state, except where it is singular.
         let followed = ready.follow(&q, &[])?.unwrap_or(Followed { q, rank_indicator: 0.0, dependent: Vec::new() });
         ready.complete(value, followed)
-    }
-
-    pub fn columns(&self) -> (Names, Vec<Column>) {
-        (self.mechanism.system().names(), self.mechanism.system().columns())
     }
 
     pub fn nearest(&self) -> Nearest {
@@ -117,30 +112,23 @@ impl<'a> Branch<'a> {
 
     /// Continues to a value in steps that are halved until the branch is kept; returns its end if that comes before.
     pub fn go(&mut self, target: f64) -> Option<Limit> {
-        let mut step = target - self.last.point.value;
+        let start = self.last.point.value;
         let mut problem = None;
-        for _ in 0..tolerances::BRANCH_STEPS {
-            let rest = target - self.last.point.value;
-            if rest == 0.0 {
-                return None;
+        let steps = (target - start, self.resolution);
+        let (reached, step) = continuation(start, target, steps, |value| match self.reach(value) {
+            Ok(Some(state)) => {
+                self.accept(state);
+                Some(2.0)
             }
-            let value = if step.abs() < rest.abs() { self.last.point.value + step } else { target };
-            step = value - self.last.point.value;
-            match self.reach(value) {
-                Ok(Some(state)) => {
-                    self.accept(state);
-                    step *= 2.0;
-                }
-                failed => {
-                    problem = failed.err();
-                    step *= 0.5;
-                }
+            failed => {
+                problem = failed.err();
+                None
             }
-            if step.abs() < self.resolution {
-                break;
-            }
+        });
+        if reached == target {
+            return None;
         }
-        let is_near = (target - self.last.point.value).abs() < 4.0 * self.resolution;
+        let is_near = (target - reached).abs() < 4.0 * self.resolution;
         match is_near.then(|| self.at_the_end(target)).flatten() {
             Some(state) => {
                 self.accept(state);
@@ -182,10 +170,10 @@ impl<'a> Branch<'a> {
     /// is held, the last state itself, for a guess may jump; then the line through the last two, which passes singular
     /// states.
     fn guesses(&self, value: f64, ready: &Ready) -> Vec<Vec<f64>> {
-        let (last, (guess, _, hold)) = (&self.last.point, &ready.scene);
-        let moved = last.q.iter().zip(guess).zip(&self.last.guess).map(|((q, to), from)| q + to - from);
+        let last = &self.last.point;
+        let moved = last.q.iter().zip(&ready.guess).zip(&self.last.guess).map(|((q, to), from)| q + to - from);
         let mut guesses: Vec<Vec<f64>> = vec![moved.collect()];
-        if hold.is_empty() {
+        if ready.hold.is_empty() {
             guesses.push(last.q.clone());
             guesses.extend(self.before.as_ref().map(|before| {
                 let factor = (value - last.value) / (last.value - before.point.value);
@@ -208,7 +196,9 @@ impl<'a> Branch<'a> {
     }
 
     fn limit(&self, target: f64, problem: Option<Error>, within: f64) -> Limit {
-        let reason = problem.or_else(|| self.obstacle(target).err()).map(message);
+        // The error of an assembly beyond the end.
+        let obstacle = || Ready::at(self.family, self.parameter, target)?.assemble(&self.last.point.q);
+        let reason = problem.or_else(|| obstacle().err()).map(message);
         let elsewhere = "the joints close only in another configuration, to which no motion leads from here";
         Limit {
             point: self.last.point.clone(),
@@ -216,11 +206,6 @@ impl<'a> Branch<'a> {
             unreached: target,
             reason: reason.unwrap_or_else(|| elsewhere.to_string()),
         }
-    }
-
-    /// The error of an assembly beyond the end.
-    fn obstacle(&self, target: f64) -> Result<()> {
-        Ready::at(self.family, self.parameter, target)?.assemble(&self.last.point.q).map(|_| ())
     }
 }
 

@@ -1,8 +1,9 @@
 //! A sweep along a branch over the values of a range.
 
 use super::branch::{Branch, State};
-use super::{Family, Limit, Nearest, Point, Range, Sweep};
+use super::{Family, Limit, Point, Range, Sweep};
 use crate::error::{Error, Result};
+use crate::prepared::AnyMechanism;
 
 impl Family {
     /// Assembles the scene at the values of a range; `progress` is called with the number of values done.
@@ -10,79 +11,74 @@ impl Family {
     /// # Errors
     /// A parameter that the scene does not have; a scene that cannot be assembled where the sweep begins, or not be
     /// moved from its own value into the range. A branch that ends in the range is no error: see [`Sweep::limits`].
-    pub fn sweep(&self, range: &Range, progress: impl FnMut(usize)) -> Result<Sweep> {
-        let own = snapped(self.own_value(&range.parameter)?, range);
-        let walk = Walk { family: self, range, values: range.values(), progress, done: 0 };
-        walk.run(own)
-    }
-}
-
-/// The value of the range that equals `own` up to round-off, else `own`.
-fn snapped(own: f64, range: &Range) -> f64 {
-    let near = |value: &f64| (value - own).abs() <= 1e-12 * range.length();
-    range.values().into_iter().find(near).unwrap_or(own)
-}
-
-/// A sweep in progress.
-struct Walk<'a, P: FnMut(usize)> {
-    family: &'a Family,
-    range: &'a Range,
-    values: Vec<f64>,
-    progress: P,
-    done: usize,
-}
-
-/// The results on one side of the start.
-#[derive(Default)]
-struct Side {
-    points: Vec<Point>,
-    limit: Option<Limit>,
-}
-
-impl<P: FnMut(usize)> Walk<'_, P> {
-    fn run(mut self, own: f64) -> Result<Sweep> {
-        let (start, is_own) = self.start(own)?;
-        let (names, outputs) = start.columns();
-        let mut nearest = start.nearest();
+    pub fn sweep(&self, range: &Range, mut progress: impl FnMut(usize)) -> Result<Sweep> {
+        let values = range.values();
+        let own = self.own_value(&range.parameter)?;
+        // Up to round-off the scene's own value is one of the range.
+        let near = |value: &f64| (value - own).abs() <= 1e-12 * range.length();
+        let own = values.iter().copied().find(near).unwrap_or(own);
+        let (start, is_own) = self.start(range, &values, own)?;
         let begin = start.point.value;
         // The range may run downwards: `before` has the values that come before the start in it.
-        let forward = self.range.to > self.range.from;
-        let is_before = |value: f64| if forward { value < begin } else { value > begin };
-        let all = self.values.clone();
-        let before: Vec<f64> = all.iter().copied().filter(|value| is_before(*value)).rev().collect();
-        let after: Vec<f64> = all.iter().copied().filter(|value| !is_before(*value) && *value != begin).collect();
-        let mut first = self.side(&start, &before, &mut nearest);
-        let second = self.side(&start, &after, &mut nearest);
-        first.points.reverse();
-        let middle = all.contains(&begin).then(|| start.point.clone());
+        let forward = range.to > range.from;
+        let is_before = |value: &f64| if forward { *value < begin } else { *value > begin };
+        let mut before: Vec<f64> = values.iter().copied().filter(is_before).collect();
+        before.reverse();
+        let after: Vec<f64> = values.iter().copied().filter(|value| !is_before(value) && *value != begin).collect();
+        let mut nearest = start.nearest();
+        let mut done = 0;
+        // The states on one side of the start, from the nearest value on.
+        let mut side = |values: &[f64]| -> (Vec<Point>, Option<Limit>) {
+            let mut branch = Branch::new(self, range, start.clone());
+            let mut points = Vec::new();
+            let limit = values.iter().find_map(|value| {
+                let limit = branch.go(*value);
+                if limit.is_none() {
+                    points.push(branch.last().clone());
+                    done += 1;
+                    progress(done);
+                }
+                limit
+            });
+            if branch.nearest().rank_indicator < nearest.rank_indicator {
+                nearest = branch.nearest();
+            }
+            (points, limit)
+        };
+        let (mut first, lower) = side(&before);
+        let (second, upper) = side(&after);
+        first.reverse();
+        let scene = self.scene()?;
+        let mechanism = AnyMechanism::new(scene.model);
+        let middle = values.contains(&begin).then(|| start.point.clone());
         Ok(Sweep {
-            scene: self.family.scene()?.name,
-            range: self.range.clone(),
-            names,
-            outputs,
+            scene: scene.name,
+            range: range.clone(),
+            names: mechanism.system().names(),
+            outputs: mechanism.system().columns(),
             own_value: own,
-            own: (is_own && self.range.contains(own)).then(|| start.point.clone()),
-            points: first.points.into_iter().chain(middle).chain(second.points).collect(),
-            limits: [first.limit, second.limit].into_iter().flatten().collect(),
+            own: (is_own && range.contains(own)).then(|| start.point.clone()),
+            points: first.into_iter().chain(middle).chain(second).collect(),
+            limits: [lower, upper].into_iter().flatten().collect(),
             nearest_singular: nearest,
         })
     }
 
     /// The scene at its own value, or moved from there to the near end of the range; where it cannot be assembled
     /// there, at the nearest value of the range. Returns true if the value is the scene's own.
-    fn start(&self, own: f64) -> Result<(State, bool)> {
-        let parameter = &self.range.parameter;
+    fn start(&self, range: &Range, values: &[f64], own: f64) -> Result<(State, bool)> {
+        let parameter = &range.parameter;
         let distance = |value: &f64| (value - own).abs();
-        let near = self.values.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(own);
-        let at = |value: f64| State::assembled(self.family, parameter, value);
+        let near = values.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(own);
+        let at = |value: f64| State::assembled(self, parameter, value);
         let Ok(state) = at(own) else {
-            let place = |error| self.family.place(error).element(format!("{parameter} = {near}"));
+            let place = |error| self.place(error).element(format!("{parameter} = {near}"));
             return Ok((at(near).map_err(place)?, false));
         };
-        if self.range.contains(own) {
+        if range.contains(own) {
             return Ok((state, true));
         }
-        let mut branch = Branch::new(self.family, self.range, state);
+        let mut branch = Branch::new(self, range, state);
         match branch.go(near) {
             None => Ok((branch.into_last(), false)),
             Some(limit) => Err(Error::input(format!(
@@ -92,25 +88,5 @@ impl<P: FnMut(usize)> Walk<'_, P> {
             ))
             .hint("begin the range nearer to the scene's own value, or replace that by --set")),
         }
-    }
-
-    /// The states on one side of the start, from the nearest value on.
-    fn side(&mut self, start: &State, values: &[f64], nearest: &mut Nearest) -> Side {
-        let mut branch = Branch::new(self.family, self.range, start.clone());
-        let mut side = Side::default();
-        for value in values {
-            side.limit = branch.go(*value);
-            if side.limit.is_some() {
-                break;
-            }
-            side.points.push(branch.last().clone());
-            self.done += 1;
-            (self.progress)(self.done);
-        }
-        let met = branch.nearest();
-        if met.rank_indicator < nearest.rank_indicator {
-            *nearest = met;
-        }
-        side
     }
 }

@@ -14,14 +14,10 @@ pub const THRESHOLDS_OF_ADAMS: usize = 8;
 /// Unit: `[evaluations]`. Why: a choice: short runs try nothing. Test: none: not tried with other values.
 pub const IMPLICIT_TRIED: f64 = 200.0;
 
-/// How much farther a method must come for the same work to take over from an explicit one.
-/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
-pub const WORTH: f64 = 1.5;
-
-/// How much farther a method must come for the same work to take over from an implicit one.
+/// How much farther a method must come for the same work to take over.
 /// Unit: `[1]`. Why: a choice: an explicit method takes a few long steps before stability limits them, and bdf begins
 /// with short ones. Test: none: not tried with other values.
-pub const WORTH_AFTER_IMPLICIT: f64 = 2.0;
+pub const WORTH: f64 = 2.0;
 
 /// Up to here a motion is begun again by a method that takes over.
 /// Unit: `[1]` of the span. Why: a choice: it costs that method no more of its work. Test:
@@ -50,11 +46,6 @@ pub const ADVICE_WORK: f64 = 2e4;
 /// Unit: `[evaluations by explicit ones]`. Why: 2 to 4 on the shipped scenes, whatever their size. Test: none: not
 /// tried with other values.
 pub const IMPLICIT_WORK: f64 = 3.0;
-
-/// The least that an output row costs a method whose rows are steps.
-/// Unit: `[evaluations]`. Why: one iteration of three stages, and the row itself; 4 to 14 on the shipped scenes. Test:
-/// `dense_rows_leave_nothing_to_try`.
-pub const IMPLICIT_ROW: f64 = 4.0;
 
 /// Steps of an explicit method that are longer may be limited by stability.
 /// Unit: `[1]` of the longest stable step. Why: with the steps that it refuses again and again they are a quarter of it

@@ -1,7 +1,9 @@
 //! Assembly, static equilibrium, charts and projections: what makes a state consistent.
 
+pub use super::modes::ROUNDING_OF_K;
 pub use super::{
-    NEWTON_HALVES, NEWTON_STAGNATION, REDUNDANT_ROWS_CLOSED, ROUND_OFF, ROUND_OFF_OF_PHI, ROUND_OFF_OF_SUMS, SAME,
+    NEWTON_HALVES, NEWTON_STAGNATION, REDUNDANT_ROWS_CLOSED, ROUND_OFF, ROUND_OFF_OF_FACTORS, ROUND_OFF_OF_PHI,
+    ROUND_OFF_OF_SUMS, SAME,
 };
 
 /// What is left of a column of Z Z^T where all directions of motion are found.
@@ -13,11 +15,6 @@ pub const NO_DIRECTION: f64 = 1e-10;
 /// Unit: `[1]`. Why: a choice: beyond, the directions are made orthonormal again. Test: none: with a thousand times
 /// more or less the tests of its room pass.
 pub const ORTHONORMAL: f64 = 1e-6;
-
-/// Changes in the chart of minimal coordinates that no longer fall are round-off up to here.
-/// Unit: `[1]` of the largest component. Why: a choice: nearly dependent rows amplify an ulp. Test: none: not tried
-/// with other values.
-pub const CHART_STAGNATION: f64 = 1e-9;
 
 /// Newton's iterations of an exact projection; who asks for fewer takes what they leave.
 /// Unit: `[iterations]`. Why: a choice. Test: `a_low_penalty_has_the_order_of_its_integrator_and_an_error_of_its_own`.
@@ -35,9 +32,10 @@ pub const DESCENT_FIRST: f64 = 0.1;
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const DESCENT_FALL: f64 = 0.03;
 
-/// Work of a step of the descent over what K predicts, below which it is taken back.
-/// Unit: `[1]`. Why: a choice, as in trust regions. Test: none: not tried with other values.
-pub const DESCENT_TAKEN_BACK: f64 = 0.1;
+/// A step that does less than this part of what is predicted to first order is taken back: of the fall of |phi| where phi
+/// is linear, of the work by K.
+/// Unit: `[1]`. Why: a choice, as in line searches and trust regions. Test: none: not tried with other values.
+pub const SUFFICIENT_STEP: f64 = 0.1;
 
 /// Work of a step of the descent over what K predicts, below which the next step is shorter.
 /// Unit: `[1]`. Why: a choice, as in trust regions. Test: none: not tried with other values.
@@ -64,44 +62,34 @@ pub const CLOSING_ITERATIONS: usize = 12;
 /// Unit: `[iterations]`. Why: a choice. Test: none: a count of work, not tried.
 pub const RELAXATIONS: usize = 6;
 
-/// A direction that nothing holds is loaded where the force along it is this part of all.
-/// Unit: `[1]`. Why: a choice, far above round-off. Test: none: not tried with other values.
-pub const LOADED: f64 = 1e-6;
-
 /// First part of the missing force that is put back on.
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const LOAD_FIRST: f64 = 0.1;
 
-/// The smallest part of the load by which it is put back on; where that fails there is no equilibrium on this branch.
-/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
-pub const LOAD_SMALLEST: f64 = 1e-4;
+/// The least step of a continuation, in the load of an equilibrium or to the coordinates in `initial`, before it is taken
+/// to end.
+/// Unit: `[1]` of all. Why: near a dead centre steps shrink with the root of what is left. Test:
+/// `a_loop_is_turned_to_an_angle_far_from_the_guess`.
+pub const LEAST_PART: f64 = 1e-4;
 
-/// How often the load may change on the way back to all of it.
-/// Unit: `[steps]`. Why: a choice. Test: none: a count of work, not tried.
-pub const LOAD_CHANGES: usize = 400;
+/// Steps at most of a continuation.
+/// Unit: `[steps]`. Why: a choice: halving to the resolution of a sweep takes 27, to that of a travel 40. Test: none: a
+/// bound of work, not tried.
+pub const CONTINUATION_STEPS: usize = 1000;
 
-/// What is left of the forces of an equilibrium that was found.
+/// The part of the forces that may be left at an equilibrium, and beyond which a direction that nothing holds is loaded.
 /// Unit: `[1]` of those that balance. Why: a choice, far above round-off, which stiff beams amplify. Test: none: not
 /// tried with other values.
 pub const FORCE_LEFT: f64 = 1e-6;
-
-/// Round-off of coordinates where a search for an equilibrium began, times the stiffness: a force that cannot be taken
-/// away.
-/// Unit: `[1]` of the largest q. Why: 450 ulps, as ROUND_OFF_OF_FACTORS. Test: none: not tried with other values.
-pub const COORDINATES_ROUNDED: f64 = 1e-13;
 
 /// How far an element of a beam may turn at an equilibrium, over what is warned of.
 /// Unit: `[1]`. Why: 0.95 of what it can turn at all. Test: none: not tried with other values.
 pub const TOO_FAR_TURNED: f64 = 0.95 / 0.75;
 
-/// Undamped iterations at most of Newton's method on the forces.
+/// Iterations at most of Newton's method on the forces, plain or damped.
 /// Unit: `[iterations]`. Why: bent beams need steps that grow before they shrink. Test: none: a bound of work, not
 /// tried.
-pub const FULL_ITERATIONS: usize = 40;
-
-/// Damped iterations at most.
-/// Unit: `[iterations]`. Why: a choice: the descent comes next. Test: none: a bound of work, not tried.
-pub const DAMPED_ITERATIONS: usize = 60;
+pub const BALANCING_ITERATIONS: usize = 60;
 
 /// Changes of Newton's method that shrink to this part lead to the one solution around the start.
 /// Unit: `[1]`. Why: P. Deuflhard, Newton Methods for Nonlinear Problems, 2011, section 5.1. Test: none: with a
@@ -125,10 +113,6 @@ pub const DENSE_EIGENVALUES: usize = 300;
 /// Unit: `[1]` of the largest entry. Why: a choice, far above round-off. Test: none: not tried with other values.
 pub const SKEW: f64 = 1e-6;
 
-/// Growth or decay of a small motion that tells stability where K is not symmetric. Unit: `[1]` of the fastest rate.
-/// Why: twice the zero of a rigid motion is parted by the root of round-off. Test: none: not tried with other values.
-pub const SURE_GROWTH: f64 = 1e-7;
-
 /// A coordinate that is named takes part in a direction by this part of the largest.
 /// Unit: `[1]`. Why: a choice of how much a message says. Test: none: not tried with other values.
 pub const TAKES_PART: f64 = 0.3;
@@ -136,11 +120,6 @@ pub const TAKES_PART: f64 = 0.3;
 /// Newton's iterations at most from a guess to the state that continues the one it was taken from.
 /// Unit: `[iterations]`. Why: a choice. Test: none: a bound of work, not tried.
 pub const FOLLOWING_ITERATIONS: usize = 20;
-
-/// Changes of q at which Newton's method from such a guess ends.
-/// Unit: `[m, rad]` over 1 and the largest q. Why: round-off, also near a singular state. Test: none: not tried with
-/// other values.
-pub const FOLLOWED: f64 = 1e-11;
 
 /// Weight of directions without mass in the metric of the assembly.
 /// Unit: `[1]` of the largest mass. Why: a choice: they move freely, and the matrix is still far from singular. Test:
@@ -159,10 +138,6 @@ pub const LARGEST_TURN: f64 = 0.7;
 /// Halvings of a step of the assembly before it is given up.
 /// Unit: `[halvings]`. Why: a choice. Test: none: a bound of work, not tried.
 pub const STEP_HALVINGS: usize = 12;
-
-/// A step of Newton's method reduces |phi| by this part of what it would where phi is linear.
-/// Unit: `[1]`. Why: a choice, as of other line searches. Test: none: not tried with other values.
-pub const FALL_OF_RESIDUAL: f64 = 0.1;
 
 /// Beginnings of the assembly beside its guess where it does not close from there.
 /// Unit: `[beginnings]`. Why: of 199 loops with random angles one needs four. Test: `loops_close_from_random_angles`.
@@ -225,11 +200,6 @@ pub const UNLIKE_LENGTHS: f64 = 500.0;
 /// Digits of the value that a driver asks for, and of the end of its travel.
 /// Unit: `[digits]`. Why: the end is known to some ten. Test: `a_driver_beyond_its_travel_is_named`.
 pub const DIGITS_OF_TRAVEL: usize = 9;
-
-/// The least part of the way to the coordinates in `initial` that is tried before the path is taken to end.
-/// Unit: `[1]`. Why: near a dead centre steps shrink with the root of what is left. Test:
-/// `a_loop_is_turned_to_an_angle_far_from_the_guess`.
-pub const LEAST_PART: f64 = 1e-4;
 
 /// The largest phi of a closed loop after assembly, beside round-off of the largest coordinate.
 /// Unit: `[1]` of the scene's scale. Why: round-off of chains of transformations, up to thousands of them. Test: none:

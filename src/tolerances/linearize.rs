@@ -1,5 +1,6 @@
 //! Linear models, their eigenvalues, and the checks of them.
 
+pub use super::modes::EIGENVALUES_AGREE;
 pub use super::{ROUND_OFF_OF_FACTORS, ROUND_OFF_OF_SUMS, SAME};
 
 /// States of a run are integrated at least so well.
@@ -46,11 +47,6 @@ pub const FLOW_ATOL: f64 = 1e-13;
 /// Unit: `[steps]`. Why: a choice. Test: `a_double_pendulum_is_chaotic`.
 pub const FLOW_STEPS: usize = 2_000_000;
 
-/// Modes that are slower do not count: they are rigid motions with round-off.
-/// Unit: `[1]` of the fastest. Why: a choice, above the square root of rounding. Test: none: not tried with other
-/// values.
-pub const NO_MODE: f64 = 1e-6;
-
 /// Least damping ratio of a peak that can be drawn, and the largest of one that points might miss.
 /// Unit: `[1]`. Why: a choice: a millionth of the axis; the spacing of points. Test: none: not tried with other values.
 pub const PEAKS: (f64, f64) = (1e-6, 0.2);
@@ -63,11 +59,6 @@ pub const INDEPENDENT: f64 = 1e-7;
 /// A driver that a change of q moves by a unit less this is held by other constraints.
 /// Unit: `[1]`. Why: a choice, above the square root of rounding. Test: `a_driver_that_is_held_is_refused`.
 pub const PRESCRIBED: f64 = 1e-6;
-
-/// Differences of eigenvalues that are round-off: modes are one, a pair is conjugate, a real part is none.
-/// Unit: `[1]` of the eigenvalue, or of the largest. Why: a choice, above the square root of rounding, by which double
-/// ones split. Test: none: not tried with other values.
-pub const EIGENVALUES_AGREE: f64 = 1e-6;
 
 /// A step in which two modes could be exchanged for less is not clear.
 /// Unit: `[1]`, cost of the match. Why: a choice: see the cost. Test: none: not tried with other values.
@@ -104,32 +95,6 @@ pub const SINGULAR_GROWTH: f64 = 1e2;
 /// Unit: `[1]` of |theta x|. Why: rounding in K is some 1e-16 of the square of the fastest rate over the square of that
 /// of the mode, and nothing makes up for it. Test: none: not tried with other values.
 pub const MODE_RESIDUAL: f64 = 1e-4;
-
-/// |y| |x| / |y^H x| of eigenvalues from which on their vectors are taken for dependent.
-/// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
-pub const DEFECTIVE_MODE: f64 = 1e5;
-
-/// Imaginary parts that are rounding.
-/// Unit: `[1]` of the distance to the shift. Why: a choice: real double eigenvalues split by the root of the residual.
-/// Test: none: not tried with other values.
-pub const REAL_MODE: f64 = 1e-5;
-
-/// Eigenvectors that a real basis has of a conjugate are no new ones below this.
-/// Unit: `[1]`, square of their length. Why: a choice. Test: none: not tried with other values.
-pub const NEW_MODE: f64 = 1e-6;
-
-/// The shift for the slowest modes, off the eigenvalues 0 of rigid bodies.
-/// Unit: `[1]` of the last of them. Why: a choice. Test: none: not tried with other values.
-pub const SHIFT_OF_SLOWEST: f64 = 0.02;
-
-/// Distance of another shift from one that is an eigenvalue.
-/// Unit: `[1]` of itself. Why: a choice. Test: none: not tried with other values.
-pub const SHIFT_BESIDE: f64 = 1e-3;
-
-/// The slowest rate that rounding in K leaves.
-/// Unit: `[1]` of the fastest. Why: some ten times the square root of rounding. Test: none: not tried with other
-/// values.
-pub const ROUNDING_OF_K: f64 = 1e-7;
 
 /// Kinds of modes are clear where the part of a spurious one off the constraints is so many times that of any physical
 /// one.
@@ -172,10 +137,6 @@ pub const CARRIED_STATES: f64 = 2.0;
 /// Unit: `[states]`. Why: a choice: a motion that turns so fast is not followed for so long. Test: none: not tried with
 /// other values.
 pub const CARRIED_MOST: f64 = 1e6;
-
-/// Rounding of the integration of columns of size 1.
-/// Unit: `[1]`. Why: three times FLOW_ATOL. Test: none: not tried with other values.
-pub const COLUMN_ROUND_OFF: f64 = 3e-13;
 
 /// Errors up to here are in the range where the lowest power of h rules.
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.

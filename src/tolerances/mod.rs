@@ -17,6 +17,7 @@ pub mod initial;
 pub mod integrator;
 pub mod linearize;
 pub mod math;
+pub mod modes;
 pub mod report;
 pub mod simulate;
 pub mod system;

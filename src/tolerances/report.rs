@@ -235,10 +235,6 @@ pub const PART_OF_MODE: f64 = 1e-3;
 /// Unit: `[1]` of the range. Why: a choice: the README promises a millionth. Test: none: not tried with other values.
 pub const PARAMETER_END: f64 = 1e-8;
 
-/// Steps towards one value of a sweep.
-/// Unit: `[steps]`. Why: halving to the resolution takes 27. Test: none: a count of work, not tried.
-pub const BRANCH_STEPS: usize = 1000;
-
 /// Distance at which the other branch is looked for beside an end.
 /// Unit: `[1]` of the range. Why: at a distance d the state is as far away as the root of d. Test: none: not tried with
 /// other values.

@@ -1,7 +1,7 @@
 //! The time loop: events, singular states, choice of methods, rows.
 
 pub use super::contest::*;
-pub use super::{ROUND_OFF_OF_PHI, SAME};
+pub use super::{ROUND_OFF_OF_PHI, ROUND_OFF_OF_SUMS, SAME};
 
 /// A gap that reverses is on one line with itself before within this.
 /// Unit: `[1]`, sine of the angle. Why: round-off of positions over the gap; one that turns by half a revolution in a
@@ -55,12 +55,7 @@ pub const LOSSES_REFUSED: usize = 1;
 /// Unit: `[tolerated errors]`. Why: the next one is shorter by a half or so. Test: `no_passage_is_wrong_in_silence`.
 pub const REFUSED_FOR_ENERGY: f64 = 100.0;
 
-/// A state whose rank indicator is below is near a singular one.
-/// Unit: `[1]` of the largest so far. Why: a choice. Test: none: with a thousand times more or less the tests of its
-/// room pass.
-pub const NEAR_SINGULAR: f64 = 0.1;
-
-/// Steps are placed about a singular state where the rank indicator is below.
+/// A state whose rank indicator is below is near a singular one, about which steps are placed.
 /// Unit: `[1]` of the largest so far. Why: a choice. Test:
 /// `short_steps_stop_before_the_singular_state_until_one_as_long_as_before_goes_over_it`.
 pub const PLACED_STEPS: f64 = 0.3;
@@ -130,19 +125,16 @@ pub const TURNS_IN_WINDOW: usize = 250;
 /// Unit: `[turns]`. Why: a choice. Test: none: not tried with other values.
 pub const TURNS: f64 = 5e7;
 
+/// Windows of turns in a row that decide. Where each is shorter and slower than the one before, the motion comes to rest at
+/// the threshold. Where all turns are nearer to each other than the tolerance, the motion is lost.
+/// Unit: `[windows]`. Why: a choice. Test: none: a count of work, not tried.
+pub const WINDOWS_IN_ROW: usize = 4;
+
 /// Turns before a run, at the rate of the last window, with which it does not come to its end where the last windows
 /// were each shorter and slower than the one before.
 /// Unit: `[turns]`. Why: a choice: the motion comes to rest at the threshold, and the turns get ever more. Test: none:
 /// not tried with other values.
 pub const TURNS_IN_DECAY: f64 = 1e5;
-
-/// Windows of turns, each shorter and slower than the one before, that show a motion coming to rest at a threshold.
-/// Unit: `[windows]`. Why: a choice. Test: none: a count of work, not tried.
-pub const WINDOWS_IN_DECAY: usize = 4;
-
-/// Windows of turns nearer to each other than the tolerance, after which a run has lost the motion.
-/// Unit: `[windows]`. Why: a choice. Test: none: a count of work, not tried.
-pub const WINDOWS_UNSEEN: usize = 2;
 
 /// Steps that together come no farther than CRAWL end the run.
 /// Unit: `[steps]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
@@ -236,11 +228,6 @@ pub const NEAR_POINTS: f64 = 1.5;
 /// the point, 0.05 left a thousand times the tolerated error. Test: `steps_end_at_points_that_are_near`.
 pub const AT_POINT: f64 = 1e-3;
 
-/// A jump of v' that makes the next step start small.
-/// Unit: `[tolerated errors]` over a step. Why: a smaller one is within the tolerance. Test: none: with a thousand
-/// times more or less the tests of its room pass.
-pub const SMALL_JUMP: f64 = 1.0;
-
 /// How often a step is cut to passages on its dense output at most.
 /// Unit: `[cuts]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
 pub const CUTS: usize = 10;
@@ -264,14 +251,6 @@ pub const ERROR_OF_MOTION: f64 = 10.0;
 /// Unit: `[1]`. Why: half of the tenfold tolerance that a companion has. Test:
 /// `steps_at_their_tightest_have_a_companion_with_longer_ones`.
 pub const COARSER_STEPS: f64 = 5.0;
-
-/// Part of the largest value of an output that its error bar is not smaller than.
-/// Unit: `[1]` of the value. Why: round-off of some fifty operations. Test: `an_error_bar_is_not_below_round_off`.
-pub const ROUND_OFF_OF_ROWS: f64 = 1e-14;
-
-/// A step that is undecided about a threshold is not made shorter than so many of those that make no sense.
-/// Unit: `[1]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
-pub const UNDECIDED_STEP: f64 = 1e3;
 
 /// v' of the dense output is a difference over this.
 /// Unit: `[1]` of the step. Why: a choice. Test: `rows_do_not_change_the_steps`.
@@ -302,14 +281,6 @@ pub const SHOWN_BY_CUBIC: f64 = 0.25;
 /// Unit: `[1]` of the step. Why: a choice. Test: `a_run_is_stopped_between_steps`.
 pub const PASSED_GRID_TIME: f64 = 1e-3;
 
-/// A mode that is slower is one of rounding, or as good as none.
-/// Unit: `[1/s]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
-pub const SLOWEST_MODE: f64 = 1e-6;
-
-/// Iterations for the fastest mode alone.
-/// Unit: `[iterations]`. Why: a few percent where others are as fast. Test: `shipped_scenes_are_not_warned_of`.
-pub const POWER_ITERATIONS: usize = 60;
-
 /// What round-off may leave of accelerations of constraints, and of their lengths, at a singular start.
 /// Unit: `[1]` of the usual ones. Why: a choice. Test: none: with a thousand times more or less the tests of its room
 /// pass.
@@ -323,10 +294,6 @@ pub const START_AT_REST: f64 = 1e-12;
 /// What a rough estimate of the fastest mode may be off by.
 /// Unit: `[1]`. Why: a choice. Test: `fixed_steps_that_are_too_long_are_told`.
 pub const DOUBTED_MODE: f64 = 0.5;
-
-/// Powers of e that an unstable mode grows by over a run before it counts.
-/// Unit: `[1]`. Why: a choice. Test: none: with a thousand times more or less the tests of its room pass.
-pub const UNSTABLE_MODE: f64 = 1.0;
 
 /// Part of the limit of stability that is advised.
 /// Unit: `[1]`. Why: a choice, as of step control. Test: `fixed_steps_that_are_too_long_are_told`.

@@ -3,7 +3,7 @@
 use super::carried::Carried;
 use super::perturb::Speed;
 use super::{Decay, decay};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::linearize::flow::Bundle;
 use crate::linearize::{Matrix, State};
 use crate::math::eigen::expm;
@@ -35,14 +35,13 @@ pub fn frozen(start: &State, carried: &Carried, (a, speed): (&Matrix, &Speed), l
     let (snapshots, charts) = carried.flow(&bundle, &times)?;
     for ((snapshot, chart), h) in snapshots.iter().zip(charts).zip(&steps) {
         let exact = alike(chart.states_of(&snapshot.columns), chart.freedom(), rate);
-        let predicted =
-            alike(expm(&(a * *h)).map_err(|unsolved| Error::input(unsolved.to_string()))?, chart.freedom(), rate);
+        let predicted = alike(expm(&(a * *h))?, chart.freedom(), rate);
         errors.push((&exact - predicted).norm() / exact.norm());
     }
     // Fast modes are accurate relative to the fastest rate, not the slow one; and the error of the shortest step counts
     // as rounding.
     let floor =
-        (tolerances::COLUMN_ROUND_OFF * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
+        (3.0 * tolerances::FLOW_ATOL * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
     let steps = steps[..errors.len()].to_vec();
     let decay = decay(&steps, &errors, |_| tolerances::LOWEST_POWER, floor);
     Ok(Frozen { steps, errors, decay })

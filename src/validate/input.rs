@@ -1,8 +1,8 @@
 //! The response to a small pulse of an input.
 
+use super::Decay;
 use super::carried::Carried;
-use super::perturb::{EPSILONS, Norm, difference, floor};
-use super::{Decay, decay};
+use super::perturb::{EPSILONS, Norm};
 use crate::error::Result;
 use crate::linearize::flow::{Bundle, Pulse};
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, beside};
@@ -69,20 +69,14 @@ pub(super) fn check(
     let half = start.t + 0.5 * width;
     let (snapshots, charts) = carried.flow(&bundle, &[half, start.t + width])?;
     let ([middle, end], [chart, last]) = (&snapshots[..], &charts[..]) else { return Ok(Pulsed::TooSlow) };
-    let errors = end.members.iter().zip(&EPSILONS).map(|(member, eps)| {
-        let [dq, dv] = difference(system, &end.motion, member);
-        norm.off((&dq, &dv), (end.columns.q.as_slice(), end.columns.v.as_slice()), *eps)
-    });
-    let errors_ltv: Vec<f64> = errors.collect();
+    let errors_ltv = norm.errors(system, end, &end.columns, &EPSILONS);
+    let order_ltv = norm.order(end, &EPSILONS, &errors_ltv);
     let (lti, reached) = match model.built.input_states.orders[input] {
         2 => (response(model, &pulse, 0.5 * width), lifted(chart, &middle.columns, (input, pulse.jet(half)[0] / size))),
         _ => (lti, last.states_of(&end.columns)),
     };
     let error_lti = norm.states(chart, &(&lti / size - &reached)) / norm.states(chart, &reached);
-    let columns = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
-    let scaled =
-        decay(&EPSILONS, &errors_ltv, |eps| tolerances::SECOND_ORDER_RANGE * eps * columns, floor(&errors_ltv));
-    Ok(Pulsed::Checked(InputCheck { input: name, width, amplitudes, errors_ltv, order_ltv: scaled, error_lti }))
+    Ok(Pulsed::Checked(InputCheck { input: name, width, amplitudes, errors_ltv, order_ltv, error_lti }))
 }
 
 /// Returns the states (z, y) of changes while a displacement `u` of a driver is in them.

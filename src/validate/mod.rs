@@ -19,8 +19,7 @@ mod sequence;
 pub use direction::Direction;
 #[doc(hidden)]
 pub use frozen::{Frozen, horizon};
-#[doc(hidden)]
-pub use input::InputCheck;
+pub(crate) use input::InputCheck;
 #[doc(hidden)]
 pub use order::{Decay, decay};
 pub use run::{Validation, Verdict, validate, validate_until};

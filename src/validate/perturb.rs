@@ -1,7 +1,9 @@
 //! Sizes and rates of perturbations, and perturbed states.
 
-use crate::error::{Error, Result};
+use super::{Decay, decay};
+use crate::error::Result;
 use crate::initial::assemble;
+use crate::linearize::flow::Snapshot;
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State};
 use crate::math::eigen::eigen;
 use crate::system::MechanicalSystem;
@@ -58,7 +60,7 @@ pub struct Speed {
 
 impl Speed {
     pub fn of(model: &Minimal) -> Result<Self> {
-        let values = eigen(&model.built.a).map_err(|unsolved| Error::input(unsolved.to_string()))?.values;
+        let values = eigen(&model.built.a)?.values;
         let rates: Vec<f64> = values.iter().map(|value| value.norm()).filter(|rate| *rate > 1e-6).collect();
         let fastest = rates.iter().copied().fold(1.0, f64::max);
         let mean = rates.iter().map(|rate| rate.ln()).sum::<f64>() / rates.len().max(1) as f64;
@@ -86,7 +88,7 @@ impl Norm {
     }
 
     /// Returns |change - eps column|.
-    pub fn off(&self, (dq, dv): (&[f64], &[f64]), (cq, cv): (&[f64], &[f64]), eps: f64) -> f64 {
+    fn off(&self, (dq, dv): (&[f64], &[f64]), (cq, cv): (&[f64], &[f64]), eps: f64) -> f64 {
         let rest = |x: &[f64], c: &[f64]| x.iter().zip(c).map(|(x, c)| x - eps * c).collect::<Vec<f64>>();
         self.size((&rest(dq, cq), &rest(dv, cv)))
     }
@@ -95,9 +97,26 @@ impl Norm {
     pub fn states(&self, chart: &Coordinates, x: &Matrix) -> f64 {
         self.size(x.as_slice().split_at(chart.freedom()))
     }
-}
 
-/// Returns the rounding error, for which the error of the smallest perturbation is taken.
-pub fn floor(errors: &[f64]) -> f64 {
-    errors.last().copied().filter(|error| error.is_finite()).unwrap_or(0.0).max(1e-15)
+    /// Returns |difference of the motions - eps changes| of each perturbed motion.
+    pub fn errors(
+        &self,
+        system: &dyn MechanicalSystem,
+        end: &Snapshot,
+        changes: &Changes,
+        epsilons: &[f64],
+    ) -> Vec<f64> {
+        let error = |(member, eps): (&State, &f64)| {
+            let [dq, dv] = difference(system, &end.motion, member);
+            self.off((&dq, &dv), (changes.q.as_slice(), changes.v.as_slice()), *eps)
+        };
+        end.members.iter().zip(epsilons).map(error).collect()
+    }
+
+    /// Returns the order of such errors in eps. That of the smallest perturbation is taken for rounding.
+    pub fn order(&self, end: &Snapshot, epsilons: &[f64], errors: &[f64]) -> Decay {
+        let size = self.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
+        let floor = errors.last().copied().filter(|error| error.is_finite()).unwrap_or(0.0).max(1e-15);
+        decay(epsilons, errors, |eps| tolerances::SECOND_ORDER_RANGE * eps * size, floor)
+    }
 }

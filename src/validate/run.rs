@@ -136,21 +136,19 @@ fn shortened(sequence: &PerturbationSequence, asked: f64) -> Option<String> {
 }
 
 fn judge(sequences: &[PerturbationSequence], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {
-    let orders =
-        sequences.iter().map(|sequence| &sequence.order_ltv).chain(inputs.iter().map(|input| &input.order_ltv));
+    let rows = sequences.iter().map(|sequence| (&sequence.direction, &sequence.order_ltv));
+    let rows = rows.chain(inputs.iter().map(|input| (&input.input, &input.order_ltv)));
+    let orders = rows.clone().map(|(_, decay)| decay);
     let passes =
         |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > 2.0 - tolerances::ORDER_SLACK);
     let steep = |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > tolerances::STEEP_ENOUGH);
     let ltv = orders.clone().all(passes);
     let lti = steep(&frozen.decay);
-    let lowest = orders.filter_map(|decay| decay.order).fold(f64::INFINITY, f64::min);
+    let lowest = orders.clone().filter_map(|decay| decay.order).fold(f64::INFINITY, f64::min);
     let order = if lowest.is_finite() { format!("order {lowest:.2}") } else { "exact to rounding".to_string() };
     let is_untold = |decay: &Decay| !decay.is_exact && decay.order.is_none();
-    let rows = sequences.iter().map(|sequence| (&sequence.direction, &sequence.order_ltv));
-    let rows = rows.chain(inputs.iter().map(|input| (&input.input, &input.order_ltv)));
-    let untold: Vec<String> =
-        rows.clone().filter(|(_, decay)| is_untold(decay)).map(|(name, _)| name.clone()).collect();
-    let are_others_right = rows.map(|(_, decay)| decay).filter(|decay| !is_untold(decay)).all(passes);
+    let untold: Vec<String> = rows.filter(|(_, decay)| is_untold(decay)).map(|(name, _)| name.clone()).collect();
+    let are_others_right = orders.filter(|decay| !is_untold(decay)).all(passes);
     let text = match (ltv, lti) {
         (false, _) if are_others_right => format!(
             "not told: along {} too few sizes lie between rounding and what leaves the linear model; a shorter --horizon \

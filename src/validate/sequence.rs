@@ -1,15 +1,14 @@
 //! Perturbations of many sizes along one direction, simulated and predicted.
 
 use super::carried::Carried;
-use super::perturb::{EPSILONS, Norm, difference, floor, moved};
-use super::{Decay, decay, horizon};
+use super::perturb::{EPSILONS, Norm, difference, moved};
+use super::{Decay, horizon};
 use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, Snapshot};
-use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State};
+use crate::linearize::{Coordinates, Matrix, Minimal, State};
 use crate::math::array::Each;
 use crate::math::eigen::expm;
 use crate::system::MechanicalSystem;
-use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
 
 /// Perturbations along one direction.
@@ -88,11 +87,9 @@ pub(super) fn sequence(
             .hint("give more time by --budget, or a shorter --horizon"));
     };
     let last = &followed.predicted[followed.snapshots.len() - 1];
-    let errors_ltv = followed.errors(end, &end.columns);
-    let errors_lti = followed.errors(end, &chart.changes_of(last));
-    let size = norm.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
-    let order_ltv =
-        decay(&followed.epsilons, &errors_ltv, |eps| tolerances::SECOND_ORDER_RANGE * eps * size, floor(&errors_ltv));
+    let errors_ltv = norm.errors(system, end, &end.columns, &followed.epsilons);
+    let errors_lti = norm.errors(system, end, &chart.changes_of(last), &followed.epsilons);
+    let order_ltv = norm.order(end, &followed.epsilons, &errors_ltv);
     let drift_lti = followed.drift();
     let horizons = [0.01, 0.1].each(|share| horizon(&followed.times, &drift_lti, share));
     let (curves, curve_epsilon) = followed.curves();
@@ -126,8 +123,7 @@ fn follow<'a>(
     let mut times: Vec<f64> = (1..=ROWS).map(|i| duration * i as f64 / ROWS as f64).collect();
     let first = times[0];
     let (snapshots, charts) = carried.flow(&bundle, &times.iter().map(|t| start.t + t).collect::<Vec<f64>>())?;
-    let step =
-        expm(&(&model.built.a * (duration / ROWS as f64))).map_err(|unsolved| Error::input(unsolved.to_string()))?;
+    let step = expm(&(&model.built.a * (duration / ROWS as f64)))?;
     let mut predicted = vec![&step * x0];
     (1..ROWS).for_each(|i| predicted.push(&step * &predicted[i - 1]));
     times.truncate(snapshots.len());
@@ -135,15 +131,6 @@ fn follow<'a>(
 }
 
 impl Followed<'_> {
-    /// Returns |difference of the motions - eps changes| for each size.
-    fn errors(&self, end: &Snapshot, changes: &Changes) -> Vec<f64> {
-        let error = |(member, eps): (&State, &f64)| {
-            let [dq, dv] = difference(self.system, &end.motion, member);
-            self.norm.off((&dq, &dv), (changes.q.as_slice(), changes.v.as_slice()), *eps)
-        };
-        end.members.iter().zip(&self.epsilons).map(error).collect()
-    }
-
     /// Returns the relative error of the frozen model at each time.
     fn drift(&self) -> Vec<f64> {
         let error = |((snapshot, chart), lti): ((&Snapshot, &Coordinates), &Matrix)| {

@@ -75,6 +75,12 @@ mod linearize {
     pub use nalgebra::Complex;
 }
 
+#[path = "../../src/modes"]
+mod modes {
+    pub mod natural;
+    mod rate_bound;
+}
+
 #[path = "../../src/report"]
 mod report {
     mod linear {
@@ -111,7 +117,6 @@ mod simplify {
 #[path = "../../src/simulate"]
 mod simulate {
     mod passage;
-    mod rate_bound;
     mod events {
         mod range;
     }

@@ -84,9 +84,7 @@ impl Singularity {
         );
         Some(Failure { t: *t, reason, hint: "choose a projection such as `manifold`, or a smaller step".to_string() })
     }
-}
 
-impl Singularity {
     /// Returns the failure of a run with this outcome: that of a motion that left its branch, unless the run ended at
     /// that state, for a reason of its own.
     pub fn failure_of(&self, outcome: &Outcome) -> Option<Failure> {

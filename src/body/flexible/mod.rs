@@ -2,7 +2,6 @@
 
 mod beam;
 mod damping;
-mod eigen;
 mod element;
 mod gauss;
 mod integrals;
@@ -21,6 +20,7 @@ mod spec;
 #[cfg(test)]
 mod tests;
 
+use crate::modes::natural as eigen;
 pub use beam::{MOST_ELEMENTS, elastic_beam};
 pub use gauss::{gauss_legendre, on_interval};
 pub use profile::Profile;

@@ -16,6 +16,7 @@
 use super::section::Section;
 use crate::body::Frame;
 use crate::math::Scalar;
+pub use crate::modes::natural::Symmetric;
 
 /// Mass integrals of a body or of a part of it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -171,9 +172,6 @@ pub struct Stretch {
     /// S: mean of w_y' w_y' + w_z' w_z' for each pair of coordinates, row by row.
     pub slopes: Vec<f64>,
 }
-
-/// A symmetric sparse matrix: entries (i, j, value) with i >= j, each place once.
-pub type Symmetric = Vec<(usize, usize, f64)>;
 
 /// The line of a beam with its displacement functions.
 pub trait Line<const D: usize>: Send + Sync {

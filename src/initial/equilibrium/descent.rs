@@ -94,7 +94,7 @@ fn advance(rest: &mut EquilibriumSystem, at: &Balance, shift: f64) -> Option<(Ba
     let mut way = change.q;
     relax(rest, &mut next, &mut way, shift, norm(&at.force))?;
     let gain = 0.5 * (dot(&at.force, &way) + dot(&next.force, &way)) / predicted;
-    (gain > tolerances::DESCENT_TAKEN_BACK).then_some((next, gain))
+    (gain > tolerances::SUFFICIENT_STEP).then_some((next, gain))
 }
 
 /// The place after a change, returned to phi = 0 and balanced.

@@ -2,6 +2,7 @@
 
 use super::newton::{Policy, newton};
 use super::system::{EquilibriumSystem, Place};
+use crate::initial::continuation;
 use crate::tolerances::initial as tolerances;
 
 /// f - G^T lambda = (1 - s) (f - G^T lambda)(start), s from 0 to 1: the residual force of the start is removed in
@@ -11,25 +12,13 @@ pub(super) fn homotopy(rest: &mut EquilibriumSystem, start: &Place) -> (Place, f
     rest.evaluate(&start.q);
     let missing = rest.force(&start.lambda);
     let mut at = start.clone();
-    let mut s = 0.0;
-    let mut part = tolerances::LOAD_FIRST;
     let mut steps = 0;
-    for _ in 0..tolerances::LOAD_CHANGES {
-        let next: f64 = if s + part > 1.0 - tolerances::LOAD_SMALLEST { 1.0 } else { s + part };
+    let (s, _) = continuation(0.0, 1.0, (tolerances::LOAD_FIRST, tolerances::LEAST_PART), |next| {
         let goal: Vec<f64> = missing.iter().map(|force| (1.0 - next) * force).collect();
-        match newton(rest, at.clone(), Some(&goal), Policy::NEAR) {
-            Some((place, contracts)) => {
-                (at, s, steps) = (place, next, steps + 1);
-                part *= if contracts { 2.0 } else { 1.0 };
-            }
-            None => part *= 0.25,
-        }
-        if s == 1.0 {
-            return (at, s, steps);
-        }
-        if part < tolerances::LOAD_SMALLEST {
-            break;
-        }
-    }
+        let (place, contracts) = newton(rest, at.clone(), Some(&goal), Policy::NEAR)?;
+        at = place;
+        steps += 1;
+        Some(if contracts { 2.0 } else { 1.0 })
+    });
     (at, s, steps)
 }

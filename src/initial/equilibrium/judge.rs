@@ -27,7 +27,7 @@ impl Judge {
             return false;
         }
         let Some(balance) = rest.balance(&place.q) else { return false };
-        let rounding = tolerances::COORDINATES_ROUNDED * largest(&place.q).max(1.0);
+        let rounding = tolerances::ROUND_OFF_OF_FACTORS * largest(&place.q).max(1.0);
         // Without loads, rounded springs are the loads of parts that have no spring.
         let rounded = rounding * largest(&self.stiffness);
         let loads = self.loads.max(largest(&rest.sizes(&balance.place))).max(rounded);

@@ -15,9 +15,9 @@ pub(super) struct Policy {
 impl Policy {
     /// Undamped, without a limit on contraction: the steps of bent beams grow before they shrink.
     pub const FULL: Policy =
-        Policy { limits: Limits { most: tolerances::FULL_ITERATIONS, ..Limits::NONE }, is_damped: false };
+        Policy { limits: Limits { most: tolerances::BALANCING_ITERATIONS, ..Limits::NONE }, is_damped: false };
     pub const DAMPED: Policy =
-        Policy { limits: Limits { most: tolerances::DAMPED_ITERATIONS, ..Limits::NONE }, is_damped: true };
+        Policy { limits: Limits { most: tolerances::BALANCING_ITERATIONS, ..Limits::NONE }, is_damped: true };
     /// Near a solution: every step contracts.
     pub const NEAR: Policy = Policy {
         limits: Limits { most: tolerances::CLOSING_ITERATIONS, contraction: tolerances::NEWTON_HALVES, ..Limits::NONE },

@@ -2,7 +2,7 @@
 
 use super::system::{EquilibriumSystem, Place};
 use crate::formulation::{free_directions, reduce};
-use crate::math::eigen::eigen;
+use crate::modes::eigenvalues;
 use crate::tolerances::initial as tolerances;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
@@ -30,6 +30,9 @@ pub(super) struct Soft {
     /// Directions along q, each of unit kinetic mass.
     pub directions: Vec<DVector<f64>>,
     is_symmetric: bool,
+    /// Z^T K Z, and Z.
+    k: DMatrix<f64>,
+    z: DMatrix<f64>,
 }
 
 /// Zero and smallest eigenvalues of Z^T K Z at a place; `None` where it is too large or cannot be evaluated.
@@ -45,7 +48,7 @@ pub(super) fn soft(rest: &mut EquilibriumSystem, place: &Place) -> Option<Soft> 
     let symmetric = 0.5 * (&k + k.transpose());
     let is_symmetric = (&k - &symmetric).amax() <= tolerances::SKEW * k.amax();
     if k.is_empty() {
-        return Some(Soft { smallest: f64::INFINITY, directions: Vec::new(), is_symmetric });
+        return Some(Soft { smallest: f64::INFINITY, directions: Vec::new(), is_symmetric, k, z });
     }
     let least = tolerances::ROUND_OFF_OF_SUMS * k.amax() * k.nrows() as f64;
     let eigen = SymmetricEigen::new(symmetric);
@@ -54,6 +57,8 @@ pub(super) fn soft(rest: &mut EquilibriumSystem, place: &Place) -> Option<Soft> 
         smallest: eigen.eigenvalues.iter().copied().fold(f64::INFINITY, f64::min),
         directions: soft.map(|(i, _)| &z * eigen.eigenvectors.column(i)).collect(),
         is_symmetric,
+        k,
+        z,
     })
 }
 
@@ -62,7 +67,7 @@ pub(super) fn judge(rest: &mut EquilibriumSystem, place: &Place) -> (Stability, 
     let Some(soft) = soft(rest, place) else { return (Stability::Unknown, Vec::new()) };
     let free = named(rest, &soft.directions);
     let stability = if !soft.is_symmetric {
-        by_modes(rest).unwrap_or(Stability::Unknown)
+        by_modes(rest, &soft).unwrap_or(Stability::Unknown)
     } else if !soft.directions.is_empty() {
         Stability::Neutral
     } else if soft.smallest > 0.0 {
@@ -75,20 +80,13 @@ pub(super) fn judge(rest: &mut EquilibriumSystem, place: &Place) -> (Stability, 
 
 /// Stability by the eigenvalues of small motions, at the place of the last factorization: for forces without a potential
 /// and for states, whose columns of K are those of C.
-fn by_modes(rest: &mut EquilibriumSystem) -> Option<Stability> {
-    let z = free_directions(&mut rest.dynamics)?;
-    let k = reduce(&rest.dynamics.structure.tangent, &rest.tangent.k, &z);
-    let c = reduce(&rest.dynamics.structure.tangent, &rest.tangent.c, &z);
-    let n = z.ncols();
+fn by_modes(rest: &EquilibriumSystem, Soft { z, k, .. }: &Soft) -> Option<Stability> {
+    let c = reduce(&rest.dynamics.structure.tangent, &rest.tangent.c, z);
     let moving = z.ncols() - rest.dynamics.system.dimensions().states;
-    let mut a = DMatrix::zeros(moving + n, moving + n);
-    a.view_mut((0, moving), (moving, moving)).fill_with_identity();
-    a.view_mut((moving, 0), (n, moving)).copy_from(&-k.columns(0, moving));
-    a.view_mut((moving, moving), (n, n)).copy_from(&-c);
-    let values = eigen(&a).ok()?.values;
+    let values = eigenvalues(k, &c, moving)?;
     let size = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
     let growth = values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
-    let is_sure = growth.abs() > tolerances::SURE_GROWTH * size;
+    let is_sure = growth.abs() > tolerances::ROUNDING_OF_K * size;
     is_sure.then_some(if growth > 0.0 { Stability::Unstable } else { Stability::Stable })
 }
 

@@ -110,14 +110,16 @@ impl Shape {
 
     /// Splits a flat q into that of the motion, the columns' and the members'.
     pub fn parts<'y>(&self, q: &'y [f64]) -> [&'y [f64]; 3] {
-        let (motion, rest) = q.split_at(self.q);
-        let (columns, members) = rest.split_at(self.v * self.columns);
-        [motion, columns, members]
+        self.split(q, self.q)
     }
 
     /// Splits a flat v in the same way.
     pub fn rates<'y>(&self, v: &'y [f64]) -> [&'y [f64]; 3] {
-        let (motion, rest) = v.split_at(self.v);
+        self.split(v, self.v)
+    }
+
+    fn split<'y>(&self, flat: &'y [f64], motion: usize) -> [&'y [f64]; 3] {
+        let (motion, rest) = flat.split_at(motion);
         let (columns, members) = rest.split_at(self.v * self.columns);
         [motion, columns, members]
     }

@@ -25,7 +25,6 @@ use crate::method_spec::{MethodSpec, OptionDoc};
 /// "Direct eigenanalysis of constrained system dynamics", Proc. Inst. Mech. Eng. K 223 (2009) 335-342.
 pub const RCS: Entry = Entry {
     name: "rcs",
-    about: "descriptor form (E, A) in all coordinates and multipliers: exact at an equilibrium",
     options: &[
         OptionDoc {
             name: "form",

@@ -100,7 +100,9 @@ fn observe(
         perturbation.split(&(outputs.u * &perturbation.u[0] + outputs.udot * &perturbation.u[1]));
     let mut seen = input_states;
     let mut d = inputs;
-    if let Some(of_force) = of_outputs(outputs.vdot, variation.mass()) {
+    if outputs.vdot.iter().any(|slope| *slope != 0.0)
+        && let Some(of_force) = over_mass(outputs.vdot, variation.mass())
+    {
         c += &of_force * a.rows(n, n);
         seen += &of_force * driven.rows(n, n);
         d += &of_force * b.rows(n, n);
@@ -125,11 +127,6 @@ fn states(dae: &Dae, variation: &Variation, kept: &[usize]) -> Vec<String> {
         states.extend(kept.iter().map(|&row| format!("{}{suffix}", multipliers[row])));
     }
     states
-}
-
-/// Returns W M^-1 for outputs W dv'; none where W = 0.
-fn of_outputs(outputs: Matrix, mass: Matrix) -> Option<Matrix> {
-    if outputs.iter().all(|slope| *slope == 0.0) { None } else { over_mass(outputs, mass) }
 }
 
 /// Returns W M^-1; directions without mass stay as they are, since no output depends on them.

@@ -1,9 +1,6 @@
 //! Static gain of the truncated modes.
 
 use super::changes;
-use super::quadratic::{Quadratic, Sparse};
-use super::search::{Found, Operator, Space};
-use super::shifted::Shifted;
 use crate::error::Result;
 use crate::linearize::changes::beside;
 use crate::linearize::entry::Built;
@@ -11,13 +8,16 @@ use crate::linearize::perturbation::Perturbation;
 use crate::linearize::response::observe;
 use crate::linearize::spectrum::refused;
 use crate::linearize::{Matrix, Response, Variation};
+use crate::modes::search::{Found, Operator, Space};
+use crate::modes::shifted::Shifted;
+use crate::modes::{Quadratic, Sparse};
 use crate::tolerances::linearize as tolerances;
 
 /// Adds H(s) - C (s - A)^-1 B at s = 0 to the direct part of each column, H the transfer function of all modes. `forces`
 /// are those of a unit of each state of the inputs and of each input.
 pub fn add_residual<'a>(
     variation: &mut Variation,
-    equations: &'a Quadratic,
+    (equations, turn): (&'a Quadratic, &Sparse),
     found: &mut Found<'a>,
     (built, forces): (&mut Built, &Matrix),
 ) -> Result<()> {
@@ -25,9 +25,9 @@ pub fn add_residual<'a>(
         return Ok(());
     }
     let t = variation.point.t;
-    let mut held = held(equations);
-    let at = match (&mut held, &mut found.operator) {
-        (Some(held), _) => held,
+    let mut at_zero = at_zero(equations);
+    let at = match (&mut at_zero, &mut found.operator) {
+        (Some(at_zero), _) => at_zero,
         (None, Operator::Real(operator)) => operator,
         (None, Operator::Complex(_)) => return Ok(()),
     };
@@ -37,7 +37,7 @@ pub fn add_residual<'a>(
         to.copy_from(&force);
         at.solve(to.as_mut_slice()).map_err(|unsolved| refused(t, &unsolved))?;
     }
-    let changes = changes(equations, &Space { u: &p * s, p });
+    let changes = changes(variation, turn, &Space { u: &p * s, p });
     let perturbation = Perturbation::new(variation, &changes, |_, _| None);
     let response = Response::exact(variation, &perturbation)?;
     let gain = observe(&variation.outputs()?, &perturbation, &response).state;
@@ -53,7 +53,7 @@ pub fn add_residual<'a>(
 }
 
 /// Returns the equations at s = 0 if they have a stiffness above rounding along the softest direction; none otherwise.
-fn held(equations: &Quadratic) -> Option<Shifted<'_, f64>> {
+fn at_zero(equations: &Quadratic) -> Option<Shifted<'_, f64>> {
     let mut operator = Shifted::new(equations, 0.0, 1.0).ok()?;
     let mut p: Vec<f64> = (0..equations.len()).map(|i| 1.0 + (i as f64).sin()).collect();
     for _ in 0..2 {

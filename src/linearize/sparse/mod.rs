@@ -1,10 +1,7 @@
 //! A few modes of a large mechanism, without a dense matrix of its size.
 
+mod equations;
 mod gain;
-mod quadratic;
-mod reduce;
-mod search;
-mod shifted;
 
 use super::changes::beside;
 use super::entry::Built;
@@ -15,10 +12,10 @@ use super::spectrum::{modes_of, refused};
 use super::{Changes, Complex, Cost, Lift, LinearModel, Matrix, Response, Variation};
 use crate::error::{Error, Result};
 use crate::math::eigen::Unsolved;
+use crate::modes::reduce::{self, Modal};
+use crate::modes::search::{self, Found, Space};
+use crate::modes::{Quadratic, Sparse};
 use crate::tolerances::linearize as tolerances;
-use quadratic::Quadratic;
-use reduce::Modal;
-use search::{Found, Space};
 use std::time::Instant;
 
 type C = Complex<f64>;
@@ -49,7 +46,8 @@ type C = Complex<f64>;
 /// No mode asked for or none there; eigenvalues that do not converge; outputs without derivatives.
 pub fn modal(variation: &mut Variation, count: usize, shift: Complex<f64>) -> Result<LinearModel> {
     let clock = Instant::now();
-    let equations = Quadratic::new(variation);
+    let turn = equations::turn(variation);
+    let equations = equations::equations(variation, &turn);
     check(&equations, count, shift)?;
     let shift = C::new(shift.re, shift.im.abs());
     let adjoint = equations.transposed();
@@ -65,8 +63,8 @@ pub fn modal(variation: &mut Variation, count: usize, shift: Complex<f64>) -> Re
     let modal = reduce::reduce(&equations, &found, count, shift).map_err(unsolved)?;
     let eigen = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let (mut built, forces) = build(variation, &equations, modal)?;
-    gain::add_residual(variation, &equations, &mut found, (&mut built, &forces))?;
+    let (mut built, forces) = build(variation, (&equations, &turn), modal)?;
+    gain::add_residual(variation, (&equations, &turn), &mut found, (&mut built, &forces))?;
     let assembly = assembly + clock.elapsed().as_secs_f64();
     finish(variation, &mut found, built, [assembly, eigen])
 }
@@ -93,21 +91,21 @@ fn hold(variation: &mut Variation, equations: &Quadratic, space: &mut Space) -> 
     Ok(())
 }
 
-/// Returns dq = p, dv = s p + [v, p]; dxi = p.
-fn changes(equations: &Quadratic, space: &Space) -> Changes {
+/// Returns dq = p, dv = s p + [v, p]; dxi = p. `turn` is [v, .].
+fn changes(variation: &Variation, turn: &Sparse, space: &Space) -> Changes {
     let mut q = space.p.clone();
-    let mut v = &space.u + equations.turn.product(&space.p);
-    let states = (equations.moving, equations.len() - equations.moving);
-    v.rows_mut(states.0, states.1).copy_from(&space.p.rows(states.0, states.1));
-    q.rows_mut(states.0, states.1).fill(0.0);
+    let mut v = &space.u + turn.product(&space.p);
+    let n = variation.system().dimensions();
+    v.rows_mut(n.moving(), n.states).copy_from(&space.p.rows(n.moving(), n.states));
+    q.rows_mut(n.moving(), n.states).fill(0.0);
     Changes { q, v }
 }
 
 /// Adds inputs and outputs. Returns also the forces of a unit of each state of the inputs and of each input: with
 /// dq = p + P u for what drivers prescribe, -(M P u'' + C P u' + K P u) is one.
-fn build(variation: &mut Variation, equations: &Quadratic, modal: Modal) -> Result<(Built, Matrix)> {
+fn build(variation: &mut Variation, (equations, turn): (&Quadratic, &Sparse), modal: Modal) -> Result<(Built, Matrix)> {
     let n = equations.len();
-    let changes = changes(equations, &modal.space);
+    let changes = changes(variation, turn, &modal.space);
     let lift = Lift::frozen(variation, (&Matrix::zeros(n, 0), &Matrix::zeros(0, n)))?;
     let perturbation = Perturbation::new(variation, &changes, |i, j| lift.along(i, j));
     let response = Response::exact(variation, &perturbation)?;

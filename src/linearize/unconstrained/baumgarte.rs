@@ -14,7 +14,6 @@ use crate::method_spec::OptionDoc;
 /// Cost: 2 n back-substitutions and the eigenvalues of a 2 n matrix.
 pub const BAUMGARTE: Entry = Entry {
     name: "baumgarte",
-    about: "phi'' + 2 alpha phi' + beta^2 phi = 0: exact, with 2 m spurious eigenvalues",
     options: &[
         OptionDoc { name: "alpha", about: "damping of phi, 1/s (default 5)" },
         OptionDoc { name: "beta", about: "frequency of phi, 1/s (default alpha)" },

@@ -17,7 +17,6 @@ use crate::method_spec::OptionDoc;
 /// Eng. K 225 (2011) 12-33. Cost: a QR of G^T, an LU of size n and the eigenvalues of a 2 n matrix.
 pub const FORCE_PROJECTION: Entry = Entry {
     name: "force_projection",
-    about: "forces projected on the free directions: exact, with 2 m spurious eigenvalues (zero without gains)",
     options: &[
         OptionDoc { name: "alpha", about: "damping of phi, 1/s (default 0)" },
         OptionDoc { name: "beta", about: "frequency of phi, 1/s (default alpha)" },

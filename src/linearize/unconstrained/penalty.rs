@@ -27,7 +27,6 @@ const KIND: OptionDoc = OptionDoc {
 /// +-i sqrt(s c0 eig(G M^-1 G^T)) (elastic).
 pub const PENALTY: Entry = Entry {
     name: "penalty",
-    about: "mass or springs on the constraints: error O(1/penalty), 2 m spurious eigenvalues",
     options: &[formulation::PENALTY, formulation::OMEGA, formulation::XI, KIND, PROJECTED],
     build: |variation, request| {
         let penalty = Penalty::new(&request.method, 1, variation)?;
@@ -52,7 +51,6 @@ pub const PENALTY: Entry = Entry {
 /// Physical eigenvalues are off by O(penalty^-N).
 pub const AUGMENTED_LAGRANGIAN: Entry = Entry {
     name: "augmented_lagrangian",
-    about: "penalty with updates of lambda: error O(penalty^-iterations), 2 m spurious eigenvalues",
     options: &[
         formulation::PENALTY,
         OptionDoc { name: "iterations", about: "solutions with an updated lambda (default 3)" },

@@ -68,7 +68,7 @@ impl<'a> Watch<'a> {
         self.functions.iter_mut().zip(loose).for_each(|(watched, loose)| watched.is_loose = *loose);
     }
 
-    /// Discards the resolved time: the functions change here.
+    /// Forgets up to which time steps are resolved, where the functions change their form.
     pub fn forget(&mut self) {
         self.seen = f64::NEG_INFINITY;
     }

@@ -2,11 +2,11 @@
 
 use super::array::Array;
 use super::spec::{Lumped, ModalData};
-use crate::body::flexible::eigen::first_dependent;
 use crate::body::flexible::shape::Piece;
 use crate::body::{cross, in_space};
 use crate::error::{Error, Result};
 use crate::math::array::{Each, from_fn};
+use crate::modes::natural::first_dependent;
 use faer::Mat;
 
 /// Mass integrals of point masses with known motion in the modes: exact in every term.

@@ -1,8 +1,10 @@
-//! Natural modes of small dense systems.
+//! Natural modes of small dense systems, and their symmetric matrices.
 
-use super::shape::Symmetric;
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Mat, MatRef, Par, Side};
+
+/// A symmetric sparse matrix: entries (i, j, value) with i >= j, each place once.
+pub type Symmetric = Vec<(usize, usize, f64)>;
 
 /// Natural modes: K phi = omega^2 M phi.
 pub struct Modes {

@@ -1,6 +1,6 @@
 //! The equations at one s, factored.
 
-use super::quadratic::Quadratic;
+use super::Quadratic;
 use crate::math::eigen::{Scalar, Unsolved};
 use crate::math::kkt::{Pattern, Singular, Unsymmetric};
 

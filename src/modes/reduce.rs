@@ -1,10 +1,9 @@
 //! Reduction of invariant spaces to modal coordinates.
 
-use super::quadratic::Quadratic;
+use super::Quadratic;
 use super::search::{Found, Space};
-use crate::linearize::{Complex, Matrix};
-use crate::math::eigen::{Eigen, Unsolved, eigen};
-use crate::tolerances::linearize as tolerances;
+use crate::math::eigen::{Complex, ComplexMatrix, Eigen, Matrix, Unsolved, eigen};
+use crate::tolerances::modes as tolerances;
 
 type C = Complex<f64>;
 
@@ -130,7 +129,7 @@ impl Blocks {
     /// Adds one block for all defective eigenvalues: the complement to which all other vectors are orthogonal.
     fn share(&mut self, units: &[Unit], solved: &Eigen, a: &Matrix) -> Result<(), Unsolved> {
         let rest: Vec<&Unit> = units.iter().filter(|unit| !unit.is_defective).collect();
-        let real = |vectors: &crate::math::eigen::ComplexMatrix| -> Vec<Column> {
+        let real = |vectors: &ComplexMatrix| -> Vec<Column> {
             let parts = |unit: &&Unit| {
                 let vector = vectors.column(unit.column);
                 let both = [vector.map(|x| x.re), vector.map(|x| x.im)];

@@ -1,11 +1,10 @@
 //! Invariant spaces of the eigenvalues nearest to a shift.
 
-use super::quadratic::Quadratic;
+use super::Quadratic;
 use super::shifted::Shifted;
-use crate::linearize::{Complex, Matrix};
-use crate::math::eigen::{Options, Partial, Scalar, Unsolved, nearest};
+use crate::math::eigen::{Complex, Matrix, Options, Partial, Scalar, Unsolved, nearest};
 use crate::math::kkt::Singular;
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances::modes as tolerances;
 
 type C = Complex<f64>;
 
@@ -15,14 +14,14 @@ pub struct Space {
     pub u: Matrix,
 }
 
-/// The right and left spaces of the same eigenvalues, and the operator they were found with.
+/// The right and left spaces of the same eigenvalues, and the operator by which they were found.
 pub struct Found<'a> {
     pub right: Space,
     pub left: Space,
     pub operator: Operator<'a>,
 }
 
-/// That of a real or a complex shift.
+/// (A - sigma E)^-1 E of a real or a complex shift sigma.
 pub enum Operator<'a> {
     Real(Shifted<'a, f64>),
     Complex(Shifted<'a, C>),
