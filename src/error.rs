@@ -278,6 +278,11 @@ pub fn short(value: f64) -> String {
     shown(format!("{value:.3e}").parse().unwrap_or(value))
 }
 
+/// A number with at most two significant digits: 0.5, 1.2e-7.
+pub fn two(value: f64) -> String {
+    shown(format!("{value:.1e}").parse().unwrap_or(value))
+}
+
 /// A number with this number of significant digits, without an exponent if that is short.
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {

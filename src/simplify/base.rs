@@ -9,11 +9,12 @@ use super::search::{NUMERICAL, Trial};
 use super::source::{Source, write_method};
 use super::{LEAST, Settings};
 use crate::analysis::Passing;
-use crate::compare::work_precision::{Motion, SecondOpinion, Watched, second_opinion, tighter};
 use crate::error::{Error, Failure, Result, Warning, clock, percent, short_list, significant};
 use crate::integrator;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, atol_of};
+use crate::study::work_precision::tighter;
+use crate::study::{Motion, SecondOpinion, Watched, second_opinion};
 use crate::tolerances::report as tolerances;
 use crate::trajectory::recorded;
 use serde_json::json;
@@ -64,7 +65,7 @@ pub struct Base {
 
 impl Accurate {
     /// Runs the model at a hundredth of its tolerance until `is_long`.
-    fn new(source: &Source, settings: &Settings, is_long: &dyn Fn() -> bool) -> Result<Accurate> {
+    fn new(source: &Source, settings: &Settings, is_long: &(dyn Fn() -> bool + Sync)) -> Result<Accurate> {
         let mut prepared = source.prepare(&source.scene)?;
         let source = &carried(source, &prepared);
         let watched = watched(&prepared, settings)?;
@@ -97,10 +98,10 @@ impl Accurate {
     /// Compares the accurate run with one of diffsol, for which a part of the budget is allowed.
     pub fn confirmed(&self, settings: &Settings, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<SecondOpinion> {
         let span = self.prepared.span().ok()?;
-        let motion = Motion { counts_start: true, ..Motion::of(&self.prepared, span, is_stopped) };
         let watched = Watched::new(self.prepared.system(), &settings.outputs).ok()?;
+        let motion = Motion { counts_start: true, ..Motion::of(&self.prepared, span, watched, is_stopped) };
         let allowed = settings.budget.map_or(ALLOWED, |budget| budget / CONFIRMED);
-        Some(second_opinion(&motion, &watched, span, (&self.recorded.rows, &self.prepared.method), allowed.into()))
+        Some(second_opinion(&motion, &self.recorded.rows, &self.prepared.method, allowed.into()))
     }
 
     /// Runs the model by its own method.

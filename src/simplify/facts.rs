@@ -4,13 +4,13 @@ use super::edit::{carrier, text};
 use super::recorded::Recorded;
 use super::source::Source;
 use crate::body::{Energy, Frame, dot, in_space};
-use crate::compare::work_precision::Watched;
 use crate::formulation::Dynamics;
 use crate::linearize::State;
 use crate::math::Taylor;
 use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::prepared::{AnyMechanism, PreparedScene};
+use crate::study::Watched;
 use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
 use serde_json::{Map, Value, json};
 

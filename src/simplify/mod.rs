@@ -54,9 +54,9 @@ pub use search::Trial;
 pub use source::Source;
 pub use start::{Hint, Hints, Unseen, hints};
 
-use crate::clock::Stopwatch;
-use crate::compare::work_precision::SecondOpinion;
 use crate::error::{Result, Warning, percent};
+use crate::study::price::Prices;
+use crate::study::{Budget, SecondOpinion};
 use base::{Accurate, Base, METHOD, contradicted, doubts};
 use bench::Bench;
 use nearby::Neighbourhood;
@@ -162,8 +162,8 @@ pub fn simplify(
     is_stopped: &(dyn Fn() -> bool + Sync),
     watch: &mut dyn FnMut(&str, usize),
 ) -> Result<Simplification> {
-    let begun = Stopwatch::start();
-    let is_within = |part: u32| settings.budget.is_none_or(|budget| begun.wall() < budget / part);
+    let budget = settings.budget.map(Budget::begin);
+    let is_within = |part: u32| budget.is_none_or(|budget| budget.spent() < budget.all / part);
     let is_asked = is_stopped;
     let is_spent = || is_stopped() || !is_within(1);
     let is_stopped: &(dyn Fn() -> bool + Sync) = &is_spent;
@@ -196,7 +196,7 @@ pub fn simplify(
         richest: &richest,
         at_most: settings.at_most,
         neighbourhood: neighbours,
-        prices: Vec::new(),
+        prices: Prices::new(),
     };
     bench.enter(&richest);
     let reserved = RESERVED.min((settings.at_most - LEAST) / 2);

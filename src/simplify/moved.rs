@@ -8,7 +8,9 @@ use super::source::Source;
 use crate::body::dot;
 use crate::linearize::State;
 use crate::math::array::{Each, from_fn};
+use crate::math::random::Random;
 use crate::prepared::PreparedScene;
+use crate::study::json::{faster, scale};
 use crate::system::Scratch;
 use crate::tolerances::SAME;
 use rayon::prelude::*;
@@ -109,7 +111,7 @@ impl<'a> Movable<'a> {
     /// Reason why that cannot start so.
     pub fn draw(&self, sample: u64, by: f64) -> Result<(Move, Value), String> {
         let mut random = Random(1 + sample);
-        let mut next = || by * random.next();
+        let mut next = || by * random.uniform();
         let parameters = self.parameters.iter().map(|_| next()).collect();
         let [velocities, start, inputs] = [next(), next(), next()];
         let change = Move { parameters, velocities, inputs, ..Move::default() };
@@ -271,43 +273,4 @@ fn points(facts: &Facts, signal: &Value) -> Option<(String, Value)> {
 fn move_parameter(scene: &mut Value, name: &str, u: f64) {
     let value = scene["parameters"][name].as_f64().unwrap_or(0.0);
     scene["parameters"][name] = json!(value * (1.0 + u));
-}
-
-const VELOCITIES: [&str; 3] = ["velocity", "angular_velocity", "elastic_velocity"];
-
-/// Multiplies all velocities at the start.
-fn faster(scene: &mut Value, factor: f64) {
-    if factor == 1.0 {
-        return;
-    }
-    for initial in elements_mut(scene, "bodies").filter_map(|body| body.get_mut("initial")) {
-        VELOCITIES.iter().filter_map(|key| initial.get_mut(key).map(|value| scale(value, factor))).for_each(drop);
-    }
-    let of_joints = scene.get_mut("initial").and_then(Value::as_object_mut).into_iter().flatten();
-    of_joints.filter(|(name, _)| name.ends_with('\'')).for_each(|(_, value)| scale(value, factor));
-}
-
-/// Multiplies all numbers of a value.
-fn scale(value: &mut Value, factor: f64) {
-    match value {
-        Value::Number(number) => *value = json!(factor * number.as_f64().unwrap_or(0.0)),
-        Value::String(text) => *text = format!("{factor}*({text})"),
-        Value::Array(all) => all.iter_mut().for_each(|value| scale(value, factor)),
-        Value::Object(keys) => keys.values_mut().for_each(|value| scale(value, factor)),
-        _ => {}
-    }
-}
-
-/// Numbers evenly distributed between -1 and 1 (splitmix64, Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
 }

@@ -3,7 +3,7 @@
 use super::automatic::rival;
 use super::spectrum::{SpectralMode, Spectrum, bound, fastest};
 use super::{Method, Span};
-use crate::error::{Warning, short};
+use crate::error::{Warning, short, two};
 use crate::integrator::Stability;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::simulate as tolerances;
@@ -116,11 +116,6 @@ fn advice(method: &Method, step: f64) -> String {
         ),
         None => format!("take {implicit}; `--method auto` chooses on the way"),
     }
-}
-
-/// The number with two digits.
-fn two(value: f64) -> String {
-    short(format!("{value:.1e}").parse().unwrap_or(value))
 }
 
 impl From<&Stiffness> for Warning {

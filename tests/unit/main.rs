@@ -38,16 +38,6 @@ mod cli {
     mod terminal;
 }
 
-#[path = "../../src/compare"]
-mod compare {
-    mod stress {
-        mod json;
-        mod ladder;
-        mod period;
-        mod queue;
-    }
-}
-
 #[path = "../../src/import"]
 mod import {
     mod close;
@@ -112,6 +102,16 @@ mod simulate {
     mod rate_bound;
     mod events {
         mod range;
+    }
+}
+
+#[path = "../../src/study"]
+mod study {
+    mod json;
+    mod queue;
+    mod stress {
+        mod ladder;
+        mod period;
     }
 }
 

@@ -1,11 +1,11 @@
 //! Verdicts in sentences.
 
-use crate::compare::stress::{
-    Axis, Best, Bound, GainVerdict, Level, Reason, Side, Status, StepVerdict, Stressed, Verdict,
-};
-use crate::error::short;
+use crate::error::{short, two};
 use crate::math::bounds;
 use crate::report::Table;
+use crate::study::stress::{
+    Axis, Best, Bound, GainVerdict, Level, Reason, Side, Status, StepVerdict, Stressed, Verdict,
+};
 use crate::tolerances::report::WRONG_MOTION;
 
 /// Returns the verdict on a map: a sentence or two for each method.
@@ -20,10 +20,6 @@ pub fn sentences(stressed: &Stressed) -> Vec<String> {
         all.push(format!("No cell has a value of {}: there is no figure.", stressed.map.quantity.label()));
     }
     all
-}
-
-fn two(value: f64) -> String {
-    short(format!("{value:.1e}").parse().unwrap_or(value))
 }
 
 fn span(values: impl Iterator<Item = f64>) -> Option<String> {

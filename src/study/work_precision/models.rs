@@ -1,12 +1,14 @@
 //! Cost of a model: models of one mechanism, from coarse to rich, on the same motion.
 
-use super::error_metric::{ErrorMetric, Watched};
-use super::sample::{Motion, RunSample, sample};
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Statistics;
 use crate::prepared::{Overrides, PreparedScene};
 use crate::scene;
 use crate::simulate::{Method, Span};
+use crate::study::metric::ErrorMetric;
+use crate::study::price::median;
+use crate::study::run::{Motion, RunSample};
+use crate::study::watched::Watched;
 use crate::system::{Column, Dimensions};
 use crate::tolerances::report as tolerances;
 use crate::trajectory::recorded;
@@ -114,7 +116,7 @@ pub struct OutputError {
 impl ModelCost {
     /// Returns the median CPU time, s.
     pub fn seconds(&self) -> Option<f64> {
-        super::cell::median(&self.cpu_seconds)
+        median(&self.cpu_seconds)
     }
 
     /// Returns the largest difference of all its outputs; none where it has none or failed.
@@ -146,15 +148,15 @@ pub fn compare(
     let columns = Watched::new(variants[richest].prepared.system(), outputs)?.columns;
     let span = first.prepared.span()?;
     let span = Span { output_step: (span.end - span.start) / ROWS as f64, ..span };
-    let mut runs: Vec<Run> = variants.iter().map(|variant| Run::new(variant, &columns)).collect::<Result<_>>()?;
+    let mut runs: Vec<Run> = variants.iter().map(|variant| Run::new(variant, &columns, span)).collect::<Result<_>>()?;
     for round in 0..=repeats {
         for (place, run) in runs.iter_mut().enumerate() {
             watch(&run.variant.name, round * variants.len() + place);
-            run.repeat(span, round, allowed)?;
+            run.repeat(round, allowed)?;
         }
     }
     let rich = runs[richest].tight.as_ref().filter(|sample| sample.failure.is_none());
-    let rich = rich.map(|sample| ErrorMetric::new(&columns, sample.rows.clone(), &sample.sizes));
+    let rich = rich.map(|sample| ErrorMetric::of(&runs[richest].motion.watched, sample));
     let rich = rich.ok_or_else(|| runs[richest].failure(span.start))?;
     watch("the full model with a finer mesh", (repeats + 1) * variants.len());
     let finer = finer(&variants[richest], &columns, span, allowed, &rich)?;
@@ -167,8 +169,8 @@ fn finer(richest: &Variant, columns: &[Column], span: Span, allowed: Duration, r
     let Some(prepared) = richest.finer() else { return Ok(Finer::default()) };
     let velocities = Some(prepared.system().dimensions().v);
     let variant = Variant { name: String::new(), prepared, source: None };
-    let mut run = Run::new(&variant, columns)?;
-    run.repeat(span, 0, allowed)?;
+    let mut run = Run::new(&variant, columns, span)?;
+    run.repeat(0, allowed)?;
     let cost = run.cost(rich);
     Ok(Finer { velocities, outputs: cost.outputs, failure: cost.failure })
 }
@@ -176,7 +178,7 @@ fn finer(richest: &Variant, columns: &[Column], span: Span, allowed: Duration, r
 /// The runs of one model.
 struct Run<'a> {
     variant: &'a Variant,
-    watched: Watched,
+    motion: Motion<'a>,
     seconds: Vec<f64>,
     usual: Option<RunSample>,
     /// The run at a tighter tolerance.
@@ -184,7 +186,7 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(variant: &'a Variant, columns: &[Column]) -> Result<Self> {
+    fn new(variant: &'a Variant, columns: &[Column], span: Span) -> Result<Self> {
         let system = variant.prepared.system();
         let own = recorded(system);
         let shared = columns.iter().filter(|column| own.iter().any(|own| own.name == column.name));
@@ -194,19 +196,19 @@ impl<'a> Run<'a> {
                 .under("--variants")
                 .hint("give the models outputs of the same names"));
         }
-        Ok(Run { variant, watched: Watched::new(system, &shared)?, seconds: Vec::new(), usual: None, tight: None })
+        let motion = Motion::of(&variant.prepared, span, Watched::new(system, &shared)?, &|| false);
+        Ok(Run { variant, motion, seconds: Vec::new(), usual: None, tight: None })
     }
 
     /// Runs once with a tighter tolerance, then for the time.
-    fn repeat(&mut self, span: Span, round: usize, allowed: Duration) -> Result<()> {
-        let prepared = &self.variant.prepared;
-        let method = if round == 0 { tighter(&prepared.method) } else { prepared.method.clone() };
+    fn repeat(&mut self, round: usize, allowed: Duration) -> Result<()> {
+        let method = &self.variant.prepared.method;
+        let method = if round == 0 { tighter(method) } else { method.clone() };
         let failed = [&self.usual, &self.tight].into_iter().flatten().any(|sample| sample.failure.is_some());
         if failed {
             return Ok(());
         }
-        let motion = Motion::of(prepared, span, &|| false);
-        let run = sample(&motion, &self.watched, &method, span, allowed)?;
+        let run = self.motion.run(&method, allowed)?;
         if round == 0 {
             self.tight = Some(run);
         } else {
@@ -228,7 +230,7 @@ impl<'a> Run<'a> {
         let Dimensions { q, v, lambda, .. } = self.variant.prepared.system().dimensions();
         let failure = [&self.tight, &self.usual].into_iter().flatten().find_map(|sample| sample.failure.clone());
         let tight = self.tight.as_ref().filter(|_| failure.is_none());
-        let own = tight.map(|tight| ErrorMetric::new(&self.watched.columns, tight.rows.clone(), &tight.sizes));
+        let own = tight.map(|tight| ErrorMetric::of(&self.motion.watched, tight));
         let usual = self.usual.as_ref().filter(|_| failure.is_none());
         let of = |column: &Column, place: usize, rows: &[Vec<f64>]| {
             let values: Vec<f64> = rows.iter().map(|row| row[place]).collect();
@@ -236,7 +238,7 @@ impl<'a> Run<'a> {
             Some(OutputError { name: column.name.clone(), max, rms })
         };
         let outputs = tight.map_or(Vec::new(), |tight| {
-            let columns = self.watched.columns.iter().enumerate();
+            let columns = self.motion.watched.columns.iter().enumerate();
             columns.filter_map(|(place, column)| of(column, place, &tight.rows)).collect()
         });
         ModelCost {

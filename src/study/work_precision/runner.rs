@@ -2,14 +2,13 @@
 
 use super::WorkPrecision;
 use super::cell::Cell;
-use super::error_metric::Watched;
 use super::given::Given;
 use super::grid::Triple;
 use super::reference::Reference;
-use super::sample::{Allowed, Motion, RunSample, sample};
-use crate::clock::Stopwatch;
 use crate::error::Result;
-use crate::simulate::{Method, Span};
+use crate::simulate::Method;
+use crate::study::budget::{Budget, Limit};
+use crate::study::run::{Motion, RunSample};
 use crate::tolerances::report as tolerances;
 use std::time::Duration;
 
@@ -37,8 +36,7 @@ pub struct Plan {
 pub struct Runner<'a> {
     pub(super) motion: Motion<'a>,
     pub(super) plan: &'a Plan,
-    watched: Watched,
-    pub(super) begun: Stopwatch,
+    pub(super) budget: Budget,
     /// Called before every run with its description.
     watch: Box<Watch<'a>>,
 }
@@ -54,13 +52,8 @@ pub(super) enum Pause {
 
 impl<'a> Runner<'a> {
     /// A runner for a plan; `watch` is called before every run.
-    pub fn new(
-        motion: Motion<'a>,
-        plan: &'a Plan,
-        watched: Watched,
-        watch: impl FnMut(&WorkPrecision, &str) + 'a,
-    ) -> Self {
-        Runner { motion, plan, watched, begun: Stopwatch::start(), watch: Box::new(watch) }
+    pub fn new(motion: Motion<'a>, plan: &'a Plan, watch: impl FnMut(&WorkPrecision, &str) + 'a) -> Self {
+        Runner { motion, plan, budget: Budget::begin(plan.budget), watch: Box::new(watch) }
     }
 
     /// Continues from `result` until all is measured, the budget is spent, or the user stops it.
@@ -69,12 +62,13 @@ impl<'a> Runner<'a> {
     /// A motion that no method completes; bad input.
     pub fn run(mut self, result: &mut WorkPrecision) -> Result<()> {
         let before = result.seconds;
-        (result.left_out, self.begun) = (None, Stopwatch::start());
+        result.left_out = None;
+        self.budget = Budget::begin(self.plan.budget);
+        self.motion.span.output_step = self.motion.duration() / result.rows as f64;
         if result.reference.is_none() {
             (self.watch)(result, "reference");
             let plan = (self.plan.digits, self.plan.budget);
-            let given = self.plan.given.as_ref();
-            let reference = Reference::find(&self.motion, &self.watched, (self.span(result), given), plan);
+            let reference = Reference::find(&self.motion, self.plan.given.as_ref(), plan);
             // An interrupted search gives no reference.
             if (self.motion.is_stopped)() {
                 result.left_out = Some("all: the measurement was interrupted".to_string());
@@ -87,14 +81,9 @@ impl<'a> Runner<'a> {
         let paused = self.climb(result)?;
         result.price();
         let left_out = self.leave_out(result, paused.as_ref());
-        result.seconds = before + self.begun.wall().as_secs_f64();
-        let name = |cell: &Cell| {
-            let Method { formulation, integrator, projection, .. } = &cell.method;
-            self.plan.triples.iter().position(|triple| {
-                (&triple.formulation, &triple.integrator, &triple.projection) == (formulation, integrator, projection)
-            })
-        };
-        result.cells.sort_by_key(|cell| (name(cell), cell.decades));
+        result.seconds = before + self.budget.spent().as_secs_f64();
+        let place = |cell: &Cell| self.plan.triples.iter().position(|triple| triple.is_of(&cell.method));
+        result.cells.sort_by_key(|cell| (place(cell), cell.decades));
         result.left_out = paused.map(|pause| match pause {
             Pause::Budget => format!(
                 "{left_out} runs that did not fit into the budget of {} s; --resume goes on",
@@ -105,36 +94,21 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    fn span(&self, result: &WorkPrecision) -> Span {
-        let (start, end) = self.motion.between;
-        Span { start, end, output_step: (end - start) / result.rows as f64 }
-    }
-
-    pub(super) fn left(&self) -> Duration {
-        self.plan.budget.saturating_sub(self.begun.wall())
-    }
-
     /// Announces the next run; returns a reason to stop, if any.
     pub(super) fn pauses(&mut self, result: &WorkPrecision, next: &str) -> Option<Pause> {
         (self.watch)(result, next);
-        let is_over = self.left() == Duration::ZERO;
+        let is_over = self.budget.left().is_zero();
         if (self.motion.is_stopped)() { Some(Pause::Asked) } else { is_over.then_some(Pause::Budget) }
     }
 
     /// Makes a run, several times if it is short.
-    pub(super) fn sample(
-        &self,
-        result: &WorkPrecision,
-        method: &Method,
-        allowed: Duration,
-    ) -> Result<(RunSample, Vec<f64>)> {
-        let allowed = Allowed { wall: self.left(), cpu: allowed };
-        let run = || sample(&self.motion, &self.watched, method, self.span(result), allowed);
-        let first = run()?;
+    pub(super) fn sample(&self, method: &Method, cpu: Duration) -> Result<(RunSample, Vec<f64>)> {
+        let limit = Limit { wall: self.budget.left(), cpu };
+        let first = self.motion.run(method, limit)?;
         let mut seconds = vec![first.seconds];
         let quick = tolerances::QUICK_RUN * self.plan.budget.as_secs_f64();
         while first.failure.is_none() && seconds.len() < self.plan.repeats && first.seconds < quick {
-            seconds.push(run()?.seconds);
+            seconds.push(self.motion.run(method, limit)?.seconds);
         }
         Ok((first, seconds))
     }

@@ -1,22 +1,33 @@
 //! All cells of a map, in parallel, each under its deadline.
 
 use super::cell::{Cell, Status};
-use super::deadline::{Limits, Shift};
 use super::map::Map;
-use super::queue::{Job, Queues, What};
 use super::reference::{self, Search};
 use super::simulation::{blank, run};
 use super::subject::{Case, Subject};
 use crate::clock::Stopwatch;
-use crate::compare::work_precision::{ErrorMetric, SecondOpinion};
 use crate::math::memory::at_once;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use crate::study::budget::{Budget, Limit};
+use crate::study::metric::ErrorMetric;
+use crate::study::pool::{cores, into_inner, locked, run_all};
+use crate::study::queue::{Job, Queues};
+use crate::study::second_opinion::SecondOpinion;
+use std::sync::Mutex;
 use std::time::Duration;
 
 /// Memory of a cell relative to the peak of the process after one run of the subject; implicit methods take more.
 const MEMORY: f64 = 2.0;
 /// CPU time of a reference, which serves many cells, in limits of a cell.
 const REFERENCE: u32 = 3;
+
+/// Limits of the computation time.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// CPU time of each cell.
+    pub cell: Duration,
+    /// Time for all cells: those not begun by then are skipped, and runs end.
+    pub all: Duration,
+}
 
 /// A map with its cells, by method, then row, then column.
 pub struct Stressed {
@@ -50,25 +61,31 @@ impl Stressed {
 /// until others have had as much, cheaper neighbours first, from the middle of the map on, where cells are cheap. The
 /// methods, and their references, have equal times. Deadlines decide which cells are done, but not their values.
 pub fn stress(subject: &Subject, map: Map, limits: Limits, progress: &(impl Fn() + Sync)) -> Stressed {
-    // Cells run in parallel: matrix operations on other threads would wait for them.
-    faer::set_global_parallelism(faer::Par::Seq);
-    let work = Work::new(subject, &map);
-    let one = || work.run(subject, &map, Shift::begin(limits), progress);
-    let threads = at_once(MEMORY).min(rayon::current_num_threads());
-    match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
-        Ok(pool) => drop(pool.broadcast(|_| one())),
-        Err(_) => one(),
-    }
-    let opinion = work.confirm(subject, &map, limits);
-    Stressed { second_opinion: opinion, ..work.finish(map) }
+    let work = Work::new(subject, &map, limits.cell);
+    let threads = at_once(MEMORY).min(cores());
+    run_all(threads, 0..threads, |_| work.run(&Budget::begin(limits.all), progress));
+    let second_opinion = work.confirm();
+    let (watched, cells) = work.finish();
+    Stressed { map, watched, second_opinion, cells }
 }
 
 /// The runs to make, and their results.
-struct Work {
+struct Work<'a> {
+    subject: &'a Subject<'a>,
+    map: &'a Map,
+    /// CPU time of each cell.
+    limit: Duration,
     cells: Vec<Slot>,
     /// Indices of one of its cells, and the reference.
     motions: Vec<([usize; 3], Mutex<Search>)>,
-    queues: Mutex<Queues>,
+    queues: Mutex<Queues<What>>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum What {
+    /// The reference of this motion.
+    Motion(usize),
+    Cell(usize),
 }
 
 /// A cell with its result.
@@ -78,8 +95,8 @@ struct Slot {
     came: Mutex<(Cell, Vec<Vec<f64>>)>,
 }
 
-impl Work {
-    fn new(subject: &Subject, map: &Map) -> Self {
+impl<'a> Work<'a> {
+    fn new(subject: &'a Subject<'a>, map: &'a Map, limit: Duration) -> Self {
         let mut order: Vec<usize> = (0..map.cell_count()).collect();
         let distance = |index: &usize| map.eccentricity(map.place(*index));
         order.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
@@ -87,7 +104,7 @@ impl Work {
         order.into_iter().enumerate().for_each(|(rank, index)| ranks[index] = rank);
         let mut cells = Vec::new();
         let mut motions = Vec::new();
-        let mut queues = Queues::default();
+        let mut queues = Queues::new();
         let mut known: Vec<[Option<usize>; 3]> = Vec::new();
         for (index, rank) in ranks.into_iter().enumerate() {
             let at = map.place(index);
@@ -102,33 +119,37 @@ impl Work {
             queues.add(&format!("{} {}", at[0], blank.method.integrator), Job::new(rank, What::Cell(index)));
             cells.push(Slot { at, motion, came: Mutex::new((blank, Vec::new())) });
         }
-        Work { cells, motions, queues: Mutex::new(queues) }
+        Work { subject, map, limit, cells, motions, queues: Mutex::new(queues) }
     }
 
     /// Runs jobs until all are done or the time is over.
-    fn run(&self, subject: &Subject, map: &Map, shift: Shift, progress: &(impl Fn() + Sync)) {
+    fn run(&self, budget: &Budget, progress: &(impl Fn() + Sync)) {
         loop {
-            let next = locked(&self.queues).take(shift.cell);
-            let Some((queue, job)) = next.filter(|_| !shift.left().is_zero()) else { return };
+            let next = locked(&self.queues).take(self.limit);
+            let Some((queue, job)) = next.filter(|_| !budget.left().is_zero()) else { return };
             let watch = Stopwatch::start();
-            let cut = self.attempt(subject, map, job, shift);
+            let cut = self.attempt(job, budget);
             if cut.is_none() && matches!(job.what, What::Cell(_)) {
                 progress();
             }
             let came = (watch.cpu(), cut);
-            locked(&self.queues).give_back((queue, job), shift.cell, came, self.neighbours(map, job.what));
+            locked(&self.queues).give_back((queue, job), self.limit, came, self.neighbours(job.what));
         }
     }
 
     /// Makes an attempt; returns the part of the motion completed if it was stopped.
-    fn attempt(&self, subject: &Subject, map: &Map, job: Job, shift: Shift) -> Option<f64> {
-        let share = job.share(shift.cell);
+    fn attempt(&self, job: Job<What>, budget: &Budget) -> Option<f64> {
+        let share = job.share(self.limit);
+        let is_last = share == self.limit;
         match job.what {
             What::Motion(index) => {
                 let (at, found) = &self.motions[index];
-                let search = search(subject, map, *at, (shift, share));
+                let search = self.case(*at).map_or(Search::Hopeless, |case| {
+                    let cpu = if is_last { share.saturating_mul(REFERENCE) } else { share };
+                    Search::run(self.subject, &case, cpu, budget)
+                });
                 let cut = match search {
-                    Search::Pending(part) if share < shift.cell => Some(part),
+                    Search::Pending(part) if !is_last => Some(part),
                     _ => None,
                 };
                 *locked(found) = search;
@@ -136,7 +157,8 @@ impl Work {
             }
             What::Cell(index) => {
                 let slot = &self.cells[index];
-                let (cell, rows, part) = run(subject, map, slot.at, (shift, share));
+                let limit = Limit { cpu: share, wall: budget.left() };
+                let (cell, rows, part) = run(self.subject, self.map, slot.at, (limit, is_last));
                 let cut = (cell.status == Status::LeftOut).then_some(part);
                 *locked(&slot.came) = (cell, rows);
                 cut
@@ -144,29 +166,37 @@ impl Work {
         }
     }
 
+    /// Returns the motion of a cell; none where its changes do not apply.
+    fn case(&self, at: [usize; 3]) -> Option<Case> {
+        let mut case = self.subject.base.clone();
+        let mut changes = self.map.changes(at).filter(|change| !change.keeps_motion());
+        changes.try_for_each(|change| change.apply(&mut case)).ok().map(|()| case)
+    }
+
     /// Returns the neighbouring jobs on the map, or their references for a reference.
-    fn neighbours(&self, map: &Map, what: What) -> impl Iterator<Item = What> {
+    fn neighbours(&self, what: What) -> impl Iterator<Item = What> {
         let at = match what {
             What::Motion(index) => self.motions[index].0,
             What::Cell(index) => self.cells[index].at,
         };
-        map.beside(at).map(move |index| match what {
+        self.map.beside(at).map(move |index| match what {
             What::Motion(_) => What::Motion(self.cells[index].motion),
             What::Cell(_) => What::Cell(index),
         })
     }
 
     /// Compares the first reference, in the middle of the map, with a run of diffsol.
-    fn confirm(&self, subject: &Subject, map: &Map, limits: Limits) -> Option<SecondOpinion> {
+    fn confirm(&self) -> Option<SecondOpinion> {
         let (at, search) = self.motions.first()?;
         let search = locked(search);
         let Search::Found(found) = &*search else { return None };
         let (reference, method) = &**found;
-        let case = Case { method: method.clone(), ..case(subject, map, *at)? };
-        reference::confirmed(subject, &case, reference, limits.cell.saturating_mul(REFERENCE))
+        let case = Case { method: method.clone(), ..self.case(*at)? };
+        reference::confirmed(self.subject, &case, reference, self.limit.saturating_mul(REFERENCE))
     }
 
-    fn finish(self, map: Map) -> Stressed {
+    /// Returns the names of the quantities, and the cells with their errors.
+    fn finish(self) -> (Vec<String>, Vec<Cell>) {
         let found = |(_, search): ([usize; 3], Mutex<Search>)| match into_inner(search) {
             Search::Found(found) => Some(found.0),
             _ => None,
@@ -182,29 +212,6 @@ impl Work {
         };
         let cells = self.cells.into_iter().map(judged).collect();
         let watched = references.iter().flatten().next().map_or(Vec::new(), |reference| reference.names.clone());
-        Stressed { map, watched, second_opinion: None, cells }
+        (watched, cells)
     }
-}
-
-/// Returns the content of a mutex; a thread that panicked has not changed it.
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-fn into_inner<T>(mutex: Mutex<T>) -> T {
-    mutex.into_inner().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Returns the motion of a cell; none where its changes do not apply.
-fn case(subject: &Subject, map: &Map, at: [usize; 3]) -> Option<Case> {
-    let mut case = subject.base.clone();
-    let mut changes = map.changes(at).filter(|change| !change.keeps_motion());
-    changes.try_for_each(|change| change.apply(&mut case)).ok().map(|()| case)
-}
-
-/// Searches for the reference of a cell.
-fn search(subject: &Subject, map: &Map, at: [usize; 3], (shift, share): (Shift, Duration)) -> Search {
-    let Some(case) = case(subject, map, at) else { return Search::Hopeless };
-    let is_last = share == shift.cell;
-    Search::run(subject, &case, if is_last { share.saturating_mul(REFERENCE) } else { share }, shift)
 }

@@ -1,6 +1,6 @@
-//! Order and duration of the runs of cells while their cost is not known.
+//! Order and duration of runs while their cost is not known.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
 /// CPU time of the first attempt at a job; each later one has GROWTH times that of the one before, so that all attempts
@@ -8,9 +8,9 @@ use std::time::Duration;
 const FIRST: Duration = Duration::from_millis(4);
 const GROWTH: u32 = 4;
 
-/// A simulation to run, before others if it is expected to be cheaper, or nearer to the middle of the map.
+/// A simulation to run, before others if it is expected to be cheaper, or has a lower rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Job {
+pub struct Job<What> {
     is_unknown: bool,
     /// Exponent of [`GROWTH`] in its share.
     level: u32,
@@ -19,14 +19,7 @@ pub(super) struct Job {
     pub what: What,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) enum What {
-    /// The reference of this motion.
-    Motion(usize),
-    Cell(usize),
-}
-
-impl Job {
+impl<What> Job<What> {
     pub fn new(rank: usize, what: What) -> Self {
         Job { is_unknown: true, level: 0, rank, is_tried: false, what }
     }
@@ -58,28 +51,24 @@ fn level_for(wanted: Duration, limit: Duration) -> u32 {
     level
 }
 
-/// Queues of jobs by method. The one that has used the least time is next, so that each has equal time.
-#[derive(Default)]
-pub(super) struct Queues {
-    names: Vec<String>,
-    queues: Vec<Queue>,
-}
+/// Queues of jobs by name. The one that has used the least time is next, so that each has equal time.
+pub struct Queues<What>(Vec<Queue<What>>);
 
-#[derive(Default)]
-struct Queue {
-    waiting: BTreeSet<Job>,
+struct Queue<What> {
+    name: String,
+    waiting: BTreeSet<Job<What>>,
     /// The same jobs by what they run.
-    jobs: HashMap<What, Job>,
+    jobs: BTreeMap<What, Job<What>>,
     spent: Duration,
 }
 
-impl Queue {
-    fn add(&mut self, job: Job) {
+impl<What: Copy + Ord> Queue<What> {
+    fn add(&mut self, job: Job<What>) {
         self.waiting.insert(job);
         self.jobs.insert(job.what, job);
     }
 
-    fn pop(&mut self) -> Option<Job> {
+    fn pop(&mut self) -> Option<Job<What>> {
         let job = self.waiting.pop_first()?;
         self.jobs.remove(&job.what)
     }
@@ -94,20 +83,25 @@ impl Queue {
     }
 }
 
-impl Queues {
-    pub fn add(&mut self, name: &str, job: Job) {
-        let known = self.names.iter().position(|known| known == name);
-        let queue = known.unwrap_or_else(|| {
-            self.names.push(name.to_string());
-            self.queues.push(Queue::default());
-            self.queues.len() - 1
-        });
-        self.queues[queue].add(job);
+impl<What: Copy + Ord> Queues<What> {
+    pub fn new() -> Self {
+        Queues(Vec::new())
+    }
+
+    pub fn add(&mut self, name: &str, job: Job<What>) {
+        match self.0.iter_mut().find(|queue| queue.name == name) {
+            Some(queue) => queue.add(job),
+            None => {
+                let name = name.to_string();
+                let jobs = BTreeMap::from([(job.what, job)]);
+                self.0.push(Queue { name, waiting: BTreeSet::from([job]), jobs, spent: Duration::ZERO });
+            }
+        }
     }
 
     /// Returns the next job, with its queue. Its share counts as used until it is given back.
-    pub fn take(&mut self, limit: Duration) -> Option<(usize, Job)> {
-        let waiting = self.queues.iter_mut().enumerate().filter(|(_, queue)| !queue.waiting.is_empty());
+    pub fn take(&mut self, limit: Duration) -> Option<(usize, Job<What>)> {
+        let waiting = self.0.iter_mut().enumerate().filter(|(_, queue)| !queue.waiting.is_empty());
         let (index, queue) = waiting.min_by_key(|(_, queue)| queue.spent)?;
         let job = queue.pop()?;
         queue.spent += job.share(limit);
@@ -118,12 +112,12 @@ impl Queues {
     /// neighbours are expected to cost up to twice as much.
     pub fn give_back(
         &mut self,
-        (index, job): (usize, Job),
+        (index, job): (usize, Job<What>),
         limit: Duration,
         (took, cut): (Duration, Option<f64>),
         neighbours: impl IntoIterator<Item = What>,
     ) {
-        let queue = &mut self.queues[index];
+        let queue = &mut self.0[index];
         queue.spent = (queue.spent + took).saturating_sub(job.share(limit));
         if let Some(part) = cut {
             queue.add(job.again(part, limit));
@@ -141,10 +135,10 @@ mod tests {
 
     #[test]
     fn methods_have_equal_times() {
-        let mut queues = Queues::default();
+        let mut queues = Queues::new();
         for rank in 0..100 {
-            queues.add("dear", Job::new(rank, What::Cell(rank)));
-            queues.add("cheap", Job::new(rank, What::Cell(100 + rank)));
+            queues.add("dear", Job::new(rank, rank));
+            queues.add("cheap", Job::new(rank, 100 + rank));
         }
         let mut begun = [0; 2];
         while begun[1] < 100 {
@@ -157,7 +151,7 @@ mod tests {
 
     #[test]
     fn later_attempts_have_what_they_need() {
-        let job = Job::new(0, What::Cell(0));
+        let job = Job::new(0, 0);
         assert_eq!(job.share(LIMIT), FIRST);
         assert_eq!(job.again(0.5, LIMIT).share(LIMIT), 4 * FIRST);
         assert_eq!(job.again(0.01, LIMIT).share(LIMIT), 64 * FIRST);
@@ -169,17 +163,17 @@ mod tests {
     #[test]
     fn cheap_jobs_come_first_and_neighbours_tell_what_is_cheap() {
         let needs = |k: usize| Duration::from_secs_f64(1e-3 * 2f64.powi(k as i32));
-        let mut queues = Queues::default();
-        (0..9).for_each(|k: usize| queues.add("", Job::new(k.abs_diff(4), What::Cell(k))));
+        let mut queues = Queues::new();
+        (0..9).for_each(|k: usize| queues.add("", Job::new(k.abs_diff(4), k)));
         let mut spent = Duration::ZERO;
         let mut through = Vec::new();
         while let Some((queue, job)) = queues.take(LIMIT) {
-            let What::Cell(k) = job.what else { unreachable!() };
+            let k = job.what;
             let took = needs(k).min(job.share(LIMIT));
             let cut = (took < needs(k)).then(|| took.div_duration_f64(needs(k)));
             through.extend(cut.is_none().then_some(k));
             spent += took;
-            let neighbours = [k.checked_sub(1), Some(k + 1)].into_iter().flatten().map(What::Cell);
+            let neighbours = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
             queues.give_back((queue, job), LIMIT, (took, cut), neighbours);
         }
         assert!(through.windows(2).all(|pair| pair[0] < pair[1] + 3), "{through:?}");

@@ -1,12 +1,11 @@
 //! The stress parameters: quantities that a map can vary over many powers of ten.
 
-use super::json::{elements, faster, has, multiply, replace};
 use super::ladder::{decades, sequence};
-use super::subject::Case;
-use super::subject::Subject;
+use super::subject::{Case, Subject};
 use crate::error::{Error, Result};
 use crate::method_spec::MethodSpec;
 use crate::scene::generate;
+use crate::study::json::{elements, faster, has, has_velocities, quicken, replace, scale};
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -95,7 +94,7 @@ pub fn registry() -> &'static [StressParameter] {
             keeps_motion: false,
             suits: |subject| has(&subject.base.scene, "bodies", &["mass"]),
             values: |_| decades(-8, 8, 2),
-            apply: |case, factor| scale(Arc::make_mut(&mut case.scene), factor),
+            apply: |case, factor| scale_mass(Arc::make_mut(&mut case.scene), factor),
         },
         StressParameter {
             name: "stiffness",
@@ -125,7 +124,7 @@ pub fn registry() -> &'static [StressParameter] {
             suits: |subject| moves(&subject.base.scene),
             values: |_| decades(-1, 4, 1),
             apply: |case, factor| {
-                quicken(Arc::make_mut(&mut case.scene), factor);
+                speed_up(Arc::make_mut(&mut case.scene), factor);
                 case.duration /= factor;
                 Ok(())
             },
@@ -241,11 +240,11 @@ fn kind(scene: &Value) -> Result<fn(usize) -> Value> {
     found.map(|(_, make)| *make).ok_or_else(|| Error::input(format!("`{name}` is no generated scene")))
 }
 
-fn scale(scene: &mut Value, factor: f64) -> Result<()> {
+fn scale_mass(scene: &mut Value, factor: f64) -> Result<()> {
     let body = elements(scene, "bodies").filter(|body| body.get("mass").is_some()).last();
     let body = body.ok_or_else(|| Error::input("no body of the scene has a mass to change"))?;
     for key in ["mass", "inertia"] {
-        body.get_mut(key).into_iter().for_each(|value| multiply(value, factor));
+        body.get_mut(key).into_iter().for_each(|value| scale(value, factor));
     }
     Ok(())
 }
@@ -260,42 +259,22 @@ fn set(scene: &mut Value, key: &str, value: f64) -> Result<()> {
     if found { Ok(()) } else { Err(Error::input(format!("no force of the scene has a {key} to change"))) }
 }
 
-const VELOCITIES: [&str; 3] = ["velocity", "angular_velocity", "elastic_velocity"];
 const DRIVEN: [&str; 2] = ["driver", "equation"];
 
 fn moves(scene: &Value) -> bool {
-    let bodies = scene.get("bodies").and_then(Value::as_array).into_iter().flatten();
-    let starts = bodies.filter_map(|body| body.get("initial"));
     let joints = scene.get("joints").and_then(Value::as_array).into_iter().flatten();
-    let mut kinds = joints.filter_map(|joint| joint.get("type")?.as_str());
-    starts.into_iter().any(|start| VELOCITIES.iter().any(|key| start.get(key).is_some()))
-        || scene.get("initial").and_then(Value::as_object).is_some_and(|given| given.keys().any(|key| is_rate(key)))
-        || has(scene, "bodies", &["motion"])
-        || kinds.any(|kind| DRIVEN.contains(&kind))
+    has_velocities(scene) || has(scene, "bodies", &["motion"]) || joints.into_iter().any(is_driven)
 }
 
-/// True for the rate of a joint coordinate at the start.
-fn is_rate(key: &str) -> bool {
-    key.ends_with('\'')
+fn is_driven(joint: &Value) -> bool {
+    joint.get("type").and_then(Value::as_str).is_some_and(|kind| DRIVEN.contains(&kind))
 }
 
-fn quicken(scene: &mut Value, factor: f64) {
-    let given = scene.get_mut("initial").and_then(Value::as_object_mut);
-    given.into_iter().flatten().filter(|(key, _)| is_rate(key)).for_each(|(_, value)| multiply(value, factor));
-    for start in elements(scene, "bodies").filter_map(|body| body.get_mut("initial")) {
-        for key in VELOCITIES {
-            match start.get_mut(key) {
-                Some(Value::Object(map)) => map.values_mut().for_each(|value| multiply(value, factor)),
-                Some(value) => multiply(value, factor),
-                None => {}
-            }
-        }
-    }
-    let is_driven =
-        |joint: &&mut Value| joint.get("type").and_then(Value::as_str).is_some_and(|kind| DRIVEN.contains(&kind));
-    for joint in elements(scene, "joints").filter(is_driven) {
+fn speed_up(scene: &mut Value, factor: f64) {
+    faster(scene, factor);
+    for joint in elements(scene, "joints").filter(|joint| is_driven(joint)) {
         for key in ["value", "expression"] {
-            joint.get_mut(key).into_iter().for_each(|value| faster(value, factor));
+            joint.get_mut(key).into_iter().for_each(|value| quicken(value, factor));
         }
     }
 }

@@ -4,11 +4,11 @@ use super::cell::{Cell, Outcome};
 use super::climb::Rung;
 use super::grid::Triple;
 use super::runner::{Pause, Runner};
-use super::sample::RunSample;
 use super::{WorkPrecision, advice};
-use crate::error::{Error, Failure, Result, short};
+use crate::error::{Error, Failure, Result, two};
 use crate::integrator::{self, Steps};
 use crate::simulate::{Method, atol_of, explicit};
+use crate::study::run::{RunSample, extrapolated};
 use std::time::Duration;
 
 /// rtol = 10^-decades: first these, of all methods.
@@ -59,7 +59,7 @@ impl<'a> Runner<'a> {
     ) -> Result<Option<Pause>> {
         for triple in self.pending(result, (decades, is_fine), allowed) {
             let method = self.method(result, triple, decades);
-            let pause = if self.begun.wall() > self.plan.budget.mul_f64(GRID) {
+            let pause = if self.budget.spent() > self.plan.budget.mul_f64(GRID) {
                 Some(Pause::Budget)
             } else {
                 self.pauses(result, &method.triple())
@@ -82,7 +82,7 @@ impl<'a> Runner<'a> {
     /// Returns the time limit of a run: its own, and a multiple of that of the cheapest with as many digits.
     fn limit(&self, result: &WorkPrecision, decades: u32, allowed: Duration) -> Duration {
         let best = advice::cheapest(&result.cells, 0.1f64.powf(f64::from(decades))).and_then(|best| best.cost);
-        let allowed = allowed.min(self.left());
+        let allowed = allowed.min(self.budget.left());
         match best {
             Some(best) if !self.plan.is_exhaustive => allowed.min(Duration::from_secs_f64(WORTH_TRYING * best)),
             _ => allowed,
@@ -97,12 +97,11 @@ impl<'a> Runner<'a> {
         for (triple, decades) in
             self.plan.triples.iter().flat_map(|t| COARSE.into_iter().chain(FINE).map(move |d| (t, d)))
         {
-            let key = triple.at((1.0, 1.0), None);
-            let best = result.cells.iter().zip(&behind);
             if cells_of(result, triple).any(|cell| cell.decades == decades) {
                 continue;
             }
-            let own = best.filter(|(cell, _)| cell.is_of(&key)).filter_map(|(_, behind)| *behind);
+            let own = result.cells.iter().zip(&behind).filter(|(cell, _)| triple.is_of(&cell.method));
+            let own = own.filter_map(|(_, behind)| *behind);
             let reason = match own.reduce(f64::min) {
                 Some(times) if times > NEAR && FINE.contains(&decades) => {
                     format!("takes {} times as long as the best for its digits, where it is nearest", two(times))
@@ -125,7 +124,7 @@ impl<'a> Runner<'a> {
     /// Adds the runs that the reference was found by, where they belong to the grid.
     pub(super) fn keep(&self, result: &mut WorkPrecision, runs: Vec<Rung>) {
         for Rung { method, run } in runs {
-            let own = self.plan.triples.iter().find(|triple| triple.at((method.rtol, method.atol), None) == method);
+            let own = self.plan.triples.iter().find(|triple| triple.is_of(&method));
             let decades = COARSE.into_iter().chain(FINE).find(|decades| rtol(*decades) == method.rtol);
             if let Some((triple, decades)) = own.zip(decades) {
                 let seconds = vec![run.seconds];
@@ -148,10 +147,7 @@ impl<'a> Runner<'a> {
         let near = advice::behind(&result.cells);
         let near: Vec<&Cell> =
             result.cells.iter().zip(near).filter(|(_, b)| b.is_some_and(|b| b <= NEAR)).map(|(cell, _)| cell).collect();
-        let is_near = |triple: &Triple| {
-            let key = triple.at((1.0, 1.0), None);
-            near.iter().any(|cell| cell.is_of(&key))
-        };
+        let is_near = |triple: &Triple| near.iter().any(|cell| triple.is_of(&cell.method));
         let mut pending: Vec<(f64, &Triple)> = Vec::new();
         let is_last = allowed == self.longest();
         for triple in &self.plan.triples {
@@ -190,7 +186,7 @@ impl<'a> Runner<'a> {
             let quickest = of_kind.filter_map(forecast).min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((_, triple, decades)) = quickest {
                 let method = self.method(result, triple, decades);
-                let outcome = self.first(result, &method, self.left().min(self.plan.budget.mul_f64(SETTLED)))?;
+                let outcome = self.first(result, &method, self.budget.left().min(self.plan.budget.mul_f64(SETTLED)))?;
                 self.put(result, triple, decades, outcome);
             }
         }
@@ -214,8 +210,7 @@ impl<'a> Runner<'a> {
                 if self.is_explicit(triple) { reference.pace.explicit } else { reference.pace.implicit }
             });
             let step = FIXED * pace * 10f64.powf(-f64::from(decades) / entry.order as f64);
-            let (start, end) = self.motion.between;
-            (end - start) / ((end - start) / step).ceil().max(1.0)
+            self.motion.duration() / (self.motion.duration() / step).ceil().max(1.0)
         });
         let rtol = rtol(decades);
         triple.at((rtol, atol_of(rtol, self.motion.ratio)), step)
@@ -249,15 +244,14 @@ impl<'a> Runner<'a> {
     /// Forecasts a run from itself where it was stopped, else from the tightest run of the method so far: each decade
     /// costs the p-th root of ten, or the ratio of the tightest two where that is less.
     fn forecast(&self, result: &WorkPrecision, triple: &Triple, decades: u32) -> Option<Forecast> {
-        let (start, end) = self.motion.between;
         let own = cells_of(result, triple).find(|cell| cell.decades == decades);
         let last = own.or_else(|| last(result, triple, decades))?;
         let more = f64::from(decades - last.decades);
         let decade = 10f64.powf(1.0 / integrator::find(&triple.integrator).ok()?.order as f64);
         let (seconds, error) = match &last.outcome {
-            // A run that was stopped at once gives no estimate.
-            Outcome::TooSlow { t, cpu_seconds, .. } if *t > start => {
-                (last.cost.unwrap_or(*cpu_seconds) * (end - start) / (t - start), 0.1f64.powf(f64::from(last.decades)))
+            Outcome::TooSlow { t, cpu_seconds, .. } => {
+                let seconds = extrapolated(last.cost.unwrap_or(*cpu_seconds), *t, self.motion.span)?;
+                (seconds, 0.1f64.powf(f64::from(last.decades)))
             }
             _ => (last.cost?, last.error()?),
         };
@@ -269,7 +263,7 @@ impl<'a> Runner<'a> {
     }
 
     fn first(&self, result: &WorkPrecision, method: &Method, allowed: Duration) -> Result<Outcome> {
-        let (run, cpu_seconds) = match self.sample(result, method, allowed) {
+        let (run, cpu_seconds) = match self.sample(method, allowed) {
             // Methods that cannot be applied to this mechanism are a result, since all were asked for.
             Err(Error::Input(input)) => return Ok(Outcome::Skipped { reason: input.message }),
             run => run?,
@@ -279,13 +273,10 @@ impl<'a> Runner<'a> {
 
     fn outcome(&self, result: &WorkPrecision, run: RunSample, cpu_seconds: Vec<f64>) -> Outcome {
         if let Some(Failure { t, .. }) = run.failure.as_ref().filter(|_| run.is_too_slow) {
-            let (start, end) = self.motion.between;
             let came = format!("it came to t = {t:.3e} s in {} s", two(run.seconds));
-            let reason = if *t > start {
-                let whole = two(run.seconds * (end - start) / (t - start));
-                format!("would take about {whole} s: {came}")
-            } else {
-                format!("is too slow: {came}")
+            let reason = match extrapolated(run.seconds, *t, self.motion.span) {
+                Some(whole) => format!("would take about {} s: {came}", two(whole)),
+                None => format!("is too slow: {came}"),
             };
             return Outcome::TooSlow { t: *t, cpu_seconds: run.seconds, statistics: run.statistics, reason };
         }
@@ -297,7 +288,7 @@ impl<'a> Runner<'a> {
         if !error.is_finite() {
             let reason = "the result is not finite".to_string();
             let hint = "try a tighter tolerance".to_string();
-            let failure = Failure { t: self.motion.between.1, reason, hint };
+            let failure = Failure { t: self.motion.span.end, reason, hint };
             return Outcome::Failed { failure, cpu_seconds: run.seconds };
         }
         Outcome::Completed {
@@ -327,21 +318,16 @@ struct Forecast {
     error: f64,
 }
 
-fn cells_of<'r>(result: &'r WorkPrecision, triple: &Triple) -> impl Iterator<Item = &'r Cell> {
-    let key = triple.at((1.0, 1.0), None);
-    result.cells.iter().filter(move |cell| cell.is_of(&key))
+fn cells_of<'r>(result: &'r WorkPrecision, triple: &'r Triple) -> impl Iterator<Item = &'r Cell> {
+    result.cells.iter().filter(move |cell| triple.is_of(&cell.method))
 }
 
 /// Returns the tightest run looser than `decades`.
-fn last<'r>(result: &'r WorkPrecision, triple: &Triple, decades: u32) -> Option<&'r Cell> {
+fn last<'r>(result: &'r WorkPrecision, triple: &'r Triple, decades: u32) -> Option<&'r Cell> {
     cells_of(result, triple).filter(|cell| cell.decades < decades).max_by_key(|cell| cell.decades)
 }
 
 fn rtol(decades: u32) -> f64 {
     let rtol = 0.1f64.powi(decades as i32);
     format!("{rtol:.0e}").parse().unwrap_or(rtol)
-}
-
-fn two(value: f64) -> String {
-    short(format!("{value:.1e}").parse().unwrap_or(value))
 }

@@ -1,10 +1,11 @@
 //! Confirmation of reference values by diffsol.
 
-use super::error_metric::{ErrorMetric, Watched};
-use super::sample::{Allowed, Motion, sample};
+use super::budget::Limit;
+use super::metric::ErrorMetric;
+use super::run::Motion;
 use crate::integrator;
 use crate::method_spec::MethodSpec;
-use crate::simulate::{Method, Span};
+use crate::simulate::Method;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::time::Duration;
@@ -40,24 +41,18 @@ impl SecondOpinion {
 
 /// Compares `rows`, values of the watched quantities along the motion that `of` computed, with a run of diffsol at its
 /// tolerance: by an explicit method where `of` is one. It is given up after [`LONGEST`].
-pub(crate) fn second_opinion(
-    motion: &Motion,
-    watched: &Watched,
-    span: Span,
-    (rows, of): (&[Vec<f64>], &Method),
-    allowed: Allowed,
-) -> SecondOpinion {
+pub(crate) fn second_opinion(motion: &Motion, rows: &[Vec<f64>], of: &Method, limit: Limit) -> SecondOpinion {
     let is_explicit = integrator::find(&of.integrator).is_ok_and(|entry| entry.follows_fields());
     let [formulation, integrator, projection] = METHODS[usize::from(!is_explicit)].map(MethodSpec::named);
     let Method { rtol, atol, .. } = if of.step.is_some() { Method::default() } else { of.clone() };
     let method = Method { formulation, integrator, projection, rtol, atol, step: None };
-    let allowed = Allowed { cpu: allowed.cpu.min(LONGEST), wall: allowed.wall.min(3 * LONGEST) };
+    let limit = Limit { cpu: limit.cpu.min(LONGEST), wall: limit.wall.min(3 * LONGEST) };
     let name = format!("{}, rtol {rtol:e}", method.triple());
     let failed = |reason: String| SecondOpinion { method: name.clone(), difference: None, about: reason };
-    match sample(motion, watched, &method, span, allowed) {
-        Ok(run) => match run.failure {
-            Some(failure) => failed(failure.reason),
-            None => SecondOpinion::of(name, ErrorMetric::new(&watched.columns, run.rows, &run.sizes).error(rows)),
+    match motion.run(&method, limit) {
+        Ok(run) => match &run.failure {
+            Some(failure) => failed(failure.reason.clone()),
+            None => SecondOpinion::of(name, ErrorMetric::of(&motion.watched, &run).error(rows)),
         },
         Err(error) => failed(error.to_string()),
     }

@@ -1,15 +1,15 @@
 //! Drift of one scene under every stabilization that its integrator can be combined with.
 
+use super::pool::{cores, run_all};
 use crate::analysis::{Drift, EnergyBalance, Record, Recorder, Singularity};
+use crate::clock::Stopwatch;
 use crate::error::{Error, Failure, Result, significant};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Outcome, Stop, simulate};
 use crate::system::Names;
 use crate::trajectory::Trajectory;
-use rayon::prelude::*;
 use serde::Serialize;
-use std::time::Instant;
 
 /// A run under one stabilization.
 #[derive(Serialize)]
@@ -53,17 +53,16 @@ pub fn drift_under_stabilizations(
     stop: impl Fn() -> Option<Stop> + Sync,
     done: impl Fn() + Sync,
 ) -> Result<Vec<StabilizedRun>> {
-    let run = |(formulation, projection): &(MethodSpec, MethodSpec)| {
+    let run = |(formulation, projection): (MethodSpec, MethodSpec)| {
         let run = one(prepared, formulation, projection, &stop);
         done();
         run
     };
-    let plain = run(&stabilizations(prepared, 1.0)?[0])?;
+    let plain = run(stabilizations(prepared, 1.0)?.swap_remove(0))?;
     let span = prepared.span()?;
     let step = prepared.method.step.unwrap_or((span.end - span.start) / plain.steps.max(1) as f64);
-    let others: Vec<StabilizedRun> =
-        stabilizations(prepared, step)?.par_iter().skip(1).map(run).collect::<Result<_>>()?;
-    Ok([plain].into_iter().chain(others).collect())
+    let others = run_all(cores(), stabilizations(prepared, step)?.into_iter().skip(1), run);
+    [Ok(plain)].into_iter().chain(others).collect()
 }
 
 /// Returns the pairs of formulation and projection that the integrator of the scene can be combined with, the least
@@ -121,16 +120,16 @@ fn all(step: f64) -> Vec<(MethodSpec, MethodSpec)> {
 
 fn one(
     prepared: &PreparedScene,
-    formulation: &MethodSpec,
-    projection: &MethodSpec,
+    formulation: MethodSpec,
+    projection: MethodSpec,
     stop: impl Fn() -> Option<Stop>,
 ) -> Result<StabilizedRun> {
-    let method = of(prepared, formulation, projection);
+    let method = of(prepared, &formulation, &projection);
     let mut recorder = Recorder::new(prepared.system()).with_stop(stop);
-    let clock = Instant::now();
+    let watch = Stopwatch::start();
     let Outcome { statistics, failure, .. } =
         simulate(prepared.system(), &method, prepared.span()?, prepared.start(), &mut recorder)?;
-    let wall_seconds = clock.elapsed().as_secs_f64();
+    let wall_seconds = watch.wall().as_secs_f64();
     let mut record = recorder.finish();
     // Only the times of the motion are shown, and there are many records.
     let rows = record.trajectory.times().map(|t| vec![t]).collect();
@@ -142,8 +141,8 @@ fn one(
             (_, "none") => formulation.to_string(),
             _ => format!("{formulation} + {projection}"),
         },
-        formulation: formulation.clone(),
-        projection: projection.clone(),
+        formulation,
+        projection,
         status: if failure.is_some() { "failed" } else { "completed" },
         failure,
         drift: record.drift.clone(),

@@ -4,10 +4,14 @@ use super::period::period;
 use crate::analysis::Recorder;
 use crate::clock::Stopwatch;
 use crate::error::{Result, Warning};
+use crate::formulation::ExponentialMap;
 use crate::math::expression::{Number, Parameters};
+use crate::math::random::Random;
 use crate::prepared::{Overrides, PreparedScene};
 use crate::scene::{self, Elements};
 use crate::simulate::{Method, Span, Stop, simulate};
+use crate::study::run::Motion;
+use crate::study::watched::Watched;
 use crate::system::{Dimensions, MechanicalSystem};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -146,22 +150,28 @@ impl<'a> Subject<'a> {
         parameters.into_iter().flat_map(|map| map.keys().map(String::as_str))
     }
 
-    /// Prepares a case and passes the system, the time span and the start to `run`.
+    /// Prepares a case and passes its motion to `run`.
     ///
     /// # Errors
     /// The changed scene is not valid.
-    pub fn with<T>(
-        &self,
-        case: &Case,
-        run: impl FnOnce(&dyn MechanicalSystem, Span, (&[f64], &[f64])) -> Result<T>,
-    ) -> Result<T> {
+    pub fn with<T>(&self, case: &Case, run: impl FnOnce(&Motion) -> Result<T>) -> Result<T> {
         let span = |start: f64| Span { start, end: start + case.duration, output_step: case.duration / ROWS };
-        let moved = |system: &dyn MechanicalSystem, start, q: &[f64], v: &[f64]| {
-            let (q, v) = perturbed(system, (q, v), case.start_error, case.typical.period);
-            run(system, span(start), (&q, &v))
+        let perturbed = |system: &dyn MechanicalSystem, start: f64, state: (&[f64], &[f64])| {
+            let (q, v) = perturbed(system, state, case.start_error, case.typical.period);
+            let watched = Watched::new(system, &[])?;
+            let is_stopped = &|| false;
+            run(&Motion {
+                system,
+                start: (&q, &v),
+                span: span(start),
+                watched,
+                ratio: 1.0,
+                counts_start: true,
+                is_stopped,
+            })
         };
         if let Some(own) = &self.own {
-            return moved(own.system, own.start, &own.q, &own.v);
+            return perturbed(own.system, own.start, (&own.q, &own.v));
         }
         let set: Vec<(String, Number)> = case.set.iter().map(|(name, value)| (name.clone(), (*value).into())).collect();
         let scene = self.elements.parse_in(&self.folder, &case.scene.to_string(), &set)?;
@@ -177,7 +187,7 @@ impl<'a> Subject<'a> {
             ..Overrides::default()
         };
         let prepared = PreparedScene::new(scene, &overrides)?;
-        moved(prepared.system(), span.start, prepared.start().0, prepared.start().1)
+        perturbed(prepared.system(), span.start, prepared.start())
     }
 }
 
@@ -196,22 +206,11 @@ fn perturbed(
     }
     let size = system.scales().into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let mut random = Random(1);
-    let dq: Vec<f64> = v.iter().map(|_| position * size * random.next()).collect();
+    let dq: Vec<f64> = v.iter().map(|_| position * size * random.uniform()).collect();
     let from = q.clone();
-    crate::formulation::ExponentialMap::new(system).apply(system, &from, &dq, &mut q);
-    v.iter_mut().for_each(|v| *v += velocity * size / period * random.next());
+    ExponentialMap::new(system).apply(system, &from, &dq, &mut q);
+    v.iter_mut().for_each(|v| *v += velocity * size / period * random.uniform());
     (q, v)
-}
-
-/// Knuth's linear congruential generator: the same numbers everywhere.
-struct Random(u64);
-
-impl Random {
-    /// Returns the next number between -1 and 1.
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
 }
 
 impl Typical {

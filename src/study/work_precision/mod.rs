@@ -15,26 +15,19 @@
 mod advice;
 mod cell;
 mod climb;
-mod error_metric;
 mod given;
 mod grid;
 pub mod models;
 mod reference;
 mod runner;
-mod sample;
-mod second_opinion;
 mod sequence;
-mod work;
 
 pub use advice::Recommendation;
 #[doc(hidden)]
 pub use advice::{Lack, cheapest_by_method, front};
+#[doc(hidden)]
+pub use cell::Held;
 pub use cell::{Cell, Outcome};
-#[doc(hidden)]
-pub use cell::{Held, median};
-#[doc(hidden)]
-pub use error_metric::ErrorMetric;
-pub use error_metric::Watched;
 #[doc(hidden)]
 pub use given::Given;
 pub use grid::{Filter, Triple, grid};
@@ -43,13 +36,6 @@ pub use models::tighter;
 #[doc(hidden)]
 pub use reference::{Pace, Reference};
 pub use runner::{Plan, Runner};
-pub use sample::Motion;
-#[doc(hidden)]
-pub use sample::{Allowed, RunSample, cpu_seconds, sample};
-pub use second_opinion::SecondOpinion;
-pub(crate) use second_opinion::second_opinion;
-#[doc(hidden)]
-pub use work::Worker;
 
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,10 @@
 //! Error bars of a run, from a companion: the same run by the same methods, but coarser.
 
+use super::budget::Limit;
 use super::companion::{Companion, Completed, Part, Watch, companion, differences, largest_of};
-use super::work_precision::{Allowed, Motion, SecondOpinion, Watched, second_opinion};
+use super::run::Motion;
+use super::second_opinion::{SecondOpinion, second_opinion};
+use super::watched::Watched;
 use crate::error::{Failure, Result};
 use crate::linearize::amplified;
 use crate::prepared::PreparedScene;
@@ -86,11 +89,10 @@ impl ErrorBars {
 fn confirm(prepared: &PreparedScene, run: &Completed, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<SecondOpinion> {
     let parts = Part::of(prepared, run);
     let longest = parts.iter().max_by(|a, b| a.duration().total_cmp(&b.duration()))?;
-    let motion = Motion { counts_start: true, ..Motion::of(prepared, run.span, is_stopped) };
     let watched = Watched::new(prepared.system(), &[]).ok()?;
-    let rows = run.rows_of_span();
-    let allowed = Allowed { cpu: Duration::MAX, wall: Duration::MAX };
-    Some(second_opinion(&motion, &watched, run.span, (&rows, &longest.method), allowed))
+    let motion = Motion { counts_start: true, ..Motion::of(prepared, run.span, watched, is_stopped) };
+    let limit = Limit { cpu: Duration::MAX, wall: Duration::MAX };
+    Some(second_opinion(&motion, &run.rows_of_span(), &longest.method, limit))
 }
 
 /// Differences are taken over so many rows of a hundred to each side: they pass through zero, errors do as well, but

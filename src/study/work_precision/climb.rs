@@ -1,16 +1,18 @@
 //! Reference runs: a few methods of different families at ever tighter tolerances, cheap ones first.
 
-use super::error_metric::{ErrorMetric, Watched};
 use super::grid::Triple;
-use super::sample::{Allowed, Motion, RunSample, sample};
-use super::second_opinion::{self, SecondOpinion};
 use crate::clock::Stopwatch;
 use crate::error::{Failure, Result};
 use crate::formulation;
 use crate::integrator;
 use crate::method_spec::MethodSpec;
 use crate::simulate::{Method, Span, atol_of};
-use std::panic::resume_unwind;
+use crate::study::budget::{Budget, Limit};
+use crate::study::metric::ErrorMetric;
+use crate::study::pool::run_all;
+use crate::study::run::{Motion, RunSample};
+use crate::study::second_opinion::{self, SecondOpinion};
+use crate::study::watched::Watched;
 use std::time::Duration;
 
 /// Sequence of rtol, from loose to tight.
@@ -36,16 +38,16 @@ const WAITED: [f64; 2] = [0.45, 0.8];
 const QUICK: f64 = 3.0;
 
 /// Completed runs of one method, from loose to tight.
-#[derive(Default)]
 pub struct Line {
+    triple: Triple,
     pub rungs: Vec<Rung>,
     /// Index of the next one in the sequence.
     next: usize,
     /// The last run that failed.
-    failure: Option<(Method, RunSample)>,
+    failure: Option<Rung>,
 }
 
-/// A completed run.
+/// A run of a method at a tolerance.
 pub struct Rung {
     pub method: Method,
     pub run: RunSample,
@@ -67,85 +69,70 @@ impl Rung {
 ///
 /// # Errors
 /// Bad input.
-pub fn climb(motion: &Motion, watched: &Watched, span: Span, (wanted, budget): (f64, Duration)) -> Result<Vec<Line>> {
-    let mut lines: Vec<Line> = FAMILIES.iter().map(|_| Line::default()).collect();
-    let begun = Stopwatch::start();
+pub fn climb(motion: &Motion, wanted: f64, budget: Duration) -> Result<Vec<Line>> {
+    let mut lines: Vec<Line> = FAMILIES.into_iter().map(Line::new).collect();
+    let budget = Budget::begin(budget);
     for part in PARTS.into_iter().chain([LAST]) {
-        let error = check(&lines, watched).map_or(f64::INFINITY, |checked| checked.error.0);
-        if error <= if part == LAST { 0.1 } else { wanted } {
+        let is_last = part == LAST;
+        let error = check(&lines, &motion.watched).map_or(f64::INFINITY, |checked| checked.error.0);
+        if error <= if is_last { 0.1 } else { wanted } {
             break;
         }
-        let is_last = part == LAST;
-        let part = budget.mul_f64(part);
-        let waited = budget.mul_f64(WAITED[usize::from(is_last)]).saturating_sub(begun.wall());
-        let least =
-            lines.iter().map(|line| line.forecast(motion)).filter(|time| *time > 0.0).fold(f64::INFINITY, f64::min);
-        let up = &|(line, names): (&mut Line, &[&str; 3])| -> Result<()> {
-            if is_last && line.forecast(motion) > QUICK * least {
-                return Ok(());
-            }
-            let watch = Stopwatch::start();
-            let mut cpu = part;
-            while !(motion.is_stopped)() && !cpu.is_zero() {
-                let wall = waited.saturating_sub(watch.wall());
-                let (is_more, seconds) = line.step(motion, watched, span, (*names, Allowed { cpu, wall }))?;
-                cpu = cpu.saturating_sub(Duration::from_secs_f64(seconds));
-                if !is_more {
-                    break;
-                }
-            }
-            Ok(())
+        let limit = Limit { cpu: budget.all.mul_f64(part), wall: budget.left_of(WAITED[usize::from(is_last)]) };
+        let times = lines.iter().map(|line| line.forecast(motion.span)).filter(|time| *time > 0.0);
+        let longest = if is_last { QUICK * times.fold(f64::INFINITY, f64::min) } else { f64::INFINITY };
+        let up = |line: &mut Line| -> Result<()> {
+            if line.forecast(motion.span) > longest { Ok(()) } else { line.climb(motion, limit) }
         };
-        // Own threads, since the pool may be busy with other measurements.
-        std::thread::scope(|scope| {
-            let threads: Vec<_> = lines.iter_mut().zip(&FAMILIES).map(|pair| scope.spawn(move || up(pair))).collect();
-            threads.into_iter().try_for_each(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)))
-        })?;
+        // All at once: their times do not depend on how many cores there are.
+        run_all(FAMILIES.len(), lines.iter_mut(), up).into_iter().collect::<Result<()>>()?;
     }
     Ok(lines)
 }
 
 impl Line {
-    /// Makes the next run if it can be expected to fit into the time allowed; returns whether there may be another, and
-    /// the CPU time used, s.
-    fn step(
-        &mut self,
-        motion: &Motion,
-        watched: &Watched,
-        span: Span,
-        (names, allowed): ([&str; 3], Allowed),
-    ) -> Result<(bool, f64)> {
-        let Some(rtol) = LADDER.get(self.next).copied() else { return Ok((false, 0.0)) };
-        if allowed.wall.is_zero() || self.forecast(motion) > allowed.cpu.as_secs_f64() {
-            return Ok((false, 0.0));
-        }
+    fn new(names: [&str; 3]) -> Self {
         let [formulation, integrator, projection] = names.map(MethodSpec::named);
         let triple = Triple { formulation, integrator, projection };
+        Line { triple, rungs: Vec::new(), next: 0, failure: None }
+    }
+
+    /// Makes the next runs that can be expected to fit into a limit for all of them.
+    fn climb(&mut self, motion: &Motion, Limit { mut cpu, wall }: Limit) -> Result<()> {
         // Minimal coordinates of large systems do not fit into memory.
-        if formulation::make(&triple.formulation, motion.system).is_err() {
-            return Ok((false, 0.0));
+        if formulation::make(&self.triple.formulation, motion.system).is_err() {
+            return Ok(());
         }
-        let method = triple.at((rtol, atol_of(rtol, motion.ratio)), None);
-        let run = sample(motion, watched, &method, span, allowed)?;
-        let seconds = run.seconds;
-        if run.is_too_slow {
-            self.failure = Some((method, run));
-            return Ok((false, seconds));
+        let watch = Stopwatch::start();
+        while let Some(rtol) = LADDER.get(self.next).copied() {
+            let wall = wall.saturating_sub(watch.wall());
+            let is_over = cpu.is_zero() || wall.is_zero() || self.forecast(motion.span) > cpu.as_secs_f64();
+            if is_over || (motion.is_stopped)() {
+                break;
+            }
+            let method = self.triple.at((rtol, atol_of(rtol, motion.ratio)), None);
+            let run = motion.run(&method, Limit { cpu, wall })?;
+            cpu = cpu.saturating_sub(Duration::from_secs_f64(run.seconds));
+            let is_too_slow = run.is_too_slow;
+            let rung = Rung { method, run };
+            if rung.run.failure.is_none() {
+                self.failure = None;
+                self.rungs.push(rung);
+            } else {
+                self.failure = Some(rung);
+            }
+            if is_too_slow {
+                break;
+            }
+            // A method that fails at one tolerance may complete at a tighter one.
+            self.next += 1;
         }
-        // A method that fails at one tolerance may complete at a tighter one.
-        self.next += 1;
-        if run.failure.is_some() {
-            self.failure = Some((method, run));
-            return Ok((true, seconds));
-        }
-        self.failure = None;
-        self.rungs.push(Rung { method, run });
-        Ok((true, seconds))
+        Ok(())
     }
 
     /// Returns a lower estimate of the time of the next run, s.
-    fn forecast(&self, motion: &Motion) -> f64 {
-        let stopped = self.failure.as_ref().and_then(|(_, run)| run.whole(motion));
+    fn forecast(&self, span: Span) -> f64 {
+        let stopped = self.failure.as_ref().and_then(|rung| rung.run.whole(span));
         stopped.or_else(|| self.rungs.last().map(|rung| rung.run.seconds)).unwrap_or(0.0)
     }
 }
@@ -167,7 +154,7 @@ pub fn check<'l>(lines: &'l [Line], watched: &Watched) -> Option<Checked<'l>> {
     let looser = rest.last();
     let is_alone = looser.is_some_and(|looser| others.clone().all(|rung| rung.method.rtol > looser.method.rtol));
     let candidates = others.chain(looser.filter(|_| is_alone));
-    let values = ErrorMetric::new(&watched.columns, best.run.rows.clone(), &best.run.sizes);
+    let values = ErrorMetric::of(watched, &best.run);
     let checked = candidates.map(|rung| (values.error(&rung.run.rows), rung));
     let nearest = checked.min_by(|a, b| a.0.0.total_cmp(&b.0.0));
     let (error, by) = nearest.map_or(((1.0, String::new()), None), |(error, by)| (error, Some(by)));
@@ -200,15 +187,15 @@ fn tightest(line: &Line) -> f64 {
 
 /// Returns the failure where no method completed, with the time that the quickest needs, extrapolated from the part it
 /// completed.
-pub fn nothing(lines: &[Line], motion: &Motion, budget: Duration) -> Failure {
+pub fn nothing(lines: &[Line], span: Span, budget: Duration) -> Failure {
     let stopped = lines.iter().filter_map(|line| line.failure.as_ref());
-    let forecasts =
-        stopped.clone().filter_map(|(method, run)| Some((method, run.whole(motion).filter(|seconds| *seconds > 0.0)?)));
+    let forecast = |rung: &Rung| rung.run.whole(span).filter(|seconds| *seconds > 0.0);
+    let forecasts = stopped.clone().filter_map(|rung| Some((&rung.method, forecast(rung)?)));
     let quickest = forecasts.min_by(|a, b| a.1.total_cmp(&b.1));
-    let failed = stopped.clone().find(|(_, run)| !run.is_too_slow).and_then(|(_, run)| run.failure.clone());
-    let t = stopped.filter_map(|(_, run)| run.failure.as_ref()).fold(motion.between.0, |t, failure| t.max(failure.t));
-    match (quickest, failed) {
-        (Some((method, seconds)), _) => Failure {
+    let failures = stopped.clone().filter_map(|rung| rung.run.failure.as_ref());
+    let t = failures.fold(span.start, |t, failure| t.max(failure.t));
+    if let Some((method, seconds)) = quickest {
+        return Failure {
             t,
             reason: format!(
                 "no method brings the motion to its end in {} s, so that there is nothing to compare with; the quickest, {} at rtol {:e}, would take about {seconds:.1} s",
@@ -220,12 +207,12 @@ pub fn nothing(lines: &[Line], motion: &Motion, budget: Duration) -> Failure {
                 "give more time by --budget {:.0}s, a shorter motion by --until, or values by --reference FILE",
                 (seconds / PARTS[1]).ceil()
             ),
-        },
-        (None, Some(failure)) => failure,
-        (None, None) => Failure {
-            t,
-            reason: "no method starts in the time allowed".to_string(),
-            hint: "give more time by --budget".to_string(),
-        },
+        };
     }
+    let mut failed = stopped.filter(|rung| !rung.run.is_too_slow).filter_map(|rung| rung.run.failure.clone());
+    failed.next().unwrap_or_else(|| Failure {
+        t,
+        reason: "no method starts in the time allowed".to_string(),
+        hint: "give more time by --budget".to_string(),
+    })
 }

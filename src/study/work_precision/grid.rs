@@ -35,6 +35,12 @@ impl Triple {
         let Triple { formulation, integrator, projection } = self.clone();
         Method { formulation, integrator, projection, rtol, atol, step }
     }
+
+    /// True if a method has these three.
+    pub(super) fn is_of(&self, method: &Method) -> bool {
+        let Method { formulation, integrator, projection, .. } = method;
+        (formulation, integrator, projection) == (&self.formulation, &self.integrator, &self.projection)
+    }
 }
 
 /// Returns all methods of the registries that can be combined and pass `filter`. Where no projection is named: those

@@ -1,6 +1,6 @@
 //! A companion of a run: the same run by the same methods, but with other errors.
 
-use super::work_precision::Watched;
+use super::watched::Watched;
 use crate::error::{Error, Failure};
 use crate::formulation::{Statistics, softer};
 use crate::integrator::{Tightening, Tolerance, find};

@@ -9,15 +9,12 @@
 
 mod cell;
 mod change;
-mod deadline;
 mod gains;
-mod json;
 mod ladder;
 mod map;
 mod maps;
 mod parameters;
 mod period;
-mod queue;
 mod reference;
 mod run;
 mod simulation;
@@ -29,7 +26,6 @@ pub use cell::Cell;
 pub use cell::{Quantity, Status};
 #[doc(hidden)]
 pub use change::Change;
-pub use deadline::Limits;
 #[doc(hidden)]
 pub use gains::{Best, Farther, GainVerdict, Level, Steady, StepVerdict};
 pub use map::Map;
@@ -40,7 +36,7 @@ pub use maps::{MapEntry, known, maps, pair};
 #[doc(hidden)]
 pub use parameters::find;
 pub use parameters::{StressParameter, registry};
-pub use run::{Stressed, stress};
+pub use run::{Limits, Stressed, stress};
 pub use subject::Subject;
 #[doc(hidden)]
 pub use subject::{Case, Typical};

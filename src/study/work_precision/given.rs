@@ -1,8 +1,8 @@
 //! Tables of reference values from files.
 
-use super::error_metric::Watched;
 use crate::error::{Error, Result, suggest};
 use crate::simulate::Span;
+use crate::study::watched::Watched;
 use std::path::Path;
 
 /// Values from a file: columns by name, one of them `t`.

@@ -1,14 +1,11 @@
-//! Cost of runs by counted work: the same on a busy machine and on an idle one.
+//! Price of work: the same on a busy machine and on an idle one.
 
-use super::WorkPrecision;
-use super::cell::{Cell, median};
 use crate::formulation::{Statistics, Work};
 use crate::simulate::Method;
 use std::collections::BTreeMap;
 
 /// Work in solutions of the equations of motion. Over 1672 runs on nine scenes the times of a class are proportional to
-/// this
-/// within 30 %, which is as much as one run's time varies on a busy machine. Rows are counted in: over 204 runs of
+/// this within 30 %, which is as much as one run's time varies on a busy machine. Rows are counted in: over 204 runs of
 /// Andrews' mechanism with 200 rows the spread of a class is 5 to 17 %, without them 10 to 30 %.
 const STEP: f64 = 0.3;
 const SWEEP: f64 = 0.9;
@@ -18,9 +15,8 @@ const ITERATION: f64 = 1.0;
 /// Formulations that solve the matrix of `index1`, with their cost relative to it.
 const LIKE_INDEX1: [(&str, f64); 3] = [("baumgarte", 1.0), ("force_projection", 1.2), ("invariant_manifold", 1.2)];
 
-/// Runs with the same kind of work, whose time per unit is the same: explicit methods on one formulation; an implicit
-/// method on one formulation.
-pub type Class<'c> = (&'c str, &'c str);
+/// Formulation, and integrator if that is implicit: a unit of work takes the same time in all runs of a class.
+pub type Class = (String, String);
 
 /// A method and whether stability limits its steps.
 #[derive(Clone, Copy)]
@@ -31,7 +27,7 @@ pub struct Worker<'c> {
     pub is_explicit: bool,
 }
 
-impl<'c> Worker<'c> {
+impl Worker<'_> {
     /// Returns the units of work.
     pub fn work(self, statistics: Statistics) -> f64 {
         let Statistics { steps, rejected, .. } = statistics;
@@ -47,9 +43,10 @@ impl<'c> Worker<'c> {
     }
 
     /// Returns the kind of its work.
-    pub fn class(self) -> Class<'c> {
+    pub fn class(self) -> Class {
         let formulation = if self.like_index1().is_some() { "index1" } else { &self.method.formulation.name };
-        (formulation, if self.is_explicit { "" } else { &self.method.integrator.name })
+        let integrator = if self.is_explicit { "" } else { &self.method.integrator.name };
+        (formulation.to_string(), integrator.to_string())
     }
 
     /// Returns the price of its evaluations over those of `index1`, where it is known.
@@ -59,29 +56,40 @@ impl<'c> Worker<'c> {
     }
 }
 
-impl Cell {
-    fn worker(&self) -> Worker<'_> {
-        Worker { method: &self.method, is_explicit: self.is_explicit }
+/// CPU times of a unit of work that were measured, by kinds of work, sorted.
+pub(crate) struct Prices<Kind>(BTreeMap<Kind, Vec<f64>>);
+
+impl<Kind: Ord> Prices<Kind> {
+    /// No prices.
+    pub fn new() -> Self {
+        Prices(BTreeMap::new())
     }
 
-    /// Returns the units of work; none where the run did not complete.
-    fn work(&self) -> Option<f64> {
-        Some(self.worker().work(self.statistics()?))
+    /// Enters a run of this work that took `seconds`.
+    pub fn enter(&mut self, kind: Kind, seconds: f64, work: f64) {
+        if work > 0.0 {
+            let known = self.0.entry(kind).or_default();
+            let price = seconds / work;
+            known.insert(known.partition_point(|other| other.total_cmp(&price).is_lt()), price);
+        }
+    }
+
+    /// Returns the cost of work, s: that times the median price of its kind. So the costs of two runs of a kind do not
+    /// depend on the clock, and those of others depend on the median of many runs.
+    pub fn cost(&self, kind: &Kind, work: f64) -> Option<f64> {
+        Some(work * middle(self.0.get(kind)?)?)
     }
 }
 
-impl WorkPrecision {
-    /// Sets the cost of every run: its work times the time of a unit, the median over all runs of its class. So the
-    /// cost of two runs of a class does not depend on the clock, and that of others on the median of many runs.
-    pub fn price(&mut self) {
-        let mut units: BTreeMap<Class, Vec<f64>> = BTreeMap::new();
-        for cell in &self.cells {
-            let unit = cell.seconds().zip(cell.work()).map(|(seconds, work)| seconds / work);
-            units.entry(cell.worker().class()).or_default().extend(unit);
-        }
-        let units: BTreeMap<Class, Option<f64>> = units.into_iter().map(|(class, all)| (class, median(&all))).collect();
-        let cost = |cell: &Cell| Some(cell.work()? * units.get(&cell.worker().class()).copied().flatten()?);
-        let costs: Vec<Option<f64>> = self.cells.iter().map(cost).collect();
-        self.cells.iter_mut().zip(costs).for_each(|(cell, cost)| cell.cost = cost);
-    }
+/// Returns the median.
+pub fn median(values: &[f64]) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    middle(&sorted)
+}
+
+fn middle(sorted: &[f64]) -> Option<f64> {
+    let low = sorted.get((sorted.len().max(1) - 1) / 2)?;
+    let high = sorted.get(sorted.len() / 2)?;
+    Some(0.5 * (low + high))
 }

@@ -1,12 +1,12 @@
 //! The reference of accuracy.
 
 use super::climb::{Checked, Line, Rung, check, climb, confirmed, nothing, same};
-use super::error_metric::{ErrorMetric, Watched};
 use super::given::Given;
-use super::sample::Motion;
-use super::second_opinion::SecondOpinion;
 use crate::error::Result;
 use crate::simulate::Span;
+use crate::study::metric::ErrorMetric;
+use crate::study::run::Motion;
+use crate::study::second_opinion::SecondOpinion;
 use crate::tolerances::report as tolerances;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -51,17 +51,17 @@ impl Reference {
     /// A run error where no method completes; a file that lacks a quantity or the times.
     pub(super) fn find(
         motion: &Motion,
-        watched: &Watched,
-        (span, given): (Span, Option<&Given>),
+        given: Option<&Given>,
         (digits, budget): (u32, Duration),
     ) -> Result<(Reference, Vec<Rung>)> {
-        let lines =
-            climb(motion, watched, span, (tolerances::REFERENCE_MARGIN * 0.1f64.powf(f64::from(digits)), budget))?;
-        let pace = pace(&lines, span);
-        let mut checked = check(&lines, watched).ok_or_else(|| nothing(&lines, motion, budget))?;
+        let Motion { span, watched, .. } = motion;
+        let wanted = tolerances::REFERENCE_MARGIN * 0.1f64.powf(f64::from(digits));
+        let lines = climb(motion, wanted, budget)?;
+        let pace = pace(&lines, *span);
+        let mut checked = check(&lines, watched).ok_or_else(|| nothing(&lines, *span, budget))?;
         if let Some(given) = given {
             let own = checked.best;
-            let values = ErrorMetric::new(&watched.columns, given.rows_at(watched, span)?, &own.run.sizes);
+            let values = ErrorMetric::new(&watched.columns, given.rows_at(watched, *span)?, &own.run.sizes);
             checked = Checked { by: Some(own), error: values.error(&own.run.rows), values, ..checked };
         }
         let from = given.map_or_else(|| checked.best.name(), |given| given.name.clone());

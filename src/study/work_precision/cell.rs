@@ -1,9 +1,11 @@
 //! One method at one tolerance or step.
 
+use super::WorkPrecision;
 use crate::analysis::Drift;
 use crate::error::Failure;
 use crate::formulation::Statistics;
 use crate::simulate::Method;
+use crate::study::price::{Class, Prices, Worker};
 use serde::{Deserialize, Serialize};
 
 /// A run of the grid, with its repetitions.
@@ -16,7 +18,7 @@ pub struct Cell {
     /// True if stability limits its steps.
     pub is_explicit: bool,
     /// CPU time by counted work, s, where it was stopped up to there: see
-    /// [`WorkPrecision::price`](super::WorkPrecision::price).
+    /// [`WorkPrecision::price`].
     pub cost: Option<f64>,
     /// Result.
     #[serde(flatten)]
@@ -125,6 +127,12 @@ impl Cell {
         }
     }
 
+    /// Returns the kind of its work, and its units; none where the run neither completed nor was stopped.
+    fn work(&self) -> Option<(Class, f64)> {
+        let worker = Worker { method: &self.method, is_explicit: self.is_explicit };
+        Some((worker.class(), worker.work(self.statistics()?)))
+    }
+
     /// Returns the reason why there is no result.
     pub fn reason(&self) -> Option<&str> {
         match &self.outcome {
@@ -146,11 +154,17 @@ pub(super) fn digits(error: f64) -> f64 {
     -error.max(1e-16).log10()
 }
 
-/// Returns the median.
-pub fn median(values: &[f64]) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let low = sorted.get((sorted.len().max(1) - 1) / 2)?;
-    let high = sorted.get(sorted.len() / 2)?;
-    Some(0.5 * (low + high))
+impl WorkPrecision {
+    /// Sets the cost of every run by its counted work.
+    pub fn price(&mut self) {
+        let mut prices = Prices::new();
+        for cell in &self.cells {
+            if let Some((seconds, (class, work))) = cell.seconds().zip(cell.work()) {
+                prices.enter(class, seconds, work);
+            }
+        }
+        for cell in &mut self.cells {
+            cell.cost = cell.work().and_then(|(class, work)| prices.cost(&class, work));
+        }
+    }
 }

@@ -1,19 +1,16 @@
 //! One simulation.
 
 use super::cell::{Cell, Status};
-use super::deadline::{Deadline, Over, Shift};
 use super::map::Map;
-use super::subject::Case;
-use super::subject::Subject;
+use super::subject::{Case, Subject};
 use crate::analysis::{Record, Recorder};
 use crate::clock::Stopwatch;
 use crate::error::{Error, Result, short};
 use crate::formulation::StepError;
-use crate::simulate::{Outcome, Stop, simulate};
+use crate::simulate::Outcome;
+use crate::study::budget::{Limit, Over};
 use serde_json::Value;
-use std::cell::Cell as Flag;
 use std::sync::Arc;
-use std::time::Duration;
 
 /// Returns the cell without a result. Its scene is not copied, since there would be many.
 pub(super) fn blank(subject: &Subject, map: &Map, [panel, row, column]: [usize; 3]) -> Cell {
@@ -43,18 +40,18 @@ pub(super) fn blank(subject: &Subject, map: &Map, [panel, row, column]: [usize; 
     }
 }
 
-/// Runs a cell for its share of the time; returns it with the rows for its errors, and the part of the motion
-/// completed.
+/// Runs a cell within a limit, that of all cells if `is_last`; returns it with the rows for its errors, and the part of
+/// the motion completed.
 pub(super) fn run(
     subject: &Subject,
     map: &Map,
     at: [usize; 3],
-    (shift, share): (Shift, Duration),
+    (limit, is_last): (Limit, bool),
 ) -> (Cell, Vec<Vec<f64>>, f64) {
     let watch = Stopwatch::start();
     let mut case = subject.base.clone();
     let changed = map.changes(at).try_for_each(|change| change.apply(&mut case));
-    let run = changed.and_then(|()| simulated(subject, &case, shift, share));
+    let run = changed.and_then(|()| simulated(subject, &case, (limit, is_last)));
     let seconds = watch.wall().as_secs_f64();
     let blank = Cell { seconds, reason: None, method: case.method, ..blank(subject, map, at) };
     match run {
@@ -80,21 +77,14 @@ struct Run {
     part: f64,
 }
 
-fn simulated(subject: &Subject, case: &Case, shift: Shift, share: Duration) -> Result<Run> {
-    subject.with(case, |system, span, start| {
-        let deadline = Deadline::new(share, shift);
-        let stopped = Flag::new(None);
-        let stop = || {
-            let over = deadline.over()?;
-            let is_slow = over == Over::Share && share == shift.cell;
-            stopped.set(Some(if is_slow { Status::TooSlow } else { Status::LeftOut }));
-            Some(Stop::deadline(shift.cell))
-        };
-        let mut recorder = Recorder::new(system).with_stop(stop);
-        let outcome = simulate(system, &case.method, span, start, &mut recorder)?;
-        let record = recorder.finish();
-        let part = (outcome.t - span.start) / case.duration;
-        Ok(Run { outcome, record, stopped: stopped.get(), part })
+fn simulated(subject: &Subject, case: &Case, (limit, is_last): (Limit, bool)) -> Result<Run> {
+    subject.with(case, |motion| {
+        let mut recorder = Recorder::new(motion.system);
+        let ended = motion.simulate(&case.method, Some(limit), &mut recorder)?;
+        let stopped =
+            ended.over.map(|over| if over == Over::Cpu && is_last { Status::TooSlow } else { Status::LeftOut });
+        let part = (ended.outcome.t - motion.span.start) / case.duration;
+        Ok(Run { outcome: ended.outcome, record: recorder.finish(), stopped, part })
     })
 }
 
