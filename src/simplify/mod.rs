@@ -42,11 +42,12 @@ mod search;
 mod source;
 mod start;
 
+pub use crate::study::Norm;
 pub use candidate::{Candidate, Edit, Proposal};
 pub use candidates::registry;
 pub use facts::{Facts, Placed};
 pub use nearby::{Nearby, NearbyMotion, Robustness, Which};
-pub use promise::{Norm, Promise};
+pub use promise::Promise;
 pub use relative::Relative;
 pub use rods::Rod;
 pub use run::{Difference, Run};

@@ -28,6 +28,7 @@ pub use drift::{StabilizedRun, drift_under_stabilizations};
 pub use error_bar::{ErrorBar, ErrorBars, error_bars};
 #[doc(hidden)]
 pub use metric::ErrorMetric;
+pub use metric::Norm;
 pub use run::{Ended, Motion, RunSample};
 pub use second_opinion::SecondOpinion;
 pub(crate) use second_opinion::second_opinion;

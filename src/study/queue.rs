@@ -1,6 +1,6 @@
 //! Order and duration of runs while their cost is not known.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// CPU time of the first attempt at a job; each later one has GROWTH times that of the one before, so that all attempts
@@ -57,28 +57,16 @@ pub struct Queues<What>(Vec<Queue<What>>);
 struct Queue<What> {
     name: String,
     waiting: BTreeSet<Job<What>>,
-    /// The same jobs by what they run.
-    jobs: BTreeMap<What, Job<What>>,
     spent: Duration,
 }
 
 impl<What: Copy + Ord> Queue<What> {
-    fn add(&mut self, job: Job<What>) {
-        self.waiting.insert(job);
-        self.jobs.insert(job.what, job);
-    }
-
-    fn pop(&mut self) -> Option<Job<What>> {
-        let job = self.waiting.pop_first()?;
-        self.jobs.remove(&job.what)
-    }
-
     /// Sets the expected level of a job of unknown cost, or lowers that of one not tried yet.
     fn foresee(&mut self, what: What, level: u32) {
-        let Some(job) = self.jobs.get(&what).copied() else { return };
+        let Some(job) = self.waiting.iter().find(|job| job.what == what).copied() else { return };
         if job.is_unknown || !job.is_tried && level < job.level {
             self.waiting.remove(&job);
-            self.add(Job { is_unknown: false, level, ..job });
+            self.waiting.insert(Job { is_unknown: false, level, ..job });
         }
     }
 }
@@ -90,11 +78,11 @@ impl<What: Copy + Ord> Queues<What> {
 
     pub fn add(&mut self, name: &str, job: Job<What>) {
         match self.0.iter_mut().find(|queue| queue.name == name) {
-            Some(queue) => queue.add(job),
+            Some(queue) => {
+                queue.waiting.insert(job);
+            }
             None => {
-                let name = name.to_string();
-                let jobs = BTreeMap::from([(job.what, job)]);
-                self.0.push(Queue { name, waiting: BTreeSet::from([job]), jobs, spent: Duration::ZERO });
+                self.0.push(Queue { name: name.to_string(), waiting: BTreeSet::from([job]), spent: Duration::ZERO })
             }
         }
     }
@@ -103,7 +91,7 @@ impl<What: Copy + Ord> Queues<What> {
     pub fn take(&mut self, limit: Duration) -> Option<(usize, Job<What>)> {
         let waiting = self.0.iter_mut().enumerate().filter(|(_, queue)| !queue.waiting.is_empty());
         let (index, queue) = waiting.min_by_key(|(_, queue)| queue.spent)?;
-        let job = queue.pop()?;
+        let job = queue.waiting.pop_first()?;
         queue.spent += job.share(limit);
         Some((index, job))
     }
@@ -120,7 +108,7 @@ impl<What: Copy + Ord> Queues<What> {
         let queue = &mut self.0[index];
         queue.spent = (queue.spent + took).saturating_sub(job.share(limit));
         if let Some(part) = cut {
-            queue.add(job.again(part, limit));
+            queue.waiting.insert(job.again(part, limit));
         }
         let level = if cut.is_some() { job.level + 1 } else { level_for(2 * took, limit) };
         neighbours.into_iter().for_each(|what| queue.foresee(what, level));

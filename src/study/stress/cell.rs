@@ -137,39 +137,38 @@ impl Quantity {
 
     /// Returns the name on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Quantity::Position => "position",
-            Quantity::Velocity => "velocity",
-            Quantity::FinalPosition => "final_position",
-            Quantity::Energy => "energy",
-            Quantity::Error => "error",
-            Quantity::Seconds => "seconds",
-        }
+        self.texts()[0]
     }
 
     /// Returns the name with its unit.
     pub fn label(self) -> &'static str {
+        self.texts()[1]
+    }
+
+    fn texts(self) -> [&'static str; 2] {
         match self {
-            Quantity::Position => "position drift (m, rad)",
-            Quantity::Velocity => "velocity drift (m/s, rad/s)",
-            Quantity::FinalPosition => "final position drift (m, rad)",
-            Quantity::Energy => "relative energy error",
-            Quantity::Error => "error of outputs / their scale",
-            Quantity::Seconds => "computing time (s)",
+            Quantity::Position => ["position", "position drift (m, rad)"],
+            Quantity::Velocity => ["velocity", "velocity drift (m/s, rad/s)"],
+            Quantity::FinalPosition => ["final_position", "final position drift (m, rad)"],
+            Quantity::Energy => ["energy", "relative energy error"],
+            Quantity::Error => ["error", "error of outputs / their scale"],
+            Quantity::Seconds => ["seconds", "computing time (s)"],
         }
     }
 
     /// Returns the value in a completed cell; none in others.
     pub fn of(self, cell: &Cell) -> Option<f64> {
-        let drift = || cell.drift.as_ref().filter(|_| cell.status == Status::Completed);
-        let done = cell.status == Status::Completed;
+        if cell.status != Status::Completed {
+            return None;
+        }
+        let drift = cell.drift.as_ref();
         let value = match self {
-            Quantity::Position => drift()?.position.max,
-            Quantity::Velocity => drift()?.velocity.max,
-            Quantity::FinalPosition => drift()?.position.last,
-            Quantity::Energy => cell.relative_energy_error.filter(|_| done)?,
+            Quantity::Position => drift?.position.max,
+            Quantity::Velocity => drift?.velocity.max,
+            Quantity::FinalPosition => drift?.position.last,
+            Quantity::Energy => cell.relative_energy_error?,
             Quantity::Error => cell.error?,
-            Quantity::Seconds => Some(cell.seconds).filter(|_| done)?,
+            Quantity::Seconds => cell.seconds,
         };
         value.is_finite().then_some(value)
     }

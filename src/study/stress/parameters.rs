@@ -47,7 +47,6 @@ pub fn registry() -> &'static [StressParameter] {
             unit: "s",
             about: "fixed step of the method",
             keeps_motion: true,
-            suits: |_| true,
             values: |subject| {
                 let step = subject.base.typical.step;
                 sequence(step / 40.0, 6.0 * step)
@@ -56,6 +55,7 @@ pub fn registry() -> &'static [StressParameter] {
                 case.method.step = Some(step);
                 Ok(())
             },
+            ..PARAMETER
         },
         // alpha = beta is the critical damping of phi'' + 2 alpha phi' + beta^2 phi = 0. The range is from gains
         // without effect within a step to those at which explicit methods are unstable.
@@ -73,54 +73,51 @@ pub fn registry() -> &'static [StressParameter] {
                 (case.method.formulation, case.method.projection) = (baumgarte(gain), MethodSpec::named("none"));
                 Ok(())
             },
+            ..PARAMETER
         },
         StressParameter {
             name: "tolerance",
-            unit: "",
             about: "rtol = atol of adaptive methods",
             keeps_motion: true,
-            suits: |_| true,
             values: |_| decades(-14, -2, 2),
             apply: |case, tolerance| {
                 (case.method.rtol, case.method.atol, case.method.step) = (tolerance, tolerance, None);
                 Ok(())
             },
+            ..PARAMETER
         },
         // Mass and inertia of the last body with a mass in the list, which in chains is the end.
         StressParameter {
             name: "mass_ratio",
-            unit: "",
             about: "factor on mass and inertia of the last body",
-            keeps_motion: false,
             suits: |subject| has(&subject.base.scene, "bodies", &["mass"]),
             values: |_| decades(-8, 8, 2),
             apply: |case, factor| scale_mass(Arc::make_mut(&mut case.scene), factor),
+            ..PARAMETER
         },
         StressParameter {
             name: "stiffness",
             unit: "N/m",
             about: "stiffness of all springs (N/m, N m/rad), bushings and tyres",
-            keeps_motion: false,
             suits: |subject| has(&subject.base.scene, "forces", &["stiffness"]),
             values: |_| decades(-2, 12, 2),
             apply: |case, value| set(Arc::make_mut(&mut case.scene), "stiffness", value),
+            ..PARAMETER
         },
         StressParameter {
             name: "damping",
             unit: "N s/m",
             about: "damping of all springs (N s/m, N m s/rad), bushings and tyres",
-            keeps_motion: false,
             suits: |subject| has(&subject.base.scene, "forces", &["damping"]),
             values: |_| decades(-2, 12, 2),
             apply: |case, value| set(Arc::make_mut(&mut case.scene), "damping", value),
+            ..PARAMETER
         },
         // Initial velocities and the time of drivers are multiplied by the factor, the simulated time divided by it, so
         // that the amount of motion is about the same.
         StressParameter {
             name: "speed",
-            unit: "",
             about: "factor on the velocities of the start and the time of drivers; the simulated time divided by it",
-            keeps_motion: false,
             suits: |subject| moves(&subject.base.scene),
             values: |_| decades(-1, 4, 1),
             apply: |case, factor| {
@@ -128,14 +125,13 @@ pub fn registry() -> &'static [StressParameter] {
                 case.duration /= factor;
                 Ok(())
             },
+            ..PARAMETER
         },
         // A crank of r whose slider runs on a line at the offset folds with its rod of l where r + offset = l:
         // r = (1 - gap) l - offset.
         StressParameter {
             name: "link_ratio",
-            unit: "",
             about: "gap 1 - (r + offset)/l to the singular geometry of a planar crank r on a rod l (scenes with parameters r and l)",
-            keeps_motion: false,
             suits: |subject| lengths(&subject.base.scene).is_ok(),
             values: |_| decades(-9, 0, 1).into_iter().map(|gap| 0.5 * gap).collect(),
             apply: |case, gap| {
@@ -146,32 +142,31 @@ pub fn registry() -> &'static [StressParameter] {
                 case.set.push(("r".to_string(), (1.0 - gap) * length - offset));
                 Ok(())
             },
+            ..PARAMETER
         },
         // The scene generated again with this number of links or loops.
         StressParameter {
             name: "links",
-            unit: "",
             about: "number of links or loops of a generated scene (n_four_bar, chain, flexible_chain)",
-            keeps_motion: false,
             suits: |subject| kind(&subject.base.scene).is_ok(),
             values: |_| sequence(1.0, 200.0),
             apply: |case, n| {
                 case.scene = Arc::new(kind(&case.scene)?(n.round().max(1.0) as usize));
                 Ok(())
             },
+            ..PARAMETER
         },
         // In periods of the subject: see [`Typical`](super::Typical).
         StressParameter {
             name: "time",
             unit: "periods",
             about: "simulated time in periods of the motion",
-            keeps_motion: false,
-            suits: |_| true,
             values: |_| decades(0, 6, 1),
             apply: |case, periods| {
                 case.duration = periods * case.typical.period;
                 Ok(())
             },
+            ..PARAMETER
         },
         StressParameter {
             name: "start_error",
@@ -203,16 +198,20 @@ pub fn registry() -> &'static [StressParameter] {
     ]
 }
 
-/// Errors of an inconsistent start.
-const START: StressParameter = StressParameter {
+/// What most parameters have.
+const PARAMETER: StressParameter = StressParameter {
     name: "",
     unit: "",
     about: "",
     keeps_motion: false,
-    suits: |subject| subject.dimensions.lambda > 0,
-    values: |_| decades(-14, 0, 2),
+    suits: |_| true,
+    values: |_| Vec::new(),
     apply: |_, _| Ok(()),
 };
+
+/// Errors of an inconsistent start.
+const START: StressParameter =
+    StressParameter { suits: |subject| subject.dimensions.lambda > 0, values: |_| decades(-14, 0, 2), ..PARAMETER };
 
 /// Baumgarte's stabilization with alpha = beta = `gain`: phi'' + 2 gain phi' + gain^2 phi = 0.
 pub(super) fn baumgarte(gain: f64) -> MethodSpec {
