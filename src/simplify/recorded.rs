@@ -11,7 +11,7 @@ use crate::study::{Motion, Watched};
 use crate::system::{MechanicalSystem, Scratch};
 
 /// Watched rows, states and sizes of a run.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub struct Recorded {
     /// Values of the watched outputs at each time.
     pub rows: Vec<Vec<f64>>,
@@ -57,15 +57,14 @@ pub fn record(
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<Recorded> {
     let system = prepared.system();
-    let rows = Vec::new();
-    let states = Vec::new();
-    let redundant = Vec::new();
-    let sizes = Sizes::default();
-    let singularity = Singularity::default();
-    let recorded = Recorded { rows, sizes, stopped: None, work: 0.0, states, redundant, singularity };
-    let scales = system.scales();
-    let watch = Watch::new(system);
-    let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, recorded, watch };
+    let mut memory = Memory {
+        system,
+        watched,
+        scratch: Scratch::default(),
+        scales: system.scales(),
+        recorded: Recorded::default(),
+        watch: Watch::new(system),
+    };
     let motion = Motion::of(prepared, prepared.span()?, watched.clone(), is_stopped);
     let outcome = motion.simulate(method, None, &mut memory)?.outcome;
     let work = counted(prepared, method, outcome.statistics);

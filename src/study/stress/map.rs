@@ -126,15 +126,12 @@ impl Axis {
 
 /// Reads a range like `sweep`, with fewer values by default.
 fn range(text: &str, is_log: bool) -> Result<Range> {
-    let mut parts = text.split(':');
-    let has_count = parts.nth(1).is_some_and(|part| part.trim() != "log");
-    if has_count {
-        return text.parse();
+    let range: Range = text.parse()?;
+    if text.split(':').nth(1).is_some_and(|part| part.trim() != "log") {
+        return Ok(range);
     }
-    let ends = text.split(':').next().unwrap_or_default();
-    let asks_log = text.ends_with(":log");
-    let range: Range = format!("{ends}:{COUNT}").parse()?;
-    if asks_log || is_log && range.from > 0.0 && range.to > 0.0 { range.log() } else { Ok(range) }
+    let range = Range { count: COUNT, ..range };
+    if is_log && range.from > 0.0 && range.to > 0.0 { range.log() } else { Ok(range) }
 }
 
 impl AxisPlace {

@@ -3,6 +3,7 @@
 use super::cell::{Cell, Status};
 use super::map::Axis;
 use super::run::Stressed;
+use crate::math::bounds;
 use serde::Serialize;
 
 /// Summary of one method on a map.
@@ -118,9 +119,8 @@ impl Stressed {
 
 /// Returns the least and the largest value.
 fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    values.fold(None, |range, value| {
-        Some(range.map_or([value; 2], |[low, high]: [f64; 2]| [low.min(value), high.max(value)]))
-    })
+    let (low, high) = bounds(values);
+    (low <= high).then_some([low, high])
 }
 
 /// Returns the side of an axis on which all unsuccessful cells lie, if there is one and it is not all of the axis.

@@ -108,14 +108,10 @@ impl WorkPrecision {
         let gap = 0.1f64.powi(digits as i32).max(tolerances::DRIFT_ROUND_OFF);
         let is_closed = |cell: &Cell| cell.drift().is_some_and(|drift| drift.position <= gap);
         let good = |cell: &Cell| cell.digits() >= Some(f64::from(digits)) && is_closed(cell) && is_meant(cell);
-        let all = self.cells.iter().enumerate().filter(|(_, cell)| good(cell));
-        let costs: Vec<(usize, f64)> = all.filter_map(|(place, cell)| Some((place, cell.cost?))).collect();
-        let least = costs.iter().fold(f64::INFINITY, |least, (_, cost)| least.min(*cost));
-        let mut tied: Vec<usize> = costs
-            .into_iter()
-            .filter(|(_, cost)| *cost <= tolerances::TIED_COSTS * least)
-            .map(|(place, _)| place)
-            .collect();
+        let cost = |place: &usize| self.cells[*place].cost.unwrap_or(f64::INFINITY);
+        let mut tied: Vec<usize> = (0..self.cells.len()).filter(|place| good(&self.cells[*place])).collect();
+        let least = tied.iter().map(cost).fold(f64::INFINITY, f64::min);
+        tied.retain(|place| cost(place).is_finite() && cost(place) <= tolerances::TIED_COSTS * least);
         tied.sort_by_key(|place| merit(&self.cells[*place]));
         tied
     }
@@ -177,22 +173,12 @@ pub(super) fn behind(cells: &[Cell]) -> Vec<Option<f64>> {
 /// Returns for each method the index of its cheapest run with this many digits, else of its most accurate, else of its
 /// last; the first list by cost, the second, of the others, by accuracy.
 pub fn cheapest_by_method(cells: &[Cell], digits: u32) -> (Vec<usize>, Vec<usize>) {
-    let (mut reached, mut others): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
-    for group in cells.chunk_by(|a, b| a.is_of(&b.method)) {
-        let first = group.as_ptr_range();
-        let offset = cells.iter().position(|cell| std::ptr::eq(cell, first.start)).unwrap_or(0);
-        let good = (0..group.len()).filter(|i| group[*i].digits() >= Some(f64::from(digits)));
-        match good.min_by(|a, b| cost(&group[*a]).total_cmp(&cost(&group[*b]))) {
-            Some(i) => reached.push(offset + i),
-            None => {
-                let error = |i: &usize| group[*i].error().unwrap_or(f64::INFINITY);
-                let best = (0..group.len()).min_by(|a, b| error(a).total_cmp(&error(b)));
-                others.extend(best.map(|i| offset + i));
-            }
-        }
-    }
-    let error = |i: &usize| cells[*i].error().unwrap_or(f64::INFINITY);
-    reached.sort_by(|a, b| cost(&cells[*a]).total_cmp(&cost(&cells[*b])));
-    others.sort_by(|a, b| error(a).total_cmp(&error(b)));
-    (reached, others)
+    let reaches = |i: &usize| cells[*i].digits() >= Some(f64::from(digits));
+    let merit = |i: &usize| if reaches(i) { cost(&cells[*i]) } else { cells[*i].error().unwrap_or(f64::INFINITY) };
+    let order = |a: &usize, b: &usize| reaches(b).cmp(&reaches(a)).then(merit(a).total_cmp(&merit(b)));
+    let places: Vec<usize> = (0..cells.len()).collect();
+    let groups = places.chunk_by(|a, b| cells[*a].is_of(&cells[*b].method));
+    let mut best: Vec<usize> = groups.filter_map(|group| group.iter().copied().min_by(order)).collect();
+    best.sort_by(order);
+    best.into_iter().partition(reaches)
 }

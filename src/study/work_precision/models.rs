@@ -7,7 +7,7 @@ use crate::scene;
 use crate::simulate::{Method, Span};
 use crate::study::metric::ErrorMetric;
 use crate::study::price::median;
-use crate::study::run::{Motion, RunSample};
+use crate::study::run::Motion;
 use crate::study::watched::Watched;
 use crate::system::{Column, Dimensions};
 use crate::tolerances::report as tolerances;
@@ -151,16 +151,14 @@ pub fn compare(
     let mut runs: Vec<Run> = variants.iter().map(|variant| Run::new(variant, &columns, span)).collect::<Result<_>>()?;
     for round in 0..=repeats {
         for (place, run) in runs.iter_mut().enumerate() {
-            watch(&run.variant.name, round * variants.len() + place);
+            watch(&run.cost.name, round * variants.len() + place);
             run.repeat(round, allowed)?;
         }
     }
-    let rich = runs[richest].tight.as_ref().filter(|sample| sample.failure.is_none());
-    let rich = rich.map(|sample| ErrorMetric::of(&runs[richest].motion.watched, sample));
-    let rich = rich.ok_or_else(|| runs[richest].failure(span.start))?;
+    let rich = runs[richest].tight.clone().ok_or_else(|| runs[richest].failure(span.start))?;
     watch("the full model with a finer mesh", (repeats + 1) * variants.len());
     let finer = finer(&variants[richest], &columns, span, allowed, &rich)?;
-    let models = runs.iter().map(|run| run.cost(&rich)).collect();
+    let models = runs.into_iter().map(|run| run.finish(&rich)).collect();
     Ok(ModelCosts { richest, rows: ROWS, models, columns, finer })
 }
 
@@ -171,88 +169,88 @@ fn finer(richest: &Variant, columns: &[Column], span: Span, allowed: Duration, r
     let variant = Variant { name: String::new(), prepared, source: None };
     let mut run = Run::new(&variant, columns, span)?;
     run.repeat(0, allowed)?;
-    let cost = run.cost(rich);
-    Ok(Finer { velocities, outputs: cost.outputs, failure: cost.failure })
+    let ModelCost { outputs, failure, .. } = run.finish(rich);
+    Ok(Finer { velocities, outputs, failure })
 }
 
 /// The runs of one model.
 struct Run<'a> {
-    variant: &'a Variant,
     motion: Motion<'a>,
-    seconds: Vec<f64>,
-    usual: Option<RunSample>,
+    cost: ModelCost,
     /// The run at a tighter tolerance.
-    tight: Option<RunSample>,
+    tight: Option<ErrorMetric>,
 }
 
 impl<'a> Run<'a> {
     fn new(variant: &'a Variant, columns: &[Column], span: Span) -> Result<Self> {
-        let system = variant.prepared.system();
+        let Variant { name, prepared, .. } = variant;
+        let system = prepared.system();
         let own = recorded(system);
         let shared = columns.iter().filter(|column| own.iter().any(|own| own.name == column.name));
         let shared: Vec<String> = shared.map(|column| column.name.clone()).collect();
         if shared.is_empty() {
-            return Err(Error::input(format!("`{}` has none of the outputs to compare", variant.name))
+            return Err(Error::input(format!("`{name}` has none of the outputs to compare"))
                 .under("--variants")
                 .hint("give the models outputs of the same names"));
         }
-        let motion = Motion::of(&variant.prepared, span, Watched::new(system, &shared)?, &|| false);
-        Ok(Run { variant, motion, seconds: Vec::new(), usual: None, tight: None })
+        let Dimensions { q, v, lambda, .. } = system.dimensions();
+        let cost = ModelCost {
+            name: name.clone(),
+            coordinates: q,
+            velocities: v,
+            constraints: lambda,
+            method: prepared.method.clone(),
+            cpu_seconds: Vec::new(),
+            statistics: Statistics::default(),
+            numerical_error: None,
+            outputs: Vec::new(),
+            failure: None,
+        };
+        let motion = Motion::of(prepared, span, Watched::new(system, &shared)?, &|| false);
+        Ok(Run { motion, cost, tight: None })
     }
 
     /// Runs once with a tighter tolerance, then for the time.
     fn repeat(&mut self, round: usize, allowed: Duration) -> Result<()> {
-        let method = &self.variant.prepared.method;
-        let method = if round == 0 { tighter(method) } else { method.clone() };
-        let failed = [&self.usual, &self.tight].into_iter().flatten().any(|sample| sample.failure.is_some());
-        if failed {
+        let Run { motion, cost, tight } = self;
+        if cost.failure.is_some() {
             return Ok(());
         }
-        let run = self.motion.run(&method, allowed)?;
-        if round == 0 {
-            self.tight = Some(run);
-        } else {
-            self.seconds.push(run.seconds);
-            self.usual = Some(run);
+        let method = if round == 0 { tighter(&cost.method) } else { cost.method.clone() };
+        let run = motion.run(&method, allowed)?;
+        if round > 0 {
+            cost.cpu_seconds.push(run.seconds);
+            cost.statistics = run.statistics;
+            cost.numerical_error = tight.as_ref().map(|own| own.error(&run.rows).0);
+        } else if run.failure.is_none() {
+            *tight = Some(ErrorMetric::of(&motion.watched, &run));
         }
+        cost.failure = run.failure;
         Ok(())
     }
 
     fn failure(&self, t: f64) -> Error {
-        let own = self.tight.as_ref().and_then(|sample| sample.failure.clone());
-        let hint = || "choose another method or tolerance".to_string();
-        let none = || Failure { t, reason: "the full model was not run".to_string(), hint: hint() };
-        let failure = own.unwrap_or_else(none);
-        Failure { reason: format!("the full model, `{}`: {}", self.variant.name, failure.reason), ..failure }.into()
+        let none = || Failure {
+            t,
+            reason: "the full model was not run".to_string(),
+            hint: "choose another method or tolerance".to_string(),
+        };
+        let failure = self.cost.failure.clone().unwrap_or_else(none);
+        Failure { reason: format!("the full model, `{}`: {}", self.cost.name, failure.reason), ..failure }.into()
     }
 
-    fn cost(&self, rich: &ErrorMetric) -> ModelCost {
-        let Dimensions { q, v, lambda, .. } = self.variant.prepared.system().dimensions();
-        let failure = [&self.tight, &self.usual].into_iter().flatten().find_map(|sample| sample.failure.clone());
-        let tight = self.tight.as_ref().filter(|_| failure.is_none());
-        let own = tight.map(|tight| ErrorMetric::of(&self.motion.watched, tight));
-        let usual = self.usual.as_ref().filter(|_| failure.is_none());
-        let of = |column: &Column, place: usize, rows: &[Vec<f64>]| {
-            let values: Vec<f64> = rows.iter().map(|row| row[place]).collect();
-            let (max, rms) = rich.spread(&column.name, &values)?;
-            Some(OutputError { name: column.name.clone(), max, rms })
+    /// Returns the result, with the differences from the full model.
+    fn finish(self, rich: &ErrorMetric) -> ModelCost {
+        let Run { cost, tight, .. } = self;
+        let Some(tight) = tight.filter(|_| cost.failure.is_none()) else {
+            return ModelCost { statistics: Statistics::default(), numerical_error: None, ..cost };
         };
-        let outputs = tight.map_or(Vec::new(), |tight| {
-            let columns = self.motion.watched.columns.iter().enumerate();
-            columns.filter_map(|(place, column)| of(column, place, &tight.rows)).collect()
-        });
-        ModelCost {
-            name: self.variant.name.clone(),
-            coordinates: q,
-            velocities: v,
-            constraints: lambda,
-            method: self.variant.prepared.method.clone(),
-            cpu_seconds: self.seconds.clone(),
-            statistics: usual.map_or_else(Statistics::default, |sample| sample.statistics),
-            numerical_error: own.zip(usual).map(|(own, usual)| own.error(&usual.rows).0),
-            outputs,
-            failure,
-        }
+        let output = |(place, name): (usize, &String)| {
+            let values: Vec<f64> = tight.rows.iter().map(|row| row[place]).collect();
+            let (max, rms) = rich.spread(name, &values)?;
+            Some(OutputError { name: name.clone(), max, rms })
+        };
+        ModelCost { outputs: tight.names.iter().enumerate().filter_map(output).collect(), ..cost }
     }
 }
 

@@ -32,6 +32,9 @@ pub struct Plan {
     pub given: Option<Given>,
 }
 
+/// Part of the budget after which no more runs are begun.
+const GRID: f64 = 0.95;
+
 /// Makes the runs.
 pub struct Runner<'a> {
     pub(super) motion: Motion<'a>,
@@ -78,8 +81,8 @@ impl<'a> Runner<'a> {
             result.reference = Some(reference);
             self.keep(result, runs);
         }
-        let paused = self.climb(result)?;
         result.price();
+        let paused = self.climb(result)?;
         let left_out = self.leave_out(result, paused.as_ref());
         result.seconds = before + self.budget.spent().as_secs_f64();
         let place = |cell: &Cell| self.plan.triples.iter().position(|triple| triple.is_of(&cell.method));
@@ -97,8 +100,10 @@ impl<'a> Runner<'a> {
     /// Announces the next run; returns a reason to stop, if any.
     pub(super) fn pauses(&mut self, result: &WorkPrecision, next: &str) -> Option<Pause> {
         (self.watch)(result, next);
-        let is_over = self.budget.left().is_zero();
-        if (self.motion.is_stopped)() { Some(Pause::Asked) } else { is_over.then_some(Pause::Budget) }
+        if (self.motion.is_stopped)() {
+            return Some(Pause::Asked);
+        }
+        (self.budget.spent() > self.plan.budget.mul_f64(GRID)).then_some(Pause::Budget)
     }
 
     /// Makes a run, several times if it is short.

@@ -16,11 +16,10 @@ const COARSE: [u32; 4] = [3, 6, 9, 12];
 /// Then these, of methods that are near the best at some accuracy; first the digits most often requested.
 const FINE: [u32; 6] = [7, 5, 8, 4, 10, 11];
 /// Parts of the budget that one run may take: short runs of all methods come before long ones of any.
-const RUN: [f64; 4] = [0.001, 0.005, 0.02, 0.1];
+const RUN: [f64; 4] = [0.001, 0.005, 0.02, LONGEST];
+const LONGEST: f64 = 0.1;
 /// A run is skipped if its forecast is longer than this many times its limit.
 const SURE: f64 = 1.2;
-/// Part of the budget after which no more runs are begun.
-const GRID: f64 = 0.95;
 /// Part of the budget for the comparison of explicit and implicit methods.
 const SETTLED: f64 = 0.15;
 /// Cost relative to the best with as many digits below which a method is tried at tighter tolerances.
@@ -30,19 +29,19 @@ const NEAR: f64 = 3.0;
 /// Fixed steps are this part of pace 10^-(decades/p), which gives an error of about 10^-decades.
 const FIXED: f64 = 0.3;
 
+fn sequence() -> impl Iterator<Item = u32> {
+    COARSE.into_iter().chain(FINE)
+}
+
 impl<'a> Runner<'a> {
     /// Runs the grid: short runs of all methods, then longer ones.
     pub(super) fn climb(&mut self, result: &mut WorkPrecision) -> Result<Option<Pause>> {
         for part in RUN {
-            if part == RUN[RUN.len() - 1] {
+            if part == LONGEST {
                 self.settle(result)?;
             }
-            let allowed = self.plan.budget.mul_f64(part);
-            let sequence =
-                COARSE.map(|decades| (decades, false)).into_iter().chain(FINE.map(|decades| (decades, true)));
-            for (decades, is_fine) in sequence {
-                result.price();
-                if let Some(paused) = self.rung(result, (decades, is_fine), allowed)? {
+            for decades in sequence() {
+                if let Some(paused) = self.rung(result, decades, part)? {
                     return Ok(Some(paused));
                 }
             }
@@ -51,21 +50,12 @@ impl<'a> Runner<'a> {
     }
 
     /// Makes the runs of all methods at one accuracy that are worth it and not done.
-    fn rung(
-        &mut self,
-        result: &mut WorkPrecision,
-        (decades, is_fine): (u32, bool),
-        allowed: Duration,
-    ) -> Result<Option<Pause>> {
-        for triple in self.pending(result, (decades, is_fine), allowed) {
+    fn rung(&mut self, result: &mut WorkPrecision, decades: u32, part: f64) -> Result<Option<Pause>> {
+        let allowed = self.plan.budget.mul_f64(part);
+        for triple in self.pending(result, decades, part) {
             let method = self.method(result, triple, decades);
-            let pause = if self.budget.spent() > self.plan.budget.mul_f64(GRID) {
-                Some(Pause::Budget)
-            } else {
-                self.pauses(result, &method.triple())
-            };
-            if pause.is_some() {
-                return Ok(pause);
+            if let Some(pause) = self.pauses(result, &method.triple()) {
+                return Ok(Some(pause));
             }
             let outcome = match self.skips(result, triple, decades, allowed) {
                 Some(reason) => skipped(result, triple, decades, reason),
@@ -94,9 +84,7 @@ impl<'a> Runner<'a> {
     pub(super) fn leave_out(&self, result: &mut WorkPrecision, paused: Option<&Pause>) -> usize {
         let behind = advice::behind(&result.cells);
         let mut left_out = 0;
-        for (triple, decades) in
-            self.plan.triples.iter().flat_map(|t| COARSE.into_iter().chain(FINE).map(move |d| (t, d)))
-        {
+        for (triple, decades) in self.plan.triples.iter().flat_map(|t| sequence().map(move |d| (t, d))) {
             if cells_of(result, triple).any(|cell| cell.decades == decades) {
                 continue;
             }
@@ -125,7 +113,7 @@ impl<'a> Runner<'a> {
     pub(super) fn keep(&self, result: &mut WorkPrecision, runs: Vec<Rung>) {
         for Rung { method, run } in runs {
             let own = self.plan.triples.iter().find(|triple| triple.is_of(&method));
-            let decades = COARSE.into_iter().chain(FINE).find(|decades| rtol(*decades) == method.rtol);
+            let decades = sequence().find(|decades| rtol(*decades) == method.rtol);
             if let Some((triple, decades)) = own.zip(decades) {
                 let seconds = vec![run.seconds];
                 self.put(result, triple, decades, self.outcome(result, run, seconds));
@@ -143,29 +131,26 @@ impl<'a> Runner<'a> {
     }
 
     /// Returns the methods still to run, those expected to be short first: later ones are judged by their times.
-    fn pending(&self, result: &WorkPrecision, (decades, is_fine): (u32, bool), allowed: Duration) -> Vec<&'a Triple> {
-        let near = advice::behind(&result.cells);
-        let near: Vec<&Cell> =
-            result.cells.iter().zip(near).filter(|(_, b)| b.is_some_and(|b| b <= NEAR)).map(|(cell, _)| cell).collect();
-        let is_near = |triple: &Triple| near.iter().any(|cell| triple.is_of(&cell.method));
+    fn pending(&self, result: &WorkPrecision, decades: u32, part: f64) -> Vec<&'a Triple> {
+        let allowed = self.plan.budget.mul_f64(part);
+        let behind = advice::behind(&result.cells);
+        let is_near = |triple: &Triple| {
+            let mut own = result.cells.iter().zip(&behind).filter(|(cell, _)| triple.is_of(&cell.method));
+            own.any(|(_, behind)| behind.is_some_and(|times| times <= NEAR))
+        };
+        let is_tried = |triple: &Triple| COARSE.contains(&decades) || self.plan.is_exhaustive || is_near(triple);
         let mut pending: Vec<(f64, &Triple)> = Vec::new();
-        let is_last = allowed == self.longest();
         for triple in &self.plan.triples {
             let own = cells_of(result, triple).find(|cell| cell.decades == decades);
             let is_due = own.is_none_or(|cell| matches!(cell.outcome, Outcome::TooSlow { .. }));
             let seconds = self.forecast(result, triple, decades).map_or(0.0, |forecast| forecast.seconds);
-            let fits = is_last || seconds <= allowed.as_secs_f64();
-            if is_due && fits && (!is_fine || self.plan.is_exhaustive || is_near(triple)) {
+            let fits = part == LONGEST || seconds <= allowed.as_secs_f64();
+            if is_due && fits && is_tried(triple) {
                 pending.push((seconds, triple));
             }
         }
         pending.sort_by(|a, b| a.0.total_cmp(&b.0));
         pending.into_iter().map(|(_, triple)| triple).collect()
-    }
-
-    /// Returns the longest time that one run may take.
-    fn longest(&self) -> Duration {
-        self.plan.budget.mul_f64(RUN[RUN.len() - 1])
     }
 
     /// If no explicit method, or no implicit one, reached the digits asked for, runs the method of this kind that is
