@@ -9,7 +9,7 @@ use super::search::{NUMERICAL, Trial};
 use super::source::{Source, write_method};
 use super::{LEAST, Settings};
 use crate::analysis::Passing;
-use crate::error::{Error, Failure, Result, Warning, clock, percent, short_list, significant};
+use crate::error::{Error, Failure, Result, Warning, clock, percent, rounded, short_list, significant};
 use crate::integrator;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, atol_of};
@@ -151,7 +151,7 @@ impl Base {
         Some(match method.step {
             Some(step) => {
                 let order = integrator::find(&method.integrator).map_or(1, |entry| entry.order);
-                Method { step: Some(rounded(step * part.powf(1.0 / order as f64))), ..method.clone() }
+                Method { step: Some(rounded(step * part.powf(1.0 / order as f64), 0)), ..method.clone() }
             }
             None => at(method, (part * method.rtol).max(tolerances::TIGHTEST)),
         })
@@ -248,12 +248,8 @@ pub fn accuracy(method: &Method) -> String {
 
 /// A method at another relative tolerance, of one digit.
 pub fn at(method: &Method, rtol: f64) -> Method {
-    let rtol = rounded(rtol);
+    let rtol = rounded(rtol, 0);
     Method { rtol, atol: atol_of(rtol, method.atol / method.rtol), ..method.clone() }
-}
-
-fn rounded(x: f64) -> f64 {
-    format!("{x:.0e}").parse().unwrap_or(x)
 }
 
 /// The scene until the last row that the time allowed for.

@@ -9,7 +9,7 @@
 use super::checkpoint::flat;
 use super::contest::{Contest, Mark, Quiet, View, unseen};
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
-use crate::error::{Failure, Result, clock, short};
+use crate::error::{Failure, Result, clock, two};
 use crate::formulation::Statistics;
 use crate::integrator;
 use crate::math::expression::Switch;
@@ -366,7 +366,6 @@ fn words(
     are_explicit: [bool; 2],
     wins: bool,
 ) -> String {
-    let two = |x: f64| short(format!("{x:.1e}").parse().unwrap_or(x));
     let own = &own.integrator.name;
     let other = &other.integrator.name;
     let kind = match (are_explicit, wins) {

@@ -1,7 +1,7 @@
 //! The modes of a mechanism at one state of its motion.
 
 use super::rate_bound::rate_bound;
-use crate::error::short;
+use crate::error::two;
 use crate::formulation::{Dynamics, free_directions, reduce};
 use crate::math::array::Each;
 use crate::math::{dot, norm};
@@ -29,7 +29,6 @@ impl SpectralMode {
 
 impl fmt::Display for SpectralMode {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let two = |value: f64| short(format!("{value:.1e}").parse().unwrap_or(value));
         match (self.decay, self.swing) {
             _ if self.rate() < tolerances::SLOWEST_MODE => write!(out, "neither swings nor decays"),
             (decay, swing) if swing > decay.abs() => write!(out, "swings at {} rad/s", two(swing)),

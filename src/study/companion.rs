@@ -1,7 +1,7 @@
 //! A companion of a run: the same run by the same methods, but with other errors.
 
 use super::watched::Watched;
-use crate::error::{Error, Failure};
+use crate::error::{Error, Failure, rounded};
 use crate::formulation::{Statistics, softer};
 use crate::integrator::{Tightening, Tolerance, find};
 use crate::prepared::PreparedScene;
@@ -229,12 +229,16 @@ impl Changed {
         while of_steps(factor * method.rtol) < least && factor * method.rtol < coarsest {
             factor *= 10.0;
         }
-        let rtol = rounded((factor * method.rtol).min(coarsest));
+        let rtol = rounded((factor * method.rtol).min(coarsest), DIGITS);
         // Steps at their tightest are those of a looser tolerance.
         let factor = rtol / tightening.reached(&at(method.rtol)).max(method.rtol);
         let part = if is_at_round_off { 1.0 } else { part_of(factor) };
         let formulation = softer(&method.formulation);
-        Changed { method: Method { formulation, rtol, atol: rounded(at(rtol).atol), ..method.clone() }, part, order }
+        Changed {
+            method: Method { formulation, rtol, atol: rounded(at(rtol).atol, DIGITS), ..method.clone() },
+            part,
+            order,
+        }
     }
 
     /// Half the step, or a tenth of the tolerance.
@@ -248,10 +252,8 @@ impl Changed {
     }
 }
 
-/// The number of a few digits that is meant.
-fn rounded(tolerance: f64) -> f64 {
-    format!("{tolerance:.6e}").parse().unwrap_or(tolerance)
-}
+/// Digits after the first of a tolerance that is meant.
+const DIGITS: usize = 6;
 
 /// The watched quantities of each row.
 struct Rows<'a> {

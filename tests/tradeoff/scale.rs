@@ -1,6 +1,6 @@
 //! What errors are relative to, and where they are looked for.
 
-use super::{ROWS, filter, measured, motion, plan, span};
+use super::{filter, measured, motion, plan, span};
 use crate::scenes::shipped;
 use holonom::analysis::Sizes;
 use holonom::simulate::Method;

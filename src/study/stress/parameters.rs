@@ -73,7 +73,6 @@ pub fn registry() -> &'static [StressParameter] {
                 (case.method.formulation, case.method.projection) = (baumgarte(gain), MethodSpec::named("none"));
                 Ok(())
             },
-            ..PARAMETER
         },
         StressParameter {
             name: "tolerance",

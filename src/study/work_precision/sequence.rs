@@ -5,7 +5,7 @@ use super::climb::Rung;
 use super::grid::Triple;
 use super::runner::{Pause, Runner};
 use super::{WorkPrecision, advice};
-use crate::error::{Error, Failure, Result, two};
+use crate::error::{Error, Failure, Result, rounded, two};
 use crate::integrator::{self, Steps};
 use crate::simulate::{Method, atol_of, explicit};
 use crate::study::run::{RunSample, extrapolated};
@@ -313,6 +313,5 @@ fn last<'r>(result: &'r WorkPrecision, triple: &'r Triple, decades: u32) -> Opti
 }
 
 fn rtol(decades: u32) -> f64 {
-    let rtol = 0.1f64.powi(decades as i32);
-    format!("{rtol:.0e}").parse().unwrap_or(rtol)
+    rounded(0.1f64.powi(decades as i32), 0)
 }
