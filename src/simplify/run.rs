@@ -6,7 +6,7 @@ use crate::formulation::{Statistics, Work};
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, explicit};
 use crate::study::price::{Class, Worker};
-use crate::study::{Limit, Motion, RunSample, Watched};
+use crate::study::{Motion, RunSample, Watched};
 use crate::system::Dimensions;
 use serde::Serialize;
 use std::time::Duration;
@@ -71,10 +71,6 @@ impl Run {
     }
 }
 
-/// Wall-clock time that a run may take on a busy machine: so many times its CPU time, and this more.
-const BUSY: u32 = 20;
-const WAIT: Duration = Duration::from_secs(60);
-
 /// Runs a prepared model by its own method.
 ///
 /// # Errors
@@ -87,7 +83,7 @@ pub fn sampled(
 ) -> Result<RunSample> {
     let watched = Watched::new(prepared.system(), names)?;
     let motion = Motion { counts_start: true, ..Motion::of(prepared, prepared.span()?, watched, is_stopped) };
-    motion.run(&prepared.method, Limit { cpu: allowed, wall: BUSY * allowed + WAIT })
+    motion.run(&prepared.method, allowed)
 }
 
 /// The work of the steps of a run in solutions of the equations of motion, times velocities and constraints. Rows are

@@ -12,12 +12,13 @@ pub struct Limit {
     pub wall: Duration,
 }
 
-/// Limit of the wall-clock time of a run on a busy machine, in CPU time limits.
-const BUSY: u32 = 3;
+/// Wall-clock time that a run may take on a busy machine: so many times its CPU time, and this more.
+const BUSY: u32 = 20;
+const WAIT: Duration = Duration::from_secs(60);
 
 impl From<Duration> for Limit {
     fn from(cpu: Duration) -> Limit {
-        Limit { cpu, wall: cpu.saturating_mul(BUSY) }
+        Limit { cpu, wall: cpu.saturating_mul(BUSY).saturating_add(WAIT) }
     }
 }
 

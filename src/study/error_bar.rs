@@ -1,6 +1,5 @@
 //! Error bars of a run, from a companion: the same run by the same methods, but coarser.
 
-use super::budget::Limit;
 use super::companion::{Companion, Completed, Part, Watch, companion, differences, largest_of};
 use super::run::Motion;
 use super::second_opinion::{SecondOpinion, second_opinion};
@@ -91,8 +90,7 @@ fn confirm(prepared: &PreparedScene, run: &Completed, is_stopped: &(dyn Fn() -> 
     let longest = parts.iter().max_by(|a, b| a.duration().total_cmp(&b.duration()))?;
     let watched = Watched::new(prepared.system(), &[]).ok()?;
     let motion = Motion { counts_start: true, ..Motion::of(prepared, run.span, watched, is_stopped) };
-    let limit = Limit { cpu: Duration::MAX, wall: Duration::MAX };
-    Some(second_opinion(&motion, &run.rows_of_span(), &longest.method, limit))
+    Some(second_opinion(&motion, &run.rows_of_span(), &longest.method, Duration::MAX.into()))
 }
 
 /// Differences are taken over so many rows of a hundred to each side: they pass through zero, errors do as well, but

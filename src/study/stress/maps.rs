@@ -26,96 +26,60 @@ pub struct MapEntry {
 
 /// Returns every map, the most important first.
 pub fn known() -> &'static [MapEntry] {
-    &[
+    const KNOWN: [MapEntry; 9] = [
         MapEntry {
-            name: "gain",
-            about: "step x Baumgarte's gain, beside no stabilization and post-stabilization on the same steps",
-            x: "step",
-            y: "gain",
-            quantity: Quantity::Velocity,
             methods: fixed,
             adapt: beside_gains,
-            ..MAP
+            ..drifting(
+                ["gain", "step x Baumgarte's gain, beside no stabilization and post-stabilization on the same steps"],
+                ["step", "gain"],
+            )
         },
         MapEntry {
-            name: "start",
-            about: "tolerance x error of the start: which methods pull an inconsistent start back",
-            y: "start_error",
             quantity: Quantity::FinalPosition,
             methods: || {
                 let projected = method("index1", "dopri5", "manifold");
                 vec![method("index1", "dopri5", "none"), method("baumgarte", "dopri5", "none"), projected]
             },
-            ..MAP
+            ..usual(
+                ["start", "tolerance x error of the start: which methods pull an inconsistent start back"],
+                ["tolerance", "start_error"],
+            )
         },
         MapEntry {
-            name: "mass",
-            about: "tolerance x mass of the last body",
-            y: "mass_ratio",
             suits: |subject| !has("stiffness", subject),
-            ..MAP
+            ..usual(["mass", "tolerance x mass of the last body"], ["tolerance", "mass_ratio"])
         },
+        usual(["stiffness", "stiffness of the springs x mass of the last body"], ["stiffness", "mass_ratio"]),
+        usual(["damping", "stiffness of the springs x their damping"], ["stiffness", "damping"]),
         MapEntry {
-            name: "stiffness",
-            about: "stiffness of the springs x mass of the last body",
-            x: "stiffness",
-            y: "mass_ratio",
-            ..MAP
-        },
-        MapEntry {
-            name: "damping",
-            about: "stiffness of the springs x their damping",
-            x: "stiffness",
-            y: "damping",
-            ..MAP
-        },
-        MapEntry {
-            name: "speed",
-            about: "step x speed of the motion",
-            x: "step",
-            y: "speed",
-            quantity: Quantity::Velocity,
             methods: || vec![method("index1", "rk4", "none"), method("index1", "rk4", "manifold")],
-            ..MAP
+            ..drifting(["speed", "step x speed of the motion"], ["step", "speed"])
         },
+        usual(["geometry", "tolerance x link lengths towards a singular geometry"], ["tolerance", "link_ratio"]),
         MapEntry {
-            name: "geometry",
-            about: "tolerance x link lengths towards a singular geometry",
-            y: "link_ratio",
-            ..MAP
-        },
-        MapEntry {
-            name: "links",
-            about: "step x number of links",
-            x: "step",
-            y: "links",
-            quantity: Quantity::Velocity,
             methods: || vec![method("index1", "rk4", "manifold"), method("index3", "generalized_alpha", "none")],
-            ..MAP
+            ..drifting(["links", "step x number of links"], ["step", "links"])
         },
         MapEntry {
-            name: "time",
-            about: "simulated time x method",
-            x: "time",
-            y: "time",
             methods: || vec![AxisPlace::named("", Vec::new())],
             adapt: by_method,
-            ..MAP
+            ..usual(["time", "simulated time x method"], ["time", "time"])
         },
-    ]
+    ];
+    &KNOWN
 }
 
-/// What most maps have.
-const MAP: MapEntry = MapEntry {
-    name: "",
-    about: "",
-    x: "tolerance",
-    y: "",
-    quantity: Quantity::Energy,
-    methods: adaptive,
-    adapt: |_| {},
-    suits: |_| true,
-};
+/// A map of energy errors of adaptive methods.
+const fn usual([name, about]: [&'static str; 2], [x, y]: [&'static str; 2]) -> MapEntry {
+    let quantity = Quantity::Energy;
+    MapEntry { name, about, x, y, quantity, methods: adaptive, adapt: |_| {}, suits: |_| true }
+}
+
+/// A map of velocity drift.
+const fn drifting(texts: [&'static str; 2], axes: [&'static str; 2]) -> MapEntry {
+    MapEntry { quantity: Quantity::Velocity, ..usual(texts, axes) }
+}
 
 /// Returns the maps of these names, or all that make sense for the subject.
 ///

@@ -25,34 +25,29 @@ const METHODS: [[&str; 3]; 2] = [["index1", "dop853", "manifold"], ["ggl", "rada
 impl Search {
     /// Simulates the motion of the case, by the first method that completes it within the CPU time allowed to each.
     pub fn run(subject: &Subject, case: &Case, cpu: Duration, budget: &Budget) -> Self {
-        let mut search = Search::Hopeless;
+        let mut longest = None;
         for names in METHODS {
             let [formulation, integrator, projection] = names.map(MethodSpec::named);
             let rtol = tolerances::REFERENCE_RTOL;
             let method = Method { formulation, integrator, projection, rtol, atol: rtol, step: None };
-            match Self::by(subject, &Case { method, ..case.clone() }, cpu, budget) {
-                Search::Hopeless => {}
-                Search::Pending(part) => search = Search::Pending(part.max(search.part())),
-                found => return found,
+            let case = Case { method, ..case.clone() };
+            let search = subject.with(&case, |motion| {
+                let run = motion.run(&case.method, Limit { cpu, wall: budget.left() })?;
+                Ok(match &run.failure {
+                    None => Search::Found(Box::new((ErrorMetric::of(&motion.watched, &run), case.method.clone()))),
+                    Some(failure) if run.is_too_slow => {
+                        Search::Pending((failure.t - motion.span.start) / case.duration)
+                    }
+                    Some(_) => Search::Hopeless,
+                })
+            });
+            match search {
+                Ok(Search::Pending(part)) => longest = Some(part.max(longest.unwrap_or(0.0))),
+                Ok(Search::Hopeless) | Err(_) => {}
+                Ok(found) => return found,
             }
         }
-        search
-    }
-
-    fn part(&self) -> f64 {
-        if let Search::Pending(part) = self { *part } else { 0.0 }
-    }
-
-    fn by(subject: &Subject, case: &Case, cpu: Duration, budget: &Budget) -> Self {
-        let found = subject.with(case, |motion| {
-            let run = motion.run(&case.method, Limit { cpu, wall: budget.left() })?;
-            Ok(match &run.failure {
-                None => Search::Found(Box::new((ErrorMetric::of(&motion.watched, &run), case.method.clone()))),
-                Some(failure) if run.is_too_slow => Search::Pending((failure.t - motion.span.start) / case.duration),
-                Some(_) => Search::Hopeless,
-            })
-        });
-        found.unwrap_or(Search::Hopeless)
+        longest.map_or(Search::Hopeless, Search::Pending)
     }
 }
 
@@ -63,6 +58,5 @@ pub(super) fn confirmed(
     reference: &ErrorMetric,
     cpu: Duration,
 ) -> Option<SecondOpinion> {
-    let limit = Limit { cpu, wall: cpu.saturating_mul(2) };
-    subject.with(case, |motion| Ok(second_opinion(motion, &reference.rows, &case.method, limit))).ok()
+    subject.with(case, |motion| Ok(second_opinion(motion, &reference.rows, &case.method, cpu.into()))).ok()
 }

@@ -5,10 +5,10 @@ use super::map::Map;
 use super::subject::{Case, Subject};
 use crate::analysis::{Record, Recorder};
 use crate::clock::Stopwatch;
-use crate::error::{Error, Result, short};
+use crate::error::{Error, short};
 use crate::formulation::StepError;
-use crate::simulate::Outcome;
 use crate::study::budget::{Limit, Over};
+use crate::study::run::Ended;
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -51,15 +51,21 @@ pub(super) fn run(
     let watch = Stopwatch::start();
     let mut case = subject.base.clone();
     let changed = map.changes(at).try_for_each(|change| change.apply(&mut case));
-    let run = changed.and_then(|()| simulated(subject, &case, (limit, is_last)));
+    let run = changed.and_then(|()| {
+        subject.with(&case, |motion| {
+            let mut recorder = Recorder::new(motion.system);
+            let ended = motion.simulate(&case.method, Some(limit), &mut recorder)?;
+            let part = (ended.outcome.t - motion.span.start) / case.duration;
+            Ok((ended, recorder.finish(), part))
+        })
+    });
     let seconds = watch.wall().as_secs_f64();
     let blank = Cell { seconds, reason: None, method: case.method, ..blank(subject, map, at) };
     match run {
         Err(error) => (Cell { status: Status::Refused, reason: Some(message(&error)), ..blank }, Vec::new(), 1.0),
-        Ok(run) => {
-            let rows = run.record.trajectory.watched().collect();
-            let part = run.part;
-            (run.cell(blank), rows, part)
+        Ok((ended, record, part)) => {
+            let rows = record.trajectory.watched().collect();
+            (with_result(blank, ended, record, is_last), rows, part)
         }
     }
 }
@@ -69,62 +75,41 @@ fn message(error: &Error) -> String {
     error.to_string().lines().next().unwrap_or_default().to_string()
 }
 
-struct Run {
-    outcome: Outcome,
-    record: Record,
-    /// Status of a run that was stopped from outside.
-    stopped: Option<Status>,
-    part: f64,
-}
-
-fn simulated(subject: &Subject, case: &Case, (limit, is_last): (Limit, bool)) -> Result<Run> {
-    subject.with(case, |motion| {
-        let mut recorder = Recorder::new(motion.system);
-        let ended = motion.simulate(&case.method, Some(limit), &mut recorder)?;
-        let stopped =
-            ended.over.map(|over| if over == Over::Cpu && is_last { Status::TooSlow } else { Status::LeftOut });
-        let part = (ended.outcome.t - motion.span.start) / case.duration;
-        Ok(Run { outcome: ended.outcome, record: recorder.finish(), stopped, part })
-    })
-}
-
-impl Run {
-    fn cell(self, blank: Cell) -> Cell {
-        let status = self.status();
-        let Run { outcome, record, .. } = self;
-        let reason = match (&outcome.failure, status) {
-            (_, Status::LeftOut) => Some(format!("its share of the budget was over at t = {} s", short(outcome.t))),
-            (Some(failure), _) => Some(failure.reason.clone()),
-            (None, Status::Diverged) => {
-                Some(format!("the joints are open by {:.1e} of the scene's size", record.drift.position.relative_max))
-            }
-            (None, _) => None,
-        };
-        Cell {
-            status,
-            reason,
-            t: outcome.t,
-            energy_error: record.energy.map(|energy| energy.max_error),
-            relative_energy_error: record.energy.and_then(|energy| energy.relative_max_error),
-            drift: Some(record.drift),
-            steps: outcome.statistics.steps,
-            rhs_evaluations: outcome.statistics.whole().rhs_evaluations,
-            ..blank
+fn with_result(blank: Cell, ended: Ended, record: Record, is_last: bool) -> Cell {
+    let status = status(&ended, &record, is_last);
+    let outcome = ended.outcome;
+    let reason = match (&outcome.failure, status) {
+        (_, Status::LeftOut) => Some(format!("its share of the budget was over at t = {} s", short(outcome.t))),
+        (Some(failure), _) => Some(failure.reason.clone()),
+        (None, Status::Diverged) => {
+            Some(format!("the joints are open by {:.1e} of the scene's size", record.drift.position.relative_max))
         }
+        (None, _) => None,
+    };
+    Cell {
+        status,
+        reason,
+        t: outcome.t,
+        energy_error: record.energy.map(|energy| energy.max_error),
+        relative_energy_error: record.energy.and_then(|energy| energy.relative_max_error),
+        drift: Some(record.drift),
+        steps: outcome.statistics.steps,
+        rhs_evaluations: outcome.statistics.whole().rhs_evaluations,
+        ..blank
     }
+}
 
-    fn status(&self) -> Status {
-        let is_open = self.record.drift.has_open_joints();
-        let Some(failure) = &self.outcome.failure else {
-            return if is_open { Status::Diverged } else { Status::Completed };
-        };
-        let is_blown = self.record.energy.is_some_and(|energy| energy.is_lost());
-        match self.stopped {
-            Some(status) => status,
-            None if is_open || is_blown || failure.reason.contains(&StepError::NotFinite.to_string()) => {
-                Status::Diverged
-            }
-            None => Status::Failed,
+fn status(ended: &Ended, record: &Record, is_last: bool) -> Status {
+    let is_open = record.drift.has_open_joints();
+    let is_blown = record.energy.is_some_and(|energy| energy.is_lost());
+    match (&ended.outcome.failure, ended.over) {
+        (None, _) if is_open => Status::Diverged,
+        (None, _) => Status::Completed,
+        (Some(_), Some(Over::Cpu)) if is_last => Status::TooSlow,
+        (Some(_), Some(_)) => Status::LeftOut,
+        (Some(failure), None) if is_open || is_blown || failure.reason.contains(&StepError::NotFinite.to_string()) => {
+            Status::Diverged
         }
+        (Some(_), None) => Status::Failed,
     }
 }
