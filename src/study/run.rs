@@ -84,7 +84,8 @@ impl<'a> Motion<'a> {
         let Ended { outcome, over, seconds } = self.simulate(method, Some(limit.into()), &mut sink)?;
         let Sampler { rows, sizes, drift, .. } = sink;
         let Outcome { statistics, failure, .. } = outcome;
-        Ok(RunSample { rows, sizes, drift, statistics, failure, is_too_slow: over.is_some(), seconds })
+        let method = method.clone();
+        Ok(RunSample { method, rows, sizes, drift, statistics, failure, is_too_slow: over.is_some(), seconds })
     }
 }
 
@@ -101,6 +102,8 @@ pub struct Ended {
 /// Result of one run.
 #[derive(Clone, Debug)]
 pub struct RunSample {
+    /// Its method.
+    pub method: Method,
     /// Values of the watched quantities, one row per output time, at the start only where it counts.
     pub rows: Vec<Vec<f64>>,
     /// Sizes of the motion over the same rows and the start.
@@ -118,6 +121,11 @@ pub struct RunSample {
 }
 
 impl RunSample {
+    /// Returns its method with the tolerance.
+    pub fn name(&self) -> String {
+        with_tolerance(&self.method)
+    }
+
     /// Returns the time of the whole run, s, extrapolated from the part completed; 0 if it was stopped at once, none
     /// where it failed.
     pub fn whole(&self, span: Span) -> Option<f64> {
@@ -127,6 +135,11 @@ impl RunSample {
             Some(_) => None,
         }
     }
+}
+
+/// Returns a method with its tolerance in words.
+pub(super) fn with_tolerance(method: &Method) -> String {
+    format!("{}, rtol {:e}", method.triple(), method.rtol)
 }
 
 /// Returns the time of a run that took `seconds` until `t`; a run that was stopped at once gives no estimate.

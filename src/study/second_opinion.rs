@@ -2,7 +2,7 @@
 
 use super::budget::Limit;
 use super::metric::ErrorMetric;
-use super::run::Motion;
+use super::run::{Motion, with_tolerance};
 use crate::integrator;
 use crate::method_spec::MethodSpec;
 use crate::simulate::Method;
@@ -47,7 +47,7 @@ pub(crate) fn second_opinion(motion: &Motion, rows: &[Vec<f64>], of: &Method, li
     let Method { rtol, atol, .. } = if of.step.is_some() { Method::default() } else { of.clone() };
     let method = Method { formulation, integrator, projection, rtol, atol, step: None };
     let limit = Limit { cpu: limit.cpu.min(LONGEST), wall: limit.wall.min(3 * LONGEST) };
-    let name = format!("{}, rtol {rtol:e}", method.triple());
+    let name = with_tolerance(&method);
     let failed = |reason: String| SecondOpinion { method: name.clone(), difference: None, about: reason };
     match motion.run(&method, limit) {
         Ok(run) => match &run.failure {

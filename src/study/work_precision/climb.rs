@@ -4,7 +4,6 @@ use super::grid::Triple;
 use crate::clock::Stopwatch;
 use crate::error::{Failure, Result};
 use crate::formulation;
-use crate::integrator;
 use crate::method_spec::MethodSpec;
 use crate::simulate::{Method, Span, atol_of};
 use crate::study::budget::{Budget, Limit};
@@ -40,29 +39,11 @@ const QUICK: f64 = 3.0;
 /// Completed runs of one method, from loose to tight.
 pub struct Line {
     triple: Triple,
-    pub rungs: Vec<Rung>,
+    pub runs: Vec<RunSample>,
     /// Index of the next one in the sequence.
     next: usize,
     /// The last run that failed.
-    failure: Option<Rung>,
-}
-
-/// A run of a method at a tolerance.
-pub struct Rung {
-    pub method: Method,
-    pub run: RunSample,
-}
-
-impl Rung {
-    pub fn name(&self) -> String {
-        format!("{}, rtol {:e}", self.method.triple(), self.method.rtol)
-    }
-
-    /// Returns the mean step without the effect of the tolerance: h rtol^(-1/p).
-    pub fn pace(&self, span: Span) -> f64 {
-        let order = integrator::find(&self.method.integrator).map_or(5, |entry| entry.order.max(5));
-        (span.end - span.start) / self.run.statistics.steps.max(1) as f64 * self.method.rtol.powf(-1.0 / order as f64)
-    }
+    failure: Option<RunSample>,
 }
 
 /// Makes short runs of all families, then longer ones until two agree to `wanted`.
@@ -94,7 +75,7 @@ impl Line {
     fn new(names: [&str; 3]) -> Self {
         let [formulation, integrator, projection] = names.map(MethodSpec::named);
         let triple = Triple { formulation, integrator, projection };
-        Line { triple, rungs: Vec::new(), next: 0, failure: None }
+        Line { triple, runs: Vec::new(), next: 0, failure: None }
     }
 
     /// Makes the next runs that can be expected to fit into a limit for all of them.
@@ -113,34 +94,33 @@ impl Line {
             let method = self.triple.at((rtol, atol_of(rtol, motion.ratio)), None);
             let run = motion.run(&method, Limit { cpu, wall })?;
             cpu = cpu.saturating_sub(Duration::from_secs_f64(run.seconds));
-            let is_too_slow = run.is_too_slow;
-            let rung = Rung { method, run };
-            if rung.run.failure.is_none() {
-                self.failure = None;
-                self.rungs.push(rung);
-            } else {
-                self.failure = Some(rung);
-            }
-            if is_too_slow {
+            if run.is_too_slow {
+                self.failure = Some(run);
                 break;
             }
             // A method that fails at one tolerance may complete at a tighter one.
             self.next += 1;
+            if run.failure.is_some() {
+                self.failure = Some(run);
+            } else {
+                self.failure = None;
+                self.runs.push(run);
+            }
         }
         Ok(())
     }
 
     /// Returns a lower estimate of the time of the next run, s.
     fn forecast(&self, span: Span) -> f64 {
-        let stopped = self.failure.as_ref().and_then(|rung| rung.run.whole(span));
-        stopped.or_else(|| self.rungs.last().map(|rung| rung.run.seconds)).unwrap_or(0.0)
+        let stopped = self.failure.as_ref().and_then(|run| run.whole(span));
+        stopped.or_else(|| self.runs.last().map(|run| run.seconds)).unwrap_or(0.0)
     }
 }
 
 /// The best run so far, and its error by comparison with another run.
 pub struct Checked<'l> {
-    pub best: &'l Rung,
-    pub by: Option<&'l Rung>,
+    pub best: &'l RunSample,
+    pub by: Option<&'l RunSample>,
     pub error: (f64, String),
     pub values: ErrorMetric,
 }
@@ -149,13 +129,13 @@ pub struct Checked<'l> {
 /// do not agree in wrong digits by chance. Its own looser run is used where no other is as tight as that.
 pub fn check<'l>(lines: &'l [Line], watched: &Watched) -> Option<Checked<'l>> {
     let own = lines.iter().min_by(|a, b| tightest(a).total_cmp(&tightest(b)))?;
-    let (best, rest) = own.rungs.split_last()?;
-    let others = lines.iter().filter_map(|line| line.rungs.last()).filter(|rung| !same(rung, best));
+    let (best, rest) = own.runs.split_last()?;
+    let others = lines.iter().filter_map(|line| line.runs.last()).filter(|run| !same(run, best));
     let looser = rest.last();
-    let is_alone = looser.is_some_and(|looser| others.clone().all(|rung| rung.method.rtol > looser.method.rtol));
+    let is_alone = looser.is_some_and(|looser| others.clone().all(|run| run.method.rtol > looser.method.rtol));
     let candidates = others.chain(looser.filter(|_| is_alone));
-    let values = ErrorMetric::of(watched, &best.run);
-    let checked = candidates.map(|rung| (values.error(&rung.run.rows), rung));
+    let values = ErrorMetric::of(watched, best);
+    let checked = candidates.map(|run| (values.error(&run.rows), run));
     let nearest = checked.min_by(|a, b| a.0.0.total_cmp(&b.0.0));
     let (error, by) = nearest.map_or(((1.0, String::new()), None), |(error, by)| (error, Some(by)));
     Some(Checked { best, by, error, values })
@@ -164,35 +144,35 @@ pub fn check<'l>(lines: &'l [Line], watched: &Watched) -> Option<Checked<'l>> {
 /// The difference of the nearest run of diffsol from the values of `checked`; none where diffsol completed none, or is
 /// the best itself.
 pub fn confirmed(lines: &[Line], checked: &Checked) -> Option<SecondOpinion> {
-    let is_confirming = |rung: &Rung| {
-        let Method { formulation, integrator, .. } = &rung.method;
+    let is_confirming = |run: &RunSample| {
+        let Method { formulation, integrator, .. } = &run.method;
         second_opinion::METHODS.iter().any(|names| names[..2] == [formulation.name.as_str(), integrator.name.as_str()])
     };
     if is_confirming(checked.best) {
         return None;
     }
-    let theirs = lines.iter().filter_map(|line| line.rungs.last()).filter(|rung| is_confirming(rung));
-    let compared = theirs.map(|rung| SecondOpinion::of(rung.name(), checked.values.error(&rung.run.rows)));
+    let theirs = lines.iter().filter_map(|line| line.runs.last()).filter(|run| is_confirming(run));
+    let compared = theirs.map(|run| SecondOpinion::of(run.name(), checked.values.error(&run.rows)));
     compared.min_by(|a, b| a.difference.unwrap_or(f64::INFINITY).total_cmp(&b.difference.unwrap_or(f64::INFINITY)))
 }
 
 /// True if both are runs of one method.
-pub fn same(a: &Rung, b: &Rung) -> bool {
+pub fn same(a: &RunSample, b: &RunSample) -> bool {
     a.method.triple() == b.method.triple()
 }
 
 fn tightest(line: &Line) -> f64 {
-    line.rungs.last().map_or(f64::INFINITY, |rung| rung.method.rtol)
+    line.runs.last().map_or(f64::INFINITY, |run| run.method.rtol)
 }
 
 /// Returns the failure where no method completed, with the time that the quickest needs, extrapolated from the part it
 /// completed.
 pub fn nothing(lines: &[Line], span: Span, budget: Duration) -> Failure {
     let stopped = lines.iter().filter_map(|line| line.failure.as_ref());
-    let forecast = |rung: &Rung| rung.run.whole(span).filter(|seconds| *seconds > 0.0);
-    let forecasts = stopped.clone().filter_map(|rung| Some((&rung.method, forecast(rung)?)));
+    let forecast = |run: &RunSample| run.whole(span).filter(|seconds| *seconds > 0.0);
+    let forecasts = stopped.clone().filter_map(|run| Some((&run.method, forecast(run)?)));
     let quickest = forecasts.min_by(|a, b| a.1.total_cmp(&b.1));
-    let failures = stopped.clone().filter_map(|rung| rung.run.failure.as_ref());
+    let failures = stopped.clone().filter_map(|run| run.failure.as_ref());
     let t = failures.fold(span.start, |t, failure| t.max(failure.t));
     if let Some((method, seconds)) = quickest {
         return Failure {
@@ -209,7 +189,7 @@ pub fn nothing(lines: &[Line], span: Span, budget: Duration) -> Failure {
             ),
         };
     }
-    let mut failed = stopped.filter(|rung| !rung.run.is_too_slow).filter_map(|rung| rung.run.failure.clone());
+    let mut failed = stopped.filter(|run| !run.is_too_slow).filter_map(|run| run.failure.clone());
     failed.next().unwrap_or_else(|| Failure {
         t,
         reason: "no method starts in the time allowed".to_string(),

@@ -1,11 +1,12 @@
 //! The reference of accuracy.
 
-use super::climb::{Checked, Line, Rung, check, climb, confirmed, nothing, same};
+use super::climb::{Checked, Line, check, climb, confirmed, nothing, same};
 use super::given::Given;
 use crate::error::Result;
+use crate::integrator;
 use crate::simulate::Span;
 use crate::study::metric::ErrorMetric;
-use crate::study::run::Motion;
+use crate::study::run::{Motion, RunSample};
 use crate::study::second_opinion::SecondOpinion;
 use crate::tolerances::report as tolerances;
 use serde::{Deserialize, Serialize};
@@ -53,7 +54,7 @@ impl Reference {
         motion: &Motion,
         given: Option<&Given>,
         (digits, budget): (u32, Duration),
-    ) -> Result<(Reference, Vec<Rung>)> {
+    ) -> Result<(Reference, Vec<RunSample>)> {
         let Motion { span, watched, .. } = motion;
         let wanted = tolerances::REFERENCE_MARGIN * 0.1f64.powf(f64::from(digits));
         let lines = climb(motion, wanted, budget)?;
@@ -61,17 +62,17 @@ impl Reference {
         let mut checked = check(&lines, watched).ok_or_else(|| nothing(&lines, *span, budget))?;
         if let Some(given) = given {
             let own = checked.best;
-            let values = ErrorMetric::new(&watched.columns, given.rows_at(watched, *span)?, &own.run.sizes);
-            checked = Checked { by: Some(own), error: values.error(&own.run.rows), values, ..checked };
+            let values = ErrorMetric::new(&watched.columns, given.rows_at(watched, *span)?, &own.sizes);
+            checked = Checked { by: Some(own), error: values.error(&own.rows), values, ..checked };
         }
         let from = given.map_or_else(|| checked.best.name(), |given| given.name.clone());
-        let checked_by = checked.by.map_or("nothing".to_string(), Rung::name);
+        let checked_by = checked.by.map_or("nothing".to_string(), RunSample::name);
         let is_independent = checked.by.is_some_and(|by| given.is_some() || !same(by, checked.best));
         let second_opinion = confirmed(&lines, &checked);
         let (error, worst) = checked.error;
         let values = checked.values;
         let reference = Reference { from, checked_by, is_independent, error, worst, second_opinion, pace, values };
-        Ok((reference, lines.into_iter().flat_map(|line| line.rungs).collect()))
+        Ok((reference, lines.into_iter().flat_map(|line| line.runs).collect()))
     }
 
     /// Returns the digits up to which errors can be measured.
@@ -82,7 +83,13 @@ impl Reference {
 
 /// Takes the loosest runs of the first two families; where one of them has none, that of the other.
 fn pace(lines: &[Line], span: Span) -> Pace {
-    let of = |line: usize| lines.get(line).and_then(|line| line.rungs.first()).map(|rung| rung.pace(span));
-    let any = (0..lines.len()).find_map(of).unwrap_or(1e-3 * (span.end - span.start));
+    let duration = span.end - span.start;
+    // The mean step without the effect of the tolerance: h rtol^(-1/p).
+    let pace = |run: &RunSample| {
+        let order = integrator::find(&run.method.integrator).map_or(5, |entry| entry.order.max(5));
+        duration / run.statistics.steps.max(1) as f64 * run.method.rtol.powf(-1.0 / order as f64)
+    };
+    let of = |line: usize| lines.get(line).and_then(|line| line.runs.first()).map(pace);
+    let any = (0..lines.len()).find_map(of).unwrap_or(1e-3 * duration);
     Pace { explicit: of(0).unwrap_or(any), implicit: of(1).unwrap_or(any) }
 }

@@ -1,7 +1,6 @@
 //! Order of the runs of the grid, and the runs that are skipped.
 
 use super::cell::{Cell, Outcome};
-use super::climb::Rung;
 use super::grid::Triple;
 use super::runner::{Pause, Runner};
 use super::{WorkPrecision, advice};
@@ -110,10 +109,10 @@ impl<'a> Runner<'a> {
     }
 
     /// Adds the runs that the reference was found by, where they belong to the grid.
-    pub(super) fn keep(&self, result: &mut WorkPrecision, runs: Vec<Rung>) {
-        for Rung { method, run } in runs {
-            let own = self.plan.triples.iter().find(|triple| triple.is_of(&method));
-            let decades = sequence().find(|decades| rtol(*decades) == method.rtol);
+    pub(super) fn keep(&self, result: &mut WorkPrecision, runs: Vec<RunSample>) {
+        for run in runs {
+            let own = self.plan.triples.iter().find(|triple| triple.is_of(&run.method));
+            let decades = sequence().find(|decades| rtol(*decades) == run.method.rtol);
             if let Some((triple, decades)) = own.zip(decades) {
                 let seconds = vec![run.seconds];
                 self.put(result, triple, decades, self.outcome(result, run, seconds));
