@@ -39,11 +39,8 @@ const COARSER: [f64; 2] = [2.0, 10.0];
 pub struct Accurate {
     /// The scene, until where the time allowed for.
     pub source: Source,
-    /// It, ready to run.
     pub prepared: PreparedScene,
-    /// What the run tells.
     pub recorded: Recorded,
-    /// The promise about it.
     pub promise: Promise,
     /// True if the time did not allow for the whole.
     is_shorter: bool,
@@ -51,13 +48,11 @@ pub struct Accurate {
 
 /// The full model with its two runs.
 pub struct Base {
-    /// The accurate run.
     pub accurate: Accurate,
     /// Run by the method of the scene, or a tighter one whose own error the promise allows.
     pub richest: Run,
     /// That tighter one, if it took one.
     pub trials: Vec<Trial>,
-    /// Number of runs.
     pub runs: usize,
     /// Their counted work.
     pub work: f64,

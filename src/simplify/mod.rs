@@ -164,15 +164,12 @@ pub fn simplify(
     watch: &mut dyn FnMut(&str, usize),
 ) -> Result<Simplification> {
     let budget = settings.budget.map(Budget::begin);
-    let is_within = |part: u32| budget.is_none_or(|budget| budget.spent() < budget.all / part);
-    let is_asked = is_stopped;
-    let is_spent = || is_stopped() || !is_within(1);
-    let is_stopped: &(dyn Fn() -> bool + Sync) = &is_spent;
-    let is_long = || is_asked() || !is_within(RICHEST);
-    let Base { accurate, richest, trials, runs, work } = Base::new(source, settings, &is_long, is_stopped, watch)?;
+    let is_late = |part: u32| budget.is_some_and(|budget| budget.spent() >= budget.all / part);
+    let [is_over, is_long, is_near_long] = [1, RICHEST, NEARBY].map(|part| move || is_stopped() || is_late(part));
+    let Base { accurate, richest, trials, runs, work } = Base::new(source, settings, &is_long, &is_over, watch)?;
     let mut warnings = doubts(&accurate, &richest);
     watch("the full model by diffsol", runs);
-    let opinion = accurate.confirmed(settings, is_stopped);
+    let opinion = accurate.confirmed(settings, &is_over);
     warnings.extend(opinion.as_ref().and_then(|opinion| contradicted(opinion, settings.within)));
     let Accurate { source: base, prepared, recorded, promise, .. } = accurate;
     let scene = prepared.name.clone();
@@ -181,16 +178,14 @@ pub fn simplify(
     if settings.nearby.is_some() {
         watch("the full model on motions nearby", runs);
     }
-    let is_near_long = || is_asked() || !is_within(NEARBY);
-    let near =
-        |nearby| Neighbourhood::new((&base, &facts), &promise, nearby, richest.work, [&is_near_long, is_stopped]);
+    let near = |nearby| Neighbourhood::new((&base, &facts), &promise, nearby, richest.work, [&is_near_long, &is_over]);
     let neighbourhood = settings.nearby.map(near).transpose()?;
     warnings.extend(neighbourhood.as_ref().and_then(Neighbourhood::doubt));
     let neighbours = neighbourhood.as_ref().filter(|near| !near.is_empty());
     let mut bench = Bench {
         source: &base,
         promise: &promise,
-        is_stopped,
+        is_stopped: &is_over,
         watch,
         runs,
         cost: work / richest.work,
@@ -206,7 +201,7 @@ pub fn simplify(
     let runs = bench.runs;
     let cost = bench.cost;
     // Where nothing was changed it has not been tried.
-    let untried = neighbours.filter(|_| found.robustness.is_none() && !is_stopped());
+    let untried = neighbours.filter(|_| found.robustness.is_none() && !is_over());
     let robustness = untried.map(|near| near.robustness(&found.scene)).or(found.robustness);
     let mut result = Simplification {
         scene,
@@ -225,7 +220,7 @@ pub fn simplify(
     };
     found.scene["simulation"]["t_end"] = source.scene["simulation"]["t_end"].clone();
     result.simplified = described(source.anywhere(&found.scene), &result);
-    if !is_within(1) {
+    if is_late(1) {
         let text = "the time was over before all changes and methods were tried".to_string();
         result.warnings.push(Warning::new(text, "give more time by --budget"));
     }

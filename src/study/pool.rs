@@ -44,3 +44,16 @@ pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 pub fn into_inner<T>(mutex: Mutex<T>) -> T {
     mutex.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_are_in_the_order_of_the_jobs() {
+        for threads in [1, 3] {
+            let squares = run_all(threads, 0..100, |k: u32| k * k);
+            assert!(squares.into_iter().eq((0..100).map(|k| k * k)));
+        }
+    }
+}

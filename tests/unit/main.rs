@@ -108,6 +108,7 @@ mod simulate {
 #[path = "../../src/study"]
 mod study {
     mod json;
+    mod pool;
     mod queue;
     mod stress {
         mod ladder;
