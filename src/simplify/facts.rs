@@ -269,7 +269,7 @@ pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body:
     Some(Value::Object(start))
 }
 
-/// Place of a marker, or of the frame of a body, among all.
+/// Index of a marker, or of the frame of a body, among all markers.
 pub(super) fn marker(prepared: &PreparedScene, name: &str) -> Option<usize> {
     prepared.mechanism.markers().find(name).ok()
 }

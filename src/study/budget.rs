@@ -24,7 +24,7 @@ impl From<Duration> for Limit {
 
 /// The time of a run that is over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Over {
+pub(super) enum Over {
     /// Its CPU time.
     Cpu,
     /// Its wall-clock time.

@@ -20,7 +20,7 @@ mod watched;
 pub mod work_precision;
 
 pub(crate) use budget::Budget;
-pub use budget::{Limit, Over};
+pub use budget::Limit;
 pub use companion::Completed;
 #[doc(hidden)]
 pub use drift::stabilizations;
@@ -29,7 +29,7 @@ pub use error_bar::{ErrorBar, ErrorBars, error_bars};
 #[doc(hidden)]
 pub use metric::ErrorMetric;
 pub use metric::Norm;
-pub use run::{Ended, Motion, RunSample};
+pub use run::{Motion, RunSample};
 pub use second_opinion::SecondOpinion;
 pub(crate) use second_opinion::second_opinion;
 pub use watched::Watched;

@@ -58,7 +58,7 @@ impl<'a> Motion<'a> {
     ///
     /// # Errors
     /// Bad input only, as [`simulate`].
-    pub fn simulate(&self, method: &Method, limit: Option<Limit>, sink: &mut dyn Sink) -> Result<Ended> {
+    pub(crate) fn simulate(&self, method: &Method, limit: Option<Limit>, sink: &mut dyn Sink) -> Result<Ended> {
         let watch = Stopwatch::start();
         let mut limited = Limited { sink, is_stopped: self.is_stopped, limit, watch, over: Cell::new(None) };
         let outcome = simulate(self.system, method, self.span, self.start, &mut limited)?;
@@ -90,11 +90,11 @@ impl<'a> Motion<'a> {
 }
 
 /// How a run ended.
-pub struct Ended {
+pub(crate) struct Ended {
     /// State, work and failure.
     pub outcome: Outcome,
     /// The limit that ended it.
-    pub over: Option<Over>,
+    pub(super) over: Option<Over>,
     /// CPU time, s.
     pub seconds: f64,
 }

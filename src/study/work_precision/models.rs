@@ -148,7 +148,8 @@ pub fn compare(
     let columns = Watched::new(variants[richest].prepared.system(), outputs)?.columns;
     let span = first.prepared.span()?;
     let span = Span { output_step: (span.end - span.start) / ROWS as f64, ..span };
-    let mut runs: Vec<Run> = variants.iter().map(|variant| Run::new(variant, &columns, span)).collect::<Result<_>>()?;
+    let mut runs: Vec<Measurement> =
+        variants.iter().map(|variant| Measurement::new(variant, &columns, span)).collect::<Result<_>>()?;
     for round in 0..=repeats {
         for (place, run) in runs.iter_mut().enumerate() {
             watch(&run.cost.name, round * variants.len() + place);
@@ -167,21 +168,21 @@ fn finer(richest: &Variant, columns: &[Column], span: Span, allowed: Duration, r
     let Some(prepared) = richest.finer() else { return Ok(Finer::default()) };
     let velocities = Some(prepared.system().dimensions().v);
     let variant = Variant { name: String::new(), prepared, source: None };
-    let mut run = Run::new(&variant, columns, span)?;
+    let mut run = Measurement::new(&variant, columns, span)?;
     run.repeat(0, allowed)?;
     let ModelCost { outputs, failure, .. } = run.finish(rich);
     Ok(Finer { velocities, outputs, failure })
 }
 
-/// The runs of one model.
-struct Run<'a> {
+/// The runs of one model so far.
+struct Measurement<'a> {
     motion: Motion<'a>,
     cost: ModelCost,
     /// The run at a tighter tolerance.
     tight: Option<ErrorMetric>,
 }
 
-impl<'a> Run<'a> {
+impl<'a> Measurement<'a> {
     fn new(variant: &'a Variant, columns: &[Column], span: Span) -> Result<Self> {
         let Variant { name, prepared, .. } = variant;
         let system = prepared.system();
@@ -207,12 +208,12 @@ impl<'a> Run<'a> {
             failure: None,
         };
         let motion = Motion::of(prepared, span, Watched::new(system, &shared)?, &|| false);
-        Ok(Run { motion, cost, tight: None })
+        Ok(Measurement { motion, cost, tight: None })
     }
 
     /// Runs once with a tighter tolerance, then for the time.
     fn repeat(&mut self, round: usize, allowed: Duration) -> Result<()> {
-        let Run { motion, cost, tight } = self;
+        let Measurement { motion, cost, tight } = self;
         if cost.failure.is_some() {
             return Ok(());
         }
@@ -241,7 +242,7 @@ impl<'a> Run<'a> {
 
     /// Returns the result, with the differences from the full model.
     fn finish(self, rich: &ErrorMetric) -> ModelCost {
-        let Run { cost, tight, .. } = self;
+        let Measurement { cost, tight, .. } = self;
         let Some(tight) = tight.filter(|_| cost.failure.is_none()) else {
             return ModelCost { statistics: Statistics::default(), numerical_error: None, ..cost };
         };
