@@ -150,10 +150,8 @@ fn rerun(
     let method = methods.first().map_or(prepared.method.clone(), |changed| changed.method.clone());
     let part = methods.iter().map(|changed| changed.part).fold(0.0, f64::max);
     let order = methods.iter().map(|changed| changed.order).min().unwrap_or(1);
-    let rows = Vec::new();
-    let statistics = Statistics::default();
-    let failure = None;
-    let mut companion = Companion { method, part, order, rows, statistics, failure };
+    let mut companion =
+        Companion { method, part, order, rows: Vec::new(), statistics: Statistics::default(), failure: None };
     let Ok(watched) = Watched::new(system, &[]) else { return companion };
     let mut sink = Rows { system, watched, scratch: Scratch::default(), rows: Vec::new(), show, stop };
     let mut saved: Option<Checkpoint> = None;

@@ -53,8 +53,8 @@ pub fn drift_under_stabilizations(
     stop: impl Fn() -> Option<Stop> + Sync,
     done: impl Fn() + Sync,
 ) -> Result<Vec<StabilizedRun>> {
-    let run = |(formulation, projection): (MethodSpec, MethodSpec)| {
-        let run = one(prepared, formulation, projection, &stop);
+    let run = |method: Method| {
+        let run = one(prepared, method, &stop);
         done();
         run
     };
@@ -65,17 +65,42 @@ pub fn drift_under_stabilizations(
     [Ok(plain)].into_iter().chain(others).collect()
 }
 
-/// Returns the pairs of formulation and projection that the integrator of the scene can be combined with, the least
-/// stabilization first, with gains for steps of size `step`, s.
+/// Returns the method of the scene with every formulation and projection that its integrator can be combined with, the
+/// least stabilization first. Gains are those for steps of size `step`, s: alpha = beta = 1/step is the pair (2/h, 1/h^2).
 ///
 /// # Errors
-/// There is only one pair.
-pub fn stabilizations(prepared: &PreparedScene, step: f64) -> Result<Vec<(MethodSpec, MethodSpec)>> {
-    let accepted =
-        |(formulation, projection): &(MethodSpec, MethodSpec)| of(prepared, formulation, projection).check().is_ok();
-    let all: Vec<_> = all(step).into_iter().filter(accepted).collect();
-    if all.len() > 1 {
-        return Ok(all);
+/// There is only one.
+pub fn stabilizations(prepared: &PreparedScene, step: f64) -> Result<Vec<Method>> {
+    let gain = significant(1.0 / step, 3);
+    let baumgarte = format!("baumgarte:alpha={gain},beta={gain}");
+    let invariant_manifold = format!("invariant_manifold:gamma={gain}");
+    let pairs = [
+        ["index1", "none"],
+        ["baumgarte", "none"],
+        [&baumgarte, "none"],
+        [&invariant_manifold, "none"],
+        ["index1", "position"],
+        ["index1", "velocity"],
+        ["index1", "manifold"],
+        ["index1", "manifold:sweeps=2"],
+        ["index1", "full"],
+        ["index1", "exact"],
+        ["index2", "none"],
+        ["index2", "position"],
+        ["index3", "none"],
+        ["index3", "velocity"],
+        ["ggl", "none"],
+        ["stabilized_index1", "none"],
+    ];
+    let mut methods = Vec::new();
+    for [formulation, projection] in pairs {
+        let formulation = MethodSpec::parse(formulation)?;
+        let projection = MethodSpec::parse(projection)?;
+        methods.push(Method { formulation, projection, ..prepared.method.clone() });
+    }
+    methods.retain(|method| method.check().is_ok());
+    if methods.len() > 1 {
+        return Ok(methods);
     }
     let Method { integrator, formulation, .. } = &prepared.method;
     let because = prepared.chosen_because.as_ref().map_or(String::new(), |because| format!("; auto: {because}"));
@@ -84,47 +109,7 @@ pub fn stabilizations(prepared: &PreparedScene, step: f64) -> Result<Vec<(Method
     Err(Error::input(message).under(path).hint("name another, as in --integrator dop853 or --integrator radau_iia"))
 }
 
-fn of(prepared: &PreparedScene, formulation: &MethodSpec, projection: &MethodSpec) -> Method {
-    Method { formulation: formulation.clone(), projection: projection.clone(), ..prepared.method.clone() }
-}
-
-/// Returns every stabilization, the least first, with gains for steps of size `step`: alpha = beta = 1/step is the pair
-/// (2/h, 1/h^2).
-fn all(step: f64) -> Vec<(MethodSpec, MethodSpec)> {
-    let gain = significant(1.0 / step, 3);
-    let gained =
-        |name: &str, keys: &[&str]| keys.iter().fold(MethodSpec::named(name), |spec, key| spec.with(key, &gain));
-    let sweeps = MethodSpec::named("manifold").with("sweeps", "2");
-    let index1 = || MethodSpec::named("index1");
-    let none = || MethodSpec::named("none");
-    let other = |formulation: &str, projection: &str| (MethodSpec::named(formulation), MethodSpec::named(projection));
-    vec![
-        (index1(), none()),
-        (MethodSpec::named("baumgarte"), none()),
-        (gained("baumgarte", &["alpha", "beta"]), none()),
-        (gained("invariant_manifold", &["gamma"]), none()),
-        (index1(), MethodSpec::named("position")),
-        (index1(), MethodSpec::named("velocity")),
-        (index1(), MethodSpec::named("manifold")),
-        (index1(), sweeps),
-        (index1(), MethodSpec::named("full")),
-        (index1(), MethodSpec::named("exact")),
-        other("index2", "none"),
-        other("index2", "position"),
-        other("index3", "none"),
-        other("index3", "velocity"),
-        other("ggl", "none"),
-        other("stabilized_index1", "none"),
-    ]
-}
-
-fn one(
-    prepared: &PreparedScene,
-    formulation: MethodSpec,
-    projection: MethodSpec,
-    stop: impl Fn() -> Option<Stop>,
-) -> Result<StabilizedRun> {
-    let method = of(prepared, &formulation, &projection);
+fn one(prepared: &PreparedScene, method: Method, stop: impl Fn() -> Option<Stop>) -> Result<StabilizedRun> {
     let mut recorder = Recorder::new(prepared.system()).with_stop(stop);
     let watch = Stopwatch::start();
     let Outcome { statistics, failure, .. } =
@@ -134,6 +119,7 @@ fn one(
     // Only the times of the motion are shown, and there are many records.
     let rows = record.trajectory.times().map(|t| vec![t]).collect();
     record.trajectory = Trajectory { names: Names::default(), outputs: Vec::new(), rows };
+    let Method { formulation, projection, .. } = method;
     Ok(StabilizedRun {
         method: match (formulation.name.as_str(), projection.name.as_str()) {
             ("index1", "none") => formulation.to_string(),

@@ -6,7 +6,7 @@ use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
 /// How a simulation ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// The run reached its end time.
@@ -20,6 +20,7 @@ pub enum Status {
     /// The deadline of a cell passed.
     TooSlow,
     /// The time for all cells was over: the result is not known.
+    #[default]
     LeftOut,
 }
 
@@ -43,7 +44,7 @@ impl Status {
 }
 
 /// One simulation and its measures.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Cell {
     /// Index of the compared method.
     pub panel: usize,

@@ -215,8 +215,7 @@ const START: StressParameter =
 /// Baumgarte's stabilization with alpha = beta = `gain`: phi'' + 2 gain phi' + gain^2 phi = 0.
 pub(super) fn baumgarte(gain: f64) -> MethodSpec {
     let gain = gain.to_string();
-    let options = ["alpha", "beta"].map(|key| (key.to_string(), gain.clone()));
-    options.iter().fold(MethodSpec::named("baumgarte"), |spec, (key, value)| spec.with(key, value))
+    MethodSpec::named("baumgarte").with("alpha", &gain).with("beta", &gain)
 }
 
 /// Returns the length of the rod, and the offset.

@@ -19,25 +19,8 @@ pub(super) fn blank(subject: &Subject, map: &Map, [panel, row, column]: [usize; 
         // Changes of the scene do not affect the method.
         let _ = change.apply(&mut case);
     }
-    Cell {
-        panel,
-        column,
-        row,
-        method: case.method,
-        status: Status::LeftOut,
-        reason: Some("not begun: the budget was over".to_string()),
-        t: 0.0,
-        drift: None,
-        energy_error: None,
-        relative_energy_error: None,
-        error: None,
-        worst: None,
-        errors: Vec::new(),
-        holds: None,
-        steps: 0,
-        rhs_evaluations: 0,
-        seconds: 0.0,
-    }
+    let reason = Some("not begun: the budget was over".to_string());
+    Cell { panel, column, row, method: case.method, reason, ..Cell::default() }
 }
 
 /// Runs a cell within a limit, that of all cells if `is_last`; returns it with the rows for its errors, and the part of

@@ -100,10 +100,8 @@ impl Cell {
 
     /// Returns the relative error of a completed run.
     pub fn error(&self) -> Option<f64> {
-        match self.outcome {
-            Outcome::Completed { error, .. } => Some(error),
-            _ => None,
-        }
+        let Outcome::Completed { error, .. } = self.outcome else { return None };
+        Some(error)
     }
 
     /// Returns the correct digits, -log10 of the error, sixteen at most.
@@ -113,10 +111,8 @@ impl Cell {
 
     /// Returns the drift of a completed run.
     pub fn drift(&self) -> Option<Held> {
-        match self.outcome {
-            Outcome::Completed { drift, .. } => Some(drift),
-            _ => None,
-        }
+        let Outcome::Completed { drift, .. } = self.outcome else { return None };
+        Some(drift)
     }
 
     /// Returns the counted work of a run that completed or was stopped.

@@ -40,7 +40,7 @@ pub use runner::{Plan, Runner};
 use serde::{Deserialize, Serialize};
 
 /// Results so far; they can be written, read again and continued.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct WorkPrecision {
     /// Name of the scene.
     pub scene: String,
@@ -65,16 +65,6 @@ pub struct WorkPrecision {
 impl WorkPrecision {
     /// A measurement without results.
     pub fn fresh(scene: &str, (t_start, t_end): (f64, f64), rows: usize) -> WorkPrecision {
-        WorkPrecision {
-            scene: scene.to_string(),
-            fingerprint: String::new(),
-            t_start,
-            t_end,
-            rows,
-            reference: None,
-            cells: Vec::new(),
-            seconds: 0.0,
-            left_out: None,
-        }
+        WorkPrecision { scene: scene.to_string(), t_start, t_end, rows, ..WorkPrecision::default() }
     }
 }

@@ -77,7 +77,7 @@ impl ModelCosts {
 }
 
 /// Cost and accuracy of a model.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct ModelCost {
     /// Name.
     pub name: String,
@@ -201,11 +201,7 @@ impl<'a> Measurement<'a> {
             velocities: v,
             constraints: lambda,
             method: prepared.method.clone(),
-            cpu_seconds: Vec::new(),
-            statistics: Statistics::default(),
-            numerical_error: None,
-            outputs: Vec::new(),
-            failure: None,
+            ..ModelCost::default()
         };
         let motion = Motion::of(prepared, span, Watched::new(system, &shared)?, &|| false);
         Ok(Measurement { motion, cost, tight: None })
