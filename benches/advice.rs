@@ -13,9 +13,7 @@
 
 use cpu_time::ThreadTime;
 use holonom::analysis::Drift;
-use holonom::compare::work_precision::{
-    Cell, Filter, Motion, Outcome, Plan, Runner, Triple, Watched, WorkPrecision, cpu_seconds, grid,
-};
+use holonom::clock::Stopwatch;
 use holonom::error::Result;
 use holonom::formulation::Statistics;
 use holonom::linearize::amplified;
@@ -23,6 +21,8 @@ use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::report::Table;
 use holonom::simulate::{Leg, Method, Observation, Sink, Span, Stop, atol_of, simulate_automatic};
+use holonom::study::work_precision::{Cell, Filter, Outcome, Plan, Runner, Triple, WorkPrecision, grid};
+use holonom::study::{Motion, Watched};
 use holonom::system::{MechanicalSystem, Scratch};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -99,11 +99,11 @@ fn measure(path: &Path) -> Result<Measured> {
     let between = (span.start, span.end);
     let watched = Watched::new(prepared.system(), &[])?;
     let within = |budget: Duration| -> Result<WorkPrecision> {
-        let motion = Motion::of(&prepared, span, &|| false);
+        let motion = Motion::of(&prepared, span, watched.clone(), &|| false);
         let triples = triples.clone();
         let plan = Plan { triples, budget, repeats: 3, rows, digits: DIGITS[1], is_exhaustive: false, given: None };
         let mut result = WorkPrecision::fresh(&prepared.name, between, rows);
-        Runner::new(motion, &plan, watched.clone(), |_, _| ()).run(&mut result)?;
+        Runner::new(motion, &plan, |_, _| ()).run(&mut result)?;
         Ok(result)
     };
     let is_enough = |result: &WorkPrecision| {
@@ -153,7 +153,9 @@ fn automatic(
     let drift = Drift::default();
     let scratch = Scratch::default();
     let mut seen = Seen { system, watched, scales: system.scales(), scratch, rows, drift, begun: ThreadTime::now() };
-    let (run, seconds) = cpu_seconds(|| simulate_automatic(system, tolerances, span, prepared.start(), &mut seen));
+    let watch = Stopwatch::start();
+    let run = simulate_automatic(system, tolerances, span, prepared.start(), &mut seen);
+    let seconds = watch.cpu().as_secs_f64();
     let (outcome, legs, _) = run?;
     let told: Vec<String> =
         legs.iter().map(|leg| format!("{} from {:.2e} s", leg.method.integrator.name, leg.from)).collect();

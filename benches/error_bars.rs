@@ -9,12 +9,12 @@
 
 use cpu_time::ThreadTime;
 use holonom::analysis::Recorder;
-use holonom::compare::{Completed, ErrorBars};
 use holonom::formulation::Statistics;
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::Automatic;
 use holonom::simulate::{Leg, Method, Span, Stop};
+use holonom::study::{Completed, ErrorBars};
 use holonom::trajectory::Trajectory;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

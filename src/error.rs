@@ -273,14 +273,19 @@ pub fn excerpt(text: &str) -> String {
     }
 }
 
-/// A number with at most four significant digits, without trailing zeros: 0.5, 1.25e-7.
-pub fn short(value: f64) -> String {
-    shown(format!("{value:.3e}").parse().unwrap_or(value))
+/// A number rounded to so many digits after the first.
+pub fn rounded(value: f64, digits: usize) -> f64 {
+    format!("{value:.digits$e}").parse().unwrap_or(value)
 }
 
-/// The same with two digits.
+/// A number with at most four significant digits, without trailing zeros: 0.5, 1.25e-7.
+pub fn short(value: f64) -> String {
+    shown(rounded(value, 3))
+}
+
+/// A number with at most two significant digits: 0.5, 1.2e-7.
 pub fn two_digits(value: f64) -> String {
-    shown(format!("{value:.1e}").parse().unwrap_or(value))
+    shown(rounded(value, 1))
 }
 
 /// A number with this number of significant digits, without an exponent if that is short.
@@ -307,7 +312,7 @@ pub fn percent(part: f64) -> String {
 
 /// A time with at most nine significant digits: 0.6 for 0.6000000000000001.
 pub fn clock(t: f64) -> String {
-    shown(format!("{t:.8e}").parse().unwrap_or(t))
+    shown(rounded(t, 8))
 }
 
 fn shown(rounded: f64) -> String {

@@ -50,7 +50,7 @@
 //! | [`analysis`] | what is seen of a state or of one run: rank and redundancy, singular states, drift, energy | |
 //! | [`linearize`] | linear models at a state, by every method; state-transition matrix, loci | a file and a line in [`linearize::registry`] |
 //! | [`validate`] | linear models against perturbed simulations | |
-//! | [`compare`] | many simulations of one scene: drift under stabilizations, speed for accuracy ([`compare::work_precision`]), maps over stress parameters ([`compare::stress`]) | a stress parameter: an entry in [`compare::stress::registry`] |
+//! | [`study`] | many simulations of one scene: drift under stabilizations, speed for accuracy ([`study::work_precision`]), maps over stress parameters ([`study::stress`]) | a stress parameter: an entry in [`study::stress::registry`] |
 //! | [`simplify`] | the least model of a scene that keeps a promise | a file and a line in [`simplify::registry`], or from outside |
 //! | [`tolerances`] | every threshold, with what it decides, its unit, reason and test | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
@@ -130,7 +130,7 @@ pub mod body;
 pub mod cli;
 #[doc(hidden)]
 pub mod clock;
-pub mod compare;
+
 pub mod error;
 #[doc(hidden)]
 pub mod files;
@@ -156,6 +156,7 @@ pub mod report;
 pub mod scene;
 pub mod simplify;
 pub mod simulate;
+pub mod study;
 pub mod sweep;
 pub mod system;
 #[doc(hidden)]

@@ -19,7 +19,7 @@ const LAYERS: &[&[&str]] = &[
     &["simulate", "trajectory", "prepared", "sweep"],
     &["analysis"],
     &["linearize", "validate"],
-    &["compare"],
+    &["study"],
     &["simplify"],
     &["plot"],
     &["report", "guide"],

@@ -3,12 +3,12 @@
 use crate::common::equations::robot_arm::{RobotArm, START};
 use crate::common::{fixed, readings, until};
 use holonom::clock::{self, Stopwatch, TICK};
-use holonom::compare::stress::{
+use holonom::method_spec::MethodSpec;
+use holonom::prepared::Overrides;
+use holonom::study::stress::{
     Axis, AxisPlace, Cell, Change, Level, Limits, Map, Quantity, Status, StepVerdict, StressParameter, Stressed,
     Subject, find, maps, pair, stress,
 };
-use holonom::method_spec::MethodSpec;
-use holonom::prepared::Overrides;
 use std::path::Path;
 use std::sync::Mutex;
 use std::time::Duration;

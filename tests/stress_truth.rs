@@ -2,12 +2,10 @@
 
 use crate::common::readings;
 use holonom::clock;
-use holonom::compare::stress::{
-    Axis, Cell, Limits, Map, Quantity, Status, Stressed, Subject, find, maps, pair, stress,
-};
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::Overrides;
 use holonom::report::stress::{sentences, stress_figure};
+use holonom::study::stress::{Axis, Cell, Limits, Map, Quantity, Status, Stressed, Subject, find, maps, pair, stress};
 use holonom::tolerances::report::WRONG_MOTION;
 use std::path::Path;
 use std::time::Duration;

@@ -2,12 +2,12 @@
 
 use super::common::{Common, MethodOptions, Output};
 use super::interrupt;
-use crate::compare::{StabilizedRun, drift_under_stabilizations, stabilizations};
 use crate::error::{Error, Failure, INTERRUPTED, Result};
 use crate::integrator;
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
 use crate::report::{drift_text, stabilizations_figure, stabilizations_table};
+use crate::study::{StabilizedRun, drift_under_stabilizations, stabilizations};
 use std::process::ExitCode;
 
 #[derive(clap::Args)]

@@ -3,12 +3,12 @@
 use super::common::{Common, Output, command_line, tell};
 use super::{interrupt, restart};
 use crate::analysis::{Record, Recorder};
-use crate::compare::{Completed, error_bars};
 use crate::error::{Error, Result, Warning};
 use crate::files::{mat, npz};
 use crate::prepared::PreparedScene;
 use crate::report::{self, Ending, Folder, RowFiles, Sealed, Shown, Summary, summarize};
 use crate::simulate::{Span, Start, spread};
+use crate::study::{Completed, error_bars};
 use crate::system::{Dimensions, Scratch};
 use crate::trajectory::{Trajectory, recorded};
 use std::cell::RefCell;

@@ -2,11 +2,11 @@
 
 use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, duration, pick, print};
 use crate::clock::Stopwatch;
-use crate::compare::stress::{Axis, Limits, Map, Quantity, Stressed, Subject, known, maps, pair, registry, stress};
 use crate::error::{Error, Result};
 use crate::math::expression::{Number, Parameters};
 use crate::report::stress::{MapFile, StressFile, gain_table, sentences, stress_figure, stress_page, stress_table};
 use crate::report::{Folder, Table};
+use crate::study::stress::{Axis, Limits, Map, Quantity, Stressed, Subject, known, maps, pair, registry, stress};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;

@@ -11,6 +11,7 @@ pub mod kkt;
 mod lagrange;
 pub(crate) mod memory;
 pub(crate) mod newton;
+pub(crate) mod random;
 mod regime;
 #[doc(hidden)]
 pub mod rotation;

@@ -2,7 +2,7 @@
 
 use super::AnyMechanism;
 use crate::body::{norm, sub};
-use crate::error::{Error, Result, short};
+use crate::error::{Error, Result, short, two_digits};
 use crate::math::array::Each;
 use crate::math::largest;
 use crate::scene::Connection;
@@ -24,7 +24,7 @@ pub fn refuse_rounding(mechanism: &AnyMechanism, q: &[f64], method: &Method) -> 
     if method.step.is_some() || lever == 0.0 || !is_far {
         return Ok(());
     }
-    let [far, lever, part] = [far, lever, rounding].map(|x| short(format!("{x:.1e}").parse().unwrap_or(x)));
+    let [far, lever, part] = [far, lever, rounding].map(two_digits);
     let reason = format!(
         "coordinates of {far} are rounded by {part} of the longest lever of the joints, {lever} m: no step keeps rtol {}",
         short(method.rtol)

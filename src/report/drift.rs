@@ -3,11 +3,11 @@
 use super::figures::{Ending, Floor, Shown, envelope};
 use super::{Table, cell, table};
 use crate::analysis::Drift;
-use crate::compare::StabilizedRun;
 use crate::error::{Result, clock};
 use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::prepared::PreparedScene;
 use crate::simulate::Method;
+use crate::study::StabilizedRun;
 
 /// Returns one row for each stabilization, and the failures.
 pub fn drift_text(prepared: &PreparedScene, rows: &[StabilizedRun]) -> String {

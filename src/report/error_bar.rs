@@ -1,10 +1,10 @@
 //! Text on the error of a run.
 
 use super::Table;
-use crate::compare::ErrorBars;
 use crate::error::significant;
 use crate::error::{Warning, clock, percent, short};
 use crate::simulate::Method;
+use crate::study::ErrorBars;
 
 const UNCHECKED: &str = "errors are estimated of single steps only: --check-error measures what they add up to";
 const UNCHECKED_STEP: &str = "nothing estimates the errors of fixed steps: --check-error measures them";

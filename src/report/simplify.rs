@@ -2,11 +2,11 @@
 
 use super::tradeoff::milliseconds;
 use super::{Table, cell, table, velocities};
-use crate::compare::work_precision::front;
 use crate::error::{Result, percent, short_list};
 use crate::math::bounds;
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style, Tint};
 use crate::simplify::{Norm, Robustness, Run, Simplification, Trial, Which};
+use crate::study::work_precision::front;
 
 /// Returns the result as text.
 pub fn simplify_text(result: &Simplification) -> String {

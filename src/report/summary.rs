@@ -4,12 +4,12 @@ use super::table::{OutputValues, named};
 use super::warnings::{at_round_off, warnings};
 use super::{Origin, Table, error_bar};
 use crate::analysis::{Drift, EnergyBalance, Extremes, Passing, Record, Singularity};
-use crate::compare::ErrorBars;
 use crate::error::{Failure, Warning, clock, short_list, significant};
 use crate::formulation::Statistics;
 use crate::initial::{Assembly, Level, Move};
 use crate::prepared::PreparedScene;
 use crate::simulate::{Checkpoint, Leg, Method, Outcome, Stiffness};
+use crate::study::ErrorBars;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 

@@ -1,8 +1,8 @@
 //! Comma-separated tables for Python, MATLAB and spreadsheets.
 
-use crate::compare::ErrorBars;
 use crate::error::{Error, Result};
 use crate::files::Array;
+use crate::study::ErrorBars;
 use crate::sweep::Sweep;
 use crate::system::Names;
 use crate::trajectory::Trajectory;

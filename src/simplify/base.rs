@@ -9,11 +9,12 @@ use super::search::{NUMERICAL, Trial};
 use super::source::{Source, write_method};
 use super::{LEAST, Settings};
 use crate::analysis::Passing;
-use crate::compare::work_precision::{Motion, SecondOpinion, Watched, second_opinion, tighter};
-use crate::error::{Error, Failure, Result, Warning, clock, percent, short_list, significant};
+use crate::error::{Error, Failure, Result, Warning, clock, percent, rounded, short_list, significant};
 use crate::integrator;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, atol_of};
+use crate::study::work_precision::tighter;
+use crate::study::{Motion, SecondOpinion, Watched, second_opinion};
 use crate::tolerances::report as tolerances;
 use crate::trajectory::recorded;
 use serde_json::json;
@@ -38,11 +39,8 @@ const COARSER: [f64; 2] = [2.0, 10.0];
 pub struct Accurate {
     /// The scene, until where the time allowed for.
     pub source: Source,
-    /// It, ready to run.
     pub prepared: PreparedScene,
-    /// What the run tells.
     pub recorded: Recorded,
-    /// The promise about it.
     pub promise: Promise,
     /// True if the time did not allow for the whole.
     is_shorter: bool,
@@ -50,13 +48,11 @@ pub struct Accurate {
 
 /// The full model with its two runs.
 pub struct Base {
-    /// The accurate run.
     pub accurate: Accurate,
     /// Run by the method of the scene, or a tighter one whose own error the promise allows.
     pub richest: Run,
     /// That tighter one, if it took one.
     pub trials: Vec<Trial>,
-    /// Number of runs.
     pub runs: usize,
     /// Their counted work.
     pub work: f64,
@@ -64,7 +60,7 @@ pub struct Base {
 
 impl Accurate {
     /// Runs the model at a hundredth of its tolerance until `is_long`.
-    fn new(source: &Source, settings: &Settings, is_long: &dyn Fn() -> bool) -> Result<Accurate> {
+    fn new(source: &Source, settings: &Settings, is_long: &(dyn Fn() -> bool + Sync)) -> Result<Accurate> {
         let mut prepared = source.prepare(&source.scene)?;
         let source = &carried(source, &prepared);
         let watched = watched(&prepared, settings)?;
@@ -97,10 +93,10 @@ impl Accurate {
     /// Compares the accurate run with one of diffsol, for which a part of the budget is allowed.
     pub fn confirmed(&self, settings: &Settings, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<SecondOpinion> {
         let span = self.prepared.span().ok()?;
-        let motion = Motion { counts_start: true, ..Motion::of(&self.prepared, span, is_stopped) };
         let watched = Watched::new(self.prepared.system(), &settings.outputs).ok()?;
+        let motion = Motion { counts_start: true, ..Motion::of(&self.prepared, span, watched, is_stopped) };
         let allowed = settings.budget.map_or(ALLOWED, |budget| budget / CONFIRMED);
-        Some(second_opinion(&motion, &watched, span, (&self.recorded.rows, &self.prepared.method), allowed.into()))
+        Some(second_opinion(&motion, &self.recorded.rows, &self.prepared.method, allowed.into()))
     }
 
     /// Runs the model by its own method.
@@ -150,7 +146,7 @@ impl Base {
         Some(match method.step {
             Some(step) => {
                 let order = integrator::find(&method.integrator).map_or(1, |entry| entry.order);
-                Method { step: Some(rounded(step * part.powf(1.0 / order as f64))), ..method.clone() }
+                Method { step: Some(rounded(step * part.powf(1.0 / order as f64), 0)), ..method.clone() }
             }
             None => at(method, (part * method.rtol).max(tolerances::TIGHTEST)),
         })
@@ -247,12 +243,8 @@ pub fn accuracy(method: &Method) -> String {
 
 /// A method at another relative tolerance, of one digit.
 pub fn at(method: &Method, rtol: f64) -> Method {
-    let rtol = rounded(rtol);
+    let rtol = rounded(rtol, 0);
     Method { rtol, atol: atol_of(rtol, method.atol / method.rtol), ..method.clone() }
-}
-
-fn rounded(x: f64) -> f64 {
-    format!("{x:.0e}").parse().unwrap_or(x)
 }
 
 /// The scene until the last row that the time allowed for.

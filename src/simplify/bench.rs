@@ -5,9 +5,9 @@ use super::nearby::{Neighbourhood, Robustness};
 use super::promise::Promise;
 use super::run::{Difference, Run, measured};
 use super::source::Source;
-use crate::compare::work_precision::median;
 use crate::error::{Error, percent};
 use crate::prepared::AnyMechanism;
+use crate::study::price::{Class, Prices};
 use serde_json::Value;
 use std::time::Duration;
 
@@ -31,8 +31,8 @@ pub struct Bench<'a> {
     pub at_most: usize,
     /// Motions on which a model has to keep the promise, too.
     pub neighbourhood: Option<&'a Neighbourhood<'a>>,
-    /// What was run, with the CPU time of a unit of its work, s.
-    pub prices: Vec<(Kind, f64)>,
+    /// CPU times of a unit of the work that was run.
+    pub prices: Prices<Kind>,
 }
 
 /// Part of the allowed work that may be counted. The rest is for what is not: estimates, and scenes that are built in
@@ -42,7 +42,7 @@ const COUNTED: f64 = 0.9;
 const TICKS: Duration = Duration::from_millis(if cfg!(windows) { 50 } else { 0 });
 
 /// Runs with the same kind of work on models of the same size, whose time per unit is the same.
-type Kind = ((String, String), [usize; 2]);
+type Kind = (Class, [usize; 2]);
 
 fn kind(run: &Run) -> Kind {
     (run.class.clone(), [run.velocities, run.constraints])
@@ -76,17 +76,13 @@ impl Bench<'_> {
 
     /// Enters the price of a run.
     pub fn enter(&mut self, run: &Run) {
-        if run.work > 0.0 {
-            self.prices.push((kind(run), run.seconds / run.work));
-        }
+        self.prices.enter(kind(run), run.seconds, run.work);
     }
 
     /// CPU time of a run, s: its counted work at the median price of its kind, so that the clock of a busy machine does
     /// not decide between two.
     pub fn cost(&self, run: &Run) -> f64 {
-        let own = kind(run);
-        let prices: Vec<f64> = self.prices.iter().filter(|(kind, _)| *kind == own).map(|(_, price)| *price).collect();
-        median(&prices).map_or(run.seconds, |price| price * run.work)
+        self.prices.cost(&kind(run), run.work).unwrap_or(run.seconds)
     }
 
     /// Tries a model that keeps the promise on motions nearby.

@@ -1,5 +1,6 @@
 //! A kind of simplification.
 
+use super::edit::remove_named;
 use super::facts::Facts;
 use crate::error::percent;
 use serde_json::Value;
@@ -79,6 +80,12 @@ pub struct Proposal {
     pub effect: f64,
     /// The change.
     pub edit: Edit,
+}
+
+/// The change that removes an element of a list, with what refers to it.
+pub(super) fn removal(list: &'static str, name: &str) -> Edit {
+    let name = name.to_string();
+    Box::new(move |scene| remove_named(scene, list, &name))
 }
 
 impl Proposal {

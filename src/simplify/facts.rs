@@ -3,13 +3,13 @@
 use super::recorded::Recorded;
 use super::source::Source;
 use crate::body::{Energy, Frame, dot, in_space};
-use crate::compare::work_precision::Watched;
 use crate::formulation::Dynamics;
 use crate::linearize::State;
 use crate::math::Taylor;
 use crate::math::array::{Each, from_fn};
 use crate::prepared::{AnyMechanism, PreparedScene};
 use crate::scene::document::{self, carrier, find, is_rigid, text};
+use crate::study::Watched;
 use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
 use serde_json::{Map, Value, json};
 
@@ -268,7 +268,7 @@ pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body:
     Some(Value::Object(start))
 }
 
-/// Place of a marker, or of the frame of a body, among all.
+/// Index of a marker, or of the frame of a body, among all markers.
 pub(super) fn marker(prepared: &PreparedScene, name: &str) -> Option<usize> {
     prepared.mechanism.markers().find(name).ok()
 }

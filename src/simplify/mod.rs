@@ -41,11 +41,12 @@ mod search;
 mod source;
 mod start;
 
+pub use crate::study::Norm;
 pub use candidate::{Candidate, Edit, Proposal};
 pub use candidates::registry;
 pub use facts::{Facts, Placed};
 pub use nearby::{Nearby, NearbyMotion, Robustness, Which};
-pub use promise::{Norm, Promise};
+pub use promise::Promise;
 pub use relative::Relative;
 pub use rods::Rod;
 pub use run::{Difference, Run};
@@ -53,10 +54,10 @@ pub use search::Trial;
 pub use source::Source;
 pub use start::{Hint, Hints, Unseen, hints};
 
-use crate::clock::Stopwatch;
-use crate::compare::work_precision::SecondOpinion;
 use crate::error::{Result, Warning, percent};
 use crate::scene::document as edit;
+use crate::study::price::Prices;
+use crate::study::{Budget, SecondOpinion};
 use base::{Accurate, Base, METHOD, contradicted, doubts};
 use bench::Bench;
 use nearby::Neighbourhood;
@@ -162,16 +163,13 @@ pub fn simplify(
     is_stopped: &(dyn Fn() -> bool + Sync),
     watch: &mut dyn FnMut(&str, usize),
 ) -> Result<Simplification> {
-    let begun = Stopwatch::start();
-    let is_within = |part: u32| settings.budget.is_none_or(|budget| begun.wall() < budget / part);
-    let is_asked = is_stopped;
-    let is_spent = || is_stopped() || !is_within(1);
-    let is_stopped: &(dyn Fn() -> bool + Sync) = &is_spent;
-    let is_long = || is_asked() || !is_within(RICHEST);
-    let Base { accurate, richest, trials, runs, work } = Base::new(source, settings, &is_long, is_stopped, watch)?;
+    let budget = settings.budget.map(Budget::begin);
+    let is_late = |part: u32| budget.is_some_and(|budget| budget.spent() >= budget.all / part);
+    let [is_over, is_long, is_near_long] = [1, RICHEST, NEARBY].map(|part| move || is_stopped() || is_late(part));
+    let Base { accurate, richest, trials, runs, work } = Base::new(source, settings, &is_long, &is_over, watch)?;
     let mut warnings = doubts(&accurate, &richest);
     watch("the full model by diffsol", runs);
-    let opinion = accurate.confirmed(settings, is_stopped);
+    let opinion = accurate.confirmed(settings, &is_over);
     warnings.extend(opinion.as_ref().and_then(|opinion| contradicted(opinion, settings.within)));
     let Accurate { source: base, prepared, recorded, promise, .. } = accurate;
     let scene = prepared.name.clone();
@@ -180,23 +178,21 @@ pub fn simplify(
     if settings.nearby.is_some() {
         watch("the full model on motions nearby", runs);
     }
-    let is_near_long = || is_asked() || !is_within(NEARBY);
-    let near =
-        |nearby| Neighbourhood::new((&base, &facts), &promise, nearby, richest.work, [&is_near_long, is_stopped]);
+    let near = |nearby| Neighbourhood::new((&base, &facts), &promise, nearby, richest.work, [&is_near_long, &is_over]);
     let neighbourhood = settings.nearby.map(near).transpose()?;
     warnings.extend(neighbourhood.as_ref().and_then(Neighbourhood::doubt));
     let neighbours = neighbourhood.as_ref().filter(|near| !near.is_empty());
     let mut bench = Bench {
         source: &base,
         promise: &promise,
-        is_stopped,
+        is_stopped: &is_over,
         watch,
         runs,
         cost: work / richest.work,
         richest: &richest,
         at_most: settings.at_most,
         neighbourhood: neighbours,
-        prices: Vec::new(),
+        prices: Prices::new(),
     };
     bench.enter(&richest);
     let reserved = RESERVED.min((settings.at_most - LEAST) / 2);
@@ -205,7 +201,7 @@ pub fn simplify(
     let runs = bench.runs;
     let cost = bench.cost;
     // Where nothing was changed it has not been tried.
-    let untried = neighbours.filter(|_| found.robustness.is_none() && !is_stopped());
+    let untried = neighbours.filter(|_| found.robustness.is_none() && !is_over());
     let robustness = untried.map(|near| near.robustness(&found.scene)).or(found.robustness);
     let mut result = Simplification {
         scene,
@@ -224,7 +220,7 @@ pub fn simplify(
     };
     found.scene["simulation"]["t_end"] = source.scene["simulation"]["t_end"].clone();
     result.simplified = described(source.anywhere(&found.scene), &result);
-    if !is_within(1) {
+    if is_late(1) {
         let text = "the time was over before all changes and methods were tried".to_string();
         result.warnings.push(Warning::new(text, "give more time by --budget"));
     }

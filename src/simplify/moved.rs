@@ -7,6 +7,7 @@ use super::source::Source;
 use crate::body::dot;
 use crate::linearize::State;
 use crate::math::array::{Each, from_fn};
+use crate::math::random::Random;
 use crate::prepared::PreparedScene;
 use crate::scene::document::{
     elements, elements_mut, find_mut, is_rigid, mentions, multiply, multiply_velocities, number, pair, take, text,
@@ -111,7 +112,7 @@ impl<'a> Movable<'a> {
     /// Reason why that cannot start so.
     pub fn draw(&self, sample: u64, by: f64) -> Result<(Move, Value), String> {
         let mut random = Random(1 + sample);
-        let mut next = || by * random.next();
+        let mut next = || by * random.uniform();
         let parameters = self.parameters.iter().map(|_| next()).collect();
         let [velocities, start, inputs] = [next(), next(), next()];
         let change = Move { parameters, velocities, inputs, ..Move::default() };
@@ -275,18 +276,4 @@ fn points(facts: &Facts, signal: &Value) -> Option<(String, Value)> {
 fn move_parameter(scene: &mut Value, name: &str, u: f64) {
     let value = scene["parameters"][name].as_f64().unwrap_or(0.0);
     scene["parameters"][name] = json!(value * (1.0 + u));
-}
-
-/// Numbers evenly distributed between -1 and 1 (splitmix64, Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
 }

@@ -5,9 +5,9 @@ use super::moved::{Movable, Move};
 use super::promise::Promise;
 use super::run::{Difference, Run, measured, sampled};
 use super::source::Source;
-use crate::compare::work_precision::RunSample;
 use crate::error::{Error, Result, Warning};
-use rayon::prelude::*;
+use crate::study::RunSample;
+use crate::study::pool::{cores, run_all};
 use serde::Serialize;
 use serde_json::Value;
 use std::time::Duration;
@@ -98,7 +98,8 @@ impl Robustness {
     }
 }
 
-type Motion = std::result::Result<(Move, Promise), String>;
+/// What is moved, with the promise about that motion, or the reason why the full model does not complete it.
+type Moved = std::result::Result<(Move, Promise), String>;
 
 /// The full model on motions nearby.
 pub struct Neighbourhood<'a> {
@@ -106,8 +107,7 @@ pub struct Neighbourhood<'a> {
     within: f64,
     by: f64,
     movable: Movable<'a>,
-    /// What is moved, with the promise about that motion, or the reason why the full model does not complete it.
-    motions: Vec<Motion>,
+    motions: Vec<Moved>,
     /// Number of motions that there were to be.
     wanted: usize,
     is_stopped: &'a (dyn Fn() -> bool + Sync),
@@ -142,7 +142,7 @@ impl<'a> Neighbourhood<'a> {
             (there.is_ok() || !is_long()).then_some(there)
         };
         let samples = samples.unwrap_or(((AFFORDED / work) as usize).clamp(SAMPLES[0], SAMPLES[1]));
-        let motions: Vec<_> = (0..samples).into_par_iter().filter_map(motion).collect();
+        let motions: Vec<Moved> = run_all(cores(), 0..samples, motion).into_iter().flatten().collect();
         match motions.iter().all(Result::is_err).then(|| motions.first()).flatten() {
             Some(Err(reason)) => {
                 Err(Error::input(format!("the full model completes none of the motions nearby: {reason}"))
@@ -186,7 +186,7 @@ impl<'a> Neighbourhood<'a> {
             kept: 0,
         };
         for motions in self.motions.chunks(TOGETHER) {
-            found.motions.par_extend(motions.par_iter().map(|motion| self.motion(scene, motion)));
+            found.motions.extend(run_all(cores(), motions.iter(), |motion| self.motion(scene, motion)));
             found.counted = found.motions.len() - found.incomplete(Which::Richest);
             found.kept = found.errors().filter(|worst| worst.error <= self.within).count();
             if (found.counted - found.kept) as f64 > MAY_BREAK * counted as f64 {
@@ -198,7 +198,7 @@ impl<'a> Neighbourhood<'a> {
 }
 
 impl Neighbourhood<'_> {
-    fn motion(&self, scene: &Value, motion: &Motion) -> NearbyMotion {
+    fn motion(&self, scene: &Value, motion: &Moved) -> NearbyMotion {
         let failed = |which, reason: String| NearbyMotion { worst: None, failure: Some((which, reason)) };
         let (change, promise) = match motion {
             Ok(motion) => motion,

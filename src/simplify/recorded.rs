@@ -3,18 +3,15 @@
 use super::grid::rows_on_grid;
 use super::run::counted;
 use crate::analysis::{Singularity, Sizes, Watch};
-use crate::compare::work_precision::Watched;
-use crate::error::{Failure, Result};
+use crate::error::{Failure, INTERRUPTED, Result};
 use crate::linearize::State;
 use crate::prepared::PreparedScene;
-use crate::simulate::{Method, Observation, Sink, Span, Stop, simulate};
+use crate::simulate::{Method, Observation, Sink, Span};
+use crate::study::{Motion, Watched};
 use crate::system::{MechanicalSystem, Scratch};
 
-/// Reason of a run that was stopped.
-const INTERRUPTED: &str = "interrupted";
-
 /// Watched rows, states and sizes of a run.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub struct Recorded {
     /// Values of the watched outputs at each time.
     pub rows: Vec<Vec<f64>>,
@@ -57,20 +54,19 @@ pub fn record(
     prepared: &PreparedScene,
     watched: &Watched,
     method: &Method,
-    is_stopped: &dyn Fn() -> bool,
+    is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<Recorded> {
     let system = prepared.system();
-    let rows = Vec::new();
-    let states = Vec::new();
-    let redundant = Vec::new();
-    let sizes = Sizes::default();
-    let singularity = Singularity::default();
-    let recorded = Recorded { rows, sizes, stopped: None, work: 0.0, states, redundant, singularity };
-    let scales = system.scales();
-    let span = prepared.span()?;
-    let watch = Watch::new(system);
-    let mut memory = Memory { system, watched, scratch: Scratch::default(), scales, recorded, watch, is_stopped };
-    let outcome = simulate(system, method, span, prepared.start(), &mut memory)?;
+    let mut memory = Memory {
+        system,
+        watched,
+        scratch: Scratch::default(),
+        scales: system.scales(),
+        recorded: Recorded::default(),
+        watch: Watch::new(system),
+    };
+    let motion = Motion::of(prepared, prepared.span()?, watched.clone(), is_stopped);
+    let outcome = motion.simulate(method, None, &mut memory)?.outcome;
     let work = counted(prepared, method, outcome.statistics);
     let singularity = memory.watch.finish();
     let left = singularity.failure();
@@ -91,7 +87,6 @@ struct Memory<'a> {
     scales: Vec<f64>,
     recorded: Recorded,
     watch: Watch<'a>,
-    is_stopped: &'a dyn Fn() -> bool,
 }
 
 impl Sink for Memory<'_> {
@@ -107,9 +102,5 @@ impl Sink for Memory<'_> {
             *redundant = state.dropped.to_vec();
         }
         rows.push(self.watched.read_row(self.system, state, &mut self.scratch));
-    }
-
-    fn stops(&self) -> Option<Stop> {
-        (self.is_stopped)().then(|| Stop { reason: INTERRUPTED.to_string(), hint: "give it more time".to_string() })
     }
 }

@@ -24,7 +24,7 @@ pub struct Rod {
 }
 
 /// Outputs from which the force along a link follows: their sum with weights that depend on the state.
-struct Source {
+struct AxialForce {
     name: String,
     outputs: Vec<Value>,
     /// A row for each state.
@@ -40,20 +40,20 @@ pub fn rods(facts: &Facts) -> Vec<Rod> {
     }
     let distances = elements(facts.scene(), "joints").iter().filter(|joint| text(joint, "type") == "distance");
     let links = elements(facts.scene(), "bodies").iter().filter_map(|body| link(facts, body));
-    let sources: Vec<Source> = distances.map(|joint| distance(facts, text(joint, "name"))).chain(links).collect();
+    let sources: Vec<AxialForce> = distances.map(|joint| distance(facts, text(joint, "name"))).chain(links).collect();
     let mut all = forces(facts, &sources).unwrap_or_default();
     let largest = all.iter().map(|rod| rod.most.max(-rod.least)).fold(0.0, f64::max);
     all.retain(|rod| rod.at_start.abs() > SAME * largest);
     all
 }
 
-fn distance(facts: &Facts, name: &str) -> Source {
+fn distance(facts: &Facts, name: &str) -> AxialForce {
     let output = json!({ "measure": "reaction", "of": name, "component": "axial" });
-    Source { name: name.to_string(), outputs: vec![output], weights: vec![vec![1.0]; facts.states().len()] }
+    AxialForce { name: name.to_string(), outputs: vec![output], weights: vec![vec![1.0]; facts.states().len()] }
 }
 
 /// Half the difference of the forces on the link at its ends, along it: tension pulls it outwards at both.
-fn link(facts: &Facts, body: &Value) -> Option<Source> {
+fn link(facts: &Facts, body: &Value) -> Option<AxialForce> {
     let (name, Link { pins, .. }) = (text(body, "name"), Link::new(facts, body)?);
     let components = &["x", "y", "z"][..facts.dimension()];
     let output =
@@ -67,10 +67,10 @@ fn link(facts: &Facts, body: &Value) -> Option<Source> {
         signs.flat_map(|sign| gap[..components.len()].iter().map(move |x| sign * x / size)).collect()
     };
     let weights = facts.path(&pins[0].own)?.into_iter().zip(facts.path(&pins[1].own)?).map(along).collect();
-    Some(Source { name: name.to_string(), outputs: outputs.collect(), weights })
+    Some(AxialForce { name: name.to_string(), outputs: outputs.collect(), weights })
 }
 
-fn forces(facts: &Facts, sources: &[Source]) -> Option<Vec<Rod>> {
+fn forces(facts: &Facts, sources: &[AxialForce]) -> Option<Vec<Rod>> {
     let mut outputs: Vec<Value> = sources.iter().flat_map(|source| source.outputs.clone()).collect();
     let mut scene = facts.scene().clone();
     let mut prefix = "rod".to_string();
@@ -82,7 +82,7 @@ fn forces(facts: &Facts, sources: &[Source]) -> Option<Vec<Rod>> {
     scene["outputs"] = json!([elements(&scene, "outputs"), &outputs].concat());
     let rows = facts.read(&mechanism(&facts.source, &names, &scene).ok()?, &names, facts.states().iter())?;
     let mut first = 0;
-    let rod = |source: &Source| {
+    let rod = |source: &AxialForce| {
         let own = first..first + source.outputs.len();
         first = own.end;
         let sum = |(row, weights): (&Vec<f64>, &Vec<f64>)| -> f64 {

@@ -1,11 +1,12 @@
 //! A run of a model, measured against the richest.
 
 use super::promise::Promise;
-use crate::compare::work_precision::{Allowed, Motion, RunSample, Watched, Worker, sample};
 use crate::error::{Failure, Result, percent};
 use crate::formulation::{Statistics, Work};
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, explicit};
+use crate::study::price::{Class, Worker};
+use crate::study::{Motion, RunSample, Watched};
 use crate::system::Dimensions;
 use serde::Serialize;
 use std::time::Duration;
@@ -23,9 +24,9 @@ pub struct Run {
     pub seconds: f64,
     /// Counted work: see `counted`.
     pub work: f64,
-    /// Kind of the work: formulation, and integrator if that is implicit.
+    /// Kind of the work.
     #[serde(skip)]
-    pub class: (String, String),
+    pub class: Class,
     /// Difference of each watched output from the full model; empty where the run failed.
     pub outputs: Vec<Difference>,
     /// Reason why it did not complete.
@@ -70,10 +71,6 @@ impl Run {
     }
 }
 
-/// Wall-clock time that a run may take on a busy machine: so many times its CPU time, and this more.
-const BUSY: u32 = 20;
-const WAIT: Duration = Duration::from_secs(60);
-
 /// Runs a prepared model by its own method.
 ///
 /// # Errors
@@ -85,9 +82,8 @@ pub fn sampled(
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<RunSample> {
     let watched = Watched::new(prepared.system(), names)?;
-    let span = prepared.span()?;
-    let motion = Motion { counts_start: true, ..Motion::of(prepared, span, is_stopped) };
-    sample(&motion, &watched, &prepared.method, span, Allowed { cpu: allowed, wall: BUSY * allowed + WAIT })
+    let motion = Motion { counts_start: true, ..Motion::of(prepared, prepared.span()?, watched, is_stopped) };
+    motion.run(&prepared.method, allowed)
 }
 
 /// The work of the steps of a run in solutions of the equations of motion, times velocities and constraints. Rows are
@@ -118,14 +114,13 @@ pub fn measured(
     let Dimensions { v, lambda, .. } = prepared.system().dimensions();
     let errors = failure.is_none().then(|| promise.errors(&rows)).flatten().unwrap_or_default();
     let differences = names.into_iter().zip(errors).map(|(name, error)| Difference { name, error });
-    let (formulation, integrator) = worker(prepared, &prepared.method).class();
     Ok(Run {
         velocities: v,
         constraints: lambda,
         method: prepared.method.clone(),
         seconds,
         work: counted(prepared, &prepared.method, statistics),
-        class: (formulation.to_string(), integrator.to_string()),
+        class: worker(prepared, &prepared.method).class(),
         outputs: differences.collect(),
         failure,
         is_too_slow,

@@ -46,9 +46,7 @@ pub struct Trial {
 
 /// The model that the search has come to.
 pub struct Found {
-    /// Its scene.
     pub scene: Value,
-    /// Its run.
     pub run: Run,
     /// The promise on motions nearby; none where these are not tried, or nothing was changed.
     pub robustness: Option<Robustness>,
@@ -77,8 +75,8 @@ struct Idea {
     size: usize,
 }
 
-/// Proposals that are tried together.
-struct Group(Vec<usize>);
+/// Indices of ideas that are tried together.
+type Group = Vec<usize>;
 
 struct Search<'a, 'b> {
     bench: &'a mut Bench<'b>,
@@ -163,14 +161,14 @@ impl Search<'_, '_> {
             // The next group of the kind that has no alternative of the subject yet.
             let goes_with =
                 |other: &Idea| other.candidate == own.candidate && other.proposal.subject != own.proposal.subject;
-            let fits = |group: &&mut Group| group.0.iter().all(|k| goes_with(&self.ideas[*k]));
+            let fits = |group: &&mut Group| group.iter().all(|k| goes_with(&self.ideas[*k]));
             match groups.iter_mut().find(fits) {
-                Some(group) => group.0.push(i),
-                None => groups.push(Group(vec![i])),
+                Some(group) => group.push(i),
+                None => groups.push(vec![i]),
             }
         }
         let key = |group: &Group| {
-            let saved = group.0.iter().map(|i| self.ideas[*i].size).min().unwrap_or(0);
+            let saved = group.iter().map(|i| self.ideas[*i].size).min().unwrap_or(0);
             (self.is_doubtful(group), saved)
         };
         groups.sort_by_key(key);
@@ -182,8 +180,8 @@ impl Search<'_, '_> {
     }
 
     /// True if a group is expected to break the promise.
-    fn is_doubtful(&self, Group(members): &Group) -> bool {
-        members.iter().any(|i| self.ideas[*i].expected > self.bench.promise.within)
+    fn is_doubtful(&self, group: &[usize]) -> bool {
+        group.iter().any(|i| self.ideas[*i].expected > self.bench.promise.within)
     }
 
     /// Corrects what is expected of the alternatives of a change by what was measured of that, where they are estimated
@@ -201,7 +199,7 @@ impl Search<'_, '_> {
     }
 
     /// Tries what a group has left; one that is refused is tried in halves, those of the smaller effects first.
-    fn attempt(&mut self, Group(members): Group, queue: &mut VecDeque<Group>) {
+    fn attempt(&mut self, members: Group, queue: &mut VecDeque<Group>) {
         let is_open = |i: &usize| {
             let Idea { candidate, proposal, .. } = &self.ideas[*i];
             !self.settled.iter().any(|(kind, subject)| kind == candidate && *subject == proposal.subject)
@@ -210,9 +208,8 @@ impl Search<'_, '_> {
         if group.is_empty() {
             return;
         }
-        let later = Group(group.clone());
-        if self.is_doubtful(&later) && queue.iter().any(|other| !self.is_doubtful(other)) {
-            queue.push_back(later);
+        if self.is_doubtful(&group) && queue.iter().any(|other| !self.is_doubtful(other)) {
+            queue.push_back(group);
             return;
         }
         let trial = self.run(&group);
@@ -225,8 +222,8 @@ impl Search<'_, '_> {
         } else if group.len() > 1 && !self.bench.is_over(self.reserved) {
             group.sort_by(|a, b| self.ideas[*a].proposal.effect.total_cmp(&self.ideas[*b].proposal.effect));
             let larger = group.split_off(group.len().div_ceil(2));
-            queue.push_front(Group(larger));
-            queue.push_front(Group(group));
+            queue.push_front(larger);
+            queue.push_front(group);
         }
         self.found.trials.push(trial);
     }

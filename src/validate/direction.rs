@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result, suggest};
 use crate::linearize::{Changes, Coordinates, Matrix};
+use crate::math::random::Random;
 
 /// A direction in the states (z, y) of a chart.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,15 +61,11 @@ fn unit(name: &str, states: &[String]) -> Result<Matrix> {
     Ok(Matrix::from_fn(states.len(), 1, |i, _| f64::from(u8::from(i == place))))
 }
 
-/// Returns pseudo-random components in [-1, 1], none of them small (splitmix64, Steele, Lea, Flood 2014).
+/// Returns pseudo-random components in [-1, 1], none of them small.
 fn random(seed: u64, n: usize) -> Matrix {
-    let mut state = seed;
+    let mut random = Random(seed);
     Matrix::from_fn(n, 1, |_, _| {
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
+        let z = random.bits();
         let size = 0.5 + 0.5 * (z >> 12) as f64 / (1u64 << 52) as f64;
         if z & 1 == 0 { size } else { -size }
     })

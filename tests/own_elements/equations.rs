@@ -15,7 +15,7 @@ use holonom::simulate::{Method, Span};
 use holonom::sweep::{Family, Range};
 use holonom::system::{Equations, MechanicalSystem};
 use holonom::validate::{Settings, validate};
-use holonom::{compare, formulation};
+use holonom::{formulation, study};
 
 const MASS: f64 = 1.3;
 const CURVATURE: f64 = 2.0;
@@ -176,8 +176,8 @@ fn files_sweeps_and_maps_know_them() {
     let family = Family::load(&path, &overrides).unwrap();
     let sweep = family.sweep(&Range::new("k", (0.0, 10.0), 3).unwrap(), |_| ()).unwrap();
     assert_eq!(sweep.points.len(), 3);
-    let subject = compare::stress::Subject::load(&path, &overrides).unwrap();
-    let end = |_: &dyn MechanicalSystem, span: Span, _: (&[f64], &[f64])| Ok(span.end);
+    let subject = study::stress::Subject::load(&path, &overrides).unwrap();
+    let end = |motion: &study::Motion| Ok(motion.span.end);
     assert_eq!(subject.with(&subject.base, end).unwrap(), 1.0);
 }
 

@@ -1,8 +1,8 @@
 //! Curves stacked in panels.
 
-use holonom::compare::{ErrorBar, ErrorBars};
 use holonom::plot::{Figure, Panel, Place};
 use holonom::report::{Shown, outputs_figure};
+use holonom::study::{ErrorBar, ErrorBars};
 use holonom::system::{Column, Names};
 use holonom::trajectory::Trajectory;
 

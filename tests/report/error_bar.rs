@@ -2,10 +2,10 @@
 
 use crate::scenes::parse;
 use holonom::analysis::Recorder;
-use holonom::compare::ErrorBars;
 use holonom::error::Failure;
 use holonom::report::summarize;
 use holonom::simulate::simulate;
+use holonom::study::ErrorBars;
 
 /// What was interrupted is not helped by another method.
 #[test]

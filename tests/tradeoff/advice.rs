@@ -2,7 +2,7 @@
 
 use super::{filter, measured, motion, plan};
 use crate::scenes::shipped;
-use holonom::compare::work_precision::{Filter, Outcome, Plan, WorkPrecision};
+use holonom::study::work_precision::{Filter, Outcome, Plan, WorkPrecision};
 
 /// A beam that is stiff and undamped: an explicit method takes thousands of times the steps of an implicit one.
 #[test]

@@ -7,10 +7,9 @@ mod scale;
 
 use crate::common::{method, readings};
 use crate::scenes::{Ready, shipped};
-use holonom::compare::work_precision::{
-    Cell, Filter, Motion, Outcome, Plan, RunSample, Runner, Watched, WorkPrecision, cheapest_by_method, grid, sample,
-};
 use holonom::simulate::{Method, Span};
+use holonom::study::work_precision::{Cell, Filter, Outcome, Plan, Runner, WorkPrecision, cheapest_by_method, grid};
+use holonom::study::{Motion, RunSample, Watched};
 use holonom::tolerances::report::TIED_COSTS;
 use std::time::Duration;
 
@@ -22,11 +21,22 @@ pub fn motion(scene: &Ready, end: f64) -> Motion<'_> {
     Motion {
         system: scene.system(),
         start: scene.0.start(),
-        between: (start, end),
+        span: span((start, end), ROWS),
+        watched: Watched::new(scene.system(), &[]).unwrap(),
         ratio,
         counts_start: false,
         is_stopped: &|| false,
     }
+}
+
+pub fn span((start, end): (f64, f64), rows: usize) -> Span {
+    Span { start, end, output_step: (end - start) / rows as f64 }
+}
+
+/// The same motion, in these outputs.
+pub fn watching<'a>(motion: Motion<'a>, outputs: &[&str]) -> Motion<'a> {
+    let outputs: Vec<String> = outputs.iter().map(|name| name.to_string()).collect();
+    Motion { watched: Watched::new(motion.system, &outputs).unwrap(), ..motion }
 }
 
 pub fn filter(formulations: &[&str], integrators: &[&str], projections: &[&str]) -> Filter {
@@ -51,23 +61,17 @@ pub fn plan(filter: &Filter, budget: u32) -> Plan {
 }
 
 pub fn fresh(motion: &Motion) -> WorkPrecision {
-    WorkPrecision::fresh("test", motion.between, ROWS)
+    WorkPrecision::fresh("test", (motion.span.start, motion.span.end), ROWS)
 }
 
 pub fn measured(motion: Motion, plan: &Plan, outputs: &[&str]) -> WorkPrecision {
-    let outputs: Vec<String> = outputs.iter().map(|name| name.to_string()).collect();
-    let watched = Watched::new(motion.system, &outputs).unwrap();
     let mut result = fresh(&motion);
-    Runner::new(motion, plan, watched, |_, _| ()).run(&mut result).unwrap();
+    Runner::new(watching(motion, outputs), plan, |_, _| ()).run(&mut result).unwrap();
     result
 }
 
 pub fn run(motion: &Motion, outputs: &[&str], method: &Method) -> RunSample {
-    let outputs: Vec<String> = outputs.iter().map(|name| name.to_string()).collect();
-    let watched = Watched::new(motion.system, &outputs).unwrap();
-    let (start, end) = motion.between;
-    let span = Span { start, end, output_step: (end - start) / ROWS as f64 };
-    sample(motion, &watched, method, span, Duration::MAX).unwrap()
+    watching(motion.clone(), outputs).run(method, Duration::MAX).unwrap()
 }
 
 /// x1 = 0.1 cos 5t: the errors that are told are those against the closed form.
@@ -75,8 +79,11 @@ pub fn run(motion: &Motion, outputs: &[&str], method: &Method) -> RunSample {
 fn errors_are_those_against_the_closed_form() {
     let scene = shipped("two_mass", &[]);
     let motion = motion(&scene, 5.0);
-    let result =
-        measured(motion, &plan(&filter(&["index1", "ggl"], &["rk4", "dopri5", "radau_iia"], &[]), 400_000), &["x1"]);
+    let result = measured(
+        motion.clone(),
+        &plan(&filter(&["index1", "ggl"], &["rk4", "dopri5", "radau_iia"], &[]), 400_000),
+        &["x1"],
+    );
     let reference = result.reference.as_ref().unwrap();
     let exact = |row: usize| 0.1 * (5.0 * 5.0 * row as f64 / ROWS as f64).cos();
     let largest = (1..=ROWS).fold(0.0f64, |most, row| most.max(exact(row).abs()));
@@ -179,13 +186,13 @@ fn a_measurement_is_continued() {
     let scene = shipped("two_mass", &[]);
     let motion = motion(&scene, 5.0);
     let plan = plan(&filter(&["index1"], &["dopri5", "dop853"], &[]), 40_000);
-    let whole = measured(motion, &plan, &[]);
+    let whole = measured(motion.clone(), &plan, &[]);
     let text = serde_json::to_string(&whole).unwrap();
     let mut half: WorkPrecision = serde_json::from_str(&text).unwrap();
     assert_eq!(serde_json::to_string(&half).unwrap(), text);
     half.cells.retain(|cell| cell.decades <= 6);
     let kept = half.cells.iter().filter(|cell| cell.reason().is_none()).count();
-    Runner::new(motion, &plan, Watched::new(motion.system, &[]).unwrap(), |_, _| ()).run(&mut half).unwrap();
+    Runner::new(motion, &plan, |_, _| ()).run(&mut half).unwrap();
     assert!(kept < half.cells.len() && half.seconds > whole.seconds);
     // Which finer runs are worth making depends on what others cost; those of both measurements are compared.
     let pairs = whole.cells.iter().filter_map(|cell| {

@@ -2,8 +2,8 @@
 
 use crate::common::readings;
 use crate::scenes::model;
-use holonom::compare::work_precision::models::{ModelCost, ModelCosts, Variant, compare};
 use holonom::prepared::{Overrides, PreparedScene};
+use holonom::study::work_precision::models::{ModelCost, ModelCosts, Variant, compare};
 
 fn variant(name: &str, set: &[(&str, f64)], until: f64) -> Variant {
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();

@@ -1,10 +1,11 @@
 //! What accuracy is measured against.
 
-use super::{ROWS, filter, fresh, measured, motion, plan};
+use super::{ROWS, filter, fresh, measured, motion, plan, span, watching};
 use crate::common::unconstrained::Exponential;
 use crate::scenes::shipped;
 use holonom::analysis::Sizes;
-use holonom::compare::work_precision::{ErrorMetric, Given, Motion, Plan, Runner, SecondOpinion, Watched};
+use holonom::study::work_precision::{Given, Plan, Runner};
+use holonom::study::{ErrorMetric, Motion, SecondOpinion, Watched};
 use holonom::system::Column;
 
 fn column(name: &str, unit: &str) -> Column {
@@ -34,7 +35,8 @@ fn equations_of_ones_own_have_a_reference_too() {
     let motion = Motion {
         system: &Exponential,
         start: (q, v),
-        between: (0.0, 4.0),
+        span: span((0.0, 4.0), ROWS),
+        watched: Watched::new(&Exponential, &[]).unwrap(),
         ratio: 1.0,
         counts_start: false,
         is_stopped: &|| false,
@@ -58,10 +60,9 @@ fn a_table_of_values_is_compared_with() {
         let rows = given.parts((0.0, 5.0), ROWS).unwrap();
         assert_eq!(rows, 1);
         let plan = Plan { given: Some(given), rows, ..plan(&filter(&["index1"], &["dop853"], &["manifold"]), 20_000) };
-        let watched = Watched::new(motion.system, &["x1".to_string()]).unwrap();
         let mut result = fresh(&motion);
         result.rows = rows;
-        Runner::new(motion, &plan, watched, |_, _| ()).run(&mut result).unwrap();
+        Runner::new(watching(motion.clone(), &["x1"]), &plan, |_, _| ()).run(&mut result).unwrap();
         result
     };
     let good = measure(table(exact));

@@ -1,10 +1,10 @@
 //! What errors are relative to, and where they are looked for.
 
-use super::{ROWS, filter, measured, motion, plan};
+use super::{filter, measured, motion, plan, span};
 use crate::scenes::shipped;
 use holonom::analysis::Sizes;
-use holonom::compare::work_precision::{ErrorMetric, Watched, sample};
-use holonom::simulate::{Method, Span};
+use holonom::simulate::Method;
+use holonom::study::{ErrorMetric, Motion};
 use holonom::system::Column;
 use std::time::Duration;
 
@@ -39,7 +39,7 @@ fn energies_are_compared_with_the_kinetic_and_forces_with_the_reactions() {
     }
     let scene = shipped("pendulum", &[]);
     let motion = motion(&scene, 3.0);
-    let run = sample(&motion, &Watched::new(scene.system(), &[]).unwrap(), &tight(), span(3.0, ROWS), Duration::MAX);
+    let run = motion.run(&tight(), Duration::MAX);
     let kinetic = 9.81;
     let reaction = 3.0 * 9.81;
     let moving = ErrorMetric::new(&columns, rows.clone(), &run.unwrap().sizes);
@@ -47,10 +47,6 @@ fn energies_are_compared_with_the_kinetic_and_forces_with_the_reactions() {
     // 1 kg and 1 m; 200 rows miss the lowest point by little.
     assert!((errors[0] - 500.0 / kinetic).abs() < 1e-3 * errors[0], "{errors:?}");
     assert!((errors[1] - 0.1 / reaction).abs() < 1e-3 * errors[1], "{errors:?}");
-}
-
-fn span(end: f64, rows: usize) -> Span {
-    Span { start: 0.0, end, output_step: end / rows as f64 }
 }
 
 fn tight() -> Method {
@@ -63,12 +59,12 @@ fn tight() -> Method {
 fn recommended_runs_have_their_digits_between_the_rows() {
     let scene = shipped("quarter_car", &[]);
     let motion = motion(&scene, 2.5);
-    let result = measured(motion, &plan(&filter(&["index1"], &["dopri5", "dop853"], &["none"]), 60_000), &[]);
-    let watched = Watched::new(scene.system(), &[]).unwrap();
+    let result = measured(motion.clone(), &plan(&filter(&["index1"], &["dopri5", "dop853"], &["none"]), 60_000), &[]);
     // Rows that are none of those compared.
-    let run = |method: &Method| sample(&motion, &watched, method, span(2.5, 1777), Duration::MAX).unwrap();
+    let between = Motion { span: span((0.0, 2.5), 1777), ..motion };
+    let run = |method: &Method| between.run(method, Duration::MAX).unwrap();
     let exact = run(&tight());
-    let exact = ErrorMetric::new(&watched.columns, exact.rows, &exact.sizes);
+    let exact = ErrorMetric::new(&between.watched.columns, exact.rows, &exact.sizes);
     for digits in [3, 6, 9] {
         let best = &result.cells[result.recommend(digits).unwrap().best];
         let (error, worst) = exact.error(&run(&best.method).rows);

@@ -38,15 +38,6 @@ mod cli {
     mod terminal;
 }
 
-#[path = "../../src/compare"]
-mod compare {
-    mod stress {
-        mod ladder;
-        mod period;
-        mod queue;
-    }
-}
-
 #[path = "../../src/import"]
 mod import {
     mod close;
@@ -119,6 +110,16 @@ mod simulate {
     mod passage;
     mod events {
         mod range;
+    }
+}
+
+#[path = "../../src/study"]
+mod study {
+    mod pool;
+    mod queue;
+    mod stress {
+        mod ladder;
+        mod period;
     }
 }
 

@@ -3,11 +3,12 @@
 use super::{Args, Question};
 use crate::cli::common::tell;
 use crate::cli::interrupt;
-use crate::compare::work_precision::{Motion, Runner, WorkPrecision};
 use crate::error::{Result, percent};
 use crate::prepared::PreparedScene;
 use crate::report::tradeoff::{MeasuredModel, ModelsAndMethods, auto_figure, auto_table};
 use crate::simplify::{Settings, Simplification, Source, registry, simplify};
+use crate::study::Motion;
+use crate::study::work_precision::{Runner, WorkPrecision};
 use crate::system::Dimensions;
 use indicatif::ProgressBar;
 use std::process::ExitCode;
@@ -81,8 +82,8 @@ fn models(args: &Args, prepared: &PreparedScene, bar: &ProgressBar) -> Result<Ve
 fn measure(args: &Args, prepared: &PreparedScene, budget: Duration) -> Result<WorkPrecision> {
     let span = prepared.span()?;
     let Question { watched, plan } = args.question(prepared, budget, None)?;
-    let motion = Motion::of(prepared, span, &interrupt::is_asked);
+    let motion = Motion::of(prepared, span, watched, &interrupt::is_asked);
     let mut measured = WorkPrecision::fresh(&prepared.name, (span.start, span.end), plan.rows);
-    Runner::new(motion, &plan, watched, |_: &WorkPrecision, _: &str| ()).run(&mut measured)?;
+    Runner::new(motion, &plan, |_: &WorkPrecision, _: &str| ()).run(&mut measured)?;
     Ok(measured)
 }

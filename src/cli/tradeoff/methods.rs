@@ -3,13 +3,14 @@
 use super::{Args, Question};
 use crate::cli::common::tell;
 use crate::cli::interrupt;
-use crate::compare::work_precision::{Given, Lack, Motion, Runner, WorkPrecision};
 use crate::error::{Error, Result};
 use crate::files;
 use crate::prepared::PreparedScene;
 use crate::report::tradeoff::{Summary, tradeoff_figure, tradeoff_table};
 use crate::report::{Folder, write_whole};
 use crate::scene;
+use crate::study::Motion;
+use crate::study::work_precision::{Given, Lack, Runner, WorkPrecision};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -54,8 +55,8 @@ impl Question {
                 let _ = save(place, measured);
             }
         };
-        let motion = Motion::of(prepared, span, &interrupt::is_asked);
-        Runner::new(motion, &self.plan, self.watched, watch).run(measured)
+        let motion = Motion::of(prepared, span, self.watched, &interrupt::is_asked);
+        Runner::new(motion, &self.plan, watch).run(measured)
     }
 }
 

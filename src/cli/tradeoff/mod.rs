@@ -5,10 +5,11 @@ mod methods;
 mod models;
 
 use super::common::{Output, SceneOptions, Talk, duration, number};
-use crate::compare::work_precision::{Filter, Given, Plan, Watched, grid};
 use crate::error::Result;
 use crate::method_spec::MethodSpec;
 use crate::prepared::{Overrides, PreparedScene};
+use crate::study::Watched;
+use crate::study::work_precision::{Filter, Given, Plan, grid};
 use crate::system::MechanicalSystem;
 use crate::trajectory::recorded;
 use crate::{formulation, projection};

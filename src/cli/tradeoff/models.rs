@@ -2,11 +2,11 @@
 
 use super::Args;
 use crate::cli::common::{assignment, set_by};
-use crate::compare::work_precision::models::{Variant, compare};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::prepared::{Overrides, PreparedScene};
 use crate::report::tradeoff::{ModelsSummary, models_figure, models_table};
+use crate::study::work_precision::models::{Variant, compare};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

@@ -7,10 +7,10 @@ pub(super) use curves::{Curve, Stack, stacked};
 pub use shown::{Ending, Shown};
 
 use crate::analysis::{Ledger, Record};
-use crate::compare::ErrorBars;
 use crate::math::largest;
 use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::scene::units::{Dimension, dimension_of};
+use crate::study::ErrorBars;
 use crate::trajectory::Trajectory;
 
 /// Draws outputs over time, one panel for those of one unit and of similar ranges, or one each; coordinates where the

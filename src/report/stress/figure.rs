@@ -1,7 +1,7 @@
 //! Figure of a map.
 
-use crate::compare::stress::{Axis, Cell, Status, Stressed};
 use crate::plot::{self, AxisSpec, Figure, Panel, Tint};
+use crate::study::stress::{Axis, Cell, Status, Stressed};
 use crate::tolerances::report::WRONG_MOTION;
 
 /// Height of a row of cells, in nominal pixels.

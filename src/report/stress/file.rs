@@ -1,12 +1,12 @@
 //! `stress.json`, `stress.csv` and `stress.md`.
 
 use super::words::sentences;
-use crate::compare::stress::{Axis, Cell, GainVerdict, Quantity, Stressed, Verdict};
-use crate::compare::work_precision::SecondOpinion;
 use crate::error::Result;
 use crate::report::cell as full;
 use crate::report::tables::{Column, by_columns, optional};
 use crate::simulate::Method;
+use crate::study::SecondOpinion;
+use crate::study::stress::{Axis, Cell, GainVerdict, Quantity, Stressed, Verdict};
 use serde::Serialize;
 
 /// All maps of a scene.

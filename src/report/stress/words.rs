@@ -1,11 +1,11 @@
 //! Verdicts in sentences.
 
-use crate::compare::stress::{
-    Axis, Best, Bound, GainVerdict, Level, Reason, Side, Status, StepVerdict, Stressed, Verdict,
-};
-use crate::error::short;
+use crate::error::{short, two_digits};
 use crate::math::bounds;
 use crate::report::Table;
+use crate::study::stress::{
+    Axis, Best, Bound, GainVerdict, Level, Reason, Side, Status, StepVerdict, Stressed, Verdict,
+};
 use crate::tolerances::report::WRONG_MOTION;
 
 /// Returns the verdict on a map: a sentence or two for each method.
@@ -22,15 +22,11 @@ pub fn sentences(stressed: &Stressed) -> Vec<String> {
     all
 }
 
-fn two(value: f64) -> String {
-    short(format!("{value:.1e}").parse().unwrap_or(value))
-}
-
 fn span(values: impl Iterator<Item = f64>) -> Option<String> {
     let (low, high) = bounds(values);
     match low.total_cmp(&high) {
-        std::cmp::Ordering::Less => Some(format!("{} to {}", two(low), two(high))),
-        std::cmp::Ordering::Equal => Some(two(low)),
+        std::cmp::Ordering::Less => Some(format!("{} to {}", two_digits(low), two_digits(high))),
+        std::cmp::Ordering::Equal => Some(two_digits(low)),
         std::cmp::Ordering::Greater => None,
     }
 }
@@ -80,7 +76,7 @@ fn best(verdict: &GainVerdict) -> String {
     let farther = verdict.farther.as_ref().map_or(String::new(), |farther| {
         let step = short(farther.step);
         let gain = short(farther.gain);
-        let ratio = two(farther.ratio);
+        let ratio = two_digits(farther.ratio);
         let output = &farther.output;
         format!(
             "; at h = {step} the gain that drifts least, {gain} 1/s, is {ratio} times as far off as none in {output}"
@@ -101,12 +97,16 @@ const EVEN: f64 = 10.0;
 fn even(verdict: &GainVerdict, is_whole: bool) -> String {
     match verdict.steady {
         Some(steady) if steady.ratio < EVEN => {
-            format!("{} 1/s is within a factor of {} of the best at all of them", short(steady.gain), two(steady.ratio))
+            format!(
+                "{} 1/s is within a factor of {} of the best at all of them",
+                short(steady.gain),
+                two_digits(steady.ratio)
+            )
         }
         Some(steady) => format!(
             "no gain is good at all of them: the most even, {} 1/s, leaves {} times the best at one of them",
             short(steady.gain),
-            two(steady.ratio)
+            two_digits(steady.ratio)
         ),
         None if is_whole => "no gain completes at all of them".to_string(),
         None => "no gain is known to complete at all of them".to_string(),
@@ -154,7 +154,7 @@ fn holds(name: &str, steps: &[StepVerdict], level: Run) -> String {
 
 /// Returns a ratio in percent.
 fn percent(part: f64) -> String {
-    format!("{} %", two(100.0 * part))
+    format!("{} %", two_digits(100.0 * part))
 }
 
 /// Returns the defect of a simulation outside the tolerance.
@@ -181,7 +181,7 @@ fn general(stressed: &Stressed, verdict: &Verdict) -> String {
     }
     let mut text = format!("{name}{completed} of {cells} cells completed");
     if let Some([low, high]) = range {
-        text += &format!(", {} {} to {}", stressed.map.quantity.label(), two(*low), two(*high));
+        text += &format!(", {} {} to {}", stressed.map.quantity.label(), two_digits(*low), two_digits(*high));
     }
     text += &judged(verdict);
     let counts: Vec<String> = others.iter().map(|(status, count)| format!("{count} {}", status.word())).collect();
@@ -211,8 +211,8 @@ fn judged(verdict: &Verdict) -> String {
     let percent = 100.0 * WRONG_MOTION;
     format!(
         "; {held} of them within {percent} % in outputs and energy, {off} not{unknown}, error {} to {}",
-        two(*low),
-        two(*high)
+        two_digits(*low),
+        two_digits(*high)
     )
 }
 

@@ -1,10 +1,10 @@
 //! Models and methods together: the error of the model and that of the method, against cost.
 
 use super::{accuracy, milliseconds};
-use crate::compare::work_precision::{Cell, WorkPrecision, front};
 use crate::error::{Result, percent};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::{Table, cell as number, table, velocities};
+use crate::study::work_precision::{Cell, WorkPrecision, front};
 use serde::Serialize;
 
 /// The models of a scene, the richest first, each by many methods.

@@ -1,8 +1,8 @@
 //! Error and drift over CPU time.
 
-use crate::compare::work_precision::{Cell, Held, WorkPrecision, cheapest_by_method, front};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::figures::Floor;
+use crate::study::work_precision::{Cell, Held, WorkPrecision, cheapest_by_method, front};
 
 /// Number of methods in colour; the others are crosses.
 const NAMED: usize = 6;

@@ -11,8 +11,8 @@ pub use figure::tradeoff_figure;
 pub use models::{ModelsSummary, models_figure, models_table};
 pub use table::tradeoff_table;
 
-use crate::compare::work_precision::{Cell, Held, Recommendation, WorkPrecision};
 use crate::simulate::Method;
+use crate::study::work_precision::{Cell, Held, Recommendation, WorkPrecision};
 use serde::Serialize;
 
 /// Contents of `tradeoff.json`.

@@ -1,11 +1,11 @@
 //! Cost and accuracy of models: text, table and figure.
 
 use super::milliseconds;
-use crate::compare::work_precision::models::{Finer, ModelCost, ModelCosts};
 use crate::error::{Result, percent};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Tint};
 use crate::report::tables::optional;
 use crate::report::{Table, table};
+use crate::study::work_precision::models::{Finer, ModelCost, ModelCosts};
 use serde::Serialize;
 
 /// Contents of `models.json`.

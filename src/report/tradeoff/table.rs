@@ -1,10 +1,10 @@
 //! Table of all runs.
 
-use crate::compare::work_precision::{Cell, Outcome, WorkPrecision};
 use crate::error::Result;
 use crate::formulation::Statistics;
 use crate::report::cell as number;
 use crate::report::tables::{Column, by_columns, optional};
+use crate::study::work_precision::{Cell, Outcome, WorkPrecision};
 
 const COLUMNS: [Column<Cell>; 26] = [
     ("formulation", |cell| cell.method.formulation.to_string()),

@@ -1,9 +1,9 @@
 //! Text of a work-precision measurement.
 
 use super::{Summary, accuracy, milliseconds};
-use crate::compare::work_precision::{Cell, Lack, Outcome, Reference, WorkPrecision, cheapest_by_method};
 use crate::error::clock;
 use crate::report::Table;
+use crate::study::work_precision::{Cell, Lack, Outcome, Reference, WorkPrecision, cheapest_by_method};
 use std::fmt::Write;
 
 impl Summary<'_> {

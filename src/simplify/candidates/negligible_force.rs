@@ -1,7 +1,8 @@
 //! Forces, dampers and gravity that hardly do any work.
 
 use crate::error::percent;
-use crate::scene::document::{elements, find_mut, remove_named, take, text};
+use crate::scene::document::{elements, find_mut, take, text};
+use crate::simplify::candidate::removal;
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use serde_json::Value;
 
@@ -22,7 +23,7 @@ impl Candidate for NegligibleForce {
         let left_out = forces.flat_map(|force| {
             let name = text(force, "name");
             let damper = undamped("forces", force).filter(|_| force.get("stiffness").is_some());
-            [Some((name.to_string(), format!("the force {name} is left out"), without(name))), damper]
+            [Some((name.to_string(), format!("the force {name} is left out"), removal("forces", name))), damper]
         });
         let beams = elements(scene, "bodies").iter().map(|body| undamped("bodies", body));
         let gravity = scene.get("gravity").is_some().then(gravity);
@@ -41,11 +42,6 @@ fn proposal(facts: &Facts, subject: String, what: String, edit: Edit) -> Option<
 }
 
 type Change = (String, String, Edit);
-
-fn without(name: &str) -> Edit {
-    let name = name.to_string();
-    Box::new(move |scene| remove_named(scene, "forces", &name))
-}
 
 fn undamped(list: &'static str, element: &Value) -> Option<Change> {
     element.get("damping")?;

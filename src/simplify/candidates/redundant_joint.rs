@@ -1,6 +1,7 @@
 //! Joints that lock what others lock already.
 
-use crate::scene::document::{find_mut, remove_named};
+use crate::scene::document::find_mut;
+use crate::simplify::candidate::removal;
 use crate::simplify::{Candidate, Edit, Facts, Proposal};
 use crate::system::Group;
 use serde_json::{Value, json};
@@ -26,7 +27,7 @@ fn proposal(facts: &Facts, group: &Group) -> Option<Proposal> {
         facts.redundant.iter().filter(|row| rows.contains(row)).map(|row| row - rows.start).collect();
     let (what, edit) = match (redundant.len(), kind.as_str(), facts.dimension()) {
         (0, ..) => return None,
-        (all, ..) if all == rows.len() => (format!("the joint {name} is left out"), without(name)),
+        (all, ..) if all == rows.len() => (format!("the joint {name} is left out"), removal("joints", name)),
         (_, "revolute", 2) => replaced(name, "point_on_line", Some([1 - redundant[0], redundant[0]])),
         (3, "revolute", _) => replaced(name, "point_on_line", None),
         (2, "revolute", _) => replaced(name, "spherical", None),
@@ -35,11 +36,6 @@ fn proposal(facts: &Facts, group: &Group) -> Option<Proposal> {
     };
     let why = format!("{} of its {} rows follow from other joints", redundant.len(), rows.len());
     Some(Proposal { subject: name.clone(), what, why, effect: 0.0, edit })
-}
-
-fn without(name: &str) -> Edit {
-    let name = name.to_string();
-    Box::new(move |scene| remove_named(scene, "joints", &name))
 }
 
 /// The joint as another kind, free along `axis` if that is given.
