@@ -46,7 +46,8 @@ pub fn turn(variation: &Variation) -> Sparse {
     let v = &variation.point.v;
     let mut turn = Sparse { pattern: Pattern { rows: n, cols: n, entries: Vec::new() }, values: Vec::new() };
     // Along no axis, so that every rotation shows.
-    let (any, mut out): (Vec<f64>, _) = ((0..n).map(|i| (i as f64 + 1.0).sqrt()).collect(), vec![0.0; n]);
+    let any: Vec<f64> = (0..n).map(|i| (i as f64 + 1.0).sqrt()).collect();
+    let mut out = vec![0.0; n];
     system.bracket(v, &any, &mut out);
     if out.iter().all(|x| *x == 0.0) {
         return turn;
