@@ -30,7 +30,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     // Bad input is an error; a search without success is a result.
     let failure = match sought.transpose() {
         Ok(found) => {
-            check.equilibrium = found.map(|found| report::EquilibriumFile::of(&prepared, found));
+            check.equilibrium = found.map(|found| report::EquilibriumReport::of(&prepared, found));
             None
         }
         Err(error) if error.exit_code() == 1 => Some(error),
@@ -39,7 +39,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let hints = hints(prepared, &args.common.scene.path, &args.common.overrides(), registry());
     check.hints = Some(hints.unwrap_or_else(|error| Hints { skipped: error.to_string(), ..Hints::default() }));
     if failure.is_some() {
-        check.equilibrium = Some(report::EquilibriumFile::none(t));
+        check.equilibrium = Some(report::EquilibriumReport::none(t));
     }
     args.common.talk.warn(check.equilibrium.iter().flat_map(|rest| &rest.warnings));
     args.common.talk.print(&check, || check.text())?;

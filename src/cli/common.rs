@@ -7,16 +7,16 @@ use crate::error::{Error, Result, Warning};
 use crate::math::expression::{Number, Parameters, constant};
 use crate::math::memory::refuse_rows;
 use crate::method_spec::{Listed, MethodSpec};
-use crate::plot::Figure;
 use crate::prepared::{Overrides, PreparedScene};
-use crate::report::{Folder, Origin, Repeatable, Written};
+use crate::report::{Answer, Folder, Format, Origin, Written};
 use crate::scene::Automatic;
 use crate::simulate::Span;
 use crate::system::Dimensions;
 use crate::trajectory::recorded;
 use crate::{formulation, integrator, projection};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::Value;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -117,24 +117,6 @@ pub struct Output {
     /// Format of the figures
     #[arg(long, value_enum, default_value_t = Format::Svg)]
     pub figures: Format,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    Svg,
-    Png,
-    None,
-}
-
-impl Format {
-    /// Returns the extension of the files; none without figures.
-    pub fn extension(self) -> Option<&'static str> {
-        match self {
-            Format::Svg => Some("svg"),
-            Format::Png => Some("png"),
-            Format::None => None,
-        }
-    }
 }
 
 /// Returns the help on an option with all that it can name.
@@ -279,14 +261,6 @@ impl Talk {
         self.tell_files(&written)
     }
 
-    /// The same for results whose texts were printed as they came; as JSON one alone is no list.
-    pub fn conclude_all(&self, folder: Folder, results: &[impl serde::Serialize]) -> Result<()> {
-        match results {
-            [one] => self.conclude(folder, one, String::new),
-            all => self.conclude(folder, &all, String::new),
-        }
-    }
-
     /// Prints the result: JSON if requested, else text unless quiet.
     pub fn print(&self, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
         match (self.json, self.quiet) {
@@ -296,16 +270,29 @@ impl Talk {
         }
     }
 
-    /// Returns a result with its origin: the command line, the scene's parameters and the warnings so far.
-    pub fn repeatable<T>(&self, prepared: &PreparedScene, result: T) -> Repeatable<T> {
-        Repeatable { simulation: Some(prepared.method.clone()), ..self.of_no_method(&prepared.parameters, result) }
+    /// Returns the origin of a result: the command line, the scene's parameters and method, and the warnings so far.
+    pub fn origin(&self, prepared: &PreparedScene) -> Origin {
+        Origin { simulation: Some(prepared.method.clone()), ..self.origin_of(&prepared.parameters) }
     }
 
-    /// Returns a result of several methods, or of none, with its origin.
-    pub fn of_no_method<T>(&self, parameters: &Parameters, result: T) -> Repeatable<T> {
-        let warnings = self.said.borrow().clone();
-        let origin = Origin { command: command_line(), ..Origin::new(parameters, warnings) };
-        Repeatable { origin, simulation: None, result }
+    /// Returns the origin of a result of several methods, or of none.
+    pub fn origin_of(&self, parameters: &Parameters) -> Origin {
+        Origin { command: command_line(), ..Origin::new(parameters, self.said.borrow().clone()) }
+    }
+
+    /// Writes an answer, moves all files into place, prints it and names the files.
+    pub fn publish(&self, mut folder: Folder, origin: impl Into<Option<Origin>>, answer: &impl Answer) -> Result<()> {
+        answer.write(&mut folder)?;
+        let sealed = folder.seal(&answer.name(), origin, answer.json())?;
+        self.conclude(folder, &sealed, || answer.text())
+    }
+
+    /// Writes an answer of several, and prints its text; returns the JSON if that is requested, else null.
+    pub fn add(&self, folder: &mut Folder, origin: Origin, answer: &impl Answer) -> Result<Value> {
+        answer.write(folder)?;
+        self.say(&answer.text())?;
+        let sealed = folder.seal(&answer.name(), origin, answer.json())?;
+        if self.json { serde_json::to_value(sealed).map_err(unprintable) } else { Ok(Value::Null) }
     }
 
     /// Moves results into place and tells what they replace.
@@ -347,28 +334,21 @@ impl Talk {
 
 impl Output {
     pub fn folder(&self, name: &str) -> Result<Folder> {
-        Folder::create(&self.path(name))
+        Ok(Folder::create(&self.path(name))?.drawing(self.figures))
     }
 
     /// Returns the folder of the results of the scene `name`.
     pub fn path(&self, name: &str) -> PathBuf {
         self.output.clone().unwrap_or_else(|| Path::new("out").join(name))
     }
-
-    /// Writes a figure in the chosen format, if any.
-    pub fn figure(&self, folder: &mut Folder, name: &str, figure: Option<Figure>) -> Result<()> {
-        let Some(figure) = figure else { return Ok(()) };
-        let refused = |reason| Error::input(format!("cannot draw {name}.png: {reason}")).hint("choose --figures svg");
-        match self.figures {
-            Format::Svg => folder.write(&format!("{name}.svg"), figure.to_svg().as_bytes()),
-            Format::Png => folder.write(&format!("{name}.png"), &figure.to_png().map_err(refused)?),
-            Format::None => Ok(()),
-        }
-    }
 }
 
 pub fn to_json(value: &impl serde::Serialize) -> Result<String> {
-    serde_json::to_string_pretty(value).map_err(|error| Error::input(format!("cannot print as JSON: {error}")))
+    serde_json::to_string_pretty(value).map_err(unprintable)
+}
+
+fn unprintable(error: serde_json::Error) -> Error {
+    Error::input(format!("cannot print as JSON: {error}"))
 }
 
 /// Returns one of `names`, or an error that suggests the most similar.

@@ -7,7 +7,7 @@ use crate::linearize::{Chart, Operating, Request, State, at_rest, kinks, registr
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
 use crate::report::Folder;
-use serde::Serialize;
+use serde_json::Value;
 
 /// Which linear model.
 #[derive(clap::Args)]
@@ -66,16 +66,17 @@ impl AtStates {
         |error| error.in_file(&self.scene.path)
     }
 
-    /// Writes and prints the result at each state.
-    pub fn conclude<R: Serialize>(
+    /// Publishes the results at all states, which `result` [adds](Talk::add). As JSON one alone is no list.
+    pub fn conclude(
         &self,
         prepared: &PreparedScene,
-        mut result: impl FnMut(&Operating, &mut Folder) -> Result<R>,
+        mut result: impl FnMut(&Operating, &mut Folder) -> Result<Value>,
     ) -> Result<()> {
         let places = self.states.states(prepared, &self.talk).map_err(self.in_file())?;
         let mut folder = self.output.folder(&prepared.name)?;
-        let results = places.iter().map(|place| result(place, &mut folder)).collect::<Result<Vec<R>>>()?;
-        self.talk.conclude_all(folder, &results)
+        let mut results = places.iter().map(|place| result(place, &mut folder)).collect::<Result<Vec<Value>>>()?;
+        let all = if results.len() == 1 { results.remove(0) } else { Value::Array(results) };
+        self.talk.conclude(folder, &all, String::new)
     }
 }
 

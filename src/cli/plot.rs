@@ -1,6 +1,6 @@
 //! `holonom plot SCENE`
 
-use super::common::{Common, Format, Output, number, positive, set_by, tell};
+use super::common::{Common, Output, number, positive, set_by, tell};
 use super::interrupt;
 use crate::analysis::Recorder;
 use crate::error::{Error, Failure, Result, Warning, clock, significant};
@@ -9,7 +9,7 @@ use crate::prepared::{Overrides, PreparedScene};
 use crate::report::mechanism::{
     Look, Motion, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
-use crate::report::{Ending, FinishedRun, Folder, Repeatable, Shown, Written, outputs_figure};
+use crate::report::{Ending, FinishedRun, Folder, Format, Origin, Shown, Written, outputs_figure};
 use crate::simulate::Span;
 use crate::trajectory::Trajectory;
 use serde::Serialize;
@@ -264,18 +264,18 @@ impl Args {
         if self.stroboscope {
             drawn.times = self.times(motion);
             let figure = stroboscope_figure(motion, look, &drawn.times);
-            self.output.figure(folder, "stroboscope", Some(figure))?;
+            folder.figure("stroboscope", Some(figure))?;
             self.seal(folder, "stroboscope", prepared, drawn)?;
         } else if self.animate.is_none() && !self.outputs || !self.at.is_empty() {
             let t = self.at.first().map_or(prepared.start_time(), |t| t.min(motion.reach().1));
             let state = if self.at.is_empty() { State::start(prepared) } else { motion.state(t) };
             drawn.times = vec![t];
-            self.output.figure(folder, "mechanism", Some(mechanism_figure(prepared, look, &state)))?;
+            folder.figure("mechanism", Some(mechanism_figure(prepared, look, &state)))?;
             self.seal(folder, "mechanism", prepared, drawn)?;
         }
         if self.outputs {
             let figure = outputs_figure(&prepared.name, (motion.trajectory(), None), shown, self.separate);
-            self.output.figure(folder, "plot-outputs", figure)?;
+            folder.figure("plot-outputs", figure)?;
             self.seal(folder, "plot-outputs", prepared, drawn)?;
         }
         match self.animate {
@@ -340,9 +340,9 @@ impl Args {
 
     /// Writes what it takes to draw the figure again.
     fn seal(&self, folder: &mut Folder, name: &str, prepared: &PreparedScene, drawn: &Drawn) -> Result<()> {
-        let result = self.common.talk.repeatable(prepared, drawn);
-        let simulation = result.simulation.filter(|_| self.from.is_none());
-        folder.seal(&format!("{name}.json"), Repeatable { simulation, ..result }).map(|_| ())
+        let origin = self.common.talk.origin(prepared);
+        let simulation = origin.simulation.filter(|_| self.from.is_none());
+        folder.seal(&format!("{name}.json"), Origin { simulation, ..origin }, drawn).map(drop)
     }
 }
 

@@ -7,10 +7,11 @@ use crate::compare::{Completed, error_bars};
 use crate::error::{Error, Result, Warning};
 use crate::files::{mat, npz};
 use crate::prepared::PreparedScene;
-use crate::report::{self, Ending, Folder, RowFiles, Sealed, Shown, Summary, summarize};
+use crate::report::{self, Answer, Ending, Folder, RowFiles, Shown, Summary, summarize};
 use crate::simulate::{Span, Start, spread};
 use crate::system::{Dimensions, Scratch};
 use crate::trajectory::{Trajectory, recorded};
+use serde::Serialize;
 use std::cell::RefCell;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -101,8 +102,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     } else {
         summary
     };
-    let sealed = write((&prepared, &record, &summary), &mut folder, &args)?;
-    args.common.talk.conclude(folder, &sealed, || summary.text())?;
+    let answer = Simulated { args: &args, prepared: &prepared, record: &record, summary: &summary };
+    args.common.talk.publish(folder, None, &answer)?;
     args.common.talk.warn(&summary.origin.warnings[early.len()..]);
     Ok(match &summary.failure {
         // What ended the second run is a warning.
@@ -149,27 +150,44 @@ impl Args {
     }
 }
 
-fn write<'s>(
-    (prepared, record, summary): (&PreparedScene, &Record, &'s Summary),
-    folder: &mut Folder,
-    args: &Args,
-) -> Result<Sealed<&'s Summary>> {
-    let arrays = || report::trajectory_arrays(&record.trajectory, summary.error.as_ref());
-    for format in &args.format {
-        match format {
-            Format::Csv => {}
-            Format::Npz => folder.write("trajectory.npz", &npz::write(&arrays())?)?,
-            Format::Mat => folder.write("trajectory.mat", &mat::write(&arrays())?)?,
-        }
+/// A run with its record.
+struct Simulated<'a> {
+    args: &'a Args,
+    prepared: &'a PreparedScene,
+    record: &'a Record,
+    summary: &'a Summary,
+}
+
+impl Answer for Simulated<'_> {
+    fn name(&self) -> String {
+        "summary.json".to_string()
     }
-    let output = &args.output;
-    let name = &prepared.name;
-    let length = prepared.system().length();
-    let shown =
-        Shown::of_run(Ending::of(summary.failure.as_ref(), &record.drift, record.energy.as_ref()), record, length);
-    let outputs = report::outputs_figure(name, (&record.trajectory, summary.error.as_ref()), &shown, args.separate);
-    output.figure(folder, "outputs", outputs)?;
-    output.figure(folder, "drift", report::drift_figure(name, record, &shown, length))?;
-    output.figure(folder, "energy", report::energy_figure(name, record, &shown))?;
-    folder.seal("summary.json", summary)
+
+    fn json(&self) -> impl Serialize {
+        self.summary
+    }
+
+    fn text(&self) -> String {
+        self.summary.text()
+    }
+
+    fn write(&self, folder: &mut Folder) -> Result<()> {
+        let Simulated { args, prepared, record, summary } = self;
+        let arrays = || report::trajectory_arrays(&record.trajectory, summary.error.as_ref());
+        for format in &args.format {
+            match format {
+                Format::Csv => {}
+                Format::Npz => folder.write("trajectory.npz", &npz::write(&arrays())?)?,
+                Format::Mat => folder.write("trajectory.mat", &mat::write(&arrays())?)?,
+            }
+        }
+        let name = &prepared.name;
+        let length = prepared.system().length();
+        let ending = Ending::of(summary.failure.as_ref(), &record.drift, record.energy.as_ref());
+        let shown = Shown::of_run(ending, record, length);
+        let outputs = report::outputs_figure(name, (&record.trajectory, summary.error.as_ref()), &shown, args.separate);
+        folder.figure("outputs", outputs)?;
+        folder.figure("drift", report::drift_figure(name, record, &shown, length))?;
+        folder.figure("energy", report::energy_figure(name, record, &shown))
+    }
 }

@@ -1,10 +1,9 @@
 //! The report of `check`.
 
 use super::Table;
-use super::equilibrium::EquilibriumFile;
+use super::equilibrium::EquilibriumReport;
 use super::hints::hints_text;
-use super::summary::AssemblySummary;
-use super::table::{OutputValues, count};
+use super::table::{OutputValues, count, moves_text};
 use crate::analysis::{Rank, Redundant};
 use crate::error::{Failure, significant};
 use crate::initial::Assembly;
@@ -39,7 +38,7 @@ pub struct Check {
     /// Dependent rows of G, with their joints.
     pub redundant: Vec<Redundant>,
     /// Changes of the start by assembly.
-    pub assembly: AssemblySummary,
+    pub assembly: Assembly,
     /// Rates and outputs at the start.
     pub start: Start,
     /// The reason why no simulation begins there.
@@ -72,7 +71,7 @@ pub struct Check {
     pub hints: Option<Hints>,
     /// The static equilibrium, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub equilibrium: Option<EquilibriumFile>,
+    pub equilibrium: Option<EquilibriumReport>,
 }
 
 /// Rates and outputs at the assembled start.
@@ -118,7 +117,7 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
         rank_beside: found.nearby,
         degrees_of_freedom: n.moving() - found.rank,
         redundant: found.redundant,
-        assembly: (&prepared.assembly).into(),
+        assembly: prepared.assembly.clone(),
         start: Start::of(prepared),
         refused: prepared.span().ok().and_then(|span| refused(system, &prepared.method, span, prepared.start())),
         condition: found.condition,
@@ -239,7 +238,7 @@ impl Check {
                 text += &format!("{table}\n");
             }
         }
-        let rest = self.equilibrium.as_ref().map_or(String::new(), EquilibriumFile::text);
+        let rest = self.equilibrium.as_ref().map_or(String::new(), EquilibriumReport::text);
         let hints = self.hints.as_ref().map_or(String::new(), hints_text);
         text + &self.redundancy_text() + &self.start_text() + &self.scales_text() + &hints + &rest
     }
@@ -273,14 +272,7 @@ impl Check {
             "start: |phi| {:.1e} -> {:.1e}, |phi'| {:.1e} -> {:.1e} (given -> assembled, relative to the scale)\n",
             assembly.before.phi, assembly.after.phi, assembly.before.phi_dot, assembly.after.phi_dot
         );
-        for change in assembly.moves.iter().take(10) {
-            let from = significant(change.from, 8);
-            let to = significant(change.to, 8);
-            text += &format!("  moved {}: {from} -> {to}\n", change.name);
-        }
-        if assembly.moves.len() > 10 {
-            text += &format!("  and {} smaller moves\n", assembly.moves.len() - 10);
-        }
+        text += &moves_text(&assembly.moves);
         let refused = self
             .refused
             .as_ref()

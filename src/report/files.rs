@@ -1,8 +1,9 @@
 //! The folder of the results.
 
-use super::origin::{Sealed, Settings};
+use super::origin::{Origin, Sealed, Settings};
 use crate::error::{Error, Result};
 use crate::files::{self, Staging};
+use crate::plot::Figure;
 use serde::Serialize;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -47,10 +48,20 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
+/// Format of figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Format {
+    Svg,
+    Png,
+    None,
+}
+
 /// A folder of the results of one command, which appear all together: [`finish`](Self::finish) moves them into place.
 /// Without it none appears, and earlier results stay complete until then. [`Staging`] describes how.
 pub struct Folder {
     path: PathBuf,
+    figures: Format,
     written: Vec<String>,
     /// Number of the files that belong to a result.
     sealed: usize,
@@ -65,7 +76,20 @@ impl Folder {
         std::fs::create_dir_all(path).map_err(|error| failed(path, "cannot make this folder", &error))?;
         Staging::create(path).map_err(|error| failed(path, "cannot write here", &error))?;
         let path = path.to_path_buf();
-        Ok(Folder { path, written: Vec::new(), sealed: 0, notes: Vec::new(), obsolete: Vec::new(), staging: None })
+        Ok(Folder {
+            path,
+            figures: Format::Svg,
+            written: Vec::new(),
+            sealed: 0,
+            notes: Vec::new(),
+            obsolete: Vec::new(),
+            staging: None,
+        })
+    }
+
+    /// Chooses the format of the figures.
+    pub fn drawing(self, figures: Format) -> Folder {
+        Folder { figures, ..self }
     }
 
     /// Returns the path of the folder.
@@ -77,6 +101,25 @@ impl Folder {
     /// complete.
     pub fn write(&mut self, name: &str, contents: &[u8]) -> Result<()> {
         self.stage(name, |staging| staging.write(name, contents))
+    }
+
+    /// Writes a figure in the chosen format, if there is one and any is chosen.
+    pub fn figure(&mut self, name: &str, figure: Option<Figure>) -> Result<()> {
+        let refused = |reason| Error::input(format!("cannot draw {name}.png: {reason}")).hint("choose --figures svg");
+        match (figure, self.drawn(name)) {
+            (Some(figure), Some(file)) if self.figures == Format::Svg => self.write(&file, figure.to_svg().as_bytes()),
+            (Some(figure), Some(file)) => self.write(&file, &figure.to_png().map_err(refused)?),
+            _ => Ok(()),
+        }
+    }
+
+    /// Returns the file of a figure; none where no format is chosen.
+    pub(super) fn drawn(&self, name: &str) -> Option<String> {
+        match self.figures {
+            Format::Svg => Some(format!("{name}.svg")),
+            Format::Png => Some(format!("{name}.png")),
+            Format::None => None,
+        }
     }
 
     /// Makes a file that is written while it is computed, and appears after [`finish`](Self::finish).
@@ -100,9 +143,14 @@ impl Folder {
 
     /// Writes a result as indented JSON, with the names of the files that were written since the last one and belong
     /// to it. Those that an earlier result of this name has beyond them go.
-    pub fn seal<T: Serialize>(&mut self, name: &str, result: T) -> Result<Sealed<T>> {
+    pub fn seal<T: Serialize>(
+        &mut self,
+        name: &str,
+        origin: impl Into<Option<Origin>>,
+        result: T,
+    ) -> Result<Sealed<T>> {
         let own = self.written[self.sealed..].iter().cloned();
-        let sealed = Sealed { result, files: own.chain([name.to_string()]).collect() };
+        let sealed = Sealed { origin: origin.into(), result, files: own.chain([name.to_string()]).collect() };
         let mut file = self.stream(name)?;
         serde_json::to_writer_pretty(&mut file, &sealed).map_err(|error| Error::file(self.path.join(name), error))?;
         file.append(b"\n");

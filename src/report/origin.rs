@@ -20,36 +20,30 @@ pub struct Origin {
     pub parameters: Map<String, Value>,
     /// Reasons to doubt the result; empty where none is known.
     pub warnings: Vec<Warning>,
+    /// Method by which the motion is simulated; none where nothing is, or where the result has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub simulation: Option<Method>,
 }
 
 impl Origin {
     /// The origin of a result of the library: no command.
     pub fn new(parameters: &Parameters, warnings: Vec<Warning>) -> Self {
         let parameters = parameters.iter().map(|(name, value)| (name.to_string(), Value::from(value))).collect();
-        Origin { holonom: env!("CARGO_PKG_VERSION"), command: Vec::new(), parameters, warnings }
+        Origin { holonom: env!("CARGO_PKG_VERSION"), command: Vec::new(), parameters, warnings, simulation: None }
     }
 }
 
-/// A result with its origin.
-#[derive(Clone, Debug, Serialize)]
-pub struct Repeatable<T> {
-    /// What it takes to repeat it.
-    #[serde(flatten)]
-    pub origin: Origin,
-    /// Method by which the motion is simulated; none where nothing is.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub simulation: Option<Method>,
-    /// The result.
-    #[serde(flatten)]
-    pub result: T,
-}
-
-/// A result with the names of the files that were written with it.
+/// A result with its origin, and with the names of the files that were written with it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Sealed<T> {
+    /// None where the result has it.
     #[serde(flatten)]
-    pub(super) result: T,
-    pub(super) files: Vec<String>,
+    pub origin: Option<Origin>,
+    #[serde(flatten)]
+    pub result: T,
+    /// Empty of what is printed alone.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<String>,
 }
 
 /// The settings of a result as its file has them.

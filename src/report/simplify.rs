@@ -1,15 +1,36 @@
 //! The least model that keeps a promise: text, table and figure.
 
 use super::tradeoff::milliseconds;
-use super::{Table, cell, table, velocities};
+use super::{Answer, Folder, Table, cell, table, velocities};
 use crate::compare::work_precision::front;
-use crate::error::{Result, percent, short_list};
+use crate::error::{Error, Result, percent, short_list};
 use crate::math::bounds;
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style, Tint};
 use crate::simplify::{Norm, Robustness, Run, Simplification, Trial, Which};
+use serde::Serialize;
 
-/// Returns the result as text.
-pub fn simplify_text(result: &Simplification) -> String {
+impl Answer for Simplification {
+    fn name(&self) -> String {
+        "simplify.json".to_string()
+    }
+
+    fn json(&self) -> impl Serialize {
+        self
+    }
+
+    fn text(&self) -> String {
+        simplify_text(self)
+    }
+
+    fn write(&self, folder: &mut Folder) -> Result<()> {
+        folder.write("simplify.csv", &simplify_table(self)?)?;
+        folder.figure("simplify", simplify_figure(self))?;
+        let scene = serde_json::to_string_pretty(&self.simplified).map_err(|error| Error::input(error.to_string()))?;
+        folder.write("simplified.json", format!("{scene}\n").as_bytes())
+    }
+}
+
+fn simplify_text(result: &Simplification) -> String {
     let Simplification { scene, within, norm, outputs, trials, robustness, .. } = result;
     let size = match norm {
         Norm::Range => "range",
@@ -119,10 +140,7 @@ fn near(robustness: &Robustness, within: f64) -> String {
 }
 
 /// Returns a row for each change: estimate, measurement, cost and result.
-///
-/// # Errors
-/// Only those of the table's writer.
-pub fn simplify_table(result: &Simplification) -> Result<Vec<u8>> {
+fn simplify_table(result: &Simplification) -> Result<Vec<u8>> {
     let own = ["candidate", "change", "estimated", "measured", "worst", "cpu_seconds", "velocities", "constraints"];
     let headings = own.iter().chain(&["method", "kept", "reason"]).map(|name| name.to_string());
     let row = |trial: &Trial| {

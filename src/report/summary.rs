@@ -7,7 +7,7 @@ use crate::analysis::{Drift, EnergyBalance, Extremes, Passing, Record, Singulari
 use crate::compare::ErrorBars;
 use crate::error::{Failure, Warning, clock, short_list, significant};
 use crate::formulation::Statistics;
-use crate::initial::{Assembly, Level, Move};
+use crate::initial::Assembly;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Checkpoint, Leg, Method, Outcome, Stiffness};
 use serde::{Serialize, Serializer};
@@ -42,7 +42,7 @@ pub struct Summary {
     /// Fast modes that the method cannot step over; none where it can, or is implicit.
     pub stiffness: Option<Stiffness>,
     /// Changes of the start by assembly.
-    pub assembly: AssemblySummary,
+    pub assembly: Assembly,
     /// Error bars of the outputs, if requested.
     pub error: Option<ErrorBars>,
     /// Extremes of each output over the rows, by its name.
@@ -95,20 +95,6 @@ impl Chosen {
     }
 }
 
-/// Changes by assembly.
-#[derive(Clone, Debug, Serialize)]
-pub struct AssemblySummary {
-    pub before: Level,
-    pub after: Level,
-    pub moves: Vec<Move>,
-}
-
-impl From<&Assembly> for AssemblySummary {
-    fn from(assembly: &Assembly) -> Self {
-        AssemblySummary { before: assembly.before, after: assembly.after, moves: assembly.moves.clone() }
-    }
-}
-
 /// The last row, by names.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct FinalState {
@@ -147,7 +133,7 @@ pub fn summarize(
         energy: record.energy,
         singularity: record.singularity.clone(),
         stiffness,
-        assembly: (&prepared.assembly).into(),
+        assembly: prepared.assembly.clone(),
         error: None,
         outputs: record.extremes.clone(),
         r#final: final_state(record),
@@ -172,11 +158,8 @@ fn final_state(record: &Record) -> FinalState {
 impl Summary {
     /// Returns the summary as text.
     pub fn text(&self) -> String {
-        let Method { formulation, integrator, projection, rtol, atol, step } = &self.method.method;
-        let accuracy = match step {
-            Some(step) => format!("step {} s", clock(*step)),
-            None => format!("rtol {rtol:e}, atol {atol:e}"),
-        };
+        let Method { formulation, integrator, projection, .. } = &self.method.method;
+        let accuracy = error_bar::accuracy(&self.method.method);
         let s = &self.statistics;
         let trials = self.method.trials.filter(|trials| trials.rhs_evaluations > 0);
         let rows = Some(s.rows.rhs_evaluations).filter(|rows| *rows as f64 > SHOWN * s.rhs_evaluations as f64);

@@ -1,6 +1,7 @@
 //! Text tables for terminals.
 
 use crate::error::significant;
+use crate::initial::Move;
 use crate::system::Column;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
@@ -83,6 +84,21 @@ impl Table {
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());
     }
+}
+
+/// Largest number of changes of the start in a text.
+const MOST_MOVES: usize = 10;
+
+/// Returns a line for each of the largest changes of the start.
+pub fn moves_text(moves: &[Move]) -> String {
+    let line = |Move { name, from, to }: &Move| {
+        format!("  moved {name}: {} -> {}\n", significant(*from, 8), significant(*to, 8))
+    };
+    let more = match moves.len().saturating_sub(MOST_MOVES) {
+        0 => String::new(),
+        more => format!("  and {more} smaller moves\n"),
+    };
+    moves.iter().take(MOST_MOVES).map(line).chain([more]).collect()
 }
 
 /// A number with the word for one or for many.

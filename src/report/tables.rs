@@ -1,9 +1,10 @@
 //! Comma-separated tables for Python, MATLAB and spreadsheets.
 
+use super::figures::MOST_COORDINATES;
 use crate::compare::ErrorBars;
 use crate::error::{Error, Result};
 use crate::files::Array;
-use crate::sweep::Sweep;
+use crate::sweep::{Point, Sweep};
 use crate::system::Names;
 use crate::trajectory::Trajectory;
 use std::borrow::Borrow;
@@ -41,6 +42,19 @@ pub fn sweep_table(sweep: &Sweep) -> Result<Vec<u8>> {
         all.push(b'\n');
     }
     Ok(all)
+}
+
+/// Returns name and unit of what is shown: the outputs, or the first coordinates where the scene names none.
+pub(super) fn watched(sweep: &Sweep) -> Vec<(&str, &str)> {
+    match sweep.outputs.as_slice() {
+        [] => sweep.names.q.iter().take(MOST_COORDINATES).map(|name| (name.as_str(), "m, rad")).collect(),
+        outputs => outputs.iter().map(|output| (output.name.as_str(), output.unit.as_str())).collect(),
+    }
+}
+
+/// Returns the values of these at a state.
+pub(super) fn shown<'a>(sweep: &Sweep, point: &'a Point) -> &'a [f64] {
+    if sweep.outputs.is_empty() { &point.q } else { &point.outputs }
 }
 
 /// Returns the heading of a parameter: `parameters.NAME` where another column has its name.

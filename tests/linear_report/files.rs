@@ -15,7 +15,7 @@ fn linear<'a>(prepared: &'a PreparedScene, model: &'a LinearModel, names: &'a ho
 fn json(model: &LinearModel) -> Value {
     let prepared = prepared("four_bar_spring");
     let names = prepared.system().names();
-    serde_json::to_value(linear(&prepared, model, &names).file()).unwrap()
+    serde_json::to_value(linear(&prepared, model, &names)).unwrap()
 }
 
 fn keys(value: &Value) -> Vec<&str> {

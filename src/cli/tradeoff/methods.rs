@@ -7,7 +7,7 @@ use crate::compare::work_precision::{Given, Lack, Motion, Runner, WorkPrecision}
 use crate::error::{Error, Result};
 use crate::files;
 use crate::prepared::PreparedScene;
-use crate::report::tradeoff::{Summary, tradeoff_figure, tradeoff_table};
+use crate::report::tradeoff::MethodsAnswer;
 use crate::report::{Folder, write_whole};
 use crate::scene;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -59,13 +59,10 @@ impl Question {
     }
 }
 
-fn report(args: &Args, prepared: &PreparedScene, measured: &WorkPrecision, mut folder: Folder) -> Result<ExitCode> {
-    let summary = Summary::new(measured, &args.named());
-    folder.write("tradeoff.csv", &tradeoff_table(measured)?)?;
-    args.output.figure(&mut folder, "tradeoff", tradeoff_figure(measured, args.digits))?;
+fn report(args: &Args, prepared: &PreparedScene, measured: &WorkPrecision, folder: Folder) -> Result<ExitCode> {
     // Methods and tolerances are those of the cells.
-    let sealed = folder.seal("tradeoff.json", args.talk.of_no_method(&prepared.parameters, &summary))?;
-    args.talk.conclude(folder, &sealed, || summary.text(args.digits))?;
+    let origin = args.talk.origin_of(&prepared.parameters);
+    args.talk.publish(folder, origin, &MethodsAnswer::new(measured, &args.named(), args.digits))?;
     match (interrupt::is_asked(), measured.lacks(args.digits)) {
         (true, _) => tell("error: interrupted\n  help: go on with --resume"),
         (_, Some(Lack { why, hint, is_all: true })) => tell(format!("error: no recommendation: {why}\n  help: {hint}")),

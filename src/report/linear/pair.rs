@@ -2,10 +2,9 @@
 
 use super::phase::phases;
 use crate::linearize::Complex;
-use serde::Serialize;
 
 /// Response of an output to an input, at each frequency.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Response {
     /// Name of the input.
     pub input: String,
@@ -16,7 +15,6 @@ pub struct Response {
     /// Unit of the output.
     pub output_unit: String,
     /// Values, in output unit per input unit.
-    #[serde(skip)]
     pub values: Vec<Complex<f64>>,
 }
 

@@ -3,7 +3,9 @@
 use super::Linear;
 use crate::error::{short, significant};
 use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, Pair, pairs};
-use crate::report::Table;
+use crate::report::{Answer, Table, cell};
+use serde::Serialize;
+use serde_json::json;
 
 /// Largest number of lines of physical eigenvalues, and of spurious ones; the files have all.
 const MOST_LINES: usize = 30;
@@ -172,6 +174,28 @@ fn movers(bodies: &[&str], energy: &[f64]) -> String {
         large.clone().take(MOST_NAMED).map(|(name, sum)| format!("{name} {:.0}", 100.0 * sum)).collect();
     let more = if large.count() > MOST_NAMED { ", ..." } else { "" };
     words.join(", ") + more
+}
+
+/// Models at a state by all methods.
+pub struct MethodsAnswer {
+    /// Time of the state, s.
+    pub t: f64,
+    pub is_equilibrium: bool,
+    pub methods: Vec<Comparison>,
+}
+
+impl Answer for MethodsAnswer {
+    fn name(&self) -> String {
+        format!("methods-{}.json", cell(self.t))
+    }
+
+    fn json(&self) -> impl Serialize {
+        json!({ "t": self.t, "methods": self.methods })
+    }
+
+    fn text(&self) -> String {
+        format!("\n{}", comparison_text(&self.methods, self.is_equilibrium))
+    }
 }
 
 /// Returns one line for each method, the reference first.

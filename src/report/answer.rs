@@ -1,0 +1,37 @@
+//! The result of a command.
+
+use super::Folder;
+use crate::error::Result;
+use serde::Serialize;
+
+/// The result of a command.
+pub trait Answer {
+    /// Returns the name of the JSON file.
+    fn name(&self) -> String;
+
+    /// Returns the contents of the JSON file.
+    fn json(&self) -> impl Serialize;
+
+    /// Returns the text for a terminal.
+    fn text(&self) -> String;
+
+    /// Writes tables and figures, in the order in which they are listed.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    fn write(&self, _folder: &mut Folder) -> Result<()> {
+        Ok(())
+    }
+}
+
+/// Serializes an object with these keys, in their order. A key with a condition is left out where that does not hold.
+macro_rules! object {
+    ($serializer:expr, $($key:literal $(if $condition:expr)? => $value:expr),* $(,)?) => {{
+        use serde::ser::SerializeMap;
+        let mut object = $serializer.serialize_map(None)?;
+        $($(if $condition)? { object.serialize_entry($key, &$value)?; })*
+        object.end()
+    }};
+}
+
+pub(crate) use object;
