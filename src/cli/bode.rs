@@ -7,7 +7,6 @@ use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_respons
 use crate::prepared::PreparedScene;
 use crate::report::linear::{FrequencyResponse, Magnitude, Response};
 use crate::system::Column;
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -47,7 +46,7 @@ struct Chosen {
     outputs: Vec<usize>,
 }
 
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let in_file = args.at.in_file();
     let request = args.model.request()?;
     let prepared = args.at.load()?;
@@ -64,9 +63,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
         args.at.talk.warn(&moving(&model));
         let frequencies = frequencies(&args, &model)?;
         let response = respond(&args, &prepared, model, &chosen, frequencies);
-        args.at.talk.add(folder, args.at.talk.origin(&prepared), &response)
-    })?;
-    Ok(ExitCode::SUCCESS)
+        args.at.add(folder, "bode", (&prepared, response.model.point.t), &response)
+    })
 }
 
 /// Warning for a state off equilibrium, where A(t) is not constant and no transfer function is that of the motion.

@@ -8,7 +8,7 @@ use crate::math::expression::{Number, Parameters, constant};
 use crate::math::memory::refuse_rows;
 use crate::method_spec::{Listed, MethodSpec};
 use crate::prepared::{Overrides, PreparedScene};
-use crate::report::{Answer, Folder, Format, Origin, Written};
+use crate::report::{Answer, Folder, Format, Origin, Written, write_whole};
 use crate::scene::Automatic;
 use crate::simulate::Span;
 use crate::system::Dimensions;
@@ -16,9 +16,9 @@ use crate::trajectory::recorded;
 use crate::{formulation, integrator, projection};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use serde_json::Value;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::time::Duration;
 
 /// The scene and how to solve it.
@@ -263,11 +263,7 @@ impl Talk {
 
     /// Prints the result: JSON if requested, else text unless quiet.
     pub fn print(&self, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
-        match (self.json, self.quiet) {
-            (true, _) => print(&(to_json(json)? + "\n")),
-            (false, false) => print(&text()),
-            _ => Ok(()),
-        }
+        if self.json || !self.quiet { print_result(self.json, json, text) } else { Ok(()) }
     }
 
     /// Returns the origin of a result: the command line, the scene's parameters and method, and the warnings so far.
@@ -280,19 +276,17 @@ impl Talk {
         Origin { command: command_line(), ..Origin::new(parameters, self.said.borrow().clone()) }
     }
 
-    /// Writes an answer, moves all files into place, prints it and names the files.
-    pub fn publish(&self, mut folder: Folder, origin: impl Into<Option<Origin>>, answer: &impl Answer) -> Result<()> {
-        answer.write(&mut folder)?;
-        let sealed = folder.seal(&answer.name(), origin, answer.json())?;
+    /// Writes an answer with its JSON as `STEM.json`, moves all files into place, prints it and names the files.
+    pub fn publish(
+        &self,
+        mut folder: Folder,
+        stem: &str,
+        origin: impl Into<Option<Origin>>,
+        answer: &impl Answer,
+    ) -> Result<()> {
+        answer.write(&mut folder, stem)?;
+        let sealed = folder.seal(&format!("{stem}.json"), origin, answer.json())?;
         self.conclude(folder, &sealed, || answer.text())
-    }
-
-    /// Writes an answer of several, and prints its text; returns the JSON if that is requested, else null.
-    pub fn add(&self, folder: &mut Folder, origin: Origin, answer: &impl Answer) -> Result<Value> {
-        answer.write(folder)?;
-        self.say(&answer.text())?;
-        let sealed = folder.seal(&answer.name(), origin, answer.json())?;
-        if self.json { serde_json::to_value(sealed).map_err(unprintable) } else { Ok(Value::Null) }
     }
 
     /// Moves results into place and tells what they replace.
@@ -343,11 +337,36 @@ impl Output {
     }
 }
 
-pub fn to_json(value: &impl serde::Serialize) -> Result<String> {
-    serde_json::to_string_pretty(value).map_err(unprintable)
+/// Prints the result: JSON if requested, else text.
+pub fn print_result(as_json: bool, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
+    if as_json { print(&to_json(json)?) } else { print(&text()) }
 }
 
-fn unprintable(error: serde_json::Error) -> Error {
+/// Returns indented JSON that ends its last line.
+pub fn to_json(value: &impl serde::Serialize) -> Result<String> {
+    serde_json::to_string_pretty(value).map(|text| text + "\n").map_err(unprintable)
+}
+
+/// Writes a text to a file, or prints it where none is given.
+pub fn put(text: &str, path: Option<&Path>) -> Result<()> {
+    path.map_or_else(|| print(text), |path| write_whole(path, text.as_bytes()))
+}
+
+/// Returns the JSON files of a folder, by name.
+pub fn json_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let mut paths: Vec<PathBuf> = std::fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
+    paths.sort();
+    Ok(paths)
+}
+
+/// Tells why the command failed, although its results are written.
+pub fn fail(text: impl std::fmt::Display) -> Result<ExitCode> {
+    tell(format!("error: {text}"));
+    Ok(ExitCode::from(1))
+}
+
+pub fn unprintable(error: serde_json::Error) -> Error {
     Error::input(format!("cannot print as JSON: {error}"))
 }
 

@@ -32,7 +32,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let runs = drift_under_stabilizations(&prepared, || interrupt::stop(&folder), || bar.inc(1))?;
     bar.finish_and_clear();
     let answer = Stabilizations { prepared: &prepared, runs };
-    args.common.talk.publish(folder, args.common.talk.origin(&prepared), &answer)?;
+    args.common.talk.publish(folder, "stabilizations", args.common.talk.origin(&prepared), &answer)?;
     fatal(&answer.runs).map_or(Ok(ExitCode::SUCCESS), |failure| Err(failure.clone().into()))
 }
 

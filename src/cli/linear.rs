@@ -1,12 +1,13 @@
 //! Options and functions of the commands that make linear models.
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, number};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, number, unprintable};
 use crate::analysis::Range;
 use crate::error::{Error, Result};
 use crate::linearize::{Chart, Operating, Request, State, at_rest, kinks, registry, states, tighten};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
-use crate::report::Folder;
+use crate::report::linear::stem_at;
+use crate::report::{Answer, Folder};
 use serde_json::Value;
 
 /// Which linear model.
@@ -66,7 +67,7 @@ impl AtStates {
         |error| error.in_file(&self.scene.path)
     }
 
-    /// Publishes the results at all states, which `result` [adds](Talk::add). As JSON one alone is no list.
+    /// Publishes the results at all states, which `result` [adds](Self::add). As JSON one alone is no list.
     pub fn conclude(
         &self,
         prepared: &PreparedScene,
@@ -77,6 +78,21 @@ impl AtStates {
         let mut results = places.iter().map(|place| result(place, &mut folder)).collect::<Result<Vec<Value>>>()?;
         let all = if results.len() == 1 { results.remove(0) } else { Value::Array(results) };
         self.talk.conclude(folder, &all, String::new)
+    }
+
+    /// Writes an answer on the state at `t`, and prints its text; returns the JSON if that is requested, else null.
+    pub fn add(
+        &self,
+        folder: &mut Folder,
+        what: &str,
+        (prepared, t): (&PreparedScene, f64),
+        answer: &impl Answer,
+    ) -> Result<Value> {
+        let stem = stem_at(what, t);
+        answer.write(folder, &stem)?;
+        self.talk.say(&answer.text())?;
+        let sealed = folder.seal(&format!("{stem}.json"), self.talk.origin(prepared), answer.json())?;
+        if self.talk.json { serde_json::to_value(sealed).map_err(unprintable) } else { Ok(Value::Null) }
     }
 }
 

@@ -12,7 +12,6 @@ use crate::report::linear::{AgainstAnswer, Linear, LinearAnswer, MethodsAnswer};
 use crate::report::{Folder, uncertain_kinds};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -39,7 +38,7 @@ pub struct Args {
     against: Option<PathBuf>,
 }
 
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let prepared = args.at.load()?;
     let in_file = args.at.in_file();
     let requests = requests(&args).map_err(|error| error.under("--method"))?;
@@ -56,8 +55,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         told.extend(new);
         let compared = other.as_ref().map(|scene| compared(&args, &prepared, scene, (state, &models[0]), &requests));
         add(&args, &prepared, (&models, compared.transpose()?), folder)
-    })?;
-    Ok(ExitCode::SUCCESS)
+    })
 }
 
 /// Returns the models by each method, or the requested modes.
@@ -167,12 +165,12 @@ fn add(
     (models, against): (&[LinearModel], Option<AgainstAnswer>),
     folder: &mut Folder,
 ) -> Result<Value> {
-    let talk = &args.at.talk;
     let first = &models[0];
+    let LinearizationPoint { t, is_equilibrium, .. } = first.point;
     let linear = Linear { scene: &prepared.name, names: &prepared.system().names(), model: first };
-    let mut json = talk.add(folder, talk.origin(prepared), &LinearAnswer { prepared, linear })?;
+    let mut json = args.at.add(folder, "linear", (prepared, t), &LinearAnswer { prepared, linear })?;
     if let Some(against) = against {
-        json["against"] = talk.add(folder, talk.origin(prepared), &against)?;
+        json["against"] = args.at.add(folder, "against", (prepared, t), &against)?;
         return Ok(json);
     }
     if models.len() == 1 {
@@ -180,6 +178,5 @@ fn add(
     }
     let exact = first.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.value);
     let methods = compare(models, &exact.collect::<Vec<_>>());
-    let LinearizationPoint { t, is_equilibrium, .. } = first.point;
-    talk.add(folder, talk.origin(prepared), &MethodsAnswer { t, is_equilibrium, methods })
+    args.at.add(folder, "methods", (prepared, t), &MethodsAnswer { t, is_equilibrium, methods })
 }

@@ -1,6 +1,6 @@
 //! `holonom loci SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive, tell};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, fail, number, positive};
 use super::linear::ModelOptions;
 use super::linearize::unlike;
 use crate::error::{Error, Result, short};
@@ -73,23 +73,18 @@ pub fn run(args: Args) -> Result<ExitCode> {
     args.talk.warn(&uncertain_kinds(uncertain.map(|_| loci.method.as_str())));
     let other = other.as_ref().map(|(name, other)| (name.as_str(), other));
     let answer = LociAnswer::new(&prepared.name, &loci, args.unit.as_deref(), other);
-    answer.write(&mut folder)?;
-    folder.seal(&answer.name(), args.talk.origin(&prepared), answer.json())?;
+    answer.write(&mut folder, "loci")?;
+    folder.seal("loci.json", args.talk.origin(&prepared), answer.json())?;
     let origin = Some(args.talk.origin(&prepared));
     args.talk.conclude(folder, &Sealed { origin, result: answer.summary(), files: Vec::new() }, || answer.text())?;
-    let Some(gap) = failed(&args, &loci) else { return Ok(ExitCode::SUCCESS) };
+    let Some(Gap { at, error }) = failed(&args, &loci) else { return Ok(ExitCode::SUCCESS) };
     match &args.sweep {
-        Some(range) => tell(format!(
-            "error: {} of {} values have no eigenvalues; at {} = {}: {}",
-            loci.gaps.len(),
-            range.count,
-            range.parameter,
-            short(gap.at),
-            gap.error
-        )),
-        None => tell(format!("error: {}", gap.error)),
+        Some(Range { parameter, count, .. }) => {
+            let gaps = loci.gaps.len();
+            fail(format!("{gaps} of {count} values have no eigenvalues; at {parameter} = {}: {error}", short(*at)))
+        }
+        None => fail(error),
     }
-    Ok(ExitCode::from(1))
 }
 
 /// The gap that makes the loci incomplete: any value of a parameter; of a motion the end.
@@ -169,8 +164,7 @@ fn none(args: &Args, loci: &Loci) -> Result<ExitCode> {
         Error::Input(input) if input.path.starts_with('-') => Err(gap.error.clone().in_file(&args.scene.path)),
         error => {
             let name = args.sweep.as_ref().map_or("t", |range| range.parameter.as_str());
-            tell(format!("error: no state has eigenvalues; at {name} = {}: {error}", short(gap.at)));
-            Ok(ExitCode::from(1))
+            fail(format!("no state has eigenvalues; at {name} = {}: {error}", short(gap.at)))
         }
     }
 }

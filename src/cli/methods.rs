@@ -1,6 +1,6 @@
 //! `holonom methods`
 
-use super::common::{print, to_json};
+use super::common::print_result;
 use crate::error::Result;
 use crate::integrator::{self, Entry};
 use crate::method_spec::{MethodSpec, OptionDoc};
@@ -8,7 +8,6 @@ use crate::report::Table;
 use crate::simulate::check_pair;
 use crate::{formulation, projection};
 use serde::Serialize;
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -54,14 +53,9 @@ struct Triple {
     lambda: usize,
 }
 
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let pairs = pairs(&args)?;
-    if args.json {
-        print(&(to_json(&methods(&pairs))? + "\n"))?
-    } else {
-        print(&text(&pairs))?
-    }
-    Ok(ExitCode::SUCCESS)
+    print_result(args.json, &methods(&pairs), || text(&pairs))
 }
 
 type Pair = (&'static Entry, &'static str);

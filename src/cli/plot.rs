@@ -1,6 +1,6 @@
 //! `holonom plot SCENE`
 
-use super::common::{Common, Output, number, positive, set_by, tell};
+use super::common::{Common, Output, fail, number, positive, set_by};
 use super::interrupt;
 use crate::analysis::Recorder;
 use crate::error::{Error, Failure, Result, Warning, clock, significant};
@@ -140,13 +140,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let written = args.common.talk.finish(folder)?;
     drawn.files = written.paths();
     args.common.talk.print(&drawn, || drawn.text(&written))?;
-    Ok(match failure {
-        None => ExitCode::SUCCESS,
-        Some(failure) => {
-            tell(format!("error: {}", Error::from(failure)));
-            ExitCode::from(1)
-        }
-    })
+    failure.map_or(Ok(ExitCode::SUCCESS), |failure| fail(Error::from(failure)))
 }
 
 impl Args {

@@ -1,6 +1,6 @@
 //! `holonom simplify SCENE --within P%`
 
-use super::common::{Output, SceneOptions, Talk, duration, number, tell};
+use super::common::{Output, SceneOptions, Talk, duration, fail, number};
 use super::interrupt;
 use crate::error::{Error, Result};
 use crate::prepared::Overrides;
@@ -83,18 +83,12 @@ pub fn run(args: Args) -> Result<ExitCode> {
     bar.finish_and_clear();
     let found = found?;
     args.talk.warn(&found.warnings);
-    args.talk.publish(folder, args.talk.origin(&prepared), &found)?;
+    args.talk.publish(folder, "simplify", args.talk.origin(&prepared), &found)?;
     if interrupt::is_asked() {
-        tell("error: interrupted\n  help: the model is the least one until then");
-        return Ok(ExitCode::from(1));
+        return fail("interrupted\n  help: the model is the least one until then");
     }
-    if let Some(broken) = found.broken() {
-        tell(format!(
-            "error: {broken}\n  help: give the scene a tighter rtol and atol, or a shorter motion by --until"
-        ));
-        return Ok(ExitCode::from(1));
-    }
-    Ok(ExitCode::SUCCESS)
+    let help = "give the scene a tighter rtol and atol, or a shorter motion by --until";
+    found.broken().map_or(Ok(ExitCode::SUCCESS), |broken| fail(format!("{broken}\n  help: {help}")))
 }
 
 impl Args {

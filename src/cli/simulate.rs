@@ -1,6 +1,6 @@
 //! `holonom simulate SCENE`
 
-use super::common::{Common, Output, command_line, tell};
+use super::common::{Common, Output, command_line, fail};
 use super::{interrupt, restart};
 use crate::analysis::{Record, Recorder};
 use crate::compare::{Completed, error_bars};
@@ -103,17 +103,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
         summary
     };
     let answer = Simulated { args: &args, prepared: &prepared, record: &record, summary: &summary };
-    args.common.talk.publish(folder, None, &answer)?;
+    args.common.talk.publish(folder, "summary", None, &answer)?;
     args.common.talk.warn(&summary.origin.warnings[early.len()..]);
-    Ok(match &summary.failure {
+    match &summary.failure {
         // What ended the second run is a warning.
-        None if args.check_error && interrupt::is_asked() => ExitCode::from(1),
-        None => ExitCode::SUCCESS,
-        Some(failure) => {
-            tell(format!("error: {}", Error::from(failure.clone())));
-            ExitCode::from(1)
-        }
-    })
+        None if args.check_error && interrupt::is_asked() => Ok(ExitCode::from(1)),
+        None => Ok(ExitCode::SUCCESS),
+        Some(failure) => fail(Error::from(failure.clone())),
+    }
 }
 
 /// Calls `work` with all threads for large systems: this one becomes one of the pool, unless there is one.
@@ -159,10 +156,6 @@ struct Simulated<'a> {
 }
 
 impl Answer for Simulated<'_> {
-    fn name(&self) -> String {
-        "summary.json".to_string()
-    }
-
     fn json(&self) -> impl Serialize {
         self.summary
     }
@@ -171,7 +164,7 @@ impl Answer for Simulated<'_> {
         self.summary.text()
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
+    fn write(&self, folder: &mut Folder, _: &str) -> Result<()> {
         let Simulated { args, prepared, record, summary } = self;
         let arrays = || report::trajectory_arrays(&record.trajectory, summary.error.as_ref());
         for format in &args.format {

@@ -1,6 +1,6 @@
 //! `holonom stress SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, duration, pick, print};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, duration, json_files, pick, print};
 use crate::clock::Stopwatch;
 use crate::compare::stress::{Axis, Limits, Map, Quantity, Subject, known, maps, pair, registry, stress};
 use crate::error::{Error, Result};
@@ -69,7 +69,7 @@ fn run_one(args: &Args, path: &Path) -> Result<ExitCode> {
     let (subject, maps) = prepare(args, path)?;
     let folder = args.output.folder(&subject.name)?;
     let answer = simulate(args, &subject, maps, begun);
-    args.talk.publish(folder, args.talk.origin_of(&subject.values), &answer)?;
+    args.talk.publish(folder, "stress", args.talk.origin_of(&subject.values), &answer)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -90,21 +90,14 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
         }
     }
     let is_empty = scenes.is_empty();
-    args.talk.publish(folder, args.talk.origin_of(&Parameters::default()), &FolderMaps { scenes, unread })?;
+    args.talk.publish(folder, "stress", args.talk.origin_of(&Parameters::default()), &FolderMaps { scenes, unread })?;
     Ok(ExitCode::from(u8::from(is_empty)))
 }
 
 /// Returns the scenes of a folder, by name.
 fn scenes(path: &Path) -> Result<Vec<PathBuf>> {
-    let entries =
-        std::fs::read_dir(path).map_err(|error| Error::file(path, format!("no folder of scenes: {error}")))?;
-    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    let is_scene = |path: &PathBuf| {
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        name.ends_with(".json") && !name.ends_with(".schema.json")
-    };
-    paths.retain(is_scene);
-    paths.sort();
+    let mut paths = json_files(path).map_err(|error| Error::file(path, format!("no folder of scenes: {error}")))?;
+    paths.retain(|path| !path.to_string_lossy().ends_with(".schema.json"));
     if paths.is_empty() { Err(Error::file(path, "there is no scene in this folder")) } else { Ok(paths) }
 }
 

@@ -1,6 +1,6 @@
 //! `holonom sweep SCENE NAME=A..B:N`
 
-use super::common::{Output, SceneOptions, Talk, tell};
+use super::common::{Output, SceneOptions, Talk, fail};
 use crate::error::{Result, Warning, find};
 use crate::prepared::Overrides;
 use crate::report::{SweepAnswer, SweepLook};
@@ -47,10 +47,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let look = SweepLook { outputs: &args.outputs, against: args.against.as_deref(), separate: args.separate };
     let answer = SweepAnswer { sweep: &sweep, look };
     let folder = args.output.folder(&sweep.scene)?;
-    args.talk.publish(folder, args.talk.origin_of(&family.scene()?.parameters), &answer)?;
-    let Some(failure) = answer.failure() else { return Ok(ExitCode::SUCCESS) };
-    tell(format!("error: {failure}"));
-    Ok(ExitCode::from(1))
+    args.talk.publish(folder, "sweep", args.talk.origin_of(&family.scene()?.parameters), &answer)?;
+    answer.failure().map_or(Ok(ExitCode::SUCCESS), fail)
 }
 
 fn moves_nothing(sweep: &Sweep) -> Option<Warning> {

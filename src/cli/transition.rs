@@ -6,7 +6,6 @@ use crate::error::Result;
 use crate::linearize::{Lyapunov, Operating, floquet, lyapunov};
 use crate::report::linear::Transition;
 use crate::tolerances::report as tolerances;
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("what").required(true).multiple(true))]
@@ -27,7 +26,7 @@ pub struct Args {
 /// Number of times that columns are made orthonormal.
 const RENEWALS: f64 = 500.0;
 
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let prepared = args.at.load()?;
     let in_file = args.at.in_file();
     args.at.conclude(&prepared, |place, folder| {
@@ -42,9 +41,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
         let lyapunov = args.lyapunov.map(|duration| exponents(&args, &prepared.name, place, duration)).transpose();
         let lyapunov = lyapunov.map_err(in_file)?;
         let answer = Transition { scene: &prepared.name, t: place.state.t, floquet, lyapunov };
-        args.at.talk.add(folder, args.at.talk.origin(&prepared), &answer)
-    })?;
-    Ok(ExitCode::SUCCESS)
+        args.at.add(folder, "transition", (&prepared, place.state.t), &answer)
+    })
 }
 
 fn exponents(args: &Args, name: &str, place: &Operating, duration: f64) -> Result<Lyapunov> {

@@ -62,7 +62,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         args.at.talk.warn(&found.cut.iter().map(|text| Warning::new(text, MORE)).collect::<Vec<_>>());
         let answer = ValidationAnswer { scene: &prepared.name, names: &names, found };
         complaints.extend((!answer.is_right()).then(|| answer.complaint()));
-        args.at.talk.add(folder, args.at.talk.origin(&prepared), &answer)
+        args.at.add(folder, "validation", (&prepared, place.state.t), &answer)
     })?;
     for complaint in &complaints {
         tell(format!("error: {complaint}"));

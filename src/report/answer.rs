@@ -6,20 +6,18 @@ use serde::Serialize;
 
 /// The result of a command.
 pub trait Answer {
-    /// Returns the name of the JSON file.
-    fn name(&self) -> String;
-
     /// Returns the contents of the JSON file.
     fn json(&self) -> impl Serialize;
 
     /// Returns the text for a terminal.
     fn text(&self) -> String;
 
-    /// Writes tables and figures, in the order in which they are listed.
+    /// Writes tables and figures, in the order in which they are listed; `stem` is the name of the JSON file without
+    /// extension.
     ///
     /// # Errors
     /// Files that cannot be written.
-    fn write(&self, _folder: &mut Folder) -> Result<()> {
+    fn write(&self, _folder: &mut Folder, _stem: &str) -> Result<()> {
         Ok(())
     }
 }

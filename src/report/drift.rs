@@ -19,10 +19,6 @@ pub struct Stabilizations<'a> {
 }
 
 impl Answer for Stabilizations<'_> {
-    fn name(&self) -> String {
-        "stabilizations.json".to_string()
-    }
-
     fn json(&self) -> impl Serialize {
         json!({ "scene": self.prepared.name, "runs": self.runs })
     }
@@ -56,10 +52,10 @@ impl Answer for Stabilizations<'_> {
         text + &lines + if lines.is_empty() { "" } else { "\n" }
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
-        folder.write("stabilizations.csv", &stabilizations_table(&self.runs)?)?;
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &stabilizations_table(&self.runs)?)?;
         let length = self.prepared.system().length();
-        folder.figure("stabilizations", stabilizations_figure(&self.prepared.name, &self.runs, length))
+        folder.figure(stem, stabilizations_figure(&self.prepared.name, &self.runs, length))
     }
 }
 

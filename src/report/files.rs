@@ -103,6 +103,11 @@ impl Folder {
         self.stage(name, |staging| staging.write(name, contents))
     }
 
+    /// Writes a table.
+    pub fn table(&mut self, stem: &str, contents: &[u8]) -> Result<()> {
+        self.write(&format!("{stem}.csv"), contents)
+    }
+
     /// Writes a figure in the chosen format, if there is one and any is chosen.
     pub fn figure(&mut self, name: &str, figure: Option<Figure>) -> Result<()> {
         let refused = |reason| Error::input(format!("cannot draw {name}.png: {reason}")).hint("choose --figures svg");

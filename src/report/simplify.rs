@@ -10,10 +10,6 @@ use crate::simplify::{Norm, Robustness, Run, Simplification, Trial, Which};
 use serde::Serialize;
 
 impl Answer for Simplification {
-    fn name(&self) -> String {
-        "simplify.json".to_string()
-    }
-
     fn json(&self) -> impl Serialize {
         self
     }
@@ -22,9 +18,9 @@ impl Answer for Simplification {
         simplify_text(self)
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
-        folder.write("simplify.csv", &simplify_table(self)?)?;
-        folder.figure("simplify", simplify_figure(self))?;
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &simplify_table(self)?)?;
+        folder.figure(stem, simplify_figure(self))?;
         let scene = serde_json::to_string_pretty(&self.simplified).map_err(|error| Error::input(error.to_string()))?;
         folder.write("simplified.json", format!("{scene}\n").as_bytes())
     }

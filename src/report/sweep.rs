@@ -37,10 +37,6 @@ struct Place {
 }
 
 impl Answer for SweepAnswer<'_> {
-    fn name(&self) -> String {
-        "sweep.json".to_string()
-    }
-
     fn json(&self) -> impl Serialize {
         let Sweep { scene, range, points, limits, own_value, nearest_singular, .. } = self.sweep;
         let limit = |limit: &Limit| {
@@ -81,9 +77,9 @@ impl Answer for SweepAnswer<'_> {
         text + &self.singular_line() + "\n" + &self.table()
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
-        folder.write("sweep.csv", &sweep_table(self.sweep)?)?;
-        folder.figure("sweep", sweep_figure(self.sweep, self.look))
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &sweep_table(self.sweep)?)?;
+        folder.figure(stem, sweep_figure(self.sweep, self.look))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Models that `simplify` finds, each by many methods.
 
 use super::{Args, Question};
-use crate::cli::common::tell;
+use crate::cli::common::fail;
 use crate::cli::interrupt;
 use crate::compare::work_precision::{Motion, Runner, WorkPrecision};
 use crate::error::{Result, percent};
@@ -39,12 +39,13 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
         models.push(MeasuredModel::new(model, left_out, [v, lambda], measured, models.first()));
     }
     bar.finish_and_clear();
-    args.talk.publish(folder, args.talk.origin(&prepared), &ModelsAndMethods { scene: name, models })?;
-    if interrupt::is_asked() {
-        tell("error: interrupted");
-        return Ok(ExitCode::from(1));
-    }
-    Ok(ExitCode::SUCCESS)
+    args.talk.publish(
+        folder,
+        "tradeoff_models",
+        args.talk.origin(&prepared),
+        &ModelsAndMethods { scene: name, models },
+    )?;
+    if interrupt::is_asked() { fail("interrupted") } else { Ok(ExitCode::SUCCESS) }
 }
 
 type Named = (String, Vec<String>);

@@ -1,7 +1,7 @@
 //! Work-precision measurements of all methods, and recommendations.
 
 use super::{Args, Question};
-use crate::cli::common::tell;
+use crate::cli::common::fail;
 use crate::cli::interrupt;
 use crate::compare::work_precision::{Given, Lack, Motion, Runner, WorkPrecision};
 use crate::error::{Error, Result};
@@ -62,13 +62,12 @@ impl Question {
 fn report(args: &Args, prepared: &PreparedScene, measured: &WorkPrecision, folder: Folder) -> Result<ExitCode> {
     // Methods and tolerances are those of the cells.
     let origin = args.talk.origin_of(&prepared.parameters);
-    args.talk.publish(folder, origin, &MethodsAnswer::new(measured, &args.named(), args.digits))?;
+    args.talk.publish(folder, "tradeoff", origin, &MethodsAnswer::new(measured, &args.named(), args.digits))?;
     match (interrupt::is_asked(), measured.lacks(args.digits)) {
-        (true, _) => tell("error: interrupted\n  help: go on with --resume"),
-        (_, Some(Lack { why, hint, is_all: true })) => tell(format!("error: no recommendation: {why}\n  help: {hint}")),
-        _ => return Ok(ExitCode::SUCCESS),
+        (true, _) => fail("interrupted\n  help: go on with --resume"),
+        (_, Some(Lack { why, hint, is_all: true })) => fail(format!("no recommendation: {why}\n  help: {hint}")),
+        _ => Ok(ExitCode::SUCCESS),
     }
-    Ok(ExitCode::from(1))
 }
 
 impl Args {

@@ -29,7 +29,7 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
     };
     let costs = compare(&variants, &args.outputs, (repeats, args.budget), watch);
     bar.finish_and_clear();
-    args.talk.publish(folder, args.talk.origin(&variants[0].prepared), &ModelsAnswer::new(&name, &costs?))?;
+    args.talk.publish(folder, "models", args.talk.origin(&variants[0].prepared), &ModelsAnswer::new(&name, &costs?))?;
     Ok(ExitCode::SUCCESS)
 }
 

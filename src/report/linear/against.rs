@@ -3,7 +3,7 @@
 use crate::error::{percent, significant};
 use crate::linearize::{Against, Branch, Complex, Fate, Kind, Loci, both, branch_places, damping, frequency};
 use crate::plot::{Figure, Series, Style};
-use crate::report::{Answer, Table, cell};
+use crate::report::{Answer, Table};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -38,10 +38,6 @@ impl AgainstAnswer<'_> {
 }
 
 impl Answer for AgainstAnswer<'_> {
-    fn name(&self) -> String {
-        format!("against-{}.json", cell(self.t))
-    }
-
     fn json(&self) -> impl Serialize {
         json!({
             "t": self.t,

@@ -22,9 +22,9 @@ pub(super) struct Norms {
     pub vdot: f64,
 }
 
-/// Returns the name of a model's files without extension, such as `linear-0.01`.
-pub fn linear_stem(t: f64) -> String {
-    format!("linear-{}", cell(t))
+/// Returns the name of the files of a result at a time without extension, such as `linear-0.01`.
+pub fn stem_at(what: &str, t: f64) -> String {
+    format!("{what}-{}", cell(t))
 }
 
 /// A linear model with the figure of its modes.
@@ -34,10 +34,6 @@ pub struct LinearAnswer<'a> {
 }
 
 impl Answer for LinearAnswer<'_> {
-    fn name(&self) -> String {
-        format!("{}.json", linear_stem(self.linear.model.point.t))
-    }
-
     fn json(&self) -> impl Serialize {
         self.linear
     }
@@ -46,12 +42,11 @@ impl Answer for LinearAnswer<'_> {
         self.linear.text()
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         let LinearAnswer { prepared, linear } = self;
-        let t = linear.model.point.t;
-        linear.write(folder, &linear_stem(t))?;
+        linear.write(folder, stem)?;
         let figure = mode_figure(prepared, &Look::plain(&prepared.mechanism), linear.model);
-        folder.figure(&format!("modes-{}", cell(t)), figure)
+        folder.figure(&stem.replace("linear", "modes"), figure)
     }
 }
 

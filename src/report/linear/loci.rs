@@ -138,12 +138,12 @@ impl<'a> LociAnswer<'a> {
     }
 
     /// Draws the modes; over a parameter also the complex plane, where a motion would leave loose dots.
-    fn figures(&self, folder: &mut Folder) -> Result<()> {
+    fn figures(&self, folder: &mut Folder, plane_name: &str, modes_name: &str) -> Result<()> {
         let branches = &self.loci.branches;
         let LociVariable::Parameter(range) = &self.loci.along else {
             let title = format!("{}: eigenvalues along the motion", self.scene);
             let other = self.other.map(|(name, other)| (name, other.branches.as_slice()));
-            return folder.figure("loci_modes", motion_figure(&title, branches, other));
+            return folder.figure(modes_name, motion_figure(&title, branches, other));
         };
         let is_turning = self.loci.reached.iter().any(|state| state.turning.is_some());
         let axes = if is_turning { ", in axes that turn along" } else { "" };
@@ -155,8 +155,8 @@ impl<'a> LociAnswer<'a> {
         if let Some((name, other)) = self.other {
             plane = with_others(plane, name, other);
         }
-        folder.figure("loci", plane)?;
-        folder.figure("loci_modes", frequency_figure(&title, axis, branches, &speeds))
+        folder.figure(plane_name, plane)?;
+        folder.figure(modes_name, frequency_figure(&title, axis, branches, &speeds))
     }
 }
 
@@ -247,10 +247,6 @@ const MOST_LINES: usize = 30;
 const MOST_STRETCHES: usize = 4;
 
 impl Answer for LociAnswer<'_> {
-    fn name(&self) -> String {
-        "loci.json".to_string()
-    }
-
     fn json(&self) -> impl Serialize {
         let branches = self.loci.named().map(|(mode, branch)| branch_file(mode, branch)).collect();
         LociFile { summary: self.summary(), states: &self.loci.reached, branches }
@@ -279,9 +275,9 @@ impl Answer for LociAnswer<'_> {
         text + "\n" + &self.table() + &against.map_or(String::new(), |text| format!("\n{text}"))
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
-        folder.write("loci.csv", &loci_table(self.loci, self.name_along())?)?;
-        self.figures(folder)
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &loci_table(self.loci, self.name_along())?)?;
+        self.figures(folder, stem, &format!("{stem}_modes"))
     }
 }
 

@@ -19,7 +19,7 @@ mod validation;
 
 pub use against::AgainstAnswer;
 pub use bode_figure::{Magnitude, bode_figure};
-pub use files::{LinearAnswer, linear_stem};
+pub use files::{LinearAnswer, stem_at};
 pub use loci::LociAnswer;
 pub use mode_figures::{frequency_figure, motion_figure};
 pub use pair::Response;

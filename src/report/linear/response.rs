@@ -57,10 +57,6 @@ impl Serialize for Pair<'_> {
 }
 
 impl FrequencyResponse<'_> {
-    fn stem(&self) -> String {
-        format!("bode-{}", cell(self.model.point.t))
-    }
-
     /// Returns `frequency_hz`, then real and imaginary part, magnitude and phase from each input to each output.
     fn table(&self) -> Result<Vec<u8>> {
         let columns: Vec<(String, Vec<Option<f64>>)> =
@@ -103,10 +99,6 @@ impl FrequencyResponse<'_> {
 }
 
 impl Answer for FrequencyResponse<'_> {
-    fn name(&self) -> String {
-        format!("{}.json", self.stem())
-    }
-
     fn json(&self) -> impl Serialize {
         self
     }
@@ -133,9 +125,9 @@ impl Answer for FrequencyResponse<'_> {
         format!("{text}\n{lines}{}", self.left_out())
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
-        folder.write(&format!("{}.csv", self.stem()), &self.table()?)?;
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &self.table()?)?;
         let title = format!("{} at t = {} s", self.scene, short(self.model.point.t));
-        folder.figure(&self.stem(), bode_figure(&title, &self.frequencies, &self.responses, self.magnitude))
+        folder.figure(stem, bode_figure(&title, &self.frequencies, &self.responses, self.magnitude))
     }
 }

@@ -3,7 +3,7 @@
 use super::Linear;
 use crate::error::{short, significant};
 use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, Pair, pairs};
-use crate::report::{Answer, Table, cell};
+use crate::report::{Answer, Table};
 use serde::Serialize;
 use serde_json::json;
 
@@ -185,10 +185,6 @@ pub struct MethodsAnswer {
 }
 
 impl Answer for MethodsAnswer {
-    fn name(&self) -> String {
-        format!("methods-{}.json", cell(self.t))
-    }
-
     fn json(&self) -> impl Serialize {
         json!({ "t": self.t, "methods": self.methods })
     }

@@ -3,7 +3,7 @@
 use crate::error::{Result, significant};
 use crate::linearize::{Complex, Defect, Floquet, Lyapunov};
 use crate::plot::{Figure, Panel, Series};
-use crate::report::{Answer, Folder, Table, cell};
+use crate::report::{Answer, Folder, Table};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -19,10 +19,6 @@ pub struct Transition<'a> {
 }
 
 impl Answer for Transition<'_> {
-    fn name(&self) -> String {
-        format!("transition-{}.json", cell(self.t))
-    }
-
     fn json(&self) -> impl Serialize {
         let mut result = json!({ "scene": self.scene, "t": self.t });
         if let Some((found, defects)) = &self.floquet {
@@ -39,9 +35,9 @@ impl Answer for Transition<'_> {
         floquet.chain(self.lyapunov.iter().map(|found| lyapunov_text(self.scene, self.t, found))).collect()
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         let figure = self.lyapunov.as_ref().and_then(|found| figure(self.scene, found));
-        folder.figure(&format!("lyapunov-{}", cell(self.t)), figure)
+        folder.figure(&stem.replace("transition", "lyapunov"), figure)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::error::{Result, significant};
 use crate::math::largest;
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::figures::{Floor, grouped, label, quantity};
-use crate::report::{Answer, Folder, Table, cell};
+use crate::report::{Answer, Folder, Table};
 use crate::system::Names;
 use crate::tolerances::report as tolerances;
 use crate::validate::{Curve, Decay, PerturbationSequence, Validation};
@@ -22,10 +22,6 @@ pub struct ValidationAnswer<'a> {
 const SHARES: [&str; 2] = ["1%", "10%"];
 
 impl ValidationAnswer<'_> {
-    fn stem(&self) -> String {
-        format!("validation-{}", cell(self.found.t))
-    }
-
     /// True if perturbed motions agree with the model.
     pub fn is_right(&self) -> bool {
         self.found.verdict.ltv && self.found.verdict.lti
@@ -45,10 +41,6 @@ impl ValidationAnswer<'_> {
 }
 
 impl Answer for ValidationAnswer<'_> {
-    fn name(&self) -> String {
-        format!("{}.json", self.stem())
-    }
-
     /// Returns the first direction at the top level, and all of them in `directions`.
     fn json(&self) -> impl Serialize {
         let Validation { frozen, sequences, .. } = &self.found;
@@ -108,11 +100,11 @@ impl Answer for ValidationAnswer<'_> {
         )
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         for (i, sequence) in self.found.sequences.iter().enumerate() {
             let t = significant(self.found.t, 6);
             let title = format!("{}, perturbed at t = {t} s ({})", self.scene, sequence.direction);
-            let name = if i == 0 { self.stem() } else { format!("{}-{}", self.stem(), i + 1) };
+            let name = if i == 0 { stem.to_string() } else { format!("{stem}-{}", i + 1) };
             folder.figure(&name, validation_figure(&title, self.names, sequence))?;
         }
         Ok(())

@@ -34,10 +34,6 @@ pub struct FolderMaps {
 }
 
 impl Answer for SceneMaps {
-    fn name(&self) -> String {
-        "stress.json".to_string()
-    }
-
     fn json(&self) -> impl Serialize {
         self
     }
@@ -57,16 +53,12 @@ impl Answer for SceneMaps {
         text
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
-        write(folder, std::slice::from_ref(self), &[], |_, map| format!("stress-{map}"))
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        write(folder, stem, std::slice::from_ref(self), &[], |_, map| format!("{stem}-{map}"))
     }
 }
 
 impl Answer for FolderMaps {
-    fn name(&self) -> String {
-        "stress.json".to_string()
-    }
-
     fn json(&self) -> impl Serialize {
         BTreeMap::from([("scenes", &self.scenes)])
     }
@@ -76,24 +68,25 @@ impl Answer for FolderMaps {
         String::new()
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
-        write(folder, &self.scenes, &self.unread, |scene, map| format!("{scene}-{map}"))
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        write(folder, stem, &self.scenes, &self.unread, |scene, map| format!("{scene}-{map}"))
     }
 }
 
 /// Writes a figure for each map, under the name of its scene and its own, then page and table.
 fn write(
     folder: &mut Folder,
+    stem: &str,
     scenes: &[SceneMaps],
     unread: &[(String, String)],
-    stem: impl Fn(&str, &str) -> String,
+    name: impl Fn(&str, &str) -> String,
 ) -> Result<()> {
     for (scene, stressed) in each(scenes) {
-        folder.figure(&stem(scene, &stressed.map.name), stress_figure(scene, stressed))?;
+        folder.figure(&name(scene, &stressed.map.name), stress_figure(scene, stressed))?;
     }
-    let page = stress_page(scenes, unread, |scene, map| folder.drawn(&stem(scene, map)));
-    folder.write("stress.md", page.as_bytes())?;
-    folder.write("stress.csv", &stress_table(scenes)?)
+    let page = stress_page(scenes, unread, |scene, map| folder.drawn(&name(scene, map)));
+    folder.write(&format!("{stem}.md"), page.as_bytes())?;
+    folder.table(stem, &stress_table(scenes)?)
 }
 
 /// Returns all maps with the names of their scenes.

@@ -63,10 +63,6 @@ impl MeasuredModel {
 }
 
 impl Answer for ModelsAndMethods {
-    fn name(&self) -> String {
-        "tradeoff_models.json".to_string()
-    }
-
     fn json(&self) -> impl Serialize {
         self
     }
@@ -76,9 +72,9 @@ impl Answer for ModelsAndMethods {
         self.models_text() + &self.runs_text()
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
-        folder.write("tradeoff_models.csv", &auto_table(self)?)?;
-        folder.figure("tradeoff_models", auto_figure(self))
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &auto_table(self)?)?;
+        folder.figure(stem, auto_figure(self))
     }
 }
 

@@ -51,10 +51,6 @@ impl<'a> MethodsAnswer<'a> {
 }
 
 impl Answer for MethodsAnswer<'_> {
-    fn name(&self) -> String {
-        "tradeoff.json".to_string()
-    }
-
     fn json(&self) -> impl Serialize {
         self
     }
@@ -63,9 +59,9 @@ impl Answer for MethodsAnswer<'_> {
         text::text(self)
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
-        folder.write("tradeoff.csv", &tradeoff_table(self.measured)?)?;
-        folder.figure("tradeoff", tradeoff_figure(self.measured, self.digits))
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &tradeoff_table(self.measured)?)?;
+        folder.figure(stem, tradeoff_figure(self.measured, self.digits))
     }
 }
 

@@ -55,10 +55,6 @@ impl<'a> ModelsAnswer<'a> {
 }
 
 impl Answer for ModelsAnswer<'_> {
-    fn name(&self) -> String {
-        "models.json".to_string()
-    }
-
     fn json(&self) -> impl Serialize {
         self
     }
@@ -83,9 +79,9 @@ impl Answer for ModelsAnswer<'_> {
         format!("{text}\n{costs}\n{errors}{}", lines.collect::<String>())
     }
 
-    fn write(&self, folder: &mut Folder) -> Result<()> {
-        folder.write("models.csv", &models_table(self.costs)?)?;
-        folder.figure("models", models_figure(&self.title, self.costs))
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &models_table(self.costs)?)?;
+        folder.figure(stem, models_figure(&self.title, self.costs))
     }
 }
 
