@@ -65,6 +65,16 @@ impl Staging {
         }
     }
 
+    /// The folder in which the files will be.
+    pub fn target(&self) -> &Path {
+        &self.target
+    }
+
+    /// Names of the files, in the order in which they were first written.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
     /// Writes a file that will be called `name`.
     ///
     /// # Errors

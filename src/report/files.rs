@@ -60,31 +60,20 @@ pub enum Format {
 /// A folder of the results of one command, which appear all together: [`finish`](Self::finish) moves them into place.
 /// Without it none appears, and earlier results stay complete until then. [`Staging`] describes how.
 pub struct Folder {
-    path: PathBuf,
     figures: Format,
-    written: Vec<String>,
+    staging: Staging,
     /// Number of the files that belong to a result.
     sealed: usize,
     notes: Vec<String>,
     obsolete: Vec<String>,
-    staging: Option<Staging>,
 }
 
 impl Folder {
-    /// Makes the folder and tests that it can be written to, before anything is computed.
+    /// Makes the folder, and one to write to, before anything is computed.
     pub fn create(path: &Path) -> Result<Folder> {
         std::fs::create_dir_all(path).map_err(|error| failed(path, "cannot make this folder", &error))?;
-        Staging::create(path).map_err(|error| failed(path, "cannot write here", &error))?;
-        let path = path.to_path_buf();
-        Ok(Folder {
-            path,
-            figures: Format::Svg,
-            written: Vec::new(),
-            sealed: 0,
-            notes: Vec::new(),
-            obsolete: Vec::new(),
-            staging: None,
-        })
+        let staging = Staging::create(path).map_err(|error| failed(path, "cannot write here", &error))?;
+        Ok(Folder { figures: Format::Svg, staging, sealed: 0, notes: Vec::new(), obsolete: Vec::new() })
     }
 
     /// Chooses the format of the figures.
@@ -94,13 +83,14 @@ impl Folder {
 
     /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
-        &self.path
+        self.staging.target()
     }
 
     /// Writes a file that appears after [`finish`](Self::finish). The presence of the last one shows that all are
     /// complete.
     pub fn write(&mut self, name: &str, contents: &[u8]) -> Result<()> {
-        self.stage(name, |staging| staging.write(name, contents))
+        let written = self.staging.write(name, contents);
+        written.map_err(|error| failed(&self.path().join(name), UNWRITTEN, &error))
     }
 
     /// Writes a table.
@@ -129,21 +119,9 @@ impl Folder {
 
     /// Makes a file that is written while it is computed, and appears after [`finish`](Self::finish).
     pub fn stream(&mut self, name: &str) -> Result<Stream> {
-        let file = self.stage(name, |staging| staging.open(name))?;
-        Ok(Stream { path: self.path.join(name), file: BufWriter::new(file), error: None })
-    }
-
-    fn stage<T>(&mut self, name: &str, write: impl FnOnce(&mut Staging) -> io::Result<T>) -> Result<T> {
-        let unwritten = |error: io::Error| failed(&self.path.join(name), UNWRITTEN, &error);
-        let staging = match &mut self.staging {
-            Some(staging) => staging,
-            none => none.insert(Staging::create(&self.path).map_err(unwritten)?),
-        };
-        let made = write(staging).map_err(unwritten)?;
-        if !self.written.iter().any(|known| known == name) {
-            self.written.push(name.to_string());
-        }
-        Ok(made)
+        let path = self.path().join(name);
+        let file = self.staging.open(name).map_err(|error| failed(&path, UNWRITTEN, &error))?;
+        Ok(Stream { path, file: BufWriter::new(file), error: None })
     }
 
     /// Writes a result as indented JSON, with the names of the files that were written since the last one and belong
@@ -154,15 +132,15 @@ impl Folder {
         origin: impl Into<Option<Origin>>,
         result: T,
     ) -> Result<Sealed<T>> {
-        let own = self.written[self.sealed..].iter().cloned();
+        let own = self.staging.names()[self.sealed..].iter().cloned();
         let sealed = Sealed { origin: origin.into(), result, files: own.chain([name.to_string()]).collect() };
         let mut file = self.stream(name)?;
-        serde_json::to_writer_pretty(&mut file, &sealed).map_err(|error| Error::file(self.path.join(name), error))?;
+        serde_json::to_writer_pretty(&mut file, &sealed).map_err(|error| Error::file(self.path().join(name), error))?;
         file.append(b"\n");
         file.finish()?;
-        self.sealed = self.written.len();
-        let written = self.staging.as_ref().and_then(|staging| Settings::read(&staging.path(name)));
-        if let Some((earlier, new)) = Settings::earlier(&self.path.join(name)).zip(written) {
+        self.sealed = self.staging.names().len();
+        let written = Settings::read(&self.staging.path(name));
+        if let Some((earlier, new)) = Settings::earlier(&self.path().join(name)).zip(written) {
             self.notes.extend(earlier.replaced_by(&new));
             self.obsolete.extend(earlier.files.into_iter().filter(|file| belongs(name, file)));
         }
@@ -174,12 +152,14 @@ impl Folder {
     /// # Errors
     /// A file cannot be moved. Then the last file is missing, which shows that the results are incomplete.
     pub fn finish(self) -> Result<Written> {
-        let Folder { path, written, staging, notes, mut obsolete, .. } = self;
-        obsolete.retain(|name| !written.contains(name) && path.join(name).is_file());
+        let Folder { staging, notes, mut obsolete, .. } = self;
+        let folder = staging.target().to_path_buf();
+        let names = staging.names().to_vec();
+        obsolete.retain(|name| !names.contains(name) && folder.join(name).is_file());
         staging
-            .map_or(Ok(()), |staging| staging.publish(&obsolete))
-            .map_err(|(name, error)| failed(&path.join(name), "not all results are in place", &error))?;
-        Ok(Written { folder: path, names: written, notes, removed: obsolete })
+            .publish(&obsolete)
+            .map_err(|(name, error)| failed(&folder.join(name), "not all results are in place", &error))?;
+        Ok(Written { folder, names, notes, removed: obsolete })
     }
 }
 

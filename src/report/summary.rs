@@ -19,57 +19,50 @@ pub struct Summary {
     /// What it takes to repeat it, and reasons to doubt it.
     #[serde(flatten)]
     pub origin: Origin,
-    /// Name of the scene.
-    pub scene: String,
-    /// Method.
-    pub method: Chosen,
+    scene: String,
+    method: Chosen,
     /// `completed` or `failed`.
-    pub status: &'static str,
+    status: &'static str,
     /// Reason of a failed run.
     pub failure: Option<Failure>,
     /// Time reached, s.
-    pub t_end: f64,
-    /// Wall-clock time, s.
-    pub wall_seconds: f64,
-    /// Counted work.
-    pub statistics: Statistics,
-    /// Constraint drift.
-    pub drift: Drift,
-    /// Energy balance; none where the system defines no potential.
-    pub energy: Option<EnergyBalance>,
-    /// Singular states on the way.
-    pub singularity: Singularity,
+    t_end: f64,
+    wall_seconds: f64,
+    statistics: Statistics,
+    drift: Drift,
+    /// None where the system defines no potential.
+    energy: Option<EnergyBalance>,
+    singularity: Singularity,
     /// Fast modes that the method cannot step over; none where it can, or is implicit.
-    pub stiffness: Option<Stiffness>,
+    stiffness: Option<Stiffness>,
     /// Changes of the start by assembly.
-    pub assembly: Assembly,
+    assembly: Assembly,
     /// Error bars of the outputs, if requested.
     pub error: Option<ErrorBars>,
     /// Extremes of each output over the rows, by its name.
     #[serde(serialize_with = "by_name")]
-    pub outputs: Vec<Extremes>,
-    /// Values of the last row.
-    pub r#final: FinalState,
+    outputs: Vec<Extremes>,
+    r#final: FinalState,
     /// Hash of what the scene says of the mechanism.
-    pub scene_hash: String,
+    scene_hash: String,
     /// State from which `--start` continues; none where the run could not begin.
     pub restart: Option<Checkpoint>,
 }
 
 /// The method, and the reason where the program chose it.
 #[derive(Clone, Debug, Serialize)]
-pub struct Chosen {
+struct Chosen {
     /// Method of the longest leg.
     #[serde(flatten)]
-    pub method: Method,
+    method: Method,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub chosen_because: Option<String>,
+    chosen_because: Option<String>,
     /// The legs in their order, where the method changed during the run.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub legs: Vec<Leg>,
+    legs: Vec<Leg>,
     /// Work of the methods tried, besides that of the methods of the legs.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub trials: Option<Statistics>,
+    trials: Option<Statistics>,
 }
 
 impl Chosen {
@@ -97,12 +90,12 @@ impl Chosen {
 
 /// The last row, by names.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct FinalState {
-    pub t: f64,
-    pub q: Map<String, Value>,
-    pub v: Map<String, Value>,
-    pub lambda: Map<String, Value>,
-    pub outputs: OutputValues,
+struct FinalState {
+    t: f64,
+    q: Map<String, Value>,
+    v: Map<String, Value>,
+    lambda: Map<String, Value>,
+    outputs: OutputValues,
 }
 
 /// Work of rows is reported where it is more than this part of that of the steps.

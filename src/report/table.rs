@@ -132,8 +132,5 @@ impl fmt::Display for Table {
 
 /// A number of velocities in words.
 pub fn velocities(count: usize) -> String {
-    match count {
-        1 => "1 velocity".to_string(),
-        _ => format!("{count} velocities"),
-    }
+    self::count(count, "velocity", "velocities")
 }
