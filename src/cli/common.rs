@@ -200,7 +200,6 @@ pub fn set_by(error: Error, option: &str) -> Error {
 }
 
 impl Common {
-    /// Returns the scene with its method.
     pub fn load(&self) -> Result<PreparedScene> {
         self.talk.load(&self.scene.path, &self.overrides())
     }
@@ -261,7 +260,6 @@ impl Talk {
         self.tell_files(&written)
     }
 
-    /// Prints the result: JSON if requested, else text unless quiet.
     pub fn print(&self, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
         if self.json || !self.quiet { print_result(self.json, json, text) } else { Ok(()) }
     }
@@ -301,7 +299,6 @@ impl Talk {
         self.say(&format!("\nwritten to {}\n", written.listing()))
     }
 
-    /// Prints warnings on standard error.
     pub fn warn<'w>(&self, warnings: impl IntoIterator<Item = &'w Warning>) {
         for warning in warnings {
             self.said.borrow_mut().push(warning.clone());
@@ -352,7 +349,6 @@ pub fn put(text: &str, path: Option<&Path>) -> Result<()> {
     path.map_or_else(|| print(text), |path| write_whole(path, text.as_bytes()))
 }
 
-/// Returns the JSON files of a folder, by name.
 pub fn json_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut paths: Vec<PathBuf> = std::fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path())).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));

@@ -104,9 +104,6 @@ impl ChartOptions {
 
 impl ModelOptions {
     /// Returns the requested method and chart.
-    ///
-    /// # Errors
-    /// An unknown method or option.
     pub fn request(&self) -> Result<Request> {
         let method = MethodSpec::parse(&self.method).and_then(|method| {
             method.entry(registry())?;
@@ -127,7 +124,6 @@ impl MethodOptions {
 }
 
 impl StateOptions {
-    /// Number of states.
     pub fn count(&self) -> usize {
         self.at.len().max(1)
     }

@@ -58,7 +58,6 @@ pub fn run(args: Args) -> Result<()> {
     })
 }
 
-/// Returns the models by each method, or the requested modes.
 fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Result<Vec<LinearModel>> {
     match args.modes {
         Some(count) => {

@@ -102,7 +102,6 @@ fn loci(args: &Args, scene: &SceneOptions, prepared: &PreparedScene, request: &R
     }
 }
 
-/// Loci of another scene at the same times, or values of the parameter.
 fn other(args: &Args, own: &PreparedScene, path: &Path, request: &Request) -> Result<(String, Loci)> {
     let scene = SceneOptions { path: path.to_path_buf(), set: Vec::new() };
     let prepared = args.run.load_tight(&scene, &args.talk)?;

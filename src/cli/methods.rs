@@ -25,7 +25,6 @@ pub struct Args {
     json: bool,
 }
 
-/// Methods that can be combined.
 #[derive(Serialize)]
 struct Methods {
     formulations: Vec<Item>,

@@ -51,7 +51,6 @@ pub fn run(args: Args) -> Result<()> {
     })
 }
 
-/// The scenes of a folder, by name.
 fn scenes(folder: &Path) -> Result<Vec<Listed>> {
     let paths = json_files(folder).map_err(|problem| Error::file(folder, problem).hint(ELSEWHERE))?;
     Ok(paths.iter().filter_map(|path| scene(path)).collect())
@@ -64,7 +63,6 @@ fn scene(path: &Path) -> Option<Listed> {
     Some(Listed { file: path.display().to_string(), ..listed })
 }
 
-/// The first sentence of a text.
 fn sentence(text: &str) -> String {
     text.split_inclusive(". ").next().unwrap_or_default().trim_end().to_string()
 }

@@ -85,13 +85,11 @@ const ROWS: (f64, f64) = (600.0, 20_000.0);
 /// Longer animations are probably a mistake.
 const MOST_FRAMES: f64 = 1000.0;
 
-/// JSON output.
 #[derive(Serialize)]
 struct Drawn {
     scene: String,
     status: &'static str,
     failure: Option<Failure>,
-    /// Times of the figure, s.
     times: Vec<f64>,
     animation: Option<Film>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -178,7 +176,6 @@ impl Args {
         }
     }
 
-    /// Returns the options of the figures.
     fn look(&self, prepared: &PreparedScene) -> Result<Look> {
         let is_planar = prepared.mechanism.dimension() == 2;
         let plain = Look::plain(&prepared.mechanism);
@@ -292,7 +289,6 @@ impl Args {
         (0..self.frames).map(|k| if f64::from(k) == last { end } else { start + part(k) * (end - start) }).collect()
     }
 
-    /// Returns speed, start and end of the animation.
     fn film(&self, start: f64, end: f64) -> Result<Film> {
         let speed = self.speed.unwrap_or_else(|| suitable_speed(end - start));
         let frames = ((end - start) / speed * self.fps).round().max(1.0) + 1.0;
@@ -350,7 +346,6 @@ fn suitable_speed(length: f64) -> f64 {
     [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power).into_iter().find(|speed| *speed >= 0.999 * exact).unwrap_or(exact)
 }
 
-/// Returns the text on the speed.
 fn speed_text(speed: f64) -> String {
     match speed {
         1.0 => String::new(),

@@ -20,7 +20,6 @@ pub struct Args {
     topic: Option<String>,
 }
 
-/// Lists of elements in a scene, which have types.
 const ELEMENTS: [&str; 3] = ["bodies", "joints", "forces"];
 
 /// References in references that are followed: a schema may refer to itself.
@@ -38,7 +37,6 @@ pub fn run(args: Args) -> Result<()> {
     print(&text)
 }
 
-/// Prints the JSON Schema of scenes.
 pub fn schema() -> Result<()> {
     print(&to_json(&prepared::schema(&Elements::default()))?)
 }
@@ -50,7 +48,6 @@ struct InnerKey<'v> {
     owners: Vec<&'v str>,
 }
 
-/// What the schema of scenes says.
 struct Reference {
     schema: Value,
 }
@@ -105,7 +102,6 @@ impl Reference {
         })
     }
 
-    /// Returns the keys of a scene.
     fn own_keys(&self) -> impl Iterator<Item = &str> {
         properties(&self.schema).map(|(name, _)| name).filter(|name| !name.starts_with('$'))
     }
@@ -114,7 +110,6 @@ impl Reference {
         list(&self.schema["properties"][key]["items"]["oneOf"])
     }
 
-    /// Returns the types of all elements by their names.
     fn all_types(&self) -> impl Iterator<Item = (&str, &Value)> {
         ELEMENTS.iter().flat_map(|key| self.elements(key)).map(|kind| (name(kind), kind))
     }
@@ -215,7 +210,6 @@ impl Reference {
         format!("measure {measure}: {}\n\n{}", wrapped(&plain(kind), 0), self.keys(&object))
     }
 
-    /// Returns the measures with their keys and units.
     fn measures(&self) -> String {
         let mut table = Table::left(&["measure", "keys", "unit, and what it is"]);
         for kind in self.measure_kinds() {
@@ -269,7 +263,6 @@ impl Reference {
     }
 }
 
-/// Returns the items of a list; none of anything else.
 fn list(value: &Value) -> impl Iterator<Item = &Value> {
     value.as_array().into_iter().flatten()
 }
@@ -287,7 +280,6 @@ fn name(kind: &Value) -> &str {
     kind["properties"]["type"]["const"].as_str().unwrap_or_default()
 }
 
-/// Returns the description on one line.
 fn plain(value: &Value) -> String {
     value["description"].as_str().unwrap_or_default().replace('\n', " ")
 }
@@ -331,7 +323,6 @@ fn language() -> String {
     text.trim_end().to_string() + "\n"
 }
 
-/// Returns the units of each dimension.
 fn units() -> String {
     let mut table = Table::left(&["quantity", "units, that of the SI first"]);
     for dimension in Dimension::all() {

@@ -138,7 +138,6 @@ impl Args {
         self.check_error || self.format.iter().any(|format| *format != Format::Csv)
     }
 
-    /// The files of the rows.
     fn row_files(&self, prepared: &PreparedScene, folder: &mut Folder) -> Result<RowFiles> {
         let (system, (q, v)) = (prepared.system(), prepared.start());
         let trajectory = if self.outputs_only { Trajectory::of_outputs(system, 0) } else { Trajectory::new(system) };
@@ -147,7 +146,6 @@ impl Args {
     }
 }
 
-/// A run with its record.
 struct Simulated<'a> {
     args: &'a Args,
     prepared: &'a PreparedScene,

@@ -94,7 +94,6 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
     Ok(ExitCode::from(u8::from(is_empty)))
 }
 
-/// Returns the scenes of a folder, by name.
 fn scenes(path: &Path) -> Result<Vec<PathBuf>> {
     let mut paths = json_files(path).map_err(|error| Error::file(path, format!("no folder of scenes: {error}")))?;
     paths.retain(|path| !path.to_string_lossy().ends_with(".schema.json"));

@@ -51,9 +51,6 @@ pub struct Staging {
 
 impl Staging {
     /// Makes a hidden folder in `target`, which must exist.
-    ///
-    /// # Errors
-    /// A folder that cannot be written to.
     pub fn create(target: &Path) -> io::Result<Staging> {
         remove_abandoned(target);
         loop {
@@ -86,9 +83,6 @@ impl Staging {
     }
 
     /// Makes a file that will be called `name`, to be written and synchronized before [`publish`](Self::publish).
-    ///
-    /// # Errors
-    /// As [`write`](Self::write).
     pub fn open(&mut self, name: &str) -> io::Result<File> {
         if self.target.join(name).is_dir() {
             return Err(io::ErrorKind::IsADirectory.into());

@@ -14,9 +14,6 @@ pub trait Answer {
 
     /// Writes tables and figures, in the order in which they are listed; `stem` is the name of the JSON file without
     /// extension.
-    ///
-    /// # Errors
-    /// Files that cannot be written.
     fn write(&self, _folder: &mut Folder, _stem: &str) -> Result<()> {
         Ok(())
     }

@@ -26,7 +26,6 @@ pub struct Check {
     /// n_v without the states.
     pub velocities: usize,
     pub constraints: usize,
-    /// Rank of G at the start.
     pub rank: usize,
     /// Rank of G at a nearby state: higher where the start is a singular state.
     rank_beside: usize,
@@ -60,7 +59,6 @@ pub struct Check {
     /// What looks superfluous or missing, if it was looked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hints: Option<Hints>,
-    /// The static equilibrium, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibrium: Option<EquilibriumReport>,
 }
@@ -76,7 +74,6 @@ struct Start {
     outputs: OutputValues,
 }
 
-/// An element of the scene.
 #[derive(Clone, Debug, Serialize)]
 struct Item {
     name: String,
@@ -91,7 +88,6 @@ impl Item {
     }
 }
 
-/// Analyses the assembled start of a scene.
 pub fn check(prepared: &PreparedScene) -> Check {
     match &prepared.mechanism {
         AnyMechanism::Planar(mechanism) => inspect(prepared, mechanism.model()),
@@ -197,7 +193,6 @@ fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
 }
 
 impl Check {
-    /// Returns the report as text.
     pub fn text(&self) -> String {
         let mut text = format!(
             "{}: {}, {}, {} of rank {}, {} of freedom\n\n",

@@ -21,9 +21,7 @@ pub struct EquilibriumReport {
     moving: usize,
     lambda: OutputValues,
     outputs: OutputValues,
-    /// Changes of the start.
     moves: Vec<Move>,
-    /// Warnings of the search.
     pub warnings: Vec<Warning>,
 }
 
@@ -61,12 +59,10 @@ impl Serialize for EquilibriumReport {
 }
 
 impl EquilibriumReport {
-    /// The report that none was found.
     pub fn none(t: f64) -> EquilibriumReport {
         EquilibriumReport { t, ..EquilibriumReport::default() }
     }
 
-    /// The report of an equilibrium.
     pub fn of(prepared: &PreparedScene, found: Equilibrium) -> EquilibriumReport {
         let system = prepared.system();
         let names = system.names();
@@ -95,7 +91,6 @@ impl EquilibriumReport {
         }
     }
 
-    /// Returns the report as text.
     pub fn text(&self) -> String {
         let Some(found) = &self.found else {
             return format!("\nno static equilibrium at t = {} s\n", clock(self.t));

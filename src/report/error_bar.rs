@@ -54,7 +54,6 @@ fn of_companion(bars: &ErrorBars) -> String {
     }
 }
 
-/// Returns a warning if the companion ended early.
 pub fn cut_short(bars: &ErrorBars) -> Option<Warning> {
     let failure = bars.failure.as_ref()?;
     let text = format!(

@@ -48,7 +48,6 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Format of figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Format {
@@ -81,7 +80,6 @@ impl Folder {
         Folder { figures, ..self }
     }
 
-    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         self.staging.target()
     }
@@ -93,7 +91,6 @@ impl Folder {
         written.map_err(|error| failed(&self.path().join(name), UNWRITTEN, &error))
     }
 
-    /// Writes a table.
     pub fn table(&mut self, stem: &str, contents: &[u8]) -> Result<()> {
         self.write(&format!("{stem}.csv"), contents)
     }
@@ -180,15 +177,11 @@ impl Stream {
         }
     }
 
-    /// True if the file could not be written.
     pub fn has_failed(&self) -> bool {
         self.error.is_some()
     }
 
     /// Completes the file.
-    ///
-    /// # Errors
-    /// The first error of the file system.
     pub fn finish(mut self) -> Result<()> {
         let written = match self.error.take() {
             Some(error) => Err(error),
@@ -227,7 +220,6 @@ fn belongs(seal: &str, name: &str) -> bool {
     is_own && ENDINGS.contains(&ending) && !name.contains(['/', '\\'])
 }
 
-/// The files in place.
 pub struct Written {
     folder: PathBuf,
     names: Vec<String>,
@@ -236,7 +228,6 @@ pub struct Written {
 }
 
 impl Written {
-    /// Returns their paths.
     pub fn paths(&self) -> Vec<String> {
         self.names.iter().map(|name| self.folder.join(name).display().to_string()).collect()
     }
@@ -258,7 +249,6 @@ impl Written {
         }
     }
 
-    /// Returns the folder with the names of the files.
     pub fn listing(&self) -> String {
         format!("{}: {}", self.folder.display(), self.names.join(", "))
     }

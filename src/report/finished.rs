@@ -13,11 +13,8 @@ use std::path::{Path, PathBuf};
 
 /// A run of `simulate` as its files have it.
 pub struct FinishedRun {
-    /// Parameters of the scene in that run.
     pub parameters: Vec<(String, Number)>,
-    /// Reason of a failed run.
     pub failure: Option<Failure>,
-    /// How it ended.
     pub ending: Ending,
     path: PathBuf,
     headings: Vec<String>,

@@ -12,11 +12,8 @@ use std::path::Path;
 /// What it takes to repeat a run, and reasons to doubt it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Origin {
-    /// Version of the program.
     pub holonom: &'static str,
-    /// Command line; empty from the library.
     pub command: Vec<String>,
-    /// Parameters of the scene.
     pub parameters: Map<String, Value>,
     /// Reasons to doubt the result; empty where none is known.
     pub warnings: Vec<Warning>,
@@ -26,7 +23,6 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// The origin of a result of the library: no command.
     pub fn new(parameters: &Parameters, warnings: Vec<Warning>) -> Self {
         let parameters = parameters.iter().map(|(name, value)| (name.to_string(), Value::from(value))).collect();
         Origin { holonom: env!("CARGO_PKG_VERSION"), command: Vec::new(), parameters, warnings, simulation: None }

@@ -37,7 +37,6 @@ impl RowFiles {
         })
     }
 
-    /// Appends a row.
     pub fn add(&mut self, row: &Row) {
         let Some(&t) = row.values.first() else { return };
         let mut write = |file: &mut Stream, values: &[f64]| {
@@ -74,9 +73,6 @@ impl RowFiles {
     }
 
     /// Completes the files.
-    ///
-    /// # Errors
-    /// The first error of the file system.
     pub fn finish(self) -> Result<()> {
         [self.trajectory, Some(self.drift), self.energy].into_iter().flatten().try_for_each(Stream::finish)
     }

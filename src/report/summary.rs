@@ -13,7 +13,6 @@ use crate::simulate::{Checkpoint, Leg, Method, Outcome, Stiffness};
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
-/// Summary of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
     /// What it takes to repeat it, and reasons to doubt it.
@@ -23,7 +22,6 @@ pub struct Summary {
     method: Chosen,
     /// `completed` or `failed`.
     status: &'static str,
-    /// Reason of a failed run.
     pub failure: Option<Failure>,
     /// Time reached, s.
     t_end: f64,
@@ -35,9 +33,7 @@ pub struct Summary {
     singularity: Singularity,
     /// Fast modes that the method cannot step over; none where it can, or is implicit.
     stiffness: Option<Stiffness>,
-    /// Changes of the start by assembly.
     assembly: Assembly,
-    /// Error bars of the outputs, if requested.
     pub error: Option<ErrorBars>,
     /// Extremes of each output over the rows, by its name.
     #[serde(serialize_with = "by_name")]
@@ -149,7 +145,6 @@ fn final_state(record: &Record) -> FinalState {
 }
 
 impl Summary {
-    /// Returns the summary as text.
     pub fn text(&self) -> String {
         let Method { formulation, integrator, projection, .. } = &self.method.method;
         let accuracy = error_bar::accuracy(&self.method.method);
@@ -220,7 +215,6 @@ impl Summary {
         format!("\n{table}")
     }
 
-    /// Returns the summary with error bars.
     pub fn checked(mut self, bars: ErrorBars) -> Self {
         self.origin.warnings.extend(error_bar::cut_short(&bars));
         self.error = Some(bars);
@@ -240,7 +234,6 @@ impl Summary {
     }
 }
 
-/// Returns a wall-clock time as text.
 fn elapsed(seconds: f64) -> String {
     match seconds {
         short if short < 1.0 => format!("{} ms", significant(1e3 * seconds, 3)),
@@ -252,7 +245,6 @@ fn elapsed(seconds: f64) -> String {
 /// Largest number of singular states whose times are given.
 const NAMED: usize = 5;
 
-/// Returns the text on singular states.
 fn singular_text(found: &Singularity) -> String {
     let Some(nearest) = found.nearest else { return String::new() };
     if found.passed.is_empty() {

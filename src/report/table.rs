@@ -20,12 +20,10 @@ pub struct OutputValues {
 }
 
 impl OutputValues {
-    /// The values of these outputs.
     pub fn new(columns: Vec<Column>, values: Vec<f64>) -> Self {
         OutputValues { columns, values }
     }
 
-    /// The values.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -60,7 +58,6 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table of numbers.
     pub fn new(headings: &[&str]) -> Self {
         Table {
             rows: vec![headings.iter().map(|heading| heading.to_string()).collect()],
@@ -69,7 +66,6 @@ impl Table {
         }
     }
 
-    /// A table of text.
     pub fn left(headings: &[&str]) -> Self {
         Table { left: true, ..Table::new(headings) }
     }
@@ -80,13 +76,11 @@ impl Table {
         self
     }
 
-    /// Adds a row.
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());
     }
 }
 
-/// Largest number of changes of the start in a text.
 const MOST_MOVES: usize = 10;
 
 /// Returns a line for each of the largest changes of the start.
@@ -130,7 +124,6 @@ impl fmt::Display for Table {
     }
 }
 
-/// A number of velocities in words.
 pub fn velocities(count: usize) -> String {
     self::count(count, "velocity", "velocities")
 }

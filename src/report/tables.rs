@@ -79,12 +79,10 @@ fn push(text: &mut Vec<u8>, value: f64) {
     }
 }
 
-/// Returns the line of headings.
 pub fn header(headings: Vec<&str>) -> Result<Vec<u8>> {
     table(headings.into_iter().map(String::from), std::iter::empty())
 }
 
-/// Appends numbers with commas between them.
 pub fn cells(text: &mut Vec<u8>, row: &[f64]) {
     for (i, value) in row.iter().enumerate() {
         if i > 0 {
@@ -98,7 +96,6 @@ fn failed(error: &dyn fmt::Display) -> Error {
     Error::input(format!("cannot write the table: {error}"))
 }
 
-/// Writes rows of cells under headings.
 pub fn table(headings: impl Iterator<Item = String>, rows: impl Iterator<Item = Vec<String>>) -> Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(headings).map_err(|error| failed(&error))?;
@@ -111,7 +108,6 @@ pub fn table(headings: impl Iterator<Item = String>, rows: impl Iterator<Item = 
 /// A column: its heading, and the cell of an item.
 pub type Column<T> = (&'static str, fn(&T) -> String);
 
-/// Writes a row for each item.
 pub fn by_columns<T>(columns: &[Column<T>], items: impl Iterator<Item = impl Borrow<T>>) -> Result<Vec<u8>> {
     let row = |item| columns.iter().map(|(_, cell)| cell(Borrow::borrow(&item))).collect();
     table(columns.iter().map(|(heading, _)| heading.to_string()), items.map(row))

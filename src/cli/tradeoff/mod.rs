@@ -117,7 +117,6 @@ impl Args {
         Ok(Question { watched, plan })
     }
 
-    /// Returns the outputs to compare; by default all that a table has.
     fn outputs(&self, prepared: &PreparedScene, given: Option<&Given>) -> Vec<String> {
         let known = recorded(prepared.system());
         let has = |name: &&str| known.iter().any(|column| column.name == **name);
@@ -127,7 +126,6 @@ impl Args {
         }
     }
 
-    /// Returns the methods that are named.
     fn filter(&self) -> Filter {
         let formulations = self.formulation.clone();
         let integrators = self.integrator.clone();

@@ -56,7 +56,6 @@ fn variant(text: &str, args: &Args, like: &PreparedScene) -> Result<Variant> {
     Ok(Variant { name: named(Path::new(path), set), prepared, source })
 }
 
-/// Returns the file's name and the parameters.
 fn named(path: &Path, set: &str) -> String {
     let stem = path.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned());
     if set.is_empty() { stem } else { format!("{stem}:{set}") }

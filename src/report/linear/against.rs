@@ -9,9 +9,7 @@ use serde_json::{Value, json};
 
 /// The modes of a scene against those of another at a state.
 pub struct AgainstAnswer<'a> {
-    /// Time of the state, s.
     pub t: f64,
-    /// Name of the other scene.
     pub other: &'a str,
     pub found: Against,
 }
@@ -48,7 +46,6 @@ impl Answer for AgainstAnswer<'_> {
         })
     }
 
-    /// Returns a line for each mode.
     fn text(&self) -> String {
         let mut table =
             Table::new(&["frequency (Hz)", "damping ratio", "there (Hz)", "damping ratio", "shift", "MAC", "seen"]);
@@ -88,7 +85,6 @@ const MOST_LINES: usize = 30;
 /// Loci of a scene against those of another.
 #[derive(Serialize)]
 pub(super) struct LociAgainst {
-    /// Name of the other scene.
     scene: String,
     /// Modes of the scene that have a place there, or are lost.
     modes: Vec<BranchFate>,
@@ -124,7 +120,6 @@ impl LociAgainst {
         LociAgainst { scene: scene.to_string(), modes: names.into_iter().enumerate().map(fate).collect(), added }
     }
 
-    /// Returns a line for each mode.
     pub fn text(&self, along: &str) -> String {
         let mut table = Table::new(&["mode", "there", "largest shift", &format!("at {along}")]).words(1);
         let dash = || "-".to_string();

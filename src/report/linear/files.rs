@@ -52,9 +52,6 @@ impl Answer for LinearAnswer<'_> {
 
 impl Linear<'_> {
     /// Writes the arrays for NumPy and for MATLAB; `stem` is the name of the files without extension.
-    ///
-    /// # Errors
-    /// Files that cannot be written.
     pub fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         let arrays = self.arrays();
         #[cfg(feature = "npz")]
@@ -94,7 +91,6 @@ impl Linear<'_> {
     }
 }
 
-/// The contents of `linear-T.json`.
 impl Serialize for Linear<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let model = self.model;

@@ -17,7 +17,6 @@ use serde_json::{Value, json};
 
 /// Eigenvalues of a scene at many states.
 pub struct LociAnswer<'a> {
-    /// Name of the scene.
     scene: &'a str,
     loci: &'a Loci,
     /// Unit of time; of a parameter the one that is given, or that of the speed of a steady rotation; else empty.
@@ -160,7 +159,6 @@ impl<'a> LociAnswer<'a> {
     }
 }
 
-/// First and last time or value.
 fn ends(loci: &Loci) -> [f64; 2] {
     [loci.places.first(), loci.places.last()].map(|place| place.copied().unwrap_or(0.0))
 }
@@ -196,12 +194,10 @@ fn cells(value: Option<Complex<f64>>) -> [String; 4] {
     }
 }
 
-/// Returns the finite points.
 fn finite(branch: &Branch) -> impl Iterator<Item = (f64, Complex<f64>)> + Clone {
     branch.points.iter().copied().filter(|(_, value)| value.re.is_finite() && value.im.is_finite())
 }
 
-/// Returns the reason and the remedy.
 fn told(error: &Error) -> (&str, Option<&str>) {
     match error {
         Error::Input(input) => (&input.message, input.hint.as_deref()),
@@ -282,7 +278,6 @@ impl Answer for LociAnswer<'_> {
 }
 
 impl LociAnswer<'_> {
-    /// Returns the meaning of the real parts.
     fn meaning(&self) -> &'static str {
         match self.equilibria() {
             all if all == self.loci.reached.len() => "all are equilibria: one with a growing mode is unstable",

@@ -35,10 +35,8 @@ use crate::system::Names;
 /// A linear model with the names of its scene.
 #[derive(Clone, Copy)]
 pub struct Linear<'a> {
-    /// Name of the scene.
     pub scene: &'a str,
     /// Names of the coordinates, velocities and multipliers of the operating point.
     pub names: &'a Names,
-    /// The model.
     pub model: &'a LinearModel,
 }

@@ -6,13 +6,9 @@ use crate::linearize::Complex;
 /// Response of an output to an input, at each frequency.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Response {
-    /// Name of the input.
     pub input: String,
-    /// Name of the output.
     pub output: String,
-    /// Unit of the input.
     pub input_unit: String,
-    /// Unit of the output.
     pub output_unit: String,
     /// Values, in output unit per input unit.
     pub values: Vec<Complex<f64>>,

@@ -7,12 +7,9 @@ use crate::linearize::LinearModel;
 use crate::report::{Answer, Folder, Table, cell, object, table};
 use serde::{Serialize, Serializer};
 
-/// Frequency responses of a model.
 pub struct FrequencyResponse<'a> {
-    /// Name of the scene.
     pub scene: &'a str,
     pub model: LinearModel,
-    /// Hz.
     pub frequencies: Vec<f64>,
     /// Responses of each output to each input; NaN at a pole.
     pub responses: Vec<Response>,

@@ -178,7 +178,6 @@ fn movers(bodies: &[&str], energy: &[f64]) -> String {
 
 /// Models at a state by all methods.
 pub struct MethodsAnswer {
-    /// Time of the state, s.
     pub t: f64,
     pub is_equilibrium: bool,
     pub methods: Vec<Comparison>,

@@ -11,7 +11,6 @@ use serde_json::{Value, json};
 /// Growth of small changes from a state on.
 pub struct Transition<'a> {
     pub scene: &'a str,
-    /// Time of the state, s.
     pub t: f64,
     /// Over a period, with the multipliers of size 1 that have too few vectors.
     pub floquet: Option<(Floquet, Vec<Defect>)>,

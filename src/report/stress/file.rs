@@ -11,9 +11,7 @@ use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// All maps of a scene.
 pub struct SceneMaps {
-    /// Name of the scene.
     pub scene: String,
     /// Method without the changes of the maps.
     pub method: Method,
@@ -21,12 +19,10 @@ pub struct SceneMaps {
     pub typical_step: f64,
     /// Typical period of the motion, s.
     pub typical_period: f64,
-    /// Wall-clock time of all maps, s.
     pub wall_seconds: f64,
     pub maps: Vec<Stressed>,
 }
 
-/// All maps of the scenes of a folder.
 pub struct FolderMaps {
     pub scenes: Vec<SceneMaps>,
     /// Scenes that could not be run, with the reasons.
@@ -107,7 +103,6 @@ impl Serialize for SceneMaps {
     }
 }
 
-/// A map with its verdicts and cells.
 struct MapFile<'a>(&'a Stressed);
 
 impl Serialize for MapFile<'_> {
@@ -141,7 +136,6 @@ fn axis(axis: &Axis) -> Value {
     })
 }
 
-/// A cell of a map of a scene.
 struct Place<'a> {
     scene: &'a str,
     map: &'a Map,

@@ -152,7 +152,6 @@ fn holds(name: &str, steps: &[StepVerdict], level: Run) -> String {
     format!("{name} {until}{then}")
 }
 
-/// Returns a ratio in percent.
 fn percent(part: f64) -> String {
     format!("{} %", two(100.0 * part))
 }
@@ -262,7 +261,6 @@ fn number(value: f64) -> String {
     format!("{value:.2e}")
 }
 
-/// Returns the drift, or the status.
 fn shown(level: &Level) -> String {
     level.drift.map_or(level.status.word().to_string(), number)
 }

@@ -10,9 +10,7 @@ use serde::Serialize;
 /// The models of a scene, the richest first, each by many methods.
 #[derive(Clone, Debug, Serialize)]
 pub struct ModelsAndMethods {
-    /// Name of the scene.
     pub scene: String,
-    /// The models.
     pub models: Vec<MeasuredModel>,
 }
 
@@ -23,9 +21,7 @@ pub struct MeasuredModel {
     pub name: String,
     /// What it leaves out.
     pub left_out: Vec<String>,
-    /// n_v.
     pub velocities: usize,
-    /// n_c.
     pub constraints: usize,
     /// Largest difference of its reference from that of the richest, relative to the size of the output; none where one
     /// of them is missing, zero of the richest.
@@ -144,7 +140,6 @@ fn auto_table(summary: &ModelsAndMethods) -> Result<Vec<u8>> {
     table(headings.map(String::from).into_iter(), runs.map(row))
 }
 
-/// Height between the axes, nominal pixels.
 const HEIGHT: f64 = 400.0;
 /// A run that lessens the error of its model by less has the same.
 const SAME: f64 = 0.02;
@@ -189,5 +184,4 @@ fn auto_figure(summary: &ModelsAndMethods) -> Option<Figure> {
     (most > 0.0).then(|| Figure::new().title(title).panel(panel.height(HEIGHT)))
 }
 
-/// Factor of the axis of time, on both sides.
 const MARGIN: f64 = 1.2;

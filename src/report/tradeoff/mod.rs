@@ -37,7 +37,6 @@ struct Advice {
     places: Recommendation,
     /// Sentence; of a range of digits it follows `for 3 to 5 digits: `.
     sentence: String,
-    /// Command line that runs the method on the scene.
     command: String,
 }
 
@@ -94,7 +93,6 @@ fn accuracy(method: &Method) -> String {
     }
 }
 
-/// Returns the command line that runs a method on the scene.
 fn command(method: &Method, scene: &str) -> String {
     let Method { formulation, integrator, projection, rtol, atol, step } = method;
     let accuracy = match step {

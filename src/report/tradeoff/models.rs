@@ -14,7 +14,6 @@ pub struct ModelsAnswer<'a> {
     #[serde(flatten)]
     costs: &'a ModelCosts,
     recommendations: Vec<ModelAdvice>,
-    /// Title of the figure.
     #[serde(skip)]
     title: String,
 }
@@ -33,7 +32,6 @@ const CONVERGED: f64 = 0.01;
 const WITHIN: [f64; 4] = [0.1, 0.01, 1e-3, 1e-4];
 
 impl<'a> ModelsAnswer<'a> {
-    /// The answer on the costs of models of a scene.
     pub fn new(scene: &str, costs: &'a ModelCosts) -> ModelsAnswer<'a> {
         // Differences below the error of the full model itself mean nothing.
         let told = costs.uncertainty().map_or(0.0, |(error, _)| error);
@@ -85,7 +83,6 @@ impl Answer for ModelsAnswer<'_> {
     }
 }
 
-/// Returns the convergence of the full model itself.
 fn convergence(costs: &ModelCosts) -> String {
     let Finer { velocities, failure, .. } = &costs.finer;
     let mesh = match velocities {
@@ -159,7 +156,6 @@ fn models_table(costs: &ModelCosts) -> Result<Vec<u8>> {
     table(headings.into_iter(), costs.models.iter().map(row))
 }
 
-/// Factor of the axis of time, on both sides.
 const MARGIN: f64 = 1.5;
 
 /// Draws a dot for each output of each model, whose name stands at the largest. `None` where nothing differs.
