@@ -8,6 +8,7 @@ use crate::report::Table;
 use crate::simulate::check_pair;
 use crate::{formulation, projection};
 use serde::Serialize;
+use serde_json::{Value, json};
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -26,14 +27,6 @@ pub struct Args {
 }
 
 #[derive(Serialize)]
-struct Methods {
-    formulations: Vec<Item>,
-    integrators: Vec<Item>,
-    projections: Vec<Item>,
-    triples: Vec<Triple>,
-}
-
-#[derive(Serialize)]
 struct Item {
     name: &'static str,
     about: &'static str,
@@ -41,20 +34,9 @@ struct Item {
     options: &'static [OptionDoc],
 }
 
-/// An accepted triple with its proven orders.
-#[derive(Serialize)]
-struct Triple {
-    formulation: &'static str,
-    integrator: &'static str,
-    projection: &'static str,
-    q: usize,
-    v: usize,
-    lambda: usize,
-}
-
 pub fn run(args: Args) -> Result<()> {
     let pairs = pairs(&args)?;
-    print_result(args.json, &methods(&pairs), || text(&pairs))
+    print_result(args.json, &json(&pairs), || text(&pairs))
 }
 
 type Pair = (&'static Entry, &'static str);
@@ -77,29 +59,39 @@ fn pairs(args: &Args) -> Result<Vec<Pair>> {
     Ok(pairs.filter(|(_, name)| is_wanted(&formulation, name)).collect())
 }
 
-fn methods(pairs: &[Pair]) -> Methods {
-    let triples = pairs.iter().flat_map(|&(entry, formulation)| {
-        let accepted = projection::registry().iter().filter(move |other| !entry.refuses(formulation, other.name));
-        accepted.map(move |projection| {
-            let integrator = entry.name;
-            let projection = projection.name;
-            let order = entry.order;
-            Triple { formulation, integrator, projection, q: order, v: order, lambda: order }
-        })
-    });
+/// Returns the methods by their kinds.
+fn lists(pairs: &[Pair]) -> [(&'static str, Vec<Item>); 3] {
     let item = |name, about, options| Item { name, about, r#for: purpose(name), options };
     let formulations = formulation::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.1 == entry.name));
     let integrators = integrator::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.0.name == entry.name));
-    Methods {
-        formulations: formulations.map(|entry| item(entry.name, entry.about, entry.options)).collect(),
-        integrators: integrators.map(|entry| item(entry.name, entry.about, entry.options)).collect(),
-        projections: projection::registry().iter().map(|entry| item(entry.name, entry.about, entry.options)).collect(),
-        triples: triples.collect(),
-    }
+    let projections = projection::registry().iter();
+    [
+        ("formulations", formulations.map(|entry| item(entry.name, entry.about, entry.options)).collect()),
+        ("integrators", integrators.map(|entry| item(entry.name, entry.about, entry.options)).collect()),
+        ("projections", projections.map(|entry| item(entry.name, entry.about, entry.options)).collect()),
+    ]
+}
+
+/// Returns the methods, and the accepted triples with their proven orders.
+fn json(pairs: &[Pair]) -> Value {
+    let triples = pairs.iter().flat_map(|&(entry, formulation)| {
+        let accepted = projection::registry().iter().filter(move |other| !entry.refuses(formulation, other.name));
+        accepted.map(move |projection| {
+            json!({
+                "formulation": formulation,
+                "integrator": entry.name,
+                "projection": projection.name,
+                "q": entry.order,
+                "v": entry.order,
+                "lambda": entry.order,
+            })
+        })
+    });
+    let lists = lists(pairs).into_iter().map(|(heading, items)| (heading.to_string(), json!(items)));
+    lists.chain([("triples".to_string(), triples.collect())]).collect()
 }
 
 fn text(pairs: &[Pair]) -> String {
-    let Methods { formulations, integrators, projections, .. } = methods(pairs);
     let mut text = "A method is a formulation x an integrator x a projection.\n\n".to_string();
     text += &orders(pairs);
     text += "\nOrders in q, v and lambda, each a test; one number where they agree; - where the projection would cost an \
@@ -109,8 +101,7 @@ fn text(pairs: &[Pair]) -> String {
         let (first, rest) = fields.split_at(5);
         text += &format!("Vector fields are {},\n{}.\n", first.join(", "), rest.join(", "));
     }
-    for (heading, items) in [("formulations", formulations), ("integrators", integrators), ("projections", projections)]
-    {
+    for (heading, items) in lists(pairs) {
         text += &format!("\n{}", list(heading, &items));
     }
     text + "\nWrite options as baumgarte:alpha=5,beta=5. `--method auto` chooses on the way and says why.\n"

@@ -123,8 +123,8 @@ fn on_all_threads<R>(work: impl FnOnce() -> R) -> R {
 impl Args {
     /// Returns the time span, if its rows fit into memory, or into a file.
     fn span(&self, prepared: &PreparedScene) -> Result<Span> {
-        let (Dimensions { q, v, lambda, .. }, outputs) =
-            (prepared.system().dimensions(), recorded(prepared.system()).len());
+        let Dimensions { q, v, lambda, .. } = prepared.system().dimensions();
+        let outputs = recorded(prepared.system()).len();
         if self.outputs_only && outputs == 0 {
             return Err(Error::input("--outputs-only leaves nothing to write: the scene has no outputs")
                 .hint("give it `outputs`, or run without --outputs-only"));

@@ -68,8 +68,9 @@ impl Linear<'_> {
             "vdot": named(&self.names.v, &point.vdot),
             "lambda": named(&self.names.lambda, &point.lambda),
         });
-        if !point.u.is_empty() {
-            found["u"] = named(&self.model.input_names(), &point.u).into();
+        let inputs = named(&self.model.input_names(), &point.u);
+        if !inputs.is_empty() {
+            found["u"] = inputs.into();
         }
         found["norms"] = json!(self.norms());
         if let Some(spin) = point.axes {
