@@ -27,7 +27,7 @@ pub struct Args {
 }
 
 #[derive(Serialize)]
-struct Item {
+struct MethodItem {
     name: &'static str,
     about: &'static str,
     r#for: &'static str,
@@ -60,8 +60,8 @@ fn pairs(args: &Args) -> Result<Vec<Pair>> {
 }
 
 /// Returns the methods by their kinds.
-fn lists(pairs: &[Pair]) -> [(&'static str, Vec<Item>); 3] {
-    let item = |name, about, options| Item { name, about, r#for: purpose(name), options };
+fn lists(pairs: &[Pair]) -> [(&'static str, Vec<MethodItem>); 3] {
+    let item = |name, about, options| MethodItem { name, about, r#for: purpose(name), options };
     let formulations = formulation::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.1 == entry.name));
     let integrators = integrator::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.0.name == entry.name));
     let projections = projection::registry().iter();
@@ -143,9 +143,9 @@ fn cells(entry: &Entry, formulation: &str) -> Vec<String> {
 }
 
 /// Returns description and purpose of each, with its options as they are written.
-fn list(heading: &str, items: &[Item]) -> String {
+fn list(heading: &str, items: &[MethodItem]) -> String {
     let mut text = format!("{heading}\n");
-    for Item { name, about, r#for, options } in items {
+    for MethodItem { name, about, r#for, options } in items {
         let options: Vec<String> = options.iter().map(|option| format!("{}=..", option.name)).collect();
         let colon = if options.is_empty() { "" } else { ":" };
         text += &format!("  {name}{colon}{}\n      {about}\n      for {for}\n", options.join(","));

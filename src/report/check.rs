@@ -49,11 +49,11 @@ pub struct Check {
     fastest_mode: Option<SpectralMode>,
     /// Length that drift is relative to, m.
     length_scale: f64,
-    bodies: Vec<Item>,
-    joints: Vec<Item>,
-    forces: Vec<Item>,
+    bodies: Vec<Element>,
+    joints: Vec<Element>,
+    forces: Vec<Element>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    states: Vec<Item>,
+    states: Vec<Element>,
     /// Quantities that the scene does not ask for and that are not computed.
     left_out: Vec<String>,
     /// What looks superfluous or missing, if it was looked for.
@@ -75,16 +75,16 @@ struct Start {
 }
 
 #[derive(Clone, Debug, Serialize)]
-struct Item {
+struct Element {
     name: String,
     kind: String,
     /// Coordinates of a body, rows of a joint.
     detail: String,
 }
 
-impl Item {
-    fn new(name: &str, kind: impl Into<String>, detail: impl Into<String>) -> Item {
-        Item { name: name.to_string(), kind: kind.into(), detail: detail.into() }
+impl Element {
+    fn new(name: &str, kind: impl Into<String>, detail: impl Into<String>) -> Element {
+        Element { name: name.to_string(), kind: kind.into(), detail: detail.into() }
     }
 }
 
@@ -120,8 +120,12 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
         length_scale: system.length(),
         bodies: bodies(model),
         joints: system.groups().iter().map(|group| joint_item(group, &names)).collect(),
-        forces: model.given_forces().iter().map(|force| Item::new(&force.name, force.kind.to_string(), "")).collect(),
-        states: model.markers.states.iter().map(|(name, _)| Item::new(name, "state", "")).collect(),
+        forces: model
+            .given_forces()
+            .iter()
+            .map(|force| Element::new(&force.name, force.kind.to_string(), ""))
+            .collect(),
+        states: model.markers.states.iter().map(|(name, _)| Element::new(name, "state", "")).collect(),
         left_out: left_out(model),
         hints: None,
         equilibrium: None,
@@ -132,7 +136,7 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
 const SHOWN_NAMES: usize = 14;
 
 /// Returns the bodies of the scene; the nodes of a flexible beam are listed as one body.
-fn bodies<const D: usize>(model: &Model<D>) -> Vec<Item> {
+fn bodies<const D: usize>(model: &Model<D>) -> Vec<Element> {
     let item = |(i, part): (usize, &Part<D>)| match model.beams.iter().find(|beam| beam.bodies().contains(&i)) {
         None => Some(body_item(part)),
         Some(beam) => (beam.first_body == i).then(|| beam_item(beam, part)),
@@ -140,14 +144,14 @@ fn bodies<const D: usize>(model: &Model<D>) -> Vec<Item> {
     model.given_bodies().iter().enumerate().filter_map(item).collect()
 }
 
-fn beam_item<const D: usize>(beam: &BeamLine, node: &Part<D>) -> Item {
+fn beam_item<const D: usize>(beam: &BeamLine, node: &Part<D>) -> Element {
     let elements = beam.elements.len();
     let nodes = beam.abscissae.len();
     let detail = format!("{elements} elements, {nodes} nodes of {}", node.body.coordinate_names().join(" "));
-    Item::new(&beam.name, "flexible beam, absolute", detail)
+    Element::new(&beam.name, "flexible beam, absolute", detail)
 }
 
-fn body_item<const D: usize>(part: &Part<D>) -> Item {
+fn body_item<const D: usize>(part: &Part<D>) -> Element {
     let kind = match (part.nq, part.nv) {
         (7, 6) => "rigid, quaternion",
         _ if part.body.elastic_count() > 0 => "flexible, floating frame",
@@ -162,12 +166,12 @@ fn body_item<const D: usize>(part: &Part<D>) -> Item {
         }
         all => all.join(" "),
     };
-    Item::new(&part.name, kind, detail)
+    Element::new(&part.name, kind, detail)
 }
 
-fn joint_item(group: &Group, names: &[String]) -> Item {
+fn joint_item(group: &Group, names: &[String]) -> Element {
     let rows: Vec<&str> = names[group.rows.clone()].iter().filter_map(|name| name.rsplit('.').next()).collect();
-    Item::new(&group.name, &group.kind, rows.join(" "))
+    Element::new(&group.name, &group.kind, rows.join(" "))
 }
 
 fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
@@ -197,11 +201,11 @@ impl Check {
         let mut text = format!(
             "{}: {}, {}, {} of rank {}, {} of freedom\n\n",
             self.scene,
-            count(self.coordinates, "coordinate", "coordinates"),
-            count(self.velocities, "velocity", "velocities"),
-            count(self.constraints, "constraint", "constraints"),
+            count(self.coordinates, "coordinate"),
+            count(self.velocities, "velocity"),
+            count(self.constraints, "constraint"),
             self.rank,
-            count(self.degrees_of_freedom, "degree", "degrees")
+            count(self.degrees_of_freedom, "degree")
         );
         let elements = [
             ("body", "coordinates", &self.bodies),

@@ -37,7 +37,6 @@ pub use simplify::simplify_figure;
 pub use summary::{Summary, summarize};
 pub use sweep::SweepAnswer;
 pub use sweep_figure::SweepLook;
-pub(crate) use table::velocities;
 pub use table::{OutputValues, Table};
 pub use tables::{cell, table, trajectory_arrays};
 pub use warnings::uncertain_kinds;

@@ -1,8 +1,9 @@
 //! The least model that keeps a promise: text, table and figure.
 
+use super::table::count;
 use super::tables::{Column, by_columns, optional};
 use super::tradeoff::milliseconds;
-use super::{Answer, Folder, Table, cell, velocities};
+use super::{Answer, Folder, Table, cell};
 use crate::compare::work_precision::front;
 use crate::error::{Error, Result, percent, short_list};
 use crate::math::bounds;
@@ -75,10 +76,8 @@ fn outcome(result: &Simplification) -> String {
         Some(step) => format!("  by {}, step {step:e} s\n", chosen.method.triple()),
         None => format!("  by {}, rtol {:e}\n", chosen.method.triple(), chosen.method.rtol),
     };
-    let size = |run: &Run| {
-        let s = if run.constraints == 1 { "" } else { "s" };
-        format!("{} and {} constraint{s}", velocities(run.velocities), run.constraints)
-    };
+    let size =
+        |run: &Run| format!("{} and {}", count(run.velocities, "velocity"), count(run.constraints, "constraint"));
     let farthest =
         chosen.worst().map_or(String::new(), |worst| format!("{} is off by {}", worst.name, percent(worst.error)));
     let confirmed = result.second_opinion.iter().map(|opinion| format!("  the full model is {opinion}\n"));
@@ -191,7 +190,7 @@ pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
     for (run, name) in [(&result.richest, "as it is"), (&result.chosen, "chosen")] {
         let Some(((seconds, error), exact)) = point(run).zip(exact(run)) else { continue };
         let below = if exact.1 < least { format!(", off by {}", percent(exact.1)) } else { String::new() };
-        let text = format!("{name}: {}{below}", velocities(run.velocities));
+        let text = format!("{name}: {}{below}", count(run.velocities, "velocity"));
         panel = panel.series(Series::dots("", vec![(seconds, error)]).color(BLACK)).note(
             Tint::Ink(0.0),
             seconds,

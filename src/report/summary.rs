@@ -226,7 +226,7 @@ impl Summary {
         let Some(largest) = self.assembly.moves.first() else { return String::new() };
         format!(
             "  assembly moved {}; the largest change is that of {}: {} -> {}\n",
-            super::table::count(self.assembly.moves.len(), "state", "states"),
+            super::table::count(self.assembly.moves.len(), "state"),
             largest.name,
             significant(largest.from, 6),
             significant(largest.to, 6)

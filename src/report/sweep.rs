@@ -22,16 +22,16 @@ pub struct SweepAnswer<'a> {
 struct Extremes {
     name: String,
     unit: String,
-    first: Place,
-    own: Option<Place>,
-    last: Place,
-    min: Place,
-    max: Place,
+    first: ValueAt,
+    own: Option<ValueAt>,
+    last: ValueAt,
+    min: ValueAt,
+    max: ValueAt,
 }
 
 /// A value of an output with that of the parameter.
 #[derive(Clone, Copy, Serialize)]
-struct Place {
+struct ValueAt {
     at: f64,
     value: f64,
 }
@@ -140,7 +140,7 @@ impl SweepAnswer<'_> {
 
 impl Extremes {
     /// Returns the ends and the scene's own value between them.
-    fn places(&self) -> impl Iterator<Item = &Place> {
+    fn places(&self) -> impl Iterator<Item = &ValueAt> {
         let own = self.own.iter().filter(|own| own.at != self.first.at && own.at != self.last.at);
         [&self.first].into_iter().chain(own).chain([&self.last])
     }
@@ -157,7 +157,7 @@ fn reading(value: f64, unit: &str, size: f64) -> String {
 fn extremes(sweep: &Sweep) -> Vec<Extremes> {
     let curve = sweep.curve();
     let of = |(i, (name, unit)): (usize, (&str, &str))| {
-        let place = |point: &&Point| Place { at: point.value, value: shown(sweep, point)[i] };
+        let place = |point: &&Point| ValueAt { at: point.value, value: shown(sweep, point)[i] };
         let ends = [curve.first(), curve.last()].map(|point| point.map(place));
         // Forces and speeds may grow without bounds towards an end of the branch.
         let values = || sweep.points.iter().chain(&sweep.own).map(|point| place(&point));

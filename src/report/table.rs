@@ -95,9 +95,13 @@ pub fn moves_text(moves: &[Move]) -> String {
     moves.iter().take(MOST_MOVES).map(line).chain([more]).collect()
 }
 
-/// A number with the word for one or for many.
-pub fn count(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
+/// Returns a number with its noun in the singular or the plural.
+pub fn count(n: usize, noun: &str) -> String {
+    match noun.strip_suffix('y') {
+        _ if n == 1 => format!("1 {noun}"),
+        Some(stem) => format!("{n} {stem}ies"),
+        None => format!("{n} {noun}s"),
+    }
 }
 
 impl fmt::Display for Table {
@@ -122,8 +126,4 @@ impl fmt::Display for Table {
         }
         Ok(())
     }
-}
-
-pub fn velocities(count: usize) -> String {
-    self::count(count, "velocity", "velocities")
 }

@@ -3,6 +3,7 @@
 use super::Linear;
 use crate::error::{short, significant};
 use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, Pair, pairs};
+use crate::report::table::count;
 use crate::report::{Answer, Table};
 use serde::Serialize;
 use serde_json::json;
@@ -28,9 +29,8 @@ impl Linear<'_> {
     /// Returns method, chart and state, then the modes.
     pub fn text(&self) -> String {
         let model = self.model;
-        let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-        let sizes = [(model.states.len(), "state"), (model.inputs.len(), "input"), (model.outputs.len(), "output")];
-        let sizes = sizes.map(|(n, what)| count(n, what)).join(", ");
+        let sizes = [(&model.states, "state"), (&model.inputs, "input"), (&model.outputs, "output")];
+        let sizes = sizes.map(|(all, noun)| count(all.len(), noun)).join(", ");
         let form = if model.e.is_some() { "E x' = A x + B u" } else { "x' = A x + B u" };
         format!(
             "{} at t = {} s: linear model by {}, {form}, {sizes}\n  {}\n{}{}\n{}",

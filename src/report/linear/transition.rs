@@ -3,7 +3,7 @@
 use crate::error::{Result, significant};
 use crate::linearize::{Complex, Defect, Floquet, Lyapunov};
 use crate::plot::{Figure, Panel, Series};
-use crate::report::{Answer, Folder, Table};
+use crate::report::{Answer, Folder, Table, table};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -64,8 +64,8 @@ fn floquet_text(scene: &str, t: f64, found: &Floquet, defects: &[Defect]) -> Str
         (false, _) => "small changes grow".to_string(),
         (true, None) => "no small change grows".to_string(),
         (true, Some(Defect { count, vectors, .. })) => format!(
-            "small changes grow like t, no faster: a multiplier of size 1 counts {count} and has {vectors} vector{}",
-            if *vectors == 1 { "" } else { "s" }
+            "small changes grow like t, no faster: a multiplier of size 1 counts {count} and has {}",
+            table::count(*vectors, "vector")
         ),
     };
     format!(

@@ -136,13 +136,13 @@ fn axis(axis: &Axis) -> Value {
     })
 }
 
-struct Place<'a> {
+struct MapCell<'a> {
     scene: &'a str,
     map: &'a Map,
     cell: &'a Cell,
 }
 
-impl Place<'_> {
+impl MapCell<'_> {
     fn x(&self) -> &AxisPlace {
         &self.map.x.entries[self.cell.column]
     }
@@ -152,7 +152,7 @@ impl Place<'_> {
     }
 }
 
-fn columns<'a>() -> [Column<Place<'a>>; 26] {
+fn columns<'a>() -> [Column<MapCell<'a>>; 26] {
     [
         ("scene", |at| at.scene.to_string()),
         ("map", |at| at.map.name.clone()),
@@ -187,7 +187,7 @@ fn columns<'a>() -> [Column<Place<'a>>; 26] {
 fn stress_table(scenes: &[SceneMaps]) -> Result<Vec<u8>> {
     let cells =
         each(scenes).flat_map(|(scene, stressed)| stressed.cells.iter().map(move |cell| (scene, stressed, cell)));
-    by_columns(&columns(), cells.map(|(scene, stressed, cell)| Place { scene, map: &stressed.map, cell }))
+    by_columns(&columns(), cells.map(|(scene, stressed, cell)| MapCell { scene, map: &stressed.map, cell }))
 }
 
 const LEGEND: &str = "Cells of the figures: ∞ diverged (joints open by a tenth of the scene's size, or infinite numbers), \

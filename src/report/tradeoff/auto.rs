@@ -4,7 +4,8 @@ use super::{accuracy, milliseconds};
 use crate::compare::work_precision::{Cell, WorkPrecision, front};
 use crate::error::{Result, percent};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
-use crate::report::{Answer, Folder, Table, cell as number, table, velocities};
+use crate::report::table::count;
+use crate::report::{Answer, Folder, Table, cell as number, table};
 use serde::Serialize;
 
 /// The models of a scene, the richest first, each by many methods.
@@ -165,7 +166,7 @@ fn auto_figure(summary: &ModelsAndMethods) -> Option<Figure> {
     let axis = |label: &str| AxisSpec::from(label).log();
     let mut panel = Panel::new(axis("CPU time (s)").range(least / MARGIN, MARGIN * most), axis("error (relative)"));
     for (color, model) in summary.models.iter().enumerate() {
-        let name = format!("{}, {}", model.name, velocities(model.velocities));
+        let name = format!("{}, {}", model.name, count(model.velocities, "velocity"));
         panel = panel.series(Series::line(name, together(model)).style(Style::LineDots).color(color));
     }
     let simpler = summary

@@ -4,6 +4,7 @@ use super::{MethodsAnswer, accuracy, milliseconds};
 use crate::compare::work_precision::{Cell, Lack, Outcome, Reference, WorkPrecision, cheapest_by_method};
 use crate::error::clock;
 use crate::report::Table;
+use crate::report::table::count;
 use std::fmt::Write;
 
 /// Returns the recommendations, the cheapest run of each method for the digits, and the methods that did not reach them.
@@ -13,11 +14,7 @@ pub(super) fn text(answer: &MethodsAnswer) -> String {
     let mut text = head(measured);
     for same in recommendations.chunk_by(|a, b| a.sentence == b.sentence) {
         let [first, .., last] = same else {
-            let digits = if same[0].places.digits == 1 {
-                "1 digit".to_string()
-            } else {
-                format!("{} digits", same[0].places.digits)
-            };
+            let digits = count(same[0].places.digits as usize, "digit");
             text += &format!("  for {digits}: {}\n", same[0].sentence);
             continue;
         };
