@@ -87,8 +87,9 @@ impl Folder {
     /// Writes a file that appears after [`finish`](Self::finish). The presence of the last one shows that all are
     /// complete.
     pub fn write(&mut self, name: &str, contents: &[u8]) -> Result<()> {
-        let written = self.staging.write(name, contents);
-        written.map_err(|error| failed(&self.path().join(name), UNWRITTEN, &error))
+        let mut file = self.stream(name)?;
+        file.append(contents);
+        file.finish()
     }
 
     pub fn table(&mut self, stem: &str, contents: &[u8]) -> Result<()> {

@@ -9,6 +9,7 @@ use crate::system::Names;
 use crate::trajectory::Trajectory;
 use std::borrow::Borrow;
 use std::fmt;
+use std::io::Write;
 
 /// Returns a trajectory as arrays for Python and MATLAB: `rows`, a matrix, and the names of its `columns`; NaN where there
 /// is no value.
@@ -38,8 +39,7 @@ pub fn sweep_table(sweep: &Sweep) -> Result<Vec<u8>> {
     let own = [parameter.as_str()].into_iter().chain(q.iter().chain(lambda).map(String::as_str));
     let mut all = header(own.chain(outputs).collect())?;
     for point in &sweep.points {
-        cells(&mut all, &[&[point.value], &point.q[..], &point.lambda, &point.outputs].concat());
-        all.push(b'\n');
+        line(&mut all, &[&[point.value], &point.q[..], &point.lambda, &point.outputs].concat());
     }
     Ok(all)
 }
@@ -71,11 +71,12 @@ pub fn cell(value: f64) -> String {
 
 /// Writes a number at full precision with the fewest digits, with an exponent where zeros alone would fill the cell;
 /// nothing where there is no value, such as of an output outside its domain.
-fn push(text: &mut Vec<u8>, value: f64) {
+fn push(out: &mut impl Write, value: f64) {
     if value.is_finite() {
         let mut buffer = zmij::Buffer::new();
         let digits = buffer.format_finite(value);
-        text.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
+        // Memory has no errors, and a stream keeps its first one.
+        let _ = out.write_all(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
     }
 }
 
@@ -83,13 +84,15 @@ pub fn header(headings: Vec<&str>) -> Result<Vec<u8>> {
     table(headings.into_iter().map(String::from), std::iter::empty())
 }
 
-pub fn cells(text: &mut Vec<u8>, row: &[f64]) {
+/// Writes a line of numbers with commas between them.
+pub fn line(out: &mut impl Write, row: &[f64]) {
     for (i, value) in row.iter().enumerate() {
         if i > 0 {
-            text.push(b',');
+            let _ = out.write_all(b",");
         }
-        push(text, *value);
+        push(out, *value);
     }
+    let _ = out.write_all(b"\n");
 }
 
 fn failed(error: &dyn fmt::Display) -> Error {
