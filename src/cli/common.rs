@@ -253,9 +253,10 @@ impl Talk {
         if self.json || self.quiet { Ok(()) } else { print(text) }
     }
 
-    /// Moves the files into place, prints the result, and names the files.
+    /// Moves the files into place, tells what they replace, prints the result, and names the files.
     pub fn conclude(&self, folder: Folder, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
-        let written = self.finish(folder)?;
+        let written = folder.finish()?;
+        written.note().filter(|_| !self.quiet).iter().for_each(tell);
         self.print(json, text)?;
         self.tell_files(&written)
     }
@@ -285,13 +286,6 @@ impl Talk {
         answer.write(&mut folder, stem)?;
         let sealed = folder.seal(&format!("{stem}.json"), origin, answer.json())?;
         self.conclude(folder, &sealed, || answer.text())
-    }
-
-    /// Moves results into place and tells what they replace.
-    pub fn finish(&self, folder: Folder) -> Result<Written> {
-        let written = folder.finish()?;
-        written.note().filter(|_| !self.quiet).iter().for_each(tell);
-        Ok(written)
     }
 
     /// Prints the folder and the names of the files, if text is printed.

@@ -9,7 +9,7 @@ use crate::prepared::{Overrides, PreparedScene};
 use crate::report::mechanism::{
     Look, Motion, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
-use crate::report::{Ending, FinishedRun, Folder, Format, Origin, Shown, Written, outputs_figure};
+use crate::report::{Ending, FinishedRun, Folder, Format, Origin, Shown, outputs_figure};
 use crate::simulate::Span;
 use crate::trajectory::Trajectory;
 use serde::Serialize;
@@ -135,9 +135,8 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let motion = Motion::new(&prepared, &trajectory).titled(shown.title(&prepared.name));
     args.common.talk.warn(&motion.sparse().filter(|_| args.from.is_some() && args.is_in_motion()));
     args.draw((&motion, &shown), &look, &mut folder, &mut drawn)?;
-    let written = args.common.talk.finish(folder)?;
-    drawn.files = written.paths();
-    args.common.talk.print(&drawn, || drawn.text(&written))?;
+    drawn.files = folder.paths();
+    args.common.talk.conclude(folder, &drawn, || drawn.text())?;
     failure.map_or(Ok(ExitCode::SUCCESS), |failure| fail(Error::from(failure)))
 }
 
@@ -355,7 +354,7 @@ fn speed_text(speed: f64) -> String {
 }
 
 impl Drawn {
-    fn text(&self, written: &Written) -> String {
+    fn text(&self) -> String {
         let times: Vec<String> = self.times.iter().map(|t| significant(*t, 4)).collect();
         let mut lines = Vec::new();
         if !times.is_empty() {
@@ -370,6 +369,6 @@ impl Drawn {
         if lines.is_empty() {
             lines.push(format!("{}: outputs over time", self.scene));
         }
-        format!("{}\n\nwritten to {}\n", lines.join("\n"), written.listing())
+        lines.join("\n") + "\n"
     }
 }

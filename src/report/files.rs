@@ -84,6 +84,11 @@ impl Folder {
         self.staging.target()
     }
 
+    /// Returns the paths of the files.
+    pub fn paths(&self) -> Vec<String> {
+        self.staging.names().iter().map(|name| self.path().join(name).display().to_string()).collect()
+    }
+
     /// Writes a file that appears after [`finish`](Self::finish). The presence of the last one shows that all are
     /// complete.
     pub fn write(&mut self, name: &str, contents: &[u8]) -> Result<()> {
@@ -229,10 +234,6 @@ pub struct Written {
 }
 
 impl Written {
-    pub fn paths(&self) -> Vec<String> {
-        self.names.iter().map(|name| self.folder.join(name).display().to_string()).collect()
-    }
-
     /// Returns what became of earlier results that were not the same; none where there were none.
     pub fn note(&self) -> Option<String> {
         let folder = self.folder.display();
