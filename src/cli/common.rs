@@ -318,13 +318,10 @@ impl Talk {
 }
 
 impl Output {
+    /// Makes the folder of the results of the scene `name`.
     pub fn folder(&self, name: &str) -> Result<Folder> {
-        Ok(Folder::create(&self.path(name))?.drawing(self.figures))
-    }
-
-    /// Returns the folder of the results of the scene `name`.
-    pub fn path(&self, name: &str) -> PathBuf {
-        self.output.clone().unwrap_or_else(|| Path::new("out").join(name))
+        let path = self.output.clone().unwrap_or_else(|| Path::new("out").join(name));
+        Ok(Folder::create(&path)?.drawing(self.figures))
     }
 }
 

@@ -12,7 +12,7 @@ use crate::prepared::{AnyMechanism, PreparedScene};
 use crate::scene::{BeamLine, Model, Part};
 use crate::simplify::Hints;
 use crate::simulate::{SpectralMode, refused};
-use crate::system::{Group, OperatingPoint, Scratch};
+use crate::system::{Group, OperatingPoint};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
@@ -280,10 +280,7 @@ impl Check {
 impl Start {
     fn of(prepared: &PreparedScene) -> Start {
         let Assembly { q, v, vdot, lambda, .. } = &prepared.assembly;
-        let columns = prepared.system().columns();
-        let mut values = vec![0.0; columns.len()];
         let at = OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda };
-        prepared.system().outputs(at, &mut values, &mut Scratch::default());
         let moving = ..prepared.system().dimensions().moving();
         let velocity = largest(&v[moving]);
         let acceleration = largest(&vdot[moving]);
@@ -291,7 +288,7 @@ impl Start {
             velocity,
             acceleration,
             is_equilibrium: velocity == 0.0 && largest(vdot) < tolerances::RESTING_START,
-            outputs: OutputValues::new(columns, values),
+            outputs: OutputValues::at(prepared.system(), at),
         }
     }
 

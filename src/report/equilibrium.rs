@@ -6,7 +6,7 @@ use crate::analysis::Range;
 use crate::error::{Warning, clock};
 use crate::initial::{Equilibrium, Move, Stability, Way};
 use crate::prepared::PreparedScene;
-use crate::system::{Column, Names, OperatingPoint, Scratch};
+use crate::system::{Column, Names, OperatingPoint};
 use crate::tolerances::report as tolerances;
 use serde::{Serialize, Serializer};
 
@@ -66,11 +66,9 @@ impl EquilibriumReport {
     pub fn of(prepared: &PreparedScene, found: Equilibrium) -> EquilibriumReport {
         let system = prepared.system();
         let names = system.names();
-        let columns = system.columns();
-        let mut outputs = vec![0.0; columns.len()];
         let vdot = vec![0.0; names.v.len()];
         let at = OperatingPoint { t: found.t, q: &found.q, v: &found.v, vdot: &vdot, lambda: &found.lambda };
-        system.outputs(at, &mut outputs, &mut Scratch::default());
+        let outputs = OutputValues::at(system, at);
         let moving = system.dimensions().moving();
         let (q, v) = prepared.start();
         let states = names.v.iter().zip(v.iter().zip(&found.v)).skip(moving);
@@ -82,7 +80,7 @@ impl EquilibriumReport {
         EquilibriumReport {
             t: found.t,
             lambda: OutputValues::new(without_units(&names.lambda), found.lambda.clone()),
-            outputs: OutputValues::new(columns, outputs),
+            outputs,
             warnings: Range::warnings_at(system, found.t, &found.q),
             found: Some(found),
             names,

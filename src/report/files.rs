@@ -143,7 +143,9 @@ impl Folder {
         file.finish()?;
         self.sealed = self.staging.names().len();
         let written = Settings::read(&self.staging.path(name));
-        if let Some((earlier, new)) = Settings::earlier(&self.path().join(name)).zip(written) {
+        // Of other results nobody knows by which command they came.
+        let earlier = Settings::read(&self.path().join(name)).filter(|earlier| !earlier.command.is_empty());
+        if let Some((earlier, new)) = earlier.zip(written) {
             self.notes.extend(earlier.replaced_by(&new));
             self.obsolete.extend(earlier.files.into_iter().filter(|file| belongs(name, file)));
         }

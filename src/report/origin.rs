@@ -46,7 +46,7 @@ pub struct Sealed<T> {
 #[derive(Deserialize, Default)]
 #[serde(default)]
 pub(super) struct Settings {
-    command: Vec<String>,
+    pub command: Vec<String>,
     parameters: Map<String, Value>,
     simulation: Option<Value>,
     method: Option<Value>,
@@ -62,11 +62,6 @@ const METHOD: [&str; 6] = ["formulation", "integrator", "projection", "rtol", "a
 const NAMED: usize = 4;
 
 impl Settings {
-    /// Reads those of earlier results; `None` if there are none, or nobody knows by which command they came.
-    pub fn earlier(path: &Path) -> Option<Settings> {
-        Settings::read(path).filter(|settings| !settings.command.is_empty())
-    }
-
     /// Reads those of a result. The file is large where there are many coordinates, and little of it is kept.
     pub fn read(path: &Path) -> Option<Settings> {
         // A pipe would wait for a writer.

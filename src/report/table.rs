@@ -2,7 +2,7 @@
 
 use crate::error::significant;
 use crate::initial::Move;
-use crate::system::Column;
+use crate::system::{Column, MechanicalSystem, OperatingPoint, Scratch};
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 use std::fmt;
@@ -21,6 +21,14 @@ pub struct OutputValues {
 
 impl OutputValues {
     pub fn new(columns: Vec<Column>, values: Vec<f64>) -> Self {
+        OutputValues { columns, values }
+    }
+
+    /// The values of all outputs of a system at a state.
+    pub fn at(system: &dyn MechanicalSystem, at: OperatingPoint) -> Self {
+        let columns = system.columns();
+        let mut values = vec![0.0; columns.len()];
+        system.outputs(at, &mut values, &mut Scratch::default());
         OutputValues { columns, values }
     }
 

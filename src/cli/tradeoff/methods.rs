@@ -22,7 +22,7 @@ pub fn run(args: &Args, prepared: &PreparedScene) -> Result<ExitCode> {
     let given = args.reference(prepared).as_deref().map(Given::read).transpose()?;
     let question = args.question(prepared, args.budget, given)?;
     let folder = args.output.folder(&prepared.name)?;
-    let place = args.output.path(&prepared.name).join("tradeoff.json");
+    let place = folder.path().join("tradeoff.json");
     let mut measured = question.begin(args, prepared, &place)?;
     question.measure(args, prepared, &place, &mut measured)?;
     report(args, prepared, &measured, folder)
