@@ -88,10 +88,8 @@ impl AtStates {
         (prepared, t): (&PreparedScene, f64),
         answer: &impl Answer,
     ) -> Result<Value> {
-        let stem = stem_at(what, t);
-        answer.write(folder, &stem)?;
+        let sealed = answer.stage(folder, &stem_at(what, t), self.talk.origin(prepared))?;
         self.talk.say(&answer.text())?;
-        let sealed = folder.seal(&format!("{stem}.json"), self.talk.origin(prepared), answer.json())?;
         if self.talk.json { serde_json::to_value(sealed).map_err(unprintable) } else { Ok(Value::Null) }
     }
 }

@@ -73,8 +73,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     args.talk.warn(&uncertain_kinds(uncertain.map(|_| loci.method.as_str())));
     let other = other.as_ref().map(|(name, other)| (name.as_str(), other));
     let answer = LociAnswer::new(&prepared.name, &loci, args.unit.as_deref(), other);
-    answer.write(&mut folder, "loci")?;
-    folder.seal("loci.json", args.talk.origin(&prepared), answer.json())?;
+    answer.stage(&mut folder, "loci", args.talk.origin(&prepared))?;
     let origin = Some(args.talk.origin(&prepared));
     args.talk.conclude(folder, &Sealed { origin, result: answer.summary(), files: Vec::new() }, || answer.text())?;
     let Some(Gap { at, error }) = failed(&args, &loci) else { return Ok(ExitCode::SUCCESS) };

@@ -21,6 +21,7 @@ mod simplify;
 mod simulate;
 mod stress;
 mod sweep;
+mod talk;
 mod terminal;
 mod tradeoff;
 mod transition;

@@ -1,6 +1,6 @@
 //! The result of a command.
 
-use super::Folder;
+use super::{Folder, Origin, Sealed};
 use crate::error::Result;
 use serde::Serialize;
 
@@ -16,6 +16,17 @@ pub trait Answer {
     /// extension.
     fn write(&self, _folder: &mut Folder, _stem: &str) -> Result<()> {
         Ok(())
+    }
+
+    /// Writes all files, the JSON last: it vouches for the others.
+    fn stage<'a, O: Into<Option<Origin>>>(
+        &'a self,
+        folder: &mut Folder,
+        stem: &str,
+        origin: O,
+    ) -> Result<Sealed<impl Serialize + use<'a, Self, O>>> {
+        self.write(folder, stem)?;
+        folder.seal(&format!("{stem}.json"), origin, self.json())
     }
 }
 
