@@ -17,35 +17,21 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<()> {
 /// Returns bad input where the path is wrong; a failure where the disk is full or the like.
 fn failed(path: &Path, what: &str, error: &io::Error) -> Error {
     use io::ErrorKind::*;
-    let problem = format!("{what}: {}", reason(error));
-    let is_misplaced = matches!(
-        error.kind(),
-        PermissionDenied
-            | NotFound
-            | NotADirectory
-            | IsADirectory
-            | AlreadyExists
-            | ReadOnlyFilesystem
-            | InvalidFilename
-            | InvalidInput
-    );
-    if is_misplaced { Error::file(path, problem) } else { Error::unwritten(path, problem) }
-}
-
-fn reason(error: &io::Error) -> String {
-    use io::ErrorKind::*;
     let elsewhere = "choose another place with -o";
-    match error.kind() {
-        PermissionDenied => format!("no permission; {elsewhere}"),
-        NotFound => format!("the folder that it would be in does not exist; {elsewhere}"),
-        NotADirectory => format!("a part of this path is a file; {elsewhere}"),
-        IsADirectory => format!("this is a directory; {elsewhere}"),
-        AlreadyExists => format!("it is a file; {elsewhere}"),
-        ReadOnlyFilesystem => format!("the disk is read-only; {elsewhere}"),
-        StorageFull | QuotaExceeded => format!("the disk is full; make room, or {elsewhere}"),
-        FileTooLarge => format!("files must not become so large here; raise the limit, or {elsewhere}"),
-        _ => error.to_string(),
-    }
+    let (reason, is_misplaced) = match error.kind() {
+        PermissionDenied => (format!("no permission; {elsewhere}"), true),
+        NotFound => (format!("the folder that it would be in does not exist; {elsewhere}"), true),
+        NotADirectory => (format!("a part of this path is a file; {elsewhere}"), true),
+        IsADirectory => (format!("this is a directory; {elsewhere}"), true),
+        AlreadyExists => (format!("it is a file; {elsewhere}"), true),
+        ReadOnlyFilesystem => (format!("the disk is read-only; {elsewhere}"), true),
+        InvalidFilename | InvalidInput => (error.to_string(), true),
+        StorageFull | QuotaExceeded => (format!("the disk is full; make room, or {elsewhere}"), false),
+        FileTooLarge => (format!("files must not become so large here; raise the limit, or {elsewhere}"), false),
+        _ => (error.to_string(), false),
+    };
+    let problem = format!("{what}: {reason}");
+    if is_misplaced { Error::file(path, problem) } else { Error::unwritten(path, problem) }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

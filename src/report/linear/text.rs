@@ -210,15 +210,13 @@ pub fn comparison_text(rows: &[Comparison], is_equilibrium: bool) -> String {
     ];
     let mut table = Table::new(&headings).words(1);
     for row in rows {
-        let counts = [row.physical, row.spurious, row.infinite].map(|count| count.to_string());
-        let [physical, spurious, infinite] = counts;
         table.row([
             row.method.clone(),
             row.chart.clone(),
             row.error.map_or("-".to_string(), |error| format!("{error:.1e}")),
-            physical,
-            spurious,
-            infinite,
+            row.physical.to_string(),
+            row.spurious.to_string(),
+            row.infinite.to_string(),
             row.off_constraints
                 .map_or("-".to_string(), |[physical, spurious]| format!("{physical:.0e} / {spurious:.0e}")),
             row.conditioning.map_or("-".to_string(), |condition| significant(condition, 2)),
