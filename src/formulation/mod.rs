@@ -26,7 +26,6 @@ mod statistics;
 mod turn;
 mod udwadia_kalaba;
 
-#[doc(hidden)]
 use crate::method_spec::{MethodSpec, OptionDoc};
 pub use dae::{Dae, Row};
 #[doc(hidden)]
@@ -35,7 +34,7 @@ pub use dynamics::{Dynamics, StepError};
 #[doc(hidden)]
 pub use iteration::{Change, Iteration, Number, Slopes};
 #[doc(hidden)]
-pub use linearized::{Linearized, NO_TANGENT};
+pub use linearized::{Linearized, NO_TANGENT, Point};
 #[doc(hidden)]
 pub(crate) use penalty::softer;
 pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};

@@ -2,8 +2,9 @@
 
 use super::hermite::Hermite;
 use super::sums::{accumulate, combine};
-use super::{Control, From, Integrator, Problem, Stability, Tolerance};
+use super::{Control, Dense, From, Integrator, Problem, Stability, Step, Tolerance};
 use crate::formulation::StepError;
+use serde_json::Value;
 
 /// The constants of an explicit method.
 pub struct Tableau {
@@ -24,6 +25,11 @@ pub struct Tableau {
 }
 
 impl Tableau {
+    /// Stability region of the method.
+    pub fn stability(&self) -> Stability {
+        Stability::of(|i| self.a[i], self.b)
+    }
+
     /// Weights of an embedded error estimate.
     pub fn embedded(&self) -> Option<&'static [f64]> {
         match self.error {
@@ -56,8 +62,6 @@ pub struct Explicit {
     k: Vec<Vec<f64>>,
     /// State of a stage, then scratch.
     stage: Vec<f64>,
-    /// [`widest_gap`] of the nodes.
-    gap: (f64, f64),
     control: Control,
     polynomial: Hermite,
 }
@@ -66,12 +70,15 @@ impl Explicit {
     /// Memory for states of length `len`, see [`Setup::len`](super::Setup::len).
     pub fn new(tableau: &'static Tableau, len: usize) -> Self {
         let zeros = |n: usize| vec![vec![0.0; len]; n];
+        let (spacing, middle) = widest_gap(&tableau.c[..tableau.b.len()]);
+        let mut control = (tableau.control)();
+        control.spacing = spacing;
+        control.gap = Some(middle);
         Explicit {
             tableau,
             k: zeros(tableau.c.len()),
             stage: vec![0.0; len],
-            gap: widest_gap(&tableau.c[..tableau.b.len()]),
-            control: (tableau.control)(),
+            control,
             polynomial: Hermite::new(len, tableau.dense.len()),
         }
     }
@@ -134,21 +141,13 @@ pub(super) fn widest_gap(nodes: &[f64]) -> (f64, f64) {
 }
 
 impl Integrator for Explicit {
-    fn order(&self) -> usize {
-        self.tableau.order
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
     }
 
     /// A step knows its start alone.
-    fn memory(&self) -> Option<Vec<f64>> {
-        Some(Vec::new())
-    }
-
-    fn stability(&self) -> Option<Stability> {
-        Some(Stability::of(|i| self.tableau.a[i], self.tableau.b))
+    fn memory(&self) -> Option<Value> {
+        Some(Value::Array(Vec::new()))
     }
 
     fn attempt(
@@ -184,37 +183,29 @@ impl Integrator for Explicit {
         true
     }
 
-    fn widest_gap(&self) -> Option<f64> {
-        Some(self.gap.1)
+    fn dense(&mut self) -> Option<&mut dyn Dense> {
+        if self.tableau.dense.is_empty() { None } else { Some(self) }
     }
+}
 
-    fn spacing(&self) -> f64 {
-        self.gap.0
-    }
-
-    /// Cubic Hermite interpolation, raised by the stages of the tableau.
-    fn prepare(
-        &mut self,
-        problem: &mut Problem,
-        from: From,
-        h: f64,
-        to: &[f64],
-        slope: &[f64],
-    ) -> Result<(), StepError> {
+/// Cubic Hermite interpolation, raised by the stages of the tableau.
+impl Dense for Explicit {
+    fn prepare(&mut self, problem: &mut Problem, step: Step) -> Result<(), StepError> {
         let stages = self.stages();
         if self.k.len() > stages {
-            self.k[stages].copy_from_slice(slope);
-            self.evaluate(problem, stages + 1..self.k.len(), from, h)?;
+            self.k[stages].copy_from_slice(step.slope);
+            self.evaluate(problem, stages + 1..self.k.len(), step.from, step.h)?;
         }
-        self.polynomial.prepare(from, h, to, slope);
+        self.polynomial.prepare(step);
         for (row, weights) in self.polynomial.beyond().iter_mut().zip(self.tableau.dense) {
             row.fill(0.0);
-            accumulate(row, h, weights, &self.k);
+            accumulate(row, step.h, weights, &self.k);
         }
         Ok(())
     }
 
-    fn polynomial(&mut self) -> Option<&mut Hermite> {
-        Some(&mut self.polynomial)
+    fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
+        self.polynomial.interpolate(theta, step.from.y, out);
+        Ok(())
     }
 }

@@ -3,7 +3,7 @@
 use super::explicit::Tableau as Explicit;
 use super::hermite::Hermite;
 use super::sums::combine;
-use super::{Control, From, Integrator, Problem, Setup, Stability, Tolerance};
+use super::{Control, Dense, From, Integrator, Problem, Setup, Stability, Step, Tolerance};
 use crate::error::{Error, Result};
 use crate::formulation::{Dynamics, StepError};
 use crate::math::kkt::{Pattern, Singular, Unsymmetric};
@@ -11,6 +11,7 @@ use crate::math::newton::{Limits, Monitor};
 use crate::math::{all_finite, largest};
 use crate::system::Need;
 use crate::tolerances::integrator as tolerances;
+use serde_json::Value;
 
 /// Order of the rows of the cubic, whose error over a step is O(h^4).
 const CUBIC: usize = 4;
@@ -39,6 +40,11 @@ pub struct Tableau {
 }
 
 impl Tableau {
+    /// Stability region: along the free directions the stages are those of an explicit method.
+    pub fn stability(&self) -> Stability {
+        Stability::of(|i| self.stage(i).0, self.last())
+    }
+
     /// Row and node of the stage itself.
     fn stage(&self, i: usize) -> (&'static [f64], f64) {
         match (self.explicit, i) {
@@ -82,6 +88,7 @@ pub struct HalfExplicit {
     /// G of the stage.
     g: Vec<f64>,
     control: Control,
+    /// The quartic of methods whose order is above that of the cubic.
     polynomial: Hermite,
 }
 
@@ -107,7 +114,7 @@ impl HalfExplicit {
             off: zeros(n.v),
             matrix: matrix.ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?,
             g: zeros(structure.g.entries.len()),
-            polynomial: Hermite::new(len, usize::from(tableau.order > CUBIC)),
+            polynomial: Hermite::new(len, 1),
         })
     }
 
@@ -217,22 +224,13 @@ fn is_finite(y: &[f64]) -> Result<(), StepError> {
 }
 
 impl Integrator for HalfExplicit {
-    fn order(&self) -> usize {
-        self.tableau.order
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
     }
 
     /// A step knows its start alone.
-    fn memory(&self) -> Option<Vec<f64>> {
-        Some(Vec::new())
-    }
-
-    /// Along the free directions the stages are those of an explicit method.
-    fn stability(&self) -> Option<Stability> {
-        Some(Stability::of(|i| self.tableau.stage(i).0, self.tableau.last()))
+    fn memory(&self) -> Option<Value> {
+        Some(Value::Array(Vec::new()))
     }
 
     fn attempt(
@@ -260,20 +258,19 @@ impl Integrator for HalfExplicit {
         self.tableau.explicit.map(|_| &self.k[self.tableau.constraint.len()][..])
     }
 
-    fn prepare(
-        &mut self,
-        problem: &mut Problem,
-        from: From,
-        h: f64,
-        to: &[f64],
-        slope: &[f64],
-    ) -> Result<(), StepError> {
-        let HalfExplicit { polynomial, stage, error, .. } = self;
-        polynomial.prepare(from, h, to, slope);
-        if self.tableau.order > CUBIC { polynomial.raise(problem, from, h, [stage, error]) } else { Ok(()) }
+    fn dense(&mut self) -> Option<&mut dyn Dense> {
+        if self.tableau.order > CUBIC { Some(self) } else { None }
+    }
+}
+
+impl Dense for HalfExplicit {
+    fn prepare(&mut self, problem: &mut Problem, step: Step) -> Result<(), StepError> {
+        self.polynomial.prepare(step);
+        self.polynomial.raise(problem, step, [&mut self.stage, &mut self.error])
     }
 
-    fn polynomial(&mut self) -> Option<&mut Hermite> {
-        Some(&mut self.polynomial)
+    fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
+        self.polynomial.interpolate(theta, step.from.y, out);
+        Ok(())
     }
 }

@@ -1,10 +1,8 @@
 //! RATTLE.
 
-use super::hermite::Hermite;
+use super::memory::{read, written};
 use super::sums::trapezoid;
-use super::{
-    Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance, refuses, takes,
-};
+use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Stability, Tolerance, takes};
 use crate::error::{Error, Result};
 use crate::formulation::StepError;
 use crate::math::kkt::Singular;
@@ -12,6 +10,8 @@ use crate::math::largest;
 use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{MechanicalSystem, Need};
 use crate::tolerances::integrator as tolerances;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// ```text
 /// v_h = v + h/2 M^-1 (f(t, q, v_h) - G(q)^T lambda),   q_1 = q + h v_h,   phi(q_1) = 0
@@ -24,15 +24,9 @@ use crate::tolerances::integrator as tolerances;
 /// factorization a step; the first half is iterated to round-off, one evaluation of f and one of phi an iteration. The
 /// work is integrated by the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
-    name: "rattle",
-    about: "symmetric, symplectic, for constant M; holds phi and phi', fixed steps",
-    order: 2,
-    steps: Steps::Fixed,
-    tightening: Tightening::NONE,
     solves: takes::position_rows,
-    refuses: refuses::none,
-    options: &[],
-    make,
+    stability: Some(|| Stability::Leapfrog),
+    ..Entry::new("rattle", "symmetric, symplectic, for constant M; holds phi and phi', fixed steps", 2, make)
 };
 
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
@@ -55,8 +49,15 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         rows: zeros(n.lambda),
         slope: zeros(setup.len()),
         control: Control::new(2.0, 0.2, 5.0),
-        polynomial: Hermite::new(setup.len(), 0),
     }))
+}
+
+/// What steps pass on, as it is saved: the problem is evaluated at the state from which a run continues, as at the end
+/// of a step.
+#[derive(Serialize, Deserialize)]
+struct Memory {
+    is_ready: bool,
+    mass: Option<Vec<f64>>,
 }
 
 struct Rattle {
@@ -76,7 +77,6 @@ struct Rattle {
     /// y' at the new state.
     slope: Vec<f64>,
     control: Control,
-    polynomial: Hermite,
 }
 
 /// Limits on changes over their stagnation tolerance.
@@ -195,16 +195,8 @@ impl Rattle {
 }
 
 impl Integrator for Rattle {
-    fn order(&self) -> usize {
-        ENTRY.order
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
-    }
-
-    fn stability(&self) -> Option<Stability> {
-        Some(Stability::Leapfrog)
     }
 
     fn attempt(
@@ -231,28 +223,19 @@ impl Integrator for Rattle {
         (self.is_ahead, self.is_ready) = (false, false);
     }
 
-    fn accepted(&mut self, _: &Tolerance) {
-        self.is_ready = self.is_ahead;
+    fn accepted(&mut self, step: &Accepted) -> f64 {
+        self.is_ready = self.is_ahead && !step.is_moved;
+        step.h
     }
 
-    fn moved(&mut self) {
-        (self.is_ahead, self.is_ready) = (false, false);
+    fn memory(&self) -> Option<Value> {
+        written(Memory { is_ready: self.is_ready, mass: self.mass.clone() })
     }
 
-    fn memory(&self) -> Option<Vec<f64>> {
-        let mass = self.mass.iter().flatten().copied();
-        Some(std::iter::once(f64::from(self.is_ready)).chain(mass).collect())
-    }
-
-    /// The problem is evaluated at the state from which a run continues, as at the end of a step.
-    fn recall(&mut self, memory: &[f64]) {
-        if let Some((is_ready, mass)) = memory.split_first() {
-            self.is_ready = *is_ready != 0.0;
-            self.mass = (!mass.is_empty()).then(|| mass.to_vec());
+    fn recall(&mut self, memory: &Value) {
+        if let Some(Memory { is_ready, mass }) = read(memory) {
+            self.is_ready = is_ready;
+            self.mass = mass;
         }
-    }
-
-    fn polynomial(&mut self) -> Option<&mut Hermite> {
-        Some(&mut self.polynomial)
     }
 }

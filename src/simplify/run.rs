@@ -95,11 +95,11 @@ pub fn sampled(
 pub fn counted(prepared: &PreparedScene, method: &Method, statistics: Statistics) -> f64 {
     let Dimensions { v, lambda, .. } = prepared.system().dimensions();
     let steps = Statistics { rows: Work::default(), ..statistics };
-    worker(prepared, method).work(steps) * (v + lambda) as f64
+    worker(method).work(steps) * (v + lambda) as f64
 }
 
-fn worker<'m>(prepared: &PreparedScene, method: &'m Method) -> Worker<'m> {
-    Worker { method, is_explicit: explicit(prepared.system(), method).is_some() }
+fn worker(method: &Method) -> Worker<'_> {
+    Worker { method, is_explicit: explicit(method).is_some() }
 }
 
 /// Runs a prepared model by its own method and measures it.
@@ -118,7 +118,7 @@ pub fn measured(
     let Dimensions { v, lambda, .. } = prepared.system().dimensions();
     let errors = failure.is_none().then(|| promise.errors(&rows)).flatten().unwrap_or_default();
     let differences = names.into_iter().zip(errors).map(|(name, error)| Difference { name, error });
-    let (formulation, integrator) = worker(prepared, &prepared.method).class();
+    let (formulation, integrator) = worker(&prepared.method).class();
     Ok(Run {
         velocities: v,
         constraints: lambda,

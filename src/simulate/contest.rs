@@ -157,7 +157,7 @@ impl Run<'_> {
         let mut dynamics = Dynamics::new(system);
         dynamics.solve(self.t, q, v, |_, _| 0.0).ok()?;
         let mode = fastest(system, OperatingPoint { t: self.t, q, v, vdot: &dynamics.vdot, lambda: &dynamics.lambda })?;
-        let stability = self.integrator.stability();
+        let stability = self.entry.stability.map(|stability| stability());
         let limit =
             stability.as_ref().map_or(tolerances::STABLE_STEP, |stability| stability.limit(mode.decay, mode.swing));
         let part = step * mode.rate() / limit;
@@ -168,7 +168,7 @@ impl Run<'_> {
 
     /// True if output rows alone would cost the method of `rival` more than it could save.
     fn rows_decide(&self, mark: Mark, rival: &Run) -> bool {
-        let row = if rival.integrator.rows_are_steps() { tolerances::IMPLICIT_ROW } else { 1.0 };
+        let row = if rival.entry.rows_are_steps { tolerances::IMPLICIT_ROW } else { 1.0 };
         self.is_explicit && self.span.output_step < tolerances::WORTH * row * rival.price() * self.mark().pace(mark)
     }
 
@@ -178,8 +178,7 @@ impl Run<'_> {
         let now = self.mark();
         let time = growth * (now.t - mark.t);
         let work = now.work - mark.work;
-        let row =
-            if self.integrator.rows_are_steps() { work / (now.steps - mark.steps).max(1) as f64 } else { self.price() };
+        let row = if self.entry.rows_are_steps { work / (now.steps - mark.steps).max(1) as f64 } else { self.price() };
         time / (work + time / output_step * row).max(1.0)
     }
 
@@ -214,7 +213,7 @@ impl Run<'_> {
         };
         // Steps of a multistep method, which begins with short ones, go on growing.
         let growing =
-            |run: &Run, mark| if run.integrator.begins_anew() { (run.h / run.step_since(mark)).max(1.0) } else { 1.0 };
+            |run: &Run, mark| if run.entry.begins_anew { (run.h / run.step_since(mark)).max(1.0) } else { 1.0 };
         let theirs = if stopped.is_some() { 0.0 } else { pace(&rival, since, growing(&rival, since)) };
         let ours = growing(self, mark) * own.pace(mark);
         let contest = Contest { t: self.t, mode, step, gain: theirs / ours };

@@ -5,7 +5,7 @@ use super::Run;
 use super::events::Events;
 use crate::error::Failure;
 use crate::formulation::StepError;
-use crate::integrator::{From, first_step};
+use crate::integrator::{Control, From, first_step};
 use crate::tolerances::simulate as tolerances;
 
 /// A time at which a step must end.
@@ -22,7 +22,7 @@ impl Run<'_> {
             Some(step) => Ok(step),
             None => {
                 let span = (self.t, self.span.end - self.t);
-                let order = self.integrator.order();
+                let order = self.integrator.control().order;
                 let lambda = self.problem.dynamics.lambda.clone();
                 let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order)?;
                 // `first_step` evaluates ahead; lambda is that of the start.
@@ -35,12 +35,13 @@ impl Run<'_> {
 
     /// The step of size `h`, unless a singular state suggests another.
     fn place(&mut self, h: f64) -> f64 {
-        match (self.fixed, self.integrator.widest_gap()) {
+        let Control { gap, order, .. } = *self.integrator.control();
+        match (self.fixed, gap) {
             (None, gap) => self.approach.place(h, gap.unwrap_or(0.5)),
             (Some(_), None) => self.to_grid(h),
             (Some(_), Some(gap)) => {
                 let times = (self.to_grid(h), self.span.end - self.t);
-                self.approach.place_fixed(h, times, (gap, self.integrator.order()))
+                self.approach.place_fixed(h, times, (gap, order))
             }
         }
     }
@@ -73,7 +74,7 @@ impl Run<'_> {
             return (size, None);
         }
         let left = stop.t - self.t;
-        if self.integrator.leads() {
+        if self.entry.leads {
             return if self.h >= left { (left, Some(stop.t)) } else { (self.h, None) };
         }
         let placed = self.place(self.h);
@@ -88,7 +89,7 @@ impl Run<'_> {
             None => (placed, None),
         };
         let resolved = self.resolved(size, stop.t);
-        let adapts = self.fixed.is_none() && !self.integrator.begins_anew();
+        let adapts = self.fixed.is_none() && !self.entry.begins_anew;
         if let Some(step) = self.events.ends_at_point(self.t, resolved).filter(|_| adapts) {
             self.cut = Some(step);
             return (step, None);

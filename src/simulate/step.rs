@@ -83,7 +83,7 @@ impl Run<'_> {
         self.change.copy_from_slice(&self.next);
         let t = self.end_of(h, end);
         let sweeps = self.sweeps(h);
-        self.problem.dynamics.ends_near = self.integrator.ends_near() && !is_singular;
+        self.problem.dynamics.ends_near = self.entry.ends_near && !is_singular;
         project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?;
         self.problem.dynamics.ends_near = false;
         self.is_moved = self.projection.is_some() || self.change != self.next;

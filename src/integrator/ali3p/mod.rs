@@ -2,10 +2,9 @@
 
 mod matrix;
 
-use super::hermite::Hermite;
-use super::memory::Reader;
+use super::memory::{fill, read, written};
 use super::sums::trapezoid;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
+use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Tolerance, takes};
 use crate::error::{Error, Result};
 use crate::formulation::{ExponentialMap, StepError};
 use crate::math::largest;
@@ -14,6 +13,8 @@ use crate::method_spec::OptionDoc;
 use crate::system::{Need, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
 use matrix::Penalized;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// ```text
 /// q_1 = q + h/2 (v + v_1),  v_1 = v + h/2 (a + a_1),  M a_1 + G^T lambda = f,  phi(q_1) = 0           trapezoidal rule
@@ -39,18 +40,17 @@ use matrix::Penalized;
 /// sparse by its pattern, in which bodies that share an element are coupled. The work is integrated by the trapezoidal
 /// rule. Fixed steps; cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
-    name: "ali3p",
-    about: "index-3 augmented Lagrangian, projected: holds phi, phi'; redundant and singular G allowed; fixed steps",
-    order: 2,
-    steps: Steps::Fixed,
-    tightening: Tightening::NONE,
     solves: takes::position_rows,
-    refuses: refuses::none,
     options: &[OptionDoc {
         name: "penalty",
         about: "h^2/4 alpha over the mass on a constraint, of which an iteration leaves 1/penalty (default 1e7)",
     }],
-    make,
+    ..Entry::new(
+        "ali3p",
+        "index-3 augmented Lagrangian, projected: holds phi, phi'; redundant and singular G allowed; fixed steps",
+        2,
+        make,
+    )
 };
 
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
@@ -72,8 +72,15 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         retraction: ExponentialMap::new(setup.system),
         slope: zeros(setup.len()),
         control: Control::new(2.0, 0.2, 5.0),
-        polynomial: Hermite::new(setup.len(), 0),
     }))
+}
+
+/// What steps pass on, as it is saved: a and lambda* of the last one, if there was one.
+#[derive(Serialize, Deserialize)]
+struct Memory {
+    is_started: bool,
+    a: Vec<f64>,
+    lambda: Vec<f64>,
 }
 
 struct Ali3p {
@@ -95,7 +102,6 @@ struct Ali3p {
     /// y' at the new state.
     slope: Vec<f64>,
     control: Control,
-    polynomial: Hermite,
 }
 
 /// Limits on changes over their stagnation tolerance.
@@ -227,10 +233,6 @@ impl Ali3p {
 }
 
 impl Integrator for Ali3p {
-    fn order(&self) -> usize {
-        ENTRY.order
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
     }
@@ -259,28 +261,27 @@ impl Integrator for Ali3p {
         Some(&self.slope)
     }
 
-    fn accepted(&mut self, _: &Tolerance) {
+    fn accepted(&mut self, step: &Accepted) -> f64 {
         self.a.copy_from_slice(&self.a_new);
         self.lambda_start.copy_from_slice(&self.lambda);
         self.is_started = true;
-    }
-
-    fn memory(&self) -> Option<Vec<f64>> {
-        Some([&[f64::from(self.is_started)], &self.a[..], &self.lambda_start].concat())
-    }
-
-    fn recall(&mut self, memory: &[f64]) {
-        let mut memory = Reader(memory);
-        self.is_started = memory.number() != 0.0;
-        memory.fill(&mut self.a);
-        memory.fill(&mut self.lambda_start);
+        step.h
     }
 
     fn restart(&mut self) {
         self.is_started = false;
     }
 
-    fn polynomial(&mut self) -> Option<&mut Hermite> {
-        Some(&mut self.polynomial)
+    fn memory(&self) -> Option<Value> {
+        let Ali3p { is_started, a, lambda_start, .. } = self;
+        written(Memory { is_started: *is_started, a: a.clone(), lambda: lambda_start.clone() })
+    }
+
+    fn recall(&mut self, memory: &Value) {
+        if let Some(Memory { is_started, a, lambda }) = read(memory) {
+            self.is_started = is_started;
+            fill(&mut self.a, &a);
+            fill(&mut self.lambda_start, &lambda);
+        }
     }
 }

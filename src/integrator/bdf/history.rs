@@ -1,10 +1,11 @@
 //! The states of the last steps and the polynomials through them.
 
-use crate::integrator::memory::Reader;
+use crate::integrator::memory::fill;
 use crate::integrator::sums::accumulate;
 use crate::integrator::{From, Tolerance};
 use crate::math::array::from_fn;
 use crate::math::{lagrange, lagrange_rate};
+use serde::{Deserialize, Serialize};
 
 /// Highest order of the method.
 pub const HIGHEST: usize = 5;
@@ -16,6 +17,14 @@ const POINTS: usize = HIGHEST + 1;
 pub struct History {
     known: usize,
     times: [f64; POINTS],
+    y: Vec<Vec<f64>>,
+    lambda: Vec<Vec<f64>>,
+}
+
+/// The known states.
+#[derive(Serialize, Deserialize)]
+pub struct Memory {
+    times: Vec<f64>,
     y: Vec<Vec<f64>>,
     lambda: Vec<Vec<f64>>,
 }
@@ -109,23 +118,17 @@ impl History {
         accumulate(out, 1.0, &weights, &self.y);
     }
 
-    /// The states as numbers, for [`Self::recall`].
-    pub fn memory(&self) -> Vec<f64> {
-        let mut memory = vec![self.known as f64];
-        for i in 0..self.known {
-            memory.push(self.times[i]);
-            memory.extend(self.y[i].iter().chain(&self.lambda[i]));
-        }
-        memory
+    /// The states for [`Self::recall`].
+    pub fn memory(&self) -> Memory {
+        let known = ..self.known;
+        Memory { times: self.times[known].to_vec(), y: self.y[known].to_vec(), lambda: self.lambda[known].to_vec() }
     }
 
     /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, memory: &mut Reader) {
-        self.known = (memory.number() as usize).min(POINTS);
-        for i in 0..self.known {
-            self.times[i] = memory.number();
-            memory.fill(&mut self.y[i]);
-            memory.fill(&mut self.lambda[i]);
-        }
+    pub fn recall(&mut self, Memory { times, y, lambda }: Memory) {
+        self.known = times.len().min(POINTS);
+        fill(&mut self.times, &times);
+        self.y.iter_mut().zip(&y).for_each(|(own, y)| fill(own, y));
+        self.lambda.iter_mut().zip(&lambda).for_each(|(own, lambda)| fill(own, lambda));
     }
 }

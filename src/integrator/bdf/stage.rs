@@ -1,13 +1,14 @@
 //! The implicit equations of a step.
 
-use super::matrix::Matrix;
 use crate::error::{self, Error};
-use crate::formulation::{self, Change, Dae, Residual, StepError};
-use crate::integrator::memory::Reader;
+use crate::formulation::{self, Change, Dae, Dynamics, Iteration, Linearized, Residual, Slopes, StepError};
+use crate::integrator::newton_matrix::{self, Factors, NewtonMatrix, Size};
 use crate::integrator::{From, Problem, Setup, Tolerance, round_off};
+use crate::math::kkt::Singular;
 use crate::math::newton::{Limits, Monitor};
 use crate::system::{Dimensions, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
+use serde::{Deserialize, Serialize};
 
 /// ```text
 /// v = v* + g (a + w),   q = q* + g N (v + u),   M a + G^T lambda = f
@@ -27,15 +28,39 @@ pub struct Stage {
     /// The unknowns; on entry of a solution their first guess.
     pub unknowns: Change<f64>,
     residual: Residual,
-    matrix: Matrix,
+    matrix: NewtonMatrix<Matrix>,
     newton: Monitor,
-    /// The slowest rate of convergence of the stages of this step.
-    slowest: f64,
     /// Round-off of y in the last solution, over the tolerated errors.
     pub round_off: f64,
     change: Vec<f64>,
     /// v + u
     velocity: Vec<f64>,
+}
+
+/// The matrix for v = v* + g (a + w), q = q* + g N (v + u).
+struct Matrix(Iteration<f64>);
+
+impl Factors for Matrix {
+    const BAND: f64 = tolerances::STAGE_BAND;
+
+    fn metric(&self, Size { h: g, .. }: Size) -> f64 {
+        g * g
+    }
+
+    fn factor(&mut self, Size { h: g, .. }: Size, at: &Linearized, dynamics: &mut Dynamics) -> Result<(), Singular> {
+        self.0.factor(Slopes::implicit(g), at, dynamics)
+    }
+
+    fn rescale(&mut self, Size { h: g, .. }: Size) {
+        self.0.rescale(Slopes::implicit(g));
+    }
+}
+
+/// The values that steps pass on.
+#[derive(Serialize, Deserialize)]
+pub struct Memory {
+    newton: [f64; 2],
+    matrix: Option<newton_matrix::Memory>,
 }
 
 impl Stage {
@@ -46,7 +71,7 @@ impl Stage {
         let n = setup.system.dimensions();
         let dae = formulation::dae(setup.formulation)?
             .ok_or_else(|| Error::input(format!("{integrator} cannot integrate {formulation}")))?;
-        let matrix = Matrix::new(dae, setup.system)
+        let matrix = Iteration::new(dae, setup.system)
             .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
         let zeros = |n: usize| vec![0.0; n];
         Ok(Stage {
@@ -64,9 +89,8 @@ impl Stage {
                 mu: zeros(n.lambda),
             },
             residual: Residual::new(n),
-            matrix,
+            matrix: NewtonMatrix::new(dae, setup.system, Matrix(matrix)),
             newton: Monitor::default(),
-            slowest: 0.0,
             round_off: 0.0,
             change: zeros(setup.len()),
             velocity: zeros(n.v),
@@ -82,7 +106,7 @@ impl Stage {
         mut solve: impl FnMut(&mut Self, &mut Problem) -> Result<T, StepError>,
     ) -> Result<T, StepError> {
         self.matrix.renew(problem, from)?;
-        let is_old = self.matrix.serves(problem) && !self.matrix.is_fresh;
+        let is_old = self.matrix.serves(&problem.dynamics) && !self.matrix.is_fresh;
         let mut solved = solve(self, problem);
         if is_old && solved.as_ref().is_err_and(|halt| !halt.is_fatal()) {
             self.matrix.forget();
@@ -111,13 +135,12 @@ impl Stage {
         step: (From, f64),
         g: f64,
     ) -> Result<(), StepError> {
-        if !self.matrix.serves(problem) {
+        if !self.matrix.serves(&problem.dynamics) {
             let (q, v) = problem.split(y);
             let Change { a, lambda, .. } = &self.unknowns;
-            self.matrix.linearize(OperatingPoint { t, q, v, vdot: a, lambda }, problem)?;
+            self.matrix.linearize(OperatingPoint { t, q, v, vdot: a, lambda }, &mut problem.dynamics)?;
         }
-        self.slowest = 0.0;
-        self.matrix.factor(problem, step, g)
+        self.matrix.factor(problem, step, Size { h: g, method: 0 })
     }
 
     /// Solves the stage at `t` by Newton's method, whose matrix is factored.
@@ -153,7 +176,6 @@ impl Stage {
             return Err(StepError::NotConverged);
         }
         problem.dynamics.statistics.stagnated += u64::from(self.newton.has_stagnated);
-        self.slowest = self.slowest.max(self.newton.rate);
         self.add_work(problem, g);
         Ok(())
     }
@@ -167,9 +189,10 @@ impl Stage {
         let guess = formulation::Unknowns { a, lambda, w, eta, u, mu, stiffness };
         residual.evaluate(dae, (t, q, v), guess, &mut problem.dynamics)?;
         problem.dynamics.statistics.newton_iterations += 1;
-        matrix.iteration.load(std::iter::once((1.0, &*residual)));
-        matrix.iteration.solve(&mut matrix.at, &problem.dynamics.structure)?;
-        let by = &matrix.iteration.change;
+        let Matrix(iteration) = &mut matrix.factors;
+        iteration.load(std::iter::once((1.0, &*residual)));
+        iteration.solve(&mut matrix.at, &problem.dynamics.structure)?;
+        let by = &iteration.change;
         let pairs = [(a, &by.a), (lambda, &by.lambda), (w, &by.w), (u, &by.u), (eta, &by.eta), (mu, &by.mu)];
         pairs.into_iter().for_each(|(sum, by)| sum.iter_mut().zip(by).for_each(|(sum, by)| *sum += by));
         self.change.copy_from_slice(&self.y);
@@ -210,14 +233,14 @@ impl Stage {
 
     /// Sets the multipliers of rows that are dropped from the matrix to zero, since no correction reaches them.
     fn leave_out(&mut self) {
-        let rows = self.matrix.iteration.matrix.left_out();
+        let rows = self.matrix.factors.0.matrix.left_out();
         let dropped = self.unknowns.lambda.iter_mut().zip(rows).filter(|(_, is_out)| **is_out);
         dropped.for_each(|(lambda, _)| *lambda = 0.0);
     }
 
     /// Ends a step, and keeps the matrix as long as Newton's method converges well.
     pub fn accepted(&mut self) {
-        self.matrix.accepted(self.slowest <= tolerances::STAGE_MATRIX_KEPT);
+        self.matrix.pass_on(self.newton.keeps_matrix());
     }
 
     /// Discards the matrix: the equations change their form.
@@ -226,13 +249,13 @@ impl Stage {
     }
 
     /// The values that steps pass on, for [`Self::recall`].
-    pub fn memory(&self) -> Vec<f64> {
-        [&self.newton.memory()[..], &self.matrix.memory()].concat()
+    pub fn memory(&self) -> Memory {
+        Memory { newton: self.newton.memory(), matrix: self.matrix.memory() }
     }
 
     /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, mut memory: Reader) {
-        self.newton.recall([memory.number(), memory.number()]);
-        self.matrix.recall(memory);
+    pub fn recall(&mut self, Memory { newton, matrix }: Memory) {
+        self.newton.recall(newton);
+        self.matrix.recall(matrix);
     }
 }

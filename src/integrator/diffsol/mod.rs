@@ -12,13 +12,15 @@ mod rows;
 mod solver;
 
 use super::{
-    Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance, refuses, takes,
+    Accepted, Control, Dense, Entry, From, Integrator, Make, Problem, Setup, Stability, Step, Steps, Tightening,
+    Tolerance, refuses, takes,
 };
 use crate::error::{self, Error};
 use crate::formulation::{self, Dae, Dynamics, StepError};
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
 use crate::tolerances::integrator as tolerances;
+use ::diffsol::Tableau;
 use equations::Equations;
 use rows::Rows;
 use solver::{Counters, Frame, Scheme};
@@ -29,7 +31,6 @@ struct Diffsol<'s> {
     system: &'s dyn MechanicalSystem,
     formulation: &'s MethodSpec,
     dae: Option<Dae>,
-    order: usize,
     frame: Option<Frame<'s>>,
     /// Rows that the equations of the frame do not contain.
     dropped: Vec<usize>,
@@ -66,19 +67,20 @@ impl<'s> Diffsol<'s> {
         };
         // Bad options of the formulation are refused here.
         formulation::make(formulation, system)?;
+        let mut control = Control::new(order as f64 + 1.0, 0.2, 5.0);
+        control.order = order;
         Ok(Box::new(Diffsol {
             scheme,
             system,
             formulation,
             dae,
-            order,
             frame: None,
             dropped: Vec::new(),
             begins: true,
             is_moved: false,
             cause: None,
             counted: Counters::default(),
-            control: Control::new(order as f64 + 1.0, 0.2, 5.0),
+            control,
         }))
     }
 
@@ -161,23 +163,8 @@ impl<'s> Diffsol<'s> {
 }
 
 impl Integrator for Diffsol<'_> {
-    fn order(&self) -> usize {
-        self.order
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
-    }
-
-    fn stability(&self) -> Option<Stability> {
-        let tableau = self.scheme.tableau().filter(|_| self.dae.is_none())?;
-        let b = tableau.b().as_slice();
-        let rows: Vec<Vec<f64>> = (0..b.len()).map(|i| (0..i).map(|j| tableau.a(i, j)).collect()).collect();
-        Some(Stability::of(|i| &rows[i], b))
-    }
-
-    fn leads(&self) -> bool {
-        true
     }
 
     fn lead(&mut self, problem: &mut Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<f64, StepError> {
@@ -200,36 +187,36 @@ impl Integrator for Diffsol<'_> {
         Ok(Some(ACCEPTED))
     }
 
-    fn propose(&mut self, h: f64, _: f64, _: bool) -> f64 {
-        self.frame.as_ref().map_or(h, |frame| frame.with(|solver| solver.h()))
+    fn accepted(&mut self, step: &Accepted) -> f64 {
+        self.is_moved |= step.is_moved;
+        self.frame.as_ref().map_or(step.h, |frame| frame.with(|solver| solver.h()))
     }
 
     fn restart(&mut self) {
         self.begins = true;
     }
 
-    fn begins_anew(&self) -> bool {
-        self.scheme == Scheme::Bdf
+    fn dense(&mut self) -> Option<&mut dyn Dense> {
+        Some(self)
     }
+}
 
-    fn moved(&mut self) {
-        self.is_moved = true;
+impl Dense for Diffsol<'_> {
+    fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
+        self.write(step.from.t + theta * step.h, out)
     }
+}
 
-    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), StepError> {
-        Ok(())
-    }
+/// A method of diffsol, which chooses its steps.
+const fn entry(name: &'static str, about: &'static str, order: usize, make: Make) -> Entry {
+    Entry { steps: Steps::Own, leads: true, ..Entry::new(name, about, order, make) }
+}
 
-    fn interpolate(
-        &mut self,
-        _: &mut Problem,
-        from: From,
-        h: f64,
-        theta: f64,
-        out: &mut [f64],
-    ) -> Result<(), StepError> {
-        self.write(from.t + theta * h, out)
-    }
+/// Region of an explicit method of diffsol.
+fn stability(tableau: &Tableau<f64>) -> Stability {
+    let b = tableau.b().as_slice();
+    let rows: Vec<Vec<f64>> = (0..b.len()).map(|i| (0..i).map(|j| tableau.a(i, j)).collect()).collect();
+    Stability::of(|i| &rows[i], b)
 }
 
 /// ```text
@@ -242,16 +229,15 @@ impl Integrator for Diffsol<'_> {
 /// motions: a digit more costs three times the steps. Projections cost it nothing. It takes no fixed steps, and a
 /// continued run agrees within the tolerance only. Cubic Hermite interpolation.
 pub const TR_BDF2: Entry = Entry {
-    name: "tr_bdf2",
-    about: "implicit, L-stable, for stiff motions at two or three digits; by diffsol; chooses its steps",
-    order: 2,
-    steps: Steps::Own,
     // Errors of steady rotations were 60 rtol over 30 revolutions with a factor of 0.25.
     tightening: Tightening::new(0.06, 1.5),
     solves: takes::accelerations_or_positions,
-    refuses: refuses::none,
-    options: &[],
-    make: |setup| Diffsol::make(Scheme::TrBdf2, 2, setup),
+    ..entry(
+        "tr_bdf2",
+        "implicit, L-stable, for stiff motions at two or three digits; by diffsol; chooses its steps",
+        2,
+        |setup| Diffsol::make(Scheme::TrBdf2, 2, setup),
+    )
 };
 
 /// ```text
@@ -264,15 +250,14 @@ pub const TR_BDF2: Entry = Entry {
 /// variables. Projections cost it nothing. It takes no fixed steps, and a continued run agrees within the tolerance
 /// only. Cubic Hermite interpolation.
 pub const ESDIRK34: Entry = Entry {
-    name: "esdirk34",
-    about: "implicit, L-stable, for stiff motions, also those that nothing damps; by diffsol; chooses its steps",
-    order: 3,
-    steps: Steps::Own,
     tightening: Tightening::new(0.1, 4.0 / 3.0),
     solves: takes::accelerations_or_positions,
-    refuses: refuses::none,
-    options: &[],
-    make: |setup| Diffsol::make(Scheme::Esdirk34, 3, setup),
+    ..entry(
+        "esdirk34",
+        "implicit, L-stable, for stiff motions, also those that nothing damps; by diffsol; chooses its steps",
+        3,
+        |setup| Diffsol::make(Scheme::Esdirk34, 3, setup),
+    )
 };
 
 /// The explicit method of order 5 with an embedded one of order 4 and seven stages, the last of which is the first of the
@@ -280,16 +265,15 @@ pub const ESDIRK34: Entry = Entry {
 /// step. It shares no code with the other explicit methods, and so confirms them. It takes no fixed steps.
 /// Interpolation of order 4.
 pub const TSIT45: Entry = Entry {
-    name: "tsit45",
-    about: "explicit, for smooth motions at three to eight digits; by diffsol; chooses its steps",
-    order: 5,
-    steps: Steps::Own,
     // As of `dopri5`, which has the same orders.
     tightening: Tightening::new(0.1, 1.0),
-    solves: takes::vector_fields,
-    refuses: refuses::none,
-    options: &[],
-    make: |setup| Diffsol::make(Scheme::Tsit45, 5, setup),
+    stability: Some(|| stability(&Tableau::tsit45())),
+    ..entry(
+        "tsit45",
+        "explicit, for smooth motions at three to eight digits; by diffsol; chooses its steps",
+        5,
+        |setup| Diffsol::make(Scheme::Tsit45, 5, setup),
+    )
 };
 
 /// Numerical differentiation formulas of order 1 to 5, on backward differences of equal steps. Source: Shampine,
@@ -299,16 +283,18 @@ pub const TSIT45: Entry = Entry {
 /// are refused: after one the differences do not fit. It takes no fixed steps, and a continued run agrees within the
 /// tolerance only.
 pub const DIFFSOL: Entry = Entry {
-    name: "diffsol",
-    about: "bdf of diffsol, implicit, order 1 to 5 by itself, for comparison with others; chooses its steps",
-    order: 5,
-    steps: Steps::Own,
     tightening: Tightening::new(0.07, 1.2),
     solves: takes::accelerations_or_positions,
     refuses: refuses::all,
     options: &[OptionDoc { name: "method", about: "bdf, the only one that has no name of its own" }],
-    make: |setup| {
-        setup.integrator.one_of("method", &["bdf"])?;
-        Diffsol::make(Scheme::Bdf, 2, setup)
-    },
+    begins_anew: true,
+    ..entry(
+        "diffsol",
+        "bdf of diffsol, implicit, order 1 to 5 by itself, for comparison with others; chooses its steps",
+        5,
+        |setup| {
+            setup.integrator.one_of("method", &["bdf"])?;
+            Diffsol::make(Scheme::Bdf, 2, setup)
+        },
+    )
 };

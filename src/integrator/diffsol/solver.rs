@@ -7,9 +7,7 @@ use crate::integrator::{From, Tolerance};
 use diffsol::error::DiffsolError;
 use diffsol::ode_solver::OdeSolverStatistics;
 use diffsol::ode_solver::state::StateCommon;
-use diffsol::{
-    FaerVec, OdeSolverMethod, OdeSolverOptions, OdeSolverProblem, OdeSolverState, Tableau, Vector, VectorCommon,
-};
+use diffsol::{FaerVec, OdeSolverMethod, OdeSolverOptions, OdeSolverProblem, OdeSolverState, Vector, VectorCommon};
 use self_cell::self_cell;
 use std::marker::PhantomData;
 
@@ -248,16 +246,4 @@ fn state<S: OdeSolverState<FaerVec<f64>>>(problem: &Owner, (from, x): (From, &[f
         t: from.t,
         h,
     })
-}
-
-impl Scheme {
-    /// The tableau of a Runge-Kutta method.
-    pub fn tableau(self) -> Option<Tableau<f64>> {
-        match self {
-            Scheme::Bdf => None,
-            Scheme::TrBdf2 => Some(Tableau::tr_bdf2()),
-            Scheme::Esdirk34 => Some(Tableau::esdirk34()),
-            Scheme::Tsit45 => Some(Tableau::tsit45()),
-        }
-    }
 }

@@ -1,13 +1,14 @@
 //! The accelerations carried from step to step, and q and v that follow from them.
 
-use super::super::memory::Reader;
 use super::super::{From, Problem};
 use super::prediction::{Carried, Prediction};
 use crate::formulation::{Change, Dae, ExponentialMap, Slopes, StepError, Unknowns};
 use crate::math::largest;
 use crate::system::MechanicalSystem;
+use serde::{Deserialize, Serialize};
 
 /// Coefficients of the method.
+#[derive(Clone, Copy)]
 pub(super) struct Scheme {
     alpha_m: f64,
     alpha_f: f64,
@@ -24,9 +25,12 @@ impl Scheme {
         Scheme { alpha_m, alpha_f, gamma, beta: 0.25 * (gamma + 0.5) * (gamma + 0.5) }
     }
 
-    /// da_1/dv'_1
-    fn slope(&self) -> f64 {
-        (1.0 - self.alpha_f) / (1.0 - self.alpha_m)
+    /// Derivatives of q_1 and v_1 with respect to v'_1 and the shifts.
+    pub fn slopes(&self, h: f64) -> Slopes<f64> {
+        let Scheme { alpha_m, alpha_f, gamma, beta } = self;
+        // da_1/dv'_1
+        let slope = (1.0 - alpha_f) / (1.0 - alpha_m);
+        Slopes { v: h * gamma * slope, q: h * h * beta * slope, w: 1.0, w_q: 0.0, u: 1.0 }
     }
 
     /// Part of a step from the time of the state to that of a: a = v'(t + lead h).
@@ -47,8 +51,16 @@ impl Scheme {
     }
 }
 
+/// What steps pass on, for [`Motion::recall`].
+#[derive(Serialize, Deserialize)]
+pub(super) struct Memory {
+    is_started: bool,
+    start: Carried,
+    prediction: Prediction,
+}
+
 pub(super) struct Motion {
-    scheme: Scheme,
+    pub scheme: Scheme,
     /// True if `start` is known.
     is_started: bool,
     start: Carried,
@@ -141,19 +153,16 @@ impl Motion {
         self.prediction.restart();
     }
 
-    /// `start` and what predicts the end as numbers, for [`Self::recall`].
-    pub fn memory(&self) -> Vec<f64> {
-        let Carried { h, a, vdot, lambda } = &self.start;
-        [&[f64::from(self.is_started), *h], &a[..], vdot, lambda, &self.prediction.memory()].concat()
+    /// `start` and what predicts the end.
+    pub fn memory(&self) -> Memory {
+        Memory { is_started: self.is_started, start: self.start.clone(), prediction: self.prediction.clone() }
     }
 
     /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, memory: &mut Reader) {
-        self.is_started = memory.number() != 0.0;
-        let Carried { h, a, vdot, lambda } = &mut self.start;
-        *h = memory.number();
-        [a, vdot, lambda].into_iter().for_each(|values| memory.fill(values));
-        self.prediction.recall(memory);
+    pub fn recall(&mut self, Memory { is_started, start, prediction }: &Memory) {
+        self.is_started = *is_started;
+        self.start.recall(start);
+        self.prediction.recall(prediction);
     }
 
     /// Accepts the step: its end becomes the start.
@@ -167,12 +176,6 @@ impl Motion {
         Unknowns { a: &self.end.vdot, lambda: &self.end.lambda, ..Unknowns::default() }
     }
 
-    /// Derivatives of q_1 and v_1 with respect to v'_1 and the shifts.
-    pub fn slopes(&self, h: f64) -> Slopes<f64> {
-        let (Scheme { gamma, beta, .. }, slope) = (&self.scheme, self.scheme.slope());
-        Slopes { v: h * gamma * slope, q: h * h * beta * slope, w: 1.0, w_q: 0.0, u: 1.0 }
-    }
-
     /// Adds the changes to the unknowns. Returns the largest change of the first `moving` v'_1 or of a shift in their
     /// unit, and that of xi'_1. Shifts of q below `round_off` count as zero, since over h^2 they would exceed all other
     /// changes.
@@ -182,7 +185,7 @@ impl Motion {
         add(&mut self.end.lambda, &change.lambda);
         add(&mut self.w, &change.w);
         add(&mut self.u, &change.u);
-        let slopes = self.slopes(h);
+        let slopes = self.scheme.slopes(h);
         let moved = Some(largest(&change.u)).filter(|moved| *moved > round_off).unwrap_or(0.0) / slopes.q;
         let (a, states) = change.a.split_at(moving);
         [largest(a).max(largest(&change.w) / slopes.v).max(moved), largest(states)]
