@@ -157,8 +157,8 @@ impl Metric {
 
     fn take(&mut self, s: f64, mass: &[f64], (tangent, k): (&Pattern, &[f64])) {
         let Metric { pattern, values, diagonal, moving, masses, stiffness } = self;
-        diagonal_of(pattern, mass, masses);
-        diagonal_of(tangent, k, stiffness);
+        write_diagonal(pattern, mass, masses);
+        write_diagonal(tangent, k, stiffness);
         for (i, (stiffness, mass)) in stiffness.iter_mut().zip(masses).enumerate() {
             let is_stiff = i < *moving && *mass > 0.0 && s * *stiffness > *mass;
             *stiffness = if is_stiff { s * *stiffness } else { 0.0 };
@@ -168,9 +168,9 @@ impl Metric {
     }
 }
 
-/// The diagonal of a matrix.
-fn diagonal_of(pattern: &Pattern, values: &[f64], sums: &mut [f64]) {
-    sums.fill(0.0);
-    let diagonal = pattern.entries.iter().zip(values).filter(|((i, j), _)| i == j);
-    diagonal.for_each(|(&(i, _), value)| sums[i] += value);
+/// Writes the diagonal of a matrix.
+pub fn write_diagonal(pattern: &Pattern, values: &[f64], diagonal: &mut [f64]) {
+    diagonal.fill(0.0);
+    let entries = pattern.entries.iter().zip(values).filter(|((i, j), _)| i == j);
+    entries.for_each(|(&(i, _), value)| diagonal[i] += value);
 }

@@ -9,6 +9,7 @@ mod dae;
 mod dense;
 mod directions;
 mod dynamics;
+mod exponential_map;
 mod force_projection;
 mod ggl;
 mod index1;
@@ -23,7 +24,6 @@ mod residual;
 mod stabilized_index1;
 mod stabilizer;
 mod statistics;
-mod turn;
 mod udwadia_kalaba;
 
 use crate::method_spec::{MethodSpec, OptionDoc};
@@ -32,7 +32,11 @@ pub use dae::{Dae, Row};
 pub use directions::{degrees_of_freedom, free_directions, reduce};
 pub use dynamics::{Dynamics, StepError};
 #[doc(hidden)]
+pub use exponential_map::ExponentialMap;
+pub(crate) use exponential_map::rotate;
+#[doc(hidden)]
 pub use iteration::{Change, Iteration, Number, Slopes};
+pub(crate) use linearized::write_diagonal;
 #[doc(hidden)]
 pub use linearized::{Linearized, NO_TANGENT, Point};
 #[doc(hidden)]
@@ -44,8 +48,6 @@ pub use residual::Unknowns;
 #[doc(hidden)]
 pub use stabilizer::{Stabilizer, StabilizingField};
 pub use statistics::{Statistics, Work};
-#[doc(hidden)]
-pub use turn::ExponentialMap;
 
 use crate::error::Result;
 use crate::method_spec::Listed;

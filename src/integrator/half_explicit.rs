@@ -2,9 +2,9 @@
 
 use super::explicit::Tableau as Explicit;
 use super::hermite::Hermite;
-use super::sums::combine;
-use super::{Control, Dense, From, Integrator, Problem, Setup, Stability, Step, Tolerance};
-use crate::error::{Error, Result};
+use super::sums::{add, combine};
+use super::{Control, Dense, From, Integrator, Problem, Setup, Stability, Step, Tolerance, no_memory};
+use crate::error::Result;
 use crate::formulation::{Dynamics, StepError};
 use crate::math::kkt::{Pattern, Singular, Unsymmetric};
 use crate::math::newton::{Limits, Monitor};
@@ -112,7 +112,7 @@ impl HalfExplicit {
             missed: zeros(n.lambda),
             error: zeros(len),
             off: zeros(n.v),
-            matrix: matrix.ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?,
+            matrix: matrix.ok_or_else(no_memory)?,
             g: zeros(structure.g.entries.len()),
             polynomial: Hermite::new(len, 1),
         })
@@ -175,8 +175,8 @@ impl HalfExplicit {
             self.missed.iter_mut().zip(&self.rate).for_each(|(missed, rate)| *missed = rate - *missed);
             self.off.fill(0.0);
             dynamics.kkt.solve(&mut self.off, &mut self.missed)?;
-            vdot.iter_mut().zip(&self.off).for_each(|(vdot, off)| *vdot += off);
-            self.lambda.iter_mut().zip(&self.missed).for_each(|(lambda, missed)| *lambda += missed);
+            add(vdot, &self.off);
+            add(&mut self.lambda, &self.missed);
             Ok(largest(&self.off) / largest(vdot).max(f64::MIN_POSITIVE))
         })
     }

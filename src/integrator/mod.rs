@@ -36,8 +36,8 @@ pub use explicit::{ErrorEstimate, Explicit, Tableau};
 pub use problem::Problem;
 pub use stability::Stability;
 
-use crate::error::Result;
-use crate::formulation::{self, StepError};
+use crate::error::{Error, Result};
+use crate::formulation::{self, Dae, StepError};
 use crate::method_spec::{Listed, MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
 use hermite::cubic;
@@ -198,6 +198,17 @@ impl Setup<'_> {
     pub fn is_empty(&self) -> bool {
         self.system.dimensions().v == 0
     }
+
+    /// The equations with multipliers of its formulation.
+    fn dae(&self) -> Result<Dae> {
+        let refused = || Error::input(format!("{} cannot integrate {}", self.integrator.name, self.formulation.name));
+        formulation::dae(self.formulation)?.ok_or_else(refused)
+    }
+}
+
+/// Refuses a system that is too large for its matrix.
+fn no_memory() -> Error {
+    Error::input("there is not enough memory for a matrix of this size")
 }
 
 /// The origin of the step size.

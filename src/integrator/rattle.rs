@@ -1,7 +1,7 @@
 //! RATTLE.
 
 use super::memory::{read, written};
-use super::sums::trapezoid;
+use super::sums::{add, trapezoid};
 use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Stability, Tolerance, takes};
 use crate::error::{Error, Result};
 use crate::formulation::StepError;
@@ -149,7 +149,7 @@ impl Rattle {
         dynamics.evaluate(from.end, &self.q, &self.half, Need::CONSTRAINTS);
         self.rows.iter_mut().zip(&dynamics.terms.phi).for_each(|(row, phi)| *row = -phi / h);
         dynamics.kkt.solve(&mut self.dv, &mut self.rows)?;
-        self.half.iter_mut().zip(&self.dv).for_each(|(half, dv)| *half += dv);
+        add(&mut self.half, &self.dv);
         self.advance(dynamics.system, q, h);
         Ok(relative(&self.dv, &self.half))
     }
@@ -181,16 +181,11 @@ impl Rattle {
         }
         // Near a singular state y' is truncated, and these factors are not.
         self.is_ahead = dynamics.kkt.is_regular(dynamics.rank_tolerance);
-        if !self.is_ahead {
-            return problem.derivative(t, to, &mut self.slope);
+        if self.is_ahead {
+            problem.derivative_at_velocity(t, to, &mut self.slope)
+        } else {
+            problem.derivative(t, to, &mut self.slope)
         }
-        dynamics.solve_at_velocity(t, q, v)?;
-        let (qdot, rest) = self.slope.split_at_mut(q.len());
-        dynamics.system.rate(q, v, qdot);
-        rest[..v.len()].copy_from_slice(&dynamics.vdot);
-        let powers = dynamics.powers(&dynamics.lambda);
-        rest[v.len()..].iter_mut().zip(powers).for_each(|(rate, power)| *rate = power);
-        Ok(())
     }
 }
 

@@ -24,6 +24,11 @@ impl Divisible for Section<'_> {
     }
 }
 
+/// sum += terms
+pub(super) fn add(sum: &mut [f64], terms: &[f64]) {
+    sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+}
+
 /// out = y + h sum_j weights_j k_j
 pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
     if out.len() < 2 * NUMBERS_OF_A_PORTION {
@@ -61,20 +66,20 @@ fn accumulate_from(first: usize, y: &mut [f64], h: f64, weights: &[f64], k: &[Ve
         terms[count] = (h * weight, &k[first.min(k.len())..]);
         count += 1;
         if count == 4 {
-            add(y, terms);
+            add_products(y, terms);
             count = 0;
         }
     }
     match terms[..count] {
-        [first, second, third] => add(y, [first, second, third]),
-        [first, second] => add(y, [first, second]),
-        [first] => add(y, [first]),
+        [first, second, third] => add_products(y, [first, second, third]),
+        [first, second] => add_products(y, [first, second]),
+        [first] => add_products(y, [first]),
         _ => {}
     }
 }
 
 #[inline(always)]
-fn add<const N: usize>(y: &mut [f64], terms: [(f64, &[f64]); N]) {
+fn add_products<const N: usize>(y: &mut [f64], terms: [(f64, &[f64]); N]) {
     let terms = terms.each(|(factor, k)| (factor, &k[..y.len()]));
     for (i, y) in y.iter_mut().enumerate() {
         for (factor, k) in terms {

@@ -3,9 +3,9 @@
 mod matrix;
 
 use super::memory::{fill, read, written};
-use super::sums::trapezoid;
-use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Tolerance, takes};
-use crate::error::{Error, Result};
+use super::sums::{add, trapezoid};
+use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Tolerance, no_memory, takes};
+use crate::error::Result;
 use crate::formulation::{ExponentialMap, StepError};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor, relative};
@@ -55,8 +55,7 @@ pub const ENTRY: Entry = Entry {
 
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     let n = setup.system.dimensions();
-    let matrix = Penalized::new(setup.integrator.positive("penalty", 1e7)?, setup.system)
-        .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
+    let matrix = Penalized::new(setup.integrator.positive("penalty", 1e7)?, setup.system).ok_or_else(no_memory)?;
     let zeros = |n: usize| vec![0.0; n];
     Ok(Box::new(Ali3p {
         matrix,
@@ -188,8 +187,8 @@ impl Ali3p {
         self.step.iter_mut().zip(&terms.f).for_each(|(step, f)| *step = f - *step);
         self.rows.iter_mut().zip(&terms.phi).for_each(|(row, phi)| *row = 4.0 / (h * h) * phi);
         self.matrix.solve(&structure.g, &mut self.rows, &mut self.step)?;
-        self.a_new.iter_mut().zip(&self.step).for_each(|(a, step)| *a += step);
-        self.lambda.iter_mut().zip(&self.rows).for_each(|(lambda, change)| *lambda += change);
+        add(&mut self.a_new, &self.step);
+        add(&mut self.lambda, &self.rows);
         Ok(largest(&self.step))
     }
 
@@ -225,7 +224,7 @@ impl Ali3p {
             g.multiply(values, x, &mut self.rows);
             self.step.fill(0.0);
             self.matrix.solve(g, &mut self.rows, &mut self.step)?;
-            x.iter_mut().zip(&self.step).for_each(|(x, step)| *x += step);
+            add(x, &self.step);
             Ok::<_, StepError>(relative(&self.step, x))
         })?;
         if met { Ok(()) } else { Err(StepError::NotConverged) }

@@ -1,9 +1,10 @@
 //! The implicit equations of a step.
 
-use crate::error::{self, Error};
+use crate::error;
 use crate::formulation::{self, Change, Dae, Dynamics, Iteration, Linearized, Residual, Slopes, StepError};
 use crate::integrator::newton_matrix::{self, Factors, NewtonMatrix, Size};
-use crate::integrator::{From, Problem, Setup, Tolerance, round_off};
+use crate::integrator::sums::add;
+use crate::integrator::{From, Problem, Setup, Tolerance, no_memory, round_off};
 use crate::math::kkt::Singular;
 use crate::math::newton::{Limits, Monitor};
 use crate::system::{Dimensions, OperatingPoint};
@@ -66,13 +67,9 @@ pub struct Memory {
 impl Stage {
     /// Memory for a system.
     pub fn new(setup: &Setup) -> error::Result<Self> {
-        let integrator = &setup.integrator.name;
-        let formulation = &setup.formulation.name;
         let n = setup.system.dimensions();
-        let dae = formulation::dae(setup.formulation)?
-            .ok_or_else(|| Error::input(format!("{integrator} cannot integrate {formulation}")))?;
-        let matrix = Iteration::new(dae, setup.system)
-            .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
+        let dae = setup.dae()?;
+        let matrix = Iteration::new(dae, setup.system).ok_or_else(no_memory)?;
         let zeros = |n: usize| vec![0.0; n];
         Ok(Stage {
             dae,
@@ -97,14 +94,14 @@ impl Stage {
         })
     }
 
-    /// Solves the stages of a step by `solve`, with a matrix of a step before, if there is one, or a new one, at the
-    /// state that `point` returns.
-    pub fn attempt<T>(
+    /// Solves a step by `solve`, with the matrix of a step before, if there is one, and again with a new one where that
+    /// fails.
+    pub fn attempt(
         &mut self,
         problem: &mut Problem,
         from: From,
-        mut solve: impl FnMut(&mut Self, &mut Problem) -> Result<T, StepError>,
-    ) -> Result<T, StepError> {
+        mut solve: impl FnMut(&mut Self, &mut Problem) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
         self.matrix.renew(problem, from)?;
         let is_old = self.matrix.serves(&problem.dynamics) && !self.matrix.is_fresh;
         let mut solved = solve(self, problem);
@@ -194,7 +191,7 @@ impl Stage {
         iteration.solve(&mut matrix.at, &problem.dynamics.structure)?;
         let by = &iteration.change;
         let pairs = [(a, &by.a), (lambda, &by.lambda), (w, &by.w), (u, &by.u), (eta, &by.eta), (mu, &by.mu)];
-        pairs.into_iter().for_each(|(sum, by)| sum.iter_mut().zip(by).for_each(|(sum, by)| *sum += by));
+        pairs.into_iter().for_each(|(sum, by)| add(sum, by));
         self.change.copy_from_slice(&self.y);
         self.advance(problem, g);
         self.change.iter_mut().zip(&self.y).for_each(|(change, y)| *change = y - *change);
@@ -209,10 +206,10 @@ impl Stage {
         let (q, v) = y[..motion].split_at_mut(n.q);
         let (qdot, vdot) = rate[..motion].split_at_mut(n.q);
         vdot.copy_from_slice(a);
-        vdot.iter_mut().zip(w).for_each(|(rate, w)| *rate += *w);
+        add(vdot, w);
         v.iter_mut().zip(known[n.q..].iter().zip(&*vdot)).for_each(|(v, (known, rate))| *v = known + g * rate);
         velocity.copy_from_slice(v);
-        velocity.iter_mut().zip(u).for_each(|(velocity, u)| *velocity += *u);
+        add(velocity, u);
         let sweeps = if n.q == n.moving() { 1 } else { tolerances::RADAU_SWEEPS };
         for _ in 0..sweeps {
             problem.dynamics.system.rate(q, velocity, qdot);

@@ -15,7 +15,7 @@ use super::{
     Accepted, Control, Dense, Entry, From, Integrator, Make, Problem, Setup, Stability, Step, Steps, Tightening,
     Tolerance, refuses, takes,
 };
-use crate::error::{self, Error};
+use crate::error;
 use crate::formulation::{self, Dae, Dynamics, StepError};
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
@@ -59,11 +59,10 @@ const NOT_BEGUN: StepError =
 
 impl<'s> Diffsol<'s> {
     fn make(scheme: Scheme, order: usize, setup: &Setup<'s>) -> error::Result<Box<dyn Integrator + 's>> {
-        let Setup { integrator, formulation, system, .. } = *setup;
-        let refused = || Error::input(format!("{} cannot integrate {}", integrator.name, formulation.name));
+        let Setup { formulation, system, .. } = *setup;
         let dae = match scheme {
             Scheme::Tsit45 => None,
-            _ => Some(formulation::dae(formulation)?.ok_or_else(refused)?),
+            _ => Some(setup.dae()?),
         };
         // Bad options of the formulation are refused here.
         formulation::make(formulation, system)?;

@@ -6,9 +6,11 @@ mod prediction;
 
 use super::memory::{read, written};
 use super::sums::trapezoid;
-use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
+use super::{
+    Accepted, Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, no_memory, refuses, takes,
+};
 use crate::error::{Error, Result};
-use crate::formulation::{self, StepError};
+use crate::formulation::StepError;
 use crate::method_spec::OptionDoc;
 use crate::tolerances::integrator as tolerances;
 use motion::{Motion, Scheme};
@@ -66,16 +68,14 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     if r > 1.0 {
         return Err(Error::input(format!("generalized_alpha: rho_inf is {r}")).hint("give a number from 0 to 1"));
     }
-    let dae = formulation::dae(setup.formulation)?
-        .ok_or_else(|| Error::input(format!("generalized_alpha cannot integrate {}", setup.formulation.name)))?;
+    let dae = setup.dae()?;
     if r > tolerances::UNDAMPED_WITH_POSITIONS && dae.velocity_index() == 2 {
         let name = &setup.formulation.name;
         let what = format!("generalized_alpha: with rho_inf = {r} the multipliers of {name} swing up without bound");
         return Err(Error::input(what).hint("give 0.9 or less, or use the formulation ggl"));
     }
     let scheme = Scheme::new(r);
-    let newton = Newton::new(dae, scheme, setup.is_fixed, setup.system)
-        .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
+    let newton = Newton::new(dae, scheme, setup.is_fixed, setup.system).ok_or_else(no_memory)?;
     let n = setup.system.dimensions();
     let mut control = Control::proportional(3.0, 0.13, 0.2, 2.0);
     control.order = 2;

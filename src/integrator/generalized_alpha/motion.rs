@@ -1,5 +1,6 @@
 //! The accelerations carried from step to step, and q and v that follow from them.
 
+use super::super::sums::add;
 use super::super::{From, Problem};
 use super::prediction::{Carried, Prediction};
 use crate::formulation::{Change, Dae, ExponentialMap, Slopes, StepError, Unknowns};
@@ -180,7 +181,6 @@ impl Motion {
     /// unit, and that of xi'_1. Shifts of q below `round_off` count as zero, since over h^2 they would exceed all other
     /// changes.
     pub fn correct(&mut self, change: &Change<f64>, moving: usize, h: f64, round_off: f64) -> [f64; 2] {
-        let add = |sum: &mut [f64], change: &[f64]| sum.iter_mut().zip(change).for_each(|(sum, change)| *sum += change);
         add(&mut self.end.vdot, &change.a);
         add(&mut self.end.lambda, &change.lambda);
         add(&mut self.w, &change.w);
@@ -261,7 +261,7 @@ impl Motion {
             *change = h * h * beta * (end - predicted) + u;
         }
         let start = self.between.as_deref().unwrap_or_else(|| {
-            self.change.iter_mut().zip(&self.predicted).for_each(|(change, predicted)| *change += predicted);
+            add(&mut self.change, &self.predicted);
             q0
         });
         self.retraction.apply(problem.dynamics.system, start, &self.change, q);

@@ -2,10 +2,10 @@
 
 use super::collocation::{Collocation, StageMode};
 use super::stages::Unknowns;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::formulation::{Dae, Dynamics, Iteration, Linearized, Number, Residual, Slopes, StepError};
-use crate::integrator::Setup;
 use crate::integrator::newton_matrix::{Factors, Size};
+use crate::integrator::{Setup, no_memory};
 use crate::math::kkt::Singular;
 use faer::c64;
 
@@ -19,7 +19,6 @@ pub struct Matrices {
 
 impl Matrices {
     pub fn new(dae: Dae, methods: &[Collocation], setup: &Setup) -> Result<Self> {
-        let no_memory = || Error::input("there is not enough memory for the matrices of this size");
         let pair = |_| Iteration::new(dae, setup.system).ok_or_else(no_memory);
         let most_pairs = methods.iter().map(|method| method.pairs.len()).max().unwrap_or(0);
         let of_pairs = |method: &Collocation| method.pairs.iter().map(|pair| pair.value).collect();

@@ -14,8 +14,8 @@ use super::sums::accumulate;
 use super::{
     Accepted, Control, Dense, Entry, From, Integrator, Problem, Setup, Step, Steps, Tightening, Tolerance, refuses,
 };
-use crate::error::{Error, Result};
-use crate::formulation::{self, Dae, StepError};
+use crate::error::Result;
+use crate::formulation::{Dae, StepError};
 use crate::math::newton::Monitor;
 use crate::method_spec::OptionDoc;
 use crate::system::OperatingPoint;
@@ -71,10 +71,9 @@ pub const ENTRY: Entry = Entry {
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     let n = setup.system.dimensions();
     let order = Order::new(setup.integrator, setup.is_fixed)?;
-    let dae = formulation::dae(setup.formulation)?
-        .ok_or_else(|| Error::input(format!("radau_iia cannot integrate {}", setup.formulation.name)))?;
-    let most = order.most_stages();
-    let matrices = || Matrices::new(dae, order.methods(), setup);
+    let dae = setup.dae()?;
+    let most = order.methods.iter().map(Collocation::stages).max().unwrap_or(0);
+    let matrices = || Matrices::new(dae, &order.methods, setup);
     Ok(Box::new(RadauIIA {
         dae,
         matrix: NewtonMatrix::new(dae, setup.system, matrices()?),
@@ -179,7 +178,7 @@ impl RadauIIA {
         match self.accepted {
             Some(step) => {
                 let ahead = self.order.method().nodes.iter().map(|node| 1.0 + node * h / step.h);
-                unknowns.predict(&self.before, self.order.get(step.method), ahead);
+                unknowns.predict(&self.before, &self.order.methods[step.method], ahead);
             }
             None => unknowns.reset(problem.split(from.slope).1, &self.lambda),
         }
@@ -278,7 +277,7 @@ impl Integrator for RadauIIA {
         let tolerance = self.tolerance;
         let allowed = self.stages.allowed(&self.dae, (problem, &tolerance), from, h);
         let error = self.estimate(problem, &tolerance, (from, h, to), |method| &method.error)? / allowed;
-        let lower = match self.order.len() {
+        let lower = match self.order.methods.len() {
             1 => 0.0,
             _ => self.estimate(problem, &tolerance, (from, h, to), |method| &method.lower_error)? / allowed,
         };
@@ -287,7 +286,7 @@ impl Integrator for RadauIIA {
         self.seen = Seen { error, lower, theta: self.newton.rate };
         if self.dae.velocity_index() == 2 && (self.is_fixed || error <= 1.0) {
             velocity::project(problem, from.t + h, to)?;
-            velocity::slope(problem, from.t + h, to, &mut self.slope)?;
+            problem.derivative_at_velocity(from.t + h, to, &mut self.slope)?;
         }
         Ok(Some(error))
     }
@@ -314,7 +313,7 @@ impl Integrator for RadauIIA {
     }
 
     fn memory(&self) -> Option<Value> {
-        let stages = self.order.get(self.accepted.map_or(0, |step| step.method)).stages();
+        let stages = self.order.methods[self.accepted.map_or(0, |step| step.method)].stages();
         let Unknowns { a, lambda, w, u, .. } = &self.before;
         // Matrices of a refused attempt serve on where they hardly change.
         let matrix = self.matrix.memory().filter(|_| self.keeps_matrix());
@@ -329,7 +328,7 @@ impl Integrator for RadauIIA {
 
     fn recall(&mut self, memory: &Value) {
         let Some(Memory { choice, newton, accepted, stages, matrix }) = read(memory) else { return };
-        let exists = |step: &Size| step.method < self.order.methods().len();
+        let exists = |step: &Size| step.method < self.order.methods.len();
         self.accepted = accepted.filter(exists);
         self.matrix.recall(matrix.filter(|matrix| exists(&matrix.size)));
         self.order.recall(choice);

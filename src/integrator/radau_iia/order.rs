@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// The error of s - 2 stages is estimated from the stages of a step, that of s + 2 by the same ratio again; from it
 /// follows the step size of each method, and the method with the least work per second is chosen.
 pub struct Order {
-    methods: Vec<Collocation>,
+    pub methods: Vec<Collocation>,
     pub choice: Choice,
 }
 
@@ -60,23 +60,10 @@ impl Order {
         Ok(order)
     }
 
-    pub fn len(&self) -> usize {
-        self.methods.len()
-    }
-
     /// Restores a [`choice`](Self::choice).
     pub fn recall(&mut self, choice: Choice) {
         let current = choice.current.min(self.methods.len() - 1);
         self.choice = Choice { current, ..choice };
-    }
-
-    /// All methods.
-    pub fn methods(&self) -> &[Collocation] {
-        &self.methods
-    }
-
-    pub fn most_stages(&self) -> usize {
-        self.methods.iter().map(Collocation::stages).max().unwrap_or(0)
     }
 
     pub fn method(&self) -> &Collocation {
@@ -86,10 +73,6 @@ impl Order {
     /// Index of the method in use.
     pub fn current(&self) -> usize {
         self.choice.current
-    }
-
-    pub fn get(&self, index: usize) -> &Collocation {
-        &self.methods[index]
     }
 
     fn set(&mut self, index: usize) {
