@@ -2,9 +2,10 @@
 
 use super::hermite::Hermite;
 use super::sums::{accumulate, combine};
-use super::{Control, Dense, From, Integrator, Problem, Stability, Step, Tolerance};
+use super::{Control, Dense, From, Integrator, Problem, Stability, Step};
 use crate::formulation::StepError;
 use serde_json::Value;
+use std::ops::Range;
 
 /// The constants of an explicit method.
 pub struct Tableau {
@@ -96,13 +97,8 @@ impl Explicit {
     }
 
     /// k_i at the nodes `range`.
-    fn evaluate(
-        &mut self,
-        problem: &mut Problem,
-        range: std::ops::Range<usize>,
-        from: From,
-        h: f64,
-    ) -> Result<(), StepError> {
+    fn evaluate(&mut self, problem: &mut Problem, range: Range<usize>, from: From) -> Result<(), StepError> {
+        let h = from.h;
         for i in range {
             combine(&mut self.stage, from.y, h, self.tableau.a[i], &self.k);
             let t = from.t + self.tableau.c[i] * h;
@@ -111,12 +107,13 @@ impl Explicit {
         Ok(())
     }
 
-    fn error(&mut self, tolerance: &Tolerance, from: &[f64], to: &[f64], h: f64) -> Option<f64> {
+    fn error(&mut self, from: From, to: &[f64]) -> Option<f64> {
+        let From { y, h, tolerance, .. } = from;
         let last = tolerance.motion();
         let mut square = |weights: &[f64]| {
             self.stage.fill(0.0);
             accumulate(&mut self.stage, h, weights, &self.k);
-            tolerance.squares(last, from, to, &self.stage)
+            tolerance.squares(last, y, to, &self.stage)
         };
         let n = tolerance.tested(last);
         match &self.tableau.error {
@@ -150,35 +147,28 @@ impl Integrator for Explicit {
         Some(Value::Array(Vec::new()))
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.k[0].copy_from_slice(from.slope);
-        self.evaluate(problem, 1..self.stages(), from, h)?;
-        combine(to, from.y, h, self.tableau.b, &self.k);
+        self.evaluate(problem, 1..self.stages(), from)?;
+        combine(to, from.y, from.h, self.tableau.b, &self.k);
         if let Some(end) = self.end_stage() {
             problem.derivative(from.end, to, &mut self.k[end])?;
         }
-        Ok(self.error(tolerance, from.y, to, h))
+        Ok(self.error(from, to))
     }
 
     fn last_slope(&self) -> Option<&[f64]> {
         self.end_stage().map(|end| &self.k[end][..])
     }
 
-    fn lower_order(&self, from: From, h: f64, out: &mut [f64]) -> bool {
+    fn lower_order(&self, from: From, out: &mut [f64]) -> bool {
         let (ErrorEstimate::Embedded(error) | ErrorEstimate::Pair { fifth: error, .. }) = self.tableau.error else {
             return false;
         };
         let solution = self.tableau.b.iter().copied().chain(std::iter::repeat(0.0));
         out.copy_from_slice(from.y);
         for ((b, e), k) in solution.zip(error).zip(&self.k) {
-            out.iter_mut().zip(k).for_each(|(out, k)| *out += h * (b - e) * k);
+            out.iter_mut().zip(k).for_each(|(out, k)| *out += from.h * (b - e) * k);
         }
         true
     }
@@ -194,12 +184,12 @@ impl Dense for Explicit {
         let stages = self.stages();
         if self.k.len() > stages {
             self.k[stages].copy_from_slice(step.slope);
-            self.evaluate(problem, stages + 1..self.k.len(), step.from, step.h)?;
+            self.evaluate(problem, stages + 1..self.k.len(), step.from)?;
         }
         self.polynomial.prepare(step);
         for (row, weights) in self.polynomial.beyond().iter_mut().zip(self.tableau.dense) {
             row.fill(0.0);
-            accumulate(row, step.h, weights, &self.k);
+            accumulate(row, step.from.h, weights, &self.k);
         }
         Ok(())
     }

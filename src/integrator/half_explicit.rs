@@ -3,7 +3,7 @@
 use super::explicit::Tableau as Explicit;
 use super::hermite::Hermite;
 use super::sums::{add, combine};
-use super::{Control, Dense, From, Integrator, Problem, Setup, Stability, Step, Tolerance, no_memory};
+use super::{Control, Dense, From, Integrator, Problem, Setup, Stability, Step, no_memory};
 use crate::error::Result;
 use crate::formulation::{Dynamics, StepError};
 use crate::math::kkt::{Pattern, Singular, Unsymmetric};
@@ -119,7 +119,8 @@ impl HalfExplicit {
     }
 
     /// k_i = (N V, V', power) of stage `i`.
-    fn evaluate(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), StepError> {
+    fn evaluate(&mut self, problem: &mut Problem, i: usize, from: From) -> Result<(), StepError> {
+        let h = from.h;
         let (row, node) = self.tableau.stage(i);
         combine(&mut self.stage, from.y, h, row, &self.k);
         is_finite(&self.stage)?;
@@ -138,7 +139,7 @@ impl HalfExplicit {
         rest.fill(0.0);
         rest[n.v..].iter_mut().zip(dynamics.powers(&[])).for_each(|(rate, power)| *rate = power);
         self.force.copy_from_slice(&dynamics.terms.f);
-        self.solve(problem, i, from, h)?;
+        self.solve(problem, i, from)?;
         let moving: f64 = self.lambda.iter().zip(&self.phi_t).map(|(lambda, phi_t)| lambda * phi_t).sum();
         self.k[i][n.q + n.v] += moving;
         Ok(())
@@ -146,7 +147,8 @@ impl HalfExplicit {
 
     /// Solves for V'_i and lambda_i; on entry k_i is N V and zeros, `force` f, `lambda` the guess gamma, and M and
     /// G(Q_i) are factored.
-    fn solve(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), StepError> {
+    fn solve(&mut self, problem: &mut Problem, i: usize, from: From) -> Result<(), StepError> {
+        let h = from.h;
         let row = self.tableau.constraint[i];
         let n = problem.dynamics.system.dimensions();
         combine(&mut self.stage, from.y, h, row, &self.k);
@@ -233,25 +235,18 @@ impl Integrator for HalfExplicit {
         Some(Value::Array(Vec::new()))
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.k[0].copy_from_slice(from.slope);
         let first = usize::from(self.tableau.explicit.is_some());
         for i in first..self.tableau.constraint.len() {
-            self.evaluate(problem, i, from, h)?;
+            self.evaluate(problem, i, from)?;
         }
-        combine(to, from.y, h, self.tableau.last(), &self.k);
+        combine(to, from.y, from.h, self.tableau.last(), &self.k);
         problem.dynamics.system.normalize(problem.split_mut(to).0);
         let Some(weights) = self.tableau.explicit.and_then(Explicit::embedded) else { return Ok(None) };
         problem.derivative(from.end, to, &mut self.k[self.tableau.constraint.len()])?;
-        self.estimate(problem, weights, h)?;
-        Ok(Some(tolerance.norm_between(from.y, to, &self.error)))
+        self.estimate(problem, weights, from.h)?;
+        Ok(Some(from.tolerance.norm_between(from.y, to, &self.error)))
     }
 
     fn last_slope(&self) -> Option<&[f64]> {

@@ -1,6 +1,6 @@
 //! Interpolation over a step.
 
-use super::{Problem, Step};
+use super::{From, Problem, Step};
 use crate::formulation::StepError;
 
 /// (1 - 1/sqrt 5)/2, a node of Lobatto's rule: the largest error of the quartic, of theta^2 (1 - theta)^2 (theta -
@@ -16,7 +16,8 @@ pub(super) fn cubic(step: Step, theta: f64, out: &mut [f64]) {
 }
 
 /// F0 to F2 of [`Hermite`], for component `i`.
-fn rows(Step { from, h, to, slope }: Step, i: usize) -> [f64; 3] {
+fn rows(Step { from, to, slope }: Step, i: usize) -> [f64; 3] {
+    let h = from.h;
     let change = to[i] - from.y[i];
     [change, h * from.slope[i] - change, 2.0 * change - h * (slope[i] + from.slope[i])]
 }
@@ -52,9 +53,9 @@ impl Hermite {
     /// Source: Enright, Jackson, Norsett, Thomsen, ACM Trans. Math. Softw. 12 (1986) 193-218. `y` and `slope` are
     /// scratch.
     pub fn raise(&mut self, problem: &mut Problem, step: Step, [y, slope]: [&mut [f64]; 2]) -> Result<(), StepError> {
-        let Step { from, h, .. } = step;
+        let From { t, h, .. } = step.from;
         cubic(step, NODE, y);
-        problem.derivative(from.t + NODE * h, y, slope)?;
+        problem.derivative(t + NODE * h, y, slope)?;
         let [f0, f1, f2, f3] = &mut self.rows[..] else { return Ok(()) };
         let middle = 1.0 - 2.0 * NODE;
         for i in 0..f3.len() {

@@ -45,16 +45,9 @@ use serde_json::Value;
 
 /// A method. States are flat: q, v, and the work of forces without a potential.
 pub trait Integrator {
-    /// Tries a step from (t, y), where y' is `slope`, and writes the new state. Returns the error estimate in units of
-    /// the tolerance (accept at or below one), or `None` for a method that has none.
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError>;
+    /// Tries a step and writes the new state. Returns the error estimate in units of the tolerance (accept at or below
+    /// one), or `None` for a method that has none.
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError>;
 
     /// The step control of the method, which may change its constants with its order.
     fn control(&mut self) -> &mut Control;
@@ -68,9 +61,9 @@ pub trait Integrator {
     fn restart(&mut self) {}
 
     /// Makes the next step of a method that [`leads`](Entry::leads), not beyond `from.end`, and returns its size, s;
-    /// `h` is that of the first one. Attempts are then parts of this step.
-    fn lead(&mut self, _: &mut Problem, _: &Tolerance, _from: From, h: f64) -> Result<f64, StepError> {
-        Ok(h)
+    /// `from.h` is that of the first one. Attempts are then parts of this step.
+    fn lead(&mut self, _: &mut Problem, from: From) -> Result<f64, StepError> {
+        Ok(from.h)
     }
 
     /// y' at the new state, if the last attempt evaluated it there as its last evaluation: the terms of the new state
@@ -80,7 +73,7 @@ pub trait Integrator {
     }
 
     /// Writes the solution of lower order to which the last attempt was compared; false where there is none.
-    fn lower_order(&self, _from: From, _h: f64, _out: &mut [f64]) -> bool {
+    fn lower_order(&self, _from: From, _out: &mut [f64]) -> bool {
         false
     }
 
@@ -134,7 +127,7 @@ pub trait Dense {
     fn interpolate(&mut self, problem: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError>;
 }
 
-/// The start of a step.
+/// The start of a step to be tried.
 #[derive(Clone, Copy, Debug)]
 pub struct From<'a> {
     /// Time, s.
@@ -143,17 +136,19 @@ pub struct From<'a> {
     pub y: &'a [f64],
     /// y' at (t, y).
     pub slope: &'a [f64],
-    /// End of a step of the requested size: t + h, but for the rounding of a grid or a stop that it meets.
+    /// Size of the step, s.
+    pub h: f64,
+    /// Its end: t + h, but for the rounding of a grid or a stop that it meets.
     pub end: f64,
+    /// Tolerance of the steps.
+    pub tolerance: &'a Tolerance,
 }
 
 /// A step with both ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<'a> {
-    /// Its start.
+    /// Its start and size.
     pub from: From<'a>,
-    /// Its size, s.
-    pub h: f64,
     /// State at its end, where it may have been projected, or cut, since the attempt.
     pub to: &'a [f64],
     /// y' there.

@@ -3,6 +3,7 @@
 use super::{From, Problem};
 use crate::formulation::{Dae, Dynamics, Linearized, Point, StepError};
 use crate::math::kkt::Singular;
+use crate::math::newton::Monitor;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
 use serde::{Deserialize, Serialize};
@@ -34,10 +35,11 @@ pub trait Factors {
     fn rescale(&mut self, _: Size) {}
 }
 
-/// M, G, L, K and C at one state, with the factors for one step.
+/// M, G, L, K and C at one state, with the factors for one step, and the monitor of the iterations with them.
 pub struct NewtonMatrix<F> {
     pub at: Linearized,
     pub factors: F,
+    pub monitor: Monitor,
     /// True if `at` is to be used.
     is_linearized: bool,
     /// True if that was evaluated for the present attempt.
@@ -46,22 +48,22 @@ pub struct NewtonMatrix<F> {
     factored: Option<Size>,
     dropped: Vec<usize>,
     /// The matrix of a saved run.
-    recalled: Option<Memory>,
+    recalled: Option<Saved>,
+}
+
+/// What steps pass on: the contraction of the iterations, and the matrix if there is one.
+#[derive(Serialize, Deserialize)]
+pub struct Memory {
+    pub monitor: [f64; 2],
+    pub matrix: Option<Saved>,
 }
 
 /// A matrix as it is saved: it is evaluated and factored again.
 #[derive(Serialize, Deserialize)]
-pub struct Memory {
+pub struct Saved {
     pub size: Size,
-    is_fresh: bool,
-    point: Point,
-}
-
-impl Memory {
-    /// The same, as of an attempt before.
-    pub fn aged(self) -> Self {
-        Memory { is_fresh: false, ..self }
-    }
+    pub is_fresh: bool,
+    pub point: Point,
 }
 
 impl<F: Factors> NewtonMatrix<F> {
@@ -70,6 +72,7 @@ impl<F: Factors> NewtonMatrix<F> {
         NewtonMatrix {
             at: Linearized::new(dae, system),
             factors,
+            monitor: Monitor::default(),
             is_linearized: false,
             is_fresh: false,
             factored: None,
@@ -96,11 +99,11 @@ impl<F: Factors> NewtonMatrix<F> {
         Ok(())
     }
 
-    /// Factors the matrix for a step `h` from `from`, unless the factors are those of a size within the band.
+    /// Factors the matrix for a step, unless the factors are those of a size within the band.
     ///
     /// # Errors
     /// A singular matrix.
-    pub fn factor(&mut self, problem: &mut Problem, (from, h): (From, f64), size: Size) -> Result<(), StepError> {
+    pub fn factor(&mut self, problem: &mut Problem, from: From, size: Size) -> Result<(), StepError> {
         let is_near = |own: Size| own.method == size.method && own.h.max(size.h) <= F::BAND * own.h.min(size.h);
         if self.factored.is_some_and(is_near) {
             self.factors.rescale(size);
@@ -109,7 +112,7 @@ impl<F: Factors> NewtonMatrix<F> {
         self.factored = None;
         let weighed = self.at.weigh(self.factors.metric(size), &mut problem.dynamics);
         let factored = weighed.and_then(|()| self.factors.factor(size, &self.at, &mut problem.dynamics));
-        factored.map_err(|singular| collapsed(singular, problem, from, h))?;
+        factored.map_err(|singular| collapsed(singular, problem, from))?;
         self.factored = Some(size);
         Ok(())
     }
@@ -125,15 +128,17 @@ impl<F: Factors> NewtonMatrix<F> {
         (self.is_linearized, self.is_fresh) = (false, false);
     }
 
-    /// The matrix for [`Self::recall`], if there is one.
-    pub fn memory(&self) -> Option<Memory> {
-        let size = self.factored.filter(|_| self.is_linearized)?;
-        Some(Memory { size, is_fresh: self.is_fresh, point: self.at.point.clone() })
+    /// The values for [`Self::recall`].
+    pub fn memory(&self) -> Memory {
+        let size = self.factored.filter(|_| self.is_linearized);
+        let saved = |size| Saved { size, is_fresh: self.is_fresh, point: self.at.point.clone() };
+        Memory { monitor: self.monitor.memory(), matrix: size.map(saved) }
     }
 
-    /// Restores a [`memory`](Self::memory) by [`Self::renew`].
-    pub fn recall(&mut self, memory: Option<Memory>) {
-        self.recalled = memory;
+    /// Restores a [`memory`](Self::memory), the matrix by [`Self::renew`].
+    pub fn recall(&mut self, Memory { monitor, matrix }: Memory) {
+        self.monitor.recall(monitor);
+        self.recalled = matrix;
     }
 
     /// Computes the matrix of a saved run again, without counting the work.
@@ -142,12 +147,12 @@ impl<F: Factors> NewtonMatrix<F> {
     /// Those of the first time.
     pub fn renew(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
         let n = problem.dynamics.system.dimensions();
-        let Some(Memory { size, is_fresh, point }) = self.recalled.take().filter(|memory| memory.point.fits(n)) else {
+        let Some(Saved { size, is_fresh, point }) = self.recalled.take().filter(|saved| saved.point.fits(n)) else {
             return Ok(());
         };
         let counted = problem.dynamics.statistics;
         self.linearize(point.borrowed(), &mut problem.dynamics)?;
-        self.factor(problem, (from, size.h), size)?;
+        self.factor(problem, from, size)?;
         problem.dynamics.statistics = counted;
         self.is_fresh = is_fresh;
         Ok(())
@@ -156,17 +161,17 @@ impl<F: Factors> NewtonMatrix<F> {
 
 /// The cause of a singular matrix. If all rows are in it, some depend on others at the start of the step and ahead, and
 /// they prescribe different positions there, the rows contradict each other.
-fn collapsed(singular: Singular, problem: &mut Problem, from: From, h: f64) -> StepError {
+fn collapsed(singular: Singular, problem: &mut Problem, from: From) -> StepError {
     if singular != Singular::Collapsed || !problem.dynamics.dropped.is_empty() {
         return singular.into();
     }
-    let ahead: Vec<f64> = from.y.iter().zip(from.slope).map(|(y, slope)| y + h * slope).collect();
+    let ahead: Vec<f64> = from.y.iter().zip(from.slope).map(|(y, slope)| y + from.h * slope).collect();
     let mut open = |t: f64, y: &[f64]| {
         let (q, v) = problem.split(y);
         problem.dynamics.dependent_rows_open(t, q, v)
     };
     let is_torn = open(from.t, from.y).is_some()
-        && open(from.t + h, &ahead).is_some_and(|open| open > tolerances::ROUND_OFF_OF_PHI);
+        && open(from.t + from.h, &ahead).is_some_and(|open| open > tolerances::ROUND_OFF_OF_PHI);
     if is_torn { CONTRADICTION } else { singular.into() }
 }
 

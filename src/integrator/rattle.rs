@@ -2,7 +2,7 @@
 
 use super::memory::{read, written};
 use super::sums::{add, trapezoid};
-use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Stability, Tolerance, takes};
+use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Stability, takes};
 use crate::error::{Error, Result};
 use crate::formulation::StepError;
 use crate::math::kkt::Singular;
@@ -115,8 +115,9 @@ impl Rattle {
 
     /// v_h and q_1, starting with v + h/2 v' of the equations of motion: v_h differs from it by reactions, and by the
     /// dependence of f on v.
-    fn first_half(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), StepError> {
-        let (q, v) = problem.split(from.y);
+    fn first_half(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
+        let h = from.h;
+        let (_, v) = problem.split(from.y);
         let (_, vdot) = problem.split(from.slope);
         for i in 0..v.len() {
             self.half[i] = v[i] + 0.5 * h * vdot[i];
@@ -124,7 +125,7 @@ impl Rattle {
         let mut newton = Monitor::default();
         let converged = newton.solve(LIMITS, |_| {
             problem.dynamics.statistics.newton_iterations += 1;
-            let change = self.iterate(problem, (from, q), h)?;
+            let change = self.iterate(problem, from)?;
             Ok::<_, StepError>(change / self.still(h))
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
@@ -138,7 +139,9 @@ impl Rattle {
     }
 
     /// One correction of v_h for the forces and for phi(q_1). Returns its size relative to v_h.
-    fn iterate(&mut self, problem: &mut Problem, (from, q): (From, &[f64]), h: f64) -> Result<f64, StepError> {
+    fn iterate(&mut self, problem: &mut Problem, from: From) -> Result<f64, StepError> {
+        let (q, _) = problem.split(from.y);
+        let h = from.h;
         let dynamics = &mut problem.dynamics;
         dynamics.evaluate(from.t, q, &self.half, Need::FORCE);
         for (i, f) in dynamics.terms.f.iter().enumerate() {
@@ -164,7 +167,8 @@ impl Rattle {
     }
 
     /// v_1, and y' there, with the factors at q_1.
-    fn second_half(&mut self, problem: &mut Problem, t: f64, h: f64, to: &mut [f64]) -> Result<(), StepError> {
+    fn second_half(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<(), StepError> {
+        let From { h, end: t, .. } = from;
         let (q, v) = problem.split_mut(to);
         q.copy_from_slice(&self.q);
         let dynamics = &mut problem.dynamics;
@@ -194,19 +198,12 @@ impl Integrator for Rattle {
         &mut self.control
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        _: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.start(problem, from)?;
-        self.first_half(problem, from, h)?;
-        self.second_half(problem, from.end, h, to)?;
+        self.first_half(problem, from)?;
+        self.second_half(problem, from, to)?;
         let n = problem.dynamics.system.dimensions();
-        trapezoid(from, h, &self.slope[n.q + n.v..], to);
+        trapezoid(from, &self.slope[n.q + n.v..], to);
         Ok(None)
     }
 

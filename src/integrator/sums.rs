@@ -43,9 +43,9 @@ pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[
 
 /// The works at the end of a step of order 2, the last components of `to`, by the trapezoidal rule from the powers
 /// there.
-pub(super) fn trapezoid(from: From, h: f64, powers: &[f64], to: &mut [f64]) {
+pub(super) fn trapezoid(from: From, powers: &[f64], to: &mut [f64]) {
     for i in to.len() - powers.len()..to.len() {
-        to[i] = from.y[i] + 0.5 * h * (from.slope[i] + powers[i + powers.len() - to.len()]);
+        to[i] = from.y[i] + 0.5 * from.h * (from.slope[i] + powers[i + powers.len() - to.len()]);
     }
 }
 

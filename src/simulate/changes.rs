@@ -25,8 +25,10 @@ impl Run<'_> {
         for _ in 0..tolerances::CUTS {
             let own = passage.filter(|_| self.entry.begins_anew);
             let Some(Passage::Within(theta)) = own else { break };
-            let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.end_of(*h, *end) };
-            let step = Step { from, h: *h, to: &self.next, slope: &self.next_slope };
+            let end_of = self.end_of(*h, *end);
+            let from =
+                From { t: self.t, y: &self.y, slope: &self.slope, h: *h, end: end_of, tolerance: &self.tolerance };
+            let step = Step { from, to: &self.next, slope: &self.next_slope };
             self.integrator.interpolate(&mut self.rows.problem, step, theta, &mut self.change)?;
             self.next.copy_from_slice(&self.change);
             (*h, *end, self.is_moved) = (theta * *h, None, true);
@@ -46,8 +48,8 @@ impl Run<'_> {
         }
         let mut prepared = false;
         let Run { events, rows, integrator, problem, .. } = self;
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
-        let step = Step { from, h, to: &self.next, slope: &self.next_slope };
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
+        let step = Step { from, to: &self.next, slope: &self.next_slope };
         let (q, v) = problem.split(step.to);
         let (_, vdot) = problem.split(step.slope);
         events.passage(h, OperatingPoint { t: end, q, v, vdot, lambda: &[] }, |theta, see| {

@@ -123,9 +123,9 @@ impl Run<'_> {
         [mut low_value, mut high_value]: [f64; 2],
     ) -> Result<f64, StepError> {
         let Run { gaps, rows, integrator, problem, .. } = self;
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
         rows.problem.begin_step(from.t, from.y)?;
-        let step = Step { from, h, to: &self.next, slope: &self.next_slope };
+        let step = Step { from, to: &self.next, slope: &self.next_slope };
         integrator.prepare(&mut rows.problem, step)?;
         let mut low = 0.0;
         let mut high = 1.0;

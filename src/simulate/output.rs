@@ -42,8 +42,8 @@ impl Run<'_> {
     }
 
     fn prepare(&mut self, h: f64, end: f64) -> Result<(), StepError> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
-        let step = Step { from, h, to: &self.next, slope: &self.next_slope };
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
+        let step = Step { from, to: &self.next, slope: &self.next_slope };
         self.rows.problem.begin_step(self.t, &self.y)?;
         self.integrator.prepare(&mut self.rows.problem, step)
     }
@@ -53,8 +53,8 @@ impl Run<'_> {
     fn row_within(&mut self, t: f64, h: f64, end: f64) -> Result<Option<f64>, StepError> {
         let theta = (t - self.t) / h;
         let rows = &mut self.rows;
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
-        let step = Step { from, h, to: &self.next, slope: &self.next_slope };
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
+        let step = Step { from, to: &self.next, slope: &self.next_slope };
         rows.problem.begin_step(self.t, &self.y)?;
         self.integrator.interpolate(&mut rows.problem, step, theta, &mut rows.y)?;
         let is_checked = self.is_explicit && self.fixed.is_none() && !self.approach.reaches(h);

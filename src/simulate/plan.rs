@@ -57,8 +57,9 @@ impl Run<'_> {
     /// Takes the next step from a method that chooses it itself, unless a smaller one is to be tried.
     pub fn lead(&mut self, stop: NextStop) -> Result<(), Failure> {
         let limit = self.events.resolved(self.t, self.h.min(stop.t - self.t), stop.t);
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.t + limit };
-        let size = match self.integrator.lead(&mut self.problem, &self.tolerance, from, self.h) {
+        let Run { h, tolerance, .. } = self;
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h: *h, end: self.t + limit, tolerance };
+        let size = match self.integrator.lead(&mut self.problem, from) {
             Ok(size) => size,
             Err(halt) if halt.is_fatal() => return Err(self.halted(&halt)),
             Err(halt) => return Err(self.too_small(format!("{halt}, however small the step"), halt.hint())),

@@ -2,7 +2,7 @@
 
 use holonom::Result;
 use holonom::formulation::StepError;
-use holonom::integrator::{Control, Entry, From, Integrator, Problem, Tolerance};
+use holonom::integrator::{Control, Entry, From, Integrator, Problem};
 use holonom::method_spec::Listed;
 use holonom::simulate::Method;
 
@@ -19,14 +19,8 @@ struct Midpoint {
 }
 
 impl Integrator for Midpoint {
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        _: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        let h = from.h;
         let ahead = |out: &mut [f64], h: f64, slope: &[f64]| {
             out.iter_mut().zip(from.y.iter().zip(slope)).for_each(|(out, (y, slope))| *out = y + h * slope);
         };

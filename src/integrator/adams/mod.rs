@@ -157,11 +157,11 @@ impl Adams {
     }
 
     /// y~, and the sums of the differences.
-    fn predict(&mut self, from: From, h: f64, to: &mut [f64]) {
+    fn predict(&mut self, from: From, to: &mut [f64]) {
         let Adams { order, differences, known, predicted, coefficients, .. } = self;
         let k = *order;
         let beta = &coefficients.beta;
-        let weights: [f64; ROOM] = from_fn(|i| h * coefficients.g[i]);
+        let weights: [f64; ROOM] = from_fn(|i| from.h * coefficients.g[i]);
         for (b, (rows, sums)) in differences.blocks.iter().zip(&mut predicted.blocks).enumerate() {
             let mut y = quad(from.y, b);
             let mut sum = [0.0; QUAD];
@@ -276,22 +276,16 @@ impl Integrator for Adams {
         &mut self.control
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        let h = from.h;
         self.extend(from.slope);
         let k = self.order;
         self.tried = Tried { h, order: k, next: k };
         self.coefficients = Coefficients::new(h, &self.past, k + 1);
-        self.predict(from, h, to);
+        self.predict(from, to);
         problem.derivative(from.end, to, &mut self.defect)?;
         self.correct(h, to);
-        self.weigh(tolerance, from.y, to);
+        self.weigh(from.tolerance, from.y, to);
         let norms = self.norms();
         let error = h * (self.coefficients.g[k - 1] - self.coefficients.g[k]) * norms[0];
         let next = self.choose(norms);
@@ -327,7 +321,8 @@ impl Integrator for Adams {
         rows.iter().take(ROOM).enumerate().for_each(|(i, row)| own.set(i, row));
     }
 
-    fn lower_order(&self, from: From, h: f64, out: &mut [f64]) -> bool {
+    fn lower_order(&self, from: From, out: &mut [f64]) -> bool {
+        let h = from.h;
         // Of order k: y~ with g_k in the place of g_{k+1}.
         let k = self.tried.order;
         let g = &self.coefficients.g;
@@ -351,14 +346,15 @@ impl Integrator for Adams {
 impl Dense for Adams {
     /// At the start of the step the polynomial is off by the error of the step and by the projection, which is spread
     /// over the step.
-    fn prepare(&mut self, _: &mut Problem, Step { from, h, to, slope }: Step) -> Result<(), StepError> {
+    fn prepare(&mut self, _: &mut Problem, Step { from, to, slope }: Step) -> Result<(), StepError> {
+        let h = from.h;
         self.end.copy_from_slice(to);
         if h != self.tried.h {
             // The step was cut on its dense output since the attempt.
             self.tried.h = h;
             self.coefficients = Coefficients::new(h, &self.past, self.tried.order + 1);
             let mut open = std::mem::take(&mut self.open);
-            self.predict(from, h, &mut open);
+            self.predict(from, &mut open);
             self.open = open;
         }
         let Adams { defect, predicted, .. } = self;
@@ -371,7 +367,7 @@ impl Dense for Adams {
     }
 
     fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
-        self.follow((theta - 1.0) * step.h, out);
+        self.follow((theta - 1.0) * step.from.h, out);
         let part = (1.0 - theta).powi(2) * (1.0 + 2.0 * theta);
         out.iter_mut().zip(&self.open).for_each(|(out, open)| *out += part * open);
         Ok(())

@@ -4,7 +4,7 @@ mod matrix;
 
 use super::memory::{fill, read, written};
 use super::sums::{add, trapezoid};
-use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Tolerance, no_memory, takes};
+use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, no_memory, takes};
 use crate::error::Result;
 use crate::formulation::{ExponentialMap, StepError};
 use crate::math::largest;
@@ -129,7 +129,8 @@ impl Ali3p {
     }
 
     /// q_1 for constant a.
-    fn predict(&mut self, problem: &Problem, from: From, h: f64) {
+    fn predict(&mut self, problem: &Problem, from: From) {
+        let h = from.h;
         let (q0, v0) = problem.split(from.y);
         for (i, v0) in v0.iter().enumerate() {
             self.step[i] = h * v0 + 0.5 * h * h * self.a[i];
@@ -138,7 +139,8 @@ impl Ali3p {
     }
 
     /// v_1 and q_1 for the present a_1.
-    fn advance(&mut self, problem: &Problem, from: From, h: f64, to: &mut [f64]) {
+    fn advance(&mut self, problem: &Problem, from: From, to: &mut [f64]) {
+        let h = from.h;
         let (_, v0) = problem.split(from.y);
         let (q, v) = problem.split_mut(to);
         for i in 0..v.len() {
@@ -148,13 +150,14 @@ impl Ali3p {
         self.retraction.apply(problem.dynamics.system, &self.predicted, &self.step, q);
     }
 
-    fn converge(&mut self, problem: &mut Problem, from: From, h: f64, to: &mut [f64]) -> Result<(), StepError> {
+    fn converge(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<(), StepError> {
+        let h = from.h;
         let t = from.t + h;
-        self.predict(problem, from, h);
+        self.predict(problem, from);
         let mut is_factored = false;
         let mut newton = Monitor::default();
         let converged = newton.solve(LIMITS, |renews| {
-            self.advance(problem, from, h, to);
+            self.advance(problem, from, to);
             let (q, v) = problem.split(to);
             problem.dynamics.evaluate(t, q, v, Need::DYNAMICS);
             if renews || !is_factored {
@@ -170,7 +173,7 @@ impl Ali3p {
             )
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
-        self.advance(problem, from, h, to);
+        self.advance(problem, from, to);
         if converged { Ok(()) } else { Err(StepError::NotConverged) }
     }
 
@@ -236,23 +239,16 @@ impl Integrator for Ali3p {
         &mut self.control
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        _: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         let n = problem.dynamics.system.dimensions();
-        let t = from.t + h;
+        let t = from.t + from.h;
         let work = n.q + n.v..;
         self.begin(problem, from);
-        self.converge(problem, from, h, to)?;
+        self.converge(problem, from, to)?;
         self.project(problem, t, to)?;
         to[work.clone()].copy_from_slice(&from.y[work.clone()]);
         problem.derivative(t, to, &mut self.slope)?;
-        trapezoid(from, h, &self.slope[work], to);
+        trapezoid(from, &self.slope[work], to);
         Ok(None)
     }
 

@@ -37,8 +37,8 @@ impl History {
         History { known: 0, times: [0.0; POINTS], y, lambda }
     }
 
-    /// Adds the start of a step. Before the first one, `h` earlier, a state on its tangent is taken for known.
-    pub fn add(&mut self, from: From, lambda: &[f64], h: f64) {
+    /// Adds the start of a step. Before the first one, a step earlier, a state on its tangent is taken for known.
+    pub fn add(&mut self, from: From, lambda: &[f64]) {
         self.y.rotate_right(1);
         self.lambda.rotate_right(1);
         self.times.rotate_right(1);
@@ -47,9 +47,9 @@ impl History {
         self.lambda[0].copy_from_slice(lambda);
         self.known = (self.known + 1).min(POINTS);
         if self.known == 1 {
-            self.times[1] = from.t - h;
+            self.times[1] = from.t - from.h;
             self.y[1].copy_from_slice(from.y);
-            self.y[1].iter_mut().zip(from.slope).for_each(|(y, slope)| *y -= h * slope);
+            self.y[1].iter_mut().zip(from.slope).for_each(|(y, slope)| *y -= from.h * slope);
             self.lambda[1].copy_from_slice(lambda);
             self.known = 2;
         }

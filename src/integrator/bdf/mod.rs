@@ -5,9 +5,9 @@ mod order;
 mod stage;
 
 use super::memory::{read, written};
+use super::newton_matrix;
 use super::{
-    Accepted, Control, Dense, Entry, From, Integrator, Problem, Setup, Step, Steps, Tightening, Tolerance, refuses,
-    takes,
+    Accepted, Control, Dense, Entry, From, Integrator, Problem, Setup, Step, Steps, Tightening, refuses, takes,
 };
 use crate::error;
 use crate::formulation::StepError;
@@ -84,7 +84,7 @@ struct Memory {
     is_begun: bool,
     order: Order,
     history: history::Memory,
-    stage: stage::Memory,
+    stage: newton_matrix::Memory,
 }
 
 /// Error of a step over the distance to the prediction: of the formula or, if it is larger, of the interpolation.
@@ -101,20 +101,14 @@ impl Integrator for Bdf {
         &mut self.order.control
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        let From { h, tolerance, .. } = from;
         let Bdf { stage, history, order, predicted, rate, change, .. } = self;
         if std::mem::replace(&mut self.is_begun, true) {
             // The time loop may have moved the start.
             history.replace(from);
         } else {
-            history.add(from, &problem.dynamics.lambda, h);
+            history.add(from, &problem.dynamics.lambda);
         }
         let k = order.k;
         let t = from.t + h;
@@ -129,8 +123,8 @@ impl Integrator for Bdf {
             let [a, lambda] = stage.guess();
             a.copy_from_slice(problem.split(rate).1);
             history.predict_lambda(k, t, lambda);
-            stage.factor(problem, (t, predicted), (from, h), g)?;
-            stage.solve(problem, tolerance, from, t, g)
+            stage.factor(problem, (t, predicted), from, g)?;
+            stage.solve(problem, from, t, g)
         })?;
         to.copy_from_slice(&stage.y);
         change.iter_mut().zip(to.iter().zip(&*predicted)).for_each(|(change, (to, x))| *change = to - x);
@@ -150,7 +144,8 @@ impl Integrator for Bdf {
 
     fn accepted(&mut self, step: &Accepted) -> f64 {
         self.is_begun = false;
-        self.stage.accepted();
+        let matrix = &mut self.stage.matrix;
+        matrix.pass_on(matrix.monitor.keeps_matrix());
         self.order.propose(step.h, step.growing, self.history.known() + 1)
     }
 
@@ -158,13 +153,13 @@ impl Integrator for Bdf {
         self.is_begun = false;
         self.history.restart();
         self.order.restart();
-        self.stage.restart();
+        self.stage.matrix.forget();
     }
 
     fn memory(&self) -> Option<Value> {
         let Bdf { is_begun, order, history, stage, .. } = self;
         let order = order.clone();
-        written(Memory { is_begun: *is_begun, order, history: history.memory(), stage: stage.memory() })
+        written(Memory { is_begun: *is_begun, order, history: history.memory(), stage: stage.matrix.memory() })
     }
 
     fn recall(&mut self, memory: &Value) {
@@ -172,7 +167,7 @@ impl Integrator for Bdf {
             self.is_begun = is_begun;
             self.order = order.bounded();
             self.history.recall(history);
-            self.stage.recall(stage);
+            self.stage.matrix.recall(stage);
         }
     }
 
@@ -184,14 +179,14 @@ impl Integrator for Bdf {
 impl Dense for Bdf {
     /// The step may have been cut on its dense output since the attempt.
     fn prepare(&mut self, _: &mut Problem, step: Step) -> Result<(), StepError> {
-        self.step.0 = step.from.t + step.h;
+        self.step.0 = step.from.t + step.from.h;
         self.end.copy_from_slice(step.to);
         Ok(())
     }
 
     fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
         let (end, k) = self.step;
-        self.history.interpolate(k, (end, &self.end), step.from.t + theta * step.h, out);
+        self.history.interpolate(k, (end, &self.end), step.from.t + theta * step.from.h, out);
         Ok(())
     }
 }

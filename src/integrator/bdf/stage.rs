@@ -2,14 +2,13 @@
 
 use crate::error;
 use crate::formulation::{self, Change, Dae, Dynamics, Iteration, Linearized, Residual, Slopes, StepError};
-use crate::integrator::newton_matrix::{self, Factors, NewtonMatrix, Size};
+use crate::integrator::newton_matrix::{Factors, NewtonMatrix, Size};
 use crate::integrator::sums::add;
-use crate::integrator::{From, Problem, Setup, Tolerance, no_memory, round_off};
+use crate::integrator::{From, Problem, Setup, no_memory, round_off};
 use crate::math::kkt::Singular;
-use crate::math::newton::{Limits, Monitor};
+use crate::math::newton::Limits;
 use crate::system::{Dimensions, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
-use serde::{Deserialize, Serialize};
 
 /// ```text
 /// v = v* + g (a + w),   q = q* + g N (v + u),   M a + G^T lambda = f
@@ -29,8 +28,7 @@ pub struct Stage {
     /// The unknowns; on entry of a solution their first guess.
     pub unknowns: Change<f64>,
     residual: Residual,
-    matrix: NewtonMatrix<Matrix>,
-    newton: Monitor,
+    pub matrix: NewtonMatrix<Matrix>,
     /// Round-off of y in the last solution, over the tolerated errors.
     pub round_off: f64,
     change: Vec<f64>,
@@ -39,7 +37,7 @@ pub struct Stage {
 }
 
 /// The matrix for v = v* + g (a + w), q = q* + g N (v + u).
-struct Matrix(Iteration<f64>);
+pub struct Matrix(Iteration<f64>);
 
 impl Factors for Matrix {
     const BAND: f64 = tolerances::STAGE_BAND;
@@ -55,13 +53,6 @@ impl Factors for Matrix {
     fn rescale(&mut self, Size { h: g, .. }: Size) {
         self.0.rescale(Slopes::implicit(g));
     }
-}
-
-/// The values that steps pass on.
-#[derive(Serialize, Deserialize)]
-pub struct Memory {
-    newton: [f64; 2],
-    matrix: Option<newton_matrix::Memory>,
 }
 
 impl Stage {
@@ -87,7 +78,6 @@ impl Stage {
             },
             residual: Residual::new(n),
             matrix: NewtonMatrix::new(dae, setup.system, Matrix(matrix)),
-            newton: Monitor::default(),
             round_off: 0.0,
             change: zeros(setup.len()),
             velocity: zeros(n.v),
@@ -107,7 +97,7 @@ impl Stage {
         let mut solved = solve(self, problem);
         if is_old && solved.as_ref().is_err_and(|halt| !halt.is_fatal()) {
             self.matrix.forget();
-            self.newton.reset();
+            self.matrix.monitor.reset();
             solved = solve(self, problem);
         }
         if solved.is_err() {
@@ -129,7 +119,7 @@ impl Stage {
         &mut self,
         problem: &mut Problem,
         (t, y): (f64, &[f64]),
-        step: (From, f64),
+        from: From,
         g: f64,
     ) -> Result<(), StepError> {
         if !self.matrix.serves(&problem.dynamics) {
@@ -137,18 +127,12 @@ impl Stage {
             let Change { a, lambda, .. } = &self.unknowns;
             self.matrix.linearize(OperatingPoint { t, q, v, vdot: a, lambda }, &mut problem.dynamics)?;
         }
-        self.matrix.factor(problem, step, Size { h: g, method: 0 })
+        self.matrix.factor(problem, from, Size { h: g, method: 0 })
     }
 
     /// Solves the stage at `t` by Newton's method, whose matrix is factored.
-    pub fn solve(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        t: f64,
-        g: f64,
-    ) -> Result<(), StepError> {
+    pub fn solve(&mut self, problem: &mut Problem, from: From, t: f64, g: f64) -> Result<(), StepError> {
+        let tolerance = from.tolerance;
         self.leave_out();
         self.y.copy_from_slice(&self.known);
         self.advance(problem, g);
@@ -161,18 +145,19 @@ impl Stage {
             kept_rate: tolerances::STAGE_MATRIX_KEPT,
             ..Limits::NONE
         };
-        let mut newton = std::mem::take(&mut self.newton);
-        let converged = newton.solve(limits, |_| {
+        let mut monitor = std::mem::take(&mut self.matrix.monitor);
+        let converged = monitor.solve(limits, |_| {
             self.correct(problem, t, g)?;
             Ok::<_, StepError>(tolerance.norm(from.y, &self.change))
         });
-        self.newton = newton;
+        let has_stagnated = monitor.has_stagnated;
+        self.matrix.monitor = monitor;
         // Slow convergence with a matrix of a step before looks like round-off, too.
-        let is_slow = self.newton.has_stagnated && !self.matrix.is_fresh;
+        let is_slow = has_stagnated && !self.matrix.is_fresh;
         if !converged? || is_slow {
             return Err(StepError::NotConverged);
         }
-        problem.dynamics.statistics.stagnated += u64::from(self.newton.has_stagnated);
+        problem.dynamics.statistics.stagnated += u64::from(has_stagnated);
         self.add_work(problem, g);
         Ok(())
     }
@@ -233,26 +218,5 @@ impl Stage {
         let rows = self.matrix.factors.0.matrix.left_out();
         let dropped = self.unknowns.lambda.iter_mut().zip(rows).filter(|(_, is_out)| **is_out);
         dropped.for_each(|(lambda, _)| *lambda = 0.0);
-    }
-
-    /// Ends a step, and keeps the matrix as long as Newton's method converges well.
-    pub fn accepted(&mut self) {
-        self.matrix.pass_on(self.newton.keeps_matrix());
-    }
-
-    /// Discards the matrix: the equations change their form.
-    pub fn restart(&mut self) {
-        self.matrix.forget();
-    }
-
-    /// The values that steps pass on, for [`Self::recall`].
-    pub fn memory(&self) -> Memory {
-        Memory { newton: self.newton.memory(), matrix: self.matrix.memory() }
-    }
-
-    /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, Memory { newton, matrix }: Memory) {
-        self.newton.recall(newton);
-        self.matrix.recall(matrix);
     }
 }

@@ -13,7 +13,7 @@ mod solver;
 
 use super::{
     Accepted, Control, Dense, Entry, From, Integrator, Make, Problem, Setup, Stability, Step, Steps, Tightening,
-    Tolerance, refuses, takes,
+    refuses, takes,
 };
 use crate::error;
 use crate::formulation::{self, Dae, Dynamics, StepError};
@@ -94,10 +94,10 @@ impl<'s> Diffsol<'s> {
     }
 
     /// Lets the solver begin again, or continue from a state that was moved, where that is needed.
-    fn meet(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<(), StepError> {
+    fn meet(&mut self, problem: &Problem, from: From) -> Result<(), StepError> {
         let lambda = &problem.dynamics.lambda;
         if self.is_moved && self.scheme == Scheme::Bdf {
-            self.begins = self.begins || self.frame.is_none() || self.is_apart(tolerance, from)?;
+            self.begins = self.begins || self.frame.is_none() || self.is_apart(from)?;
             self.is_moved = false;
         }
         match &mut self.frame {
@@ -105,17 +105,17 @@ impl<'s> Diffsol<'s> {
                 if self.begins {
                     frame.equations().follow(problem);
                     let x = frame.equations().start(from, lambda);
-                    frame.restart(self.scheme, (from, &x), h)?;
+                    frame.restart(self.scheme, (from, &x))?;
                     self.counted = Counters::default();
                 } else if self.is_moved {
-                    frame.with_mut(|solver| solver.go_on_from(from, h));
+                    frame.with_mut(|solver| solver.go_on_from(from));
                 }
             }
             _ => {
                 let equations = self.equations(problem)?;
                 equations.follow(problem);
                 let x = equations.start(from, lambda);
-                self.frame = Some(Frame::new(self.scheme, equations, tolerance, (from, &x), h)?);
+                self.frame = Some(Frame::new(self.scheme, equations, (from, &x))?);
                 self.dropped.clone_from(&problem.dynamics.dropped);
                 self.counted = Counters::default();
             }
@@ -126,11 +126,11 @@ impl<'s> Diffsol<'s> {
 
     /// True if a moved state is so far from the polynomial of the steps that BDF must begin again at order 1, as where
     /// coordinates are brought back to unit length again and again.
-    fn is_apart(&self, tolerance: &Tolerance, from: From) -> Result<bool, StepError> {
+    fn is_apart(&self, from: From) -> Result<bool, StepError> {
         let mut change = vec![0.0; from.y.len()];
         self.write(from.t, &mut change)?;
         change.iter_mut().zip(from.y).for_each(|(change, y)| *change -= y);
-        Ok(tolerance.norm(from.y, &change) > tolerances::BDF_APART)
+        Ok(from.tolerance.norm(from.y, &change) > tolerances::BDF_APART)
     }
 
     /// Makes steps up to `t`, none of which ends after `from.end`.
@@ -166,21 +166,14 @@ impl Integrator for Diffsol<'_> {
         &mut self.control
     }
 
-    fn lead(&mut self, problem: &mut Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<f64, StepError> {
-        self.meet(problem, tolerance, from, h)?;
+    fn lead(&mut self, problem: &mut Problem, from: From) -> Result<f64, StepError> {
+        self.meet(problem, from)?;
         self.advance(problem, from, (from.t + ROUND_OFF * from.t.abs()).next_up())?;
-        Ok(self.frame.as_ref().map_or(h, |frame| frame.with(|solver| solver.t()) - from.t))
+        Ok(self.frame.as_ref().map_or(from.h, |frame| frame.with(|solver| solver.t()) - from.t))
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
-        self.meet(problem, tolerance, from, h)?;
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        self.meet(problem, from)?;
         self.advance(problem, from, from.end)?;
         self.write(from.end, to)?;
         Ok(Some(ACCEPTED))
@@ -202,7 +195,7 @@ impl Integrator for Diffsol<'_> {
 
 impl Dense for Diffsol<'_> {
     fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
-        self.write(step.from.t + theta * step.h, out)
+        self.write(step.from.t + theta * step.from.h, out)
     }
 }
 

@@ -5,10 +5,9 @@ mod newton;
 mod prediction;
 
 use super::memory::{read, written};
+use super::newton_matrix;
 use super::sums::trapezoid;
-use super::{
-    Accepted, Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, no_memory, refuses, takes,
-};
+use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, no_memory, refuses, takes};
 use crate::error::{Error, Result};
 use crate::formulation::StepError;
 use crate::method_spec::OptionDoc;
@@ -92,7 +91,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
 struct Memory {
     control: Control,
     motion: motion::Memory,
-    newton: newton::Memory,
+    newton: newton_matrix::Memory,
 }
 
 struct GeneralizedAlpha {
@@ -105,10 +104,11 @@ struct GeneralizedAlpha {
 
 impl GeneralizedAlpha {
     /// Root mean square of the errors of q and xi in units of the tolerance; above one where a rotation is too large.
-    fn error(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, to: &[f64]) -> f64 {
+    fn error(&mut self, problem: &Problem, from: From, to: &[f64]) -> f64 {
+        let From { h, tolerance, .. } = from;
         let (q, v) = problem.split(to);
         let n = problem.dynamics.system.dimensions();
-        problem.dynamics.system.rate(q, self.motion.local_error(problem, from, h), &mut self.error);
+        problem.dynamics.system.rate(q, self.motion.local_error(problem, from), &mut self.error);
         let sum = tolerance.squares(q.len(), from.y, q, &self.error);
         let of_state = |i: usize| self.motion.state_error(i, h) / tolerance.weight(from.y[q.len() + i], v[i]);
         let of_states: f64 = (n.moving()..n.v).map(|i| of_state(i).powi(2)).sum();
@@ -122,27 +122,20 @@ impl Integrator for GeneralizedAlpha {
         &mut self.control
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
-        self.motion.begin(problem, from, h, to)?;
-        let mut found = self.newton.converge(problem, &mut self.motion, from, h, to);
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        self.motion.begin(problem, from, to)?;
+        let mut found = self.newton.converge(problem, &mut self.motion, from, to);
         let is_first_guess = self.newton.is_stale || self.motion.is_extrapolated();
         if is_first_guess && found.as_ref().is_err_and(|halt| !halt.is_fatal()) {
-            self.newton.restart();
+            self.newton.matrix.forget();
             self.motion.forget_past();
-            self.motion.begin(problem, from, h, to)?;
-            found = self.newton.converge(problem, &mut self.motion, from, h, to);
+            self.motion.begin(problem, from, to)?;
+            found = self.newton.converge(problem, &mut self.motion, from, to);
         }
         found?;
         // Uses the powers at the new state as computed, since the work needs order 2 only.
-        trapezoid(from, h, self.newton.powers(), to);
-        Ok(Some(self.error(problem, tolerance, from, h, to)))
+        trapezoid(from, self.newton.powers(), to);
+        Ok(Some(self.error(problem, from, to)))
     }
 
     fn accepted(&mut self, step: &Accepted) -> f64 {
@@ -153,19 +146,19 @@ impl Integrator for GeneralizedAlpha {
 
     fn memory(&self) -> Option<Value> {
         let GeneralizedAlpha { control, motion, newton, .. } = self;
-        written(Memory { control: *control, motion: motion.memory(), newton: newton.memory() })
+        written(Memory { control: *control, motion: motion.memory(), newton: newton.matrix.memory() })
     }
 
     fn recall(&mut self, memory: &Value) {
         if let Some(Memory { control, motion, newton }) = read(memory) {
             self.control = control;
             self.motion.recall(&motion);
-            self.newton.recall(newton);
+            self.newton.matrix.recall(newton);
         }
     }
 
     fn restart(&mut self) {
         self.motion.restart();
-        self.newton.restart();
+        self.newton.matrix.forget();
     }
 }

@@ -104,9 +104,10 @@ impl Motion {
 
     /// Prepares a step of size `h` from the step before (or from the start), predicts its end, and discards one tried
     /// before from here. `ahead` is scratch.
-    pub fn begin(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), StepError> {
+    pub fn begin(&mut self, problem: &mut Problem, from: From, ahead: &mut [f64]) -> Result<(), StepError> {
+        let h = from.h;
         if !self.is_started {
-            self.start(problem, from, h, ahead)?;
+            self.start(problem, from, ahead)?;
         }
         self.end.h = h;
         let Carried { a, vdot, h: own, .. } = &self.start;
@@ -115,12 +116,13 @@ impl Motion {
         }
         self.prediction.predict(&self.start, h, &mut self.end);
         [&mut self.w, &mut self.u].into_iter().for_each(|shift| shift.fill(0.0));
-        self.predict(problem, from, h);
+        self.predict(problem, from);
         Ok(())
     }
 
     /// Sets a = v'(t + (alpha_m - alpha_f) h) + O(h^2), which avoids transients of first order in lambda.
-    fn start(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), StepError> {
+    fn start(&mut self, problem: &mut Problem, from: From, ahead: &mut [f64]) -> Result<(), StepError> {
+        let h = from.h;
         let (_, vdot) = problem.split(from.slope);
         self.start.vdot.copy_from_slice(vdot);
         for (i, ahead) in ahead.iter_mut().enumerate() {
@@ -194,7 +196,8 @@ impl Motion {
     /// The leading term of the error of q along the directions of v: `Scheme::error` h^3 v'', and h^3/12 \[v, v'\], by
     /// which rotations about a moving axis differ from that by the integral of v. Source: Magnus, Comm. Pure Appl.
     /// Math. 7 (1954) 649-673.
-    pub fn local_error(&mut self, problem: &Problem, from: From, h: f64) -> &[f64] {
+    pub fn local_error(&mut self, problem: &Problem, from: From) -> &[f64] {
+        let h = from.h;
         let factor = self.scheme.error() * h * h;
         problem.dynamics.system.bracket(problem.split(from.y).1, &self.start.vdot, &mut self.change);
         for (i, error) in self.change.iter_mut().enumerate() {
@@ -233,7 +236,8 @@ impl Motion {
         }
     }
 
-    fn predict(&mut self, problem: &Problem, from: From, h: f64) {
+    fn predict(&mut self, problem: &Problem, from: From) {
+        let h = from.h;
         self.set_end();
         self.a_predicted.copy_from_slice(&self.end.a);
         let ((q0, v0), beta) = (problem.split(from.y), self.scheme.beta);
@@ -247,7 +251,8 @@ impl Motion {
     }
 
     /// a_1, v_1 and q_1 for the present v'_1 and shifts.
-    pub fn advance(&mut self, problem: &Problem, from: From, h: f64, to: &mut [f64]) {
+    pub fn advance(&mut self, problem: &Problem, from: From, to: &mut [f64]) {
+        let h = from.h;
         self.set_end();
         let (q0, v0) = problem.split(from.y);
         let (q, v) = problem.split_mut(to);

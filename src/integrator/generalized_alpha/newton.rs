@@ -1,18 +1,17 @@
 //! Newton's method for the state at the end of a step.
 
-use super::super::newton_matrix::{self, Factors, NewtonMatrix, Size};
+use super::super::newton_matrix::{Factors, NewtonMatrix, Size};
 use super::super::{From, Problem};
 use super::motion::{Motion, Scheme};
 use crate::formulation::{Dae, Dynamics, Iteration, Linearized, Residual, Slopes, StepError};
 use crate::math::kkt::Singular;
 use crate::math::largest;
-use crate::math::newton::{Limits, Monitor};
+use crate::math::newton::Limits;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
-use serde::{Deserialize, Serialize};
 
 /// The matrix for v'_1.
-struct Matrix {
+pub(super) struct Matrix {
     scheme: Scheme,
     iteration: Iteration<f64>,
 }
@@ -35,13 +34,6 @@ impl Factors for Matrix {
     }
 }
 
-/// Contraction of the iteration, and the matrix if it is kept, for [`Newton::recall`].
-#[derive(Serialize, Deserialize)]
-pub(super) struct Memory {
-    monitor: [f64; 2],
-    matrix: Option<newton_matrix::Memory>,
-}
-
 /// Limits on changes over their stagnation tolerance.
 fn limits(is_fixed: bool) -> Limits {
     Limits {
@@ -58,9 +50,8 @@ fn limits(is_fixed: bool) -> Limits {
 pub(super) struct Newton {
     dae: Dae,
     limits: Limits,
-    matrix: NewtonMatrix<Matrix>,
+    pub matrix: NewtonMatrix<Matrix>,
     residual: Residual,
-    monitor: Monitor,
     /// True if the last iteration began with the matrix of one before.
     pub is_stale: bool,
     /// True if the start of the step is near a singular state.
@@ -76,7 +67,6 @@ impl Newton {
             limits: limits(is_fixed),
             matrix: NewtonMatrix::new(dae, system, matrix),
             residual: Residual::new(system.dimensions()),
-            monitor: Monitor::default(),
             is_stale: false,
             is_nearly_singular: false,
         })
@@ -86,26 +76,11 @@ impl Newton {
     /// too. Near singular states round-off is divided by the rank indicator of the matrix, and one of a step before is
     /// kept.
     pub fn accepted(&mut self) {
-        let of_round_off = if self.monitor.has_stagnated { tolerances::CORRECTIONS_OF_ROUND_OFF } else { 0 };
-        let is_short = self.monitor.iterations <= tolerances::CORRECTIONS_WITH_OLD_MATRIX + of_round_off;
+        let monitor = &self.matrix.monitor;
+        let of_round_off = if monitor.has_stagnated { tolerances::CORRECTIONS_OF_ROUND_OFF } else { 0 };
+        let is_short = monitor.iterations <= tolerances::CORRECTIONS_WITH_OLD_MATRIX + of_round_off;
         let is_economical = is_short || self.matrix.is_fresh || self.is_nearly_singular;
-        self.matrix.pass_on(self.monitor.keeps_matrix() && is_economical);
-    }
-
-    /// Discards the matrix where the equations change their form.
-    pub fn restart(&mut self) {
-        self.matrix.forget();
-    }
-
-    /// The values that steps pass on.
-    pub fn memory(&self) -> Memory {
-        Memory { monitor: self.monitor.memory(), matrix: self.matrix.memory() }
-    }
-
-    /// Restores a [`memory`](Self::memory) at the next step.
-    pub fn recall(&mut self, Memory { monitor, matrix }: Memory) {
-        self.monitor.recall(monitor);
-        self.matrix.recall(matrix);
+        self.matrix.pass_on(self.matrix.monitor.keeps_matrix() && is_economical);
     }
 
     /// Power of the forces without a potential and of moving constraints at the end, W.
@@ -119,22 +94,22 @@ impl Newton {
         problem: &mut Problem,
         motion: &mut Motion,
         from: From,
-        h: f64,
         to: &mut [f64],
     ) -> Result<(), StepError> {
+        let h = from.h;
         self.matrix.renew(problem, from)?;
         self.matrix.pass_on(true);
         self.is_stale = self.matrix.serves(&problem.dynamics);
         let kkt = &problem.dynamics.kkt;
         self.is_nearly_singular =
             kkt.is_factored() && kkt.rank_indicator() < tolerances::NEARLY_SINGULAR * kkt.rank_reference;
-        let mut monitor = std::mem::take(&mut self.monitor);
+        let mut monitor = std::mem::take(&mut self.matrix.monitor);
         let converged = monitor.solve(self.limits, |renews| {
-            motion.advance(problem, from, h, to);
+            motion.advance(problem, from, to);
             if renews {
                 self.matrix.forget();
             }
-            self.evaluate(problem, motion, (from, h), to)?;
+            self.evaluate(problem, motion, from, to)?;
             let NewtonMatrix { at, factors: Matrix { iteration, .. }, .. } = &mut self.matrix;
             iteration.load(std::iter::once((1.0, &self.residual)));
             iteration.solve(at, &problem.dynamics.structure)?;
@@ -146,24 +121,20 @@ impl Newton {
             let [small, small_state] = self.small(problem, motion, h, to);
             Ok::<_, StepError>(change / small + of_states / small_state)
         });
-        self.monitor = monitor;
+        let has_stagnated = monitor.has_stagnated;
+        self.matrix.monitor = monitor;
         if !converged? {
             self.matrix.forget();
             return Err(StepError::NotConverged);
         }
-        problem.dynamics.statistics.stagnated += u64::from(self.monitor.has_stagnated);
-        motion.advance(problem, from, h, to);
+        problem.dynamics.statistics.stagnated += u64::from(has_stagnated);
+        motion.advance(problem, from, to);
         Ok(())
     }
 
     /// The residual at q_1, v_1, and the matrix if there is none for this step.
-    fn evaluate(
-        &mut self,
-        problem: &mut Problem,
-        motion: &Motion,
-        (from, h): (From, f64),
-        to: &[f64],
-    ) -> Result<(), StepError> {
+    fn evaluate(&mut self, problem: &mut Problem, motion: &Motion, from: From, to: &[f64]) -> Result<(), StepError> {
+        let h = from.h;
         let ((q, v), t) = (problem.split(to), from.t + h);
         let vdot = &motion.end.vdot;
         let lambda = &motion.end.lambda;
@@ -178,7 +149,7 @@ impl Newton {
             dynamics.statistics.rhs_evaluations += 1;
             self.residual.of_terms(&self.dae, motion.unknowns(), dynamics);
         }
-        self.matrix.factor(problem, (from, h), Size { h, method: 0 })
+        self.matrix.factor(problem, from, Size { h, method: 0 })
     }
 
     /// Size up to which changes of v'_1 count as zero where phi = 0 alone is solved: they move q by less than the

@@ -9,7 +9,7 @@ mod system;
 mod velocity;
 
 use super::memory::{fill, read, written};
-use super::newton_matrix::{self, Factors, NewtonMatrix, Size};
+use super::newton_matrix::{self, Factors, NewtonMatrix, Saved, Size};
 use super::sums::accumulate;
 use super::{
     Accepted, Control, Dense, Entry, From, Integrator, Problem, Setup, Step, Steps, Tightening, Tolerance, refuses,
@@ -81,7 +81,6 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         stages: Stages::new(most, setup.system, setup.len(), &dae),
         row: Stages::new(most, setup.system, setup.len(), &dae),
         tolerance: Tolerance::new(1.0, 1.0, setup.system),
-        newton: Monitor::default(),
         before: Unknowns::new(most, n, &dae),
         tried: None,
         accepted: None,
@@ -107,7 +106,6 @@ struct RadauIIA {
     row_matrices: Matrices,
     row: Stages,
     tolerance: Tolerance,
-    newton: Monitor,
     /// The last attempt.
     tried: Option<Tried>,
     /// The last accepted step and its stages, whose polynomials predict those of the next.
@@ -129,33 +127,33 @@ struct RadauIIA {
 #[derive(Serialize, Deserialize)]
 struct Memory {
     choice: Choice,
-    newton: [f64; 2],
     /// The last accepted step, with a, lambda, w and u of its stages.
     accepted: Option<Size>,
     stages: [Vec<Vec<f64>>; 4],
-    matrix: Option<newton_matrix::Memory>,
+    matrix: newton_matrix::Memory,
 }
 
 #[derive(Clone, Copy)]
 struct Tried {
     size: Size,
     /// Memory of Newton's method before it: a step that a saved run takes again begins with that.
-    newton: [f64; 2],
+    monitor: [f64; 2],
 }
 
 impl RadauIIA {
     /// M, G, K and C at the middle stage as it is predicted: stiff directions that turn with the motion, as those of
     /// beams do, are off by half as much at the other stages as they would be from the start. At the start where there
     /// is no prediction, or where a cut step before makes it a far one.
-    fn linearize(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), StepError> {
+    fn linearize(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
+        let h = from.h;
         let is_near = |step: Size| h <= tolerances::RADAU_GROWTH * step.h;
         if self.accepted.is_some_and(is_near) {
-            self.predict(problem, from, h);
+            self.predict(problem, from);
             let RadauIIA { order, stages, matrix, .. } = self;
             let method = order.method();
             let middle = order.method().stages() / 2;
             stages.reset(from);
-            stages.advance(problem, method, from, h);
+            stages.advance(problem, method, from);
             let (q, v) = problem.split(&stages.y[middle]);
             let (vdot, lambda) = (&stages.unknowns.a[middle][..], &stages.unknowns.lambda[middle][..]);
             let t = from.t + method.nodes[middle] * h;
@@ -173,11 +171,11 @@ impl RadauIIA {
     }
 
     /// First guess of the accelerations and lambda: constant at the first step, else extrapolated from the step before.
-    fn predict(&mut self, problem: &Problem, from: From, h: f64) {
+    fn predict(&mut self, problem: &Problem, from: From) {
         let unknowns = &mut self.stages.unknowns;
         match self.accepted {
             Some(step) => {
-                let ahead = self.order.method().nodes.iter().map(|node| 1.0 + node * h / step.h);
+                let ahead = self.order.method().nodes.iter().map(|node| 1.0 + node * from.h / step.h);
                 unknowns.predict(&self.before, &self.order.methods[step.method], ahead);
             }
             None => unknowns.reset(problem.split(from.slope).1, &self.lambda),
@@ -187,27 +185,28 @@ impl RadauIIA {
 
     /// The middle of a refused step is far from that of a shorter one, unless the matrices hardly change.
     fn keeps_matrix(&self) -> bool {
-        !self.matrix.is_fresh || self.newton.keeps_matrix()
+        !self.matrix.is_fresh || self.matrix.monitor.keeps_matrix()
     }
 
-    /// Solves the equations of all stages for a step `h`, with the present matrices or new ones.
-    fn solve(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<bool, StepError> {
-        self.matrix.factor(problem, (from, h), self.size(h))?;
-        self.predict(problem, from, h);
-        let RadauIIA { dae, order, matrix, stages, newton, is_fixed, tolerance, .. } = self;
-        let NewtonMatrix { at, factors: matrices, .. } = matrix;
+    /// Solves the equations of all stages, with the present matrices or new ones.
+    fn solve(&mut self, problem: &mut Problem, from: From) -> Result<bool, StepError> {
+        self.matrix.factor(problem, from, self.size(from.h))?;
+        self.predict(problem, from);
+        let RadauIIA { dae, order, matrix, stages, is_fixed, .. } = self;
+        let NewtonMatrix { at, factors: matrices, monitor, .. } = matrix;
         let mut collocation = System { dae, method: order.method(), at, matrices, stages, is_fixed: *is_fixed };
-        collocation.solve(newton, problem, tolerance, from, h)
+        collocation.solve(monitor, problem, from)
     }
 
     /// An error estimate h (gamma y'_0 + sum d_i Y'_i), damped along the stiff directions, over the tolerated errors.
     fn estimate(
         &mut self,
         problem: &Problem,
-        tolerance: &Tolerance,
-        (from, h, to): (From, f64, &[f64]),
+        from: From,
+        to: &[f64],
         weights: impl Fn(&Collocation) -> &[f64],
     ) -> Result<f64, StepError> {
+        let h = from.h;
         let method = self.order.method();
         let d = weights(method);
         let (x, v) = (&mut self.error_x, &mut self.error_v);
@@ -225,7 +224,7 @@ impl RadauIIA {
         let (dq, dv) = self.error.split_at_mut(nq);
         problem.dynamics.system.rate(q0, x, dq);
         dv[..v.len()].copy_from_slice(v);
-        Ok(tolerance.norm_between(from.y, to, &self.error))
+        Ok(from.tolerance.norm_between(from.y, to, &self.error))
     }
 }
 
@@ -234,59 +233,53 @@ impl Integrator for RadauIIA {
         &mut self.order.choice.control
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
-        self.tried = Some(Tried { size: self.size(h), newton: self.newton.memory() });
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        self.tried = Some(Tried { size: self.size(from.h), monitor: self.matrix.monitor.memory() });
         self.tolerance = if self.is_fixed {
             Tolerance::exact(problem.split(from.y).0, problem.dynamics.system)
         } else {
-            internal(tolerance, self.order.method().stages())
+            internal(from.tolerance, self.order.method().stages())
         };
+        let tolerance = self.tolerance;
+        let from = From { tolerance: &tolerance, ..from };
         if !std::mem::replace(&mut self.is_begun, true) {
             self.lambda.copy_from_slice(&problem.dynamics.lambda);
         }
         self.matrix.renew(problem, from)?;
         self.matrix.pass_on(self.keeps_matrix());
         if !self.matrix.serves(&problem.dynamics) {
-            self.linearize(problem, from, h)?;
+            self.linearize(problem, from)?;
         }
-        let mut solved = self.solve(problem, from, h);
+        let mut solved = self.solve(problem, from);
         let is_solved = |solved: &std::result::Result<bool, StepError>| {
             solved.as_ref().map_or_else(StepError::is_fatal, |converged| *converged)
         };
         if !self.matrix.is_fresh && !is_solved(&solved) {
-            self.newton.reset();
-            self.linearize(problem, from, h)?;
-            solved = self.solve(problem, from, h);
+            self.matrix.monitor.reset();
+            self.linearize(problem, from)?;
+            solved = self.solve(problem, from);
         }
         if !is_solved(&solved) {
-            self.order.retry(&self.newton, solved.is_ok(), self.stages.turned());
+            self.order.retry(&self.matrix.monitor, solved.is_ok(), self.stages.turned());
         }
         if !solved? {
             return Err(StepError::NotConverged);
         }
         let s = self.order.method().stages();
-        self.order.limit(&self.newton, most(s, self.is_fixed), self.stages.turned());
+        self.order.limit(&self.matrix.monitor, most(s, self.is_fixed), self.stages.turned());
         to.copy_from_slice(&self.stages.y[s - 1]);
-        let tolerance = self.tolerance;
-        let allowed = self.stages.allowed(&self.dae, (problem, &tolerance), from, h);
-        let error = self.estimate(problem, &tolerance, (from, h, to), |method| &method.error)? / allowed;
+        let allowed = self.stages.allowed(&self.dae, problem, from);
+        let error = self.estimate(problem, from, to, |method| &method.error)? / allowed;
         let lower = match self.order.methods.len() {
             1 => 0.0,
-            _ => self.estimate(problem, &tolerance, (from, h, to), |method| &method.lower_error)? / allowed,
+            _ => self.estimate(problem, from, to, |method| &method.lower_error)? / allowed,
         };
-        let is_round_off = error <= 1.0 && error * allowed > 1.0 && !self.newton.has_stagnated;
+        let is_round_off = error <= 1.0 && error * allowed > 1.0 && !self.matrix.monitor.has_stagnated;
         problem.dynamics.statistics.stagnated += u64::from(is_round_off);
-        self.seen = Seen { error, lower, theta: self.newton.rate };
+        self.seen = Seen { error, lower, theta: self.matrix.monitor.rate };
         if self.dae.velocity_index() == 2 && (self.is_fixed || error <= 1.0) {
-            velocity::project(problem, from.t + h, to)?;
-            problem.derivative_at_velocity(from.t + h, to, &mut self.slope)?;
+            velocity::project(problem, from.t + from.h, to)?;
+            problem.derivative_at_velocity(from.t + from.h, to, &mut self.slope)?;
         }
         Ok(Some(error))
     }
@@ -298,7 +291,7 @@ impl Integrator for RadauIIA {
         std::mem::swap(&mut self.before, &mut self.stages.unknowns);
         self.accepted = Some(tried.size);
         self.is_begun = false;
-        self.matrix.pass_on(self.newton.keeps_matrix());
+        self.matrix.pass_on(self.matrix.monitor.keeps_matrix());
         self.order.accepted(step.tolerance, &self.seen);
         next
     }
@@ -315,24 +308,26 @@ impl Integrator for RadauIIA {
     fn memory(&self) -> Option<Value> {
         let stages = self.order.methods[self.accepted.map_or(0, |step| step.method)].stages();
         let Unknowns { a, lambda, w, u, .. } = &self.before;
+        let newton_matrix::Memory { monitor, matrix } = self.matrix.memory();
+        let monitor = self.tried.map_or(monitor, |tried| tried.monitor);
         // Matrices of a refused attempt serve on where they hardly change.
-        let matrix = self.matrix.memory().filter(|_| self.keeps_matrix());
+        let matrix = matrix.filter(|_| self.keeps_matrix()).map(|saved| Saved { is_fresh: false, ..saved });
         written(Memory {
             choice: self.order.choice,
-            newton: self.tried.map_or_else(|| self.newton.memory(), |tried| tried.newton),
             accepted: self.accepted,
             stages: [a, lambda, w, u].map(|rows| rows[..stages].to_vec()),
-            matrix: matrix.map(newton_matrix::Memory::aged),
+            matrix: newton_matrix::Memory { monitor, matrix },
         })
     }
 
     fn recall(&mut self, memory: &Value) {
-        let Some(Memory { choice, newton, accepted, stages, matrix }) = read(memory) else { return };
+        let Some(Memory { choice, accepted, stages, matrix }) = read(memory) else { return };
+        let newton_matrix::Memory { monitor, matrix } = matrix;
         let exists = |step: &Size| step.method < self.order.methods.len();
         self.accepted = accepted.filter(exists);
-        self.matrix.recall(matrix.filter(|matrix| exists(&matrix.size)));
+        let matrix = matrix.filter(|saved| exists(&saved.size));
+        self.matrix.recall(newton_matrix::Memory { monitor, matrix });
         self.order.recall(choice);
-        self.newton.recall(newton);
         let Unknowns { a, lambda, w, u, .. } = &mut self.before;
         for (rows, saved) in [a, lambda, w, u].into_iter().zip(&stages) {
             rows.iter_mut().zip(saved).for_each(|(row, saved)| fill(row, saved));
@@ -350,33 +345,25 @@ impl Dense for RadauIIA {
     fn interpolate(
         &mut self,
         problem: &mut Problem,
-        Step { from, h, .. }: Step,
+        Step { from, .. }: Step,
         theta: f64,
         out: &mut [f64],
     ) -> Result<(), StepError> {
-        let RadauIIA {
-            dae,
-            order,
-            matrix: NewtonMatrix { at, .. },
-            row_matrices,
-            stages,
-            row,
-            tolerance,
-            is_fixed,
-            ..
-        } = self;
+        let size = self.size(theta * from.h);
+        let RadauIIA { dae, order, matrix, row_matrices, stages, row, tolerance, is_fixed, .. } = self;
+        let at = &mut matrix.at;
         let method = order.method();
-        let h = theta * h;
-        row_matrices.factor(Size { h, method: order.current() }, at, &mut problem.dynamics)?;
+        let from = From { h: size.h, tolerance, ..from };
+        row_matrices.factor(size, at, &mut problem.dynamics)?;
         row.unknowns.predict(&stages.unknowns, method, method.nodes.iter().map(|node| theta * node));
         row_matrices.leave_out(&mut row.unknowns);
         let mut system = System { dae, method, at, matrices: row_matrices, stages: row, is_fixed: *is_fixed };
-        match system.solve(&mut Monitor::default(), problem, tolerance, from, h) {
+        match system.solve(&mut Monitor::default(), problem, from) {
             Ok(true) => out.copy_from_slice(&row.y[method.stages() - 1]),
             _ => stages.interpolate(method, from, theta, out),
         }
         match dae.velocity_index() {
-            2 => velocity::project(problem, from.t + h, out),
+            2 => velocity::project(problem, from.t + from.h, out),
             _ => Ok(()),
         }
     }
