@@ -117,12 +117,11 @@ impl Linearized {
             return Ok(());
         }
         self.weighed = None;
-        let asked = s;
-        let s = if self.dae.eta.is_none() { s } else { 0.0 };
-        self.metric.take(s, &self.mass, (&dynamics.structure.tangent, &self.tangent.k));
+        let stiffening = if self.dae.eta.is_none() { s } else { 0.0 };
+        self.metric.take(stiffening, &self.mass, (&dynamics.structure.tangent, &self.tangent.k));
         dynamics.statistics.factorizations += 1;
         shifts.factor(&self.metric.values, &self.g)?;
-        self.weighed = Some(asked);
+        self.weighed = Some(s);
         Ok(())
     }
 }

@@ -25,9 +25,9 @@ impl Run<'_> {
         for _ in 0..tolerances::CUTS {
             let own = passage.filter(|_| self.entry.begins_anew);
             let Some(Passage::Within(theta)) = own else { break };
-            let end_of = self.end_of(*h, *end);
+            let step_end = self.end_of(*h, *end);
             let from =
-                From { t: self.t, y: &self.y, slope: &self.slope, h: *h, end: end_of, tolerance: &self.tolerance };
+                From { t: self.t, y: &self.y, slope: &self.slope, h: *h, end: step_end, tolerance: &self.tolerance };
             let step = Step { from, to: &self.next, slope: &self.next_slope };
             self.integrator.interpolate(&mut self.rows.problem, step, theta, &mut self.change)?;
             self.next.copy_from_slice(&self.change);

@@ -361,7 +361,8 @@ impl<'a> Run<'a> {
         Ok(false)
     }
 
-    /// Tells the method that its step is accepted, and takes the size of the next one. One that was cut to end at a given time does not reduce the size before it.
+    /// Tells the method that its step is accepted, and takes the size of the next one. A step that was cut to end at a
+    /// given time does not reduce the size before it.
     fn propose(&mut self, size: f64, error: Option<f64>, is_cut: bool) -> Result<(), Failure> {
         let Run { growing, is_moved, .. } = *self;
         let step = Accepted { h: size, error, growing, is_moved, tolerance: &self.tolerance };
