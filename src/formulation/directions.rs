@@ -1,6 +1,7 @@
 //! Basis of the directions in which a mechanism is free to move, for matrices of a few hundred rows.
 
 use super::Dynamics;
+use super::linearized::write_diagonal;
 use crate::math::dot;
 use crate::math::kkt::Pattern;
 use crate::system::Dimensions;
@@ -63,9 +64,7 @@ fn is_identity(gram: &DMatrix<f64>) -> bool {
 
 fn diagonal(dynamics: &Dynamics) -> Vec<f64> {
     let mut diagonal = vec![0.0; dynamics.vdot.len()];
-    for (&(i, j), mass) in dynamics.structure.mass.entries.iter().zip(&dynamics.terms.mass) {
-        diagonal[i] += if i == j { *mass } else { 0.0 };
-    }
+    write_diagonal(&dynamics.structure.mass, &dynamics.terms.mass, &mut diagonal);
     diagonal
 }
 

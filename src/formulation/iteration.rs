@@ -23,6 +23,13 @@ pub struct Slopes<T> {
     pub u: T,
 }
 
+impl<T: Number> Slopes<T> {
+    /// Those of v = v* + h (a + w), q = q* + h N (v + u).
+    pub fn implicit(h: T) -> Self {
+        Slopes { v: h, q: h * h, w: h, w_q: h * h, u: h }
+    }
+}
+
 /// With q and v eliminated by their slopes s, a change of the unknowns solves
 ///
 /// ```text

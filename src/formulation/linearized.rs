@@ -2,7 +2,8 @@
 
 use super::{Dae, Dynamics, StepError};
 use crate::math::kkt::{Pattern, SaddlePoint, Singular};
-use crate::system::{MechanicalSystem, Need, OperatingPoint, Tangent};
+use crate::system::{Dimensions, MechanicalSystem, Need, OperatingPoint, Tangent};
+use serde::{Deserialize, Serialize};
 
 /// Error of an implicit method on equations without K and C.
 pub const NO_TANGENT: StepError = StepError::Unsuitable {
@@ -19,16 +20,43 @@ pub struct Linearized {
     pub(super) tangent: Tangent,
     pub(super) shifts: Option<SaddlePoint>,
     metric: Metric,
+    /// s for which the metric is factored, and the rows that are dropped from it.
+    weighed: Option<f64>,
     dropped: Vec<usize>,
-    /// t, q, v, v' and lambda of the state; empty before there is one.
-    point: Vec<f64>,
+    /// The state, from which the matrices can be evaluated again.
+    pub point: Point,
+}
+
+/// A state with its accelerations and multipliers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    vdot: Vec<f64>,
+    lambda: Vec<f64>,
+}
+
+impl Point {
+    /// True if it is one of a system of these dimensions.
+    pub fn fits(&self, n: Dimensions) -> bool {
+        [&self.q, &self.v, &self.vdot, &self.lambda].map(Vec::len) == [n.q, n.v, n.v, n.lambda]
+    }
+
+    /// The same by reference.
+    pub fn borrowed(&self) -> OperatingPoint<'_> {
+        let Point { t, q, v, vdot, lambda } = self;
+        OperatingPoint { t: *t, q, v, vdot, lambda }
+    }
 }
 
 impl Linearized {
     /// Memory for the Jacobian of `dae` on a system.
     pub fn new(dae: Dae, system: &dyn MechanicalSystem) -> Self {
         let structure = system.structure();
+        let n = system.dimensions();
         let zeros = |pattern: &Pattern| vec![0.0; pattern.entries.len()];
+        let [q, v, vdot, lambda] = [n.q, n.v, n.v, n.lambda].map(|n| vec![0.0; n]);
         let metric = Metric::new(system);
         let shifts = dae.has_shifts().then(|| SaddlePoint::new(&metric.pattern, &structure.g));
         Linearized {
@@ -39,34 +67,10 @@ impl Linearized {
             tangent: Tangent::new(&structure.tangent),
             shifts,
             metric,
+            weighed: None,
             dropped: Vec::new(),
-            point: Vec::with_capacity(
-                1 + system.dimensions().q + 2 * system.dimensions().v + system.dimensions().lambda,
-            ),
+            point: Point { t: 0.0, q, v, vdot, lambda },
         }
-    }
-
-    /// t, q, v, v' and lambda of the state, from which [`recall`](Self::recall) evaluates the matrices again.
-    pub fn point(&self) -> &[f64] {
-        &self.point
-    }
-
-    /// Evaluates the matrices at the state of a [`point`](Self::point) without counting the work.
-    ///
-    /// # Errors
-    /// As [`update`](Self::update).
-    pub fn recall(&mut self, point: &[f64], dynamics: &mut Dynamics) -> Result<(), StepError> {
-        let n = dynamics.system.dimensions();
-        let counted = dynamics.statistics;
-        let Some((&t, rest)) = point.split_first().filter(|(_, rest)| rest.len() == n.q + 2 * n.v + n.lambda) else {
-            return Ok(());
-        };
-        let (q, rest) = rest.split_at(n.q);
-        let (v, rest) = rest.split_at(n.v);
-        let (vdot, lambda) = rest.split_at(n.v);
-        self.update(OperatingPoint { t, q, v, vdot, lambda }, dynamics)?;
-        dynamics.statistics = counted;
-        Ok(())
     }
 
     /// Evaluates the matrices at a state. One evaluation of K and C.
@@ -84,9 +88,13 @@ impl Linearized {
         self.mass.copy_from_slice(&terms.mass);
         self.g.copy_from_slice(&terms.g);
         self.l.copy_from_slice(&terms.l);
-        self.point.clear();
-        self.point.push(at.t);
-        [at.q, at.v, at.vdot, at.lambda].into_iter().for_each(|values| self.point.extend_from_slice(values));
+        self.weighed = None;
+        let Point { t, q, v, vdot, lambda } = &mut self.point;
+        *t = at.t;
+        q.copy_from_slice(at.q);
+        v.copy_from_slice(at.v);
+        vdot.copy_from_slice(at.vdot);
+        lambda.copy_from_slice(at.lambda);
         Ok(())
     }
 
@@ -96,7 +104,7 @@ impl Linearized {
     }
 
     /// Sets the metric of the shifts to M + S for a step with s = dq/da; to M where velocities are shifted, too.
-    /// One factorization.
+    /// One factorization, if it is another metric than before.
     ///
     /// # Errors
     /// A singular matrix.
@@ -105,11 +113,16 @@ impl Linearized {
         if self.dropped != dynamics.dropped {
             shifts.drop_rows(&dynamics.dropped);
             self.dropped.clone_from(&dynamics.dropped);
+        } else if self.weighed == Some(s) {
+            return Ok(());
         }
-        let s = if self.dae.eta.is_none() { s } else { 0.0 };
-        self.metric.take(s, &self.mass, (&dynamics.structure.tangent, &self.tangent.k));
+        self.weighed = None;
+        let stiffening = if self.dae.eta.is_none() { s } else { 0.0 };
+        self.metric.take(stiffening, &self.mass, (&dynamics.structure.tangent, &self.tangent.k));
         dynamics.statistics.factorizations += 1;
-        shifts.factor(&self.metric.values, &self.g)
+        shifts.factor(&self.metric.values, &self.g)?;
+        self.weighed = Some(s);
+        Ok(())
     }
 }
 
@@ -143,8 +156,8 @@ impl Metric {
 
     fn take(&mut self, s: f64, mass: &[f64], (tangent, k): (&Pattern, &[f64])) {
         let Metric { pattern, values, diagonal, moving, masses, stiffness } = self;
-        diagonal_of(pattern, mass, masses);
-        diagonal_of(tangent, k, stiffness);
+        write_diagonal(pattern, mass, masses);
+        write_diagonal(tangent, k, stiffness);
         for (i, (stiffness, mass)) in stiffness.iter_mut().zip(masses).enumerate() {
             let is_stiff = i < *moving && *mass > 0.0 && s * *stiffness > *mass;
             *stiffness = if is_stiff { s * *stiffness } else { 0.0 };
@@ -154,9 +167,9 @@ impl Metric {
     }
 }
 
-/// The diagonal of a matrix.
-fn diagonal_of(pattern: &Pattern, values: &[f64], sums: &mut [f64]) {
-    sums.fill(0.0);
-    let diagonal = pattern.entries.iter().zip(values).filter(|((i, j), _)| i == j);
-    diagonal.for_each(|(&(i, _), value)| sums[i] += value);
+/// Writes the diagonal of a matrix.
+pub fn write_diagonal(pattern: &Pattern, values: &[f64], diagonal: &mut [f64]) {
+    diagonal.fill(0.0);
+    let entries = pattern.entries.iter().zip(values).filter(|((i, j), _)| i == j);
+    entries.for_each(|(&(i, _), value)| diagonal[i] += value);
 }

@@ -9,6 +9,7 @@ mod dae;
 mod dense;
 mod directions;
 mod dynamics;
+mod exponential_map;
 mod force_projection;
 mod ggl;
 mod index1;
@@ -23,19 +24,21 @@ mod residual;
 mod stabilized_index1;
 mod stabilizer;
 mod statistics;
-mod turn;
 mod udwadia_kalaba;
 
-#[doc(hidden)]
 use crate::method_spec::{MethodSpec, OptionDoc};
 pub use dae::{Dae, Row};
 #[doc(hidden)]
 pub use directions::{degrees_of_freedom, free_directions, reduce};
 pub use dynamics::{Dynamics, StepError};
 #[doc(hidden)]
-pub use iteration::{Change, Iteration, Number, Slopes};
+pub use exponential_map::ExponentialMap;
+pub(crate) use exponential_map::rotate;
 #[doc(hidden)]
-pub use linearized::{Linearized, NO_TANGENT};
+pub use iteration::{Change, Iteration, Number, Slopes};
+pub(crate) use linearized::write_diagonal;
+#[doc(hidden)]
+pub use linearized::{Linearized, NO_TANGENT, Point};
 #[doc(hidden)]
 pub(crate) use penalty::softer;
 pub use penalty::{OMEGA, PENALTY, XI, mean_compliance};
@@ -45,8 +48,6 @@ pub use residual::Unknowns;
 #[doc(hidden)]
 pub use stabilizer::{Stabilizer, StabilizingField};
 pub use statistics::{Statistics, Work};
-#[doc(hidden)]
-pub use turn::ExponentialMap;
 
 use crate::error::Result;
 use crate::method_spec::Listed;

@@ -1,5 +1,6 @@
 //! Penalty on the constraints, with or without updates of the multipliers.
 
+use super::linearized::write_diagonal;
 use super::{Dynamics, Entry, Formulation, StepError};
 use crate::error::Result;
 use crate::math::kkt::{Pattern, SaddlePoint};
@@ -155,9 +156,7 @@ impl Formulation for Penalty {
 pub fn mean_compliance(structure: &Structure, terms: &Terms) -> f64 {
     let Pattern { rows, cols, entries } = &*structure.g;
     let mut diagonal = vec![0.0; *cols];
-    for (&(i, _), mass) in structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j) {
-        diagonal[i] += mass;
-    }
+    write_diagonal(&structure.mass, &terms.mass, &mut diagonal);
     let massive = entries.iter().zip(&terms.g).filter(|((_, i), _)| diagonal[*i] > 0.0);
     let trace: f64 = massive.map(|((_, i), g)| g * g / diagonal[*i]).sum();
     if trace > 0.0 { trace / *rows as f64 } else { 1.0 }

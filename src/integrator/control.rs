@@ -1,10 +1,11 @@
 //! Step sizes: the norm of the error and the controller.
 
-use super::Problem;
+use super::{Accepted, Problem};
 use crate::formulation::StepError;
 use crate::math::largest;
 use crate::system::{Dimensions, MechanicalSystem};
 use crate::tolerances::integrator as tolerances;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Tolerated local error of component y: atol + rtol |y|, with one atol for metres, radians and their rates, and y
@@ -136,8 +137,10 @@ impl Tightening {
 /// do not swing the steps, of which many would be refused. Source: on the gain, Soederlind, ACM TOMS 29 (2003) 1-26.
 /// Predictive, for implicit methods: the whole gain, but not more than h_new = h safety (h/h_old)
 /// (err_old/err^2)^expo. Source: Hairer, Wanner II, IV.8 (8.25), after Gustafsson.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Control {
+    /// Order of the solution at a start, by which a first step is chosen.
+    pub order: usize,
     /// expo, on the error of the step.
     pub exponent: f64,
     /// Least h_new/h.
@@ -148,13 +151,18 @@ pub struct Control {
     pub safety: f64,
     /// h_new/h after a step that failed without an error.
     pub retry: f64,
+    /// The longest part of a step between two evaluations of the equations.
+    pub spacing: f64,
+    /// Fraction of a step at the middle of the widest gap between the points at which the equations are evaluated off
+    /// the constraints; `None` for a method without such points, or one that needs steps of equal size.
+    pub gap: Option<f64>,
     gain: Gain,
     /// Size and error of the last accepted step, for the controls that know it.
     before: Option<(f64, f64)>,
 }
 
 /// How the next step follows from the error of one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 enum Gain {
     /// By half the gain near the tolerated error.
     Half,
@@ -167,7 +175,18 @@ enum Gain {
 impl Control {
     /// The exponent is 1/order, of the solution where the estimate is of one less.
     pub fn new(order: f64, shrink: f64, grow: f64) -> Self {
-        Control { exponent: 1.0 / order, shrink, grow, safety: 0.9, retry: 0.25, gain: Gain::Half, before: None }
+        Control {
+            order: order as usize,
+            exponent: 1.0 / order,
+            shrink,
+            grow,
+            safety: 0.9,
+            retry: 0.25,
+            spacing: 1.0,
+            gap: None,
+            gain: Gain::Half,
+            before: None,
+        }
     }
 
     /// Predictive control for an error estimate of this order.
@@ -179,6 +198,11 @@ impl Control {
     pub fn proportional(order: f64, beta: f64, shrink: f64, grow: f64) -> Self {
         let control = Control::new(order, shrink, grow);
         Control { exponent: control.exponent - 0.75 * beta, gain: Gain::Proportional(beta), ..control }
+    }
+
+    /// The step after an accepted one, as large where that has no error estimate.
+    pub fn after(&mut self, step: &Accepted) -> f64 {
+        step.error.map_or(step.h, |error| self.accept(step.h, error, step.growing))
     }
 
     /// The next step after one of size `h` with error `error`; `growing` is false right after a rejection.
@@ -203,16 +227,6 @@ impl Control {
         let error = error.max(1e-2);
         let before = self.before.replace((h, error));
         before.map_or(f64::INFINITY, |(size, old)| h / size * (old / (error * error)).powf(self.exponent))
-    }
-
-    /// The values carried from step to step, for [`Self::recall`].
-    pub fn memory(&self) -> Vec<f64> {
-        self.before.map_or_else(Vec::new, |(size, error)| vec![size, error])
-    }
-
-    /// Restores the values of [`Self::memory`].
-    pub fn recall(&mut self, memory: &[f64]) {
-        self.before = memory.first().copied().zip(memory.get(1).copied());
     }
 
     /// The step to try again after the error was too large.

@@ -2,8 +2,10 @@
 
 use super::hermite::Hermite;
 use super::sums::{accumulate, combine};
-use super::{Control, From, Integrator, Problem, Stability, Tolerance};
+use super::{Control, Dense, From, Integrator, Problem, Stability, Step};
 use crate::formulation::StepError;
+use serde_json::Value;
+use std::ops::Range;
 
 /// The constants of an explicit method.
 pub struct Tableau {
@@ -24,6 +26,11 @@ pub struct Tableau {
 }
 
 impl Tableau {
+    /// Stability region of the method.
+    pub fn stability(&self) -> Stability {
+        Stability::of(|i| self.a[i], self.b)
+    }
+
     /// Weights of an embedded error estimate.
     pub fn embedded(&self) -> Option<&'static [f64]> {
         match self.error {
@@ -56,8 +63,6 @@ pub struct Explicit {
     k: Vec<Vec<f64>>,
     /// State of a stage, then scratch.
     stage: Vec<f64>,
-    /// [`widest_gap`] of the nodes.
-    gap: (f64, f64),
     control: Control,
     polynomial: Hermite,
 }
@@ -66,12 +71,15 @@ impl Explicit {
     /// Memory for states of length `len`, see [`Setup::len`](super::Setup::len).
     pub fn new(tableau: &'static Tableau, len: usize) -> Self {
         let zeros = |n: usize| vec![vec![0.0; len]; n];
+        let (spacing, middle) = widest_gap(&tableau.c[..tableau.b.len()]);
+        let mut control = (tableau.control)();
+        control.spacing = spacing;
+        control.gap = Some(middle);
         Explicit {
             tableau,
             k: zeros(tableau.c.len()),
             stage: vec![0.0; len],
-            gap: widest_gap(&tableau.c[..tableau.b.len()]),
-            control: (tableau.control)(),
+            control,
             polynomial: Hermite::new(len, tableau.dense.len()),
         }
     }
@@ -89,13 +97,8 @@ impl Explicit {
     }
 
     /// k_i at the nodes `range`.
-    fn evaluate(
-        &mut self,
-        problem: &mut Problem,
-        range: std::ops::Range<usize>,
-        from: From,
-        h: f64,
-    ) -> Result<(), StepError> {
+    fn evaluate(&mut self, problem: &mut Problem, range: Range<usize>, from: From) -> Result<(), StepError> {
+        let h = from.h;
         for i in range {
             combine(&mut self.stage, from.y, h, self.tableau.a[i], &self.k);
             let t = from.t + self.tableau.c[i] * h;
@@ -104,12 +107,13 @@ impl Explicit {
         Ok(())
     }
 
-    fn error(&mut self, tolerance: &Tolerance, from: &[f64], to: &[f64], h: f64) -> Option<f64> {
+    fn error(&mut self, from: From, to: &[f64]) -> Option<f64> {
+        let From { y, h, tolerance, .. } = from;
         let last = tolerance.motion();
         let mut square = |weights: &[f64]| {
             self.stage.fill(0.0);
             accumulate(&mut self.stage, h, weights, &self.k);
-            tolerance.squares(last, from, to, &self.stage)
+            tolerance.squares(last, y, to, &self.stage)
         };
         let n = tolerance.tested(last);
         match &self.tableau.error {
@@ -134,87 +138,64 @@ pub(super) fn widest_gap(nodes: &[f64]) -> (f64, f64) {
 }
 
 impl Integrator for Explicit {
-    fn order(&self) -> usize {
-        self.tableau.order
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
     }
 
     /// A step knows its start alone.
-    fn memory(&self) -> Option<Vec<f64>> {
-        Some(Vec::new())
+    fn memory(&self) -> Option<Value> {
+        Some(Value::Array(Vec::new()))
     }
 
-    fn stability(&self) -> Option<Stability> {
-        Some(Stability::of(|i| self.tableau.a[i], self.tableau.b))
-    }
-
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.k[0].copy_from_slice(from.slope);
-        self.evaluate(problem, 1..self.stages(), from, h)?;
-        combine(to, from.y, h, self.tableau.b, &self.k);
+        self.evaluate(problem, 1..self.stages(), from)?;
+        combine(to, from.y, from.h, self.tableau.b, &self.k);
         if let Some(end) = self.end_stage() {
             problem.derivative(from.end, to, &mut self.k[end])?;
         }
-        Ok(self.error(tolerance, from.y, to, h))
+        Ok(self.error(from, to))
     }
 
     fn last_slope(&self) -> Option<&[f64]> {
         self.end_stage().map(|end| &self.k[end][..])
     }
 
-    fn lower_order(&self, from: From, h: f64, out: &mut [f64]) -> bool {
+    fn lower_order(&self, from: From, out: &mut [f64]) -> bool {
         let (ErrorEstimate::Embedded(error) | ErrorEstimate::Pair { fifth: error, .. }) = self.tableau.error else {
             return false;
         };
         let solution = self.tableau.b.iter().copied().chain(std::iter::repeat(0.0));
         out.copy_from_slice(from.y);
         for ((b, e), k) in solution.zip(error).zip(&self.k) {
-            out.iter_mut().zip(k).for_each(|(out, k)| *out += h * (b - e) * k);
+            out.iter_mut().zip(k).for_each(|(out, k)| *out += from.h * (b - e) * k);
         }
         true
     }
 
-    fn widest_gap(&self) -> Option<f64> {
-        Some(self.gap.1)
+    fn dense(&mut self) -> Option<&mut dyn Dense> {
+        if self.tableau.dense.is_empty() { None } else { Some(self) }
     }
+}
 
-    fn spacing(&self) -> f64 {
-        self.gap.0
-    }
-
-    /// Cubic Hermite interpolation, raised by the stages of the tableau.
-    fn prepare(
-        &mut self,
-        problem: &mut Problem,
-        from: From,
-        h: f64,
-        to: &[f64],
-        slope: &[f64],
-    ) -> Result<(), StepError> {
+/// Cubic Hermite interpolation, raised by the stages of the tableau.
+impl Dense for Explicit {
+    fn prepare(&mut self, problem: &mut Problem, step: Step) -> Result<(), StepError> {
         let stages = self.stages();
         if self.k.len() > stages {
-            self.k[stages].copy_from_slice(slope);
-            self.evaluate(problem, stages + 1..self.k.len(), from, h)?;
+            self.k[stages].copy_from_slice(step.slope);
+            self.evaluate(problem, stages + 1..self.k.len(), step.from)?;
         }
-        self.polynomial.prepare(from, h, to, slope);
+        self.polynomial.prepare(step);
         for (row, weights) in self.polynomial.beyond().iter_mut().zip(self.tableau.dense) {
             row.fill(0.0);
-            accumulate(row, h, weights, &self.k);
+            accumulate(row, step.from.h, weights, &self.k);
         }
         Ok(())
     }
 
-    fn polynomial(&mut self) -> Option<&mut Hermite> {
-        Some(&mut self.polynomial)
+    fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
+        self.polynomial.interpolate(theta, step.from.y, out);
+        Ok(())
     }
 }

@@ -2,15 +2,16 @@
 
 use super::explicit::Tableau as Explicit;
 use super::hermite::Hermite;
-use super::sums::combine;
-use super::{Control, From, Integrator, Problem, Setup, Stability, Tolerance};
-use crate::error::{Error, Result};
+use super::sums::{add, combine};
+use super::{Control, Dense, From, Integrator, Problem, Setup, Stability, Step, no_memory};
+use crate::error::Result;
 use crate::formulation::{Dynamics, StepError};
 use crate::math::kkt::{Pattern, Singular, Unsymmetric};
 use crate::math::newton::{Limits, Monitor};
 use crate::math::{all_finite, largest};
 use crate::system::Need;
 use crate::tolerances::integrator as tolerances;
+use serde_json::Value;
 
 /// Order of the rows of the cubic, whose error over a step is O(h^4).
 const CUBIC: usize = 4;
@@ -39,6 +40,11 @@ pub struct Tableau {
 }
 
 impl Tableau {
+    /// Stability region: along the free directions the stages are those of an explicit method.
+    pub fn stability(&self) -> Stability {
+        Stability::of(|i| self.stage(i).0, self.last())
+    }
+
     /// Row and node of the stage itself.
     fn stage(&self, i: usize) -> (&'static [f64], f64) {
         match (self.explicit, i) {
@@ -82,6 +88,7 @@ pub struct HalfExplicit {
     /// G of the stage.
     g: Vec<f64>,
     control: Control,
+    /// The quartic of methods whose order is above that of the cubic.
     polynomial: Hermite,
 }
 
@@ -105,14 +112,15 @@ impl HalfExplicit {
             missed: zeros(n.lambda),
             error: zeros(len),
             off: zeros(n.v),
-            matrix: matrix.ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?,
+            matrix: matrix.ok_or_else(no_memory)?,
             g: zeros(structure.g.entries.len()),
-            polynomial: Hermite::new(len, usize::from(tableau.order > CUBIC)),
+            polynomial: Hermite::new(len, 1),
         })
     }
 
     /// k_i = (N V, V', power) of stage `i`.
-    fn evaluate(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), StepError> {
+    fn evaluate(&mut self, problem: &mut Problem, i: usize, from: From) -> Result<(), StepError> {
+        let h = from.h;
         let (row, node) = self.tableau.stage(i);
         combine(&mut self.stage, from.y, h, row, &self.k);
         is_finite(&self.stage)?;
@@ -131,7 +139,7 @@ impl HalfExplicit {
         rest.fill(0.0);
         rest[n.v..].iter_mut().zip(dynamics.powers(&[])).for_each(|(rate, power)| *rate = power);
         self.force.copy_from_slice(&dynamics.terms.f);
-        self.solve(problem, i, from, h)?;
+        self.solve(problem, i, from)?;
         let moving: f64 = self.lambda.iter().zip(&self.phi_t).map(|(lambda, phi_t)| lambda * phi_t).sum();
         self.k[i][n.q + n.v] += moving;
         Ok(())
@@ -139,7 +147,8 @@ impl HalfExplicit {
 
     /// Solves for V'_i and lambda_i; on entry k_i is N V and zeros, `force` f, `lambda` the guess gamma, and M and
     /// G(Q_i) are factored.
-    fn solve(&mut self, problem: &mut Problem, i: usize, from: From, h: f64) -> Result<(), StepError> {
+    fn solve(&mut self, problem: &mut Problem, i: usize, from: From) -> Result<(), StepError> {
+        let h = from.h;
         let row = self.tableau.constraint[i];
         let n = problem.dynamics.system.dimensions();
         combine(&mut self.stage, from.y, h, row, &self.k);
@@ -168,8 +177,8 @@ impl HalfExplicit {
             self.missed.iter_mut().zip(&self.rate).for_each(|(missed, rate)| *missed = rate - *missed);
             self.off.fill(0.0);
             dynamics.kkt.solve(&mut self.off, &mut self.missed)?;
-            vdot.iter_mut().zip(&self.off).for_each(|(vdot, off)| *vdot += off);
-            self.lambda.iter_mut().zip(&self.missed).for_each(|(lambda, missed)| *lambda += missed);
+            add(vdot, &self.off);
+            add(&mut self.lambda, &self.missed);
             Ok(largest(&self.off) / largest(vdot).max(f64::MIN_POSITIVE))
         })
     }
@@ -217,63 +226,46 @@ fn is_finite(y: &[f64]) -> Result<(), StepError> {
 }
 
 impl Integrator for HalfExplicit {
-    fn order(&self) -> usize {
-        self.tableau.order
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
     }
 
     /// A step knows its start alone.
-    fn memory(&self) -> Option<Vec<f64>> {
-        Some(Vec::new())
+    fn memory(&self) -> Option<Value> {
+        Some(Value::Array(Vec::new()))
     }
 
-    /// Along the free directions the stages are those of an explicit method.
-    fn stability(&self) -> Option<Stability> {
-        Some(Stability::of(|i| self.tableau.stage(i).0, self.tableau.last()))
-    }
-
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.k[0].copy_from_slice(from.slope);
         let first = usize::from(self.tableau.explicit.is_some());
         for i in first..self.tableau.constraint.len() {
-            self.evaluate(problem, i, from, h)?;
+            self.evaluate(problem, i, from)?;
         }
-        combine(to, from.y, h, self.tableau.last(), &self.k);
+        combine(to, from.y, from.h, self.tableau.last(), &self.k);
         problem.dynamics.system.normalize(problem.split_mut(to).0);
         let Some(weights) = self.tableau.explicit.and_then(Explicit::embedded) else { return Ok(None) };
         problem.derivative(from.end, to, &mut self.k[self.tableau.constraint.len()])?;
-        self.estimate(problem, weights, h)?;
-        Ok(Some(tolerance.norm_between(from.y, to, &self.error)))
+        self.estimate(problem, weights, from.h)?;
+        Ok(Some(from.tolerance.norm_between(from.y, to, &self.error)))
     }
 
     fn last_slope(&self) -> Option<&[f64]> {
         self.tableau.explicit.map(|_| &self.k[self.tableau.constraint.len()][..])
     }
 
-    fn prepare(
-        &mut self,
-        problem: &mut Problem,
-        from: From,
-        h: f64,
-        to: &[f64],
-        slope: &[f64],
-    ) -> Result<(), StepError> {
-        let HalfExplicit { polynomial, stage, error, .. } = self;
-        polynomial.prepare(from, h, to, slope);
-        if self.tableau.order > CUBIC { polynomial.raise(problem, from, h, [stage, error]) } else { Ok(()) }
+    fn dense(&mut self) -> Option<&mut dyn Dense> {
+        if self.tableau.order > CUBIC { Some(self) } else { None }
+    }
+}
+
+impl Dense for HalfExplicit {
+    fn prepare(&mut self, problem: &mut Problem, step: Step) -> Result<(), StepError> {
+        self.polynomial.prepare(step);
+        self.polynomial.raise(problem, step, [&mut self.stage, &mut self.error])
     }
 
-    fn polynomial(&mut self) -> Option<&mut Hermite> {
-        Some(&mut self.polynomial)
+    fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
+        self.polynomial.interpolate(theta, step.from.y, out);
+        Ok(())
     }
 }

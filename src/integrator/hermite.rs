@@ -1,37 +1,50 @@
 //! Interpolation over a step.
 
-use super::{From, Problem};
+use super::{From, Problem, Step};
 use crate::formulation::StepError;
 
 /// (1 - 1/sqrt 5)/2, a node of Lobatto's rule: the largest error of the quartic, of theta^2 (1 - theta)^2 (theta -
 /// 1/2), is the smallest here.
 const NODE: f64 = 0.276_393_202_250_021;
 
+/// Writes the cubic through both ends of a step with their slopes, whose error is O(h^4).
+pub(super) fn cubic(step: Step, theta: f64, out: &mut [f64]) {
+    for (i, out) in out.iter_mut().enumerate() {
+        let [f0, f1, f2] = rows(step, i);
+        *out = step.from.y[i] + theta * (f0 + (1.0 - theta) * (f1 + theta * f2));
+    }
+}
+
+/// F0 to F2 of [`Hermite`], for component `i`.
+fn rows(Step { from, to, slope }: Step, i: usize) -> [f64; 3] {
+    let h = from.h;
+    let change = to[i] - from.y[i];
+    [change, h * from.slope[i] - change, 2.0 * change - h * (slope[i] + from.slope[i])]
+}
+
 /// The polynomial of Hairer's codes: y + theta (F0 + (1 - theta) (F1 + theta (F2 + (1 - theta) (F3 + ...)))), in which
-/// F0 to F2 are the cubic Hermite interpolant of order 3 and further rows are the method's own.
-pub struct Hermite {
+/// F0 to F2 are the cubic Hermite interpolant and further rows are the method's own.
+pub(super) struct Hermite {
     rows: Vec<Vec<f64>>,
 }
 
 impl Hermite {
-    /// Memory for states of length `len`, with `beyond` rows after the cubic ones: none for the cubic itself, whose
-    /// error is O(h^4).
+    /// Memory for states of length `len`, with `beyond` rows after the cubic ones.
     pub fn new(len: usize, beyond: usize) -> Self {
         Hermite { rows: vec![vec![0.0; len]; 3 + beyond] }
     }
 
     /// Sets F0 to F2 from the states and slopes at both ends of a step.
-    pub fn prepare(&mut self, from: From, h: f64, to: &[f64], slope: &[f64]) {
-        for i in 0..from.y.len() {
-            let change = to[i] - from.y[i];
-            self.rows[0][i] = change;
-            self.rows[1][i] = h * from.slope[i] - change;
-            self.rows[2][i] = 2.0 * change - h * (slope[i] + from.slope[i]);
+    pub fn prepare(&mut self, step: Step) {
+        for i in 0..step.to.len() {
+            for (row, value) in self.rows.iter_mut().zip(rows(step, i)) {
+                row[i] = value;
+            }
         }
     }
 
     /// F3 and further rows, which the method fills.
-    pub(super) fn beyond(&mut self) -> &mut [Vec<f64>] {
+    pub fn beyond(&mut self) -> &mut [Vec<f64>] {
         &mut self.rows[3..]
     }
 
@@ -39,16 +52,10 @@ impl Hermite {
     ///
     /// Source: Enright, Jackson, Norsett, Thomsen, ACM Trans. Math. Softw. 12 (1986) 193-218. `y` and `slope` are
     /// scratch.
-    pub(super) fn raise(
-        &mut self,
-        problem: &mut Problem,
-        from: From,
-        h: f64,
-        [y, slope]: [&mut [f64]; 2],
-    ) -> Result<(), StepError> {
-        self.rows[3].fill(0.0);
-        self.interpolate(NODE, from.y, y);
-        problem.derivative(from.t + NODE * h, y, slope)?;
+    pub fn raise(&mut self, problem: &mut Problem, step: Step, [y, slope]: [&mut [f64]; 2]) -> Result<(), StepError> {
+        let From { t, h, .. } = step.from;
+        cubic(step, NODE, y);
+        problem.derivative(t + NODE * h, y, slope)?;
         let [f0, f1, f2, f3] = &mut self.rows[..] else { return Ok(()) };
         let middle = 1.0 - 2.0 * NODE;
         for i in 0..f3.len() {

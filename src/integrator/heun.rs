@@ -1,20 +1,15 @@
 //! Heun's method of order 2.
 
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry, Steps, Tightening, refuses, takes};
+use super::{Control, Entry};
 
 /// Explicit trapezoidal rule: k2 = F(t + h, y + h k1), y_1 = y + h (k1 + k2)/2. Order 2 in q, v (and lambda, which is
 /// computed from them); two evaluations a step; fixed steps.
 pub const ENTRY: Entry = Entry {
-    name: "heun",
-    about: "explicit trapezoidal rule, 2 evaluations a step, fixed steps",
-    order: 2,
-    steps: Steps::Fixed,
-    tightening: Tightening::NONE,
-    solves: takes::vector_fields,
-    refuses: refuses::none,
-    options: &[],
-    make: |setup| Ok(Box::new(Explicit::new(&TABLEAU, setup.len()))),
+    stability: Some(|| TABLEAU.stability()),
+    ..Entry::new("heun", "explicit trapezoidal rule, 2 evaluations a step, fixed steps", 2, |setup| {
+        Ok(Box::new(Explicit::new(&TABLEAU, setup.len())))
+    })
 };
 
 static TABLEAU: Tableau = Tableau {

@@ -1,25 +1,20 @@
-//! The values that methods carry from step to step, as a sequence of numbers.
+//! The values that methods carry from step to step, as they are saved.
 
-/// Reads the numbers in the order of writing; zeros after the last.
-pub(super) struct Reader<'m>(pub &'m [f64]);
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
 
-impl<'m> Reader<'m> {
-    pub fn number(&mut self) -> f64 {
-        self.slice(1).first().copied().unwrap_or_default()
-    }
+/// The values as JSON.
+pub(super) fn written(memory: impl Serialize) -> Option<Value> {
+    serde_json::to_value(memory).ok()
+}
 
-    pub fn slice(&mut self, len: usize) -> &'m [f64] {
-        let (head, rest) = self.0.split_at(len.min(self.0.len()));
-        self.0 = rest;
-        head
-    }
+/// The values again; `None` for those of another version, from which a method begins anew.
+pub(super) fn read<M: DeserializeOwned>(memory: &Value) -> Option<M> {
+    M::deserialize(memory).ok()
+}
 
-    pub fn fill(&mut self, out: &mut [f64]) {
-        let from = self.slice(out.len());
-        out.iter_mut().zip(from).for_each(|(out, from)| *out = *from);
-    }
-
-    pub fn rest(self) -> &'m [f64] {
-        self.0
-    }
+/// Sets the values that are saved.
+pub(super) fn fill(values: &mut [f64], saved: &[f64]) {
+    values.iter_mut().zip(saved).for_each(|(value, saved)| *value = *saved);
 }

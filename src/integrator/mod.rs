@@ -1,7 +1,7 @@
 //! Integrators: one step of a vector field.
 //!
 //! To add one: a file with its tableau (or a step of its own) and an [`Entry`], and a line in [`registry`]; from
-//! outside the crate, an [`Entry`] and its [`spec`](Listed::spec), as in `tests/examples/own_integrator.rs` and
+//! outside the crate, an [`Entry`] and its [`spec`](crate::method_spec::Listed::spec), as in `tests/examples/own_integrator.rs` and
 //! `own_tableau.rs`.
 
 mod adams;
@@ -12,6 +12,7 @@ mod diffsol;
 mod dop853;
 mod dop853_tableau;
 mod dopri5;
+mod entry;
 mod explicit;
 mod generalized_alpha;
 mod half_explicit;
@@ -19,6 +20,7 @@ mod hem;
 mod hermite;
 mod heun;
 mod memory;
+mod newton_matrix;
 mod phem56;
 mod problem;
 mod radau_iia;
@@ -31,71 +33,40 @@ mod takes;
 
 use control::round_off;
 pub use control::{Control, Tightening, Tolerance, first_step};
+use entry::no_memory;
+pub use entry::{Entry, Make, Setup, Steps};
 pub use explicit::{ErrorEstimate, Explicit, Tableau};
-pub use hermite::Hermite;
 pub use problem::Problem;
 pub use stability::Stability;
 
 use crate::error::Result;
-use crate::formulation::{self, StepError};
-use crate::math::kkt::Singular;
-use crate::method_spec::Listed;
-use crate::method_spec::{MethodSpec, OptionDoc};
-use crate::system::MechanicalSystem;
-use crate::tolerances::integrator as tolerances;
+use crate::formulation::StepError;
+use crate::method_spec::MethodSpec;
+use hermite::cubic;
+use serde_json::Value;
 
-/// The cause of a singular matrix. If all rows are in it, some depend on others at the start of the step and ahead, and
-/// they prescribe different positions there, the rows contradict each other.
-fn collapsed(singular: Singular, problem: &mut Problem, from: From, h: f64) -> StepError {
-    if singular != Singular::Collapsed || !problem.dynamics.dropped.is_empty() {
-        return singular.into();
-    }
-    let ahead: Vec<f64> = from.y.iter().zip(from.slope).map(|(y, slope)| y + h * slope).collect();
-    let mut open = |t: f64, y: &[f64]| {
-        let (q, v) = problem.split(y);
-        problem.dynamics.dependent_rows_open(t, q, v)
-    };
-    let is_torn = open(from.t, from.y).is_some()
-        && open(from.t + h, &ahead).is_some_and(|open| open > tolerances::ROUND_OFF_OF_PHI);
-    if is_torn { CONTRADICTION } else { singular.into() }
-}
-
-const CONTRADICTION: StepError = StepError::Unsuitable {
-    reason: "redundant constraints contradict each other during the motion",
-    hint: "`holonom check` names the redundant joints; take one away, or make them say the same at all times",
-};
-
-/// A one-step method. States are flat: q, v, and the work of forces without a potential.
+/// A method. States are flat: q, v, and the work of forces without a potential.
 pub trait Integrator {
-    /// Order of the solution, p: the error of a step is O(h^{p+1}).
-    fn order(&self) -> usize;
+    /// Tries a step and writes the new state. Returns the error estimate in units of the tolerance (accept at or below
+    /// one), or `None` for a method that has none.
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError>;
 
-    /// Stability limit of the steps; `None` for a method without a limit.
-    fn stability(&self) -> Option<Stability> {
-        None
+    /// The step control of the method, which may change its constants with its order.
+    fn control(&mut self) -> &mut Control;
+
+    /// The last attempt is accepted. Returns the size of the next step.
+    fn accepted(&mut self, step: &Accepted) -> f64 {
+        self.control().after(step)
     }
 
-    /// True for a method that chooses its steps itself, by [`Self::lead`].
-    fn leads(&self) -> bool {
-        false
-    }
+    /// Discards the history of the steps: the equations change their form here.
+    fn restart(&mut self) {}
 
-    /// Makes the next step of such a method, not beyond `from.end`, and returns its size, s; `h` is that of the first
-    /// one. Attempts are then parts of this step.
-    fn lead(&mut self, _: &mut Problem, _: &Tolerance, _from: From, h: f64) -> Result<f64, StepError> {
-        Ok(h)
+    /// Makes the next step of a method that [`leads`](Entry::leads), not beyond `from.end`, and returns its size, s;
+    /// `from.h` is that of the first one. Attempts are then parts of this step.
+    fn lead(&mut self, _: &mut Problem, from: From) -> Result<f64, StepError> {
+        Ok(from.h)
     }
-
-    /// Tries a step from (t, y), where y' is `slope`, and writes the new state. Returns the error estimate in units of
-    /// the tolerance (accept at or below one), or `None` for a method that has none.
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError>;
 
     /// y' at the new state, if the last attempt evaluated it there as its last evaluation: the terms of the new state
     /// are then in the problem, and the next step needs no evaluation of its own (first same as last).
@@ -103,95 +74,62 @@ pub trait Integrator {
         None
     }
 
-    /// The step control of the method, which may change its constants with its order; not used without an error
-    /// estimate.
-    fn control(&mut self) -> &mut Control;
-
-    /// True if the last evaluation of an attempt is at its end, off by O(h^(p+1)).
-    fn ends_near(&self) -> bool {
+    /// Writes the solution of lower order to which the last attempt was compared; false where there is none.
+    fn lower_order(&self, _from: From, _out: &mut [f64]) -> bool {
         false
     }
 
-    /// The next step after an accepted one of size `h` with error `error`; `growing` is false right after a rejection.
-    fn propose(&mut self, h: f64, error: f64, growing: bool) -> f64 {
-        self.control().accept(h, error, growing)
+    /// The method's own interpolation over its steps. Default: none, so that it is the cubic through both ends.
+    fn dense(&mut self) -> Option<&mut dyn Dense> {
+        None
     }
 
-    /// The last attempt was accepted and the next step proposed; `tolerance` is that of the run's steps.
-    fn accepted(&mut self, _tolerance: &Tolerance) {}
-
-    /// Discards the history of the steps: the equations change their form here.
-    fn restart(&mut self) {}
-
-    /// True for a multistep method that evaluates the ends of steps only: after [`Self::restart`] it takes short ones.
-    fn begins_anew(&self) -> bool {
-        false
-    }
-
-    /// Notes that the state of the last attempt was moved, as by a projection.
-    fn moved(&mut self) {}
-
-    /// The values that the method carries from step to step besides y and y', as numbers for [`Self::recall`], such as
-    /// the stages of the last one. None for a method that starts anew when a run is continued, which is reported.
-    fn memory(&self) -> Option<Vec<f64>> {
+    /// The values that the method carries from step to step besides y and y', such as the stages of the last one. None
+    /// for a method that starts anew when a run is continued, which is reported.
+    fn memory(&self) -> Option<Value> {
         None
     }
 
     /// Restores the values of [`Self::memory`], at a state at which the problem is evaluated before the next step.
-    fn recall(&mut self, _memory: &[f64]) {}
+    fn recall(&mut self, _memory: &Value) {}
+}
 
-    /// Writes the solution of lower order to which the last attempt was compared; false where there is none.
-    fn lower_order(&self, _from: From, _h: f64, _out: &mut [f64]) -> bool {
-        false
+impl dyn Integrator + '_ {
+    /// Prepares interpolation over a step.
+    pub(crate) fn prepare(&mut self, problem: &mut Problem, step: Step) -> Result<(), StepError> {
+        self.dense().map_or(Ok(()), |dense| dense.prepare(problem, step))
     }
 
-    /// Fraction of a step at the middle of the widest gap between the points at which the equations are evaluated off
-    /// the constraints; `None` for a method without such points, or one that needs steps of equal size.
-    fn widest_gap(&self) -> Option<f64> {
-        None
-    }
-
-    /// The longest part of a step between two evaluations of the equations.
-    fn spacing(&self) -> f64 {
-        1.0
-    }
-
-    /// True if an output row within a step is a step of its own.
-    fn rows_are_steps(&self) -> bool {
-        false
-    }
-
-    /// The polynomial of a method that interpolates by one, through both ends of a step with their slopes. Default: none.
-    fn polynomial(&mut self) -> Option<&mut Hermite> {
-        None
-    }
-
-    /// Prepares interpolation over the step just accepted; `slope` is y' at its end `to`. Default: the polynomial.
-    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), StepError> {
-        self.polynomial().ok_or(NO_INTERPOLATION)?.prepare(from, h, to, slope);
-        Ok(())
-    }
-
-    /// The state at the fraction `theta` of the prepared step of size `h`. Default: by the polynomial.
-    fn interpolate(
+    /// The state at the fraction `theta` of the prepared step.
+    pub(crate) fn interpolate(
         &mut self,
-        _: &mut Problem,
-        from: From,
-        _h: f64,
+        problem: &mut Problem,
+        step: Step,
         theta: f64,
         out: &mut [f64],
     ) -> Result<(), StepError> {
-        self.polynomial().ok_or(NO_INTERPOLATION)?.interpolate(theta, from.y, out);
-        Ok(())
+        match self.dense() {
+            Some(dense) => dense.interpolate(problem, step, theta, out),
+            None => {
+                cubic(step, theta, out);
+                Ok(())
+            }
+        }
     }
 }
 
-const NO_INTERPOLATION: StepError = StepError::Unsuitable {
-    reason: "the method does not interpolate within its steps",
-    hint: "its code must have a polynomial, or prepare and interpolate of its own",
-};
+/// Interpolation over the steps of a method.
+pub trait Dense {
+    /// Prepares it over the step just tried or accepted.
+    fn prepare(&mut self, _: &mut Problem, _: Step) -> Result<(), StepError> {
+        Ok(())
+    }
 
-/// The start of a step.
+    /// The state at the fraction `theta` of the prepared step.
+    fn interpolate(&mut self, problem: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError>;
+}
+
+/// The start of a step to be tried.
 #[derive(Clone, Copy, Debug)]
 pub struct From<'a> {
     /// Time, s.
@@ -200,103 +138,38 @@ pub struct From<'a> {
     pub y: &'a [f64],
     /// y' at (t, y).
     pub slope: &'a [f64],
-    /// End of a step of the requested size: t + h, but for the rounding of a grid or a stop that it meets.
+    /// Size of the step, s.
+    pub h: f64,
+    /// Its end: t + h, but for the rounding of a grid or a stop that it meets.
     pub end: f64,
+    /// Tolerance of the steps.
+    pub tolerance: &'a Tolerance,
 }
 
-/// The system and the specifications for which an integrator is made.
-pub struct Setup<'s> {
-    /// Its own name and options.
-    pub integrator: &'s MethodSpec,
-    /// Formulation with its options.
-    pub formulation: &'s MethodSpec,
-    /// The mechanism.
-    pub system: &'s dyn MechanicalSystem,
-    /// True for fixed steps.
-    pub is_fixed: bool,
+/// A step with both ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    /// Its start and size.
+    pub from: From<'a>,
+    /// State at its end, where it may have been projected, or cut, since the attempt.
+    pub to: &'a [f64],
+    /// y' there.
+    pub slope: &'a [f64],
 }
 
-impl Setup<'_> {
-    /// Length of the flat state.
-    pub fn len(&self) -> usize {
-        let n = self.system.dimensions();
-        n.q + n.v + 1 + self.system.works().len()
-    }
-
-    /// True for a system without velocities.
-    pub fn is_empty(&self) -> bool {
-        self.system.dimensions().v == 0
-    }
-}
-
-/// The origin of the step size.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Steps {
-    /// A step must be given: there is no error estimate.
-    Fixed,
-    /// An error estimate, unless a fixed step is given.
-    Either,
-    /// Always the method itself.
-    Own,
-}
-
-/// One integrator as the command line, the scene format and the table of methods know it.
-pub struct Entry {
-    /// Name in the scene format and on the command line.
-    pub name: &'static str,
-    /// One line for the table of methods.
-    pub about: &'static str,
-    /// Proven order in q, v and lambda.
-    pub order: usize,
-    /// The origin of the step size.
-    pub steps: Steps,
-    /// Tolerance of the steps relative to that of the motion.
-    pub tightening: Tightening,
-    /// True if it integrates a formulation: for a method that integrates vector fields `|formulation|
-    /// formulation.field.is_some()`.
-    pub solves: fn(&formulation::Entry) -> bool,
-    /// True if a projection would cost it an order with a formulation.
-    pub refuses: fn(&formulation::Entry, projection: &str) -> bool,
-    /// The options of its specification.
-    pub options: &'static [OptionDoc],
-    /// Makes it for a system, with memory for states of [`Setup::len`].
-    pub make: for<'s> fn(&Setup<'s>) -> Result<Box<dyn Integrator + 's>>,
-}
-
-impl Entry {
-    /// The formulations that it integrates, in the order of their registry.
-    pub fn accepts(&self) -> impl Iterator<Item = &'static str> + use<> {
-        let solves = self.solves;
-        formulation::registry().iter().filter(move |entry| solves(entry)).map(|entry| entry.name)
-    }
-
-    /// True if it integrates the formulation of this name.
-    pub fn takes(&self, formulation: &str) -> bool {
-        formulation::named(formulation).is_some_and(self.solves)
-    }
-
-    /// True if the projection would cost it an order with the formulation.
-    pub fn refuses(&self, formulation: &str, projection: &str) -> bool {
-        formulation::named(formulation).is_some_and(|entry| (self.refuses)(entry, projection))
-    }
-
-    /// True if it integrates vector fields, as explicit methods do.
-    pub fn follows_fields(&self) -> bool {
-        let fields = || formulation::registry().iter().filter(|entry| entry.field.is_some());
-        fields().all(self.solves)
-    }
-}
-
-impl Listed for Entry {
-    const KIND: &'static str = "integrator";
-
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn options(&self) -> &'static [OptionDoc] {
-        self.options
-    }
+/// An accepted step.
+#[derive(Clone, Copy, Debug)]
+pub struct Accepted<'a> {
+    /// Its size, s.
+    pub h: f64,
+    /// Its error in units of the tolerance, where steps are controlled.
+    pub error: Option<f64>,
+    /// False right after a rejection: the next step is no longer then.
+    pub growing: bool,
+    /// True if its end was moved since the attempt, as by a projection.
+    pub is_moved: bool,
+    /// Tolerance of the steps.
+    pub tolerance: &'a Tolerance,
 }
 
 /// Every integrator, in the order of the documentation.

@@ -53,9 +53,26 @@ impl<'a> Problem<'a> {
         let (qdot, rest) = slope.split_at_mut(self.dimensions.q);
         let (vdot, work) = rest.split_at_mut(self.dimensions.v);
         self.formulation.derivative(t, q, v, &mut self.dynamics, qdot, vdot)?;
+        self.write_powers(work);
+        Ok(())
+    }
+
+    /// y' of the plain equations at another velocity of the state whose matrix is factored.
+    pub(super) fn derivative_at_velocity(&mut self, t: f64, y: &[f64], slope: &mut [f64]) -> Result<(), StepError> {
+        let (q, v) = self.split(y);
+        self.dynamics.solve_at_velocity(t, q, v)?;
+        let (qdot, rest) = slope.split_at_mut(q.len());
+        let (vdot, work) = rest.split_at_mut(v.len());
+        self.dynamics.system.rate(q, v, qdot);
+        vdot.copy_from_slice(&self.dynamics.vdot);
+        self.write_powers(work);
+        Ok(())
+    }
+
+    /// The rates of the works at the last solution.
+    fn write_powers(&self, work: &mut [f64]) {
         let powers = self.dynamics.powers(&self.dynamics.lambda);
         work.iter_mut().zip(powers).for_each(|(rate, power)| *rate = power);
-        Ok(())
     }
 
     /// Announces a step that begins at (t, y).

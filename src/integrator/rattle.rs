@@ -1,10 +1,8 @@
 //! RATTLE.
 
-use super::hermite::Hermite;
-use super::sums::trapezoid;
-use super::{
-    Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance, refuses, takes,
-};
+use super::memory::{read, written};
+use super::sums::{add, trapezoid};
+use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Stability, takes};
 use crate::error::{Error, Result};
 use crate::formulation::StepError;
 use crate::math::kkt::Singular;
@@ -12,6 +10,8 @@ use crate::math::largest;
 use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{MechanicalSystem, Need};
 use crate::tolerances::integrator as tolerances;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// ```text
 /// v_h = v + h/2 M^-1 (f(t, q, v_h) - G(q)^T lambda),   q_1 = q + h v_h,   phi(q_1) = 0
@@ -24,15 +24,9 @@ use crate::tolerances::integrator as tolerances;
 /// factorization a step; the first half is iterated to round-off, one evaluation of f and one of phi an iteration. The
 /// work is integrated by the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
-    name: "rattle",
-    about: "symmetric, symplectic, for constant M; holds phi and phi', fixed steps",
-    order: 2,
-    steps: Steps::Fixed,
-    tightening: Tightening::NONE,
     solves: takes::position_rows,
-    refuses: refuses::none,
-    options: &[],
-    make,
+    stability: Some(|| Stability::Leapfrog),
+    ..Entry::new("rattle", "symmetric, symplectic, for constant M; holds phi and phi', fixed steps", 2, make)
 };
 
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
@@ -55,8 +49,15 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         rows: zeros(n.lambda),
         slope: zeros(setup.len()),
         control: Control::new(2.0, 0.2, 5.0),
-        polynomial: Hermite::new(setup.len(), 0),
     }))
+}
+
+/// What steps pass on, as it is saved: the problem is evaluated at the state from which a run continues, as at the end
+/// of a step.
+#[derive(Serialize, Deserialize)]
+struct Memory {
+    is_ready: bool,
+    mass: Option<Vec<f64>>,
 }
 
 struct Rattle {
@@ -76,7 +77,6 @@ struct Rattle {
     /// y' at the new state.
     slope: Vec<f64>,
     control: Control,
-    polynomial: Hermite,
 }
 
 /// Limits on changes over their stagnation tolerance.
@@ -115,8 +115,9 @@ impl Rattle {
 
     /// v_h and q_1, starting with v + h/2 v' of the equations of motion: v_h differs from it by reactions, and by the
     /// dependence of f on v.
-    fn first_half(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), StepError> {
-        let (q, v) = problem.split(from.y);
+    fn first_half(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
+        let h = from.h;
+        let (_, v) = problem.split(from.y);
         let (_, vdot) = problem.split(from.slope);
         for i in 0..v.len() {
             self.half[i] = v[i] + 0.5 * h * vdot[i];
@@ -124,7 +125,7 @@ impl Rattle {
         let mut newton = Monitor::default();
         let converged = newton.solve(LIMITS, |_| {
             problem.dynamics.statistics.newton_iterations += 1;
-            let change = self.iterate(problem, (from, q), h)?;
+            let change = self.iterate(problem, from)?;
             Ok::<_, StepError>(change / self.still(h))
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
@@ -138,7 +139,9 @@ impl Rattle {
     }
 
     /// One correction of v_h for the forces and for phi(q_1). Returns its size relative to v_h.
-    fn iterate(&mut self, problem: &mut Problem, (from, q): (From, &[f64]), h: f64) -> Result<f64, StepError> {
+    fn iterate(&mut self, problem: &mut Problem, from: From) -> Result<f64, StepError> {
+        let (q, _) = problem.split(from.y);
+        let h = from.h;
         let dynamics = &mut problem.dynamics;
         dynamics.evaluate(from.t, q, &self.half, Need::FORCE);
         for (i, f) in dynamics.terms.f.iter().enumerate() {
@@ -149,7 +152,7 @@ impl Rattle {
         dynamics.evaluate(from.end, &self.q, &self.half, Need::CONSTRAINTS);
         self.rows.iter_mut().zip(&dynamics.terms.phi).for_each(|(row, phi)| *row = -phi / h);
         dynamics.kkt.solve(&mut self.dv, &mut self.rows)?;
-        self.half.iter_mut().zip(&self.dv).for_each(|(half, dv)| *half += dv);
+        add(&mut self.half, &self.dv);
         self.advance(dynamics.system, q, h);
         Ok(relative(&self.dv, &self.half))
     }
@@ -164,7 +167,8 @@ impl Rattle {
     }
 
     /// v_1, and y' there, with the factors at q_1.
-    fn second_half(&mut self, problem: &mut Problem, t: f64, h: f64, to: &mut [f64]) -> Result<(), StepError> {
+    fn second_half(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<(), StepError> {
+        let From { h, end: t, .. } = from;
         let (q, v) = problem.split_mut(to);
         q.copy_from_slice(&self.q);
         let dynamics = &mut problem.dynamics;
@@ -181,45 +185,25 @@ impl Rattle {
         }
         // Near a singular state y' is truncated, and these factors are not.
         self.is_ahead = dynamics.kkt.is_regular(dynamics.rank_tolerance);
-        if !self.is_ahead {
-            return problem.derivative(t, to, &mut self.slope);
+        if self.is_ahead {
+            problem.derivative_at_velocity(t, to, &mut self.slope)
+        } else {
+            problem.derivative(t, to, &mut self.slope)
         }
-        dynamics.solve_at_velocity(t, q, v)?;
-        let (qdot, rest) = self.slope.split_at_mut(q.len());
-        dynamics.system.rate(q, v, qdot);
-        rest[..v.len()].copy_from_slice(&dynamics.vdot);
-        let powers = dynamics.powers(&dynamics.lambda);
-        rest[v.len()..].iter_mut().zip(powers).for_each(|(rate, power)| *rate = power);
-        Ok(())
     }
 }
 
 impl Integrator for Rattle {
-    fn order(&self) -> usize {
-        ENTRY.order
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
     }
 
-    fn stability(&self) -> Option<Stability> {
-        Some(Stability::Leapfrog)
-    }
-
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        _: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.start(problem, from)?;
-        self.first_half(problem, from, h)?;
-        self.second_half(problem, from.end, h, to)?;
+        self.first_half(problem, from)?;
+        self.second_half(problem, from, to)?;
         let n = problem.dynamics.system.dimensions();
-        trapezoid(from, h, &self.slope[n.q + n.v..], to);
+        trapezoid(from, &self.slope[n.q + n.v..], to);
         Ok(None)
     }
 
@@ -231,28 +215,19 @@ impl Integrator for Rattle {
         (self.is_ahead, self.is_ready) = (false, false);
     }
 
-    fn accepted(&mut self, _: &Tolerance) {
-        self.is_ready = self.is_ahead;
+    fn accepted(&mut self, step: &Accepted) -> f64 {
+        self.is_ready = self.is_ahead && !step.is_moved;
+        step.h
     }
 
-    fn moved(&mut self) {
-        (self.is_ahead, self.is_ready) = (false, false);
+    fn memory(&self) -> Option<Value> {
+        written(Memory { is_ready: self.is_ready, mass: self.mass.clone() })
     }
 
-    fn memory(&self) -> Option<Vec<f64>> {
-        let mass = self.mass.iter().flatten().copied();
-        Some(std::iter::once(f64::from(self.is_ready)).chain(mass).collect())
-    }
-
-    /// The problem is evaluated at the state from which a run continues, as at the end of a step.
-    fn recall(&mut self, memory: &[f64]) {
-        if let Some((is_ready, mass)) = memory.split_first() {
-            self.is_ready = *is_ready != 0.0;
-            self.mass = (!mass.is_empty()).then(|| mass.to_vec());
+    fn recall(&mut self, memory: &Value) {
+        if let Some(Memory { is_ready, mass }) = read(memory) {
+            self.is_ready = is_ready;
+            self.mass = mass;
         }
-    }
-
-    fn polynomial(&mut self) -> Option<&mut Hermite> {
-        Some(&mut self.polynomial)
     }
 }

@@ -1,19 +1,14 @@
 //! The classical Runge-Kutta method of order 4.
 
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry, Steps, Tightening, refuses, takes};
+use super::{Control, Entry};
 
 /// Kutta (1901). Order 4 in q and v (and lambda, which is computed from them); four evaluations a step; fixed steps.
 pub const ENTRY: Entry = Entry {
-    name: "rk4",
-    about: "the classical method, 4 evaluations a step, fixed steps",
-    order: 4,
-    steps: Steps::Fixed,
-    tightening: Tightening::NONE,
-    solves: takes::vector_fields,
-    refuses: refuses::none,
-    options: &[],
-    make: |setup| Ok(Box::new(Explicit::new(&TABLEAU, setup.len()))),
+    stability: Some(|| TABLEAU.stability()),
+    ..Entry::new("rk4", "the classical method, 4 evaluations a step, fixed steps", 4, |setup| {
+        Ok(Box::new(Explicit::new(&TABLEAU, setup.len())))
+    })
 };
 
 static TABLEAU: Tableau = Tableau {

@@ -24,6 +24,11 @@ impl Divisible for Section<'_> {
     }
 }
 
+/// sum += terms
+pub(super) fn add(sum: &mut [f64], terms: &[f64]) {
+    sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+}
+
 /// out = y + h sum_j weights_j k_j
 pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[Vec<f64>]) {
     if out.len() < 2 * NUMBERS_OF_A_PORTION {
@@ -38,9 +43,9 @@ pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[
 
 /// The works at the end of a step of order 2, the last components of `to`, by the trapezoidal rule from the powers
 /// there.
-pub(super) fn trapezoid(from: From, h: f64, powers: &[f64], to: &mut [f64]) {
+pub(super) fn trapezoid(from: From, powers: &[f64], to: &mut [f64]) {
     for i in to.len() - powers.len()..to.len() {
-        to[i] = from.y[i] + 0.5 * h * (from.slope[i] + powers[i + powers.len() - to.len()]);
+        to[i] = from.y[i] + 0.5 * from.h * (from.slope[i] + powers[i + powers.len() - to.len()]);
     }
 }
 
@@ -61,20 +66,20 @@ fn accumulate_from(first: usize, y: &mut [f64], h: f64, weights: &[f64], k: &[Ve
         terms[count] = (h * weight, &k[first.min(k.len())..]);
         count += 1;
         if count == 4 {
-            add(y, terms);
+            add_products(y, terms);
             count = 0;
         }
     }
     match terms[..count] {
-        [first, second, third] => add(y, [first, second, third]),
-        [first, second] => add(y, [first, second]),
-        [first] => add(y, [first]),
+        [first, second, third] => add_products(y, [first, second, third]),
+        [first, second] => add_products(y, [first, second]),
+        [first] => add_products(y, [first]),
         _ => {}
     }
 }
 
 #[inline(always)]
-fn add<const N: usize>(y: &mut [f64], terms: [(f64, &[f64]); N]) {
+fn add_products<const N: usize>(y: &mut [f64], terms: [(f64, &[f64]); N]) {
     let terms = terms.each(|(factor, k)| (factor, &k[..y.len()]));
     for (i, y) in y.iter_mut().enumerate() {
         for (factor, k) in terms {

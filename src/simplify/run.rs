@@ -91,11 +91,11 @@ pub fn sampled(
 pub fn counted(prepared: &PreparedScene, method: &Method, statistics: Statistics) -> f64 {
     let Dimensions { v, lambda, .. } = prepared.system().dimensions();
     let steps = Statistics { rows: Work::default(), ..statistics };
-    worker(prepared, method).work(steps) * (v + lambda) as f64
+    worker(method).work(steps) * (v + lambda) as f64
 }
 
-fn worker<'m>(prepared: &PreparedScene, method: &'m Method) -> Worker<'m> {
-    Worker { method, is_explicit: explicit(prepared.system(), method).is_some() }
+fn worker(method: &Method) -> Worker<'_> {
+    Worker { method, is_explicit: explicit(method).is_some() }
 }
 
 /// Runs a prepared model by its own method and measures it.
@@ -120,7 +120,7 @@ pub fn measured(
         method: prepared.method.clone(),
         seconds,
         work: counted(prepared, &prepared.method, statistics),
-        class: worker(prepared, &prepared.method).class(),
+        class: worker(&prepared.method).class(),
         outputs: differences.collect(),
         failure,
         is_too_slow,

@@ -5,7 +5,7 @@ use super::rows::project;
 use super::{Run, Sink};
 use crate::error::{Failure, two_digits};
 use crate::formulation::{Dynamics, StepError};
-use crate::integrator::From;
+use crate::integrator::{From, Step};
 use crate::math::{Piece, largest};
 use crate::system::{Need, OperatingPoint, Road, Scratch};
 use crate::tolerances::simulate as tolerances;
@@ -23,10 +23,14 @@ impl Run<'_> {
     pub fn end_at_passage(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<Passage>, StepError> {
         let mut passage = self.passage(*h, self.end_of(*h, *end))?;
         for _ in 0..tolerances::CUTS {
-            let own = passage.filter(|_| self.integrator.begins_anew());
+            let own = passage.filter(|_| self.entry.begins_anew);
             let Some(Passage::Within(theta)) = own else { break };
-            let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.end_of(*h, *end) };
-            self.integrator.interpolate(&mut self.rows.problem, from, *h, theta, &mut self.next)?;
+            let step_end = self.end_of(*h, *end);
+            let from =
+                From { t: self.t, y: &self.y, slope: &self.slope, h: *h, end: step_end, tolerance: &self.tolerance };
+            let step = Step { from, to: &self.next, slope: &self.next_slope };
+            self.integrator.interpolate(&mut self.rows.problem, step, theta, &mut self.change)?;
+            self.next.copy_from_slice(&self.change);
             (*h, *end, self.is_moved) = (theta * *h, None, true);
             let t = self.t + *h;
             let sweeps = self.sweeps(*h);
@@ -44,17 +48,16 @@ impl Run<'_> {
         }
         let mut prepared = false;
         let Run { events, rows, integrator, problem, .. } = self;
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
-        let next = &self.next;
-        let next_slope = &self.next_slope;
-        let (q, v) = problem.split(next);
-        let (_, vdot) = problem.split(next_slope);
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
+        let step = Step { from, to: &self.next, slope: &self.next_slope };
+        let (q, v) = problem.split(step.to);
+        let (_, vdot) = problem.split(step.slope);
         events.passage(h, OperatingPoint { t: end, q, v, vdot, lambda: &[] }, |theta, see| {
             if !std::mem::replace(&mut prepared, true) {
                 rows.problem.begin_step(from.t, from.y)?;
-                integrator.prepare(&mut rows.problem, from, h, next, next_slope)?;
+                integrator.prepare(&mut rows.problem, step)?;
             }
-            integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;
+            integrator.interpolate(&mut rows.problem, step, theta, &mut rows.y)?;
             let (q, v) = rows.problem.split(&rows.y);
             see(OperatingPoint { t: from.t + theta * h, q, v, vdot: &[], lambda: &[] });
             Ok::<(), StepError>(())
@@ -96,7 +99,7 @@ impl Run<'_> {
         self.integrator.restart();
         self.cut = None;
         let jump: Vec<f64> = self.slope.iter().zip(&before).map(|(after, before)| self.h * (after - before)).collect();
-        let begins_anew = self.integrator.begins_anew();
+        let begins_anew = self.entry.begins_anew;
         if self.fixed.is_none() && (begins_anew || self.tolerance.norm(&self.y, &jump) > 1.0) {
             self.start_small()?;
         }
@@ -129,7 +132,7 @@ impl Run<'_> {
     /// Makes the next step not longer than one whose error is estimated to be about the tolerance.
     fn start_small(&mut self) -> Result<(), Failure> {
         let first = self.estimated_step().map_err(|halt| self.halted(&halt))?;
-        let step = 100f64.powf(1.0 / self.integrator.order() as f64) * first;
+        let step = 100f64.powf(1.0 / self.integrator.control().order as f64) * first;
         self.h = self.h.min(step.max(2.0 * self.smallest()));
         Ok(())
     }

@@ -10,6 +10,7 @@ use crate::math::{Piece, Thresholds};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Terms};
 use crate::tolerances::report::JOINTS_OPEN;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// The values that a run carries from one accepted step to the next: the state, and the adaptive quantities. A run of
 /// the same method and span that continues from here is bit by bit the uninterrupted one; a step that was left among its
@@ -35,7 +36,7 @@ pub struct Checkpoint {
     approach: SingularPassage,
     dense_reference: f64,
     formulation: Vec<f64>,
-    integrator: Option<Vec<f64>>,
+    integrator: Option<Value>,
     h: f64,
     growing: bool,
     cut: Option<f64>,
@@ -232,7 +233,9 @@ impl Run<'_> {
     fn recall(&mut self, saved: &Checkpoint) -> Result<(), Failure> {
         self.problem.formulation.recall(&saved.formulation);
         self.rows.problem.formulation.recall(&saved.formulation);
-        self.integrator.recall(saved.integrator.as_deref().unwrap_or_default());
+        if let Some(memory) = &saved.integrator {
+            self.integrator.recall(memory);
+        }
         (self.approach, self.crowd, self.divided) = (saved.approach, saved.crowd, saved.divided);
         (self.h, self.growing, self.cut) = (saved.h, saved.growing, saved.cut);
         (self.progress, self.factored) = (saved.progress, saved.factored);

@@ -147,7 +147,7 @@ impl Run<'_> {
         let mut dynamics = Dynamics::new(system);
         dynamics.solve(self.t, q, v, |_, _| 0.0).ok()?;
         let mode = fastest(system, OperatingPoint { t: self.t, q, v, vdot: &dynamics.vdot, lambda: &dynamics.lambda })?;
-        let stability = self.integrator.stability();
+        let stability = self.entry.stability.map(|stability| stability());
         let limit =
             stability.as_ref().map_or(tolerances::STABLE_STEP, |stability| stability.limit(mode.decay, mode.swing));
         let part = step * mode.rate() / limit;
@@ -158,7 +158,7 @@ impl Run<'_> {
 
     /// The factor by which the steps of a multistep method, which begins with short ones, go on growing.
     fn growth(&self, mark: Mark) -> f64 {
-        if self.integrator.begins_anew() { (self.h / self.step_since(mark)).max(1.0) } else { 1.0 }
+        if self.entry.begins_anew { (self.h / self.step_since(mark)).max(1.0) } else { 1.0 }
     }
 
     /// Lets `other` try from the state of this run, whose pace since `mark` is known. While its steps grow it goes on,

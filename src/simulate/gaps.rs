@@ -6,7 +6,7 @@
 
 use super::Run;
 use crate::formulation::StepError;
-use crate::integrator::From;
+use crate::integrator::{From, Step};
 use crate::math::{Piece, Side};
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
@@ -78,7 +78,7 @@ impl Run<'_> {
     /// The pieces of the events for all evaluations from now on.
     fn take_pieces(&mut self) {
         self.share_pieces();
-        if self.integrator.leads() {
+        if self.entry.leads {
             self.integrator.restart();
         }
     }
@@ -121,14 +121,15 @@ impl Run<'_> {
         [mut low_value, mut high_value]: [f64; 2],
     ) -> Result<f64, StepError> {
         let Run { gaps, rows, integrator, problem, .. } = self;
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
         rows.problem.begin_step(from.t, from.y)?;
-        integrator.prepare(&mut rows.problem, from, h, &self.next, &self.next_slope)?;
+        let step = Step { from, to: &self.next, slope: &self.next_slope };
+        integrator.prepare(&mut rows.problem, step)?;
         let mut low = 0.0;
         let mut high = 1.0;
         for _ in 0..tolerances::LOOKS_AT_GAP {
             let theta = low + (high - low) * low_value / (low_value - high_value);
-            integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;
+            integrator.interpolate(&mut rows.problem, step, theta, &mut rows.y)?;
             problem.dynamics.system.write_gaps(problem.split(&rows.y).0, &mut gaps.within);
             let value = side.component(&gaps.within[i]);
             if value > 0.0 {

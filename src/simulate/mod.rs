@@ -50,7 +50,7 @@ use travel::Travelled;
 use crate::error::{Failure, Result};
 use crate::formulation::{self, Dynamics, Statistics};
 use crate::initial::Travel;
-use crate::integrator::{self, Integrator, Problem, Tolerance};
+use crate::integrator::{self, Accepted, Entry, Integrator, Problem, Tolerance};
 use crate::method_spec::MethodSpec;
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
@@ -87,6 +87,7 @@ pub fn simulate(
 
 struct Run<'a> {
     problem: Problem<'a>,
+    entry: &'static Entry,
     integrator: Box<dyn Integrator + 'a>,
     projection: Option<Box<dyn Projection + 'a>>,
     rows: OutputRows<'a>,
@@ -149,6 +150,8 @@ fn within(method: &Method, system: &dyn MechanicalSystem) -> Result<Option<Box<d
 /// The parts of a run.
 pub(crate) struct Parts<'a> {
     pub problem: Problem<'a>,
+    /// The entry of the integrator.
+    pub entry: &'static Entry,
     pub integrator: Box<dyn Integrator + 'a>,
     pub projection: Option<Box<dyn Projection + 'a>>,
     /// A second problem and projection for output rows, whose work is counted separately from that of the steps.
@@ -169,6 +172,7 @@ impl<'a> Run<'a> {
         own.dynamics.wants_least = false;
         let parts = Parts {
             problem: own,
+            entry,
             integrator: method.make_integrator(system)?,
             projection: projection::make(&method.projection, system)?,
             rows: (problem()?, within(method, system)?),
@@ -183,8 +187,9 @@ impl<'a> Run<'a> {
         let zeros = || vec![0.0; y.len()];
         let system = parts.problem.dynamics.system;
         Run {
-            is_explicit: parts.integrator.stability().is_some(),
+            is_explicit: parts.entry.stability.is_some(),
             problem: parts.problem,
+            entry: parts.entry,
             integrator: parts.integrator,
             projection: parts.projection,
             rows: OutputRows::new(parts.rows.0, parts.rows.1),
@@ -246,7 +251,7 @@ impl<'a> Run<'a> {
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         let first = self.first_step().map_err(|halt| self.halted(&halt))?;
         // A multistep method doubles its first steps, and does not where one of them is refused.
-        self.h = if self.integrator.begins_anew() { first } else { first.max(h) };
+        self.h = if self.entry.begins_anew { first } else { first.max(h) };
         Ok(())
     }
 
@@ -279,7 +284,7 @@ impl<'a> Run<'a> {
             self.check_progress()?;
             self.check_crawl()?;
             let stop = self.next_stop();
-            if self.integrator.leads() {
+            if self.entry.leads {
                 self.lead(stop)?;
             }
             let (mut size, mut end) = self.fit(stop);
@@ -297,7 +302,6 @@ impl<'a> Run<'a> {
             self.accept(size, end, sink);
             self.check_joints()?;
             self.propose(size, error, end.is_some() || self.cut.is_some() || size < tried)?;
-            self.integrator.accepted(&self.tolerance);
             (self.growing, self.cut) = (true, None);
             let changes_form =
                 self.end_gaps() || self.events.is_at_threshold() || stop.changes_form && self.t >= stop.t;
@@ -353,10 +357,15 @@ impl<'a> Run<'a> {
         Ok(false)
     }
 
-    /// Proposes the next step. One that was cut to end at a given time does not reduce the size before it.
+    /// Tells the method that its step is accepted, and takes the size of the next one. A step that was cut to end at a
+    /// given time does not reduce the size before it.
     fn propose(&mut self, size: f64, error: Option<f64>, is_cut: bool) -> Result<(), Failure> {
-        let Some(error) = error else { return Ok(()) };
-        let proposed = self.integrator.propose(size, error, self.growing);
+        let Run { growing, is_moved, .. } = *self;
+        let step = Accepted { h: size, error, growing, is_moved, tolerance: &self.tolerance };
+        let proposed = self.integrator.accepted(&step);
+        if error.is_none() {
+            return Ok(());
+        }
         self.h = if is_cut { self.h.max(proposed) } else { proposed };
         if self.t < self.span.end && self.h < self.smallest() {
             Err(self.too_small(format!("steps have fallen to {:.1e} s", self.h), None))
@@ -377,9 +386,6 @@ impl<'a> Run<'a> {
         self.problem.dynamics.statistics.steps += 1;
         if let Some(lost) = self.lost.take() {
             self.approach.add_loss(lost);
-        }
-        if self.is_moved {
-            self.integrator.moved();
         }
         self.observe(self.fixed.or(Some(h)), sink);
     }

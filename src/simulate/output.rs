@@ -4,7 +4,7 @@ use super::rows::{OutputRows, project};
 use super::{Run, Sink};
 use crate::error::Failure;
 use crate::formulation::StepError;
-use crate::integrator::From;
+use crate::integrator::{From, Step};
 use crate::tolerances::simulate as tolerances;
 
 impl Run<'_> {
@@ -42,9 +42,10 @@ impl Run<'_> {
     }
 
     fn prepare(&mut self, h: f64, end: f64) -> Result<(), StepError> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
+        let step = Step { from, to: &self.next, slope: &self.next_slope };
         self.rows.problem.begin_step(self.t, &self.y)?;
-        self.integrator.prepare(&mut self.rows.problem, from, h, &self.next, &self.next_slope)
+        self.integrator.prepare(&mut self.rows.problem, step)
     }
 
     /// Evaluates the row at `t`. Returns its fraction of the step if it contradicts the step, or is too far off the
@@ -52,9 +53,10 @@ impl Run<'_> {
     fn row_within(&mut self, t: f64, h: f64, end: f64) -> Result<Option<f64>, StepError> {
         let theta = (t - self.t) / h;
         let rows = &mut self.rows;
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end };
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
+        let step = Step { from, to: &self.next, slope: &self.next_slope };
         rows.problem.begin_step(self.t, &self.y)?;
-        self.integrator.interpolate(&mut rows.problem, from, h, theta, &mut rows.y)?;
+        self.integrator.interpolate(&mut rows.problem, step, theta, &mut rows.y)?;
         let is_checked = self.is_explicit && self.fixed.is_none() && !self.approach.reaches(h);
         if is_checked {
             let apart = if theta + tolerances::DIFFERENCE_OF_ROWS < 1.0 {
@@ -62,7 +64,7 @@ impl Run<'_> {
             } else {
                 -tolerances::DIFFERENCE_OF_ROWS
             };
-            self.integrator.interpolate(&mut rows.problem, from, h, theta + apart, &mut rows.ahead)?;
+            self.integrator.interpolate(&mut rows.problem, step, theta + apart, &mut rows.ahead)?;
             rows.differentiate(h * apart);
         }
         match self.project_row(t, h) {

@@ -5,7 +5,7 @@ use super::Run;
 use super::events::Events;
 use crate::error::Failure;
 use crate::formulation::StepError;
-use crate::integrator::{From, first_step};
+use crate::integrator::{Control, From, first_step};
 use crate::tolerances::simulate as tolerances;
 
 /// A time at which a step must end.
@@ -28,7 +28,7 @@ impl Run<'_> {
     /// The step from the present state whose error is estimated to be a hundredth of the tolerance.
     pub fn estimated_step(&mut self) -> Result<f64, StepError> {
         let span = (self.t, self.span.end - self.t);
-        let order = self.integrator.order();
+        let order = self.integrator.control().order;
         let lambda = self.problem.dynamics.lambda.clone();
         let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order);
         // `first_step` evaluates ahead; lambda is that of the start.
@@ -38,12 +38,13 @@ impl Run<'_> {
 
     /// The step of size `h`, unless a singular state suggests another.
     fn place(&mut self, h: f64) -> f64 {
-        match (self.fixed, self.integrator.widest_gap()) {
+        let Control { gap, order, .. } = *self.integrator.control();
+        match (self.fixed, gap) {
             (None, gap) => self.approach.place(h, gap.unwrap_or(0.5)),
             (Some(_), None) => self.to_grid(h),
             (Some(_), Some(gap)) => {
                 let times = (self.to_grid(h), self.span.end - self.t);
-                self.approach.place_fixed(h, times, (gap, self.integrator.order()))
+                self.approach.place_fixed(h, times, (gap, order))
             }
         }
     }
@@ -59,8 +60,9 @@ impl Run<'_> {
     /// Takes the next step from a method that chooses it itself, unless a smaller one is to be tried.
     pub fn lead(&mut self, stop: NextStop) -> Result<(), Failure> {
         let limit = self.events.resolved(self.t, self.h.min(stop.t - self.t), stop.t);
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.t + limit };
-        let size = match self.integrator.lead(&mut self.problem, &self.tolerance, from, self.h) {
+        let Run { h, tolerance, .. } = self;
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h: *h, end: self.t + limit, tolerance };
+        let size = match self.integrator.lead(&mut self.problem, from) {
             Ok(size) => size,
             Err(halt) if halt.is_fatal() => return Err(self.halted(&halt)),
             Err(halt) => return Err(self.too_small(format!("{halt}, however small the step"), halt.hint())),
@@ -76,7 +78,7 @@ impl Run<'_> {
             return (size, None);
         }
         let left = stop.t - self.t;
-        if self.integrator.leads() {
+        if self.entry.leads {
             return if self.h >= left { (left, Some(stop.t)) } else { (self.h, None) };
         }
         let placed = self.place(self.h);
@@ -91,7 +93,7 @@ impl Run<'_> {
             None => (placed, None),
         };
         let resolved = self.resolved(size, stop.t);
-        let adapts = self.fixed.is_none() && !self.integrator.begins_anew();
+        let adapts = self.fixed.is_none() && !self.entry.begins_anew;
         if let Some(step) = self.events.ends_at_point(self.t, resolved).filter(|_| adapts) {
             self.cut = Some(step);
             return (step, None);

@@ -128,7 +128,7 @@ impl Run<'_> {
         let tolerated = self.fixed.is_none().then(|| self.tolerated_energy());
         let effort = Some(self.effort());
         let state = observation(self.t, &self.y, &self.problem, rank_indicator, &mut self.phi_ddot);
-        let apart = size.map(|size| size * self.integrator.spacing());
+        let apart = size.map(|size| size * self.integrator.control().spacing);
         sink.accepted(&Observation { tolerated, apart, effort, ..state });
     }
 }

@@ -39,7 +39,6 @@ impl<'a> Segments<'a> {
     pub fn change(&mut self, change: impl FnOnce(&mut [f64])) -> Result<(), Failure> {
         let run = &mut self.run;
         change(&mut run.y);
-        run.integrator.moved();
         run.problem.derivative(run.t, &run.y, &mut run.slope).map_err(|halt| run.halted(&halt))
     }
 }

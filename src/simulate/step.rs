@@ -67,9 +67,10 @@ impl Run<'_> {
     }
 
     fn attempt(&mut self, h: f64, end: Option<f64>) -> Result<Option<f64>, StepError> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end: self.end_of(h, end) };
+        let end = self.end_of(h, end);
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
         self.problem.begin_step(self.t, &self.y)?;
-        let error = self.integrator.attempt(&mut self.problem, &self.tolerance, from, h, &mut self.next)?;
+        let error = self.integrator.attempt(&mut self.problem, from, &mut self.next)?;
         Ok(if self.fixed.is_some() { None } else { error })
     }
 
@@ -83,7 +84,7 @@ impl Run<'_> {
         self.change.copy_from_slice(&self.next);
         let t = self.end_of(h, end);
         let sweeps = self.sweeps(h);
-        self.problem.dynamics.ends_near = self.integrator.ends_near() && !is_singular;
+        self.problem.dynamics.ends_near = self.entry.ends_near && !is_singular;
         project(t, &mut self.next, &mut self.problem, &mut self.projection, sweeps)?;
         self.problem.dynamics.ends_near = false;
         self.is_moved = self.projection.is_some() || self.change != self.next;
@@ -149,8 +150,8 @@ impl Run<'_> {
     /// Near a singular state the stages are far off along the nearly dependent rows, and the projection removes that
     /// from both, so that the error before it is no measure.
     fn error_within_constraints(&mut self, t: f64, h: f64) -> Result<Option<f64>, StepError> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, end: t };
-        if !self.integrator.lower_order(from, h, &mut self.change) {
+        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end: t, tolerance: &self.tolerance };
+        if !self.integrator.lower_order(from, &mut self.change) {
             return Ok(Some(f64::NAN));
         }
         project(t, &mut self.change, &mut self.problem, &mut self.projection, tolerances::SINGULAR_SWEEPS)?;

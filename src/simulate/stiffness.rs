@@ -4,7 +4,7 @@ use super::automatic::rival;
 use super::spectrum::{Spectrum, bound, fastest};
 use super::{Method, Span};
 use crate::error::{Warning, short, two_digits};
-use crate::integrator::Stability;
+use crate::integrator::{self, Stability};
 use crate::modes::SpectralMode;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::simulate as tolerances;
@@ -41,7 +41,7 @@ pub fn stiffness(
     state: OperatingPoint,
     span: Span,
 ) -> Option<Stiffness> {
-    let stability = explicit(system, method)?;
+    let stability = explicit(method)?;
     let duration = span.end - span.start;
     let longest = method.step.unwrap_or(duration / tolerances::STEPS_FOR_STABILITY);
     // Far below the limits along its own direction and both axes no mode is critical.
@@ -94,8 +94,8 @@ fn too_long(
 }
 
 /// Stability region of the method; `None` for a method without a limit.
-pub fn explicit(system: &dyn MechanicalSystem, method: &Method) -> Option<Stability> {
-    method.make_integrator(system).ok()?.stability()
+pub fn explicit(method: &Method) -> Option<Stability> {
+    integrator::find(&method.integrator).ok()?.stability.map(|stability| stability())
 }
 
 fn advice(method: &Method, step: f64) -> String {

@@ -2,47 +2,25 @@
 
 use holonom::Result;
 use holonom::formulation::StepError;
-use holonom::integrator::{Control, Entry, From, Hermite, Integrator, Problem, Steps, Tightening, Tolerance};
+use holonom::integrator::{Control, Entry, From, Integrator, Problem};
 use holonom::method_spec::Listed;
 use holonom::simulate::Method;
 
 /// The explicit midpoint rule, y_1 = y + h F(t + h/2, y + h/2 F(t, y)).
-pub static MIDPOINT: Entry = Entry {
-    name: "midpoint",
-    about: "the explicit midpoint rule",
-    order: 2,
-    steps: Steps::Fixed,
-    tightening: Tightening::NONE,
-    solves: |formulation| formulation.field.is_some(),
-    refuses: |_formulation, _projection| false,
-    options: &[],
-    make: |setup| {
-        let n = setup.len();
-        let control = Control::new(2.0, 0.2, 5.0);
-        Ok(Box::new(Midpoint { middle: vec![0.0; n], slope: vec![0.0; n], control, dense: Hermite::new(n, 0) }))
-    },
-};
+pub static MIDPOINT: Entry = Entry::new("midpoint", "the explicit midpoint rule", 2, |setup| {
+    let zeros = || vec![0.0; setup.len()];
+    Ok(Box::new(Midpoint { middle: zeros(), slope: zeros(), control: Control::new(2.0, 0.2, 5.0) }))
+});
 
 struct Midpoint {
     middle: Vec<f64>,
     slope: Vec<f64>,
     control: Control,
-    dense: Hermite,
 }
 
 impl Integrator for Midpoint {
-    fn order(&self) -> usize {
-        MIDPOINT.order
-    }
-
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        _: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        let h = from.h;
         let ahead = |out: &mut [f64], h: f64, slope: &[f64]| {
             out.iter_mut().zip(from.y.iter().zip(slope)).for_each(|(out, (y, slope))| *out = y + h * slope);
         };
@@ -55,10 +33,6 @@ impl Integrator for Midpoint {
     /// Steps are fixed, but a method with an error estimate is controlled by it.
     fn control(&mut self) -> &mut Control {
         &mut self.control
-    }
-
-    fn polynomial(&mut self) -> Option<&mut Hermite> {
-        Some(&mut self.dense)
     }
 }
 

@@ -1,21 +1,17 @@
 //! An own explicit Runge-Kutta method: its tableau.
 
 use holonom::Result;
-use holonom::integrator::{Control, Entry, ErrorEstimate, Explicit, Steps, Tableau, Tightening};
+use holonom::integrator::{Control, Entry, ErrorEstimate, Explicit, Steps, Tableau};
 use holonom::method_spec::Listed;
 use holonom::simulate::Method;
 
 /// Bogacki and Shampine, Appl. Math. Lett. 2 (1989) 321-325: order 3 with an error estimate of order 2, adaptive steps.
 static BS23: Entry = Entry {
-    name: "bs23",
-    about: "Bogacki and Shampine's pair, 4 evaluations a step",
-    order: 3,
     steps: Steps::Either,
-    tightening: Tightening::NONE,
-    solves: |formulation| formulation.field.is_some(),
-    refuses: |_formulation, _projection| false,
-    options: &[],
-    make: |setup| Ok(Box::new(Explicit::new(&TABLEAU, setup.len()))),
+    stability: Some(|| TABLEAU.stability()),
+    ..Entry::new("bs23", "Bogacki and Shampine's pair, 4 evaluations a step", 3, |setup| {
+        Ok(Box::new(Explicit::new(&TABLEAU, setup.len())))
+    })
 };
 
 static TABLEAU: Tableau = Tableau {

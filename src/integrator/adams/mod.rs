@@ -3,14 +3,18 @@
 mod coefficients;
 mod rows;
 
-use super::memory::Reader;
-use super::{Control, Entry, From, Integrator, Problem, Stability, Steps, Tightening, Tolerance, refuses, takes};
+use super::memory::{read, written};
+use super::{
+    Accepted, Control, Dense, Entry, From, Integrator, Problem, Stability, Step, Steps, Tightening, Tolerance,
+};
 use crate::formulation::StepError;
 use crate::math::array::{Each, from_fn};
 use crate::method_spec::OptionDoc;
 use crate::tolerances::integrator as tolerances;
 use coefficients::{Coefficients, MOST, ROOM, error_constants};
 use rows::{QUAD, Rows, plus, quad, store};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// ```text
 /// y~ = y + h sum_{i=1..k} g_i Phi*_i,   y_1 = y~ + h g_{k+1} (F(t_1, y~) - Phi~_1)
@@ -29,20 +33,24 @@ use rows::{QUAD, Rows, plus, quad, store};
 /// step to |h lambda| of two, the limit of Heun's method, at order 1 and to less at higher orders. Interpolation by the
 /// polynomial of the step, of order k + 1, which meets both ends.
 pub const ENTRY: Entry = Entry {
-    name: "adams",
-    about: "Adams-Bashforth-Moulton, order up to 13 by itself, 2 evaluations a step; smooth motions, few events",
-    order: MOST + 1,
     steps: Steps::Own,
     // At the order of least error that of the corrected solution is as large as that of the prediction, which is
     // tested, and errors of steps add up. Over motions that amplify none they were 50 times those of dop853.
     tightening: Tightening { factor: 0.003, power: 1.0, least: tolerances::ADAMS_RTOL },
-    solves: takes::vector_fields,
-    refuses: refuses::none,
     options: &[OptionDoc { name: "order", about: "the highest order, 2 to 13 (default 13)" }],
-    make: |setup| {
-        let highest = setup.integrator.whole("order", MOST + 1, 2..=MOST + 1)?;
-        Ok(Box::new(Adams::new(setup.len(), highest - 1)))
-    },
+    // That of the lowest orders, Heun's; it shrinks as the order rises.
+    stability: Some(|| Stability::Polynomial(vec![1.0, 1.0, 0.5])),
+    ends_near: true,
+    begins_anew: true,
+    ..Entry::new(
+        "adams",
+        "Adams-Bashforth-Moulton, order up to 13 by itself, 2 evaluations a step; smooth motions, few events",
+        MOST + 1,
+        |setup| {
+            let highest = setup.integrator.whole("order", MOST + 1, 2..=MOST + 1)?;
+            Ok(Box::new(Adams::new(setup.len(), highest - 1)))
+        },
+    )
 };
 
 /// The method between two steps.
@@ -76,7 +84,20 @@ struct Adams {
     open: Vec<f64>,
 }
 
-#[derive(Clone, Copy)]
+/// What steps pass on, as it is saved.
+#[derive(Serialize, Deserialize)]
+struct Memory {
+    order: usize,
+    known: usize,
+    past: [f64; ROOM],
+    tried: Tried,
+    is_accepted: bool,
+    is_rising: bool,
+    /// The sums of the last step; before its end, after a refusal, the differences at its start.
+    rows: Vec<Vec<f64>>,
+}
+
+#[derive(Clone, Copy, Serialize, Deserialize)]
 struct Tried {
     h: f64,
     order: usize,
@@ -87,6 +108,8 @@ struct Tried {
 impl Adams {
     fn new(len: usize, most: usize) -> Self {
         let zeros = || vec![0.0; len];
+        let mut control = Control::new(1.0, tolerances::ADAMS_SHRINK, 2.0);
+        control.order = 2;
         Adams {
             order: 1,
             most,
@@ -99,7 +122,7 @@ impl Adams {
             is_rising: true,
             coefficients: Coefficients::NONE,
             constants: error_constants(),
-            control: Control::new(1.0, tolerances::ADAMS_SHRINK, 2.0),
+            control,
             ratio: 1.0,
             weights: zeros(),
             defect: zeros(),
@@ -134,11 +157,11 @@ impl Adams {
     }
 
     /// y~, and the sums of the differences.
-    fn predict(&mut self, from: From, h: f64, to: &mut [f64]) {
+    fn predict(&mut self, from: From, to: &mut [f64]) {
         let Adams { order, differences, known, predicted, coefficients, .. } = self;
         let k = *order;
         let beta = &coefficients.beta;
-        let weights: [f64; ROOM] = from_fn(|i| h * coefficients.g[i]);
+        let weights: [f64; ROOM] = from_fn(|i| from.h * coefficients.g[i]);
         for (b, (rows, sums)) in differences.blocks.iter().zip(&mut predicted.blocks).enumerate() {
             let mut y = quad(from.y, b);
             let mut sum = [0.0; QUAD];
@@ -249,39 +272,20 @@ impl Adams {
 }
 
 impl Integrator for Adams {
-    fn order(&self) -> usize {
-        self.order + 1
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
     }
 
-    fn propose(&mut self, h: f64, _: f64, growing: bool) -> f64 {
-        h * self.ratio.clamp(self.control.shrink, if growing { self.control.grow } else { 1.0 })
-    }
-
-    /// That of the lowest orders, Heun's; it shrinks as the order rises.
-    fn stability(&self) -> Option<Stability> {
-        Some(Stability::Polynomial(vec![1.0, 1.0, 0.5]))
-    }
-
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        let h = from.h;
         self.extend(from.slope);
         let k = self.order;
         self.tried = Tried { h, order: k, next: k };
         self.coefficients = Coefficients::new(h, &self.past, k + 1);
-        self.predict(from, h, to);
+        self.predict(from, to);
         problem.derivative(from.end, to, &mut self.defect)?;
         self.correct(h, to);
-        self.weigh(tolerance, from.y, to);
+        self.weigh(from.tolerance, from.y, to);
         let norms = self.norms();
         let error = h * (self.coefficients.g[k - 1] - self.coefficients.g[k]) * norms[0];
         let next = self.choose(norms);
@@ -289,12 +293,9 @@ impl Integrator for Adams {
         Ok(Some(error))
     }
 
-    fn ends_near(&self) -> bool {
-        true
-    }
-
-    fn accepted(&mut self, _: &Tolerance) {
+    fn accepted(&mut self, Accepted { h, growing, .. }: &Accepted) -> f64 {
         self.is_accepted = true;
+        h * self.ratio.clamp(self.control.shrink, if *growing { self.control.grow } else { 1.0 })
     }
 
     fn restart(&mut self) {
@@ -302,39 +303,26 @@ impl Integrator for Adams {
         self.order = 1;
     }
 
-    fn begins_anew(&self) -> bool {
-        true
+    fn memory(&self) -> Option<Value> {
+        let Adams { order, known, past, tried, is_accepted, is_rising, .. } = *self;
+        let (rows, count) = if is_accepted { (&self.predicted, tried.order + 1) } else { (&self.differences, known) };
+        let rows = (0..count).map(|i| rows.row(i).collect()).collect();
+        written(Memory { order, known, past, tried, is_accepted, is_rising, rows })
     }
 
-    /// The sums of the last step; before its end, after a refusal, the differences at its start.
-    fn memory(&self) -> Option<Vec<f64>> {
-        let Tried { h, order, next } = self.tried;
-        let numbers = [self.order, self.known, order, next, usize::from(self.is_accepted), usize::from(self.is_rising)];
-        let mut memory = numbers.each(|number| number as f64).to_vec();
-        memory.push(h);
-        memory.extend(self.past);
-        let (rows, count) =
-            if self.is_accepted { (&self.predicted, order + 1) } else { (&self.differences, self.known) };
-        (0..count).for_each(|i| memory.extend(rows.row(i)));
-        Some(memory)
+    fn recall(&mut self, memory: &Value) {
+        let Some(Memory { order, known, past, tried, is_accepted, is_rising, rows }) = read(memory) else { return };
+        self.order = order.clamp(1, self.most);
+        self.known = known.min(ROOM);
+        self.past = past;
+        self.tried = Tried { order: tried.order.clamp(1, MOST), next: tried.next.clamp(1, self.most), ..tried };
+        (self.is_accepted, self.is_rising) = (is_accepted, is_rising);
+        let own = if is_accepted { &mut self.predicted } else { &mut self.differences };
+        rows.iter().take(ROOM).enumerate().for_each(|(i, row)| own.set(i, row));
     }
 
-    fn recall(&mut self, memory: &[f64]) {
-        let mut memory = Reader(memory);
-        let [own, known, order, next, is_accepted, is_rising] = from_fn(|_| memory.number() as usize);
-        (self.order, self.known) = (own.clamp(1, self.most), known.min(ROOM));
-        self.tried = Tried { h: memory.number(), order: order.clamp(1, MOST), next: next.clamp(1, self.most) };
-        (self.is_accepted, self.is_rising) = (is_accepted > 0, is_rising > 0);
-        memory.fill(&mut self.past);
-        let Adams { tried, known, predicted, differences, defect, .. } = self;
-        let (rows, count) = if is_accepted > 0 { (predicted, tried.order + 1) } else { (differences, *known) };
-        for i in 0..count {
-            memory.fill(defect);
-            rows.set(i, defect);
-        }
-    }
-
-    fn lower_order(&self, from: From, h: f64, out: &mut [f64]) -> bool {
+    fn lower_order(&self, from: From, out: &mut [f64]) -> bool {
+        let h = from.h;
         // Of order k: y~ with g_k in the place of g_{k+1}.
         let k = self.tried.order;
         let g = &self.coefficients.g;
@@ -350,16 +338,23 @@ impl Integrator for Adams {
         true
     }
 
+    fn dense(&mut self) -> Option<&mut dyn Dense> {
+        Some(self)
+    }
+}
+
+impl Dense for Adams {
     /// At the start of the step the polynomial is off by the error of the step and by the projection, which is spread
     /// over the step.
-    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], slope: &[f64]) -> Result<(), StepError> {
+    fn prepare(&mut self, _: &mut Problem, Step { from, to, slope }: Step) -> Result<(), StepError> {
+        let h = from.h;
         self.end.copy_from_slice(to);
         if h != self.tried.h {
             // The step was cut on its dense output since the attempt.
             self.tried.h = h;
             self.coefficients = Coefficients::new(h, &self.past, self.tried.order + 1);
             let mut open = std::mem::take(&mut self.open);
-            self.predict(from, h, &mut open);
+            self.predict(from, &mut open);
             self.open = open;
         }
         let Adams { defect, predicted, .. } = self;
@@ -371,8 +366,8 @@ impl Integrator for Adams {
         Ok(())
     }
 
-    fn interpolate(&mut self, _: &mut Problem, _: From, h: f64, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
-        self.follow((theta - 1.0) * h, out);
+    fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
+        self.follow((theta - 1.0) * step.from.h, out);
         let part = (1.0 - theta).powi(2) * (1.0 + 2.0 * theta);
         out.iter_mut().zip(&self.open).for_each(|(out, open)| *out += part * open);
         Ok(())

@@ -1,8 +1,7 @@
 //! The tangent matrix with the penalty of the constraints.
 
 use super::super::Problem;
-use crate::formulation::NO_TANGENT;
-use crate::formulation::StepError;
+use crate::formulation::{NO_TANGENT, StepError, write_diagonal};
 use crate::math::kkt::{Pattern, Unsymmetric};
 use crate::system::{MechanicalSystem, OperatingPoint, Tangent};
 use std::collections::BTreeSet;
@@ -80,10 +79,7 @@ impl Penalized {
     fn weigh(&mut self, problem: &Problem) {
         let structure = &problem.dynamics.structure;
         let terms = &problem.dynamics.terms;
-        self.diagonal.fill(0.0);
-        for (&(i, j), mass) in structure.mass.entries.iter().zip(&terms.mass) {
-            self.diagonal[i] += if i == j { *mass } else { 0.0 };
-        }
+        write_diagonal(&structure.mass, &terms.mass, &mut self.diagonal);
         self.weight.fill(0.0);
         for (&(row, i), g) in structure.g.entries.iter().zip(&terms.g).filter(|((_, i), _)| self.diagonal[*i] > 0.0) {
             self.weight[row] += g * g / self.diagonal[i];

@@ -2,11 +2,10 @@
 
 mod matrix;
 
-use super::hermite::Hermite;
-use super::memory::Reader;
-use super::sums::trapezoid;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
-use crate::error::{Error, Result};
+use super::memory::{fill, read, written};
+use super::sums::{add, trapezoid};
+use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, no_memory, takes};
+use crate::error::Result;
 use crate::formulation::{ExponentialMap, StepError};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor, relative};
@@ -14,6 +13,8 @@ use crate::method_spec::OptionDoc;
 use crate::system::{Need, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
 use matrix::Penalized;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// ```text
 /// q_1 = q + h/2 (v + v_1),  v_1 = v + h/2 (a + a_1),  M a_1 + G^T lambda = f,  phi(q_1) = 0           trapezoidal rule
@@ -39,24 +40,22 @@ use matrix::Penalized;
 /// sparse by its pattern, in which bodies that share an element are coupled. The work is integrated by the trapezoidal
 /// rule. Fixed steps; cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
-    name: "ali3p",
-    about: "index-3 augmented Lagrangian, projected: holds phi, phi'; redundant and singular G allowed; fixed steps",
-    order: 2,
-    steps: Steps::Fixed,
-    tightening: Tightening::NONE,
     solves: takes::position_rows,
-    refuses: refuses::none,
     options: &[OptionDoc {
         name: "penalty",
         about: "h^2/4 alpha over the mass on a constraint, of which an iteration leaves 1/penalty (default 1e7)",
     }],
-    make,
+    ..Entry::new(
+        "ali3p",
+        "index-3 augmented Lagrangian, projected: holds phi, phi'; redundant and singular G allowed; fixed steps",
+        2,
+        make,
+    )
 };
 
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     let n = setup.system.dimensions();
-    let matrix = Penalized::new(setup.integrator.positive("penalty", 1e7)?, setup.system)
-        .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
+    let matrix = Penalized::new(setup.integrator.positive("penalty", 1e7)?, setup.system).ok_or_else(no_memory)?;
     let zeros = |n: usize| vec![0.0; n];
     Ok(Box::new(Ali3p {
         matrix,
@@ -72,8 +71,15 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         retraction: ExponentialMap::new(setup.system),
         slope: zeros(setup.len()),
         control: Control::new(2.0, 0.2, 5.0),
-        polynomial: Hermite::new(setup.len(), 0),
     }))
+}
+
+/// What steps pass on, as it is saved: a and lambda* of the last one, if there was one.
+#[derive(Serialize, Deserialize)]
+struct Memory {
+    is_started: bool,
+    a: Vec<f64>,
+    lambda: Vec<f64>,
 }
 
 struct Ali3p {
@@ -95,7 +101,6 @@ struct Ali3p {
     /// y' at the new state.
     slope: Vec<f64>,
     control: Control,
-    polynomial: Hermite,
 }
 
 /// Limits on changes over their stagnation tolerance.
@@ -124,7 +129,8 @@ impl Ali3p {
     }
 
     /// q_1 for constant a.
-    fn predict(&mut self, problem: &Problem, from: From, h: f64) {
+    fn predict(&mut self, problem: &Problem, from: From) {
+        let h = from.h;
         let (q0, v0) = problem.split(from.y);
         for (i, v0) in v0.iter().enumerate() {
             self.step[i] = h * v0 + 0.5 * h * h * self.a[i];
@@ -133,7 +139,8 @@ impl Ali3p {
     }
 
     /// v_1 and q_1 for the present a_1.
-    fn advance(&mut self, problem: &Problem, from: From, h: f64, to: &mut [f64]) {
+    fn advance(&mut self, problem: &Problem, from: From, to: &mut [f64]) {
+        let h = from.h;
         let (_, v0) = problem.split(from.y);
         let (q, v) = problem.split_mut(to);
         for i in 0..v.len() {
@@ -143,13 +150,14 @@ impl Ali3p {
         self.retraction.apply(problem.dynamics.system, &self.predicted, &self.step, q);
     }
 
-    fn converge(&mut self, problem: &mut Problem, from: From, h: f64, to: &mut [f64]) -> Result<(), StepError> {
+    fn converge(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<(), StepError> {
+        let h = from.h;
         let t = from.t + h;
-        self.predict(problem, from, h);
+        self.predict(problem, from);
         let mut is_factored = false;
         let mut newton = Monitor::default();
         let converged = newton.solve(LIMITS, |renews| {
-            self.advance(problem, from, h, to);
+            self.advance(problem, from, to);
             let (q, v) = problem.split(to);
             problem.dynamics.evaluate(t, q, v, Need::DYNAMICS);
             if renews || !is_factored {
@@ -165,7 +173,7 @@ impl Ali3p {
             )
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
-        self.advance(problem, from, h, to);
+        self.advance(problem, from, to);
         if converged { Ok(()) } else { Err(StepError::NotConverged) }
     }
 
@@ -182,8 +190,8 @@ impl Ali3p {
         self.step.iter_mut().zip(&terms.f).for_each(|(step, f)| *step = f - *step);
         self.rows.iter_mut().zip(&terms.phi).for_each(|(row, phi)| *row = 4.0 / (h * h) * phi);
         self.matrix.solve(&structure.g, &mut self.rows, &mut self.step)?;
-        self.a_new.iter_mut().zip(&self.step).for_each(|(a, step)| *a += step);
-        self.lambda.iter_mut().zip(&self.rows).for_each(|(lambda, change)| *lambda += change);
+        add(&mut self.a_new, &self.step);
+        add(&mut self.lambda, &self.rows);
         Ok(largest(&self.step))
     }
 
@@ -219,7 +227,7 @@ impl Ali3p {
             g.multiply(values, x, &mut self.rows);
             self.step.fill(0.0);
             self.matrix.solve(g, &mut self.rows, &mut self.step)?;
-            x.iter_mut().zip(&self.step).for_each(|(x, step)| *x += step);
+            add(x, &self.step);
             Ok::<_, StepError>(relative(&self.step, x))
         })?;
         if met { Ok(()) } else { Err(StepError::NotConverged) }
@@ -227,31 +235,20 @@ impl Ali3p {
 }
 
 impl Integrator for Ali3p {
-    fn order(&self) -> usize {
-        ENTRY.order
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        _: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         let n = problem.dynamics.system.dimensions();
-        let t = from.t + h;
+        let t = from.t + from.h;
         let work = n.q + n.v..;
         self.begin(problem, from);
-        self.converge(problem, from, h, to)?;
+        self.converge(problem, from, to)?;
         self.project(problem, t, to)?;
         to[work.clone()].copy_from_slice(&from.y[work.clone()]);
         problem.derivative(t, to, &mut self.slope)?;
-        trapezoid(from, h, &self.slope[work], to);
+        trapezoid(from, &self.slope[work], to);
         Ok(None)
     }
 
@@ -259,28 +256,27 @@ impl Integrator for Ali3p {
         Some(&self.slope)
     }
 
-    fn accepted(&mut self, _: &Tolerance) {
+    fn accepted(&mut self, step: &Accepted) -> f64 {
         self.a.copy_from_slice(&self.a_new);
         self.lambda_start.copy_from_slice(&self.lambda);
         self.is_started = true;
-    }
-
-    fn memory(&self) -> Option<Vec<f64>> {
-        Some([&[f64::from(self.is_started)], &self.a[..], &self.lambda_start].concat())
-    }
-
-    fn recall(&mut self, memory: &[f64]) {
-        let mut memory = Reader(memory);
-        self.is_started = memory.number() != 0.0;
-        memory.fill(&mut self.a);
-        memory.fill(&mut self.lambda_start);
+        step.h
     }
 
     fn restart(&mut self) {
         self.is_started = false;
     }
 
-    fn polynomial(&mut self) -> Option<&mut Hermite> {
-        Some(&mut self.polynomial)
+    fn memory(&self) -> Option<Value> {
+        let Ali3p { is_started, a, lambda_start, .. } = self;
+        written(Memory { is_started: *is_started, a: a.clone(), lambda: lambda_start.clone() })
+    }
+
+    fn recall(&mut self, memory: &Value) {
+        if let Some(Memory { is_started, a, lambda }) = read(memory) {
+            self.is_started = is_started;
+            fill(&mut self.a, &a);
+            fill(&mut self.lambda_start, &lambda);
+        }
     }
 }

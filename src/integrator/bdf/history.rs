@@ -1,10 +1,11 @@
 //! The states of the last steps and the polynomials through them.
 
-use crate::integrator::memory::Reader;
+use crate::integrator::memory::fill;
 use crate::integrator::sums::accumulate;
 use crate::integrator::{From, Tolerance};
 use crate::math::array::from_fn;
 use crate::math::{lagrange, lagrange_rate};
+use serde::{Deserialize, Serialize};
 
 /// Highest order of the method.
 pub const HIGHEST: usize = 5;
@@ -20,6 +21,14 @@ pub struct History {
     lambda: Vec<Vec<f64>>,
 }
 
+/// The known states.
+#[derive(Serialize, Deserialize)]
+pub struct Memory {
+    times: Vec<f64>,
+    y: Vec<Vec<f64>>,
+    lambda: Vec<Vec<f64>>,
+}
+
 impl History {
     /// Memory for states of length `len` with `rows` multipliers.
     pub fn new(len: usize, rows: usize) -> Self {
@@ -28,8 +37,8 @@ impl History {
         History { known: 0, times: [0.0; POINTS], y, lambda }
     }
 
-    /// Adds the start of a step. Before the first one, `h` earlier, a state on its tangent is taken for known.
-    pub fn add(&mut self, from: From, lambda: &[f64], h: f64) {
+    /// Adds the start of a step. Before the first one, a step earlier, a state on its tangent is taken for known.
+    pub fn add(&mut self, from: From, lambda: &[f64]) {
         self.y.rotate_right(1);
         self.lambda.rotate_right(1);
         self.times.rotate_right(1);
@@ -38,9 +47,9 @@ impl History {
         self.lambda[0].copy_from_slice(lambda);
         self.known = (self.known + 1).min(POINTS);
         if self.known == 1 {
-            self.times[1] = from.t - h;
+            self.times[1] = from.t - from.h;
             self.y[1].copy_from_slice(from.y);
-            self.y[1].iter_mut().zip(from.slope).for_each(|(y, slope)| *y -= h * slope);
+            self.y[1].iter_mut().zip(from.slope).for_each(|(y, slope)| *y -= from.h * slope);
             self.lambda[1].copy_from_slice(lambda);
             self.known = 2;
         }
@@ -109,23 +118,17 @@ impl History {
         accumulate(out, 1.0, &weights, &self.y);
     }
 
-    /// The states as numbers, for [`Self::recall`].
-    pub fn memory(&self) -> Vec<f64> {
-        let mut memory = vec![self.known as f64];
-        for i in 0..self.known {
-            memory.push(self.times[i]);
-            memory.extend(self.y[i].iter().chain(&self.lambda[i]));
-        }
-        memory
+    /// The states for [`Self::recall`].
+    pub fn memory(&self) -> Memory {
+        let known = ..self.known;
+        Memory { times: self.times[known].to_vec(), y: self.y[known].to_vec(), lambda: self.lambda[known].to_vec() }
     }
 
     /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, memory: &mut Reader) {
-        self.known = (memory.number() as usize).min(POINTS);
-        for i in 0..self.known {
-            self.times[i] = memory.number();
-            memory.fill(&mut self.y[i]);
-            memory.fill(&mut self.lambda[i]);
-        }
+    pub fn recall(&mut self, Memory { times, y, lambda }: Memory) {
+        self.known = times.len().min(POINTS);
+        fill(&mut self.times, &times);
+        self.y.iter_mut().zip(&y).for_each(|(own, y)| fill(own, y));
+        self.lambda.iter_mut().zip(&lambda).for_each(|(own, lambda)| fill(own, lambda));
     }
 }

@@ -1,17 +1,21 @@
 //! Backward differentiation formulas.
 
 mod history;
-mod matrix;
 mod order;
 mod stage;
 
-use super::memory::Reader;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
+use super::memory::{read, written};
+use super::newton_matrix;
+use super::{
+    Accepted, Control, Dense, Entry, From, Integrator, Problem, Setup, Step, Steps, Tightening, refuses, takes,
+};
 use crate::error;
 use crate::formulation::StepError;
 use crate::tolerances::integrator as tolerances;
 use history::History;
 use order::Order;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use stage::Stage;
 
 /// ```text
@@ -30,16 +34,18 @@ use stage::Stage;
 /// refused: after a projection the past states do not fit, and the order would fall to 1 at every step. Interpolation
 /// by the polynomial of the step.
 pub const ENTRY: Entry = Entry {
-    name: "bdf",
-    about: "implicit, order 1 to 5 by itself, for stiff motions that are smooth; chooses its steps",
-    order: 5,
     steps: Steps::Own,
     // At order 5, which tight tolerances select; errors over a motion were 9 rtol^(5/6) on long ones.
     tightening: Tightening::new(0.07, 1.2),
     solves: takes::accelerations_or_positions,
     refuses: refuses::all,
-    options: &[],
-    make,
+    begins_anew: true,
+    ..Entry::new(
+        "bdf",
+        "implicit, order 1 to 5 by itself, for stiff motions that are smooth; chooses its steps",
+        5,
+        make,
+    )
 };
 
 fn make<'s>(setup: &Setup<'s>) -> error::Result<Box<dyn Integrator + 's>> {
@@ -72,6 +78,15 @@ struct Bdf {
     end: Vec<f64>,
 }
 
+/// What steps pass on, as it is saved.
+#[derive(Serialize, Deserialize)]
+struct Memory {
+    is_begun: bool,
+    order: Order,
+    history: history::Memory,
+    stage: newton_matrix::Memory,
+}
+
 /// Error of a step over the distance to the prediction: of the formula or, if it is larger, of the interpolation.
 /// Source: Brenan, Campbell, Petzold, (5.2.13).
 fn error_constant(history: &History, k: usize, (t, h): (f64, f64)) -> f64 {
@@ -82,33 +97,18 @@ fn error_constant(history: &History, k: usize, (t, h): (f64, f64)) -> f64 {
 }
 
 impl Integrator for Bdf {
-    /// A run starts with order 1, whose error is O(h^2): the power of h by which the first step is chosen.
-    fn order(&self) -> usize {
-        2
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.order.control
     }
 
-    fn propose(&mut self, h: f64, _: f64, growing: bool) -> f64 {
-        self.order.propose(h, growing, self.history.known() + 1)
-    }
-
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        let From { h, tolerance, .. } = from;
         let Bdf { stage, history, order, predicted, rate, change, .. } = self;
         if std::mem::replace(&mut self.is_begun, true) {
             // The time loop may have moved the start.
             history.replace(from);
         } else {
-            history.add(from, &problem.dynamics.lambda, h);
+            history.add(from, &problem.dynamics.lambda);
         }
         let k = order.k;
         let t = from.t + h;
@@ -123,8 +123,8 @@ impl Integrator for Bdf {
             let [a, lambda] = stage.guess();
             a.copy_from_slice(problem.split(rate).1);
             history.predict_lambda(k, t, lambda);
-            stage.factor(problem, (t, predicted), (from, h), g)?;
-            stage.solve(problem, tolerance, from, t, g)
+            stage.factor(problem, (t, predicted), from, g)?;
+            stage.solve(problem, from, t, g)
         })?;
         to.copy_from_slice(&stage.y);
         change.iter_mut().zip(to.iter().zip(&*predicted)).for_each(|(change, (to, x))| *change = to - x);
@@ -142,52 +142,51 @@ impl Integrator for Bdf {
         Ok(Some(error))
     }
 
-    fn accepted(&mut self, _: &Tolerance) {
+    fn accepted(&mut self, step: &Accepted) -> f64 {
         self.is_begun = false;
-        self.stage.accepted();
+        let matrix = &mut self.stage.matrix;
+        matrix.pass_on(matrix.monitor.keeps_matrix());
+        self.order.propose(step.h, step.growing, self.history.known() + 1)
     }
 
     fn restart(&mut self) {
         self.is_begun = false;
         self.history.restart();
         self.order.restart();
-        self.stage.restart();
+        self.stage.matrix.forget();
     }
 
-    fn begins_anew(&self) -> bool {
-        true
+    fn memory(&self) -> Option<Value> {
+        let Bdf { is_begun, order, history, stage, .. } = self;
+        let order = order.clone();
+        written(Memory { is_begun: *is_begun, order, history: history.memory(), stage: stage.matrix.memory() })
     }
 
-    fn memory(&self) -> Option<Vec<f64>> {
-        let is_begun = [f64::from(self.is_begun)];
-        Some([&is_begun[..], &self.order.memory(), &self.history.memory(), &self.stage.memory()].concat())
+    fn recall(&mut self, memory: &Value) {
+        if let Some(Memory { is_begun, order, history, stage }) = read(memory) {
+            self.is_begun = is_begun;
+            self.order = order.bounded();
+            self.history.recall(history);
+            self.stage.matrix.recall(stage);
+        }
     }
 
-    fn recall(&mut self, memory: &[f64]) {
-        let mut memory = Reader(memory);
-        self.is_begun = memory.number() != 0.0;
-        self.order.recall(&mut memory);
-        self.history.recall(&mut memory);
-        self.stage.recall(memory);
+    fn dense(&mut self) -> Option<&mut dyn Dense> {
+        Some(self)
     }
+}
 
+impl Dense for Bdf {
     /// The step may have been cut on its dense output since the attempt.
-    fn prepare(&mut self, _: &mut Problem, from: From, h: f64, to: &[f64], _: &[f64]) -> Result<(), StepError> {
-        self.step.0 = from.t + h;
-        self.end.copy_from_slice(to);
+    fn prepare(&mut self, _: &mut Problem, step: Step) -> Result<(), StepError> {
+        self.step.0 = step.from.t + step.from.h;
+        self.end.copy_from_slice(step.to);
         Ok(())
     }
 
-    fn interpolate(
-        &mut self,
-        _: &mut Problem,
-        from: From,
-        h: f64,
-        theta: f64,
-        out: &mut [f64],
-    ) -> Result<(), StepError> {
+    fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
         let (end, k) = self.step;
-        self.history.interpolate(k, (end, &self.end), from.t + theta * h, out);
+        self.history.interpolate(k, (end, &self.end), step.from.t + theta * step.from.h, out);
         Ok(())
     }
 }

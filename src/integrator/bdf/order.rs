@@ -2,14 +2,15 @@
 
 use super::history::HIGHEST;
 use crate::integrator::Control;
-use crate::integrator::memory::Reader;
 use crate::tolerances::integrator as tolerances;
+use serde::{Deserialize, Serialize};
 
 /// Order k and step size, from the norms of h^(j+1) y^(j+1) for j = k - 2 to k + 1: the order falls where these no
 /// longer decrease with j, as they do not where the formula of order k is unstable, and rises where they do. A run
 /// begins with order 1, then 2, and doubles every step as long as that goes well. From order 3 on, whose formulas are
 /// not stable on ever longer steps, a step grows after k + 1 equal ones. Source: Brenan, Campbell, Petzold, Numerical
 /// Solution of Initial-Value Problems in DAEs, 5.2, and the codes IDA and VODE.
+#[derive(Clone, Serialize, Deserialize)]
 pub struct Order {
     pub k: usize,
     pub control: Control,
@@ -20,6 +21,8 @@ pub struct Order {
     last: f64,
     /// Rejected attempts of the present step.
     failures: usize,
+    /// Those of the last attempt, which a choice follows at once.
+    #[serde(skip)]
     terms: Terms,
 }
 
@@ -113,16 +116,8 @@ impl Order {
         }
     }
 
-    /// The state of the choice as numbers, for [`Self::recall`].
-    pub fn memory(&self) -> [f64; 5] {
-        [self.k as f64, f64::from(self.is_starting), self.steady as f64, self.last, self.failures as f64]
-    }
-
-    /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, memory: &mut Reader) {
-        self.set((memory.number() as usize).clamp(1, HIGHEST));
-        self.is_starting = memory.number() != 0.0;
-        (self.steady, self.last) = (memory.number() as usize, memory.number());
-        self.failures = memory.number() as usize;
+    /// The same with an order that the method has.
+    pub fn bounded(self) -> Self {
+        Order { k: self.k.clamp(1, HIGHEST), ..self }
     }
 }

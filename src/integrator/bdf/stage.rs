@@ -1,11 +1,12 @@
 //! The implicit equations of a step.
 
-use super::matrix::Matrix;
-use crate::error::{self, Error};
-use crate::formulation::{self, Change, Dae, Residual, StepError};
-use crate::integrator::memory::Reader;
-use crate::integrator::{From, Problem, Setup, Tolerance, round_off};
-use crate::math::newton::{Limits, Monitor};
+use crate::error;
+use crate::formulation::{self, Change, Dae, Dynamics, Iteration, Linearized, Residual, Slopes, StepError};
+use crate::integrator::newton_matrix::{Factors, NewtonMatrix, Size};
+use crate::integrator::sums::add;
+use crate::integrator::{From, Problem, Setup, no_memory, round_off};
+use crate::math::kkt::Singular;
+use crate::math::newton::Limits;
 use crate::system::{Dimensions, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
 
@@ -27,10 +28,7 @@ pub struct Stage {
     /// The unknowns; on entry of a solution their first guess.
     pub unknowns: Change<f64>,
     residual: Residual,
-    matrix: Matrix,
-    newton: Monitor,
-    /// The slowest rate of convergence of the stages of this step.
-    slowest: f64,
+    pub matrix: NewtonMatrix<Matrix>,
     /// Round-off of y in the last solution, over the tolerated errors.
     pub round_off: f64,
     change: Vec<f64>,
@@ -38,16 +36,31 @@ pub struct Stage {
     velocity: Vec<f64>,
 }
 
+/// The matrix for v = v* + g (a + w), q = q* + g N (v + u).
+pub struct Matrix(Iteration<f64>);
+
+impl Factors for Matrix {
+    const BAND: f64 = tolerances::STAGE_BAND;
+
+    fn metric(&self, Size { h: g, .. }: Size) -> f64 {
+        g * g
+    }
+
+    fn factor(&mut self, Size { h: g, .. }: Size, at: &Linearized, dynamics: &mut Dynamics) -> Result<(), Singular> {
+        self.0.factor(Slopes::implicit(g), at, dynamics)
+    }
+
+    fn rescale(&mut self, Size { h: g, .. }: Size) {
+        self.0.rescale(Slopes::implicit(g));
+    }
+}
+
 impl Stage {
     /// Memory for a system.
     pub fn new(setup: &Setup) -> error::Result<Self> {
-        let integrator = &setup.integrator.name;
-        let formulation = &setup.formulation.name;
         let n = setup.system.dimensions();
-        let dae = formulation::dae(setup.formulation)?
-            .ok_or_else(|| Error::input(format!("{integrator} cannot integrate {formulation}")))?;
-        let matrix = Matrix::new(dae, setup.system)
-            .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
+        let dae = setup.dae()?;
+        let matrix = Iteration::new(dae, setup.system).ok_or_else(no_memory)?;
         let zeros = |n: usize| vec![0.0; n];
         Ok(Stage {
             dae,
@@ -64,29 +77,27 @@ impl Stage {
                 mu: zeros(n.lambda),
             },
             residual: Residual::new(n),
-            matrix,
-            newton: Monitor::default(),
-            slowest: 0.0,
+            matrix: NewtonMatrix::new(dae, setup.system, Matrix(matrix)),
             round_off: 0.0,
             change: zeros(setup.len()),
             velocity: zeros(n.v),
         })
     }
 
-    /// Solves the stages of a step by `solve`, with a matrix of a step before, if there is one, or a new one, at the
-    /// state that `point` returns.
-    pub fn attempt<T>(
+    /// Solves a step by `solve`, with the matrix of a step before, if there is one, and again with a new one where that
+    /// fails.
+    pub fn attempt(
         &mut self,
         problem: &mut Problem,
         from: From,
-        mut solve: impl FnMut(&mut Self, &mut Problem) -> Result<T, StepError>,
-    ) -> Result<T, StepError> {
+        mut solve: impl FnMut(&mut Self, &mut Problem) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
         self.matrix.renew(problem, from)?;
-        let is_old = self.matrix.serves(problem) && !self.matrix.is_fresh;
+        let is_old = self.matrix.serves(&problem.dynamics) && !self.matrix.is_fresh;
         let mut solved = solve(self, problem);
         if is_old && solved.as_ref().is_err_and(|halt| !halt.is_fatal()) {
             self.matrix.forget();
-            self.newton.reset();
+            self.matrix.monitor.reset();
             solved = solve(self, problem);
         }
         if solved.is_err() {
@@ -108,27 +119,20 @@ impl Stage {
         &mut self,
         problem: &mut Problem,
         (t, y): (f64, &[f64]),
-        step: (From, f64),
+        from: From,
         g: f64,
     ) -> Result<(), StepError> {
-        if !self.matrix.serves(problem) {
+        if !self.matrix.serves(&problem.dynamics) {
             let (q, v) = problem.split(y);
             let Change { a, lambda, .. } = &self.unknowns;
-            self.matrix.linearize(OperatingPoint { t, q, v, vdot: a, lambda }, problem)?;
+            self.matrix.linearize(OperatingPoint { t, q, v, vdot: a, lambda }, &mut problem.dynamics)?;
         }
-        self.slowest = 0.0;
-        self.matrix.factor(problem, step, g)
+        self.matrix.factor(problem, from, Size { h: g, method: 0 })
     }
 
     /// Solves the stage at `t` by Newton's method, whose matrix is factored.
-    pub fn solve(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        t: f64,
-        g: f64,
-    ) -> Result<(), StepError> {
+    pub fn solve(&mut self, problem: &mut Problem, from: From, t: f64, g: f64) -> Result<(), StepError> {
+        let tolerance = from.tolerance;
         self.leave_out();
         self.y.copy_from_slice(&self.known);
         self.advance(problem, g);
@@ -141,19 +145,19 @@ impl Stage {
             kept_rate: tolerances::STAGE_MATRIX_KEPT,
             ..Limits::NONE
         };
-        let mut newton = std::mem::take(&mut self.newton);
-        let converged = newton.solve(limits, |_| {
+        let mut monitor = std::mem::take(&mut self.matrix.monitor);
+        let converged = monitor.solve(limits, |_| {
             self.correct(problem, t, g)?;
             Ok::<_, StepError>(tolerance.norm(from.y, &self.change))
         });
-        self.newton = newton;
+        let has_stagnated = monitor.has_stagnated;
+        self.matrix.monitor = monitor;
         // Slow convergence with a matrix of a step before looks like round-off, too.
-        let is_slow = self.newton.has_stagnated && !self.matrix.is_fresh;
+        let is_slow = has_stagnated && !self.matrix.is_fresh;
         if !converged? || is_slow {
             return Err(StepError::NotConverged);
         }
-        problem.dynamics.statistics.stagnated += u64::from(self.newton.has_stagnated);
-        self.slowest = self.slowest.max(self.newton.rate);
+        problem.dynamics.statistics.stagnated += u64::from(has_stagnated);
         self.add_work(problem, g);
         Ok(())
     }
@@ -167,11 +171,12 @@ impl Stage {
         let guess = formulation::Unknowns { a, lambda, w, eta, u, mu, stiffness };
         residual.evaluate(dae, (t, q, v), guess, &mut problem.dynamics)?;
         problem.dynamics.statistics.newton_iterations += 1;
-        matrix.iteration.load(std::iter::once((1.0, &*residual)));
-        matrix.iteration.solve(&mut matrix.at, &problem.dynamics.structure)?;
-        let by = &matrix.iteration.change;
+        let Matrix(iteration) = &mut matrix.factors;
+        iteration.load(std::iter::once((1.0, &*residual)));
+        iteration.solve(&mut matrix.at, &problem.dynamics.structure)?;
+        let by = &iteration.change;
         let pairs = [(a, &by.a), (lambda, &by.lambda), (w, &by.w), (u, &by.u), (eta, &by.eta), (mu, &by.mu)];
-        pairs.into_iter().for_each(|(sum, by)| sum.iter_mut().zip(by).for_each(|(sum, by)| *sum += by));
+        pairs.into_iter().for_each(|(sum, by)| add(sum, by));
         self.change.copy_from_slice(&self.y);
         self.advance(problem, g);
         self.change.iter_mut().zip(&self.y).for_each(|(change, y)| *change = y - *change);
@@ -186,10 +191,10 @@ impl Stage {
         let (q, v) = y[..motion].split_at_mut(n.q);
         let (qdot, vdot) = rate[..motion].split_at_mut(n.q);
         vdot.copy_from_slice(a);
-        vdot.iter_mut().zip(w).for_each(|(rate, w)| *rate += *w);
+        add(vdot, w);
         v.iter_mut().zip(known[n.q..].iter().zip(&*vdot)).for_each(|(v, (known, rate))| *v = known + g * rate);
         velocity.copy_from_slice(v);
-        velocity.iter_mut().zip(u).for_each(|(velocity, u)| *velocity += *u);
+        add(velocity, u);
         let sweeps = if n.q == n.moving() { 1 } else { tolerances::RADAU_SWEEPS };
         for _ in 0..sweeps {
             problem.dynamics.system.rate(q, velocity, qdot);
@@ -210,29 +215,8 @@ impl Stage {
 
     /// Sets the multipliers of rows that are dropped from the matrix to zero, since no correction reaches them.
     fn leave_out(&mut self) {
-        let rows = self.matrix.iteration.matrix.left_out();
+        let rows = self.matrix.factors.0.matrix.left_out();
         let dropped = self.unknowns.lambda.iter_mut().zip(rows).filter(|(_, is_out)| **is_out);
         dropped.for_each(|(lambda, _)| *lambda = 0.0);
-    }
-
-    /// Ends a step, and keeps the matrix as long as Newton's method converges well.
-    pub fn accepted(&mut self) {
-        self.matrix.accepted(self.slowest <= tolerances::STAGE_MATRIX_KEPT);
-    }
-
-    /// Discards the matrix: the equations change their form.
-    pub fn restart(&mut self) {
-        self.matrix.forget();
-    }
-
-    /// The values that steps pass on, for [`Self::recall`].
-    pub fn memory(&self) -> Vec<f64> {
-        [&self.newton.memory()[..], &self.matrix.memory()].concat()
-    }
-
-    /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, mut memory: Reader) {
-        self.newton.recall([memory.number(), memory.number()]);
-        self.matrix.recall(memory);
     }
 }

@@ -137,6 +137,17 @@ impl<'s> Equations<'s> {
         }
     }
 
+    fn powers(&self, t: f64, x: &[f64], out: &mut [f64]) {
+        let State { problem, rows, .. } = &mut *self.state.borrow_mut();
+        if let Some(rows) = rows {
+            rows.powers(&mut problem.dynamics, t, x, out);
+        }
+    }
+
+    fn operator(&self, value: Value) -> Operator<'_, 's> {
+        Operator { equations: self, value }
+    }
+
     fn jacobian(&self, t: f64, x: &[f64], values: &mut [f64]) {
         let State { problem, rows, failure } = &mut *self.state.borrow_mut();
         values.fill(0.0);
@@ -154,11 +165,19 @@ impl<'s> Equations<'s> {
     }
 }
 
-/// The powers whose integrals are the works beside x.
-pub struct Powers<'e, 's>(&'e Equations<'s>);
+/// The equations as any of the operators that diffsol asks for.
+pub struct Operator<'e, 's> {
+    equations: &'e Equations<'s>,
+    value: Value,
+}
 
-/// The equations as any other of the operators that diffsol asks for.
-pub struct Operator<'e, 's>(&'e Equations<'s>);
+/// The value of an operator.
+enum Value {
+    /// F.
+    Rates,
+    /// The powers whose integrals are the works beside x.
+    Powers,
+}
 
 fn values(vector: &FaerVec<f64>) -> &[f64] {
     vector.inner().col_as_slice(0)
@@ -199,76 +218,53 @@ impl Op for Operator<'_, '_> {
     type C = FaerContext;
 
     fn context(&self) -> &FaerContext {
-        &self.0.context
+        &self.equations.context
     }
 
     fn nstates(&self) -> usize {
-        self.0.len
+        self.equations.len
     }
 
     fn nout(&self) -> usize {
-        self.0.len
-    }
-
-    fn nparams(&self) -> usize {
-        0
-    }
-}
-
-impl Op for Powers<'_, '_> {
-    type T = f64;
-    type V = FaerVec<f64>;
-    type M = FaerSparseMat<f64>;
-    type C = FaerContext;
-
-    fn context(&self) -> &FaerContext {
-        &self.0.context
-    }
-
-    fn nstates(&self) -> usize {
-        self.0.len
-    }
-
-    fn nout(&self) -> usize {
-        self.0.works
-    }
-
-    fn nparams(&self) -> usize {
-        0
-    }
-}
-
-impl NonLinearOp for Powers<'_, '_> {
-    fn call_inplace(&self, x: &FaerVec<f64>, t: f64, out: &mut FaerVec<f64>) {
-        let State { problem, rows, .. } = &mut *self.0.state.borrow_mut();
-        if let Some(rows) = rows {
-            rows.powers(&mut problem.dynamics, t, values(x), values_mut(out));
+        match self.value {
+            Value::Rates => self.equations.len,
+            Value::Powers => self.equations.works,
         }
     }
+
+    fn nparams(&self) -> usize {
+        0
+    }
 }
 
-/// F
 impl NonLinearOp for Operator<'_, '_> {
     fn call_inplace(&self, x: &FaerVec<f64>, t: f64, out: &mut FaerVec<f64>) {
-        self.0.evaluate(t, values(x), values_mut(out));
+        match self.value {
+            Value::Rates => self.equations.evaluate(t, values(x), values_mut(out)),
+            Value::Powers => self.equations.powers(t, values(x), values_mut(out)),
+        }
     }
 }
 
 /// dF/dx
 impl NonLinearOpJacobian for Operator<'_, '_> {
     fn jac_mul_inplace(&self, x: &FaerVec<f64>, t: f64, v: &FaerVec<f64>, out: &mut FaerVec<f64>) {
-        let mut jacobian =
-            FaerSparseMat::new_from_sparsity(self.0.len, self.0.len, self.jacobian_sparsity(), *self.context());
+        let mut jacobian = FaerSparseMat::new_from_sparsity(
+            self.equations.len,
+            self.equations.len,
+            self.jacobian_sparsity(),
+            *self.context(),
+        );
         self.jacobian_inplace(x, t, &mut jacobian);
         jacobian.gemv(1.0, v, 0.0, out);
     }
 
     fn jacobian_inplace(&self, x: &FaerVec<f64>, t: f64, jacobian: &mut FaerSparseMat<f64>) {
-        self.0.jacobian(t, values(x), jacobian.inner_mut()[0].val_mut());
+        self.equations.jacobian(t, values(x), jacobian.inner_mut()[0].val_mut());
     }
 
     fn jacobian_sparsity(&self) -> Option<Sparsity> {
-        Some(self.0.pattern.clone())
+        Some(self.equations.pattern.clone())
     }
 }
 
@@ -277,7 +273,7 @@ impl LinearOp for Operator<'_, '_> {
     fn gemv_inplace(&self, x: &FaerVec<f64>, _: f64, beta: f64, out: &mut FaerVec<f64>) {
         let out = values_mut(out);
         out.iter_mut().for_each(|out| *out *= beta);
-        out.iter_mut().zip(&values(x)[..self.0.differential]).for_each(|(out, x)| *out += x);
+        out.iter_mut().zip(&values(x)[..self.equations.differential]).for_each(|(out, x)| *out += x);
     }
 
     fn matrix_inplace(&self, _: f64, matrix: &mut FaerSparseMat<f64>) {
@@ -285,8 +281,8 @@ impl LinearOp for Operator<'_, '_> {
     }
 
     fn sparsity(&self) -> Option<Sparsity> {
-        let diagonal: Vec<(usize, usize)> = (0..self.0.differential).map(|i| (i, i)).collect();
-        pattern(self.0.len, &diagonal).map(|(pattern, _)| pattern)
+        let diagonal: Vec<(usize, usize)> = (0..self.equations.differential).map(|i| (i, i)).collect();
+        pattern(self.equations.len, &diagonal).map(|(pattern, _)| pattern)
     }
 }
 
@@ -302,25 +298,25 @@ impl<'e, 's> OdeEquationsRef<'e> for Equations<'s> {
     type Mass = Operator<'e, 's>;
     type Init = Operator<'e, 's>;
     type Root = UnitCallable<FaerSparseMat<f64>>;
-    type Out = Powers<'e, 's>;
+    type Out = Operator<'e, 's>;
     type Reset = UnitCallable<FaerSparseMat<f64>>;
 }
 
 impl<'s> OdeEquations for Equations<'s> {
     fn rhs(&self) -> Operator<'_, 's> {
-        Operator(self)
+        self.operator(Value::Rates)
     }
 
     fn mass(&self) -> Option<Operator<'_, 's>> {
-        (self.differential < self.len).then_some(Operator(self))
+        (self.differential < self.len).then_some(self.operator(Value::Rates))
     }
 
     fn init(&self) -> Operator<'_, 's> {
-        Operator(self)
+        self.operator(Value::Rates)
     }
 
-    fn out(&self) -> Option<Powers<'_, 's>> {
-        (self.works > 0).then_some(Powers(self))
+    fn out(&self) -> Option<Operator<'_, 's>> {
+        (self.works > 0).then_some(self.operator(Value::Powers))
     }
 
     fn set_params(&mut self, _: &FaerVec<f64>) {}

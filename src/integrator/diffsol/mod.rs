@@ -12,13 +12,15 @@ mod rows;
 mod solver;
 
 use super::{
-    Control, Entry, From, Integrator, Problem, Setup, Stability, Steps, Tightening, Tolerance, refuses, takes,
+    Accepted, Control, Dense, Entry, From, Integrator, Make, Problem, Setup, Stability, Step, Steps, Tightening,
+    refuses, takes,
 };
-use crate::error::{self, Error};
+use crate::error;
 use crate::formulation::{self, Dae, Dynamics, StepError};
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
 use crate::tolerances::integrator as tolerances;
+use ::diffsol::Tableau;
 use equations::Equations;
 use rows::Rows;
 use solver::{Counters, Frame, Scheme};
@@ -29,7 +31,6 @@ struct Diffsol<'s> {
     system: &'s dyn MechanicalSystem,
     formulation: &'s MethodSpec,
     dae: Option<Dae>,
-    order: usize,
     frame: Option<Frame<'s>>,
     /// Rows that the equations of the frame do not contain.
     dropped: Vec<usize>,
@@ -58,27 +59,27 @@ const NOT_BEGUN: StepError =
 
 impl<'s> Diffsol<'s> {
     fn make(scheme: Scheme, order: usize, setup: &Setup<'s>) -> error::Result<Box<dyn Integrator + 's>> {
-        let Setup { integrator, formulation, system, .. } = *setup;
-        let refused = || Error::input(format!("{} cannot integrate {}", integrator.name, formulation.name));
+        let Setup { formulation, system, .. } = *setup;
         let dae = match scheme {
             Scheme::Tsit45 => None,
-            _ => Some(formulation::dae(formulation)?.ok_or_else(refused)?),
+            _ => Some(setup.dae()?),
         };
         // Bad options of the formulation are refused here.
         formulation::make(formulation, system)?;
+        let mut control = Control::new(order as f64 + 1.0, 0.2, 5.0);
+        control.order = order;
         Ok(Box::new(Diffsol {
             scheme,
             system,
             formulation,
             dae,
-            order,
             frame: None,
             dropped: Vec::new(),
             begins: true,
             is_moved: false,
             cause: None,
             counted: Counters::default(),
-            control: Control::new(order as f64 + 1.0, 0.2, 5.0),
+            control,
         }))
     }
 
@@ -93,10 +94,10 @@ impl<'s> Diffsol<'s> {
     }
 
     /// Lets the solver begin again, or continue from a state that was moved, where that is needed.
-    fn meet(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<(), StepError> {
+    fn meet(&mut self, problem: &Problem, from: From) -> Result<(), StepError> {
         let lambda = &problem.dynamics.lambda;
         if self.is_moved && self.scheme == Scheme::Bdf {
-            self.begins = self.begins || self.frame.is_none() || self.is_apart(tolerance, from)?;
+            self.begins = self.begins || self.frame.is_none() || self.is_apart(from)?;
             self.is_moved = false;
         }
         match &mut self.frame {
@@ -104,17 +105,17 @@ impl<'s> Diffsol<'s> {
                 if self.begins {
                     frame.equations().follow(problem);
                     let x = frame.equations().start(from, lambda);
-                    frame.restart(self.scheme, (from, &x), h)?;
+                    frame.restart(self.scheme, (from, &x))?;
                     self.counted = Counters::default();
                 } else if self.is_moved {
-                    frame.with_mut(|solver| solver.go_on_from(from, h));
+                    frame.with_mut(|solver| solver.go_on_from(from));
                 }
             }
             _ => {
                 let equations = self.equations(problem)?;
                 equations.follow(problem);
                 let x = equations.start(from, lambda);
-                self.frame = Some(Frame::new(self.scheme, equations, tolerance, (from, &x), h)?);
+                self.frame = Some(Frame::new(self.scheme, equations, (from, &x))?);
                 self.dropped.clone_from(&problem.dynamics.dropped);
                 self.counted = Counters::default();
             }
@@ -125,11 +126,11 @@ impl<'s> Diffsol<'s> {
 
     /// True if a moved state is so far from the polynomial of the steps that BDF must begin again at order 1, as where
     /// coordinates are brought back to unit length again and again.
-    fn is_apart(&self, tolerance: &Tolerance, from: From) -> Result<bool, StepError> {
+    fn is_apart(&self, from: From) -> Result<bool, StepError> {
         let mut change = vec![0.0; from.y.len()];
         self.write(from.t, &mut change)?;
         change.iter_mut().zip(from.y).for_each(|(change, y)| *change -= y);
-        Ok(tolerance.norm(from.y, &change) > tolerances::BDF_APART)
+        Ok(from.tolerance.norm(from.y, &change) > tolerances::BDF_APART)
     }
 
     /// Makes steps up to `t`, none of which ends after `from.end`.
@@ -161,75 +162,53 @@ impl<'s> Diffsol<'s> {
 }
 
 impl Integrator for Diffsol<'_> {
-    fn order(&self) -> usize {
-        self.order
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
     }
 
-    fn stability(&self) -> Option<Stability> {
-        let tableau = self.scheme.tableau().filter(|_| self.dae.is_none())?;
-        let b = tableau.b().as_slice();
-        let rows: Vec<Vec<f64>> = (0..b.len()).map(|i| (0..i).map(|j| tableau.a(i, j)).collect()).collect();
-        Some(Stability::of(|i| &rows[i], b))
-    }
-
-    fn leads(&self) -> bool {
-        true
-    }
-
-    fn lead(&mut self, problem: &mut Problem, tolerance: &Tolerance, from: From, h: f64) -> Result<f64, StepError> {
-        self.meet(problem, tolerance, from, h)?;
+    fn lead(&mut self, problem: &mut Problem, from: From) -> Result<f64, StepError> {
+        self.meet(problem, from)?;
         self.advance(problem, from, (from.t + ROUND_OFF * from.t.abs()).next_up())?;
-        Ok(self.frame.as_ref().map_or(h, |frame| frame.with(|solver| solver.t()) - from.t))
+        Ok(self.frame.as_ref().map_or(from.h, |frame| frame.with(|solver| solver.t()) - from.t))
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
-        self.meet(problem, tolerance, from, h)?;
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        self.meet(problem, from)?;
         self.advance(problem, from, from.end)?;
         self.write(from.end, to)?;
         Ok(Some(ACCEPTED))
     }
 
-    fn propose(&mut self, h: f64, _: f64, _: bool) -> f64 {
-        self.frame.as_ref().map_or(h, |frame| frame.with(|solver| solver.h()))
+    fn accepted(&mut self, step: &Accepted) -> f64 {
+        self.is_moved |= step.is_moved;
+        self.frame.as_ref().map_or(step.h, |frame| frame.with(|solver| solver.h()))
     }
 
     fn restart(&mut self) {
         self.begins = true;
     }
 
-    fn begins_anew(&self) -> bool {
-        self.scheme == Scheme::Bdf
+    fn dense(&mut self) -> Option<&mut dyn Dense> {
+        Some(self)
     }
+}
 
-    fn moved(&mut self) {
-        self.is_moved = true;
+impl Dense for Diffsol<'_> {
+    fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
+        self.write(step.from.t + theta * step.from.h, out)
     }
+}
 
-    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), StepError> {
-        Ok(())
-    }
+/// A method of diffsol, which chooses its steps.
+const fn entry(name: &'static str, about: &'static str, order: usize, make: Make) -> Entry {
+    Entry { steps: Steps::Own, leads: true, ..Entry::new(name, about, order, make) }
+}
 
-    fn interpolate(
-        &mut self,
-        _: &mut Problem,
-        from: From,
-        h: f64,
-        theta: f64,
-        out: &mut [f64],
-    ) -> Result<(), StepError> {
-        self.write(from.t + theta * h, out)
-    }
+/// Region of an explicit method of diffsol.
+fn stability(tableau: &Tableau<f64>) -> Stability {
+    let b = tableau.b().as_slice();
+    let rows: Vec<Vec<f64>> = (0..b.len()).map(|i| (0..i).map(|j| tableau.a(i, j)).collect()).collect();
+    Stability::of(|i| &rows[i], b)
 }
 
 /// ```text
@@ -242,16 +221,15 @@ impl Integrator for Diffsol<'_> {
 /// motions: a digit more costs three times the steps. Projections cost it nothing. It takes no fixed steps, and a
 /// continued run agrees within the tolerance only. Cubic Hermite interpolation.
 pub const TR_BDF2: Entry = Entry {
-    name: "tr_bdf2",
-    about: "implicit, L-stable, for stiff motions at two or three digits; by diffsol; chooses its steps",
-    order: 2,
-    steps: Steps::Own,
     // Errors of steady rotations were 60 rtol over 30 revolutions with a factor of 0.25.
     tightening: Tightening::new(0.06, 1.5),
     solves: takes::accelerations_or_positions,
-    refuses: refuses::none,
-    options: &[],
-    make: |setup| Diffsol::make(Scheme::TrBdf2, 2, setup),
+    ..entry(
+        "tr_bdf2",
+        "implicit, L-stable, for stiff motions at two or three digits; by diffsol; chooses its steps",
+        2,
+        |setup| Diffsol::make(Scheme::TrBdf2, 2, setup),
+    )
 };
 
 /// ```text
@@ -264,15 +242,14 @@ pub const TR_BDF2: Entry = Entry {
 /// variables. Projections cost it nothing. It takes no fixed steps, and a continued run agrees within the tolerance
 /// only. Cubic Hermite interpolation.
 pub const ESDIRK34: Entry = Entry {
-    name: "esdirk34",
-    about: "implicit, L-stable, for stiff motions, also those that nothing damps; by diffsol; chooses its steps",
-    order: 3,
-    steps: Steps::Own,
     tightening: Tightening::new(0.1, 4.0 / 3.0),
     solves: takes::accelerations_or_positions,
-    refuses: refuses::none,
-    options: &[],
-    make: |setup| Diffsol::make(Scheme::Esdirk34, 3, setup),
+    ..entry(
+        "esdirk34",
+        "implicit, L-stable, for stiff motions, also those that nothing damps; by diffsol; chooses its steps",
+        3,
+        |setup| Diffsol::make(Scheme::Esdirk34, 3, setup),
+    )
 };
 
 /// The explicit method of order 5 with an embedded one of order 4 and seven stages, the last of which is the first of the
@@ -280,16 +257,15 @@ pub const ESDIRK34: Entry = Entry {
 /// step. It shares no code with the other explicit methods, and so confirms them. It takes no fixed steps.
 /// Interpolation of order 4.
 pub const TSIT45: Entry = Entry {
-    name: "tsit45",
-    about: "explicit, for smooth motions at three to eight digits; by diffsol; chooses its steps",
-    order: 5,
-    steps: Steps::Own,
     // As of `dopri5`, which has the same orders.
     tightening: Tightening::new(0.1, 1.0),
-    solves: takes::vector_fields,
-    refuses: refuses::none,
-    options: &[],
-    make: |setup| Diffsol::make(Scheme::Tsit45, 5, setup),
+    stability: Some(|| stability(&Tableau::tsit45())),
+    ..entry(
+        "tsit45",
+        "explicit, for smooth motions at three to eight digits; by diffsol; chooses its steps",
+        5,
+        |setup| Diffsol::make(Scheme::Tsit45, 5, setup),
+    )
 };
 
 /// Numerical differentiation formulas of order 1 to 5, on backward differences of equal steps. Source: Shampine,
@@ -299,16 +275,18 @@ pub const TSIT45: Entry = Entry {
 /// are refused: after one the differences do not fit. It takes no fixed steps, and a continued run agrees within the
 /// tolerance only.
 pub const DIFFSOL: Entry = Entry {
-    name: "diffsol",
-    about: "bdf of diffsol, implicit, order 1 to 5 by itself, for comparison with others; chooses its steps",
-    order: 5,
-    steps: Steps::Own,
     tightening: Tightening::new(0.07, 1.2),
     solves: takes::accelerations_or_positions,
     refuses: refuses::all,
     options: &[OptionDoc { name: "method", about: "bdf, the only one that has no name of its own" }],
-    make: |setup| {
-        setup.integrator.one_of("method", &["bdf"])?;
-        Diffsol::make(Scheme::Bdf, 2, setup)
-    },
+    begins_anew: true,
+    ..entry(
+        "diffsol",
+        "bdf of diffsol, implicit, order 1 to 5 by itself, for comparison with others; chooses its steps",
+        5,
+        |setup| {
+            setup.integrator.one_of("method", &["bdf"])?;
+            Diffsol::make(Scheme::Bdf, 2, setup)
+        },
+    )
 };

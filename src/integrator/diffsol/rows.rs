@@ -2,6 +2,7 @@
 
 use super::directions::Directions;
 use crate::formulation::{Dae, Dynamics, NO_TANGENT, Residual, Row, StepError, Unknowns};
+use crate::integrator::sums::add;
 use crate::math::all_finite;
 use crate::math::kkt::{Pattern, Singular};
 use crate::system::{Dimensions, Need, OperatingPoint, Structure, Tangent};
@@ -310,8 +311,4 @@ impl Rows {
             }
         });
     }
-}
-
-fn add(sum: &mut [f64], terms: &[f64]) {
-    sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
 }

@@ -3,13 +3,11 @@
 use super::equations::Equations;
 use super::lu::SparseLu;
 use crate::formulation::{Statistics, StepError};
-use crate::integrator::{From, Tolerance};
+use crate::integrator::From;
 use diffsol::error::DiffsolError;
 use diffsol::ode_solver::OdeSolverStatistics;
 use diffsol::ode_solver::state::StateCommon;
-use diffsol::{
-    FaerVec, OdeSolverMethod, OdeSolverOptions, OdeSolverProblem, OdeSolverState, Tableau, Vector, VectorCommon,
-};
+use diffsol::{FaerVec, OdeSolverMethod, OdeSolverOptions, OdeSolverProblem, OdeSolverState, Vector, VectorCommon};
 use self_cell::self_cell;
 use std::marker::PhantomData;
 
@@ -49,8 +47,8 @@ pub trait Steps {
     fn step(&mut self, limit: f64) -> Result<(), DiffsolError>;
     /// Writes y = (q, v, works) within the last step, or at its end.
     fn write(&self, t: f64, y: &mut [f64]) -> Result<(), DiffsolError>;
-    /// Continues from the differential variables `from.y` at `from.t`, with steps of size `h` at first.
-    fn go_on_from(&mut self, from: From, h: f64);
+    /// Continues from the differential variables `from.y` at `from.t`, with steps of size `from.h` at first.
+    fn go_on_from(&mut self, from: From);
     fn counters(&self) -> Counters;
 }
 
@@ -84,7 +82,7 @@ impl<'p, 's, S: OdeSolverMethod<'p, Equations<'s>>> Steps for Solver<'p, 's, S> 
         Ok(())
     }
 
-    fn go_on_from(&mut self, from: From, h: f64) {
+    fn go_on_from(&mut self, from: From) {
         let differential = self.0.problem().eqn.differential();
         let state = self.0.state_mut();
         for (vector, works, values) in [(state.y, state.g, from.y), (state.dy, state.dg, from.slope)] {
@@ -92,7 +90,7 @@ impl<'p, 's, S: OdeSolverMethod<'p, Equations<'s>>> Steps for Solver<'p, 's, S> 
             vector.inner_mut().col_as_slice_mut(0)[..differential].copy_from_slice(motion);
             works.inner_mut().col_as_slice_mut(0).copy_from_slice(others);
         }
-        (*state.t, *state.h) = (from.t, h);
+        (*state.t, *state.h) = (from.t, from.h);
     }
 
     fn counters(&self) -> Counters {
@@ -136,19 +134,13 @@ const JACOBIAN: usize = 10;
 const UNTESTED: f64 = 1e20;
 
 impl<'s> Frame<'s> {
-    /// A solver that begins at `from` with x there, and steps of size `h` at first.
+    /// A solver that begins at `from` with x there, and steps of its size at first.
     ///
     /// # Errors
     /// A state that the equations cannot be evaluated at.
-    pub fn new(
-        scheme: Scheme,
-        equations: Equations<'s>,
-        tolerance: &Tolerance,
-        (from, x): (From, &[f64]),
-        h: f64,
-    ) -> Result<Self, StepError> {
-        let problem = problem(equations, tolerance, h);
-        let begun = Pair::try_new(problem, |problem| begin(scheme, problem, (from, x), h));
+    pub fn new(scheme: Scheme, equations: Equations<'s>, (from, x): (From, &[f64])) -> Result<Self, StepError> {
+        let problem = problem(equations, from);
+        let begun = Pair::try_new(problem, |problem| begin(scheme, problem, (from, x)));
         begun.map(Frame).map_err(|_| StepError::NotConverged)
     }
 
@@ -171,9 +163,9 @@ impl<'s> Frame<'s> {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn restart(&mut self, scheme: Scheme, start: (From, &[f64]), h: f64) -> Result<(), StepError> {
+    pub fn restart(&mut self, scheme: Scheme, start: (From, &[f64])) -> Result<(), StepError> {
         self.0.with_dependent_mut(|problem, solver| {
-            *solver = begin(scheme, problem, start, h).map_err(|_| StepError::NotConverged)?;
+            *solver = begin(scheme, problem, start).map_err(|_| StepError::NotConverged)?;
             Ok(())
         })
     }
@@ -181,7 +173,7 @@ impl<'s> Frame<'s> {
 
 /// Tolerances of the norm of diffsol, the root mean square over all variables: those of the time loop's norm, which is
 /// over the tested ones.
-fn problem<'s>(eqn: Equations<'s>, tolerance: &Tolerance, h0: f64) -> Owner<'s> {
+fn problem<'s>(eqn: Equations<'s>, From { h: h0, tolerance, .. }: From) -> Owner<'s> {
     let len = diffsol::Op::nstates(&eqn);
     let integrate_out = diffsol::OdeEquations::out(&eqn).is_some();
     let motion = tolerance.motion();
@@ -219,20 +211,19 @@ fn begin<'p, 's>(
     scheme: Scheme,
     problem: &'p Owner<'s>,
     (from, x): (From, &[f64]),
-    h: f64,
 ) -> Result<AnySolver<'p>, DiffsolError> {
     fn boxed<'p, 's: 'p>(solver: impl OdeSolverMethod<'p, Equations<'s>> + 'p) -> AnySolver<'p> {
         Box::new(Solver(solver, PhantomData))
     }
     Ok(match scheme {
-        Scheme::Bdf => boxed(problem.bdf_solver::<SparseLu>(state(problem, (from, x), h))?),
-        Scheme::Tsit45 => boxed(problem.tsit45_solver(state(problem, (from, x), h))?),
-        Scheme::TrBdf2 => boxed(problem.tr_bdf2_solver::<SparseLu>(state(problem, (from, x), h))?),
-        Scheme::Esdirk34 => boxed(problem.esdirk34_solver::<SparseLu>(state(problem, (from, x), h))?),
+        Scheme::Bdf => boxed(problem.bdf_solver::<SparseLu>(state(problem, (from, x)))?),
+        Scheme::Tsit45 => boxed(problem.tsit45_solver(state(problem, (from, x)))?),
+        Scheme::TrBdf2 => boxed(problem.tr_bdf2_solver::<SparseLu>(state(problem, (from, x)))?),
+        Scheme::Esdirk34 => boxed(problem.esdirk34_solver::<SparseLu>(state(problem, (from, x)))?),
     })
 }
 
-fn state<S: OdeSolverState<FaerVec<f64>>>(problem: &Owner, (from, x): (From, &[f64]), h: f64) -> S {
+fn state<S: OdeSolverState<FaerVec<f64>>>(problem: &Owner, (from, x): (From, &[f64])) -> S {
     let eqn = &problem.eqn;
     let empty = || FaerVec::from_vec(Vec::new(), Default::default());
     let motion = eqn.differential();
@@ -246,18 +237,6 @@ fn state<S: OdeSolverState<FaerVec<f64>>>(problem: &Owner, (from, x): (From, &[f
         sg: empty(),
         dsg: empty(),
         t: from.t,
-        h,
+        h: from.h,
     })
-}
-
-impl Scheme {
-    /// The tableau of a Runge-Kutta method.
-    pub fn tableau(self) -> Option<Tableau<f64>> {
-        match self {
-            Scheme::Bdf => None,
-            Scheme::TrBdf2 => Some(Tableau::tr_bdf2()),
-            Scheme::Esdirk34 => Some(Tableau::esdirk34()),
-            Scheme::Tsit45 => Some(Tableau::tsit45()),
-        }
-    }
 }

@@ -4,16 +4,18 @@ mod motion;
 mod newton;
 mod prediction;
 
-use super::hermite::Hermite;
-use super::memory::Reader;
+use super::memory::{read, written};
+use super::newton_matrix;
 use super::sums::trapezoid;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, refuses, takes};
+use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, no_memory, refuses, takes};
 use crate::error::{Error, Result};
-use crate::formulation::{self, StepError};
+use crate::formulation::StepError;
 use crate::method_spec::OptionDoc;
 use crate::tolerances::integrator as tolerances;
 use motion::{Motion, Scheme};
 use newton::Newton;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// ```text
 /// q_1 = q + h v + h^2 ((1/2 - beta) a + beta a_1) + u,   v_1 = v + h ((1 - gamma) a + gamma a_1) + w
@@ -43,9 +45,6 @@ use newton::Newton;
 /// evaluation and a back-substitution (with ggl two) per iteration. The work is integrated by the trapezoidal rule.
 /// Cubic Hermite interpolation.
 pub const ENTRY: Entry = Entry {
-    name: "generalized_alpha",
-    about: "implicit, damped at high frequencies by rho_inf, for stiff motions; holds phi, with ggl phi' too",
-    order: 2,
     steps: Steps::Either,
     // Errors over a motion were 10 rtol^(2/3), 70 for lasting oscillations, whose v is not in the estimate.
     tightening: Tightening::new(0.01, 1.5),
@@ -55,7 +54,12 @@ pub const ENTRY: Entry = Entry {
         name: "rho_inf",
         about: "what is left of infinitely fast oscillations a step, 0 to 1 (default 0.8)",
     }],
-    make,
+    ..Entry::new(
+        "generalized_alpha",
+        "implicit, damped at high frequencies by rho_inf, for stiff motions; holds phi, with ggl phi' too",
+        2,
+        make,
+    )
 };
 
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
@@ -63,23 +67,31 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     if r > 1.0 {
         return Err(Error::input(format!("generalized_alpha: rho_inf is {r}")).hint("give a number from 0 to 1"));
     }
-    let dae = formulation::dae(setup.formulation)?
-        .ok_or_else(|| Error::input(format!("generalized_alpha cannot integrate {}", setup.formulation.name)))?;
+    let dae = setup.dae()?;
     if r > tolerances::UNDAMPED_WITH_POSITIONS && dae.velocity_index() == 2 {
         let name = &setup.formulation.name;
         let what = format!("generalized_alpha: with rho_inf = {r} the multipliers of {name} swing up without bound");
         return Err(Error::input(what).hint("give 0.9 or less, or use the formulation ggl"));
     }
-    let newton = Newton::new(dae, setup.is_fixed, setup.system)
-        .ok_or_else(|| Error::input("there is not enough memory for a matrix of this size"))?;
+    let scheme = Scheme::new(r);
+    let newton = Newton::new(dae, scheme, setup.is_fixed, setup.system).ok_or_else(no_memory)?;
     let n = setup.system.dimensions();
+    let mut control = Control::proportional(3.0, 0.13, 0.2, 2.0);
+    control.order = 2;
     Ok(Box::new(GeneralizedAlpha {
-        motion: Motion::new(Scheme::new(r), setup.system, &dae),
+        motion: Motion::new(scheme, setup.system, &dae),
         newton,
         error: vec![0.0; n.q],
-        control: Control::proportional(3.0, 0.13, 0.2, 2.0),
-        polynomial: Hermite::new(setup.len(), 0),
+        control,
     }))
+}
+
+/// What steps pass on, as it is saved.
+#[derive(Serialize, Deserialize)]
+struct Memory {
+    control: Control,
+    motion: motion::Memory,
+    newton: newton_matrix::Memory,
 }
 
 struct GeneralizedAlpha {
@@ -88,15 +100,15 @@ struct GeneralizedAlpha {
     /// n_q
     error: Vec<f64>,
     control: Control,
-    polynomial: Hermite,
 }
 
 impl GeneralizedAlpha {
     /// Root mean square of the errors of q and xi in units of the tolerance; above one where a rotation is too large.
-    fn error(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, h: f64, to: &[f64]) -> f64 {
+    fn error(&mut self, problem: &Problem, from: From, to: &[f64]) -> f64 {
+        let From { h, tolerance, .. } = from;
         let (q, v) = problem.split(to);
         let n = problem.dynamics.system.dimensions();
-        problem.dynamics.system.rate(q, self.motion.local_error(problem, from, h), &mut self.error);
+        problem.dynamics.system.rate(q, self.motion.local_error(problem, from), &mut self.error);
         let sum = tolerance.squares(q.len(), from.y, q, &self.error);
         let of_state = |i: usize| self.motion.state_error(i, h) / tolerance.weight(from.y[q.len() + i], v[i]);
         let of_states: f64 = (n.moving()..n.v).map(|i| of_state(i).powi(2)).sum();
@@ -106,61 +118,47 @@ impl GeneralizedAlpha {
 }
 
 impl Integrator for GeneralizedAlpha {
-    fn order(&self) -> usize {
-        ENTRY.order
-    }
-
     fn control(&mut self) -> &mut Control {
         &mut self.control
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
-        self.motion.begin(problem, from, h, to)?;
-        let mut found = self.newton.converge(problem, &mut self.motion, from, h, to);
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        self.motion.begin(problem, from, to)?;
+        let mut found = self.newton.converge(problem, &mut self.motion, from, to);
         let is_first_guess = self.newton.is_stale || self.motion.is_extrapolated();
         if is_first_guess && found.as_ref().is_err_and(|halt| !halt.is_fatal()) {
-            self.newton.restart();
+            self.newton.matrix.forget();
             self.motion.forget_past();
-            self.motion.begin(problem, from, h, to)?;
-            found = self.newton.converge(problem, &mut self.motion, from, h, to);
+            self.motion.begin(problem, from, to)?;
+            found = self.newton.converge(problem, &mut self.motion, from, to);
         }
         found?;
         // Uses the powers at the new state as computed, since the work needs order 2 only.
-        trapezoid(from, h, self.newton.powers(), to);
-        Ok(Some(self.error(problem, tolerance, from, h, to)))
+        trapezoid(from, self.newton.powers(), to);
+        Ok(Some(self.error(problem, from, to)))
     }
 
-    fn accepted(&mut self, _: &Tolerance) {
+    fn accepted(&mut self, step: &Accepted) -> f64 {
         self.motion.accepted();
         self.newton.accepted();
+        self.control.after(step)
     }
 
-    fn memory(&self) -> Option<Vec<f64>> {
-        let control = self.control.memory();
-        Some([&[control.len() as f64][..], &control, &self.motion.memory(), &self.newton.memory()].concat())
+    fn memory(&self) -> Option<Value> {
+        let GeneralizedAlpha { control, motion, newton, .. } = self;
+        written(Memory { control: *control, motion: motion.memory(), newton: newton.matrix.memory() })
     }
 
-    fn recall(&mut self, memory: &[f64]) {
-        let mut memory = Reader(memory);
-        let control = memory.number() as usize;
-        self.control.recall(memory.slice(control));
-        self.motion.recall(&mut memory);
-        self.newton.recall(memory);
+    fn recall(&mut self, memory: &Value) {
+        if let Some(Memory { control, motion, newton }) = read(memory) {
+            self.control = control;
+            self.motion.recall(&motion);
+            self.newton.matrix.recall(newton);
+        }
     }
 
     fn restart(&mut self) {
         self.motion.restart();
-        self.newton.restart();
-    }
-
-    fn polynomial(&mut self) -> Option<&mut Hermite> {
-        Some(&mut self.polynomial)
+        self.newton.matrix.forget();
     }
 }

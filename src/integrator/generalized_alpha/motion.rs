@@ -1,13 +1,15 @@
 //! The accelerations carried from step to step, and q and v that follow from them.
 
-use super::super::memory::Reader;
+use super::super::sums::add;
 use super::super::{From, Problem};
 use super::prediction::{Carried, Prediction};
 use crate::formulation::{Change, Dae, ExponentialMap, Slopes, StepError, Unknowns};
 use crate::math::largest;
 use crate::system::MechanicalSystem;
+use serde::{Deserialize, Serialize};
 
 /// Coefficients of the method.
+#[derive(Clone, Copy)]
 pub(super) struct Scheme {
     alpha_m: f64,
     alpha_f: f64,
@@ -24,9 +26,12 @@ impl Scheme {
         Scheme { alpha_m, alpha_f, gamma, beta: 0.25 * (gamma + 0.5) * (gamma + 0.5) }
     }
 
-    /// da_1/dv'_1
-    fn slope(&self) -> f64 {
-        (1.0 - self.alpha_f) / (1.0 - self.alpha_m)
+    /// Derivatives of q_1 and v_1 with respect to v'_1 and the shifts.
+    pub fn slopes(&self, h: f64) -> Slopes<f64> {
+        let Scheme { alpha_m, alpha_f, gamma, beta } = self;
+        // da_1/dv'_1
+        let slope = (1.0 - alpha_f) / (1.0 - alpha_m);
+        Slopes { v: h * gamma * slope, q: h * h * beta * slope, w: 1.0, w_q: 0.0, u: 1.0 }
     }
 
     /// Part of a step from the time of the state to that of a: a = v'(t + lead h).
@@ -47,8 +52,16 @@ impl Scheme {
     }
 }
 
+/// What steps pass on, for [`Motion::recall`].
+#[derive(Serialize, Deserialize)]
+pub(super) struct Memory {
+    is_started: bool,
+    start: Carried,
+    prediction: Prediction,
+}
+
 pub(super) struct Motion {
-    scheme: Scheme,
+    pub scheme: Scheme,
     /// True if `start` is known.
     is_started: bool,
     start: Carried,
@@ -91,9 +104,10 @@ impl Motion {
 
     /// Prepares a step of size `h` from the step before (or from the start), predicts its end, and discards one tried
     /// before from here. `ahead` is scratch.
-    pub fn begin(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), StepError> {
+    pub fn begin(&mut self, problem: &mut Problem, from: From, ahead: &mut [f64]) -> Result<(), StepError> {
+        let h = from.h;
         if !self.is_started {
-            self.start(problem, from, h, ahead)?;
+            self.start(problem, from, ahead)?;
         }
         self.end.h = h;
         let Carried { a, vdot, h: own, .. } = &self.start;
@@ -102,12 +116,13 @@ impl Motion {
         }
         self.prediction.predict(&self.start, h, &mut self.end);
         [&mut self.w, &mut self.u].into_iter().for_each(|shift| shift.fill(0.0));
-        self.predict(problem, from, h);
+        self.predict(problem, from);
         Ok(())
     }
 
     /// Sets a = v'(t + (alpha_m - alpha_f) h) + O(h^2), which avoids transients of first order in lambda.
-    fn start(&mut self, problem: &mut Problem, from: From, h: f64, ahead: &mut [f64]) -> Result<(), StepError> {
+    fn start(&mut self, problem: &mut Problem, from: From, ahead: &mut [f64]) -> Result<(), StepError> {
+        let h = from.h;
         let (_, vdot) = problem.split(from.slope);
         self.start.vdot.copy_from_slice(vdot);
         for (i, ahead) in ahead.iter_mut().enumerate() {
@@ -141,19 +156,16 @@ impl Motion {
         self.prediction.restart();
     }
 
-    /// `start` and what predicts the end as numbers, for [`Self::recall`].
-    pub fn memory(&self) -> Vec<f64> {
-        let Carried { h, a, vdot, lambda } = &self.start;
-        [&[f64::from(self.is_started), *h], &a[..], vdot, lambda, &self.prediction.memory()].concat()
+    /// `start` and what predicts the end.
+    pub fn memory(&self) -> Memory {
+        Memory { is_started: self.is_started, start: self.start.clone(), prediction: self.prediction.clone() }
     }
 
     /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, memory: &mut Reader) {
-        self.is_started = memory.number() != 0.0;
-        let Carried { h, a, vdot, lambda } = &mut self.start;
-        *h = memory.number();
-        [a, vdot, lambda].into_iter().for_each(|values| memory.fill(values));
-        self.prediction.recall(memory);
+    pub fn recall(&mut self, Memory { is_started, start, prediction }: &Memory) {
+        self.is_started = *is_started;
+        self.start.recall(start);
+        self.prediction.recall(prediction);
     }
 
     /// Accepts the step: its end becomes the start.
@@ -167,22 +179,15 @@ impl Motion {
         Unknowns { a: &self.end.vdot, lambda: &self.end.lambda, ..Unknowns::default() }
     }
 
-    /// Derivatives of q_1 and v_1 with respect to v'_1 and the shifts.
-    pub fn slopes(&self, h: f64) -> Slopes<f64> {
-        let (Scheme { gamma, beta, .. }, slope) = (&self.scheme, self.scheme.slope());
-        Slopes { v: h * gamma * slope, q: h * h * beta * slope, w: 1.0, w_q: 0.0, u: 1.0 }
-    }
-
     /// Adds the changes to the unknowns. Returns the largest change of the first `moving` v'_1 or of a shift in their
     /// unit, and that of xi'_1. Shifts of q below `round_off` count as zero, since over h^2 they would exceed all other
     /// changes.
     pub fn correct(&mut self, change: &Change<f64>, moving: usize, h: f64, round_off: f64) -> [f64; 2] {
-        let add = |sum: &mut [f64], change: &[f64]| sum.iter_mut().zip(change).for_each(|(sum, change)| *sum += change);
         add(&mut self.end.vdot, &change.a);
         add(&mut self.end.lambda, &change.lambda);
         add(&mut self.w, &change.w);
         add(&mut self.u, &change.u);
-        let slopes = self.slopes(h);
+        let slopes = self.scheme.slopes(h);
         let moved = Some(largest(&change.u)).filter(|moved| *moved > round_off).unwrap_or(0.0) / slopes.q;
         let (a, states) = change.a.split_at(moving);
         [largest(a).max(largest(&change.w) / slopes.v).max(moved), largest(states)]
@@ -191,7 +196,8 @@ impl Motion {
     /// The leading term of the error of q along the directions of v: `Scheme::error` h^3 v'', and h^3/12 \[v, v'\], by
     /// which rotations about a moving axis differ from that by the integral of v. Source: Magnus, Comm. Pure Appl.
     /// Math. 7 (1954) 649-673.
-    pub fn local_error(&mut self, problem: &Problem, from: From, h: f64) -> &[f64] {
+    pub fn local_error(&mut self, problem: &Problem, from: From) -> &[f64] {
+        let h = from.h;
         let factor = self.scheme.error() * h * h;
         problem.dynamics.system.bracket(problem.split(from.y).1, &self.start.vdot, &mut self.change);
         for (i, error) in self.change.iter_mut().enumerate() {
@@ -230,7 +236,8 @@ impl Motion {
         }
     }
 
-    fn predict(&mut self, problem: &Problem, from: From, h: f64) {
+    fn predict(&mut self, problem: &Problem, from: From) {
+        let h = from.h;
         self.set_end();
         self.a_predicted.copy_from_slice(&self.end.a);
         let ((q0, v0), beta) = (problem.split(from.y), self.scheme.beta);
@@ -244,7 +251,8 @@ impl Motion {
     }
 
     /// a_1, v_1 and q_1 for the present v'_1 and shifts.
-    pub fn advance(&mut self, problem: &Problem, from: From, h: f64, to: &mut [f64]) {
+    pub fn advance(&mut self, problem: &Problem, from: From, to: &mut [f64]) {
+        let h = from.h;
         self.set_end();
         let (q0, v0) = problem.split(from.y);
         let (q, v) = problem.split_mut(to);
@@ -258,7 +266,7 @@ impl Motion {
             *change = h * h * beta * (end - predicted) + u;
         }
         let start = self.between.as_deref().unwrap_or_else(|| {
-            self.change.iter_mut().zip(&self.predicted).for_each(|(change, predicted)| *change += predicted);
+            add(&mut self.change, &self.predicted);
             q0
         });
         self.retraction.apply(problem.dynamics.system, start, &self.change, q);

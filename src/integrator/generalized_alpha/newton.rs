@@ -1,17 +1,38 @@
 //! Newton's method for the state at the end of a step.
 
-use super::super::memory::Reader;
-use super::super::{From, Problem, collapsed};
-use super::motion::Motion;
-use crate::formulation::{Dae, Iteration, Linearized, Residual, Slopes, StepError};
+use super::super::newton_matrix::{Factors, NewtonMatrix, Size};
+use super::super::{From, Problem};
+use super::motion::{Motion, Scheme};
+use crate::formulation::{Dae, Dynamics, Iteration, Linearized, Residual, Slopes, StepError};
+use crate::math::kkt::Singular;
 use crate::math::largest;
-use crate::math::newton::{Limits, Monitor};
+use crate::math::newton::Limits;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances::integrator as tolerances;
 
-/// Stiffness added to the metric of shifts: none, since sums of corrections in the metrics of several states would
-/// depend on the iteration.
-const MASS: f64 = 0.0;
+/// The matrix for v'_1.
+pub(super) struct Matrix {
+    scheme: Scheme,
+    iteration: Iteration<f64>,
+}
+
+impl Factors for Matrix {
+    const BAND: f64 = tolerances::MATRIX_BAND;
+
+    /// Shifts have the metric of M alone, since sums of corrections in the metrics of several states would depend on
+    /// the iteration.
+    fn metric(&self, _: Size) -> f64 {
+        0.0
+    }
+
+    fn factor(&mut self, Size { h, .. }: Size, at: &Linearized, dynamics: &mut Dynamics) -> Result<(), Singular> {
+        self.iteration.factor(self.scheme.slopes(h), at, dynamics)
+    }
+
+    fn rescale(&mut self, Size { h, .. }: Size) {
+        self.iteration.rescale(self.scheme.slopes(h));
+    }
+}
 
 /// Limits on changes over their stagnation tolerance.
 fn limits(is_fixed: bool) -> Limits {
@@ -29,41 +50,25 @@ fn limits(is_fixed: bool) -> Limits {
 pub(super) struct Newton {
     dae: Dae,
     limits: Limits,
-    at: Linearized,
-    iteration: Iteration<f64>,
+    pub matrix: NewtonMatrix<Matrix>,
     residual: Residual,
-    monitor: Monitor,
-    is_linearized: bool,
-    /// True if the last iteration began with the matrix of a step before.
+    /// True if the last iteration began with the matrix of one before.
     pub is_stale: bool,
-    /// True if the matrix was renewed in the last iteration.
-    is_renewed: bool,
     /// True if the start of the step is near a singular state.
     is_nearly_singular: bool,
-    /// The step size and the dropped rows for which the matrix is factored.
-    factored: Option<f64>,
-    dropped: Vec<usize>,
-    /// Step size and state of the matrix of a saved run.
-    recalled: Option<(f64, Vec<f64>)>,
 }
 
 impl Newton {
     /// Memory for `dae` on a system; `None` if there is not enough.
-    pub fn new(dae: Dae, is_fixed: bool, system: &dyn MechanicalSystem) -> Option<Self> {
+    pub fn new(dae: Dae, scheme: Scheme, is_fixed: bool, system: &dyn MechanicalSystem) -> Option<Self> {
+        let matrix = Matrix { scheme, iteration: Iteration::new(dae, system)? };
         Some(Newton {
             dae,
             limits: limits(is_fixed),
-            at: Linearized::new(dae, system),
-            iteration: Iteration::new(dae, system)?,
+            matrix: NewtonMatrix::new(dae, system, matrix),
             residual: Residual::new(system.dimensions()),
-            monitor: Monitor::default(),
-            is_linearized: false,
             is_stale: false,
-            is_renewed: false,
             is_nearly_singular: false,
-            factored: None,
-            dropped: Vec::new(),
-            recalled: None,
         })
     }
 
@@ -71,40 +76,11 @@ impl Newton {
     /// too. Near singular states round-off is divided by the rank indicator of the matrix, and one of a step before is
     /// kept.
     pub fn accepted(&mut self) {
-        let of_round_off = if self.monitor.has_stagnated { tolerances::CORRECTIONS_OF_ROUND_OFF } else { 0 };
-        let is_short = self.monitor.iterations <= tolerances::CORRECTIONS_WITH_OLD_MATRIX + of_round_off;
-        self.is_linearized &= self.monitor.keeps_matrix() && (is_short || self.is_renewed || self.is_nearly_singular);
-    }
-
-    /// Discards the matrix where the equations change their form.
-    pub fn restart(&mut self) {
-        self.is_linearized = false;
-    }
-
-    /// Contraction of the iteration, and step size and state of the matrix if it is kept, for [`Self::recall`].
-    pub fn memory(&self) -> Vec<f64> {
-        let h = self.factored.filter(|_| self.is_linearized).unwrap_or(0.0);
-        let point = if self.is_linearized { self.at.point() } else { &[] };
-        [&self.monitor.memory()[..], &[h], point].concat()
-    }
-
-    /// Restores a [`memory`](Self::memory) at the next step.
-    pub fn recall(&mut self, mut memory: Reader) {
-        self.monitor.recall([memory.number(), memory.number()]);
-        self.recalled = Some((memory.number(), memory.rest().to_vec()));
-    }
-
-    /// Computes the matrix of a saved run again.
-    fn renew(&mut self, problem: &mut Problem, motion: &Motion) -> Result<(), StepError> {
-        let Some((h, point)) = self.recalled.take().filter(|(h, _)| *h > 0.0) else { return Ok(()) };
-        let counted = problem.dynamics.statistics;
-        self.at.recall(&point, &mut problem.dynamics)?;
-        self.at.weigh(MASS, &mut problem.dynamics)?;
-        self.iteration.factor(motion.slopes(h), &self.at, &mut problem.dynamics)?;
-        self.dropped.clone_from(&problem.dynamics.dropped);
-        problem.dynamics.statistics = counted;
-        (self.is_linearized, self.factored) = (true, Some(h));
-        Ok(())
+        let monitor = &self.matrix.monitor;
+        let of_round_off = if monitor.has_stagnated { tolerances::CORRECTIONS_OF_ROUND_OFF } else { 0 };
+        let is_short = monitor.iterations <= tolerances::CORRECTIONS_WITH_OLD_MATRIX + of_round_off;
+        let is_economical = is_short || self.matrix.is_fresh || self.is_nearly_singular;
+        self.matrix.pass_on(self.matrix.monitor.keeps_matrix() && is_economical);
     }
 
     /// Power of the forces without a potential and of moving constraints at the end, W.
@@ -118,74 +94,62 @@ impl Newton {
         problem: &mut Problem,
         motion: &mut Motion,
         from: From,
-        h: f64,
         to: &mut [f64],
     ) -> Result<(), StepError> {
-        self.renew(problem, motion)?;
-        self.is_stale = self.is_linearized;
-        self.is_renewed = false;
+        let h = from.h;
+        self.matrix.renew(problem, from)?;
+        self.matrix.pass_on(true);
+        self.is_stale = self.matrix.serves(&problem.dynamics);
         let kkt = &problem.dynamics.kkt;
         self.is_nearly_singular =
             kkt.is_factored() && kkt.rank_indicator() < tolerances::NEARLY_SINGULAR * kkt.rank_reference;
-        let mut monitor = std::mem::take(&mut self.monitor);
+        let mut monitor = std::mem::take(&mut self.matrix.monitor);
         let converged = monitor.solve(self.limits, |renews| {
-            motion.advance(problem, from, h, to);
-            self.is_linearized &= !renews;
-            self.evaluate(problem, motion, (from, h), to)?;
-            self.iteration.load(std::iter::once((1.0, &self.residual)));
-            self.iteration.solve(&mut self.at, &problem.dynamics.structure)?;
+            motion.advance(problem, from, to);
+            if renews {
+                self.matrix.forget();
+            }
+            self.evaluate(problem, motion, from, to)?;
+            let NewtonMatrix { at, factors: Matrix { iteration, .. }, .. } = &mut self.matrix;
+            iteration.load(std::iter::once((1.0, &self.residual)));
+            iteration.solve(at, &problem.dynamics.structure)?;
             problem.dynamics.statistics.newton_iterations += 1;
             let round_off = tolerances::ROUND_OFF * largest(problem.split(to).0);
             let moving = problem.dynamics.system.dimensions().moving();
-            let [change, of_states] = motion.correct(&self.iteration.change, moving, h, round_off);
+            let [change, of_states] = motion.correct(&iteration.change, moving, h, round_off);
             let change = if change <= self.negligible(problem, motion, h, to) { 0.0 } else { change };
             let [small, small_state] = self.small(problem, motion, h, to);
             Ok::<_, StepError>(change / small + of_states / small_state)
         });
-        self.monitor = monitor;
+        let has_stagnated = monitor.has_stagnated;
+        self.matrix.monitor = monitor;
         if !converged? {
-            self.is_linearized = false;
+            self.matrix.forget();
             return Err(StepError::NotConverged);
         }
-        problem.dynamics.statistics.stagnated += u64::from(self.monitor.has_stagnated);
-        motion.advance(problem, from, h, to);
+        problem.dynamics.statistics.stagnated += u64::from(has_stagnated);
+        motion.advance(problem, from, to);
         Ok(())
     }
 
     /// The residual at q_1, v_1, and the matrix if there is none for this step.
-    fn evaluate(
-        &mut self,
-        problem: &mut Problem,
-        motion: &Motion,
-        (from, h): (From, f64),
-        to: &[f64],
-    ) -> Result<(), StepError> {
+    fn evaluate(&mut self, problem: &mut Problem, motion: &Motion, from: From, to: &[f64]) -> Result<(), StepError> {
+        let h = from.h;
         let ((q, v), t) = (problem.split(to), from.t + h);
         let vdot = &motion.end.vdot;
         let lambda = &motion.end.lambda;
         let dynamics = &mut problem.dynamics;
-        if self.is_linearized && self.dropped == dynamics.dropped {
+        if self.matrix.serves(dynamics) {
             self.residual.evaluate(&self.dae, (t, q, v), motion.unknowns(), dynamics)?;
         } else {
             if to.iter().any(|x| !x.is_finite()) {
                 return Err(StepError::NotFinite);
             }
-            self.at.update(OperatingPoint { t, q, v, vdot, lambda }, dynamics)?;
-            self.at.weigh(MASS, dynamics)?;
+            self.matrix.linearize(OperatingPoint { t, q, v, vdot, lambda }, dynamics)?;
             dynamics.statistics.rhs_evaluations += 1;
             self.residual.of_terms(&self.dae, motion.unknowns(), dynamics);
-            (self.is_linearized, self.is_renewed, self.factored) = (true, true, None);
         }
-        if self.factored.is_some_and(|own| own / h <= tolerances::MATRIX_BAND && h / own <= tolerances::MATRIX_BAND) {
-            self.iteration.rescale(motion.slopes(h));
-            return Ok(());
-        }
-        self.factored = None;
-        let factored = self.iteration.factor(motion.slopes(h), &self.at, dynamics);
-        factored.map_err(|singular| collapsed(singular, problem, from, h))?;
-        self.factored = Some(h);
-        self.dropped.clone_from(&problem.dynamics.dropped);
-        Ok(())
+        self.matrix.factor(problem, from, Size { h, method: 0 })
     }
 
     /// Size up to which changes of v'_1 count as zero where phi = 0 alone is solved: they move q by less than the
@@ -194,7 +158,7 @@ impl Newton {
         if self.dae.velocity_index() < 2 {
             return 0.0;
         }
-        let rounding = f64::EPSILON * largest(problem.split(to).0) / motion.slopes(h).q;
+        let rounding = f64::EPSILON * largest(problem.split(to).0) / motion.scheme.slopes(h).q;
         rounding.min(tolerances::PART_OF_CHANGE * motion.largest_change())
     }
 
@@ -204,7 +168,7 @@ impl Newton {
         let moving = problem.dynamics.system.dimensions().moving();
         let size = largest(&motion.end.a[..moving]).max(largest(&v[..moving]) / h);
         let of_states = largest(&motion.end.a[moving..v.len()]).max(largest(&v[moving..v.len()]) / h);
-        let Slopes { q: by_q, v: by_v, .. } = motion.slopes(h);
+        let Slopes { q: by_q, v: by_v, .. } = motion.scheme.slopes(h);
         let reach =
             Some(largest(q)).filter(|reach| *reach > 0.0).map_or(1.0, |reach| reach.max(tolerances::LEAST_LARGEST_Q));
         [

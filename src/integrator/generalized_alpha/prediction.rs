@@ -1,13 +1,15 @@
 //! The prediction of v' and lambda at the end of a step.
 
-use super::super::memory::Reader;
+use super::super::memory::fill;
 use crate::math::array::from_fn;
 use crate::system::Dimensions;
+use serde::{Deserialize, Serialize};
 
 /// Number of points of the polynomials.
 const POINTS: usize = 3;
 
 /// The quantities that one step passes on to the next.
+#[derive(Clone, Serialize, Deserialize)]
 pub(super) struct Carried {
     /// Step size for which `a` is valid.
     pub h: f64,
@@ -20,11 +22,20 @@ impl Carried {
     pub fn new(n: Dimensions) -> Self {
         Carried { h: 1.0, a: vec![0.0; n.v], vdot: vec![0.0; n.v], lambda: vec![0.0; n.lambda] }
     }
+
+    /// Takes over saved quantities.
+    pub fn recall(&mut self, saved: &Carried) {
+        self.h = saved.h;
+        fill(&mut self.a, &saved.a);
+        fill(&mut self.vdot, &saved.vdot);
+        fill(&mut self.lambda, &saved.lambda);
+    }
 }
 
 /// Extrapolates v' and lambda from the ends of the last steps, by the polynomial of degree 0, 1 or 2 that would have
 /// predicted the last v' best: smooth motions want the highest degree, jumps and fast modes that steps do not follow
 /// the lowest.
+#[derive(Clone, Serialize, Deserialize)]
 pub(super) struct Prediction {
     /// States before the start of the present step, the last one first.
     past: [Past; POINTS - 1],
@@ -34,6 +45,7 @@ pub(super) struct Prediction {
     moving: usize,
 }
 
+#[derive(Clone, Serialize, Deserialize)]
 struct Past {
     /// Time from there to the start of the present step, s.
     age: f64,
@@ -99,23 +111,14 @@ impl Prediction {
         (first.age, second.age) = (end.h, second.age + end.h);
     }
 
-    /// The state as numbers, for [`Self::recall`].
-    pub fn memory(&self) -> Vec<f64> {
-        let mut memory = vec![self.known as f64, self.degree as f64];
-        for Past { age, vdot, lambda } in &self.past {
-            memory.push(*age);
-            memory.extend(vdot.iter().chain(lambda));
-        }
-        memory
-    }
-
-    /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, memory: &mut Reader) {
-        self.known = (memory.number() as usize).min(POINTS - 1);
-        self.degree = (memory.number() as usize).min(self.known);
-        for Past { age, vdot, lambda } in &mut self.past {
-            *age = memory.number();
-            [vdot, lambda].into_iter().for_each(|values| memory.fill(values));
+    /// Takes over a saved prediction.
+    pub fn recall(&mut self, saved: &Prediction) {
+        self.known = saved.known.min(POINTS - 1);
+        self.degree = saved.degree.min(self.known);
+        for (Past { age, vdot, lambda }, saved) in self.past.iter_mut().zip(&saved.past) {
+            *age = saved.age;
+            fill(vdot, &saved.vdot);
+            fill(lambda, &saved.lambda);
         }
     }
 }

@@ -2,88 +2,31 @@
 
 use super::collocation::{Collocation, StageMode};
 use super::stages::Unknowns;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::formulation::{Dae, Dynamics, Iteration, Linearized, Number, Residual, Slopes, StepError};
-use crate::integrator::Setup;
+use crate::integrator::newton_matrix::{Factors, Size};
+use crate::integrator::{Setup, no_memory};
 use crate::math::kkt::Singular;
 use faer::c64;
 
-/// The matrices of all eigenvalues at one state, for one step size and method.
+/// The matrices of all eigenvalues of one method.
 pub struct Matrices {
     pub real: Iteration<f64>,
     pairs: Vec<Iteration<c64>>,
-    /// Step size and method for which they are factored, and the rows that are dropped there.
-    factored: Option<(f64, usize)>,
-    dropped: Vec<usize>,
-}
-
-/// With W the change of V' along an eigenvector of A with the eigenvalue a, V changes by h a W and Q by (h a)^2 W.
-fn slopes<T: Number>(ha: T) -> Slopes<T> {
-    Slopes { v: ha, q: ha * ha, w: ha, w_q: ha * ha, u: ha }
+    /// The eigenvalues of each method, the real one and one of each conjugate pair.
+    eigenvalues: Vec<(f64, Vec<c64>)>,
 }
 
 impl Matrices {
-    pub fn new(dae: Dae, most_pairs: usize, setup: &Setup) -> Result<Self> {
-        let no_memory = || Error::input("there is not enough memory for the matrices of this size");
+    pub fn new(dae: Dae, methods: &[Collocation], setup: &Setup) -> Result<Self> {
         let pair = |_| Iteration::new(dae, setup.system).ok_or_else(no_memory);
+        let most_pairs = methods.iter().map(|method| method.pairs.len()).max().unwrap_or(0);
+        let of_pairs = |method: &Collocation| method.pairs.iter().map(|pair| pair.value).collect();
         Ok(Matrices {
             real: Iteration::new(dae, setup.system).ok_or_else(no_memory)?,
             pairs: (0..most_pairs).map(pair).collect::<Result<_>>()?,
-            factored: None,
-            dropped: Vec::new(),
+            eigenvalues: methods.iter().map(|method| (method.real.value, of_pairs(method))).collect(),
         })
-    }
-
-    fn is_factored(&self, index: usize, h: f64, dynamics: &Dynamics) -> bool {
-        self.factored == Some((h, index)) && self.dropped == dynamics.dropped
-    }
-
-    /// Sets the metric of shifts for a step `h` of `method`, whose index is `index`, before the matrices are factored
-    /// for it. An output row within the step keeps the metric of the step.
-    pub fn weigh(
-        &self,
-        (method, index): (&Collocation, usize),
-        h: f64,
-        at: &mut Linearized,
-        dynamics: &mut Dynamics,
-    ) -> Result<(), Singular> {
-        if self.is_factored(index, h, dynamics) { Ok(()) } else { at.weigh(slopes(h * method.real.value).q, dynamics) }
-    }
-
-    /// Factors for a step `h` of `method`, whose index is `index`, unless that is done.
-    pub fn factor(
-        &mut self,
-        (method, index): (&Collocation, usize),
-        h: f64,
-        at: &Linearized,
-        dynamics: &mut Dynamics,
-    ) -> Result<(), Singular> {
-        if self.is_factored(index, h, dynamics) {
-            return Ok(());
-        }
-        self.factored = None;
-        self.real.factor(slopes(h * method.real.value), at, dynamics)?;
-        for (pair, mode) in self.pairs.iter_mut().zip(&method.pairs) {
-            pair.factor(slopes(mode.value * h), at, dynamics)?;
-        }
-        self.factored = Some((h, index));
-        self.dropped.clone_from(&dynamics.dropped);
-        Ok(())
-    }
-
-    /// Step size and method for which they are factored.
-    pub fn factored(&self) -> Option<(f64, usize)> {
-        self.factored
-    }
-
-    /// True if exactly the rows `dropped` are dropped from the factors, or there are no factors.
-    pub fn serves(&self, dropped: &[usize]) -> bool {
-        self.factored.is_none() || self.dropped == dropped
-    }
-
-    /// Discards the factors: the state is another from now on.
-    pub fn forget(&mut self) {
-        self.factored = None;
     }
 
     /// Sets the multipliers of dropped rows to zero, since no correction reaches them.
@@ -105,6 +48,23 @@ impl Matrices {
         correct(&mut self.real, &method.real, residuals, at, unknowns, dynamics)?;
         let mut pairs = self.pairs.iter_mut().zip(&method.pairs);
         pairs.try_for_each(|(pair, mode)| correct(pair, mode, residuals, at, unknowns, dynamics))
+    }
+}
+
+/// With W the change of V' along an eigenvector of A with the eigenvalue a, V changes by h a W and Q by (h a)^2 W.
+impl Factors for Matrices {
+    /// Steps of other sizes have matrices of their own.
+    const BAND: f64 = 1.0;
+
+    fn metric(&self, Size { h, method }: Size) -> f64 {
+        Slopes::implicit(h * self.eigenvalues[method].0).q
+    }
+
+    fn factor(&mut self, Size { h, method }: Size, at: &Linearized, dynamics: &mut Dynamics) -> Result<(), Singular> {
+        let (real, pairs) = &self.eigenvalues[method];
+        self.real.factor(Slopes::implicit(h * real), at, dynamics)?;
+        let mut all = self.pairs.iter_mut().zip(pairs);
+        all.try_for_each(|(pair, value)| pair.factor(Slopes::implicit(value * h), at, dynamics))
     }
 }
 

@@ -8,19 +8,23 @@ mod stages;
 mod system;
 mod velocity;
 
-use super::explicit::widest_gap;
-use super::memory::Reader;
+use super::memory::{fill, read, written};
+use super::newton_matrix::{self, Factors, NewtonMatrix, Saved, Size};
 use super::sums::accumulate;
-use super::{Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, Tolerance, collapsed, refuses};
-use crate::error::{Error, Result};
-use crate::formulation::{self, Dae, Linearized, StepError};
+use super::{
+    Accepted, Control, Dense, Entry, From, Integrator, Problem, Setup, Step, Steps, Tightening, Tolerance, refuses,
+};
+use crate::error::Result;
+use crate::formulation::{Dae, StepError};
 use crate::math::newton::Monitor;
 use crate::method_spec::OptionDoc;
 use crate::system::OperatingPoint;
 use crate::tolerances::integrator as tolerances;
 use collocation::Collocation;
 use matrices::Matrices;
-use order::{Order, Seen, internal};
+use order::{Choice, Order, Seen, internal};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use stages::{Stages, Unknowns};
 use system::{System, most};
 
@@ -49,42 +53,38 @@ use system::{System, most};
 /// dependent rows is divided by their rank indicator (1e-4 between masses 1 : 1e8 in line), so that steps below 1e-7 s
 /// may end a run there; index2 continues.
 pub const ENTRY: Entry = Entry {
-    name: "radau_iia",
-    about: "implicit collocation of variable order 5, 9, 13, L-stable: stiff motions, and high accuracy",
-    order: 5,
     steps: Steps::Either,
     // Errors over a motion were 0.1 rtol^0.8, with the rtol of `internal`: index 3 and fast modes lose order.
     tightening: Tightening::new(10.0, 1.25),
     solves: |formulation| formulation.dae.is_some(),
     refuses: refuses::shared_error,
     options: &[OptionDoc { name: "order", about: "5, 9 or 13 (default: chosen as it goes; 5 with a fixed step)" }],
-    make,
+    ..Entry::new(
+        "radau_iia",
+        "implicit collocation of variable order 5, 9, 13, L-stable: stiff motions, and high accuracy",
+        5,
+        make,
+    )
 };
 
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     let n = setup.system.dimensions();
     let order = Order::new(setup.integrator, setup.is_fixed)?;
-    let dae = formulation::dae(setup.formulation)?
-        .ok_or_else(|| Error::input(format!("radau_iia cannot integrate {}", setup.formulation.name)))?;
-    let most = order.most_stages();
-    let matrices = || Matrices::new(dae, most / 2, setup);
+    let dae = setup.dae()?;
+    let most = order.methods.iter().map(Collocation::stages).max().unwrap_or(0);
+    let matrices = || Matrices::new(dae, &order.methods, setup);
     Ok(Box::new(RadauIIA {
         dae,
-        at: Linearized::new(dae, setup.system),
-        is_linearized: false,
-        is_fresh: false,
-        matrices: matrices()?,
+        matrix: NewtonMatrix::new(dae, setup.system, matrices()?),
         row_matrices: matrices()?,
         stages: Stages::new(most, setup.system, setup.len(), &dae),
         row: Stages::new(most, setup.system, setup.len(), &dae),
         tolerance: Tolerance::new(1.0, 1.0, setup.system),
-        newton: Monitor::default(),
         before: Unknowns::new(most, n, &dae),
         tried: None,
         accepted: None,
         lambda: vec![0.0; n.lambda],
         is_begun: false,
-        recalled: None,
         error_x: vec![0.0; n.v],
         error_v: vec![0.0; n.v],
         error: vec![0.0; setup.len()],
@@ -99,22 +99,16 @@ struct RadauIIA {
     dae: Dae,
     order: Order,
     is_fixed: bool,
-    /// M, G, L, K and C, and whether they are evaluated.
-    at: Linearized,
-    is_linearized: bool,
-    /// True if that was for the present step.
-    is_fresh: bool,
-    matrices: Matrices,
+    matrix: NewtonMatrix<Matrices>,
     stages: Stages,
     /// Matrices and stages of a step to an output row, and the internal tolerance.
     row_matrices: Matrices,
     row: Stages,
     tolerance: Tolerance,
-    newton: Monitor,
     /// The last attempt.
-    tried: Option<Step>,
+    tried: Option<Tried>,
     /// The last accepted step and its stages, whose polynomials predict those of the next.
-    accepted: Option<Step>,
+    accepted: Option<Size>,
     before: Unknowns,
     /// lambda at the start of the step, and whether a step was tried from there.
     lambda: Vec<f64>,
@@ -122,102 +116,96 @@ struct RadauIIA {
     error_x: Vec<f64>,
     error_v: Vec<f64>,
     error: Vec<f64>,
-    /// Step size, method and state of the matrices of a saved run.
-    recalled: Option<(f64, usize, Vec<f64>)>,
     /// y' at the end of the last attempt, if v was projected there.
     slope: Vec<f64>,
     /// Measures of the last attempt.
     seen: Seen,
 }
 
+/// What steps pass on, as it is saved.
+#[derive(Serialize, Deserialize)]
+struct Memory {
+    choice: Choice,
+    /// The last accepted step, with a, lambda, w and u of its stages.
+    accepted: Option<Size>,
+    stages: [Vec<Vec<f64>>; 4],
+    matrix: newton_matrix::Memory,
+}
+
 #[derive(Clone, Copy)]
-struct Step {
-    h: f64,
-    /// Index of its method.
-    method: usize,
+struct Tried {
+    size: Size,
     /// Memory of Newton's method before it: a step that a saved run takes again begins with that.
-    newton: [f64; 2],
+    monitor: [f64; 2],
 }
 
 impl RadauIIA {
     /// M, G, K and C at the middle stage as it is predicted: stiff directions that turn with the motion, as those of
     /// beams do, are off by half as much at the other stages as they would be from the start. At the start where there
     /// is no prediction, or where a cut step before makes it a far one.
-    fn linearize(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), StepError> {
-        self.matrices.forget();
-        self.row_matrices.forget();
-        self.is_linearized = false;
-        let is_near = |step: Step| h <= tolerances::RADAU_GROWTH * step.h;
+    fn linearize(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
+        let h = from.h;
+        let is_near = |step: Size| h <= tolerances::RADAU_GROWTH * step.h;
         if self.accepted.is_some_and(is_near) {
-            self.predict(problem, from, h);
-            let RadauIIA { order, stages, at, .. } = self;
+            self.predict(problem, from);
+            let RadauIIA { order, stages, matrix, .. } = self;
             let method = order.method();
             let middle = order.method().stages() / 2;
             stages.reset(from);
-            stages.advance(problem, method, from, h);
+            stages.advance(problem, method, from);
             let (q, v) = problem.split(&stages.y[middle]);
             let (vdot, lambda) = (&stages.unknowns.a[middle][..], &stages.unknowns.lambda[middle][..]);
             let t = from.t + method.nodes[middle] * h;
-            at.update(OperatingPoint { t, q, v, vdot, lambda }, &mut problem.dynamics)?;
+            matrix.linearize(OperatingPoint { t, q, v, vdot, lambda }, &mut problem.dynamics)
         } else {
             let ((q, v), (_, vdot)) = (problem.split(from.y), problem.split(from.slope));
             let at = OperatingPoint { t: from.t, q, v, vdot, lambda: &self.lambda };
-            self.at.update(at, &mut problem.dynamics)?;
+            self.matrix.linearize(at, &mut problem.dynamics)
         }
-        (self.is_linearized, self.is_fresh) = (true, true);
-        Ok(())
     }
 
-    /// Computes the matrices of a saved run again.
-    fn renew(&mut self, problem: &mut Problem) -> Result<(), StepError> {
-        let Some((h, index, point)) = self.recalled.take() else { return Ok(()) };
-        let counted = problem.dynamics.statistics;
-        self.at.recall(&point, &mut problem.dynamics)?;
-        let method = (self.order.get(index), index);
-        self.matrices.weigh(method, h, &mut self.at, &mut problem.dynamics)?;
-        self.matrices.factor(method, h, &self.at, &mut problem.dynamics)?;
-        problem.dynamics.statistics = counted;
-        self.is_linearized = true;
-        Ok(())
-    }
-
-    fn factor(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<(), StepError> {
-        let method = (self.order.method(), self.order.current());
-        let factored = self.matrices.weigh(method, h, &mut self.at, &mut problem.dynamics);
-        let factored = factored.and_then(|()| self.matrices.factor(method, h, &self.at, &mut problem.dynamics));
-        factored.map_err(|singular| collapsed(singular, problem, from, h))
+    /// The step `h` with the present method.
+    fn size(&self, h: f64) -> Size {
+        Size { h, method: self.order.current() }
     }
 
     /// First guess of the accelerations and lambda: constant at the first step, else extrapolated from the step before.
-    fn predict(&mut self, problem: &Problem, from: From, h: f64) {
+    fn predict(&mut self, problem: &Problem, from: From) {
         let unknowns = &mut self.stages.unknowns;
         match self.accepted {
             Some(step) => {
-                let ahead = self.order.method().nodes.iter().map(|node| 1.0 + node * h / step.h);
-                unknowns.predict(&self.before, self.order.get(step.method), ahead);
+                let ahead = self.order.method().nodes.iter().map(|node| 1.0 + node * from.h / step.h);
+                unknowns.predict(&self.before, &self.order.methods[step.method], ahead);
             }
             None => unknowns.reset(problem.split(from.slope).1, &self.lambda),
         }
-        self.matrices.leave_out(unknowns);
+        self.matrix.factors.leave_out(unknowns);
     }
 
-    /// Solves the equations of all stages for a step `h`, with the present matrices or new ones.
-    fn solve(&mut self, problem: &mut Problem, from: From, h: f64) -> Result<bool, StepError> {
-        self.factor(problem, from, h)?;
-        self.predict(problem, from, h);
-        let RadauIIA { dae, order, at, matrices, stages, newton, is_fixed, tolerance, .. } = self;
+    /// The middle of a refused step is far from that of a shorter one, unless the matrices hardly change.
+    fn keeps_matrix(&self) -> bool {
+        !self.matrix.is_fresh || self.matrix.monitor.keeps_matrix()
+    }
+
+    /// Solves the equations of all stages, with the present matrices or new ones.
+    fn solve(&mut self, problem: &mut Problem, from: From) -> Result<bool, StepError> {
+        self.matrix.factor(problem, from, self.size(from.h))?;
+        self.predict(problem, from);
+        let RadauIIA { dae, order, matrix, stages, is_fixed, .. } = self;
+        let NewtonMatrix { at, factors: matrices, monitor, .. } = matrix;
         let mut collocation = System { dae, method: order.method(), at, matrices, stages, is_fixed: *is_fixed };
-        collocation.solve(newton, problem, tolerance, from, h)
+        collocation.solve(monitor, problem, from)
     }
 
     /// An error estimate h (gamma y'_0 + sum d_i Y'_i), damped along the stiff directions, over the tolerated errors.
     fn estimate(
         &mut self,
         problem: &Problem,
-        tolerance: &Tolerance,
-        (from, h, to): (From, f64, &[f64]),
+        from: From,
+        to: &[f64],
         weights: impl Fn(&Collocation) -> &[f64],
     ) -> Result<f64, StepError> {
+        let h = from.h;
         let method = self.order.method();
         let d = weights(method);
         let (x, v) = (&mut self.error_x, &mut self.error_v);
@@ -231,168 +219,150 @@ impl RadauIIA {
         v.iter_mut().zip(vdot0).for_each(|(v, vdot)| *v = h * gamma * vdot);
         accumulate(v, h, d, &self.stages.unknowns.a);
         accumulate(v, h, d, &self.stages.unknowns.w);
-        self.matrices.real.damp(&self.at, h, x, v, &problem.dynamics)?;
+        self.matrix.factors.real.damp(&self.matrix.at, h, x, v, &problem.dynamics)?;
         let (dq, dv) = self.error.split_at_mut(nq);
         problem.dynamics.system.rate(q0, x, dq);
         dv[..v.len()].copy_from_slice(v);
-        Ok(tolerance.norm_between(from.y, to, &self.error))
+        Ok(from.tolerance.norm_between(from.y, to, &self.error))
     }
 }
 
 impl Integrator for RadauIIA {
-    fn order(&self) -> usize {
-        self.order.method().stages()
-    }
-
     fn control(&mut self) -> &mut Control {
-        &mut self.order.control
+        &mut self.order.choice.control
     }
 
-    fn attempt(
-        &mut self,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-        to: &mut [f64],
-    ) -> Result<Option<f64>, StepError> {
-        let method = self.order.current();
-        self.tried = Some(Step { h, method, newton: self.newton.memory() });
+    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        self.tried = Some(Tried { size: self.size(from.h), monitor: self.matrix.monitor.memory() });
         self.tolerance = if self.is_fixed {
             Tolerance::exact(problem.split(from.y).0, problem.dynamics.system)
         } else {
-            internal(tolerance, self.order.method().stages())
+            internal(from.tolerance, self.order.method().stages())
         };
+        let tolerance = self.tolerance;
+        let from = From { tolerance: &tolerance, ..from };
         if !std::mem::replace(&mut self.is_begun, true) {
             self.lambda.copy_from_slice(&problem.dynamics.lambda);
         }
-        self.renew(problem)?;
-        // The middle of a refused step is far from that of a shorter one, unless the matrices hardly change.
-        self.is_linearized &= !std::mem::take(&mut self.is_fresh) || self.newton.keeps_matrix();
-        if !self.is_linearized || !self.matrices.serves(&problem.dynamics.dropped) {
-            self.linearize(problem, from, h)?;
+        self.matrix.renew(problem, from)?;
+        self.matrix.pass_on(self.keeps_matrix());
+        if !self.matrix.serves(&problem.dynamics) {
+            self.linearize(problem, from)?;
         }
-        let mut solved = self.solve(problem, from, h);
+        let mut solved = self.solve(problem, from);
         let is_solved = |solved: &std::result::Result<bool, StepError>| {
             solved.as_ref().map_or_else(StepError::is_fatal, |converged| *converged)
         };
-        if !self.is_fresh && !is_solved(&solved) {
-            self.newton.reset();
-            self.linearize(problem, from, h)?;
-            solved = self.solve(problem, from, h);
+        if !self.matrix.is_fresh && !is_solved(&solved) {
+            self.matrix.monitor.reset();
+            self.linearize(problem, from)?;
+            solved = self.solve(problem, from);
         }
         if !is_solved(&solved) {
-            self.order.retry(&self.newton, solved.is_ok(), self.stages.turned());
+            self.order.retry(&self.matrix.monitor, solved.is_ok(), self.stages.turned());
         }
         if !solved? {
             return Err(StepError::NotConverged);
         }
         let s = self.order.method().stages();
-        self.order.limit(&self.newton, most(s, self.is_fixed), self.stages.turned());
+        self.order.limit(&self.matrix.monitor, most(s, self.is_fixed), self.stages.turned());
         to.copy_from_slice(&self.stages.y[s - 1]);
-        let tolerance = self.tolerance;
-        let allowed = self.stages.allowed(&self.dae, (problem, &tolerance), from, h);
-        let error = self.estimate(problem, &tolerance, (from, h, to), |method| &method.error)? / allowed;
-        let lower = match self.order.len() {
+        let allowed = self.stages.allowed(&self.dae, problem, from);
+        let error = self.estimate(problem, from, to, |method| &method.error)? / allowed;
+        let lower = match self.order.methods.len() {
             1 => 0.0,
-            _ => self.estimate(problem, &tolerance, (from, h, to), |method| &method.lower_error)? / allowed,
+            _ => self.estimate(problem, from, to, |method| &method.lower_error)? / allowed,
         };
-        let is_round_off = error <= 1.0 && error * allowed > 1.0 && !self.newton.has_stagnated;
+        let is_round_off = error <= 1.0 && error * allowed > 1.0 && !self.matrix.monitor.has_stagnated;
         problem.dynamics.statistics.stagnated += u64::from(is_round_off);
-        self.seen = Seen { error, lower, theta: self.newton.rate };
+        self.seen = Seen { error, lower, theta: self.matrix.monitor.rate };
         if self.dae.velocity_index() == 2 && (self.is_fixed || error <= 1.0) {
-            velocity::project(problem, from.t + h, to)?;
-            velocity::slope(problem, from.t + h, to, &mut self.slope)?;
+            velocity::project(problem, from.t + from.h, to)?;
+            problem.derivative_at_velocity(from.t + from.h, to, &mut self.slope)?;
         }
         Ok(Some(error))
     }
 
     /// Keeps the stages for the prediction of the next, and M, G, K and C as long as Newton's method contracts well.
-    fn accepted(&mut self, tolerance: &Tolerance) {
-        let Some(step) = self.tried.take() else { return };
+    fn accepted(&mut self, step: &Accepted) -> f64 {
+        let next = self.order.choice.control.after(step);
+        let Some(tried) = self.tried.take() else { return next };
         std::mem::swap(&mut self.before, &mut self.stages.unknowns);
-        self.accepted = Some(step);
-        self.row_matrices.forget();
-        (self.is_begun, self.is_fresh) = (false, false);
-        self.is_linearized &= self.newton.keeps_matrix();
-        self.order.accepted(tolerance, &self.seen);
-    }
-
-    fn spacing(&self) -> f64 {
-        widest_gap(&self.order.method().nodes).0
-    }
-
-    fn memory(&self) -> Option<Vec<f64>> {
-        let mut memory = self.order.memory();
-        memory.extend(self.tried.map_or_else(|| self.newton.memory(), |step| step.newton));
-        let (h, method) = self.accepted.map_or((0.0, 0), |step| (step.h, step.method));
-        memory.extend([h, method as f64]);
-        let stages = self.order.get(method).stages();
-        [&self.before.a, &self.before.lambda, &self.before.w, &self.before.u]
-            .into_iter()
-            .for_each(|rows| memory.extend(rows[..stages].concat()));
-        // Those of a refused attempt serve on where they hardly change.
-        let is_kept = self.is_linearized && (!self.is_fresh || self.newton.keeps_matrix());
-        if let Some((h, index)) = self.matrices.factored().filter(|_| is_kept) {
-            memory.extend([h, index as f64]);
-            memory.extend(self.at.point());
-        }
-        Some(memory)
-    }
-
-    fn recall(&mut self, memory: &[f64]) {
-        let mut memory = Reader(memory);
-        self.order.recall(&mut memory);
-        self.newton.recall([memory.number(), memory.number()]);
-        let (h, method) = (memory.number(), memory.number() as usize);
-        self.accepted = (h > 0.0 && method < self.order.len()).then_some(Step { h, method, newton: [0.0; 2] });
-        let stages = self.order.get(self.accepted.map_or(0, |step| step.method)).stages();
-        [&mut self.before.a, &mut self.before.lambda, &mut self.before.w, &mut self.before.u]
-            .into_iter()
-            .for_each(|rows| rows[..stages].iter_mut().for_each(|row| memory.fill(row)));
-        let (h, index) = (memory.number(), memory.number() as usize);
-        self.recalled = (h > 0.0 && index < self.order.len()).then(|| (h, index, memory.rest().to_vec()));
+        self.accepted = Some(tried.size);
+        self.is_begun = false;
+        self.matrix.pass_on(self.matrix.monitor.keeps_matrix());
+        self.order.accepted(step.tolerance, &self.seen);
+        next
     }
 
     fn restart(&mut self) {
-        (self.tried, self.accepted) = (None, None);
-        (self.is_begun, self.is_linearized, self.is_fresh) = (false, false, false);
+        (self.tried, self.accepted, self.is_begun) = (None, None, false);
+        self.matrix.forget();
     }
 
     fn last_slope(&self) -> Option<&[f64]> {
         (self.dae.velocity_index() == 2).then_some(&self.slope)
     }
 
-    fn rows_are_steps(&self) -> bool {
-        true
+    fn memory(&self) -> Option<Value> {
+        let stages = self.order.methods[self.accepted.map_or(0, |step| step.method)].stages();
+        let Unknowns { a, lambda, w, u, .. } = &self.before;
+        let newton_matrix::Memory { monitor, matrix } = self.matrix.memory();
+        let monitor = self.tried.map_or(monitor, |tried| tried.monitor);
+        // Matrices of a refused attempt serve on where they hardly change.
+        let matrix = matrix.filter(|_| self.keeps_matrix()).map(|saved| Saved { is_fresh: false, ..saved });
+        written(Memory {
+            choice: self.order.choice,
+            accepted: self.accepted,
+            stages: [a, lambda, w, u].map(|rows| rows[..stages].to_vec()),
+            matrix: newton_matrix::Memory { monitor, matrix },
+        })
     }
 
-    fn prepare(&mut self, _: &mut Problem, _: From, _: f64, _: &[f64], _: &[f64]) -> Result<(), StepError> {
-        Ok(())
+    fn recall(&mut self, memory: &Value) {
+        let Some(Memory { choice, accepted, stages, matrix }) = read(memory) else { return };
+        let newton_matrix::Memory { monitor, matrix } = matrix;
+        let exists = |step: &Size| step.method < self.order.methods.len();
+        self.accepted = accepted.filter(exists);
+        let matrix = matrix.filter(|saved| exists(&saved.size));
+        self.matrix.recall(newton_matrix::Memory { monitor, matrix });
+        self.order.recall(choice);
+        let Unknowns { a, lambda, w, u, .. } = &mut self.before;
+        for (rows, saved) in [a, lambda, w, u].into_iter().zip(&stages) {
+            rows.iter_mut().zip(saved).for_each(|(row, saved)| fill(row, saved));
+        }
     }
 
+    fn dense(&mut self) -> Option<&mut dyn Dense> {
+        Some(self)
+    }
+}
+
+impl Dense for RadauIIA {
     /// Solves a step of that length; where it does not converge, uses the collocation polynomial, which has order s
     /// only.
     fn interpolate(
         &mut self,
         problem: &mut Problem,
-        from: From,
-        h: f64,
+        Step { from, .. }: Step,
         theta: f64,
         out: &mut [f64],
     ) -> Result<(), StepError> {
-        let RadauIIA { dae, order, at, row_matrices, stages, row, tolerance, is_fixed, .. } = self;
-        let (method, h) = (order.method(), theta * h);
-        row_matrices.factor((method, order.current()), h, at, &mut problem.dynamics)?;
+        let size = self.size(theta * from.h);
+        let RadauIIA { dae, order, matrix, row_matrices, stages, row, tolerance, is_fixed, .. } = self;
+        let at = &mut matrix.at;
+        let method = order.method();
+        let from = From { h: size.h, tolerance, ..from };
+        row_matrices.factor(size, at, &mut problem.dynamics)?;
         row.unknowns.predict(&stages.unknowns, method, method.nodes.iter().map(|node| theta * node));
         row_matrices.leave_out(&mut row.unknowns);
         let mut system = System { dae, method, at, matrices: row_matrices, stages: row, is_fixed: *is_fixed };
-        match system.solve(&mut Monitor::default(), problem, tolerance, from, h) {
+        match system.solve(&mut Monitor::default(), problem, from) {
             Ok(true) => out.copy_from_slice(&row.y[method.stages() - 1]),
             _ => stages.interpolate(method, from, theta, out),
         }
         match dae.velocity_index() {
-            2 => velocity::project(problem, from.t + h, out),
+            2 => velocity::project(problem, from.t + from.h, out),
             _ => Ok(()),
         }
     }

@@ -2,18 +2,26 @@
 
 use super::collocation::Collocation;
 use crate::error::{Error, Result};
-use crate::integrator::memory::Reader;
+use crate::integrator::explicit::widest_gap;
 use crate::integrator::{Control, Tolerance};
 use crate::math::newton::Monitor;
 use crate::method_spec::MethodSpec;
 use crate::tolerances::integrator as tolerances;
+use serde::{Deserialize, Serialize};
 
 /// The methods with 3, 5 and 7 stages, and the one in use.
 ///
 /// The error of s - 2 stages is estimated from the stages of a step, that of s + 2 by the same ratio again; from it
 /// follows the step size of each method, and the method with the least work per second is chosen.
 pub struct Order {
-    methods: Vec<Collocation>,
+    pub methods: Vec<Collocation>,
+    pub choice: Choice,
+}
+
+/// What the choice passes on from step to step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Choice {
+    /// Index of the method in use.
     current: usize,
     pub control: Control,
     /// Accepted steps since the last change.
@@ -47,78 +55,55 @@ impl Order {
         };
         let methods = stages.into_iter().map(Collocation::new).collect();
         let control = Control::predictive(4.0, 0.125, tolerances::RADAU_GROWTH);
-        let mut order = Order { methods, current: 0, control, steady: 0, last_fall: None };
+        let mut order = Order { methods, choice: Choice { current: 0, control, steady: 0, last_fall: None } };
         order.set(0);
         Ok(order)
     }
 
-    pub fn len(&self) -> usize {
-        self.methods.len()
-    }
-
-    /// The state of the choice and of the step control as numbers, for [`Self::recall`].
-    pub fn memory(&self) -> Vec<f64> {
-        let Control { safety, grow, retry, .. } = self.control;
-        let control = self.control.memory();
-        let own = [self.current as f64, self.steady as f64, self.last_fall.unwrap_or(-1.0), safety, grow, retry];
-        [&own[..], &[control.len() as f64], &control].concat()
-    }
-
-    /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, memory: &mut Reader) {
-        self.set((memory.number() as usize).min(self.methods.len() - 1));
-        self.steady = memory.number() as usize;
-        self.last_fall = Some(memory.number()).filter(|fall| *fall >= 0.0);
-        let Control { safety, grow, retry, .. } = &mut self.control;
-        [safety, grow, retry].into_iter().for_each(|value| *value = memory.number());
-        let control = memory.number() as usize;
-        self.control.recall(memory.slice(control));
-    }
-
-    pub fn most_stages(&self) -> usize {
-        self.methods.iter().map(Collocation::stages).max().unwrap_or(0)
+    /// Restores a [`choice`](Self::choice).
+    pub fn recall(&mut self, choice: Choice) {
+        let current = choice.current.min(self.methods.len() - 1);
+        self.choice = Choice { current, ..choice };
     }
 
     pub fn method(&self) -> &Collocation {
-        &self.methods[self.current]
+        &self.methods[self.choice.current]
     }
 
     /// Index of the method in use.
     pub fn current(&self) -> usize {
-        self.current
-    }
-
-    pub fn get(&self, index: usize) -> &Collocation {
-        &self.methods[index]
+        self.choice.current
     }
 
     fn set(&mut self, index: usize) {
-        self.current = index;
-        self.steady = 0;
-        self.last_fall = None;
-        self.control.exponent = 1.0 / (self.method().stages() as f64 + 1.0);
+        let method = &self.methods[index];
+        let control = &mut self.choice.control;
+        control.order = method.stages();
+        control.exponent = 1.0 / (method.stages() as f64 + 1.0);
+        control.spacing = widest_gap(&method.nodes).0;
+        self.choice = Choice { current: index, control: *control, steady: 0, last_fall: None };
     }
 
     /// Chooses the method of the next step, for the user's tolerance.
     pub fn accepted(&mut self, tolerance: &Tolerance, seen: &Seen) {
-        self.steady += 1;
+        self.choice.steady += 1;
         let own = if seen.lower > 0.0 { seen.error / seen.lower } else { 0.0 };
-        let fall = (own * self.last_fall.unwrap_or(own)).sqrt();
-        self.last_fall = Some(own);
-        if self.steady < tolerances::RADAU_STEADY {
+        let fall = (own * self.choice.last_fall.unwrap_or(own)).sqrt();
+        self.choice.last_fall = Some(own);
+        if self.choice.steady < tolerances::RADAU_STEADY {
             return;
         }
-        let (best, gain) = self.neighbours().fold((self.current, 1.0), |best, index| {
+        let (best, gain) = self.neighbours().fold((self.current(), 1.0), |best, index| {
             let gain = self.gain(index, tolerance, seen, fall);
             if gain > best.1 { (index, gain) } else { best }
         });
-        if best != self.current && gain > tolerances::RADAU_GAIN {
+        if best != self.current() && gain > tolerances::RADAU_GAIN {
             self.set(best);
         }
     }
 
     fn neighbours(&self) -> impl Iterator<Item = usize> + use<> {
-        let current = self.current;
+        let current = self.current();
         let count = self.methods.len();
         [current.checked_sub(1), Some(current + 1)].into_iter().flatten().filter(move |index| *index < count)
     }
@@ -146,8 +131,8 @@ impl Order {
     pub fn limit(&mut self, newton: &Monitor, most: usize, turned: f64) {
         let most = most as f64;
         let iterations = newton.iterations as f64;
-        self.control.safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations);
-        self.control.grow = farthest(newton.rate, turned).clamp(1.0, tolerances::RADAU_GROWTH);
+        self.choice.control.safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations);
+        self.choice.control.grow = farthest(newton.rate, turned).clamp(1.0, tolerances::RADAU_GROWTH);
     }
 
     /// Sets how much shorter a step is tried again that Newton's method did not solve: so that it would contract well
@@ -156,7 +141,7 @@ impl Order {
         let [shortest, longest] = tolerances::RADAU_RETRIED;
         let is_known = has_value && newton.iterations > 1 && !newton.rate.is_nan();
         let shorter = if is_known { farthest(newton.rate, turned) } else { shortest };
-        self.control.retry = shorter.clamp(shortest, longest);
+        self.choice.control.retry = shorter.clamp(shortest, longest);
     }
 }
 

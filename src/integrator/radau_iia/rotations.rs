@@ -1,10 +1,11 @@
 //! The unit quaternions of the stages.
 
 use super::collocation::Collocation;
+use crate::formulation::rotate;
 use crate::integrator::sums::accumulate;
 use crate::math::array::from_fn;
 use crate::math::largest;
-use crate::math::rotation::{quaternion_from_vector, quaternion_product, rotation_vector_rate};
+use crate::math::rotation::rotation_vector_rate;
 use crate::system::{MechanicalSystem, Rotation};
 
 /// Rotation vectors a_i from the start of a step to its stages, which are collocated in the place of the quaternions:
@@ -24,16 +25,6 @@ pub struct Rotations {
 
 fn three(all: &[f64], first: usize) -> [f64; 3] {
     from_fn(|i| all[first + i])
-}
-
-fn four(all: &[f64], first: usize) -> [f64; 4] {
-    from_fn(|i| all[first + i])
-}
-
-/// p = p_0 exp(vector)
-fn turn(place: &Rotation, vector: &[f64; 3], start: &[f64], q: &mut [f64]) {
-    let turned = quaternion_product(&four(start, place.q), &quaternion_from_vector(vector));
-    q[place.q..place.q + 4].copy_from_slice(&turned);
 }
 
 impl Rotations {
@@ -61,7 +52,7 @@ impl Rotations {
         self.vectors[i].fill(0.0);
         accumulate(&mut self.vectors[i], h, row, &self.rates);
         for (k, place) in self.places.iter().enumerate() {
-            turn(place, &three(&self.vectors[i], 3 * k), start, q);
+            rotate(place, &three(&self.vectors[i], 3 * k), start, q);
         }
     }
 
@@ -84,7 +75,7 @@ impl Rotations {
                 let weight = method.lagrange(i + 1, theta);
                 vector.iter_mut().zip(three(vectors, 3 * k)).for_each(|(sum, part)| *sum += weight * part);
             }
-            turn(place, &vector, start, q);
+            rotate(place, &vector, start, q);
         }
     }
 

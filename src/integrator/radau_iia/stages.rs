@@ -4,7 +4,7 @@ use super::collocation::Collocation;
 use super::rotations::Rotations;
 use crate::formulation::{self, Dae, Dynamics, Residual, StepError};
 use crate::integrator::sums::accumulate;
-use crate::integrator::{From, Problem, Tolerance, round_off};
+use crate::integrator::{From, Problem, round_off};
 use crate::system::{Dimensions, MechanicalSystem};
 use crate::tolerances::integrator as tolerances;
 
@@ -107,7 +107,8 @@ impl Stages {
 
     /// Q_i and V_i for the present unknowns. Where N depends on q, Q_i is found by sweeps from its last value, each of
     /// which reduces its error by about h |omega|/8.
-    pub fn advance(&mut self, problem: &Problem, method: &Collocation, from: From, h: f64) {
+    pub fn advance(&mut self, problem: &Problem, method: &Collocation, from: From) {
+        let h = from.h;
         let nq = self.n.q;
         let nv = self.n.v;
         let s = method.stages();
@@ -150,11 +151,11 @@ impl Stages {
     }
 
     /// Root mean square over the stages of the last change, over the tolerated errors at the start.
-    pub fn change(&mut self, tolerance: &Tolerance, from: From, s: usize) -> f64 {
+    pub fn change(&mut self, from: From, s: usize) -> f64 {
         let mut sum = 0.0;
         for (y, before) in self.y.iter().zip(&mut self.next).take(s) {
             before.iter_mut().zip(y).for_each(|(before, y)| *before = y - *before);
-            sum += tolerance.norm(from.y, before).powi(2);
+            sum += from.tolerance.norm(from.y, before).powi(2);
         }
         (sum / s as f64).sqrt()
     }
@@ -171,25 +172,25 @@ impl Stages {
     }
 
     /// Round-off of the changes of a stage, over the tolerated errors: see [`round_off`].
-    pub fn round_off(&mut self, problem: &Problem, tolerance: &Tolerance, from: From, divisor: Option<f64>) -> f64 {
-        round_off(problem, tolerance, from.y, divisor, &mut self.next[0])
+    pub fn round_off(&mut self, problem: &Problem, from: From, divisor: Option<f64>) -> f64 {
+        round_off(problem, from.tolerance, from.y, divisor, &mut self.next[0])
     }
 
     /// The error to be accepted in units of the tolerance: where phi returns to zero at a large rate, it returns from
     /// its rounding, and no shorter step has less of that in its velocities.
-    pub fn allowed(&mut self, dae: &Dae, (problem, tolerance): (&Problem, &Tolerance), from: From, h: f64) -> f64 {
+    pub fn allowed(&mut self, dae: &Dae, problem: &Problem, from: From) -> f64 {
         if dae.gain().is_none() {
             return 1.0;
         }
-        1.0 + tolerances::RADAU_ROUND_OFF * self.round_off(problem, tolerance, from, dae.rounding_time(h))
+        1.0 + tolerances::RADAU_ROUND_OFF * self.round_off(problem, from, dae.rounding_time(from.h))
     }
 
-    /// The residuals of all stages of a step from (t, y) by `h`. One evaluation per stage.
+    /// The residuals of all stages of a step. One evaluation per stage.
     pub fn evaluate(
         &mut self,
         dae: &Dae,
         method: &Collocation,
-        (t, h): (f64, f64),
+        from: From,
         stiffness: &[f64],
         dynamics: &mut Dynamics,
     ) -> Result<(), StepError> {
@@ -198,18 +199,18 @@ impl Stages {
             let Unknowns { a, lambda, w, eta, u, mu } = &self.unknowns;
             let [a, lambda, w, eta, u, mu] = [a, lambda, w, eta, u, mu].map(|stages| &stages[i][..]);
             let unknowns = formulation::Unknowns { a, lambda, w, eta, u, mu, stiffness };
-            residual.evaluate(dae, (t + method.nodes[i] * h, q, &v[..self.n.v]), unknowns, dynamics)?;
+            residual.evaluate(dae, (from.t + method.nodes[i] * from.h, q, &v[..self.n.v]), unknowns, dynamics)?;
         }
         Ok(())
     }
 
     /// The work at each stage, from the powers of the last evaluations.
-    pub fn work(&mut self, method: &Collocation, from: From, h: f64) {
+    pub fn work(&mut self, method: &Collocation, from: From) {
         let first = self.n.q + self.n.v;
         for (y, a) in self.y.iter_mut().zip(&method.a) {
             for (i, (y, start)) in y[first..].iter_mut().zip(&from.y[first..]).enumerate() {
                 let power = a.iter().zip(&self.residuals).map(|(a, residual)| a * residual.powers[i]);
-                *y = start + h * power.sum::<f64>();
+                *y = start + from.h * power.sum::<f64>();
             }
         }
     }

@@ -4,7 +4,7 @@ use super::collocation::Collocation;
 use super::matrices::Matrices;
 use super::stages::Stages;
 use crate::formulation::{Dae, Linearized, StepError};
-use crate::integrator::{From, Problem, Tolerance};
+use crate::integrator::{From, Problem};
 use crate::math::newton::{Limits, Monitor};
 use crate::tolerances::integrator as tolerances;
 
@@ -25,22 +25,16 @@ pub fn most(s: usize, is_fixed: bool) -> usize {
 
 impl System<'_> {
     /// Solves the equations by Newton's method from the first guess in `stages`.
-    pub fn solve(
-        &mut self,
-        newton: &mut Monitor,
-        problem: &mut Problem,
-        tolerance: &Tolerance,
-        from: From,
-        h: f64,
-    ) -> Result<bool, StepError> {
+    pub fn solve(&mut self, newton: &mut Monitor, problem: &mut Problem, from: From) -> Result<bool, StepError> {
+        let From { h, tolerance, .. } = from;
         let System { dae, method, at, matrices, stages, is_fixed } = self;
         stages.reset(from);
-        stages.advance(problem, method, from, h);
+        stages.advance(problem, method, from);
         let divisor = dae.rounding_time(h);
         // A fixed step goes on to where changes no longer fall, which stiff forces may raise.
         let fixed = if *is_fixed { Some(h) } else { divisor };
-        let round_off = stages.round_off(problem, tolerance, from, divisor);
-        let stagnation = stages.round_off(problem, tolerance, from, fixed);
+        let round_off = stages.round_off(problem, from, divisor);
+        let stagnation = stages.round_off(problem, from, fixed);
         let limits = Limits {
             most: most(method.stages(), *is_fixed),
             tolerance: (10.0 * f64::EPSILON / tolerance.rtol).max(tolerance.rtol.sqrt().min(0.03)),
@@ -52,14 +46,14 @@ impl System<'_> {
             ..Limits::NONE
         };
         let converged = newton.solve(limits, |_| {
-            stages.evaluate(dae, method, (from.t, h), at.stiffness(), &mut problem.dynamics)?;
+            stages.evaluate(dae, method, from, at.stiffness(), &mut problem.dynamics)?;
             let Stages { residuals, unknowns, .. } = &mut **stages;
             matrices.correct(method, residuals, at, unknowns, &mut problem.dynamics)?;
-            stages.advance(problem, method, from, h);
-            Ok::<_, StepError>(stages.change(tolerance, from, method.stages()))
+            stages.advance(problem, method, from);
+            Ok::<_, StepError>(stages.change(from, method.stages()))
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
-        stages.work(method, from, h);
+        stages.work(method, from);
         Ok(converged && (*is_fixed || stages.turned() <= tolerances::RADAU_TURN))
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::formulation::StepError;
 use crate::integrator::Problem;
+use crate::integrator::sums::add;
 use crate::system::Need;
 
 /// Projects v on G v + phi_t = 0, nearest in the mass metric, and factors the matrix of the state:
@@ -23,19 +24,6 @@ pub fn project(problem: &mut Problem, t: f64, y: &mut [f64]) -> Result<(), StepE
     dynamics.vdot.fill(0.0);
     dynamics.lambda.iter_mut().zip(&dynamics.terms.phi_dot).for_each(|(row, phi_dot)| *row = -phi_dot);
     dynamics.kkt.solve(&mut dynamics.vdot, &mut dynamics.lambda)?;
-    v.iter_mut().zip(&dynamics.vdot).for_each(|(v, dv)| *v += dv);
-    Ok(())
-}
-
-/// y' of a state whose matrix is factored.
-pub fn slope(problem: &mut Problem, t: f64, y: &[f64], slope: &mut [f64]) -> Result<(), StepError> {
-    let (q, v) = problem.split(y);
-    let dynamics = &mut problem.dynamics;
-    dynamics.solve_at_velocity(t, q, v)?;
-    let (qdot, rest) = slope.split_at_mut(q.len());
-    dynamics.system.rate(q, v, qdot);
-    rest[..v.len()].copy_from_slice(&dynamics.vdot);
-    let powers = dynamics.powers(&dynamics.lambda);
-    rest[v.len()..].iter_mut().zip(powers).for_each(|(rate, power)| *rate = power);
+    add(v, &dynamics.vdot);
     Ok(())
 }

@@ -74,9 +74,11 @@ pub fn flow_until(
     let integrator = MethodSpec::named("dop853");
     let formulation = MethodSpec::named("index1");
     let setup = Setup { integrator: &integrator, formulation: &formulation, system: &carrier, is_fixed: false };
+    let entry = integrator::find(&integrator)?;
     let parts = Parts {
         problem: problem()?,
-        integrator: (integrator::find(&integrator)?.make)(&setup)?,
+        entry,
+        integrator: (entry.make)(&setup)?,
         projection: projection()?,
         rows: (problem()?, projection()?),
         tests_velocities: true,

@@ -185,7 +185,7 @@ impl<'a> Runner<'a> {
     }
 
     fn is_explicit(&self, triple: &Triple) -> bool {
-        explicit(self.motion.system, &triple.at((1e-6, 1e-6), None)).is_some()
+        explicit(&triple.at((1e-6, 1e-6), None)).is_some()
     }
 
     fn method(&self, result: &WorkPrecision, triple: &Triple, decades: u32) -> Method {

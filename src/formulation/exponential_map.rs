@@ -37,9 +37,7 @@ impl ExponentialMap {
         }
         q.iter_mut().zip(q0.iter().zip(sum.iter())).for_each(|(q, (q0, dq))| *q = q0 + dq);
         for place in &self.rotations {
-            let vector: [f64; 3] = from_fn(|i| change[place.v + i]);
-            let turned = quaternion_product(&from_fn(|i| q0[place.q + i]), &quaternion_from_vector(&vector));
-            q[place.q..place.q + 4].copy_from_slice(&turned);
+            rotate(place, &from_fn(|i| change[place.v + i]), q0, q);
         }
         system.normalize(q);
     }
@@ -49,4 +47,10 @@ impl ExponentialMap {
         let angle = |place: &Rotation| (0..3).map(|i| change[place.v + i].powi(2)).sum::<f64>().sqrt();
         self.rotations.iter().map(angle).fold(0.0, f64::max)
     }
+}
+
+/// Sets the unit quaternion at this place to p = p0 exp(vector).
+pub fn rotate(place: &Rotation, vector: &[f64; 3], q0: &[f64], q: &mut [f64]) {
+    let rotated = quaternion_product(&from_fn(|i| q0[place.q + i]), &quaternion_from_vector(vector));
+    q[place.q..place.q + 4].copy_from_slice(&rotated);
 }
