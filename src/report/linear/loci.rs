@@ -137,12 +137,13 @@ impl<'a> LociAnswer<'a> {
     }
 
     /// Draws the modes; over a parameter also the complex plane, where a motion would leave loose dots.
-    fn figures(&self, folder: &mut Folder, plane_name: &str, modes_name: &str) -> Result<()> {
+    fn figures(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         let branches = &self.loci.branches;
+        let modes = format!("{stem}_modes");
         let LociVariable::Parameter(range) = &self.loci.along else {
             let title = format!("{}: eigenvalues along the motion", self.scene);
             let other = self.other.map(|(name, other)| (name, other.branches.as_slice()));
-            return folder.figure(modes_name, motion_figure(&title, branches, other));
+            return folder.figure(&modes, motion_figure(&title, branches, other));
         };
         let is_turning = self.loci.reached.iter().any(|state| state.turning.is_some());
         let axes = if is_turning { ", in axes that turn along" } else { "" };
@@ -154,8 +155,8 @@ impl<'a> LociAnswer<'a> {
         if let Some((name, other)) = self.other {
             plane = with_others(plane, name, other);
         }
-        folder.figure(plane_name, plane)?;
-        folder.figure(modes_name, frequency_figure(&title, axis, branches, &speeds))
+        folder.figure(stem, plane)?;
+        folder.figure(&modes, frequency_figure(&title, axis, branches, &speeds))
     }
 }
 
@@ -273,7 +274,7 @@ impl Answer for LociAnswer<'_> {
 
     fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         folder.table(stem, &loci_table(self.loci, self.name_along())?)?;
-        self.figures(folder, stem, &format!("{stem}_modes"))
+        self.figures(folder, stem)
     }
 }
 
