@@ -24,6 +24,7 @@ pub struct LociAnswer<'a> {
     modes: Vec<ModeSummary>,
     /// Another scene by its name.
     other: Option<(&'a str, &'a Loci)>,
+    against: Option<LociAgainst>,
 }
 
 /// Ranges of a mode, and those of time or parameter with a real part above zero.
@@ -87,7 +88,8 @@ impl<'a> LociAnswer<'a> {
             LociVariable::Parameter(_) => (unit.or_else(|| unit_of_speed(loci)), tolerances::EIGENVALUES_AGREE),
         };
         let modes = loci.named().map(|(mode, branch)| mode_summary(mode, branch, least)).collect();
-        LociAnswer { scene, loci, unit: unit.unwrap_or_default(), modes, other }
+        let against = other.map(|(name, other)| LociAgainst::new(loci, name, other));
+        LociAnswer { scene, loci, unit: unit.unwrap_or_default(), modes, other, against }
     }
 
     /// Returns what is printed as JSON: all but states and branches.
@@ -115,8 +117,8 @@ impl<'a> LociAnswer<'a> {
             "failures": gaps.iter().map(failure).collect::<Vec<Value>>(),
             "modes": self.modes,
         });
-        if let Some((name, other)) = self.other {
-            summary["against"] = json!(LociAgainst::new(self.loci, name, other));
+        if let Some(against) = &self.against {
+            summary["against"] = json!(against);
         }
         summary
     }
@@ -268,8 +270,8 @@ impl Answer for LociAnswer<'_> {
             let place = if gaps.len() == 1 { significant(first.at, 9) } else { span(first.at, last.at) };
             text += &format!("  NO EIGENVALUES at {along} = {place}{unit}: {}\n", told(&first.error).0);
         }
-        let against = self.other.map(|(name, other)| LociAgainst::new(self.loci, name, other).text(along));
-        text + "\n" + &self.table() + &against.map_or(String::new(), |text| format!("\n{text}"))
+        let against = self.against.as_ref().map_or(String::new(), |against| format!("\n{}", against.text(along)));
+        text + "\n" + &self.table() + &against
     }
 
     fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
