@@ -1,4 +1,4 @@
-//! Results as files and text.
+//! Results as files and text: what a command computes is an [`Answer`], and a [`Folder`] publishes it.
 
 mod answer;
 mod check;

@@ -7,8 +7,8 @@ use crate::error::{Error, Result};
 use crate::simulate::Stop;
 
 /// `trajectory.csv`: t, coordinates, velocities, multipliers and outputs at full precision; `drift.csv`: t and the
-/// largest
-/// |phi|, |phi'| and |phi''|; `energy.csv`: t, kinetic and potential energy, work and the error of the balance, J.
+/// largest |phi|, |phi'| and |phi''|; `energy.csv`: t, kinetic and potential energy, work and the error of the
+/// balance, J.
 pub struct RowFiles {
     trajectory: Option<Stream>,
     drift: Stream,

@@ -24,6 +24,7 @@ pub struct LociAnswer<'a> {
     modes: Vec<ModeSummary>,
     /// Another scene by its name.
     other: Option<(&'a str, &'a Loci)>,
+    against: Option<LociAgainst>,
 }
 
 /// Ranges of a mode, and those of time or parameter with a real part above zero.
@@ -87,7 +88,8 @@ impl<'a> LociAnswer<'a> {
             LociVariable::Parameter(_) => (unit.or_else(|| unit_of_speed(loci)), tolerances::EIGENVALUES_AGREE),
         };
         let modes = loci.named().map(|(mode, branch)| mode_summary(mode, branch, least)).collect();
-        LociAnswer { scene, loci, unit: unit.unwrap_or_default(), modes, other }
+        let against = other.map(|(name, other)| LociAgainst::new(loci, name, other));
+        LociAnswer { scene, loci, unit: unit.unwrap_or_default(), modes, other, against }
     }
 
     /// Returns what is printed as JSON: all but states and branches.
@@ -115,8 +117,8 @@ impl<'a> LociAnswer<'a> {
             "failures": gaps.iter().map(failure).collect::<Vec<Value>>(),
             "modes": self.modes,
         });
-        if let Some((name, other)) = self.other {
-            summary["against"] = json!(LociAgainst::new(self.loci, name, other));
+        if let Some(against) = &self.against {
+            summary["against"] = json!(against);
         }
         summary
     }
@@ -137,12 +139,13 @@ impl<'a> LociAnswer<'a> {
     }
 
     /// Draws the modes; over a parameter also the complex plane, where a motion would leave loose dots.
-    fn figures(&self, folder: &mut Folder, plane_name: &str, modes_name: &str) -> Result<()> {
+    fn figures(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         let branches = &self.loci.branches;
+        let modes = format!("{stem}_modes");
         let LociVariable::Parameter(range) = &self.loci.along else {
             let title = format!("{}: eigenvalues along the motion", self.scene);
             let other = self.other.map(|(name, other)| (name, other.branches.as_slice()));
-            return folder.figure(modes_name, motion_figure(&title, branches, other));
+            return folder.figure(&modes, motion_figure(&title, branches, other));
         };
         let is_turning = self.loci.reached.iter().any(|state| state.turning.is_some());
         let axes = if is_turning { ", in axes that turn along" } else { "" };
@@ -154,8 +157,8 @@ impl<'a> LociAnswer<'a> {
         if let Some((name, other)) = self.other {
             plane = with_others(plane, name, other);
         }
-        folder.figure(plane_name, plane)?;
-        folder.figure(modes_name, frequency_figure(&title, axis, branches, &speeds))
+        folder.figure(stem, plane)?;
+        folder.figure(&modes, frequency_figure(&title, axis, branches, &speeds))
     }
 }
 
@@ -267,13 +270,13 @@ impl Answer for LociAnswer<'_> {
             let place = if gaps.len() == 1 { significant(first.at, 9) } else { span(first.at, last.at) };
             text += &format!("  NO EIGENVALUES at {along} = {place}{unit}: {}\n", told(&first.error).0);
         }
-        let against = self.other.map(|(name, other)| LociAgainst::new(self.loci, name, other).text(along));
-        text + "\n" + &self.table() + &against.map_or(String::new(), |text| format!("\n{text}"))
+        let against = self.against.as_ref().map_or(String::new(), |against| format!("\n{}", against.text(along)));
+        text + "\n" + &self.table() + &against
     }
 
     fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         folder.table(stem, &loci_table(self.loci, self.name_along())?)?;
-        self.figures(folder, stem, &format!("{stem}_modes"))
+        self.figures(folder, stem)
     }
 }
 
