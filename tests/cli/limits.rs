@@ -154,7 +154,7 @@ fn files_that_are_too_large() {
 /// Text of 2 bytes a value would take 36 times its size.
 #[test]
 fn a_scene_of_too_many_values_is_refused() {
-    let place = Place::new(&format!("[0{}]", ",0".repeat(6_000_000)));
+    let place = Place::new(format!("[0{}]", ",0".repeat(6_000_000)));
     let message = "scene.json: this has more than the 6 million values that are read";
     refused(&place, &["check", "scene.json"], &[message, "signals as CSV, modes as npz"]);
 }
