@@ -36,7 +36,9 @@ pub struct Checkpoint {
     approach: SingularPassage,
     dense_reference: f64,
     formulation: Vec<f64>,
-    integrator: Option<Value>,
+    /// The memory of the integrator; none in files of earlier versions, where it had another form and name.
+    #[serde(default)]
+    memory: Option<Value>,
     h: f64,
     growing: bool,
     cut: Option<f64>,
@@ -104,7 +106,7 @@ impl Checkpoint {
     /// True if the method continues with the values it carried; else it begins anew, and the run is the same within the
     /// tolerance only.
     pub fn is_exact(&self) -> bool {
-        self.integrator.is_some()
+        self.memory.is_some()
     }
 
     /// Refuses a state that is not finite, and one at which the joints are open by more than a run tolerates.
@@ -187,7 +189,7 @@ impl Run<'_> {
             approach: self.approach,
             dense_reference: dynamics.dense_reference,
             formulation: self.problem.formulation.settled(),
-            integrator: self.integrator.memory(),
+            memory: self.integrator.memory(),
             h: self.h,
             growing: self.growing,
             cut: self.cut,
@@ -233,7 +235,7 @@ impl Run<'_> {
     fn recall(&mut self, saved: &Checkpoint) -> Result<(), Failure> {
         self.problem.formulation.recall(&saved.formulation);
         self.rows.problem.formulation.recall(&saved.formulation);
-        if let Some(memory) = &saved.integrator {
+        if let Some(memory) = &saved.memory {
             self.integrator.recall(memory);
         }
         (self.approach, self.crowd, self.divided) = (saved.approach, saved.crowd, saved.divided);
