@@ -102,7 +102,7 @@ impl SingularPassage {
     }
 
     /// True if the last state is so near to a singular one that the next step may come there.
-    pub fn is_near(&self) -> bool {
+    pub fn may_be_singular(&self) -> bool {
         self.rank_indicator < tolerances::PLACED_STEPS * self.largest
     }
 
@@ -111,9 +111,14 @@ impl SingularPassage {
         self.t == f64::NEG_INFINITY
     }
 
+    /// True if the last state is near a singular one.
+    pub fn is_near(&self) -> bool {
+        self.rank_indicator < tolerances::NEAR_SINGULAR * self.largest
+    }
+
     /// True if steps of size `h` are too small to pass a singular state.
     pub fn is_stuck(&self, h: f64) -> bool {
-        self.is_near() && h < tolerances::STUCK_AT_SINGULAR * self.regular
+        self.may_be_singular() && h < tolerances::STUCK_AT_SINGULAR * self.regular
     }
 
     /// Time to the singular state at the last rate, s.
@@ -128,7 +133,8 @@ impl SingularPassage {
         let ahead = self.ahead();
         let across = self.ahead() / gap;
         // At a singular state there is none ahead.
-        if !(self.is_near() && self.rank_indicator > tolerances::AT_SINGULAR * self.largest && self.rate < 0.0) {
+        if !(self.may_be_singular() && self.rank_indicator > tolerances::AT_SINGULAR * self.largest && self.rate < 0.0)
+        {
             h
         } else if !self.is_tried && across <= h.max(self.regular) {
             self.is_tried = true;

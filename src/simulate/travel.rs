@@ -29,7 +29,7 @@ impl Run<'_> {
     /// rank is not known.
     pub fn check_travel(&mut self, t: f64) -> Result<(), Failure> {
         let open = largest_in(&self.scales, &self.problem.dynamics.terms.phi);
-        let is_doubtful = open > tolerances::TRAVEL_OPEN || self.approach.is_near();
+        let is_doubtful = open > tolerances::TRAVEL_OPEN || self.approach.may_be_singular();
         let Some(travelled) = &mut self.travelled else { return Ok(()) };
         travelled.steps += 1;
         let is_unknown = self.approach.is_unknown() && travelled.steps >= tolerances::TRAVEL_STEPS;

@@ -55,7 +55,12 @@ pub const LOSSES_REFUSED: usize = 1;
 /// Unit: `[tolerated errors]`. Why: the next one is shorter by a half or so. Test: `no_passage_is_wrong_in_silence`.
 pub const REFUSED_FOR_ENERGY: f64 = 100.0;
 
-/// A state whose rank indicator is below is near a singular one, about which steps are placed.
+/// A state whose rank indicator is below is near a singular one.
+/// Unit: `[1]` of the largest so far. Why: a choice. Test: none: with a thousand times more or less the tests of its
+/// room pass.
+pub const NEAR_SINGULAR: f64 = 0.1;
+
+/// Steps are placed about a singular state where the rank indicator is below.
 /// Unit: `[1]` of the largest so far. Why: a choice. Test:
 /// `short_steps_stop_before_the_singular_state_until_one_as_long_as_before_goes_over_it`.
 pub const PLACED_STEPS: f64 = 0.3;
