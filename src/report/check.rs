@@ -7,6 +7,7 @@ use super::table::{OutputValues, count, moves_text};
 use crate::analysis::{Rank, Redundant};
 use crate::error::{Failure, significant};
 use crate::initial::Assembly;
+use crate::math::kkt::has_least_norm;
 use crate::math::largest;
 use crate::prepared::{AnyMechanism, PreparedScene};
 use crate::scene::{BeamLine, Model, Part};
@@ -235,8 +236,12 @@ impl Check {
                  constraints that depend on others here:\n",
                 self.rank, self.rank_beside
             )
-        } else {
+        } else if has_least_norm(self.redundant.len(), self.rank + self.redundant.len()) {
             String::from("redundant constraints (consistent; multipliers of least norm are computed):\n")
+        } else {
+            String::from(
+                "redundant constraints (consistent; so many that the ones left out get multipliers of zero):\n",
+            )
         };
         for row in &self.redundant {
             let cause = match row.follows_from.as_slice() {

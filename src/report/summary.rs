@@ -7,6 +7,7 @@ use crate::analysis::{Drift, EnergyBalance, Extremes, Passing, Record, Singulari
 use crate::error::{Failure, Warning, clock, short_list, significant};
 use crate::formulation::Statistics;
 use crate::initial::Assembly;
+use crate::math::kkt::has_least_norm;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Checkpoint, Leg, Method, Outcome, Stiffness};
 use crate::study::ErrorBars;
@@ -169,7 +170,12 @@ impl Summary {
             s.factorizations
         );
         if s.rank_deficient > s.steps {
-            text += "  redundant constraints at all states: multipliers are those of least norm\n\n";
+            let rows = self.r#final.lambda.len();
+            text += if has_least_norm(rows / 2, rows) {
+                "  redundant constraints at all states: multipliers are those of least norm\n\n"
+            } else {
+                "  redundant constraints at all states: `holonom check` says which multipliers are computed\n\n"
+            };
         }
         text += &singular_text(&self.singularity);
         let mut drift = Table::new(&["drift", "max", "final", "relative max"]);

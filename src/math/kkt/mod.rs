@@ -42,6 +42,7 @@ pub use analysis::Analysis;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
 pub use pattern::{Lever, Pattern};
 pub use rank_revealing::{Chart, Reduced};
+pub use redundant_rows::has_least_norm;
 pub use saddle::SaddlePoint;
 pub use unsymmetric::{Field, Places, Unsymmetric};
 

@@ -26,6 +26,12 @@ pub struct Least {
     correction: Vec<f64>,
 }
 
+/// True if so many dependent rows of all get multipliers of least norm; beyond, those that are dropped carry no force.
+pub fn has_least_norm(dependent: usize, rows: usize) -> bool {
+    let vectors = dependent.min(rows - dependent);
+    vectors.saturating_mul(vectors).saturating_mul(rows) <= tolerances::LEAST_NORM
+}
+
 impl Least {
     pub fn new(g: &Pattern) -> Self {
         let zeros = || vec![0.0; g.rows];
@@ -50,9 +56,7 @@ impl Least {
         if rows.is_empty() {
             return 0.0;
         }
-        let m = system.g.rows;
-        let vectors = rows.len().min(m - rows.len());
-        if vectors.saturating_mul(vectors).saturating_mul(m) > tolerances::LEAST_NORM {
+        if !has_least_norm(rows.len(), system.g.rows) {
             self.correction.copy_from_slice(v);
             self.image(system, solve);
             return rows.iter().map(|&row| (v[row] - self.vector[row]).powi(2)).sum::<f64>().sqrt();

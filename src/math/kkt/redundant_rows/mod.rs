@@ -7,7 +7,7 @@
 
 mod least;
 
-pub use least::Least;
+pub use least::{Least, has_least_norm};
 
 use super::Singular;
 use super::ldlt::Ldlt;
