@@ -6,7 +6,7 @@ use crate::common::{adaptive, fixed};
 use holonom::math::Scalar;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::{Scene, generate};
-use holonom::simulate::{Method, Outcome, Span, simulate, spread};
+use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate, spread};
 use holonom::system::{Equations, MechanicalSystem, OperatingPoint, Scratch};
 use std::path::Path;
 
@@ -45,6 +45,18 @@ const DIRECT: [(&str, &str, &str); 10] = [
     ("index3", "ali3p", "none"),
 ];
 
+/// The allocations up to the last row: the memory that a method leaves for a later run comes after it.
+struct Counted(usize);
+
+impl Sink for Counted {
+    fn watches(&self) -> bool {
+        false
+    }
+    fn row(&mut self, _: &Observation) {
+        self.0 = count();
+    }
+}
+
 fn allocations(
     system: &dyn MechanicalSystem,
     method: &Method,
@@ -52,11 +64,12 @@ fn allocations(
     start: (&[f64], &[f64]),
 ) -> (usize, Outcome) {
     let before = count();
-    let outcome = simulate(system, method, span, start, &mut ()).unwrap();
-    (count() - before, outcome)
+    let mut counted = Counted(before);
+    let outcome = simulate(system, method, span, start, &mut counted).unwrap();
+    (counted.0 - before, outcome)
 }
 
-/// Runs of 20 and of 40 steps, with rows at the ends, after a run that fills the memory of libraries.
+/// Runs of 20 and of 40 steps, with rows at the ends, after one step that fills the memory of libraries.
 fn check(name: &str, system: &dyn MechanicalSystem, start: (&[f64], &[f64]), step: f64) {
     check_methods(name, &METHODS, system, start, step);
 }
@@ -70,7 +83,7 @@ fn check_methods(
 ) {
     for &(formulation, integrator, projection) in methods {
         let method = fixed(formulation, integrator, projection, step);
-        let [_, few, many] = [20_u32, 20, 40].map(|steps| {
+        let [_, few, many] = [1_u32, 20, 40].map(|steps| {
             let end = f64::from(steps) * step;
             let (made, outcome) = allocations(system, &method, Span { start: 0.0, end, output_step: end }, start);
             assert_eq!(outcome.failure, None, "{name} {method:?}");
