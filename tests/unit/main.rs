@@ -127,5 +127,6 @@ mod sweep {
 
 #[path = "../../src/validate"]
 mod validate {
+    mod limit;
     mod order;
 }

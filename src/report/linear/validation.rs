@@ -7,7 +7,7 @@ use crate::report::Table;
 use crate::report::figures::{Floor, grouped, label, quantity};
 use crate::system::Names;
 use crate::tolerances::report as tolerances;
-use crate::validate::{Curve, Decay, InputCheck, PerturbationSequence, Validation, Verdict};
+use crate::validate::{Curve, Decay, Event, InputCheck, Measured, PerturbationSequence, Validation, Verdict};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -24,6 +24,8 @@ pub struct ValidationFile {
     pub followed: f64,
     /// Time of the singular state half way to which they were followed, s.
     pub singular: Option<f64>,
+    /// The first change of form of the equations, short of which they were followed.
+    pub event: Option<Event>,
     /// Sizes of (dq, dv / rate), m or rad.
     pub epsilons: Vec<f64>,
     /// Rate by which velocities are divided, 1/s.
@@ -38,6 +40,9 @@ pub struct ValidationFile {
     pub horizons: Map<String, Value>,
     /// Conclusion.
     pub verdict: Verdict,
+    /// `a`, `b`, `c` and `d`: the entry that is farthest from what was measured.
+    #[serde(flatten)]
+    pub measured: Measured,
     /// Results of all directions.
     pub directions: Vec<Value>,
     /// Comparison of exp(A h) with the state-transition matrix.
@@ -61,6 +66,7 @@ impl ValidationFile {
             chart: found.chart.clone(),
             followed: found.followed,
             singular: found.singular,
+            event: found.event.clone(),
             epsilons: first.map_or(Vec::new(), |sequence| sequence.epsilons.clone()),
             rate: found.rate,
             errors_ltv: first.map_or(Vec::new(), |sequence| sequence.errors_ltv.clone()),
@@ -68,8 +74,10 @@ impl ValidationFile {
             errors_lti: first.map_or(Vec::new(), |sequence| sequence.errors_lti.clone()),
             horizons: first.map_or(Map::new(), horizons),
             verdict: found.verdict.clone(),
+            measured: found.measured.clone(),
             directions: found.sequences.iter().map(|sequence| direction(names, sequence)).collect(),
-            frozen: json!({ "steps": found.frozen.steps, "errors": found.frozen.errors, "decay": found.frozen.decay }),
+            frozen: json!({ "steps": found.frozen.steps, "errors": found.frozen.errors, "decay": found.frozen.decay,
+                             "limit": found.frozen.limit }),
             inputs: found.inputs.clone(),
             unchecked_inputs: found.unchecked.clone(),
         }
@@ -84,7 +92,7 @@ impl ValidationFile {
     pub fn complaint(&self) -> String {
         let ValidationFile { scene, chart, verdict, .. } = self;
         let t = significant(self.t, 9);
-        let help = if verdict.ltv {
+        let help = if verdict.ltv && chart == "frozen" {
             "take --chart intrinsic, mass_orthogonal or names of independent coordinates"
         } else {
             "try another --horizon or --along; equations of one's own may have wrong derivatives"
@@ -115,8 +123,12 @@ impl ValidationFile {
             let t = significant(t, 6);
             format!(" (half of the way to t = {t} s, where the mechanism is singular: linear models end there)")
         });
+        let event = found.event.as_ref().map_or(String::new(), |event| {
+            let t = significant(event.t, 6);
+            format!(" (before t = {t} s, where {} changes its form: linear models end there)", event.owner)
+        });
         format!(
-            "{} at t = {} s: the linear model (chart {}) against simulations over {} s{singular}\n\n{table}{unchecked}\n  exp(A h) against the state-transition matrix: order {} in h\n  verdict: {}\n",
+            "{} at t = {} s: the linear model (chart {}) against simulations over {} s{singular}{event}\n\n{table}{unchecked}\n  exp(A h) against the state-transition matrix: order {} in h\n  verdict: {}\n",
             self.scene,
             significant(self.t, 9),
             self.chart,
