@@ -99,7 +99,7 @@ impl Comparison {
             let difference = (model - measured).abs();
             let is_right = difference.is_nan() || difference <= tolerances::BEYOND_UNCERTAINTY * uncertainty;
             largest_uncertainty = largest_uncertainty.max(uncertainty * scale);
-            let relative = difference * scale;
+            let relative = if difference.is_nan() { 0.0 } else { difference * scale };
             let is_worse = |other: &Deviation| (!is_right, relative) > (!other.is_right, other.relative);
             if worst.as_ref().is_none_or(is_worse) {
                 let entry = Entry { row: names[0][i].clone(), column: names[1][j].clone(), model, measured };

@@ -134,7 +134,7 @@ impl ValidationFile {
             self.chart,
             significant(found.followed, 3),
             order(&found.frozen.decay),
-            self.verdict.text
+            self.verdict.text.replace("; ", ";\n           ")
         )
     }
 }
