@@ -7,3 +7,4 @@ mod loci;
 mod outputs_tangent;
 mod scenes;
 mod validate;
+mod verdict;

@@ -6,16 +6,24 @@ use crate::math::{Piece, Rate, largest};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use crate::tolerances::linearize as tolerances;
 
-/// Returns a warning for each part of the equations that has a threshold at the state and f, K or C that are not the
-/// same on both sides of it: a law by `abs` or `if`, a point of a linear signal, a wheel that just touches.
+/// Returns a warning for each part of the equations that has a threshold at the state: see [`changed_parts`].
 ///
 /// # Errors
 /// See [`Variation::new`].
 pub fn kinks(system: &dyn MechanicalSystem, state: &State) -> Result<Vec<Warning>> {
+    Ok(changed_parts(system, state)?.into_iter().map(|owner| warning(state.t, owner)).collect())
+}
+
+/// Returns the parts of the equations that have a threshold at the state and f, K or C that are not the same on both
+/// sides of it: a law by `abs` or `if`, a point of a linear signal, a wheel that just touches.
+///
+/// # Errors
+/// See [`Variation::new`].
+pub(crate) fn changed_parts<'s>(system: &'s dyn MechanicalSystem, state: &State) -> Result<Vec<&'s str>> {
     let switches = system.switches();
-    let mut warnings = Vec::new();
+    let mut owners = Vec::new();
     if switches.is_empty() {
-        return Ok(warnings);
+        return Ok(owners);
     }
     let mut variation = Variation::new(system, state.t, &state.q, &state.v)?;
     let point = variation.point;
@@ -34,11 +42,11 @@ pub fn kinks(system: &dyn MechanicalSystem, state: &State) -> Result<Vec<Warning
             terms_of(system, at, scratch)
         };
         if is_near && differ(&side(2 * k), &side(2 * k + 2)) {
-            warnings.push(warning(state.t, system.owner_of_switch(number)));
+            owners.push(system.owner_of_switch(number));
         }
     }
-    warnings.dedup();
-    Ok(warnings)
+    owners.dedup();
+    Ok(owners)
 }
 
 fn warning(t: f64, owner: &str) -> Warning {

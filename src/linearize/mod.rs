@@ -64,6 +64,7 @@ pub use floquet::{Floquet, floquet};
 #[doc(hidden)]
 pub use frequency::Resonances;
 pub use frequency::frequency_response;
+pub(crate) use kink::changed_parts;
 #[doc(hidden)]
 pub use kink::kinks;
 use lift::Lift;

@@ -162,10 +162,52 @@ pub const SECOND_ORDER_RANGE: f64 = 0.1;
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.
 pub const ORDER_SLACK: f64 = 0.1;
 
-/// Order of exp(A h) that is none of a missing term.
-/// Unit: `[1]`. Why: a missing term makes order 1; steps near the time of the fastest modes have a little less than 2.
-/// Test: none: not tried with other values.
-pub const STEEP_ENOUGH: f64 = 1.6;
+/// A measured entry that is off by more of its uncertainty is wrong.
+/// Unit: `[uncertainties]`. Why: the usual three. Test: `spoilt_terms_are_condemned_with_their_size`.
+pub const BEYOND_UNCERTAINTY: f64 = 3.0;
+
+/// The largest perturbation of differences.
+/// Unit: `[1]` of the typical length, of 1 m at most, or rad. Why: a choice: extrapolation needs the first powers only.
+/// Test: `spoilt_terms_are_condemned_with_their_size`.
+pub const LARGEST_SHIFT: f64 = 0.1;
+
+/// A perturbation over the one before, and their number.
+/// Unit: `[1]`. Why: a choice: errors of second order fall by sixteen. Test: `spoilt_terms_are_condemned_with_their_size`.
+pub const SHIFT_RATIO: f64 = 0.25;
+
+/// Number of perturbations of differences.
+/// Unit: `[perturbations]`. Why: they reach 2e-5. Test: none: a count of work, not tried.
+pub const SHIFTS: i32 = 7;
+
+/// Perturbations whose differences are round-off but for the slope.
+/// Unit: `[1]`, m or rad. Why: the square root of rounding. Test: `spoilt_terms_are_condemned_with_their_size`.
+pub const TINY_SHIFTS: [f64; 2] = [1e-8, 3.7e-9];
+
+/// Charts from which a limit is extrapolated, at least.
+/// Unit: `[charts]`. Why: the first entry of the table with three neighbours. Test: none: a count of work, not tried.
+pub const FEWEST_CHARTS: usize = 4;
+
+/// States in a period of the fastest mode between which a first passage is interpolated.
+/// Unit: `[states]`. Why: an error that oscillates is then right to a percent. Test:
+/// `horizons_are_first_passages`.
+pub const STATES_A_PERIOD: f64 = 24.0;
+
+/// Such states at most.
+/// Unit: `[states]`. Why: a choice: each costs a step of the motion. Test: none: a count of work, not tried.
+pub const MOST_STATES: f64 = 600.0;
+
+/// Halvings of the time of the first of them.
+/// Unit: `[times]`. Why: a passage at a thousandth of the first state is still found. Test:
+/// `horizons_are_first_passages`.
+pub const HALVED_STATES: i32 = 12;
+
+/// Perturbed motions are followed up to this part of the way to a change of form.
+/// Unit: `[1]`. Why: a choice: small perturbations are then still before it. Test: `an_event_ends_the_horizon`.
+pub const BEFORE_EVENT: f64 = 0.9;
+
+/// A frozen response that is farther off is told beside the verdict.
+/// Unit: `[1]`. Why: the larger of the horizons. Test: `a_frozen_response_that_is_far_off_is_told`.
+pub const FROZEN_OFF: f64 = 0.1;
 
 /// How many periods of the fastest mode a run counts at most.
 /// Unit: `[periods]`. Why: longer runs would cost more than they tell. Test: none: not tried with other values.

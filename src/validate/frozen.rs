@@ -1,11 +1,13 @@
 //! The frozen model exp(A t) against the variational equations.
 
 use super::carried::Carried;
+use super::deviation::{Comparison, Deviation, Limits};
+use super::limit::limit;
 use super::perturb::Speed;
 use super::{Decay, decay};
 use crate::error::Result;
 use crate::linearize::flow::Bundle;
-use crate::linearize::{Matrix, State};
+use crate::linearize::{Coordinates, Matrix, State};
 use crate::math::eigen::expm;
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
@@ -19,21 +21,31 @@ pub struct Frozen {
     pub errors: Vec<f64>,
     /// Order of the errors in h.
     pub decay: Decay,
+    /// A against the limit of (X(h) - I)/h, entry by entry; none if the time was over before.
+    pub limit: Option<Deviation>,
 }
 
 /// Compares exp(A h) with the state-transition matrix X(h) over halved steps from `longest`. The error is -A' h^2/2 and
-/// falls as h^2, or faster where A does not change; a term missing in A shows as order 1.
+/// falls as h^2, or faster where A does not change; a term missing in A shows as order 1. Returns the chart at each step,
+/// too.
 ///
 /// # Errors
 /// A motion that cannot go on.
-pub fn frozen(start: &State, carried: &Carried, (a, speed): (&Matrix, &Speed), longest: f64) -> Result<Frozen> {
+pub fn frozen(
+    start: &State,
+    carried: &Carried,
+    (a, speed): (&Matrix, &Speed),
+    longest: f64,
+) -> Result<(Frozen, Vec<Coordinates>)> {
     let rate = speed.usual;
     let steps: Vec<f64> = (0..14).rev().map(|i| longest / f64::from(1 << i)).collect();
     let times: Vec<f64> = steps.iter().map(|h| start.t + h).collect();
     let mut errors = Vec::new();
     let bundle = Bundle { columns: carried.start.changes(), ..Bundle::of(start) };
     let (snapshots, charts) = carried.flow(&bundle, &times)?;
-    for ((snapshot, chart), h) in snapshots.iter().zip(charts).zip(&steps) {
+    let mut transitions = Vec::new();
+    for ((snapshot, chart), h) in snapshots.iter().zip(&charts).zip(&steps) {
+        transitions.push(chart.states_of(&snapshot.columns));
         let exact = alike(chart.states_of(&snapshot.columns), chart.freedom(), rate);
         let predicted = alike(expm(&(a * *h))?, chart.freedom(), rate);
         errors.push((&exact - predicted).norm() / exact.norm());
@@ -44,7 +56,27 @@ pub fn frozen(start: &State, carried: &Carried, (a, speed): (&Matrix, &Speed), l
         (3.0 * tolerances::FLOW_ATOL * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
     let steps = steps[..errors.len()].to_vec();
     let decay = decay(&steps, &errors, |_| tolerances::LOWEST_POWER, floor);
-    Ok(Frozen { steps, errors, decay })
+    let limit = transition_limit(&carried.start, &steps, &transitions).and_then(|found| {
+        let names = &carried.start.states;
+        let n = names.len();
+        let comparison = Comparison::new(a.clone(), found, (carried.start.freedom(), n), rate);
+        comparison.worst(0..n, 0..n, [names, names])
+    });
+    Ok((Frozen { steps, errors, decay, limit }, charts))
+}
+
+/// Returns the limit of (X(h) - I)/h from X at increasing steps.
+fn transition_limit(start: &Coordinates, steps: &[f64], transitions: &[Matrix]) -> Option<Limits> {
+    let sizes: Vec<f64> = steps.iter().rev().copied().collect();
+    let first = start.states_of(&start.changes());
+    let n = first.nrows();
+    let mut limits = Limits::new(n, n);
+    for place in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+        let slopes = transitions.iter().rev().zip(&sizes).map(|(x, h)| (x[place] - first[place]) / h);
+        let rounding = tolerances::FLOW_ATOL * first[(place.1, place.1)].abs().max(1.0);
+        limits.set(place, limit(&sizes, &slopes.collect::<Vec<f64>>(), 1, rounding));
+    }
+    (transitions.len() >= tolerances::FEWEST_CHARTS).then_some(limits)
 }
 
 /// Scales the blocks of a state-transition matrix to one unit.
@@ -53,15 +85,4 @@ fn alike(mut x: Matrix, k: usize, rate: f64) -> Matrix {
     x.rows_mut(k, rest).unscale_mut(rate);
     x.columns_mut(k, rest).scale_mut(rate);
     x
-}
-
-/// Returns the first time at which an error exceeds `share`; none where it stays below.
-pub fn horizon(times: &[f64], errors: &[f64], share: f64) -> Option<f64> {
-    let first = errors.iter().position(|error| *error > share)?;
-    if first == 0 {
-        return Some(times[0]);
-    }
-    let low = errors[first - 1];
-    let high = errors[first];
-    Some(times[first - 1] + (times[first] - times[first - 1]) * (share - low) / (high - low))
 }

@@ -70,7 +70,7 @@ pub(super) fn check(
     let (snapshots, charts) = carried.flow(&bundle, &[half, start.t + width])?;
     let ([middle, end], [chart, last]) = (&snapshots[..], &charts[..]) else { return Ok(Pulsed::TooSlow) };
     let errors_ltv = norm.errors(system, end, &end.columns, &EPSILONS);
-    let order_ltv = norm.order(end, &EPSILONS, &errors_ltv);
+    let order_ltv = norm.order(system, end, &EPSILONS, &errors_ltv);
     let (lti, reached) = match model.built.input_states.orders[input] {
         2 => (response(model, &pulse, 0.5 * width), lifted(chart, &middle.columns, (input, pulse.jet(half)[0] / size))),
         _ => (lti, last.states_of(&end.columns)),

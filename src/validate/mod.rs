@@ -3,26 +3,37 @@
 //! ```text
 //! q(eps) = q + eps dq, v(eps) = v + eps dv, back on the constraints     both motions by the full equations
 //! difference - eps X(t) x0          X the state-transition matrix: falls as eps^2 if K, C and Gdd are right (LTV)
-//! X(h) - exp(A h)                   A frozen: falls as h^2 if A belongs to its chart (LTI)
+//! difference / eps h                A, B, C and D for h, eps -> 0: each entry with its uncertainty
 //! ```
 
 mod carried;
+mod deviation;
 mod direction;
 mod frozen;
+mod horizon;
 mod input;
+mod limit;
+mod measured;
 mod order;
 mod perturb;
+mod probe;
 mod regular;
 mod run;
 mod sequence;
 
+pub use deviation::{Deviation, Entry};
 pub use direction::Direction;
 #[doc(hidden)]
-pub use frozen::{Frozen, horizon};
+pub use frozen::Frozen;
+#[doc(hidden)]
+pub use horizon::horizon;
 pub(crate) use input::InputCheck;
+pub use measured::Measured;
 #[doc(hidden)]
 pub use order::{Decay, decay};
-pub use run::{Validation, Verdict, validate, validate_until};
+#[doc(hidden)]
+pub use run::validate_changed;
+pub use run::{Event, Validation, Verdict, validate, validate_until};
 pub use sequence::{Curve, PerturbationSequence};
 
 use crate::linearize::Chart;

@@ -40,7 +40,7 @@ fn is_exact(sizes: &[f64], errors: &[f64], rounding: f64) -> bool {
     let finite = sizes.iter().zip(errors).filter(|(_, error)| error.is_finite());
     let (at, above): (Vec<_>, Vec<_>) = finite.partition(|(_, error)| **error <= rounding);
     let largest = at.iter().fold(0.0, |most: f64, (size, _)| most.max(**size));
-    let few = above.len() < tolerances::SLOPE_POINTS && at.len() >= tolerances::SLOPE_POINTS;
+    let few = above.len() <= at.len() && at.len() >= tolerances::SLOPE_POINTS;
     above.is_empty() || few && above.iter().all(|(size, _)| **size > largest)
 }
 

@@ -1,12 +1,13 @@
 //! Sizes and rates of perturbations, and perturbed states.
 
+use super::probe::pieces;
 use super::{Decay, decay};
 use crate::error::Result;
 use crate::initial::assemble;
 use crate::linearize::flow::Snapshot;
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State};
 use crate::math::eigen::eigen;
-use crate::system::MechanicalSystem;
+use crate::system::{MechanicalSystem, Scratch};
 use crate::tolerances::linearize as tolerances;
 
 /// Sizes of the perturbation, of (dq, dv/rate) in m or rad; the last one is so small that its error is rounding.
@@ -50,6 +51,12 @@ pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [V
         rate[..own].iter().zip(&change).map(|(x, change)| x * change).sum::<f64>() / size
     });
     [dq.chain(vec![0.0; from.v.len() - moving]).collect(), dv]
+}
+
+/// True if no function that changes its form is on another piece in one state than in the other.
+pub fn are_alike(system: &dyn MechanicalSystem, one: &State, other: &State) -> bool {
+    let mut scratch = Scratch::default();
+    system.switches().is_empty() || pieces(system, one, &mut scratch) == pieces(system, other, &mut scratch)
 }
 
 /// Typical and fastest rate of a model, 1/s.
@@ -113,8 +120,13 @@ impl Norm {
         end.members.iter().zip(epsilons).map(error).collect()
     }
 
-    /// Returns the order of such errors in eps. That of the smallest perturbation is taken for rounding.
-    pub fn order(&self, end: &Snapshot, epsilons: &[f64], errors: &[f64]) -> Decay {
+    /// Returns the order of such errors in eps, without those of motions that ended on other pieces of the equations.
+    /// That of the smallest perturbation is taken for rounding.
+    pub fn order(&self, system: &dyn MechanicalSystem, end: &Snapshot, epsilons: &[f64], errors: &[f64]) -> Decay {
+        let own = |(error, member): (&f64, &State)| {
+            if are_alike(system, &end.motion, member) { *error } else { f64::NAN }
+        };
+        let errors: &[f64] = &errors.iter().zip(&end.members).map(own).collect::<Vec<f64>>();
         let size = self.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
         let floor = errors.last().copied().filter(|error| error.is_finite()).unwrap_or(0.0).max(1e-15);
         decay(epsilons, errors, |eps| tolerances::SECOND_ORDER_RANGE * eps * size, floor)

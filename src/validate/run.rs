@@ -3,12 +3,14 @@
 use super::carried::Carried;
 use super::frozen::frozen;
 use super::input::{self, Pulsed};
+use super::measured::{Along, Measured, measure};
 use super::perturb::{Norm, Speed};
-use super::regular::first_singular;
+pub use super::regular::Event;
+use super::regular::{End, end};
 use super::sequence::sequence;
-use super::{Decay, Frozen, InputCheck, PerturbationSequence, Settings};
-use crate::error::{Result, short_list};
-use crate::linearize::{Chart, State, Variation, minimal, refuse_large};
+use super::{Decay, Deviation, Entry, Frozen, InputCheck, PerturbationSequence, Settings};
+use crate::error::{Result, short_list, significant};
+use crate::linearize::{Built, Chart, State, Variation, minimal, refuse_large};
 use crate::system::{Column, MechanicalSystem};
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
@@ -24,12 +26,16 @@ pub struct Validation {
     pub followed: f64,
     /// Time of the first singular state of the motion, half way to which they were followed, s.
     pub singular: Option<f64>,
+    /// The first change of form of the equations, short of which they were followed.
+    pub event: Option<Event>,
     /// Rate by which velocities are divided to compare them with positions, 1/s.
     pub rate: f64,
     /// Result for each direction.
     pub sequences: Vec<PerturbationSequence>,
     /// Comparison of exp(A h) with the state-transition matrix.
     pub frozen: Frozen,
+    /// A, B, C and D against measured ones.
+    pub measured: Measured,
     /// Result for each input; empty if inputs are not checked.
     pub inputs: Vec<InputCheck>,
     /// Names of inputs that move nothing that the model has states of, and are not checked.
@@ -45,7 +51,7 @@ pub struct Validation {
 pub struct Verdict {
     /// True if the variational equations have order 2 (or are exact) for each direction and input.
     pub ltv: bool,
-    /// True if A in its chart has order 2 or more in h (or is exact).
+    /// True if no measured entry of A, B, C and D is off by more than three uncertainties.
     pub lti: bool,
     /// The conclusion as a sentence.
     pub text: String,
@@ -69,20 +75,39 @@ pub fn validate_until(
     settings: &Settings,
     is_over: &dyn Fn() -> bool,
 ) -> Result<Validation> {
+    validate_changed(system, start, settings, is_over, |_| {})
+}
+
+/// The same with a model that was changed, to test that such changes are found.
+///
+/// # Errors
+/// As of [`validate_until`].
+pub fn validate_changed(
+    system: &dyn MechanicalSystem,
+    start: &State,
+    settings: &Settings,
+    is_over: &dyn Fn() -> bool,
+    change: impl FnOnce(&mut Built),
+) -> Result<Validation> {
     refuse_large(system.dimensions().v)?;
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
     let chart = settings.chart.clone().unwrap_or_else(|| Chart::preferred(&mut variation));
     let mut model = minimal(&mut variation, &chart)?;
     let name = model.coordinates.name.clone();
     // The plain projection has no chart that follows the motion; its states are those of the mass-orthogonal one.
-    let chart = if chart == Chart::Frozen { Chart::MassOrthogonal } else { chart };
+    let is_projected = chart == Chart::Frozen;
+    let chart = if is_projected { Chart::MassOrthogonal } else { chart };
     let carried = Carried::new(&mut variation, &chart, start, is_over)?;
     model.coordinates = carried.start.clone();
     let speed = Speed::of(&model)?;
+    change(&mut model.built);
     let norm = Norm { rate: speed.usual };
     let wished = settings.horizon.unwrap_or(speed.period());
-    let singular = first_singular(system, start, wished)?;
-    let followed = singular.map_or(wished, |t| tolerances::BEFORE_SINGULAR * (t - start.t));
+    let End { singular, event } = end(system, start, wished)?;
+    let before = |t: f64, part: f64| part * (t - start.t);
+    let regular = singular.map_or(wished, |t| before(t, tolerances::BEFORE_SINGULAR));
+    let smooth = event.as_ref().map_or(regular, |event| before(event.t, tolerances::BEFORE_EVENT));
+    let followed = regular.min(smooth);
     let mut sequences = Vec::new();
     let mut cut = Vec::new();
     for direction in &settings.directions {
@@ -92,12 +117,25 @@ pub fn validate_until(
         }
         let x0 = direction.state(&model.coordinates, norm.rate)?;
         if model.built.a.nrows() > 0 {
-            sequences.push(sequence(system, start, (&model, &carried, &norm), &x0, (direction.name(), followed))?);
+            sequences.push(sequence(
+                system,
+                start,
+                (&model, &carried, &norm),
+                (&x0, &speed),
+                (direction.name(), followed),
+            )?);
         }
     }
     cut.extend(sequences.iter().filter_map(|sequence| shortened(sequence, followed)));
     let longest = followed.min(1.0 / speed.fastest.max(f64::MIN_POSITIVE));
-    let frozen = frozen(start, &carried, (&model.built.a, &speed), longest)?;
+    let (frozen, mut charts) = frozen(start, &carried, (&model.built.a, &speed), longest)?;
+    charts.reverse();
+    let steps: Vec<f64> = frozen.steps.iter().rev().copied().collect();
+    let along = Along { steps: &steps, charts: &charts };
+    let scale = (norm.rate, settings.inputs);
+    let found = measure((system, start), (&mut variation, &model), &along, scale, is_over)?;
+    cut.extend(found.is_none().then(|| "A, B, C and D were not compared".to_string()));
+    let measured = found.unwrap_or_default();
     let mut inputs = Vec::new();
     let mut unchecked = Vec::new();
     for (index, Column { name, .. }) in system.inputs().into_iter().enumerate().filter(|_| settings.inputs) {
@@ -108,15 +146,17 @@ pub fn validate_until(
             Pulsed::TooSlow => cut.push(format!("the input `{name}` was not checked")),
         }
     }
-    let verdict = judge(&sequences, &frozen, &inputs);
+    let verdict = judge(&Evidence { sequences: &sequences, inputs: &inputs, measured: &measured, is_projected });
     Ok(Validation {
         t: start.t,
         chart: name,
         followed: sequences.iter().map(|sequence| reached(sequence, followed)).reduce(f64::max).unwrap_or(followed),
         singular,
+        event,
         rate: norm.rate,
         sequences,
         frozen,
+        measured,
         inputs,
         unchecked,
         cut,
@@ -135,31 +175,76 @@ fn shortened(sequence: &PerturbationSequence, asked: f64) -> Option<String> {
     Some(format!("along {} the motion was followed for {came:.2e} s of {asked:.2e} s", sequence.direction))
 }
 
-fn judge(sequences: &[PerturbationSequence], frozen: &Frozen, inputs: &[InputCheck]) -> Verdict {
-    let rows = sequences.iter().map(|sequence| (&sequence.direction, &sequence.order_ltv));
-    let rows = rows.chain(inputs.iter().map(|input| (&input.input, &input.order_ltv)));
+/// What the verdict is made of.
+struct Evidence<'e> {
+    sequences: &'e [PerturbationSequence],
+    inputs: &'e [InputCheck],
+    measured: &'e Measured,
+    /// True for the plain projection, which belongs to no chart.
+    is_projected: bool,
+}
+
+fn judge(evidence: &Evidence) -> Verdict {
+    let rows = evidence.sequences.iter().map(|sequence| (&sequence.direction, &sequence.order_ltv));
+    let rows = rows.chain(evidence.inputs.iter().map(|input| (&input.input, &input.order_ltv)));
     let orders = rows.clone().map(|(_, decay)| decay);
     let passes =
         |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > 2.0 - tolerances::ORDER_SLACK);
-    let steep = |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > tolerances::STEEP_ENOUGH);
     let ltv = orders.clone().all(passes);
-    let lti = steep(&frozen.decay);
+    let lti = evidence.measured.all().all(|(_, deviation)| deviation.is_right);
     let lowest = orders.clone().filter_map(|decay| decay.order).fold(f64::INFINITY, f64::min);
     let order = if lowest.is_finite() { format!("order {lowest:.2}") } else { "exact to rounding".to_string() };
     let is_untold = |decay: &Decay| !decay.is_exact && decay.order.is_none();
     let untold: Vec<String> = rows.filter(|(_, decay)| is_untold(decay)).map(|(name, _)| name.clone()).collect();
     let are_others_right = orders.filter(|decay| !is_untold(decay)).all(passes);
+    let entries: Vec<String> = evidence.measured.all().map(|(name, deviation)| told(name, deviation)).collect();
+    let entries = if entries.is_empty() { String::new() } else { format!("{}; ", entries.join(", ")) };
     let text = match (ltv, lti) {
         (false, _) if are_others_right => format!(
             "not told: along {} too few sizes lie between rounding and what leaves the linear model; a shorter --horizon \
              may tell",
             short_list(&untold)
         ),
-        (true, true) => format!("right: perturbed simulations follow the linear model ({order} in eps)"),
-        (true, false) => {
-            format!("the variational equations are right ({order} in eps), but A misses terms of its chart")
+        (true, true) => format!("right: {entries}perturbed simulations follow the linear model ({order} in eps)"),
+        (true, false) if evidence.is_projected => {
+            format!(
+                "frozen, not comparable with the motion: {entries}the variational equations are right ({order} in eps)"
+            )
         }
-        (false, _) => format!("wrong, or too near to rounding to tell: {order} in eps, where 2 is expected"),
+        (true, false) => format!("wrong: {entries}the variational equations are right ({order} in eps)"),
+        (false, _) => format!("wrong, or too near to rounding to tell: {entries}{order} in eps, where 2 is expected"),
     };
+    let text = if ltv { text + &frozen_errors(evidence) } else { text };
     Verdict { ltv, lti, text }
+}
+
+/// Says how far a matrix is right, or which entry is wrong.
+fn told(name: char, deviation: &Deviation) -> String {
+    let Deviation { difference, uncertainty, relative, relative_uncertainty, entry, is_right } = deviation;
+    if *is_right {
+        return format!("{name} right to {relative:.0e} (can be told to {relative_uncertainty:.0e})");
+    }
+    let Entry { row, column, model, .. } = entry;
+    format!(
+        "{name} wrong by {} in row `{row}`, column `{column}`, which is {} (can be told to {uncertainty:.0e})",
+        significant(*difference, 3),
+        significant(*model, 3)
+    )
+}
+
+/// Says how far the frozen model leaves the motion where it does.
+fn frozen_errors(evidence: &Evidence) -> String {
+    let far = |error: &f64| *error > tolerances::FROZEN_OFF;
+    let motions = evidence.sequences.iter().filter_map(|sequence| {
+        let error = sequence.drift_lti.iter().copied().fold(0.0, f64::max);
+        Some(format!("{} % along {}", percent(error), sequence.direction)).filter(|_| far(&error))
+    });
+    let pulses = evidence.inputs.iter().filter(|input| far(&input.error_lti));
+    let pulses = pulses.map(|input| format!("{} % after the pulse of {}", percent(input.error_lti), input.input));
+    let all: Vec<String> = motions.chain(pulses).collect();
+    if all.is_empty() { String::new() } else { format!("; frozen, it is off by up to {}", short_list(&all)) }
+}
+
+fn percent(part: f64) -> String {
+    significant(100.0 * part, 2)
 }

@@ -1,8 +1,9 @@
 //! Perturbations of many sizes along one direction, simulated and predicted.
 
+use super::Decay;
 use super::carried::Carried;
-use super::perturb::{EPSILONS, Norm, difference, moved};
-use super::{Decay, horizon};
+use super::horizon::{SHARES, horizon, horizons};
+use super::perturb::{EPSILONS, Norm, Speed, are_alike, difference, moved};
 use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, Snapshot};
 use crate::linearize::{Coordinates, Matrix, Minimal, State};
@@ -62,6 +63,8 @@ struct Followed<'a> {
     system: &'a dyn MechanicalSystem,
     norm: &'a Norm,
     epsilons: Vec<f64>,
+    /// True for each perturbed start that is on the same pieces of the equations.
+    alike: Vec<bool>,
     /// The first time asked for, s.
     first: f64,
     times: Vec<f64>,
@@ -77,7 +80,7 @@ pub(super) fn sequence(
     system: &dyn MechanicalSystem,
     start: &State,
     (model, carried, norm): (&Minimal, &Carried, &Norm),
-    x0: &Matrix,
+    (x0, speed): (&Matrix, &Speed),
     (direction, duration): (String, f64),
 ) -> Result<PerturbationSequence> {
     let followed = follow(system, start, (model, carried, norm), x0, duration)?;
@@ -89,9 +92,13 @@ pub(super) fn sequence(
     let last = &followed.predicted[followed.snapshots.len() - 1];
     let errors_ltv = norm.errors(system, end, &end.columns, &followed.epsilons);
     let errors_lti = norm.errors(system, end, &chart.changes_of(last), &followed.epsilons);
-    let order_ltv = norm.order(end, &followed.epsilons, &errors_ltv);
+    let smooth = errors_ltv.iter().zip(&followed.alike).map(|(error, alike)| if *alike { *error } else { f64::NAN });
+    let order_ltv = norm.order(system, end, &followed.epsilons, &smooth.collect::<Vec<f64>>());
     let drift_lti = followed.drift();
-    let horizons = [0.01, 0.1].each(|share| horizon(&followed.times, &drift_lti, share));
+    let coarse = SHARES.each(|share| horizon(&followed.times, &drift_lti, share));
+    let passed = followed.times.iter().zip(&drift_lti).find(|(_, error)| **error > SHARES[1]);
+    let until = passed.map_or(duration, |(t, _)| *t).min(*followed.times.last().unwrap_or(&duration));
+    let horizons = horizons(start, (model, carried, norm), (x0, speed), until)?.unwrap_or(coarse);
     let (curves, curve_epsilon) = followed.curves();
     let Followed { epsilons, times, .. } = followed;
     Ok(PerturbationSequence {
@@ -118,6 +125,7 @@ fn follow<'a>(
     let coordinates = &model.coordinates;
     let perturbed = |&eps: &f64| moved(system, start, coordinates, x0, eps).map(|state| (eps, state));
     let (epsilons, members): (Vec<f64>, Vec<State>) = EPSILONS.iter().filter_map(perturbed).unzip();
+    let alike = members.iter().map(|member| are_alike(system, start, member)).collect();
     let columns = coordinates.changes_of(x0);
     let bundle = Bundle { columns, members, ..Bundle::of(start) };
     let mut times: Vec<f64> = (1..=ROWS).map(|i| duration * i as f64 / ROWS as f64).collect();
@@ -127,7 +135,7 @@ fn follow<'a>(
     let mut predicted = vec![&step * x0];
     (1..ROWS).for_each(|i| predicted.push(&step * &predicted[i - 1]));
     times.truncate(snapshots.len());
-    Ok(Followed { system, norm, epsilons, first, times, snapshots, charts, predicted })
+    Ok(Followed { system, norm, epsilons, alike, first, times, snapshots, charts, predicted })
 }
 
 impl Followed<'_> {

@@ -97,6 +97,11 @@ fn validate_has_a_verdict() {
     for key in ["epsilons", "errors_ltv", "order_ltv", "errors_lti", "horizons", "verdict"] {
         assert!(!json[key].is_null(), "{key}");
     }
+    for key in ["a", "b", "c", "d"] {
+        let number = |name: &str| json[key][name].as_f64().unwrap();
+        assert!(number("difference") <= 3.0 * number("uncertainty"), "{key}: {}", json[key]);
+        assert!(json[key]["entry"]["row"].is_string() && json[key]["is_right"] == true, "{key}");
+    }
     assert!((json["order_ltv"].as_f64().unwrap() - 2.0).abs() < 0.1);
     assert!(json["horizons"]["1%"].as_f64().unwrap() < json["horizons"]["10%"].as_f64().unwrap());
     // The plain projection with a damper: right derivatives, wrong model.

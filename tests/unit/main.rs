@@ -130,5 +130,6 @@ mod sweep {
 
 #[path = "../../src/validate"]
 mod validate {
+    mod limit;
     mod order;
 }

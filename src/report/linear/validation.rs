@@ -31,7 +31,7 @@ impl ValidationAnswer<'_> {
     pub fn complaint(&self) -> String {
         let Validation { t, chart, verdict, .. } = &self.found;
         let t = significant(*t, 9);
-        let help = if verdict.ltv {
+        let help = if verdict.ltv && chart == "frozen" {
             "take --chart intrinsic, mass_orthogonal or names of independent coordinates"
         } else {
             "try another --horizon or --along; equations of one's own may have wrong derivatives"
@@ -43,7 +43,7 @@ impl ValidationAnswer<'_> {
 impl Answer for ValidationAnswer<'_> {
     /// Returns the first direction at the top level, and all of them in `directions`.
     fn json(&self) -> impl Serialize {
-        let Validation { frozen, sequences, .. } = &self.found;
+        let Validation { frozen, sequences, measured, .. } = &self.found;
         let first = sequences.first();
         json!({
             "scene": self.scene,
@@ -51,6 +51,7 @@ impl Answer for ValidationAnswer<'_> {
             "chart": self.found.chart,
             "followed": self.found.followed,
             "singular": self.found.singular,
+            "event": self.found.event,
             "epsilons": first.map_or(&[][..], |sequence| &sequence.epsilons),
             "rate": self.found.rate,
             "errors_ltv": first.map_or(&[][..], |sequence| &sequence.errors_ltv),
@@ -58,8 +59,12 @@ impl Answer for ValidationAnswer<'_> {
             "errors_lti": first.map_or(&[][..], |sequence| &sequence.errors_lti),
             "horizons": first.map_or(Map::new(), horizons),
             "verdict": self.found.verdict,
+            "a": measured.a,
+            "b": measured.b,
+            "c": measured.c,
+            "d": measured.d,
             "directions": sequences.iter().map(|sequence| direction(self.names, sequence)).collect::<Vec<Value>>(),
-            "frozen": { "steps": frozen.steps, "errors": frozen.errors, "decay": frozen.decay },
+            "frozen": { "steps": frozen.steps, "errors": frozen.errors, "decay": frozen.decay, "limit": frozen.limit },
             "inputs": self.found.inputs,
             "unchecked_inputs": self.found.unchecked,
         })
@@ -89,14 +94,18 @@ impl Answer for ValidationAnswer<'_> {
             let t = significant(t, 6);
             format!(" (half of the way to t = {t} s, where the mechanism is singular: linear models end there)")
         });
+        let event = found.event.as_ref().map_or(String::new(), |event| {
+            let t = significant(event.t, 6);
+            format!(" (before t = {t} s, where {} changes its form: linear models end there)", event.owner)
+        });
         format!(
-            "{} at t = {} s: the linear model (chart {}) against simulations over {} s{singular}\n\n{table}{unchecked}\n  exp(A h) against the state-transition matrix: order {} in h\n  verdict: {}\n",
+            "{} at t = {} s: the linear model (chart {}) against simulations over {} s{singular}{event}\n\n{table}{unchecked}\n  exp(A h) against the state-transition matrix: order {} in h\n  verdict: {}\n",
             self.scene,
             significant(found.t, 9),
             found.chart,
             significant(found.followed, 3),
             order(&found.frozen.decay),
-            found.verdict.text
+            found.verdict.text.replace("; ", ";\n           ")
         )
     }
 

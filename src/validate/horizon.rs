@@ -1,0 +1,72 @@
+//! For how long a frozen model can be trusted.
+
+use super::carried::Carried;
+use super::perturb::{Norm, Speed};
+use crate::error::Result;
+use crate::linearize::flow::Bundle;
+use crate::linearize::{Matrix, Minimal, State};
+use crate::math::array::Each;
+use crate::math::eigen::expm;
+use crate::tolerances::linearize as tolerances;
+
+/// The errors at which a horizon ends.
+pub const SHARES: [f64; 2] = [0.01, 0.1];
+
+/// Returns the first times at which the relative error of exp(A t) x0 exceeds each share, none where it stays below up
+/// to `end`; nothing if the time was over before. The perturbation is carried along the motion, with states as near as the fastest mode needs and, after the
+/// start, as the first passage needs.
+///
+/// # Errors
+/// A motion that cannot go on.
+pub fn horizons(
+    start: &State,
+    (model, carried, norm): (&Minimal, &Carried, &Norm),
+    (x0, speed): (&Matrix, &Speed),
+    end: f64,
+) -> Result<Option<[Option<f64>; 2]>> {
+    let times = times(end, speed.fastest);
+    let bundle = Bundle { columns: model.coordinates.changes_of(x0), ..Bundle::of(start) };
+    let absolute: Vec<f64> = times.iter().map(|t| start.t + t).collect();
+    let (snapshots, charts) = carried.flow(&bundle, &absolute)?;
+    if snapshots.len() < times.len() {
+        return Ok(None);
+    }
+    let mut errors = Vec::new();
+    let mut x = x0.clone();
+    let mut step = (0.0, Matrix::zeros(0, 0));
+    let mut last = 0.0;
+    for ((snapshot, chart), t) in snapshots.iter().zip(&charts).zip(&times) {
+        if (t - last - step.0).abs() > f64::EPSILON * t {
+            step = (t - last, expm(&(&model.built.a * (t - last)))?);
+        }
+        x = &step.1 * x;
+        last = *t;
+        let exact = chart.states_of(&snapshot.columns);
+        errors.push(norm.states(chart, &(&exact - &x)) / norm.states(chart, &exact));
+    }
+    Ok(Some(SHARES.each(|share| horizon(&times, &errors, share))))
+}
+
+/// Even times up to `end`, a part of the period of the fastest mode apart, and halvings of the first.
+fn times(end: f64, fastest: f64) -> Vec<f64> {
+    let period = std::f64::consts::TAU / fastest;
+    let count = (end / period * tolerances::STATES_A_PERIOD).ceil().clamp(60.0, tolerances::MOST_STATES);
+    let first = end / count;
+    let halved = (1..=tolerances::HALVED_STATES).rev().map(|i| first * 0.5f64.powi(i));
+    halved.chain((1..=count as usize).map(|i| end * i as f64 / count)).collect()
+}
+
+/// Returns the first time at which an error exceeds `share`, between times by a power of the time; none where it stays
+/// below.
+pub fn horizon(times: &[f64], errors: &[f64], share: f64) -> Option<f64> {
+    let first = errors.iter().position(|error| *error > share)?;
+    let Some(before) = first.checked_sub(1) else { return Some(times[0]) };
+    let low = errors[before];
+    let high = errors[first];
+    let length = times[first] - times[before];
+    if low <= 0.0 {
+        return Some(times[before] + length * (share - low) / (high - low));
+    }
+    let part = (share / low).ln() / (high / low).ln();
+    Some(times[before] * (times[first] / times[before]).powf(part))
+}

@@ -1,0 +1,290 @@
+//! A, B, C and D measured by differences of perturbed states, without derivatives of the equations.
+//!
+//! ```text
+//! dv' = (v'(+eps) - v'(-eps)) / 2 eps,   dy = (y(+eps) - y(-eps)) / 2 eps            eps -> 0
+//! x'  = (x(dq + h (dv - [v, dq]), dv, chart at h) - x(dq, dv, chart)) / h + B dv'    h -> 0
+//! ```
+//!
+//! The difference of two motions over h, divided by h, has as its limit the difference of their accelerations: no
+//! motion needs to be integrated. States and inputs are perturbed one at a time. The chart at h is that carried along
+//! the motion. Both limits are extrapolated.
+
+use super::deviation::{Comparison, Deviation, Limits};
+use super::limit::limit;
+use super::probe::{Probe, Shift};
+use crate::error::Result;
+use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, Variation, beside};
+use crate::math::bounds;
+use crate::system::MechanicalSystem;
+use crate::tolerances::{ROUND_OFF_OF_SUMS, linearize as tolerances};
+use serde::Serialize;
+use std::ops::Range;
+
+/// Deviations of the matrices; none where a matrix has no entries or was not measured.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Measured {
+    /// Of A, with its columns of the states of inputs.
+    pub a: Option<Deviation>,
+    /// Of B.
+    pub b: Option<Deviation>,
+    /// Of C, with its columns of the states of inputs.
+    pub c: Option<Deviation>,
+    /// Of D.
+    pub d: Option<Deviation>,
+}
+
+impl Measured {
+    /// Returns the matrices that were measured, with their names.
+    pub fn all(&self) -> impl Iterator<Item = (char, &Deviation)> {
+        let all = [('A', &self.a), ('B', &self.b), ('C', &self.c), ('D', &self.d)];
+        all.into_iter().filter_map(|(name, deviation)| Some((name, deviation.as_ref()?)))
+    }
+}
+
+/// The chart at times h after the start, in decreasing order.
+pub struct Along<'c> {
+    pub steps: &'c [f64],
+    pub charts: &'c [Coordinates],
+}
+
+/// A perturbation of the state or of an input.
+struct Column {
+    name: String,
+    /// Input and the derivative of it that is 1; none: a state.
+    input: Option<(usize, usize)>,
+    /// True if it is an input of the model and no state.
+    is_input: bool,
+}
+
+/// The model at a state, and the memory to measure it.
+struct Bench<'m, 'a> {
+    variation: &'m mut Variation<'a>,
+    model: &'m Minimal,
+    rate: f64,
+    columns: Vec<Column>,
+    /// (dq, dv) of each column.
+    changes: Changes,
+}
+
+/// Measures the model in the chart of its coordinates; none if the time is over before.
+///
+/// # Errors
+/// Outputs without derivatives.
+pub fn measure(
+    (system, start): (&dyn MechanicalSystem, &State),
+    (variation, model): (&mut Variation, &Minimal),
+    along: &Along,
+    (rate, has_inputs): (f64, bool),
+    is_over: &dyn Fn() -> bool,
+) -> Result<Option<Measured>> {
+    if along.charts.len() < tolerances::FEWEST_CHARTS {
+        return Ok(None);
+    }
+    let mut bench = Bench::new(variation, model, rate, has_inputs);
+    let Some(responses) = bench.responses(system, start, is_over) else { return Ok(None) };
+    let motion = bench.motion(along);
+    Ok(Some(bench.compare(responses, motion)?))
+}
+
+impl<'m, 'a> Bench<'m, 'a> {
+    fn new(variation: &'m mut Variation<'a>, model: &'m Minimal, rate: f64, has_inputs: bool) -> Self {
+        let Minimal { coordinates, built } = model;
+        let state = |name: &String| Column { name: name.clone(), input: None, is_input: false };
+        let mut columns: Vec<Column> = built.states.iter().map(state).collect();
+        let names = variation.names().0;
+        let inputs = || names.iter().zip(&built.input_states.orders).enumerate().filter(|_| has_inputs);
+        let column = |name: &str, j: usize, i: usize, is_input: bool| Column {
+            name: format!("{name}{}", "'".repeat(i)),
+            input: Some((j, i)),
+            is_input,
+        };
+        columns.extend(inputs().flat_map(|(j, (name, &order))| (0..order).map(move |i| column(name, j, i, false))));
+        columns.extend(inputs().map(|(j, (name, &order))| column(name, j, order, true)));
+        let mut changes = coordinates.changes();
+        let own = changes.q.ncols();
+        changes.q = changes.q.resize_horizontally(columns.len(), 0.0);
+        changes.v = changes.v.resize_horizontally(columns.len(), 0.0);
+        for (place, column) in columns.iter().enumerate().skip(own).filter(|(_, column)| !column.is_input) {
+            let lifted = column.input.and_then(|(j, i)| coordinates.lift.along(i, j));
+            if let Some([dq, dv]) = lifted {
+                changes.q.column_mut(place).copy_from(&dq);
+                changes.v.column_mut(place).copy_from(&dv);
+            }
+        }
+        Bench { variation, model, rate, columns, changes }
+    }
+
+    /// Returns B dv' of each column, and the outputs below.
+    fn responses(&self, system: &dyn MechanicalSystem, start: &State, is_over: &dyn Fn() -> bool) -> Option<Limits> {
+        let mut probe = Probe::new(system, start);
+        let b = &self.model.coordinates.b;
+        let rows = b.nrows() + self.model.built.c.nrows();
+        let mut value = |shift: &Shift, size: f64| -> Option<Matrix> {
+            let (vdot, outputs) = probe.at(shift, size).ok()?;
+            let mut value = (b * Matrix::from_vec(b.ncols(), 1, vdot)).resize_vertically(rows, 0.0);
+            value.rows_mut(b.nrows(), outputs.len()).copy_from_slice(&outputs);
+            Some(value)
+        };
+        let reach = tolerances::LARGEST_SHIFT * system.length().min(1.0);
+        let mut tables = Vec::new();
+        for place in 0..self.columns.len() {
+            if is_over() {
+                return None;
+            }
+            let shift = self.shift(place);
+            let unit = self.size(place);
+            let mut slope = |eps: f64| {
+                let difference = value(&shift, eps)? - value(&shift, -eps)?;
+                Some((eps, difference / (2.0 * eps)))
+            };
+            let sizes = (0..tolerances::SHIFTS).map(|i| reach * tolerances::SHIFT_RATIO.powi(i) / unit);
+            let slopes: Vec<(f64, Matrix)> = sizes.filter_map(&mut slope).collect();
+            let tiny = tolerances::TINY_SHIFTS.iter().filter_map(|eps| slope(eps / unit));
+            tables.push((slopes, tiny.collect::<Vec<_>>()));
+        }
+        let mut limits = Limits::new(rows, self.columns.len());
+        for row in 0..rows {
+            let found = |slopes: &[(f64, Matrix)], rounding: f64| {
+                let (sizes, values): (Vec<f64>, Vec<f64>) =
+                    slopes.iter().map(|(eps, slope)| (*eps, slope[row])).unzip();
+                limit(&sizes, &values, 2, rounding)
+            };
+            // The round-off of the scene, from differences so small that they are nothing else.
+            let noise = tables.iter().flat_map(|(slopes, tiny)| {
+                let rough = found(slopes, 0.0).value;
+                tiny.iter().map(move |(eps, slope)| (slope[row] - rough).abs() * eps)
+            });
+            let rounding = 2.0 * bounds(noise.filter(|x| x.is_finite())).1.max(0.0);
+            for (column, (slopes, _)) in tables.iter().enumerate() {
+                limits.set((row, column), found(slopes, rounding));
+            }
+        }
+        Some(limits)
+    }
+
+    fn shift(&self, place: usize) -> Shift<'_> {
+        let n = self.changes.q.nrows();
+        let own = place * n..(place + 1) * n;
+        let jet = |i: usize| std::array::from_fn(|derivative| f64::from(u8::from(derivative == i)));
+        Shift {
+            q: &self.changes.q.as_slice()[own.clone()],
+            v: &self.changes.v.as_slice()[own],
+            input: self.columns[place].input.map(|(j, i)| (j, jet(i))),
+        }
+    }
+
+    /// Returns the size of a column: its largest change of q, of v in a unit of time, or of v' in the square of it.
+    fn size(&self, place: usize) -> f64 {
+        let Minimal { coordinates, built } = self.model;
+        let largest = |matrix: &Matrix, column: usize| matrix.column(column).amax();
+        let moved = largest(&self.changes.q, place).max(largest(&self.changes.v, place) / self.rate);
+        let pushed = self.columns[place].input.map_or(0.0, |(j, i)| {
+            let first = built.input_states.orders[..j].iter().sum::<usize>();
+            let rates = match self.columns[place].is_input {
+                true => built.b.column(j),
+                false => built.input_states.a.column(first + i),
+            };
+            (&coordinates.r * rates.rows(coordinates.freedom(), coordinates.r.ncols())).amax() / self.rate.powi(2)
+        });
+        Some(moved.max(pushed)).filter(|size| *size > 0.0 && size.is_finite()).unwrap_or(1.0)
+    }
+
+    /// Returns the part of x' of each column that is not B dv'.
+    fn motion(&self, along: &Along) -> Limits {
+        let Coordinates { b, tilt, .. } = &self.model.coordinates;
+        let Changes { q, v } = &self.changes;
+        let k = tilt.ncols();
+        let mut rates = v - self.variation.bracket_of(&self.variation.point.v, q);
+        let moving = self.variation.system().dimensions().moving();
+        rates.rows_mut(moving, v.nrows() - moving).fill(0.0);
+        let states = |chart: &Coordinates, h: f64| {
+            let moved = chart.lift.s.clone() * self.inputs(h);
+            chart.states_of(&Changes { q: q + &rates * h, v: v - moved })
+        };
+        let start = states(&self.model.coordinates, 0.0);
+        let slope = |(chart, h): (&Coordinates, &f64)| (states(chart, *h) - &start) / *h;
+        let slopes: Vec<Matrix> = along.charts.iter().zip(along.steps).map(slope).collect();
+        let mut limits = Limits::new(start.nrows(), start.ncols());
+        let absolute = b.abs();
+        let sizes = absolute.rows(0, k) * q.abs();
+        let speeds = &absolute * (v.abs() + tilt.abs() * &sizes);
+        for row in 0..start.nrows() {
+            for column in 0..start.ncols() {
+                let place = (row, column);
+                let size = if row < k { sizes[place] } else { speeds[(row - k, column)] };
+                let values: Vec<f64> = slopes.iter().map(|slope| slope[place]).collect();
+                limits.set(place, limit(along.steps, &values, 1, ROUND_OFF_OF_SUMS * size));
+            }
+        }
+        limits
+    }
+
+    /// Returns u at h after the start for each column, n_u rows.
+    fn inputs(&self, h: f64) -> Matrix {
+        let mut u = Matrix::zeros(self.model.coordinates.lift.s.ncols(), self.columns.len());
+        for (place, column) in self.columns.iter().enumerate() {
+            match column.input {
+                Some((j, 0)) => u[(j, place)] = 1.0,
+                Some((j, 1)) => u[(j, place)] = h,
+                _ => {}
+            }
+        }
+        u
+    }
+
+    /// Adds what outputs have of the inputs directly, which is given and not measured.
+    fn add_direct(&mut self, measured: &mut Matrix, first: usize) -> Result<()> {
+        let direct = self.variation.outputs()?;
+        for (place, column) in self.columns.iter().enumerate() {
+            let own = match column.input {
+                Some((j, 0)) => direct.u.column(j),
+                Some((j, 1)) => direct.udot.column(j),
+                _ => continue,
+            };
+            let mut sum = measured.view_mut((first, place), (own.nrows(), 1));
+            sum += own;
+        }
+        Ok(())
+    }
+
+    /// Compares the model with the measured responses and motion.
+    fn compare(&mut self, responses: Limits, motion: Limits) -> Result<Measured> {
+        let Minimal { coordinates, built } = self.model;
+        let k = coordinates.freedom();
+        let n = motion.values.nrows();
+        let outputs = built.c.nrows();
+        let stack = |top: Matrix, bottom: &Matrix| {
+            let mut whole = top.resize_vertically(n + outputs, 0.0);
+            whole.rows_mut(n, outputs).copy_from(bottom);
+            whole
+        };
+        let join = |motion: Matrix, responses: &Matrix| {
+            let mut whole = stack(motion, &responses.rows(n - k, outputs).clone_owned());
+            let mut accelerations = whole.rows_mut(k, n - k);
+            accelerations += responses.rows(0, n - k);
+            whole
+        };
+        let mut values = join(motion.values, &responses.values);
+        self.add_direct(&mut values, n)?;
+        let measured = Limits { values, uncertainties: join(motion.uncertainties, &responses.uncertainties) };
+        let wide = |own: &Matrix, states: &Matrix, inputs: &Matrix| {
+            let all = beside([own, &beside([states, inputs])]);
+            all.columns(0, self.columns.len()).clone_owned()
+        };
+        let states = &built.input_states;
+        let model = stack(wide(&built.a, &states.a, &built.b), &wide(&built.c, &states.c, &built.d));
+        let comparison = Comparison::new(model, measured, (k, n), self.rate);
+        let rows = [built.states.clone(), self.variation.names().1].concat();
+        let columns: Vec<String> = self.columns.iter().map(|column| column.name.clone()).collect();
+        let own = self.columns.iter().filter(|column| !column.is_input).count();
+        let block =
+            |rows_of: Range<usize>, columns_of: Range<usize>| comparison.worst(rows_of, columns_of, [&rows, &columns]);
+        let all = n + outputs;
+        Ok(Measured {
+            a: block(0..n, 0..own),
+            b: block(0..n, own..columns.len()),
+            c: block(n..all, 0..own),
+            d: block(n..all, own..columns.len()),
+        })
+    }
+}
