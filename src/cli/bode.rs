@@ -5,10 +5,8 @@ use super::linear::{AtStates, ModelOptions};
 use crate::error::{Error, Result, Warning, clock, find, short};
 use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_response};
 use crate::prepared::PreparedScene;
-use crate::report::linear::{FrequencyResponse, Magnitude, Response, ResponseFile, bode_figure};
-use crate::report::{Folder, Repeatable, Sealed, cell};
+use crate::report::linear::{FrequencyResponse, Magnitude, Response};
 use crate::system::Column;
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -48,7 +46,7 @@ struct Chosen {
     outputs: Vec<usize>,
 }
 
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let in_file = args.at.in_file();
     let request = args.model.request()?;
     let prepared = args.at.load()?;
@@ -64,13 +62,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
         let model = linearize::linearize(&mut state.variation().map_err(in_file)?, &request).map_err(in_file)?;
         args.at.talk.warn(&moving(&model));
         let frequencies = frequencies(&args, &model)?;
-        let response = respond(&prepared, &model, &chosen, frequencies);
-        let text = response.text();
-        let file = write(&args, &prepared, response, folder)?;
-        args.at.talk.say(&text)?;
-        Ok(file)
-    })?;
-    Ok(ExitCode::SUCCESS)
+        let response = respond(&args, &prepared, model, &chosen, frequencies);
+        args.at.add(folder, "bode", (&prepared, response.model.point.t), &response)
+    })
 }
 
 /// Warning for a state off equilibrium, where A(t) is not constant and no transfer function is that of the motion.
@@ -126,10 +120,16 @@ fn frequencies(args: &Args, model: &LinearModel) -> Result<Vec<f64>> {
     })
 }
 
-fn respond(prepared: &PreparedScene, model: &LinearModel, chosen: &Chosen, frequencies: Vec<f64>) -> FrequencyResponse {
+fn respond<'p>(
+    args: &Args,
+    prepared: &'p PreparedScene,
+    model: LinearModel,
+    chosen: &Chosen,
+    frequencies: Vec<f64>,
+) -> FrequencyResponse<'p> {
     let inputs = prepared.system().inputs();
     let outputs = prepared.system().columns();
-    let found = frequency_response(model, &frequencies);
+    let found = frequency_response(&model, &frequencies);
     let pole = Complex::new(f64::NAN, f64::NAN);
     let pair = |i: usize, j: usize| Response {
         input: inputs[j].name.clone(),
@@ -139,28 +139,7 @@ fn respond(prepared: &PreparedScene, model: &LinearModel, chosen: &Chosen, frequ
         values: found.iter().map(|matrix| matrix.as_ref().map_or(pole, |matrix| matrix[(i, j)])).collect(),
     };
     let pairs = chosen.inputs.iter().flat_map(|&j| chosen.outputs.iter().map(move |&i| (i, j)));
-    FrequencyResponse {
-        scene: prepared.name.clone(),
-        t: model.point.t,
-        equilibrium: model.point.is_equilibrium,
-        method: model.method.clone(),
-        chart: model.chart.clone(),
-        responses: pairs.map(|(i, j)| pair(i, j)).collect(),
-        frequencies,
-    }
-}
-
-fn write(
-    args: &Args,
-    prepared: &PreparedScene,
-    response: FrequencyResponse,
-    folder: &mut Folder,
-) -> Result<Sealed<Repeatable<ResponseFile>>> {
-    let stem = format!("bode-{}", cell(response.t));
-    folder.write(&format!("{stem}.csv"), &response.table()?)?;
-    let title = format!("{} at t = {} s", response.scene, short(response.t));
+    let responses = pairs.map(|(i, j)| pair(i, j)).collect();
     let magnitude = if args.absolute { Magnitude::Absolute } else { Magnitude::Decibel };
-    let figure = bode_figure(&title, &response.frequencies, &response.responses, magnitude);
-    args.at.output.figure(folder, &stem, figure)?;
-    folder.seal(&format!("{stem}.json"), args.at.talk.repeatable(prepared, response.file()))
+    FrequencyResponse { scene: &prepared.name, model, frequencies, responses, magnitude }
 }

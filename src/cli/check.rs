@@ -3,7 +3,7 @@
 use super::common::{Common, number};
 use crate::error::Result;
 use crate::initial::equilibrium;
-use crate::report;
+use crate::report::{self, EquilibriumReport};
 use crate::simplify::{Hints, hints, registry};
 use std::process::ExitCode;
 
@@ -28,19 +28,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let t = args.at.unwrap_or(prepared.start_time());
     let sought = args.is_static.then(|| equilibrium(prepared.system(), t, prepared.start()));
     // Bad input is an error; a search without success is a result.
-    let failure = match sought.transpose() {
-        Ok(found) => {
-            check.equilibrium = found.map(|found| report::EquilibriumFile::of(&prepared, found));
-            None
-        }
-        Err(error) if error.exit_code() == 1 => Some(error),
+    let (found, failure) = match sought.transpose() {
+        Ok(found) => (found.map(|found| EquilibriumReport::of(&prepared, found)), None),
+        Err(error) if error.exit_code() == 1 => (Some(EquilibriumReport::none(t)), Some(error)),
         Err(error) => return Err(error.in_file(&args.common.scene.path)),
     };
+    check.equilibrium = found;
     let hints = hints(prepared, &args.common.scene.path, &args.common.overrides(), registry());
     check.hints = Some(hints.unwrap_or_else(|error| Hints { skipped: error.to_string(), ..Hints::default() }));
-    if failure.is_some() {
-        check.equilibrium = Some(report::EquilibriumFile::none(t));
-    }
     args.common.talk.warn(check.equilibrium.iter().flat_map(|rest| &rest.warnings));
     args.common.talk.print(&check, || check.text())?;
     failure.map_or(Ok(ExitCode::SUCCESS), Err)

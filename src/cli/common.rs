@@ -1,24 +1,21 @@
-//! Options and functions that the subcommands share.
+//! Options that the subcommands share.
 
-pub use super::terminal::{print, tell};
+pub use super::talk::{
+    Output, Talk, command_line, fail, json_files, print, print_result, put, tell, to_json, unprintable,
+};
 
-use super::terminal::visible;
-use crate::error::{Error, Result, Warning};
-use crate::math::expression::{Number, Parameters, constant};
+use crate::error::{Error, Result};
+use crate::math::expression::{Number, constant};
 use crate::math::memory::refuse_rows;
 use crate::method_spec::{Listed, MethodSpec};
-use crate::plot::Figure;
 use crate::prepared::{Overrides, PreparedScene};
-use crate::report::{Folder, Origin, Repeatable, Written};
 use crate::scene::Automatic;
 use crate::simulate::Span;
 use crate::system::Dimensions;
 use crate::trajectory::recorded;
 use crate::{formulation, integrator, projection};
-use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
-use std::cell::RefCell;
-use std::path::{Path, PathBuf};
+use clap::Args;
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// The scene and how to solve it.
@@ -94,49 +91,6 @@ pub struct MethodOptions {
     pub output_step: Option<f64>,
 }
 
-/// What is printed.
-#[derive(Args)]
-pub struct Talk {
-    /// Print the result as JSON on standard output, and nothing else there
-    #[arg(long)]
-    pub json: bool,
-    /// Print nothing but errors, and JSON where that is asked for
-    #[arg(long)]
-    pub quiet: bool,
-    /// Warnings so far.
-    #[arg(skip)]
-    said: RefCell<Vec<Warning>>,
-}
-
-/// Where results go.
-#[derive(Args)]
-pub struct Output {
-    /// Folder for the results (default: out/NAME)
-    #[arg(short, value_name = "DIR")]
-    pub output: Option<PathBuf>,
-    /// Format of the figures
-    #[arg(long, value_enum, default_value_t = Format::Svg)]
-    pub figures: Format,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    Svg,
-    Png,
-    None,
-}
-
-impl Format {
-    /// Returns the extension of the files; none without figures.
-    pub fn extension(self) -> Option<&'static str> {
-        match self {
-            Format::Svg => Some("svg"),
-            Format::Png => Some("png"),
-            Format::None => None,
-        }
-    }
-}
-
 /// Returns the help on an option with all that it can name.
 fn names<E: Listed>(what: &str, registry: &[E]) -> String {
     let names: Vec<&str> = registry.iter().map(E::name).collect();
@@ -197,17 +151,6 @@ pub fn assignment(text: &str) -> Result<(String, Number), String> {
     }
 }
 
-/// Refuses a parameter that is set twice, since only one value can count.
-fn refuse_twice(set: &[(String, Number)]) -> Result<()> {
-    let is_known = |i: usize| set[..i].iter().any(|(name, _)| *name == set[i].0);
-    match (0..set.len()).find(|i| is_known(*i)) {
-        None => Ok(()),
-        Some(i) => Err(Error::input(format!("the parameter `{}` is set twice", crate::error::excerpt(&set[i].0)))
-            .under("--set")
-            .hint("give each parameter one value")),
-    }
-}
-
 /// Attributes an error in a parameter to the option that set it, in the place of `--set`.
 pub fn set_by(error: Error, option: &str) -> Error {
     error.changed(|input| {
@@ -218,7 +161,6 @@ pub fn set_by(error: Error, option: &str) -> Error {
 }
 
 impl Common {
-    /// Returns the scene with its method.
     pub fn load(&self) -> Result<PreparedScene> {
         self.talk.load(&self.scene.path, &self.overrides())
     }
@@ -258,127 +200,9 @@ impl MethodOptions {
     }
 }
 
-impl Talk {
-    /// Loads the scene, with warnings about its start.
-    pub fn load(&self, path: &Path, overrides: &Overrides) -> Result<PreparedScene> {
-        refuse_twice(&overrides.set)?;
-        let prepared = PreparedScene::load(path, overrides)?;
-        self.warn(&prepared.doubts);
-        Ok(prepared)
-    }
-
-    /// Prints a text of one of several results as it comes, unless JSON is requested or nothing.
-    pub fn say(&self, text: &str) -> Result<()> {
-        if self.json || self.quiet { Ok(()) } else { print(text) }
-    }
-
-    /// Moves the files into place, prints the result, and names the files.
-    pub fn conclude(&self, folder: Folder, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
-        let written = self.finish(folder)?;
-        self.print(json, text)?;
-        self.tell_files(&written)
-    }
-
-    /// The same for results whose texts were printed as they came; as JSON one alone is no list.
-    pub fn conclude_all(&self, folder: Folder, results: &[impl serde::Serialize]) -> Result<()> {
-        match results {
-            [one] => self.conclude(folder, one, String::new),
-            all => self.conclude(folder, &all, String::new),
-        }
-    }
-
-    /// Prints the result: JSON if requested, else text unless quiet.
-    pub fn print(&self, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
-        match (self.json, self.quiet) {
-            (true, _) => print(&(to_json(json)? + "\n")),
-            (false, false) => print(&text()),
-            _ => Ok(()),
-        }
-    }
-
-    /// Returns a result with its origin: the command line, the scene's parameters and the warnings so far.
-    pub fn repeatable<T>(&self, prepared: &PreparedScene, result: T) -> Repeatable<T> {
-        Repeatable { simulation: Some(prepared.method.clone()), ..self.of_no_method(&prepared.parameters, result) }
-    }
-
-    /// Returns a result of several methods, or of none, with its origin.
-    pub fn of_no_method<T>(&self, parameters: &Parameters, result: T) -> Repeatable<T> {
-        let warnings = self.said.borrow().clone();
-        let origin = Origin { command: command_line(), ..Origin::new(parameters, warnings) };
-        Repeatable { origin, simulation: None, result }
-    }
-
-    /// Moves results into place and tells what they replace.
-    pub fn finish(&self, folder: Folder) -> Result<Written> {
-        let written = folder.finish()?;
-        written.note().filter(|_| !self.quiet).iter().for_each(tell);
-        Ok(written)
-    }
-
-    /// Prints the folder and the names of the files, if text is printed.
-    pub fn tell_files(&self, written: &Written) -> Result<()> {
-        self.say(&format!("\nwritten to {}\n", written.listing()))
-    }
-
-    /// Prints warnings on standard error.
-    pub fn warn<'w>(&self, warnings: impl IntoIterator<Item = &'w Warning>) {
-        for warning in warnings {
-            self.said.borrow_mut().push(warning.clone());
-            if !self.quiet {
-                tell(warning.to_string());
-            }
-        }
-    }
-
-    /// Returns a progress bar of `length` steps on a terminal; a hidden one in a pipe. It is cleared
-    /// when it is dropped.
-    pub fn progress(&self, length: u64, what: &str) -> ProgressBar {
-        if self.quiet {
-            return ProgressBar::hidden();
-        }
-        let template = "{msg} {wide_bar:.cyan/dim} {percent}% {eta}";
-        let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-        // A run that ends at once shows no bar.
-        let bar = ProgressBar::new(length).with_style(style).with_message(visible(what).into_owned());
-        bar.set_draw_target(indicatif::ProgressDrawTarget::stderr_with_hz(5));
-        bar
-    }
-}
-
-impl Output {
-    pub fn folder(&self, name: &str) -> Result<Folder> {
-        Folder::create(&self.path(name))
-    }
-
-    /// Returns the folder of the results of the scene `name`.
-    pub fn path(&self, name: &str) -> PathBuf {
-        self.output.clone().unwrap_or_else(|| Path::new("out").join(name))
-    }
-
-    /// Writes a figure in the chosen format, if any.
-    pub fn figure(&self, folder: &mut Folder, name: &str, figure: Option<Figure>) -> Result<()> {
-        let Some(figure) = figure else { return Ok(()) };
-        let refused = |reason| Error::input(format!("cannot draw {name}.png: {reason}")).hint("choose --figures svg");
-        match self.figures {
-            Format::Svg => folder.write(&format!("{name}.svg"), figure.to_svg().as_bytes()),
-            Format::Png => folder.write(&format!("{name}.png"), &figure.to_png().map_err(refused)?),
-            Format::None => Ok(()),
-        }
-    }
-}
-
-pub fn to_json(value: &impl serde::Serialize) -> Result<String> {
-    serde_json::to_string_pretty(value).map_err(|error| Error::input(format!("cannot print as JSON: {error}")))
-}
-
 /// Returns one of `names`, or an error that suggests the most similar.
 pub fn pick<'a>(what: &str, found: &str, names: &[&'a str]) -> Result<&'a str> {
     let canonical = found.replace('-', "_");
     let name = names.iter().find(|name| **name == canonical).copied();
     name.ok_or_else(|| Error::unknown(what, found, names.iter().copied()))
-}
-
-/// The words of the command; characters of a name that are not text are replaced.
-pub fn command_line() -> Vec<String> {
-    std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect()
 }

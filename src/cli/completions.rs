@@ -7,7 +7,6 @@ use crate::report::Folder;
 use clap::CommandFactory;
 use clap_complete::Shell;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -31,19 +30,17 @@ pub struct Man {
     talk: Talk,
 }
 
-pub fn completions(args: Completions) -> Result<ExitCode> {
+pub fn completions(args: Completions) -> Result<()> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "holonom", &mut script);
-    print(&String::from_utf8_lossy(&script))?;
-    Ok(ExitCode::SUCCESS)
+    print(&String::from_utf8_lossy(&script))
 }
 
-pub fn man(args: Man) -> Result<ExitCode> {
+pub fn man(args: Man) -> Result<()> {
     let mut command = Cli::command();
     command.build();
     let Some(path) = &args.output else {
-        print(&String::from_utf8_lossy(&page(command)?))?;
-        return Ok(ExitCode::SUCCESS);
+        return print(&String::from_utf8_lossy(&page(command)?));
     };
     let mut folder = Folder::create(path)?;
     let pages: Vec<clap::Command> = command.get_subcommands().filter(|one| one.get_name() != "help").cloned().collect();
@@ -52,8 +49,7 @@ pub fn man(args: Man) -> Result<ExitCode> {
         let name = format!("holonom-{}", one.get_name());
         folder.write(&format!("{name}.1"), &page(one.display_name(name))?)?;
     }
-    args.talk.tell_files(&folder.finish()?)?;
-    Ok(ExitCode::SUCCESS)
+    args.talk.tell_files(&folder.finish()?)
 }
 
 fn page(command: clap::Command) -> Result<Vec<u8>> {

@@ -7,7 +7,7 @@ use crate::error::{Error, Failure, INTERRUPTED, Result};
 use crate::integrator;
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
-use crate::report::{drift_text, stabilizations_figure, stabilizations_table};
+use crate::report::Stabilizations;
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
@@ -22,32 +22,18 @@ pub struct Args {
     output: Output,
 }
 
-/// Contents of `stabilizations.json`.
-#[derive(serde::Serialize)]
-struct DriftFile<'a> {
-    scene: &'a str,
-    runs: &'a [StabilizedRun],
-}
-
 pub fn run(args: Args) -> Result<ExitCode> {
     refuse_stabilization(&args.common.method)?;
     let prepared = load(&args.common)?;
     args.common.span(&prepared)?;
     let count = stabilizations(&prepared, 1.0)?.len();
-    let mut folder = args.output.folder(&prepared.name)?;
+    let folder = args.output.folder(&prepared.name)?;
     let bar = args.common.talk.progress(count as u64, "drift");
-    let rows = drift_under_stabilizations(&prepared, || interrupt::stop(&folder), || bar.inc(1))?;
+    let runs = drift_under_stabilizations(&prepared, || interrupt::stop(&folder), || bar.inc(1))?;
     bar.finish_and_clear();
-    folder.write("stabilizations.csv", &stabilizations_table(&rows)?)?;
-    let figure = stabilizations_figure(&prepared.name, &rows, prepared.system().length());
-    args.output.figure(&mut folder, "stabilizations", figure)?;
-    let result = args.common.talk.repeatable(&prepared, DriftFile { scene: &prepared.name, runs: &rows });
-    let sealed = folder.seal("stabilizations.json", result)?;
-    args.common.talk.conclude(folder, &sealed, || drift_text(&prepared, &rows))?;
-    match fatal(&rows) {
-        Some(failure) => Err(failure.clone().into()),
-        None => Ok(ExitCode::SUCCESS),
-    }
+    let answer = Stabilizations { prepared: &prepared, runs };
+    args.common.talk.publish(folder, "stabilizations", args.common.talk.origin(&prepared), &answer)?;
+    fatal(&answer.runs).map_or(Ok(ExitCode::SUCCESS), |failure| Err(failure.clone().into()))
 }
 
 /// Refuses a formulation or a projection, since all of them are compared.

@@ -1,11 +1,9 @@
 //! `holonom generate NAME --n N`
 
-use super::common::{pick, print, to_json};
+use super::common::{pick, put, to_json};
 use crate::error::Result;
-use crate::report::write_whole;
 use crate::scene::generate;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -29,14 +27,9 @@ fn count(text: &str) -> Result<usize, String> {
     text.parse().ok().filter(|n| (1..=MOST).contains(n)).ok_or_else(|| format!("give a whole number from 1 to {MOST}"))
 }
 
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let names: Vec<&str> = generate::registry().iter().map(|(name, _)| *name).collect();
     let name = pick("scene to generate", &args.name, &names)?;
-    let text = generate::registry().iter().find(|(known, _)| *known == name).map(|(_, make)| to_json(&make(args.n)));
-    let text = text.unwrap_or_else(|| Ok(String::new()))? + "\n";
-    match args.output {
-        None => print(&text)?,
-        Some(path) => write_whole(&path, text.as_bytes())?,
-    }
-    Ok(ExitCode::SUCCESS)
+    let made = generate::registry().iter().find(|(known, _)| *known == name).map(|(_, make)| make(args.n));
+    put(&to_json(&made)?, args.output.as_deref())
 }

@@ -3,7 +3,6 @@
 use super::common::print;
 use crate::error::{Result, find};
 use crate::guide::CHAPTERS;
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -14,11 +13,10 @@ pub struct Args {
     chapter: Option<String>,
 }
 
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let text = match &args.chapter {
         None => CHAPTERS.iter().map(|chapter| format!("{:<16} {}\n", chapter.name, chapter.title())).collect(),
         Some(name) => CHAPTERS[find("chapter", name, CHAPTERS.iter().map(|chapter| chapter.name))?].body(),
     };
-    print(&text)?;
-    Ok(ExitCode::SUCCESS)
+    print(&text)
 }

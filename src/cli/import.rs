@@ -1,13 +1,11 @@
 //! `holonom import FILE`, URDF or MJCF
 
-use super::common::{print, tell, to_json};
+use super::common::{put, tell, to_json};
 use crate::error::{Error, Result};
 use crate::import::{Closure, Given, Options, import};
 use crate::prepared::{Overrides, PreparedScene};
-use crate::report::write_whole;
 use crate::scene::Scene;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -38,15 +36,12 @@ pub struct Args {
     quiet: bool,
 }
 
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let text = crate::files::read_text(&args.path).map_err(|error| Error::file(&args.path, error))?;
     let options = Options { base: args.base, is_free: args.free, closures: args.close, positions: args.at };
     let imported = import(&text, &options).map_err(|error| error.in_file(&args.path))?;
-    let text = to_json(&imported.scene)? + "\n";
-    match &args.output {
-        None => print(&text)?,
-        Some(path) => write_whole(path, text.as_bytes())?,
-    }
+    let text = to_json(&imported.scene)?;
+    put(&text, args.output.as_deref())?;
     if !args.quiet {
         imported.left_out.iter().for_each(|what| tell(format!("left out: {what}")));
         imported.warnings.iter().for_each(|what| tell(format!("warning: {what}")));
@@ -59,5 +54,5 @@ pub fn run(args: Args) -> Result<ExitCode> {
         Err(error) => tell(format!("warning: the scene does not start as it is: {error}")),
         Ok(_) => {}
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(())
 }

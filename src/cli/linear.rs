@@ -1,13 +1,14 @@
 //! Options and functions of the commands that make linear models.
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, number};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, number, unprintable};
 use crate::analysis::Range;
 use crate::error::{Error, Result};
 use crate::linearize::{Chart, Operating, Request, State, at_rest, kinks, registry, states, tighten};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
-use crate::report::Folder;
-use serde::Serialize;
+use crate::report::linear::stem_at;
+use crate::report::{Answer, Folder};
+use serde_json::Value;
 
 /// Which linear model.
 #[derive(clap::Args)]
@@ -66,16 +67,30 @@ impl AtStates {
         |error| error.in_file(&self.scene.path)
     }
 
-    /// Writes and prints the result at each state.
-    pub fn conclude<R: Serialize>(
+    /// Publishes the results at all states, which `result` [adds](Self::add). As JSON one alone is no list.
+    pub fn conclude(
         &self,
         prepared: &PreparedScene,
-        mut result: impl FnMut(&Operating, &mut Folder) -> Result<R>,
+        mut result: impl FnMut(&Operating, &mut Folder) -> Result<Value>,
     ) -> Result<()> {
         let places = self.states.states(prepared, &self.talk).map_err(self.in_file())?;
         let mut folder = self.output.folder(&prepared.name)?;
-        let results = places.iter().map(|place| result(place, &mut folder)).collect::<Result<Vec<R>>>()?;
-        self.talk.conclude_all(folder, &results)
+        let mut results = places.iter().map(|place| result(place, &mut folder)).collect::<Result<Vec<Value>>>()?;
+        let all = if results.len() == 1 { results.remove(0) } else { Value::Array(results) };
+        self.talk.conclude(folder, &all, String::new)
+    }
+
+    /// Writes an answer on the state at `t`, and prints its text; returns the JSON if that is requested, else null.
+    pub fn add(
+        &self,
+        folder: &mut Folder,
+        what: &str,
+        (prepared, t): (&PreparedScene, f64),
+        answer: &impl Answer,
+    ) -> Result<Value> {
+        let sealed = answer.stage(folder, &stem_at(what, t), self.talk.origin(prepared))?;
+        self.talk.say(&answer.text())?;
+        if self.talk.json { serde_json::to_value(sealed).map_err(unprintable) } else { Ok(Value::Null) }
     }
 }
 
@@ -87,9 +102,6 @@ impl ChartOptions {
 
 impl ModelOptions {
     /// Returns the requested method and chart.
-    ///
-    /// # Errors
-    /// An unknown method or option.
     pub fn request(&self) -> Result<Request> {
         let method = MethodSpec::parse(&self.method).and_then(|method| {
             method.entry(registry())?;
@@ -110,7 +122,6 @@ impl MethodOptions {
 }
 
 impl StateOptions {
-    /// Number of states.
     pub fn count(&self) -> usize {
         self.at.len().max(1)
     }

@@ -4,16 +4,14 @@ use super::common::{SceneOptions, number};
 use super::linear::{AtStates, ChartOptions};
 use crate::error::{Error, Result, Warning};
 use crate::linearize::{
-    self, Chart, Comparison, Complex, Kind, LinearModel, Operating, Request, Variation, against, compare,
+    self, Chart, Complex, Kind, LinearModel, LinearizationPoint, Operating, Request, Variation, against, compare,
 };
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
-use crate::report::linear::{AgainstFile, Linear, comparison_text, linear_stem};
-use crate::report::mechanism::{Look, mode_figure};
-use crate::report::{self, Folder, Repeatable, Sealed};
-use serde::Serialize;
+use crate::report::linear::{AgainstAnswer, Linear, LinearAnswer, MethodsAnswer};
+use crate::report::{Folder, uncertain_kinds};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -40,7 +38,7 @@ pub struct Args {
     against: Option<PathBuf>,
 }
 
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let prepared = args.at.load()?;
     let in_file = args.at.in_file();
     let requests = requests(&args).map_err(|error| error.under("--method"))?;
@@ -53,15 +51,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
         let models = models(&args, &requests, &mut variation).map_err(in_file)?;
         let uncertain = models.iter().filter(|model| model.has_uncertain_kinds()).map(|model| model.method.clone());
         let new: Vec<String> = uncertain.filter(|method| !told.contains(method)).collect();
-        args.at.talk.warn(&report::uncertain_kinds(new.iter().map(String::as_str)));
+        args.at.talk.warn(&uncertain_kinds(new.iter().map(String::as_str)));
         told.extend(new);
         let compared = other.as_ref().map(|scene| compared(&args, &prepared, scene, (state, &models[0]), &requests));
-        report(&args, &prepared, (&models, compared.transpose()?), folder)
-    })?;
-    Ok(ExitCode::SUCCESS)
+        add(&args, &prepared, (&models, compared.transpose()?), folder)
+    })
 }
 
-/// Returns the models by each method, or the requested modes.
 fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Result<Vec<LinearModel>> {
     match args.modes {
         Some(count) => {
@@ -111,30 +107,6 @@ fn requests(args: &Args) -> Result<Vec<Request>> {
     first.chain(charts).chain(names.map(|name| MethodSpec::parse(name).map(request))).collect()
 }
 
-/// Comparison of all methods at one state.
-#[derive(Serialize)]
-struct Methods {
-    t: f64,
-    methods: Vec<Comparison>,
-}
-
-/// JSON output for one state.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Printed {
-    One(Box<Sealed<Repeatable<report::linear::LinearFile>>>),
-    All(Box<Sealed<Repeatable<Methods>>>),
-    Against(Box<Compared>),
-}
-
-/// A linear model with its comparison.
-#[derive(Serialize)]
-struct Compared {
-    #[serde(flatten)]
-    linear: Sealed<Repeatable<report::linear::LinearFile>>,
-    against: Sealed<Repeatable<AgainstFile>>,
-}
-
 fn other(args: &Args, path: &Path) -> Result<PreparedScene> {
     let scene = SceneOptions { path: path.to_path_buf(), set: Vec::new() };
     args.at.run.load_tight(&scene, &args.at.talk)
@@ -172,46 +144,38 @@ pub fn unlike(own: &PreparedScene, other: &PreparedScene) -> Result<Option<Warni
 }
 
 /// The modes of `model` against those of another scene at the same time.
-fn compared(
+fn compared<'s>(
     args: &Args,
     prepared: &PreparedScene,
-    scene: &PreparedScene,
+    scene: &'s PreparedScene,
     (own, model): (&Operating, &LinearModel),
     requests: &[Request],
-) -> Result<AgainstFile> {
+) -> Result<AgainstAnswer<'s>> {
     let places = args.at.states.at(scene, &args.at.talk, own.state.t)?;
     let other = models(args, &requests[..1], &mut places.variation()?)?;
     let time = prepared.span().map_or(1.0, |span| span.end - span.start);
-    Ok(AgainstFile::new(own.state.t, &scene.name, &against(model, &other[0], time)))
+    Ok(AgainstAnswer { t: own.state.t, other: &scene.name, found: against(model, &other[0], time) })
 }
 
-fn report(
+/// Writes the first model, and what it is compared with; returns the JSON to print.
+fn add(
     args: &Args,
     prepared: &PreparedScene,
-    (models, against): (&[LinearModel], Option<AgainstFile>),
+    (models, against): (&[LinearModel], Option<AgainstAnswer>),
     folder: &mut Folder,
-) -> Result<Printed> {
-    let names = prepared.system().names();
+) -> Result<Value> {
     let first = &models[0];
-    let linear = Linear { scene: &prepared.name, names: &names, model: first };
-    let stem = linear_stem(first.point.t);
-    linear.write(folder, &stem)?;
-    let figure = mode_figure(prepared, &Look::plain(&prepared.mechanism), first);
-    args.at.output.figure(folder, &stem.replace("linear", "modes"), figure)?;
-    let one = folder.seal(&format!("{stem}.json"), args.at.talk.repeatable(prepared, linear.file()))?;
-    args.at.talk.say(&linear.text())?;
+    let LinearizationPoint { t, is_equilibrium, .. } = first.point;
+    let linear = Linear { scene: &prepared.name, names: &prepared.system().names(), model: first };
+    let mut json = args.at.add(folder, "linear", (prepared, t), &LinearAnswer { prepared, linear })?;
     if let Some(against) = against {
-        args.at.talk.say(&format!("\n{}", against.text()))?;
-        let all = args.at.talk.repeatable(prepared, against);
-        let against = folder.seal(&format!("{}.json", stem.replace("linear", "against")), all)?;
-        return Ok(Printed::Against(Box::new(Compared { linear: one, against })));
+        json["against"] = args.at.add(folder, "against", (prepared, t), &against)?;
+        return Ok(json);
     }
     if models.len() == 1 {
-        return Ok(Printed::One(Box::new(one)));
+        return Ok(json);
     }
     let exact = first.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.value);
-    let rows = compare(models, &exact.collect::<Vec<_>>());
-    args.at.talk.say(&format!("\n{}", comparison_text(&rows, first.point.is_equilibrium)))?;
-    let all = args.at.talk.repeatable(prepared, Methods { t: first.point.t, methods: rows });
-    folder.seal(&format!("{}.json", stem.replace("linear", "methods")), all).map(|all| Printed::All(Box::new(all)))
+    let methods = compare(models, &exact.collect::<Vec<_>>());
+    args.at.add(folder, "methods", (prepared, t), &MethodsAnswer { t, is_equilibrium, methods })
 }

@@ -1,15 +1,13 @@
 //! `holonom loci SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, number, positive, tell};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, fail, number, positive};
 use super::linear::ModelOptions;
 use super::linearize::unlike;
 use crate::error::{Error, Result, short};
 use crate::linearize::{At, Gap, Kind, Loci, Request, Variants, loci_along, loci_over, refuse_large, within_run};
 use crate::prepared::PreparedScene;
-use crate::report::linear::{
-    LociAgainst, LociFile, LociSummary, frequency_figure, loci_figure, loci_table, motion_figure, speeds, with_others,
-};
-use crate::report::{Folder, uncertain_kinds};
+use crate::report::linear::LociAnswer;
+use crate::report::{Answer, Sealed, uncertain_kinds};
 use crate::sweep::{Family, Range};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -70,53 +68,22 @@ pub fn run(args: Args) -> Result<ExitCode> {
         return none(&args, &loci);
     }
     args.talk.warn(&loci.doubts);
-    let mut summary = LociSummary::new(&prepared.name, &loci, args.unit.as_deref());
-    let other = args.against.as_ref().map(|path| other(&args, &prepared, path, &request)).transpose()?;
-    summary.against = other.as_ref().map(|(name, other)| LociAgainst::new(&loci, name, other));
-    folder.write("loci.csv", &loci_table(&loci)?)?;
-    figures(&args, &mut folder, &summary, &loci, other.as_ref().map(|(name, other)| (name.as_str(), other)))?;
     let uncertain = loci.branches.iter().filter(|branch| branch.kind == Kind::Uncertain);
+    let other = args.against.as_ref().map(|path| other(&args, &prepared, path, &request)).transpose()?;
     args.talk.warn(&uncertain_kinds(uncertain.map(|_| loci.method.as_str())));
-    folder.seal("loci.json", args.talk.repeatable(&prepared, LociFile::new(summary.clone(), &loci)))?;
-    args.talk.conclude(folder, &args.talk.repeatable(&prepared, &summary), || summary.text())?;
-    let Some(gap) = failed(&args, &loci) else { return Ok(ExitCode::SUCCESS) };
+    let other = other.as_ref().map(|(name, other)| (name.as_str(), other));
+    let answer = LociAnswer::new(&prepared.name, &loci, args.unit.as_deref(), other);
+    answer.stage(&mut folder, "loci", args.talk.origin(&prepared))?;
+    let origin = Some(args.talk.origin(&prepared));
+    args.talk.conclude(folder, &Sealed { origin, result: answer.summary(), files: Vec::new() }, || answer.text())?;
+    let Some(Gap { at, error }) = failed(&args, &loci) else { return Ok(ExitCode::SUCCESS) };
     match &args.sweep {
-        Some(range) => tell(format!(
-            "error: {} of {} values have no eigenvalues; at {} = {}: {}",
-            loci.gaps.len(),
-            range.count,
-            range.parameter,
-            short(gap.at),
-            gap.error
-        )),
-        None => tell(format!("error: {}", gap.error)),
+        Some(Range { parameter, count, .. }) => {
+            let gaps = loci.gaps.len();
+            fail(format!("{gaps} of {count} values have no eigenvalues; at {parameter} = {}: {error}", short(*at)))
+        }
+        None => fail(error),
     }
-    Ok(ExitCode::from(1))
-}
-
-/// Draws the modes; over a parameter also the complex plane, where a motion would leave loose dots.
-fn figures(
-    args: &Args,
-    folder: &mut Folder,
-    summary: &LociSummary,
-    loci: &Loci,
-    other: Option<(&str, &Loci)>,
-) -> Result<()> {
-    let Some(range) = &args.sweep else {
-        let title = format!("{}: eigenvalues along the motion", summary.scene);
-        let other = other.map(|(name, other)| (name, other.branches.as_slice()));
-        return args.output.figure(folder, "loci_modes", motion_figure(&title, &loci.branches, other));
-    };
-    let axes = if loci.reached.iter().any(|state| state.turning.is_some()) { ", in axes that turn along" } else { "" };
-    let title = format!("{}: eigenvalues over {}{axes}", summary.scene, range.parameter);
-    let speeds = speeds(loci, &summary.along.unit);
-    let mut plane = loci_figure(&title, summary.axis(), &loci.branches, &speeds);
-    if let Some((name, other)) = other {
-        plane = with_others(plane, name, other);
-    }
-    args.output.figure(folder, "loci", plane)?;
-    let modes = frequency_figure(&title, summary.axis(), &loci.branches, &speeds);
-    args.output.figure(folder, "loci_modes", modes)
 }
 
 /// The gap that makes the loci incomplete: any value of a parameter; of a motion the end.
@@ -134,7 +101,6 @@ fn loci(args: &Args, scene: &SceneOptions, prepared: &PreparedScene, request: &R
     }
 }
 
-/// Loci of another scene at the same times, or values of the parameter.
 fn other(args: &Args, own: &PreparedScene, path: &Path, request: &Request) -> Result<(String, Loci)> {
     let scene = SceneOptions { path: path.to_path_buf(), set: Vec::new() };
     let prepared = args.run.load_tight(&scene, &args.talk)?;
@@ -196,8 +162,7 @@ fn none(args: &Args, loci: &Loci) -> Result<ExitCode> {
         Error::Input(input) if input.path.starts_with('-') => Err(gap.error.clone().in_file(&args.scene.path)),
         error => {
             let name = args.sweep.as_ref().map_or("t", |range| range.parameter.as_str());
-            tell(format!("error: no state has eigenvalues; at {name} = {}: {error}", short(gap.at)));
-            Ok(ExitCode::from(1))
+            fail(format!("no state has eigenvalues; at {name} = {}: {error}", short(gap.at)))
         }
     }
 }

@@ -1,6 +1,6 @@
 //! `holonom methods`
 
-use super::common::{print, to_json};
+use super::common::print_result;
 use crate::error::Result;
 use crate::integrator::{self, Entry};
 use crate::method_spec::{MethodSpec, OptionDoc};
@@ -8,7 +8,7 @@ use crate::report::Table;
 use crate::simulate::check_pair;
 use crate::{formulation, projection};
 use serde::Serialize;
-use std::process::ExitCode;
+use serde_json::{Value, json};
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -26,42 +26,17 @@ pub struct Args {
     json: bool,
 }
 
-/// Methods that can be combined.
 #[derive(Serialize)]
-struct Methods {
-    formulations: Vec<Item>,
-    integrators: Vec<Item>,
-    projections: Vec<Item>,
-    triples: Vec<Triple>,
-}
-
-#[derive(Serialize)]
-struct Item {
+struct MethodItem {
     name: &'static str,
     about: &'static str,
     r#for: &'static str,
     options: &'static [OptionDoc],
 }
 
-/// An accepted triple with its proven orders.
-#[derive(Serialize)]
-struct Triple {
-    formulation: &'static str,
-    integrator: &'static str,
-    projection: &'static str,
-    q: usize,
-    v: usize,
-    lambda: usize,
-}
-
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let pairs = pairs(&args)?;
-    if args.json {
-        print(&(to_json(&methods(&pairs))? + "\n"))?
-    } else {
-        print(&text(&pairs))?
-    }
-    Ok(ExitCode::SUCCESS)
+    print_result(args.json, &json(&pairs), || text(&pairs))
 }
 
 type Pair = (&'static Entry, &'static str);
@@ -84,29 +59,39 @@ fn pairs(args: &Args) -> Result<Vec<Pair>> {
     Ok(pairs.filter(|(_, name)| is_wanted(&formulation, name)).collect())
 }
 
-fn methods(pairs: &[Pair]) -> Methods {
+/// Returns the methods by their kinds.
+fn lists(pairs: &[Pair]) -> [(&'static str, Vec<MethodItem>); 3] {
+    let item = |name, about, options| MethodItem { name, about, r#for: purpose(name), options };
+    let formulations = formulation::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.1 == entry.name));
+    let integrators = integrator::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.0.name == entry.name));
+    let projections = projection::registry().iter();
+    [
+        ("formulations", formulations.map(|entry| item(entry.name, entry.about, entry.options)).collect()),
+        ("integrators", integrators.map(|entry| item(entry.name, entry.about, entry.options)).collect()),
+        ("projections", projections.map(|entry| item(entry.name, entry.about, entry.options)).collect()),
+    ]
+}
+
+/// Returns the methods, and the accepted triples with their proven orders.
+fn json(pairs: &[Pair]) -> Value {
     let triples = pairs.iter().flat_map(|&(entry, formulation)| {
         let accepted = projection::registry().iter().filter(move |other| !entry.refuses(formulation, other.name));
         accepted.map(move |projection| {
-            let integrator = entry.name;
-            let projection = projection.name;
-            let order = entry.order;
-            Triple { formulation, integrator, projection, q: order, v: order, lambda: order }
+            json!({
+                "formulation": formulation,
+                "integrator": entry.name,
+                "projection": projection.name,
+                "q": entry.order,
+                "v": entry.order,
+                "lambda": entry.order,
+            })
         })
     });
-    let item = |name, about, options| Item { name, about, r#for: purpose(name), options };
-    let formulations = formulation::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.1 == entry.name));
-    let integrators = integrator::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.0.name == entry.name));
-    Methods {
-        formulations: formulations.map(|entry| item(entry.name, entry.about, entry.options)).collect(),
-        integrators: integrators.map(|entry| item(entry.name, entry.about, entry.options)).collect(),
-        projections: projection::registry().iter().map(|entry| item(entry.name, entry.about, entry.options)).collect(),
-        triples: triples.collect(),
-    }
+    let lists = lists(pairs).into_iter().map(|(heading, items)| (heading.to_string(), json!(items)));
+    lists.chain([("triples".to_string(), triples.collect())]).collect()
 }
 
 fn text(pairs: &[Pair]) -> String {
-    let Methods { formulations, integrators, projections, .. } = methods(pairs);
     let mut text = "A method is a formulation x an integrator x a projection.\n\n".to_string();
     text += &orders(pairs);
     text += "\nOrders in q, v and lambda, each a test; one number where they agree; - where the projection would cost an \
@@ -116,8 +101,7 @@ fn text(pairs: &[Pair]) -> String {
         let (first, rest) = fields.split_at(5);
         text += &format!("Vector fields are {},\n{}.\n", first.join(", "), rest.join(", "));
     }
-    for (heading, items) in [("formulations", formulations), ("integrators", integrators), ("projections", projections)]
-    {
+    for (heading, items) in lists(pairs) {
         text += &format!("\n{}", list(heading, &items));
     }
     text + "\nWrite options as baumgarte:alpha=5,beta=5. `--method auto` chooses on the way and says why.\n"
@@ -159,9 +143,9 @@ fn cells(entry: &Entry, formulation: &str) -> Vec<String> {
 }
 
 /// Returns description and purpose of each, with its options as they are written.
-fn list(heading: &str, items: &[Item]) -> String {
+fn list(heading: &str, items: &[MethodItem]) -> String {
     let mut text = format!("{heading}\n");
-    for Item { name, about, r#for, options } in items {
+    for MethodItem { name, about, r#for, options } in items {
         let options: Vec<String> = options.iter().map(|option| format!("{}=..", option.name)).collect();
         let colon = if options.is_empty() { "" } else { ":" };
         text += &format!("  {name}{colon}{}\n      {about}\n      for {for}\n", options.join(","));

@@ -17,11 +17,11 @@ mod models;
 mod plot;
 mod reference;
 mod restart;
-mod schema;
 mod simplify;
 mod simulate;
 mod stress;
 mod sweep;
+mod talk;
 mod terminal;
 mod tradeoff;
 mod transition;
@@ -160,24 +160,28 @@ pub fn run() -> ExitCode {
         Command::Tradeoff(args) => tradeoff::run(args),
         Command::Sweep(args) => sweep::run(args),
         Command::Plot(args) => plot::run(args),
-        Command::Linearize(args) => linearize::run(args),
+        Command::Linearize(args) => done(linearize::run(args)),
         Command::Loci(args) => loci::run(args),
-        Command::Bode(args) => bode::run(args),
+        Command::Bode(args) => done(bode::run(args)),
         Command::Validate(args) => validate::run(args),
-        Command::Transition(args) => transition::run(args),
+        Command::Transition(args) => done(transition::run(args)),
         Command::Stress(args) => stress::run(args),
         Command::Simplify(args) => simplify::run(args),
-        Command::Generate(args) => generate::run(args),
-        Command::Import(args) => import::run(args),
-        Command::Methods(args) => methods::run(args),
-        Command::Reference(args) => reference::run(args),
-        Command::Guide(args) => guide::run(args),
-        Command::Models(args) => models::run(args),
-        Command::Schema => schema::run(),
-        Command::Completions(args) => completions::completions(args),
-        Command::Man(args) => completions::man(args),
+        Command::Generate(args) => done(generate::run(args)),
+        Command::Import(args) => done(import::run(args)),
+        Command::Methods(args) => done(methods::run(args)),
+        Command::Reference(args) => done(reference::run(args)),
+        Command::Guide(args) => done(guide::run(args)),
+        Command::Models(args) => done(models::run(args)),
+        Command::Schema => done(reference::schema()),
+        Command::Completions(args) => done(completions::completions(args)),
+        Command::Man(args) => done(completions::man(args)),
     };
     result.unwrap_or_else(|error| failed(&error))
+}
+
+fn done(result: Result<()>) -> Result<ExitCode> {
+    result.map(|()| ExitCode::SUCCESS)
 }
 
 fn failed(error: &Error) -> ExitCode {

@@ -1,11 +1,10 @@
 //! `holonom models [TAG]`
 
-use super::common::{print, to_json};
+use super::common::{json_files, print_result};
 use crate::error::{Error, Result};
 use crate::report::Table;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -36,7 +35,7 @@ struct Listed {
     _bodies: Vec<serde::de::IgnoredAny>,
 }
 
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let mut scenes = scenes(&args.folder)?;
     if let Some(tag) = &args.tag {
         let known: Vec<String> = scenes.iter().flat_map(|scene| scene.tags.clone()).collect();
@@ -45,22 +44,15 @@ pub fn run(args: Args) -> Result<ExitCode> {
             return Err(Error::unknown("tag", tag, known.iter().map(String::as_str)));
         }
     }
-    if args.json {
-        print(&(to_json(&scenes)? + "\n"))?;
-    } else {
+    print_result(args.json, &scenes, || {
         let mut table = Table::left(&["scene", "tags", "about"]);
         scenes.iter().for_each(|scene| table.row([scene.file.clone(), scene.tags.join(" "), sentence(&scene.about)]));
-        print(&table.to_string())?;
-    }
-    Ok(ExitCode::SUCCESS)
+        table.to_string()
+    })
 }
 
-/// The scenes of a folder, by name.
 fn scenes(folder: &Path) -> Result<Vec<Listed>> {
-    let entries = std::fs::read_dir(folder).map_err(|problem| Error::file(folder, problem).hint(ELSEWHERE))?;
-    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
-    paths.sort();
+    let paths = json_files(folder).map_err(|problem| Error::file(folder, problem).hint(ELSEWHERE))?;
     Ok(paths.iter().filter_map(|path| scene(path)).collect())
 }
 
@@ -71,7 +63,6 @@ fn scene(path: &Path) -> Option<Listed> {
     Some(Listed { file: path.display().to_string(), ..listed })
 }
 
-/// The first sentence of a text.
 fn sentence(text: &str) -> String {
     text.split_inclusive(". ").next().unwrap_or_default().trim_end().to_string()
 }

@@ -1,6 +1,6 @@
 //! `holonom plot SCENE`
 
-use super::common::{Common, Format, Output, number, positive, set_by, tell};
+use super::common::{Common, Output, fail, number, positive, set_by};
 use super::interrupt;
 use crate::analysis::Recorder;
 use crate::error::{Error, Failure, Result, Warning, clock, significant};
@@ -9,7 +9,7 @@ use crate::prepared::{Overrides, PreparedScene};
 use crate::report::mechanism::{
     Look, Motion, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
-use crate::report::{Ending, FinishedRun, Folder, Repeatable, Shown, Written, outputs_figure};
+use crate::report::{Ending, FinishedRun, Folder, Format, Origin, Shown, outputs_figure};
 use crate::simulate::Span;
 use crate::trajectory::Trajectory;
 use serde::Serialize;
@@ -85,13 +85,11 @@ const ROWS: (f64, f64) = (600.0, 20_000.0);
 /// Longer animations are probably a mistake.
 const MOST_FRAMES: f64 = 1000.0;
 
-/// JSON output.
 #[derive(Serialize)]
 struct Drawn {
     scene: String,
     status: &'static str,
     failure: Option<Failure>,
-    /// Times of the figure, s.
     times: Vec<f64>,
     animation: Option<Film>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -137,16 +135,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let motion = Motion::new(&prepared, &trajectory).titled(shown.title(&prepared.name));
     args.common.talk.warn(&motion.sparse().filter(|_| args.from.is_some() && args.is_in_motion()));
     args.draw((&motion, &shown), &look, &mut folder, &mut drawn)?;
-    let written = args.common.talk.finish(folder)?;
-    drawn.files = written.paths();
-    args.common.talk.print(&drawn, || drawn.text(&written))?;
-    Ok(match failure {
-        None => ExitCode::SUCCESS,
-        Some(failure) => {
-            tell(format!("error: {}", Error::from(failure)));
-            ExitCode::from(1)
-        }
-    })
+    drawn.files = folder.paths();
+    args.common.talk.conclude(folder, &drawn, || drawn.text())?;
+    failure.map_or(Ok(ExitCode::SUCCESS), |failure| fail(Error::from(failure)))
 }
 
 impl Args {
@@ -184,7 +175,6 @@ impl Args {
         }
     }
 
-    /// Returns the options of the figures.
     fn look(&self, prepared: &PreparedScene) -> Result<Look> {
         let is_planar = prepared.mechanism.dimension() == 2;
         let plain = Look::plain(&prepared.mechanism);
@@ -264,18 +254,18 @@ impl Args {
         if self.stroboscope {
             drawn.times = self.times(motion);
             let figure = stroboscope_figure(motion, look, &drawn.times);
-            self.output.figure(folder, "stroboscope", Some(figure))?;
+            folder.figure("stroboscope", Some(figure))?;
             self.seal(folder, "stroboscope", prepared, drawn)?;
         } else if self.animate.is_none() && !self.outputs || !self.at.is_empty() {
             let t = self.at.first().map_or(prepared.start_time(), |t| t.min(motion.reach().1));
             let state = if self.at.is_empty() { State::start(prepared) } else { motion.state(t) };
             drawn.times = vec![t];
-            self.output.figure(folder, "mechanism", Some(mechanism_figure(prepared, look, &state)))?;
+            folder.figure("mechanism", Some(mechanism_figure(prepared, look, &state)))?;
             self.seal(folder, "mechanism", prepared, drawn)?;
         }
         if self.outputs {
             let figure = outputs_figure(&prepared.name, (motion.trajectory(), None), shown, self.separate);
-            self.output.figure(folder, "plot-outputs", figure)?;
+            folder.figure("plot-outputs", figure)?;
             self.seal(folder, "plot-outputs", prepared, drawn)?;
         }
         match self.animate {
@@ -298,7 +288,6 @@ impl Args {
         (0..self.frames).map(|k| if f64::from(k) == last { end } else { start + part(k) * (end - start) }).collect()
     }
 
-    /// Returns speed, start and end of the animation.
     fn film(&self, start: f64, end: f64) -> Result<Film> {
         let speed = self.speed.unwrap_or_else(|| suitable_speed(end - start));
         let frames = ((end - start) / speed * self.fps).round().max(1.0) + 1.0;
@@ -340,9 +329,9 @@ impl Args {
 
     /// Writes what it takes to draw the figure again.
     fn seal(&self, folder: &mut Folder, name: &str, prepared: &PreparedScene, drawn: &Drawn) -> Result<()> {
-        let result = self.common.talk.repeatable(prepared, drawn);
-        let simulation = result.simulation.filter(|_| self.from.is_none());
-        folder.seal(&format!("{name}.json"), Repeatable { simulation, ..result }).map(|_| ())
+        let origin = self.common.talk.origin(prepared);
+        let simulation = origin.simulation.filter(|_| self.from.is_none());
+        folder.seal(&format!("{name}.json"), Origin { simulation, ..origin }, drawn).map(drop)
     }
 }
 
@@ -356,7 +345,6 @@ fn suitable_speed(length: f64) -> f64 {
     [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power).into_iter().find(|speed| *speed >= 0.999 * exact).unwrap_or(exact)
 }
 
-/// Returns the text on the speed.
 fn speed_text(speed: f64) -> String {
     match speed {
         1.0 => String::new(),
@@ -366,7 +354,7 @@ fn speed_text(speed: f64) -> String {
 }
 
 impl Drawn {
-    fn text(&self, written: &Written) -> String {
+    fn text(&self) -> String {
         let times: Vec<String> = self.times.iter().map(|t| significant(*t, 4)).collect();
         let mut lines = Vec::new();
         if !times.is_empty() {
@@ -381,6 +369,6 @@ impl Drawn {
         if lines.is_empty() {
             lines.push(format!("{}: outputs over time", self.scene));
         }
-        format!("{}\n\nwritten to {}\n", lines.join("\n"), written.listing())
+        lines.join("\n") + "\n"
     }
 }

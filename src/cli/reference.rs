@@ -1,6 +1,6 @@
 //! `holonom reference`
 
-use super::common::{pick, print};
+use super::common::{pick, print, to_json};
 use crate::error::Result;
 use crate::math::expression::LANGUAGE;
 use crate::prepared;
@@ -8,7 +8,6 @@ use crate::report::Table;
 use crate::scene::units::Dimension;
 use crate::scene::{Elements, MeasureKind};
 use serde_json::Value;
-use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
@@ -21,7 +20,6 @@ pub struct Args {
     topic: Option<String>,
 }
 
-/// Lists of elements in a scene, which have types.
 const ELEMENTS: [&str; 3] = ["bodies", "joints", "forces"];
 
 /// References in references that are followed: a schema may refer to itself.
@@ -30,14 +28,17 @@ const DEEPEST: usize = 6;
 /// Width of a line, characters.
 const WIDTH: usize = 110;
 
-pub fn run(args: Args) -> Result<ExitCode> {
+pub fn run(args: Args) -> Result<()> {
     let reference = Reference { schema: prepared::schema(&Elements::default()) };
     let text = match &args.topic {
         None => reference.all(),
         Some(topic) => reference.topic(topic)?,
     };
-    print(&text)?;
-    Ok(ExitCode::SUCCESS)
+    print(&text)
+}
+
+pub fn schema() -> Result<()> {
+    print(&to_json(&prepared::schema(&Elements::default()))?)
 }
 
 /// A key of elements, with those that have it in this meaning.
@@ -47,7 +48,6 @@ struct InnerKey<'v> {
     owners: Vec<&'v str>,
 }
 
-/// What the schema of scenes says.
 struct Reference {
     schema: Value,
 }
@@ -63,10 +63,9 @@ impl Reference {
     }
 
     fn topic(&self, topic: &str) -> Result<String> {
-        let types = || ELEMENTS.iter().flat_map(|key| self.elements(key)).map(|kind| (name(kind), kind));
         let inner = self.inner_keys();
         let own = ["expressions", "units", "measures"].into_iter();
-        let own = own.chain(self.own_keys()).chain(types().map(|kind| kind.0));
+        let own = own.chain(self.own_keys()).chain(self.all_types().map(|kind| kind.0));
         let all = own.chain(self.measure_names()).chain(inner.iter().map(|key| key.name));
         let mut names: Vec<&str> = Vec::new();
         all.for_each(|name| {
@@ -75,23 +74,23 @@ impl Reference {
             }
         });
         let topic = if topic == "unit" { "units" } else { topic };
+        let is_type = |name: &str| self.all_types().any(|kind| kind.0 == name);
+        let is_measure = |name: &str| self.measure_names().any(|measure| measure == name);
         Ok(match pick("topic", topic, &names)? {
             "expressions" => language(),
             "units" => units(),
             "measures" => self.measures(),
-            name if self.measure_names().any(|measure| measure == name) && !types().any(|kind| kind.0 == name) => {
-                self.measure(name)
-            }
-            name if !self.own_keys().chain(types().map(|kind| kind.0)).any(|known| known == name) => {
+            name if is_measure(name) && !is_type(name) => self.measure(name),
+            name if !is_type(name) && !self.own_keys().any(|known| known == name) => {
                 inner.iter().filter(|key| key.name == name).map(|key| self.inner(key)).collect::<Vec<_>>().join("\n")
             }
             key if ELEMENTS.contains(&key) => self.types(key),
             "outputs" => {
-                let output = self.resolved(&self.schema["properties"]["outputs"]["items"]);
+                let output = self.output();
                 format!("{}\n\n{}\n{}", plain(output), self.keys(output), self.measures())
             }
             name => {
-                let kind = types().find(|kind| kind.0 == name).map(|kind| kind.1);
+                let kind = self.all_types().find(|kind| kind.0 == name).map(|kind| kind.1);
                 let place = kind.unwrap_or(&self.schema["properties"][name]);
                 let object = self.resolved(place.get("items").unwrap_or(place));
                 let is_object = object.get("properties").is_some();
@@ -103,13 +102,30 @@ impl Reference {
         })
     }
 
-    /// Returns the keys of a scene.
     fn own_keys(&self) -> impl Iterator<Item = &str> {
         properties(&self.schema).map(|(name, _)| name).filter(|name| !name.starts_with('$'))
     }
 
     fn elements(&self, key: &str) -> impl Iterator<Item = &Value> {
-        self.schema["properties"][key]["items"]["oneOf"].as_array().into_iter().flatten()
+        list(&self.schema["properties"][key]["items"]["oneOf"])
+    }
+
+    fn all_types(&self) -> impl Iterator<Item = (&str, &Value)> {
+        ELEMENTS.iter().flat_map(|key| self.elements(key)).map(|kind| (name(kind), kind))
+    }
+
+    fn output(&self) -> &Value {
+        self.resolved(&self.schema["properties"]["outputs"]["items"])
+    }
+
+    fn measure_kinds(&self) -> impl Iterator<Item = &Value> {
+        list(&self.schema["$defs"]["MeasureKind"]["oneOf"])
+    }
+
+    /// Returns the description of a value, or of what it refers to.
+    fn about(&self, value: &Value) -> String {
+        let own = plain(value);
+        if own.is_empty() { plain(self.resolved(value)) } else { own }
     }
 
     /// Returns the types of an element with the first sentence on each.
@@ -126,10 +142,8 @@ impl Reference {
 
     /// Returns the keys of elements and outputs, each once for each meaning that it has.
     fn inner_keys(&self) -> Vec<InnerKey<'_>> {
-        let output = self.resolved(&self.schema["properties"]["outputs"]["items"]);
-        let types = ELEMENTS.iter().flat_map(|key| self.elements(key)).map(|kind| (name(kind), kind));
         let mut found: Vec<InnerKey> = Vec::new();
-        for (owner, object) in types.chain([("outputs", output)]) {
+        for (owner, object) in self.all_types().chain([("outputs", self.output())]) {
             for (name, value) in properties(object).filter(|(name, _)| *name != "type") {
                 match found.iter_mut().find(|key| key.name == name && key.value == value) {
                     Some(key) => key.owners.push(owner),
@@ -142,9 +156,7 @@ impl Reference {
 
     /// Returns what a key of elements means, and what it contains.
     fn inner(&self, InnerKey { name, value, owners }: &InnerKey) -> String {
-        let own = plain(value);
-        let about = if own.is_empty() { plain(self.resolved(value)) } else { own };
-        let text = format!("{name} of {}: {about}", owners.join(", "));
+        let text = format!("{name} of {}: {}", owners.join(", "), self.about(value));
         format!(
             "{}\n{}{}",
             wrapped(text.trim_end_matches([':', ' ']), 0),
@@ -178,35 +190,31 @@ impl Reference {
             return Vec::new();
         }
         let reference = value["$ref"].as_str().and_then(|path| self.schema.pointer(path.trim_start_matches('#')));
-        let choices = ["anyOf", "oneOf"].into_iter().flat_map(|key| value[key].as_array().into_iter().flatten());
+        let choices = ["anyOf", "oneOf"].into_iter().flat_map(|key| list(&value[key]));
         let parts = ["items", "additionalProperties"].into_iter().filter_map(|key| value.get(key));
         choices.chain(parts).chain(reference).flat_map(|one| self.forms(one, deepest - 1)).collect()
     }
 
     fn measure_names(&self) -> impl Iterator<Item = &str> {
-        let kinds = self.schema["$defs"]["MeasureKind"]["oneOf"].as_array().into_iter().flatten();
-        kinds.filter_map(|kind| kind["const"].as_str())
+        self.measure_kinds().filter_map(|kind| kind["const"].as_str())
     }
 
     /// Returns what a measure is, and the keys that go with it.
     fn measure(&self, measure: &str) -> String {
-        let kinds = self.schema["$defs"]["MeasureKind"]["oneOf"].as_array().into_iter().flatten();
-        let kind = kinds.into_iter().find(|kind| kind["const"] == measure).unwrap_or(&Value::Null);
-        let keys = serde_json::from_value(kind["const"].clone()).map_or(&[][..], MeasureKind::keys);
-        let output = self.resolved(&self.schema["properties"]["outputs"]["items"]);
-        let mut object = output.clone();
+        let kind = self.measure_kinds().find(|kind| kind["const"] == measure).unwrap_or(&Value::Null);
+        let keys = keys_of(kind);
+        let mut object = self.output().clone();
         if let Some(all) = object["properties"].as_object_mut() {
             all.retain(|name, _| keys.contains(&name.as_str()) || ["name", "unit"].contains(&name.as_str()));
         }
         format!("measure {measure}: {}\n\n{}", wrapped(&plain(kind), 0), self.keys(&object))
     }
 
-    /// Returns the measures with their keys and units.
     fn measures(&self) -> String {
         let mut table = Table::left(&["measure", "keys", "unit, and what it is"]);
-        for kind in self.schema["$defs"]["MeasureKind"]["oneOf"].as_array().into_iter().flatten() {
-            let keys = serde_json::from_value(kind["const"].clone()).map_or(&[][..], MeasureKind::keys);
-            table.row([kind["const"].as_str().unwrap_or_default().to_string(), keys.join(", "), plain(kind)]);
+        for kind in self.measure_kinds() {
+            let name = kind["const"].as_str().unwrap_or_default();
+            table.row([name.to_string(), keys_of(kind).join(", "), plain(kind)]);
         }
         table.to_string()
     }
@@ -225,11 +233,10 @@ impl Reference {
 
     /// Returns the keys of an object with what they mean.
     fn keys(&self, object: &Value) -> String {
-        let required = |name: &str| object["required"].as_array().is_some_and(|all| all.iter().any(|one| one == name));
+        let required = |name: &str| list(&object["required"]).any(|one| one == name);
         let keys = properties(object).filter(|(name, _)| !name.starts_with('$'));
         let line = |(name, value): (&str, &Value)| {
-            let own = plain(value);
-            let about = if own.is_empty() { plain(self.resolved(value)) } else { own };
+            let about = self.about(value);
             let needed = if required(name) { " (required)" } else { "" };
             let about = if about.is_empty() { about } else { format!("\n      {}", wrapped(&about, 6)) };
             format!("  {name}{needed}{about}{}\n", self.choices(value))
@@ -241,8 +248,8 @@ impl Reference {
     fn choices(&self, value: &Value) -> String {
         let alternatives = value["anyOf"].as_array().map_or(vec![value], |all| all.iter().collect());
         let words = alternatives.into_iter().map(|one| self.resolved(one)).flat_map(|one| {
-            let named = one["oneOf"].as_array().into_iter().flatten().filter_map(|each| each.get("const"));
-            one["enum"].as_array().into_iter().flatten().chain(named).map(Value::to_string)
+            let named = list(&one["oneOf"]).filter_map(|each| each.get("const"));
+            list(&one["enum"]).chain(named).map(Value::to_string)
         });
         let words: Vec<String> = words.map(|word| word.trim_matches('"').to_string()).collect();
         if words.is_empty() { String::new() } else { format!("\n      {}", wrapped(&words.join(", "), 6)) }
@@ -250,11 +257,19 @@ impl Reference {
 
     /// Returns the definition that a value refers to, the last of a chain of them, or the value.
     fn resolved<'v>(&'v self, value: &'v Value) -> &'v Value {
-        let choices = value["anyOf"].as_array().into_iter().flatten();
-        let reference = [value].into_iter().chain(choices).find_map(|one| one["$ref"].as_str());
+        let reference = [value].into_iter().chain(list(&value["anyOf"])).find_map(|one| one["$ref"].as_str());
         let found = reference.and_then(|path| self.schema.pointer(path.trim_start_matches('#')));
         found.map_or(value, |found| if found.get("properties").is_some() { found } else { self.resolved(found) })
     }
+}
+
+fn list(value: &Value) -> impl Iterator<Item = &Value> {
+    value.as_array().into_iter().flatten()
+}
+
+/// Returns the keys that go with a measure.
+fn keys_of(kind: &Value) -> &'static [&'static str] {
+    serde_json::from_value(kind["const"].clone()).map_or(&[][..], MeasureKind::keys)
 }
 
 fn properties(object: &Value) -> impl Iterator<Item = (&str, &Value)> {
@@ -265,7 +280,6 @@ fn name(kind: &Value) -> &str {
     kind["properties"]["type"]["const"].as_str().unwrap_or_default()
 }
 
-/// Returns the description on one line.
 fn plain(value: &Value) -> String {
     value["description"].as_str().unwrap_or_default().replace('\n', " ")
 }
@@ -309,7 +323,6 @@ fn language() -> String {
     text.trim_end().to_string() + "\n"
 }
 
-/// Returns the units of each dimension.
 fn units() -> String {
     let mut table = Table::left(&["quantity", "units, that of the SI first"]);
     for dimension in Dimension::all() {

@@ -13,12 +13,12 @@ struct Saved {
     parameters: Map<String, Value>,
     #[serde(default)]
     scene_hash: String,
-    r#final: State,
+    r#final: LastRow,
     restart: Option<Checkpoint>,
 }
 
 #[derive(Deserialize)]
-struct State {
+struct LastRow {
     q: Map<String, Value>,
     v: Map<String, Value>,
 }
@@ -39,7 +39,7 @@ fn parse(text: &str) -> Result<Saved> {
 
 /// Refuses a run of another scene, and a state that no run has left.
 fn checked(
-    Saved { parameters, scene_hash, r#final: State { q, v }, restart }: Saved,
+    Saved { parameters, scene_hash, r#final: LastRow { q, v }, restart }: Saved,
     prepared: &PreparedScene,
     changed: bool,
 ) -> Result<Checkpoint> {

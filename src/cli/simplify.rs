@@ -1,11 +1,10 @@
 //! `holonom simplify SCENE --within P%`
 
-use super::common::{Output, SceneOptions, Talk, duration, number, tell};
+use super::common::{Output, SceneOptions, Talk, duration, fail, number};
 use super::interrupt;
 use crate::error::{Error, Result};
-use crate::prepared::{Overrides, PreparedScene};
-use crate::report::{simplify_figure, simplify_table, simplify_text};
-use crate::simplify::{Nearby, Norm, Settings, Simplification, Source, registry, simplify};
+use crate::prepared::Overrides;
+use crate::simplify::{Nearby, Norm, Settings, Source, registry, simplify};
 use clap::ValueEnum;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -82,34 +81,14 @@ pub fn run(args: Args) -> Result<ExitCode> {
     };
     let found = simplify(&source, &args.settings(), registry(), &interrupt::is_asked, &mut watch);
     bar.finish_and_clear();
-    report(&args, (&prepared, &found?), folder)
-}
-
-fn report(
-    args: &Args,
-    (prepared, found): (&PreparedScene, &Simplification),
-    mut folder: crate::report::Folder,
-) -> Result<ExitCode> {
+    let found = found?;
     args.talk.warn(&found.warnings);
-    folder.write("simplify.csv", &simplify_table(found)?)?;
-    args.output.figure(&mut folder, "simplify", simplify_figure(found))?;
-    let scene = serde_json::to_string_pretty(&found.simplified).map_err(|error| Error::input(error.to_string()))?;
-    folder.write("simplified.json", format!("{scene}\n").as_bytes())?;
-    let sealed = folder.seal("simplify.json", args.talk.repeatable(prepared, found))?;
-    let written = args.talk.finish(folder)?;
-    args.talk.print(&sealed, || simplify_text(found))?;
-    args.talk.tell_files(&written)?;
+    args.talk.publish(folder, "simplify", args.talk.origin(&prepared), &found)?;
     if interrupt::is_asked() {
-        tell("error: interrupted\n  help: the model is the least one until then");
-        return Ok(ExitCode::from(1));
+        return fail("interrupted\n  help: the model is the least one until then");
     }
-    if let Some(broken) = found.broken() {
-        tell(format!(
-            "error: {broken}\n  help: give the scene a tighter rtol and atol, or a shorter motion by --until"
-        ));
-        return Ok(ExitCode::from(1));
-    }
-    Ok(ExitCode::SUCCESS)
+    let help = "give the scene a tighter rtol and atol, or a shorter motion by --until";
+    found.broken().map_or(Ok(ExitCode::SUCCESS), |broken| fail(format!("{broken}\n  help: {help}")))
 }
 
 impl Args {

@@ -1,16 +1,17 @@
 //! `holonom simulate SCENE`
 
-use super::common::{Common, Output, command_line, tell};
+use super::common::{Common, Output, command_line, fail};
 use super::{interrupt, restart};
 use crate::analysis::{Record, Recorder};
 use crate::compare::{Completed, error_bars};
 use crate::error::{Error, Result, Warning};
 use crate::files::{mat, npz};
 use crate::prepared::PreparedScene;
-use crate::report::{self, Ending, Folder, RowFiles, Sealed, Shown, Summary, summarize};
+use crate::report::{self, Answer, Ending, Folder, RowFiles, Shown, Summary, summarize};
 use crate::simulate::{Span, Start, spread};
 use crate::system::{Dimensions, Scratch};
 use crate::trajectory::{Trajectory, recorded};
+use serde::Serialize;
 use std::cell::RefCell;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -101,18 +102,15 @@ pub fn run(args: Args) -> Result<ExitCode> {
     } else {
         summary
     };
-    let sealed = write((&prepared, &record, &summary), &mut folder, &args)?;
-    args.common.talk.conclude(folder, &sealed, || summary.text())?;
+    let answer = Simulated { args: &args, prepared: &prepared, record: &record, summary: &summary };
+    args.common.talk.publish(folder, "summary", None, &answer)?;
     args.common.talk.warn(&summary.origin.warnings[early.len()..]);
-    Ok(match &summary.failure {
+    match &summary.failure {
         // What ended the second run is a warning.
-        None if args.check_error && interrupt::is_asked() => ExitCode::from(1),
-        None => ExitCode::SUCCESS,
-        Some(failure) => {
-            tell(format!("error: {}", Error::from(failure.clone())));
-            ExitCode::from(1)
-        }
-    })
+        None if args.check_error && interrupt::is_asked() => Ok(ExitCode::from(1)),
+        None => Ok(ExitCode::SUCCESS),
+        Some(failure) => fail(Error::from(failure.clone())),
+    }
 }
 
 /// Calls `work` with all threads for large systems: this one becomes one of the pool, unless there is one.
@@ -125,8 +123,8 @@ fn on_all_threads<R>(work: impl FnOnce() -> R) -> R {
 impl Args {
     /// Returns the time span, if its rows fit into memory, or into a file.
     fn span(&self, prepared: &PreparedScene) -> Result<Span> {
-        let (Dimensions { q, v, lambda, .. }, outputs) =
-            (prepared.system().dimensions(), recorded(prepared.system()).len());
+        let Dimensions { q, v, lambda, .. } = prepared.system().dimensions();
+        let outputs = recorded(prepared.system()).len();
         if self.outputs_only && outputs == 0 {
             return Err(Error::input("--outputs-only leaves nothing to write: the scene has no outputs")
                 .hint("give it `outputs`, or run without --outputs-only"));
@@ -140,7 +138,6 @@ impl Args {
         self.check_error || self.format.iter().any(|format| *format != Format::Csv)
     }
 
-    /// The files of the rows.
     fn row_files(&self, prepared: &PreparedScene, folder: &mut Folder) -> Result<RowFiles> {
         let (system, (q, v)) = (prepared.system(), prepared.start());
         let trajectory = if self.outputs_only { Trajectory::of_outputs(system, 0) } else { Trajectory::new(system) };
@@ -149,27 +146,39 @@ impl Args {
     }
 }
 
-fn write<'s>(
-    (prepared, record, summary): (&PreparedScene, &Record, &'s Summary),
-    folder: &mut Folder,
-    args: &Args,
-) -> Result<Sealed<&'s Summary>> {
-    let arrays = || report::trajectory_arrays(&record.trajectory, summary.error.as_ref());
-    for format in &args.format {
-        match format {
-            Format::Csv => {}
-            Format::Npz => folder.write("trajectory.npz", &npz::write(&arrays())?)?,
-            Format::Mat => folder.write("trajectory.mat", &mat::write(&arrays())?)?,
-        }
+struct Simulated<'a> {
+    args: &'a Args,
+    prepared: &'a PreparedScene,
+    record: &'a Record,
+    summary: &'a Summary,
+}
+
+impl Answer for Simulated<'_> {
+    fn json(&self) -> impl Serialize {
+        self.summary
     }
-    let output = &args.output;
-    let name = &prepared.name;
-    let length = prepared.system().length();
-    let shown =
-        Shown::of_run(Ending::of(summary.failure.as_ref(), &record.drift, record.energy.as_ref()), record, length);
-    let outputs = report::outputs_figure(name, (&record.trajectory, summary.error.as_ref()), &shown, args.separate);
-    output.figure(folder, "outputs", outputs)?;
-    output.figure(folder, "drift", report::drift_figure(name, record, &shown, length))?;
-    output.figure(folder, "energy", report::energy_figure(name, record, &shown))?;
-    folder.seal("summary.json", summary)
+
+    fn text(&self) -> String {
+        self.summary.text()
+    }
+
+    fn write(&self, folder: &mut Folder, _: &str) -> Result<()> {
+        let Simulated { args, prepared, record, summary } = self;
+        let arrays = || report::trajectory_arrays(&record.trajectory, summary.error.as_ref());
+        for format in &args.format {
+            match format {
+                Format::Csv => {}
+                Format::Npz => folder.write("trajectory.npz", &npz::write(&arrays())?)?,
+                Format::Mat => folder.write("trajectory.mat", &mat::write(&arrays())?)?,
+            }
+        }
+        let name = &prepared.name;
+        let length = prepared.system().length();
+        let ending = Ending::of(summary.failure.as_ref(), &record.drift, record.energy.as_ref());
+        let shown = Shown::of_run(ending, record, length);
+        let outputs = report::outputs_figure(name, (&record.trajectory, summary.error.as_ref()), &shown, args.separate);
+        folder.figure("outputs", outputs)?;
+        folder.figure("drift", report::drift_figure(name, record, &shown, length))?;
+        folder.figure("energy", report::energy_figure(name, record, &shown))
+    }
 }

@@ -1,12 +1,12 @@
 //! `holonom stress SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, duration, pick, print};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, duration, json_files, pick, print};
 use crate::clock::Stopwatch;
-use crate::compare::stress::{Axis, Limits, Map, Quantity, Stressed, Subject, known, maps, pair, registry, stress};
+use crate::compare::stress::{Axis, Limits, Map, Quantity, Subject, known, maps, pair, registry, stress};
 use crate::error::{Error, Result};
 use crate::math::expression::{Number, Parameters};
-use crate::report::stress::{MapFile, StressFile, gain_table, sentences, stress_figure, stress_page, stress_table};
-use crate::report::{Folder, Table};
+use crate::report::stress::{FolderMaps, SceneMaps};
+use crate::report::{Answer, Table};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -67,51 +67,36 @@ pub fn run(args: Args) -> Result<ExitCode> {
 fn run_one(args: &Args, path: &Path) -> Result<ExitCode> {
     let begun = Stopwatch::start();
     let (subject, maps) = prepare(args, path)?;
-    let mut folder = args.output.folder(&subject.name)?;
-    let (file, stressed) = simulate(args, &subject, maps, begun);
-    write(args, &mut folder, std::slice::from_ref(&file), &[], |_, map| format!("stress-{map}"), &stressed)?;
-    let sealed = folder.seal("stress.json", args.talk.of_no_method(&subject.values, &file))?;
-    args.talk.conclude(folder, &sealed, || text(&file, &stressed))?;
+    let folder = args.output.folder(&subject.name)?;
+    let answer = simulate(args, &subject, maps, begun);
+    args.talk.publish(folder, "stress", args.talk.origin_of(&subject.values), &answer)?;
     Ok(ExitCode::SUCCESS)
 }
 
 fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
-    let scenes = scenes(path)?;
-    let mut folder = args.output.folder("stress")?;
-    let mut files = Vec::new();
+    let paths = scenes(path)?;
+    let folder = args.output.folder("stress")?;
+    let mut scenes = Vec::new();
     let mut unread = Vec::new();
-    let mut all = Vec::new();
-    for scene in scenes {
+    for path in paths {
         let begun = Stopwatch::start();
-        match prepare(args, &scene) {
-            Err(error) => unread.push((scene.display().to_string(), error.to_string())),
+        match prepare(args, &path) {
+            Err(error) => unread.push((path.display().to_string(), error.to_string())),
             Ok((subject, maps)) => {
-                let (file, stressed) = simulate(args, &subject, maps, begun);
-                args.talk.say(&text(&file, &stressed))?;
-                files.push(file);
-                all.extend(stressed);
+                let maps = simulate(args, &subject, maps, begun);
+                args.talk.say(&maps.text())?;
+                scenes.push(maps);
             }
         }
     }
-    write(args, &mut folder, &files, &unread, |scene, map| format!("{scene}-{map}"), &all)?;
-    let is_empty = files.is_empty();
-    let all = args.talk.of_no_method(&Parameters::default(), All { scenes: files });
-    let sealed = folder.seal("stress.json", all)?;
-    args.talk.conclude(folder, &sealed, String::new)?;
+    let is_empty = scenes.is_empty();
+    args.talk.publish(folder, "stress", args.talk.origin_of(&Parameters::default()), &FolderMaps { scenes, unread })?;
     Ok(ExitCode::from(u8::from(is_empty)))
 }
 
-/// Returns the scenes of a folder, by name.
 fn scenes(path: &Path) -> Result<Vec<PathBuf>> {
-    let entries =
-        std::fs::read_dir(path).map_err(|error| Error::file(path, format!("no folder of scenes: {error}")))?;
-    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
-    let is_scene = |path: &PathBuf| {
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        name.ends_with(".json") && !name.ends_with(".schema.json")
-    };
-    paths.retain(is_scene);
-    paths.sort();
+    let mut paths = json_files(path).map_err(|error| Error::file(path, format!("no folder of scenes: {error}")))?;
+    paths.retain(|path| !path.to_string_lossy().ends_with(".schema.json"));
     if paths.is_empty() { Err(Error::file(path, "there is no scene in this folder")) } else { Ok(paths) }
 }
 
@@ -145,7 +130,7 @@ impl Args {
 const LONGEST: Duration = Duration::from_secs(1_000_000_000);
 
 /// Simulates the maps, each with its share of the remaining time.
-fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begun: Stopwatch) -> (StressFile, Vec<Stressed>) {
+fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begun: Stopwatch) -> SceneMaps {
     let budget = args.budget();
     let cell = args.limit.min(LONGEST);
     let count = maps.len();
@@ -156,59 +141,16 @@ fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begun: Stopwatch) ->
         let all = 2 * left / (count - k + 1) as u32;
         stress(subject, map, Limits { cell, all }, &|| bar.inc(1))
     };
-    let stressed: Vec<Stressed> = maps.into_iter().enumerate().map(one).collect();
+    let maps = maps.into_iter().enumerate().map(one).collect();
     bar.finish_and_clear();
-    let file = StressFile {
+    SceneMaps {
         scene: subject.name.clone(),
         method: subject.base.method.clone(),
         typical_step: subject.base.typical.step,
         typical_period: subject.base.typical.period,
         wall_seconds: begun.wall().as_secs_f64(),
-        maps: stressed.iter().map(MapFile::from).collect(),
-    };
-    (file, stressed)
-}
-
-fn write(
-    args: &Args,
-    folder: &mut Folder,
-    files: &[StressFile],
-    unread: &[(String, String)],
-    stem: impl Fn(&str, &str) -> String,
-    stressed: &[Stressed],
-) -> Result<()> {
-    let names = files.iter().flat_map(|file| file.maps.iter().map(move |map| (&file.scene, &map.name)));
-    for ((scene, map), stressed) in names.zip(stressed) {
-        args.output.figure(folder, &stem(scene, map), stress_figure(scene, stressed))?;
+        maps,
     }
-    let figure = |scene: &str, map: &str| Some(format!("{}.{}", stem(scene, map), args.output.figures.extension()?));
-    folder.write("stress.md", stress_page(files, unread, figure).as_bytes())?;
-    folder.write("stress.csv", &stress_table(files)?)?;
-    Ok(())
-}
-
-/// Scenes and their maps in one file.
-#[derive(serde::Serialize)]
-struct All {
-    scenes: Vec<StressFile>,
-}
-
-/// Returns the verdicts, and the table of the gains.
-fn text(file: &StressFile, stressed: &[Stressed]) -> String {
-    let mut text = format!("{}: extremes, {:.0} s\n", file.scene, file.wall_seconds);
-    for stressed in stressed {
-        text += &format!("\n{}: {}\n", stressed.map.name, stressed.map.about);
-        text.extend(sentences(stressed).iter().map(|sentence| format!("  {sentence}\n")));
-        let opinion = stressed.second_opinion.iter();
-        text.extend(opinion.map(|opinion| format!("  the reference in the middle of the map is {opinion}\n")));
-        text.extend(
-            stressed
-                .gains()
-                .iter()
-                .map(|gains| format!("\n  {}, {} drift\n{}", gains.method, gains.quantity.name(), gain_table(gains))),
-        );
-    }
-    text
 }
 
 fn list() -> String {

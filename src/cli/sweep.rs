@@ -1,9 +1,9 @@
 //! `holonom sweep SCENE NAME=A..B:N`
 
-use super::common::{Output, SceneOptions, Talk, tell};
+use super::common::{Output, SceneOptions, Talk, fail};
 use crate::error::{Result, Warning, find};
 use crate::prepared::Overrides;
-use crate::report::{SweepLook, SweepSummary, sweep_figure, sweep_table};
+use crate::report::{SweepAnswer, SweepLook};
 use crate::sweep::{Family, Range, Sweep};
 use crate::system::Column;
 use std::process::ExitCode;
@@ -44,12 +44,11 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let sweep = family.sweep(&args.range, |done| bar.set_position(done as u64))?;
     bar.finish_and_clear();
     args.talk.warn(&moves_nothing(&sweep));
-    let summary = SweepSummary::new(&sweep);
-    write(&args, &family, &sweep, &summary)?;
-    let Some(failure) = &summary.failure else { return Ok(ExitCode::SUCCESS) };
-    let ends = summary.ends().join("\n       ");
-    tell(format!("error: the branch ends {ends}\n  help: {}", failure.hint));
-    Ok(ExitCode::from(1))
+    let look = SweepLook { outputs: &args.outputs, against: args.against.as_deref(), separate: args.separate };
+    let answer = SweepAnswer { sweep: &sweep, look };
+    let folder = args.output.folder(&sweep.scene)?;
+    args.talk.publish(folder, "sweep", args.talk.origin_of(&family.scene()?.parameters), &answer)?;
+    answer.failure().map_or(Ok(ExitCode::SUCCESS), fail)
 }
 
 fn moves_nothing(sweep: &Sweep) -> Option<Warning> {
@@ -63,13 +62,4 @@ fn moves_nothing(sweep: &Sweep) -> Option<Warning> {
 fn known_output(known: &[Column], names: &[String]) -> Result<()> {
     let names_of = || known.iter().map(|column| column.name.as_str());
     names.iter().try_for_each(|name| find("output", name, names_of()).map(drop))
-}
-
-fn write(args: &Args, family: &Family, sweep: &Sweep, summary: &SweepSummary) -> Result<()> {
-    let mut folder = args.output.folder(&sweep.scene)?;
-    folder.write("sweep.csv", &sweep_table(sweep)?)?;
-    let look = SweepLook { outputs: &args.outputs, against: args.against.as_deref(), separate: args.separate };
-    args.output.figure(&mut folder, "sweep", sweep_figure(sweep, look))?;
-    let sealed = folder.seal("sweep.json", args.talk.of_no_method(&family.scene()?.parameters, summary))?;
-    args.talk.conclude(folder, &sealed, || summary.text())
 }

@@ -5,8 +5,7 @@ use super::interrupt;
 use super::linear::{AtStates, ChartOptions};
 use crate::clock::Stopwatch;
 use crate::error::{Result, Warning};
-use crate::report::cell;
-use crate::report::linear::{ValidationFile, validation_figure};
+use crate::report::linear::ValidationAnswer;
 use crate::validate::{Direction, Settings, validate_until};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -61,23 +60,9 @@ pub fn run(args: Args) -> Result<ExitCode> {
         };
         let found = validate_until(place.system(), &place.state, &settings, &is_over).map_err(args.at.in_file())?;
         args.at.talk.warn(&found.cut.iter().map(|text| Warning::new(text, MORE)).collect::<Vec<_>>());
-        let file = ValidationFile::new(&prepared.name, &names, &found);
-        let stem = format!("validation-{}", cell(place.state.t));
-        for (i, sequence) in found.sequences.iter().enumerate() {
-            let title = format!(
-                "{}, perturbed at t = {} s ({})",
-                prepared.name,
-                crate::error::significant(place.state.t, 6),
-                sequence.direction
-            );
-            let name = if i == 0 { stem.clone() } else { format!("{stem}-{}", i + 1) };
-            args.at.output.figure(folder, &name, validation_figure(&title, &names, sequence))?;
-        }
-        args.at.talk.say(&file.text(&found))?;
-        if !file.is_right() {
-            complaints.push(file.complaint());
-        }
-        folder.seal(&format!("{stem}.json"), args.at.talk.repeatable(&prepared, file))
+        let answer = ValidationAnswer { scene: &prepared.name, names: &names, found };
+        complaints.extend((!answer.is_right()).then(|| answer.complaint()));
+        args.at.add(folder, "validation", (&prepared, place.state.t), &answer)
     })?;
     for complaint in &complaints {
         tell(format!("error: {complaint}"));

@@ -18,9 +18,6 @@ use std::path::Path;
 
 /// Writes one file atomically: it is renamed to its place when it is complete. A device, such as
 /// a terminal, is written to.
-///
-/// # Errors
-/// Errors of the file system.
 pub fn write_whole(path: &Path, contents: &[u8]) -> io::Result<()> {
     if path.exists() && !path.is_file() && !path.is_dir() {
         return OpenOptions::new().write(true).open(path)?.write_all(contents);

@@ -51,9 +51,6 @@ pub struct Staging {
 
 impl Staging {
     /// Makes a hidden folder in `target`, which must exist.
-    ///
-    /// # Errors
-    /// A folder that cannot be written to.
     pub fn create(target: &Path) -> io::Result<Staging> {
         remove_abandoned(target);
         loop {
@@ -63,6 +60,16 @@ impl Staging {
                 return Ok(Staging { target: target.to_path_buf(), names: Vec::new(), _lock: lock, hidden });
             }
         }
+    }
+
+    /// The folder in which the files will be.
+    pub fn target(&self) -> &Path {
+        &self.target
+    }
+
+    /// Names of the files, in the order in which they were first written.
+    pub fn names(&self) -> &[String] {
+        &self.names
     }
 
     /// Writes a file that will be called `name`.
@@ -76,9 +83,6 @@ impl Staging {
     }
 
     /// Makes a file that will be called `name`, to be written and synchronized before [`publish`](Self::publish).
-    ///
-    /// # Errors
-    /// As [`write`](Self::write).
     pub fn open(&mut self, name: &str) -> io::Result<File> {
         if self.target.join(name).is_dir() {
             return Err(io::ErrorKind::IsADirectory.into());

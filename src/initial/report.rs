@@ -4,15 +4,19 @@ use crate::system::MechanicalSystem;
 use serde::Serialize;
 
 /// A consistent start.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Assembly {
     /// Coordinates, n_q.
+    #[serde(skip)]
     pub q: Vec<f64>,
     /// Velocities, n_v.
+    #[serde(skip)]
     pub v: Vec<f64>,
     /// Accelerations, n_v.
+    #[serde(skip)]
     pub vdot: Vec<f64>,
     /// Multipliers, n_c.
+    #[serde(skip)]
     pub lambda: Vec<f64>,
     /// Residuals of the guess.
     pub before: Level,
@@ -22,6 +26,7 @@ pub struct Assembly {
     pub moves: Vec<Move>,
     /// True if Newton's method comes from the guess to a singular state with open joints, and they closed from beside
     /// the guess: on one of several branches.
+    #[serde(skip)]
     pub is_beside: bool,
 }
 

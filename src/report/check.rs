@@ -1,101 +1,93 @@
 //! The report of `check`.
 
 use super::Table;
-use super::equilibrium::EquilibriumFile;
+use super::equilibrium::EquilibriumReport;
 use super::hints::hints_text;
-use super::summary::AssemblySummary;
-use super::table::{OutputValues, count};
+use super::table::{OutputValues, count, moves_text};
 use crate::analysis::{Rank, Redundant};
 use crate::error::{Failure, significant};
 use crate::initial::Assembly;
 use crate::math::largest;
 use crate::prepared::{AnyMechanism, PreparedScene};
-use crate::scene::{BeamLine, Connection, Model};
+use crate::scene::{BeamLine, Model, Part};
 use crate::simplify::Hints;
 use crate::simulate::{SpectralMode, refused};
-use crate::system::{Group, OperatingPoint, Scratch};
+use crate::system::{Group, OperatingPoint};
 use crate::tolerances::report as tolerances;
 use serde::Serialize;
 
 /// Size of a model, and its rank and conditioning at the start.
 #[derive(Clone, Debug, Serialize)]
 pub struct Check {
-    /// Name of the scene.
-    pub scene: String,
+    scene: String,
     /// 2 in the plane, 3 in space.
-    pub dimension: usize,
-    /// n_q.
-    pub coordinates: usize,
+    dimension: usize,
+    coordinates: usize,
     /// n_v without the states.
     pub velocities: usize,
-    /// n_c.
     pub constraints: usize,
-    /// Rank of G at the start.
     pub rank: usize,
     /// Rank of G at a nearby state: higher where the start is a singular state.
-    pub rank_beside: usize,
+    rank_beside: usize,
     /// n_v less the rank and the states.
     pub degrees_of_freedom: usize,
     /// Dependent rows of G, with their joints.
     pub redundant: Vec<Redundant>,
-    /// Changes of the start by assembly.
-    pub assembly: AssemblySummary,
-    /// Rates and outputs at the start.
-    pub start: Start,
+    assembly: Assembly,
+    start: Start,
     /// The reason why no simulation begins there.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub refused: Option<Failure>,
+    refused: Option<Failure>,
     /// Condition number of the equilibrated saddle-point matrix without the redundant rows.
-    pub condition: f64,
+    condition: f64,
     /// Rank indicator of G: the smallest sine between one of its rows and those before it, in the metric of M^-1,
     /// without redundant rows; 1 is far from a singular state, 0 is one.
-    pub distance_to_singularity: f64,
+    distance_to_singularity: f64,
     /// Largest and smallest entry on the diagonal of M, kg or kg m^2.
-    pub mass_range: [f64; 2],
+    mass_range: [f64; 2],
     /// The fastest mode at the start, 1/s; none without degrees of freedom.
-    pub fastest_mode: Option<SpectralMode>,
+    fastest_mode: Option<SpectralMode>,
     /// Length that drift is relative to, m.
-    pub length_scale: f64,
-    /// Bodies, with their coordinates.
-    pub bodies: Vec<Item>,
-    /// Joints, with their rows.
-    pub joints: Vec<Item>,
-    /// Forces.
-    pub forces: Vec<Item>,
-    /// States.
+    length_scale: f64,
+    bodies: Vec<Element>,
+    joints: Vec<Element>,
+    forces: Vec<Element>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub states: Vec<Item>,
+    states: Vec<Element>,
     /// Quantities that the scene does not ask for and that are not computed.
-    pub left_out: Vec<String>,
+    left_out: Vec<String>,
     /// What looks superfluous or missing, if it was looked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hints: Option<Hints>,
-    /// The static equilibrium, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub equilibrium: Option<EquilibriumFile>,
+    pub equilibrium: Option<EquilibriumReport>,
 }
 
 /// Rates and outputs at the assembled start.
 #[derive(Clone, Debug, Serialize)]
-pub struct Start {
+struct Start {
     /// max |v|, m/s and rad/s.
-    pub velocity: f64,
-    pub acceleration: f64,
+    velocity: f64,
+    acceleration: f64,
     /// True if nothing moves or accelerates.
-    pub is_equilibrium: bool,
-    pub outputs: OutputValues,
+    is_equilibrium: bool,
+    outputs: OutputValues,
 }
 
-/// An element of the scene.
 #[derive(Clone, Debug, Serialize)]
-pub struct Item {
-    pub name: String,
-    pub kind: String,
+struct Element {
+    name: String,
+    kind: String,
     /// Coordinates of a body, rows of a joint.
-    pub detail: String,
+    detail: String,
 }
 
-/// Analyses the assembled start of a scene.
+impl Element {
+    fn new(name: &str, kind: impl Into<String>, detail: impl Into<String>) -> Element {
+        Element { name: name.to_string(), kind: kind.into(), detail: detail.into() }
+    }
+}
+
 pub fn check(prepared: &PreparedScene) -> Check {
     match &prepared.mechanism {
         AnyMechanism::Planar(mechanism) => inspect(prepared, mechanism.model()),
@@ -118,7 +110,7 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
         rank_beside: found.nearby,
         degrees_of_freedom: n.moving() - found.rank,
         redundant: found.redundant,
-        assembly: (&prepared.assembly).into(),
+        assembly: prepared.assembly.clone(),
         start: Start::of(prepared),
         refused: prepared.span().ok().and_then(|span| refused(system, &prepared.method, span, prepared.start())),
         condition: found.condition,
@@ -128,8 +120,12 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
         length_scale: system.length(),
         bodies: bodies(model),
         joints: system.groups().iter().map(|group| joint_item(group, &names)).collect(),
-        forces: forces(model),
-        states: states(model),
+        forces: model
+            .given_forces()
+            .iter()
+            .map(|force| Element::new(&force.name, force.kind.to_string(), ""))
+            .collect(),
+        states: model.markers.states.iter().map(|(name, _)| Element::new(name, "state", "")).collect(),
         left_out: left_out(model),
         hints: None,
         equilibrium: None,
@@ -140,36 +136,22 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
 const SHOWN_NAMES: usize = 14;
 
 /// Returns the bodies of the scene; the nodes of a flexible beam are listed as one body.
-fn bodies<const D: usize>(model: &Model<D>) -> Vec<Item> {
-    let item = |(i, part): (usize, &crate::scene::Part<D>)| match model.beams.iter().find(|b| b.bodies().contains(&i)) {
+fn bodies<const D: usize>(model: &Model<D>) -> Vec<Element> {
+    let item = |(i, part): (usize, &Part<D>)| match model.beams.iter().find(|beam| beam.bodies().contains(&i)) {
         None => Some(body_item(part)),
         Some(beam) => (beam.first_body == i).then(|| beam_item(beam, part)),
     };
     model.given_bodies().iter().enumerate().filter_map(item).collect()
 }
 
-fn beam_item<const D: usize>(beam: &BeamLine, node: &crate::scene::Part<D>) -> Item {
+fn beam_item<const D: usize>(beam: &BeamLine, node: &Part<D>) -> Element {
     let elements = beam.elements.len();
     let nodes = beam.abscissae.len();
     let detail = format!("{elements} elements, {nodes} nodes of {}", node.body.coordinate_names().join(" "));
-    Item { name: beam.name.clone(), kind: "flexible beam, absolute".to_string(), detail }
+    Element::new(&beam.name, "flexible beam, absolute", detail)
 }
 
-/// Returns the forces of the scene.
-fn forces<const D: usize>(model: &Model<D>) -> Vec<Item> {
-    let item =
-        |force: &Connection<_>| Item { name: force.name.clone(), kind: force.kind.to_string(), detail: String::new() };
-    model.given_forces().iter().map(item).collect()
-}
-
-fn states<const D: usize>(model: &Model<D>) -> Vec<Item> {
-    let kind = "state".to_string();
-    let detail = String::new();
-    let item = |(name, _): &(String, usize)| Item { name: name.clone(), kind: kind.clone(), detail: detail.clone() };
-    model.markers.states.iter().map(item).collect()
-}
-
-fn body_item<const D: usize>(part: &crate::scene::Part<D>) -> Item {
+fn body_item<const D: usize>(part: &Part<D>) -> Element {
     let kind = match (part.nq, part.nv) {
         (7, 6) => "rigid, quaternion",
         _ if part.body.elastic_count() > 0 => "flexible, floating frame",
@@ -184,12 +166,12 @@ fn body_item<const D: usize>(part: &crate::scene::Part<D>) -> Item {
         }
         all => all.join(" "),
     };
-    Item { name: part.name.clone(), kind: kind.to_string(), detail }
+    Element::new(&part.name, kind, detail)
 }
 
-fn joint_item(group: &Group, names: &[String]) -> Item {
-    let rows = names[group.rows.clone()].iter().filter_map(|name| name.rsplit('.').next());
-    Item { name: group.name.clone(), kind: group.kind.clone(), detail: rows.collect::<Vec<_>>().join(" ") }
+fn joint_item(group: &Group, names: &[String]) -> Element {
+    let rows: Vec<&str> = names[group.rows.clone()].iter().filter_map(|name| name.rsplit('.').next()).collect();
+    Element::new(&group.name, &group.kind, rows.join(" "))
 }
 
 fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
@@ -215,16 +197,15 @@ fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
 }
 
 impl Check {
-    /// Returns the report as text.
     pub fn text(&self) -> String {
         let mut text = format!(
             "{}: {}, {}, {} of rank {}, {} of freedom\n\n",
             self.scene,
-            count(self.coordinates, "coordinate", "coordinates"),
-            count(self.velocities, "velocity", "velocities"),
-            count(self.constraints, "constraint", "constraints"),
+            count(self.coordinates, "coordinate"),
+            count(self.velocities, "velocity"),
+            count(self.constraints, "constraint"),
             self.rank,
-            count(self.degrees_of_freedom, "degree", "degrees")
+            count(self.degrees_of_freedom, "degree")
         );
         let elements = [
             ("body", "coordinates", &self.bodies),
@@ -239,7 +220,7 @@ impl Check {
                 text += &format!("{table}\n");
             }
         }
-        let rest = self.equilibrium.as_ref().map_or(String::new(), EquilibriumFile::text);
+        let rest = self.equilibrium.as_ref().map_or(String::new(), EquilibriumReport::text);
         let hints = self.hints.as_ref().map_or(String::new(), hints_text);
         text + &self.redundancy_text() + &self.start_text() + &self.scales_text() + &hints + &rest
     }
@@ -273,14 +254,7 @@ impl Check {
             "start: |phi| {:.1e} -> {:.1e}, |phi'| {:.1e} -> {:.1e} (given -> assembled, relative to the scale)\n",
             assembly.before.phi, assembly.after.phi, assembly.before.phi_dot, assembly.after.phi_dot
         );
-        for change in assembly.moves.iter().take(10) {
-            let from = significant(change.from, 8);
-            let to = significant(change.to, 8);
-            text += &format!("  moved {}: {from} -> {to}\n", change.name);
-        }
-        if assembly.moves.len() > 10 {
-            text += &format!("  and {} smaller moves\n", assembly.moves.len() - 10);
-        }
+        text += &moves_text(&assembly.moves);
         let refused = self
             .refused
             .as_ref()
@@ -304,12 +278,9 @@ impl Check {
 }
 
 impl Start {
-    pub fn of(prepared: &PreparedScene) -> Start {
+    fn of(prepared: &PreparedScene) -> Start {
         let Assembly { q, v, vdot, lambda, .. } = &prepared.assembly;
-        let columns = prepared.system().columns();
-        let mut values = vec![0.0; columns.len()];
         let at = OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda };
-        prepared.system().outputs(at, &mut values, &mut Scratch::default());
         let moving = ..prepared.system().dimensions().moving();
         let velocity = largest(&v[moving]);
         let acceleration = largest(&vdot[moving]);
@@ -317,11 +288,11 @@ impl Start {
             velocity,
             acceleration,
             is_equilibrium: velocity == 0.0 && largest(vdot) < tolerances::RESTING_START,
-            outputs: OutputValues::new(columns, values),
+            outputs: OutputValues::at(prepared.system(), at),
         }
     }
 
-    pub fn text(&self) -> String {
+    fn text(&self) -> String {
         let rest = match (self.is_equilibrium, self.velocity) {
             (true, _) => format!("static equilibrium: at rest, accelerations below {:.1e}\n", self.acceleration),
             (false, 0.0) => {

@@ -11,6 +11,14 @@ const UNCHECKED_STEP: &str = "nothing estimates the errors of fixed steps: --che
 const PENALIZED: &str =
     "no tolerance or step takes away the error O(1/penalty): take a larger penalty for a smaller one";
 
+/// Returns the step, or the tolerances.
+pub fn accuracy(Method { rtol, atol, step, .. }: &Method) -> String {
+    match step {
+        Some(step) => format!("step {} s", clock(*step)),
+        None => format!("rtol {rtol:e}, atol {atol:e}"),
+    }
+}
+
 /// Returns the error bars, or a note that the error is not known.
 pub fn text(method: &Method, bars: Option<&ErrorBars>) -> String {
     let found = match (bars, method.step) {
@@ -46,7 +54,6 @@ fn of_companion(bars: &ErrorBars) -> String {
     }
 }
 
-/// Returns a warning if the companion ended early.
 pub fn cut_short(bars: &ErrorBars) -> Option<Warning> {
     let failure = bars.failure.as_ref()?;
     let text = format!(

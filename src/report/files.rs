@@ -1,8 +1,9 @@
 //! The folder of the results.
 
-use super::origin::{Sealed, Settings};
+use super::origin::{Origin, Sealed, Settings};
 use crate::error::{Error, Result};
 use crate::files::{self, Staging};
+use crate::plot::Figure;
 use serde::Serialize;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -16,100 +17,121 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<()> {
 /// Returns bad input where the path is wrong; a failure where the disk is full or the like.
 fn failed(path: &Path, what: &str, error: &io::Error) -> Error {
     use io::ErrorKind::*;
-    let problem = format!("{what}: {}", reason(error));
-    let is_misplaced = matches!(
-        error.kind(),
-        PermissionDenied
-            | NotFound
-            | NotADirectory
-            | IsADirectory
-            | AlreadyExists
-            | ReadOnlyFilesystem
-            | InvalidFilename
-            | InvalidInput
-    );
+    let elsewhere = "choose another place with -o";
+    let (reason, is_misplaced) = match error.kind() {
+        PermissionDenied => (format!("no permission; {elsewhere}"), true),
+        NotFound => (format!("the folder that it would be in does not exist; {elsewhere}"), true),
+        NotADirectory => (format!("a part of this path is a file; {elsewhere}"), true),
+        IsADirectory => (format!("this is a directory; {elsewhere}"), true),
+        AlreadyExists => (format!("it is a file; {elsewhere}"), true),
+        ReadOnlyFilesystem => (format!("the disk is read-only; {elsewhere}"), true),
+        InvalidFilename | InvalidInput => (error.to_string(), true),
+        StorageFull | QuotaExceeded => (format!("the disk is full; make room, or {elsewhere}"), false),
+        FileTooLarge => (format!("files must not become so large here; raise the limit, or {elsewhere}"), false),
+        _ => (error.to_string(), false),
+    };
+    let problem = format!("{what}: {reason}");
     if is_misplaced { Error::file(path, problem) } else { Error::unwritten(path, problem) }
 }
 
-fn reason(error: &io::Error) -> String {
-    use io::ErrorKind::*;
-    let elsewhere = "choose another place with -o";
-    match error.kind() {
-        PermissionDenied => format!("no permission; {elsewhere}"),
-        NotFound => format!("the folder that it would be in does not exist; {elsewhere}"),
-        NotADirectory => format!("a part of this path is a file; {elsewhere}"),
-        IsADirectory => format!("this is a directory; {elsewhere}"),
-        AlreadyExists => format!("it is a file; {elsewhere}"),
-        ReadOnlyFilesystem => format!("the disk is read-only; {elsewhere}"),
-        StorageFull | QuotaExceeded => format!("the disk is full; make room, or {elsewhere}"),
-        FileTooLarge => format!("files must not become so large here; raise the limit, or {elsewhere}"),
-        _ => error.to_string(),
-    }
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Format {
+    Svg,
+    Png,
+    None,
 }
 
 /// A folder of the results of one command, which appear all together: [`finish`](Self::finish) moves them into place.
 /// Without it none appears, and earlier results stay complete until then. [`Staging`] describes how.
 pub struct Folder {
-    path: PathBuf,
-    written: Vec<String>,
+    figures: Format,
+    staging: Staging,
     /// Number of the files that belong to a result.
     sealed: usize,
     notes: Vec<String>,
     obsolete: Vec<String>,
-    staging: Option<Staging>,
 }
 
 impl Folder {
-    /// Makes the folder and tests that it can be written to, before anything is computed.
+    /// Makes the folder, and one to write to, before anything is computed.
     pub fn create(path: &Path) -> Result<Folder> {
         std::fs::create_dir_all(path).map_err(|error| failed(path, "cannot make this folder", &error))?;
-        Staging::create(path).map_err(|error| failed(path, "cannot write here", &error))?;
-        let path = path.to_path_buf();
-        Ok(Folder { path, written: Vec::new(), sealed: 0, notes: Vec::new(), obsolete: Vec::new(), staging: None })
+        let staging = Staging::create(path).map_err(|error| failed(path, "cannot write here", &error))?;
+        Ok(Folder { figures: Format::Svg, staging, sealed: 0, notes: Vec::new(), obsolete: Vec::new() })
     }
 
-    /// Returns the path of the folder.
+    /// Chooses the format of the figures.
+    pub fn drawing(self, figures: Format) -> Folder {
+        Folder { figures, ..self }
+    }
+
     pub fn path(&self) -> &Path {
-        &self.path
+        self.staging.target()
+    }
+
+    /// Returns the paths of the files.
+    pub fn paths(&self) -> Vec<String> {
+        self.staging.names().iter().map(|name| self.path().join(name).display().to_string()).collect()
     }
 
     /// Writes a file that appears after [`finish`](Self::finish). The presence of the last one shows that all are
     /// complete.
     pub fn write(&mut self, name: &str, contents: &[u8]) -> Result<()> {
-        self.stage(name, |staging| staging.write(name, contents))
+        let mut file = self.stream(name)?;
+        file.append(contents);
+        file.finish()
+    }
+
+    pub fn table(&mut self, stem: &str, contents: &[u8]) -> Result<()> {
+        self.write(&format!("{stem}.csv"), contents)
+    }
+
+    /// Writes a figure in the chosen format, if there is one and any is chosen.
+    pub fn figure(&mut self, name: &str, figure: Option<Figure>) -> Result<()> {
+        let refused = |reason| Error::input(format!("cannot draw {name}.png: {reason}")).hint("choose --figures svg");
+        match (figure, self.drawn(name)) {
+            (Some(figure), Some(file)) if self.figures == Format::Svg => self.write(&file, figure.to_svg().as_bytes()),
+            (Some(figure), Some(file)) => self.write(&file, &figure.to_png().map_err(refused)?),
+            _ => Ok(()),
+        }
+    }
+
+    /// Returns the file of a figure; none where no format is chosen.
+    pub(super) fn drawn(&self, name: &str) -> Option<String> {
+        match self.figures {
+            Format::Svg => Some(format!("{name}.svg")),
+            Format::Png => Some(format!("{name}.png")),
+            Format::None => None,
+        }
     }
 
     /// Makes a file that is written while it is computed, and appears after [`finish`](Self::finish).
     pub fn stream(&mut self, name: &str) -> Result<Stream> {
-        let file = self.stage(name, |staging| staging.open(name))?;
-        Ok(Stream { path: self.path.join(name), file: BufWriter::new(file), error: None })
-    }
-
-    fn stage<T>(&mut self, name: &str, write: impl FnOnce(&mut Staging) -> io::Result<T>) -> Result<T> {
-        let unwritten = |error: io::Error| failed(&self.path.join(name), UNWRITTEN, &error);
-        let staging = match &mut self.staging {
-            Some(staging) => staging,
-            none => none.insert(Staging::create(&self.path).map_err(unwritten)?),
-        };
-        let made = write(staging).map_err(unwritten)?;
-        if !self.written.iter().any(|known| known == name) {
-            self.written.push(name.to_string());
-        }
-        Ok(made)
+        let path = self.path().join(name);
+        let file = self.staging.open(name).map_err(|error| failed(&path, UNWRITTEN, &error))?;
+        Ok(Stream { path, file: BufWriter::new(file), error: None })
     }
 
     /// Writes a result as indented JSON, with the names of the files that were written since the last one and belong
     /// to it. Those that an earlier result of this name has beyond them go.
-    pub fn seal<T: Serialize>(&mut self, name: &str, result: T) -> Result<Sealed<T>> {
-        let own = self.written[self.sealed..].iter().cloned();
-        let sealed = Sealed { result, files: own.chain([name.to_string()]).collect() };
+    pub fn seal<T: Serialize>(
+        &mut self,
+        name: &str,
+        origin: impl Into<Option<Origin>>,
+        result: T,
+    ) -> Result<Sealed<T>> {
+        let own = self.staging.names()[self.sealed..].iter().cloned();
+        let sealed = Sealed { origin: origin.into(), result, files: own.chain([name.to_string()]).collect() };
         let mut file = self.stream(name)?;
-        serde_json::to_writer_pretty(&mut file, &sealed).map_err(|error| Error::file(self.path.join(name), error))?;
+        serde_json::to_writer_pretty(&mut file, &sealed).map_err(|error| Error::file(self.path().join(name), error))?;
         file.append(b"\n");
         file.finish()?;
-        self.sealed = self.written.len();
-        let written = self.staging.as_ref().and_then(|staging| Settings::read(&staging.path(name)));
-        if let Some((earlier, new)) = Settings::earlier(&self.path.join(name)).zip(written) {
+        self.sealed = self.staging.names().len();
+        let written = Settings::read(&self.staging.path(name));
+        // Of other results nobody knows by which command they came.
+        let earlier = Settings::read(&self.path().join(name)).filter(|earlier| !earlier.command.is_empty());
+        if let Some((earlier, new)) = earlier.zip(written) {
             self.notes.extend(earlier.replaced_by(&new));
             self.obsolete.extend(earlier.files.into_iter().filter(|file| belongs(name, file)));
         }
@@ -121,12 +143,14 @@ impl Folder {
     /// # Errors
     /// A file cannot be moved. Then the last file is missing, which shows that the results are incomplete.
     pub fn finish(self) -> Result<Written> {
-        let Folder { path, written, staging, notes, mut obsolete, .. } = self;
-        obsolete.retain(|name| !written.contains(name) && path.join(name).is_file());
+        let Folder { staging, notes, mut obsolete, .. } = self;
+        let folder = staging.target().to_path_buf();
+        let names = staging.names().to_vec();
+        obsolete.retain(|name| !names.contains(name) && folder.join(name).is_file());
         staging
-            .map_or(Ok(()), |staging| staging.publish(&obsolete))
-            .map_err(|(name, error)| failed(&path.join(name), "not all results are in place", &error))?;
-        Ok(Written { folder: path, names: written, notes, removed: obsolete })
+            .publish(&obsolete)
+            .map_err(|(name, error)| failed(&folder.join(name), "not all results are in place", &error))?;
+        Ok(Written { folder, names, notes, removed: obsolete })
     }
 }
 
@@ -147,15 +171,11 @@ impl Stream {
         }
     }
 
-    /// True if the file could not be written.
     pub fn has_failed(&self) -> bool {
         self.error.is_some()
     }
 
     /// Completes the file.
-    ///
-    /// # Errors
-    /// The first error of the file system.
     pub fn finish(mut self) -> Result<()> {
         let written = match self.error.take() {
             Some(error) => Err(error),
@@ -194,7 +214,6 @@ fn belongs(seal: &str, name: &str) -> bool {
     is_own && ENDINGS.contains(&ending) && !name.contains(['/', '\\'])
 }
 
-/// The files in place.
 pub struct Written {
     folder: PathBuf,
     names: Vec<String>,
@@ -203,11 +222,6 @@ pub struct Written {
 }
 
 impl Written {
-    /// Returns their paths.
-    pub fn paths(&self) -> Vec<String> {
-        self.names.iter().map(|name| self.folder.join(name).display().to_string()).collect()
-    }
-
     /// Returns what became of earlier results that were not the same; none where there were none.
     pub fn note(&self) -> Option<String> {
         let folder = self.folder.display();
@@ -225,7 +239,6 @@ impl Written {
         }
     }
 
-    /// Returns the folder with the names of the files.
     pub fn listing(&self) -> String {
         format!("{}: {}", self.folder.display(), self.names.join(", "))
     }

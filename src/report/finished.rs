@@ -13,11 +13,8 @@ use std::path::{Path, PathBuf};
 
 /// A run of `simulate` as its files have it.
 pub struct FinishedRun {
-    /// Parameters of the scene in that run.
     pub parameters: Vec<(String, Number)>,
-    /// Reason of a failed run.
     pub failure: Option<Failure>,
-    /// How it ended.
     pub ending: Ending,
     path: PathBuf,
     headings: Vec<String>,
@@ -30,35 +27,19 @@ struct Saved {
     parameters: Map<String, Value>,
     failure: Option<Failure>,
     files: Vec<String>,
-    drift: SavedDrift,
-    energy: Option<SavedEnergy>,
-}
-
-#[derive(Deserialize)]
-struct SavedDrift {
-    position: SavedLevel,
-}
-
-/// Null is what is not finite.
-#[derive(Deserialize)]
-struct SavedLevel {
-    relative_max: Option<f64>,
-}
-
-#[derive(Deserialize)]
-struct SavedEnergy {
-    relative_max_error: Option<f64>,
+    drift: Value,
+    #[serde(default)]
+    energy: Value,
 }
 
 impl Saved {
+    /// Returns how the run ended. Null is what is not finite.
     fn ending(&self) -> Ending {
-        let relative_max = self.drift.position.relative_max.unwrap_or(f64::NAN);
+        let relative_max = self.drift["position"]["relative_max"].as_f64().unwrap_or(f64::NAN);
         let drift = Drift { position: DriftLevel { relative_max, ..DriftLevel::default() }, ..Drift::default() };
-        let balance = |saved: &SavedEnergy| EnergyBalance {
-            relative_max_error: saved.relative_max_error,
-            ..EnergyBalance::default()
-        };
-        Ending::of(self.failure.as_ref(), &drift, self.energy.as_ref().map(balance).as_ref())
+        let relative_max_error = self.energy["relative_max_error"].as_f64();
+        let energy = EnergyBalance { relative_max_error, ..EnergyBalance::default() };
+        Ending::of(self.failure.as_ref(), &drift, self.energy.is_object().then_some(&energy))
     }
 }
 

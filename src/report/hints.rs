@@ -4,7 +4,6 @@ use crate::error::{percent, short_list, significant};
 use crate::simplify::{Hints, Rod, Unseen};
 use crate::tolerances::report::SAME;
 
-/// Returns the hints as text; nothing where there is none.
 pub fn hints_text(hints: &Hints) -> String {
     if !hints.skipped.is_empty() {
         return format!("what looks superfluous was not looked for: {}\n", hints.skipped.lines().next().unwrap_or(""));

@@ -1,5 +1,6 @@
 //! Results as files and text.
 
+mod answer;
 mod check;
 mod drift;
 mod equilibrium;
@@ -22,19 +23,20 @@ mod tables;
 pub mod tradeoff;
 mod warnings;
 
+pub use answer::Answer;
+pub(crate) use answer::object;
 pub use check::{Check, check};
-pub use drift::{drift_text, stabilizations_figure, stabilizations_table};
-pub use equilibrium::EquilibriumFile;
+pub use drift::Stabilizations;
+pub use equilibrium::EquilibriumReport;
 pub use figures::{Ending, MOST_COORDINATES, Shown, drift_figure, energy_figure, outputs_figure};
-pub use files::{Folder, Written, write_whole};
+pub use files::{Folder, Format, Written, write_whole};
 pub use finished::FinishedRun;
-pub use origin::{Origin, Repeatable, Sealed};
+pub use origin::{Origin, Sealed};
 pub use rows::RowFiles;
-pub use simplify::{simplify_figure, simplify_table, simplify_text};
+pub use simplify::simplify_figure;
 pub use summary::{Summary, summarize};
-pub use sweep::SweepSummary;
-pub use sweep_figure::{SweepLook, sweep_figure};
-pub(crate) use table::velocities;
+pub use sweep::SweepAnswer;
+pub use sweep_figure::SweepLook;
 pub use table::{OutputValues, Table};
-pub use tables::{cell, sweep_table, table, trajectory_arrays};
+pub use tables::{cell, table, trajectory_arrays};
 pub use warnings::uncertain_kinds;

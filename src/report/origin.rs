@@ -12,51 +12,41 @@ use std::path::Path;
 /// What it takes to repeat a run, and reasons to doubt it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Origin {
-    /// Version of the program.
     pub holonom: &'static str,
-    /// Command line; empty from the library.
     pub command: Vec<String>,
-    /// Parameters of the scene.
     pub parameters: Map<String, Value>,
     /// Reasons to doubt the result; empty where none is known.
     pub warnings: Vec<Warning>,
+    /// Method by which the motion is simulated; none where nothing is, or where the result has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub simulation: Option<Method>,
 }
 
 impl Origin {
-    /// The origin of a result of the library: no command.
     pub fn new(parameters: &Parameters, warnings: Vec<Warning>) -> Self {
         let parameters = parameters.iter().map(|(name, value)| (name.to_string(), Value::from(value))).collect();
-        Origin { holonom: env!("CARGO_PKG_VERSION"), command: Vec::new(), parameters, warnings }
+        Origin { holonom: env!("CARGO_PKG_VERSION"), command: Vec::new(), parameters, warnings, simulation: None }
     }
 }
 
-/// A result with its origin.
-#[derive(Clone, Debug, Serialize)]
-pub struct Repeatable<T> {
-    /// What it takes to repeat it.
-    #[serde(flatten)]
-    pub origin: Origin,
-    /// Method by which the motion is simulated; none where nothing is.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub simulation: Option<Method>,
-    /// The result.
-    #[serde(flatten)]
-    pub result: T,
-}
-
-/// A result with the names of the files that were written with it.
+/// A result with its origin, and with the names of the files that were written with it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Sealed<T> {
+    /// None where the result has it.
     #[serde(flatten)]
-    pub(super) result: T,
-    pub(super) files: Vec<String>,
+    pub origin: Option<Origin>,
+    #[serde(flatten)]
+    pub result: T,
+    /// Empty of what is printed alone.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<String>,
 }
 
 /// The settings of a result as its file has them.
 #[derive(Deserialize, Default)]
 #[serde(default)]
 pub(super) struct Settings {
-    command: Vec<String>,
+    pub command: Vec<String>,
     parameters: Map<String, Value>,
     simulation: Option<Value>,
     method: Option<Value>,
@@ -72,11 +62,6 @@ const METHOD: [&str; 6] = ["formulation", "integrator", "projection", "rtol", "a
 const NAMED: usize = 4;
 
 impl Settings {
-    /// Reads those of earlier results; `None` if there are none, or nobody knows by which command they came.
-    pub fn earlier(path: &Path) -> Option<Settings> {
-        Settings::read(path).filter(|settings| !settings.command.is_empty())
-    }
-
     /// Reads those of a result. The file is large where there are many coordinates, and little of it is kept.
     pub fn read(path: &Path) -> Option<Settings> {
         // A pipe would wait for a writer.

@@ -1,7 +1,7 @@
 //! Files with a line for each output row, written as the rows come.
 
 use super::files::{Folder, Stream};
-use super::tables::{cells, header};
+use super::tables::{header, line};
 use crate::analysis::{Record, Row};
 use crate::error::{Error, Result};
 use crate::simulate::Stop;
@@ -13,11 +13,7 @@ pub struct RowFiles {
     trajectory: Option<Stream>,
     drift: Stream,
     energy: Option<Stream>,
-    text: Vec<u8>,
 }
-
-/// A line is written in pieces of so many numbers: those of large systems have megabytes.
-const PIECE: usize = 1000;
 
 impl RowFiles {
     /// The files in a folder: of a trajectory with these headings, if there is one, and of energies, if there are.
@@ -33,27 +29,16 @@ impl RowFiles {
             energy: has_energy
                 .then(|| file("energy.csv", vec!["t", "kinetic", "potential", "work", "error"]))
                 .transpose()?,
-            text: Vec::new(),
         })
     }
 
-    /// Appends a row.
     pub fn add(&mut self, row: &Row) {
         let Some(&t) = row.values.first() else { return };
-        let mut write = |file: &mut Stream, values: &[f64]| {
-            let last = values.len().div_ceil(PIECE).saturating_sub(1);
-            for (i, piece) in values.chunks(PIECE).enumerate() {
-                self.text.clear();
-                cells(&mut self.text, piece);
-                self.text.push(if i == last { b'\n' } else { b',' });
-                file.append(&self.text);
-            }
-        };
-        self.trajectory.iter_mut().for_each(|file| write(file, row.values));
+        self.trajectory.iter_mut().for_each(|file| line(file, row.values));
         let [position, velocity, acceleration] = row.drift;
-        write(&mut self.drift, &[t, position, velocity, acceleration]);
+        line(&mut self.drift, &[t, position, velocity, acceleration]);
         for (file, ledger) in self.energy.iter_mut().zip(&row.ledger) {
-            write(file, &[t, ledger.kinetic, ledger.potential, ledger.work, ledger.error]);
+            line(file, &[t, ledger.kinetic, ledger.potential, ledger.work, ledger.error]);
         }
     }
 
@@ -74,9 +59,6 @@ impl RowFiles {
     }
 
     /// Completes the files.
-    ///
-    /// # Errors
-    /// The first error of the file system.
     pub fn finish(self) -> Result<()> {
         [self.trajectory, Some(self.drift), self.energy].into_iter().flatten().try_for_each(Stream::finish)
     }

@@ -1,15 +1,34 @@
 //! The least model that keeps a promise: text, table and figure.
 
+use super::table::count;
+use super::tables::{Column, by_columns, optional};
 use super::tradeoff::milliseconds;
-use super::{Table, cell, table, velocities};
+use super::{Answer, Folder, Table, cell};
 use crate::compare::work_precision::front;
-use crate::error::{Result, percent, short_list};
+use crate::error::{Error, Result, percent, short_list};
 use crate::math::bounds;
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style, Tint};
 use crate::simplify::{Norm, Robustness, Run, Simplification, Trial, Which};
+use serde::Serialize;
 
-/// Returns the result as text.
-pub fn simplify_text(result: &Simplification) -> String {
+impl Answer for Simplification {
+    fn json(&self) -> impl Serialize {
+        self
+    }
+
+    fn text(&self) -> String {
+        simplify_text(self)
+    }
+
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &by_columns(&COLUMNS, self.trials.iter())?)?;
+        folder.figure(stem, simplify_figure(self))?;
+        let scene = serde_json::to_string_pretty(&self.simplified).map_err(|error| Error::input(error.to_string()))?;
+        folder.write("simplified.json", format!("{scene}\n").as_bytes())
+    }
+}
+
+fn simplify_text(result: &Simplification) -> String {
     let Simplification { scene, within, norm, outputs, trials, robustness, .. } = result;
     let size = match norm {
         Norm::Range => "range",
@@ -18,7 +37,11 @@ pub fn simplify_text(result: &Simplification) -> String {
     let mut text = format!("{scene}: within {} of the {size} of {}\n\n", percent(*within), short_list(outputs));
     text += &format!("{}\n", outcome(result));
     let mut changes = Table::new(&["tried", "estimated", "measured", "CPU", "result"]).words(4);
-    trials.iter().filter(|trial| trial.run.is_some()).for_each(|trial| changes.row(row(trial)));
+    for (trial, run) in trials.iter().filter_map(|trial| Some((trial, trial.run.as_ref()?))) {
+        let measured = run.worst().map_or("-".to_string(), |worst| percent(worst.error));
+        let result = if trial.is_kept { "kept" } else { first_line(&trial.reason) };
+        changes.row([name(trial), percent(trial.estimated), measured, milliseconds(run.seconds), result.to_string()]);
+    }
     if trials.iter().any(|trial| trial.run.is_some()) {
         text += &format!(
             "{changes}  estimates are of an order only, and say what is tried first: what accumulates later is not in them\n"
@@ -53,10 +76,8 @@ fn outcome(result: &Simplification) -> String {
         Some(step) => format!("  by {}, step {step:e} s\n", chosen.method.triple()),
         None => format!("  by {}, rtol {:e}\n", chosen.method.triple(), chosen.method.rtol),
     };
-    let size = |run: &Run| {
-        let s = if run.constraints == 1 { "" } else { "s" };
-        format!("{} and {} constraint{s}", velocities(run.velocities), run.constraints)
-    };
+    let size =
+        |run: &Run| format!("{} and {}", count(run.velocities, "velocity"), count(run.constraints, "constraint"));
     let farthest =
         chosen.worst().map_or(String::new(), |worst| format!("{} is off by {}", worst.name, percent(worst.error)));
     let confirmed = result.second_opinion.iter().map(|opinion| format!("  the full model is {opinion}\n"));
@@ -85,13 +106,6 @@ fn first_line(text: &str) -> &str {
     text.lines().next().unwrap_or("")
 }
 
-fn row(trial: &Trial) -> Vec<String> {
-    let measured = trial.run.as_ref().and_then(Run::worst).map_or("-".to_string(), |worst| percent(worst.error));
-    let time = trial.run.as_ref().map_or("-".to_string(), |run| milliseconds(run.seconds));
-    let result = if trial.is_kept { "kept" } else { first_line(&trial.reason) };
-    vec![name(trial), percent(trial.estimated), measured, time, result.to_string()]
-}
-
 fn near(robustness: &Robustness, within: f64) -> String {
     let Robustness { by, counted, kept, .. } = robustness;
     let worst = robustness.worst().map_or(0.0, |worst| worst.error);
@@ -118,32 +132,23 @@ fn near(robustness: &Robustness, within: f64) -> String {
     )
 }
 
-/// Returns a row for each change: estimate, measurement, cost and result.
-///
-/// # Errors
-/// Only those of the table's writer.
-pub fn simplify_table(result: &Simplification) -> Result<Vec<u8>> {
-    let own = ["candidate", "change", "estimated", "measured", "worst", "cpu_seconds", "velocities", "constraints"];
-    let headings = own.iter().chain(&["method", "kept", "reason"]).map(|name| name.to_string());
-    let row = |trial: &Trial| {
-        let run = trial.run.as_ref();
-        let of = |value: &dyn Fn(&Run) -> String| run.map_or(String::new(), value);
-        let worst = run.and_then(Run::worst);
-        vec![
-            trial.candidate.clone(),
-            trial.what.join("; "),
-            cell(trial.estimated),
-            worst.map_or(String::new(), |worst| cell(worst.error)),
-            worst.map_or(String::new(), |worst| worst.name.clone()),
-            of(&|run| cell(run.seconds)),
-            of(&|run| run.velocities.to_string()),
-            of(&|run| run.constraints.to_string()),
-            of(&|run| run.method.triple()),
-            trial.is_kept.to_string(),
-            trial.reason.clone(),
-        ]
-    };
-    table(headings, result.trials.iter().map(row))
+/// A row for each change: estimate, measurement, cost and result.
+const COLUMNS: [Column<Trial>; 11] = [
+    ("candidate", |trial| trial.candidate.clone()),
+    ("change", |trial| trial.what.join("; ")),
+    ("estimated", |trial| cell(trial.estimated)),
+    ("measured", |trial| optional(trial.run.as_ref().and_then(Run::worst).map(|worst| worst.error))),
+    ("worst", |trial| of_run(trial, |run| run.worst().map_or(String::new(), |worst| worst.name.clone()))),
+    ("cpu_seconds", |trial| of_run(trial, |run| cell(run.seconds))),
+    ("velocities", |trial| of_run(trial, |run| run.velocities.to_string())),
+    ("constraints", |trial| of_run(trial, |run| run.constraints.to_string())),
+    ("method", |trial| of_run(trial, |run| run.method.triple())),
+    ("kept", |trial| trial.is_kept.to_string()),
+    ("reason", |trial| trial.reason.clone()),
+];
+
+fn of_run(trial: &Trial, value: fn(&Run) -> String) -> String {
+    trial.run.as_ref().map_or(String::new(), value)
 }
 
 /// Factor of the axes around the points.
@@ -185,7 +190,7 @@ pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
     for (run, name) in [(&result.richest, "as it is"), (&result.chosen, "chosen")] {
         let Some(((seconds, error), exact)) = point(run).zip(exact(run)) else { continue };
         let below = if exact.1 < least { format!(", off by {}", percent(exact.1)) } else { String::new() };
-        let text = format!("{name}: {}{below}", velocities(run.velocities));
+        let text = format!("{name}: {}{below}", count(run.velocities, "velocity"));
         panel = panel.series(Series::dots("", vec![(seconds, error)]).color(BLACK)).note(
             Tint::Ink(0.0),
             seconds,

@@ -7,69 +7,58 @@ use crate::analysis::{Drift, EnergyBalance, Extremes, Passing, Record, Singulari
 use crate::compare::ErrorBars;
 use crate::error::{Failure, Warning, clock, short_list, significant};
 use crate::formulation::Statistics;
-use crate::initial::{Assembly, Level, Move};
+use crate::initial::Assembly;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Checkpoint, Leg, Method, Outcome, Stiffness};
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
-/// Summary of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
     /// What it takes to repeat it, and reasons to doubt it.
     #[serde(flatten)]
     pub origin: Origin,
-    /// Name of the scene.
-    pub scene: String,
-    /// Method.
-    pub method: Chosen,
+    scene: String,
+    method: Chosen,
     /// `completed` or `failed`.
-    pub status: &'static str,
-    /// Reason of a failed run.
+    status: &'static str,
     pub failure: Option<Failure>,
     /// Time reached, s.
-    pub t_end: f64,
-    /// Wall-clock time, s.
-    pub wall_seconds: f64,
-    /// Counted work.
-    pub statistics: Statistics,
-    /// Constraint drift.
-    pub drift: Drift,
-    /// Energy balance; none where the system defines no potential.
-    pub energy: Option<EnergyBalance>,
-    /// Singular states on the way.
-    pub singularity: Singularity,
+    t_end: f64,
+    wall_seconds: f64,
+    statistics: Statistics,
+    drift: Drift,
+    /// None where the system defines no potential.
+    energy: Option<EnergyBalance>,
+    singularity: Singularity,
     /// Fast modes that the method cannot step over; none where it can, or is implicit.
-    pub stiffness: Option<Stiffness>,
-    /// Changes of the start by assembly.
-    pub assembly: AssemblySummary,
-    /// Error bars of the outputs, if requested.
+    stiffness: Option<Stiffness>,
+    assembly: Assembly,
     pub error: Option<ErrorBars>,
     /// Extremes of each output over the rows, by its name.
     #[serde(serialize_with = "by_name")]
-    pub outputs: Vec<Extremes>,
-    /// Values of the last row.
-    pub r#final: FinalState,
+    outputs: Vec<Extremes>,
+    r#final: FinalState,
     /// Hash of what the scene says of the mechanism.
-    pub scene_hash: String,
+    scene_hash: String,
     /// State from which `--start` continues; none where the run could not begin.
     pub restart: Option<Checkpoint>,
 }
 
 /// The method, and the reason where the program chose it.
 #[derive(Clone, Debug, Serialize)]
-pub struct Chosen {
+struct Chosen {
     /// Method of the longest leg.
     #[serde(flatten)]
-    pub method: Method,
+    method: Method,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub chosen_because: Option<String>,
+    chosen_because: Option<String>,
     /// The legs in their order, where the method changed during the run.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub legs: Vec<Leg>,
+    legs: Vec<Leg>,
     /// Work of the methods tried, besides that of the methods of the legs.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub trials: Option<Statistics>,
+    trials: Option<Statistics>,
 }
 
 impl Chosen {
@@ -95,28 +84,14 @@ impl Chosen {
     }
 }
 
-/// Changes by assembly.
-#[derive(Clone, Debug, Serialize)]
-pub struct AssemblySummary {
-    pub before: Level,
-    pub after: Level,
-    pub moves: Vec<Move>,
-}
-
-impl From<&Assembly> for AssemblySummary {
-    fn from(assembly: &Assembly) -> Self {
-        AssemblySummary { before: assembly.before, after: assembly.after, moves: assembly.moves.clone() }
-    }
-}
-
 /// The last row, by names.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct FinalState {
-    pub t: f64,
-    pub q: Map<String, Value>,
-    pub v: Map<String, Value>,
-    pub lambda: Map<String, Value>,
-    pub outputs: OutputValues,
+struct FinalState {
+    t: f64,
+    q: Map<String, Value>,
+    v: Map<String, Value>,
+    lambda: Map<String, Value>,
+    outputs: OutputValues,
 }
 
 /// Work of rows is reported where it is more than this part of that of the steps.
@@ -147,7 +122,7 @@ pub fn summarize(
         energy: record.energy,
         singularity: record.singularity.clone(),
         stiffness,
-        assembly: (&prepared.assembly).into(),
+        assembly: prepared.assembly.clone(),
         error: None,
         outputs: record.extremes.clone(),
         r#final: final_state(record),
@@ -170,13 +145,9 @@ fn final_state(record: &Record) -> FinalState {
 }
 
 impl Summary {
-    /// Returns the summary as text.
     pub fn text(&self) -> String {
-        let Method { formulation, integrator, projection, rtol, atol, step } = &self.method.method;
-        let accuracy = match step {
-            Some(step) => format!("step {} s", clock(*step)),
-            None => format!("rtol {rtol:e}, atol {atol:e}"),
-        };
+        let Method { formulation, integrator, projection, .. } = &self.method.method;
+        let accuracy = error_bar::accuracy(&self.method.method);
         let s = &self.statistics;
         let trials = self.method.trials.filter(|trials| trials.rhs_evaluations > 0);
         let rows = Some(s.rows.rhs_evaluations).filter(|rows| *rows as f64 > SHOWN * s.rhs_evaluations as f64);
@@ -244,7 +215,6 @@ impl Summary {
         format!("\n{table}")
     }
 
-    /// Returns the summary with error bars.
     pub fn checked(mut self, bars: ErrorBars) -> Self {
         self.origin.warnings.extend(error_bar::cut_short(&bars));
         self.error = Some(bars);
@@ -256,7 +226,7 @@ impl Summary {
         let Some(largest) = self.assembly.moves.first() else { return String::new() };
         format!(
             "  assembly moved {}; the largest change is that of {}: {} -> {}\n",
-            super::table::count(self.assembly.moves.len(), "state", "states"),
+            super::table::count(self.assembly.moves.len(), "state"),
             largest.name,
             significant(largest.from, 6),
             significant(largest.to, 6)
@@ -264,7 +234,6 @@ impl Summary {
     }
 }
 
-/// Returns a wall-clock time as text.
 fn elapsed(seconds: f64) -> String {
     match seconds {
         short if short < 1.0 => format!("{} ms", significant(1e3 * seconds, 3)),
@@ -276,7 +245,6 @@ fn elapsed(seconds: f64) -> String {
 /// Largest number of singular states whose times are given.
 const NAMED: usize = 5;
 
-/// Returns the text on singular states.
 fn singular_text(found: &Singularity) -> String {
     let Some(nearest) = found.nearest else { return String::new() };
     if found.passed.is_empty() {

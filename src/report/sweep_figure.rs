@@ -1,7 +1,7 @@
 //! Figure of outputs over a parameter or over one of them.
 
 use super::figures::{Curve, label, stacked};
-use super::sweep::{shown, watched};
+use super::tables::{shown, watched};
 use crate::math::bounds;
 use crate::plot::{Figure, Panel};
 use crate::sweep::{Point, Sweep};

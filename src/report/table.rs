@@ -1,7 +1,8 @@
 //! Text tables for terminals.
 
 use crate::error::significant;
-use crate::system::Column;
+use crate::initial::Move;
+use crate::system::{Column, MechanicalSystem, OperatingPoint, Scratch};
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 use std::fmt;
@@ -19,12 +20,18 @@ pub struct OutputValues {
 }
 
 impl OutputValues {
-    /// The values of these outputs.
     pub fn new(columns: Vec<Column>, values: Vec<f64>) -> Self {
         OutputValues { columns, values }
     }
 
-    /// The values.
+    /// The values of all outputs of a system at a state.
+    pub fn at(system: &dyn MechanicalSystem, at: OperatingPoint) -> Self {
+        let columns = system.columns();
+        let mut values = vec![0.0; columns.len()];
+        system.outputs(at, &mut values, &mut Scratch::default());
+        OutputValues { columns, values }
+    }
+
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -59,7 +66,6 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table of numbers.
     pub fn new(headings: &[&str]) -> Self {
         Table {
             rows: vec![headings.iter().map(|heading| heading.to_string()).collect()],
@@ -68,7 +74,6 @@ impl Table {
         }
     }
 
-    /// A table of text.
     pub fn left(headings: &[&str]) -> Self {
         Table { left: true, ..Table::new(headings) }
     }
@@ -79,15 +84,32 @@ impl Table {
         self
     }
 
-    /// Adds a row.
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());
     }
 }
 
-/// A number with the word for one or for many.
-pub fn count(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
+const MOST_MOVES: usize = 10;
+
+/// Returns a line for each of the largest changes of the start.
+pub fn moves_text(moves: &[Move]) -> String {
+    let line = |Move { name, from, to }: &Move| {
+        format!("  moved {name}: {} -> {}\n", significant(*from, 8), significant(*to, 8))
+    };
+    let more = match moves.len().saturating_sub(MOST_MOVES) {
+        0 => String::new(),
+        more => format!("  and {more} smaller moves\n"),
+    };
+    moves.iter().take(MOST_MOVES).map(line).chain([more]).collect()
+}
+
+/// Returns a number with its noun in the singular or the plural.
+pub fn count(n: usize, noun: &str) -> String {
+    match noun.strip_suffix('y') {
+        _ if n == 1 => format!("1 {noun}"),
+        Some(stem) => format!("{n} {stem}ies"),
+        None => format!("{n} {noun}s"),
+    }
 }
 
 impl fmt::Display for Table {
@@ -111,13 +133,5 @@ impl fmt::Display for Table {
             writeln!(out, "{}", line.trim_end())?;
         }
         Ok(())
-    }
-}
-
-/// A number of velocities in words.
-pub fn velocities(count: usize) -> String {
-    match count {
-        1 => "1 velocity".to_string(),
-        _ => format!("{count} velocities"),
     }
 }

@@ -1,13 +1,15 @@
 //! Comma-separated tables for Python, MATLAB and spreadsheets.
 
+use super::figures::MOST_COORDINATES;
 use crate::compare::ErrorBars;
 use crate::error::{Error, Result};
 use crate::files::Array;
-use crate::sweep::Sweep;
+use crate::sweep::{Point, Sweep};
 use crate::system::Names;
 use crate::trajectory::Trajectory;
 use std::borrow::Borrow;
 use std::fmt;
+use std::io::Write;
 
 /// Returns a trajectory as arrays for Python and MATLAB: `rows`, a matrix, and the names of its `columns`; NaN where there
 /// is no value.
@@ -37,10 +39,22 @@ pub fn sweep_table(sweep: &Sweep) -> Result<Vec<u8>> {
     let own = [parameter.as_str()].into_iter().chain(q.iter().chain(lambda).map(String::as_str));
     let mut all = header(own.chain(outputs).collect())?;
     for point in &sweep.points {
-        cells(&mut all, &[&[point.value], &point.q[..], &point.lambda, &point.outputs].concat());
-        all.push(b'\n');
+        line(&mut all, &[&[point.value], &point.q[..], &point.lambda, &point.outputs].concat());
     }
     Ok(all)
+}
+
+/// Returns name and unit of what is shown: the outputs, or the first coordinates where the scene names none.
+pub(super) fn watched(sweep: &Sweep) -> Vec<(&str, &str)> {
+    match sweep.outputs.as_slice() {
+        [] => sweep.names.q.iter().take(MOST_COORDINATES).map(|name| (name.as_str(), "m, rad")).collect(),
+        outputs => outputs.iter().map(|output| (output.name.as_str(), output.unit.as_str())).collect(),
+    }
+}
+
+/// Returns the values of these at a state.
+pub(super) fn shown<'a>(sweep: &Sweep, point: &'a Point) -> &'a [f64] {
+    if sweep.outputs.is_empty() { &point.q } else { &point.outputs }
 }
 
 /// Returns the heading of a parameter: `parameters.NAME` where another column has its name.
@@ -57,34 +71,34 @@ pub fn cell(value: f64) -> String {
 
 /// Writes a number at full precision with the fewest digits, with an exponent where zeros alone would fill the cell;
 /// nothing where there is no value, such as of an output outside its domain.
-fn push(text: &mut Vec<u8>, value: f64) {
+fn push(out: &mut impl Write, value: f64) {
     if value.is_finite() {
         let mut buffer = zmij::Buffer::new();
         let digits = buffer.format_finite(value);
-        text.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
+        // Memory has no errors, and a stream keeps its first one.
+        let _ = out.write_all(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
     }
 }
 
-/// Returns the line of headings.
 pub fn header(headings: Vec<&str>) -> Result<Vec<u8>> {
     table(headings.into_iter().map(String::from), std::iter::empty())
 }
 
-/// Appends numbers with commas between them.
-pub fn cells(text: &mut Vec<u8>, row: &[f64]) {
+/// Writes a line of numbers with commas between them.
+pub fn line(out: &mut impl Write, row: &[f64]) {
     for (i, value) in row.iter().enumerate() {
         if i > 0 {
-            text.push(b',');
+            let _ = out.write_all(b",");
         }
-        push(text, *value);
+        push(out, *value);
     }
+    let _ = out.write_all(b"\n");
 }
 
 fn failed(error: &dyn fmt::Display) -> Error {
     Error::input(format!("cannot write the table: {error}"))
 }
 
-/// Writes rows of cells under headings.
 pub fn table(headings: impl Iterator<Item = String>, rows: impl Iterator<Item = Vec<String>>) -> Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(headings).map_err(|error| failed(&error))?;
@@ -97,7 +111,6 @@ pub fn table(headings: impl Iterator<Item = String>, rows: impl Iterator<Item = 
 /// A column: its heading, and the cell of an item.
 pub type Column<T> = (&'static str, fn(&T) -> String);
 
-/// Writes a row for each item.
 pub fn by_columns<T>(columns: &[Column<T>], items: impl Iterator<Item = impl Borrow<T>>) -> Result<Vec<u8>> {
     let row = |item| columns.iter().map(|(_, cell)| cell(Borrow::borrow(&item))).collect();
     table(columns.iter().map(|(heading, _)| heading.to_string()), items.map(row))

@@ -7,7 +7,6 @@ use crate::formulation::Statistics;
 use crate::tolerances::report as tolerances;
 use crate::trajectory::Gap;
 
-/// Returns all warnings from the record of a run.
 pub fn warnings(record: &Record) -> Vec<Warning> {
     let energy = record.energy.as_ref().filter(|energy| energy.is_open()).map(open_balance);
     let energy = energy.or_else(|| record.worst_step.is_alone().then(|| energy_jump(&record.worst_step)));

@@ -5,7 +5,7 @@ use holonom::files::Array;
 use holonom::linearize::LinearModel;
 use holonom::prepared::PreparedScene;
 use holonom::report::Folder;
-use holonom::report::linear::{Linear, linear_stem};
+use holonom::report::linear::{Linear, stem_at};
 use serde_json::Value;
 
 fn linear<'a>(prepared: &'a PreparedScene, model: &'a LinearModel, names: &'a holonom::system::Names) -> Linear<'a> {
@@ -15,7 +15,7 @@ fn linear<'a>(prepared: &'a PreparedScene, model: &'a LinearModel, names: &'a ho
 fn json(model: &LinearModel) -> Value {
     let prepared = prepared("four_bar_spring");
     let names = prepared.system().names();
-    serde_json::to_value(linear(&prepared, model, &names).file()).unwrap()
+    serde_json::to_value(linear(&prepared, model, &names)).unwrap()
 }
 
 fn keys(value: &Value) -> Vec<&str> {
@@ -130,7 +130,7 @@ fn arrays_for_both_programs_also_where_nothing_moves() {
     for model in [descriptor(&prepared), empty(&prepared)] {
         let place = tempfile::tempdir().unwrap();
         let mut folder = Folder::create(place.path()).unwrap();
-        linear(&prepared, &model, &names).write(&mut folder, &linear_stem(0.01)).unwrap();
+        linear(&prepared, &model, &names).write(&mut folder, &stem_at("linear", 0.01)).unwrap();
         folder.finish().unwrap();
         let mut found: Vec<String> =
             std::fs::read_dir(place.path()).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
@@ -143,6 +143,6 @@ fn arrays_for_both_programs_also_where_nothing_moves() {
 fn names_of_files_are_times_as_written() {
     let table =
         [(0.01, "linear-0.01"), (0.0, "linear-0"), (1.0, "linear-1"), (0.1 + 0.2, "linear-0.30000000000000004")];
-    table.iter().for_each(|(t, name)| assert_eq!(linear_stem(*t), *name));
-    assert_eq!(linear_stem(2.5e-7), "linear-2.5e-7");
+    table.iter().for_each(|(t, name)| assert_eq!(stem_at("linear", *t), *name));
+    assert_eq!(stem_at("linear", 2.5e-7), "linear-2.5e-7");
 }

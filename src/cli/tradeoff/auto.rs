@@ -1,12 +1,12 @@
 //! Models that `simplify` finds, each by many methods.
 
 use super::{Args, Question};
-use crate::cli::common::tell;
+use crate::cli::common::fail;
 use crate::cli::interrupt;
 use crate::compare::work_precision::{Motion, Runner, WorkPrecision};
 use crate::error::{Result, percent};
 use crate::prepared::PreparedScene;
-use crate::report::tradeoff::{MeasuredModel, ModelsAndMethods, auto_figure, auto_table};
+use crate::report::tradeoff::{MeasuredModel, ModelsAndMethods};
 use crate::simplify::{Settings, Simplification, Source, registry, simplify};
 use crate::system::Dimensions;
 use indicatif::ProgressBar;
@@ -20,7 +20,7 @@ const SEARCH: u32 = 8;
 
 pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
     args.check_choices(prepared.system())?;
-    let mut folder = args.output.folder(&prepared.name)?;
+    let folder = args.output.folder(&prepared.name)?;
     let name = prepared.name.clone();
     let bar = args.talk.progress((WITHIN.len() + 1) as u64, &name);
     let found = models(args, &prepared, &bar);
@@ -39,16 +39,13 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
         models.push(MeasuredModel::new(model, left_out, [v, lambda], measured, models.first()));
     }
     bar.finish_and_clear();
-    let summary = ModelsAndMethods { scene: name, models };
-    folder.write("tradeoff_models.csv", &auto_table(&summary)?)?;
-    args.output.figure(&mut folder, "tradeoff_models", auto_figure(&summary))?;
-    let sealed = folder.seal("tradeoff_models.json", args.talk.repeatable(&prepared, &summary))?;
-    args.talk.conclude(folder, &sealed, || summary.text())?;
-    if interrupt::is_asked() {
-        tell("error: interrupted");
-        return Ok(ExitCode::from(1));
-    }
-    Ok(ExitCode::SUCCESS)
+    args.talk.publish(
+        folder,
+        "tradeoff_models",
+        args.talk.origin(&prepared),
+        &ModelsAndMethods { scene: name, models },
+    )?;
+    if interrupt::is_asked() { fail("interrupted") } else { Ok(ExitCode::SUCCESS) }
 }
 
 type Named = (String, Vec<String>);

@@ -1,13 +1,13 @@
 //! Work-precision measurements of all methods, and recommendations.
 
 use super::{Args, Question};
-use crate::cli::common::tell;
+use crate::cli::common::fail;
 use crate::cli::interrupt;
 use crate::compare::work_precision::{Given, Lack, Motion, Runner, WorkPrecision};
 use crate::error::{Error, Result};
 use crate::files;
 use crate::prepared::PreparedScene;
-use crate::report::tradeoff::{Summary, tradeoff_figure, tradeoff_table};
+use crate::report::tradeoff::MethodsAnswer;
 use crate::report::{Folder, write_whole};
 use crate::scene;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -22,7 +22,7 @@ pub fn run(args: &Args, prepared: &PreparedScene) -> Result<ExitCode> {
     let given = args.reference(prepared).as_deref().map(Given::read).transpose()?;
     let question = args.question(prepared, args.budget, given)?;
     let folder = args.output.folder(&prepared.name)?;
-    let place = args.output.path(&prepared.name).join("tradeoff.json");
+    let place = folder.path().join("tradeoff.json");
     let mut measured = question.begin(args, prepared, &place)?;
     question.measure(args, prepared, &place, &mut measured)?;
     report(args, prepared, &measured, folder)
@@ -59,19 +59,15 @@ impl Question {
     }
 }
 
-fn report(args: &Args, prepared: &PreparedScene, measured: &WorkPrecision, mut folder: Folder) -> Result<ExitCode> {
-    let summary = Summary::new(measured, &args.named());
-    folder.write("tradeoff.csv", &tradeoff_table(measured)?)?;
-    args.output.figure(&mut folder, "tradeoff", tradeoff_figure(measured, args.digits))?;
+fn report(args: &Args, prepared: &PreparedScene, measured: &WorkPrecision, folder: Folder) -> Result<ExitCode> {
     // Methods and tolerances are those of the cells.
-    let sealed = folder.seal("tradeoff.json", args.talk.of_no_method(&prepared.parameters, &summary))?;
-    args.talk.conclude(folder, &sealed, || summary.text(args.digits))?;
+    let origin = args.talk.origin_of(&prepared.parameters);
+    args.talk.publish(folder, "tradeoff", origin, &MethodsAnswer::new(measured, &args.named(), args.digits))?;
     match (interrupt::is_asked(), measured.lacks(args.digits)) {
-        (true, _) => tell("error: interrupted\n  help: go on with --resume"),
-        (_, Some(Lack { why, hint, is_all: true })) => tell(format!("error: no recommendation: {why}\n  help: {hint}")),
-        _ => return Ok(ExitCode::SUCCESS),
+        (true, _) => fail("interrupted\n  help: go on with --resume"),
+        (_, Some(Lack { why, hint, is_all: true })) => fail(format!("no recommendation: {why}\n  help: {hint}")),
+        _ => Ok(ExitCode::SUCCESS),
     }
-    Ok(ExitCode::from(1))
 }
 
 impl Args {

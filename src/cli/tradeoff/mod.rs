@@ -105,8 +105,13 @@ impl Args {
         let watched = Watched::new(system, &outputs).map_err(|error| error.under("--outputs"))?;
         let rows = given.as_ref().map_or(Ok(rows), |given| given.parts((span.start, span.end), rows))?;
         self.check_choices(system)?;
+        let filter = Filter {
+            formulations: self.formulation.clone(),
+            integrators: self.integrator.clone(),
+            projections: self.projection.clone(),
+        };
         let plan = Plan {
-            triples: grid(&self.filter())?,
+            triples: grid(&filter)?,
             budget,
             repeats: usize::from(self.repeats),
             rows,
@@ -117,7 +122,6 @@ impl Args {
         Ok(Question { watched, plan })
     }
 
-    /// Returns the outputs to compare; by default all that a table has.
     fn outputs(&self, prepared: &PreparedScene, given: Option<&Given>) -> Vec<String> {
         let known = recorded(prepared.system());
         let has = |name: &&str| known.iter().any(|column| column.name == **name);
@@ -125,14 +129,6 @@ impl Args {
             Some(given) if self.outputs.is_empty() => given.names().filter(has).map(str::to_string).collect(),
             _ => self.outputs.clone(),
         }
-    }
-
-    /// Returns the methods that are named.
-    fn filter(&self) -> Filter {
-        let formulations = self.formulation.clone();
-        let integrators = self.integrator.clone();
-        let projections = self.projection.clone();
-        Filter { formulations, integrators, projections }
     }
 
     /// Refuses unknown options of the named methods, before anything is run.

@@ -6,7 +6,7 @@ use crate::compare::work_precision::models::{Variant, compare};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use crate::prepared::{Overrides, PreparedScene};
-use crate::report::tradeoff::{ModelsSummary, models_figure, models_table};
+use crate::report::tradeoff::ModelsAnswer;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -16,12 +16,11 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
         others.push(variant(text, args, &prepared)?);
     }
     let name = prepared.name.clone();
-    let title = format!("{}: what models cost", prepared.name);
     let set = args.scene.set.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(",");
     let source = Some((args.scene.path.clone(), args.overrides()));
     let own = Variant { name: named(&args.scene.path, &set), prepared, source };
     let variants: Vec<Variant> = [own].into_iter().chain(others).collect();
-    let mut folder = args.output.folder(&name)?;
+    let folder = args.output.folder(&name)?;
     let repeats = usize::from(args.repeats);
     let bar = args.talk.progress((variants.len() * (repeats + 1) + 1) as u64, &name);
     let watch = |name: &str, done: usize| {
@@ -30,12 +29,7 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
     };
     let costs = compare(&variants, &args.outputs, (repeats, args.budget), watch);
     bar.finish_and_clear();
-    let costs = costs?;
-    let summary = ModelsSummary::new(&costs);
-    folder.write("models.csv", &models_table(&costs)?)?;
-    args.output.figure(&mut folder, "models", models_figure(&title, &costs))?;
-    let sealed = folder.seal("models.json", args.talk.repeatable(&variants[0].prepared, &summary))?;
-    args.talk.conclude(folder, &sealed, || summary.text())?;
+    args.talk.publish(folder, "models", args.talk.origin(&variants[0].prepared), &ModelsAnswer::new(&name, &costs?))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -62,7 +56,6 @@ fn variant(text: &str, args: &Args, like: &PreparedScene) -> Result<Variant> {
     Ok(Variant { name: named(Path::new(path), set), prepared, source })
 }
 
-/// Returns the file's name and the parameters.
 fn named(path: &Path, set: &str) -> String {
     let stem = path.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned());
     if set.is_empty() { stem } else { format!("{stem}:{set}") }

@@ -3,102 +3,78 @@
 use crate::error::{percent, significant};
 use crate::linearize::{Against, Branch, Complex, Fate, Kind, Loci, both, branch_places, damping, frequency};
 use crate::plot::{Figure, Series, Style};
-use crate::report::Table;
+use crate::report::{Answer, Table};
 use serde::Serialize;
+use serde_json::{Value, json};
 
 /// The modes of a scene against those of another at a state.
-#[derive(Clone, Debug, Serialize)]
-pub struct AgainstFile {
-    /// Time of the state, s.
+pub struct AgainstAnswer<'a> {
     pub t: f64,
-    /// Name of the other scene.
-    pub against: String,
-    /// Measure by which modes were matched.
-    pub matched_by: &'static str,
-    /// Modes of the scene, each conjugate pair once.
-    pub modes: Vec<FateFile>,
-    /// Modes that only the other scene has.
-    pub added: Vec<Value>,
+    pub other: &'a str,
+    pub found: Against,
 }
 
 /// Frequency and damping of an eigenvalue.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Value {
-    pub re: f64,
-    pub im: f64,
-    pub frequency_hz: f64,
-    pub damping_ratio: f64,
+fn eigenvalue(value: Complex<f64>) -> Value {
+    json!({ "re": value.re, "im": value.im, "frequency_hz": frequency(value), "damping_ratio": damping(value) })
 }
 
-/// A mode, with that in its place.
-#[derive(Clone, Debug, Serialize)]
-pub struct FateFile {
-    #[serde(flatten)]
-    pub value: Value,
-    /// The mode in its place; null where it is lost.
-    pub there: Option<Value>,
-    /// |change| over |value|.
-    pub shift: Option<f64>,
-    /// MAC of the outputs of both; null where they do not tell.
-    pub mac: Option<f64>,
-    /// Part of it that outputs see, of what they see of the mode of which they see most.
-    pub seen: f64,
+/// A mode with that in its place, which is null where the mode is lost.
+fn fate(fate: &Fate) -> Value {
+    let mut found = eigenvalue(fate.value);
+    found["there"] = json!(fate.there.map(eigenvalue));
+    found["shift"] = json!(fate.shift());
+    found["mac"] = json!(fate.mac);
+    found["seen"] = json!(fate.seen);
+    found
 }
 
-impl From<Complex<f64>> for Value {
-    fn from(value: Complex<f64>) -> Value {
-        Value { re: value.re, im: value.im, frequency_hz: frequency(value), damping_ratio: damping(value) }
+impl AgainstAnswer<'_> {
+    fn matched_by(&self) -> &'static str {
+        if self.found.outputs > 1 { "eigenvalue and MAC of the outputs of both" } else { "eigenvalue" }
     }
 }
 
-impl AgainstFile {
-    /// The comparison with the scene `name`.
-    pub fn new(t: f64, name: &str, found: &Against) -> Self {
-        let fate = |fate: &Fate| FateFile {
-            value: fate.value.into(),
-            there: fate.there.map(Value::from),
-            shift: fate.shift(),
-            mac: fate.mac,
-            seen: fate.seen,
-        };
-        AgainstFile {
-            t,
-            against: name.to_string(),
-            matched_by: if found.outputs > 1 { "eigenvalue and MAC of the outputs of both" } else { "eigenvalue" },
-            modes: found.modes.iter().map(fate).collect(),
-            added: found.added.iter().map(|value| (*value).into()).collect(),
-        }
+impl Answer for AgainstAnswer<'_> {
+    fn json(&self) -> impl Serialize {
+        json!({
+            "t": self.t,
+            "against": self.other,
+            "matched_by": self.matched_by(),
+            "modes": self.found.modes.iter().map(fate).collect::<Vec<Value>>(),
+            "added": self.found.added.iter().copied().map(eigenvalue).collect::<Vec<Value>>(),
+        })
     }
 
-    /// Returns a line for each mode.
-    pub fn text(&self) -> String {
+    fn text(&self) -> String {
         let mut table =
             Table::new(&["frequency (Hz)", "damping ratio", "there (Hz)", "damping ratio", "shift", "MAC", "seen"]);
         let dash = || "-".to_string();
-        for mode in self.modes.iter().take(MOST_LINES) {
+        for mode in self.found.modes.iter().take(MOST_LINES) {
             let [own, there] = [Some(mode.value), mode.there].map(|value| match value {
-                Some(value) => [significant(value.frequency_hz, 5), significant(value.damping_ratio, 4)],
+                Some(value) => [significant(frequency(value), 5), significant(damping(value), 4)],
                 None => ["lost".to_string(), dash()],
             });
             let rest = [
-                mode.shift.map_or_else(dash, percent),
+                mode.shift().map_or_else(dash, percent),
                 mode.mac.map_or_else(dash, |mac| format!("{mac:.2}")),
                 percent(mode.seen),
             ];
             table.row(own.into_iter().chain(there).chain(rest));
         }
-        let more = match self.modes.len().saturating_sub(MOST_LINES) {
+        let more = match self.found.modes.len().saturating_sub(MOST_LINES) {
             0 => String::new(),
             more => format!("  {more} more in the file\n"),
         };
-        let lost = self.modes.iter().filter(|mode| mode.there.is_none()).count();
-        let added = if self.added.is_empty() { String::new() } else { format!(", {} added", self.added.len()) };
+        let lost = self.found.modes.iter().filter(|mode| mode.there.is_none()).count();
+        let added =
+            if self.found.added.is_empty() { String::new() } else { format!(", {} added", self.found.added.len()) };
         format!(
-            "against {}: of {} modes {lost} lost{added}\n{table}{more}  matched by {}; seen: what outputs see of a mode, of \
+            "\nagainst {}: of {} modes {lost} lost{added}\n{table}{more}  matched by {}; seen: what outputs see of a mode, of \
              what they see of others with the same energy\n",
-            self.against,
-            self.modes.len(),
-            self.matched_by
+            self.other,
+            self.found.modes.len(),
+            self.matched_by()
         )
     }
 }
@@ -107,26 +83,22 @@ impl AgainstFile {
 const MOST_LINES: usize = 30;
 
 /// Loci of a scene against those of another.
-#[derive(Clone, Debug, Serialize)]
-pub struct LociAgainst {
-    /// Name of the other scene.
-    pub scene: String,
+#[derive(Serialize)]
+pub(super) struct LociAgainst {
+    scene: String,
     /// Modes of the scene that have a place there, or are lost.
-    pub modes: Vec<BranchFate>,
+    modes: Vec<BranchFate>,
     /// Number of modes that only the other has.
-    pub added: usize,
+    added: usize,
 }
 
-/// A mode of loci, with that in its place.
-#[derive(Clone, Debug, Serialize)]
-pub struct BranchFate {
-    /// Name of the mode.
-    pub mode: String,
-    /// Name of the mode in its place; null where it is lost.
-    pub there: Option<String>,
-    /// Largest |change| over |value|, and where.
-    pub shift: Option<f64>,
-    pub at: Option<f64>,
+/// A mode of loci; in its place one with a largest |change| over |value|, or null where it is lost.
+#[derive(Serialize)]
+struct BranchFate {
+    mode: String,
+    there: Option<String>,
+    shift: Option<f64>,
+    at: Option<f64>,
 }
 
 impl LociAgainst {
@@ -148,7 +120,6 @@ impl LociAgainst {
         LociAgainst { scene: scene.to_string(), modes: names.into_iter().enumerate().map(fate).collect(), added }
     }
 
-    /// Returns a line for each mode.
     pub fn text(&self, along: &str) -> String {
         let mut table = Table::new(&["mode", "there", "largest shift", &format!("at {along}")]).words(1);
         let dash = || "-".to_string();
@@ -171,7 +142,7 @@ impl LociAgainst {
 }
 
 /// Adds the eigenvalues of the other scene to the complex plane of the first; those outside its axes are cut off.
-pub fn with_others(figure: Option<Figure>, scene: &str, other: &Loci) -> Option<Figure> {
+pub(super) fn with_others(figure: Option<Figure>, scene: &str, other: &Loci) -> Option<Figure> {
     let mut figure = figure?;
     let physical = other.named().filter(|(_, branch)| branch.kind == Kind::Physical);
     let points = physical.flat_map(|(_, branch)| &branch.points).filter(|(_, value)| value.im >= 0.0);

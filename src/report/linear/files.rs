@@ -3,119 +3,55 @@
 use super::Linear;
 use crate::error::Result;
 use crate::files::{Array, mat};
-use crate::linearize::{Complex, Cost, Kind, LinearModel, Matrix, Mode, damping, frequency};
+use crate::linearize::{Complex, Kind, LinearModel, Matrix, Mode, damping, frequency};
 use crate::math::largest;
+use crate::prepared::PreparedScene;
+use crate::report::mechanism::{Look, mode_figure};
 use crate::report::table::named;
-use crate::report::{Folder, cell};
+use crate::report::{Answer, Folder, cell, object};
 use crate::tolerances::report as tolerances;
-use serde::Serialize;
-use serde_json::{Map, Value};
-
-/// A linear model as in the file; matrices by rows.
-#[derive(Clone, Debug, Serialize)]
-pub struct LinearFile {
-    /// Name of the scene.
-    pub scene: String,
-    /// Time of the state, s.
-    pub t: f64,
-    /// Method with its options.
-    pub method: String,
-    /// Chart of the coordinates.
-    pub chart: String,
-    /// Names of the states x.
-    pub states: Vec<String>,
-    /// Names of the inputs u.
-    pub inputs: Vec<String>,
-    /// Names of the outputs y.
-    pub outputs: Vec<String>,
-    /// A, n_x x n_x.
-    #[serde(rename = "A")]
-    pub a: Vec<Vec<f64>>,
-    /// B, n_x x n_u.
-    #[serde(rename = "B")]
-    pub b: Vec<Vec<f64>>,
-    /// C, n_y x n_x.
-    #[serde(rename = "C")]
-    pub c: Vec<Vec<f64>>,
-    /// D, n_y x n_u.
-    #[serde(rename = "D")]
-    pub d: Vec<Vec<f64>>,
-    /// E of descriptor forms, n_x x n_x.
-    #[serde(rename = "E", skip_serializing_if = "Option::is_none")]
-    pub e: Option<Vec<Vec<f64>>>,
-    /// Eigenvalues in the order of [`LinearModel::modes`].
-    pub eigenvalues: Vec<Eigenvalue>,
-    /// True if the state is an equilibrium.
-    pub equilibrium: bool,
-    /// The state that is perturbed.
-    pub operating_point: OperatingPointFile,
-    /// Time, size and conditioning.
-    pub cost: Cost,
-}
-
-/// An eigenvalue; its numbers are none where it is infinite.
-#[derive(Clone, Debug, Serialize)]
-pub struct Eigenvalue {
-    pub re: Option<f64>,
-    pub im: Option<f64>,
-    pub frequency_hz: Option<f64>,
-    pub damping_ratio: Option<f64>,
-    pub kind: Kind,
-    /// Participation of each state, from the largest.
-    pub participation: Map<String, Value>,
-}
-
-/// The state that is perturbed, by names.
-#[derive(Clone, Debug, Serialize)]
-pub struct OperatingPointFile {
-    /// Coordinates.
-    pub q: Map<String, Value>,
-    /// Velocities.
-    pub v: Map<String, Value>,
-    /// Accelerations.
-    pub vdot: Map<String, Value>,
-    /// Multipliers.
-    pub lambda: Map<String, Value>,
-    /// Values of the inputs of the scene.
-    #[serde(skip_serializing_if = "Map::is_empty")]
-    pub u: Map<String, Value>,
-    /// Largest components.
-    pub norms: Norms,
-    /// The axes of a steady rotation, in which q and v are expressed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub steady_rotation: Option<Turn>,
-}
-
-/// Axes that rotate at a constant speed.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Turn {
-    /// Angular velocity, rad/s.
-    pub speed: f64,
-    /// Direction of the axis of rotation.
-    pub axis: [f64; 3],
-    /// A point on the axis, m.
-    pub point: [f64; 3],
-}
+use serde::{Serialize, Serializer};
+use serde_json::{Map, Value, json};
 
 /// Largest components; those of phi and phi' over their scales.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Norms {
+#[derive(Serialize)]
+pub(super) struct Norms {
     pub phi: f64,
     pub phi_dot: f64,
     pub v: f64,
     pub vdot: f64,
 }
 
-/// Returns the name of a model's files without extension, such as `linear-0.01`.
-pub fn linear_stem(t: f64) -> String {
-    format!("linear-{}", cell(t))
+/// Returns the name of the files of a result at a time without extension, such as `linear-0.01`.
+pub fn stem_at(what: &str, t: f64) -> String {
+    format!("{what}-{}", cell(t))
+}
+
+/// A linear model with the figure of its modes.
+pub struct LinearAnswer<'a> {
+    pub prepared: &'a PreparedScene,
+    pub linear: Linear<'a>,
+}
+
+impl Answer for LinearAnswer<'_> {
+    fn json(&self) -> impl Serialize {
+        self.linear
+    }
+
+    fn text(&self) -> String {
+        self.linear.text()
+    }
+
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        let LinearAnswer { prepared, linear } = self;
+        linear.write(folder, stem)?;
+        let figure = mode_figure(prepared, &Look::plain(&prepared.mechanism), linear.model);
+        folder.figure(&stem.replace("linear", "modes"), figure)
+    }
 }
 
 impl Linear<'_> {
     /// Writes the arrays for NumPy and for MATLAB; `stem` is the name of the files without extension.
-    ///
-    /// # Errors
-    /// Files that cannot be written.
     pub fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         let arrays = self.arrays();
         #[cfg(feature = "npz")]
@@ -123,45 +59,25 @@ impl Linear<'_> {
         folder.write(&format!("{stem}.mat"), &mat::write(&arrays)?)
     }
 
-    /// Returns the model as in `linear-T.json`.
-    pub fn file(&self) -> LinearFile {
-        let model = self.model;
-        LinearFile {
-            scene: self.scene.to_string(),
-            t: model.point.t,
-            method: model.method.clone(),
-            chart: model.chart.clone(),
-            states: model.states.clone(),
-            inputs: model.inputs.clone(),
-            outputs: model.outputs.clone(),
-            a: rows(&model.a),
-            b: rows(&model.b),
-            c: rows(&model.c),
-            d: rows(&model.d),
-            e: model.e.as_ref().map(rows),
-            eigenvalues: model.modes.iter().map(|mode| eigenvalue(model, mode)).collect(),
-            equilibrium: model.point.is_equilibrium,
-            operating_point: self.point(),
-            cost: model.cost,
-        }
-    }
-
-    fn point(&self) -> OperatingPointFile {
-        let model = self.model;
+    /// Returns the state that is perturbed, by names. Of a steady rotation q and v are expressed in its axes.
+    fn point(&self) -> Value {
         let point = &self.model.point;
-        OperatingPointFile {
-            q: named(&self.names.q, &point.q),
-            v: named(&self.names.v, &point.v),
-            vdot: named(&self.names.v, &point.vdot),
-            lambda: named(&self.names.lambda, &point.lambda),
-            u: named(&model.input_names(), &point.u),
-            norms: self.norms(),
-            steady_rotation: point.axes.map(|spin| Turn {
-                speed: spin.speed(),
-                axis: spin.velocity.map(|w| w / spin.speed()),
-                point: spin.point,
-            }),
+        let mut found = json!({
+            "q": named(&self.names.q, &point.q),
+            "v": named(&self.names.v, &point.v),
+            "vdot": named(&self.names.v, &point.vdot),
+            "lambda": named(&self.names.lambda, &point.lambda),
+        });
+        let inputs = named(&self.model.input_names(), &point.u);
+        if !inputs.is_empty() {
+            found["u"] = inputs.into();
         }
+        found["norms"] = json!(self.norms());
+        if let Some(spin) = point.axes {
+            let axis = spin.velocity.map(|w| w / spin.speed());
+            found["steady_rotation"] = json!({ "speed": spin.speed(), "axis": axis, "point": spin.point });
+        }
+        found
     }
 
     pub(super) fn norms(&self) -> Norms {
@@ -176,24 +92,50 @@ impl Linear<'_> {
     }
 }
 
+impl Serialize for Linear<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let model = self.model;
+        object!(serializer,
+            "scene" => self.scene,
+            "t" => model.point.t,
+            "method" => model.method,
+            "chart" => model.chart,
+            "states" => model.states,
+            "inputs" => model.inputs,
+            "outputs" => model.outputs,
+            "A" => rows(&model.a),
+            "B" => rows(&model.b),
+            "C" => rows(&model.c),
+            "D" => rows(&model.d),
+            "E" if model.e.is_some() => model.e.as_ref().map(rows),
+            "eigenvalues" => model.modes.iter().map(|mode| eigenvalue(model, mode)).collect::<Vec<Value>>(),
+            "equilibrium" => model.point.is_equilibrium,
+            "operating_point" => self.point(),
+            "cost" => model.cost,
+        )
+    }
+}
+
 fn rows(matrix: &Matrix) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
-fn eigenvalue(model: &LinearModel, mode: &Mode) -> Eigenvalue {
+/// Returns an eigenvalue, whose numbers are null where it is infinite, with the participation of each state, from the
+/// largest.
+fn eigenvalue(model: &LinearModel, mode: &Mode) -> Value {
     let is_finite = mode.kind != Kind::Infinite && mode.value.re.is_finite() && mode.value.im.is_finite();
     let finite = |value: f64| is_finite.then_some(value);
     let value = shown(mode);
     let parts = largest_parts(&model.states, &mode.participation).into_iter();
     let parts = parts.filter(|(_, part)| *part >= tolerances::PART_OF_MODE);
-    Eigenvalue {
-        re: finite(value.re),
-        im: finite(value.im),
-        frequency_hz: finite(frequency(value)),
-        damping_ratio: finite(mode.clean_damping()).filter(|_| !mode.is_zero()),
-        kind: mode.kind,
-        participation: parts.map(|(name, part)| (name.to_string(), Value::from(part))).collect(),
-    }
+    json!({
+        "re": finite(value.re),
+        "im": finite(value.im),
+        "frequency_hz": finite(frequency(value)),
+        "damping_ratio": finite(mode.clean_damping()).filter(|_| !mode.is_zero()),
+        "kind": mode.kind,
+        "participation": parts.map(|(name, part)| (name.to_string(), Value::from(part))).collect::<Map<String, Value>>(),
+    })
 }
 
 /// Returns states with their participation, from the largest; equal ones in their order.

@@ -1,164 +1,171 @@
 //! `loci.csv`, `loci.json`, and text on eigenvalues at many states.
 
-use super::against::{LociAgainst, Value};
-use super::turning::unit_of_speed;
+use super::against::{LociAgainst, with_others};
+use super::mode_figures::{frequency_figure, motion_figure};
+use super::plane::loci_figure;
+use super::turning::{speeds, unit_of_speed};
 use crate::error::{Error, Failure, Result, significant};
-use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, damping, frequency};
+use crate::linearize::{Branch, Complex, Gap, Kind, Loci, LociVariable, Reached, damping, frequency};
 use crate::math::bounds;
 use crate::plot::AxisSpec;
 use crate::report::figures::label;
-use crate::report::{Table, cell, table};
+use crate::report::{Answer, Folder, Table, cell, table};
 use crate::tolerances::linearize as tolerances;
 use crate::tolerances::report::SAME;
 use serde::Serialize;
+use serde_json::{Value, json};
 
-/// Summary of eigenvalues at many states.
-#[derive(Clone, Debug, Serialize)]
-pub struct LociSummary {
-    /// Name of the scene.
-    pub scene: String,
-    /// Method with its options.
-    pub method: String,
-    /// Chart of the coordinates.
-    pub chart: String,
-    /// Time or parameter.
-    pub along: AlongFile,
-    /// Number of states with eigenvalues.
-    pub reached: usize,
-    /// Number of these that are equilibria.
-    pub equilibria: usize,
-    /// States without eigenvalues.
-    pub failures: Vec<FailureFile>,
-    /// Ranges of the modes.
-    pub modes: Vec<ModeSummary>,
-    /// The modes against those of another scene, if requested.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub against: Option<LociAgainst>,
-}
-
-/// Variable that the eigenvalues are functions of: time in s, or a parameter of the scene.
-#[derive(Clone, Debug, Serialize)]
-pub struct AlongFile {
-    pub name: String,
+/// Eigenvalues of a scene at many states.
+pub struct LociAnswer<'a> {
+    scene: &'a str,
+    loci: &'a Loci,
     /// Unit of time; of a parameter the one that is given, or that of the speed of a steady rotation; else empty.
-    pub unit: String,
-    pub from: f64,
-    pub to: f64,
-    pub count: usize,
-    pub log: bool,
+    unit: &'a str,
+    modes: Vec<ModeSummary>,
+    /// Another scene by its name.
+    other: Option<(&'a str, &'a Loci)>,
 }
 
-#[derive(Clone, Debug, Serialize)]
-pub struct FailureFile {
-    pub at: f64,
-    pub reason: String,
-    pub hint: Option<String>,
+/// Ranges of a mode, and those of time or parameter with a real part above zero.
+#[derive(Serialize)]
+struct ModeSummary {
+    mode: String,
+    kind: Kind,
+    frequency_hz: Extent,
+    damping_ratio: Extent,
+    growing: Vec<Stretch>,
 }
 
-/// Range of a mode.
-#[derive(Clone, Debug, Serialize)]
-pub struct ModeSummary {
-    pub mode: String,
-    pub kind: Kind,
-    pub frequency_hz: Extent,
-    pub damping_ratio: Extent,
-    /// Ranges of time or parameter with a real part above zero.
-    pub growing: Vec<Stretch>,
+#[derive(Clone, Copy, Serialize)]
+struct Extent {
+    min: f64,
+    max: f64,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Extent {
-    pub min: f64,
-    pub max: f64,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Stretch {
-    pub from: f64,
-    pub to: f64,
+#[derive(Serialize)]
+struct Stretch {
+    from: f64,
+    to: f64,
 }
 
 /// `loci.json`: the summary, the states that are equilibria, and the branches.
-#[derive(Clone, Debug, Serialize)]
-pub struct LociFile {
-    /// Summary.
+#[derive(Serialize)]
+struct LociFile<'a> {
     #[serde(flatten)]
-    pub summary: LociSummary,
-    /// Times or values with a model.
-    pub states: Vec<Reached>,
-    /// Branches, of conjugate pairs one.
-    pub branches: Vec<BranchFile>,
+    summary: Value,
+    states: &'a [Reached],
+    branches: Vec<BranchFile>,
 }
 
-#[derive(Clone, Debug, Serialize)]
-pub struct BranchFile {
-    pub mode: String,
-    pub kind: Kind,
+#[derive(Serialize)]
+struct BranchFile {
+    mode: String,
+    kind: Kind,
     /// True if the conjugates are eigenvalues too; their branch is dropped.
-    pub pair: bool,
-    pub points: Vec<PointFile>,
+    pair: bool,
+    points: Vec<PointFile>,
 }
 
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct PointFile {
-    pub at: f64,
-    #[serde(flatten)]
-    pub value: Value,
+#[derive(Serialize)]
+struct PointFile {
+    at: f64,
+    re: f64,
+    im: f64,
+    frequency_hz: f64,
+    damping_ratio: f64,
 }
 
 /// Growth by less than this part over the whole motion is not reported.
 const LITTLE: f64 = 0.01;
 
-impl LociSummary {
-    /// The summary of loci; `unit` is that of the parameter, if it is known.
-    pub fn new(scene: &str, loci: &Loci, unit: Option<&str>) -> Self {
-        let ends = [loci.places.first(), loci.places.last()].map(|place| place.copied().unwrap_or(0.0));
-        let (name, unit, log, least) = match &loci.along {
-            LociVariable::Time => ("t".to_string(), Some("s"), false, LITTLE / (ends[1] - ends[0])),
-            LociVariable::Parameter(range) => {
-                let unit = unit.or_else(|| unit_of_speed(loci));
-                (range.parameter.clone(), unit, range.is_log, tolerances::EIGENVALUES_AGREE)
-            }
+impl<'a> LociAnswer<'a> {
+    /// The answer on loci, against those of another scene; `unit` is that of the parameter, if it is known.
+    pub fn new(scene: &'a str, loci: &'a Loci, unit: Option<&'a str>, other: Option<(&'a str, &'a Loci)>) -> Self {
+        let [from, to] = ends(loci);
+        let (unit, least) = match &loci.along {
+            LociVariable::Time => (Some("s"), LITTLE / (to - from)),
+            LociVariable::Parameter(_) => (unit.or_else(|| unit_of_speed(loci)), tolerances::EIGENVALUES_AGREE),
         };
-        let unit = unit.unwrap_or_default().to_string();
-        LociSummary {
-            scene: scene.to_string(),
-            method: loci.method.clone(),
-            chart: loci.chart.clone(),
-            along: AlongFile { name, unit, from: ends[0], to: ends[1], count: loci.places.len(), log },
-            reached: loci.reached.len(),
-            equilibria: loci.reached.iter().filter(|state| state.equilibrium).count(),
-            failures: loci.gaps.iter().map(|gap| failure(gap.at, &gap.error)).collect(),
-            modes: loci.named().map(|(mode, branch)| mode_summary(mode, branch, least)).collect(),
-            against: None,
+        let modes = loci.named().map(|(mode, branch)| mode_summary(mode, branch, least)).collect();
+        LociAnswer { scene, loci, unit: unit.unwrap_or_default(), modes, other }
+    }
+
+    /// Returns what is printed as JSON: all but states and branches.
+    pub fn summary(&self) -> Value {
+        let Loci { method, chart, reached, gaps, places, .. } = self.loci;
+        let [from, to] = ends(self.loci);
+        let failure = |gap: &Gap| {
+            let (reason, hint) = told(&gap.error);
+            json!({ "at": gap.at, "reason": reason, "hint": hint })
+        };
+        let mut summary = json!({
+            "scene": self.scene,
+            "method": method,
+            "chart": chart,
+            "along": {
+                "name": self.name_along(),
+                "unit": self.unit,
+                "from": from,
+                "to": to,
+                "count": places.len(),
+                "log": self.is_log(),
+            },
+            "reached": reached.len(),
+            "equilibria": self.equilibria(),
+            "failures": gaps.iter().map(failure).collect::<Vec<Value>>(),
+            "modes": self.modes,
+        });
+        if let Some((name, other)) = self.other {
+            summary["against"] = json!(LociAgainst::new(self.loci, name, other));
+        }
+        summary
+    }
+
+    fn name_along(&self) -> &str {
+        match &self.loci.along {
+            LociVariable::Time => "t",
+            LociVariable::Parameter(range) => &range.parameter,
         }
     }
 
-    /// Returns the axis of the parameter, with its unit if that is known.
-    pub fn axis(&self) -> AxisSpec {
-        let axis = AxisSpec::from(label(&self.along.name, &self.along.unit));
-        if self.along.log { axis.log() } else { axis }
+    fn is_log(&self) -> bool {
+        matches!(&self.loci.along, LociVariable::Parameter(range) if range.is_log)
+    }
+
+    fn equilibria(&self) -> usize {
+        self.loci.reached.iter().filter(|state| state.equilibrium).count()
+    }
+
+    /// Draws the modes; over a parameter also the complex plane, where a motion would leave loose dots.
+    fn figures(&self, folder: &mut Folder, plane_name: &str, modes_name: &str) -> Result<()> {
+        let branches = &self.loci.branches;
+        let LociVariable::Parameter(range) = &self.loci.along else {
+            let title = format!("{}: eigenvalues along the motion", self.scene);
+            let other = self.other.map(|(name, other)| (name, other.branches.as_slice()));
+            return folder.figure(modes_name, motion_figure(&title, branches, other));
+        };
+        let is_turning = self.loci.reached.iter().any(|state| state.turning.is_some());
+        let axes = if is_turning { ", in axes that turn along" } else { "" };
+        let title = format!("{}: eigenvalues over {}{axes}", self.scene, range.parameter);
+        let speeds = speeds(self.loci, self.unit);
+        let axis = AxisSpec::from(label(&range.parameter, self.unit));
+        let axis = if range.is_log { axis.log() } else { axis };
+        let mut plane = loci_figure(&title, axis.clone(), branches, &speeds);
+        if let Some((name, other)) = self.other {
+            plane = with_others(plane, name, other);
+        }
+        folder.figure(plane_name, plane)?;
+        folder.figure(modes_name, frequency_figure(&title, axis, branches, &speeds))
     }
 }
 
-impl LociFile {
-    /// The file of loci.
-    pub fn new(summary: LociSummary, loci: &Loci) -> Self {
-        let branches = loci.named().map(|(mode, branch)| branch_file(mode, branch)).collect();
-        LociFile { summary, states: loci.reached.clone(), branches }
-    }
+fn ends(loci: &Loci) -> [f64; 2] {
+    [loci.places.first(), loci.places.last()].map(|place| place.copied().unwrap_or(0.0))
 }
 
 /// Returns time or parameter, then real and imaginary part, frequency and damping ratio of each mode; empty cells where
 /// there are none.
-///
-/// # Errors
-/// A table that cannot be written.
-pub fn loci_table(loci: &Loci) -> Result<Vec<u8>> {
-    let along = match &loci.along {
-        LociVariable::Time => "t".to_string(),
-        LociVariable::Parameter(range) => range.parameter.clone(),
-    };
+fn loci_table(loci: &Loci, along: &str) -> Result<Vec<u8>> {
     let modes: Vec<(String, &Branch)> = loci.named().collect();
     let names = modes
         .iter()
@@ -171,7 +178,7 @@ pub fn loci_table(loci: &Loci) -> Result<Vec<u8>> {
         });
         [cell(*place)].into_iter().chain(cells).collect()
     });
-    table([along].into_iter().chain(names), rows)
+    table([along.to_string()].into_iter().chain(names), rows)
 }
 
 /// Returns the row in which a branch begins.
@@ -187,18 +194,16 @@ fn cells(value: Option<Complex<f64>>) -> [String; 4] {
     }
 }
 
-/// Returns the finite points.
 fn finite(branch: &Branch) -> impl Iterator<Item = (f64, Complex<f64>)> + Clone {
     branch.points.iter().copied().filter(|(_, value)| value.re.is_finite() && value.im.is_finite())
 }
 
-fn failure(at: f64, error: &Error) -> FailureFile {
-    let (reason, hint) = match error {
-        Error::Input(input) => (input.message.clone(), input.hint.clone()),
-        Error::Run(Failure { reason, hint, .. }) => (reason.clone(), Some(hint.clone())),
-        Error::File { problem, .. } | Error::Unwritten { problem, .. } => (problem.clone(), None),
-    };
-    FailureFile { at, reason, hint }
+fn told(error: &Error) -> (&str, Option<&str>) {
+    match error {
+        Error::Input(input) => (&input.message, input.hint.as_deref()),
+        Error::Run(Failure { reason, hint, .. }) => (reason, Some(hint)),
+        Error::File { problem, .. } | Error::Unwritten { problem, .. } => (problem, None),
+    }
 }
 
 fn mode_summary(mode: String, branch: &Branch, least: f64) -> ModeSummary {
@@ -221,7 +226,13 @@ fn mode_summary(mode: String, branch: &Branch, least: f64) -> ModeSummary {
 }
 
 fn branch_file(mode: String, branch: &Branch) -> BranchFile {
-    let point = |(at, value): (f64, Complex<f64>)| PointFile { at, value: value.into() };
+    let point = |(at, value): (f64, Complex<f64>)| PointFile {
+        at,
+        re: value.re,
+        im: value.im,
+        frequency_hz: frequency(value),
+        damping_ratio: damping(value),
+    };
     let pair = finite(branch).all(|(_, value)| value.im > 0.0);
     BranchFile { mode, kind: branch.kind, pair, points: finite(branch).map(point).collect() }
 }
@@ -231,37 +242,45 @@ const MOST_LINES: usize = 30;
 /// Largest number of stretches listed for a mode.
 const MOST_STRETCHES: usize = 4;
 
-impl LociSummary {
-    /// Returns method, chart and states, then the modes.
-    pub fn text(&self) -> String {
-        let along = &self.along;
-        let unit = if along.unit.is_empty() { String::new() } else { format!(" {}", along.unit) };
-        let ends = [along.from, along.to].map(|end| significant(end, 9));
-        let mut text = format!(
-            "{}: eigenvalues at {} of {} states, {} from {} to {}{unit}, by {}, chart {}\n  {}\n",
-            self.scene,
-            self.reached,
-            along.count,
-            along.name,
-            ends[0],
-            ends[1],
-            self.method,
-            self.chart,
-            self.meaning()
-        );
-        for (first, last, count) in self.gaps() {
-            let place = if count == 1 { significant(first.at, 9) } else { span(first.at, last.at) };
-            text += &format!("  NO EIGENVALUES at {} = {place}{unit}: {}\n", along.name, first.reason);
-        }
-        let against =
-            self.against.as_ref().map_or(String::new(), |against| "\n".to_string() + &against.text(&along.name));
-        text + "\n" + &self.table() + &against
+impl Answer for LociAnswer<'_> {
+    fn json(&self) -> impl Serialize {
+        let branches = self.loci.named().map(|(mode, branch)| branch_file(mode, branch)).collect();
+        LociFile { summary: self.summary(), states: &self.loci.reached, branches }
     }
 
-    /// Returns the meaning of the real parts.
+    /// Returns method, chart and states, then the modes.
+    fn text(&self) -> String {
+        let Loci { method, chart, reached, places, .. } = self.loci;
+        let along = self.name_along();
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let [from, to] = ends(self.loci).map(|end| significant(end, 9));
+        let mut text = format!(
+            "{}: eigenvalues at {} of {} states, {along} from {from} to {to}{unit}, by {method}, chart {chart}\n  {}\n",
+            self.scene,
+            reached.len(),
+            places.len(),
+            self.meaning()
+        );
+        // Neighbouring states without eigenvalues for the same reason are told together.
+        for gaps in self.loci.gaps.chunk_by(|a, b| told(&a.error).0 == told(&b.error).0) {
+            let [first, last] = [&gaps[0], &gaps[gaps.len() - 1]];
+            let place = if gaps.len() == 1 { significant(first.at, 9) } else { span(first.at, last.at) };
+            text += &format!("  NO EIGENVALUES at {along} = {place}{unit}: {}\n", told(&first.error).0);
+        }
+        let against = self.other.map(|(name, other)| LociAgainst::new(self.loci, name, other).text(along));
+        text + "\n" + &self.table() + &against.map_or(String::new(), |text| format!("\n{text}"))
+    }
+
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &loci_table(self.loci, self.name_along())?)?;
+        self.figures(folder, stem, &format!("{stem}_modes"))
+    }
+}
+
+impl LociAnswer<'_> {
     fn meaning(&self) -> &'static str {
-        match self.equilibria {
-            all if all == self.reached => "all are equilibria: one with a growing mode is unstable",
+        match self.equilibria() {
+            all if all == self.loci.reached.len() => "all are equilibria: one with a growing mode is unstable",
             0 => {
                 "none is an equilibrium: a growing mode tells where neighbours leave the motion at that instant, and proves \
                  nothing about its stability"
@@ -270,20 +289,8 @@ impl LociSummary {
         }
     }
 
-    /// Groups neighbouring states without eigenvalues for the same reason: first, last, count.
-    fn gaps(&self) -> Vec<(&FailureFile, &FailureFile, usize)> {
-        let mut found: Vec<(&FailureFile, &FailureFile, usize)> = Vec::new();
-        for failure in &self.failures {
-            match found.last_mut() {
-                Some((first, last, count)) if first.reason == failure.reason => (*last, *count) = (failure, *count + 1),
-                _ => found.push((failure, failure, 1)),
-            }
-        }
-        found
-    }
-
     fn table(&self) -> String {
-        let growing = label(&format!("growing at {}", self.along.name), &self.along.unit);
+        let growing = label(&format!("growing at {}", self.name_along()), self.unit);
         let mut table = Table::new(&["mode", "frequency (Hz)", "damping ratio", &growing]).words(1).words(2).words(3);
         let of = |kind: Kind| self.modes.iter().filter(move |mode| mode.kind == kind);
         of(Kind::Physical).take(MOST_LINES).for_each(|mode| table.row(mode_cells(mode)));

@@ -13,20 +13,21 @@ mod ranges;
 mod rays;
 mod response;
 mod text;
+mod transition;
 mod turning;
 mod validation;
 
-pub use against::{AgainstFile, LociAgainst, with_others};
+pub use against::AgainstAnswer;
 pub use bode_figure::{Magnitude, bode_figure};
-pub use files::{LinearFile, OperatingPointFile, linear_stem};
-pub use loci::{LociFile, LociSummary, loci_table};
+pub use files::{LinearAnswer, stem_at};
+pub use loci::LociAnswer;
 pub use mode_figures::{frequency_figure, motion_figure};
 pub use pair::Response;
 pub use plane::loci_figure;
-pub use response::{FrequencyResponse, ResponseFile};
-pub use text::comparison_text;
-pub use turning::speeds;
-pub use validation::{ValidationFile, validation_figure};
+pub use response::FrequencyResponse;
+pub use text::{MethodsAnswer, comparison_text};
+pub use transition::Transition;
+pub use validation::{ValidationAnswer, validation_figure};
 
 use crate::linearize::LinearModel;
 use crate::system::Names;
@@ -34,10 +35,8 @@ use crate::system::Names;
 /// A linear model with the names of its scene.
 #[derive(Clone, Copy)]
 pub struct Linear<'a> {
-    /// Name of the scene.
     pub scene: &'a str,
     /// Names of the coordinates, velocities and multipliers of the operating point.
     pub names: &'a Names,
-    /// The model.
     pub model: &'a LinearModel,
 }

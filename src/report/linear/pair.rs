@@ -2,21 +2,15 @@
 
 use super::phase::phases;
 use crate::linearize::Complex;
-use serde::Serialize;
 
 /// Response of an output to an input, at each frequency.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Response {
-    /// Name of the input.
     pub input: String,
-    /// Name of the output.
     pub output: String,
-    /// Unit of the input.
     pub input_unit: String,
-    /// Unit of the output.
     pub output_unit: String,
     /// Values, in output unit per input unit.
-    #[serde(skip)]
     pub values: Vec<Complex<f64>>,
 }
 

@@ -3,7 +3,10 @@
 use super::Linear;
 use crate::error::{short, significant};
 use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, Pair, pairs};
-use crate::report::Table;
+use crate::report::table::count;
+use crate::report::{Answer, Table};
+use serde::Serialize;
+use serde_json::json;
 
 /// Largest number of lines of physical eigenvalues, and of spurious ones; the files have all.
 const MOST_LINES: usize = 30;
@@ -26,9 +29,8 @@ impl Linear<'_> {
     /// Returns method, chart and state, then the modes.
     pub fn text(&self) -> String {
         let model = self.model;
-        let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-        let sizes = [(model.states.len(), "state"), (model.inputs.len(), "input"), (model.outputs.len(), "output")];
-        let sizes = sizes.map(|(n, what)| count(n, what)).join(", ");
+        let sizes = [(&model.states, "state"), (&model.inputs, "input"), (&model.outputs, "output")];
+        let sizes = sizes.map(|(all, noun)| count(all.len(), noun)).join(", ");
         let form = if model.e.is_some() { "E x' = A x + B u" } else { "x' = A x + B u" };
         format!(
             "{} at t = {} s: linear model by {}, {form}, {sizes}\n  {}\n{}{}\n{}",
@@ -174,6 +176,23 @@ fn movers(bodies: &[&str], energy: &[f64]) -> String {
     words.join(", ") + more
 }
 
+/// Models at a state by all methods.
+pub struct MethodsAnswer {
+    pub t: f64,
+    pub is_equilibrium: bool,
+    pub methods: Vec<Comparison>,
+}
+
+impl Answer for MethodsAnswer {
+    fn json(&self) -> impl Serialize {
+        json!({ "t": self.t, "methods": self.methods })
+    }
+
+    fn text(&self) -> String {
+        format!("\n{}", comparison_text(&self.methods, self.is_equilibrium))
+    }
+}
+
 /// Returns one line for each method, the reference first.
 pub fn comparison_text(rows: &[Comparison], is_equilibrium: bool) -> String {
     let headings = [
@@ -191,15 +210,13 @@ pub fn comparison_text(rows: &[Comparison], is_equilibrium: bool) -> String {
     ];
     let mut table = Table::new(&headings).words(1);
     for row in rows {
-        let counts = [row.physical, row.spurious, row.infinite].map(|count| count.to_string());
-        let [physical, spurious, infinite] = counts;
         table.row([
             row.method.clone(),
             row.chart.clone(),
             row.error.map_or("-".to_string(), |error| format!("{error:.1e}")),
-            physical,
-            spurious,
-            infinite,
+            row.physical.to_string(),
+            row.spurious.to_string(),
+            row.infinite.to_string(),
             row.off_constraints
                 .map_or("-".to_string(), |[physical, spurious]| format!("{physical:.0e} / {spurious:.0e}")),
             row.conditioning.map_or("-".to_string(), |condition| significant(condition, 2)),

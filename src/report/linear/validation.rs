@@ -1,99 +1,73 @@
 //! The linear model against perturbed simulations: `validation-T.json`, its text and its figure.
 
-use crate::error::significant;
+use crate::error::{Result, significant};
 use crate::math::largest;
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
-use crate::report::Table;
 use crate::report::figures::{Floor, grouped, label, quantity};
+use crate::report::{Answer, Folder, Table};
 use crate::system::Names;
 use crate::tolerances::report as tolerances;
-use crate::validate::{Curve, Decay, InputCheck, PerturbationSequence, Validation, Verdict};
+use crate::validate::{Curve, Decay, PerturbationSequence, Validation};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-/// A validation as in the file: the first direction at the top level, all of them in `directions`.
-#[derive(Clone, Debug, Serialize)]
-pub struct ValidationFile {
-    /// Name of the scene.
-    pub scene: String,
-    /// Time of the state, s.
-    pub t: f64,
-    /// Chart of the coordinates.
-    pub chart: String,
-    /// Time over which perturbed motions were followed, s.
-    pub followed: f64,
-    /// Time of the singular state half way to which they were followed, s.
-    pub singular: Option<f64>,
-    /// Sizes of (dq, dv / rate), m or rad.
-    pub epsilons: Vec<f64>,
-    /// Rate by which velocities are divided, 1/s.
-    pub rate: f64,
-    /// Errors of the variational equations for each size.
-    pub errors_ltv: Vec<f64>,
-    /// Their order in epsilon; none if not measured.
-    pub order_ltv: Option<f64>,
-    /// Errors of exp(A t) for each size.
-    pub errors_lti: Vec<f64>,
-    /// Times at which the frozen model is off by a share, s; null: not within the time followed.
-    pub horizons: Map<String, Value>,
-    /// Conclusion.
-    pub verdict: Verdict,
-    /// Results of all directions.
-    pub directions: Vec<Value>,
-    /// Comparison of exp(A h) with the state-transition matrix.
-    pub frozen: Value,
-    /// Results of the inputs.
-    pub inputs: Vec<InputCheck>,
-    /// Inputs that move no degree of freedom, and are not checked.
-    pub unchecked_inputs: Vec<String>,
+/// The validation of a linear model of a scene.
+pub struct ValidationAnswer<'a> {
+    pub scene: &'a str,
+    pub names: &'a Names,
+    pub found: Validation,
 }
 
 /// Names of the shares of [`PerturbationSequence::horizons`].
 const SHARES: [&str; 2] = ["1%", "10%"];
 
-impl ValidationFile {
-    /// The file of a validation.
-    pub fn new(scene: &str, names: &Names, found: &Validation) -> Self {
-        let first = found.sequences.first();
-        ValidationFile {
-            scene: scene.to_string(),
-            t: found.t,
-            chart: found.chart.clone(),
-            followed: found.followed,
-            singular: found.singular,
-            epsilons: first.map_or(Vec::new(), |sequence| sequence.epsilons.clone()),
-            rate: found.rate,
-            errors_ltv: first.map_or(Vec::new(), |sequence| sequence.errors_ltv.clone()),
-            order_ltv: first.and_then(|sequence| sequence.order_ltv.order),
-            errors_lti: first.map_or(Vec::new(), |sequence| sequence.errors_lti.clone()),
-            horizons: first.map_or(Map::new(), horizons),
-            verdict: found.verdict.clone(),
-            directions: found.sequences.iter().map(|sequence| direction(names, sequence)).collect(),
-            frozen: json!({ "steps": found.frozen.steps, "errors": found.frozen.errors, "decay": found.frozen.decay }),
-            inputs: found.inputs.clone(),
-            unchecked_inputs: found.unchecked.clone(),
-        }
-    }
-
+impl ValidationAnswer<'_> {
     /// True if perturbed motions agree with the model.
     pub fn is_right(&self) -> bool {
-        self.verdict.ltv && self.verdict.lti
+        self.found.verdict.ltv && self.found.verdict.lti
     }
 
     /// Returns the meaning of a negative verdict, with advice.
     pub fn complaint(&self) -> String {
-        let ValidationFile { scene, chart, verdict, .. } = self;
-        let t = significant(self.t, 9);
+        let Validation { t, chart, verdict, .. } = &self.found;
+        let t = significant(*t, 9);
         let help = if verdict.ltv {
             "take --chart intrinsic, mass_orthogonal or names of independent coordinates"
         } else {
             "try another --horizon or --along; equations of one's own may have wrong derivatives"
         };
-        format!("{scene} at t = {t} s, chart {chart}: {}\n  help: {help}", verdict.text)
+        format!("{} at t = {t} s, chart {chart}: {}\n  help: {help}", self.scene, verdict.text)
+    }
+}
+
+impl Answer for ValidationAnswer<'_> {
+    /// Returns the first direction at the top level, and all of them in `directions`.
+    fn json(&self) -> impl Serialize {
+        let Validation { frozen, sequences, .. } = &self.found;
+        let first = sequences.first();
+        json!({
+            "scene": self.scene,
+            "t": self.found.t,
+            "chart": self.found.chart,
+            "followed": self.found.followed,
+            "singular": self.found.singular,
+            "epsilons": first.map_or(&[][..], |sequence| &sequence.epsilons),
+            "rate": self.found.rate,
+            "errors_ltv": first.map_or(&[][..], |sequence| &sequence.errors_ltv),
+            "order_ltv": first.and_then(|sequence| sequence.order_ltv.order),
+            "errors_lti": first.map_or(&[][..], |sequence| &sequence.errors_lti),
+            "horizons": first.map_or(Map::new(), horizons),
+            "verdict": self.found.verdict,
+            "directions": sequences.iter().map(|sequence| direction(self.names, sequence)).collect::<Vec<Value>>(),
+            "frozen": { "steps": frozen.steps, "errors": frozen.errors, "decay": frozen.decay },
+            "inputs": self.found.inputs,
+            "unchecked_inputs": self.found.unchecked,
+        })
     }
 
     /// Returns orders, horizons and the verdict.
-    pub fn text(&self, found: &Validation) -> String {
+    fn text(&self) -> String {
+        let found = &self.found;
         let mut table = Table::new(&["perturbation", "order in eps", "decades", "1 % after (s)", "10 % after (s)"]);
         for sequence in &found.sequences {
             let end = sequence.times.last().map_or(found.followed, |t| t.min(found.followed));
@@ -118,12 +92,22 @@ impl ValidationFile {
         format!(
             "{} at t = {} s: the linear model (chart {}) against simulations over {} s{singular}\n\n{table}{unchecked}\n  exp(A h) against the state-transition matrix: order {} in h\n  verdict: {}\n",
             self.scene,
-            significant(self.t, 9),
-            self.chart,
+            significant(found.t, 9),
+            found.chart,
             significant(found.followed, 3),
             order(&found.frozen.decay),
-            self.verdict.text
+            found.verdict.text
         )
+    }
+
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        for (i, sequence) in self.found.sequences.iter().enumerate() {
+            let t = significant(self.found.t, 6);
+            let title = format!("{}, perturbed at t = {t} s ({})", self.scene, sequence.direction);
+            let name = if i == 0 { stem.to_string() } else { format!("{stem}-{}", i + 1) };
+            folder.figure(&name, validation_figure(&title, self.names, sequence))?;
+        }
+        Ok(())
     }
 }
 

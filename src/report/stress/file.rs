@@ -1,18 +1,17 @@
 //! `stress.json`, `stress.csv` and `stress.md`.
 
-use super::words::sentences;
-use crate::compare::stress::{Axis, Cell, GainVerdict, Quantity, Stressed, Verdict};
-use crate::compare::work_precision::SecondOpinion;
+use super::figure::stress_figure;
+use super::words::{gain_table, sentences};
+use crate::compare::stress::{Axis, AxisPlace, Cell, Map, Stressed, Verdict};
 use crate::error::Result;
-use crate::report::cell as full;
 use crate::report::tables::{Column, by_columns, optional};
+use crate::report::{Answer, Folder, cell as full, object};
 use crate::simulate::Method;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
-/// All maps of a scene.
-#[derive(Serialize)]
-pub struct StressFile {
-    /// Name of the scene.
+pub struct SceneMaps {
     pub scene: String,
     /// Method without the changes of the maps.
     pub method: Method,
@@ -20,97 +19,148 @@ pub struct StressFile {
     pub typical_step: f64,
     /// Typical period of the motion, s.
     pub typical_period: f64,
-    /// Wall-clock time of all maps, s.
     pub wall_seconds: f64,
-    /// The maps.
-    pub maps: Vec<MapFile>,
+    pub maps: Vec<Stressed>,
 }
 
-/// A map with its verdicts and cells.
-#[derive(Serialize)]
-pub struct MapFile {
-    /// Name.
-    pub name: String,
-    /// One line of description.
-    pub about: String,
-    /// Quantity shown.
-    pub quantity: Quantity,
-    /// Columns.
-    pub x: AxisFile,
-    /// Rows.
-    pub y: AxisFile,
-    /// Names of the methods.
-    pub methods: Vec<String>,
-    /// True if no cell has a value of the quantity.
-    pub is_empty: bool,
-    /// Verdicts in sentences.
-    pub words: Vec<String>,
-    /// The difference of the reference in the middle of the map from a run of diffsol.
-    pub second_opinion: Option<SecondOpinion>,
-    /// Summary of each method.
-    pub verdicts: Vec<Verdict>,
-    /// Results of Baumgarte's gains; empty for other maps.
-    pub gains: Vec<GainVerdict>,
-    /// Cells by method, then row, then column.
-    pub cells: Vec<Cell>,
+pub struct FolderMaps {
+    pub scenes: Vec<SceneMaps>,
+    /// Scenes that could not be run, with the reasons.
+    pub unread: Vec<(String, String)>,
 }
 
-#[derive(Serialize)]
-pub struct AxisFile {
-    pub name: String,
-    pub unit: String,
-    pub labels: Vec<String>,
-    /// Values; null for an entry that is not a number, such as another method.
-    pub values: Vec<Option<f64>>,
-}
+impl Answer for SceneMaps {
+    fn json(&self) -> impl Serialize {
+        self
+    }
 
-impl From<&Axis> for AxisFile {
-    fn from(axis: &Axis) -> Self {
-        AxisFile {
-            name: axis.name.clone(),
-            unit: axis.unit.clone(),
-            labels: axis.entries.iter().map(|entry| entry.label.clone()).collect(),
-            values: axis.entries.iter().map(|entry| entry.value).collect(),
+    /// Returns the verdicts, and the table of the gains.
+    fn text(&self) -> String {
+        let mut text = format!("{}: extremes, {:.0} s\n", self.scene, self.wall_seconds);
+        for stressed in &self.maps {
+            text += &format!("\n{}: {}\n", stressed.map.name, stressed.map.about);
+            text.extend(sentences(stressed).iter().map(|sentence| format!("  {sentence}\n")));
+            let opinion = stressed.second_opinion.iter();
+            text.extend(opinion.map(|opinion| format!("  the reference in the middle of the map is {opinion}\n")));
+            for gains in stressed.gains() {
+                text += &format!("\n  {}, {} drift\n{}", gains.method, gains.quantity.name(), gain_table(&gains));
+            }
         }
+        text
+    }
+
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        write(folder, stem, std::slice::from_ref(self), &[], |_, map| format!("{stem}-{map}"))
     }
 }
 
-impl From<&Stressed> for MapFile {
-    fn from(stressed: &Stressed) -> Self {
+impl Answer for FolderMaps {
+    fn json(&self) -> impl Serialize {
+        BTreeMap::from([("scenes", &self.scenes)])
+    }
+
+    /// Nothing: the texts of the scenes are printed as they come.
+    fn text(&self) -> String {
+        String::new()
+    }
+
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        write(folder, stem, &self.scenes, &self.unread, |scene, map| format!("{scene}-{map}"))
+    }
+}
+
+/// Writes a figure for each map, under the name of its scene and its own, then page and table.
+fn write(
+    folder: &mut Folder,
+    stem: &str,
+    scenes: &[SceneMaps],
+    unread: &[(String, String)],
+    name: impl Fn(&str, &str) -> String,
+) -> Result<()> {
+    for (scene, stressed) in each(scenes) {
+        folder.figure(&name(scene, &stressed.map.name), stress_figure(scene, stressed))?;
+    }
+    let page = stress_page(scenes, unread, |scene, map| folder.drawn(&name(scene, map)));
+    folder.write(&format!("{stem}.md"), page.as_bytes())?;
+    folder.table(stem, &stress_table(scenes)?)
+}
+
+/// Returns all maps with the names of their scenes.
+fn each(scenes: &[SceneMaps]) -> impl Iterator<Item = (&str, &Stressed)> {
+    scenes.iter().flat_map(|scene| scene.maps.iter().map(|map| (scene.scene.as_str(), map)))
+}
+
+impl Serialize for SceneMaps {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        object!(serializer,
+            "scene" => self.scene,
+            "method" => self.method,
+            "typical_step" => self.typical_step,
+            "typical_period" => self.typical_period,
+            "wall_seconds" => self.wall_seconds,
+            "maps" => self.maps.iter().map(MapFile).collect::<Vec<_>>(),
+        )
+    }
+}
+
+struct MapFile<'a>(&'a Stressed);
+
+impl Serialize for MapFile<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let stressed = self.0;
         let map = &stressed.map;
-        MapFile {
-            name: map.name.clone(),
-            about: map.about.clone(),
-            quantity: map.quantity,
-            x: AxisFile::from(&map.x),
-            y: AxisFile::from(&map.y),
-            methods: map.methods.iter().map(|method| method.label.clone()).collect(),
-            is_empty: stressed.is_empty(),
-            words: sentences(stressed),
-            second_opinion: stressed.second_opinion.clone(),
-            verdicts: stressed.verdicts(),
-            gains: stressed.gains(),
-            cells: stressed.cells.clone(),
-        }
+        object!(serializer,
+            "name" => map.name,
+            "about" => map.about,
+            "quantity" => map.quantity,
+            "x" => axis(&map.x),
+            "y" => axis(&map.y),
+            "methods" => map.methods.iter().map(|method| &method.label).collect::<Vec<_>>(),
+            "is_empty" => stressed.is_empty(),
+            "words" => sentences(stressed),
+            "second_opinion" => stressed.second_opinion,
+            "verdicts" => stressed.verdicts(),
+            "gains" => stressed.gains(),
+            "cells" => stressed.cells,
+        )
     }
 }
 
-/// A cell of a map of a scene.
-struct Place<'a> {
+/// Returns an axis with null for an entry that is not a number, such as another method.
+fn axis(axis: &Axis) -> Value {
+    json!({
+        "name": axis.name,
+        "unit": axis.unit,
+        "labels": axis.entries.iter().map(|entry| &entry.label).collect::<Vec<_>>(),
+        "values": axis.entries.iter().map(|entry| entry.value).collect::<Vec<_>>(),
+    })
+}
+
+struct MapCell<'a> {
     scene: &'a str,
-    map: &'a MapFile,
+    map: &'a Map,
     cell: &'a Cell,
 }
 
-fn columns<'a>() -> [Column<Place<'a>>; 26] {
+impl MapCell<'_> {
+    fn x(&self) -> &AxisPlace {
+        &self.map.x.entries[self.cell.column]
+    }
+
+    fn y(&self) -> &AxisPlace {
+        &self.map.y.entries[self.cell.row]
+    }
+}
+
+fn columns<'a>() -> [Column<MapCell<'a>>; 26] {
     [
         ("scene", |at| at.scene.to_string()),
         ("map", |at| at.map.name.clone()),
         ("x_name", |at| at.map.x.name.clone()),
-        ("x", |at| optional(at.map.x.values[at.cell.column])),
+        ("x", |at| optional(at.x().value)),
         ("y_name", |at| at.map.y.name.clone()),
-        ("y", |at| optional(at.map.y.values[at.cell.row])),
-        ("y_label", |at| at.map.y.labels[at.cell.row].clone()),
+        ("y", |at| optional(at.y().value)),
+        ("y_label", |at| at.y().label.clone()),
         ("formulation", |at| at.cell.method.formulation.to_string()),
         ("integrator", |at| at.cell.method.integrator.to_string()),
         ("projection", |at| at.cell.method.projection.to_string()),
@@ -134,10 +184,10 @@ fn columns<'a>() -> [Column<Place<'a>>; 26] {
 }
 
 /// Returns one row for each cell, over all scenes; empty where a value is not known.
-pub fn stress_table(files: &[StressFile]) -> Result<Vec<u8>> {
-    let maps = files.iter().flat_map(|file| file.maps.iter().map(move |map| (&file.scene, map)));
-    let places = maps.flat_map(|(scene, map)| map.cells.iter().map(move |cell| Place { scene, map, cell }));
-    by_columns(&columns(), places)
+fn stress_table(scenes: &[SceneMaps]) -> Result<Vec<u8>> {
+    let cells =
+        each(scenes).flat_map(|(scene, stressed)| stressed.cells.iter().map(move |cell| (scene, stressed, cell)));
+    by_columns(&columns(), cells.map(|(scene, stressed, cell)| MapCell { scene, map: &stressed.map, cell }))
 }
 
 const LEGEND: &str = "Cells of the figures: ∞ diverged (joints open by a tenth of the scene's size, or infinite numbers), \
@@ -147,34 +197,29 @@ const LEGEND: &str = "Cells of the figures: ∞ diverged (joints open by a tenth
 
 /// Returns the verdicts of all maps in sentences, with the names of their figures; and the scenes that could not be
 /// run.
-pub fn stress_page(
-    files: &[StressFile],
+fn stress_page(
+    scenes: &[SceneMaps],
     unread: &[(String, String)],
     figure: impl Fn(&str, &str) -> Option<String>,
 ) -> String {
     let mut page = format!("# Extremes\n\n{LEGEND}\n");
     page += "\n| scene | map | method | cells | completed | right | others |\n|---|---|---|---|---|---|---|\n";
-    for file in files {
-        for (map, verdict) in file.maps.iter().flat_map(|map| map.verdicts.iter().map(move |verdict| (map, verdict))) {
-            let others: Vec<String> =
-                verdict.others.iter().map(|(status, n)| format!("{n} {}", status.word())).collect();
-            let scene = &file.scene;
-            let method = &verdict.method;
-            let name = &map.name;
-            let cells = verdict.cells;
-            let completed = verdict.completed;
-            let held = verdict.held;
-            page +=
-                &format!("| {scene} | {name} | {method} | {cells} | {completed} | {held} | {} |\n", others.join(", "));
+    for (scene, stressed) in each(scenes) {
+        for Verdict { method, cells, completed, held, others, .. } in stressed.verdicts() {
+            let others: Vec<String> = others.iter().map(|(status, n)| format!("{n} {}", status.word())).collect();
+            let name = &stressed.map.name;
+            let others = others.join(", ");
+            page += &format!("| {scene} | {name} | {method} | {cells} | {completed} | {held} | {others} |\n");
         }
     }
-    for file in files {
-        page += &format!("\n## {}\n", file.scene);
-        for map in &file.maps {
-            page += &format!("\n### {}: {}\n\n", map.name, map.about);
-            page.extend(map.words.iter().map(|words| format!("- {words}\n")));
-            if let Some(name) = figure(&file.scene, &map.name).filter(|_| !map.is_empty) {
-                page += &format!("\n![{}: {}]({name})\n", file.scene, map.about);
+    for SceneMaps { scene, maps, .. } in scenes {
+        page += &format!("\n## {scene}\n");
+        for stressed in maps {
+            let Map { name, about, .. } = &stressed.map;
+            page += &format!("\n### {name}: {about}\n\n");
+            page.extend(sentences(stressed).iter().map(|words| format!("- {words}\n")));
+            if let Some(file) = figure(scene, name).filter(|_| !stressed.is_empty()) {
+                page += &format!("\n![{scene}: {about}]({file})\n");
             }
         }
     }

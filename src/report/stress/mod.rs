@@ -5,5 +5,5 @@ mod file;
 mod words;
 
 pub use figure::stress_figure;
-pub use file::{MapFile, StressFile, stress_page, stress_table};
-pub use words::{gain_table, sentences};
+pub use file::{FolderMaps, SceneMaps};
+pub use words::sentences;

@@ -38,7 +38,7 @@ fn span(values: impl Iterator<Item = f64>) -> Option<String> {
 /// Returns the best gains, their errors, and the drift with post-stabilization on the same steps.
 fn gain(verdict: &GainVerdict) -> String {
     let GainVerdict { method, quantity, steps, left_out, too_slow, .. } = verdict;
-    let held = [("manifold", (|step| &step.manifold) as Run), ("the integrator alone", |step| &step.none)];
+    let held = [("manifold", (|step| &step.manifold) as LevelOf), ("the integrator alone", |step| &step.none)];
     let held = held.map(|(name, level)| holds(name, steps, level)).join("; ");
     let unknown: Vec<String> = [(*left_out, Status::LeftOut), (*too_slow, Status::TooSlow)]
         .into_iter()
@@ -113,11 +113,11 @@ fn even(verdict: &GainVerdict, is_whole: bool) -> String {
     }
 }
 
-type Run = fn(&StepVerdict) -> &Level;
+type LevelOf = fn(&StepVerdict) -> &Level;
 
 /// Returns the drift of the methods without gains.
 fn beside(steps: &[StepVerdict]) -> String {
-    let methods: [(&str, Run); 3] = [
+    let methods: [(&str, LevelOf); 3] = [
         ("(2/h, 1/h²)", |step| &step.own_gains),
         ("manifold", |step| &step.manifold),
         ("manifold twice", |step| &step.manifold_twice),
@@ -136,7 +136,7 @@ fn beside(steps: &[StepVerdict]) -> String {
 }
 
 /// Returns the largest step up to which a method is right, its error there, and the reason of the failure beyond.
-fn holds(name: &str, steps: &[StepVerdict], level: Run) -> String {
+fn holds(name: &str, steps: &[StepVerdict], level: LevelOf) -> String {
     let ended: Vec<(f64, &Level)> =
         steps.iter().map(|step| (step.step, level(step))).filter(|(_, level)| level.status.is_ended()).collect();
     let held = ended.iter().take_while(|(_, level)| level.holds == Some(true)).count();
@@ -152,7 +152,6 @@ fn holds(name: &str, steps: &[StepVerdict], level: Run) -> String {
     format!("{name} {until}{then}")
 }
 
-/// Returns a ratio in percent.
 fn percent(part: f64) -> String {
     format!("{} %", two(100.0 * part))
 }
@@ -262,7 +261,6 @@ fn number(value: f64) -> String {
     format!("{value:.2e}")
 }
 
-/// Returns the drift, or the status.
 fn shown(level: &Level) -> String {
     level.drift.map_or(level.status.word().to_string(), number)
 }

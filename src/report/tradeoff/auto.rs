@@ -4,15 +4,14 @@ use super::{accuracy, milliseconds};
 use crate::compare::work_precision::{Cell, WorkPrecision, front};
 use crate::error::{Result, percent};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
-use crate::report::{Table, cell as number, table, velocities};
+use crate::report::table::count;
+use crate::report::{Answer, Folder, Table, cell as number, table};
 use serde::Serialize;
 
 /// The models of a scene, the richest first, each by many methods.
 #[derive(Clone, Debug, Serialize)]
 pub struct ModelsAndMethods {
-    /// Name of the scene.
     pub scene: String,
-    /// The models.
     pub models: Vec<MeasuredModel>,
 }
 
@@ -23,9 +22,7 @@ pub struct MeasuredModel {
     pub name: String,
     /// What it leaves out.
     pub left_out: Vec<String>,
-    /// n_v.
     pub velocities: usize,
-    /// n_c.
     pub constraints: usize,
     /// Largest difference of its reference from that of the richest, relative to the size of the output; none where one
     /// of them is missing, zero of the richest.
@@ -62,13 +59,28 @@ impl MeasuredModel {
     }
 }
 
+impl Answer for ModelsAndMethods {
+    fn json(&self) -> impl Serialize {
+        self
+    }
+
+    /// Returns the models, and the cheapest run for each error.
+    fn text(&self) -> String {
+        self.models_text() + &self.runs_text()
+    }
+
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &auto_table(self)?)?;
+        folder.figure(stem, auto_figure(self))
+    }
+}
+
 /// Errors for which a run is recommended.
 const WITHIN: [f64; 5] = [0.1, 0.01, 1e-3, 1e-4, 1e-6];
 
 impl ModelsAndMethods {
-    /// Returns the models, and the cheapest run for each error.
-    pub fn text(&self) -> String {
-        let mut text = format!("{}: models and methods, errors together\n\n", self.scene);
+    fn models_text(&self) -> String {
+        let text = format!("{}: models and methods, errors together\n\n", self.scene);
         let mut models =
             Table::new(&["model", "velocities", "constraints", "its error", "in", "left out"]).words(4).words(5);
         for model in &self.models {
@@ -82,10 +94,12 @@ impl ModelsAndMethods {
             };
             models.row([model.name.clone(), v, c, error, model.worst.clone(), left_out]);
         }
-        text += &format!("{models}\n");
-        let mut best =
-            Table::new(&["error below", "model", "method", "accuracy", "CPU", "of the model", "of the method"]);
-        best = best.words(1).words(2);
+        text + &format!("{models}\n")
+    }
+
+    fn runs_text(&self) -> String {
+        let headings = ["error below", "model", "method", "accuracy", "CPU", "of the model", "of the method"];
+        let mut best = Table::new(&headings).words(1).words(2);
         for within in WITHIN {
             if let Some((model, cell, cost)) = self.cheapest(within) {
                 best.row([
@@ -103,7 +117,7 @@ impl ModelsAndMethods {
         // A measurement of models is not gone on with.
         let what = |what: &str| what.split(';').next().unwrap_or("").to_string();
         let left_out = left_out.map(|(model, text)| format!("  left out of {}: {}\n", model.name, what(text)));
-        text + &format!("{best}\n{}", left_out.collect::<String>())
+        format!("{best}\n{}", left_out.collect::<String>())
     }
 
     fn cheapest(&self, within: f64) -> Option<(&MeasuredModel, &Cell, f64)> {
@@ -115,10 +129,7 @@ impl ModelsAndMethods {
 }
 
 /// Returns one row for each run of each model.
-///
-/// # Errors
-/// Only those of the table's writer.
-pub fn auto_table(summary: &ModelsAndMethods) -> Result<Vec<u8>> {
+fn auto_table(summary: &ModelsAndMethods) -> Result<Vec<u8>> {
     let headings = ["model", "method", "rtol", "step", "cost", "model_error", "method_error", "error"];
     let row = |(model, (cell, cost, error)): (&MeasuredModel, (&Cell, f64, f64))| {
         let step = cell.method.step.map_or(String::new(), number);
@@ -130,14 +141,13 @@ pub fn auto_table(summary: &ModelsAndMethods) -> Result<Vec<u8>> {
     table(headings.map(String::from).into_iter(), runs.map(row))
 }
 
-/// Height between the axes, nominal pixels.
 const HEIGHT: f64 = 400.0;
 /// A run that lessens the error of its model by less has the same.
 const SAME: f64 = 0.02;
 
 /// Draws the front of the methods of each model against cost: errors of model and method together, which fall with the
 /// tolerance down to the error of the model, and each alone. `None` where no run was completed.
-pub fn auto_figure(summary: &ModelsAndMethods) -> Option<Figure> {
+fn auto_figure(summary: &ModelsAndMethods) -> Option<Figure> {
     let points = |model: &MeasuredModel, error: fn((&Cell, f64, f64)) -> Option<f64>| -> Vec<(f64, f64)> {
         front(model.runs().filter_map(|run| Some((run.1, error(run)?))), |point| *point)
     };
@@ -156,7 +166,7 @@ pub fn auto_figure(summary: &ModelsAndMethods) -> Option<Figure> {
     let axis = |label: &str| AxisSpec::from(label).log();
     let mut panel = Panel::new(axis("CPU time (s)").range(least / MARGIN, MARGIN * most), axis("error (relative)"));
     for (color, model) in summary.models.iter().enumerate() {
-        let name = format!("{}, {}", model.name, velocities(model.velocities));
+        let name = format!("{}, {}", model.name, count(model.velocities, "velocity"));
         panel = panel.series(Series::line(name, together(model)).style(Style::LineDots).color(color));
     }
     let simpler = summary
@@ -175,5 +185,4 @@ pub fn auto_figure(summary: &ModelsAndMethods) -> Option<Figure> {
     (most > 0.0).then(|| Figure::new().title(title).panel(panel.height(HEIGHT)))
 }
 
-/// Factor of the axis of time, on both sides.
 const MARGIN: f64 = 1.2;

@@ -6,42 +6,61 @@ mod models;
 mod table;
 mod text;
 
-pub use auto::{MeasuredModel, ModelsAndMethods, auto_figure, auto_table};
-pub use figure::tradeoff_figure;
-pub use models::{ModelsSummary, models_figure, models_table};
-pub use table::tradeoff_table;
+pub use auto::{MeasuredModel, ModelsAndMethods};
+pub use models::ModelsAnswer;
 
 use crate::compare::work_precision::{Cell, Held, Recommendation, WorkPrecision};
+use crate::error::Result;
+use crate::report::{Answer, Folder};
 use crate::simulate::Method;
+use figure::tradeoff_figure;
 use serde::Serialize;
+use table::tradeoff_table;
 
-/// Contents of `tradeoff.json`.
+/// A measurement with its recommendations.
 #[derive(Serialize)]
-pub struct Summary<'a> {
+pub struct MethodsAnswer<'a> {
     #[serde(flatten)]
     measured: &'a WorkPrecision,
     /// Pareto front: indices in `cells` of runs than which none is both cheaper and more accurate.
     front: Vec<usize>,
     recommendations: Vec<Advice>,
+    /// Digits that text and figure are for.
+    #[serde(skip)]
+    digits: u32,
 }
 
 /// A recommendation as a sentence, with the command to run it.
 #[derive(Serialize)]
-pub struct Advice {
+struct Advice {
     #[serde(flatten)]
     places: Recommendation,
     /// Sentence; of a range of digits it follows `for 3 to 5 digits: `.
-    pub sentence: String,
-    /// Command line that runs the method on the scene.
-    pub command: String,
+    sentence: String,
+    command: String,
 }
 
-impl<'a> Summary<'a> {
-    /// The summary of a measurement; `scene` is the scene with its settings as on the command line.
-    pub fn new(measured: &'a WorkPrecision, scene: &str) -> Summary<'a> {
+impl<'a> MethodsAnswer<'a> {
+    /// The answer for this many digits; `scene` is the scene with its settings as on the command line.
+    pub fn new(measured: &'a WorkPrecision, scene: &str, digits: u32) -> MethodsAnswer<'a> {
         let all = measured.recommendations().into_iter();
         let recommendations = all.map(|places| advice(measured, places, scene)).collect();
-        Summary { measured, front: measured.front(), recommendations }
+        MethodsAnswer { measured, front: measured.front(), recommendations, digits }
+    }
+}
+
+impl Answer for MethodsAnswer<'_> {
+    fn json(&self) -> impl Serialize {
+        self
+    }
+
+    fn text(&self) -> String {
+        text::text(self)
+    }
+
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &tradeoff_table(self.measured)?)?;
+        folder.figure(stem, tradeoff_figure(self.measured, self.digits))
     }
 }
 
@@ -74,7 +93,6 @@ fn accuracy(method: &Method) -> String {
     }
 }
 
-/// Returns the command line that runs a method on the scene.
 fn command(method: &Method, scene: &str) -> String {
     let Method { formulation, integrator, projection, rtol, atol, step } = method;
     let accuracy = match step {

@@ -5,15 +5,17 @@ use crate::compare::work_precision::models::{Finer, ModelCost, ModelCosts};
 use crate::error::{Result, percent};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Tint};
 use crate::report::tables::optional;
-use crate::report::{Table, table};
+use crate::report::{Answer, Folder, Table, table};
 use serde::Serialize;
 
-/// Contents of `models.json`.
+/// Models with what they cost, and with recommendations.
 #[derive(Serialize)]
-pub struct ModelsSummary<'a> {
+pub struct ModelsAnswer<'a> {
     #[serde(flatten)]
     costs: &'a ModelCosts,
     recommendations: Vec<ModelAdvice>,
+    #[serde(skip)]
+    title: String,
 }
 
 /// The cheapest model within a tolerance of the richest.
@@ -29,20 +31,33 @@ const CONVERGED: f64 = 0.01;
 /// Tolerances of the recommendations, as parts of the size of an output.
 const WITHIN: [f64; 4] = [0.1, 0.01, 1e-3, 1e-4];
 
-impl<'a> ModelsSummary<'a> {
-    /// The summary of the costs of models.
-    pub fn new(costs: &'a ModelCosts) -> ModelsSummary<'a> {
+impl<'a> ModelsAnswer<'a> {
+    pub fn new(scene: &str, costs: &'a ModelCosts) -> ModelsAnswer<'a> {
         // Differences below the error of the full model itself mean nothing.
         let told = costs.uncertainty().map_or(0.0, |(error, _)| error);
         let mut recommendations: Vec<ModelAdvice> =
             WITHIN.iter().filter(|within| **within >= told).filter_map(|within| advice(costs, *within)).collect();
         // Only the first recommendation of the full model is kept.
         recommendations.dedup_by(|a, b| a.model == b.model && b.model == costs.models[costs.richest].name);
-        ModelsSummary { costs, recommendations }
+        ModelsAnswer { costs, recommendations, title: format!("{scene}: what models cost") }
     }
 
-    /// Returns the summary as text.
-    pub fn text(&self) -> String {
+    fn errors(&self, model: &ModelCost) -> Vec<String> {
+        let of = |name: &str| {
+            let output = model.outputs.iter().find(|output| output.name == name);
+            output.map_or("-".to_string(), |output| percent(output.max))
+        };
+        let outputs = self.costs.columns.iter().map(|column| of(&column.name));
+        [model.name.clone()].into_iter().chain(outputs).collect()
+    }
+}
+
+impl Answer for ModelsAnswer<'_> {
+    fn json(&self) -> impl Serialize {
+        self
+    }
+
+    fn text(&self) -> String {
         let ModelCosts { models, richest, rows, .. } = self.costs;
         let rich = &models[*richest];
         let mut text = format!("models against the full model, {}, at {rows} times of the motion\n\n", rich.name);
@@ -62,17 +77,12 @@ impl<'a> ModelsSummary<'a> {
         format!("{text}\n{costs}\n{errors}{}", lines.collect::<String>())
     }
 
-    fn errors(&self, model: &ModelCost) -> Vec<String> {
-        let of = |name: &str| {
-            let output = model.outputs.iter().find(|output| output.name == name);
-            output.map_or("-".to_string(), |output| percent(output.max))
-        };
-        let outputs = self.costs.columns.iter().map(|column| of(&column.name));
-        [model.name.clone()].into_iter().chain(outputs).collect()
+    fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
+        folder.table(stem, &models_table(self.costs)?)?;
+        folder.figure(stem, models_figure(&self.title, self.costs))
     }
 }
 
-/// Returns the convergence of the full model itself.
 fn convergence(costs: &ModelCosts) -> String {
     let Finer { velocities, failure, .. } = &costs.finer;
     let mesh = match velocities {
@@ -128,10 +138,7 @@ fn advice(costs: &ModelCosts, within: f64) -> Option<ModelAdvice> {
 }
 
 /// Returns one row for each model: size, time and the differences of each output.
-///
-/// # Errors
-/// Only those of the table's writer.
-pub fn models_table(costs: &ModelCosts) -> Result<Vec<u8>> {
+fn models_table(costs: &ModelCosts) -> Result<Vec<u8>> {
     let own = ["model", "coordinates", "velocities", "constraints", "method", "cpu_seconds", "numerical_error"];
     let outputs =
         costs.columns.iter().flat_map(|column| [format!("{} max", column.name), format!("{} rms", column.name)]);
@@ -149,11 +156,10 @@ pub fn models_table(costs: &ModelCosts) -> Result<Vec<u8>> {
     table(headings.into_iter(), costs.models.iter().map(row))
 }
 
-/// Factor of the axis of time, on both sides.
 const MARGIN: f64 = 1.5;
 
 /// Draws a dot for each output of each model, whose name stands at the largest. `None` where nothing differs.
-pub fn models_figure(title: &str, costs: &ModelCosts) -> Option<Figure> {
+fn models_figure(title: &str, costs: &ModelCosts) -> Option<Figure> {
     let mut poorer: Vec<&ModelCost> = costs.models.iter().filter(|model| model.seconds().is_some()).collect();
     poorer.sort_by(|a, b| a.seconds().unwrap_or(0.0).total_cmp(&b.seconds().unwrap_or(0.0)));
     let points = |name: &str| -> Vec<(f64, f64)> {

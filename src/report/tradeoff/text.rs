@@ -1,39 +1,34 @@
 //! Text of a work-precision measurement.
 
-use super::{Summary, accuracy, milliseconds};
+use super::{MethodsAnswer, accuracy, milliseconds};
 use crate::compare::work_precision::{Cell, Lack, Outcome, Reference, WorkPrecision, cheapest_by_method};
 use crate::error::clock;
 use crate::report::Table;
+use crate::report::table::count;
 use std::fmt::Write;
 
-impl Summary<'_> {
-    /// Returns the recommendations, the cheapest run of each method for this many digits, and the methods that did not
-    /// reach them.
-    pub fn text(&self, digits: u32) -> String {
-        let measured = self.measured;
-        let mut text = head(measured);
-        for same in self.recommendations.chunk_by(|a, b| a.sentence == b.sentence) {
-            let [first, .., last] = same else {
-                let digits = if same[0].places.digits == 1 {
-                    "1 digit".to_string()
-                } else {
-                    format!("{} digits", same[0].places.digits)
-                };
-                text += &format!("  for {digits}: {}\n", same[0].sentence);
-                continue;
-            };
-            text += &format!("  for {} to {} digits: {}\n", first.places.digits, last.places.digits, first.sentence);
-        }
-        let asked = self.recommendations.iter().find(|advice| advice.places.digits == digits);
-        let most = asked.or(self.recommendations.last());
-        if let Some(Lack { why, hint, .. }) = measured.lacks(digits) {
-            text += &format!("  for {digits} digits: none; {why}\n    {hint}\n");
-        }
-        text += &most.map_or(String::new(), |advice| format!("\n  {}\n{}", advice.command, families(measured, advice)));
-        let digits = most.map_or(digits, |advice| advice.places.digits);
-        let left_out = measured.left_out.iter().map(|what| format!("\n  left out: {what}\n"));
-        text + &tables(measured, digits) + &left_out.collect::<String>()
+/// Returns the recommendations, the cheapest run of each method for the digits, and the methods that did not reach them.
+pub(super) fn text(answer: &MethodsAnswer) -> String {
+    let MethodsAnswer { measured, recommendations, digits, .. } = answer;
+    let digits = *digits;
+    let mut text = head(measured);
+    for same in recommendations.chunk_by(|a, b| a.sentence == b.sentence) {
+        let [first, .., last] = same else {
+            let digits = count(same[0].places.digits as usize, "digit");
+            text += &format!("  for {digits}: {}\n", same[0].sentence);
+            continue;
+        };
+        text += &format!("  for {} to {} digits: {}\n", first.places.digits, last.places.digits, first.sentence);
     }
+    let asked = recommendations.iter().find(|advice| advice.places.digits == digits);
+    let most = asked.or(recommendations.last());
+    if let Some(Lack { why, hint, .. }) = measured.lacks(digits) {
+        text += &format!("  for {digits} digits: none; {why}\n    {hint}\n");
+    }
+    text += &most.map_or(String::new(), |advice| format!("\n  {}\n{}", advice.command, families(measured, advice)));
+    let digits = most.map_or(digits, |advice| advice.places.digits);
+    let left_out = measured.left_out.iter().map(|what| format!("\n  left out: {what}\n"));
+    text + &tables(measured, digits) + &left_out.collect::<String>()
 }
 
 fn head(measured: &WorkPrecision) -> String {
