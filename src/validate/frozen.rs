@@ -1,11 +1,10 @@
 //! The frozen model exp(A t) against the variational equations.
 
-use super::carried::Carried;
 use super::perturb::Speed;
 use super::{Decay, decay};
 use crate::error::Result;
 use crate::linearize::flow::Bundle;
-use crate::linearize::{Matrix, State};
+use crate::linearize::{Carried, Matrix, State};
 use crate::math::eigen::expm;
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;

@@ -6,7 +6,6 @@
 //! X(h) - exp(A h)                   A frozen: falls as h^2 if A belongs to its chart (LTI)
 //! ```
 
-mod carried;
 mod direction;
 mod frozen;
 mod input;
@@ -15,6 +14,7 @@ mod perturb;
 mod regular;
 mod run;
 mod sequence;
+mod span;
 
 pub use direction::Direction;
 #[doc(hidden)]
@@ -24,6 +24,7 @@ pub(crate) use input::InputCheck;
 pub use order::{Decay, decay};
 pub use run::{Validation, Verdict, validate, validate_until};
 pub use sequence::{Curve, PerturbationSequence};
+pub use span::{SpanCheck, validate_along};
 
 use crate::linearize::Chart;
 

@@ -1,6 +1,5 @@
 //! The validation at one state.
 
-use super::carried::Carried;
 use super::frozen::frozen;
 use super::input::{self, Pulsed};
 use super::perturb::{Norm, Speed};
@@ -8,7 +7,7 @@ use super::regular::first_singular;
 use super::sequence::sequence;
 use super::{Decay, Frozen, InputCheck, PerturbationSequence, Settings};
 use crate::error::{Result, short_list};
-use crate::linearize::{Chart, State, Variation, minimal, refuse_large};
+use crate::linearize::{Carried, Chart, State, Variation, minimal, refuse_large};
 use crate::system::{Column, MechanicalSystem};
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
@@ -76,7 +75,7 @@ pub fn validate_until(
     let name = model.coordinates.name.clone();
     // The plain projection has no chart that follows the motion; its states are those of the mass-orthogonal one.
     let chart = if chart == Chart::Frozen { Chart::MassOrthogonal } else { chart };
-    let carried = Carried::new(&mut variation, &chart, start, is_over)?;
+    let carried = Carried::new(&mut variation, &chart, is_over)?;
     model.coordinates = carried.start.clone();
     let speed = Speed::of(&model)?;
     let norm = Norm { rate: speed.usual };

@@ -1,11 +1,10 @@
 //! Perturbations of many sizes along one direction, simulated and predicted.
 
-use super::carried::Carried;
 use super::perturb::{EPSILONS, Norm, difference, moved};
 use super::{Decay, horizon};
 use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, Snapshot};
-use crate::linearize::{Coordinates, Matrix, Minimal, State};
+use crate::linearize::{Carried, Coordinates, Matrix, Minimal, State};
 use crate::math::array::Each;
 use crate::math::eigen::expm;
 use crate::system::MechanicalSystem;
