@@ -2,21 +2,26 @@
 
 use super::common::{SceneOptions, number};
 use super::linear::{AtStates, ChartOptions};
+use super::simplify::percentage;
 use crate::error::{Error, Result, Warning};
 use crate::linearize::{
-    self, Chart, Complex, Kind, LinearModel, LinearizationPoint, Operating, Request, Variation, against, compare,
+    self, Chart, Complex, Kind, LinearModel, LinearizationPoint, Operating, Request, State, Variation, against,
+    compare, kinks, states, within_run,
 };
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
-use crate::report::linear::{AgainstAnswer, Linear, LinearAnswer, MethodsAnswer};
-use crate::report::{Folder, uncertain_kinds};
+use crate::report::linear::{AgainstAnswer, AlongAnswer, ArrayFormat, Linear, LinearAnswer, MethodsAnswer};
+use crate::report::{Answer, Folder, uncertain_kinds};
+use crate::sweep::Range;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   holonom linearize models/four_bar_spring.json --at 0.3
-  holonom linearize models/quarter_car.json --equilibrium --method all")]
+  holonom linearize models/quarter_car.json --equilibrium --method all
+  holonom linearize models/double_pendulum.json --along 0..2:41
+  holonom linearize models/double_pendulum.json --along 0..2 --within 1% --format npz,mat")]
 pub struct Args {
     #[command(flatten)]
     at: AtStates,
@@ -26,6 +31,16 @@ pub struct Args {
     method: String,
     #[command(flatten)]
     chart: ChartOptions,
+    /// The linear time-varying model from time A to B, at N times, with transition matrices: one file ltv.npz
+    #[arg(long, value_name = "A..B[:N]", value_parser = span, allow_negative_numbers = true, allow_hyphen_values = true,
+          conflicts_with_all = ["at", "equilibrium", "modes", "against"])]
+    along: Option<Times>,
+    /// With --along: add times until linear interpolation between them is within this part of the largest entry
+    #[arg(long, value_name = "P%", value_parser = percentage, allow_hyphen_values = true, requires = "along")]
+    within: Option<f64>,
+    /// With --along: formats of the arrays
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "npz", requires = "along")]
+    format: Vec<ArrayFormat>,
     /// Only the N modes that are slowest, or nearest to --shift, in modal coordinates of the frozen equations: by
     /// sparse methods, for large models
     #[arg(long, value_name = "N", conflicts_with_all = ["chart", "independent"])]
@@ -38,9 +53,34 @@ pub struct Args {
     against: Option<PathBuf>,
 }
 
+/// Times of a motion.
+#[derive(Clone, Debug)]
+pub struct Times {
+    pub range: Range,
+    /// True if their number was given.
+    is_counted: bool,
+}
+
+/// Intervals with which the search for times begins.
+const BEGUN: usize = 9;
+
+pub fn span(text: &str) -> Result<Times, String> {
+    let range: Range = format!("t={text}").parse().map_err(|error: Error| {
+        let text = error.to_string();
+        text.replace("travel=-0.08..0.08:81", "0..2:41").replace("NAME=", "")
+    })?;
+    if range.from >= range.to || range.is_log {
+        return Err("write A..B:N with A before B, as in 0..2:41".to_string());
+    }
+    Ok(Times { range, is_counted: text.contains(':') })
+}
+
 pub fn run(args: Args) -> Result<()> {
     let prepared = args.at.load()?;
     let in_file = args.at.in_file();
+    if let Some(times) = &args.along {
+        return along(&args, &prepared, times).map_err(in_file);
+    }
     let requests = requests(&args).map_err(|error| error.under("--method"))?;
     let other = args.against.as_ref().map(|path| other(&args, path)).transpose()?;
     let strangers = other.as_ref().map(|scene| unlike(&prepared, scene)).transpose()?.flatten();
@@ -56,6 +96,41 @@ pub fn run(args: Args) -> Result<()> {
         let compared = other.as_ref().map(|scene| compared(&args, &prepared, scene, (state, &models[0]), &requests));
         add(&args, &prepared, (&models, compared.transpose()?), folder)
     })
+}
+
+/// Returns the state of the motion at the first time of a range.
+pub fn begin(at: &AtStates, prepared: &PreparedScene, range: &Range) -> Result<State> {
+    within_run(prepared, &[range.from, range.to]).map_err(|error| error.at("--along"))?;
+    let start = states(prepared, &[range.from], |_| ())?.swap_remove(0);
+    at.talk.warn(&kinks(prepared.system(), &start)?);
+    Ok(start)
+}
+
+/// Writes the models along the motion.
+fn along(args: &Args, prepared: &PreparedScene, times: &Times) -> Result<()> {
+    if args.method != "mcs" {
+        let error = Error::input("--along makes models in minimal coordinates, which only mcs has");
+        return Err(error.under("--method").hint("leave out --method"));
+    }
+    let Times { range, is_counted } = times;
+    let Range { from, to, .. } = *range;
+    let mut folder = args.at.output.folder(&prepared.name)?;
+    let bar = args.at.talk.progress(1000, &prepared.name);
+    let progress = |t: f64| bar.set_position((1000.0 * (t - from) / (to - from)) as u64);
+    let start = &begin(&args.at, prepared, range)?;
+    let chart = args.chart.chart();
+    let found = match args.within {
+        Some(part) => {
+            let count = if *is_counted { range.count } else { BEGUN };
+            let times = Range::new("t", (from, to), count)?.values();
+            linearize::within(prepared.system(), start, chart.as_ref(), &times, part, progress)?
+        }
+        None => linearize::along(prepared.system(), start, chart.as_ref(), &range.values(), progress)?,
+    };
+    bar.finish_and_clear();
+    let answer = AlongAnswer { prepared, along: &found, formats: &args.format };
+    let sealed = answer.stage(&mut folder, "ltv", args.at.talk.origin(prepared))?;
+    args.at.talk.conclude(folder, &sealed, || answer.text())
 }
 
 fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Result<Vec<LinearModel>> {

@@ -56,7 +56,7 @@ enum NormOption {
 }
 
 /// Reads a part in per cent, above 0 and below 100.
-fn percentage(text: &str) -> Result<f64, String> {
+pub fn percentage(text: &str) -> Result<f64, String> {
     let wrong = || "write a part in per cent, such as 5% or 0.1%".to_string();
     let value = number(text.trim().strip_suffix('%').ok_or_else(wrong)?)?;
     (value > 0.0 && value < 100.0).then_some(0.01 * value).ok_or("it must be above 0 % and below 100 %".to_string())

@@ -3,10 +3,14 @@
 use super::common::{duration, positive, tell};
 use super::interrupt;
 use super::linear::{AtStates, ChartOptions};
+use super::linearize::{Times, begin, span};
 use crate::clock::Stopwatch;
-use crate::error::{Result, Warning};
-use crate::report::linear::ValidationAnswer;
-use crate::validate::{Direction, Settings, validate_until};
+use crate::error::{Error, Result, Warning};
+use crate::linearize::along;
+use crate::prepared::PreparedScene;
+use crate::report::Answer;
+use crate::report::linear::{SpanAnswer, ValidationAnswer};
+use crate::validate::{Direction, Settings, validate_along, validate_until};
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -15,11 +19,13 @@ const MORE: &str = "give more time by --budget, or a shorter --horizon";
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   holonom validate models/four_bar_spring.json --at 0.3
-  holonom validate models/pendulum.json --along random:7 --horizon 0.1")]
+  holonom validate models/pendulum.json --along random:7 --horizon 0.1
+  holonom validate models/double_pendulum.json --along 0..2:41")]
 pub struct Args {
     #[command(flatten)]
     at: AtStates,
-    /// Directions of the perturbation: random[:SEED] or names of states of the chart (default: random:1)
+    /// Directions of the perturbation: random[:SEED] or names of states of the chart (default: random:1). A..B:N checks
+    /// the models at N times from A to B, over the whole span
     #[arg(long, value_name = "DIRECTION[,DIRECTION...]", value_delimiter = ',')]
     along: Vec<String>,
     /// Time over which perturbed motions are followed, s (default: about a period of a usual mode)
@@ -38,10 +44,15 @@ pub struct Args {
 pub fn run(args: Args) -> Result<ExitCode> {
     let prepared = args.at.load()?;
     let default = Settings::default();
-    let directions = match args.along.as_slice() {
+    let (spans, names): (Vec<&String>, Vec<&String>) = args.along.iter().partition(|text| text.contains(".."));
+    let directions = match names.as_slice() {
         [] => default.directions,
         names => names.iter().map(|name| Direction::parse(name)).collect(),
     };
+    if let Some(text) = spans.first() {
+        let times = span(text).map_err(|message| Error::input(message).under("--along"))?;
+        return over(&args, &prepared, &times, &directions).map_err(args.at.in_file());
+    }
     let settings = Settings { chart: args.chart.chart(), directions, horizon: args.horizon, inputs: !args.no_inputs };
     let names = prepared.system().names();
     let mut complaints = Vec::new();
@@ -68,4 +79,26 @@ pub fn run(args: Args) -> Result<ExitCode> {
         tell(format!("error: {complaint}"));
     }
     Ok(if complaints.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+/// Checks the models along a span of the motion.
+fn over(args: &Args, prepared: &PreparedScene, times: &Times, directions: &[Direction]) -> Result<ExitCode> {
+    let range = &times.range;
+    let mut folder = args.at.output.folder(&prepared.name)?;
+    let bar = args.at.talk.progress(1000, &prepared.name);
+    let progress = |t: f64| bar.set_position((1000.0 * (t - range.from) / range.length()) as u64);
+    let start = begin(&args.at, prepared, range)?;
+    let chart = args.chart.chart();
+    let found = along(prepared.system(), &start, chart.as_ref(), &range.values(), progress)?;
+    let check = |direction| validate_along(prepared.system(), &found, direction, progress);
+    let checks = directions.iter().map(check).collect::<Result<Vec<_>>>()?;
+    bar.finish_and_clear();
+    let answer = SpanAnswer { scene: &prepared.name, along: &found, checks: &checks };
+    let sealed = answer.stage(&mut folder, "validation-along", args.at.talk.origin(prepared))?;
+    args.at.talk.conclude(folder, &sealed, || answer.text())?;
+    if answer.is_right() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    tell(format!("error: {}", answer.verdict()));
+    Ok(ExitCode::from(1))
 }

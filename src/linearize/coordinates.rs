@@ -2,8 +2,9 @@
 
 use super::changes::beside;
 use super::{Changes, Lift, LinearizationPoint, Matrix, Variation};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, clock};
 use crate::system::LeviCivita;
+use crate::tolerances::linearize as tolerances;
 
 /// The chart at a state, with n directions of v, k degrees of freedom and s states xi:
 ///
@@ -110,6 +111,30 @@ pub(super) fn constant(
     let none = Matrix::zeros(r.ncols(), r.ncols());
     let lift = Lift::constant(variation, (&r, &b))?;
     Ok(Terms { r, b, tilt, turn, drift: [none.clone(), none], lift }.named(variation, name, names))
+}
+
+/// The chart of another state with the same constant B: R = Z (B Z)^-1.
+///
+/// # Errors
+/// Directions that B does not tell apart.
+pub(super) fn kept(variation: &mut Variation, chart: &Coordinates) -> Result<Coordinates> {
+    let z = variation.free_directions()?;
+    let seen = &chart.b * &z;
+    let ceased = || {
+        Error::input(format!(
+            "{} of the first state are no coordinates at t = {} s",
+            chart.name,
+            clock(variation.point.t)
+        ))
+        .under("--chart")
+        .hint("end before, or name independent coordinates")
+    };
+    if seen.nrows() != seen.ncols() || seen.clone().singular_values().iter().any(|x| *x < tolerances::INDEPENDENT) {
+        return Err(ceased());
+    }
+    let r = &z * seen.try_inverse().ok_or_else(ceased)?;
+    let names = numbered(variation, r.ncols());
+    constant(variation, &chart.name, names, (r, chart.b.clone()))
 }
 
 /// The chart dq = Z z with constant Z and no other terms: z' = y.

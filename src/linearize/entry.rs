@@ -1,7 +1,7 @@
 //! A method of linearization: its request, its result and its entry in the registry.
 
 use super::input_states::{InputStates, primed};
-use super::{Changes, Chart, Cost, LinearModel, Matrix, Mode, Variation};
+use super::{Changes, Chart, Coordinates, Cost, Frame, LinearModel, Matrix, Mode, Variation};
 use crate::error::Result;
 use crate::method_spec::{Listed, MethodSpec, OptionDoc};
 use crate::system::Dimensions;
@@ -41,6 +41,8 @@ pub struct Built {
     pub input_states: InputStates,
     /// (dq, dv) of a unit of each state.
     pub changes: Changes,
+    /// The chart of minimal coordinates, if the states are such.
+    pub coordinates: Option<Coordinates>,
     /// Number of infinite eigenvalues.
     pub infinite: usize,
 }
@@ -94,12 +96,19 @@ impl Built {
     }
 
     /// The model by this method, with its modes.
-    pub(super) fn finish(mut self, variation: &Variation, method: String, modes: Vec<Mode>, cost: Cost) -> LinearModel {
+    pub(super) fn finish(
+        mut self,
+        variation: &mut Variation,
+        method: String,
+        modes: Vec<Mode>,
+        cost: Cost,
+    ) -> LinearModel {
         let (mut inputs, outputs) = variation.names();
         self.add_input_states(&mut inputs);
-        let Built { chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, .. } = self;
+        let Built { chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, coordinates, .. } = self;
+        let frame = coordinates.map(|coordinates| Frame::new(variation, coordinates, &orders));
         let point = variation.point.clone();
-        LinearModel { method, chart, states, inputs, orders, outputs, a, b, c, d, e, modes, point, cost }
+        LinearModel { method, chart, states, inputs, orders, outputs, a, b, c, d, e, modes, frame, point, cost }
     }
 
     /// The change of q along each velocity direction of a unit of each state; of a state xi, that of xi itself.

@@ -1,6 +1,6 @@
 //! Stability of periodic motions.
 
-use super::{Chart, Complex, Matrix, State, Variation, transition};
+use super::{Chart, Complex, Coordinates, Matrix, State, Variation, transition};
 use crate::error::{Error, Result};
 use crate::math::eigen::{eigen, singular_values};
 use crate::system::MechanicalSystem;
@@ -11,6 +11,10 @@ use crate::tolerances::linearize as tolerances;
 pub struct Floquet {
     /// Period, s.
     pub period: f64,
+    /// The chart of the monodromy matrix, at the start.
+    pub chart: String,
+    /// Names of its states.
+    pub states: Vec<String>,
     /// The state-transition matrix over the period in the states of the chart at the start, 2 k x 2 k.
     pub monodromy: Matrix,
     /// Its eigenvalues, largest first. A change along the motion has the multiplier 1 and, without damping, so has one
@@ -96,9 +100,10 @@ pub fn floquet(system: &dyn MechanicalSystem, start: &State, period: f64) -> Res
             .hint("give the period to more digits, or start on the cycle"));
     }
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
+    let Coordinates { name: chart, states, .. } = found.start.clone();
     let monodromy = Chart::MassOrthogonal.at(&mut variation)?.states_of(&found.changes);
     let values = eigen(&monodromy)?.values;
-    Ok(Floquet { period, monodromy, multipliers: values.into_iter().rev().collect(), gap })
+    Ok(Floquet { period, chart, states, monodromy, multipliers: values.into_iter().rev().collect(), gap })
 }
 
 fn gap(a: &[f64], b: &[f64]) -> f64 {

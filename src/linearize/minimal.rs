@@ -66,6 +66,7 @@ pub(super) fn restrict(
     let c = outputs.state;
     let d = outputs.inputs;
     let Coordinates { name: chart, states, .. } = coordinates.clone();
-    let built = Built { chart, states, a, b, c, d, e: None, input_states, changes, infinite: 0 };
+    let own = Some(coordinates.clone());
+    let built = Built { chart, states, a, b, c, d, e: None, input_states, changes, coordinates: own, infinite: 0 };
     Ok(Minimal { coordinates, built })
 }

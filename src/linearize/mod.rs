@@ -30,21 +30,21 @@ mod response;
 mod singular;
 mod sparse;
 mod spectrum;
+mod states;
 mod steady;
 mod survey;
 mod tracking;
 mod transition;
 mod unconstrained;
+mod units;
 mod variation;
 mod visible;
 
 #[doc(hidden)]
 pub use against::{Against, against, both};
 pub(crate) use against::{Fate, branch_places};
-pub(crate) use along::tighten;
-#[doc(hidden)]
-pub use along::within_run;
-pub use along::{State, states};
+pub(crate) use along::Carried;
+pub use along::{Along, Deviation, MeasuredA, along, within};
 #[doc(hidden)]
 pub use amplification::amplified;
 #[doc(hidden)]
@@ -74,13 +74,17 @@ pub use method::{linearize, registry};
 #[doc(hidden)]
 pub use minimal::{Minimal, minimal};
 pub(crate) use model::Pair;
-pub use model::{Complex, Cost, Kind, LinearModel, Matrix, Mode};
+pub use model::{Complex, Cost, Frame, Kind, LinearModel, Matrix, Mode};
 #[doc(hidden)]
 pub use model::{are_conjugate, damping, frequency, pairs};
 use perturbation::Perturbation;
 pub use point::LinearizationPoint;
 pub use response::Response;
 pub use sparse::modal;
+pub(crate) use states::tighten;
+#[doc(hidden)]
+pub use states::within_run;
+pub use states::{State, states};
 pub use steady::{Operating, at_rest};
 pub use survey::{At, Loci, LociVariable, loci_along, loci_over};
 #[doc(hidden)]
@@ -89,6 +93,7 @@ pub use survey::{Gap, Reached, Variants};
 pub use tracking::track;
 pub use tracking::{Branch, LociPoint};
 pub use transition::{Transition, transition};
+pub use units::Units;
 pub use variation::Variation;
 pub(crate) use visible::visible;
 #[doc(hidden)]

@@ -1,6 +1,6 @@
 //! The linear model that every method of linearization returns.
 
-use super::LinearizationPoint;
+use super::{Coordinates, LinearizationPoint, Units, Variation};
 use crate::tolerances::linearize as tolerances;
 pub use nalgebra::Complex;
 use nalgebra::DMatrix;
@@ -44,10 +44,38 @@ pub struct LinearModel {
     /// All eigenvalues but the zeros of the states of inputs: physical ones first, then uncertain, spurious and
     /// infinite ones; each kind from the slowest.
     pub modes: Vec<Mode>,
+    /// The chart with what the outputs and rates are at the state; none of methods without minimal coordinates.
+    pub frame: Option<Frame>,
     /// The state that is perturbed.
     pub point: LinearizationPoint,
     /// Time, size and conditioning.
     pub cost: Cost,
+}
+
+/// The relation of a model's states and outputs to those of the mechanism: dq = R z, dv = R y + T z.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// The chart, with R and T.
+    pub coordinates: Coordinates,
+    /// q' = N(q) v, n_q.
+    pub qdot: Vec<f64>,
+    /// Outputs at the operating point, from which y is the change.
+    pub outputs: Vec<f64>,
+    /// Units of x, u and y.
+    pub units: Units,
+}
+
+impl Frame {
+    /// The frame of a chart at the state of `variation`, of a model with derivatives of inputs of these orders.
+    pub(super) fn new(variation: &mut Variation, coordinates: Coordinates, orders: &[usize]) -> Self {
+        let system = variation.system();
+        let mut qdot = vec![0.0; variation.point.q.len()];
+        system.rate(&variation.point.q, &variation.point.v, &mut qdot);
+        let mut outputs = vec![0.0; system.columns().len()];
+        system.outputs(variation.point.at(), &mut outputs, &mut variation.dynamics.scratch);
+        let units = Units::new(system, &coordinates, orders);
+        Frame { coordinates, qdot, outputs, units }
+    }
 }
 
 /// Class of an eigenvalue.

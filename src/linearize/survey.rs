@@ -1,6 +1,6 @@
 //! Linear models at many states: along a motion, or over a parameter.
 
-use super::along::{Walk, follow};
+use super::states::{Walk, follow};
 use super::{Branch, LociPoint, Matrix, Operating, Request, State, Variation, at_rest, linearize, tighten, track};
 use crate::error::{Error, Result, Warning};
 use crate::prepared::{Overrides, PreparedScene};

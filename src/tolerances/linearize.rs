@@ -125,18 +125,22 @@ pub const FEW_HALVINGS: usize = 3;
 /// Unit: `[modes]`. Why: a choice. Test: none: a count of work, not tried.
 pub const MANY_MODES: usize = 40;
 
-/// The basis of the intrinsic chart turns by no more from one state to the next.
-/// Unit: `[rad]`. Why: the method's error is then about 1e-7 a radian. Test: none: not tried with other values.
-pub const CARRIED_TURN: f64 = 0.05;
+/// A is measured at so many states along a motion.
+/// Unit: `[states]`. Why: a choice: they tell a wrong term, which is wrong nearly everywhere. Test: none: a count of work.
+pub const MEASURED_STATES: usize = 5;
 
-/// States from one time that is asked for to the next, at least.
-/// Unit: `[states]`. Why: a step of the method is a pair of them. Test: none: not tried with other values.
-pub const CARRIED_STATES: f64 = 2.0;
+/// The longest step of the transition matrices by which A is measured, over the time of its fastest change.
+/// Unit: `[1]`. Why: the sixth power of it, over those of two that the extrapolation divides by, is round-off. Test:
+/// tests/linearize/along.rs.
+pub const MEASURED_STEP: f64 = 0.2;
 
-/// States at most.
-/// Unit: `[states]`. Why: a choice: a motion that turns so fast is not followed for so long. Test: none: not tried with
-/// other values.
-pub const CARRIED_MOST: f64 = 1e6;
+/// Number of these steps, each half of the last.
+/// Unit: `[steps]`. Why: of more, the shortest ones are round-off. Test: tests/linearize/along.rs.
+pub const MEASURED_STEPS: u32 = 7;
+
+/// Points along a motion at most, where interpolation needs them close.
+/// Unit: `[points]`. Why: a choice: files of more are hard to use. Test: none: a limit.
+pub const WITHIN_MOST: usize = 20_000;
 
 /// Errors up to here are in the range where the lowest power of h rules.
 /// Unit: `[1]`. Why: a choice. Test: none: not tried with other values.

@@ -1,13 +1,12 @@
 //! The frozen model exp(A t) against the variational equations.
 
-use super::carried::Carried;
 use super::deviation::{Comparison, Deviation, Limits};
 use super::limit::limit;
 use super::perturb::Speed;
 use super::{Decay, decay};
 use crate::error::Result;
 use crate::linearize::flow::Bundle;
-use crate::linearize::{Coordinates, Matrix, State};
+use crate::linearize::{Carried, Coordinates, Matrix, State};
 use crate::math::eigen::expm;
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;

@@ -1,10 +1,9 @@
 //! For how long a frozen model can be trusted.
 
-use super::carried::Carried;
 use super::perturb::{Norm, Speed};
 use crate::error::Result;
 use crate::linearize::flow::Bundle;
-use crate::linearize::{Matrix, Minimal, State};
+use crate::linearize::{Carried, Matrix, Minimal, State};
 use crate::math::array::Each;
 use crate::math::eigen::expm;
 use crate::tolerances::linearize as tolerances;
@@ -13,8 +12,8 @@ use crate::tolerances::linearize as tolerances;
 pub const SHARES: [f64; 2] = [0.01, 0.1];
 
 /// Returns the first times at which the relative error of exp(A t) x0 exceeds each share, none where it stays below up
-/// to `end`; nothing if the time was over before. The perturbation is carried along the motion, with states as near as the fastest mode needs and, after the
-/// start, as the first passage needs.
+/// to `end`; nothing if the time was over before. The perturbation is carried along the motion, with states as near as
+/// the fastest mode needs and, after the start, as the first passage needs.
 ///
 /// # Errors
 /// A motion that cannot go on.

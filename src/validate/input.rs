@@ -1,11 +1,10 @@
 //! The response to a small pulse of an input.
 
 use super::Decay;
-use super::carried::Carried;
 use super::perturb::{EPSILONS, Norm};
 use crate::error::Result;
 use crate::linearize::flow::{Bundle, Pulse};
-use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, beside};
+use crate::linearize::{Carried, Changes, Coordinates, Matrix, Minimal, State, beside};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
@@ -64,7 +63,7 @@ pub(super) fn check(
         members: vec![start.clone(); EPSILONS.len()],
         pushes: amplitudes.clone(),
         pulse: Some(pulse),
-        start: start.clone(),
+        ..Bundle::of(start)
     };
     let half = start.t + 0.5 * width;
     let (snapshots, charts) = carried.flow(&bundle, &[half, start.t + width])?;

@@ -6,7 +6,6 @@
 //! difference / eps h                A, B, C and D for h, eps -> 0: each entry with its uncertainty
 //! ```
 
-mod carried;
 mod deviation;
 mod direction;
 mod frozen;
@@ -20,6 +19,7 @@ mod probe;
 mod regular;
 mod run;
 mod sequence;
+mod span;
 
 pub use deviation::{Deviation, Entry};
 pub use direction::Direction;
@@ -35,6 +35,7 @@ pub use order::{Decay, decay};
 pub use run::validate_changed;
 pub use run::{Event, Validation, Verdict, validate, validate_until};
 pub use sequence::{Curve, PerturbationSequence};
+pub use span::{SpanCheck, validate_along};
 
 use crate::linearize::Chart;
 

@@ -1,6 +1,5 @@
 //! The validation at one state.
 
-use super::carried::Carried;
 use super::frozen::frozen;
 use super::input::{self, Pulsed};
 use super::measured::{Along, Measured, measure};
@@ -10,7 +9,7 @@ use super::regular::{End, end};
 use super::sequence::sequence;
 use super::{Decay, Deviation, Entry, Frozen, InputCheck, PerturbationSequence, Settings};
 use crate::error::{Result, short_list, significant};
-use crate::linearize::{Built, Chart, State, Variation, minimal, refuse_large};
+use crate::linearize::{Built, Carried, Chart, State, Variation, minimal, refuse_large};
 use crate::system::{Column, MechanicalSystem};
 use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
@@ -97,7 +96,7 @@ pub fn validate_changed(
     // The plain projection has no chart that follows the motion; its states are those of the mass-orthogonal one.
     let is_projected = chart == Chart::Frozen;
     let chart = if is_projected { Chart::MassOrthogonal } else { chart };
-    let carried = Carried::new(&mut variation, &chart, start, is_over)?;
+    let carried = Carried::new(&mut variation, &chart, is_over)?;
     model.coordinates = carried.start.clone();
     let speed = Speed::of(&model)?;
     change(&mut model.built);

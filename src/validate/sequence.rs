@@ -1,12 +1,11 @@
 //! Perturbations of many sizes along one direction, simulated and predicted.
 
 use super::Decay;
-use super::carried::Carried;
 use super::horizon::{SHARES, horizon, horizons};
 use super::perturb::{EPSILONS, Norm, Speed, are_alike, difference, moved};
 use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, Snapshot};
-use crate::linearize::{Coordinates, Matrix, Minimal, State};
+use crate::linearize::{Carried, Coordinates, Matrix, Minimal, State};
 use crate::math::array::Each;
 use crate::math::eigen::expm;
 use crate::system::MechanicalSystem;

@@ -302,3 +302,71 @@ fn validate_ends_within_its_budget() {
     assert!(!long.contains("warning"), "{long}");
     assert!(part < 0.9 * followed(), "{part}");
 }
+
+#[test]
+fn models_along_the_motion_are_one_file() {
+    let place = model("double_pendulum");
+    let args = ["linearize", "scene.json", "--along", "0..0.4:5", "--format", "npz,mat,json", "-o", "here"];
+    let text = place.done(&args);
+    assert_eq!(place.files("here"), ["ltv.json", "ltv.mat", "ltv.npz", "ltv.svg"]);
+    assert!(text.contains("5 linear models by mcs") && text.contains("A is right to"), "{text}");
+    let json = place.json("here/ltv.json");
+    let shape = |key: &str| {
+        let mut shape = Vec::new();
+        let mut level = &json[key];
+        while let Some(list) = level.as_array() {
+            shape.push(list.len());
+            level = &list[0];
+        }
+        shape
+    };
+    assert_eq!(
+        ["t", "q", "v", "qdot", "vdot", "y0"].map(shape),
+        [vec![5], vec![5, 4], vec![5, 4], vec![5, 4], vec![5, 4], vec![5, 4]]
+    );
+    assert_eq!(
+        ["A", "C", "R", "T", "R_left", "Phi"].map(shape),
+        [[5, 4, 4], [5, 4, 4], [5, 4, 2], [5, 4, 2], [5, 2, 4], [4, 4, 4]]
+    );
+    assert_eq!(json["chart"], "intrinsic");
+    assert_eq!(json["units"]["states"][2], "kg^0.5 m/s");
+    assert!(json["error"]["A"][0]["error"].as_f64().unwrap() < 1e-8, "{}", json["error"]);
+    assert_eq!(json["error"]["interpolation"][0]["of"], "A");
+    // At one time the same content.
+    place.done(&["linearize", "scene.json", "--at", "0.2", "-o", "here"]);
+    let one = place.json("here/linear-0.2.json");
+    assert_eq!(one["units"], json["units"]);
+    assert_eq!(one["R"].as_array().unwrap().len(), 4);
+    assert_eq!(one["operating_point"]["qdot"].as_object().unwrap().len(), 4);
+}
+
+#[test]
+fn times_along_the_motion_are_checked() {
+    let place = model("pendulum");
+    let along = |times: &'static str| ["linearize", "scene.json", "--along", times];
+    refused(&place, &along("0..1e9:5"), &["--along", "outside the run"]);
+    refused(&place, &along("1..0:5"), &["--along", "A before B"]);
+    refused(&place, &along("soon"), &["--along", "A..B:N"]);
+    refused(&place, &["linearize", "scene.json", "--along", "0..1:5", "--at", "1"], &["--at"]);
+    refused(&place, &["linearize", "scene.json", "--along", "0..1:5", "--method", "rcs"], &["--method", "mcs"]);
+    refused(&place, &["linearize", "scene.json", "--along", "0..1:5", "--chart", "frozen"], &["--chart"]);
+}
+
+#[test]
+fn a_transition_names_its_chart() {
+    let place = model("two_mass");
+    let period = std::f64::consts::TAU / 5.0;
+    place.done(&["transition", "scene.json", "--set", "c1=0", "--period", &period.to_string(), "-o", "here"]);
+    let floquet = &place.json("here/transition-0.json")["floquet"];
+    assert_eq!((&floquet["chart"], &floquet["states"]), (&"mass_orthogonal".into(), &serde_json::json!(["u1", "u1'"])));
+}
+
+#[test]
+fn models_along_the_motion_are_validated_over_the_span() {
+    let place = model("double_pendulum");
+    let text = place.done(&["validate", "scene.json", "--along", "0..0.5:6", "-o", "here"]);
+    assert!(text.contains("verdict: right") && text.contains("order 2.0"), "{text}");
+    let json = place.json("here/validation-along.json");
+    assert_eq!(json["sequences"][0]["times"].as_array().unwrap().len(), 5);
+    assert_eq!(json["verdict"]["ltv"], true);
+}

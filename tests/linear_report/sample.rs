@@ -63,6 +63,7 @@ pub fn plain(prepared: &PreparedScene) -> LinearModel {
         a,
         e: None,
         modes,
+        frame: None,
         point: LinearizationPoint {
             states: 0,
             t,

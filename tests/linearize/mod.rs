@@ -1,6 +1,7 @@
 //! Linear models against references, closed forms and each other.
 
 mod agreement;
+mod along;
 mod closed_forms;
 mod equilibria;
 mod inputs;

@@ -13,6 +13,9 @@ pub struct Bundle {
     pub start: State,
     /// Changes that the constraints allow, integrated by the variational equations.
     pub columns: Changes,
+    /// Directions that the constraints allow, n_v rows, transported parallel in the mass metric: N' = -S G' N - P W N
+    /// with S the least corrections and P the solution of M x + G^T l = f, G x = 0. None: no column.
+    pub basis: Matrix,
     /// Amplitude of the pulse applied to each column; none: no column has an input.
     pub driven: Vec<f64>,
     /// Perturbed starts, on the constraints, integrated by the full equations.
@@ -29,6 +32,7 @@ impl Bundle {
         let columns = Changes::none(start.v.len());
         Bundle {
             start: start.clone(),
+            basis: columns.q.clone(),
             columns,
             driven: Vec::new(),
             members: Vec::new(),
@@ -69,16 +73,19 @@ pub struct Snapshot {
     pub motion: State,
     /// Its columns (dq, dv).
     pub columns: Changes,
+    /// The transported directions.
+    pub basis: Matrix,
     /// The perturbed motions.
     pub members: Vec<State>,
 }
 
-/// Sizes of the flat state y = (q_0, dq_1 .. dq_k, q_1 .. q_p; v_0, dv_1 .. dv_k, v_1 .. v_p; work).
+/// Sizes of the flat state y = (q_0, dq_1 .. dq_k, n_1 .. n_b, q_1 .. q_p; v_0, dv_1 .. dv_k, v_1 .. v_p; work).
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
     pub q: usize,
     pub v: usize,
     pub columns: usize,
+    pub basis: usize,
     pub members: usize,
 }
 
@@ -91,7 +98,7 @@ pub struct Carrier<'a> {
 impl Shape {
     pub fn of(system: &dyn MechanicalSystem, bundle: &Bundle) -> Self {
         let Dimensions { q, v, .. } = system.dimensions();
-        Shape { q, v, columns: bundle.columns.q.ncols(), members: bundle.members.len() }
+        Shape { q, v, columns: bundle.columns.q.ncols(), basis: bundle.basis.ncols(), members: bundle.members.len() }
     }
 
     pub fn carrier<'a>(&self, system: &'a dyn MechanicalSystem) -> Carrier<'a> {
@@ -101,25 +108,24 @@ impl Shape {
     }
 
     fn coordinates(&self) -> usize {
-        self.q * (1 + self.members) + self.v * self.columns
+        self.q * (1 + self.members) + self.v * (self.columns + self.basis)
     }
 
     fn velocities(&self) -> usize {
         self.v * (1 + self.members + self.columns)
     }
 
-    /// Splits a flat q into that of the motion, the columns' and the members'.
-    pub fn parts<'y>(&self, q: &'y [f64]) -> [&'y [f64]; 3] {
-        self.split(q, self.q)
+    /// Splits a flat q into that of the motion, the columns', the basis and the members'.
+    pub fn parts<'y>(&self, q: &'y [f64]) -> [&'y [f64]; 4] {
+        let (motion, rest) = q.split_at(self.q);
+        let (columns, rest) = rest.split_at(self.v * self.columns);
+        let (basis, members) = rest.split_at(self.v * self.basis);
+        [motion, columns, basis, members]
     }
 
-    /// Splits a flat v in the same way.
+    /// Splits a flat v in the same way; the basis has no part in it.
     pub fn rates<'y>(&self, v: &'y [f64]) -> [&'y [f64]; 3] {
-        self.split(v, self.v)
-    }
-
-    fn split<'y>(&self, flat: &'y [f64], motion: usize) -> [&'y [f64]; 3] {
-        let (motion, rest) = flat.split_at(motion);
+        let (motion, rest) = v.split_at(self.v);
         let (columns, members) = rest.split_at(self.v * self.columns);
         [motion, columns, members]
     }
@@ -128,20 +134,24 @@ impl Shape {
         let mut y = vec![0.0; self.coordinates() + self.velocities() + 1];
         let motion = bundle.start.clone();
         let columns = bundle.columns.clone();
-        self.repack(&Snapshot { motion, columns, members: bundle.members.clone() }, &mut y);
+        let basis = bundle.basis.clone();
+        self.repack(&Snapshot { motion, columns, basis, members: bundle.members.clone() }, &mut y);
         y
     }
 
     pub fn repack(&self, snapshot: &Snapshot, y: &mut [f64]) {
-        let Snapshot { motion, columns, members } = snapshot;
-        let q = motion.q.iter().chain(columns.q.iter()).chain(members.iter().flat_map(|member| &member.q));
+        let Snapshot { motion, columns, basis, members } = snapshot;
+        let tangent = columns.q.iter().chain(basis.iter());
+        let q = motion.q.iter().chain(tangent).chain(members.iter().flat_map(|member| &member.q));
         let v = motion.v.iter().chain(columns.v.iter()).chain(members.iter().flat_map(|member| &member.v));
         y.iter_mut().zip(q.chain(v)).for_each(|(y, x)| *y = *x);
     }
 
     pub fn unpack(&self, t: f64, y: &[f64]) -> Snapshot {
         let (q, rest) = y.split_at(self.coordinates());
-        let ([q, dq, qs], [v, dv, vs]) = (self.parts(q), self.rates(&rest[..self.velocities()]));
+        let [q, dq, basis, qs] = self.parts(q);
+        let [v, dv, vs] = self.rates(&rest[..self.velocities()]);
+        let basis = Matrix::from_column_slice(self.v, self.basis, basis);
         let columns = Changes {
             q: Matrix::from_column_slice(self.v, self.columns, dq),
             v: Matrix::from_column_slice(self.v, self.columns, dv),
@@ -152,7 +162,7 @@ impl Shape {
             v: vs[i * self.v..(i + 1) * self.v].to_vec(),
         };
         let members = (0..self.members).map(member).collect();
-        Snapshot { motion: State { t, q: q.to_vec(), v: v.to_vec() }, columns, members }
+        Snapshot { motion: State { t, q: q.to_vec(), v: v.to_vec() }, columns, basis, members }
     }
 }
 

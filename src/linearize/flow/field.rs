@@ -4,7 +4,7 @@ use super::bundle::{Bundle, Pulse, Shape};
 use crate::error::Result;
 use crate::formulation::{Dynamics, Formulation, StepError};
 use crate::linearize::{Changes, Matrix, Variation};
-use crate::system::{Excitation, MechanicalSystem};
+use crate::system::{Excitation, LeviCivita, MechanicalSystem, OperatingPoint};
 
 /// The equations of index 1 for the motion and its members, the variational equations for the columns.
 pub struct VariationalField<'a> {
@@ -17,6 +17,8 @@ pub struct VariationalField<'a> {
     driven: Vec<f64>,
     changes: Changes,
     force: Matrix,
+    /// The connection that transports the basis.
+    connection: LeviCivita,
 }
 
 impl<'a> VariationalField<'a> {
@@ -43,6 +45,7 @@ impl<'a> VariationalField<'a> {
             driven: bundle.driven.clone(),
             changes: Changes { q: zeros.clone(), v: zeros },
             force: Matrix::zeros(shape.v, system.excitations().len()),
+            connection: LeviCivita::new(if shape.basis > 0 { shape.v } else { 0 }),
         })
     }
 
@@ -78,7 +81,7 @@ impl<'a> VariationalField<'a> {
         qdot: &mut [f64],
         vdot: &mut [f64],
     ) -> Result<(), StepError> {
-        if self.shape.columns > 0 {
+        if self.shape.columns + self.shape.basis > 0 {
             self.variation.move_to(t, q, v)?;
         } else {
             self.variation.dynamics.solve(t, q, v, |_, _| 0.0)?;
@@ -108,6 +111,19 @@ impl<'a> VariationalField<'a> {
         self.push(at, &mut force, &mut rows);
         self.variation.push_all(&mut force, &mut rows)?;
         dv_dot.copy_from_slice(force.as_slice());
+        Ok(())
+    }
+
+    /// Rates of the basis, at the state of the last `motion`: M N' + G^T l = -W N, G N' = -(Gd N + G [v, N]).
+    fn basis(&mut self, (t, q, v): (f64, &[f64], &[f64]), n: &[f64], rate: &mut [f64]) -> Result<(), StepError> {
+        let n = Matrix::from_column_slice(self.shape.v, self.shape.basis, n);
+        let Dynamics { system, vdot, lambda, scratch, .. } = &mut self.variation.dynamics;
+        system.levi_civita(OperatingPoint { t, q, v, vdot, lambda }, &mut self.connection, scratch);
+        let mut force = -(&self.connection.w * &n);
+        let turned = self.variation.bracket_with(&n);
+        let mut rows = -(self.variation.gd_times(&n) + self.variation.g_times(&turned));
+        self.variation.push_all(&mut force, &mut rows)?;
+        rate.copy_from_slice(force.as_slice());
         Ok(())
     }
 
@@ -147,16 +163,21 @@ impl Formulation for VariationalField<'_> {
         qdot: &mut [f64],
         vdot: &mut [f64],
     ) -> Result<(), StepError> {
-        let Shape { q: nq, v: nv, columns, members } = self.shape;
-        let ([q0, dq, qs], [v0, dv, vs]) = (self.shape.parts(q), self.shape.rates(v));
+        let Shape { q: nq, v: nv, columns, basis, members } = self.shape;
+        let [q0, dq, n, qs] = self.shape.parts(q);
+        let [v0, dv, vs] = self.shape.rates(v);
         let (qdot0, qdot) = qdot.split_at_mut(nq);
         let (vdot0, vdot) = vdot.split_at_mut(nv);
         self.motion(t, (q0, v0), qdot0, vdot0)?;
         let mut rank_indicator = self.variation.dynamics.kkt.rank_indicator();
         let (dq_dot, qdot) = qdot.split_at_mut(nv * columns);
+        let (n_dot, qdot) = qdot.split_at_mut(nv * basis);
         let (dv_dot, vdot) = vdot.split_at_mut(nv * columns);
         if columns > 0 {
             self.columns((t, q0, v0), (dq, dv), dq_dot, dv_dot)?;
+        }
+        if basis > 0 {
+            self.basis((t, q0, v0), n, n_dot)?;
         }
         for i in 0..members {
             let own_q = i * nq..(i + 1) * nq;

@@ -58,13 +58,13 @@ impl<'a> Straightening<'a> {
     }
 
     /// Removes from each column the part off the constraints at the state (q, v), so that G dq = du and G dv + Gd dq =
-    /// du' in the row that a pulse moves, and zero in all others.
+    /// du' in the row that a pulse moves, and zero in all others; from the basis, so that G N = 0.
     fn straighten(
         &mut self,
         t: f64,
         (q, v): (&[f64], &[f64]),
-        dq: &mut [f64],
-        dv: &mut [f64],
+        (dq, dv): (&mut [f64], &mut [f64]),
+        basis: &mut [f64],
     ) -> Result<(), StepError> {
         let Straightening { shape, closers, pulse, correction, rows } = self;
         let dynamics = &mut closers[0].dynamics;
@@ -89,6 +89,13 @@ impl<'a> Straightening<'a> {
             kkt.solve_projection(rows, correction)?;
             dv.iter_mut().zip(correction.iter()).for_each(|(dv, c)| *dv -= c);
         }
+        for direction in basis.chunks_exact_mut(shape.v) {
+            let Dynamics { structure, terms, kkt, .. } = dynamics;
+            rows.fill(0.0);
+            structure.g.multiply(&terms.g, direction, rows);
+            kkt.solve_projection(rows, correction)?;
+            direction.iter_mut().zip(correction.iter()).for_each(|(n, c)| *n -= c);
+        }
         Ok(())
     }
 }
@@ -96,14 +103,15 @@ impl<'a> Straightening<'a> {
 impl Projection for Straightening<'_> {
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], carrier: &mut Dynamics) -> Result<(), StepError> {
         self.closers.iter_mut().for_each(|closer| closer.dynamics.kkt.rank_reference = carrier.kkt.rank_reference);
-        let Shape { q: nq, v: nv, columns, members } = self.shape;
+        let Shape { q: nq, v: nv, columns, basis, members } = self.shape;
         let (q0, q) = q.split_at_mut(nq);
         let (v0, v) = v.split_at_mut(nv);
         self.closers[0].close(t, q0, v0)?;
-        let (dq, qs) = q.split_at_mut(nv * columns);
+        let (dq, q) = q.split_at_mut(nv * columns);
+        let (n, qs) = q.split_at_mut(nv * basis);
         let (dv, vs) = v.split_at_mut(nv * columns);
-        if columns > 0 {
-            self.straighten(t, (q0, v0), dq, dv)?;
+        if columns + basis > 0 {
+            self.straighten(t, (q0, v0), (dq, dv), n)?;
         }
         let last = self.closers.len() - 1;
         (0..members).try_for_each(|i| {

@@ -111,7 +111,7 @@ fn observe(
     let chart = "redundant".to_string();
     let infinite = infinite(dae, kept.len());
     let input_states = InputStates { orders: variation.orders(), a: driven, c: seen };
-    let built = Built { chart, states, a, b, c, d, e: Some(e), input_states, changes, infinite };
+    let built = Built { chart, states, a, b, c, d, e: Some(e), input_states, changes, coordinates: None, infinite };
     Ok(built.without_integrals(variation.system().dimensions()))
 }
 

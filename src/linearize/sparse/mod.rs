@@ -126,7 +126,10 @@ fn build(variation: &mut Variation, (equations, turn): (&Quadratic, &Sparse), mo
     let b = b.clone_owned();
     let c = outputs.state;
     let d = outputs.inputs;
-    Ok((Built { chart, states, a: modal.a, b, c, d, e: None, input_states, changes, infinite: 0 }, forces))
+    Ok((
+        Built { chart, states, a: modal.a, b, c, d, e: None, input_states, changes, coordinates: None, infinite: 0 },
+        forces,
+    ))
 }
 
 /// Adds the modes, the residual of each checked.

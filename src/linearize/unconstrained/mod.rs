@@ -55,5 +55,5 @@ fn build(
     let d = outputs.inputs;
     let states = directions(variation.system(), &variation.point.q).states();
     let chart = "redundant".to_string();
-    Ok(Built { chart, states, a, b, c, d, e: None, input_states, changes, infinite: 0 })
+    Ok(Built { chart, states, a, b, c, d, e: None, input_states, changes, coordinates: None, infinite: 0 })
 }

@@ -3,7 +3,7 @@
 use super::Linear;
 use crate::error::Result;
 use crate::files::{Array, mat};
-use crate::linearize::{Complex, Kind, LinearModel, Matrix, Mode, damping, frequency};
+use crate::linearize::{Complex, Coordinates, Frame, Kind, LinearModel, Matrix, Mode, Units, damping, frequency};
 use crate::math::largest;
 use crate::prepared::PreparedScene;
 use crate::report::mechanism::{Look, mode_figure};
@@ -72,6 +72,12 @@ impl Linear<'_> {
         if !inputs.is_empty() {
             found["u"] = inputs.into();
         }
+        if let Some(frame) = &self.model.frame {
+            let moving = point.v.len() - point.states;
+            found["xi"] = named(&self.names.v[moving..], &point.v[moving..]).into();
+            found["qdot"] = named(&self.names.q, &frame.qdot).into();
+            found["y0"] = named(&self.model.outputs, &frame.outputs).into();
+        }
         found["norms"] = json!(self.norms());
         if let Some(spin) = point.axes {
             let axis = spin.velocity.map(|w| w / spin.speed());
@@ -108,12 +114,21 @@ impl Serialize for Linear<'_> {
             "C" => rows(&model.c),
             "D" => rows(&model.d),
             "E" if model.e.is_some() => model.e.as_ref().map(rows),
+            "R" if model.frame.is_some() => model.frame.as_ref().map(|frame| rows(&frame.coordinates.r)),
+            "T" if model.frame.is_some() => model.frame.as_ref().map(|frame| rows(&frame.coordinates.tilt)),
+            "R_left" if model.frame.is_some() => model.frame.as_ref().map(|frame| rows(&frame.coordinates.b)),
+            "units" if model.frame.is_some() => model.frame.as_ref().map(units),
             "eigenvalues" => model.modes.iter().map(|mode| eigenvalue(model, mode)).collect::<Vec<Value>>(),
             "equilibrium" => model.point.is_equilibrium,
             "operating_point" => self.point(),
             "cost" => model.cost,
         )
     }
+}
+
+/// Units of x, u and y.
+pub(super) fn units(Frame { units: Units { states, inputs, outputs }, .. }: &Frame) -> Value {
+    json!({ "states": states, "inputs": inputs, "outputs": outputs })
 }
 
 fn rows(matrix: &Matrix) -> Vec<Vec<f64>> {
@@ -182,6 +197,49 @@ impl Linear<'_> {
             [("norm_phi", norms.phi), ("norm_phi_dot", norms.phi_dot), ("norm_v", norms.v), ("norm_vdot", norms.vdot)]
                 .map(|(name, value)| (name, Array::number(value))),
         );
+        arrays.extend(self.frame_arrays());
+        if let Some(frame) = &model.frame {
+            arrays.extend(unit_arrays(frame));
+        }
+        arrays
+    }
+
+    /// Returns the arrays that change along a motion.
+    pub(super) fn moment(&self) -> Vec<(&'static str, Array)> {
+        let model = self.model;
+        let point = &model.point;
+        let mut arrays = vec![
+            ("t", Array::number(point.t)),
+            ("A", matrix(&model.a)),
+            ("B", matrix(&model.b)),
+            ("C", matrix(&model.c)),
+            ("D", matrix(&model.d)),
+            ("q", Array::vector(&point.q)),
+            ("v", Array::vector(&point.v)),
+            ("vdot", Array::vector(&point.vdot)),
+            ("lambda", Array::vector(&point.lambda)),
+            ("u", Array::vector(&point.u)),
+        ];
+        arrays.extend(self.frame_arrays());
+        arrays
+    }
+
+    /// Returns the basis, and what the outputs and rates are at the state: nothing without minimal coordinates.
+    fn frame_arrays(&self) -> Vec<(&'static str, Array)> {
+        let Some(Frame { coordinates, qdot, outputs, .. }) = &self.model.frame else { return Vec::new() };
+        let Coordinates { r, tilt, b, lift, .. } = coordinates;
+        let point = &self.model.point;
+        let mut arrays = vec![
+            ("xi", Array::vector(&point.v[point.v.len() - point.states..])),
+            ("qdot", Array::vector(qdot)),
+            ("y0", Array::vector(outputs)),
+            ("R", matrix(r)),
+            ("T", matrix(tilt)),
+            ("R_left", matrix(b)),
+        ];
+        if lift.p.iter().any(|x| *x != 0.0) {
+            arrays.extend([("P", matrix(&lift.p)), ("S", matrix(&lift.s))]);
+        }
         arrays
     }
 
@@ -203,6 +261,14 @@ impl Linear<'_> {
     }
 }
 
+/// Returns the units of x, u and y.
+pub(super) fn unit_arrays(
+    Frame { units: Units { states, inputs, outputs }, .. }: &Frame,
+) -> [(&'static str, Array); 3] {
+    [("state_units", states), ("input_units", inputs), ("output_units", outputs)]
+        .map(|(name, units)| (name, Array::Texts(units.clone())))
+}
+
 fn is_infinite(mode: &Mode) -> bool {
     mode.kind == Kind::Infinite
 }
@@ -216,7 +282,7 @@ fn shown(mode: &Mode) -> Complex<f64> {
     if mode.is_zero() { Complex::ZERO } else { mode.value }
 }
 
-fn matrix(matrix: &Matrix) -> Array {
+pub(super) fn matrix(matrix: &Matrix) -> Array {
     let values = matrix.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<f64>>()).collect();
     Array::Real { shape: vec![matrix.nrows(), matrix.ncols()], values }
 }

@@ -1,6 +1,7 @@
 //! Linear models as files, text and figures.
 
 mod against;
+mod along;
 mod bode_figure;
 mod drawn;
 mod files;
@@ -12,12 +13,14 @@ mod plane;
 mod ranges;
 mod rays;
 mod response;
+mod span;
 mod text;
 mod transition;
 mod turning;
 mod validation;
 
 pub use against::AgainstAnswer;
+pub use along::{AlongAnswer, ArrayFormat};
 pub use bode_figure::{Magnitude, bode_figure};
 pub use files::{LinearAnswer, stem_at};
 pub use loci::LociAnswer;
@@ -25,6 +28,7 @@ pub use mode_figures::{frequency_figure, motion_figure};
 pub use pair::Response;
 pub use plane::loci_figure;
 pub use response::FrequencyResponse;
+pub use span::SpanAnswer;
 pub use text::{MethodsAnswer, comparison_text};
 pub use transition::Transition;
 pub use validation::{ValidationAnswer, validation_figure};

@@ -46,6 +46,8 @@ fn floquet_json(found: &Floquet, defects: &[Defect]) -> Value {
     json!({
         "period": found.period,
         "gap": found.gap,
+        "chart": found.chart,
+        "states": found.states,
         "monodromy": found.monodromy.row_iter().map(|row| row.iter().copied().collect()).collect::<Vec<Vec<f64>>>(),
         "multipliers": pairs(&found.multipliers),
         "exponents": pairs(&found.exponents()),
