@@ -55,6 +55,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         let new: Vec<String> = uncertain.filter(|method| !told.contains(method)).collect();
         args.at.talk.warn(&report::uncertain_kinds(new.iter().map(String::as_str)));
         told.extend(new);
+        args.at.talk.warn(&models.first().and_then(LinearModel::doubt));
         let compared = other.as_ref().map(|scene| compared(&args, &prepared, scene, (state, &models[0]), &requests));
         report(&args, &prepared, (&models, compared.transpose()?), folder)
     })?;

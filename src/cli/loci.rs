@@ -8,6 +8,7 @@ use crate::linearize::{At, Gap, Kind, Loci, Request, Variants, loci_along, loci_
 use crate::prepared::PreparedScene;
 use crate::report::linear::{
     LociAgainst, LociFile, LociSummary, frequency_figure, loci_figure, loci_table, motion_figure, speeds, with_others,
+    with_thresholds,
 };
 use crate::report::{Folder, uncertain_kinds};
 use crate::sweep::{Family, Range};
@@ -116,7 +117,7 @@ fn figures(
     }
     args.output.figure(folder, "loci", plane)?;
     let modes = frequency_figure(&title, summary.axis(), &loci.branches, &speeds);
-    args.output.figure(folder, "loci_modes", modes)
+    args.output.figure(folder, "loci_modes", with_thresholds(modes, &loci.thresholds))
 }
 
 /// The gap that makes the loci incomplete: any value of a parameter; of a motion the end.

@@ -1,7 +1,7 @@
 //! A method of linearization: its request, its result and its entry in the registry.
 
 use super::input_states::{InputStates, primed};
-use super::{Changes, Chart, Cost, LinearModel, Matrix, Mode, Variation};
+use super::{Changes, Chart, Cost, LinearModel, Matrix, Mode, Reduction, Variation};
 use crate::error::Result;
 use crate::method_spec::{Listed, MethodSpec, OptionDoc};
 use crate::system::Dimensions;
@@ -99,7 +99,8 @@ impl Built {
         self.add_input_states(&mut inputs);
         let Built { chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, .. } = self;
         let point = variation.point.clone();
-        LinearModel { method, chart, states, inputs, orders, outputs, a, b, c, d, e, modes, point, cost }
+        let reduction = Reduction::default();
+        LinearModel { method, chart, states, inputs, orders, outputs, a, b, c, d, e, modes, point, cost, reduction }
     }
 
     /// The change of q along each velocity direction of a unit of each state; of a state xi, that of xi itself.

@@ -27,6 +27,8 @@ pub struct Eigen {
     /// with one vector is moved to +-s with |y^H x| of the size of s, so that s is of the size of its own error. At such a
     /// value y^H x may vanish: the change of a double one is at most the root of eps times ||A||.
     pub errors: Vec<f64>,
+    /// 1 / |y^H x| of each value, with x and y of norm 1 in the balanced matrix.
+    pub conditions: Vec<f64>,
 }
 
 /// All eigenvalues with left and right vectors: balancing (Parlett and Reinsch, by powers of two), then the QR
@@ -40,7 +42,8 @@ pub fn eigen(a: &Matrix) -> Result<Eigen, Unsolved> {
     let (mut units, right, left) = decompose(&balanced)?;
     units.sort_by(|a, b| conjugates::compare(&a.value, &b.value));
     let vectors = vectors(&balanced, &units, &right, &left)?;
-    let errors = errors(&units, &vectors, size * balanced.norm());
+    let conditions = conditions(&units, &vectors);
+    let errors = errors(&conditions, size * balanced.norm());
     let (mut x, mut y): (Vec<_>, Vec<_>) = vectors.into_iter().unzip();
     x.iter_mut().flatten().zip(scale.iter().cycle()).for_each(|(x, d)| *x *= *d);
     y.iter_mut().flatten().zip(scale.iter().cycle()).for_each(|(y, d)| *y /= *d);
@@ -54,7 +57,7 @@ pub fn eigen(a: &Matrix) -> Result<Eigen, Unsolved> {
     units.iter_mut().for_each(|unit| unit.value *= size);
     let values = conjugates::values(&units);
     if values.iter().all(|value| value.is_finite()) {
-        Ok(Eigen { values, right, left, conditioning, errors })
+        Ok(Eigen { values, right, left, conditioning, errors, conditions })
     } else {
         Err(Unsolved::Overflow)
     }
@@ -128,17 +131,22 @@ fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Res
     if converged == wanted { Ok(found) } else { Err(Unsolved::NotConverged { converged, wanted }) }
 }
 
-/// See [`Eigen::errors`]; `size` is ||A||.
-fn errors(units: &[Unit], vectors: &[(Vector, Vector)], size: f64) -> Vec<f64> {
-    let mut errors = Vec::new();
+/// See [`Eigen::conditions`].
+fn conditions(units: &[Unit], vectors: &[(Vector, Vector)]) -> Vec<f64> {
+    let mut conditions = Vec::new();
     for (unit, (x, y)) in units.iter().zip(vectors) {
         let product: Complex<f64> = x.iter().zip(y).map(|(x, y)| y.conj() * x).sum();
         let norm = |x: &Vector| x.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
-        let of_simple = tolerances::QR_BACKWARD_ERROR * size * norm(x) * norm(y) / product.norm();
-        let error = of_simple.min(tolerances::QR_BACKWARD_ERROR.sqrt() * size);
-        errors.extend(std::iter::repeat_n(error, 1 + usize::from(unit.is_pair())));
+        let condition = norm(x) * norm(y) / product.norm();
+        conditions.extend(std::iter::repeat_n(condition, 1 + usize::from(unit.is_pair())));
     }
-    errors
+    conditions
+}
+
+/// See [`Eigen::errors`]; `size` is ||A||.
+fn errors(conditions: &[f64], size: f64) -> Vec<f64> {
+    let most = tolerances::QR_BACKWARD_ERROR.sqrt() * size;
+    conditions.iter().map(|condition| (tolerances::QR_BACKWARD_ERROR * size * condition).min(most)).collect()
 }
 
 /// Recomputes poor vectors in the unbalanced matrix: round-off in place of zeros, such as 1e-30, makes balancing choose

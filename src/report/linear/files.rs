@@ -3,7 +3,7 @@
 use super::Linear;
 use crate::error::Result;
 use crate::files::{Array, mat};
-use crate::linearize::{Complex, Cost, Kind, LinearModel, Matrix, Mode, damping, frequency};
+use crate::linearize::{Complex, Cost, Kind, LinearModel, Matrix, Mode, Reduction, damping, frequency};
 use crate::math::largest;
 use crate::report::table::named;
 use crate::report::{Folder, cell};
@@ -43,6 +43,10 @@ pub struct LinearFile {
     /// E of descriptor forms, n_x x n_x.
     #[serde(rename = "E", skip_serializing_if = "Option::is_none")]
     pub e: Option<Vec<Vec<f64>>>,
+    /// Condition of the reduction to the directions that the constraints allow, and the relative error that follows.
+    pub reduction: Reduction,
+    /// False where the method stays off the constraints and the state moves: its eigenvalues belong to no motion.
+    pub comparable: bool,
     /// Eigenvalues in the order of [`LinearModel::modes`].
     pub eigenvalues: Vec<Eigenvalue>,
     /// True if the state is an equilibrium.
@@ -61,6 +65,10 @@ pub struct Eigenvalue {
     pub frequency_hz: Option<f64>,
     pub damping_ratio: Option<f64>,
     pub kind: Kind,
+    /// Error of the eigenvalue, 1/s.
+    pub error: Option<f64>,
+    /// 1/|y^H x| of its vectors; none where it is defective, or not known.
+    pub condition: Option<f64>,
     /// Participation of each state, from the largest.
     pub participation: Map<String, Value>,
 }
@@ -139,6 +147,8 @@ impl Linear<'_> {
             c: rows(&model.c),
             d: rows(&model.d),
             e: model.e.as_ref().map(rows),
+            reduction: model.reduction,
+            comparable: model.is_comparable(),
             eigenvalues: model.modes.iter().map(|mode| eigenvalue(model, mode)).collect(),
             equilibrium: model.point.is_equilibrium,
             operating_point: self.point(),
@@ -192,6 +202,8 @@ fn eigenvalue(model: &LinearModel, mode: &Mode) -> Eigenvalue {
         frequency_hz: finite(frequency(value)),
         damping_ratio: finite(mode.clean_damping()).filter(|_| !mode.is_zero()),
         kind: mode.kind,
+        error: finite(if mode.is_zero() { mode.rounding } else { mode.error }),
+        condition: finite(mode.condition).filter(|condition| condition.is_finite()),
         participation: parts.map(|(name, part)| (name.to_string(), Value::from(part))).collect(),
     }
 }

@@ -1,9 +1,10 @@
 //! `loci.csv`, `loci.json`, and text on eigenvalues at many states.
 
 use super::against::{LociAgainst, Value};
+use super::crossings::{SensitivityFile, sensitivity_lines, threshold_lines};
 use super::turning::unit_of_speed;
 use crate::error::{Error, Failure, Result, significant};
-use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, damping, frequency};
+use crate::linearize::{Branch, Complex, Kind, Loci, LociVariable, Reached, Threshold, damping, frequency};
 use crate::math::bounds;
 use crate::plot::AxisSpec;
 use crate::report::figures::label;
@@ -31,6 +32,12 @@ pub struct LociSummary {
     pub failures: Vec<FailureFile>,
     /// Ranges of the modes.
     pub modes: Vec<ModeSummary>,
+    /// Values of the parameter at which eigenvalues meet or cross the imaginary axis.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub thresholds: Vec<Threshold>,
+    /// Derivatives of the eigenvalues with respect to the parameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sensitivity: Option<SensitivityFile>,
     /// The modes against those of another scene, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub against: Option<LociAgainst>,
@@ -130,6 +137,8 @@ impl LociSummary {
             equilibria: loci.reached.iter().filter(|state| state.equilibrium).count(),
             failures: loci.gaps.iter().map(|gap| failure(gap.at, &gap.error)).collect(),
             modes: loci.named().map(|(mode, branch)| mode_summary(mode, branch, least)).collect(),
+            thresholds: loci.thresholds.clone(),
+            sensitivity: loci.sensitivity.as_ref().map(SensitivityFile::new),
             against: None,
         }
     }
@@ -255,7 +264,11 @@ impl LociSummary {
         }
         let against =
             self.against.as_ref().map_or(String::new(), |against| "\n".to_string() + &against.text(&along.name));
-        text + "\n" + &self.table() + &against
+        text + "\n"
+            + &self.table()
+            + &threshold_lines(&along.name, &self.thresholds)
+            + &sensitivity_lines(&along.name, self.sensitivity.as_ref())
+            + &against
     }
 
     /// Returns the meaning of the real parts.

@@ -2,10 +2,12 @@
 
 mod against;
 mod bode_figure;
+mod crossings;
 mod drawn;
 mod files;
 mod loci;
 mod mode_figures;
+mod notes;
 mod pair;
 mod phase;
 mod plane;
@@ -18,6 +20,7 @@ mod validation;
 
 pub use against::{AgainstFile, LociAgainst, with_others};
 pub use bode_figure::{Magnitude, bode_figure};
+pub use crossings::with_thresholds;
 pub use files::{LinearFile, OperatingPointFile, linear_stem};
 pub use loci::{LociFile, LociSummary, loci_table};
 pub use mode_figures::{frequency_figure, motion_figure};
