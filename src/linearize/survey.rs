@@ -170,8 +170,14 @@ pub fn loci_over(variants: &Variants, at: At, request: &Request, progress: impl 
         let here = between(nearest, place).ok()?;
         sensitivity(&here, step(place, range.to - range.from), between).ok()
     });
+    let located = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
+        // At a time each model takes a simulation.
+        (Ok(before), Ok(after)) if !matches!(at, At::Time(_)) => thresholds::between(before, after, &between),
+        _ => Vec::new(),
+    };
+    let thresholds: Vec<Vec<Threshold>> = outcomes.par_windows(2).map(located).collect();
     let loci = collect(LociVariable::Parameter(range.clone()), outcomes, between);
-    Ok(Loci { sensitivity, ..loci })
+    Ok(Loci { thresholds: thresholds.concat(), sensitivity, ..loci })
 }
 
 /// Equilibria from value to value, the first from that of the scene at the value `behind`.
@@ -276,13 +282,6 @@ fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found,
         }
         _ => Vec::new(),
     };
-    let located = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
-        (Ok(before), Ok(after)) => thresholds::between(before, after, &between),
-        _ => Vec::new(),
-    };
-    let thresholds: Vec<Vec<Threshold>> =
-        if along == LociVariable::Time { Vec::new() } else { outcomes.par_windows(2).map(located).collect() };
-    let thresholds = thresholds.concat();
     let more: Vec<Vec<LociPoint>> = outcomes.par_windows(2).map(behind).collect();
     let first = outcomes.iter().find_map(|(_, outcome)| outcome.as_ref().ok());
     let (method, chart) = first.map(|found| (found.method.clone(), found.chart.clone())).unwrap_or_default();
@@ -305,7 +304,7 @@ fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found,
         samples.extend(more);
     }
     let branches = asked(track(&samples), &places);
-    Loci { along, method, chart, places, reached, gaps, branches, thresholds, sensitivity: None, doubts }
+    Loci { along, method, chart, places, reached, gaps, branches, thresholds: Vec::new(), sensitivity: None, doubts }
 }
 
 /// Restricts branches to the requested times or values.
