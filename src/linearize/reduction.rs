@@ -7,8 +7,7 @@ use crate::error::{Error, Result, clock, two_digits};
 use crate::tolerances::linearize as tolerances;
 
 /// Returns the condition of the reduction at a state and the error that follows: an estimate far from singular states,
-/// near them the change of the model in minimal coordinates where all coordinates and velocities change by an ulp of
-/// the largest.
+/// near them the change of the model in minimal coordinates where the state moves as far as rounding of phi lets it.
 ///
 /// # Errors
 /// A model of which rounding leaves no digits: the state is as good as singular.
@@ -27,8 +26,7 @@ pub(super) fn measure(variation: &mut Variation, request: &Request) -> Result<Re
     }
     let mut error: f64 = 0.0;
     for sign in [1.0, -1.0] {
-        let (q, v) = rounded(variation, &point, sign);
-        let there = variation.operate_at(point.t, &q, &v).and_then(|()| minimal(variation, &chart));
+        let there = move_off(variation, &point, sign).and_then(|()| minimal(variation, &chart));
         error = error.max(there.map_or(f64::INFINITY, |there| difference(&here, &there)));
     }
     variation.operate_at(point.t, &point.q, &point.v)?;
@@ -53,17 +51,24 @@ fn judged(reduction: Reduction, t: f64) -> Result<Reduction> {
     .hint("choose another time, a little before or after, or change the state"))
 }
 
-/// Returns the state with all numbers changed by up to an ulp of the largest.
-fn rounded(variation: &Variation, point: &LinearizationPoint, sign: f64) -> (Vec<f64>, Vec<f64>) {
-    let change = |x: &[f64]| -> Vec<f64> {
-        let ulp = sign * f64::EPSILON * crate::math::largest(x);
-        // Multiples of the golden ratio are evenly spread (Weyl).
-        let part = |i: usize| 2.0 * ((i + 1) as f64 * 0.618_033_988_75).fract() - 1.0;
-        x.iter().enumerate().map(|(i, x)| x + ulp * part(i)).collect()
-    };
-    let mut q = change(&point.q);
-    variation.system().normalize(&mut q);
-    (q, change(&point.v))
+/// Operates at a state that is no nearer to the constraints or farther than rounding of phi: each row is off by up to an
+/// ulp of its scale, which moves q by the condition times that, and v with it.
+fn move_off(variation: &mut Variation, point: &LinearizationPoint, sign: f64) -> Result<()> {
+    let system = variation.system();
+    // Multiples of the golden ratio are evenly spread (Weyl).
+    let part = |i: usize| 2.0 * ((i + 1) as f64 * 0.618_033_988_75).fract() - 1.0;
+    let scales = system.scales();
+    let rows = Matrix::from_fn(scales.len(), 1, |i, _| sign * f64::EPSILON * scales[i] * part(i));
+    let change = variation.correct(&rows)?;
+    let mut rate = vec![0.0; point.q.len()];
+    system.rate(&point.q, change.as_slice(), &mut rate);
+    let mut q: Vec<f64> = point.q.iter().zip(&rate).map(|(q, change)| q + change).collect();
+    system.normalize(&mut q);
+    variation.operate_at(point.t, &q, &point.v)?;
+    let residual = Matrix::from_column_slice(scales.len(), 1, &variation.dynamics.terms.phi_dot);
+    let correction = variation.correct(&residual)?;
+    let v: Vec<f64> = point.v.iter().zip(correction.iter()).map(|(v, change)| v - change).collect();
+    variation.operate_at(point.t, &q, &v)
 }
 
 /// Returns the difference of two models over their size, in the states of the first with rates over the size of the
