@@ -26,6 +26,8 @@ fn mode(value: Complex<f64>, shape: &[f64]) -> Mode {
         mass: 1.0,
         outputs: Vec::new(),
         rounding: 0.0,
+        condition: 1.0,
+        error: 0.0,
     }
 }
 

@@ -93,6 +93,7 @@ pub fn run(args: Args) -> Result<()> {
         let new: Vec<String> = uncertain.filter(|method| !told.contains(method)).collect();
         args.at.talk.warn(&uncertain_kinds(new.iter().map(String::as_str)));
         told.extend(new);
+        args.at.talk.warn(&models.first().and_then(LinearModel::doubt));
         let compared = other.as_ref().map(|scene| compared(&args, &prepared, scene, (state, &models[0]), &requests));
         add(&args, &prepared, (&models, compared.transpose()?), folder)
     })

@@ -12,7 +12,7 @@ pub struct Comparison {
     /// Chart of its coordinates.
     pub chart: String,
     /// Largest relative distance of the physical eigenvalues from those of the reference; none without a reference, or
-    /// where their numbers differ.
+    /// where their numbers differ or the model is not comparable.
     pub error: Option<f64>,
     /// Number of physical eigenvalues.
     pub physical: usize,
@@ -46,7 +46,7 @@ fn one(model: &LinearModel, reference: &[Complex<f64>]) -> Comparison {
     Comparison {
         method: model.method.clone(),
         chart: model.chart.clone(),
-        error: largest_error(&physical, reference),
+        error: largest_error(&physical, reference).filter(|_| model.is_comparable()),
         physical: physical.len(),
         spurious: count(Kind::Spurious),
         infinite: count(Kind::Infinite),

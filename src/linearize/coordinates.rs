@@ -174,11 +174,12 @@ pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
     let LinearizationPoint { v, vdot, .. } = &variation.point;
     let turned = -bracket(v, &n);
     let turned_later = -bracket(vdot, &n);
-    let wn = w * &n;
+    let wn = times(w, &n);
     let corrected = variation.gd_times(&n) - variation.g_times(&turned);
-    let n_dot = -variation.correct(&corrected)? - &n * n.tr_mul(&wn);
+    let n_dot = -variation.correct(&corrected)? - &n * (n.transpose() * &wn);
     let momenta = variation.mass_times(&n_dot) + &wn;
-    let bent = n_dot.tr_mul(&momenta) + n.tr_mul(&(mass_dot * &n_dot + w_dot * &n + w * &n_dot));
+    let bent =
+        n_dot.transpose() * &momenta + n.transpose() * (times(mass_dot, &n_dot) + times(w_dot, &n) + times(w, &n_dot));
     let b = variation.mass_times(&n).transpose();
     let turned_rate = -variation.bracket_of(&variation.point.v, &n_dot);
     let drift = [-bent - &b * (turned_later + turned_rate), &b * (&n_dot * 2.0 - &turned)];
@@ -187,6 +188,22 @@ pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
     let names = numbered(variation, n.ncols());
     let terms = Terms { r: n, b, tilt: n_dot - turned, turn: none, drift, lift };
     Ok(terms.named(variation, "intrinsic", names))
+}
+
+/// A x with an A of few entries: blocks of bodies.
+fn times(a: &Matrix, x: &Matrix) -> Matrix {
+    let n = a.nrows().max(1);
+    let entries: Vec<(usize, usize, f64)> = a
+        .iter()
+        .enumerate()
+        .filter(|(_, value)| **value != 0.0)
+        .map(|(place, value)| (place % n, place / n, *value))
+        .collect();
+    let mut product = Matrix::zeros(a.nrows(), x.ncols());
+    for (x, mut sum) in x.column_iter().zip(product.column_iter_mut()) {
+        entries.iter().for_each(|&(i, j, value)| sum[i] += value * x[j]);
+    }
+    product
 }
 
 pub(super) fn levi_civita(variation: &mut Variation, connection: &mut LeviCivita) -> bool {

@@ -1,7 +1,7 @@
 //! A method of linearization: its request, its result and its entry in the registry.
 
 use super::input_states::{InputStates, primed};
-use super::{Changes, Chart, Coordinates, Cost, Frame, LinearModel, Matrix, Mode, Variation};
+use super::{Changes, Chart, Coordinates, Cost, Frame, LinearModel, Matrix, Mode, Reduction, Variation};
 use crate::error::Result;
 use crate::method_spec::{Listed, MethodSpec, OptionDoc};
 use crate::system::Dimensions;
@@ -108,7 +108,25 @@ impl Built {
         let Built { chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, coordinates, .. } = self;
         let frame = coordinates.map(|coordinates| Frame::new(variation, coordinates, &orders));
         let point = variation.point.clone();
-        LinearModel { method, chart, states, inputs, orders, outputs, a, b, c, d, e, modes, frame, point, cost }
+        let reduction = Reduction::default();
+        LinearModel {
+            method,
+            chart,
+            states,
+            inputs,
+            orders,
+            outputs,
+            a,
+            b,
+            c,
+            d,
+            e,
+            modes,
+            frame,
+            point,
+            cost,
+            reduction,
+        }
     }
 
     /// The change of q along each velocity direction of a unit of each state; of a state xi, that of xi itself.

@@ -1,8 +1,8 @@
 //! Stability of periodic motions.
 
-use super::{Chart, Complex, Coordinates, Matrix, State, Variation, transition};
+use super::{Chart, Complex, Coordinates, Matrix, State, Variation, recurrence, transition};
 use crate::error::{Error, Result};
-use crate::math::eigen::{eigen, singular_values};
+use crate::math::eigen::{Eigen, eigen, singular_values};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
 
@@ -20,7 +20,12 @@ pub struct Floquet {
     /// Its eigenvalues, largest first. A change along the motion has the multiplier 1 and, without damping, so has one
     /// of its energy.
     pub multipliers: Vec<Complex<f64>>,
-    /// Largest difference of (q, v) between the end and the start.
+    /// Condition of each, 1/|y^H x| of its left and right vectors of norm 1.
+    pub conditions: Vec<f64>,
+    /// Error of each, to first order: of the integration and of rounding.
+    pub errors: Vec<f64>,
+    /// Largest difference of (q, v) between the end and the start, without whole turns and what the equations do not
+    /// depend on.
     pub gap: f64,
 }
 
@@ -39,6 +44,14 @@ impl Floquet {
     /// log(multiplier) / period, 1/s: growth rate and frequency, the latter up to multiples of that of the motion.
     pub fn exponents(&self) -> Vec<Complex<f64>> {
         self.multipliers.iter().map(|multiplier| multiplier.ln() / self.period).collect()
+    }
+
+    /// True if no multiplier is outside the unit circle by more than `slack`, and none on it is defective.
+    ///
+    /// # Errors
+    /// Those of [`defects`](Self::defects).
+    pub fn is_bounded(&self, slack: f64) -> Result<bool> {
+        Ok(self.is_stable(slack) && self.defects(slack)?.is_empty())
     }
 
     /// True if no multiplier is outside the unit circle by more than `slack`. A double multiplier 1 is computed with an
@@ -79,7 +92,8 @@ impl Floquet {
     }
 }
 
-/// Returns the monodromy matrix of the motion from `start`, which returns after `period`. It is the same in every chart
+/// Returns the monodromy matrix of the motion from `start`, which returns after `period`: to the same state, up to whole
+/// turns and to displacements on which the equations do not depend, such as those of a vehicle. It is the same in every chart
 /// but for a change of basis, so its multipliers are a property of the motion.
 ///
 /// # Errors
@@ -90,7 +104,8 @@ pub fn floquet(system: &dyn MechanicalSystem, start: &State, period: f64) -> Res
     let Some(found) = found.into_iter().next() else {
         return Err(Error::input("a period must be above zero").under("--period"));
     };
-    let gap = gap(&found.state.q, &start.q).max(gap(&found.state.v, &start.v));
+    let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
+    let gap = recurrence::gap(&mut variation, start, &found.state)?;
     let size = |x: &[f64]| x.iter().fold(1.0f64, |most, x| most.max(x.abs()));
     if gap > tolerances::PERIODIC * size(&start.q).max(size(&start.v)) {
         let message =
@@ -99,13 +114,20 @@ pub fn floquet(system: &dyn MechanicalSystem, start: &State, period: f64) -> Res
             .under("--period")
             .hint("give the period to more digits, or start on the cycle"));
     }
-    let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
-    let Coordinates { name: chart, states, .. } = found.start.clone();
     let monodromy = Chart::MassOrthogonal.at(&mut variation)?.states_of(&found.changes);
-    let values = eigen(&monodromy)?.values;
-    Ok(Floquet { period, chart, states, monodromy, multipliers: values.into_iter().rev().collect(), gap })
-}
-
-fn gap(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+    let Eigen { values, conditions, errors, .. } = eigen(&monodromy)?;
+    let of_flow = tolerances::FLOW_ERROR * monodromy.amax().max(1.0);
+    // A defective multiplier is moved by the root of the error.
+    let error = |(error, condition): (f64, &f64)| error + (of_flow * condition).min(of_flow.sqrt());
+    let Coordinates { name: chart, states, .. } = found.start.clone();
+    Ok(Floquet {
+        period,
+        chart,
+        states,
+        multipliers: values.into_iter().rev().collect(),
+        errors: errors.into_iter().zip(&conditions).map(error).rev().collect(),
+        conditions: conditions.into_iter().rev().collect(),
+        monodromy,
+        gap,
+    })
 }

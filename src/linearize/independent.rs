@@ -2,7 +2,7 @@
 
 use super::changes::{Directions, directions};
 use super::coordinates::constant;
-use super::{Coordinates, Matrix, Variation};
+use super::{Coordinates, Matrix, Variation, displacement};
 use crate::error::{Error, Result, clock};
 use crate::tolerances::linearize as tolerances;
 
@@ -54,12 +54,12 @@ fn find<'c>(candidates: &'c [Candidate], name: &str) -> Result<&'c Candidate> {
     })
 }
 
-/// Returns Z without the directions of states, with each row times the square root of its mass, so that rows of any unit are comparable: no row is longer
-/// than 1.
+/// Returns Z without the directions of states, each row times the square root of its mass, or of what a direction
+/// without inertia counts as, so that rows of any unit are comparable: no row is longer than 1.
 fn weighed(variation: &Variation, z: &Matrix) -> Matrix {
-    let mass = variation.mass();
     let degrees = z.ncols() - variation.system().dimensions().states;
-    Matrix::from_fn(z.nrows(), degrees, |i, j| z[(i, j)] * mass[(i, i)].max(0.0).sqrt())
+    let weights = displacement::weights(variation, z);
+    Matrix::from_fn(z.nrows(), degrees, |i, j| z[(i, j)] * weights[i])
 }
 
 /// Returns the coordinates that move most, by pivoted orthogonalization of the rows.

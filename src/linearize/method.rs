@@ -5,7 +5,7 @@ use super::minimal::MCS;
 use super::spectrum::{Spectrum, spectrum};
 use super::unconstrained::{AUGMENTED_LAGRANGIAN, BAUMGARTE, FORCE_PROJECTION, PENALTY};
 use super::variation::refuse_all_modes;
-use super::{Cost, LinearModel, Variation, redundant};
+use super::{Cost, LinearModel, Variation, reduction, redundant};
 use crate::error::Result;
 use std::time::Instant;
 
@@ -38,11 +38,14 @@ pub fn linearize(variation: &mut Variation, request: &Request) -> Result<LinearM
     if variation.has_drivers() {
         variation.prescribed()?;
     }
+    let reduction = reduction::measure(variation, request)?;
     let built = (entry.build)(variation, request)?;
     let assembly_seconds = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
     let Spectrum { modes, conditioning, off_constraints } = spectrum(variation, &built, request)?;
     let eigen_seconds = clock.elapsed().as_secs_f64();
     let cost = Cost { assembly_seconds, eigen_seconds, conditioning, size: built.a.nrows(), off_constraints };
-    Ok(built.finish(variation, request.method.to_string(), modes, cost))
+    let mut model = built.finish(variation, request.method.to_string(), modes, cost);
+    model.modes.iter_mut().for_each(|mode| mode.error = mode.error.max(reduction.error * mode.value.norm()));
+    Ok(LinearModel { reduction, ..model })
 }

@@ -7,11 +7,13 @@ mod changes;
 mod chart;
 mod comparison;
 mod coordinates;
+mod displacement;
 mod entry;
 mod excited;
 mod floquet;
 #[doc(hidden)]
 pub mod flow;
+mod found;
 mod frequency;
 mod independent;
 mod input_states;
@@ -25,14 +27,18 @@ mod minimal;
 mod model;
 mod perturbation;
 mod point;
+mod recurrence;
+mod reduction;
 mod redundant;
 mod response;
+mod sensitivity;
 mod singular;
 mod sparse;
 mod spectrum;
 mod states;
 mod steady;
 mod survey;
+mod thresholds;
 mod tracking;
 mod transition;
 mod unconstrained;
@@ -74,12 +80,13 @@ pub use method::{linearize, registry};
 #[doc(hidden)]
 pub use minimal::{Minimal, minimal};
 pub(crate) use model::Pair;
-pub use model::{Complex, Cost, Frame, Kind, LinearModel, Matrix, Mode};
+pub use model::{Complex, Cost, Frame, Kind, LinearModel, Matrix, Mode, Reduction};
 #[doc(hidden)]
 pub use model::{are_conjugate, damping, frequency, pairs};
 use perturbation::Perturbation;
 pub use point::LinearizationPoint;
 pub use response::Response;
+pub use sensitivity::Sensitivity;
 pub use sparse::modal;
 pub(crate) use states::tighten;
 #[doc(hidden)]
@@ -89,6 +96,7 @@ pub use steady::{Operating, at_rest};
 pub use survey::{At, Loci, LociVariable, loci_along, loci_over};
 #[doc(hidden)]
 pub use survey::{Gap, Reached, Variants};
+pub use thresholds::{Threshold, ThresholdKind};
 #[doc(hidden)]
 pub use tracking::track;
 pub use tracking::{Branch, LociPoint};

@@ -1,6 +1,7 @@
 //! The linear model that every method of linearization returns.
 
 use super::{Coordinates, LinearizationPoint, Units, Variation};
+use crate::error::{Warning, clock, two_digits};
 use crate::tolerances::linearize as tolerances;
 pub use nalgebra::Complex;
 use nalgebra::DMatrix;
@@ -50,6 +51,8 @@ pub struct LinearModel {
     pub point: LinearizationPoint,
     /// Time, size and conditioning.
     pub cost: Cost,
+    /// Condition of the reduction to the directions that the constraints allow, and the error that follows.
+    pub reduction: Reduction,
 }
 
 /// The relation of a model's states and outputs to those of the mechanism: dq = R z, dv = R y + T z.
@@ -112,6 +115,29 @@ impl LinearModel {
         self.inputs.iter().zip(&self.orders).map(name).collect()
     }
 
+    /// False off equilibrium for a method that stays off the constraints: its frozen eigenvalues belong to no motion on
+    /// them, and agree with those of no chart.
+    pub fn is_comparable(&self) -> bool {
+        let strays = ["penalty", "augmented_lagrangian"].iter().any(|name| self.method.starts_with(name));
+        self.point.is_equilibrium || !strays || self.chart != REDUNDANT
+    }
+
+    /// Warning of a state so near to a singular one that rounding changes the model.
+    pub fn doubt(&self) -> Option<Warning> {
+        let Reduction { condition, error } = self.reduction;
+        let text = || {
+            format!(
+                "at t = {} s the constraints are nearly dependent (condition {condition:.1e}), so rounding changes the linear \
+                 model by {} of its size",
+                clock(self.point.t),
+                two_digits(error)
+            )
+        };
+        (error > tolerances::REDUCTION_WARNED).then(|| {
+            Warning::new(text(), "choose another time, or state the start in coordinates that are farther off")
+        })
+    }
+
     /// True if some eigenvalues are [`Kind::Uncertain`].
     pub fn has_uncertain_kinds(&self) -> bool {
         self.modes.iter().any(|mode| mode.kind == Kind::Uncertain)
@@ -138,7 +164,15 @@ pub struct Mode {
     /// |lambda| that rounding leaves of a zero eigenvalue, 1/s. Of K: with lambda^2 x^H M x = -x^H K x for the shape x,
     /// the root of that of the terms of x^H K x. Of the solver: [`errors`](crate::math::eigen::Eigen::errors).
     pub rounding: f64,
+    /// 1/|y^H x| of the left and right vectors of norm 1 in the balanced states: how much more than rounding the
+    /// eigenvalue changes by rounding. Infinite for a defective one; NaN where it is not known.
+    pub condition: f64,
+    /// |error| of the eigenvalue, 1/s, to first order: of the solver, of the entries of K, and of the reduction.
+    pub error: f64,
 }
+
+/// Chart of the methods in all coordinates.
+pub(super) const REDUNDANT: &str = "redundant";
 
 impl Mode {
     /// |lambda| / 2 pi, Hz.
@@ -219,6 +253,17 @@ pub fn pairs(model: &LinearModel, kind: Kind) -> Vec<Pair<'_>> {
 pub fn are_conjugate(a: Complex<f64>, b: Complex<f64>) -> bool {
     let near = tolerances::EIGENVALUES_AGREE * a.norm();
     a.im != 0.0 && a.im * b.im < 0.0 && (a - b.conj()).norm() <= near
+}
+
+/// How well a state determines its linear model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Reduction {
+    /// Inverse of about the smallest sine of the angle between an independent row of G and those before it, in the metric
+    /// of M^-1. It grows without bound towards a singular state.
+    pub condition: f64,
+    /// Error of the model, as a part of the size of A, by rounding of the state. Beside a fold it grows with the fourth
+    /// power of the condition: accelerations have its square, and their gradients that of these.
+    pub error: f64,
 }
 
 /// Cost and conditioning of a model.

@@ -25,14 +25,15 @@ pub(super) fn refuse(dynamics: &Dynamics, point: &LinearizationPoint, directions
     let here = Rank::of(dynamics);
     let Some(beside) = rank_nearby(dynamics.system, point, directions) else { return Ok(()) };
     let t = short(point.t);
-    let problem =
-        match (beside.rank > here.rank, beside.rank_indicator > tolerances::SINGULAR_GROWTH * here.rank_indicator) {
-            (true, _) => format!("only {} constraints are independent, {} beside it", here.rank, beside.rank),
-            (false, true) if beside.rank == here.rank => {
-                "constraints are nearly dependent, and less so beside it".to_string()
-            }
-            _ => return Ok(()),
-        };
+    let is_near = here.rank_indicator < tolerances::SINGULAR_MODEL
+        && beside.rank_indicator > tolerances::SINGULAR_GROWTH * here.rank_indicator;
+    let problem = if beside.rank > here.rank {
+        format!("only {} constraints are independent, {} beside it", here.rank, beside.rank)
+    } else if is_near {
+        "constraints are nearly dependent, and less so beside it".to_string()
+    } else {
+        return Ok(());
+    };
     Err(Error::input(format!(
         "singular state: at t = {t} s {problem}, so motions cross here and have no common linear model"
     ))
@@ -42,13 +43,13 @@ pub(super) fn refuse(dynamics: &Dynamics, point: &LinearizationPoint, directions
 /// Rank of G.
 struct Rank {
     rank: usize,
-    /// See [`SaddlePoint::rank_indicator`](crate::math::kkt::SaddlePoint::rank_indicator).
+    /// See [`SaddlePoint::kept_indicator`](crate::math::kkt::SaddlePoint::kept_indicator): redundant rows hide no others.
     rank_indicator: f64,
 }
 
 impl Rank {
     fn of(dynamics: &Dynamics) -> Self {
-        Rank { rank: dynamics.kkt.rank(), rank_indicator: dynamics.kkt.rank_indicator() }
+        Rank { rank: dynamics.kkt.rank(), rank_indicator: dynamics.kkt.kept_indicator() }
     }
 }
 

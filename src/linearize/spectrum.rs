@@ -1,9 +1,9 @@
 //! Eigenvalues of a model, classed as physical, spurious and infinite.
 
 use super::entry::{Built, Request};
-use super::{Complex, Kind, Matrix, Mode, Variation};
+use super::{Complex, Kind, Matrix, Mode, Variation, displacement};
 use crate::error::{Error, Result, clock};
-use crate::math::eigen::{ComplexMatrix, Deflation, Eigen, Unsolved, eigen, finite, generalized};
+use crate::math::eigen::{ComplexMatrix, Deflation, Eigen, Split, Unsolved, eigen, finite, generalized};
 use crate::tolerances::linearize as tolerances;
 
 /// Eigenvalues with eigenvectors.
@@ -15,6 +15,8 @@ struct Solved {
     conditioning: f64,
     /// Change of each eigenvalue by rounding, 1/s; zero where it is not known.
     errors: Vec<f64>,
+    /// 1/|y^H x| of each; NaN where it is not known.
+    conditions: Vec<f64>,
 }
 
 /// The modes of a model, with the measures on which their classes are based.
@@ -75,7 +77,7 @@ fn modes(
         let energy = shapes.column(i).into_iter().zip(weighed.column(i)).take(moving);
         let energy = energy.map(|(x, mx)| (x.conj() * mx).re).collect();
         let mode = mode((*value, kinds[i]), column(shapes, i), column(&outputs, i), parts, energy);
-        rounded(variation, mode, solved.errors[i])
+        rounded(variation, Mode { condition: solved.conditions[i], ..mode }, solved.errors[i])
     };
     solved.values.iter().enumerate().map(of).collect()
 }
@@ -97,22 +99,29 @@ fn mode(
         shape.iter_mut().chain(&mut outputs).for_each(|x| *x /= largest);
         mass /= largest.norm_sqr();
     }
-    Mode { value, kind, shape, participation, energy, mass, outputs, rounding: 0.0 }
+    Mode { value, kind, shape, participation, energy, mass, outputs, rounding: 0.0, condition: f64::NAN, error: 0.0 }
 }
 
-/// The mode with the size of what rounding leaves of a zero eigenvalue; `error` is that of the solver.
+/// The mode with the size of what rounding leaves of a zero eigenvalue, and its error; `error` is that of the solver. With
+/// r the rounding of x^H K x, lambda changes by r / |2 lambda x^H M x + x^H C x|, at most by the root of r / x^H M x.
 fn rounded(variation: &Variation, mode: Mode, error: f64) -> Mode {
-    let entries = variation.dynamics.structure.tangent.entries.iter().zip(&variation.tangent.k);
-    let size = |i: usize| mode.shape.get(i).map_or(0.0, |x| x.norm());
-    let terms: f64 = entries.map(|(&(i, j), k)| size(i) * k.abs() * size(j)).sum();
-    let of_stiffness = if mode.mass > 0.0 { (tolerances::ROUND_OFF_OF_K * terms / mode.mass).sqrt() } else { 0.0 };
-    Mode { rounding: of_stiffness.max(error), ..mode }
+    let entries = &variation.dynamics.structure.tangent.entries;
+    let shape = |i: usize| mode.shape.get(i).copied().unwrap_or_default();
+    let size = |i: usize| shape(i).norm();
+    let stiffness = entries.iter().zip(&variation.tangent.k);
+    let terms: f64 = stiffness.map(|(&(i, j), k)| size(i) * k.abs() * size(j)).sum();
+    let damping = entries.iter().zip(&variation.tangent.c).map(|(&(i, j), c)| shape(i).conj() * shape(j) * *c);
+    let slope = (damping.sum::<Complex<f64>>() + mode.value * 2.0 * mode.mass).norm();
+    let rounding = tolerances::ROUND_OFF_OF_K * terms;
+    let most = if mode.mass > 0.0 { (rounding / mode.mass).sqrt() } else { 0.0 };
+    let first_order = if slope > 0.0 { (rounding / slope).min(most) } else { most };
+    Mode { rounding: most.max(error), error: first_order.max(error), ..mode }
 }
 
 /// Solves a model without E.
 fn solve_plain(built: &Built) -> Result<Solved, Unsolved> {
-    let Eigen { values, right, left, conditioning, errors } = eigen(&built.a)?;
-    Ok(Solved { values, participation: Some(parts(&left, &right)), right, conditioning, errors })
+    let Eigen { values, right, left, conditioning, errors, conditions } = eigen(&built.a)?;
+    Ok(Solved { values, participation: Some(parts(&left, &right)), right, conditioning, errors, conditions })
 }
 
 fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
@@ -122,7 +131,9 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
             let found = generalized(&built.a, e)?.split(built.infinite)?;
             let conditioning = f64::NAN;
             let errors = vec![0.0; found.values.len()];
-            return Ok(Solved { values: found.values, right: found.right, participation: None, conditioning, errors });
+            let conditions = vec![f64::NAN; found.values.len()];
+            let Split { values, right, .. } = found;
+            return Ok(Solved { values, right, participation: None, conditioning, errors, conditions });
         }
         Some("gsvd") => Deflation::Gsvd,
         _ => Deflation::NullSpace,
@@ -136,7 +147,8 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
     let right = found.right;
     let conditioning = found.conditioning;
     let errors = found.errors;
-    Ok(Solved { values, right, participation, conditioning, errors })
+    let conditions = found.conditions;
+    Ok(Solved { values, right, participation, conditioning, errors, conditions })
 }
 
 /// Returns the participation |y_i x_i|, each column with sum 1.
@@ -152,7 +164,8 @@ fn parts(left: &ComplexMatrix, right: &ComplexMatrix) -> Matrix {
 }
 
 /// Classes eigenvalues: as many are physical as there are states of minimal coordinates, those with the least part off
-/// the directions that the constraints allow, in the metric of the kinetic energy. Where no gap lies between them and
+/// the directions that the constraints allow, in the metric of the kinetic energy, in which directions without inertia have
+/// that of [`displacement::added_mass`]. Where no gap lies between them and
 /// the others, those that are not well apart are uncertain.
 fn kinds(
     variation: &mut Variation,
@@ -165,10 +178,12 @@ fn kinds(
     if shapes.ncols() <= physical {
         return Ok((vec![Kind::Physical; shapes.ncols()], None));
     }
-    let mass = complex(&variation.mass());
+    let added = displacement::added_mass(variation);
+    let add = |x: &ComplexMatrix| ComplexMatrix::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * added[i]);
     let z = complex(&z);
     let off = shapes - &z * (z.transpose() * weighed);
-    let weighed_off = mass * &off;
+    let weighed_off = complex(&variation.mass()) * &off + add(&off);
+    let weighed = &(weighed + add(shapes));
     let size = |x: &ComplexMatrix, mx: &ComplexMatrix, j: usize| x.column(j).dotc(&mx.column(j)).re.max(0.0).sqrt();
     let part = |j: usize| Some(size(shapes, weighed, j)).filter(|x| *x > 0.0).map(|x| size(&off, &weighed_off, j) / x);
     let parts = completed(values, (0..shapes.ncols()).map(part).collect());

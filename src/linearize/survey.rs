@@ -1,6 +1,9 @@
 //! Linear models at many states: along a motion, or over a parameter.
 
+use super::found::Found;
+use super::sensitivity::{Sensitivity, sensitivity, step};
 use super::states::{Walk, follow};
+use super::thresholds::{self, Threshold};
 use super::{Branch, LociPoint, Matrix, Operating, Request, State, Variation, at_rest, linearize, tighten, track};
 use crate::error::{Error, Result, Warning};
 use crate::prepared::{Overrides, PreparedScene};
@@ -26,6 +29,10 @@ pub struct Loci {
     pub gaps: Vec<Gap>,
     /// Branches, physical ones first.
     pub branches: Vec<Branch>,
+    /// Values of a parameter at which eigenvalues meet or cross the imaginary axis.
+    pub thresholds: Vec<Threshold>,
+    /// Derivatives of the eigenvalues with respect to a parameter at the scene's own value, or at the nearest of the range.
+    pub sensitivity: Option<Sensitivity>,
     /// Warnings about the states, each once.
     pub doubts: Vec<Warning>,
 }
@@ -89,17 +96,6 @@ pub enum At {
     /// The equilibrium at the scene's start time. Each search begins at the equilibrium of the neighbour, outwards from
     /// the value nearest to the scene's own, so that a branch of equilibria is followed.
     Equilibrium,
-}
-
-/// Result at one state.
-struct Found {
-    state: State,
-    sample: LociPoint,
-    method: String,
-    chart: String,
-    is_equilibrium: bool,
-    turning: Option<f64>,
-    doubt: Option<Warning>,
 }
 
 type Outcome = (f64, Result<Found>);
@@ -166,7 +162,22 @@ pub fn loci_over(variants: &Variants, at: At, request: &Request, progress: impl 
         }
         _ => variants.found(value, at, request),
     };
-    Ok(collect(LociVariable::Parameter(variants.range.clone()), outcomes, between))
+    let nearest = outcomes.iter().filter_map(|(_, outcome)| outcome.as_ref().ok());
+    let nearest = nearest.min_by(|a, b| (a.sample.at - own).abs().total_cmp(&(b.sample.at - own).abs()));
+    let range = variants.range;
+    let sensitivity = nearest.filter(|_| !matches!(at, At::Time(_))).and_then(|nearest| {
+        let place = own.clamp(range.from.min(range.to), range.from.max(range.to));
+        let here = between(nearest, place).ok()?;
+        sensitivity(&here, step(place, range.to - range.from), between).ok()
+    });
+    let located = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
+        // At a time each model takes a simulation.
+        (Ok(before), Ok(after)) if !matches!(at, At::Time(_)) => thresholds::between(before, after, &between),
+        _ => Vec::new(),
+    };
+    let thresholds: Vec<Vec<Threshold>> = outcomes.par_windows(2).map(located).collect();
+    let loci = collect(LociVariable::Parameter(range.clone()), outcomes, between);
+    Ok(Loci { thresholds: thresholds.concat(), sensitivity, ..loci })
 }
 
 /// Equilibria from value to value, the first from that of the scene at the value `behind`.
@@ -229,11 +240,12 @@ fn found(operating: &Operating, at: f64, request: &Request) -> Result<Found> {
 fn found_by(variation: &mut Variation, operating: &Operating, at: f64, request: &Request) -> Result<Found> {
     let model = linearize(variation, request)?;
     let mass: Matrix = variation.mass();
+    let reduction_doubt = model.doubt();
     let is_equilibrium = model.point.is_equilibrium;
     let turning = model.point.axes.map(|spin| spin.speed());
     let sample = LociPoint { at, modes: model.modes, mass };
     let state = operating.state.clone();
-    let doubt = operating.doubt.clone();
+    let doubt = operating.doubt.clone().or(reduction_doubt);
     Ok(Found { state, sample, method: model.method, chart: model.chart, is_equilibrium, turning, doubt })
 }
 
@@ -292,7 +304,7 @@ fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found,
         samples.extend(more);
     }
     let branches = asked(track(&samples), &places);
-    Loci { along, method, chart, places, reached, gaps, branches, doubts }
+    Loci { along, method, chart, places, reached, gaps, branches, thresholds: Vec::new(), sensitivity: None, doubts }
 }
 
 /// Restricts branches to the requested times or values.

@@ -226,3 +226,66 @@ pub const BEFORE_SINGULAR: f64 = 0.5;
 /// Unit: `[1]` of their sum. Why: four ulps: two for an entry of K, which is a sum of few elements, and two for the
 /// products. Test: `a_rigid_body_mode_is_zero_and_a_slow_one_is_not`.
 pub const ROUND_OFF_OF_K: f64 = 4.0 * f64::EPSILON;
+
+/// Condition of the reduction from which on the error of a model by rounding of its state is measured.
+/// Unit: `[1]`. Why: below, the fourth power of it times rounding is less than REDUCTION_WARNED. Test:
+/// `a_model_near_a_fold_has_an_error`.
+pub const REDUCTION_MEASURED: f64 = 300.0;
+
+/// Part of the fourth power of the condition times rounding that is the error of a model.
+/// Unit: `[1]`. Why: beside folds of two cranks it is 0.05. Test: none: an estimate.
+pub const REDUCTION_ESTIMATE: f64 = 0.1;
+
+/// Error of a model by its reduction that is warned of.
+/// Unit: `[1]` of the size of A. Why: six digits are printed. Test: `a_model_near_a_fold_has_an_error`.
+pub const REDUCTION_WARNED: f64 = 1e-6;
+
+/// Error of a model by its reduction that is refused.
+/// Unit: `[1]` of the size of A. Why: a choice: no digit that is of use is left. Test:
+/// `redundancy_hides_no_singular_state`.
+pub const REDUCTION_REFUSED: f64 = 1e-2;
+
+/// A direction with less inertia than this has none.
+/// Unit: `[1]` of the largest mass, per square of the length of the mechanism for a rotation. Why: the square root of
+/// rounding. Test: `directions_without_inertia_are_coordinates`.
+pub const MASSLESS_DIRECTION: f64 = 1e-8;
+
+/// Condition of the reduction from which on a mechanism without freedom may have some.
+/// Unit: `[1]`. Why: the square root of rounding: rows that depend on others leave so much beside a fold. Test:
+/// `redundancy_hides_no_singular_state`.
+pub const RANK_UNKNOWN: f64 = 1e7;
+
+/// Error of transition matrices over a period.
+/// Unit: `[1]` of their largest entry. Why: some ten times FLOW_RTOL, which is that of a step. Test: none: an estimate.
+pub const FLOW_ERROR: f64 = 1e-11;
+
+/// Parts of a displacement after which the equations are compared.
+/// Unit: `[1]`. Why: an odd part and the whole: no symmetry of single positions passes for one of all. Test:
+/// `a_turn_is_no_gap`.
+pub const ON_THE_WAY: [f64; 2] = [0.371, 1.0];
+
+/// Difference of the terms of equations that are the same.
+/// Unit: `[1]` of the largest of their kind, at least 1. Why: the square root of rounding: of angles of some turns. Test:
+/// `a_turn_is_no_gap`.
+pub const SAME_EQUATIONS: f64 = 1e-8;
+
+/// Thresholds sought between two values of a parameter, at most.
+/// Unit: `[thresholds]`. Why: a choice: each costs some 30 models. Test: none: a count of work, not tried.
+pub const THRESHOLDS: usize = 8;
+
+/// Part of a step of the parameter up to which a threshold is bracketed before its root is sought.
+/// Unit: `[1]`. Why: a choice: the function whose root it is is straight there. Test: `thresholds_are_located`.
+pub const BRACKET: f64 = 1e-5;
+
+/// Iterations of the search of a threshold.
+/// Unit: `[iterations]`. Why: a straight function takes three. Test: none: a count of work, not tried.
+pub const THRESHOLD_ITERATIONS: usize = 30;
+
+/// Errors of an eigenvalue within which it is on the imaginary axis.
+/// Unit: `[1]`. Why: a choice: errors are known to first order. Test: `thresholds_are_located`.
+pub const AXIS_ERRORS: f64 = 10.0;
+
+/// Step of the differences that give the sensitivity of eigenvalues.
+/// Unit: `[1]` of the parameter. Why: its fourth power and rounding over it are both about 1e-12. Test:
+/// `eigenvalues_have_their_sensitivity`.
+pub const SENSITIVITY_STEP: f64 = 1e-3;

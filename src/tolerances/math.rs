@@ -240,3 +240,13 @@ pub const LEVEL_END: f64 = 1e-3;
 /// Unit: `[1]` of the norm of the balanced matrix. Why: four ulps; the QR algorithm leaves one or two. Test:
 /// `a_rigid_body_mode_is_zero_and_a_slow_one_is_not`.
 pub const QR_BACKWARD_ERROR: f64 = 4.0 * f64::EPSILON;
+
+/// Asymmetry of a stiffness that is rounding.
+/// Unit: `[1]` of its largest entry. Why: ten times ROUND_OFF_OF_FACTORS: columns come from back-substitutions. Test:
+/// `an_undamped_chain_by_its_stiffness`.
+pub const SYMMETRIC: f64 = 1e-12;
+
+/// Rows of A from which on the second-order form is used.
+/// Unit: `[rows]`. Why: a choice: smaller ones take less than a millisecond, and keep the digits of slow modes among fast
+/// ones. Test: `an_undamped_chain_by_its_stiffness`.
+pub const SECOND_ORDER_ROWS: usize = 100;

@@ -266,3 +266,8 @@ pub const UNDAMPED_PHASE: f64 = 1e-3;
 /// A branch that was left so soon before a run ended was left because of what ended it.
 /// Unit: `[1]` of the time. Why: a choice. Test: `a_driver_beyond_its_travel_is_named`.
 pub const LEFT_AT_END: f64 = 1e-5;
+
+/// Error of an eigenvalue that is told beside the table.
+/// Unit: `[1]` of it. Why: a choice: four of the six digits that are printed hold. Test:
+/// `eigenvalues_have_their_errors`.
+pub const DOUBTFUL_DIGITS: f64 = 1e-4;

@@ -1,6 +1,6 @@
 //! Models to write and draw.
 
-use holonom::linearize::{Complex, Cost, Kind, LinearModel, LinearizationPoint, Matrix, Mode};
+use holonom::linearize::{Complex, Cost, Kind, LinearModel, LinearizationPoint, Matrix, Mode, Reduction};
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::system::{Need, OperatingPoint, Scratch, Tangent, Terms};
 use nalgebra::{DMatrix, DVector};
@@ -85,6 +85,7 @@ pub fn plain(prepared: &PreparedScene) -> LinearModel {
             size: 2 * f,
             off_constraints: None,
         },
+        reduction: Reduction { condition: 2.0, error: 1e-15 },
     }
 }
 
@@ -116,6 +117,8 @@ fn mode(a: &Matrix, z: &Matrix, value: Complex<f64>) -> Mode {
         mass: 1.0,
         outputs: Vec::new(),
         rounding: 0.0,
+        condition: 1.0,
+        error: 0.0,
     }
 }
 
@@ -131,6 +134,8 @@ pub fn descriptor(prepared: &PreparedScene) -> LinearModel {
         mass: 1.0,
         outputs: Vec::new(),
         rounding: 0.0,
+        condition: 1.0,
+        error: 0.0,
     };
     let spurious = [complex(-5.0, 1.0), complex(-5.0, -1.0), complex(-7.0, 0.0)];
     model.modes.extend(spurious.map(|value| mode(value, Kind::Spurious, vec![0.25, 0.75])));

@@ -15,4 +15,5 @@ mod refused;
 mod scene_states;
 mod shipped;
 mod steps;
+mod sure;
 mod systems;

@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::formulation::{Dae, Row};
 use crate::linearize::changes::{Directions, directions};
 use crate::linearize::input_states::InputStates;
+use crate::linearize::model::REDUNDANT;
 use crate::linearize::perturbation::{Parts as Columns, Perturbation};
 use crate::linearize::{Changes, Matrix, Variation};
 
@@ -108,7 +109,7 @@ fn observe(
         d += &of_force * b.rows(n, n);
     }
     let states = states(dae, variation, kept);
-    let chart = "redundant".to_string();
+    let chart = REDUNDANT.to_string();
     let infinite = infinite(dae, kept.len());
     let input_states = InputStates { orders: variation.orders(), a: driven, c: seen };
     let built = Built { chart, states, a, b, c, d, e: Some(e), input_states, changes, coordinates: None, infinite };

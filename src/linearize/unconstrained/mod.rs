@@ -14,6 +14,7 @@ use super::changes::directions;
 use super::entry::{Built, Request};
 use super::input_states::InputStates;
 use super::minimal::restrict;
+use super::model::REDUNDANT;
 use super::perturbation::{Parts, Perturbation};
 use super::response::observe;
 use super::{Changes, Matrix, Response, Variation};
@@ -54,6 +55,6 @@ fn build(
     let c = outputs.state;
     let d = outputs.inputs;
     let states = directions(variation.system(), &variation.point.q).states();
-    let chart = "redundant".to_string();
+    let chart = REDUNDANT.to_string();
     Ok(Built { chart, states, a, b, c, d, e: None, input_states, changes, coordinates: None, infinite: 0 })
 }

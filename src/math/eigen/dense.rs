@@ -56,13 +56,13 @@ pub fn svd(matrix: &Matrix) -> Result<Svd, Unsolved> {
 }
 
 /// Singular values in descending order.
-pub fn singular_values(matrix: &ComplexMatrix) -> Result<Vec<f64>, Unsolved> {
+pub fn singular_values<T: faer::traits::ComplexField<Real = f64>>(matrix: &DMatrix<T>) -> Result<Vec<f64>, Unsolved> {
     faer::set_global_parallelism(Par::Seq);
     view(matrix).singular_values().map_err(|_| Unsolved::NotConverged { converged: 0, wanted: matrix.ncols() })
 }
 
 /// Largest over smallest singular value; infinite if the smallest is round-off, 1 without columns.
-pub fn condition(matrix: &ComplexMatrix) -> Result<f64, Unsolved> {
+pub fn condition<T: faer::traits::ComplexField<Real = f64>>(matrix: &DMatrix<T>) -> Result<f64, Unsolved> {
     if matrix.is_empty() {
         return Ok(1.0);
     }

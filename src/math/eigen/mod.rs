@@ -14,6 +14,7 @@ mod exponential;
 mod inverse;
 mod krylov;
 mod pencil;
+mod second_order;
 mod standard;
 #[cfg(test)]
 mod tests;

@@ -2,13 +2,16 @@
 
 use super::conjugates::{self, Unit};
 use super::inverse::{self, residual};
+use super::second_order::second_order;
 use super::{Complex, ComplexMatrix, Matrix, Unsolved, dense};
 use crate::tolerances::math as tolerances;
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, evd_real, evd_scratch};
+use faer::prelude::Solve;
 use faer::{Mat, Par};
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
+use std::f64::consts::SQRT_2;
 
 /// Eigenvalues and eigenvectors of a real matrix, see [`eigen`].
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +30,8 @@ pub struct Eigen {
     /// with one vector is moved to +-s with |y^H x| of the size of s, so that s is of the size of its own error. At such a
     /// value y^H x may vanish: the change of a double one is at most the root of eps times ||A||.
     pub errors: Vec<f64>,
+    /// 1 / |y^H x| of each value, with x and y of norm 1 in the balanced matrix.
+    pub conditions: Vec<f64>,
 }
 
 /// All eigenvalues with left and right vectors: balancing (Parlett and Reinsch, by powers of two), then the QR
@@ -36,11 +41,15 @@ pub struct Eigen {
 /// A matrix that is not square or not finite; no convergence.
 pub fn eigen(a: &Matrix) -> Result<Eigen, Unsolved> {
     let n = dense::square(&[a])?;
+    if let Some(found) = second_order(a)? {
+        return Ok(found);
+    }
     let (balanced, scale, size) = balance(a);
     let (mut units, right, left) = decompose(&balanced)?;
     units.sort_by(|a, b| conjugates::compare(&a.value, &b.value));
     let vectors = vectors(&balanced, &units, &right, &left)?;
-    let errors = errors(&units, &vectors, size * balanced.norm());
+    let conditions = conditions(&units, &vectors);
+    let errors = errors(&conditions, size * balanced.norm());
     let (mut x, mut y): (Vec<_>, Vec<_>) = vectors.into_iter().unzip();
     x.iter_mut().flatten().zip(scale.iter().cycle()).for_each(|(x, d)| *x *= *d);
     y.iter_mut().flatten().zip(scale.iter().cycle()).for_each(|(y, d)| *y /= *d);
@@ -49,12 +58,13 @@ pub fn eigen(a: &Matrix) -> Result<Eigen, Unsolved> {
     let mut left = conjugates::matrix(&units, &y, n);
     dense::normalize(&mut right);
     dense::normalize(&mut left);
-    let conditioning = dense::condition(&right)?;
-    let left = biorthogonal(&right, left, conditioning);
+    let basis = real_basis(&units, &right);
+    let conditioning = dense::condition(&basis)?;
+    let left = biorthogonal(&units, (&right, &basis), left, conditioning);
     units.iter_mut().for_each(|unit| unit.value *= size);
     let values = conjugates::values(&units);
     if values.iter().all(|value| value.is_finite()) {
-        Ok(Eigen { values, right, left, conditioning, errors })
+        Ok(Eigen { values, right, left, conditioning, errors, conditions })
     } else {
         Err(Unsolved::Overflow)
     }
@@ -107,64 +117,124 @@ type Vector = Vec<Complex<f64>>;
 /// Right and left vectors of each unit. faer does not report failure to converge, and its back substitution loses the
 /// vectors of defective eigenvalues.
 fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Result<Vec<(Vector, Vector)>, Unsolved> {
-    let complex = dense::complex(a);
     let mut converged = 0;
     let mut found = Vec::new();
-    for unit in units {
-        let mut x = unit.vector(right.as_ref());
+    let all: Vec<Vector> = units.iter().map(|unit| unit.vector(right.as_ref())).collect();
+    let before = residuals(a, units, &all, false);
+    for ((unit, mut x), mut off) in units.iter().zip(all).zip(before) {
         let mut y = unit.vector(left.as_ref());
-        if !(residual(&complex, unit.value, &x) <= tolerances::ROUND_OFF_OF_FACTORS && y.iter().all(|y| y.is_finite()))
-        {
+        if !(off <= tolerances::ROUND_OFF_OF_FACTORS && y.iter().all(|y| y.is_finite())) {
+            let complex = dense::complex(a);
             (x, y) = inverse::vectors(&complex, unit.value, unit.column as u64, tolerances::ROUND_OFF_OF_FACTORS)?;
+            off = residual(&complex, unit.value, &x);
         }
-        converged += if residual(&complex, unit.value, &x) <= tolerances::EIGENVALUE_FAILED {
-            1 + usize::from(unit.is_pair())
-        } else {
-            0
-        };
+        converged += if off <= tolerances::EIGENVALUE_FAILED { 1 + usize::from(unit.is_pair()) } else { 0 };
         found.push((x, y));
     }
     let wanted = a.nrows();
     if converged == wanted { Ok(found) } else { Err(Unsolved::NotConverged { converged, wanted }) }
 }
 
-/// See [`Eigen::errors`]; `size` is ||A||.
-fn errors(units: &[Unit], vectors: &[(Vector, Vector)], size: f64) -> Vec<f64> {
-    let mut errors = Vec::new();
+/// See [`Eigen::conditions`].
+fn conditions(units: &[Unit], vectors: &[(Vector, Vector)]) -> Vec<f64> {
+    let mut conditions = Vec::new();
     for (unit, (x, y)) in units.iter().zip(vectors) {
         let product: Complex<f64> = x.iter().zip(y).map(|(x, y)| y.conj() * x).sum();
         let norm = |x: &Vector| x.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
-        let of_simple = tolerances::QR_BACKWARD_ERROR * size * norm(x) * norm(y) / product.norm();
-        let error = of_simple.min(tolerances::QR_BACKWARD_ERROR.sqrt() * size);
-        errors.extend(std::iter::repeat_n(error, 1 + usize::from(unit.is_pair())));
+        let condition = norm(x) * norm(y) / product.norm();
+        conditions.extend(std::iter::repeat_n(condition, 1 + usize::from(unit.is_pair())));
     }
-    errors
+    conditions
+}
+
+/// See [`Eigen::errors`]; `size` is ||A||.
+fn errors(conditions: &[f64], size: f64) -> Vec<f64> {
+    let most = tolerances::QR_BACKWARD_ERROR.sqrt() * size;
+    conditions.iter().map(|condition| (tolerances::QR_BACKWARD_ERROR * size * condition).min(most)).collect()
+}
+
+/// |A x - lambda x| / (|A| |x|) of each unit, or that of the adjoint and of left vectors, by one product of real matrices.
+fn residuals(a: &Matrix, units: &[Unit], vectors: &[Vector], is_adjoint: bool) -> Vec<f64> {
+    let n = a.nrows();
+    let part = |i: usize, j: usize| if j % 2 == 0 { vectors[j / 2][i].re } else { vectors[j / 2][i].im };
+    let parts = Matrix::from_fn(n, 2 * vectors.len(), part);
+    let matrix = if is_adjoint { dense::view(a).transpose() } else { dense::view(a) };
+    let product = dense::product(matrix, dense::view(&parts));
+    let size = a.norm();
+    let of = |(j, (unit, x)): (usize, (&Unit, &Vector))| {
+        let value = if is_adjoint { unit.value.conj() } else { unit.value };
+        let rows = product.column(2 * j).into_iter().zip(product.column(2 * j + 1)).zip(x);
+        let off = rows.map(|((re, im), x)| (Complex::new(*re, *im) - x * value).norm_sqr()).sum::<f64>().sqrt();
+        let length = x.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
+        if off == 0.0 { 0.0 } else { off / (size * length) }
+    };
+    units.iter().zip(vectors).enumerate().map(of).collect()
 }
 
 /// Recomputes poor vectors in the unbalanced matrix: round-off in place of zeros, such as 1e-30, makes balancing choose
 /// scales that magnify the round-off in a vector.
 fn mend(a: &Matrix, units: &[Unit], right: &mut [Vector], left: &mut [Vector]) -> Result<(), Unsolved> {
-    let complex = dense::complex(a);
-    let of_adjoint = complex.adjoint();
-    for ((unit, x), y) in units.iter().zip(right).zip(left) {
-        let poor =
-            |x: &Vector, y: &Vector| residual(&complex, unit.value, x).max(residual(&of_adjoint, unit.value.conj(), y));
-        let before = poor(x, y);
+    let of_right = residuals(a, units, right, false);
+    let of_left = residuals(a, units, left, true);
+    for (j, unit) in units.iter().enumerate() {
+        let before = of_right[j].max(of_left[j]);
         if before > tolerances::EIGENVECTOR_REPEATED {
-            let found = inverse::vectors(&complex, unit.value, unit.column as u64, tolerances::ROUND_OFF_OF_FACTORS)?;
-            if poor(&found.0, &found.1) < before {
-                (*x, *y) = found;
+            let complex = dense::complex(a);
+            let (x, y) = inverse::vectors(&complex, unit.value, unit.column as u64, tolerances::ROUND_OFF_OF_FACTORS)?;
+            let of_adjoint = residual(&complex.adjoint(), unit.value.conj(), &y);
+            if residual(&complex, unit.value, &x).max(of_adjoint) < before {
+                (right[j], left[j]) = (x, y);
             }
         }
     }
     Ok(())
 }
 
-fn biorthogonal(right: &ComplexMatrix, mut left: ComplexMatrix, conditioning: f64) -> ComplexMatrix {
-    if conditioning < tolerances::WELL_CONDITIONED_VECTORS
-        && let Some(inverse) = right.clone().try_inverse()
-    {
-        return inverse.adjoint();
+/// A real W with X = W U and a unitary U: the vector of a real eigenvalue, the real and the imaginary part of that of a
+/// pair times the root of 2. Its singular values are those of X.
+fn real_basis(units: &[Unit], right: &ComplexMatrix) -> Matrix {
+    let mut basis = Matrix::zeros(right.nrows(), right.ncols());
+    let mut column = 0;
+    for unit in units {
+        if unit.is_pair() {
+            let x = right.column(column + 1) * Complex::from(SQRT_2);
+            basis.column_mut(column).copy_from(&x.map(|x| x.re));
+            basis.column_mut(column + 1).copy_from(&x.map(|x| x.im));
+            column += 2;
+        } else {
+            basis.column_mut(column).copy_from(&right.column(column).map(|x| x.re));
+            column += 1;
+        }
+    }
+    basis
+}
+
+/// X^-H = W^-T U of X = W U.
+fn biorthogonal(
+    units: &[Unit],
+    (right, basis): (&ComplexMatrix, &Matrix),
+    mut left: ComplexMatrix,
+    conditioning: f64,
+) -> ComplexMatrix {
+    if conditioning < tolerances::WELL_CONDITIONED_VECTORS {
+        let n = basis.nrows();
+        faer::set_global_parallelism(Par::Seq);
+        let inverse = dense::view(basis).transpose().partial_piv_lu().solve(Mat::<f64>::identity(n, n));
+        let mut column = 0;
+        for unit in units {
+            let part = |j: usize| inverse.col(j).iter();
+            if unit.is_pair() {
+                for (i, (re, im)) in part(column).zip(part(column + 1)).enumerate() {
+                    let y = Complex::new(*re, *im) / SQRT_2;
+                    (left[(i, column)], left[(i, column + 1)]) = (y.conj(), y);
+                }
+                column += 2;
+            } else {
+                part(column).enumerate().for_each(|(i, y)| left[(i, column)] = Complex::from(*y));
+                column += 1;
+            }
+        }
+        return left;
     }
     for (mut y, x) in left.column_iter_mut().zip(right.column_iter()) {
         let product = y.dotc(&x);

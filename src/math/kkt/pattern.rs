@@ -87,7 +87,7 @@ impl Pattern {
     }
 
     /// Adds the diagonal of the matrix to `diagonal`.
-    pub(super) fn add_diagonal(&self, values: &[f64], diagonal: &mut [f64]) {
+    pub(crate) fn add_diagonal(&self, values: &[f64], diagonal: &mut [f64]) {
         for (&(i, j), value) in self.entries.iter().zip(values) {
             if i == j {
                 diagonal[i] += value;

@@ -118,6 +118,8 @@ impl Serialize for Linear<'_> {
             "T" if model.frame.is_some() => model.frame.as_ref().map(|frame| rows(&frame.coordinates.tilt)),
             "R_left" if model.frame.is_some() => model.frame.as_ref().map(|frame| rows(&frame.coordinates.b)),
             "units" if model.frame.is_some() => model.frame.as_ref().map(units),
+            "reduction" => model.reduction,
+            "comparable" => model.is_comparable(),
             "eigenvalues" => model.modes.iter().map(|mode| eigenvalue(model, mode)).collect::<Vec<Value>>(),
             "equilibrium" => model.point.is_equilibrium,
             "operating_point" => self.point(),
@@ -149,6 +151,8 @@ fn eigenvalue(model: &LinearModel, mode: &Mode) -> Value {
         "frequency_hz": finite(frequency(value)),
         "damping_ratio": finite(mode.clean_damping()).filter(|_| !mode.is_zero()),
         "kind": mode.kind,
+        "error": finite(if mode.is_zero() { mode.rounding } else { mode.error }),
+        "condition": finite(mode.condition).filter(|condition| condition.is_finite()),
         "participation": parts.map(|(name, part)| (name.to_string(), Value::from(part))).collect::<Map<String, Value>>(),
     })
 }

@@ -1,6 +1,7 @@
 //! `loci.csv`, `loci.json`, and text on eigenvalues at many states.
 
 use super::against::{LociAgainst, with_others};
+use super::crossings::{SensitivityFile, sensitivity_lines, threshold_lines, with_thresholds};
 use super::mode_figures::{frequency_figure, motion_figure};
 use super::plane::loci_figure;
 use super::turning::{speeds, unit_of_speed};
@@ -22,6 +23,7 @@ pub struct LociAnswer<'a> {
     /// Unit of time; of a parameter the one that is given, or that of the speed of a steady rotation; else empty.
     unit: &'a str,
     modes: Vec<ModeSummary>,
+    sensitivity: Option<SensitivityFile>,
     /// Another scene by its name.
     other: Option<(&'a str, &'a Loci)>,
     against: Option<LociAgainst>,
@@ -89,7 +91,8 @@ impl<'a> LociAnswer<'a> {
         };
         let modes = loci.named().map(|(mode, branch)| mode_summary(mode, branch, least)).collect();
         let against = other.map(|(name, other)| LociAgainst::new(loci, name, other));
-        LociAnswer { scene, loci, unit: unit.unwrap_or_default(), modes, other, against }
+        let sensitivity = loci.sensitivity.as_ref().map(SensitivityFile::new);
+        LociAnswer { scene, loci, unit: unit.unwrap_or_default(), modes, sensitivity, other, against }
     }
 
     /// Returns what is printed as JSON: all but states and branches.
@@ -117,6 +120,12 @@ impl<'a> LociAnswer<'a> {
             "failures": gaps.iter().map(failure).collect::<Vec<Value>>(),
             "modes": self.modes,
         });
+        if !self.loci.thresholds.is_empty() {
+            summary["thresholds"] = json!(self.loci.thresholds);
+        }
+        if let Some(sensitivity) = &self.sensitivity {
+            summary["sensitivity"] = json!(sensitivity);
+        }
         if let Some(against) = &self.against {
             summary["against"] = json!(against);
         }
@@ -158,7 +167,8 @@ impl<'a> LociAnswer<'a> {
             plane = with_others(plane, name, other);
         }
         folder.figure(stem, plane)?;
-        folder.figure(&modes, frequency_figure(&title, axis, branches, &speeds))
+        let figure = frequency_figure(&title, axis, branches, &speeds);
+        folder.figure(&modes, with_thresholds(figure, &self.loci.thresholds))
     }
 }
 
@@ -271,7 +281,11 @@ impl Answer for LociAnswer<'_> {
             text += &format!("  NO EIGENVALUES at {along} = {place}{unit}: {}\n", told(&first.error).0);
         }
         let against = self.against.as_ref().map_or(String::new(), |against| format!("\n{}", against.text(along)));
-        text + "\n" + &self.table() + &against
+        text + "\n"
+            + &self.table()
+            + &threshold_lines(along, &self.loci.thresholds)
+            + &sensitivity_lines(along, self.sensitivity.as_ref())
+            + &against
     }
 
     fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {

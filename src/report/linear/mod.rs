@@ -3,10 +3,12 @@
 mod against;
 mod along;
 mod bode_figure;
+mod crossings;
 mod drawn;
 mod files;
 mod loci;
 mod mode_figures;
+mod notes;
 mod pair;
 mod phase;
 mod plane;

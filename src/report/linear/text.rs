@@ -1,6 +1,7 @@
 //! Text on a linear model, and on several.
 
 use super::Linear;
+use super::notes::notes;
 use crate::error::{short, significant};
 use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, Pair, pairs};
 use crate::report::table::count;
@@ -40,7 +41,7 @@ impl Linear<'_> {
             chart(&model.chart, &model.point),
             self.state_text(),
             input_states(model),
-            modes_text(model, &self.bodies())
+            modes_text(model, &self.bodies(), &self.names.v)
         )
     }
 
@@ -117,17 +118,19 @@ fn chart(name: &str, point: &LinearizationPoint) -> String {
     }
 }
 
-fn modes_text(model: &LinearModel, bodies: &[&str]) -> String {
+fn modes_text(model: &LinearModel, bodies: &[&str], names: &[String]) -> String {
     let headings =
         ["mode", "re (1/s)", "im (1/s)", "frequency (Hz)", "damping ratio", "kind", "moves (% of kinetic energy)"];
     let mut table = Table::new(&headings).words(5).words(6);
     let mut number = 0;
     let mut left_out = Vec::new();
+    let mut listed = Vec::new();
     for (kind, most) in [(Kind::Physical, MOST_LINES), (Kind::Uncertain, MOST_LINES), (Kind::Spurious, MOST_SPURIOUS)] {
         let found = pairs(model, kind);
         for pair in &found[..found.len().min(most)] {
             number += 1;
-            table.row(cells(bodies, number, pair));
+            table.row(cells(model, bodies, number, pair));
+            listed.push((number, *pair));
         }
         number += found.len().saturating_sub(most);
         if found.len() > most {
@@ -140,11 +143,11 @@ fn modes_text(model: &LinearModel, bodies: &[&str]) -> String {
     }
     match number {
         0 => format!("  no finite eigenvalues\n{}", left_out.concat()),
-        _ => format!("{table}{}", left_out.concat()),
+        _ => format!("{table}{}{}", left_out.concat(), notes(model, &listed, names)),
     }
 }
 
-fn cells(bodies: &[&str], number: usize, pair: &Pair) -> [String; 7] {
+fn cells(model: &LinearModel, bodies: &[&str], number: usize, pair: &Pair) -> [String; 7] {
     let mode = pair.mode;
     let value = pair.mode.value;
     let imaginary =
@@ -154,7 +157,12 @@ fn cells(bodies: &[&str], number: usize, pair: &Pair) -> [String; 7] {
     // Digits of rounding are none.
     let numbers = if mode.is_zero() { ["0", "0", "0", "-"].map(str::to_string) } else { numbers };
     let [re, im, frequency, damping] = numbers;
-    let kind = if mode.is_rigid_body() { "physical, rigid body" } else { mode.kind.name() }.to_string();
+    let kind = match mode.kind {
+        Kind::Physical if !model.is_comparable() => "frozen, not comparable",
+        _ if mode.is_rigid_body() => "physical, rigid body",
+        kind => kind.name(),
+    };
+    let kind = kind.to_string();
     let moves = movers(bodies, &mode.energy);
     [number.to_string(), re, im, frequency, damping, kind, moves]
 }

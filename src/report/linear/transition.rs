@@ -51,7 +51,9 @@ fn floquet_json(found: &Floquet, defects: &[Defect]) -> Value {
         "monodromy": found.monodromy.row_iter().map(|row| row.iter().copied().collect()).collect::<Vec<Vec<f64>>>(),
         "multipliers": pairs(&found.multipliers),
         "exponents": pairs(&found.exponents()),
-        "stable": found.is_stable(tolerances::MULTIPLIER_OUTSIDE),
+        "multiplier_errors": found.errors,
+        "multiplier_conditions": found.conditions.iter().map(|x| x.is_finite().then_some(*x)).collect::<Vec<_>>(),
+        "stable": found.is_stable(tolerances::MULTIPLIER_OUTSIDE) && defects.is_empty(),
         "grows_like_t": !defects.is_empty(),
     })
 }

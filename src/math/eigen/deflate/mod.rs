@@ -126,6 +126,8 @@ pub struct Finite {
     pub conditioning: f64,
     /// Changes of the values by rounding, as [`Eigen::errors`](super::Eigen::errors) of the finite part.
     pub errors: Vec<f64>,
+    /// Conditions of the values, as [`Eigen::conditions`](super::Eigen::conditions) of the finite part.
+    pub conditions: Vec<f64>,
     /// The finite part of the pencil, from which they are computed.
     pub deflated: Deflated,
 }
@@ -143,5 +145,7 @@ pub fn finite(a: &Matrix, e: &Matrix, by: Deflation) -> Result<Finite, Unsolved>
     let mut left = dense::complex(&deflated.left.transpose()) * inner.left;
     left.column_iter_mut().zip(lengths).for_each(|(mut y, length)| y.iter_mut().for_each(|y| *y *= length));
     let conditioning = dense::condition(&right)?;
-    Ok(Finite { values: inner.values, errors: inner.errors, right, left, conditioning, deflated })
+    let errors = inner.errors;
+    let conditions = inner.conditions;
+    Ok(Finite { values: inner.values, errors, conditions, right, left, conditioning, deflated })
 }

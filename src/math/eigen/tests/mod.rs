@@ -4,4 +4,5 @@ mod exponential;
 mod krylov;
 mod pencil;
 mod samples;
+mod second_order;
 mod standard;

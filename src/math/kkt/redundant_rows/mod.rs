@@ -119,6 +119,11 @@ impl RedundantRowSolve {
         if dependent > 0 { 0.0 } else { ratio }
     }
 
+    /// The smallest ratio of a pivot to its size without the rows that are dropped.
+    pub fn kept_ratio(&self) -> f64 {
+        self.factor.smallest_ratio(tolerances::COLLAPSED).0
+    }
+
     /// Norm of the inconsistent part of the last right side r2.
     pub fn inconsistency(&self) -> f64 {
         self.inconsistency

@@ -60,6 +60,17 @@ impl SaddlePoint {
         }
     }
 
+    /// [`Self::rank_indicator`] of the rows that are not dropped: nonzero for redundant constraints, too.
+    pub fn kept_indicator(&self) -> f64 {
+        let ratio: f64 = match (self.way, &self.kept, &self.skipping, &self.dense) {
+            (Way::Kept, Some(kept), ..) => return kept.inner.kept_indicator(),
+            (Way::RedundantRowSolve, _, Some(skipping), _) => skipping.kept_ratio(),
+            (Way::Dense, .., Some(dense)) => dense.smallest_ratio(),
+            _ => return self.rank_indicator(),
+        };
+        ratio.max(0.0).sqrt()
+    }
+
     /// Rank indicator of G: about the smallest sine of the angle between a row and those before it (metric M^-1), the
     /// rows of one joint with the farthest first, without dropped rows; by the smallest ratio of a pivot to its size
     /// before elimination, which is its square. In [0, 1]; zero if other rows are dependent, and without a factorization.
