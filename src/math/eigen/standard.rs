@@ -156,7 +156,7 @@ fn errors(conditions: &[f64], size: f64) -> Vec<f64> {
 /// |A x - lambda x| / (|A| |x|) of each unit, or that of the adjoint and of left vectors, by one product of real matrices.
 fn residuals(a: &Matrix, units: &[Unit], vectors: &[Vector], is_adjoint: bool) -> Vec<f64> {
     let n = a.nrows();
-    let part = |i: usize, j: usize| if j % 2 == 0 { vectors[j / 2][i].re } else { vectors[j / 2][i].im };
+    let part = |i: usize, j: usize| if j.is_multiple_of(2) { vectors[j / 2][i].re } else { vectors[j / 2][i].im };
     let parts = Matrix::from_fn(n, 2 * vectors.len(), part);
     let matrix = if is_adjoint { dense::view(a).transpose() } else { dense::view(a) };
     let product = dense::product(matrix, dense::view(&parts));
