@@ -184,3 +184,8 @@ pub const BEFORE_SINGULAR: f64 = 0.5;
 /// Unit: `[1]` of their sum. Why: four ulps: two for an entry of K, which is a sum of few elements, and two for the
 /// products. Test: `a_rigid_body_mode_is_zero_and_a_slow_one_is_not`.
 pub const ROUND_OFF_OF_K: f64 = 4.0 * f64::EPSILON;
+
+/// Size of the changes (dq, dv) over which the argument of a switching function is differentiated.
+/// Unit: `[m, rad, m/s, rad/s]`. Why: its fourth power, the error of the differences, is about their round-off. Test:
+/// tests/linearize/along/switches.rs.
+pub const SALTATION_STEP: f64 = 1e-3;
