@@ -2,9 +2,8 @@
 
 use super::changes::beside;
 use super::{Changes, Lift, LinearizationPoint, Matrix, Variation};
-use crate::error::{Error, Result, clock};
+use crate::error::{Error, Result};
 use crate::system::LeviCivita;
-use crate::tolerances::linearize as tolerances;
 
 /// The chart at a state, with n directions of v, k degrees of freedom and s states xi:
 ///
@@ -113,28 +112,40 @@ pub(super) fn constant(
     Ok(Terms { r, b, tilt, turn, drift: [none.clone(), none], lift }.named(variation, name, names))
 }
 
-/// The chart of another state with the same constant B: R = Z (B Z)^-1.
+/// The chart of a basis that moves as little as it can in the mass metric, R' = -S G' R with S the least corrections. Since
+/// B R' = 0 with B = (R^T M R)^-1 R^T M, it differs from the constant chart of B by terms of B' only:
+///
+/// ```text
+/// z' = y + turn z + B' P u,   y' = B dv' + B' (T z + S u + P u')
+/// B' X = (R^T M R)^-1 (R'^T M + R^T M') X   where B X = 0
+/// ```
 ///
 /// # Errors
-/// Directions that B does not tell apart.
-pub(super) fn kept(variation: &mut Variation, chart: &Coordinates) -> Result<Coordinates> {
-    let z = variation.free_directions()?;
-    let seen = &chart.b * &z;
-    let ceased = || {
-        Error::input(format!(
-            "{} of the first state are no coordinates at t = {} s",
-            chart.name,
-            clock(variation.point.t)
-        ))
-        .under("--chart")
-        .hint("end before, or name independent coordinates")
-    };
-    if seen.nrows() != seen.ncols() || seen.clone().singular_values().iter().any(|x| *x < tolerances::INDEPENDENT) {
-        return Err(ceased());
-    }
-    let r = &z * seen.try_inverse().ok_or_else(ceased)?;
+/// A singular state.
+pub(super) fn least_moved(variation: &mut Variation, r: Matrix) -> Result<Coordinates> {
+    let off = variation.correct(&variation.g_times(&r))?;
+    let r = r - off;
+    let momenta = variation.mass_times(&r);
+    let square = r.tr_mul(&momenta).cholesky();
+    let square = square.ok_or_else(|| Error::input("directions without inertia have no chart mass_orthogonal"))?;
+    let b = square.solve(&momenta.transpose());
+    let v = variation.point.v.clone();
+    let turned = variation.bracket_of(&v, &r);
+    let r_dot = -variation.correct(&(variation.gd_times(&r) + variation.g_times(&turned)))?;
     let names = numbered(variation, r.ncols());
-    constant(variation, &chart.name, names, (r, chart.b.clone()))
+    let mut chart = constant(variation, "mass_orthogonal", names, (r.clone(), b))?;
+    let mut b_dot = |x: &Matrix| -> Result<Matrix> {
+        let rate = variation.mass_rate_times(x)?;
+        Ok(square.solve(&(r_dot.tr_mul(&variation.mass_times(x)) + r.tr_mul(&rate))))
+    };
+    chart.drift[0] = -b_dot(&chart.tilt)?;
+    let Lift { p, s, .. } = &chart.lift;
+    if p.iter().any(|x| *x != 0.0) {
+        let [of_p, of_s] = [b_dot(p)?, b_dot(s)?];
+        chart.lift.turn += &of_p;
+        chart.lift.drift = [-of_s, -of_p];
+    }
+    Ok(chart)
 }
 
 /// The chart dq = Z z with constant Z and no other terms: z' = y.

@@ -22,6 +22,7 @@ mod least_norm;
 mod lift;
 mod lyapunov;
 mod matching;
+mod matrix;
 mod method;
 mod minimal;
 mod model;
@@ -75,12 +76,13 @@ pub(crate) use kink::changed_parts;
 pub use kink::kinks;
 use lift::Lift;
 pub use lyapunov::{Lyapunov, lyapunov};
+pub use matrix::Matrix;
 pub(crate) use method::refuse_large;
 pub use method::{linearize, registry};
 #[doc(hidden)]
 pub use minimal::{Minimal, minimal};
 pub(crate) use model::Pair;
-pub use model::{Complex, Cost, Frame, Kind, LinearModel, Matrix, Mode, Reduction};
+pub use model::{Complex, Cost, Frame, Kind, LinearModel, Mode, Reduction};
 #[doc(hidden)]
 pub use model::{are_conjugate, damping, frequency, pairs};
 use perturbation::Perturbation;

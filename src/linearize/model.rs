@@ -1,14 +1,10 @@
 //! The linear model that every method of linearization returns.
 
-use super::{Coordinates, LinearizationPoint, Units, Variation};
+use super::{Coordinates, LinearizationPoint, Matrix, Units, Variation};
 use crate::error::{Warning, clock, two_digits};
 use crate::tolerances::linearize as tolerances;
 pub use nalgebra::Complex;
-use nalgebra::DMatrix;
 use std::f64::consts::TAU;
-
-/// A dense real matrix.
-pub type Matrix = DMatrix<f64>;
 
 /// A linear model of a mechanism at a state of its motion,
 ///

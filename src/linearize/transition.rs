@@ -1,6 +1,6 @@
 //! The state-transition matrix of the variational equations along a motion.
 
-use super::flow::{Bundle, flow};
+use super::flow::{Bundle, flow_through};
 use super::{Changes, Chart, Coordinates, Matrix, State, Variation};
 use crate::error::Result;
 use crate::system::MechanicalSystem;
@@ -30,6 +30,8 @@ impl Transition {
 /// Integrates X' = A_u X along the motion from `start`, X(0) the states of `chart` there, and returns X at each of
 /// `times` (increasing).
 ///
+/// Where the motion passes a threshold at which v' jumps, X jumps by the saltation matrix.
+///
 /// # Errors
 /// A chart that does not exist at the start; a motion that cannot go on.
 pub fn transition(
@@ -42,7 +44,7 @@ pub fn transition(
     let coordinates = chart.at(&mut variation)?;
     let bundle = Bundle { columns: coordinates.changes(), ..Bundle::of(start) };
     let mut found = Vec::new();
-    flow(system, &bundle, times, |snapshot| {
+    flow_through(system, &bundle, times, |snapshot| {
         let state = snapshot.motion.clone();
         let changes = snapshot.columns.clone();
         found.push(Transition { state, start: coordinates.clone(), changes });

@@ -5,7 +5,7 @@ use crate::error::{Error, Result, clock};
 use crate::formulation::{Dynamics, StepError, free_directions};
 use crate::math::kkt::Pattern;
 use crate::math::memory::refuse_dense;
-use crate::system::{Column, Excitation, MechanicalSystem, Need, OperatingPoint, OutputTangent, Tangent};
+use crate::system::{Column, Excitation, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Tangent};
 
 /// Small changes (dq, dv) of a state, dq along the velocity directions, with those of v' and lambda:
 ///
@@ -198,6 +198,33 @@ impl<'a> Variation<'a> {
         momenta
     }
 
+    /// Returns dM/dt x at the operating point, a column each: by the change of K v with v', K = d(M v' + ..)/dq, where the
+    /// equations do not say it.
+    pub(super) fn mass_rate_times(&mut self, x: &Matrix) -> Result<Matrix> {
+        let mut connection = LeviCivita::new(self.velocities());
+        let Variation { dynamics, point, .. } = self;
+        if dynamics.system.levi_civita(point.at(), &mut connection, &mut dynamics.scratch) {
+            return Ok(connection.mass_dot * x);
+        }
+        let point = self.point.clone();
+        let moving = point.v.len() - point.states;
+        let along = Matrix::from_fn(point.v.len(), 1, |i, _| if i < moving { point.v[i] } else { 0.0 });
+        let force = |variation: &Self| {
+            let mut force = Matrix::zeros(along.nrows(), 1);
+            add_product(&variation.dynamics.structure.tangent, &variation.tangent.k, &along, 1.0, &mut force);
+            force
+        };
+        let here = force(self);
+        let mut rates = Matrix::zeros(x.nrows(), x.ncols());
+        for (x, mut rate) in x.column_iter().zip(rates.column_iter_mut()) {
+            let vdot: Vec<f64> = point.vdot.iter().zip(&x).map(|(vdot, x)| vdot + AMPLIFIED * x).collect();
+            self.load(OperatingPoint { vdot: &vdot, ..point.at() }).map_err(|halt| at_state(point.t, &halt))?;
+            rate.copy_from(&((force(self) - &here) / AMPLIFIED).column(0));
+        }
+        self.load_point()?;
+        Ok(rates)
+    }
+
     /// Returns [v, x] at the velocity of the state, a column each.
     pub fn bracket_with(&self, x: &Matrix) -> Matrix {
         self.bracket_of(&self.v, x)
@@ -309,6 +336,9 @@ impl<'a> Variation<'a> {
         self.bracket_of(v, &Matrix::identity(self.velocities(), self.velocities()))
     }
 }
+
+/// Factor of v' by which its part of K, which is linear in it, stands out of the round-off of stiff springs.
+const AMPLIFIED: f64 = 1_048_576.0;
 
 /// Computes sum += factor A x.
 fn add_product(pattern: &Pattern, values: &[f64], x: &Matrix, factor: f64, sum: &mut Matrix) {

@@ -289,3 +289,8 @@ pub const AXIS_ERRORS: f64 = 10.0;
 /// Unit: `[1]` of the parameter. Why: its fourth power and rounding over it are both about 1e-12. Test:
 /// `eigenvalues_have_their_sensitivity`.
 pub const SENSITIVITY_STEP: f64 = 1e-3;
+
+/// Size of the changes (dq, dv) over which the argument of a switching function is differentiated.
+/// Unit: `[m, rad, m/s, rad/s]`. Why: its fourth power, the error of the differences, is about their round-off. Test: none:
+/// an error of differences far below what is compared.
+pub const SALTATION_STEP: f64 = 1e-3;

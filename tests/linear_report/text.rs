@@ -20,6 +20,8 @@ fn mode(re: f64, im: f64, kind: Kind) -> Mode {
         mass: 1.0,
         outputs: vec![],
         rounding: 0.0,
+        error: 0.0,
+        condition: 1.0,
     }
 }
 

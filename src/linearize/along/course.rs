@@ -2,18 +2,19 @@
 
 use super::carried::nearest;
 use crate::error::{Error, Result, clock};
-use crate::linearize::coordinates::kept;
-use crate::linearize::{Chart, Coordinates, LinearModel, Matrix, Variation};
+use crate::linearize::coordinates::least_moved;
+use crate::linearize::flow::Bundle;
+use crate::linearize::{Chart, Coordinates, LinearModel, Matrix, State, Variation};
 use crate::math::largest;
 use crate::tolerances::linearize as tolerances;
 
-/// A chart that is continuous along a motion. The basis of `intrinsic` is transported parallel. `mass_orthogonal` and
-/// named coordinates keep B, z = B dq, so that R = Z (B Z)^-1 has no choice of signs.
+/// A chart that is continuous along a motion. The basis of `intrinsic` is transported parallel, that of
+/// `mass_orthogonal` moves as little as it can. Named coordinates z = B dq have a constant B and R = Z (B Z)^-1.
 #[derive(Clone)]
 pub(super) struct Course {
     pub chart: Chart,
     pub start: Coordinates,
-    /// Time and R of the last state, of charts that keep B.
+    /// Time and R of the last state, of named coordinates.
     last: Option<(f64, Matrix)>,
 }
 
@@ -28,7 +29,9 @@ impl Course {
                 Error::input("the frozen chart neglects that the basis moves, so it has no model along a motion");
             return Err(error.under("--chart").hint("take intrinsic, mass_orthogonal, or independent coordinates"));
         }
-        Ok(Course { start: chart.at(variation)?, chart: chart.clone(), last: None })
+        let start = chart.at(variation)?;
+        let start = if *chart == Chart::MassOrthogonal { least_moved(variation, start.r)? } else { start };
+        Ok(Course { start, chart: chart.clone(), last: None })
     }
 
     /// The same chart, begun anew at another of its states.
@@ -36,10 +39,13 @@ impl Course {
         Course { chart: self.chart.clone(), start: start.clone(), last: None }
     }
 
-    /// Returns the directions to transport: none of a chart that keeps B.
-    pub fn basis(&self) -> Matrix {
-        let count = if self.chart == Chart::Intrinsic { self.start.r.ncols() } else { 0 };
-        self.start.r.columns(0, count).clone_owned()
+    /// Returns a bundle with the directions to transport: none for named coordinates.
+    pub fn bundle(&self, start: &State) -> Bundle {
+        let is_named = matches!(self.chart, Chart::Independent(_));
+        let count = if is_named { 0 } else { self.start.r.ncols() };
+        let basis = self.start.r.columns(0, count).clone_owned();
+        let is_parallel = self.chart == Chart::Intrinsic;
+        Bundle { columns: self.start.changes(), basis, is_parallel, ..Bundle::of(start) }
     }
 
     /// Returns the chart at the next state, with the transported directions there.
@@ -49,8 +55,8 @@ impl Course {
     pub fn at(&mut self, variation: &mut Variation, basis: &Matrix) -> Result<Coordinates> {
         let chart = match &self.chart {
             Chart::Intrinsic => return nearest(variation, basis),
+            Chart::MassOrthogonal | Chart::Frozen => return least_moved(variation, basis.clone()),
             Chart::Independent(_) => self.chart.at(variation)?,
-            Chart::MassOrthogonal | Chart::Frozen => kept(variation, &self.start)?,
         };
         let own = |r: &Matrix| r.columns(0, chart.freedom()).clone_owned();
         let r = own(&chart.r);
@@ -66,13 +72,13 @@ impl Course {
 }
 
 impl Course {
-    /// Returns B(start) R(end) of the intrinsic chart where the last state is the first one again.
+    /// Returns B(start) R(end) of a transported basis where the last state is the first one again.
     pub fn closure(&self, models: &[LinearModel]) -> Option<Matrix> {
         let [first, .., last] = models else { return None };
         let gap = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
         let off = gap(&first.point.q, &last.point.q).max(gap(&first.point.v, &last.point.v));
         let scale = largest(&first.point.q).max(largest(&first.point.v)).max(1.0);
-        let returns = self.chart == Chart::Intrinsic && off <= tolerances::PERIODIC * scale;
+        let returns = !matches!(self.chart, Chart::Independent(_)) && off <= tolerances::PERIODIC * scale;
         let [start, end] = [first, last].map(|model| model.frame.as_ref().map(|frame| &frame.coordinates));
         let k = self.start.freedom();
         let turned = start?.b.rows(0, k) * end?.r.columns(0, k);

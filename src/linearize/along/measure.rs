@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use crate::error::Result;
-use crate::linearize::flow::{Bundle, flow};
+use crate::linearize::flow::flow;
 use crate::linearize::{Coordinates, LinearModel, Matrix, State, Variation};
 use crate::system::MechanicalSystem;
 use crate::tolerances::linearize as tolerances;
@@ -106,7 +106,7 @@ fn of_a(system: &dyn MechanicalSystem, course: &Course, model: &LinearModel) -> 
     let times: Vec<f64> = steps.iter().map(|h| point.t + h).collect();
     let state = State { t: point.t, q: point.q.clone(), v: point.v.clone() };
     let mut course = course.from(start);
-    let bundle = Bundle { columns: start.changes(), basis: course.basis(), ..Bundle::of(&state) };
+    let bundle = course.bundle(&state);
     let mut quotients = Vec::new();
     flow(system, &bundle, &times, |snapshot| {
         let State { t, q, v } = &snapshot.motion;

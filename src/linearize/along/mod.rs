@@ -9,7 +9,7 @@ pub(crate) use carried::Carried;
 pub use measure::{Deviation, MeasuredA};
 pub use within::within;
 
-use super::flow::{Bundle, Snapshot, flow};
+use super::flow::{Snapshot, flow_through};
 use super::minimal::restrict;
 use super::spectrum::spectrum;
 use super::{
@@ -39,7 +39,8 @@ pub struct Along {
     pub measured: Vec<MeasuredA>,
     /// Deviations of linear interpolation half-way between the times, for each kind of matrix.
     pub deviations: Vec<Deviation>,
-    /// Of the intrinsic chart, where the motion returns to its start: the rotation C of its basis, R(end) = R(start) C.
+    /// Of a transported basis, where the motion returns to its start: C with R(end) = R(start) C, in the intrinsic chart a
+    /// rotation.
     /// In the chart of the start, Phi over the whole is diag(C, C) Phi.
     pub closure: Option<Matrix>,
     /// The eigenvalues as branches.
@@ -75,7 +76,7 @@ pub fn along(
     let chart = chart.cloned().unwrap_or_else(|| Chart::preferred(&mut variation));
     let course = Course::new(&mut variation, &chart)?;
     let first = course.start.clone();
-    let bundle = Bundle { columns: first.changes(), basis: course.basis(), ..Bundle::of(start) };
+    let bundle = course.bundle(start);
     let request = Request { method: MethodSpec::named("mcs"), chart: Some(chart) };
     let mut pass = Pass {
         variation,
@@ -89,7 +90,7 @@ pub fn along(
     pass.add(first)?;
     let instants: Vec<f64> = times.windows(2).flat_map(|pair| [0.5 * (pair[0] + pair[1]), pair[1]]).collect();
     let mut outcome = Ok(());
-    flow(system, &bundle, &instants, |snapshot| {
+    flow_through(system, &bundle, &instants, |snapshot| {
         outcome = pass.meet(snapshot);
         progress(snapshot.motion.t);
         outcome.is_ok()

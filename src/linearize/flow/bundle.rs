@@ -3,7 +3,7 @@
 use crate::linearize::{Changes, Matrix, State};
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
-use crate::math::{Scalar, Taylor};
+use crate::math::{Piece, Scalar, Taylor};
 use crate::system::{Dimensions, MechanicalSystem, Need, Scratch, Structure, Terms};
 
 /// A motion, columns of its variational equations, and perturbed motions.
@@ -13,9 +13,11 @@ pub struct Bundle {
     pub start: State,
     /// Changes that the constraints allow, integrated by the variational equations.
     pub columns: Changes,
-    /// Directions that the constraints allow, n_v rows, transported parallel in the mass metric: N' = -S G' N - P W N
-    /// with S the least corrections and P the solution of M x + G^T l = f, G x = 0. None: no column.
+    /// Directions that the constraints allow, n_v rows, which move along: N' = -S G' N - P W N with S the least
+    /// corrections in the mass metric and P the solution x of M x + G^T l = f, G x = 0. None: no column.
     pub basis: Matrix,
+    /// True for parallel transport, with W the Levi-Civita connection; else W = 0.
+    pub is_parallel: bool,
     /// Amplitude of the pulse applied to each column; none: no column has an input.
     pub driven: Vec<f64>,
     /// Perturbed starts, on the constraints, integrated by the full equations.
@@ -24,6 +26,8 @@ pub struct Bundle {
     pub pushes: Vec<f64>,
     /// The input pulse of columns and members, if any.
     pub pulse: Option<Pulse>,
+    /// Pieces of the switching functions on which the motion and its columns are evaluated; none: by their arguments.
+    pub pieces: Vec<Piece>,
 }
 
 impl Bundle {
@@ -33,11 +37,13 @@ impl Bundle {
         Bundle {
             start: start.clone(),
             basis: columns.q.clone(),
+            is_parallel: true,
             columns,
             driven: Vec::new(),
             members: Vec::new(),
             pushes: Vec::new(),
             pulse: None,
+            pieces: Vec::new(),
         }
     }
 }

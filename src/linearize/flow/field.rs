@@ -17,8 +17,8 @@ pub struct VariationalField<'a> {
     driven: Vec<f64>,
     changes: Changes,
     force: Matrix,
-    /// The connection that transports the basis.
-    connection: LeviCivita,
+    /// The connection that transports the basis; none: it moves as little as it can.
+    connection: Option<LeviCivita>,
 }
 
 impl<'a> VariationalField<'a> {
@@ -36,6 +36,7 @@ impl<'a> VariationalField<'a> {
         let mut plain: Vec<Dynamics> = members.iter().map(|member| Dynamics::new(*member)).collect();
         let all = plain.iter_mut().chain([&mut variation.dynamics]);
         all.for_each(|dynamics| dynamics.drop_rows(dependent));
+        variation.dynamics.scratch.pieces.clone_from(&bundle.pieces);
         Ok(VariationalField {
             shape: *shape,
             variation,
@@ -45,7 +46,7 @@ impl<'a> VariationalField<'a> {
             driven: bundle.driven.clone(),
             changes: Changes { q: zeros.clone(), v: zeros },
             force: Matrix::zeros(shape.v, system.excitations().len()),
-            connection: LeviCivita::new(if shape.basis > 0 { shape.v } else { 0 }),
+            connection: (shape.basis > 0 && bundle.is_parallel).then(|| LeviCivita::new(shape.v)),
         })
     }
 
@@ -117,9 +118,12 @@ impl<'a> VariationalField<'a> {
     /// Rates of the basis, at the state of the last `motion`: M N' + G^T l = -W N, G N' = -(Gd N + G [v, N]).
     fn basis(&mut self, (t, q, v): (f64, &[f64], &[f64]), n: &[f64], rate: &mut [f64]) -> Result<(), StepError> {
         let n = Matrix::from_column_slice(self.shape.v, self.shape.basis, n);
-        let Dynamics { system, vdot, lambda, scratch, .. } = &mut self.variation.dynamics;
-        system.levi_civita(OperatingPoint { t, q, v, vdot, lambda }, &mut self.connection, scratch);
-        let mut force = -(&self.connection.w * &n);
+        let mut force = Matrix::zeros(n.nrows(), n.ncols());
+        if let Some(connection) = &mut self.connection {
+            let Dynamics { system, vdot, lambda, scratch, .. } = &mut self.variation.dynamics;
+            system.levi_civita(OperatingPoint { t, q, v, vdot, lambda }, connection, scratch);
+            force = -(&connection.w * &n);
+        }
         let turned = self.variation.bracket_with(&n);
         let mut rows = -(self.variation.gd_times(&n) + self.variation.g_times(&turned));
         self.variation.push_all(&mut force, &mut rows)?;

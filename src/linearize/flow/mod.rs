@@ -4,8 +4,10 @@ mod bundle;
 mod field;
 mod projection;
 mod pushed;
+mod switches;
 
 pub use bundle::{Bundle, Pulse, Snapshot};
+pub use switches::flow_through;
 
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Dynamics;

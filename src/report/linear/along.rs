@@ -172,7 +172,10 @@ impl Answer for AlongAnswer<'_> {
 fn chart(name: &str) -> String {
     match name {
         "intrinsic" => "chart intrinsic: axes carried along with the motion without turning".to_string(),
-        "mass_orthogonal" => "chart mass_orthogonal: the axes of the first state, which stay as they are".to_string(),
+        "mass_orthogonal" => {
+            "chart mass_orthogonal: axes that move as little as the constraints let them, in the mass metric"
+                .to_string()
+        }
         names => format!("chart {names}: changes counted in these coordinates"),
     }
 }

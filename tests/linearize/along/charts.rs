@@ -46,8 +46,15 @@ fn named_coordinates_that_cease_are_told() {
     let text = refused("q1");
     assert!(text.contains("q1 cease to be coordinates") && text.contains("between t = "), "{text}");
     assert!(refused("frozen").contains("no model along a motion"));
-    let text = refused("mass_orthogonal");
-    assert!(text.contains("mass_orthogonal"), "{text}");
+}
+
+/// With a constant M and no rotations both charts are the same.
+#[test]
+fn the_basis_that_moves_least_is_parallel_where_m_is_constant() {
+    let [a, b] = ["intrinsic", "mass_orthogonal"].map(|chart| models(&DoublePendulum, &double(), chart, (1.0, 21)));
+    for (a, b) in a.models.iter().zip(&b.models) {
+        assert!((&a.a - &b.a).amax() < 1e-9 * a.a.amax(), "{}{}", a.a, b.a);
+    }
 }
 
 #[test]

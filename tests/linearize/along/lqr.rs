@@ -68,7 +68,7 @@ impl File {
             let h = self.time(k + 1) - self.time(k);
             let phi = self.matrix("Phi", k);
             let gamma = (&phi * self.matrix("B", k) + self.matrix("B", k + 1)) * (0.5 * h);
-            let weight = Matrix::identity(2, 2) * (0.01 * h) + gamma.transpose() * &p * &gamma;
+            let weight = Matrix::identity(2, 2) * (1e-4 * h) + gamma.transpose() * &p * &gamma;
             let gain = weight.lu().solve(&(gamma.transpose() * &p * &phi)).unwrap();
             p = Matrix::identity(n, n) * h + phi.transpose() * &p * (&phi - &gamma * &gain);
             gains.push(gain);

@@ -4,6 +4,7 @@ mod charts;
 mod closed_forms;
 mod lqr;
 mod shipped;
+mod switches;
 
 use holonom::linearize::{Along, Changes, Chart, Matrix, State, along, transition};
 use holonom::system::MechanicalSystem;
