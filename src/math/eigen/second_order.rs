@@ -78,8 +78,8 @@ fn is_undamped(a: &Matrix, k: usize) -> bool {
 /// lambda^2 = -s, the one with im < 0 or re < 0 first.
 fn roots(square: f64) -> [Complex<f64>; 2] {
     let root = square.abs().sqrt();
-    let first = if square > 0.0 { Complex::new(0.0, -root) } else { Complex::new(-root, 0.0) };
-    [first, -first]
+    let at = |root: f64| if square > 0.0 { Complex::new(0.0, root) } else { Complex::new(root, 0.0) };
+    [at(-root), at(root)]
 }
 
 /// A double zero has one vector, to rounding.

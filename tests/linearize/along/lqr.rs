@@ -122,7 +122,7 @@ fn a_controller_from_the_file_keeps_a_double_pendulum_on_its_motion() {
     let kept = follow(&file, disturbed(0.05), |k, x| (-(&gains[k] * x)).as_slice().to_vec());
     assert!(free > 0.05 && kept < 1e-3 * free, "{free} {kept}");
     // What the model foretells without a controller is what happens, to the square of the disturbance.
-    let small = disturbed(1e-4);
+    let small = disturbed(1e-6);
     let foretold = found.whole().unwrap() * file.state(0, &small);
     let free = follow(&file, small, |_, _| vec![0.0; 2]);
     assert!((free / foretold.norm() - 1.0).abs() < 1e-2, "{free} {foretold}");
