@@ -9,7 +9,8 @@ mod interval;
 #[doc(hidden)]
 pub mod kkt;
 mod lagrange;
-pub(crate) mod memory;
+#[doc(hidden)]
+pub mod memory;
 pub(crate) mod newton;
 pub(crate) mod random;
 mod regime;

@@ -8,11 +8,11 @@
 
 use super::checkpoint::flat;
 use super::contest::{Contest, Mark, Quiet, unseen};
+use super::first_explicit::first_explicit;
 use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
 use crate::error::{Failure, Result, clock, two_digits};
 use crate::formulation::Statistics;
 use crate::integrator;
-use crate::math::expression::Switch;
 use crate::method_spec::MethodSpec;
 use crate::system::MechanicalSystem;
 use crate::tolerances::simulate as tolerances;
@@ -64,19 +64,11 @@ const FIRST: usize = 0;
 /// `dop853` are three times as long for the same work as those of `adams`; `bdf` takes the least work a step, but
 /// oscillations that its orders 3 to 5 are not stable for shorten its steps.
 pub fn known_methods(system: &dyn MechanicalSystem, tolerances: (f64, f64)) -> Vec<Method> {
-    let first = explicit(system, tolerances.0);
+    let first = first_explicit(system, tolerances.0);
     let explicit = |integrator| method(["index1", integrator, "manifold"], tolerances);
     let mut all = vec![explicit(first), method(["ggl", "bdf", "none"], tolerances), implicit(tolerances)];
     all.extend((first != "dop853").then(|| explicit("dop853")));
     all
-}
-
-/// At tight tolerances `adams` takes half of the evaluations of `dop853`, unless it begins anew again and again, or a
-/// cubic signal, such as a road, has jumps in its third derivative.
-fn explicit(system: &dyn MechanicalSystem, rtol: f64) -> &'static str {
-    let has_few =
-        |switch: &Switch| switch.signal.is_none() && switch.thresholds.get(tolerances::THRESHOLDS_OF_ADAMS).is_none();
-    if rtol <= tolerances::RTOL_OF_ADAMS && system.switches().iter().all(has_few) { "adams" } else { "dop853" }
 }
 
 /// Compares a given method with an implicit one at the beginning of a motion. `None` where stability does not limit its

@@ -7,6 +7,7 @@ mod contest;
 mod crowd;
 mod ending;
 mod events;
+mod first_explicit;
 mod gaps;
 mod method;
 mod observation;

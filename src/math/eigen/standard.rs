@@ -3,7 +3,7 @@
 use super::conjugates::{self, Unit};
 use super::inverse::{self, residual};
 use super::second_order::second_order;
-use super::{Complex, ComplexMatrix, Matrix, Unsolved, dense};
+use super::{Complex, ComplexMatrix, Eigen, Matrix, Unsolved, dense};
 use crate::tolerances::math as tolerances;
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -12,27 +12,6 @@ use faer::prelude::Solve;
 use faer::{Mat, Par};
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use std::f64::consts::SQRT_2;
-
-/// Eigenvalues and eigenvectors of a real matrix, see [`eigen`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct Eigen {
-    /// Eigenvalues by magnitude, then real, then imaginary part; exact conjugates are neighbours.
-    pub values: Vec<Complex<f64>>,
-    /// Right vectors, A x = lambda x, in columns of norm 1.
-    pub right: ComplexMatrix,
-    /// Left vectors, y^H A = lambda y^H, in columns with y^H x = 1; zero if x is orthogonal to y to rounding
-    /// (a defective eigenvalue).
-    pub left: ComplexMatrix,
-    /// Condition number of `right`; infinite if it is singular to rounding.
-    pub conditioning: f64,
-    /// |change| of each value, to first order, by the backward error of the QR algorithm: eps ||A|| / |y^H x| with x and
-    /// y of norm 1, in the balanced matrix (Wilkinson, The Algebraic Eigenvalue Problem, section 2.9). A double zero
-    /// with one vector is moved to +-s with |y^H x| of the size of s, so that s is of the size of its own error. At such a
-    /// value y^H x may vanish: the change of a double one is at most the root of eps times ||A||.
-    pub errors: Vec<f64>,
-    /// 1 / |y^H x| of each value, with x and y of norm 1 in the balanced matrix.
-    pub conditions: Vec<f64>,
-}
 
 /// All eigenvalues with left and right vectors: balancing (Parlett and Reinsch, by powers of two), then the QR
 /// algorithm. About 30 n^3 operations.
