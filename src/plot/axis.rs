@@ -1,9 +1,9 @@
-//! The axis of all charts: a coordinate of plotters with a scale, limits, marks, their labels, and a title.
+//! The axis of all charts: its scale, limits, marks with labels, and title.
 
 use super::panel::{AxisSpec, Scale};
 use super::ticks::{Room, Ticks};
 use super::{LABEL_SIZE, Label};
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use crate::math::bounds;
 
 /// Values beyond this are drawn at it, so that differences of values stay finite.
 const LARGEST: f64 = 1e300;
@@ -13,52 +13,28 @@ const NOISE: f64 = 1e-13;
 /// Limit of positions outside the axis, in lengths of the axis.
 const FAR: f64 = 1e6;
 
-/// Range of the values along one axis.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
-    low: f64,
-    high: f64,
+/// Returns the limits of a linear axis with a margin in parts of its length; without, it ends at round numbers that are
+/// very near.
+fn linear((low, high): (f64, f64), margin: Option<f64>) -> (f64, f64) {
+    let span = high - low;
+    let middle = 0.5 * low + 0.5 * high;
+    if span > least_span(low, high) {
+        return margin.map_or_else(|| near_round(low, high), |margin| (low - margin * span, high + margin * span));
+    }
+    let half = if middle.abs() < SMALLEST { 1.0 } else { 0.1 * middle.abs() };
+    (middle - half, middle + half)
 }
 
-impl Default for Extent {
-    fn default() -> Self {
-        Self { low: f64::INFINITY, high: f64::NEG_INFINITY }
-    }
-}
-
-impl Extent {
-    /// Adds a value, unless it has no place on the scale of the axis.
-    pub fn add(&mut self, value: f64, spec: &AxisSpec) {
-        if value.is_finite() && (spec.scale == Scale::Linear || value > 0.0) {
-            let value = value.clamp(-LARGEST, LARGEST);
-            (self.low, self.high) = (self.low.min(value), self.high.max(value));
-        }
-    }
-
-    /// Returns the limits of a linear axis with a margin in parts of its length; without, it ends at round numbers that
-    /// are very near.
-    fn linear(&self, margin: Option<f64>) -> (f64, f64) {
-        let span = self.high - self.low;
-        let middle = 0.5 * self.low + 0.5 * self.high;
-        if span > least_span(self.low, self.high) {
-            let wide = |margin: f64| (self.low - margin * span, self.high + margin * span);
-            return margin.map_or_else(|| near_round(self.low, self.high), wide);
-        }
-        let half = if middle.abs() < SMALLEST { 1.0 } else { 0.1 * middle.abs() };
-        (middle - half, middle + half)
-    }
-
-    /// Returns the decimal logarithms of the limits, with at least two labelled decades.
-    fn decades(&self, margin: f64) -> (f64, f64) {
-        let low = self.low.log10();
-        let high = self.high.log10();
-        let (low, high) = match ((low + 1e-9).floor(), (high - 1e-9).ceil()) {
-            _ if high.floor() - low.ceil() >= 1.0 => (low, high),
-            (down, up) if up > down => (down, up),
-            (down, up) => (down - 1.0, up + 1.0),
-        };
-        (low - margin * (high - low), high + margin * (high - low))
-    }
+/// Returns the decimal logarithms of the limits, with at least two labelled decades.
+fn decades((low, high): (f64, f64), margin: f64) -> (f64, f64) {
+    let low = low.log10();
+    let high = high.log10();
+    let (low, high) = match ((low + 1e-9).floor(), (high - 1e-9).ceil()) {
+        _ if high.floor() - low.ceil() >= 1.0 => (low, high),
+        (down, up) if up > down => (down, up),
+        (down, up) => (down - 1.0, up + 1.0),
+    };
+    (low - margin * (high - low), high + margin * (high - low))
 }
 
 /// Moves limits outwards to round numbers that are very near: data up to 9.995 get an axis up to 10.
@@ -75,7 +51,7 @@ fn least_span(low: f64, high: f64) -> f64 {
 }
 
 /// A scale with its limits and marks; limits of a logarithmic one are decimal logarithms.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Axis {
     pub spec: AxisSpec,
     pub low: f64,
@@ -85,17 +61,19 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// An axis that shows all values, without marks.
-    pub fn new(spec: &AxisSpec, extent: &Extent, margin: Option<f64>) -> Self {
+    /// An axis that shows all values which have a place on its scale, without marks.
+    pub fn new(spec: &AxisSpec, values: impl Iterator<Item = f64>, margin: Option<f64>) -> Self {
+        let is_on_scale = |value: &f64| value.is_finite() && (spec.scale == Scale::Linear || *value > 0.0);
+        let extent = bounds(values.filter(is_on_scale).map(|value| value.clamp(-LARGEST, LARGEST)));
         let fixed = spec.range.filter(|(low, high)| low.abs() <= LARGEST && high.abs() <= LARGEST);
         let (low, high) = match (spec.scale, fixed) {
             (Scale::Linear, Some((low, high))) if high - low > least_span(low, high) => (low, high),
             (Scale::Log, Some((low, high))) if low > 0.0 && high > 1.003 * low => (low.log10(), high.log10()),
-            _ if extent.low > extent.high => (0.0, 1.0),
-            (Scale::Linear, _) => extent.linear(margin),
-            (Scale::Log, _) => extent.decades(margin.unwrap_or(0.0)),
+            _ if extent.0 > extent.1 => (0.0, 1.0),
+            (Scale::Linear, _) => linear(extent, margin),
+            (Scale::Log, _) => decades(extent, margin.unwrap_or(0.0)),
         };
-        Self { spec: spec.clone(), low, high, ticks: Ticks::default(), label: Label::default() }
+        Self { spec: spec.clone(), low, high, ..Self::default() }
     }
 
     /// Chooses the marks for a length, and breaks the title.
@@ -120,41 +98,6 @@ impl Axis {
         };
         value.is_finite().then(|| ((on_scale - self.low) / (self.high - self.low)).clamp(-FAR, FAR))
     }
-
-    /// Returns the value at a position.
-    pub fn value(&self, place: f64) -> f64 {
-        let value = self.low + place * (self.high - self.low);
-        if self.spec.scale == Scale::Log { 10f64.powf(value) } else { value }
-    }
-}
-
-impl Ranged for Axis {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
-        from + (f64::from(to - from) * self.place(*value).unwrap_or(0.0).clamp(0.0, 1.0)).round() as i32
-    }
-
-    /// Returns the labelled marks, or the minor ones if 0 labels are asked for. Only the first have grid lines.
-    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        match (hint.weight().allow_light_points(), hint.bold_points()) {
-            (true, _) => Vec::new(),
-            (false, 0) => self.ticks.minor.clone(),
-            (false, _) => self.ticks.major.iter().map(|tick| tick.0).collect(),
-        }
-    }
-
-    fn range(&self) -> std::ops::Range<f64> {
-        self.value(0.0)..self.value(1.0)
-    }
-}
-
-impl ValueFormatter<f64> for Axis {
-    fn format_ext(&self, value: &f64) -> String {
-        let tick = self.ticks.major.iter().find(|tick| tick.0 == *value);
-        tick.map_or_else(String::new, |tick| tick.1.clone())
-    }
 }
 
 #[cfg(test)]
@@ -162,19 +105,16 @@ mod tests {
     use super::*;
 
     fn axis(spec: AxisSpec, values: &[f64]) -> Axis {
-        let mut extent = Extent::default();
-        values.iter().for_each(|value| extent.add(*value, &spec));
-        Axis::new(&spec, &extent, Some(0.0))
+        Axis::new(&spec, values.iter().copied(), Some(0.0))
     }
 
     #[test]
-    fn values_map_to_the_unit_interval_and_back() {
+    fn values_map_to_the_unit_interval() {
         let linear = axis("x".into(), &[2.0, 4.0]);
-        assert_eq!((linear.place(3.0), linear.value(0.5)), (Some(0.5), 3.0));
+        assert_eq!([2.0, 3.0, 4.0].map(|value| linear.place(value)), [Some(0.0), Some(0.5), Some(1.0)]);
         assert_eq!(linear.place(f64::NAN), None);
         let log = axis(AxisSpec::from("x").log(), &[1e-4, 1.0]);
-        assert_eq!((log.place(1e-2), log.value(0.5)), (Some(0.5), 1e-2));
-        assert_eq!([log.map(&1e-2, (100, 300)), log.map(&1.0, (300, 100))], [200, 100]);
+        assert_eq!([1e-4, 1e-2, 1.0].map(|value| log.place(value)), [Some(0.0), Some(0.5), Some(1.0)]);
     }
 
     #[test]

@@ -2,53 +2,39 @@
 
 use super::legend::{Block, LegendEntry};
 use super::*;
-use plotters::drawing::IntoDrawingArea;
-use std::{cell::RefCell, rc::Rc};
 
 const PANEL_GAP: f64 = 12.0;
 
-/// Draws the whole figure.
+/// Draws title, panels and legends from top to bottom.
 pub(super) fn figure(figure: &Figure) -> Drawing {
-    let (width, panels) = layout::place(figure);
-    let drawing = Rc::new(RefCell::new(Drawing { width, title: figure.title.clone(), ..Drawing::default() }));
-    // A sketch refuses nothing, so that there is always a page.
-    let bottom = page(figure, panels, width, &Sketch(drawing.clone())).unwrap_or_default();
-    drawing.borrow_mut().height = (bottom + EDGE).ceil();
-    drawing.take()
-}
-
-/// Draws title, panels and legends from top to bottom, and returns the lower end.
-fn page(figure: &Figure, mut panels: Vec<Placed>, width: f64, sketch: &Sketch) -> Done<f64> {
-    let page = sketch.clone().into_drawing_area();
+    let (width, mut panels) = layout::place(figure);
+    let mut drawing = Drawing { width, title: figure.title.clone(), ..Drawing::default() };
+    let title = Label::new(&figure.title, TITLE_SIZE, width - 2.0 * EDGE, 3);
+    let middle = (0.5 * width, EDGE - 2.0 + 0.5 * title.height());
+    drawing.layer(|out| out.text(&title.text, middle, Font(title.size, INK, Align::Middle)));
+    let mut top = (EDGE + 2.0 + if title.text.is_empty() { 0.0 } else { title.height() + 5.0 }).round();
     let columns = layout::columns(figure);
-    let mut top = (EDGE + 2.0 + heading(&page, &figure.title, width)?).round();
     let shared = shared_legend(&panels);
     let count = figure.panels.iter().map(|panel| panel.series.len() + 1).sum();
     for (row, side_by_side) in panels.chunks_mut(columns).enumerate() {
         top += if row > 0 { PANEL_GAP } else { 0.0 };
         let mut bottom = top;
+        let part = width / columns as f64;
         for (column, placed) in side_by_side.iter_mut().enumerate() {
-            let size = (width / columns as f64, placed.height());
-            let area = page.clone().shrink(units((size.0 * column as f64, top)), units(size));
+            let end = placed.put(part * column as f64, part, top);
+            let taken = panel(&mut drawing, placed, count);
             let mut entries = if shared.is_empty() { legend::entries(placed) } else { Vec::new() };
-            let taken = panel(sketch, &page, &area, placed, count)?;
             if let Some((block, corner)) = legend::inside(&entries, placed, &taken) {
-                block.draw(&page, corner, true)?;
+                drawing.layer(|out| block.draw(out, corner, true));
                 entries.clear();
             }
-            bottom = bottom.max(legend_below(&page, &entries, placed, top + size.1, width)?);
+            bottom = bottom.max(legend_below(&mut drawing, &entries, placed, end));
         }
         top = bottom.round();
     }
-    panels.last().map_or(Ok(top), |placed| legend_below(&page, &shared, placed, top, width))
-}
-
-/// Draws the title and returns its height.
-fn heading(page: &Page, title: &str, width: f64) -> Done<f64> {
-    let title = Label::new(title, TITLE_SIZE, width - 2.0 * EDGE, 3);
-    let middle = (0.5 * width, EDGE - 2.0 + 0.5 * title.height());
-    page.draw_text(&title.text, &font(title.size, INK, Align::Middle), units(middle))?;
-    Ok(if title.text.is_empty() { 0.0 } else { title.height() + 5.0 })
+    let bottom = panels.last().map_or(top, |placed| legend_below(&mut drawing, &shared, placed, top));
+    drawing.height = (bottom + EDGE).ceil();
+    drawing
 }
 
 /// Returns the entries of the panels' legends if there are several panels and all have the same.
@@ -58,40 +44,35 @@ fn shared_legend(panels: &[Placed]) -> Vec<LegendEntry> {
     all.into_iter().next().filter(|_| is_shared).unwrap_or_default()
 }
 
-/// Draws a panel on its area, and returns what a legend must not hide.
-fn panel(sketch: &Sketch, page: &Page, area: &Page, placed: &mut Placed, count: usize) -> Done<Taken> {
-    let mut chart = chart::build(area, placed)?;
-    if placed.panel.cells.is_empty() {
-        chart::grid(&mut chart)?;
-    }
-    heat::draw(page, placed)?;
-    let first = sketch.seal();
-    data::series(page, placed, count)?;
-    let items = sketch.seal();
-    item::draw(page, placed)?;
-    let last = sketch.seal();
-    sketch.0.borrow_mut().items = items..last;
-    let mut taken = Taken::new(&sketch.0.borrow().shapes[first..last]);
-    chart::axes(&mut chart, placed)?;
-    chart::texts(page, placed)?;
-    chart::bar(area, placed)?;
-    item::inset(page, placed, &mut taken)?;
-    notes::draw(page, placed, &mut taken)?;
-    if first == last && placed.panel.cells.is_empty() {
-        page.draw_text("no data", &font(LABEL_SIZE, NOTE_INK, Align::Middle), units(placed.frame.at(0.5, 0.5)))?;
-    }
-    Ok(taken)
+/// Draws a panel, and returns what a legend must not hide.
+fn panel(drawing: &mut Drawing, placed: &Placed, count: usize) -> Taken {
+    let is_map = !placed.panel.cells.is_empty();
+    drawing.layer(|out| if is_map { data::cells(out, placed) } else { chart::grid(out, placed) });
+    let data = drawing.layer(|out| data::series(out, placed, count));
+    drawing.items = drawing.layer(|out| item::draw(out, placed));
+    let shown = &drawing.shapes[data.start..drawing.items.end];
+    let mut taken = Taken::new(shown);
+    let is_empty = shown.is_empty() && !is_map;
+    drawing.layer(|out| {
+        chart::draw(out, placed);
+        item::inset(out, placed, &mut taken);
+        notes::draw(out, placed, &mut taken);
+        if is_empty {
+            out.text("no data", placed.frame.at(0.5, 0.5), Font(LABEL_SIZE, NOTE_INK, Align::Middle));
+        }
+    });
+    taken
 }
 
 /// Draws a legend below a panel and returns its lower end.
-fn legend_below(page: &Page, entries: &[LegendEntry], placed: &Placed, top: f64, width: f64) -> Done<f64> {
+fn legend_below(drawing: &mut Drawing, entries: &[LegendEntry], placed: &Placed, top: f64) -> f64 {
     if entries.is_empty() {
-        return Ok(top);
+        return top;
     }
-    let block = Block::wide(entries, width - 2.0 * EDGE);
-    let (block_width, height) = block.size();
-    let most = (width - EDGE - block_width).max(EDGE);
-    let left = (placed.frame.at(0.5, 0.0).0 - 0.5 * block_width).clamp(EDGE, most);
-    block.draw(page, (left, top), false)?;
-    Ok(top + height)
+    let room = drawing.width - 2.0 * EDGE;
+    let block = Block::wide(entries, room);
+    let (width, height) = block.size();
+    let left = (placed.frame.at(0.5, 0.0).0 - 0.5 * width).clamp(EDGE, (EDGE + room - width).max(EDGE));
+    drawing.layer(|out| block.draw(out, (left, top), false));
+    top + height
 }

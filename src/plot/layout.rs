@@ -24,27 +24,29 @@ pub(super) struct Placed<'a> {
     pub looks: Vec<Look>,
     /// The rectangle between the axes; before it is drawn only its size counts.
     pub frame: Rect,
-    /// Distances of the frame from the left and right ends of its column, and from the label of the y axis, the same in
-    /// all panels.
-    pub margins: (f64, f64, f64),
+    /// Room at the left of the frame for labels, and at its right, the same in all panels.
+    pub margins: (f64, f64),
     /// True if the x axis is labelled here, not at a panel below.
     pub shows_x: bool,
 }
 
 impl<'a> Placed<'a> {
-    fn new(panel: &'a Panel, (x, margin): (Extent, Option<f64>), shows_x: bool) -> Self {
-        let count = panel.series.iter().filter(|series| series.is_counted()).count();
-        let [_, y, colors] = extents(std::slice::from_ref(panel));
+    /// The panel, whose x axis is that of a group.
+    fn new(panel: &'a Panel, group: &[Panel], shows_x: bool) -> Self {
+        // A panel with markers needs room at the ends, and then all have it.
+        let margin = group.iter().filter_map(margin).reduce(f64::max);
         let y_margin = if panel.cells.is_empty() { margin.unwrap_or(0.0).max(0.06) } else { 0.0 };
+        let colors = panel.colored.iter().map(|point| point.2);
+        let colors = colors.chain(panel.cells.iter().filter_map(|cell| cell.value));
         let is_colored = !panel.cells.is_empty() || !panel.colored.is_empty();
         Self {
             panel,
-            x: Axis::new(&panel.x, &x, margin),
-            y: Axis::new(&panel.y, &y, Some(y_margin)),
-            bar: is_colored.then(|| Axis::new(&panel.colors, &colors, None)),
-            looks: panel.series.iter().enumerate().map(|(index, series)| look(series, index, count)).collect(),
+            x: Axis::new(&panel.x, group.iter().flat_map(points).map(|point| point.0), margin),
+            y: Axis::new(&panel.y, points(panel).map(|point| point.1), Some(y_margin)),
+            bar: is_colored.then(|| Axis::new(&panel.colors, colors, None)),
+            looks: looks(&panel.series),
             frame: Rect::default(),
-            margins: (0.0, 0.0, 0.0),
+            margins: (0.0, 0.0),
             shows_x,
         }
     }
@@ -67,7 +69,7 @@ impl<'a> Placed<'a> {
     }
 
     /// Returns the height of the strip and the panel's title above it.
-    pub fn above(&self) -> f64 {
+    fn above(&self) -> f64 {
         self.strip() + if self.panel.title.trim().is_empty() { 0.0 } else { STRIP }
     }
 
@@ -78,8 +80,15 @@ impl<'a> Placed<'a> {
         if self.shows_x { label } else { MARKS }
     }
 
-    pub fn height(&self) -> f64 {
-        self.above() + self.frame.size().1 + self.below()
+    /// Puts the frame into a column of the figure, and returns the lower end of the panel.
+    pub fn put(&mut self, start: f64, width: f64, top: f64) -> f64 {
+        let end = top + self.above() + self.frame.size().1 + self.below();
+        // The frame lies in the middle of pixels, where its lines are sharp.
+        let left = (start + self.frame.left).round() + 0.5;
+        let right = start + width - self.margins.1 - 0.51;
+        self.frame = Rect { left, top: top + self.above() + 0.5, right, bottom: end - self.below() + 0.49 };
+        self.margins.0 = self.margins.0.min(left - start);
+        end
     }
 
     /// Returns the margin that this panel needs at the right.
@@ -130,17 +139,19 @@ pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
     let mut all = panels(figure);
     let mut left = 80.0;
     let mut right = 20.0;
-    let mut distance = 0.0;
     // Marks depend on the space for them, and the space on their labels; three rounds settle it.
     for _ in 0..3 {
         let width = (total - left - right).max(60.0);
         all.iter_mut().for_each(|placed| placed.fit(width, frame_height(placed.panel, figure.panels.len(), width)));
         let largest = |part: fn(&Placed) -> f64| all.iter().map(part).fold(0.0, f64::max);
-        distance = LABEL_GAP + largest(|placed| placed.y.ticks.widest()) + LABEL_DISTANCE;
+        let distance = LABEL_GAP + largest(|placed| placed.y.ticks.widest()) + LABEL_DISTANCE;
         left = (EDGE + largest(|placed| placed.y.label.height()) + distance).max(40.0).min(0.45 * total).ceil();
         right = largest(|placed| placed.right()).min(0.4 * total).ceil();
+        for placed in &mut all {
+            placed.margins = (distance + placed.y.label.height(), right);
+        }
     }
-    all.iter_mut().for_each(|placed| placed.margins = (left, right, distance));
+    all.iter_mut().for_each(|placed| placed.frame.left = left);
     (whole, all)
 }
 
@@ -155,39 +166,30 @@ fn panels(figure: &Figure) -> Vec<Placed<'_>> {
     let is_shared = columns(figure) == 1
         && panels.windows(2).all(|pair| pair[0].x == pair[1].x)
         && !panels.iter().any(|panel| panel.equal_aspect);
-    // A panel with markers needs room at the ends, and then all have it.
-    let x = |panels: &[Panel]| (extents(panels)[0], panels.iter().filter_map(margin).reduce(f64::max));
-    let group = |index: usize| if is_shared { panels } else { &panels[index..=index] };
-    let shows_x = |index: usize| !is_shared || index + 1 == panels.len();
-    let all = panels.iter().enumerate();
-    all.map(|(index, panel)| Placed::new(panel, x(group(index)), shows_x(index))).collect()
+    let place = |index: usize| {
+        let group = if is_shared { panels } else { &panels[index..=index] };
+        Placed::new(&panels[index], group, !is_shared || index + 1 == panels.len())
+    };
+    (0..panels.len()).map(place).collect()
 }
 
-/// Returns the ranges that x, y and the colours must show. A point counts only if both of its coordinates are numbers.
-fn extents(panels: &[Panel]) -> [Extent; 3] {
-    let [mut x, mut y, mut colors] = [Extent::default(); 3];
-    for panel in panels {
-        let points = panel.series.iter().flat_map(|series| series.points.iter().copied());
-        let colored = panel.colored.iter().map(|point| (point.0, point.1));
-        let cells = panel.cells.iter().flat_map(Cell::corners);
-        let whole = points.chain(colored).filter(|point| point.0.is_finite() && point.1.is_finite());
-        for (at_x, at_y) in whole.chain(cells).chain(panel.items.iter().flat_map(Item::data)) {
-            x.add(at_x, &panel.x);
-            y.add(at_y, &panel.y);
-        }
-        let values = panel.colored.iter().map(|point| point.2);
-        values
-            .chain(panel.cells.iter().filter_map(|cell| cell.value))
-            .for_each(|value| colors.add(value, &panel.colors));
-    }
-    [x, y, colors]
+/// Returns the points that the axes must show. One of the data counts only if both of its coordinates are numbers.
+fn points(panel: &Panel) -> impl Iterator<Item = Pt> + '_ {
+    let data = panel.series.iter().flat_map(|series| series.points.iter().copied());
+    let colored = panel.colored.iter().map(|point| (point.0, point.1));
+    let whole = data.chain(colored).filter(|point| point.0.is_finite() && point.1.is_finite());
+    let spots = panel.items.iter().flat_map(|item| &item.spots).map(|spot| spot.at);
+    whole.chain(panel.cells.iter().flat_map(Cell::ends)).chain(spots)
 }
 
 /// Returns the margin of the x axis. Functions of x fill the width, as time series do.
 fn margin(panel: &Panel) -> Option<f64> {
-    let is_function = |series: &Series| !series.style.has_markers() && series.is_function();
-    let only_functions = panel.colored.is_empty() && panel.series.iter().all(is_function) && !panel.equal_aspect;
-    if panel.cells.is_empty() { (!only_functions).then_some(0.05) } else { Some(0.0) }
+    let has_markers = |series: &Series| matches!(series.style, Style::Dots | Style::LineDots | Style::Crosses);
+    let is_function = |series: &Series| series.points.windows(2).all(|pair| pair[1].0 >= pair[0].0);
+    let has_room = panel.equal_aspect
+        || !panel.colored.is_empty()
+        || panel.series.iter().any(|series| has_markers(series) || !is_function(series));
+    if panel.cells.is_empty() { has_room.then_some(0.05) } else { Some(0.0) }
 }
 
 fn frame_height(panel: &Panel, count: usize, width: f64) -> f64 {

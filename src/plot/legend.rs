@@ -61,46 +61,42 @@ impl Block {
     }
 
     /// Draws the block with its upper left corner at a point; with a box when it is inside a panel.
-    pub fn draw(&self, page: &Page, corner: Pt, boxed: bool) -> Done {
+    pub fn draw(&self, out: &mut Shapes, corner: Pt, boxed: bool) {
         if boxed {
-            let corners = Rect::new(corner, self.size()).corners().map(units);
-            page.draw(&Rectangle::new(corners, PAPER.filled()))?;
-            page.draw(&Rectangle::new(corners, chart::line(BORDER)))?;
+            let rect = Rect::new(corner, self.size());
+            out.draw(Paint::Area(PAPER, 1.0, true), rect.corners());
+            out.frame(&rect, BORDER);
         }
         let mut left = corner.0 + PADDING;
         for (entries, width) in &self.columns {
             for (row, (label, look)) in entries.iter().enumerate() {
                 let y = corner.1 + PADDING - 1.0 + ROW * (row as f64 + 0.5);
                 let at = |right: f64| (left + right, y);
-                let mut line = look.line.into_iter().map(|stroke| Curve::new(vec![at(0.0), at(self.sample)], stroke));
-                line.try_for_each(|line| page.draw(&line))?;
-                let mut marker = look.marker.into_iter();
-                marker.try_for_each(|marker| marker.draw(page, at(0.5 * self.sample), MARKER_RADIUS, look.color))?;
-                let style = font(SIZE, INK, Align::Start);
-                page.draw_text(label, &style, units(at(self.sample + SAMPLE_GAP)))?;
+                if let Some(stroke) = look.line {
+                    out.draw(Paint::Line(stroke), [at(0.0), at(self.sample)]);
+                }
+                if let Some(marker) = look.marker {
+                    marker.draw(out, at(0.5 * self.sample), MARKER_RADIUS, look.color);
+                }
+                out.text(label, at(self.sample + SAMPLE_GAP), Font(SIZE, INK, Align::Start));
             }
             left += width + COLUMN_GAP;
         }
-        Ok(())
     }
 }
 
 /// Returns a block inside the frame that hides nothing, and its corner; none if there is no space.
 pub(super) fn inside(entries: &[LegendEntry], placed: &Placed, taken: &Taken) -> Option<(Block, Pt)> {
-    // Corners first, then the middles of the sides; parts of the room that is left.
-    const SIDES: [(f64, f64); 8] =
-        [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (0.0, 0.5), (0.5, 1.0), (0.5, 0.0)];
     let most = if placed.panel.cells.is_empty() { entries.len().min(4) } else { 0 };
     let room = placed.frame.grown(-INSET);
     let frame = placed.frame.size();
     (1..=most).find_map(|columns| {
         let block = Block::new(entries, columns, 0.8 * frame.0);
         let (width, height) = block.size();
-        let across = room.size().0 - width;
-        let down = room.size().1 - height;
-        let is_small = across >= 0.0 && down >= 0.0 && width * height <= MOST_AREA * frame.0 * frame.1;
-        let corners = SIDES.map(|(right, up)| (room.left + right * across, room.bottom - height - up * down));
-        let free = |corner: &Pt| is_small && taken.cover(&Rect::new(*corner, (width, height)), 5.0) == 0;
-        Some((block, corners.into_iter().find(free)?))
+        let is_small = width <= room.size().0 && height <= room.size().1;
+        let is_small = is_small && width * height <= MOST_AREA * frame.0 * frame.1;
+        let mut places = SIDES.iter().map(|side| room.inner((width, height), *side));
+        let free = places.find(|place| is_small && taken.cover(place, 5.0) == 0)?;
+        Some((block, (free.left, free.top)))
     })
 }

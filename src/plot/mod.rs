@@ -1,19 +1,18 @@
 //! Figures from data, as SVG or PNG files. This module does not depend on mechanics.
 //!
-//! A [`Figure`] stacks one or several [`Panel`]s. plotters draws them as charts, on a backend that records shapes in
-//! hundredths of a nominal pixel. The shapes are written as SVG, or drawn by tiny-skia as PNG and GIF, so that all
-//! show the same picture. Text is measured with the embedded DejaVu Sans; no font of the system is needed.
+//! A [`Figure`] stacks one or several [`Panel`]s. plotters draws the chart of a panel on a backend that records shapes;
+//! its data, whose lines have dashes and end at the frame, are recorded between grid and axes. The shapes are written as
+//! SVG, or drawn by tiny-skia as PNG and GIF, so that all show the same picture. Text is measured with the embedded
+//! DejaVu Sans; no font of the system is needed.
 //!
 //! Sizes are in nominal pixels. A figure is 640 of them wide by default and meant to be printed 85 mm wide
 //! (one journal column), where its text is 6 to 7 pt high.
 
 mod axis;
 mod chart;
-mod clip;
 mod data;
 mod draw;
 mod figure;
-mod heat;
 mod item;
 mod layout;
 mod legend;
@@ -31,21 +30,17 @@ mod thin;
 mod ticks;
 
 pub use figure::{Animation, Figure};
-pub use heat::Cell;
-pub use item::{Form, Item, Place, Spot, Tint};
+pub use item::{Form, Item, Spot, Tint};
 pub use panel::{AxisSpec, Panel, Scale};
-pub use series::{Series, Style};
+pub use series::{Cell, Series, Style};
 pub use shape::Align;
 
 // Names that the files of this folder share.
-use axis::{Axis, Extent};
+use axis::Axis;
 use layout::Placed;
-use notes::Taken;
+use notes::{SIDES, Taken};
 use palette::*;
-use plotters::element::{Polygon, Rectangle};
-use plotters::style::Color as _;
-use shape::{Color, Drawing, Paint, Pt, Rect, Shape, Stroke, Text};
-use sketch::{Chart, Curve, Done, Page, Sketch, font, pixels, units};
+use shape::{Color, Drawing, Font, Paint, Pt, Rect, Shape, Shapes, Stroke, Text, is_closed};
 use text::{HALF_DIGIT, LINE_HEIGHT, Label};
 
 #[cfg(all(test, feature = "figures"))]

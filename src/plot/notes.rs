@@ -1,28 +1,37 @@
 //! Notes, and where texts hide least.
 
-use super::item::Form;
 use super::*;
 
-/// Draws the notes of a panel, each where it hides least.
-pub(super) fn draw(page: &Page, placed: &Placed, taken: &mut Taken) -> Done {
+/// Corners of a frame, then the middles of its sides: parts of the width and height from the lower left corner.
+pub(super) const SIDES: [(f64, f64); 8] =
+    [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (0.0, 0.5), (0.5, 1.0), (0.5, 0.0)];
+
+/// Draws the notes of a panel, each at the place where it hides least, in a box of paper colour.
+pub(super) fn draw(out: &mut Shapes, placed: &Placed, taken: &mut Taken) {
     for item in &placed.panel.items {
         let (Form::Note(text), [spot]) = (&item.form, &item.spots[..]) else { continue };
-        let Some(at) = spot.put(placed).filter(|at| placed.frame.contains(*at)) else { continue };
-        let is_free = matches!(spot.at, Place::Data(_, y) if y.is_infinite());
-        settle(page, placed, text, &if is_free { along(placed, at.0) } else { beside(at) }, tint(item.tint), taken)?;
+        let Some((x, y)) = spot.put(placed).filter(|at| placed.frame.contains(*at)) else { continue };
+        // Beside a vertical line at its ends first; at the sides of a point, near ones first.
+        let along = [0.96, 0.04, 0.5, 0.83, 0.17, 0.7, 0.3].map(|up| around((x, placed.frame.at(0.0, up).1), 6.0));
+        let beside = [9.0, 18.0].map(|distance| around((x, y), distance));
+        let places = if spot.at.1.is_infinite() { along.concat() } else { beside.concat() };
+        let width = text::width(text, NOTE_SIZE);
+        let bounds = |((x, y), align): (Pt, Align)| {
+            (Rect::new((x - align.part() * width, y - 0.42 * NOTE_SIZE), (width, NOTE_SIZE)), ((x, y), align))
+        };
+        let is_inside = |place: &(Rect, _)| place.0.corners().iter().all(|corner| placed.frame.contains(*corner));
+        let mut places: Vec<(Rect, (Pt, Align))> = places.into_iter().map(bounds).collect();
+        // One that is outside is better than none.
+        if places.iter().any(is_inside) {
+            places.retain(is_inside);
+        } else {
+            places.truncate(1);
+        }
+        let Some((rect, (at, align))) = taken.freest(places, 2.0).filter(|_| !text.trim().is_empty()) else { continue };
+        let room = placed.frame.grown(-1.0);
+        out.draw(Paint::Area(PAPER, 1.0, true), rect.grown(1.5).corners().map(|corner| room.nearest(corner)));
+        out.text(text, at, Font(NOTE_SIZE, tint(item.tint), align));
     }
-    Ok(())
-}
-
-/// Returns positions at the sides of a point, near ones first.
-fn beside(at: Pt) -> Vec<(Pt, Align)> {
-    [around(at, 9.0), around(at, 18.0)].concat()
-}
-
-/// Returns positions beside a vertical line, those at its ends first.
-fn along(placed: &Placed, x: f64) -> Vec<(Pt, Align)> {
-    let heights = [0.96, 0.04, 0.5, 0.83, 0.17, 0.7, 0.3].map(|up| placed.frame.at(0.0, up).1);
-    heights.into_iter().flat_map(|y| around((x, y), 6.0)).collect()
 }
 
 /// Returns positions at a distance from a point, those at its sides first.
@@ -41,26 +50,11 @@ fn around((x, y): Pt, distance: f64) -> Vec<(Pt, Align)> {
     SIDES.map(place).to_vec()
 }
 
-/// Draws a text at the place where it hides least, the first of equals, in a box of paper colour.
-fn settle(page: &Page, placed: &Placed, text: &str, at: &[(Pt, Align)], color: Color, taken: &mut Taken) -> Done {
-    let width = text::width(text, NOTE_SIZE);
-    let bounds =
-        |((x, y), align): &(Pt, Align)| Rect::new((x - align.part() * width, y - 0.42 * NOTE_SIZE), (width, NOTE_SIZE));
-    let inside = at.iter().filter(|place| bounds(place).corners().iter().all(|corner| placed.frame.contains(*corner)));
-    let best = inside.min_by_key(|place| taken.cover(&bounds(place), 2.0)).or(at.first());
-    let Some(best) = best.filter(|_| !text.trim().is_empty()) else { return Ok(()) };
-    taken.rects.push(bounds(best));
-    let room = placed.frame.grown(-1.0);
-    let corners = bounds(best).grown(1.5).corners().map(|corner| units(room.nearest(corner)));
-    page.draw(&Rectangle::new(corners, PAPER.filled()))?;
-    page.draw_text(text, &font(NOTE_SIZE, color, best.1), units(best.0))
-}
-
 /// Parts of a panel that must not be hidden.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Taken {
     points: Vec<Pt>,
-    pub rects: Vec<Rect>,
+    rects: Vec<Rect>,
 }
 
 impl Taken {
@@ -85,6 +79,13 @@ impl Taken {
         let steps = (right.hypot(down) / 5.0).ceil().clamp(1.0, 4000.0);
         let parts = (1..=steps as usize).map(|k| k as f64 / steps);
         self.points.extend(parts.map(|part| (from.0 + part * right, from.1 + part * down)));
+    }
+
+    /// Occupies the place where a rectangle hides least, the first of equals, and returns it with what comes with it.
+    pub fn freest<T>(&mut self, places: impl IntoIterator<Item = (Rect, T)>, border: f64) -> Option<(Rect, T)> {
+        let freest = places.into_iter().min_by_key(|(rect, _)| self.cover(rect, border))?;
+        self.rects.push(freest.0);
+        Some(freest)
     }
 
     /// Returns a measure of the parts that a rectangle would hide, or that are within `border` of it.

@@ -56,25 +56,32 @@ pub(super) struct Look {
     pub color: Color,
 }
 
-/// Returns the appearance of series `index` of `count`. From eight on, dashes alternate too: four patterns and seven
+/// Returns the appearance of the series of a panel. Of eight lines or more dashes alternate too: four patterns and seven
 /// colours give 28 different lines, neighbours differing in both.
-pub(super) fn look(series: &Series, index: usize, count: usize) -> Look {
-    let place = series.color.unwrap_or(index);
-    let color = if matches!(series.style, Style::Guide | Style::Crosses) { GREY } else { COLORS[place % COLORS.len()] };
-    let pattern = if count > COLORS.len() { index % DASHES.len() } else { 0 };
-    let dash = match series.style {
-        Style::Dashed => DASHES[pattern.max(1)],
-        Style::Dotted => DASHES[2],
-        Style::Guide => DASHED,
-        _ => DASHES[pattern],
+pub(super) fn looks(all: &[Series]) -> Vec<Look> {
+    use Style::*;
+    let has_own_pattern = |series: &&Series| !matches!(series.style, Dashed | Dotted | Guide | Crosses);
+    let is_many = all.iter().filter(has_own_pattern).count() > COLORS.len();
+    let look = |(index, Series { style, color, .. }): (usize, &Series)| {
+        let place = color.unwrap_or(index);
+        let color = if matches!(style, Guide | Crosses) { GREY } else { COLORS[place % COLORS.len()] };
+        let pattern = if is_many { index % DASHES.len() } else { 0 };
+        let dash = match style {
+            Dashed => DASHES[pattern.max(1)],
+            Dotted => DASHES[2],
+            Guide => DASHED,
+            _ => DASHES[pattern],
+        };
+        let width = if matches!(style, Thin | Guide) { THIN_WIDTH } else { LINE_WIDTH };
+        let marker = match style {
+            Crosses => Some(Marker::Cross),
+            Dots | LineDots => Some(MARKERS[place % MARKERS.len()]),
+            _ => None,
+        };
+        let line = (!matches!(style, Dots | Crosses)).then_some(Stroke { color, width, dash });
+        Look { line, marker, color }
     };
-    let width = if matches!(series.style, Style::Thin | Style::Guide) { THIN_WIDTH } else { LINE_WIDTH };
-    let line = series.style.has_line().then_some(Stroke { color, width, dash });
-    let marker = match series.style {
-        Style::Crosses => Some(Marker::Cross),
-        style => style.has_markers().then_some(MARKERS[place % MARKERS.len()]),
-    };
-    Look { line, marker, color }
+    all.iter().enumerate().map(look).collect()
 }
 
 /// Returns a colour mixed with paper by its paleness.

@@ -1,4 +1,6 @@
-//! Lines and points of a panel.
+//! Lines, points and cells of a panel.
+
+use super::Tint;
 
 /// Style of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,22 +18,10 @@ pub enum Style {
     Guide,
     /// A marker at every point.
     Dots,
-    /// A line with markers, not at every point when they would touch.
+    /// A line with a marker at every point.
     LineDots,
     /// A small grey cross at every point, for data in the background.
     Crosses,
-}
-
-impl Style {
-    /// True if the points are joined.
-    pub(super) fn has_line(self) -> bool {
-        !matches!(self, Self::Dots | Self::Crosses)
-    }
-
-    /// True if the points have markers.
-    pub(super) fn has_markers(self) -> bool {
-        matches!(self, Self::Dots | Self::LineDots | Self::Crosses)
-    }
 }
 
 /// Points that belong together. A NaN or an infinity breaks the line.
@@ -67,14 +57,26 @@ impl Series {
     pub fn color(self, color: usize) -> Self {
         Self { color: Some(color), ..self }
     }
+}
 
-    /// True if it is one of the lines that are distinguished by colours and, where they are many, by dashes.
-    pub(super) fn is_counted(&self) -> bool {
-        !matches!(self.style, Style::Dashed | Style::Dotted | Style::Guide | Style::Crosses)
-    }
+/// A cell one unit wide and high, around whole numbers, which axes of names mark.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// x of its centre.
+    pub column: usize,
+    /// y of its centre.
+    pub row: usize,
+    /// Its value, which the colour bar explains.
+    pub value: Option<f64>,
+    /// Its colour without a value.
+    pub tint: Tint,
+    /// A short text on it, like "fail"; may be empty.
+    pub word: String,
+}
 
-    /// True if x never decreases, as in a function of time.
-    pub(super) fn is_function(&self) -> bool {
-        self.points.windows(2).all(|pair| pair[1].0 >= pair[0].0)
+impl Cell {
+    /// Returns the ends of its diagonal in data coordinates.
+    pub(super) fn ends(&self) -> [(f64, f64); 2] {
+        [-0.5, 0.5].map(|half| (self.column as f64 + half, self.row as f64 + half))
     }
 }

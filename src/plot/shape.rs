@@ -1,6 +1,8 @@
-//! The flat list of shapes from which files are written. Coordinates are nominal pixels, y down.
+//! Shapes, from which files are written. Coordinates are nominal pixels, y down.
 
 use super::text::Rich;
+use super::{HALF_DIGIT, LINE_HEIGHT};
+use plotters::style::text_anchor::VPos;
 use std::ops::Range;
 
 pub(super) use plotters::style::RGBColor as Color;
@@ -32,8 +34,8 @@ impl Rect {
         (self.left + right * width, self.bottom - up * height)
     }
 
-    pub fn corners(&self) -> [Pt; 2] {
-        [(self.left, self.top), (self.right, self.bottom)]
+    pub fn corners(&self) -> [Pt; 4] {
+        [(self.left, self.top), (self.right, self.top), (self.right, self.bottom), (self.left, self.bottom)]
     }
 
     pub fn contains(&self, (x, y): Pt) -> bool {
@@ -48,6 +50,13 @@ impl Rect {
     /// Returns this rectangle, larger on every side.
     pub fn grown(&self, by: f64) -> Self {
         Self { left: self.left - by, top: self.top - by, right: self.right + by, bottom: self.bottom + by }
+    }
+
+    /// Returns the rectangle of a size inside, at parts of the free width and height from the lower left corner.
+    pub fn inner(&self, (width, height): (f64, f64), (right, up): (f64, f64)) -> Self {
+        let left = self.left + right * (self.size().0 - width);
+        let top = self.bottom - height - up * (self.size().1 - height);
+        Self::new((left, top), (width, height))
     }
 
     pub fn overlaps(&self, other: &Self) -> bool {
@@ -82,14 +91,16 @@ impl Align {
     }
 }
 
+/// Size, colour and alignment of a text.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Font(pub f64, pub Color, pub Align);
+
 /// A line of text; `at` is on its baseline.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Text {
     pub at: Pt,
     pub rich: Rich,
-    pub size: f64,
-    pub color: Color,
-    pub align: Align,
+    pub font: Font,
     /// True if rotated by 90 degrees, to be read upwards.
     pub turned: bool,
 }
@@ -97,13 +108,14 @@ pub(super) struct Text {
 impl Text {
     /// Returns the box around the text, as measured with the embedded font.
     pub fn bounds(&self) -> Rect {
-        let (width, (x, y)) = (self.rich.width(self.size), self.at);
-        let before = self.align.part() * width;
-        let above = 0.78 * self.size;
-        if self.turned {
-            return Rect::new((x - above, y + before - width), (self.size, width));
+        let Self { at: (x, y), rich, font: Font(size, _, align), turned } = self;
+        let width = rich.width(*size);
+        let before = align.part() * width;
+        let above = 0.78 * size;
+        if *turned {
+            return Rect::new((x - above, y + before - width), (*size, width));
         }
-        Rect::new((x - before, y - above), (width, self.size))
+        Rect::new((x - before, y - above), (width, *size))
     }
 }
 
@@ -111,7 +123,7 @@ impl Text {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Paint {
     Line(Stroke),
-    /// A polygon; crisp ones leave no seam between neighbours.
+    /// A polygon of an opacity; crisp ones leave no seam between neighbours.
     Area(Color, f64, bool),
     /// A disc of a radius around each point.
     Disc(Color, f64),
@@ -124,6 +136,74 @@ pub(super) enum Shape {
     Text(Text),
 }
 
+/// Shapes in the order in which they are drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Shapes(pub Vec<Shape>);
+
+impl Shapes {
+    /// Draws a line, a polygon or discs. Those of one style are one shape; texts between them hide nothing.
+    pub fn draw(&mut self, paint: Paint, points: impl IntoIterator<Item = Pt>) {
+        let mut points: Vec<Pt> = points.into_iter().map(rounded).collect();
+        if let Paint::Area(..) = paint {
+            points.extend(points.first().copied());
+            // Areas of one colour are filled together, where opposite senses would make holes.
+            if points.windows(2).map(|pair| pair[0].0 * pair[1].1 - pair[1].0 * pair[0].1).sum::<f64>() < 0.0 {
+                points.reverse();
+            }
+        }
+        let last = self.0.iter_mut().rev().find(|shape| matches!(shape, Shape::Drawn(..)));
+        match last {
+            // What is transparent is seen through.
+            Some(Shape::Drawn(same, lines)) if *same == paint && !matches!(paint, Paint::Area(_, ..1.0, _)) => {
+                lines.push(points)
+            }
+            _ => self.0.push(Shape::Drawn(paint, vec![points])),
+        }
+    }
+
+    /// Draws a rectangle of lines that are sharp.
+    pub fn frame(&mut self, rect: &Rect, stroke: Stroke) {
+        let [a, b, c, d] = rect.corners().map(|(x, y)| (sharp(x), sharp(y)));
+        self.draw(Paint::Line(stroke), [a, b, c, d, a]);
+    }
+
+    /// Writes lines of text, vertically centred at a position.
+    pub fn text(&mut self, text: &str, at: Pt, font: Font) {
+        self.lines(text, at, font, VPos::Center, false);
+    }
+
+    /// Writes lines of text with their top, middle or bottom at a position.
+    pub fn lines(&mut self, text: &str, at: Pt, font: Font, anchor: VPos, turned: bool) {
+        let last = LINE_HEIGHT * text.lines().count().saturating_sub(1) as f64;
+        let first = match anchor {
+            VPos::Top => 0.78,
+            VPos::Center => HALF_DIGIT - 0.5 * last,
+            VPos::Bottom => -0.22 - last,
+        };
+        let (x, y) = rounded(at);
+        for (row, line) in text.lines().enumerate().filter(|line| !line.1.is_empty()) {
+            let down = (first + LINE_HEIGHT * row as f64) * font.0;
+            let at = if turned { (x + down, y) } else { (x, y + down) };
+            self.0.push(Shape::Text(Text { at, rich: Rich::new(line), font, turned }));
+        }
+    }
+}
+
+/// True if a line ends where it began.
+pub(super) fn is_closed(line: &[Pt]) -> bool {
+    line.len() > 2 && line.first() == line.last()
+}
+
+/// Returns the middle of the nearest pixel, where a thin line is sharp.
+pub(super) fn sharp(value: f64) -> f64 {
+    value.floor() + 0.5
+}
+
+/// Returns a position in whole hundredths of a pixel, as plotters has them.
+fn rounded((x, y): Pt) -> Pt {
+    ((100.0 * x).round() / 100.0, (100.0 * y).round() / 100.0)
+}
+
 /// A picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Drawing {
@@ -134,20 +214,15 @@ pub(super) struct Drawing {
     pub shapes: Vec<Shape>,
     /// Range of the panels' items among the shapes: the moving part of an animation.
     pub items: Range<usize>,
-    /// Number of shapes to which nothing is added.
-    pub sealed: usize,
 }
 
 impl Drawing {
-    /// Adds a line to the shape of the same style before it, or as a new one. Texts between them hide nothing.
-    pub fn add(&mut self, paint: Paint, line: Vec<Pt>) {
-        let mut open = self.shapes[self.sealed..].iter_mut().rev();
-        match open.find(|shape| matches!(shape, Shape::Drawn(..))) {
-            // What is transparent is seen through.
-            Some(Shape::Drawn(same, lines)) if *same == paint && !matches!(paint, Paint::Area(_, ..1.0, _)) => {
-                lines.push(line)
-            }
-            _ => self.shapes.push(Shape::Drawn(paint, vec![line])),
-        }
+    /// Draws on top of the other shapes, and returns the range of the new ones.
+    pub fn layer(&mut self, draw: impl FnOnce(&mut Shapes)) -> Range<usize> {
+        let mut layer = Shapes::default();
+        draw(&mut layer);
+        let first = self.shapes.len();
+        self.shapes.extend(layer.0);
+        first..self.shapes.len()
     }
 }

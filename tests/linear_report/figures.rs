@@ -2,7 +2,7 @@
 
 use super::sample::{complex, descriptor, empty, plain, prepared};
 use holonom::linearize::{Branch, Complex, Kind};
-use holonom::plot::{AxisSpec, Figure, Form, Item, Panel, Place, Scale, Style};
+use holonom::plot::{AxisSpec, Figure, Form, Item, Panel, Scale, Style};
 use holonom::report::linear::{
     Magnitude, Response, bode_figure, frequency_figure, loci_figure, motion_figure, validation_figure,
 };
@@ -216,11 +216,7 @@ fn note(text: &str) -> Form {
 fn shaded(panel: &Panel) -> Vec<(f64, f64)> {
     let mut areas = panel.items.iter().filter(|item| matches!(item.form, Form::Area(_)));
     let (Some(Item { spots, .. }), None) = (areas.next(), areas.next()) else { panic!("{:?}", panel.items) };
-    let corner = |place: &Place| match place {
-        Place::Data(x, y) => (*x, *y),
-        Place::Frame(..) => panic!("{place:?}"),
-    };
-    spots.iter().map(|spot| corner(&spot.at)).collect()
+    spots.iter().map(|spot| spot.at).collect()
 }
 
 fn response(output: &str, unit: &str) -> Response {

@@ -1,19 +1,17 @@
 //! GIF files: one palette for all frames, and of each frame only the difference from the one before.
 
 use super::super::palette::{COLORS, INK, PAPER, mix};
-use super::super::shape::Color;
-use super::super::shape::{Drawing, Shape};
-use super::canvas::RasterCanvas;
-use gif::{DisposalMethod, Encoder, Frame, Repeat};
+use super::super::shape::{Color, Drawing, Shape};
+use super::{draw, paper, rgb};
+use gif::{Encoder, Frame, Repeat};
 use rayon::prelude::*;
 
 /// Index of an unchanged pixel.
 const SAME: u8 = 255;
 /// Number of frames drawn at once.
 const BATCH: usize = 8;
-
 /// Output pixels per nominal one.
-const DENSITY: usize = 1;
+const DENSITY: u32 = 1;
 
 /// Returns the file of `count` frames; `moving` gives the items of a frame, drawn on the constant `still`, and `done`
 /// is called with the number of frames drawn.
@@ -24,42 +22,36 @@ pub(in super::super) fn gif(
     moving: &(impl Fn(usize) -> Vec<Shape> + Sync),
     mut done: impl FnMut(usize),
 ) -> Result<Vec<u8>, String> {
-    let mut paper = RasterCanvas::new(still, DENSITY).ok_or("a figure without pixels")?;
-    let (width, height) = paper.size();
-    paper.draw(&still.shapes);
-    let draw = |k: usize| {
-        let mut frame = paper.clone();
-        frame.draw(&moving(k));
-        frame.rgb()
-    };
-    let side = |pixels: u32| u16::try_from(pixels).map_err(|_| format!("{pixels} pixels are too many for a GIF"));
+    let mut paper = paper(still, DENSITY)?;
+    draw(&mut paper, DENSITY, &still.shapes);
     let palette = palette();
     let nearest = nearest(&palette);
+    let frame = |k: usize| {
+        let mut pixels = paper.clone();
+        draw(&mut pixels, DENSITY, &moving(k));
+        rgb(&pixels).chunks_exact(3).map(|color| nearest[bin(color)]).collect::<Vec<u8>>()
+    };
+    let side = |pixels: u32| u16::try_from(pixels).map_err(|_| format!("{pixels} pixels are too many for a GIF"));
     let mut bytes: Vec<u8> = palette.iter().flat_map(|color| [color.0, color.1, color.2]).collect();
     bytes.resize(768, 0);
+    let text = |error: gif::EncodingError| error.to_string();
     let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, side(width)?, side(height)?, &bytes).map_err(text)?;
+    let mut encoder = Encoder::new(&mut file, side(paper.width())?, side(paper.height())?, &bytes).map_err(text)?;
     encoder.set_repeat(Repeat::Infinite).map_err(text)?;
     let mut before: Vec<u8> = Vec::new();
     for first in (0..count).step_by(BATCH) {
-        let batch: Vec<usize> = (first..count.min(first + BATCH)).collect();
-        let drawn = batch
-            .into_par_iter()
-            .map(|k| draw(k).chunks_exact(3).map(|color| nearest[bin(color)]).collect::<Vec<u8>>());
-        for (k, indices) in drawn.collect::<Vec<_>>().into_iter().enumerate() {
-            let mut frame = difference(&before, &indices, width as usize);
-            frame.delay = delay(first + k, per_second);
-            encoder.write_frame(&frame).map_err(text)?;
+        let batch = first..count.min(first + BATCH);
+        let drawn: Vec<Vec<u8>> = batch.clone().into_par_iter().map(frame).collect();
+        for (k, indices) in batch.clone().zip(drawn) {
+            let delay = delay(k, per_second);
+            let change = Frame { delay, ..difference(&before, &indices, paper.width() as usize) };
+            encoder.write_frame(&change).map_err(text)?;
             before = indices;
         }
-        done(count.min(first + BATCH));
+        done(batch.end);
     }
     drop(encoder);
     Ok(file)
-}
-
-fn text(error: impl ToString) -> String {
-    error.to_string()
 }
 
 /// Returns the hundredths of a second that frame `k` is shown; rounded so that the sum stays right.
@@ -72,24 +64,17 @@ fn delay(k: usize, per_second: f64) -> u16 {
 /// pixel.
 fn difference(before: &[u8], now: &[u8], width: usize) -> Frame<'static> {
     let is_same = |i: usize| before.get(i) == Some(&now[i]);
-    let changed: Vec<usize> = (0..now.len()).filter(|i| !is_same(*i)).collect();
-    let columns = || changed.iter().map(|i| i % width);
-    let left = columns().min().unwrap_or(0);
-    let right = columns().max().unwrap_or(0);
-    let row = |i: Option<&usize>| i.map_or(0, |i| i / width);
-    let top = row(changed.first());
-    let bottom = row(changed.last());
+    let changed = || (0..now.len()).filter(|i| !is_same(*i));
+    let left = changed().map(|i| i % width).min().unwrap_or(0);
+    let right = changed().map(|i| i % width).max().unwrap_or(0);
+    let top = changed().next().unwrap_or(0) / width;
+    let bottom = changed().last().unwrap_or(0) / width;
     let places = (top..=bottom).flat_map(|y| (left..=right).map(move |x| y * width + x));
-    Frame {
-        left: left as u16,
-        top: top as u16,
-        width: (right - left + 1) as u16,
-        height: (bottom - top + 1) as u16,
-        dispose: DisposalMethod::Keep,
-        transparent: Some(SAME),
-        buffer: places.map(|i| if is_same(i) { SAME } else { now[i] }).collect(),
-        ..Frame::default()
-    }
+    let buffer: Vec<u8> = places.map(|i| if is_same(i) { SAME } else { now[i] }).collect();
+    let mut frame =
+        Frame::from_indexed_pixels((right - left + 1) as u16, (bottom - top + 1) as u16, buffer, Some(SAME));
+    (frame.left, frame.top) = (left as u16, top as u16);
+    frame
 }
 
 /// Shades of each colour of figures: those towards paper, and those towards ink.
@@ -109,14 +94,9 @@ fn palette() -> Vec<Color> {
 /// Returns the index of the nearest colour for each colour of five bits per channel.
 fn nearest(palette: &[Color]) -> Vec<u8> {
     let near = |bin: usize| {
-        let part = |shift: usize| (bin >> shift & 31) as i32 * 33 / 4;
-        let distance = |Color(red, green, blue): Color| {
-            [(red, part(10)), (green, part(5)), (blue, part(0))]
-                .map(|(a, b)| (i32::from(a) - b).pow(2))
-                .iter()
-                .sum::<i32>()
-        };
-        (0..palette.len()).min_by_key(|k| distance(palette[*k])).unwrap_or(0) as u8
+        let apart = |part: u8, shift: usize| (i32::from(part) - (bin >> shift & 31) as i32 * 33 / 4).pow(2);
+        let distance = |color: &Color| apart(color.0, 10) + apart(color.1, 5) + apart(color.2, 0);
+        (0..palette.len()).min_by_key(|k| distance(&palette[*k])).unwrap_or(0) as u8
     };
     (0..BINS).into_par_iter().map(near).collect()
 }

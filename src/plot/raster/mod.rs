@@ -1,15 +1,16 @@
-//! Raster pictures.
+//! Shapes drawn with soft edges by tiny-skia, and PNG files of them.
 
-mod canvas;
 mod gif;
 
 pub(super) use gif::gif;
 
-use super::shape::Drawing;
-use canvas::RasterCanvas;
+use super::shape::{Color, Drawing, Font as Lettering, Paint as Style, Pt, Shape, Text, is_closed};
+use super::text::{DEJAVU, EM, glyphs, metrics};
+use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve};
+use tiny_skia::{FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
 
 /// Output pixels per nominal pixel: 1280 pixels in 85 mm.
-const DENSITY: usize = 2;
+const DENSITY: u32 = 2;
 /// Largest number of pixels.
 const MOST_PIXELS: f64 = 5.0e7;
 /// Printed width of 640 nominal pixels.
@@ -17,30 +18,130 @@ const COLUMN_METRES: f64 = 0.085;
 
 /// Returns the bytes of a PNG file, or the reason why there is none. Pictures of unusual size are drawn coarser.
 pub(super) fn png(drawing: &Drawing) -> Result<Vec<u8>, String> {
-    let width = drawing.width.ceil();
-    let height = drawing.height.ceil();
-    let fits = |density: &usize| width * height * density.pow(2) as f64 <= MOST_PIXELS;
+    let Drawing { width, height, .. } = drawing;
+    let fits = |density: &u32| width * height * f64::from(density.pow(2)) <= MOST_PIXELS;
     let too_many = || format!("{width:.0} x {height:.0} pixels are too many; save it as SVG");
     let density = [DENSITY, 1].into_iter().find(fits).ok_or_else(too_many)?;
-    let mut canvas = RasterCanvas::new(drawing, density).ok_or("a figure without pixels")?;
-    canvas.draw(&drawing.shapes);
-    encode(&canvas, density).map_err(|error| error.to_string())
+    let mut pixels = paper(drawing, density)?;
+    draw(&mut pixels, density, &drawing.shapes);
+    encode(&pixels, density).map_err(|error| error.to_string())
 }
 
-fn encode(canvas: &RasterCanvas, density: usize) -> Result<Vec<u8>, png::EncodingError> {
-    let (width, height) = canvas.size();
+fn encode(pixels: &Pixmap, density: u32) -> Result<Vec<u8>, png::EncodingError> {
     let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width, height);
+    let mut encoder = png::Encoder::new(&mut file, pixels.width(), pixels.height());
     encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let per_metre = (640.0 * density as f64 / COLUMN_METRES).round() as u32;
+    let per_metre = (640.0 * f64::from(density) / COLUMN_METRES).round() as u32;
     let dims = png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit: png::Unit::Meter };
     encoder.set_pixel_dims(Some(dims));
     // Few colours and much paper: filters make files no smaller, and more effort makes them a fifth smaller at best.
     encoder.set_filter(png::Filter::NoFilter);
     encoder.set_deflate_compression(png::DeflateCompression::Level(1));
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&canvas.rgb())?;
+    writer.write_image_data(&rgb(pixels))?;
     writer.finish()?;
     Ok(file)
+}
+
+/// Returns white paper for a drawing.
+fn paper(drawing: &Drawing, density: u32) -> Result<Pixmap, String> {
+    let side = |nominal: f64| nominal.ceil() as u32 * density;
+    let mut pixels = Pixmap::new(side(drawing.width), side(drawing.height)).ok_or("a figure without pixels")?;
+    pixels.fill(tiny_skia::Color::WHITE);
+    Ok(pixels)
+}
+
+/// Returns red, green and blue, row by row; the paper is opaque.
+fn rgb(pixels: &Pixmap) -> Vec<u8> {
+    pixels.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect()
+}
+
+fn draw(pixels: &mut Pixmap, density: u32, shapes: &[Shape]) {
+    let scale = Transform::from_scale(density as f32, density as f32);
+    for shape in shapes {
+        let (style, lines) = match shape {
+            Shape::Text(line) => {
+                text(pixels, scale, line);
+                continue;
+            }
+            Shape::Drawn(style, lines) => (style, lines),
+        };
+        let Some(path) = outline(style, lines) else { continue };
+        let mut fill = |paint| pixels.fill_path(&path, &paint, FillRule::Winding, scale, None);
+        match style {
+            Style::Disc(color, _) => fill(paint(*color, 1.0)),
+            // Whole pixels, so that crisp areas leave no seam between them.
+            Style::Area(color, opacity, crisp) => fill(Paint { anti_alias: !crisp, ..paint(*color, *opacity) }),
+            Style::Line(stroke) => {
+                let dash = StrokeDash::new(stroke.dash.iter().map(|length| *length as f32).collect(), 0.0);
+                let width = stroke.width as f32;
+                let style = Stroke { width, line_join: LineJoin::Round, dash, ..Stroke::default() };
+                pixels.stroke_path(&path, &paint(stroke.color, 1.0), &style, scale, None);
+            }
+        }
+    }
+}
+
+fn paint(Color(red, green, blue): Color, opacity: f64) -> Paint<'static> {
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(red, green, blue, (255.0 * opacity).round() as u8);
+    paint
+}
+
+/// Returns lines through points, or a circle around each.
+fn outline(style: &Style, lines: &[Vec<Pt>]) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    for points in lines {
+        for (k, (x, y)) in points.iter().map(|(x, y)| (*x as f32, *y as f32)).enumerate() {
+            match style {
+                Style::Disc(_, radius) => path.push_circle(x, y, *radius as f32),
+                _ if k == 0 => path.move_to(x, y),
+                _ => path.line_to(x, y),
+            }
+        }
+        if is_closed(points) {
+            path.close();
+        }
+    }
+    path.finish()
+}
+
+fn text(pixels: &mut Pixmap, scale: Transform, text: &Text) {
+    let Some(font) = DEJAVU.as_ref() else { return };
+    let Lettering(size, color, align) = text.font;
+    let turn = Transform::from_rotate(if text.turned { -90.0 } else { 0.0 });
+    let start = scale.pre_translate(text.at.0 as f32, text.at.1 as f32).pre_concat(turn);
+    let mut along = -align.part() * text.rich.width(size);
+    for (rise, run) in &text.rich.0 {
+        let (size, down) = metrics(*rise, size);
+        let (glyphs, end) = glyphs(font, run);
+        for (glyph, right) in glyphs {
+            let place = start.pre_translate((along + right * size) as f32, down as f32);
+            let place = place.pre_scale((size / EM) as f32, (-size / EM) as f32);
+            if let Some(path) = letter(font, glyph) {
+                pixels.fill_path(&path, &paint(color, 1.0), FillRule::Winding, place, None);
+            }
+        }
+        along += end * size;
+    }
+}
+
+/// Returns the outline of a glyph in units of the font; none for spaces.
+fn letter(font: &FontRef, glyph: GlyphId) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    let mut pen = None;
+    for curve in font.outline(glyph)?.curves {
+        let (OutlineCurve::Line(from, to) | OutlineCurve::Quad(from, _, to) | OutlineCurve::Cubic(from, _, _, to)) =
+            curve;
+        if pen != Some(from) {
+            path.move_to(from.x, from.y);
+        }
+        match curve {
+            OutlineCurve::Line(..) => path.line_to(to.x, to.y),
+            OutlineCurve::Quad(_, a, _) => path.quad_to(a.x, a.y, to.x, to.y),
+            OutlineCurve::Cubic(_, a, b, _) => path.cubic_to(a.x, a.y, b.x, b.y, to.x, to.y),
+        }
+        pen = Some(to);
+    }
+    path.finish()
 }

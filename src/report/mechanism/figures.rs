@@ -11,7 +11,7 @@ use crate::body::{dot, norm, sub, unit};
 use crate::error::significant;
 use crate::joint::Axis;
 use crate::linearize::State;
-use crate::plot::{Align, Animation, AxisSpec, Figure, Form, Item, Panel, Place, Series, Spot, Tint};
+use crate::plot::{Align, Animation, AxisSpec, Figure, Form, Item, Panel, Series, Spot, Tint};
 use crate::prepared::{AnyMechanism, PreparedScene};
 
 /// Options of a figure of the mechanism.
@@ -128,9 +128,10 @@ pub fn animation(
                 text(Spot::data(x, y).moved(9.0, 9.0), limb.name.clone(), Align::Start)
             }));
         }
-        let above = |x: f64| corner(x, 1.0).moved(0.0, 8.0);
-        items.push(text(above(1.0), format!("t = {:.decimals$} s", states[k].t), Align::End));
-        items.push(text(above(0.0), speed.clone(), Align::Start));
+        // At the upper corners of the frame.
+        let above = |x: f64| Spot::data(x, f64::INFINITY).moved(0.0, 8.0);
+        items.push(text(above(f64::INFINITY), format!("t = {:.decimals$} s", states[k].t), Align::End));
+        items.push(text(above(f64::NEG_INFINITY), speed.clone(), Align::Start));
         let panel = Panel { series: series.clone(), ..empty.clone() };
         Figure::new().title(name.clone()).panel(panel.items(items))
     };
@@ -139,10 +140,6 @@ pub fn animation(
 
 fn text(spot: Spot, text: String, align: Align) -> Item {
     Item { spots: vec![spot], tint: Tint::Ink(0.0), form: Form::Text(text, align) }
-}
-
-fn corner(x: f64, y: f64) -> Spot {
-    Spot { at: Place::Frame(x, y), step: (0.0, 0.0) }
 }
 
 /// Returns about `most` of the times, evenly chosen.
@@ -184,7 +181,7 @@ pub(super) fn panel<'a>(
 ) -> Panel {
     let mut low = [f64::INFINITY; 2];
     let mut high = [f64::NEG_INFINITY; 2];
-    let places = items.flatten().flat_map(Item::data);
+    let places = items.flatten().flat_map(|item| &item.spots).map(|spot| spot.at);
     for (x, y) in places.chain(series.iter().flat_map(|series| series.points.iter().copied())) {
         low = [low[0].min(x), low[1].min(y)];
         high = [high[0].max(x), high[1].max(y)];
@@ -207,7 +204,7 @@ fn triad(view: &View) -> Vec<Item> {
     let mut pen = Canvas::new(view, 0.0);
     for (i, name) in ["x", "y", "z"].into_iter().enumerate() {
         let (right, up) = view.flat(unit(i));
-        let foot = corner(0.0, 0.0);
+        let foot = Spot::data(0.0, 0.0);
         pen.depth = view.depth(unit(i));
         if right.hypot(up) > 1e-6 {
             let ink = pen.ink(0.3);
