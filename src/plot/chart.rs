@@ -6,6 +6,7 @@ use plotters::chart::{ChartBuilder, MeshStyle};
 use plotters::coord::combinators::{BindKeyPoints, WithKeyPoints};
 use plotters::coord::types::RangedCoordi32;
 use plotters::drawing::IntoDrawingArea;
+use std::collections::BTreeMap;
 
 /// Distance of factors from the frame, to their middle.
 const STRIP_GAP: f64 = 11.0;
@@ -16,7 +17,7 @@ const BAR_WIDTH: f64 = 16.0;
 /// A coordinate along an axis, in units of the backend.
 type Along = WithKeyPoints<RangedCoordi32>;
 /// Positions along an axis with their labels.
-type Marks = Vec<(i32, String)>;
+type Marks = BTreeMap<i32, String>;
 
 /// Draws the mesh of a chart with marks, and room at the left of its frame, below, at the right.
 fn mesh(
@@ -33,17 +34,13 @@ fn mesh(
     // The last position is within the area.
     let size = (left + width + right + 1, height + below + 1);
     let page = sketch.clone().into_drawing_area().shrink((units(frame.left) - left, units(frame.top)), size);
-    let along = |end: i32, marks: &Marks| (0..end).with_key_points(marks.iter().map(|mark| mark.0).collect());
-    let label = |marks: &Marks, place: &i32| {
-        let mark = marks.iter().find(|mark| mark.0 == *place);
-        mark.map_or_else(String::new, |mark| mark.1.clone())
-    };
+    let along = |end: i32, marks: &Marks| (0..end).with_key_points(marks.keys().copied().collect());
     let [x, y] = &marks;
     let mut builder = ChartBuilder::on(&page);
     builder.y_label_area_size(left).x_label_area_size(below).right_y_label_area_size(right);
     let drawn = builder.build_cartesian_2d(along(width, x), along(height, y)).and_then(|mut chart| {
-        let of_x = |place: &i32| label(x, place);
-        let of_y = |place: &i32| label(y, place);
+        let of_x = |place: &i32| x.get(place).cloned().unwrap_or_default();
+        let of_y = |place: &i32| y.get(place).cloned().unwrap_or_default();
         let mut mesh = chart.configure_mesh();
         set(mesh.x_label_formatter(&of_x).y_label_formatter(&of_y));
         mesh.draw()
@@ -65,7 +62,6 @@ fn marks([x, y]: [&Axis; 2], frame: &Rect, labelled: bool) -> [Marks; 2] {
     [on(x, frame.size().0), on(y, frame.size().1)]
 }
 
-/// Draws thin lines at the labelled marks.
 pub(super) fn grid(out: &mut Shapes, placed: &Placed) {
     let Placed { x, y, frame, .. } = placed;
     mesh(out, GRID, frame, marks([x, y], frame, true), [0.0; 3], |_| {});

@@ -1,4 +1,4 @@
-//! The data of a panel: lines, points, coloured points and cells.
+//! The data of a panel: lines, points and coloured points.
 
 use super::*;
 
@@ -96,22 +96,4 @@ fn colored(out: &mut Shapes, placed: &Placed) {
         kept.sort_by_key(|i| steps[*i]);
     }
     kept.into_iter().for_each(|i| Marker::Circle.draw(out, places[i], DOT_RADIUS, scale_color(steps[i])));
-}
-
-/// Draws cells, those of a colour together, and the texts on them in a size that fits all.
-pub(super) fn cells(out: &mut Shapes, placed: &Placed) {
-    let place = |cell: &Cell| {
-        let ends = cell.ends().map(|(x, y)| placed.at(x, y).unwrap_or_default());
-        let [(left, bottom), (right, top)] = ends.map(|end| placed.frame.nearest(end));
-        let step = cell.value.and_then(|value| placed.step(value));
-        (Rect { left, top, right, bottom }, step.map_or_else(|| tint(cell.tint), scale_color), cell.word.clone())
-    };
-    let mut cells: Vec<(Rect, Color, String)> = placed.panel.cells.iter().map(place).collect();
-    cells.sort_by_key(|(_, Color(red, green, blue), _)| (*red, *green, *blue));
-    cells.iter().for_each(|(rect, color, _)| out.draw(Paint::Area(*color, 1.0, true), rect.corners()));
-    let widest = cells.iter().map(|(.., word)| text::width(word, 1.0)).fold(0.1, f64::max);
-    for (rect, color, word) in &cells {
-        let size = TICK_SIZE.min(0.88 * rect.size().0 / widest).min(0.8 * rect.size().1);
-        out.text(word, rect.at(0.5, 0.5), Font(size, ink_on(*color), Align::Middle));
-    }
 }

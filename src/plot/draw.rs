@@ -14,7 +14,10 @@ pub(super) fn figure(figure: &Figure) -> Drawing {
     drawing.layer(|out| out.text(&title.text, middle, Font(title.size, INK, Align::Middle)));
     let mut top = (EDGE + 2.0 + if title.text.is_empty() { 0.0 } else { title.height() + 5.0 }).round();
     let columns = layout::columns(figure);
-    let shared = shared_legend(&panels);
+    let mut legends: Vec<Vec<LegendEntry>> = panels.iter().map(legend::entries).collect();
+    let is_shared = legends.len() > 1 && legends.windows(2).all(|pair| pair[0] == pair[1]);
+    let shared = if is_shared { std::mem::take(&mut legends).swap_remove(0) } else { Vec::new() };
+    let mut legends = legends.into_iter();
     let count = figure.panels.iter().map(|panel| panel.series.len() + 1).sum();
     for (row, side_by_side) in panels.chunks_mut(columns).enumerate() {
         top += if row > 0 { PANEL_GAP } else { 0.0 };
@@ -23,7 +26,7 @@ pub(super) fn figure(figure: &Figure) -> Drawing {
         for (column, placed) in side_by_side.iter_mut().enumerate() {
             let end = placed.put(part * column as f64, part, top);
             let taken = panel(&mut drawing, placed, count);
-            let mut entries = if shared.is_empty() { legend::entries(placed) } else { Vec::new() };
+            let mut entries = legends.next().unwrap_or_default();
             if let Some((block, corner)) = legend::inside(&entries, placed, &taken) {
                 drawing.layer(|out| block.draw(out, corner, true));
                 entries.clear();
@@ -37,25 +40,16 @@ pub(super) fn figure(figure: &Figure) -> Drawing {
     drawing
 }
 
-/// Returns the entries of the panels' legends if there are several panels and all have the same.
-fn shared_legend(panels: &[Placed]) -> Vec<LegendEntry> {
-    let all: Vec<_> = panels.iter().map(legend::entries).collect();
-    let is_shared = all.len() > 1 && all.windows(2).all(|pair| pair[0] == pair[1]);
-    all.into_iter().next().filter(|_| is_shared).unwrap_or_default()
-}
-
 /// Draws a panel, and returns what a legend must not hide.
 fn panel(drawing: &mut Drawing, placed: &Placed, count: usize) -> Taken {
-    let is_map = !placed.panel.cells.is_empty();
-    drawing.layer(|out| if is_map { data::cells(out, placed) } else { chart::grid(out, placed) });
+    drawing.layer(|out| chart::grid(out, placed));
     let data = drawing.layer(|out| data::series(out, placed, count));
     drawing.items = drawing.layer(|out| item::draw(out, placed));
     let shown = &drawing.shapes[data.start..drawing.items.end];
     let mut taken = Taken::new(shown);
-    let is_empty = shown.is_empty() && !is_map;
+    let is_empty = shown.is_empty();
     drawing.layer(|out| {
         chart::draw(out, placed);
-        item::inset(out, placed, &mut taken);
         notes::draw(out, placed, &mut taken);
         if is_empty {
             out.text("no data", placed.frame.at(0.5, 0.5), Font(LABEL_SIZE, NOTE_INK, Align::Middle));

@@ -34,13 +34,15 @@ impl Spot {
     }
 }
 
-/// A colour of the palette with its paleness: 0 is full, 1 is paper.
+/// A colour of the palette with its paleness, of which 0 is full and 1 is paper, or one of the colour bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tint {
     /// Black to grey.
     Ink(f64),
     /// The colour that series of this index in a panel have.
     Body(usize, f64),
+    /// The colour of a value on the colour bar.
+    Value(f64),
 }
 
 /// Kind of an item.
@@ -50,6 +52,8 @@ pub enum Form {
     Line(f64, bool),
     /// A convex polygon without an outline, of an opacity: 1 hides the items below.
     Area(f64),
+    /// A polygon that leaves no seam between it and its neighbours.
+    Cell,
     /// A disc of a radius in pixels.
     Disc(f64),
     /// A small text, whose point lies on the baseline.
@@ -71,17 +75,18 @@ pub struct Item {
 
 impl Item {
     /// Draws it at points, cut off at a rectangle. Notes are drawn when it is known what they would hide.
-    fn draw(&self, out: &mut Shapes, points: &[Pt], within: &Rect) {
-        let color = tint(self.tint);
+    fn draw(&self, out: &mut Shapes, color: Color, points: &[Pt], within: &Rect) {
         let center = points.iter().copied().find(|point| within.contains(*point));
+        let mut area = |opacity, is_crisp| {
+            out.draw(Paint::Area(color, opacity, is_crisp), points.iter().map(|point| within.nearest(*point)));
+        };
         match (&self.form, center) {
             (Form::Line(width, dashed), _) => {
                 let stroke = Stroke { color, width: *width, dash: if *dashed { DASHED } else { &[] } };
                 thin::clipped(points, within).into_iter().for_each(|part| out.draw(Paint::Line(stroke), part));
             }
-            (Form::Area(opacity), _) => {
-                out.draw(Paint::Area(color, *opacity, false), points.iter().map(|point| within.nearest(*point)));
-            }
+            (Form::Area(opacity), _) => area(*opacity, false),
+            (Form::Cell, _) => area(1.0, true),
             (Form::Disc(radius), Some(at)) => out.draw(Paint::Disc(color, *radius), [at]),
             (Form::Text(text, align), Some((x, y))) => {
                 out.text(text, (x, y - HALF_DIGIT * NOTE_SIZE), Font(NOTE_SIZE, color, *align));
@@ -93,27 +98,11 @@ impl Item {
 
 /// How far items may reach beyond the frame, nominal pixels.
 const BEYOND: f64 = 24.0;
-/// Side of the square that an inset needs.
-const INSET: f64 = 84.0;
 
 /// Draws the items of a panel; not those with a point that is not a number.
 pub(super) fn draw(out: &mut Shapes, placed: &Placed) {
     for item in &placed.panel.items {
         let points: Option<Vec<Pt>> = item.spots.iter().map(|spot| spot.put(placed)).collect();
-        points.iter().for_each(|points| item.draw(out, points, &placed.frame.grown(BEYOND)));
-    }
-}
-
-/// Draws the inset in the corner where it hides least.
-pub(super) fn inset(out: &mut Shapes, placed: &Placed, taken: &mut Taken) {
-    if placed.panel.inset.is_empty() {
-        return;
-    }
-    let corners = SIDES[..4].iter().rev().map(|side| (placed.frame.inner((INSET, INSET), *side), ()));
-    let Some((square, ())) = taken.freest(corners, 0.0) else { return };
-    let (x, y) = square.at(0.5, 0.5);
-    for item in &placed.panel.inset {
-        let points: Vec<Pt> = item.spots.iter().map(|spot| (x + spot.step.0, y - spot.step.1)).collect();
-        item.draw(out, &points, &square.grown(INSET));
+        points.iter().for_each(|points| item.draw(out, placed.color(item.tint), points, &placed.frame.grown(BEYOND)));
     }
 }

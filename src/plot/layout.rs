@@ -14,7 +14,6 @@ const WIDTHS: (f64, f64) = (240.0, 4000.0);
 const HEIGHTS: (f64, f64) = (60.0, 4000.0);
 
 /// A panel with its axes, and the room that it needs.
-#[derive(Clone, Debug)]
 pub(super) struct Placed<'a> {
     pub panel: &'a Panel,
     pub x: Axis,
@@ -35,15 +34,14 @@ impl<'a> Placed<'a> {
     fn new(panel: &'a Panel, group: &[Panel], shows_x: bool) -> Self {
         // A panel with markers needs room at the ends, and then all have it.
         let margin = group.iter().filter_map(margin).reduce(f64::max);
-        let y_margin = if panel.cells.is_empty() { margin.unwrap_or(0.0).max(0.06) } else { 0.0 };
-        let colors = panel.colored.iter().map(|point| point.2);
-        let colors = colors.chain(panel.cells.iter().filter_map(|cell| cell.value));
-        let is_colored = !panel.cells.is_empty() || !panel.colored.is_empty();
+        let value = |item: &Item| if let Tint::Value(value) = item.tint { Some(value) } else { None };
+        let colors = panel.colored.iter().map(|point| point.2).chain(panel.items.iter().filter_map(value));
+        let mut colors = colors.peekable();
         Self {
             panel,
             x: Axis::new(&panel.x, group.iter().flat_map(points).map(|point| point.0), margin),
-            y: Axis::new(&panel.y, points(panel).map(|point| point.1), Some(y_margin)),
-            bar: is_colored.then(|| Axis::new(&panel.colors, colors, None)),
+            y: Axis::new(&panel.y, points(panel).map(|point| point.1), Some(margin.unwrap_or(0.0).max(0.06))),
+            bar: colors.peek().is_some().then(|| Axis::new(&panel.colors, colors, None)),
             looks: looks(&panel.series),
             frame: Rect::default(),
             margins: (0.0, 0.0),
@@ -62,22 +60,29 @@ impl<'a> Placed<'a> {
         Some(((place * COLOR_STEPS as f64) as usize).min(COLOR_STEPS - 1))
     }
 
+    pub fn color(&self, tint: Tint) -> Color {
+        let pale = |color, paleness: f64| mix(color, PAPER, paleness.clamp(0.0, 1.0));
+        match tint {
+            Tint::Ink(paleness) => pale(INK, paleness),
+            Tint::Body(place, paleness) => pale(COLORS[place % COLORS.len()], paleness),
+            Tint::Value(value) => self.step(value).map_or(PAPER, scale_color),
+        }
+    }
+
     /// Returns the height of the strip above the frame for factors.
     pub fn strip(&self) -> f64 {
-        let has_factor = [Some(&self.y), self.bar.as_ref()].iter().flatten().any(|axis| !axis.ticks.factor.is_empty());
+        let has_factor = self.bar.iter().chain([&self.y]).any(|axis| !axis.ticks.factor.is_empty());
         if has_factor { STRIP } else { 0.0 }
     }
 
-    /// Returns the height of the strip and the panel's title above it.
     fn above(&self) -> f64 {
         self.strip() + if self.panel.title.trim().is_empty() { 0.0 } else { STRIP }
     }
 
-    /// Returns the height of the marks and labels below the frame.
     pub fn below(&self) -> f64 {
         let factor = if self.x.ticks.factor.is_empty() { 0.0 } else { LINE_HEIGHT * LABEL_SIZE };
-        let label = (LABEL_DISTANCE + LINE_HEIGHT * TICK_SIZE + self.x.label.height().max(factor)).round();
-        if self.shows_x { label } else { MARKS }
+        let label = LABEL_DISTANCE + LINE_HEIGHT * TICK_SIZE + self.x.label.height().max(factor);
+        if self.shows_x { label.round() } else { MARKS }
     }
 
     /// Puts the frame into a column of the figure, and returns the lower end of the panel.
@@ -91,7 +96,6 @@ impl<'a> Placed<'a> {
         end
     }
 
-    /// Returns the margin that this panel needs at the right.
     fn right(&self) -> f64 {
         let overhang = self.x.ticks.major.last().map_or(0.0, |(value, label)| {
             let place = self.x.place(*value).unwrap_or(1.0);
@@ -100,7 +104,6 @@ impl<'a> Placed<'a> {
         EDGE + overhang.max(2.0).max(self.bar.as_ref().map_or(0.0, chart::bar_width))
     }
 
-    /// Chooses marks and breaks labels for a frame of this size.
     fn fit(&mut self, width: f64, height: f64) {
         self.frame = Rect::new((0.0, 0.0), (width, height));
         if self.panel.equal_aspect && [&self.x, &self.y].iter().all(|axis| axis.spec.scale == Scale::Linear) {
@@ -155,7 +158,6 @@ pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
     (whole, all)
 }
 
-/// Returns the number of panels side by side.
 pub(super) fn columns(figure: &Figure) -> usize {
     figure.columns.clamp(1, figure.panels.len().max(1))
 }
@@ -179,17 +181,16 @@ fn points(panel: &Panel) -> impl Iterator<Item = Pt> + '_ {
     let colored = panel.colored.iter().map(|point| (point.0, point.1));
     let whole = data.chain(colored).filter(|point| point.0.is_finite() && point.1.is_finite());
     let spots = panel.items.iter().flat_map(|item| &item.spots).map(|spot| spot.at);
-    whole.chain(panel.cells.iter().flat_map(Cell::ends)).chain(spots)
+    whole.chain(spots)
 }
 
 /// Returns the margin of the x axis. Functions of x fill the width, as time series do.
 fn margin(panel: &Panel) -> Option<f64> {
     let has_markers = |series: &Series| matches!(series.style, Style::Dots | Style::LineDots | Style::Crosses);
     let is_function = |series: &Series| series.points.windows(2).all(|pair| pair[1].0 >= pair[0].0);
-    let has_room = panel.equal_aspect
-        || !panel.colored.is_empty()
-        || panel.series.iter().any(|series| has_markers(series) || !is_function(series));
-    if panel.cells.is_empty() { has_room.then_some(0.05) } else { Some(0.0) }
+    let is_full = panel.colored.is_empty() && !panel.equal_aspect;
+    let is_full = is_full && panel.series.iter().all(|series| is_function(series) && !has_markers(series));
+    (!is_full).then_some(0.05)
 }
 
 fn frame_height(panel: &Panel, count: usize, width: f64) -> f64 {

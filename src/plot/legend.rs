@@ -16,36 +16,32 @@ const INSET: f64 = 8.0;
 const MOST_AREA: f64 = 0.35;
 const BORDER: Stroke = Stroke { color: Color(190, 190, 190), width: 1.0, dash: &[] };
 
-/// One line of a legend: its label and look.
 pub(super) type LegendEntry = (String, Look);
 
 /// Entries in columns, each with its width.
-#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Block {
     columns: Vec<(Vec<LegendEntry>, f64)>,
     sample: f64,
 }
 
-/// Returns the entries of a panel's legend.
 pub(super) fn entries(placed: &Placed) -> Vec<LegendEntry> {
     let series = placed.panel.series.iter().zip(&placed.looks).map(|(series, look)| (series.label.clone(), *look));
-    let key = |color| Look { line: None, marker: Some(SQUARE), color: tint(color) };
+    let key = |color| Look { line: None, marker: Some(SQUARE), color: placed.color(color) };
     let keys = placed.panel.keys.iter().map(|(label, color)| (label.clone(), key(*color)));
     series.filter(|entry| !entry.0.trim().is_empty()).chain(keys).collect()
 }
 
 impl Block {
     fn new(entries: &[LegendEntry], columns: usize, room: f64) -> Self {
-        let rows = entries.len().div_ceil(columns.max(1)).max(1);
         let sample = if entries.iter().any(|entry| entry.1.line.is_some()) { LINE_SAMPLE } else { MARKER_SAMPLE };
         let label_room = (room - sample - SAMPLE_GAP - 2.0 * PADDING).max(20.0);
-        let shortened = |entry: &LegendEntry| (text::shorten(&entry.0, SIZE, label_room), entry.1);
+        let shortened = |(label, look): &LegendEntry| (text::shorten(label, SIZE, label_room), *look);
         let column = |part: &[LegendEntry]| {
             let part: Vec<LegendEntry> = part.iter().map(shortened).collect();
             let widest = part.iter().map(|entry| text::width(&entry.0, SIZE)).fold(0.0, f64::max);
             (part, sample + SAMPLE_GAP + widest)
         };
-        Self { columns: entries.chunks(rows).map(column).collect(), sample }
+        Self { columns: entries.chunks(entries.len().div_ceil(columns)).map(column).collect(), sample }
     }
 
     /// A block of as many columns as fit into a width.
@@ -56,8 +52,7 @@ impl Block {
 
     pub fn size(&self) -> (f64, f64) {
         let width = self.columns.iter().map(|column| column.1 + COLUMN_GAP).sum::<f64>() - COLUMN_GAP;
-        let rows = self.columns.iter().map(|column| column.0.len()).max().unwrap_or(0);
-        (width + 2.0 * PADDING, ROW * rows as f64 + 2.0 * PADDING - 2.0)
+        (width + 2.0 * PADDING, ROW * self.columns[0].0.len() as f64 + 2.0 * PADDING - 2.0)
     }
 
     /// Draws the block with its upper left corner at a point; with a box when it is inside a panel.
@@ -70,8 +65,7 @@ impl Block {
         let mut left = corner.0 + PADDING;
         for (entries, width) in &self.columns {
             for (row, (label, look)) in entries.iter().enumerate() {
-                let y = corner.1 + PADDING - 1.0 + ROW * (row as f64 + 0.5);
-                let at = |right: f64| (left + right, y);
+                let at = |right: f64| (left + right, corner.1 + PADDING - 1.0 + ROW * (row as f64 + 0.5));
                 if let Some(stroke) = look.line {
                     out.draw(Paint::Line(stroke), [at(0.0), at(self.sample)]);
                 }
@@ -87,16 +81,21 @@ impl Block {
 
 /// Returns a block inside the frame that hides nothing, and its corner; none if there is no space.
 pub(super) fn inside(entries: &[LegendEntry], placed: &Placed, taken: &Taken) -> Option<(Block, Pt)> {
-    let most = if placed.panel.cells.is_empty() { entries.len().min(4) } else { 0 };
     let room = placed.frame.grown(-INSET);
     let frame = placed.frame.size();
-    (1..=most).find_map(|columns| {
+    // Corners first, then the middles of the sides: parts of the free room from the lower left corner.
+    const SIDES: [(f64, f64); 8] =
+        [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (0.0, 0.5), (0.5, 1.0), (0.5, 0.0)];
+    (1..=entries.len().min(4)).find_map(|columns| {
         let block = Block::new(entries, columns, 0.8 * frame.0);
         let (width, height) = block.size();
-        let is_small = width <= room.size().0 && height <= room.size().1;
-        let is_small = is_small && width * height <= MOST_AREA * frame.0 * frame.1;
-        let mut places = SIDES.iter().map(|side| room.inner((width, height), *side));
-        let free = places.find(|place| is_small && taken.cover(place, 5.0) == 0)?;
-        Some((block, (free.left, free.top)))
+        let fits = width <= room.size().0 && height <= room.size().1;
+        let is_small = fits && width * height <= MOST_AREA * frame.0 * frame.1;
+        let corner = |(right, up): (f64, f64)| {
+            let (x, y) = room.at(right, up);
+            (x - right * width, y - (1.0 - up) * height)
+        };
+        let is_free = |corner: &Pt| is_small && taken.cover(&Rect::new(*corner, (width, height)), 5.0) == 0;
+        Some((block, SIDES.map(corner).into_iter().find(is_free)?))
     })
 }

@@ -32,13 +32,13 @@ mod ticks;
 pub use figure::{Animation, Figure};
 pub use item::{Form, Item, Spot, Tint};
 pub use panel::{AxisSpec, Panel, Scale};
-pub use series::{Cell, Series, Style};
+pub use series::{Series, Style};
 pub use shape::Align;
 
 // Names that the files of this folder share.
 use axis::Axis;
 use layout::Placed;
-use notes::{SIDES, Taken};
+use notes::Taken;
 use palette::*;
 use shape::{Color, Drawing, Font, Paint, Pt, Rect, Shape, Shapes, Stroke, Text, is_closed};
 use text::{HALF_DIGIT, LINE_HEIGHT, Label};

@@ -84,15 +84,6 @@ pub(super) fn looks(all: &[Series]) -> Vec<Look> {
     all.iter().enumerate().map(look).collect()
 }
 
-/// Returns a colour mixed with paper by its paleness.
-pub(super) fn tint(tint: Tint) -> Color {
-    let (full, paleness) = match tint {
-        Tint::Ink(paleness) => (INK, paleness),
-        Tint::Body(place, paleness) => (COLORS[place % COLORS.len()], paleness),
-    };
-    mix(full, PAPER, paleness.clamp(0.0, 1.0))
-}
-
 /// Returns the colour at `share` of the way from one to another.
 pub(super) fn mix(from: Color, to: Color, share: f64) -> Color {
     let part = |from: u8, to: u8| (f64::from(from) * (1.0 - share) + f64::from(to) * share).round() as u8;
@@ -106,10 +97,4 @@ pub(super) const COLOR_STEPS: usize = 128;
 /// on white.
 pub(super) fn scale_color(step: usize) -> Color {
     ViridisRGB.get_color(0.96 * step.min(COLOR_STEPS - 1) as f64 / (COLOR_STEPS - 1) as f64)
-}
-
-/// Returns black or white, whichever is legible on `fill`.
-pub(super) fn ink_on(fill: Color) -> Color {
-    let luminance = 0.299 * f64::from(fill.0) + 0.587 * f64::from(fill.1) + 0.114 * f64::from(fill.2);
-    if luminance > 125.0 { INK } else { PAPER }
 }

@@ -1,6 +1,6 @@
 //! One panel: axes, and the data drawn between them.
 
-use super::{Cell, Form, Item, Series, Spot, Tint};
+use super::{Form, Item, Series, Spot, Tint};
 
 /// Map from values to lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,12 +60,8 @@ pub struct Panel {
     pub colors: AxisSpec,
     /// Points coloured by a third value on the colour bar.
     pub colored: Vec<(f64, f64, f64)>,
-    /// Cells coloured by a value on the colour bar, in the place of a grid.
-    pub cells: Vec<Cell>,
     /// Items drawn on top of the series, in this order.
     pub items: Vec<Item>,
-    /// A small drawing around (0, 0), placed in the corner where it hides least.
-    pub inset: Vec<Item>,
     /// Colours that the legend explains in addition to the series.
     pub keys: Vec<(String, Tint)>,
     /// True if one unit of x is as long as one unit of y (both linear).
@@ -101,13 +97,6 @@ impl Panel {
     pub fn note(mut self, tint: Tint, x: f64, y: f64, text: impl Into<String>) -> Self {
         self.items.push(Item { spots: vec![Spot::data(x, y)], tint, form: Form::Note(text.into()) });
         self
-    }
-
-    /// Adds a dashed vertical line with a text.
-    pub fn vertical(mut self, x: f64, text: impl Into<String>) -> Self {
-        let spots = [f64::NEG_INFINITY, f64::INFINITY].map(|y| Spot::data(x, y)).to_vec();
-        self.items.push(Item { spots, tint: Tint::Ink(0.3), form: Form::Line(1.5, true) });
-        self.note(Tint::Ink(0.25), x, f64::INFINITY, text)
     }
 
     /// Sets the height between the axes, in nominal pixels.

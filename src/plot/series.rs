@@ -1,6 +1,4 @@
-//! Lines, points and cells of a panel.
-
-use super::Tint;
+//! Lines and points of a panel.
 
 /// Style of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,27 +54,5 @@ impl Series {
     /// Sets the colour by its index in the palette.
     pub fn color(self, color: usize) -> Self {
         Self { color: Some(color), ..self }
-    }
-}
-
-/// A cell one unit wide and high, around whole numbers, which axes of names mark.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Cell {
-    /// x of its centre.
-    pub column: usize,
-    /// y of its centre.
-    pub row: usize,
-    /// Its value, which the colour bar explains.
-    pub value: Option<f64>,
-    /// Its colour without a value.
-    pub tint: Tint,
-    /// A short text on it, like "fail"; may be empty.
-    pub word: String,
-}
-
-impl Cell {
-    /// Returns the ends of its diagonal in data coordinates.
-    pub(super) fn ends(&self) -> [(f64, f64); 2] {
-        [-0.5, 0.5].map(|half| (self.column as f64 + half, self.row as f64 + half))
     }
 }

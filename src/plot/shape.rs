@@ -7,7 +7,6 @@ use std::ops::Range;
 
 pub(super) use plotters::style::RGBColor as Color;
 
-/// A point of the picture.
 pub(super) type Pt = (f64, f64);
 
 /// A rectangle parallel to the axes.
@@ -42,21 +41,12 @@ impl Rect {
         x >= self.left && x <= self.right && y >= self.top && y <= self.bottom
     }
 
-    /// Returns its point nearest to another.
     pub fn nearest(&self, (x, y): Pt) -> Pt {
         (x.max(self.left).min(self.right), y.max(self.top).min(self.bottom))
     }
 
-    /// Returns this rectangle, larger on every side.
     pub fn grown(&self, by: f64) -> Self {
         Self { left: self.left - by, top: self.top - by, right: self.right + by, bottom: self.bottom + by }
-    }
-
-    /// Returns the rectangle of a size inside, at parts of the free width and height from the lower left corner.
-    pub fn inner(&self, (width, height): (f64, f64), (right, up): (f64, f64)) -> Self {
-        let left = self.left + right * (self.size().0 - width);
-        let top = self.bottom - height - up * (self.size().1 - height);
-        Self::new((left, top), (width, height))
     }
 
     pub fn overlaps(&self, other: &Self) -> bool {
@@ -64,7 +54,6 @@ impl Rect {
     }
 }
 
-/// Colour, width and dashes of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stroke {
     pub color: Color,
@@ -119,7 +108,6 @@ impl Text {
     }
 }
 
-/// Style of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Paint {
     Line(Stroke),
@@ -129,7 +117,6 @@ pub(super) enum Paint {
     Disc(Color, f64),
 }
 
-/// A shape to draw.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shape {
     Drawn(Paint, Vec<Vec<Pt>>),
@@ -167,7 +154,7 @@ impl Shapes {
         self.draw(Paint::Line(stroke), [a, b, c, d, a]);
     }
 
-    /// Writes lines of text, vertically centred at a position.
+    /// Writes text that is vertically centred at a position.
     pub fn text(&mut self, text: &str, at: Pt, font: Font) {
         self.lines(text, at, font, VPos::Center, false);
     }
@@ -189,7 +176,6 @@ impl Shapes {
     }
 }
 
-/// True if a line ends where it began.
 pub(super) fn is_closed(line: &[Pt]) -> bool {
     line.len() > 2 && line.first() == line.last()
 }
@@ -204,7 +190,6 @@ fn rounded((x, y): Pt) -> Pt {
     ((100.0 * x).round() / 100.0, (100.0 * y).round() / 100.0)
 }
 
-/// A picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Drawing {
     pub width: f64,

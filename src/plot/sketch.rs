@@ -15,7 +15,6 @@ const PAPER: u32 = 100_000_000;
 /// The end of an operation; a sketch refuses nothing.
 type Done<T = ()> = Result<T, DrawingErrorKind<Infallible>>;
 
-/// Returns a length in units of the backend.
 pub(super) fn units(pixels: f64) -> i32 {
     (UNITS * pixels).round() as i32
 }

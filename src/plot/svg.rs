@@ -9,7 +9,6 @@ use super::*;
 const DOT: f64 = 0.1;
 const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-serif";
 
-/// Returns the whole file.
 pub(super) fn render(drawing: &Drawing) -> String {
     let width = number(drawing.width);
     let height = number(drawing.height);
@@ -55,7 +54,6 @@ fn shape(out: &mut String, shape: &Shape) {
     }
 }
 
-/// Returns the attributes of a path.
 fn style(paint: &Paint) -> String {
     let line = |color, width| format!("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"", hex(color), number(width));
     match paint {

@@ -30,19 +30,35 @@ fn panel(x: &str, y: &str) -> Panel {
     Panel::new(x, y).series(Series::line("a", wave(500, 1.0)))
 }
 
+/// Adds a line of a sweep.
+fn vertical(panel: Panel, x: f64, text: &str) -> Panel {
+    let spots = [f64::NEG_INFINITY, f64::INFINITY].map(|y| Spot::data(x, y)).to_vec();
+    panel.items([Item { spots, tint: Tint::Ink(0.3), form: Form::Line(1.5, true) }]).note(
+        Tint::Ink(0.25),
+        x,
+        f64::INFINITY,
+        text,
+    )
+}
+
+/// A cell of a map around a point.
+fn cell(x: f64, y: f64, value: f64) -> Item {
+    let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
+    let spots = corners.map(|(right, up)| Spot::data(x + right, y + up)).to_vec();
+    Item { spots, tint: Tint::Value(value), form: Form::Cell }
+}
+
 /// A panel with texts along both axes, and colours from 1e-12 to 1.
 fn map() -> Panel {
-    let cell = |(column, row, value, word): (usize, usize, Option<f64>, &str)| {
-        let word = word.to_string();
-        Cell { column, row, value, tint: Tint::Ink(0.8), word }
+    let cells = [(0.0, 0.0, 1e-20), (1.0, 1.0, 1e3), (2.0, 1.0, 0.0)];
+    let named = |label: &str, names: [&str; 3]| AxisSpec {
+        names: names.map(String::from).to_vec(),
+        ..AxisSpec::from(label).range(-0.5, 2.5)
     };
-    let cells = [(0, 0, Some(1e-20), ""), (1, 1, Some(1e3), ""), (2, 1, Some(0.0), ""), (0, 1, None, "fail")];
-    let named = |label: &str, names: [&str; 3]| AxisSpec { names: names.map(String::from).to_vec(), ..label.into() };
     let mut panel =
         Panel::new(named("h (s)", ["0.1", "0.2", "0.4"]), named("projection", ["none", "manifold", "both"]));
     panel.colors = AxisSpec::from("largest drift (m)").log().range(1e-12, 1.0);
-    panel.cells = cells.map(cell).to_vec();
-    panel
+    panel.items(cells.map(|(x, y, value)| cell(x, y, value)))
 }
 
 #[test]
@@ -78,7 +94,7 @@ fn samples() -> Vec<(&'static str, Figure)> {
         ("shared map", Figure::new().panel(map()).panel(map())),
         (
             "lines",
-            Figure::new().panel(panel("x", "y").vertical(0.5, "limit").vertical(2.0, "impact").note(
+            Figure::new().panel(vertical(vertical(panel("x", "y"), 0.5, "limit"), 2.0, "impact").note(
                 Tint::Ink(0.0),
                 1.0,
                 0.0,
@@ -145,14 +161,12 @@ fn odd_panel(seed: &mut u64) -> Panel {
     }
     panel.colored = (0..4).map(|_| (odd_number(seed), odd_number(seed), odd_number(seed))).collect();
     panel.colors = axis(seed, "c");
-    panel = panel.vertical(odd_number(seed), "h").vertical(odd_number(seed), "v");
+    panel = vertical(vertical(panel, odd_number(seed), "h"), odd_number(seed), "v");
     panel = panel.note(Tint::Ink(1.0), odd_number(seed), odd_number(seed), "note");
     panel.equal_aspect = *seed & (1 << 50) == 0;
     panel.height = (*seed & (1 << 51) == 0).then(|| odd_number(seed)).filter(|height| *height < 1e3);
     if *seed & (1 << 52) == 0 {
-        let cell =
-            |column| Cell { column, row: 0, value: Some(odd_number(seed)), tint: Tint::Ink(1.0), word: "fail".into() };
-        panel.cells = [0, 1, 7].map(cell).to_vec();
+        panel = panel.items([0.0, 1.0, 7.0].map(|x| cell(x, 0.0, odd_number(seed))));
     }
     panel
 }
@@ -217,12 +231,10 @@ fn mechanism(points: &Points) -> Panel {
     let text = |spot| item(vec![spot], Form::Text("body".into(), Align::Start));
     let corner = Spot::data(f64::INFINITY, f64::INFINITY).moved(0.0, 9.0);
     let texts = spots(points).into_iter().chain([corner]).map(text);
-    let mut panel =
-        Panel { equal_aspect: true, ..Panel::new("x (m)", "y (m)") }.items(discs.chain([area, line]).chain(texts));
-    let axis = vec![corner, corner.moved(20.0, 0.0)];
-    panel.inset = vec![item(axis, Form::Line(1.0, false))];
-    panel.keys = vec![("t = 0 s".into(), Tint::Ink(0.5))];
-    panel
+    let axis = item(vec![corner.moved(-40.0, -40.0), corner.moved(-20.0, -40.0)], Form::Line(1.0, false));
+    let items = discs.chain([area, line, axis]).chain(texts);
+    let keys = vec![("t = 0 s".into(), Tint::Ink(0.5))];
+    Panel { equal_aspect: true, keys, ..Panel::new("x (m)", "y (m)") }.items(items)
 }
 
 /// Returns a figure of each kind that the program draws, of the same data.
@@ -242,15 +254,11 @@ fn kinds_of_figures(points: &Points) -> Vec<(&'static str, Figure)> {
     let magnitude = Panel::new(log("frequency (rad/s)"), log("magnitude")).series(line(Style::Line));
     let phase = Panel::new(log("frequency (rad/s)"), AxisSpec { is_angle: true, ..AxisSpec::from("phase (°)") })
         .series(line(Style::Thin));
-    let campbell =
-        Panel::new("speed (rad/s)", "frequency (rad/s)").series(line(Style::Dotted)).vertical(1.0, "unstable");
+    let campbell = Panel::new("speed (rad/s)", "frequency (rad/s)").series(line(Style::Dotted));
+    let campbell = vertical(campbell, 1.0, "unstable");
     let sweep = Panel::new("stiffness (N/m)", "steps").series(line(Style::Dots));
-    let cell = |(row, (_, value)): (usize, &(f64, f64))| {
-        let (value, word) = (Some(*value), "fail".to_string());
-        Cell { column: 1, row, value, tint: Tint::Ink(1.0), word }
-    };
-    let mut map = map();
-    map.cells = points.iter().enumerate().map(cell).collect();
+    let cells = points.iter().enumerate().map(|(row, (_, value))| cell(1.0, row as f64, *value));
+    let map = Panel { items: cells.collect(), ..map() };
     vec![
         ("lines", Figure::new().title("Lines").panel(lines.clone())),
         ("loci", Figure::new().panel(loci)),

@@ -15,7 +15,6 @@ const ROOM_FOR_DECADE: f64 = 4.0;
 /// Powers of ten that numbers of the machine reach.
 const POWERS: (i32, i32) = (-307, 307);
 
-/// The marks of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Ticks {
     /// Values with their labels.
@@ -41,7 +40,6 @@ impl Room {
 }
 
 impl Ticks {
-    /// Chooses the marks of an axis.
     pub fn new(axis: &Axis, room: Room) -> Self {
         match axis.spec.scale {
             _ if !axis.spec.names.is_empty() => named(axis, room),
@@ -54,7 +52,6 @@ impl Ticks {
         Self { major: major.collect(), ..Self::default() }
     }
 
-    /// Returns the width of the widest label.
     pub fn widest(&self) -> f64 {
         self.major.iter().map(|tick| text::width(&tick.1, TICK_SIZE)).fold(0.0, f64::max)
     }
@@ -82,7 +79,6 @@ fn linear(low: f64, high: f64, room: Room, is_angle: bool) -> Ticks {
     first.map_or_else(|| multiples(low, high, 0.5 * span), |(_, ticks)| ticks)
 }
 
-/// Returns marks at the multiples of a step.
 fn multiples(low: f64, high: f64, step: f64) -> Ticks {
     // A mark exactly at the limit must not be lost to rounding.
     let first = (low / step - 1e-6).ceil();

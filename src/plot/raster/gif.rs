@@ -8,13 +8,10 @@ use rayon::prelude::*;
 
 /// Index of an unchanged pixel.
 const SAME: u8 = 255;
-/// Number of frames drawn at once.
 const BATCH: usize = 8;
-/// Output pixels per nominal one.
 const DENSITY: u32 = 1;
 
-/// Returns the file of `count` frames; `moving` gives the items of a frame, drawn on the constant `still`, and `done`
-/// is called with the number of frames drawn.
+/// Returns the file of `count` frames; `moving` gives the items of one, and `done` is called with the number drawn.
 pub(in super::super) fn gif(
     still: &Drawing,
     count: usize,

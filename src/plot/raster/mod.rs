@@ -11,7 +11,6 @@ use tiny_skia::{FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, St
 
 /// Output pixels per nominal pixel: 1280 pixels in 85 mm.
 const DENSITY: u32 = 2;
-/// Largest number of pixels.
 const MOST_PIXELS: f64 = 5.0e7;
 /// Printed width of 640 nominal pixels.
 const COLUMN_METRES: f64 = 0.085;
@@ -43,7 +42,6 @@ fn encode(pixels: &Pixmap, density: u32) -> Result<Vec<u8>, png::EncodingError> 
     Ok(file)
 }
 
-/// Returns white paper for a drawing.
 fn paper(drawing: &Drawing, density: u32) -> Result<Pixmap, String> {
     let side = |nominal: f64| nominal.ceil() as u32 * density;
     let mut pixels = Pixmap::new(side(drawing.width), side(drawing.height)).ok_or("a figure without pixels")?;
