@@ -65,7 +65,7 @@
 //! | nalgebra | small and dense matrices: linear models, transition matrices, assembly |
 //! | faer | factorizations: sparse and dense LU of implicit methods, L D L^T where L fills, QR; eigenvalues |
 //! | diffsol | the integrators `tr_bdf2`, `esdirk34`, `tsit45` and `diffsol`; the second opinion on references |
-//! | plotters | figures: axes, meshes, series, colour maps, legends |
+//! | plotters | figures: charts with meshes, marks and labels, colour maps |
 //! | serde_json | scenes, results, checkpoints |
 //!
 //! Own code stands in the place of a package where that was measured to be better:

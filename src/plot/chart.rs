@@ -16,15 +16,14 @@ const BAR_WIDTH: f64 = 16.0;
 
 /// A coordinate along an axis, in units of the backend.
 type Along = WithKeyPoints<RangedCoordi32>;
-/// Positions along an axis with their labels.
-type Marks = BTreeMap<i32, String>;
-
-/// Draws the mesh of a chart with marks, and room at the left of its frame, below, at the right.
+/// Draws the mesh of a chart with the labelled marks of its axes or the others, and room at the left of its frame, below
+/// and at the right.
 fn mesh(
     out: &mut Shapes,
     stroke: Stroke,
     frame: &Rect,
-    marks: [Marks; 2],
+    [x, y]: [&Axis; 2],
+    is_labelled: bool,
     [left, below, right]: [f64; 3],
     set: impl Fn(&mut MeshStyle<Along, Along, Sketch>),
 ) {
@@ -34,15 +33,22 @@ fn mesh(
     // The last position is within the area.
     let size = (left + width + right + 1, height + below + 1);
     let page = sketch.clone().into_drawing_area().shrink((units(frame.left) - left, units(frame.top)), size);
-    let along = |end: i32, marks: &Marks| (0..end).with_key_points(marks.keys().copied().collect());
-    let [x, y] = &marks;
+    let marks = |axis: &Axis, length: i32| -> BTreeMap<i32, String> {
+        let minor = axis.ticks.minor.iter().map(|value| (*value, String::new()));
+        let ticks = if is_labelled { axis.ticks.major.clone() } else { minor.collect() };
+        // Rounding places none beyond the ends.
+        let place = |value| Some((f64::from(length) * axis.place(value)?.clamp(0.0, 1.0)).round() as i32);
+        ticks.into_iter().filter_map(|(value, label)| Some((place(value)?, label))).collect()
+    };
+    let [across, up] = [marks(x, width), marks(y, height)];
+    let along = |end: i32, marks: &BTreeMap<i32, _>| (0..end).with_key_points(marks.keys().copied().collect());
     let mut builder = ChartBuilder::on(&page);
     builder.y_label_area_size(left).x_label_area_size(below).right_y_label_area_size(right);
-    let drawn = builder.build_cartesian_2d(along(width, x), along(height, y)).and_then(|mut chart| {
-        let of_x = |place: &i32| x.get(place).cloned().unwrap_or_default();
-        let of_y = |place: &i32| y.get(place).cloned().unwrap_or_default();
+    let drawn = builder.build_cartesian_2d(along(width, &across), along(height, &up)).and_then(|mut chart| {
+        let on_x = |place: &i32| across.get(place).cloned().unwrap_or_default();
+        let on_y = |place: &i32| up.get(place).cloned().unwrap_or_default();
         let mut mesh = chart.configure_mesh();
-        set(mesh.x_label_formatter(&of_x).y_label_formatter(&of_y));
+        set(mesh.x_label_formatter(&on_x).y_label_formatter(&on_y));
         mesh.draw()
     });
     // A sketch refuses nothing.
@@ -50,33 +56,22 @@ fn mesh(
     *out = sketch.shapes.take();
 }
 
-/// Returns the labelled marks of axes, or the others, in a frame.
-fn marks([x, y]: [&Axis; 2], frame: &Rect, labelled: bool) -> [Marks; 2] {
-    let on = |axis: &Axis, length: f64| {
-        let minor = axis.ticks.minor.iter().map(|value| (*value, String::new()));
-        let ticks = if labelled { axis.ticks.major.clone() } else { minor.collect() };
-        // Rounding places none beyond the ends.
-        let place = |value| Some(units(length * axis.place(value)?.clamp(0.0, 1.0)));
-        ticks.into_iter().filter_map(|(value, label)| Some((place(value)?, label))).collect()
-    };
-    [on(x, frame.size().0), on(y, frame.size().1)]
-}
-
+/// Draws thin lines at the labelled marks.
 pub(super) fn grid(out: &mut Shapes, placed: &Placed) {
-    let Placed { x, y, frame, .. } = placed;
-    mesh(out, GRID, frame, marks([x, y], frame, true), [0.0; 3], |_| {});
+    mesh(out, GRID, &placed.frame, [&placed.x, &placed.y], true, [0.0; 3], |_| {});
 }
 
 /// Draws marks, labels, titles and the frame of axes.
-fn axes(out: &mut Shapes, [x, y]: [&Axis; 2], frame: &Rect, room: [f64; 3]) {
+fn axes(out: &mut Shapes, both: [&Axis; 2], frame: &Rect, room: [f64; 3]) {
+    let [x, y] = both.map(|axis| &axis.label);
     let font = |size: f64| ("DejaVu Sans", units(size), &INK);
-    mesh(out, FRAME, frame, marks([x, y], frame, true), room, |mesh| {
+    mesh(out, FRAME, frame, both, true, room, |mesh| {
         mesh.disable_mesh().set_all_tick_mark_size(units(0.5 * LABEL_DISTANCE)).label_style(font(TICK_SIZE));
-        mesh.axis_desc_style(font(x.label.size)).x_desc(&x.label.text);
+        mesh.axis_desc_style(font(x.size)).x_desc(&x.text);
     });
-    mesh(out, FRAME, frame, marks([x, y], frame, false), room, |mesh| {
+    mesh(out, FRAME, frame, both, false, room, |mesh| {
         mesh.disable_mesh().set_all_tick_mark_size(units(MINOR_LENGTH));
-        mesh.axis_desc_style(font(y.label.size)).y_desc(&y.label.text);
+        mesh.axis_desc_style(font(y.size)).y_desc(&y.text);
     });
     out.frame(frame, FRAME);
 }

@@ -58,7 +58,8 @@ impl DrawingBackend for Sketch {
 
     /// Draws a line of a grid or a mark, which is sharp where it is parallel to an axis.
     fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, _: &S) -> Done {
-        let ((a, b), (c, d)) = (pixels(from), pixels(to));
+        let (a, b) = pixels(from);
+        let (c, d) = pixels(to);
         let [a, c] = if a == c { [sharp(a); 2] } else { [a, c] };
         let [b, d] = if b == d { [sharp(b); 2] } else { [b, d] };
         self.shapes.borrow_mut().draw(Paint::Line(self.stroke), [(a, b), (c, d)]);

@@ -212,8 +212,9 @@ const FOOT: f64 = 42.0;
 fn triad(view: &View, is_right: bool, is_top: bool) -> Vec<Item> {
     let mut pen = Canvas::new(view, 0.0);
     let side = |is_far: bool| if is_far { 1.0 } else { -1.0 };
-    let [right, up] = [side(is_right), side(is_top)];
-    let foot = Spot::data(right * f64::INFINITY, up * f64::INFINITY).moved(-FOOT * right, -FOOT * up);
+    let x = side(is_right);
+    let y = side(is_top);
+    let foot = Spot::data(x * f64::INFINITY, y * f64::INFINITY).moved(-FOOT * x, -FOOT * y);
     for (i, name) in ["x", "y", "z"].into_iter().enumerate() {
         let (right, up) = view.flat(unit(i));
         pen.depth = view.depth(unit(i));

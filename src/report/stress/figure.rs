@@ -52,25 +52,28 @@ fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
     let mut words = Vec::new();
     for (row, from_row) in rows.iter().enumerate() {
         for (column, from_column) in columns.iter().enumerate() {
-            let cell = stressed.cell(method, *from_row, *from_column);
-            let mark = if cell.is_some_and(is_wrong) { WRONG } else { "" };
-            let (word, mut tint) = cell.and_then(|cell| look(cell.status)).unwrap_or((mark, NO_VALUE));
-            let mut ink = Tint::Ink(0.0);
-            if let Some(value) = cell.and_then(|cell| map.quantity.of(cell)) {
-                tint = Tint::Value(value);
-                let is_bright = (value / low).ln() > BRIGHT * (high / low).ln();
-                ink = Tint::Ink(if is_bright { 0.0 } else { 1.0 });
-            }
             let at = |right: f64, up: f64| Spot::data(column as f64 + right, row as f64 + up);
-            let corners = vec![at(-0.5, -0.5), at(0.5, -0.5), at(0.5, 0.5), at(-0.5, 0.5)];
-            panel.items.push(Item { spots: corners, tint, form: Form::Cell });
-            let form = Form::Text(word.to_string(), Align::Middle);
-            words.push(Item { spots: vec![at(0.0, 0.0).moved(0.0, -BASELINE)], tint: ink, form });
+            let (word, tint, ink) = shown(stressed, stressed.cell(method, *from_row, *from_column), (low, high));
+            let spots = vec![at(-0.5, -0.5), at(0.5, -0.5), at(0.5, 0.5), at(-0.5, 0.5)];
+            panel.items.push(Item { spots, tint, form: Form::Cell });
+            if !word.is_empty() {
+                let spots = vec![at(0.0, 0.0).moved(0.0, -BASELINE)];
+                words.push(Item { spots, tint: ink, form: Form::Text(word.to_string(), Align::Middle) });
+            }
         }
     }
     // Cells of one colour in a row are one shape of the file.
     panel.items.sort_by(|a, b| order_of(a.tint).total_cmp(&order_of(b.tint)));
-    panel.items(words.into_iter().filter(|word| word.form != Form::Text(String::new(), Align::Middle)))
+    panel.items(words)
+}
+
+/// Returns the text on a cell, the colour of the cell, and one that is seen on it.
+fn shown(stressed: &Stressed, cell: Option<&Cell>, (low, high): (f64, f64)) -> (&'static str, Tint, Tint) {
+    let mark = if cell.is_some_and(is_wrong) { WRONG } else { "" };
+    let (word, tint) = cell.and_then(|cell| look(cell.status)).unwrap_or((mark, NO_VALUE));
+    let Some(value) = cell.and_then(|cell| stressed.map.quantity.of(cell)) else { return (word, tint, Tint::Ink(0.0)) };
+    let is_bright = (value / low).ln() > BRIGHT * (high / low).ln();
+    (word, Tint::Value(value), Tint::Ink(if is_bright { 0.0 } else { 1.0 }))
 }
 
 /// Returns a number that is the same for equal colours only, largest for values.
