@@ -1,9 +1,11 @@
-//! The axis of all charts: its scale, limits, marks with labels, and title.
+//! The axis of all charts: a coordinate of plotters with a scale, limits, marks, their labels, and a title.
 
 use super::panel::{AxisSpec, Scale};
 use super::ticks::{Room, Ticks};
 use super::{LABEL_SIZE, Label};
 use crate::math::bounds;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use std::ops::Range;
 
 /// Values beyond this are drawn at it, so that differences of values stay finite.
 const LARGEST: f64 = 1e300;
@@ -100,6 +102,36 @@ impl Axis {
     }
 }
 
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
+        from + (f64::from(to - from) * self.place(*value).unwrap_or(0.0).clamp(0.0, 1.0)).round() as i32
+    }
+
+    /// Returns the labelled marks, or the others if 0 labels are asked for. Only the first have grid lines.
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        match (hint.weight().allow_light_points(), hint.bold_points()) {
+            (true, _) => Vec::new(),
+            (false, 0) => self.ticks.minor.clone(),
+            (false, _) => self.ticks.major.iter().map(|tick| tick.0).collect(),
+        }
+    }
+
+    fn range(&self) -> Range<f64> {
+        let end = |limit: f64| if self.spec.scale == Scale::Log { 10f64.powf(limit) } else { limit };
+        end(self.low)..end(self.high)
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, value: &f64) -> String {
+        let tick = self.ticks.major.iter().find(|tick| tick.0 == *value);
+        tick.map_or_else(String::new, |tick| tick.1.clone())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -115,6 +147,7 @@ mod tests {
         assert_eq!(linear.place(f64::NAN), None);
         let log = axis(AxisSpec::from("x").log(), &[1e-4, 1.0]);
         assert_eq!([1e-4, 1e-2, 1.0].map(|value| log.place(value)), [Some(0.0), Some(0.5), Some(1.0)]);
+        assert_eq!([log.map(&1e-2, (100, 300)), log.map(&1.0, (300, 100))], [200, 100]);
     }
 
     #[test]

@@ -1,12 +1,7 @@
-//! The chart of a panel, drawn by plotters: grid, marks, labels, frame, colour bar; and the texts above it.
+//! The chart of a panel: grid, marks, labels, frame, colour bar, and the texts above it.
 
-use super::sketch::{Sketch, units};
 use super::*;
 use plotters::chart::{ChartBuilder, MeshStyle};
-use plotters::coord::combinators::{BindKeyPoints, WithKeyPoints};
-use plotters::coord::types::RangedCoordi32;
-use plotters::drawing::IntoDrawingArea;
-use std::collections::BTreeMap;
 
 /// Distance of factors from the frame, to their middle.
 const STRIP_GAP: f64 = 11.0;
@@ -14,88 +9,65 @@ const STRIP_GAP: f64 = 11.0;
 const BAR_GAP: f64 = 12.0;
 const BAR_WIDTH: f64 = 16.0;
 
-/// A coordinate along an axis, in units of the backend.
-type Along = WithKeyPoints<RangedCoordi32>;
-/// Draws the mesh of a chart with the labelled marks of its axes or the others, and room at the left of its frame, below
-/// and at the right.
-fn mesh(
-    out: &mut Shapes,
-    stroke: Stroke,
-    frame: &Rect,
-    [x, y]: [&Axis; 2],
-    is_labelled: bool,
-    [left, below, right]: [f64; 3],
-    set: impl Fn(&mut MeshStyle<Along, Along, Sketch>),
-) {
-    let sketch = Sketch::new(std::mem::take(out), stroke);
-    let [width, height] = [frame.size().0, frame.size().1].map(units);
-    let [left, below, right] = [left, below, right].map(units);
+/// Builds a chart around a frame, with room at the left of it, below and at the right.
+fn build<'a>(page: &Page, frame: &Rect, [x, y]: [&Axis; 2], room: [f64; 3]) -> Done<Chart<'a>> {
+    let [left, below, right] = room.map(units);
+    let (width, height) = frame.size();
     // The last position is within the area.
-    let size = (left + width + right + 1, height + below + 1);
-    let page = sketch.clone().into_drawing_area().shrink((units(frame.left) - left, units(frame.top)), size);
-    let marks = |axis: &Axis, length: i32| -> BTreeMap<i32, String> {
-        let minor = axis.ticks.minor.iter().map(|value| (*value, String::new()));
-        let ticks = if is_labelled { axis.ticks.major.clone() } else { minor.collect() };
-        // Rounding places none beyond the ends.
-        let place = |value| Some((f64::from(length) * axis.place(value)?.clamp(0.0, 1.0)).round() as i32);
-        ticks.into_iter().filter_map(|(value, label)| Some((place(value)?, label))).collect()
-    };
-    let [across, up] = [marks(x, width), marks(y, height)];
-    let along = |end: i32, marks: &BTreeMap<i32, _>| (0..end).with_key_points(marks.keys().copied().collect());
-    let mut builder = ChartBuilder::on(&page);
+    let size = (left + units(width) + right + 1, units(height) + below + 1);
+    let area = page.strip_coord_spec().shrink((units(frame.left) - left, units(frame.top)), size);
+    let mut builder = ChartBuilder::on(&area);
     builder.y_label_area_size(left).x_label_area_size(below).right_y_label_area_size(right);
-    let drawn = builder.build_cartesian_2d(along(width, &across), along(height, &up)).and_then(|mut chart| {
-        let on_x = |place: &i32| across.get(place).cloned().unwrap_or_default();
-        let on_y = |place: &i32| up.get(place).cloned().unwrap_or_default();
-        let mut mesh = chart.configure_mesh();
-        set(mesh.x_label_formatter(&on_x).y_label_formatter(&on_y));
-        mesh.draw()
-    });
-    // A sketch refuses nothing.
-    drawn.unwrap_or_default();
-    *out = sketch.shapes.take();
+    builder.build_cartesian_2d(x.clone(), y.clone())
 }
 
-/// Draws thin lines at the labelled marks.
-pub(super) fn grid(out: &mut Shapes, placed: &Placed) {
-    mesh(out, GRID, &placed.frame, [&placed.x, &placed.y], true, [0.0; 3], |_| {});
+/// Builds the chart of a panel, and draws thin lines at the labelled marks.
+pub(super) fn grid<'a>(page: &Page, placed: &Placed) -> Done<Chart<'a>> {
+    let room = [placed.margins.0, placed.below() - 0.5, 0.0];
+    let mut chart = build(page, &placed.frame, [&placed.x, &placed.y], room)?;
+    chart.configure_mesh().disable_axes().bold_line_style(line(GRID)).draw()?;
+    Ok(chart)
 }
 
-/// Draws marks, labels, titles and the frame of axes.
-fn axes(out: &mut Shapes, both: [&Axis; 2], frame: &Rect, room: [f64; 3]) {
-    let [x, y] = both.map(|axis| &axis.label);
-    let font = |size: f64| ("DejaVu Sans", units(size), &INK);
-    mesh(out, FRAME, frame, both, true, room, |mesh| {
-        mesh.disable_mesh().set_all_tick_mark_size(units(0.5 * LABEL_DISTANCE)).label_style(font(TICK_SIZE));
-        mesh.axis_desc_style(font(x.size)).x_desc(&x.text);
-    });
-    mesh(out, FRAME, frame, both, false, room, |mesh| {
-        mesh.disable_mesh().set_all_tick_mark_size(units(MINOR_LENGTH));
-        mesh.axis_desc_style(font(y.size)).y_desc(&y.text);
-    });
-    out.frame(frame, FRAME);
+/// Draws marks, labels, titles and the frame of a chart.
+fn axes(page: &Page, chart: &mut Chart, [x, y]: [&Axis; 2], frame: &Rect) -> Done {
+    marks(chart, 0.5 * LABEL_DISTANCE, x.label.size).x_desc(&x.label.text).draw()?;
+    marks(chart, MINOR_LENGTH, y.label.size).x_labels(0).y_labels(0).y_desc(&y.label.text).draw()?;
+    page.draw(&Rectangle::new([frame.at(0.0, 1.0), frame.at(1.0, 0.0)], line(FRAME)))
+}
+
+/// Returns a style of marks of a length, with labels, and with a title in a size.
+fn marks<'a, 'b>(chart: &'b mut Chart<'a>, length: f64, size: f64) -> MeshStyle<'a, 'b, Axis, Axis, Drawing> {
+    let mut mesh = chart.configure_mesh();
+    mesh.disable_mesh().axis_style(line(FRAME)).set_all_tick_mark_size(units(length));
+    let [label, title] = [TICK_SIZE, size].map(|size| font(Font(size, INK, Align::Middle)));
+    mesh.label_style(label).axis_desc_style(title);
+    mesh
 }
 
 /// Draws the axes with the texts around them, and the colour bar as a chart of its own.
-pub(super) fn draw(out: &mut Shapes, placed: &Placed) {
-    let Placed { panel, x, y, bar, frame, margins: (left, right), .. } = placed;
-    axes(out, [x, y], frame, [*left, placed.below() - 0.5, 0.0]);
+pub(super) fn draw(page: &Page, chart: &mut Chart, placed: &Placed) -> Done {
+    let Placed { panel, x, y, bar, frame, margins: (_, right), .. } = placed;
+    axes(page, chart, [x, y], frame)?;
     let strip = frame.top - STRIP_GAP;
     let beside = frame.right + BAR_GAP;
-    let mut factor = |axis: &Axis, at, align| out.text(&axis.ticks.factor, at, Font(NOTE_SIZE, INK, align));
-    factor(y, (frame.left, strip), Align::Start);
-    bar.iter().for_each(|bar| factor(bar, (beside, strip), Align::Start));
-    factor(x, (frame.right, frame.bottom + LABEL_DISTANCE + 2.0 * TICK_SIZE), Align::End);
+    let factor = |axis: &Axis, at, align| page.draw(&words(&axis.ticks.factor, at, Font(NOTE_SIZE, INK, align)));
+    factor(y, (frame.left, strip), Align::Start)?;
+    factor(x, (frame.right, frame.bottom + LABEL_DISTANCE + 2.0 * TICK_SIZE), Align::End)?;
     let title = text::shorten(panel.title.trim(), TICK_SIZE, frame.size().0);
-    out.text(&title, (frame.at(0.5, 0.0).0, strip - placed.strip()), Font(TICK_SIZE, INK, Align::Middle));
-    let Some(bar) = bar else { return };
+    let above = (frame.at(0.5, 0.0).0, strip - placed.strip());
+    page.draw(&words(&title, above, Font(TICK_SIZE, INK, Align::Middle)))?;
+    let Some(bar) = bar else { return Ok(()) };
+    factor(bar, (beside, strip), Align::Start)?;
     let column = Rect { left: beside, right: beside + BAR_WIDTH, ..*frame };
+    let none = Axis::new(&AxisSpec::default(), std::iter::empty(), None);
+    let mut chart = build(page, &column, [&none, bar], [0.0, 0.0, right - BAR_GAP - BAR_WIDTH - EDGE])?;
     for step in 0..COLOR_STEPS {
         // Each step reaches up to the end of the bar, so that no seam shows between two.
-        let bottom = column.at(0.0, step as f64 / COLOR_STEPS as f64).1;
-        out.draw(Paint::Area(scale_color(step), 1.0, true), Rect { bottom, ..column }.corners());
+        let bottom = column.at(0.0, step as f64 / COLOR_STEPS as f64);
+        page.draw(&Rectangle::new([bottom, column.at(1.0, 1.0)], scale_color(step).filled()))?;
     }
-    axes(out, [&Axis::default(), bar], &column, [0.0, 0.0, right - BAR_GAP - BAR_WIDTH - EDGE]);
+    axes(page, &mut chart, [&none, bar], &column)
 }
 
 /// Returns the width that a colour bar needs to the right of a frame.

@@ -21,15 +21,15 @@ pub(super) enum Marker {
 }
 
 impl Marker {
-    pub fn draw(self, out: &mut Shapes, (x, y): Pt, radius: f64, color: Color) {
+    pub fn draw(self, page: &Page, (x, y): Pt, radius: f64, color: Color) -> Done {
         let at = |(right, down): &Pt| (x + radius * right, y + radius * down);
         match self {
-            Self::Circle => out.draw(Paint::Disc(color, radius), [(x, y)]),
-            Self::Polygon(corners) => out.draw(Paint::Area(color, 1.0, false), corners.iter().map(at)),
+            Self::Circle => page.draw(&Circle::new((x, y), units(radius), color.filled())),
+            Self::Polygon(corners) => page.draw(&Polygon::new(corners.iter().map(at).collect::<Vec<_>>(), color)),
             Self::Cross => {
                 let stroke = Stroke { color, width: 0.42 * radius, dash: &[] };
                 let ends = [[(-0.9, -0.81), (0.9, 0.81)], [(-0.9, 0.81), (0.9, -0.81)]];
-                ends.iter().for_each(|ends| out.draw(Paint::Line(stroke), ends.iter().map(at)));
+                ends.iter().try_for_each(|ends| page.draw(&Curve(ends.iter().map(at).collect(), stroke)))
             }
         }
     }
@@ -37,16 +37,16 @@ impl Marker {
 
 /// Draws lines and points of a panel, in a figure of `count` series: restless lines below calm ones, then markers, then
 /// coloured points.
-pub(super) fn series(out: &mut Shapes, placed: &Placed, count: usize) {
+pub(super) fn series(page: &Page, placed: &Placed, count: usize) -> Done {
     let runs = |series: &Series| runs(placed, series);
     let all: Vec<(&Look, Vec<Vec<Pt>>)> = placed.looks.iter().zip(placed.panel.series.iter().map(runs)).collect();
     let lines = all.iter().filter_map(|(look, runs)| Some(lines(placed, look.line?, runs, count)));
     let (restless, calm): (Vec<_>, Vec<_>) = lines.partition(|(is_restless, ..)| *is_restless);
     for (_, stroke, parts) in restless.into_iter().chain(calm) {
-        parts.into_iter().for_each(|part| out.draw(Paint::Line(stroke), part));
+        parts.into_iter().try_for_each(|part| page.draw(&Curve(part, stroke)))?;
     }
-    all.iter().for_each(|(look, runs)| markers(out, placed, look, runs, count));
-    colored(out, placed);
+    all.iter().try_for_each(|(look, runs)| markers(page, placed, look, runs, count))?;
+    colored(page, placed)
 }
 
 /// Returns the points in the picture, split where one of them is not a number.
@@ -74,7 +74,7 @@ fn turns(points: &[Pt]) -> usize {
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-fn markers(out: &mut Shapes, placed: &Placed, look: &Look, runs: &[Vec<Pt>], count: usize) {
+fn markers(page: &Page, placed: &Placed, look: &Look, runs: &[Vec<Pt>], count: usize) -> Done {
     // A single point between two gaps has no line; a dot of the line's width would be missed.
     let marked = runs.iter().filter(|run| look.marker.is_some() || run.len() == 1);
     let points: Vec<Pt> = marked.flatten().copied().filter(|point| placed.frame.contains(*point)).collect();
@@ -82,11 +82,11 @@ fn markers(out: &mut Shapes, placed: &Placed, look: &Look, runs: &[Vec<Pt>], cou
     let crowd = usize::from(kept.len() > 150) + usize::from(kept.len() > 2000);
     let radius = if look.marker.is_some() { MARKER_RADIUS * [1.0, 0.6, 0.35][crowd] } else { DOT_RADIUS };
     let marker = look.marker.unwrap_or(Marker::Circle);
-    kept.into_iter().for_each(|i| marker.draw(out, points[i], radius, look.color));
+    kept.into_iter().try_for_each(|i| marker.draw(page, points[i], radius, look.color))
 }
 
 /// Draws points coloured by value, in their order, so that later ones stay on top.
-fn colored(out: &mut Shapes, placed: &Placed) {
+fn colored(page: &Page, placed: &Placed) -> Done {
     let points = placed.panel.colored.iter();
     let known = points.filter_map(|point| Some((placed.at(point.0, point.1)?, placed.step(point.2)?)));
     let (places, steps): (Vec<Pt>, Vec<usize>) = known.filter(|(point, _)| placed.frame.contains(*point)).unzip();
@@ -95,5 +95,5 @@ fn colored(out: &mut Shapes, placed: &Placed) {
         // Colours without order: grouping them all keeps the file small, and which is on top is arbitrary anyway.
         kept.sort_by_key(|i| steps[*i]);
     }
-    kept.into_iter().for_each(|i| Marker::Circle.draw(out, places[i], DOT_RADIUS, scale_color(steps[i])));
+    kept.into_iter().try_for_each(|i| Marker::Circle.draw(page, places[i], DOT_RADIUS, scale_color(steps[i])))
 }

@@ -1,72 +1,88 @@
 //! Drawing of a figure as shapes.
 
 use super::legend::{Block, LegendEntry};
+use super::sketch::Nominal;
 use super::*;
+use plotters::drawing::DrawingArea;
+use std::{cell::RefCell, rc::Rc};
 
 const PANEL_GAP: f64 = 12.0;
 
-/// Draws title, panels and legends from top to bottom.
+/// Draws a figure.
 pub(super) fn figure(figure: &Figure) -> Drawing {
+    let drawing = Rc::new(RefCell::new(Drawing { title: figure.title.clone(), ..Drawing::default() }));
+    // A drawing refuses nothing.
+    let (width, height) = sheet(figure, &drawing).unwrap_or_default();
+    Drawing { width, height, ..drawing.take() }
+}
+
+/// Draws title, panels and legends from top to bottom, and returns the width and the height.
+fn sheet(figure: &Figure, drawing: &Rc<RefCell<Drawing>>) -> Done<(f64, f64)> {
+    let page = DrawingArea::from(drawing).apply_coord_spec(Nominal);
     let (width, mut panels) = layout::place(figure);
-    let mut drawing = Drawing { width, title: figure.title.clone(), ..Drawing::default() };
     let title = Label::new(&figure.title, TITLE_SIZE, width - 2.0 * EDGE, 3);
     let middle = (0.5 * width, EDGE - 2.0 + 0.5 * title.height());
-    drawing.layer(|out| out.text(&title.text, middle, Font(title.size, INK, Align::Middle)));
+    page.draw(&words(&title.text, middle, Font(title.size, INK, Align::Middle)))?;
     let mut top = (EDGE + 2.0 + if title.text.is_empty() { 0.0 } else { title.height() + 5.0 }).round();
     let columns = layout::columns(figure);
-    let mut legends: Vec<Vec<LegendEntry>> = panels.iter().map(legend::entries).collect();
+    let part = width / columns as f64;
+    let legends: Vec<Vec<LegendEntry>> = panels.iter().map(legend::entries).collect();
     let is_shared = legends.len() > 1 && legends.windows(2).all(|pair| pair[0] == pair[1]);
-    let shared = if is_shared { std::mem::take(&mut legends).swap_remove(0) } else { Vec::new() };
-    let mut legends = legends.into_iter();
     let count = figure.panels.iter().map(|panel| panel.series.len() + 1).sum();
-    for (row, side_by_side) in panels.chunks_mut(columns).enumerate() {
-        top += if row > 0 { PANEL_GAP } else { 0.0 };
-        let mut bottom = top;
-        let part = width / columns as f64;
-        for (column, placed) in side_by_side.iter_mut().enumerate() {
-            let end = placed.put(part * column as f64, part, top);
-            let taken = panel(&mut drawing, placed, count);
-            let mut entries = legends.next().unwrap_or_default();
-            if let Some((block, corner)) = legend::inside(&entries, placed, &taken) {
-                drawing.layer(|out| block.draw(out, corner, true));
-                entries.clear();
-            }
-            bottom = bottom.max(legend_below(&mut drawing, &entries, placed, end));
+    let last = panels.len();
+    let mut bottom = top;
+    for (k, (placed, entries)) in panels.iter_mut().zip(&legends).enumerate() {
+        if k % columns == 0 {
+            top = bottom.round() + if k > 0 { PANEL_GAP } else { 0.0 };
         }
-        top = bottom.round();
+        let end = placed.put(part * (k % columns) as f64, part, top);
+        let taken = panel(drawing, &page, placed, count)?;
+        let inside = legend::inside(entries, placed, &taken).filter(|_| !is_shared);
+        bottom = bottom.max(end);
+        match inside {
+            Some((block, corner)) => block.draw(&page, corner, true)?,
+            None if is_shared && k + 1 < last => {}
+            None => {
+                bottom = bottom.max(legend_below(
+                    &page,
+                    entries,
+                    placed,
+                    if is_shared { bottom.round() } else { end },
+                    width,
+                )?)
+            }
+        }
     }
-    let bottom = panels.last().map_or(top, |placed| legend_below(&mut drawing, &shared, placed, top));
-    drawing.height = (bottom + EDGE).ceil();
-    drawing
+    Ok((width, (bottom.round() + EDGE).ceil()))
 }
 
 /// Draws a panel, and returns what a legend must not hide.
-fn panel(drawing: &mut Drawing, placed: &Placed, count: usize) -> Taken {
-    drawing.layer(|out| chart::grid(out, placed));
-    let data = drawing.layer(|out| data::series(out, placed, count));
-    drawing.items = drawing.layer(|out| item::draw(out, placed));
-    let shown = &drawing.shapes[data.start..drawing.items.end];
-    let mut taken = Taken::new(shown);
-    let is_empty = shown.is_empty();
-    drawing.layer(|out| {
-        chart::draw(out, placed);
-        notes::draw(out, placed, &mut taken);
-        if is_empty {
-            out.text("no data", placed.frame.at(0.5, 0.5), Font(LABEL_SIZE, NOTE_INK, Align::Middle));
-        }
-    });
-    taken
+fn panel(drawing: &RefCell<Drawing>, page: &Page, placed: &Placed, count: usize) -> Done<Taken> {
+    let seal = || drawing.borrow_mut().seal();
+    let mut chart = chart::grid(page, placed)?;
+    let first = seal();
+    data::series(page, placed, count)?;
+    let items = seal();
+    item::draw(page, placed)?;
+    let last = seal();
+    drawing.borrow_mut().items = items..last;
+    let mut taken = Taken::new(&drawing.borrow().shapes[first..last]);
+    chart::draw(page, &mut chart, placed)?;
+    notes::draw(page, placed, &mut taken)?;
+    if first == last {
+        page.draw(&words("no data", placed.frame.at(0.5, 0.5), Font(LABEL_SIZE, NOTE_INK, Align::Middle)))?;
+    }
+    Ok(taken)
 }
 
 /// Draws a legend below a panel and returns its lower end.
-fn legend_below(drawing: &mut Drawing, entries: &[LegendEntry], placed: &Placed, top: f64) -> f64 {
+fn legend_below(page: &Page, entries: &[LegendEntry], placed: &Placed, top: f64, width: f64) -> Done<f64> {
     if entries.is_empty() {
-        return top;
+        return Ok(top);
     }
-    let room = drawing.width - 2.0 * EDGE;
-    let block = Block::wide(entries, room);
-    let (width, height) = block.size();
-    let left = (placed.frame.at(0.5, 0.0).0 - 0.5 * width).clamp(EDGE, (EDGE + room - width).max(EDGE));
-    drawing.layer(|out| block.draw(out, (left, top), false));
-    top + height
+    let block = Block::wide(entries, width - 2.0 * EDGE);
+    let (block_width, height) = block.size();
+    let left = (placed.frame.at(0.5, 0.0).0 - 0.5 * block_width).min(width - EDGE - block_width).max(EDGE);
+    block.draw(page, (left, top), false)?;
+    Ok(top + height)
 }

@@ -75,23 +75,21 @@ pub struct Item {
 
 impl Item {
     /// Draws it at points, cut off at a rectangle. Notes are drawn when it is known what they would hide.
-    fn draw(&self, out: &mut Shapes, color: Color, points: &[Pt], within: &Rect) {
+    fn draw(&self, page: &Page, color: Color, points: &[Pt], within: &Rect) -> Done {
         let center = points.iter().copied().find(|point| within.contains(*point));
-        let mut area = |opacity, is_crisp| {
-            out.draw(Paint::Area(color, opacity, is_crisp), points.iter().map(|point| within.nearest(*point)));
-        };
+        let corners: Vec<Pt> = points.iter().map(|point| within.nearest(*point)).collect();
         match (&self.form, center) {
             (Form::Line(width, dashed), _) => {
                 let stroke = Stroke { color, width: *width, dash: if *dashed { DASHED } else { &[] } };
-                thin::clipped(points, within).into_iter().for_each(|part| out.draw(Paint::Line(stroke), part));
+                thin::clipped(points, within).into_iter().try_for_each(|part| page.draw(&Curve(part, stroke)))
             }
-            (Form::Area(opacity), _) => area(*opacity, false),
-            (Form::Cell, _) => area(1.0, true),
-            (Form::Disc(radius), Some(at)) => out.draw(Paint::Disc(color, *radius), [at]),
+            (Form::Area(opacity), _) => page.draw(&Polygon::new(corners, color.mix(*opacity))),
+            (Form::Cell, _) => page.draw(&Rectangle::new([corners[0], corners[2]], color.filled())),
+            (Form::Disc(radius), Some(at)) => Marker::Circle.draw(page, at, *radius, color),
             (Form::Text(text, align), Some((x, y))) => {
-                out.text(text, (x, y - HALF_DIGIT * NOTE_SIZE), Font(NOTE_SIZE, color, *align));
+                page.draw(&words(text, (x, y - HALF_DIGIT * NOTE_SIZE), Font(NOTE_SIZE, color, *align)))
             }
-            _ => {}
+            _ => Ok(()),
         }
     }
 }
@@ -100,9 +98,10 @@ impl Item {
 const BEYOND: f64 = 24.0;
 
 /// Draws the items of a panel; not those with a point that is not a number.
-pub(super) fn draw(out: &mut Shapes, placed: &Placed) {
-    for item in &placed.panel.items {
+pub(super) fn draw(page: &Page, placed: &Placed) -> Done {
+    placed.panel.items.iter().try_for_each(|item| {
         let points: Option<Vec<Pt>> = item.spots.iter().map(|spot| spot.put(placed)).collect();
-        points.iter().for_each(|points| item.draw(out, placed.color(item.tint), points, &placed.frame.grown(BEYOND)));
-    }
+        let draw = |points: Vec<Pt>| item.draw(page, placed.color(item.tint), &points, &placed.frame.grown(BEYOND));
+        points.map_or(Ok(()), draw)
+    })
 }

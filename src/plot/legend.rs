@@ -56,26 +56,28 @@ impl Block {
     }
 
     /// Draws the block with its upper left corner at a point; with a box when it is inside a panel.
-    pub fn draw(&self, out: &mut Shapes, corner: Pt, boxed: bool) {
+    pub fn draw(&self, page: &Page, corner: Pt, boxed: bool) -> Done {
         if boxed {
-            let rect = Rect::new(corner, self.size());
-            out.draw(Paint::Area(PAPER, 1.0, true), rect.corners());
-            out.frame(&rect, BORDER);
+            let (width, height) = self.size();
+            let corners = [corner, (corner.0 + width, corner.1 + height)];
+            page.draw(&Rectangle::new(corners, PAPER.filled()))?;
+            page.draw(&Rectangle::new(corners, line(BORDER)))?;
         }
         let mut left = corner.0 + PADDING;
         for (entries, width) in &self.columns {
             for (row, (label, look)) in entries.iter().enumerate() {
                 let at = |right: f64| (left + right, corner.1 + PADDING - 1.0 + ROW * (row as f64 + 0.5));
                 if let Some(stroke) = look.line {
-                    out.draw(Paint::Line(stroke), [at(0.0), at(self.sample)]);
+                    page.draw(&Curve(vec![at(0.0), at(self.sample)], stroke))?;
                 }
                 if let Some(marker) = look.marker {
-                    marker.draw(out, at(0.5 * self.sample), MARKER_RADIUS, look.color);
+                    marker.draw(page, at(0.5 * self.sample), MARKER_RADIUS, look.color)?;
                 }
-                out.text(label, at(self.sample + SAMPLE_GAP), Font(SIZE, INK, Align::Start));
+                page.draw(&words(label, at(self.sample + SAMPLE_GAP), Font(SIZE, INK, Align::Start)))?;
             }
             left += width + COLUMN_GAP;
         }
+        Ok(())
     }
 }
 

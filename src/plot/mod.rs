@@ -1,8 +1,7 @@
 //! Figures from data, as SVG or PNG files. This module does not depend on mechanics.
 //!
-//! A [`Figure`] stacks one or several [`Panel`]s. plotters draws the chart of a panel on a backend that records shapes;
-//! its data, whose lines have dashes and end at the frame, are recorded between grid and axes. The shapes are written as
-//! SVG, or drawn by tiny-skia as PNG and GIF, so that all show the same picture. Text is measured with the embedded
+//! A [`Figure`] stacks one or several [`Panel`]s. plotters draws all of them on a backend that records shapes. The
+//! shapes are written as SVG, or drawn by tiny-skia as PNG and GIF, so that all show the same picture. Text is measured with the embedded
 //! DejaVu Sans; no font of the system is needed.
 //!
 //! Sizes are in nominal pixels. A figure is 640 of them wide by default and meant to be printed 85 mm wide
@@ -37,11 +36,15 @@ pub use shape::Align;
 
 // Names that the files of this folder share.
 use axis::Axis;
+use data::Marker;
 use layout::Placed;
 use notes::Taken;
 use palette::*;
-use shape::{Color, Drawing, Font, Paint, Pt, Rect, Shape, Shapes, Stroke, Text, is_closed};
-use text::{HALF_DIGIT, LINE_HEIGHT, Label};
+use plotters::element::{Circle, Polygon, Rectangle};
+use plotters::style::Color as _;
+use shape::{Color, Drawing, Font, Paint, Pt, Rect, Shape, Stroke, Text, is_closed, sharp};
+use sketch::{Chart, Curve, Done, Page, font, line, units, words};
+use text::{HALF_DIGIT, LINE_HEIGHT, Label, Rich};
 
 #[cfg(all(test, feature = "figures"))]
 mod tests;

@@ -7,7 +7,7 @@ const AROUND: [(f64, f64); 8] =
     [(1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (0.8, -0.8), (-0.8, -0.8), (0.8, 0.8), (-0.8, 0.8)];
 
 /// Draws the notes of a panel, each at the place where it hides least, inside of the frame if possible.
-pub(super) fn draw(out: &mut Shapes, placed: &Placed, taken: &mut Taken) {
+pub(super) fn draw(page: &Page, placed: &Placed, taken: &mut Taken) -> Done {
     for item in &placed.panel.items {
         let (Form::Note(text), [spot]) = (&item.form, &item.spots[..]) else { continue };
         let Some((x, y)) = spot.put(placed).filter(|at| placed.frame.contains(*at)) else { continue };
@@ -28,9 +28,11 @@ pub(super) fn draw(out: &mut Shapes, placed: &Placed, taken: &mut Taken) {
         let Some(rect) = freest.filter(|_| !text.trim().is_empty()) else { continue };
         taken.rects.push(rect);
         let room = placed.frame.grown(-1.0);
-        out.draw(Paint::Area(PAPER, 1.0, true), rect.grown(1.5).corners().map(|corner| room.nearest(corner)));
-        out.text(text, rect.at(0.5, 0.58), Font(NOTE_SIZE, placed.color(item.tint), Align::Middle));
+        let corners = [(0.0, 1.0), (1.0, 0.0)].map(|(right, up)| room.nearest(rect.grown(1.5).at(right, up)));
+        page.draw(&Rectangle::new(corners, PAPER.filled()))?;
+        page.draw(&words(text, rect.at(0.5, 0.58), Font(NOTE_SIZE, placed.color(item.tint), Align::Middle)))?;
     }
+    Ok(())
 }
 
 /// Parts of a panel that must not be hidden.

@@ -1,6 +1,5 @@
 //! Colours, dashes, markers and sizes.
 
-use super::data::Marker;
 use super::*;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 

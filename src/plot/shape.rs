@@ -1,8 +1,6 @@
 //! Shapes, from which files are written. Coordinates are nominal pixels, y down.
 
 use super::text::Rich;
-use super::{HALF_DIGIT, LINE_HEIGHT};
-use plotters::style::text_anchor::VPos;
 use std::ops::Range;
 
 pub(super) use plotters::style::RGBColor as Color;
@@ -123,59 +121,6 @@ pub(super) enum Shape {
     Text(Text),
 }
 
-/// Shapes in the order in which they are drawn.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Shapes(pub Vec<Shape>);
-
-impl Shapes {
-    /// Draws a line, a polygon or discs. Those of one style are one shape; texts between them hide nothing.
-    pub fn draw(&mut self, paint: Paint, points: impl IntoIterator<Item = Pt>) {
-        let mut points: Vec<Pt> = points.into_iter().map(rounded).collect();
-        if let Paint::Area(..) = paint {
-            points.extend(points.first().copied());
-            // Areas of one colour are filled together, where opposite senses would make holes.
-            if points.windows(2).map(|pair| pair[0].0 * pair[1].1 - pair[1].0 * pair[0].1).sum::<f64>() < 0.0 {
-                points.reverse();
-            }
-        }
-        let last = self.0.iter_mut().rev().find(|shape| matches!(shape, Shape::Drawn(..)));
-        match last {
-            // What is transparent is seen through.
-            Some(Shape::Drawn(same, lines)) if *same == paint && !matches!(paint, Paint::Area(_, ..1.0, _)) => {
-                lines.push(points)
-            }
-            _ => self.0.push(Shape::Drawn(paint, vec![points])),
-        }
-    }
-
-    /// Draws a rectangle of lines that are sharp.
-    pub fn frame(&mut self, rect: &Rect, stroke: Stroke) {
-        let [a, b, c, d] = rect.corners().map(|(x, y)| (sharp(x), sharp(y)));
-        self.draw(Paint::Line(stroke), [a, b, c, d, a]);
-    }
-
-    /// Writes text that is vertically centred at a position.
-    pub fn text(&mut self, text: &str, at: Pt, font: Font) {
-        self.lines(text, at, font, VPos::Center, false);
-    }
-
-    /// Writes lines of text with their top, middle or bottom at a position.
-    pub fn lines(&mut self, text: &str, at: Pt, font: Font, anchor: VPos, turned: bool) {
-        let last = LINE_HEIGHT * text.lines().count().saturating_sub(1) as f64;
-        let first = match anchor {
-            VPos::Top => 0.78,
-            VPos::Center => HALF_DIGIT - 0.5 * last,
-            VPos::Bottom => -0.22 - last,
-        };
-        let (x, y) = rounded(at);
-        for (row, line) in text.lines().enumerate().filter(|line| !line.1.is_empty()) {
-            let down = (first + LINE_HEIGHT * row as f64) * font.0;
-            let at = if turned { (x + down, y) } else { (x, y + down) };
-            self.0.push(Shape::Text(Text { at, rich: Rich::new(line), font, turned }));
-        }
-    }
-}
-
 pub(super) fn is_closed(line: &[Pt]) -> bool {
     line.len() > 2 && line.first() == line.last()
 }
@@ -183,11 +128,6 @@ pub(super) fn is_closed(line: &[Pt]) -> bool {
 /// Returns the middle of the nearest pixel, where a thin line is sharp.
 pub(super) fn sharp(value: f64) -> f64 {
     value.floor() + 0.5
-}
-
-/// Returns a position in whole hundredths of a pixel, as plotters has them.
-fn rounded((x, y): Pt) -> Pt {
-    ((100.0 * x).round() / 100.0, (100.0 * y).round() / 100.0)
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -199,15 +139,33 @@ pub(super) struct Drawing {
     pub shapes: Vec<Shape>,
     /// Range of the panels' items among the shapes: the moving part of an animation.
     pub items: Range<usize>,
+    /// Number of shapes that are complete.
+    pub sealed: usize,
 }
 
 impl Drawing {
-    /// Draws on top of the other shapes, and returns the range of the new ones.
-    pub fn layer(&mut self, draw: impl FnOnce(&mut Shapes)) -> Range<usize> {
-        let mut layer = Shapes::default();
-        draw(&mut layer);
-        let first = self.shapes.len();
-        self.shapes.extend(layer.0);
-        first..self.shapes.len()
+    /// Ends a group of shapes, and returns their number: later ones are not joined to them.
+    pub fn seal(&mut self) -> usize {
+        self.sealed = self.shapes.len();
+        self.sealed
+    }
+
+    /// Adds a line, a polygon or discs. Those of one style are one shape; texts between them hide nothing.
+    pub fn record(&mut self, paint: Paint, mut points: Vec<Pt>) {
+        if let Paint::Area(..) = paint {
+            points.extend(points.first().copied());
+            // Areas of one colour are filled together, where opposite senses would make holes.
+            if points.windows(2).map(|pair| pair[0].0 * pair[1].1 - pair[1].0 * pair[0].1).sum::<f64>() < 0.0 {
+                points.reverse();
+            }
+        }
+        let mut open = self.shapes[self.sealed..].iter_mut().rev();
+        match open.find(|shape| matches!(shape, Shape::Drawn(..))) {
+            // What is transparent is seen through.
+            Some(Shape::Drawn(same, lines)) if *same == paint && !matches!(paint, Paint::Area(_, ..1.0, _)) => {
+                lines.push(points)
+            }
+            _ => self.shapes.push(Shape::Drawn(paint, vec![points])),
+        }
     }
 }

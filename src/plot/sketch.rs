@@ -1,19 +1,38 @@
-//! The backend on which plotters draws: it records shapes. Its pixels are hundredths of a nominal one.
+//! The backend on which plotters draws: a drawing records shapes. Its pixels are hundredths of a nominal one.
 
-use super::shape::sharp;
 use super::*;
-use plotters::style::text_anchor::VPos;
+use plotters::chart::ChartContext;
+use plotters::coord::{CoordTranslate, cartesian::Cartesian2d};
+use plotters::drawing::{DrawingArea, DrawingAreaErrorKind};
+use plotters::element::{Drawable, PointCollection, Text as Words};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{FontDesc, FontFamily, FontStyle, ShapeStyle, TextStyle};
 use plotters_backend::{BackendColor, BackendCoord, BackendStyle, BackendTextStyle, FontTransform};
 use plotters_backend::{DrawingBackend, DrawingErrorKind};
-use std::{cell::RefCell, convert::Infallible, rc::Rc};
+use std::convert::Infallible;
 
 /// Units of the backend in a nominal pixel.
 const UNITS: f64 = 100.0;
 /// Sides of the paper in units: the picture ends where the drawing does.
-const PAPER: u32 = 100_000_000;
+const SIDE: u32 = 100_000_000;
 
-/// The end of an operation; a sketch refuses nothing.
-type Done<T = ()> = Result<T, DrawingErrorKind<Infallible>>;
+/// The end of an operation; a drawing refuses nothing.
+pub(super) type Done<T = ()> = Result<T, DrawingAreaErrorKind<Infallible>>;
+type Recorded<T = ()> = Result<T, DrawingErrorKind<Infallible>>;
+/// The paper, on which positions are nominal pixels.
+pub(super) type Page = DrawingArea<Drawing, Nominal>;
+pub(super) type Chart<'a> = ChartContext<'a, Drawing, Cartesian2d<Axis, Axis>>;
+
+/// The coordinates of the paper.
+pub(super) struct Nominal;
+
+impl CoordTranslate for Nominal {
+    type From = Pt;
+
+    fn translate(&self, (x, y): &Pt) -> BackendCoord {
+        (units(*x), units(*y))
+    }
+}
 
 pub(super) fn units(pixels: f64) -> i32 {
     (UNITS * pixels).round() as i32
@@ -23,67 +42,134 @@ fn pixels((x, y): BackendCoord) -> Pt {
     (f64::from(x) / UNITS, f64::from(y) / UNITS)
 }
 
-/// Shapes to which others are added, their lines with one stroke.
-#[derive(Clone)]
-pub(super) struct Sketch {
-    pub shapes: Rc<RefCell<Shapes>>,
-    stroke: Stroke,
+fn solid(color: BackendColor) -> Color {
+    Color(color.rgb.0, color.rgb.1, color.rgb.2)
 }
 
-impl Sketch {
-    pub fn new(shapes: Shapes, stroke: Stroke) -> Self {
-        Self { shapes: Rc::new(RefCell::new(shapes)), stroke }
-    }
+/// Returns a stroke as a style of plotters, which has no dashes.
+pub(super) fn line(stroke: Stroke) -> ShapeStyle {
+    plotters::style::Color::stroke_width(&stroke.color, units(stroke.width) as u32)
 }
 
-impl DrawingBackend for Sketch {
+/// Returns a style of text that is vertically centred at its position.
+pub(super) fn font(Font(size, color, align): Font) -> TextStyle<'static> {
+    let across = [HPos::Left, HPos::Center, HPos::Right][align as usize];
+    let font = FontDesc::new(FontFamily::Name("DejaVu Sans"), UNITS * size, FontStyle::Normal);
+    TextStyle { font, color: color.to_backend_color(), pos: Pos::new(across, VPos::Center) }
+}
+
+/// Returns a text that is vertically centred at a position.
+pub(super) fn words(text: &str, at: Pt, style: Font) -> Words<'static, Pt, &str> {
+    Words::new(text, at, font(style))
+}
+
+impl DrawingBackend for Drawing {
     type ErrorType = Infallible;
 
     fn get_size(&self) -> (u32, u32) {
-        (PAPER, PAPER)
+        (SIDE, SIDE)
     }
 
-    fn ensure_prepared(&mut self) -> Done {
+    fn ensure_prepared(&mut self) -> Recorded {
         Ok(())
     }
 
-    fn present(&mut self) -> Done {
+    fn present(&mut self) -> Recorded {
         Ok(())
     }
 
     /// Charts have no single pixels.
-    fn draw_pixel(&mut self, _: BackendCoord, _: BackendColor) -> Done {
+    fn draw_pixel(&mut self, _: BackendCoord, _: BackendColor) -> Recorded {
         Ok(())
     }
 
     /// Draws a line of a grid or a mark, which is sharp where it is parallel to an axis.
-    fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, _: &S) -> Done {
-        let (a, b) = pixels(from);
-        let (c, d) = pixels(to);
-        let [a, c] = if a == c { [sharp(a); 2] } else { [a, c] };
-        let [b, d] = if b == d { [sharp(b); 2] } else { [b, d] };
-        self.shapes.borrow_mut().draw(Paint::Line(self.stroke), [(a, b), (c, d)]);
+    fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S) -> Recorded {
+        let mut ends = [from, to].map(pixels);
+        if from.0 == to.0 {
+            ends = ends.map(|(x, y)| (sharp(x), y));
+        }
+        if from.1 == to.1 {
+            ends = ends.map(|(x, y)| (x, sharp(y)));
+        }
+        let width = f64::from(style.stroke_width()) / UNITS;
+        self.record(Paint::Line(Stroke { color: solid(style.color()), width, dash: &[] }), ends.to_vec());
         Ok(())
     }
 
-    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Done {
+    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Recorded {
         let path: Vec<BackendCoord> = path.into_iter().collect();
         path.windows(2).try_for_each(|ends| self.draw_line(ends[0], ends[1], style))
     }
 
-    fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, at: BackendCoord) -> Done {
+    fn draw_rect<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S, fill: bool) -> Recorded {
+        let [(left, top), (right, bottom)] = [from, to].map(pixels);
+        let corners = Rect { left, top, right, bottom }.corners();
+        if fill {
+            self.record(Paint::Area(solid(style.color()), style.color().alpha, true), corners.to_vec());
+            return Ok(());
+        }
+        let [a, b, c, d] = corners.map(|(x, y)| (sharp(x), sharp(y)));
+        let width = f64::from(style.stroke_width()) / UNITS;
+        self.record(Paint::Line(Stroke { color: solid(style.color()), width, dash: &[] }), vec![a, b, c, d, a]);
+        Ok(())
+    }
+
+    fn draw_circle<S: BackendStyle>(&mut self, at: BackendCoord, radius: u32, style: &S, _: bool) -> Recorded {
+        self.record(Paint::Disc(solid(style.color()), f64::from(radius) / UNITS), vec![pixels(at)]);
+        Ok(())
+    }
+
+    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Recorded {
+        let paint = Paint::Area(solid(style.color()), style.color().alpha, false);
+        self.record(paint, path.into_iter().map(pixels).collect());
+        Ok(())
+    }
+
+    fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, at: BackendCoord) -> Recorded {
         let align = [Align::Start, Align::End, Align::Middle][style.anchor().h_pos as usize];
+        let font = Font(style.size() / UNITS, solid(style.color()), align);
         // All turned texts read upwards, also those of right axes, which plotters turns the other way.
         let (turned, anchor) = match (style.transform(), style.anchor().v_pos) {
             (FontTransform::None, anchor) => (false, anchor),
             (FontTransform::Rotate90, VPos::Top) => (true, VPos::Bottom),
             (_, anchor) => (true, anchor),
         };
-        self.shapes.borrow_mut().lines(text, pixels(at), Font(style.size() / UNITS, INK, align), anchor, turned);
+        let last = LINE_HEIGHT * text.lines().count().saturating_sub(1) as f64;
+        let first = match anchor {
+            VPos::Top => 0.78,
+            VPos::Center => HALF_DIGIT - 0.5 * last,
+            VPos::Bottom => -0.22 - last,
+        };
+        let (x, y) = pixels(at);
+        for (row, line) in text.lines().enumerate().filter(|line| !line.1.is_empty()) {
+            let down = (first + LINE_HEIGHT * row as f64) * font.0;
+            let at = if turned { (x + down, y) } else { (x, y + down) };
+            self.shapes.push(Shape::Text(Text { at, rich: Rich::new(line), font, turned }));
+        }
         Ok(())
     }
 
-    fn estimate_text_size<S: BackendTextStyle>(&self, text: &str, style: &S) -> Done<(u32, u32)> {
+    fn estimate_text_size<S: BackendTextStyle>(&self, text: &str, style: &S) -> Recorded<(u32, u32)> {
         Ok((text::width(text, style.size()) as u32, style.size() as u32))
+    }
+}
+
+/// A line that may be dashed, of which styles of plotters know nothing.
+pub(super) struct Curve(pub Vec<Pt>, pub Stroke);
+
+impl<'a> PointCollection<'a, Pt> for &'a Curve {
+    type Point = &'a Pt;
+    type IntoIter = &'a [Pt];
+
+    fn point_iter(self) -> Self::IntoIter {
+        &self.0
+    }
+}
+
+impl Drawable<Drawing> for Curve {
+    fn draw<I: Iterator<Item = BackendCoord>>(&self, points: I, drawing: &mut Drawing, _: (u32, u32)) -> Recorded {
+        drawing.record(Paint::Line(self.1), points.map(pixels).collect());
+        Ok(())
     }
 }
