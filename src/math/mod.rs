@@ -13,6 +13,7 @@ mod lagrange;
 pub mod memory;
 #[doc(hidden)]
 pub mod newton;
+pub(crate) mod polyline;
 mod regime;
 #[doc(hidden)]
 pub mod rotation;

@@ -1,6 +1,6 @@
 //! The axis of all charts: a coordinate of plotters with a scale, limits, marks, their labels, and a title.
 
-use super::panel::{AxisSpec, Scale};
+use super::AxisSpec;
 use super::ticks::{Room, Ticks};
 use super::{LABEL_SIZE, Label};
 use crate::math::bounds;
@@ -65,39 +65,35 @@ pub(super) struct Axis {
 impl Axis {
     /// An axis that shows all values which have a place on its scale, without marks.
     pub fn new(spec: &AxisSpec, values: impl Iterator<Item = f64>, margin: Option<f64>) -> Self {
-        let is_on_scale = |value: &f64| value.is_finite() && (spec.scale == Scale::Linear || *value > 0.0);
+        let is_on_scale = |value: &f64| value.is_finite() && (*value > 0.0 || !spec.is_log);
         let extent = bounds(values.filter(is_on_scale).map(|value| value.clamp(-LARGEST, LARGEST)));
         let fixed = spec.range.filter(|(low, high)| low.abs() <= LARGEST && high.abs() <= LARGEST);
-        let (low, high) = match (spec.scale, fixed) {
-            (Scale::Linear, Some((low, high))) if high - low > least_span(low, high) => (low, high),
-            (Scale::Log, Some((low, high))) if low > 0.0 && high > 1.003 * low => (low.log10(), high.log10()),
+        let (low, high) = match (spec.is_log, fixed) {
+            (false, Some((low, high))) if high - low > least_span(low, high) => (low, high),
+            (true, Some((low, high))) if low > 0.0 && high > 1.003 * low => (low.log10(), high.log10()),
             _ if extent.0 > extent.1 => (0.0, 1.0),
-            (Scale::Linear, _) => linear(extent, margin),
-            (Scale::Log, _) => decades(extent, margin.unwrap_or(0.0)),
+            (false, _) => linear(extent, margin),
+            (true, _) => decades(extent, margin.unwrap_or(0.0)),
         };
         Self { spec: spec.clone(), low, high, ..Self::default() }
     }
 
-    /// Chooses the marks for a length, and breaks the title.
-    pub fn fit(&mut self, room: Room) {
+    /// Chooses the marks for a length, and breaks the title. There are no texts where a panel below has them.
+    pub fn fit(&mut self, room: Room, is_labelled: bool) {
         self.ticks = Ticks::new(self, room);
         let (part, lines) = if room.is_upright { (1.08, 3) } else { (1.0, 2) };
         self.label = Label::new(&self.spec.label, LABEL_SIZE, part * room.length, lines);
-    }
-
-    /// Removes all texts where a panel below has them.
-    pub fn hide_texts(&mut self) {
-        self.ticks.major.iter_mut().for_each(|tick| tick.1.clear());
-        self.ticks.factor.clear();
-        self.label = Label::default();
+        if !is_labelled {
+            self.ticks.major.iter_mut().for_each(|tick| tick.1.clear());
+            self.ticks.factor.clear();
+            self.label = Label::default();
+        }
     }
 
     /// Returns the position of a value: 0 at the lower limit, 1 at the upper one; none for NaN and infinities.
     pub fn place(&self, value: f64) -> Option<f64> {
-        let on_scale = match self.spec.scale {
-            Scale::Linear => value.clamp(-LARGEST, LARGEST),
-            Scale::Log => value.max(f64::MIN_POSITIVE).log10(),
-        };
+        let is_log = self.spec.is_log;
+        let on_scale = if is_log { value.max(f64::MIN_POSITIVE).log10() } else { value.clamp(-LARGEST, LARGEST) };
         value.is_finite().then(|| ((on_scale - self.low) / (self.high - self.low)).clamp(-FAR, FAR))
     }
 }
@@ -120,7 +116,7 @@ impl Ranged for Axis {
     }
 
     fn range(&self) -> Range<f64> {
-        let end = |limit: f64| if self.spec.scale == Scale::Log { 10f64.powf(limit) } else { limit };
+        let end = |limit: f64| if self.spec.is_log { 10f64.powf(limit) } else { limit };
         end(self.low)..end(self.high)
     }
 }

@@ -33,7 +33,7 @@ pub(super) fn grid<'a>(page: &Page, placed: &Placed) -> Done<Chart<'a>> {
 fn axes(page: &Page, chart: &mut Chart, [x, y]: [&Axis; 2], frame: &Rect) -> Done {
     marks(chart, 0.5 * LABEL_DISTANCE, x.label.size).x_desc(&x.label.text).draw()?;
     marks(chart, MINOR_LENGTH, y.label.size).x_labels(0).y_labels(0).y_desc(&y.label.text).draw()?;
-    page.draw(&Rectangle::new([frame.at(0.0, 1.0), frame.at(1.0, 0.0)], line(FRAME)))
+    page.draw(&Rectangle::new(frame.ends(), line(FRAME)))
 }
 
 /// Returns a style of marks of a length, with labels, and with a title in a size.

@@ -81,7 +81,7 @@ impl<F: Fn(usize) -> Figure + Sync> Animation<F> {
     #[cfg_attr(not(feature = "figures"), expect(unused_variables))]
     pub fn to_gif(&self, done: impl FnMut(usize)) -> Result<Vec<u8>, String> {
         #[cfg(feature = "figures")]
-        return raster::gif(&self.parts(0).0, self.count, self.per_second, &|k| self.parts(k).1, done);
+        return raster::gif(&self.parts(0).0, self.count, self.per_second, |k| self.parts(k).1, done);
         #[cfg(not(feature = "figures"))]
         Err("holonom is built without GIF: the feature `figures`".into())
     }

@@ -1,6 +1,7 @@
 //! Items drawn freely in a panel, at positions in data coordinates with sizes in pixels.
 
 use super::*;
+use crate::math::polyline::clipped;
 
 /// A point at an offset in nominal pixels from a position, independent of the scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +82,7 @@ impl Item {
         match (&self.form, center) {
             (Form::Line(width, dashed), _) => {
                 let stroke = Stroke { color, width: *width, dash: if *dashed { DASHED } else { &[] } };
-                thin::clipped(points, within).into_iter().try_for_each(|part| page.draw(&Curve(part, stroke)))
+                clipped(points, within.ends()).into_iter().try_for_each(|part| page.draw(&Curve(part, stroke)))
             }
             (Form::Area(opacity), _) => page.draw(&Polygon::new(corners, color.mix(*opacity))),
             (Form::Cell, _) => page.draw(&Rectangle::new([corners[0], corners[2]], color.filled())),

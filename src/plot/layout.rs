@@ -1,6 +1,5 @@
 //! Layout: limits and marks of the axes, and the size of each panel.
 
-use super::panel::Scale;
 use super::ticks::Room;
 use super::*;
 
@@ -9,9 +8,6 @@ const LABEL_GAP: f64 = 6.0;
 const STRIP: f64 = 22.0;
 /// Height of the marks below a frame without labels.
 const MARKS: f64 = 6.0;
-/// Limits of the width and the height that can be set.
-const WIDTHS: (f64, f64) = (240.0, 4000.0);
-const HEIGHTS: (f64, f64) = (60.0, 4000.0);
 
 /// A panel with its axes, and the room that it needs.
 pub(super) struct Placed<'a> {
@@ -35,8 +31,7 @@ impl<'a> Placed<'a> {
         // A panel with markers needs room at the ends, and then all have it.
         let margin = group.iter().filter_map(margin).reduce(f64::max);
         let value = |item: &Item| if let Tint::Value(value) = item.tint { Some(value) } else { None };
-        let colors = panel.colored.iter().map(|point| point.2).chain(panel.items.iter().filter_map(value));
-        let mut colors = colors.peekable();
+        let mut colors = panel.items.iter().filter_map(value).peekable();
         Self {
             panel,
             x: Axis::new(&panel.x, group.iter().flat_map(points).map(|point| point.0), margin),
@@ -49,23 +44,15 @@ impl<'a> Placed<'a> {
         }
     }
 
-    /// Returns the position of a point in the picture; none if it is not a number.
-    pub fn at(&self, x: f64, y: f64) -> Option<Pt> {
-        Some(self.frame.at(self.x.place(x)?, self.y.place(y)?))
-    }
-
-    /// Returns the step of a value on the colour scale; none for NaN and infinities.
-    pub fn step(&self, value: f64) -> Option<usize> {
-        let place = self.bar.as_ref()?.place(value)?.clamp(0.0, 1.0);
-        Some(((place * COLOR_STEPS as f64) as usize).min(COLOR_STEPS - 1))
-    }
-
     pub fn color(&self, tint: Tint) -> Color {
         let pale = |color, paleness: f64| mix(color, PAPER, paleness.clamp(0.0, 1.0));
         match tint {
             Tint::Ink(paleness) => pale(INK, paleness),
             Tint::Body(place, paleness) => pale(COLORS[place % COLORS.len()], paleness),
-            Tint::Value(value) => self.step(value).map_or(PAPER, scale_color),
+            Tint::Value(value) => {
+                let place = self.bar.as_ref().and_then(|bar| bar.place(value));
+                place.map_or(PAPER, |place| scale_color((place * COLOR_STEPS as f64) as usize))
+            }
         }
     }
 
@@ -106,16 +93,12 @@ impl<'a> Placed<'a> {
 
     fn fit(&mut self, width: f64, height: f64) {
         self.frame = Rect::new((0.0, 0.0), (width, height));
-        if self.panel.equal_aspect && [&self.x, &self.y].iter().all(|axis| axis.spec.scale == Scale::Linear) {
+        if self.panel.equal_aspect && [&self.x, &self.y].iter().all(|axis| !axis.spec.is_log) {
             self.equalize();
         }
         let upright = Room { length: self.frame.size().1, is_upright: true };
-        self.x.fit(Room { length: width, is_upright: false });
-        if !self.shows_x {
-            self.x.hide_texts();
-        }
-        self.y.fit(upright);
-        self.bar.iter_mut().for_each(|bar| bar.fit(upright));
+        self.x.fit(Room { length: width, is_upright: false }, self.shows_x);
+        self.bar.iter_mut().chain([&mut self.y]).for_each(|axis| axis.fit(upright, true));
     }
 
     /// Makes units equally long: by the height of the frame if it stays moderate, and by wider limits otherwise.
@@ -137,7 +120,7 @@ impl<'a> Placed<'a> {
 
 /// Returns the width of the figure and its panels, whose frames have the same left and right margins.
 pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
-    let whole = if figure.width.is_finite() { figure.width.clamp(WIDTHS.0, WIDTHS.1).round() } else { WIDTHS.0 };
+    let whole = if figure.width.is_finite() { figure.width.clamp(240.0, 4000.0).round() } else { 240.0 };
     let total = whole / columns(figure) as f64;
     let mut all = panels(figure);
     let mut left = 80.0;
@@ -165,9 +148,8 @@ pub(super) fn columns(figure: &Figure) -> usize {
 /// Returns the panels with their axes. Panels one above another with the same x axis share its limits.
 fn panels(figure: &Figure) -> Vec<Placed<'_>> {
     let panels = &figure.panels[..];
-    let is_shared = columns(figure) == 1
-        && panels.windows(2).all(|pair| pair[0].x == pair[1].x)
-        && !panels.iter().any(|panel| panel.equal_aspect);
+    let is_like_first = |panel: &Panel| panel.x == panels[0].x && !panel.equal_aspect;
+    let is_shared = columns(figure) == 1 && panels.iter().all(is_like_first);
     let place = |index: usize| {
         let group = if is_shared { panels } else { &panels[index..=index] };
         Placed::new(&panels[index], group, !is_shared || index + 1 == panels.len())
@@ -178,8 +160,7 @@ fn panels(figure: &Figure) -> Vec<Placed<'_>> {
 /// Returns the points that the axes must show. One of the data counts only if both of its coordinates are numbers.
 fn points(panel: &Panel) -> impl Iterator<Item = Pt> + '_ {
     let data = panel.series.iter().flat_map(|series| series.points.iter().copied());
-    let colored = panel.colored.iter().map(|point| (point.0, point.1));
-    let whole = data.chain(colored).filter(|point| point.0.is_finite() && point.1.is_finite());
+    let whole = data.filter(|point| point.0.is_finite() && point.1.is_finite());
     let spots = panel.items.iter().flat_map(|item| &item.spots).map(|spot| spot.at);
     whole.chain(spots)
 }
@@ -188,8 +169,8 @@ fn points(panel: &Panel) -> impl Iterator<Item = Pt> + '_ {
 fn margin(panel: &Panel) -> Option<f64> {
     let has_markers = |series: &Series| matches!(series.style, Style::Dots | Style::LineDots | Style::Crosses);
     let is_function = |series: &Series| series.points.windows(2).all(|pair| pair[1].0 >= pair[0].0);
-    let is_full = panel.colored.is_empty() && !panel.equal_aspect;
-    let is_full = is_full && panel.series.iter().all(|series| is_function(series) && !has_markers(series));
+    let is_plain = |series: &Series| is_function(series) && !has_markers(series);
+    let is_full = !panel.equal_aspect && panel.series.iter().all(is_plain);
     (!is_full).then_some(0.05)
 }
 
@@ -200,5 +181,5 @@ fn frame_height(panel: &Panel, count: usize, width: f64) -> f64 {
         2 => 240.0,
         _ => 190.0,
     };
-    panel.height.filter(|height| height.is_finite()).unwrap_or(usual).clamp(HEIGHTS.0, HEIGHTS.1).round()
+    panel.height.filter(|height| height.is_finite()).unwrap_or(usual).clamp(60.0, 4000.0).round()
 }

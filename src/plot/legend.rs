@@ -15,20 +15,24 @@ const INSET: f64 = 8.0;
 /// Largest part of its panel that a legend inside covers.
 const MOST_AREA: f64 = 0.35;
 const BORDER: Stroke = Stroke { color: Color(190, 190, 190), width: 1.0, dash: &[] };
+/// Corners and middles of sides, in parts from the lower left corner.
+const SIDES: [(f64, f64); 8] =
+    [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (0.0, 0.5), (0.5, 1.0), (0.5, 0.0)];
 
 pub(super) type LegendEntry = (String, Look);
-
-/// Entries in columns, each with its width.
-pub(super) struct Block {
-    columns: Vec<(Vec<LegendEntry>, f64)>,
-    sample: f64,
-}
 
 pub(super) fn entries(placed: &Placed) -> Vec<LegendEntry> {
     let series = placed.panel.series.iter().zip(&placed.looks).map(|(series, look)| (series.label.clone(), *look));
     let key = |color| Look { line: None, marker: Some(SQUARE), color: placed.color(color) };
     let keys = placed.panel.keys.iter().map(|(label, color)| (label.clone(), key(*color)));
     series.filter(|entry| !entry.0.trim().is_empty()).chain(keys).collect()
+}
+
+/// Entries in columns, each with its width.
+struct Block {
+    columns: Vec<(Vec<LegendEntry>, f64)>,
+    sample: f64,
+    size: (f64, f64),
 }
 
 impl Block {
@@ -41,28 +45,13 @@ impl Block {
             let widest = part.iter().map(|entry| text::width(&entry.0, SIZE)).fold(0.0, f64::max);
             (part, sample + SAMPLE_GAP + widest)
         };
-        Self { columns: entries.chunks(entries.len().div_ceil(columns)).map(column).collect(), sample }
+        let rows = entries.len().div_ceil(columns);
+        let columns: Vec<_> = entries.chunks(rows).map(column).collect();
+        let width = columns.iter().map(|column| column.1 + COLUMN_GAP).sum::<f64>() - COLUMN_GAP;
+        Self { columns, sample, size: (width + 2.0 * PADDING, ROW * rows as f64 + 2.0 * PADDING - 2.0) }
     }
 
-    /// A block of as many columns as fit into a width.
-    pub fn wide(entries: &[LegendEntry], room: f64) -> Self {
-        let mut blocks = (1..=entries.len().min(6)).rev().map(|columns| Self::new(entries, columns, room));
-        blocks.find(|block| block.size().0 <= room).unwrap_or_else(|| Self::new(entries, 1, room))
-    }
-
-    pub fn size(&self) -> (f64, f64) {
-        let width = self.columns.iter().map(|column| column.1 + COLUMN_GAP).sum::<f64>() - COLUMN_GAP;
-        (width + 2.0 * PADDING, ROW * self.columns[0].0.len() as f64 + 2.0 * PADDING - 2.0)
-    }
-
-    /// Draws the block with its upper left corner at a point; with a box when it is inside a panel.
-    pub fn draw(&self, page: &Page, corner: Pt, boxed: bool) -> Done {
-        if boxed {
-            let (width, height) = self.size();
-            let corners = [corner, (corner.0 + width, corner.1 + height)];
-            page.draw(&Rectangle::new(corners, PAPER.filled()))?;
-            page.draw(&Rectangle::new(corners, line(BORDER)))?;
-        }
+    fn draw(&self, page: &Page, corner: Pt) -> Done {
         let mut left = corner.0 + PADDING;
         for (entries, width) in &self.columns {
             for (row, (label, look)) in entries.iter().enumerate() {
@@ -81,23 +70,34 @@ impl Block {
     }
 }
 
-/// Returns a block inside the frame that hides nothing, and its corner; none if there is no space.
-pub(super) fn inside(entries: &[LegendEntry], placed: &Placed, taken: &Taken) -> Option<(Block, Pt)> {
+/// Draws a legend inside the frame where it hides nothing, in a box; false if there is no space.
+pub(super) fn inside(page: &Page, entries: &[LegendEntry], placed: &Placed, taken: &[Pt]) -> Done<bool> {
     let room = placed.frame.grown(-INSET);
     let frame = placed.frame.size();
-    // Corners first, then the middles of the sides: parts of the free room from the lower left corner.
-    const SIDES: [(f64, f64); 8] =
-        [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (0.0, 0.5), (0.5, 1.0), (0.5, 0.0)];
-    (1..=entries.len().min(4)).find_map(|columns| {
+    let place = |columns: usize| {
         let block = Block::new(entries, columns, 0.8 * frame.0);
-        let (width, height) = block.size();
-        let fits = width <= room.size().0 && height <= room.size().1;
-        let is_small = fits && width * height <= MOST_AREA * frame.0 * frame.1;
-        let corner = |(right, up): (f64, f64)| {
+        let (width, height) = block.size;
+        let fits = width <= room.size().0 && height <= room.size().1 && width * height <= MOST_AREA * frame.0 * frame.1;
+        let rects = SIDES.map(|(right, up)| {
             let (x, y) = room.at(right, up);
-            (x - right * width, y - (1.0 - up) * height)
-        };
-        let is_free = |corner: &Pt| is_small && taken.cover(&Rect::new(*corner, (width, height)), 5.0) == 0;
-        Some((block, SIDES.map(corner).into_iter().find(is_free)?))
-    })
+            Rect::new((x - right * width, y - (1.0 - up) * height), block.size)
+        });
+        let rect = rects.into_iter().find(|rect| fits && notes::cover(taken, &rect.grown(5.0)) == 0)?;
+        Some((block, rect.ends()))
+    };
+    let Some((block, corners)) = (1..=entries.len().min(4)).find_map(place) else { return Ok(false) };
+    page.draw(&Rectangle::new(corners, PAPER.filled()))?;
+    page.draw(&Rectangle::new(corners, line(BORDER)))?;
+    block.draw(page, corners[0])?;
+    Ok(true)
+}
+
+/// Draws a legend below a panel in as many columns as fit into the figure, and returns its lower end.
+pub(super) fn below(page: &Page, entries: &[LegendEntry], placed: &Placed, top: f64, width: f64) -> Done<f64> {
+    let room = width - 2.0 * EDGE;
+    let block = |columns| Some(Block::new(entries, columns, room)).filter(|block| columns == 1 || block.size.0 <= room);
+    let Some(block) = (1..=entries.len().min(6)).rev().find_map(block) else { return Ok(top) };
+    let left = (placed.frame.at(0.5, 0.0).0 - 0.5 * block.size.0).min(width - EDGE - block.size.0).max(EDGE);
+    block.draw(page, (left, top))?;
+    Ok(top + block.size.1)
 }

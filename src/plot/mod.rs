@@ -20,29 +20,24 @@ mod palette;
 mod panel;
 #[cfg(feature = "figures")]
 mod raster;
-mod series;
 mod shape;
 mod sketch;
 mod svg;
 mod text;
-mod thin;
 mod ticks;
 
 pub use figure::{Animation, Figure};
 pub use item::{Form, Item, Spot, Tint};
-pub use panel::{AxisSpec, Panel, Scale};
-pub use series::{Series, Style};
+pub use panel::{AxisSpec, Panel, Series, Style};
 pub use shape::Align;
 
-// Names that the files of this folder share.
 use axis::Axis;
 use data::Marker;
 use layout::Placed;
-use notes::Taken;
 use palette::*;
-use plotters::element::{Circle, Polygon, Rectangle};
+use plotters::element::{Circle, Cross, Polygon, Rectangle};
 use plotters::style::Color as _;
-use shape::{Color, Drawing, Font, Paint, Pt, Rect, Shape, Stroke, Text, is_closed, sharp};
+use shape::{Color, Drawing, Font, Paint, Pt, Rect, Shape, Stroke, Text, is_closed};
 use sketch::{Chart, Curve, Done, Page, font, line, units, words};
 use text::{HALF_DIGIT, LINE_HEIGHT, Label, Rich};
 

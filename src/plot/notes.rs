@@ -7,7 +7,7 @@ const AROUND: [(f64, f64); 8] =
     [(1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (0.8, -0.8), (-0.8, -0.8), (0.8, 0.8), (-0.8, 0.8)];
 
 /// Draws the notes of a panel, each at the place where it hides least, inside of the frame if possible.
-pub(super) fn draw(page: &Page, placed: &Placed, taken: &mut Taken) -> Done {
+pub(super) fn draw(page: &Page, placed: &Placed, taken: &mut Vec<Pt>) -> Done {
     for item in &placed.panel.items {
         let (Form::Note(text), [spot]) = (&item.form, &item.spots[..]) else { continue };
         let Some((x, y)) = spot.put(placed).filter(|at| placed.frame.contains(*at)) else { continue };
@@ -24,52 +24,44 @@ pub(super) fn draw(page: &Page, placed: &Placed, taken: &mut Taken) -> Done {
         let places =
             if spot.at.1.is_infinite() { along().concat() } else { [9.0, 18.0].map(|far| around(y, far)).concat() };
         let is_outside = |rect: &Rect| !rect.corners().iter().all(|corner| placed.frame.contains(*corner));
-        let freest = places.into_iter().min_by_key(|rect| (is_outside(rect), taken.cover(rect, 2.0)));
+        let freest = places.into_iter().min_by_key(|rect| (is_outside(rect), cover(taken, &rect.grown(2.0))));
         let Some(rect) = freest.filter(|_| !text.trim().is_empty()) else { continue };
-        taken.rects.push(rect);
+        taken.extend(around_text(&rect));
         let room = placed.frame.grown(-1.0);
-        let corners = [(0.0, 1.0), (1.0, 0.0)].map(|(right, up)| room.nearest(rect.grown(1.5).at(right, up)));
+        let corners = rect.grown(1.5).ends().map(|corner| room.nearest(corner));
         page.draw(&Rectangle::new(corners, PAPER.filled()))?;
         page.draw(&words(text, rect.at(0.5, 0.58), Font(NOTE_SIZE, placed.color(item.tint), Align::Middle)))?;
     }
     Ok(())
 }
 
-/// Parts of a panel that must not be hidden.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Taken {
-    points: Vec<Pt>,
-    rects: Vec<Rect>,
+/// Returns points that must not be hidden: of lines, markers and texts.
+pub(super) fn taken(shapes: &[Shape]) -> Vec<Pt> {
+    let of = |shape: &Shape| match shape {
+        Shape::Text(text) => around_text(&text.bounds()),
+        Shape::Drawn(_, lines) => lines.iter().flat_map(|line| dotted(line, 5.0)).collect(),
+    };
+    shapes.iter().flat_map(of).collect()
 }
 
-impl Taken {
-    /// The positions of lines, markers and texts.
-    pub fn new(shapes: &[Shape]) -> Self {
-        let mut taken = Self::default();
-        for shape in shapes {
-            match shape {
-                Shape::Text(text) => taken.rects.push(text.bounds()),
-                Shape::Drawn(_, lines) => taken.points.extend(lines.iter().flat_map(|line| dotted(line))),
-            }
-        }
-        taken
-    }
-
-    /// Returns a measure of the parts that a rectangle would hide, or that are within `border` of it.
-    pub fn cover(&self, rect: &Rect, border: f64) -> usize {
-        let near = rect.grown(border);
-        let points = self.points.iter().filter(|point| near.contains(**point)).count();
-        points + 60 * self.rects.iter().filter(|other| other.overlaps(&near)).count()
-    }
+/// Returns the number of points that a rectangle would hide.
+pub(super) fn cover(taken: &[Pt], rect: &Rect) -> usize {
+    taken.iter().filter(|point| rect.contains(**point)).count()
 }
 
-/// Returns points along a line, at most 5 pixels apart.
-fn dotted(line: &[Pt]) -> impl Iterator<Item = Pt> {
-    let between = |pair: &[Pt]| {
+/// Returns points around a text, so many that lines are hidden rather than it.
+fn around_text(rect: &Rect) -> Vec<Pt> {
+    let [a, b, c, d] = rect.corners();
+    dotted(&[a, b, c, d, a], 0.5).collect()
+}
+
+/// Returns points along a line, at most some pixels apart.
+fn dotted(line: &[Pt], apart: f64) -> impl Iterator<Item = Pt> {
+    let between = move |pair: &[Pt]| {
         let (x, y) = pair[0];
         let right = pair[1].0 - x;
         let down = pair[1].1 - y;
-        let steps = (right.hypot(down) / 5.0).ceil().clamp(1.0, 4000.0);
+        let steps = (right.hypot(down) / apart).ceil().clamp(1.0, 4000.0);
         (1..=steps as usize).map(move |k| (x + k as f64 / steps * right, y + k as f64 / steps * down))
     };
     line.first().copied().into_iter().chain(line.windows(2).flat_map(between))

@@ -97,3 +97,12 @@ pub(super) const COLOR_STEPS: usize = 128;
 pub(super) fn scale_color(step: usize) -> Color {
     ViridisRGB.get_color(0.96 * step.min(COLOR_STEPS - 1) as f64 / (COLOR_STEPS - 1) as f64)
 }
+
+/// Returns the colours of figures, mixed with paper and with ink as at soft edges: 239, for files with a palette.
+#[cfg(feature = "figures")]
+pub(super) fn shades() -> Vec<[u8; 3]> {
+    let pale = |color| (0..24).map(move |k| mix(color, PAPER, f64::from(k) / 24.0));
+    let dark = |color| (1..11).map(move |k| mix(color, INK, f64::from(k) / 11.0));
+    let all = [PAPER].into_iter().chain(COLORS.into_iter().flat_map(|color| pale(color).chain(dark(color))));
+    all.map(|Color(red, green, blue)| [red, green, blue]).collect()
+}

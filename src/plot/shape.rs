@@ -1,5 +1,6 @@
 //! Shapes, from which files are written. Coordinates are nominal pixels, y down.
 
+use super::sketch::Recorded;
 use super::text::Rich;
 use std::ops::Range;
 
@@ -7,7 +8,6 @@ pub(super) use plotters::style::RGBColor as Color;
 
 pub(super) type Pt = (f64, f64);
 
-/// A rectangle parallel to the axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Rect {
     pub left: f64,
@@ -35,6 +35,11 @@ impl Rect {
         [(self.left, self.top), (self.right, self.top), (self.right, self.bottom), (self.left, self.bottom)]
     }
 
+    /// Returns the upper left and the lower right corner.
+    pub fn ends(&self) -> [Pt; 2] {
+        [(self.left, self.top), (self.right, self.bottom)]
+    }
+
     pub fn contains(&self, (x, y): Pt) -> bool {
         x >= self.left && x <= self.right && y >= self.top && y <= self.bottom
     }
@@ -45,10 +50,6 @@ impl Rect {
 
     pub fn grown(&self, by: f64) -> Self {
         Self { left: self.left - by, top: self.top - by, right: self.right + by, bottom: self.bottom + by }
-    }
-
-    pub fn overlaps(&self, other: &Self) -> bool {
-        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
     }
 }
 
@@ -93,7 +94,6 @@ pub(super) struct Text {
 }
 
 impl Text {
-    /// Returns the box around the text, as measured with the embedded font.
     pub fn bounds(&self) -> Rect {
         let Self { at: (x, y), rich, font: Font(size, _, align), turned } = self;
         let width = rich.width(*size);
@@ -125,11 +125,6 @@ pub(super) fn is_closed(line: &[Pt]) -> bool {
     line.len() > 2 && line.first() == line.last()
 }
 
-/// Returns the middle of the nearest pixel, where a thin line is sharp.
-pub(super) fn sharp(value: f64) -> f64 {
-    value.floor() + 0.5
-}
-
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Drawing {
     pub width: f64,
@@ -151,7 +146,7 @@ impl Drawing {
     }
 
     /// Adds a line, a polygon or discs. Those of one style are one shape; texts between them hide nothing.
-    pub fn record(&mut self, paint: Paint, mut points: Vec<Pt>) {
+    pub fn record(&mut self, paint: Paint, mut points: Vec<Pt>) -> Recorded {
         if let Paint::Area(..) = paint {
             points.extend(points.first().copied());
             // Areas of one colour are filled together, where opposite senses would make holes.
@@ -167,5 +162,6 @@ impl Drawing {
             }
             _ => self.shapes.push(Shape::Drawn(paint, vec![points])),
         }
+        Ok(())
     }
 }

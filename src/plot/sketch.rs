@@ -18,12 +18,11 @@ const SIDE: u32 = 100_000_000;
 
 /// The end of an operation; a drawing refuses nothing.
 pub(super) type Done<T = ()> = Result<T, DrawingAreaErrorKind<Infallible>>;
-type Recorded<T = ()> = Result<T, DrawingErrorKind<Infallible>>;
+pub(super) type Recorded<T = ()> = Result<T, DrawingErrorKind<Infallible>>;
 /// The paper, on which positions are nominal pixels.
 pub(super) type Page = DrawingArea<Drawing, Nominal>;
 pub(super) type Chart<'a> = ChartContext<'a, Drawing, Cartesian2d<Axis, Axis>>;
 
-/// The coordinates of the paper.
 pub(super) struct Nominal;
 
 impl CoordTranslate for Nominal {
@@ -83,47 +82,39 @@ impl DrawingBackend for Drawing {
         Ok(())
     }
 
-    /// Draws a line of a grid or a mark, which is sharp where it is parallel to an axis.
     fn draw_line<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S) -> Recorded {
-        let mut ends = [from, to].map(pixels);
-        if from.0 == to.0 {
-            ends = ends.map(|(x, y)| (sharp(x), y));
-        }
-        if from.1 == to.1 {
-            ends = ends.map(|(x, y)| (x, sharp(y)));
-        }
-        let width = f64::from(style.stroke_width()) / UNITS;
-        self.record(Paint::Line(Stroke { color: solid(style.color()), width, dash: &[] }), ends.to_vec());
-        Ok(())
+        self.draw_path([from, to], style)
     }
 
+    /// Draws a line of a grid, a mark or a frame, in the middle of pixels where it is parallel to an axis.
     fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Recorded {
         let path: Vec<BackendCoord> = path.into_iter().collect();
-        path.windows(2).try_for_each(|ends| self.draw_line(ends[0], ends[1], style))
+        let mut line: Vec<Pt> = path.iter().copied().map(pixels).collect();
+        for k in 1..path.len() {
+            for end in &mut line[k - 1..=k] {
+                end.0 = if path[k].0 == path[k - 1].0 { end.0.floor() + 0.5 } else { end.0 };
+                end.1 = if path[k].1 == path[k - 1].1 { end.1.floor() + 0.5 } else { end.1 };
+            }
+        }
+        let width = f64::from(style.stroke_width()) / UNITS;
+        self.record(Paint::Line(Stroke { color: solid(style.color()), width, dash: &[] }), line)
     }
 
     fn draw_rect<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S, fill: bool) -> Recorded {
-        let [(left, top), (right, bottom)] = [from, to].map(pixels);
-        let corners = Rect { left, top, right, bottom }.corners();
-        if fill {
-            self.record(Paint::Area(solid(style.color()), style.color().alpha, true), corners.to_vec());
-            return Ok(());
+        let corners = [from, (to.0, from.1), to, (from.0, to.1), from];
+        if !fill {
+            return self.draw_path(corners, style);
         }
-        let [a, b, c, d] = corners.map(|(x, y)| (sharp(x), sharp(y)));
-        let width = f64::from(style.stroke_width()) / UNITS;
-        self.record(Paint::Line(Stroke { color: solid(style.color()), width, dash: &[] }), vec![a, b, c, d, a]);
-        Ok(())
+        self.record(Paint::Area(solid(style.color()), 1.0, true), corners[..4].iter().copied().map(pixels).collect())
     }
 
     fn draw_circle<S: BackendStyle>(&mut self, at: BackendCoord, radius: u32, style: &S, _: bool) -> Recorded {
-        self.record(Paint::Disc(solid(style.color()), f64::from(radius) / UNITS), vec![pixels(at)]);
-        Ok(())
+        self.record(Paint::Disc(solid(style.color()), f64::from(radius) / UNITS), vec![pixels(at)])
     }
 
     fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Recorded {
         let paint = Paint::Area(solid(style.color()), style.color().alpha, false);
-        self.record(paint, path.into_iter().map(pixels).collect());
-        Ok(())
+        self.record(paint, path.into_iter().map(pixels).collect())
     }
 
     fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, at: BackendCoord) -> Recorded {
@@ -169,7 +160,6 @@ impl<'a> PointCollection<'a, Pt> for &'a Curve {
 
 impl Drawable<Drawing> for Curve {
     fn draw<I: Iterator<Item = BackendCoord>>(&self, points: I, drawing: &mut Drawing, _: (u32, u32)) -> Recorded {
-        drawing.record(Paint::Line(self.1), points.map(pixels).collect());
-        Ok(())
+        drawing.record(Paint::Line(self.1), points.map(pixels).collect())
     }
 }

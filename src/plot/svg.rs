@@ -91,35 +91,23 @@ fn text(out: &mut String, text: &Text) {
     *out += "</text>\n";
 }
 
-/// Returns path data: steps in tenths of a pixel that add up without drift, without letters that repeat.
+/// Returns path data: steps in tenths of a pixel that add up without drift. Pairs that follow a move are lines.
 fn data(lines: &[Vec<Pt>]) -> String {
     let mut out = String::new();
-    let mut pen = [0, 0];
+    let mut pen = [0; 2];
     for line in lines {
-        let mut last = ' ';
+        let mut before = "m";
         for (x, y) in line {
-            let next = [x, y].map(|value| (10.0 * value).round() as i64);
-            let step = [next[0] - pen[0], next[1] - pen[1]];
-            let (letter, values) = match step {
-                _ if last == ' ' => ('m', &step[..]),
-                [_, 0] => ('h', &step[..1]),
-                [0, _] => ('v', &step[1..]),
-                _ => ('l', &step[..]),
-            };
-            // Pairs that follow a move are lines.
-            let repeats = letter == last || (last, letter) == ('m', 'l');
-            if !repeats {
-                out.push(letter);
+            for (pen, value) in pen.iter_mut().zip([x, y]) {
+                let next = (10.0 * value).round() as i64;
+                let step = number((next - *pen) as f64 / 10.0);
+                out += if before == " " && step.starts_with('-') { "" } else { before };
+                out += &step;
+                *pen = next;
+                before = " ";
             }
-            for (k, value) in values.iter().enumerate() {
-                out += if (repeats || k > 0) && *value >= 0 { " " } else { "" };
-                out += &number(*value as f64 / 10.0);
-            }
-            (last, pen) = (letter, next);
         }
-        if is_closed(line) {
-            out.push('z');
-        }
+        out += if is_closed(line) { "z" } else { "" };
     }
     out
 }
@@ -155,7 +143,7 @@ mod tests {
     #[test]
     fn paths_are_short() {
         assert_eq!(data(&[vec![(1.0, 2.0), (1.5, 1.0), (0.0, 3.25)]]), "m1 2 .5-1-1.5 2.3");
-        assert_eq!(data(&[vec![(1.0, 1.0), (3.0, 1.0), (3.0, 0.0), (4.0, 1.0), (1.0, 1.0)]]), "m1 1h2v-1l1 1h-3z");
+        assert_eq!(data(&[vec![(1.0, 1.0), (3.0, 1.0), (3.0, 0.0), (4.0, 1.0), (1.0, 1.0)]]), "m1 1 2 0 0-1 1 1-3 0z");
         assert_eq!(number(-0.001), "0");
         assert_eq!(escape("a<b & \u{1}\u{ffff}"), "a&lt;b &amp;  \u{fffd}");
     }

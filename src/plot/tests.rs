@@ -1,6 +1,5 @@
 //! Whole figures: shapes fit and texts are legible for any data.
 
-use super::text::Rich;
 use super::*;
 
 fn wave(count: usize, scale: f64) -> Vec<(f64, f64)> {
@@ -12,6 +11,10 @@ fn texts(drawing: &Drawing) -> Vec<Rect> {
     drawing.shapes.iter().filter_map(bounds).collect()
 }
 
+fn overlap(a: &Rect, b: &Rect) -> bool {
+    a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom
+}
+
 fn assert_readable(name: &str, figure: &Figure) {
     let drawing = draw::figure(figure);
     let page = Rect::new((0.0, 0.0), (drawing.width, drawing.height));
@@ -21,7 +24,7 @@ fn assert_readable(name: &str, figure: &Figure) {
             text.corners().iter().all(|corner| page.contains(*corner)),
             "{name}: text {text:?} leaves the page {page:?}"
         );
-        let hit = texts[..index].iter().find(|other| other.grown(-1.5).overlaps(&text.grown(-1.5)));
+        let hit = texts[..index].iter().find(|other| overlap(&other.grown(-1.5), &text.grown(-1.5)));
         assert_eq!(hit, None, "{name}: texts overlap at {text:?}");
     }
 }
@@ -39,6 +42,11 @@ fn vertical(panel: Panel, x: f64, text: &str) -> Panel {
         f64::INFINITY,
         text,
     )
+}
+
+/// A point coloured by a value.
+fn dot(x: f64, y: f64, value: f64) -> Item {
+    Item { spots: vec![Spot::data(x, y)], tint: Tint::Value(value), form: Form::Disc(2.7) }
 }
 
 /// A cell of a map around a point.
@@ -83,7 +91,7 @@ fn samples() -> Vec<(&'static str, Figure)> {
     }
     let mut colors = Panel { equal_aspect: true, ..Panel::new("re (1/s)", "im (1/s)") };
     colors.colors = "time (s)".into();
-    colors.colored = (0..900).map(|k| (f64::from(k), f64::from(k % 7), 1e-8 * f64::from(k))).collect();
+    let colors = colors.items((0..900).map(|k| dot(f64::from(k), f64::from(k % 7), 1e-8 * f64::from(k))));
     vec![
         ("plain", Figure::new().title("Plain").panel(panel("time (s)", "angle (rad)"))),
         ("factor", Figure::new().panel(factor(1e-8)).panel(factor(1e8)).panel(log)),
@@ -159,7 +167,7 @@ fn odd_panel(seed: &mut u64) -> Panel {
         let points = (0..count).map(|_| (odd_number(seed), odd_number(seed))).collect();
         panel = panel.series(Series::line(format!("s{count}"), points).style(style));
     }
-    panel.colored = (0..4).map(|_| (odd_number(seed), odd_number(seed), odd_number(seed))).collect();
+    panel = panel.items((0..4).map(|_| dot(odd_number(seed), odd_number(seed), odd_number(seed))));
     panel.colors = axis(seed, "c");
     panel = vertical(vertical(panel, odd_number(seed), "h"), odd_number(seed), "v");
     panel = panel.note(Tint::Ink(1.0), odd_number(seed), odd_number(seed), "note");
@@ -242,9 +250,9 @@ fn kinds_of_figures(points: &Points) -> Vec<(&'static str, Figure)> {
     let line = |style: Style| Series::line("a", points.clone()).style(style);
     let log = |label: &str| AxisSpec::from(label).log();
     let lines = Panel::new("time (s)", "angle (rad)").series(line(Style::Line)).series(line(Style::Dashed));
-    let mut loci = Panel::new("real part (1/s)", "imaginary part (rad/s)");
-    loci.colored = points.iter().map(|(x, y)| (*x, *y, *y)).collect();
-    let loci = loci.series(line(Style::Crosses)).series(line(Style::Guide));
+    let loci = Panel::new("real part (1/s)", "imaginary part (rad/s)");
+    let loci =
+        loci.items(points.iter().map(|(x, y)| dot(*x, *y, *y))).series(line(Style::Crosses)).series(line(Style::Guide));
     let work = Panel::new(log("CPU time (s)"), log("error")).series(line(Style::LineDots)).note(
         Tint::Ink(0.0),
         1.0,

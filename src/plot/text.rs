@@ -123,8 +123,7 @@ pub(super) fn shorten(text: &str, size: f64, room: f64) -> String {
         return text.to_string();
     }
     let cut = |count| text.chars().take(count).collect::<String>().trim_end().to_string() + "…";
-    let fitting = (1..=most).rev().map(cut).find(|cut| width(cut, size) <= room);
-    fitting.unwrap_or_default()
+    (1..=most).rev().map(cut).find(|cut| width(cut, size) <= room).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -1,47 +1,43 @@
 //! GIF files: one palette for all frames, and of each frame only the difference from the one before.
 
-use super::super::palette::{COLORS, INK, PAPER, mix};
-use super::super::shape::{Color, Drawing, Shape};
-use super::{draw, paper, rgb};
 use gif::{Encoder, Frame, Repeat};
 use rayon::prelude::*;
 
 /// Index of an unchanged pixel.
 const SAME: u8 = 255;
 const BATCH: usize = 8;
-const DENSITY: u32 = 1;
+/// Colours of five bits per channel.
+const BINS: usize = 1 << 15;
 
-/// Returns the file of `count` frames; `moving` gives the items of one, and `done` is called with the number drawn.
-pub(in super::super) fn gif(
-    still: &Drawing,
+/// Returns the file of `count` frames in colours of a palette of 255 at most; `frame` gives red, green and blue of the
+/// pixels of one, row by row, and `done` is called with the number of those that are written.
+///
+/// # Errors
+/// The frames are larger than a GIF can be.
+pub fn encode(
+    size: (u32, u32),
+    palette: &[[u8; 3]],
     count: usize,
     per_second: f64,
-    moving: &(impl Fn(usize) -> Vec<Shape> + Sync),
+    frame: impl Fn(usize) -> Vec<u8> + Sync,
     mut done: impl FnMut(usize),
 ) -> Result<Vec<u8>, String> {
-    let mut paper = paper(still, DENSITY)?;
-    draw(&mut paper, DENSITY, &still.shapes);
-    let palette = palette();
-    let nearest = nearest(&palette);
-    let frame = |k: usize| {
-        let mut pixels = paper.clone();
-        draw(&mut pixels, DENSITY, &moving(k));
-        rgb(&pixels).chunks_exact(3).map(|color| nearest[bin(color)]).collect::<Vec<u8>>()
-    };
     let side = |pixels: u32| u16::try_from(pixels).map_err(|_| format!("{pixels} pixels are too many for a GIF"));
-    let mut bytes: Vec<u8> = palette.iter().flat_map(|color| [color.0, color.1, color.2]).collect();
-    bytes.resize(768, 0);
     let text = |error: gif::EncodingError| error.to_string();
+    let nearest = nearest(palette);
+    let indexed = |k: usize| frame(k).chunks_exact(3).map(|color| nearest[bin(color)]).collect::<Vec<u8>>();
+    let mut bytes = palette.concat();
+    bytes.resize(768, 0);
     let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, side(paper.width())?, side(paper.height())?, &bytes).map_err(text)?;
+    let mut encoder = Encoder::new(&mut file, side(size.0)?, side(size.1)?, &bytes).map_err(text)?;
     encoder.set_repeat(Repeat::Infinite).map_err(text)?;
     let mut before: Vec<u8> = Vec::new();
     for first in (0..count).step_by(BATCH) {
         let batch = first..count.min(first + BATCH);
-        let drawn: Vec<Vec<u8>> = batch.clone().into_par_iter().map(frame).collect();
+        let drawn: Vec<Vec<u8>> = batch.clone().into_par_iter().map(indexed).collect();
         for (k, indices) in batch.clone().zip(drawn) {
             let delay = delay(k, per_second);
-            let change = Frame { delay, ..difference(&before, &indices, paper.width() as usize) };
+            let change = Frame { delay, ..difference(&before, &indices, size.0 as usize) };
             encoder.write_frame(&change).map_err(text)?;
             before = indices;
         }
@@ -74,25 +70,11 @@ fn difference(before: &[u8], now: &[u8], width: usize) -> Frame<'static> {
     frame
 }
 
-/// Shades of each colour of figures: those towards paper, and those towards ink.
-const PALE: usize = 24;
-const DARK: usize = 11;
-/// Colours of five bits per channel.
-const BINS: usize = 1 << 15;
-
-/// Returns the colours of figures, mixed with paper and with ink as at soft edges.
-fn palette() -> Vec<Color> {
-    let pale = |color: &Color, k: usize| mix(*color, PAPER, k as f64 / PALE as f64);
-    let dark = |color: &Color, k: usize| mix(*color, INK, k as f64 / DARK as f64);
-    let shades = |color| (0..PALE).map(move |k| pale(color, k)).chain((1..DARK).map(move |k| dark(color, k)));
-    [PAPER].into_iter().chain(COLORS.iter().flat_map(shades)).collect()
-}
-
 /// Returns the index of the nearest colour for each colour of five bits per channel.
-fn nearest(palette: &[Color]) -> Vec<u8> {
+fn nearest(palette: &[[u8; 3]]) -> Vec<u8> {
     let near = |bin: usize| {
         let apart = |part: u8, shift: usize| (i32::from(part) - (bin >> shift & 31) as i32 * 33 / 4).pow(2);
-        let distance = |color: &Color| apart(color.0, 10) + apart(color.1, 5) + apart(color.2, 0);
+        let distance = |color: &[u8; 3]| apart(color[0], 10) + apart(color[1], 5) + apart(color[2], 0);
         (0..palette.len()).min_by_key(|k| distance(&palette[*k])).unwrap_or(0) as u8
     };
     (0..BINS).into_par_iter().map(near).collect()

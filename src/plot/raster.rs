@@ -1,11 +1,9 @@
-//! Shapes drawn with soft edges by tiny-skia, and PNG files of them.
+//! Shapes drawn with soft edges by tiny-skia, for PNG and GIF files.
 
-mod gif;
-
-pub(super) use gif::gif;
-
+use super::palette::shades;
 use super::shape::{Color, Drawing, Font as Lettering, Paint as Style, Pt, Shape, Text, is_closed};
 use super::text::{DEJAVU, EM, glyphs, metrics};
+use crate::files;
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve};
 use tiny_skia::{FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
 
@@ -23,23 +21,26 @@ pub(super) fn png(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let density = [DENSITY, 1].into_iter().find(fits).ok_or_else(too_many)?;
     let mut pixels = paper(drawing, density)?;
     draw(&mut pixels, density, &drawing.shapes);
-    encode(&pixels, density).map_err(|error| error.to_string())
+    let per_metre = (640.0 * f64::from(density) / COLUMN_METRES).round() as u32;
+    files::png::encode((pixels.width(), pixels.height()), &rgb(&pixels), per_metre).map_err(|error| error.to_string())
 }
 
-fn encode(pixels: &Pixmap, density: u32) -> Result<Vec<u8>, png::EncodingError> {
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, pixels.width(), pixels.height());
-    encoder.set_color(png::ColorType::Rgb);
-    let per_metre = (640.0 * f64::from(density) / COLUMN_METRES).round() as u32;
-    let dims = png::PixelDimensions { xppu: per_metre, yppu: per_metre, unit: png::Unit::Meter };
-    encoder.set_pixel_dims(Some(dims));
-    // Few colours and much paper: filters make files no smaller, and more effort makes them a fifth smaller at best.
-    encoder.set_filter(png::Filter::NoFilter);
-    encoder.set_deflate_compression(png::DeflateCompression::Level(1));
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(&rgb(pixels))?;
-    writer.finish()?;
-    Ok(file)
+/// Returns the bytes of a GIF file of `count` frames, of which `moving` gives the items.
+pub(super) fn gif(
+    still: &Drawing,
+    count: usize,
+    per_second: f64,
+    moving: impl Fn(usize) -> Vec<Shape> + Sync,
+    done: impl FnMut(usize),
+) -> Result<Vec<u8>, String> {
+    let mut paper = paper(still, 1)?;
+    draw(&mut paper, 1, &still.shapes);
+    let frame = |k: usize| {
+        let mut pixels = paper.clone();
+        draw(&mut pixels, 1, &moving(k));
+        rgb(&pixels)
+    };
+    files::gif::encode((paper.width(), paper.height()), &shades(), count, per_second, frame, done)
 }
 
 fn paper(drawing: &Drawing, density: u32) -> Result<Pixmap, String> {
