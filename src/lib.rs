@@ -65,7 +65,7 @@
 //! | nalgebra | small and dense matrices: linear models, transition matrices, assembly |
 //! | faer | factorizations: sparse and dense LU of implicit methods, L D L^T where L fills, QR; eigenvalues |
 //! | diffsol | the integrators `tr_bdf2`, `esdirk34`, `tsit45` and `diffsol`; the second opinion on references |
-//! | plotters | figures: axes, meshes, series, colour maps, legends |
+//! | plotters | figures: charts, axes, meshes, elements of series, maps and legends, colour maps |
 //! | serde_json | scenes, results, checkpoints |
 //!
 //! Own code stands in the place of a package where that was measured to be better:
@@ -76,7 +76,7 @@
 //! | `bdf` | BDF of diffsol | 0.4 to 0.6 times the time at equal errors of 1e-5 and 1e-6 on chains of 10 and 100 links: `cargo bench --bench implicit` |
 //! | Krylov-Schur method, `math::eigen` | `partial_eigen` of faer | that gives vectors only, which coincide where an eigenvalue is defective |
 //! | recording backend of figures, `plot` | backends of plotters | these draw lines without antialiasing, at whole pixels, and SVG files two to seven times as large |
-//! | palette of GIF files, `plot` | GIF backend of plotters | one palette serves all frames, of which only the differences are written |
+//! | palette of GIF files, `files` | GIF backend of plotters | one palette serves all frames, of which only the differences are written |
 //! | sparse LU, `integrator::diffsol` | `FaerSparseLU` of diffsol | that panics on a matrix without factors; this is faer's, too, and reports it |
 //!
 //! # Own parts

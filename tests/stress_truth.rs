@@ -3,6 +3,7 @@
 use crate::common::readings;
 use holonom::clock;
 use holonom::method_spec::MethodSpec;
+use holonom::plot::{Align, Form, Item};
 use holonom::prepared::Overrides;
 use holonom::report::stress::{sentences, stress_figure};
 use holonom::study::stress::{Axis, Cell, Limits, Map, Quantity, Status, Stressed, Subject, find, maps, pair, stress};
@@ -110,13 +111,17 @@ fn the_figure_names_its_cells() {
     let left_out = tint("– left out");
     let diverged = tint("∞ diverged");
     assert_ne!(left_out, diverged);
-    let drawn =
-        |column: usize, row: usize| panel.cells.iter().find(|cell| (cell.column, cell.row) == (column, row)).unwrap();
-    assert!((0..rows.len()).all(|row| drawn(0, row).tint == left_out));
+    let at = |item: &Item, column: f64, row: f64| item.spots[0].at == (column, row);
+    let drawn = |column: usize, row: usize| {
+        let (x, y) = (column as f64, row as f64);
+        let cell = panel.items.iter().find(|item| item.form == Form::Cell && at(item, x - 0.5, y - 0.5)).unwrap();
+        let word = panel.items.iter().find(|item| item.form != Form::Cell && at(item, x, y));
+        (cell.tint, word.map(|word| word.form.clone()))
+    };
+    assert!((0..rows.len()).all(|row| drawn(0, row).0 == left_out));
     for cell in part.cells.iter().filter(|cell| cell.status == Status::Diverged) {
         let column = [3, 0, 1, 2][cell.column];
-        let drawn = drawn(column, cell.row);
-        assert_eq!((drawn.tint, drawn.word.as_str()), (diverged, "∞"));
+        assert_eq!(drawn(column, cell.row), (diverged, Some(Form::Text("∞".to_string(), Align::Middle))));
     }
 }
 

@@ -1,10 +1,14 @@
-//! Reading and writing of files, each whole or not at all; formats of Python and MATLAB.
+//! Reading and writing of files, each whole or not at all; formats of Python and MATLAB, and of pictures.
 
 mod array;
+#[cfg(feature = "figures")]
+pub(crate) mod gif;
 pub mod mat;
 pub mod npy;
 #[cfg(feature = "npz")]
 pub mod npz;
+#[cfg(feature = "figures")]
+pub(crate) mod png;
 mod read;
 mod staging;
 

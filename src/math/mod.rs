@@ -12,6 +12,7 @@ mod lagrange;
 #[doc(hidden)]
 pub mod memory;
 pub(crate) mod newton;
+pub(crate) mod polyline;
 pub(crate) mod random;
 mod regime;
 #[doc(hidden)]

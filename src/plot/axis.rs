@@ -1,9 +1,11 @@
 //! The axis of all charts: a coordinate of plotters with a scale, limits, marks, their labels, and a title.
 
-use super::panel::{AxisSpec, Scale};
+use super::AxisSpec;
 use super::ticks::{Room, Ticks};
 use super::{LABEL_SIZE, Label};
+use crate::math::bounds;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use std::ops::Range;
 
 /// Values beyond this are drawn at it, so that differences of values stay finite.
 const LARGEST: f64 = 1e300;
@@ -13,52 +15,28 @@ const NOISE: f64 = 1e-13;
 /// Limit of positions outside the axis, in lengths of the axis.
 const FAR: f64 = 1e6;
 
-/// Range of the values along one axis.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
-    low: f64,
-    high: f64,
+/// Returns the limits of a linear axis with a margin in parts of its length; without, it ends at round numbers that are
+/// very near.
+fn linear((low, high): (f64, f64), margin: Option<f64>) -> (f64, f64) {
+    let span = high - low;
+    let middle = 0.5 * low + 0.5 * high;
+    if span > least_span(low, high) {
+        return margin.map_or_else(|| near_round(low, high), |margin| (low - margin * span, high + margin * span));
+    }
+    let half = if middle.abs() < SMALLEST { 1.0 } else { 0.1 * middle.abs() };
+    (middle - half, middle + half)
 }
 
-impl Default for Extent {
-    fn default() -> Self {
-        Self { low: f64::INFINITY, high: f64::NEG_INFINITY }
-    }
-}
-
-impl Extent {
-    /// Adds a value, unless it has no place on the scale of the axis.
-    pub fn add(&mut self, value: f64, spec: &AxisSpec) {
-        if value.is_finite() && (spec.scale == Scale::Linear || value > 0.0) {
-            let value = value.clamp(-LARGEST, LARGEST);
-            (self.low, self.high) = (self.low.min(value), self.high.max(value));
-        }
-    }
-
-    /// Returns the limits of a linear axis with a margin in parts of its length; without, it ends at round numbers that
-    /// are very near.
-    fn linear(&self, margin: Option<f64>) -> (f64, f64) {
-        let span = self.high - self.low;
-        let middle = 0.5 * self.low + 0.5 * self.high;
-        if span > least_span(self.low, self.high) {
-            let wide = |margin: f64| (self.low - margin * span, self.high + margin * span);
-            return margin.map_or_else(|| near_round(self.low, self.high), wide);
-        }
-        let half = if middle.abs() < SMALLEST { 1.0 } else { 0.1 * middle.abs() };
-        (middle - half, middle + half)
-    }
-
-    /// Returns the decimal logarithms of the limits, with at least two labelled decades.
-    fn decades(&self, margin: f64) -> (f64, f64) {
-        let low = self.low.log10();
-        let high = self.high.log10();
-        let (low, high) = match ((low + 1e-9).floor(), (high - 1e-9).ceil()) {
-            _ if high.floor() - low.ceil() >= 1.0 => (low, high),
-            (down, up) if up > down => (down, up),
-            (down, up) => (down - 1.0, up + 1.0),
-        };
-        (low - margin * (high - low), high + margin * (high - low))
-    }
+/// Returns the decimal logarithms of the limits, with at least two labelled decades.
+fn decades((low, high): (f64, f64), margin: f64) -> (f64, f64) {
+    let low = low.log10();
+    let high = high.log10();
+    let (low, high) = match ((low + 1e-9).floor(), (high - 1e-9).ceil()) {
+        _ if high.floor() - low.ceil() >= 1.0 => (low, high),
+        (down, up) if up > down => (down, up),
+        (down, up) => (down - 1.0, up + 1.0),
+    };
+    (low - margin * (high - low), high + margin * (high - low))
 }
 
 /// Moves limits outwards to round numbers that are very near: data up to 9.995 get an axis up to 10.
@@ -75,7 +53,7 @@ fn least_span(low: f64, high: f64) -> f64 {
 }
 
 /// A scale with its limits and marks; limits of a logarithmic one are decimal logarithms.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Axis {
     pub spec: AxisSpec,
     pub low: f64,
@@ -85,46 +63,38 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// An axis that shows all values, without marks.
-    pub fn new(spec: &AxisSpec, extent: &Extent, margin: Option<f64>) -> Self {
+    /// An axis that shows all values which have a place on its scale, without marks.
+    pub fn new(spec: &AxisSpec, values: impl Iterator<Item = f64>, margin: Option<f64>) -> Self {
+        let is_on_scale = |value: &f64| value.is_finite() && (*value > 0.0 || !spec.is_log);
+        let extent = bounds(values.filter(is_on_scale).map(|value| value.clamp(-LARGEST, LARGEST)));
         let fixed = spec.range.filter(|(low, high)| low.abs() <= LARGEST && high.abs() <= LARGEST);
-        let (low, high) = match (spec.scale, fixed) {
-            (Scale::Linear, Some((low, high))) if high - low > least_span(low, high) => (low, high),
-            (Scale::Log, Some((low, high))) if low > 0.0 && high > 1.003 * low => (low.log10(), high.log10()),
-            _ if extent.low > extent.high => (0.0, 1.0),
-            (Scale::Linear, _) => extent.linear(margin),
-            (Scale::Log, _) => extent.decades(margin.unwrap_or(0.0)),
+        let (low, high) = match (spec.is_log, fixed) {
+            (false, Some((low, high))) if high - low > least_span(low, high) => (low, high),
+            (true, Some((low, high))) if low > 0.0 && high > 1.003 * low => (low.log10(), high.log10()),
+            _ if extent.0 > extent.1 => (0.0, 1.0),
+            (false, _) => linear(extent, margin),
+            (true, _) => decades(extent, margin.unwrap_or(0.0)),
         };
-        Self { spec: spec.clone(), low, high, ticks: Ticks::default(), label: Label::default() }
+        Self { spec: spec.clone(), low, high, ..Self::default() }
     }
 
-    /// Chooses the marks for a length, and breaks the title.
-    pub fn fit(&mut self, room: Room) {
+    /// Chooses the marks for a length, and breaks the title. There are no texts where a panel below has them.
+    pub fn fit(&mut self, room: Room, is_labelled: bool) {
         self.ticks = Ticks::new(self, room);
         let (part, lines) = if room.is_upright { (1.08, 3) } else { (1.0, 2) };
         self.label = Label::new(&self.spec.label, LABEL_SIZE, part * room.length, lines);
-    }
-
-    /// Removes all texts where a panel below has them.
-    pub fn hide_texts(&mut self) {
-        self.ticks.major.iter_mut().for_each(|tick| tick.1.clear());
-        self.ticks.factor.clear();
-        self.label = Label::default();
+        if !is_labelled {
+            self.ticks.major.iter_mut().for_each(|tick| tick.1.clear());
+            self.ticks.factor.clear();
+            self.label = Label::default();
+        }
     }
 
     /// Returns the position of a value: 0 at the lower limit, 1 at the upper one; none for NaN and infinities.
     pub fn place(&self, value: f64) -> Option<f64> {
-        let on_scale = match self.spec.scale {
-            Scale::Linear => value.clamp(-LARGEST, LARGEST),
-            Scale::Log => value.max(f64::MIN_POSITIVE).log10(),
-        };
+        let is_log = self.spec.is_log;
+        let on_scale = if is_log { value.max(f64::MIN_POSITIVE).log10() } else { value.clamp(-LARGEST, LARGEST) };
         value.is_finite().then(|| ((on_scale - self.low) / (self.high - self.low)).clamp(-FAR, FAR))
-    }
-
-    /// Returns the value at a position.
-    pub fn value(&self, place: f64) -> f64 {
-        let value = self.low + place * (self.high - self.low);
-        if self.spec.scale == Scale::Log { 10f64.powf(value) } else { value }
     }
 }
 
@@ -136,7 +106,7 @@ impl Ranged for Axis {
         from + (f64::from(to - from) * self.place(*value).unwrap_or(0.0).clamp(0.0, 1.0)).round() as i32
     }
 
-    /// Returns the labelled marks, or the minor ones if 0 labels are asked for. Only the first have grid lines.
+    /// Returns the labelled marks, or the others if 0 labels are asked for. Only the first have grid lines.
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
         match (hint.weight().allow_light_points(), hint.bold_points()) {
             (true, _) => Vec::new(),
@@ -145,8 +115,9 @@ impl Ranged for Axis {
         }
     }
 
-    fn range(&self) -> std::ops::Range<f64> {
-        self.value(0.0)..self.value(1.0)
+    fn range(&self) -> Range<f64> {
+        let end = |limit: f64| if self.spec.is_log { 10f64.powf(limit) } else { limit };
+        end(self.low)..end(self.high)
     }
 }
 
@@ -162,18 +133,16 @@ mod tests {
     use super::*;
 
     fn axis(spec: AxisSpec, values: &[f64]) -> Axis {
-        let mut extent = Extent::default();
-        values.iter().for_each(|value| extent.add(*value, &spec));
-        Axis::new(&spec, &extent, Some(0.0))
+        Axis::new(&spec, values.iter().copied(), Some(0.0))
     }
 
     #[test]
-    fn values_map_to_the_unit_interval_and_back() {
+    fn values_map_to_the_unit_interval() {
         let linear = axis("x".into(), &[2.0, 4.0]);
-        assert_eq!((linear.place(3.0), linear.value(0.5)), (Some(0.5), 3.0));
+        assert_eq!([2.0, 3.0, 4.0].map(|value| linear.place(value)), [Some(0.0), Some(0.5), Some(1.0)]);
         assert_eq!(linear.place(f64::NAN), None);
         let log = axis(AxisSpec::from("x").log(), &[1e-4, 1.0]);
-        assert_eq!((log.place(1e-2), log.value(0.5)), (Some(0.5), 1e-2));
+        assert_eq!([1e-4, 1e-2, 1.0].map(|value| log.place(value)), [Some(0.0), Some(0.5), Some(1.0)]);
         assert_eq!([log.map(&1e-2, (100, 300)), log.map(&1.0, (300, 100))], [200, 100]);
     }
 

@@ -1,97 +1,64 @@
 //! Drawing of a figure as shapes.
 
-use super::legend::{Block, LegendEntry};
+use super::sketch::Nominal;
 use super::*;
-use plotters::drawing::IntoDrawingArea;
+use plotters::drawing::DrawingArea;
 use std::{cell::RefCell, rc::Rc};
 
 const PANEL_GAP: f64 = 12.0;
 
-/// Draws the whole figure.
 pub(super) fn figure(figure: &Figure) -> Drawing {
-    let (width, panels) = layout::place(figure);
-    let drawing = Rc::new(RefCell::new(Drawing { width, title: figure.title.clone(), ..Drawing::default() }));
-    // A sketch refuses nothing, so that there is always a page.
-    let bottom = page(figure, panels, width, &Sketch(drawing.clone())).unwrap_or_default();
-    drawing.borrow_mut().height = (bottom + EDGE).ceil();
-    drawing.take()
+    let drawing = Rc::new(RefCell::new(Drawing { title: figure.title.clone(), ..Drawing::default() }));
+    // A drawing refuses nothing.
+    let (width, height) = sheet(figure, &drawing).unwrap_or_default();
+    Drawing { width, height, ..drawing.take() }
 }
 
-/// Draws title, panels and legends from top to bottom, and returns the lower end.
-fn page(figure: &Figure, mut panels: Vec<Placed>, width: f64, sketch: &Sketch) -> Done<f64> {
-    let page = sketch.clone().into_drawing_area();
-    let columns = layout::columns(figure);
-    let mut top = (EDGE + 2.0 + heading(&page, &figure.title, width)?).round();
-    let shared = shared_legend(&panels);
-    let count = figure.panels.iter().map(|panel| panel.series.len() + 1).sum();
-    for (row, side_by_side) in panels.chunks_mut(columns).enumerate() {
-        top += if row > 0 { PANEL_GAP } else { 0.0 };
-        let mut bottom = top;
-        for (column, placed) in side_by_side.iter_mut().enumerate() {
-            let size = (width / columns as f64, placed.height());
-            let area = page.clone().shrink(units((size.0 * column as f64, top)), units(size));
-            let mut entries = if shared.is_empty() { legend::entries(placed) } else { Vec::new() };
-            let taken = panel(sketch, &page, &area, placed, count)?;
-            if let Some((block, corner)) = legend::inside(&entries, placed, &taken) {
-                block.draw(&page, corner, true)?;
-                entries.clear();
-            }
-            bottom = bottom.max(legend_below(&page, &entries, placed, top + size.1, width)?);
-        }
-        top = bottom.round();
-    }
-    panels.last().map_or(Ok(top), |placed| legend_below(&page, &shared, placed, top, width))
-}
-
-/// Draws the title and returns its height.
-fn heading(page: &Page, title: &str, width: f64) -> Done<f64> {
-    let title = Label::new(title, TITLE_SIZE, width - 2.0 * EDGE, 3);
+/// Draws title, panels and legends from top to bottom, and returns the width and the height.
+fn sheet(figure: &Figure, drawing: &Rc<RefCell<Drawing>>) -> Done<(f64, f64)> {
+    let page = DrawingArea::from(drawing).apply_coord_spec(Nominal);
+    let (width, mut panels) = layout::place(figure);
+    let title = Label::new(&figure.title, TITLE_SIZE, width - 2.0 * EDGE, 3);
     let middle = (0.5 * width, EDGE - 2.0 + 0.5 * title.height());
-    page.draw_text(&title.text, &font(title.size, INK, Align::Middle), units(middle))?;
-    Ok(if title.text.is_empty() { 0.0 } else { title.height() + 5.0 })
-}
-
-/// Returns the entries of the panels' legends if there are several panels and all have the same.
-fn shared_legend(panels: &[Placed]) -> Vec<LegendEntry> {
-    let all: Vec<_> = panels.iter().map(legend::entries).collect();
-    let is_shared = all.len() > 1 && all.windows(2).all(|pair| pair[0] == pair[1]);
-    all.into_iter().next().filter(|_| is_shared).unwrap_or_default()
-}
-
-/// Draws a panel on its area, and returns what a legend must not hide.
-fn panel(sketch: &Sketch, page: &Page, area: &Page, placed: &mut Placed, count: usize) -> Done<Taken> {
-    let mut chart = chart::build(area, placed)?;
-    if placed.panel.cells.is_empty() {
-        chart::grid(&mut chart)?;
+    page.draw(&words(&title.text, middle, Font(title.size, INK, Align::Middle)))?;
+    let mut top = (EDGE + 2.0 + if title.text.is_empty() { 0.0 } else { title.height() + 5.0 }).round();
+    let columns = layout::columns(figure);
+    let part = width / columns as f64;
+    let legends: Vec<_> = panels.iter().map(legend::entries).collect();
+    let is_shared = legends.len() > 1 && legends.windows(2).all(|pair| pair[0] == pair[1]);
+    let count = figure.panels.iter().map(|panel| panel.series.len() + 1).sum();
+    let mut bottom = top;
+    for (k, (placed, entries)) in panels.iter_mut().zip(&legends).enumerate() {
+        if k % columns == 0 {
+            top = bottom.round() + if k > 0 { PANEL_GAP } else { 0.0 };
+        }
+        let end = placed.put(part * (k % columns) as f64, part, top);
+        let taken = panel(drawing, &page, placed, count)?;
+        let is_done = is_shared || legend::inside(&page, entries, placed, &taken)?;
+        bottom = bottom.max(if is_done { end } else { legend::below(&page, entries, placed, end, width)? });
     }
-    heat::draw(page, placed)?;
-    let first = sketch.seal();
+    bottom = bottom.round();
+    if let (true, Some(placed)) = (is_shared, panels.last()) {
+        bottom = legend::below(&page, &legends[0], placed, bottom, width)?;
+    }
+    Ok((width, (bottom + EDGE).ceil()))
+}
+
+/// Draws a panel, and returns what a legend must not hide.
+fn panel(drawing: &RefCell<Drawing>, page: &Page, placed: &Placed, count: usize) -> Done<Vec<Pt>> {
+    let seal = || drawing.borrow_mut().seal();
+    let mut chart = chart::grid(page, placed)?;
+    let first = seal();
     data::series(page, placed, count)?;
-    let items = sketch.seal();
+    let items = seal();
     item::draw(page, placed)?;
-    let last = sketch.seal();
-    sketch.0.borrow_mut().items = items..last;
-    let mut taken = Taken::new(&sketch.0.borrow().shapes[first..last]);
-    chart::axes(&mut chart, placed)?;
-    chart::texts(page, placed)?;
-    chart::bar(area, placed)?;
-    item::inset(page, placed, &mut taken)?;
+    let last = seal();
+    drawing.borrow_mut().items = items..last;
+    let mut taken = notes::taken(&drawing.borrow().shapes[first..last]);
+    chart::draw(page, &mut chart, placed)?;
     notes::draw(page, placed, &mut taken)?;
-    if first == last && placed.panel.cells.is_empty() {
-        page.draw_text("no data", &font(LABEL_SIZE, NOTE_INK, Align::Middle), units(placed.frame.at(0.5, 0.5)))?;
+    if first == last {
+        page.draw(&words("no data", placed.frame.at(0.5, 0.5), Font(LABEL_SIZE, NOTE_INK, Align::Middle)))?;
     }
     Ok(taken)
-}
-
-/// Draws a legend below a panel and returns its lower end.
-fn legend_below(page: &Page, entries: &[LegendEntry], placed: &Placed, top: f64, width: f64) -> Done<f64> {
-    if entries.is_empty() {
-        return Ok(top);
-    }
-    let block = Block::wide(entries, width - 2.0 * EDGE);
-    let (block_width, height) = block.size();
-    let most = (width - EDGE - block_width).max(EDGE);
-    let left = (placed.frame.at(0.5, 0.0).0 - 0.5 * block_width).clamp(EDGE, most);
-    block.draw(page, (left, top), false)?;
-    Ok(top + height)
 }

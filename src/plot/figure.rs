@@ -1,10 +1,7 @@
 //! A whole figure or animation, and its file formats.
 
 use super::*;
-use crate::error::{Error, Result};
-use crate::files::write_whole;
 use rayon::prelude::*;
-use std::path::Path;
 
 /// One or several panels, stacked. Panels with the same x axis share it: the limits are common and only the
 /// last one is labelled. A legend that is the same in all panels is drawn once.
@@ -41,22 +38,6 @@ impl Figure {
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
         self
-    }
-
-    /// Writes the figure as SVG or PNG, by the extension of the path. The file is replaced in one step.
-    ///
-    /// # Errors
-    /// The extension is another one; the path is a folder or cannot be written; there is no PNG of the figure: see
-    /// [`Figure::to_png`].
-    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        let path = path.as_ref();
-        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-        let bytes = match extension.to_str() {
-            Some("svg") => self.to_svg().into_bytes(),
-            Some("png") => self.to_png().map_err(|reason| Error::file(path, reason))?,
-            _ => return Err(Error::file(path, "the name of a figure must end in .svg or .png")),
-        };
-        write_whole(path, &bytes).map_err(|error| Error::file(path, error))
     }
 
     /// Returns the figure as SVG text.
@@ -100,7 +81,7 @@ impl<F: Fn(usize) -> Figure + Sync> Animation<F> {
     #[cfg_attr(not(feature = "figures"), expect(unused_variables))]
     pub fn to_gif(&self, done: impl FnMut(usize)) -> Result<Vec<u8>, String> {
         #[cfg(feature = "figures")]
-        return raster::gif(&self.parts(0).0, self.count, self.per_second, &|k| self.parts(k).1, done);
+        return raster::gif(&self.parts(0).0, self.count, self.per_second, |k| self.parts(k).1, done);
         #[cfg(not(feature = "figures"))]
         Err("holonom is built without GIF: the feature `figures`".into())
     }

@@ -1,6 +1,5 @@
 //! Layout: limits and marks of the axes, and the size of each panel.
 
-use super::panel::Scale;
 use super::ticks::Room;
 use super::*;
 
@@ -9,12 +8,8 @@ const LABEL_GAP: f64 = 6.0;
 const STRIP: f64 = 22.0;
 /// Height of the marks below a frame without labels.
 const MARKS: f64 = 6.0;
-/// Limits of the width and the height that can be set.
-const WIDTHS: (f64, f64) = (240.0, 4000.0);
-const HEIGHTS: (f64, f64) = (60.0, 4000.0);
 
 /// A panel with its axes, and the room that it needs.
-#[derive(Clone, Debug)]
 pub(super) struct Placed<'a> {
     pub panel: &'a Panel,
     pub x: Axis,
@@ -24,65 +19,70 @@ pub(super) struct Placed<'a> {
     pub looks: Vec<Look>,
     /// The rectangle between the axes; before it is drawn only its size counts.
     pub frame: Rect,
-    /// Distances of the frame from the left and right ends of its column, and from the label of the y axis, the same in
-    /// all panels.
-    pub margins: (f64, f64, f64),
+    /// Room at the left of the frame for labels, and at its right, the same in all panels.
+    pub margins: (f64, f64),
     /// True if the x axis is labelled here, not at a panel below.
     pub shows_x: bool,
 }
 
 impl<'a> Placed<'a> {
-    fn new(panel: &'a Panel, (x, margin): (Extent, Option<f64>), shows_x: bool) -> Self {
-        let count = panel.series.iter().filter(|series| series.is_counted()).count();
-        let [_, y, colors] = extents(std::slice::from_ref(panel));
-        let y_margin = if panel.cells.is_empty() { margin.unwrap_or(0.0).max(0.06) } else { 0.0 };
-        let is_colored = !panel.cells.is_empty() || !panel.colored.is_empty();
+    /// The panel, whose x axis is that of a group.
+    fn new(panel: &'a Panel, group: &[Panel], shows_x: bool) -> Self {
+        // A panel with markers needs room at the ends, and then all have it.
+        let margin = group.iter().filter_map(margin).reduce(f64::max);
+        let value = |item: &Item| if let Tint::Value(value) = item.tint { Some(value) } else { None };
+        let mut colors = panel.items.iter().filter_map(value).peekable();
         Self {
             panel,
-            x: Axis::new(&panel.x, &x, margin),
-            y: Axis::new(&panel.y, &y, Some(y_margin)),
-            bar: is_colored.then(|| Axis::new(&panel.colors, &colors, None)),
-            looks: panel.series.iter().enumerate().map(|(index, series)| look(series, index, count)).collect(),
+            x: Axis::new(&panel.x, group.iter().flat_map(points).map(|point| point.0), margin),
+            y: Axis::new(&panel.y, points(panel).map(|point| point.1), Some(margin.unwrap_or(0.0).max(0.06))),
+            bar: colors.peek().is_some().then(|| Axis::new(&panel.colors, colors, None)),
+            looks: looks(&panel.series),
             frame: Rect::default(),
-            margins: (0.0, 0.0, 0.0),
+            margins: (0.0, 0.0),
             shows_x,
         }
     }
 
-    /// Returns the position of a point in the picture; none if it is not a number.
-    pub fn at(&self, x: f64, y: f64) -> Option<Pt> {
-        Some(self.frame.at(self.x.place(x)?, self.y.place(y)?))
-    }
-
-    /// Returns the step of a value on the colour scale; none for NaN and infinities.
-    pub fn step(&self, value: f64) -> Option<usize> {
-        let place = self.bar.as_ref()?.place(value)?.clamp(0.0, 1.0);
-        Some(((place * COLOR_STEPS as f64) as usize).min(COLOR_STEPS - 1))
+    pub fn color(&self, tint: Tint) -> Color {
+        let pale = |color, paleness: f64| mix(color, PAPER, paleness.clamp(0.0, 1.0));
+        match tint {
+            Tint::Ink(paleness) => pale(INK, paleness),
+            Tint::Body(place, paleness) => pale(COLORS[place % COLORS.len()], paleness),
+            Tint::Value(value) => {
+                let place = self.bar.as_ref().and_then(|bar| bar.place(value));
+                place.map_or(PAPER, |place| scale_color((place * COLOR_STEPS as f64) as usize))
+            }
+        }
     }
 
     /// Returns the height of the strip above the frame for factors.
     pub fn strip(&self) -> f64 {
-        let has_factor = [Some(&self.y), self.bar.as_ref()].iter().flatten().any(|axis| !axis.ticks.factor.is_empty());
+        let has_factor = self.bar.iter().chain([&self.y]).any(|axis| !axis.ticks.factor.is_empty());
         if has_factor { STRIP } else { 0.0 }
     }
 
-    /// Returns the height of the strip and the panel's title above it.
-    pub fn above(&self) -> f64 {
+    fn above(&self) -> f64 {
         self.strip() + if self.panel.title.trim().is_empty() { 0.0 } else { STRIP }
     }
 
-    /// Returns the height of the marks and labels below the frame.
     pub fn below(&self) -> f64 {
         let factor = if self.x.ticks.factor.is_empty() { 0.0 } else { LINE_HEIGHT * LABEL_SIZE };
-        let label = (LABEL_DISTANCE + LINE_HEIGHT * TICK_SIZE + self.x.label.height().max(factor)).round();
-        if self.shows_x { label } else { MARKS }
+        let label = LABEL_DISTANCE + LINE_HEIGHT * TICK_SIZE + self.x.label.height().max(factor);
+        if self.shows_x { label.round() } else { MARKS }
     }
 
-    pub fn height(&self) -> f64 {
-        self.above() + self.frame.size().1 + self.below()
+    /// Puts the frame into a column of the figure, and returns the lower end of the panel.
+    pub fn put(&mut self, start: f64, width: f64, top: f64) -> f64 {
+        let end = top + self.above() + self.frame.size().1 + self.below();
+        // The frame lies in the middle of pixels, where its lines are sharp.
+        let left = (start + self.frame.left).round() + 0.5;
+        let right = start + width - self.margins.1 - 0.51;
+        self.frame = Rect { left, top: top + self.above() + 0.5, right, bottom: end - self.below() + 0.49 };
+        self.margins.0 = self.margins.0.min(left - start);
+        end
     }
 
-    /// Returns the margin that this panel needs at the right.
     fn right(&self) -> f64 {
         let overhang = self.x.ticks.major.last().map_or(0.0, |(value, label)| {
             let place = self.x.place(*value).unwrap_or(1.0);
@@ -91,19 +91,14 @@ impl<'a> Placed<'a> {
         EDGE + overhang.max(2.0).max(self.bar.as_ref().map_or(0.0, chart::bar_width))
     }
 
-    /// Chooses marks and breaks labels for a frame of this size.
     fn fit(&mut self, width: f64, height: f64) {
         self.frame = Rect::new((0.0, 0.0), (width, height));
-        if self.panel.equal_aspect && [&self.x, &self.y].iter().all(|axis| axis.spec.scale == Scale::Linear) {
+        if self.panel.equal_aspect && [&self.x, &self.y].iter().all(|axis| !axis.spec.is_log) {
             self.equalize();
         }
         let upright = Room { length: self.frame.size().1, is_upright: true };
-        self.x.fit(Room { length: width, is_upright: false });
-        if !self.shows_x {
-            self.x.hide_texts();
-        }
-        self.y.fit(upright);
-        self.bar.iter_mut().for_each(|bar| bar.fit(upright));
+        self.x.fit(Room { length: width, is_upright: false }, self.shows_x);
+        self.bar.iter_mut().chain([&mut self.y]).for_each(|axis| axis.fit(upright, true));
     }
 
     /// Makes units equally long: by the height of the frame if it stays moderate, and by wider limits otherwise.
@@ -125,26 +120,27 @@ impl<'a> Placed<'a> {
 
 /// Returns the width of the figure and its panels, whose frames have the same left and right margins.
 pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
-    let whole = if figure.width.is_finite() { figure.width.clamp(WIDTHS.0, WIDTHS.1).round() } else { WIDTHS.0 };
+    let whole = if figure.width.is_finite() { figure.width.clamp(240.0, 4000.0).round() } else { 240.0 };
     let total = whole / columns(figure) as f64;
     let mut all = panels(figure);
     let mut left = 80.0;
     let mut right = 20.0;
-    let mut distance = 0.0;
     // Marks depend on the space for them, and the space on their labels; three rounds settle it.
     for _ in 0..3 {
         let width = (total - left - right).max(60.0);
         all.iter_mut().for_each(|placed| placed.fit(width, frame_height(placed.panel, figure.panels.len(), width)));
         let largest = |part: fn(&Placed) -> f64| all.iter().map(part).fold(0.0, f64::max);
-        distance = LABEL_GAP + largest(|placed| placed.y.ticks.widest()) + LABEL_DISTANCE;
+        let distance = LABEL_GAP + largest(|placed| placed.y.ticks.widest()) + LABEL_DISTANCE;
         left = (EDGE + largest(|placed| placed.y.label.height()) + distance).max(40.0).min(0.45 * total).ceil();
         right = largest(|placed| placed.right()).min(0.4 * total).ceil();
+        for placed in &mut all {
+            placed.margins = (distance + placed.y.label.height(), right);
+        }
     }
-    all.iter_mut().for_each(|placed| placed.margins = (left, right, distance));
+    all.iter_mut().for_each(|placed| placed.frame.left = left);
     (whole, all)
 }
 
-/// Returns the number of panels side by side.
 pub(super) fn columns(figure: &Figure) -> usize {
     figure.columns.clamp(1, figure.panels.len().max(1))
 }
@@ -152,42 +148,30 @@ pub(super) fn columns(figure: &Figure) -> usize {
 /// Returns the panels with their axes. Panels one above another with the same x axis share its limits.
 fn panels(figure: &Figure) -> Vec<Placed<'_>> {
     let panels = &figure.panels[..];
-    let is_shared = columns(figure) == 1
-        && panels.windows(2).all(|pair| pair[0].x == pair[1].x)
-        && !panels.iter().any(|panel| panel.equal_aspect);
-    // A panel with markers needs room at the ends, and then all have it.
-    let x = |panels: &[Panel]| (extents(panels)[0], panels.iter().filter_map(margin).reduce(f64::max));
-    let group = |index: usize| if is_shared { panels } else { &panels[index..=index] };
-    let shows_x = |index: usize| !is_shared || index + 1 == panels.len();
-    let all = panels.iter().enumerate();
-    all.map(|(index, panel)| Placed::new(panel, x(group(index)), shows_x(index))).collect()
+    let is_like_first = |panel: &Panel| panel.x == panels[0].x && !panel.equal_aspect;
+    let is_shared = columns(figure) == 1 && panels.iter().all(is_like_first);
+    let place = |index: usize| {
+        let group = if is_shared { panels } else { &panels[index..=index] };
+        Placed::new(&panels[index], group, !is_shared || index + 1 == panels.len())
+    };
+    (0..panels.len()).map(place).collect()
 }
 
-/// Returns the ranges that x, y and the colours must show. A point counts only if both of its coordinates are numbers.
-fn extents(panels: &[Panel]) -> [Extent; 3] {
-    let [mut x, mut y, mut colors] = [Extent::default(); 3];
-    for panel in panels {
-        let points = panel.series.iter().flat_map(|series| series.points.iter().copied());
-        let colored = panel.colored.iter().map(|point| (point.0, point.1));
-        let cells = panel.cells.iter().flat_map(Cell::corners);
-        let whole = points.chain(colored).filter(|point| point.0.is_finite() && point.1.is_finite());
-        for (at_x, at_y) in whole.chain(cells).chain(panel.items.iter().flat_map(Item::data)) {
-            x.add(at_x, &panel.x);
-            y.add(at_y, &panel.y);
-        }
-        let values = panel.colored.iter().map(|point| point.2);
-        values
-            .chain(panel.cells.iter().filter_map(|cell| cell.value))
-            .for_each(|value| colors.add(value, &panel.colors));
-    }
-    [x, y, colors]
+/// Returns the points that the axes must show. One of the data counts only if both of its coordinates are numbers.
+fn points(panel: &Panel) -> impl Iterator<Item = Pt> + '_ {
+    let data = panel.series.iter().flat_map(|series| series.points.iter().copied());
+    let whole = data.filter(|point| point.0.is_finite() && point.1.is_finite());
+    let spots = panel.items.iter().flat_map(|item| &item.spots).map(|spot| spot.at);
+    whole.chain(spots)
 }
 
 /// Returns the margin of the x axis. Functions of x fill the width, as time series do.
 fn margin(panel: &Panel) -> Option<f64> {
-    let is_function = |series: &Series| !series.style.has_markers() && series.is_function();
-    let only_functions = panel.colored.is_empty() && panel.series.iter().all(is_function) && !panel.equal_aspect;
-    if panel.cells.is_empty() { (!only_functions).then_some(0.05) } else { Some(0.0) }
+    let has_markers = |series: &Series| matches!(series.style, Style::Dots | Style::LineDots | Style::Crosses);
+    let is_function = |series: &Series| series.points.windows(2).all(|pair| pair[1].0 >= pair[0].0);
+    let is_plain = |series: &Series| is_function(series) && !has_markers(series);
+    let is_full = !panel.equal_aspect && panel.series.iter().all(is_plain);
+    (!is_full).then_some(0.05)
 }
 
 fn frame_height(panel: &Panel, count: usize, width: f64) -> f64 {
@@ -197,5 +181,5 @@ fn frame_height(panel: &Panel, count: usize, width: f64) -> f64 {
         2 => 240.0,
         _ => 190.0,
     };
-    panel.height.filter(|height| height.is_finite()).unwrap_or(usual).clamp(HEIGHTS.0, HEIGHTS.1).round()
+    panel.height.filter(|height| height.is_finite()).unwrap_or(usual).clamp(60.0, 4000.0).round()
 }

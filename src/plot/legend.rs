@@ -15,69 +15,54 @@ const INSET: f64 = 8.0;
 /// Largest part of its panel that a legend inside covers.
 const MOST_AREA: f64 = 0.35;
 const BORDER: Stroke = Stroke { color: Color(190, 190, 190), width: 1.0, dash: &[] };
+/// Corners and middles of sides, in parts from the lower left corner.
+const SIDES: [(f64, f64); 8] =
+    [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (0.0, 0.5), (0.5, 1.0), (0.5, 0.0)];
 
-/// One line of a legend: its label and look.
 pub(super) type LegendEntry = (String, Look);
 
-/// Entries in columns, each with its width.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Block {
-    columns: Vec<(Vec<LegendEntry>, f64)>,
-    sample: f64,
-}
-
-/// Returns the entries of a panel's legend.
 pub(super) fn entries(placed: &Placed) -> Vec<LegendEntry> {
     let series = placed.panel.series.iter().zip(&placed.looks).map(|(series, look)| (series.label.clone(), *look));
-    let key = |color| Look { line: None, marker: Some(SQUARE), color: tint(color) };
+    let key = |color| Look { line: None, marker: Some(SQUARE), color: placed.color(color) };
     let keys = placed.panel.keys.iter().map(|(label, color)| (label.clone(), key(*color)));
     series.filter(|entry| !entry.0.trim().is_empty()).chain(keys).collect()
 }
 
+/// Entries in columns, each with its width.
+struct Block {
+    columns: Vec<(Vec<LegendEntry>, f64)>,
+    sample: f64,
+    size: (f64, f64),
+}
+
 impl Block {
     fn new(entries: &[LegendEntry], columns: usize, room: f64) -> Self {
-        let rows = entries.len().div_ceil(columns.max(1)).max(1);
         let sample = if entries.iter().any(|entry| entry.1.line.is_some()) { LINE_SAMPLE } else { MARKER_SAMPLE };
         let label_room = (room - sample - SAMPLE_GAP - 2.0 * PADDING).max(20.0);
-        let shortened = |entry: &LegendEntry| (text::shorten(&entry.0, SIZE, label_room), entry.1);
+        let shortened = |(label, look): &LegendEntry| (text::shorten(label, SIZE, label_room), *look);
         let column = |part: &[LegendEntry]| {
             let part: Vec<LegendEntry> = part.iter().map(shortened).collect();
             let widest = part.iter().map(|entry| text::width(&entry.0, SIZE)).fold(0.0, f64::max);
             (part, sample + SAMPLE_GAP + widest)
         };
-        Self { columns: entries.chunks(rows).map(column).collect(), sample }
+        let rows = entries.len().div_ceil(columns);
+        let columns: Vec<_> = entries.chunks(rows).map(column).collect();
+        let width = columns.iter().map(|column| column.1 + COLUMN_GAP).sum::<f64>() - COLUMN_GAP;
+        Self { columns, sample, size: (width + 2.0 * PADDING, ROW * rows as f64 + 2.0 * PADDING - 2.0) }
     }
 
-    /// A block of as many columns as fit into a width.
-    pub fn wide(entries: &[LegendEntry], room: f64) -> Self {
-        let mut blocks = (1..=entries.len().min(6)).rev().map(|columns| Self::new(entries, columns, room));
-        blocks.find(|block| block.size().0 <= room).unwrap_or_else(|| Self::new(entries, 1, room))
-    }
-
-    pub fn size(&self) -> (f64, f64) {
-        let width = self.columns.iter().map(|column| column.1 + COLUMN_GAP).sum::<f64>() - COLUMN_GAP;
-        let rows = self.columns.iter().map(|column| column.0.len()).max().unwrap_or(0);
-        (width + 2.0 * PADDING, ROW * rows as f64 + 2.0 * PADDING - 2.0)
-    }
-
-    /// Draws the block with its upper left corner at a point; with a box when it is inside a panel.
-    pub fn draw(&self, page: &Page, corner: Pt, boxed: bool) -> Done {
-        if boxed {
-            let corners = Rect::new(corner, self.size()).corners().map(units);
-            page.draw(&Rectangle::new(corners, PAPER.filled()))?;
-            page.draw(&Rectangle::new(corners, chart::line(BORDER)))?;
-        }
+    fn draw(&self, page: &Page, corner: Pt) -> Done {
         let mut left = corner.0 + PADDING;
         for (entries, width) in &self.columns {
             for (row, (label, look)) in entries.iter().enumerate() {
-                let y = corner.1 + PADDING - 1.0 + ROW * (row as f64 + 0.5);
-                let at = |right: f64| (left + right, y);
-                let mut line = look.line.into_iter().map(|stroke| Curve::new(vec![at(0.0), at(self.sample)], stroke));
-                line.try_for_each(|line| page.draw(&line))?;
-                let mut marker = look.marker.into_iter();
-                marker.try_for_each(|marker| marker.draw(page, at(0.5 * self.sample), MARKER_RADIUS, look.color))?;
-                let style = font(SIZE, INK, Align::Start);
-                page.draw_text(label, &style, units(at(self.sample + SAMPLE_GAP)))?;
+                let at = |right: f64| (left + right, corner.1 + PADDING - 1.0 + ROW * (row as f64 + 0.5));
+                if let Some(stroke) = look.line {
+                    page.draw(&Curve(vec![at(0.0), at(self.sample)], stroke))?;
+                }
+                if let Some(marker) = look.marker {
+                    marker.draw(page, at(0.5 * self.sample), MARKER_RADIUS, look.color)?;
+                }
+                page.draw(&words(label, at(self.sample + SAMPLE_GAP), Font(SIZE, INK, Align::Start)))?;
             }
             left += width + COLUMN_GAP;
         }
@@ -85,22 +70,34 @@ impl Block {
     }
 }
 
-/// Returns a block inside the frame that hides nothing, and its corner; none if there is no space.
-pub(super) fn inside(entries: &[LegendEntry], placed: &Placed, taken: &Taken) -> Option<(Block, Pt)> {
-    // Corners first, then the middles of the sides; parts of the room that is left.
-    const SIDES: [(f64, f64); 8] =
-        [(1.0, 1.0), (0.0, 1.0), (1.0, 0.0), (0.0, 0.0), (1.0, 0.5), (0.0, 0.5), (0.5, 1.0), (0.5, 0.0)];
-    let most = if placed.panel.cells.is_empty() { entries.len().min(4) } else { 0 };
+/// Draws a legend inside the frame where it hides nothing, in a box; false if there is no space.
+pub(super) fn inside(page: &Page, entries: &[LegendEntry], placed: &Placed, taken: &[Pt]) -> Done<bool> {
     let room = placed.frame.grown(-INSET);
     let frame = placed.frame.size();
-    (1..=most).find_map(|columns| {
+    let place = |columns: usize| {
         let block = Block::new(entries, columns, 0.8 * frame.0);
-        let (width, height) = block.size();
-        let across = room.size().0 - width;
-        let down = room.size().1 - height;
-        let is_small = across >= 0.0 && down >= 0.0 && width * height <= MOST_AREA * frame.0 * frame.1;
-        let corners = SIDES.map(|(right, up)| (room.left + right * across, room.bottom - height - up * down));
-        let free = |corner: &Pt| is_small && taken.cover(&Rect::new(*corner, (width, height)), 5.0) == 0;
-        Some((block, corners.into_iter().find(free)?))
-    })
+        let (width, height) = block.size;
+        let fits = width <= room.size().0 && height <= room.size().1 && width * height <= MOST_AREA * frame.0 * frame.1;
+        let rects = SIDES.map(|(right, up)| {
+            let (x, y) = room.at(right, up);
+            Rect::new((x - right * width, y - (1.0 - up) * height), block.size)
+        });
+        let rect = rects.into_iter().find(|rect| fits && notes::cover(taken, &rect.grown(5.0)) == 0)?;
+        Some((block, rect.ends()))
+    };
+    let Some((block, corners)) = (1..=entries.len().min(4)).find_map(place) else { return Ok(false) };
+    page.draw(&Rectangle::new(corners, PAPER.filled()))?;
+    page.draw(&Rectangle::new(corners, line(BORDER)))?;
+    block.draw(page, corners[0])?;
+    Ok(true)
+}
+
+/// Draws a legend below a panel in as many columns as fit into the figure, and returns its lower end.
+pub(super) fn below(page: &Page, entries: &[LegendEntry], placed: &Placed, top: f64, width: f64) -> Done<f64> {
+    let room = width - 2.0 * EDGE;
+    let block = |columns| Some(Block::new(entries, columns, room)).filter(|block| columns == 1 || block.size.0 <= room);
+    let Some(block) = (1..=entries.len().min(6)).rev().find_map(block) else { return Ok(top) };
+    let left = (placed.frame.at(0.5, 0.0).0 - 0.5 * block.size.0).min(width - EDGE - block.size.0).max(EDGE);
+    block.draw(page, (left, top))?;
+    Ok(top + block.size.1)
 }

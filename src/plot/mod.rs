@@ -1,19 +1,17 @@
 //! Figures from data, as SVG or PNG files. This module does not depend on mechanics.
 //!
-//! A [`Figure`] stacks one or several [`Panel`]s. plotters draws them as charts, on a backend that records shapes in
-//! hundredths of a nominal pixel. The shapes are written as SVG, or drawn by tiny-skia as PNG and GIF, so that all
-//! show the same picture. Text is measured with the embedded DejaVu Sans; no font of the system is needed.
+//! A [`Figure`] stacks one or several [`Panel`]s. plotters draws all of them on a backend that records shapes. The
+//! shapes are written as SVG, or drawn by tiny-skia as PNG and GIF, so that all show the same picture. Text is measured with the embedded
+//! DejaVu Sans; no font of the system is needed.
 //!
 //! Sizes are in nominal pixels. A figure is 640 of them wide by default and meant to be printed 85 mm wide
 //! (one journal column), where its text is 6 to 7 pt high.
 
 mod axis;
 mod chart;
-mod clip;
 mod data;
 mod draw;
 mod figure;
-mod heat;
 mod item;
 mod layout;
 mod legend;
@@ -22,31 +20,26 @@ mod palette;
 mod panel;
 #[cfg(feature = "figures")]
 mod raster;
-mod series;
 mod shape;
 mod sketch;
 mod svg;
 mod text;
-mod thin;
 mod ticks;
 
 pub use figure::{Animation, Figure};
-pub use heat::Cell;
-pub use item::{Form, Item, Place, Spot, Tint};
-pub use panel::{AxisSpec, Panel, Scale};
-pub use series::{Series, Style};
+pub use item::{Form, Item, Spot, Tint};
+pub use panel::{AxisSpec, Panel, Series, Style};
 pub use shape::Align;
 
-// Names that the files of this folder share.
-use axis::{Axis, Extent};
+use axis::Axis;
+use data::Marker;
 use layout::Placed;
-use notes::Taken;
 use palette::*;
-use plotters::element::{Polygon, Rectangle};
+use plotters::element::{Circle, Cross, Polygon, Rectangle};
 use plotters::style::Color as _;
-use shape::{Color, Drawing, Paint, Pt, Rect, Shape, Stroke, Text};
-use sketch::{Chart, Curve, Done, Page, Sketch, font, pixels, units};
-use text::{HALF_DIGIT, LINE_HEIGHT, Label};
+use shape::{Color, Drawing, Font, Paint, Pt, Rect, Shape, Stroke, Text, is_closed};
+use sketch::{Chart, Curve, Done, Page, font, line, units, words};
+use text::{HALF_DIGIT, LINE_HEIGHT, Label, Rich};
 
 #[cfg(all(test, feature = "figures"))]
 mod tests;

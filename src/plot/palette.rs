@@ -1,6 +1,5 @@
 //! Colours, dashes, markers and sizes.
 
-use super::data::Marker;
 use super::*;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 
@@ -56,34 +55,32 @@ pub(super) struct Look {
     pub color: Color,
 }
 
-/// Returns the appearance of series `index` of `count`. From eight on, dashes alternate too: four patterns and seven
+/// Returns the appearance of the series of a panel. Of eight lines or more dashes alternate too: four patterns and seven
 /// colours give 28 different lines, neighbours differing in both.
-pub(super) fn look(series: &Series, index: usize, count: usize) -> Look {
-    let place = series.color.unwrap_or(index);
-    let color = if matches!(series.style, Style::Guide | Style::Crosses) { GREY } else { COLORS[place % COLORS.len()] };
-    let pattern = if count > COLORS.len() { index % DASHES.len() } else { 0 };
-    let dash = match series.style {
-        Style::Dashed => DASHES[pattern.max(1)],
-        Style::Dotted => DASHES[2],
-        Style::Guide => DASHED,
-        _ => DASHES[pattern],
+pub(super) fn looks(all: &[Series]) -> Vec<Look> {
+    use Style::*;
+    let has_own_pattern = |series: &&Series| !matches!(series.style, Dashed | Dotted | Guide | Crosses);
+    let is_many = all.iter().filter(has_own_pattern).count() > COLORS.len();
+    let look = |(index, Series { style, color, .. }): (usize, &Series)| {
+        let place = color.unwrap_or(index);
+        let color = if matches!(style, Guide | Crosses) { GREY } else { COLORS[place % COLORS.len()] };
+        let pattern = if is_many { index % DASHES.len() } else { 0 };
+        let dash = match style {
+            Dashed => DASHES[pattern.max(1)],
+            Dotted => DASHES[2],
+            Guide => DASHED,
+            _ => DASHES[pattern],
+        };
+        let width = if matches!(style, Thin | Guide) { THIN_WIDTH } else { LINE_WIDTH };
+        let marker = match style {
+            Crosses => Some(Marker::Cross),
+            Dots | LineDots => Some(MARKERS[place % MARKERS.len()]),
+            _ => None,
+        };
+        let line = (!matches!(style, Dots | Crosses)).then_some(Stroke { color, width, dash });
+        Look { line, marker, color }
     };
-    let width = if matches!(series.style, Style::Thin | Style::Guide) { THIN_WIDTH } else { LINE_WIDTH };
-    let line = series.style.has_line().then_some(Stroke { color, width, dash });
-    let marker = match series.style {
-        Style::Crosses => Some(Marker::Cross),
-        style => style.has_markers().then_some(MARKERS[place % MARKERS.len()]),
-    };
-    Look { line, marker, color }
-}
-
-/// Returns a colour mixed with paper by its paleness.
-pub(super) fn tint(tint: Tint) -> Color {
-    let (full, paleness) = match tint {
-        Tint::Ink(paleness) => (INK, paleness),
-        Tint::Body(place, paleness) => (COLORS[place % COLORS.len()], paleness),
-    };
-    mix(full, PAPER, paleness.clamp(0.0, 1.0))
+    all.iter().enumerate().map(look).collect()
 }
 
 /// Returns the colour at `share` of the way from one to another.
@@ -101,8 +98,11 @@ pub(super) fn scale_color(step: usize) -> Color {
     ViridisRGB.get_color(0.96 * step.min(COLOR_STEPS - 1) as f64 / (COLOR_STEPS - 1) as f64)
 }
 
-/// Returns black or white, whichever is legible on `fill`.
-pub(super) fn ink_on(fill: Color) -> Color {
-    let luminance = 0.299 * f64::from(fill.0) + 0.587 * f64::from(fill.1) + 0.114 * f64::from(fill.2);
-    if luminance > 125.0 { INK } else { PAPER }
+/// Returns the colours of figures, mixed with paper and with ink as at soft edges: 239, for files with a palette.
+#[cfg(feature = "figures")]
+pub(super) fn shades() -> Vec<[u8; 3]> {
+    let pale = |color| (0..24).map(move |k| mix(color, PAPER, f64::from(k) / 24.0));
+    let dark = |color| (1..11).map(move |k| mix(color, INK, f64::from(k) / 11.0));
+    let all = [PAPER].into_iter().chain(COLORS.into_iter().flat_map(|color| pale(color).chain(dark(color))));
+    all.map(|Color(red, green, blue)| [red, green, blue]).collect()
 }

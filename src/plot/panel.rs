@@ -1,24 +1,14 @@
 //! One panel: axes, and the data drawn between them.
 
-use super::{Cell, Form, Item, Series, Spot, Tint};
-
-/// Map from values to lengths.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Scale {
-    /// Equal lengths for equal differences.
-    #[default]
-    Linear,
-    /// Equal lengths for equal ratios. Zero and negative values lie below the frame.
-    Log,
-}
+use super::{Form, Item, Spot, Tint};
 
 /// Label, scale and limits of an axis. Made from its label: `"time (s)".into()`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AxisSpec {
     /// Quantity and unit, like `"position drift (m)"`. Numbers after `^` are set as superscripts.
     pub label: String,
-    /// Linear or logarithmic.
-    pub scale: Scale,
+    /// True if equal lengths are equal ratios; zero and negative values then lie below the frame.
+    pub is_log: bool,
     /// Fixed limits; taken from the data when absent or unusable.
     pub range: Option<(f64, f64)>,
     /// True if values are angles in degrees, with marks at multiples of 15, 45, 90 ...
@@ -36,12 +26,69 @@ impl<T: Into<String>> From<T> for AxisSpec {
 impl AxisSpec {
     /// Makes the axis logarithmic.
     pub fn log(self) -> Self {
-        Self { scale: Scale::Log, ..self }
+        Self { is_log: true, ..self }
     }
 
     /// Sets fixed limits.
     pub fn range(self, low: f64, high: f64) -> Self {
         Self { range: Some((low, high)), ..self }
+    }
+}
+
+/// Style of a series.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// A line; one of eight or more lines in a panel gets dashes as well, to be told apart in grey.
+    #[default]
+    Line,
+    /// A dashed line.
+    Dashed,
+    /// A dotted line.
+    Dotted,
+    /// A thin line.
+    Thin,
+    /// A thin grey dashed line that helps to read the others.
+    Guide,
+    /// A marker at every point.
+    Dots,
+    /// A line with a marker at every point.
+    LineDots,
+    /// A small grey cross at every point, for data in the background.
+    Crosses,
+}
+
+/// Points that belong together. A NaN or an infinity breaks the line.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Name in the legend; empty: not listed.
+    pub label: String,
+    /// (x, y), in drawing order.
+    pub points: Vec<(f64, f64)>,
+    /// Line, dashes, dots.
+    pub style: Style,
+    /// Index in the palette (seven colours, repeated); the index in the panel if none.
+    pub color: Option<usize>,
+}
+
+impl Series {
+    /// A line.
+    pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.into(), points, ..Self::default() }
+    }
+
+    /// Separate points.
+    pub fn dots(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self::line(label, points).style(Style::Dots)
+    }
+
+    /// Sets the style.
+    pub fn style(self, style: Style) -> Self {
+        Self { style, ..self }
+    }
+
+    /// Sets the colour by its index in the palette.
+    pub fn color(self, color: usize) -> Self {
+        Self { color: Some(color), ..self }
     }
 }
 
@@ -58,14 +105,8 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// The axis of the colour bar, of which values beyond the limits have the colour of the limit.
     pub colors: AxisSpec,
-    /// Points coloured by a third value on the colour bar.
-    pub colored: Vec<(f64, f64, f64)>,
-    /// Cells coloured by a value on the colour bar, in the place of a grid.
-    pub cells: Vec<Cell>,
     /// Items drawn on top of the series, in this order.
     pub items: Vec<Item>,
-    /// A small drawing around (0, 0), placed in the corner where it hides least.
-    pub inset: Vec<Item>,
     /// Colours that the legend explains in addition to the series.
     pub keys: Vec<(String, Tint)>,
     /// True if one unit of x is as long as one unit of y (both linear).
@@ -101,13 +142,6 @@ impl Panel {
     pub fn note(mut self, tint: Tint, x: f64, y: f64, text: impl Into<String>) -> Self {
         self.items.push(Item { spots: vec![Spot::data(x, y)], tint, form: Form::Note(text.into()) });
         self
-    }
-
-    /// Adds a dashed vertical line with a text.
-    pub fn vertical(mut self, x: f64, text: impl Into<String>) -> Self {
-        let spots = [f64::NEG_INFINITY, f64::INFINITY].map(|y| Spot::data(x, y)).to_vec();
-        self.items.push(Item { spots, tint: Tint::Ink(0.3), form: Form::Line(1.5, true) });
-        self.note(Tint::Ink(0.25), x, f64::INFINITY, text)
     }
 
     /// Sets the height between the axes, in nominal pixels.

@@ -1,14 +1,13 @@
-//! The flat list of shapes from which files are written. Coordinates are nominal pixels, y down.
+//! Shapes, from which files are written. Coordinates are nominal pixels, y down.
 
+use super::sketch::Recorded;
 use super::text::Rich;
 use std::ops::Range;
 
 pub(super) use plotters::style::RGBColor as Color;
 
-/// A point of the picture.
 pub(super) type Pt = (f64, f64);
 
-/// A rectangle parallel to the axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Rect {
     pub left: f64,
@@ -32,7 +31,12 @@ impl Rect {
         (self.left + right * width, self.bottom - up * height)
     }
 
-    pub fn corners(&self) -> [Pt; 2] {
+    pub fn corners(&self) -> [Pt; 4] {
+        [(self.left, self.top), (self.right, self.top), (self.right, self.bottom), (self.left, self.bottom)]
+    }
+
+    /// Returns the upper left and the lower right corner.
+    pub fn ends(&self) -> [Pt; 2] {
         [(self.left, self.top), (self.right, self.bottom)]
     }
 
@@ -40,22 +44,15 @@ impl Rect {
         x >= self.left && x <= self.right && y >= self.top && y <= self.bottom
     }
 
-    /// Returns its point nearest to another.
     pub fn nearest(&self, (x, y): Pt) -> Pt {
         (x.max(self.left).min(self.right), y.max(self.top).min(self.bottom))
     }
 
-    /// Returns this rectangle, larger on every side.
     pub fn grown(&self, by: f64) -> Self {
         Self { left: self.left - by, top: self.top - by, right: self.right + by, bottom: self.bottom + by }
     }
-
-    pub fn overlaps(&self, other: &Self) -> bool {
-        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
-    }
 }
 
-/// Colour, width and dashes of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stroke {
     pub color: Color,
@@ -82,49 +79,52 @@ impl Align {
     }
 }
 
+/// Size, colour and alignment of a text.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Font(pub f64, pub Color, pub Align);
+
 /// A line of text; `at` is on its baseline.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Text {
     pub at: Pt,
     pub rich: Rich,
-    pub size: f64,
-    pub color: Color,
-    pub align: Align,
+    pub font: Font,
     /// True if rotated by 90 degrees, to be read upwards.
     pub turned: bool,
 }
 
 impl Text {
-    /// Returns the box around the text, as measured with the embedded font.
     pub fn bounds(&self) -> Rect {
-        let (width, (x, y)) = (self.rich.width(self.size), self.at);
-        let before = self.align.part() * width;
-        let above = 0.78 * self.size;
-        if self.turned {
-            return Rect::new((x - above, y + before - width), (self.size, width));
+        let Self { at: (x, y), rich, font: Font(size, _, align), turned } = self;
+        let width = rich.width(*size);
+        let before = align.part() * width;
+        let above = 0.78 * size;
+        if *turned {
+            return Rect::new((x - above, y + before - width), (*size, width));
         }
-        Rect::new((x - before, y - above), (width, self.size))
+        Rect::new((x - before, y - above), (width, *size))
     }
 }
 
-/// Style of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Paint {
     Line(Stroke),
-    /// A polygon; crisp ones leave no seam between neighbours.
+    /// A polygon of an opacity; crisp ones leave no seam between neighbours.
     Area(Color, f64, bool),
     /// A disc of a radius around each point.
     Disc(Color, f64),
 }
 
-/// A shape to draw.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shape {
     Drawn(Paint, Vec<Vec<Pt>>),
     Text(Text),
 }
 
-/// A picture.
+pub(super) fn is_closed(line: &[Pt]) -> bool {
+    line.len() > 2 && line.first() == line.last()
+}
+
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Drawing {
     pub width: f64,
@@ -134,20 +134,34 @@ pub(super) struct Drawing {
     pub shapes: Vec<Shape>,
     /// Range of the panels' items among the shapes: the moving part of an animation.
     pub items: Range<usize>,
-    /// Number of shapes to which nothing is added.
+    /// Number of shapes that are complete.
     pub sealed: usize,
 }
 
 impl Drawing {
-    /// Adds a line to the shape of the same style before it, or as a new one. Texts between them hide nothing.
-    pub fn add(&mut self, paint: Paint, line: Vec<Pt>) {
+    /// Ends a group of shapes, and returns their number: later ones are not joined to them.
+    pub fn seal(&mut self) -> usize {
+        self.sealed = self.shapes.len();
+        self.sealed
+    }
+
+    /// Adds a line, a polygon or discs. Those of one style are one shape; texts between them hide nothing.
+    pub fn record(&mut self, paint: Paint, mut points: Vec<Pt>) -> Recorded {
+        if let Paint::Area(..) = paint {
+            points.extend(points.first().copied());
+            // Areas of one colour are filled together, where opposite senses would make holes.
+            if points.windows(2).map(|pair| pair[0].0 * pair[1].1 - pair[1].0 * pair[0].1).sum::<f64>() < 0.0 {
+                points.reverse();
+            }
+        }
         let mut open = self.shapes[self.sealed..].iter_mut().rev();
         match open.find(|shape| matches!(shape, Shape::Drawn(..))) {
             // What is transparent is seen through.
             Some(Shape::Drawn(same, lines)) if *same == paint && !matches!(paint, Paint::Area(_, ..1.0, _)) => {
-                lines.push(line)
+                lines.push(points)
             }
-            _ => self.shapes.push(Shape::Drawn(paint, vec![line])),
+            _ => self.shapes.push(Shape::Drawn(paint, vec![points])),
         }
+        Ok(())
     }
 }

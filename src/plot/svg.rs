@@ -9,38 +9,51 @@ use super::*;
 const DOT: f64 = 0.1;
 const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-serif";
 
-/// Returns the whole file.
 pub(super) fn render(drawing: &Drawing) -> String {
-    opening(drawing) + "</svg>\n"
-}
-
-/// Returns the file without its end.
-fn opening(drawing: &Drawing) -> String {
     let width = number(drawing.width);
     let height = number(drawing.height);
-    let title = escape(&drawing.title);
-    let title = if title.is_empty() { title } else { format!("<title>{title}</title>\n") };
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
-         role=\"img\" xml:space=\"preserve\" font-family=\"{FONTS}\" stroke-linejoin=\"round\">\n{title}\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
+         role=\"img\" xml:space=\"preserve\" font-family=\"{FONTS}\" stroke-linejoin=\"round\">\n"
     );
+    if !drawing.title.is_empty() {
+        out += &format!("<title>{}</title>\n", escape(&drawing.title));
+    }
+    out += &format!("<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n");
     drawing.shapes.iter().for_each(|one| shape(&mut out, one));
-    out
+    out + "</svg>\n"
+}
+
+/// Returns an animation of which `frames` are shown in a loop, each for `delay` seconds.
+pub(super) fn animate(still: &Drawing, frames: &[Vec<Shape>], delay: f64) -> String {
+    let mut out = render(still).trim_end_matches("</svg>\n").to_string();
+    let count = frames.len() as f64;
+    let whole = delay * count;
+    for (k, frame) in frames.iter().enumerate() {
+        let [from, to] = [k, k + 1].map(|k| k as f64 / count);
+        // Viewers without animation show the first frame.
+        let first = if k == 0 { "inline" } else { "none" };
+        out += &format!(
+            "<g display=\"{first}\">\n<animate attributeName=\"display\" calcMode=\"discrete\" values=\"none;inline;none\" \
+             keyTimes=\"0;{from:.6};{to:.6}\" dur=\"{whole:.4}s\" repeatCount=\"indefinite\"/>\n"
+        );
+        frame.iter().for_each(|one| shape(&mut out, one));
+        out += "</g>\n";
+    }
+    out + "</svg>\n"
 }
 
 fn shape(out: &mut String, shape: &Shape) {
-    let (paint, lines) = match shape {
-        Shape::Text(line) => return text(out, line),
-        Shape::Drawn(paint, lines) => (paint, lines),
-    };
-    let dot = |(x, y): &Pt| vec![(*x, *y), (x + DOT, *y)];
-    let dots = || lines.iter().flatten().map(dot).collect::<Vec<_>>();
-    let data = if let Paint::Disc(..) = paint { data(&dots()) } else { data(lines) };
-    *out += &format!("<path {} d=\"{data}\"/>\n", style(paint));
+    match shape {
+        Shape::Text(line) => text(out, line),
+        Shape::Drawn(paint @ Paint::Disc(..), lines) => {
+            let dots = lines.iter().flatten().map(|(x, y)| vec![(*x, *y), (x + DOT, *y)]);
+            *out += &format!("<path {} d=\"{}\"/>\n", style(paint), data(&dots.collect::<Vec<_>>()));
+        }
+        Shape::Drawn(paint, lines) => *out += &format!("<path {} d=\"{}\"/>\n", style(paint), data(lines)),
+    }
 }
 
-/// Returns the attributes of a path.
 fn style(paint: &Paint) -> String {
     let line = |color, width| format!("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"", hex(color), number(width));
     match paint {
@@ -57,77 +70,44 @@ fn style(paint: &Paint) -> String {
     }
 }
 
-/// Returns an animation of which `frames` are shown in a loop, each for `delay` seconds.
-pub(super) fn animate(still: &Drawing, frames: &[Vec<Shape>], delay: f64) -> String {
-    let mut out = opening(still);
-    let count = frames.len() as f64;
-    let whole = delay * frames.len() as f64;
-    for (k, frame) in frames.iter().enumerate() {
-        let from = k as f64 / count;
-        let to = (k + 1) as f64 / count;
-        // Viewers without animation show the first frame.
-        let first = if k == 0 { "inline" } else { "none" };
-        out += &format!(
-            "<g display=\"{first}\">\n<animate attributeName=\"display\" calcMode=\"discrete\" values=\"none;inline;none\" \
-             keyTimes=\"0;{from:.6};{to:.6}\" dur=\"{whole:.4}s\" repeatCount=\"indefinite\"/>\n"
-        );
-        frame.iter().for_each(|one| shape(&mut out, one));
-        out.push_str("</g>\n");
-    }
-    out + "</svg>\n"
-}
-
 fn text(out: &mut String, text: &Text) {
-    let anchor = ["start", "middle", "end"][text.align as usize];
-    let x = number(text.at.0);
-    let y = number(text.at.1);
+    let Font(size, color, align) = text.font;
+    let anchor = ["start", "middle", "end"][align as usize];
+    let [x, y] = [text.at.0, text.at.1].map(number);
     let upright = format!("x=\"{x}\" y=\"{y}\"");
     let place = if text.turned { format!("transform=\"translate({x} {y}) rotate(-90)\"") } else { upright };
-    let size = number(text.size);
-    let color = hex(&text.color);
-    *out += &format!("<text {place} font-size=\"{size}\" fill=\"{color}\" text-anchor=\"{anchor}\">");
+    let color = hex(&color);
+    *out += &format!("<text {place} font-size=\"{}\" fill=\"{color}\" text-anchor=\"{anchor}\">", number(size));
     let mut level = 0.0;
     for (rise, run) in &text.rich.0 {
-        let (size, down) = text::metrics(*rise, text.size);
+        let (size, down) = text::metrics(*rise, size);
         let step = number(down - level);
-        let size = number(size);
-        let run = escape(run);
         let is_plain = *rise == 0.0 && level == 0.0;
-        *out += &if is_plain { run } else { format!("<tspan dy=\"{step}\" font-size=\"{size}\">{run}</tspan>") };
+        let run = escape(run);
+        let tspan = format!("<tspan dy=\"{step}\" font-size=\"{}\">{run}</tspan>", number(size));
+        *out += if is_plain { &run } else { &tspan };
         level = down;
     }
-    out.push_str("</text>\n");
+    *out += "</text>\n";
 }
 
-/// Returns path data: steps in tenths of a pixel that add up without drift, without letters that repeat.
+/// Returns path data: steps in tenths of a pixel that add up without drift. Pairs that follow a move are lines.
 fn data(lines: &[Vec<Pt>]) -> String {
     let mut out = String::new();
-    let mut pen = [0, 0];
+    let mut pen = [0; 2];
     for line in lines {
-        let mut last = ' ';
+        let mut before = "m";
         for (x, y) in line {
-            let next = [x, y].map(|value| (10.0 * value).round() as i64);
-            let step = [next[0] - pen[0], next[1] - pen[1]];
-            let (letter, values) = match step {
-                _ if last == ' ' => ('m', &step[..]),
-                [_, 0] => ('h', &step[..1]),
-                [0, _] => ('v', &step[1..]),
-                _ => ('l', &step[..]),
-            };
-            // Pairs that follow a move are lines.
-            let repeats = letter == last || (last, letter) == ('m', 'l');
-            if !repeats {
-                out.push(letter);
+            for (pen, value) in pen.iter_mut().zip([x, y]) {
+                let next = (10.0 * value).round() as i64;
+                let step = number((next - *pen) as f64 / 10.0);
+                out += if before == " " && step.starts_with('-') { "" } else { before };
+                out += &step;
+                *pen = next;
+                before = " ";
             }
-            for (k, value) in values.iter().enumerate() {
-                out += if (repeats || k > 0) && *value >= 0 { " " } else { "" };
-                out += &number(*value as f64 / 10.0);
-            }
-            (last, pen) = (letter, next);
         }
-        if line.len() > 2 && line.first() == line.last() {
-            out.push('z');
-        }
+        out += if is_closed(line) { "z" } else { "" };
     }
     out
 }
@@ -163,7 +143,7 @@ mod tests {
     #[test]
     fn paths_are_short() {
         assert_eq!(data(&[vec![(1.0, 2.0), (1.5, 1.0), (0.0, 3.25)]]), "m1 2 .5-1-1.5 2.3");
-        assert_eq!(data(&[vec![(1.0, 1.0), (3.0, 1.0), (3.0, 0.0), (4.0, 1.0), (1.0, 1.0)]]), "m1 1h2v-1l1 1h-3z");
+        assert_eq!(data(&[vec![(1.0, 1.0), (3.0, 1.0), (3.0, 0.0), (4.0, 1.0), (1.0, 1.0)]]), "m1 1 2 0 0-1 1 1-3 0z");
         assert_eq!(number(-0.001), "0");
         assert_eq!(escape("a<b & \u{1}\u{ffff}"), "a&lt;b &amp;  \u{fffd}");
     }

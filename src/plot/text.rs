@@ -3,9 +3,8 @@
 use ab_glyph::{Font, FontRef, GlyphId};
 use std::sync::LazyLock;
 
-/// Distance of lines of text in em.
+/// Distance of lines of text, and half the height of a digit, in em.
 pub(super) const LINE_HEIGHT: f64 = 1.22;
-/// Half the height of a digit in em.
 pub(super) const HALF_DIGIT: f64 = 0.365;
 /// Units of the font in an em.
 pub(super) const EM: f64 = 2048.0;
@@ -16,20 +15,16 @@ pub(super) static DEJAVU: LazyLock<Option<FontRef>> =
 
 /// Returns the glyphs of a text, each with its start, and the end of the text; in em, with kerning.
 pub(super) fn glyphs(font: &FontRef, text: &str) -> (Vec<(GlyphId, f64)>, f64) {
+    let mut placed: Vec<(GlyphId, f64)> = Vec::new();
     let mut end = 0.0;
-    let mut before = None;
-    let mut place = |character| {
-        let glyph = font.glyph_id(character);
-        let start = end + before.map_or(0.0, |before| font.kern_unscaled(before, glyph));
-        end = start + font.h_advance_unscaled(glyph);
-        before = Some(glyph);
-        (glyph, f64::from(start) / EM)
-    };
-    let placed = text.chars().map(&mut place).collect();
+    for glyph in text.chars().map(|character| font.glyph_id(character)) {
+        let kern = placed.last().map_or(0.0, |before| font.kern_unscaled(before.0, glyph));
+        placed.push((glyph, f64::from(end + kern) / EM));
+        end += kern + font.h_advance_unscaled(glyph);
+    }
     (placed, f64::from(end) / EM)
 }
 
-/// Returns the width of a text at a font size.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     Rich::new(text).width(size)
 }
@@ -38,7 +33,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
 const RAISED: f64 = 0.40;
 const LOWERED: f64 = -0.16;
 
-/// Returns size and downward shift of a part with a rise, in a line of the given size.
+/// Returns size and downward shift of a part with a rise.
 pub(super) fn metrics(rise: f64, size: f64) -> (f64, f64) {
     (if rise == 0.0 { size } else { 0.72 * size }, -rise * size)
 }
@@ -49,7 +44,7 @@ pub(super) struct Rich(pub Vec<(f64, String)>);
 
 impl Rich {
     /// Reads a text. Superscript and subscript characters become raised and lowered parts, which look the same in
-    /// every font, and so does a whole number after "^": `m/s^2`. Control characters become spaces.
+    /// every font, and so does a whole number after "^": `m/s^2`.
     pub fn new(text: &str) -> Self {
         let mut rich = Self::default();
         let mut is_exponent = false;
@@ -75,7 +70,6 @@ impl Rich {
         }
     }
 
-    /// Returns the width at a font size.
     pub fn width(&self, size: f64) -> f64 {
         let width = |text: &str| DEJAVU.as_ref().map_or(0.0, |font| glyphs(font, text).1);
         self.0.iter().map(|(rise, text)| width(text) * metrics(*rise, size).0).sum()
@@ -84,22 +78,14 @@ impl Rich {
 
 /// Returns the rise of a character, and the one to draw.
 fn classify(character: char) -> (f64, char) {
-    if character.is_ascii_graphic() {
-        return (0.0, character);
-    }
-    for (list, rise) in [("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾", RAISED), ("₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎", LOWERED)]
-    {
-        if let Some((_, plain)) = list.chars().zip("0123456789+−=()".chars()).find(|pair| pair.0 == character) {
-            return (rise, plain);
-        }
-    }
-    (0.0, if character.is_control() { ' ' } else { character })
+    let plain = |list: &str| "0123456789+−=()".chars().nth(list.chars().position(|one| one == character)?);
+    let raised = plain("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾").map(|plain| (RAISED, plain));
+    raised.or_else(|| Some((LOWERED, plain("₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎")?))).unwrap_or((0.0, character))
 }
 
 /// A text broken into lines, smaller if it would not fit otherwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Label {
-    /// The text with its line breaks.
     pub text: String,
     pub size: f64,
 }
@@ -137,8 +123,7 @@ pub(super) fn shorten(text: &str, size: f64, room: f64) -> String {
         return text.to_string();
     }
     let cut = |count| text.chars().take(count).collect::<String>().trim_end().to_string() + "…";
-    let fitting = (1..=most).rev().map(cut).find(|cut| width(cut, size) <= room);
-    fitting.unwrap_or_default()
+    (1..=most).rev().map(cut).find(|cut| width(cut, size) <= room).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! Marks of an axis: multiples of 1, 2, 2.5 or 5 times a power of ten, powers of ten, or names.
 
-use super::panel::Scale;
 use super::{Axis, TICK_SIZE, text};
 
 /// Largest number of significant digits; longer labels are written relative to an offset.
@@ -15,7 +14,6 @@ const ROOM_FOR_DECADE: f64 = 4.0;
 /// Powers of ten that numbers of the machine reach.
 const POWERS: (i32, i32) = (-307, 307);
 
-/// The marks of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Ticks {
     /// Values with their labels.
@@ -33,28 +31,24 @@ pub(super) struct Room {
     pub is_upright: bool,
 }
 
-impl Room {
-    /// Returns the least distance of marks at which these labels do not touch.
-    fn spacing(self, ticks: &Ticks) -> f64 {
-        if self.is_upright { 2.2 * TICK_SIZE } else { ticks.widest().max(TICK_SIZE) + 0.9 * TICK_SIZE }
-    }
-}
-
 impl Ticks {
-    /// Chooses the marks of an axis.
     pub fn new(axis: &Axis, room: Room) -> Self {
-        match axis.spec.scale {
-            _ if !axis.spec.names.is_empty() => named(axis, room),
-            Scale::Linear => linear(axis.low, axis.high, room, axis.spec.is_angle),
-            Scale::Log => log(axis.low, axis.high, room),
+        if !axis.spec.names.is_empty() {
+            return named(axis, room);
         }
+        let limits = (axis.low, axis.high);
+        if axis.spec.is_log { log(limits, room) } else { linear(limits, room, axis.spec.is_angle) }
+    }
+
+    /// Returns the least distance of marks at which their labels do not touch.
+    fn spacing(&self, room: Room) -> f64 {
+        if room.is_upright { 2.2 * TICK_SIZE } else { self.widest().max(TICK_SIZE) + 0.9 * TICK_SIZE }
     }
 
     fn labelled(major: impl Iterator<Item = (f64, String)>) -> Self {
         Self { major: major.collect(), ..Self::default() }
     }
 
-    /// Returns the width of the widest label.
     pub fn widest(&self) -> f64 {
         self.major.iter().map(|tick| text::width(&tick.1, TICK_SIZE)).fold(0.0, f64::max)
     }
@@ -70,7 +64,7 @@ fn named(axis: &Axis, room: Room) -> Ticks {
 }
 
 /// Returns the finest marks whose labels have space.
-fn linear(low: f64, high: f64, room: Room, is_angle: bool) -> Ticks {
+fn linear((low, high): (f64, f64), room: Room, is_angle: bool) -> Ticks {
     let span = high - low;
     let finest = span / if room.is_upright { 7.0 } else { 8.0 };
     let angles = ANGLES.into_iter().filter(|step| is_angle && *step <= 0.5 * span);
@@ -78,11 +72,10 @@ fn linear(low: f64, high: f64, room: Room, is_angle: bool) -> Ticks {
     let decimal = (power..power + 2).flat_map(|power| [1.0, 2.0, 2.5, 5.0].map(|digit| digit * 10f64.powi(power)));
     let steps = angles.chain(decimal).filter(|step| *step >= finest * (1.0 - 1e-9));
     let mut marks = steps.map(|step| (room.length * step / span, multiples(low, high, step)));
-    let first = marks.find(|(distance, ticks)| ticks.major.len() < 3 || *distance >= room.spacing(ticks));
+    let first = marks.find(|(distance, ticks)| ticks.major.len() < 3 || *distance >= ticks.spacing(room));
     first.map_or_else(|| multiples(low, high, 0.5 * span), |(_, ticks)| ticks)
 }
 
-/// Returns marks at the multiples of a step.
 fn multiples(low: f64, high: f64, step: f64) -> Ticks {
     // A mark exactly at the limit must not be lost to rounding.
     let first = (low / step - 1e-6).ceil();
@@ -125,11 +118,11 @@ fn signed(offset: f64, step: f64) -> String {
 }
 
 /// Returns marks at powers of ten between 10^low and 10^high, thinned so that their labels do not touch.
-fn log(low: f64, high: f64, room: Room) -> Ticks {
+fn log((low, high): (f64, f64), room: Room) -> Ticks {
     let decade = room.length / (high - low);
     let powers = ((low - 1e-9).ceil() as i32).max(POWERS.0)..=((high + 1e-9).floor() as i32).min(POWERS.1);
     let at = |power: i32| (10f64.powi(power), format!("10^{power}"));
-    let needed = room.spacing(&Ticks::labelled([*powers.start(), *powers.end()].into_iter().map(at)));
+    let needed = Ticks::labelled([*powers.start(), *powers.end()].into_iter().map(at)).spacing(room);
     let stride = STRIDES.into_iter().find(|stride| f64::from(*stride) * decade >= needed).unwrap_or(1000);
     let (labelled, between): (Vec<i32>, Vec<i32>) = powers.partition(|power| power.rem_euclid(stride) == 0);
     let minor = match stride {
@@ -157,7 +150,7 @@ mod tests {
 
     #[test]
     fn labels_are_short_and_exact() {
-        let at = |low, high| linear(low, high, ROOM, false);
+        let at = |low, high| linear((low, high), ROOM, false);
         assert_eq!(labels(&at(0.0, 0.6)), ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6"]);
         assert_eq!(labels(&at(0.0, 0.03)), ["0.000", "0.005", "0.010", "0.015", "0.020", "0.025", "0.030"]);
         assert_eq!(labels(&at(-1.0, 1.0)), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
@@ -167,7 +160,7 @@ mod tests {
 
     #[test]
     fn angles_are_marked_at_parts_of_turns() {
-        let at = |low, high| linear(low, high, Room { length: 240.0, is_upright: true }, true);
+        let at = |low, high| linear((low, high), Room { length: 240.0, is_upright: true }, true);
         assert_eq!(labels(&at(-370.0, 10.0)), ["−360", "−270", "−180", "−90", "0"]);
         assert_eq!(labels(&at(-95.0, 3.0)), ["−90", "−75", "−60", "−45", "−30", "−15", "0"]);
         assert_eq!(labels(&at(0.0, 1.0)), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
@@ -175,15 +168,15 @@ mod tests {
 
     #[test]
     fn tiny_and_huge_values_share_a_factor() {
-        let tiny = linear(0.0, 5e-7, ROOM, false);
+        let tiny = linear((0.0, 5e-7), ROOM, false);
         assert_eq!((labels(&tiny)[1], tiny.factor.as_str()), ("100", "×10^-9"));
-        let huge = linear(0.0, 1e300, ROOM, false);
+        let huge = linear((0.0, 1e300), ROOM, false);
         assert_eq!((labels(&huge).last(), huge.factor.as_str()), (Some(&"1.0"), "×10^300"));
     }
 
     #[test]
     fn small_changes_of_a_large_value_get_an_offset() {
-        let ticks = linear(19.62, 19.62 + 3e-9, ROOM, false);
+        let ticks = linear((19.62, 19.62 + 3e-9), ROOM, false);
         assert!(labels(&ticks).iter().all(|label| label.chars().count() <= 4), "{ticks:?}");
         assert_eq!(ticks.factor, "×10^-9 + 19.62");
         assert_eq!([signed(196_200_000.0, 10.0), signed(-1_234_567.0, 1.0)], ["+ 1.962×10^8", "− 1234567"]);
@@ -191,19 +184,19 @@ mod tests {
 
     #[test]
     fn marks_lie_on_their_values() {
-        for (value, label) in linear(0.05, 0.95, ROOM, false).major {
+        for (value, label) in linear((0.05, 0.95), ROOM, false).major {
             assert!((label.parse::<f64>().expect("a number") - value).abs() < 1e-12);
         }
     }
 
     #[test]
     fn decades_are_thinned_to_multiples_of_a_stride() {
-        let ticks = log(-17.3, -1.8, UPWARDS);
+        let ticks = log((-17.3, -1.8), UPWARDS);
         assert_eq!(labels(&ticks), ["10^-15", "10^-12", "10^-9", "10^-6", "10^-3"]);
         assert_eq!(ticks.minor.len(), 11);
-        let few = log(-2.0, 1.0, UPWARDS);
+        let few = log((-2.0, 1.0), UPWARDS);
         assert_eq!((few.major.len(), few.minor.len()), (4, 24));
-        let extreme = log(-300.0, 300.0, UPWARDS);
+        let extreme = log((-300.0, 300.0), UPWARDS);
         assert!((3..10).contains(&extreme.major.len()), "{}", extreme.major.len());
     }
 }

@@ -3,7 +3,7 @@
 use super::figures::{Curve, label, stacked};
 use super::tables::{shown, watched};
 use crate::math::bounds;
-use crate::plot::{Figure, Panel};
+use crate::plot::{Figure, Form, Item, Panel, Spot, Tint};
 use crate::sweep::{Point, Sweep};
 
 /// Options of the figure of a sweep.
@@ -41,7 +41,7 @@ pub fn sweep_figure(sweep: &Sweep, look: SweepLook) -> Option<Figure> {
     let over = against.unwrap_or(&sweep.range.parameter);
     let what = curves.iter().map(|curve| curve.name).collect::<Vec<_>>().join(", ");
     let what = if names.is_empty() { "outputs" } else { &what };
-    let marked = |panel| marks.iter().fold(panel, |panel: Panel, (at, label)| panel.vertical(*at, *label));
+    let marked = |panel| marks.iter().fold(panel, |panel, (at, label)| marked(panel, *at, label));
     let panels = stacked(curves, separate).map(|stack| marked(stack.panel(&label)));
     let title = Figure::new().title(format!("{}: {what} over {over}", sweep.scene));
     Some(panels.fold(title, Figure::panel))
@@ -67,6 +67,13 @@ fn cut(sweep: &Sweep, points: &[&Point], values: &mut [f64]) {
     let wide = low - (high - low)..=high + (high - low);
     let far = |(point, value): &(&&Point, &mut f64)| low < high && is_end(point) && !wide.contains(*value);
     points.iter().zip(values).filter(far).for_each(|(_, value)| *value = f64::NAN);
+}
+
+/// Adds a dashed vertical line with a text.
+pub fn marked(panel: Panel, x: f64, text: &str) -> Panel {
+    let spots = [f64::NEG_INFINITY, f64::INFINITY].map(|y| Spot::data(x, y)).to_vec();
+    let line = Item { spots, tint: Tint::Ink(0.3), form: Form::Line(1.5, true) };
+    panel.items([line]).note(Tint::Ink(0.25), x, f64::INFINITY, text)
 }
 
 /// Returns the positions of the scene's own value and of the ends of the branch among the points of a curve.

@@ -1,6 +1,6 @@
 //! Curves stacked in panels.
 
-use holonom::plot::{Figure, Panel, Place};
+use holonom::plot::{Figure, Panel};
 use holonom::report::{Shown, outputs_figure};
 use holonom::study::{ErrorBar, ErrorBars};
 use holonom::system::{Column, Names};
@@ -81,7 +81,7 @@ fn an_error_bar_that_is_seen_is_a_band() {
     let seen = panel(0.1);
     let spots = &seen.items[0].spots;
     let ends = [&spots[0], &spots[spots.len() - 1]].map(|spot| spot.at);
-    assert_eq!(ends, [Place::Data(0.0, 5.1), Place::Data(0.0, 4.9)]);
+    assert_eq!(ends, [(0.0, 5.1), (0.0, 4.9)]);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The axes of the figure.
 
-use holonom::plot::{AxisSpec, Scale};
+use holonom::plot::AxisSpec;
 use holonom::report::simplify_figure;
 use holonom::simplify::{Difference, Norm, Run, Simplification, Trial};
 use holonom::simulate::Method;
@@ -76,7 +76,7 @@ fn the_axis_is_that_of_the_models() {
 fn times_that_are_alike_have_marks() {
     let of = |times: [f64; 3]| axes([times[2], 1e-9], &[[times[0], 0.01], [times[1], 0.01]]);
     let (alike, _, end) = of([4e-3, 6e-3, 25e-3]);
-    assert_eq!((alike.scale, alike.range, end), (Scale::Linear, Some((0.0, 1.1 * 25e-3)), 1.1 * 25e-3));
+    assert_eq!((alike.is_log, alike.range, end), (false, Some((0.0, 1.1 * 25e-3)), 1.1 * 25e-3));
     let (far, _, end) = of([4e-3, 4e-3, 4.0]);
-    assert_eq!((far.scale, far.range, end), (Scale::Log, Some((2e-3, 8.0)), 8.0));
+    assert_eq!((far.is_log, far.range, end), (true, Some((2e-3, 8.0)), 8.0));
 }

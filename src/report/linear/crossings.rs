@@ -4,6 +4,7 @@
 use crate::error::significant;
 use crate::linearize::{Sensitivity, Threshold, ThresholdKind};
 use crate::plot::Figure;
+use crate::report::sweep_figure::marked;
 use serde::Serialize;
 
 /// Derivatives of the eigenvalues at a value of the parameter.
@@ -90,7 +91,7 @@ pub fn with_thresholds(figure: Option<Figure>, thresholds: &[Threshold]) -> Opti
     let mut figure = figure?;
     for panel in &mut figure.panels {
         for threshold in thresholds {
-            *panel = std::mem::take(panel).vertical(threshold.at, significant(threshold.at, 11));
+            *panel = marked(std::mem::take(panel), threshold.at, &significant(threshold.at, 11));
         }
     }
     Some(figure)

@@ -3,7 +3,7 @@
 use super::drawn::{self, DrawnMode, MOST_DRAWN, ORDERS, is_shown};
 use super::ranges::{FREE, fitted, notes, outside, padded, robust, shaded, whole};
 use crate::linearize::{Branch, Complex, damping};
-use crate::plot::{AxisSpec, Figure, Panel, Scale, Series, Style, Tint};
+use crate::plot::{AxisSpec, Figure, Panel, Series, Style, Tint};
 use crate::tolerances::linearize as tolerances;
 use std::f64::consts::TAU;
 
@@ -86,7 +86,7 @@ fn others(other: Option<(&str, &[Branch])>) -> [Vec<Series>; 2] {
 
 /// On a logarithmic axis, makes gaps where a mode does not swing.
 fn without_zeros(panel: &Panel) -> impl Fn(Series) -> Series + use<> {
-    let is_log = panel.y.scale == Scale::Log;
+    let is_log = panel.y.is_log;
     move |mut line| {
         line.points.iter_mut().filter(|point| is_log && point.1 <= 0.0).for_each(|point| point.1 = f64::NAN);
         line

@@ -5,13 +5,16 @@ use super::ranges::{VERMILION, fitted, notes, robust, shaded};
 use super::rays::{Ray, rays};
 use crate::error::{short, significant};
 use crate::linearize::{Branch, Complex, Kind, are_conjugate};
-use crate::plot::{AxisSpec, Figure, Panel, Series, Style, Tint};
+use crate::plot::{AxisSpec, Figure, Form, Item, Panel, Series, Spot, Style, Tint};
 use std::collections::BTreeMap;
 
 /// Colour of the axes, as an index in the palette.
 const BLACK: usize = 6;
 /// Approximate size of the plane in pixels.
 const PIXELS: (f64, f64) = (440.0, 400.0);
+/// Radius of eigenvalues, pixels, and the largest number of them, so that the file stays small.
+const DOT: f64 = 2.7;
+const MOST_DOTS: usize = 4000;
 
 /// Ranges of real and imaginary parts.
 #[derive(Clone, Copy, Debug)]
@@ -52,9 +55,22 @@ pub fn loci_figure(
         }
     }
     panel = panel.series(Series::line("", joined(of(Kind::Physical))).style(Style::Thin).color(BLACK));
-    panel.colored = points(of(Kind::Physical)).map(|(at, value)| (value.re, value.im, at)).collect();
     panel.colors = along.into();
-    Some(Figure::new().title(title).panel(panel))
+    Some(Figure::new().title(title).panel(panel.items(dots(points(of(Kind::Physical)), &window))))
+}
+
+/// Returns dots for the eigenvalues of a window, at most some thousand, in the order of the values that colour them.
+fn dots(points: impl Iterator<Item = (f64, Complex<f64>)>, Window { re, im }: &Window) -> Vec<Item> {
+    let is_within = |x: f64, limits: &(f64, f64)| (limits.0..=limits.1).contains(&x);
+    let mut shown: Vec<_> = points.filter(|(_, value)| is_within(value.re, re) && is_within(value.im, im)).collect();
+    shown.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let dot = |(at, value): (f64, Complex<f64>)| Item {
+        spots: vec![Spot::data(value.re, value.im)],
+        tint: Tint::Value(at),
+        form: Form::Disc(DOT),
+    };
+    let step = shown.len().div_ceil(MOST_DOTS).max(1);
+    shown.into_iter().step_by(step).map(dot).collect()
 }
 
 /// Returns the finite points of a branch; those below the real axis become gaps where only the upper half is drawn.

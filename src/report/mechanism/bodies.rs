@@ -87,10 +87,8 @@ fn fill(pen: &mut Canvas, spots: Vec<Spot>, color: usize) {
 }
 
 fn point_mass(pen: &mut Canvas, r: [f64; 3], color: usize) {
-    let edge = pen.color(color, 0.0);
-    let inner = pen.color(color, 0.35);
-    pen.disc(pen.spot(r), MASS, edge);
-    pen.disc(pen.spot(r), MASS - BOLD, inner);
+    pen.disc(pen.spot(r), MASS, pen.color(color, 0.0));
+    pen.disc(pen.spot(r), MASS - BOLD, pen.color(color, 0.35));
 }
 
 /// Draws a square in the plane, a cube in space, for a body of which only position and orientation are known.
@@ -109,8 +107,7 @@ fn block(pen: &mut Canvas, pose: &Pose, color: usize) {
         let mut other = nearest;
         other[i] = -nearest[i];
         let edge = [nearest, other].map(|signs| pen.beside((pose.r, corner(signs)))).to_vec();
-        let tint = pen.color(color, 0.0);
-        pen.line(edge, tint, THIN);
+        pen.line(edge, pen.color(color, 0.0), THIN);
     }
 }
 
@@ -134,8 +131,7 @@ pub fn centre(pen: &mut Canvas, limb: &Limb, color: usize) {
     pen.layer = Layer::Mark;
     let at = pen.spot(limb.centre.r);
     if let Some(foot) = foot(&limb.points, limb.centre.r) {
-        let tint = pen.color(color, 0.3);
-        pen.dashes(vec![at, pen.spot(foot)], tint, THIN);
+        pen.dashes(vec![at, pen.spot(foot)], pen.color(color, 0.3), THIN);
     }
     let ink = pen.color(color, 0.0);
     pen.disc(at, CENTRE, ink);

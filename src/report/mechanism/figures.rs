@@ -11,7 +11,8 @@ use crate::body::{dot, norm, sub, unit};
 use crate::error::significant;
 use crate::joint::Axis;
 use crate::linearize::State;
-use crate::plot::{Align, Animation, AxisSpec, Figure, Form, Item, Panel, Place, Series, Spot, Tint};
+use crate::math::bounds;
+use crate::plot::{Align, Animation, AxisSpec, Figure, Form, Item, Panel, Series, Spot, Tint};
 use crate::prepared::{AnyMechanism, PreparedScene};
 
 /// Options of a figure of the mechanism.
@@ -128,9 +129,10 @@ pub fn animation(
                 text(Spot::data(x, y).moved(9.0, 9.0), limb.name.clone(), Align::Start)
             }));
         }
-        let above = |x: f64| corner(x, 1.0).moved(0.0, 8.0);
-        items.push(text(above(1.0), format!("t = {:.decimals$} s", states[k].t), Align::End));
-        items.push(text(above(0.0), speed.clone(), Align::Start));
+        // At the upper corners of the frame.
+        let above = |x: f64| Spot::data(x, f64::INFINITY).moved(0.0, 8.0);
+        items.push(text(above(f64::INFINITY), format!("t = {:.decimals$} s", states[k].t), Align::End));
+        items.push(text(above(f64::NEG_INFINITY), speed.clone(), Align::Start));
         let panel = Panel { series: series.clone(), ..empty.clone() };
         Figure::new().title(name.clone()).panel(panel.items(items))
     };
@@ -139,10 +141,6 @@ pub fn animation(
 
 fn text(spot: Spot, text: String, align: Align) -> Item {
     Item { spots: vec![spot], tint: Tint::Ink(0.0), form: Form::Text(text, align) }
-}
-
-fn corner(x: f64, y: f64) -> Spot {
-    Spot { at: Place::Frame(x, y), step: (0.0, 0.0) }
 }
 
 /// Returns about `most` of the times, evenly chosen.
@@ -182,36 +180,46 @@ pub(super) fn panel<'a>(
     items: impl Iterator<Item = &'a [Item]>,
     series: &[Series],
 ) -> Panel {
-    let mut low = [f64::INFINITY; 2];
-    let mut high = [f64::NEG_INFINITY; 2];
-    let places = items.flatten().flat_map(Item::data);
-    for (x, y) in places.chain(series.iter().flat_map(|series| series.points.iter().copied())) {
-        low = [low[0].min(x), low[1].min(y)];
-        high = [high[0].max(x), high[1].max(y)];
-    }
-    let span = (high[0] - low[0]).max(high[1] - low[1]);
+    let spots = items.flatten().flat_map(|item| &item.spots).map(|spot| spot.at);
+    let places: Vec<(f64, f64)> = spots.chain(series.iter().flat_map(|series| series.points.iter().copied())).collect();
+    let (left, right) = bounds(places.iter().map(|place| place.0));
+    let (bottom, top) = bounds(places.iter().map(|place| place.1));
+    let span = (right - left).max(top - bottom);
     let room = if span > 0.0 { ROOM * span } else { 0.5 };
     let [x, y] = look.view.labels();
-    let axis = |i: usize, label: String| AxisSpec::from(label).range(low[i] - room, high[i] + room);
-    let inset = if scene.is_planar { Vec::new() } else { triad(&look.view) };
-    Panel { equal_aspect: true, inset, ..Panel::new(axis(0, x), axis(1, y)) }
+    let x = AxisSpec::from(x).range(left - room, right + room);
+    let y = AxisSpec::from(y).range(bottom - room, top + room);
+    // The axes of space are in the corner where they hide least.
+    let hides = |(x, y): &(f64, f64)| {
+        let is_near = |place: &&(f64, f64)| (place.0 - x).abs().max((place.1 - y).abs()) < CORNER * span;
+        places.iter().filter(is_near).count()
+    };
+    let corners = [(left, bottom), (right, bottom), (left, top), (right, top)];
+    let free = corners.into_iter().min_by_key(hides).filter(|_| !scene.is_planar);
+    let triad = free.map(|(x, y)| triad(&look.view, x > left, y > bottom));
+    Panel { equal_aspect: true, ..Panel::new(x, y) }.items(triad.into_iter().flatten())
 }
 
+/// Side of a corner for the axes of space, beside the margin, as a part of the longer side.
+const CORNER: f64 = 0.09;
 /// Margin at both ends, as a part of the longer side.
 const ROOM: f64 = 0.085;
 
-/// Length of the arrows that show the axes of space, pixels.
+/// Length of the arrows that show the axes of space, and their distance from the sides of the frame, pixels.
 const TRIAD: f64 = 27.0;
+const FOOT: f64 = 42.0;
 
-fn triad(view: &View) -> Vec<Item> {
+fn triad(view: &View, is_right: bool, is_top: bool) -> Vec<Item> {
     let mut pen = Canvas::new(view, 0.0);
+    let side = |is_far: bool| if is_far { 1.0 } else { -1.0 };
+    let x = side(is_right);
+    let y = side(is_top);
+    let foot = Spot::data(x * f64::INFINITY, y * f64::INFINITY).moved(-FOOT * x, -FOOT * y);
     for (i, name) in ["x", "y", "z"].into_iter().enumerate() {
         let (right, up) = view.flat(unit(i));
-        let foot = corner(0.0, 0.0);
         pen.depth = view.depth(unit(i));
         if right.hypot(up) > 1e-6 {
-            let ink = pen.ink(0.3);
-            pen.arrow(vec![foot, foot.moved(TRIAD * right, TRIAD * up)], ink, super::canvas::THIN);
+            pen.arrow(vec![foot, foot.moved(TRIAD * right, TRIAD * up)], pen.ink(0.3), super::canvas::THIN);
             // The letter is beyond the head, centred on the arrow's line.
             let far = TRIAD + 12.0 / right.hypot(up).max(0.5);
             pen.text(foot.moved(far * right, far * up - 5.0), name);

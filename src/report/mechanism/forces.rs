@@ -54,26 +54,23 @@ pub fn torsion_spring(pen: &mut Canvas, link: &Link, _: &Sight) {
         pen.beside((first.r, way.map(|x| x * (4.0 + 13.0 * part))))
     };
     let spots = (0..=steps as usize).map(spot).collect();
-    let ink = pen.ink(0.25);
-    pen.line(spots, ink, THIN);
+    pen.line(spots, pen.ink(0.25), THIN);
 }
 
 /// Draws a bold line between its ends.
 pub fn beam(pen: &mut Canvas, link: &Link, _: &Sight) {
     let spots = [0, 1].map(|end| pen.view.flat(link.ends[end].r)).map(|(x, y)| Spot::data(x, y)).to_vec();
-    let ink = pen.ink(0.25);
     pen.layer = Layer::Rod;
-    pen.line(spots, ink, BOLD);
+    pen.line(spots, pen.ink(0.25), BOLD);
 }
 
 /// Draws a cushion between its ends.
 pub fn bushing(pen: &mut Canvas, link: &Link, _: &Sight) {
     let [a, b] = [pen.spot(link.ends[0].r), pen.spot(link.ends[1].r)];
     pen.layer = Layer::Rod;
-    let rubber = pen.ink(0.7);
     let ink = pen.ink(0.3);
     pen.disc(a, 17.5, ink);
-    pen.disc(a, 16.0, rubber);
+    pen.disc(a, 16.0, pen.ink(0.7));
     pen.line(vec![a, b], ink, BOLD);
     pen.disc(a, 2.8, ink);
 }
@@ -84,8 +81,7 @@ pub fn applied_force(pen: &mut Canvas, link: &Link, _: &Sight) {
     let at = link.ends[0].r;
     pen.layer = Layer::Arrow;
     let spots = vec![pen.spot(at), pen.beside((at, way.map(|x| x * ARROW)))];
-    let ink = pen.ink(0.0);
-    pen.arrow(spots, ink, BOLD);
+    pen.arrow(spots, pen.ink(0.0), BOLD);
 }
 
 /// Draws an arrow around the point of application.

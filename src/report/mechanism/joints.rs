@@ -28,8 +28,7 @@ pub fn revolute(pen: &mut Canvas, link: &Link, _: &Sight) {
         let spots = vec![end(-13.0), end(13.0)];
         pen.line(spots, ink, THIN);
     }
-    let spot = pen.spot(at);
-    pen.ring(spot, HINGE, ink);
+    pen.ring(pen.spot(at), HINGE, ink);
 }
 
 /// Draws two rails along the travel of the slide, hatched where they belong to the ground.
@@ -69,17 +68,13 @@ pub fn prismatic(pen: &mut Canvas, link: &Link, sight: &Sight) {
 /// Draws rails and a hinge's circle.
 pub fn cylindrical(pen: &mut Canvas, link: &Link, sight: &Sight) {
     slot(pen, link, sight);
-    let spot = pen.spot(link.ends[1].r);
-    let ink = pen.ink(0.0);
-    pen.ring(spot, HINGE, ink);
+    pen.ring(pen.spot(link.ends[1].r), HINGE, pen.ink(0.0));
 }
 
 /// Draws rails and a dot.
 pub fn point_on_line(pen: &mut Canvas, link: &Link, sight: &Sight) {
     slot(pen, link, sight);
-    let spot = pen.spot(link.ends[1].r);
-    let ink = pen.ink(0.0);
-    pen.disc(spot, 3.6, ink);
+    pen.disc(pen.spot(link.ends[1].r), 3.6, pen.ink(0.0));
 }
 
 /// Draws a ball in its socket.
@@ -94,8 +89,7 @@ pub fn spherical(pen: &mut Canvas, link: &Link, _: &Sight) {
 pub fn universal(pen: &mut Canvas, link: &Link, _: &Sight) {
     let at = link.ends[1].r;
     let ink = pen.ink(0.0);
-    let spot = pen.spot(at);
-    pen.ring(spot, 9.5, ink);
+    pen.ring(pen.spot(at), 9.5, ink);
     for pin in [link.ends[0].axes[0], link.ends[1].axes[1]] {
         let end = |size: f64| pen.beside((at, pin.map(|x| x * size)));
         let spots = vec![end(-9.5), end(9.5)];
@@ -112,8 +106,7 @@ pub fn planar(pen: &mut Canvas, link: &Link, _: &Sight) {
     let corner = |a: f64, b: f64| pen.beside((at, along(first.map(|x| x * a), second, b)));
     let spots = vec![corner(-20.0, -20.0), corner(20.0, -20.0), corner(20.0, 20.0), corner(-20.0, 20.0)];
     pen.shape(spots, ink, THIN, (ink, 0.12));
-    let spot = pen.spot(at);
-    pen.disc(spot, 2.6, ink);
+    pen.disc(pen.spot(at), 2.6, ink);
 }
 
 /// Draws a square.

@@ -1,6 +1,6 @@
 //! Figure of a map.
 
-use crate::plot::{self, AxisSpec, Figure, Panel, Tint};
+use crate::plot::{Align, AxisSpec, Figure, Form, Item, Panel, Spot, Tint};
 use crate::study::stress::{Axis, Cell, Status, Stressed};
 use crate::tolerances::report::WRONG_MOTION;
 
@@ -34,9 +34,9 @@ pub fn stress_figure(scene: &str, stressed: &Stressed) -> Option<Figure> {
     Some(panels.fold(figure, Figure::panel))
 }
 
-/// Returns a width in nominal pixels at which every column has room for its label.
+/// Returns a width in nominal pixels at which every column has room for its label, and for a word of four letters.
 fn width(axis: &Axis) -> f64 {
-    let longest = axis.entries.iter().map(|entry| entry.label.chars().count()).max().unwrap_or(0);
+    let longest = axis.entries.iter().map(|entry| entry.label.chars().count()).max().unwrap_or(0).max(3);
     let columns = axis.entries.len() as f64 * (LETTER * longest as f64 + GAP);
     (BESIDE + columns).max(Figure::default().width)
 }
@@ -49,17 +49,46 @@ fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
         .title(map.methods[method].label.clone())
         .height(ROW * rows.len().max(4) as f64);
     panel.colors = AxisSpec::from(map.quantity.label()).log().range(low, high);
+    let mut words = Vec::new();
     for (row, from_row) in rows.iter().enumerate() {
         for (column, from_column) in columns.iter().enumerate() {
-            let cell = stressed.cell(method, *from_row, *from_column);
-            let mark = if cell.is_some_and(is_wrong) { WRONG } else { "" };
-            let (word, tint) = cell.and_then(|cell| look(cell.status)).unwrap_or((mark, NO_VALUE));
-            let value = cell.and_then(|cell| map.quantity.of(cell));
-            panel.cells.push(plot::Cell { column, row, value, tint, word: word.into() });
+            let at = |right: f64, up: f64| Spot::data(column as f64 + right, row as f64 + up);
+            let (word, tint, ink) = shown(stressed, stressed.cell(method, *from_row, *from_column), (low, high));
+            let spots = vec![at(-0.5, -0.5), at(0.5, -0.5), at(0.5, 0.5), at(-0.5, 0.5)];
+            panel.items.push(Item { spots, tint, form: Form::Cell });
+            if !word.is_empty() {
+                let spots = vec![at(0.0, 0.0).moved(0.0, -BASELINE)];
+                words.push(Item { spots, tint: ink, form: Form::Text(word.to_string(), Align::Middle) });
+            }
         }
     }
-    panel
+    // Cells of one colour in a row are one shape of the file.
+    panel.items.sort_by(|a, b| order_of(a.tint).total_cmp(&order_of(b.tint)));
+    panel.items(words)
 }
+
+/// Returns the text on a cell, the colour of the cell, and one that is seen on it.
+fn shown(stressed: &Stressed, cell: Option<&Cell>, (low, high): (f64, f64)) -> (&'static str, Tint, Tint) {
+    let mark = if cell.is_some_and(is_wrong) { WRONG } else { "" };
+    let (word, tint) = cell.and_then(|cell| look(cell.status)).unwrap_or((mark, NO_VALUE));
+    let Some(value) = cell.and_then(|cell| stressed.map.quantity.of(cell)) else { return (word, tint, Tint::Ink(0.0)) };
+    let is_bright = (value / low).ln() > BRIGHT * (high / low).ln();
+    (word, Tint::Value(value), Tint::Ink(if is_bright { 0.0 } else { 1.0 }))
+}
+
+/// Returns a number that is the same for equal colours only, largest for values.
+fn order_of(tint: Tint) -> f64 {
+    match tint {
+        Tint::Ink(paleness) => paleness - 2.0,
+        Tint::Body(place, paleness) => -3.0 * (place + 1) as f64 + paleness,
+        Tint::Value(value) => value,
+    }
+}
+
+/// Part of the colour scale from which on a black mark is seen better than a white one.
+const BRIGHT: f64 = 0.56;
+/// Distance of the middle of a mark from its baseline, nominal pixels.
+const BASELINE: f64 = 5.3;
 
 /// Colour of cells of which nothing is known.
 const NO_VALUE: Tint = Tint::Ink(0.82);
@@ -106,6 +135,7 @@ fn axis(axis: &Axis, order: &[usize]) -> AxisSpec {
     let label = axis.label();
     let has_others = !axis.unit.is_empty() && axis.values().is_none();
     let label = if has_others { format!("{label}, or method") } else { label };
-    let names = order.iter().map(|k| axis.entries[*k].label.clone()).collect();
-    AxisSpec { names, ..AxisSpec::from(label) }
+    let names: Vec<String> = order.iter().map(|k| axis.entries[*k].label.clone()).collect();
+    let end = names.len() as f64 - 0.5;
+    AxisSpec { names, ..AxisSpec::from(label).range(-0.5, end) }
 }

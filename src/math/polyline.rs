@@ -1,12 +1,48 @@
-//! Reduction of the number of points without visible change.
+//! Lines through points of the plane: cut off at a rectangle, and with fewer points without visible change.
 
-use super::shape::Pt;
+type Pt = (f64, f64);
 
-/// Returns a line without visible difference, with at most `most` points if possible.
+/// Returns the parts of a line inside a rectangle, given by two opposite corners with the smallest coordinates first.
+pub(crate) fn clipped(points: &[Pt], inside: [Pt; 2]) -> Vec<Vec<Pt>> {
+    let mut parts: Vec<Vec<Pt>> = Vec::new();
+    for pair in points.windows(2) {
+        let Some((from, to)) = segment(pair[0], pair[1], inside) else { continue };
+        match parts.last_mut() {
+            Some(part) if part.last() == Some(&from) => part.push(to),
+            _ => parts.push(vec![from, to]),
+        }
+    }
+    parts
+}
+
+/// Returns the part of a segment inside a rectangle (Liang and Barsky).
+fn segment(from: Pt, to: Pt, [low, high]: [Pt; 2]) -> Option<(Pt, Pt)> {
+    let dx = to.0 - from.0;
+    let dy = to.1 - from.1;
+    let across = [(-dx, from.0 - low.0), (dx, high.0 - from.0)];
+    let down = [(-dy, from.1 - low.1), (dy, high.1 - from.1)];
+    let mut enter = 0.0f64;
+    let mut leave = 1.0f64;
+    for (slope, room) in across.into_iter().chain(down) {
+        if slope < 0.0 {
+            enter = enter.max(room / slope);
+        } else {
+            // Without a slope infinite: before the start if there is no room.
+            leave = leave.min(room / slope.abs());
+        }
+    }
+    let at = |t: f64| (from.0 + t * dx, from.1 + t * dy);
+    // The ends themselves, not from + 1 * d, so that parts join exactly.
+    let start = if enter == 0.0 { from } else { at(enter) };
+    let end = if leave == 1.0 { to } else { at(leave) };
+    (enter <= leave).then_some((start, end))
+}
+
+/// Returns a line in pixels without visible difference, with at most `most` points if possible.
 ///
 /// Of consecutive points within one pixel column the first, lowest, highest and last are kept, so no extreme is lost;
 /// then points on straight stretches are dropped.
-pub(super) fn line(points: &[Pt], most: usize) -> Vec<Pt> {
+pub(crate) fn thinned(points: &[Pt], most: usize) -> Vec<Pt> {
     let mut kept = points.to_vec();
     let mut width = 0.5;
     // Each round doubles the column; eight of them reach 64 pixels, beyond which no detail is visible.
@@ -61,7 +97,7 @@ fn distance(point: Pt, from: Pt, to: Pt) -> f64 {
 
 /// Returns points without those hidden by another one, at most `most`: indices of the kept ones, in order. One is kept
 /// of those in the same small cell.
-pub(super) fn dots(points: &[Pt], most: usize) -> Vec<usize> {
+pub(crate) fn apart(points: &[Pt], most: usize) -> Vec<usize> {
     let mut kept: Vec<usize> = (0..points.len()).collect();
     let mut cell = 0.7;
     for _ in 0..12 {
@@ -89,11 +125,25 @@ mod tests {
     use super::*;
 
     #[test]
+    fn lines_are_cut_at_the_border() {
+        let square = [(0.0, 0.0), (10.0, 10.0)];
+        let parts = clipped(&[(-5.0, 5.0), (5.0, 5.0), (5.0, 15.0), (8.0, 15.0), (8.0, 8.0)], square);
+        assert_eq!(parts, [vec![(0.0, 5.0), (5.0, 5.0), (5.0, 10.0)], vec![(8.0, 10.0), (8.0, 8.0)]]);
+    }
+
+    #[test]
+    fn lines_outside_vanish() {
+        let square = [(0.0, 0.0), (10.0, 10.0)];
+        assert!(clipped(&[(-5.0, 5.0), (-5.0, 15.0)], square).is_empty());
+        assert!(clipped(&[(-1.0, 5.0), (5.0, 11.0), (5.0, 1e300)], square).len() == 1);
+    }
+
+    #[test]
     fn extremes_survive() {
         let mut noise: Vec<Pt> = (0..50_000).map(|i| (f64::from(i) * 0.01, (f64::from(i) * 7.3).sin())).collect();
         noise[777].1 = 90.0;
         noise[31_234].1 = -80.0;
-        let thin = line(&noise, 4000);
+        let thin = thinned(&noise, 4000);
         assert!(thin.len() <= 4000, "{}", thin.len());
         assert!(thin.contains(&noise[777]) && thin.contains(&noise[31_234]));
         assert_eq!((thin.first(), thin.last()), (noise.first(), noise.last()));
@@ -102,7 +152,7 @@ mod tests {
     #[test]
     fn smooth_curves_stay_in_place() {
         let curve: Vec<Pt> = (0..2000).map(|i| (f64::from(i) * 0.25, 100.0 * (f64::from(i) * 0.01).sin())).collect();
-        let thin = line(&curve, 4000);
+        let thin = thinned(&curve, 4000);
         assert!(thin.len() < 200, "{}", thin.len());
         for (x, y) in curve {
             let right = thin.partition_point(|point| point.0 < x).clamp(1, thin.len() - 1);
@@ -115,14 +165,14 @@ mod tests {
 
     #[test]
     fn a_line_that_turns_back_keeps_its_end() {
-        let thin = line(&[(0.0, 0.0), (10.0, 0.0), (30.0, 0.0), (20.0, 0.0)], 10);
+        let thin = thinned(&[(0.0, 0.0), (10.0, 0.0), (30.0, 0.0), (20.0, 0.0)], 10);
         assert!(thin.contains(&(30.0, 0.0)) && thin.contains(&(20.0, 0.0)));
     }
 
     #[test]
     fn hidden_dots_go() {
         let points: Vec<Pt> = (0..10_000).map(|i| (f64::from(i % 100), f64::from(i / 100 % 10))).collect();
-        assert_eq!(dots(&points, 5000).len(), 1000);
-        assert!(dots(&points, 300).len() <= 300);
+        assert_eq!(apart(&points, 5000).len(), 1000);
+        assert!(apart(&points, 300).len() <= 300);
     }
 }
