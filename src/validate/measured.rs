@@ -180,10 +180,8 @@ impl<'m, 'a> Bench<'m, 'a> {
         let moved = largest(&self.changes.q, place).max(largest(&self.changes.v, place) / self.rate);
         let pushed = self.columns[place].input.map_or(0.0, |(j, i)| {
             let first = built.input_states.orders[..j].iter().sum::<usize>();
-            let rates = match self.columns[place].is_input {
-                true => built.b.column(j),
-                false => built.input_states.a.column(first + i),
-            };
+            let is_input = self.columns[place].is_input;
+            let rates = if is_input { built.b.column(j) } else { built.input_states.a.column(first + i) };
             (&coordinates.r * rates.rows(coordinates.freedom(), coordinates.r.ncols())).amax() / self.rate.powi(2)
         });
         Some(moved.max(pushed)).filter(|size| *size > 0.0 && size.is_finite()).unwrap_or(1.0)
