@@ -188,7 +188,7 @@ fn horizons_are_first_passages() {
     // A horizon much longer than the first passage gives the same passage.
     let prepared = model("double_pendulum");
     let start = state(&prepared, 0.4);
-    let passages = [0.05, 1.0].map(|horizon| {
+    let passages = [0.06, 1.0].map(|horizon| {
         let settings = Settings { horizon: Some(horizon), inputs: false, ..Settings::default() };
         validate(prepared.system(), &start, &settings).unwrap().sequences.remove(0).horizons[0].unwrap()
     });

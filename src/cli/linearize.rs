@@ -19,9 +19,7 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   holonom linearize models/four_bar_spring.json --at 0.3
-  holonom linearize models/quarter_car.json --equilibrium --method all
-  holonom linearize models/double_pendulum.json --along 0..2:41
-  holonom linearize models/double_pendulum.json --along 0..2 --within 1% --format npz,mat")]
+  holonom linearize models/double_pendulum.json --along 0..2:41")]
 pub struct Args {
     #[command(flatten)]
     at: AtStates,

@@ -130,12 +130,12 @@ pub const MANY_MODES: usize = 40;
 pub const MEASURED_STATES: usize = 5;
 
 /// The longest step of the transition matrices by which A is measured, over the time of its fastest change.
-/// Unit: `[1]`. Why: the sixth power of it, over those of two that the extrapolation divides by, is round-off. Test:
-/// tests/linearize/along.rs.
+/// Unit: `[1]`. Why: the sixth power of it, over those of two that the extrapolation divides by, is round-off. Test: none:
+/// an error that is estimated.
 pub const MEASURED_STEP: f64 = 0.2;
 
 /// Number of these steps, each half of the last.
-/// Unit: `[steps]`. Why: of more, the shortest ones are round-off. Test: tests/linearize/along.rs.
+/// Unit: `[steps]`. Why: of more, the shortest ones are round-off. Test: none: a count of work.
 pub const MEASURED_STEPS: u32 = 7;
 
 /// Points along a motion at most, where interpolation needs them close.

@@ -2,7 +2,7 @@
 
 use super::limit::Limit;
 use crate::linearize::Matrix;
-use crate::tolerances::{ROUND_OFF_OF_SUMS, linearize as tolerances};
+use crate::tolerances::{ROUND_OFF_OF_FACTORS, linearize as tolerances};
 use serde::Serialize;
 use std::ops::Range;
 
@@ -94,8 +94,8 @@ impl Comparison {
             let scale = self.scales[1][j] / self.scales[0][i];
             let model = self.model[(i, j)];
             let measured = self.measured.values[(i, j)];
-            // The entry of the model has round-off, too.
-            let uncertainty = self.measured.uncertainties[(i, j)] + ROUND_OFF_OF_SUMS / scale;
+            // The entry of the model has round-off, too, by the factorization of its constraints.
+            let uncertainty = self.measured.uncertainties[(i, j)] + ROUND_OFF_OF_FACTORS / scale;
             let difference = (model - measured).abs();
             let is_right = difference.is_nan() || difference <= tolerances::BEYOND_UNCERTAINTY * uncertainty;
             largest_uncertainty = largest_uncertainty.max(uncertainty * scale);

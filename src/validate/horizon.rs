@@ -35,7 +35,7 @@ pub fn horizons(
     let mut step = (0.0, Matrix::zeros(0, 0));
     let mut last = 0.0;
     for ((snapshot, chart), t) in snapshots.iter().zip(&charts).zip(&times) {
-        if (t - last - step.0).abs() > f64::EPSILON * t {
+        if (t - last - step.0).abs() > tolerances::SAME * t {
             step = (t - last, expm(&(&model.built.a * (t - last)))?);
         }
         x = &step.1 * x;

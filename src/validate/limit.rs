@@ -13,9 +13,9 @@ pub struct Limit {
 ///
 /// Richardson's extrapolation in Neville's scheme. The limit is the entry T_ij of the table with the least uncertainty:
 /// its largest difference from the neighbours of lower order, and the rounding of its values times the sum of their
-/// weights.
+/// weights. As the least of many may be so by chance, it is not told better than the next ones agree with it.
 pub fn limit(sizes: &[f64], values: &[f64], power: i32, rounding: f64) -> Limit {
-    let mut best = Limit { value: f64::NAN, uncertainty: f64::INFINITY };
+    let mut found: Vec<Limit> = Vec::new();
     let mut previous: Vec<f64> = Vec::new();
     for (i, value) in values.iter().enumerate() {
         let mut row = vec![*value];
@@ -27,15 +27,23 @@ pub fn limit(sizes: &[f64], values: &[f64], power: i32, rounding: f64) -> Limit 
             let neighbours = [row[j - 1], previous[j - 1]].into_iter().chain(previous.get(j).copied());
             let spread = neighbours.map(|other| (next - other).abs()).fold(0.0, f64::max);
             let uncertainty = spread + weights * rounding / sizes[i];
-            if i > 1 && uncertainty < best.uncertainty {
-                best = Limit { value: next, uncertainty };
+            if i > 1 && uncertainty.is_finite() {
+                found.push(Limit { value: next, uncertainty });
             }
             row.push(next);
         }
         previous = row;
     }
-    best
+    found.sort_by(|a, b| a.uncertainty.total_cmp(&b.uncertainty));
+    let Some((best, others)) = found.split_first() else {
+        return Limit { value: f64::NAN, uncertainty: f64::INFINITY };
+    };
+    let agreed = others.iter().take(COMPARED).map(|other| (other.value - best.value).abs());
+    Limit { uncertainty: agreed.fold(best.uncertainty, f64::max), ..*best }
 }
+
+/// Entries of the table that are compared with the best one.
+const COMPARED: usize = 4;
 
 #[cfg(test)]
 mod tests {

@@ -293,7 +293,7 @@ fn validate_ends_within_its_budget() {
         assert_eq!(output.status.code(), Some(0), "{}", err(&output));
         err(&output)
     };
-    let short = said("10ms");
+    let short = said("5ms");
     assert!(short.contains("along random:1 the motion was followed for"), "{short}");
     assert!(short.contains("the input `torque` was not checked") && short.contains("--budget"), "{short}");
     let followed = || place.json("here/validation-0.3.json")["followed"].as_f64().unwrap();

@@ -39,13 +39,18 @@ fn keys_are_those_of_the_contract() {
         "C",
         "D",
         "E",
+        "reduction",
+        "comparable",
         "eigenvalues",
         "equilibrium",
         "operating_point",
         "cost",
     ];
     assert_eq!(keys(&file), all);
-    assert_eq!(keys(&file["eigenvalues"][0]), ["re", "im", "frequency_hz", "damping_ratio", "kind", "participation"]);
+    assert_eq!(
+        keys(&file["eigenvalues"][0]),
+        ["re", "im", "frequency_hz", "damping_ratio", "kind", "error", "condition", "participation"]
+    );
     assert_eq!(keys(&file["operating_point"]), ["q", "v", "vdot", "lambda", "u", "norms"]);
     assert_eq!(keys(&file["operating_point"]["norms"]), ["phi", "phi_dot", "v", "vdot"]);
     assert_eq!(keys(&file["cost"]), ["assembly_seconds", "eigen_seconds", "conditioning", "size", "off_constraints"]);
