@@ -61,7 +61,7 @@ fn difference(before: &[u8], now: &[u8], width: usize) -> Frame<'static> {
     let left = changed().map(|i| i % width).min().unwrap_or(0);
     let right = changed().map(|i| i % width).max().unwrap_or(0);
     let top = changed().next().unwrap_or(0) / width;
-    let bottom = changed().last().unwrap_or(0) / width;
+    let bottom = changed().next_back().unwrap_or(0) / width;
     let places = (top..=bottom).flat_map(|y| (left..=right).map(move |x| y * width + x));
     let buffer: Vec<u8> = places.map(|i| if is_same(i) { SAME } else { now[i] }).collect();
     let mut frame =
