@@ -52,7 +52,7 @@
 //! | [`validate`] | linear models against perturbed simulations | |
 //! | [`study`] | many simulations of one scene: drift under stabilizations, speed for accuracy ([`study::work_precision`]), maps over stress parameters ([`study::stress`]) | a stress parameter: an entry in [`study::stress::registry`] |
 //! | [`simplify`] | the least model of a scene that keeps a promise | a file and a line in [`simplify::registry`], or from outside |
-//! | [`tolerances`] | every threshold, with what it decides, its unit, reason and test | |
+//! | [`tolerances`] | thresholds that several files share, with what they decide, their unit, reason and test | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
 //!
 //! Features, both on by default: `cli`, the module of that name and the program; `figures`, PNG and GIF beside SVG. `cli`

@@ -301,38 +301,43 @@ fn bare_number(text: &str) -> Option<f64> {
     declared.split_once(": f64 = ")?.1.trim().strip_suffix(';')?.parse().ok()
 }
 
-#[test]
-fn thresholds_are_on_their_page() {
-    let strays: Vec<String> = sources()
-        .iter()
-        .filter(|source| source.module.first().is_none_or(|module| module != "tolerances"))
-        .filter(|source| !DRAWN.iter().any(|place| source.path.starts_with(place)))
-        .flat_map(|source| {
-            let is_threshold = |text: &str| bare_number(text).is_some_and(|x| x != 0.0 && x.abs() <= 1e-3);
-            source.code.iter().filter(move |(_, text)| is_threshold(text)).map(|(line, _)| source.place(*line))
-        })
-        .collect();
-    assert!(strays.is_empty(), "numbers that decide belong to src/tolerances:\n{}", strays.join("\n"));
-    assert_eq!(bare_number("    pub(super) const TINY: f64 = 1e-9;"), Some(1e-9));
-}
-
-/// The thresholds of the page, by name, with their doc comments on one line.
-fn thresholds() -> Vec<(String, String)> {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/tolerances");
-    let mut paths = Vec::new();
+/// The declared constants of a file with a doc comment, by name, with the comment on one line.
+fn constants(path: &Path) -> Vec<(String, String)> {
     let mut found = Vec::new();
-    collect(&page, &mut paths);
-    for path in paths {
-        let mut doc = String::new();
-        for line in fs::read_to_string(path).unwrap().lines() {
-            match (line.strip_prefix("/// "), line.strip_prefix("pub const ")) {
-                (Some(text), _) => doc = format!("{doc} {text}"),
-                (_, Some(item)) => found.push((item.split(':').next().unwrap().to_string(), std::mem::take(&mut doc))),
-                _ => {}
-            }
+    let mut doc = String::new();
+    for line in fs::read_to_string(path).unwrap().lines().map(str::trim) {
+        match (line.strip_prefix("/// "), line.split_once("const ")) {
+            (Some(text), _) => doc = format!("{doc} {text}"),
+            (_, Some((_, item))) => found.push((item.split(':').next().unwrap().to_string(), std::mem::take(&mut doc))),
+            _ => doc.clear(),
         }
     }
     found
+}
+
+/// The thresholds, which say their unit.
+fn thresholds() -> Vec<(String, String)> {
+    let mut paths = Vec::new();
+    collect(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut paths);
+    let constants = paths.iter().flat_map(|path| constants(path));
+    constants.filter(|(_, doc)| doc.contains("Unit: `[")).collect()
+}
+
+#[test]
+fn small_numbers_are_thresholds() {
+    let known: Vec<String> = thresholds().into_iter().map(|(name, _)| name).collect();
+    let is_known = |text: &str| known.iter().any(|name| text.contains(&format!("const {name}:")));
+    let strays: Vec<String> = sources()
+        .iter()
+        .filter(|source| !DRAWN.iter().any(|place| source.path.starts_with(place)))
+        .flat_map(|source| {
+            let is_small = |text: &str| bare_number(text).is_some_and(|x| x != 0.0 && x.abs() <= 1e-3);
+            let is_stray = move |text: &str| is_small(text) && !is_known(text);
+            source.code.iter().filter(move |(_, text)| is_stray(text)).map(|(line, _)| source.place(*line))
+        })
+        .collect();
+    assert!(strays.is_empty(), "numbers that decide say their unit and why:\n{}", strays.join("\n"));
+    assert_eq!(bare_number("    pub(super) const TINY: f64 = 1e-9;"), Some(1e-9));
 }
 
 /// All text of src and tests.
@@ -353,17 +358,15 @@ fn all_text() -> String {
 }
 
 #[test]
-fn thresholds_have_a_unit_a_reason_and_a_test() {
+fn tests_of_thresholds_exist() {
     let thresholds = thresholds();
     let text = all_text();
-    assert!(thresholds.len() > 100, "the page is read otherwise than it is written");
+    assert!(thresholds.len() > 100, "thresholds are read otherwise than they are written");
     for (name, doc) in thresholds {
-        let parts = ["Unit: `[", " Why: ", " Test: "].map(|part| doc.find(part));
-        assert!(parts.is_sorted() && parts[0].is_some(), "{name} does not say Unit, Why and Test: {doc}");
-        let test = &doc[parts[2].unwrap() + " Test: ".len()..];
-        let named = test.strip_prefix('`').and_then(|rest| rest.split('`').next());
-        let is_known = named.map_or(test.starts_with("none: "), |named| text.contains(&format!("fn {named}()")));
-        assert!(is_known, "{name}: there is no test {test}");
+        if let Some((_, test)) = doc.split_once("Test: `") {
+            let test = test.split('`').next().unwrap();
+            assert!(text.contains(&format!("fn {test}()")), "{name}: there is no test {test}");
+        }
         assert!(text.matches(&name).count() > 1, "{name} is not used");
     }
 }

@@ -3,7 +3,7 @@
 use holonom::math::Scalar;
 use holonom::simulate::{SpectralMode, Spectrum};
 use holonom::system::{Equations, OperatingPoint};
-use holonom::tolerances::initial::DENSE_EIGENVALUES;
+use holonom::tolerances::DENSE_EIGENVALUES;
 
 /// Two masses, 1 and 3 kg, that a joint holds together, on a spring and a damper, beside free masses: `count` in all.
 struct Masses {

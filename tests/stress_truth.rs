@@ -7,7 +7,7 @@ use holonom::plot::{Align, Form, Item};
 use holonom::prepared::Overrides;
 use holonom::report::stress::{sentences, stress_figure};
 use holonom::study::stress::{Axis, Cell, Limits, Map, Quantity, Status, Stressed, Subject, find, maps, pair, stress};
-use holonom::tolerances::report::WRONG_MOTION;
+use holonom::tolerances::WRONG_MOTION;
 use std::path::Path;
 use std::time::Duration;
 

@@ -3,7 +3,23 @@
 use super::ledger::Ledger;
 use crate::simulate::{Observation, Stop};
 use crate::system::{Feed, MechanicalSystem, Scratch};
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
+
+/// Up to so many times what the forces give over a length of the scene, a state shows what the scene holds. Unit:
+/// `[1]`. Why: bodies move some lengths. Test: `a_motion_that_a_force_feeds_without_end_ends`.
+const ENERGY_OF_EFFORT: f64 = 10.0;
+
+/// A motion may diverge whose energy is beyond what the scene holds by this. Unit: `[1]`. Why: no scene travels a
+/// million of its lengths under its largest force. Test: `a_motion_that_a_force_feeds_without_end_ends`.
+const ENERGY_DIVERGED: f64 = 1e6;
+
+/// Growth of the energy between two looks at the forces. Unit: `[1]`. Test:
+/// `a_motion_that_a_force_feeds_without_end_ends`.
+const ENERGY_LOOKED: f64 = 4.0;
+
+/// A force grows with a motion that diverges by this between two looks. Unit: `[1]`. Why: one that is proportional to
+/// the motion grows by 2. Test: `a_motion_that_a_force_feeds_without_end_ends`.
+const FEED_GROWN: f64 = 1.5;
 
 /// Compares the energy E, kinetic + change of potential, with what the scene holds.
 ///
@@ -42,19 +58,19 @@ impl Divergence {
             return None;
         };
         let energy = ledger.kinetic + (ledger.potential - start.potential).abs();
-        if energy <= tolerances::ENERGY_OF_EFFORT * effort {
+        if energy <= ENERGY_OF_EFFORT * effort {
             self.held = self.held.max(effort);
         }
-        let is_beyond = energy > tolerances::ENERGY_DIVERGED * self.held;
-        let is_near = tolerances::ENERGY_LOOKED * energy > tolerances::ENERGY_DIVERGED * self.held;
-        if !is_near || energy < tolerances::ENERGY_LOOKED * self.looked {
+        let is_beyond = energy > ENERGY_DIVERGED * self.held;
+        let is_near = ENERGY_LOOKED * energy > ENERGY_DIVERGED * self.held;
+        if !is_near || energy < ENERGY_LOOKED * self.looked {
             return None;
         }
         self.looked = energy;
         let feeds = system.feeds(state.t, state.q, state.v, scratch);
         let before = std::mem::replace(&mut self.sizes, feeds.iter().map(|feed| feed.size).collect());
         let (i, feed) = feeds.iter().enumerate().max_by(|a, b| a.1.power.total_cmp(&b.1.power))?;
-        let has_grown = feed.size > tolerances::FEED_GROWN * before.get(i).copied().unwrap_or(f64::INFINITY);
+        let has_grown = feed.size > FEED_GROWN * before.get(i).copied().unwrap_or(f64::INFINITY);
         let at_start = system.feeds(state.t, &start.q, &start.v, scratch);
         let is_given = (at_start[i].size - feed.size).abs() <= tolerances::SAME * feed.size;
         (is_beyond && feed.power > 0.0 && has_grown && !is_given).then(|| diverged(feed, energy, self.held))

@@ -13,7 +13,7 @@ use crate::math::largest;
 use crate::scene::units::{Dimension, dimension_of};
 use crate::simulate::{Observation, Sink, Stop};
 use crate::system::{MechanicalSystem, Scratch};
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 use crate::trajectory::{Gap, Trajectory, recorded};
 
 /// Trajectory, drift and energy of a run.

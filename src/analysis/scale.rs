@@ -3,7 +3,7 @@
 use crate::scene::units::{Dimension, dimension_of};
 use crate::simulate::Observation;
 use crate::system::{Column, MechanicalSystem, Scratch};
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 
 /// Sizes of a motion, over its rows. Coordinates in metres and in radians are not distinguished.
 #[derive(Clone, Debug, Default)]

@@ -5,7 +5,7 @@ use crate::error::{Error, Result, short};
 use crate::math::array::from_fn;
 use crate::math::expression::Number;
 use crate::math::rotation::Matrix3;
-use crate::tolerances::body::ROUNDED_INERTIA;
+use crate::tolerances::ROUNDED_INERTIA;
 use nalgebra::{Matrix3 as Tensor, SymmetricEigen};
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::math::rotation::{Matrix3, matrix_from_quaternion, quaternion_from_axes};
-use crate::tolerances::body as tolerances;
+use crate::tolerances;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;

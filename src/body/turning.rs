@@ -9,7 +9,14 @@ use super::frame::turned;
 use super::{Carried, Frame, MarkerId, cross, dot, sub};
 use crate::math::array::{Each, from_fn};
 use crate::math::{Regime, Scalar};
-use crate::tolerances::body as tolerances;
+
+/// Cosine of the elevation below which the x axis of one marker is along the z axis of the other, and there is no
+/// angle. Unit: `[1]`. Why: its inverse is the rate of the angle.
+const UPRIGHT: f64 = 1e-6;
+
+/// Below this one the rate is that of an axis which leans so much. Unit: `[1]`. Why: a faster one would make steps
+/// short for an angle alone.
+const LEANING: f64 = 0.2;
 
 /// z times the angle of marker `of` about the z axis of marker `to`, or about another line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,7 +83,7 @@ impl Turned {
         let [c, s] = [dot(&e[0], &x), dot(&e[1], &x)];
         let across: [f64; D] = from_fn(|i| c * e[1][i] - s * e[0][i]);
         let spin = sub(&of.spin(), &to.spin());
-        [c, s, dot(&spin, &cross(&x, &across)) / (c * c + s * s).max(tolerances::LEANING * tolerances::LEANING)]
+        [c, s, dot(&spin, &cross(&x, &across)) / (c * c + s * s).max(LEANING * LEANING)]
     }
 }
 
@@ -93,7 +100,7 @@ impl Turning {
         let mut sum = 0.0;
         for term in &self.terms {
             let [c, s, _] = term.at(&marker);
-            if c * c + s * s < tolerances::UPRIGHT * tolerances::UPRIGHT {
+            if c * c + s * s < UPRIGHT * UPRIGHT {
                 return before;
             }
             sum += term.factor * s.atan2(c);

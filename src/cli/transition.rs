@@ -5,7 +5,7 @@ use super::linear::AtStates;
 use crate::error::Result;
 use crate::linearize::{Lyapunov, Operating, floquet, lyapunov};
 use crate::report::linear::Transition;
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("what").required(true).multiple(true))]

@@ -7,9 +7,12 @@ use crate::error::Result;
 use crate::math::array::Each;
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Side, Taylor};
-use crate::tolerances::body::NEARLY_CLOSED;
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+/// A gap whose line is held takes it from its rate below this. Unit: `[1]` of the free length. Why: the direction of a
+/// shorter one is rounded. Test: `a_spring_passes_its_anchor`.
+const NEARLY_CLOSED: f64 = 1e-6;
 
 /// Tension k (l - free_length) + c l' - preload along the line between two markers; its direction is undefined at
 /// l = 0, unless free_length and preload are zero and there is no damping. Or a tension by any law.

@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::math::all_finite;
 use crate::math::kkt::{SaddlePoint, Singular};
 use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
-use crate::tolerances::math::TRUNCATED_RANK;
+use crate::tolerances::TRUNCATED_RANK;
 use std::fmt;
 
 /// The reason why a state cannot be evaluated or a step not be made.

@@ -3,7 +3,7 @@
 use super::{Dae, Dynamics, Entry, Formulation, Row, StepError};
 use crate::error::Result;
 use crate::method_spec::{MethodSpec, OptionDoc};
-use crate::tolerances::math::TRUNCATED_RANK;
+use crate::tolerances::TRUNCATED_RANK;
 
 /// ```text
 /// q' = N v,   [M G^T; G 0] [v'; lambda] = [f; gamma]

@@ -8,8 +8,8 @@ use crate::math::kkt::{Chart, Reduced};
 use crate::math::memory::refuse_dense;
 use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{MechanicalSystem, Need};
-use crate::tolerances::initial as tolerances;
-use crate::tolerances::math::RANK;
+use crate::tolerances;
+use crate::tolerances::RANK;
 
 /// With G_b Z = 0 at the start (q_b, v_b) of a step, and Y normal to Z in the metric of diag(M_b),
 ///

@@ -3,7 +3,7 @@
 use super::{Dae, Dynamics, Row, StepError};
 use crate::math::threads::each;
 use crate::system::{Dimensions, Need};
-use crate::tolerances::system::NUMBERS_OF_A_PORTION;
+use crate::tolerances::NUMBERS_OF_A_PORTION;
 
 /// The unknowns of [`Dae`] other than q and v: n_v and n_c numbers in turn. Empty for shifts that the equations do not
 /// have, or whose own equations are met exactly.

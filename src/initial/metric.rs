@@ -6,8 +6,16 @@ use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::math::{largest, largest_in};
 use crate::scene::INITIAL;
 use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
-use crate::tolerances::initial as tolerances;
+use crate::tolerances;
 use std::sync::Arc;
+
+/// Weight of directions without mass in the metric of the assembly. Unit: `[1]` of the largest mass. Why: they move
+/// freely, and the matrix is still far from singular.
+const LEAST_WEIGHT: f64 = 1e-6;
+
+/// The largest phi of a closed loop after assembly, beside round-off of the largest coordinate. Unit: `[1]` of the
+/// scene's scale. Why: round-off of chains of transformations, up to thousands of them.
+const CLOSED: f64 = 1e-10;
 
 /// The mass metric with the constraints and the held directions as rows.
 pub struct Metric<'a> {
@@ -99,7 +107,7 @@ impl<'a> Metric<'a> {
         self.weights.copy_from_slice(&self.terms.mass);
         self.system.add_stiffness(&mut self.weights);
         for (weight, (i, j)) in self.weights.iter_mut().zip(&self.mass.entries) {
-            *weight = if i == j { (*weight / unit).max(tolerances::LEAST_WEIGHT) } else { *weight / unit };
+            *weight = if i == j { (*weight / unit).max(LEAST_WEIGHT) } else { *weight / unit };
         }
         let n = self.terms.g.len();
         self.values[..n].copy_from_slice(&self.terms.g);
@@ -214,7 +222,7 @@ impl<'a> Metric<'a> {
     pub fn is_closed(&self, q: &[f64]) -> bool {
         let rounding = tolerances::ROUND_OFF * largest(self.system.own(q));
         let mut kept = (0..self.scales.len()).filter(|row| !self.without.contains(row));
-        kept.all(|row| self.terms.phi[row].abs() <= tolerances::CLOSED * self.scales[row] + rounding)
+        kept.all(|row| self.terms.phi[row].abs() <= CLOSED * self.scales[row] + rounding)
     }
 
     /// q = start + factor N d

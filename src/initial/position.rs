@@ -3,7 +3,7 @@
 use super::{Metric, closing, diagnosis, nearest};
 use crate::error::{Error, Result, short};
 use crate::math::largest;
-use crate::tolerances::initial as tolerances;
+use crate::tolerances;
 
 /// Closes the joints, then moves along them to the state nearest to the guess.
 pub fn close(metric: &mut Metric, t: f64, q: &mut [f64]) -> Result<()> {

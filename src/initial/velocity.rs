@@ -3,7 +3,15 @@
 use super::Metric;
 use crate::error::{Error, Result, short};
 use crate::math::largest;
-use crate::tolerances::initial as tolerances;
+use crate::tolerances;
+
+/// A start that keeps less than this part of the given velocities contradicts the joints. Unit: `[1]`. Why: no start
+/// that anybody meant.
+const VELOCITIES_KEPT: f64 = 1e-6;
+
+/// Rates of joint coordinates that take velocities so much larger cannot be given: the state is at a dead centre. Unit:
+/// `[1]`. Why: half of the digits of the velocities would be lost. Test: `a_rate_at_a_dead_centre_is_refused`.
+const DEAD_CENTRE: f64 = 1e-7;
 
 pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> {
     let given = v.to_vec();
@@ -20,7 +28,7 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
     let largest = largest(v).max(asked);
     let is_met = metric.worst(&metric.terms.phi_dot) <= tolerances::SAME * largest.max(f64::MIN_POSITIVE);
     // Beside a dead centre a rate is met by velocities beyond all bounds.
-    if is_met && metric.has_initial() && asked < tolerances::DEAD_CENTRE * largest {
+    if is_met && metric.has_initial() && asked < DEAD_CENTRE * largest {
         let message =
             format!("the rates in `initial` take velocities of {largest:.1e}: the joints are at a dead centre");
         return Err(Error::input(message)
@@ -36,7 +44,7 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
     let before = metric.distance(&given);
     let after = metric.distance(v);
     let driven = metric.terms.phi_t.iter().any(|rate| *rate != 0.0);
-    if before > 0.0 && !driven && after < tolerances::VELOCITIES_KEPT * tolerances::VELOCITIES_KEPT * before {
+    if before > 0.0 && !driven && after < VELOCITIES_KEPT * VELOCITIES_KEPT * before {
         let names = metric.system.names().v;
         let fastest = (0..given.len()).max_by(|&i, &j| given[i].abs().total_cmp(&given[j].abs())).unwrap_or(0);
         return Err(Error::input(format!(

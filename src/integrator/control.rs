@@ -4,9 +4,26 @@ use super::{Accepted, Problem};
 use crate::formulation::StepError;
 use crate::math::largest;
 use crate::system::{Dimensions, MechanicalSystem};
-use crate::tolerances::integrator as tolerances;
+use crate::tolerances;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
+
+/// Error below which the next step is chosen with the whole gain. Unit: `[tolerated errors]`. Why: from there steps
+/// double and more, as at a start. With 1e-3 evaluations are as many, with 0.1 there are a tenth more.
+const FAR_BELOW: f64 = 1e-2;
+
+/// Steps are not controlled more tightly than this unless that is asked for. Unit: `[1]`. Why: Newton's methods, which
+/// go two digits further, and projections near singular states come near round-off. Test:
+/// `steps_are_never_looser_than_asked_nor_tighter_than_round_off`.
+const CONTROLLED_RTOL: f64 = 1e-11;
+
+/// How often a guess of the first step is divided by ten where y' has no value ahead. Unit: `[divisions]`.
+const FIRST_STEP_SHORTER: usize = 20;
+
+/// The longest guess of the first step. Unit: `[1]` of the span. Why: as in SUNDIALS IDA. At rest y' is round-off and
+/// sets no time of its own, and a load that rises there is seen early, if at all. Test:
+/// `a_load_that_grows_from_zero_moves_what_is_at_rest`.
+const FIRST_STEP_OF_SPAN: f64 = 1e-3;
 
 /// Tolerated local error of component y: atol + rtol |y|, with one atol for metres, radians and their rates, and y
 /// measured from the origin: a mechanism of micrometres needs a smaller atol in proportion, one far from the origin
@@ -116,7 +133,7 @@ impl Tightening {
 
     /// The tolerance factor asked^power, not below the accuracy of Newton's method.
     pub const fn new(factor: f64, power: f64) -> Self {
-        Tightening { factor, power, least: tolerances::CONTROLLED_RTOL }
+        Tightening { factor, power, least: CONTROLLED_RTOL }
     }
 
     /// The tolerance of steps: at most `asked`, and not below `least`.
@@ -237,7 +254,7 @@ impl Control {
 
 /// Growth by half the gain where that of the whole one, err^-expo, is near 1, and by all of it beyond.
 fn damped(whole: f64, exponent: f64) -> f64 {
-    whole.sqrt().max(whole * tolerances::FAR_BELOW.powf(0.5 * exponent))
+    whole.sqrt().max(whole * FAR_BELOW.powf(0.5 * exponent))
 }
 
 /// Round-off of changes of y, over the tolerated errors; with `divisor`, s, where v is found from q by a division by
@@ -275,13 +292,13 @@ pub fn first_step(
     let d0 = tolerance.norm(y, y);
     let d1 = tolerance.norm(y, slope);
     let guess = if d0 < 1e-10 || d1 < 1e-10 { 1e-6 } else { 0.01 * d0 / d1 };
-    let mut guess = guess.min(tolerances::FIRST_STEP_OF_SPAN * span);
+    let mut guess = guess.min(FIRST_STEP_OF_SPAN * span);
     let mut next = vec![0.0; y.len()];
-    for shorter in 0..=tolerances::FIRST_STEP_SHORTER {
+    for shorter in 0..=FIRST_STEP_SHORTER {
         let ahead: Vec<f64> = y.iter().zip(slope).map(|(y, slope)| y + guess * slope).collect();
         match problem.derivative(t + guess, &ahead, &mut next) {
             Ok(()) => break,
-            Err(halt) if halt.is_fatal() || shorter == tolerances::FIRST_STEP_SHORTER => return Err(halt),
+            Err(halt) if halt.is_fatal() || shorter == FIRST_STEP_SHORTER => return Err(halt),
             Err(_) => guess *= 0.1,
         }
     }

@@ -5,7 +5,7 @@ use crate::formulation::{Dae, Dynamics, Linearized, Point, StepError};
 use crate::math::kkt::Singular;
 use crate::math::newton::Monitor;
 use crate::system::{MechanicalSystem, OperatingPoint};
-use crate::tolerances::integrator as tolerances;
+use crate::tolerances;
 use serde::{Deserialize, Serialize};
 
 /// The step for which a matrix is factored.

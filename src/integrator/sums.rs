@@ -3,7 +3,7 @@
 use super::From;
 use crate::math::array::Each;
 use crate::math::threads::{Divisible, each};
-use crate::tolerances::system::NUMBERS_OF_A_PORTION;
+use crate::tolerances::NUMBERS_OF_A_PORTION;
 
 /// Numbers in sequence, from `first` on, that a large sum is divided in.
 struct Section<'a> {

@@ -3,7 +3,7 @@
 use super::matching::{apart, floor};
 use super::{Branch, Complex, Kind, LinearModel, Matrix, Mode, pairs, seen, visible};
 use crate::math::eigen::assign;
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 
 /// The modes of a model, each conjugate pair once, with those of another in their places.
 #[derive(Clone, Debug)]

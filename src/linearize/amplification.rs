@@ -7,7 +7,12 @@ use crate::error::{Error, Result};
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Span, stiffness};
 use crate::system::{MechanicalSystem, OperatingPoint};
-use crate::tolerances::linearize as tolerances;
+
+/// Times up to which the growth of small changes is looked at. Unit: `[times]`.
+const AMPLIFIED_TIMES: u32 = 20;
+
+/// Degrees of freedom up to which it is. Unit: `[degrees of freedom]`. Why: that many motions side by side.
+const AMPLIFIED_FREEDOM: usize = 40;
 
 /// Returns the largest growth of any small change of the start up to any of `times` (increasing, after the start): the
 /// norm of the transition matrices in mass-orthonormal states (z, y/s). The rate s is the one that makes the norm
@@ -28,10 +33,10 @@ fn amplification(
     };
     let at_start = chart(start)?;
     let columns = at_start.changes();
-    if columns.q.ncols() > 2 * tolerances::AMPLIFIED_FREEDOM {
+    if columns.q.ncols() > 2 * AMPLIFIED_FREEDOM {
         return Err(Error::input(format!(
             "more than {} degrees of freedom are too many to carry small changes of",
-            tolerances::AMPLIFIED_FREEDOM
+            AMPLIFIED_FREEDOM
         )));
     }
     if columns.q.ncols() == 0 {
@@ -66,11 +71,6 @@ pub fn amplified(prepared: &PreparedScene, span: Span, goes_on: impl FnMut(f64) 
     if let Some(stiffness) = stiffness(prepared.system(), &Method::default(), state, span) {
         return Err(Error::input(stiffness.to_string()));
     }
-    let time = |i: u32| span.start + (span.end - span.start) * f64::from(i) / f64::from(tolerances::AMPLIFIED_TIMES);
-    amplification(
-        prepared.system(),
-        &start,
-        &(1..=tolerances::AMPLIFIED_TIMES).map(time).collect::<Vec<f64>>(),
-        goes_on,
-    )
+    let time = |i: u32| span.start + (span.end - span.start) * f64::from(i) / f64::from(AMPLIFIED_TIMES);
+    amplification(prepared.system(), &start, &(1..=AMPLIFIED_TIMES).map(time).collect::<Vec<f64>>(), goes_on)
 }

@@ -1,7 +1,7 @@
 //! Comparison of several methods at one state.
 
 use super::{Complex, Kind, LinearModel};
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 use serde::Serialize;
 
 /// Accuracy and cost of one method at a state.

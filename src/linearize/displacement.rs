@@ -2,7 +2,10 @@
 
 use super::changes::directions;
 use super::{Matrix, Variation};
-use crate::tolerances::linearize as tolerances;
+
+/// A direction with less inertia than this has none. Unit: `[1]` of the largest mass, per square of the length of the
+/// mechanism for a rotation. Why: the square root of rounding. Test: `directions_without_inertia_are_coordinates`.
+const MASSLESS_DIRECTION: f64 = 1e-8;
 
 /// The masses of the directions of v, and the length by which each moves points: 1 for a position, the length of the
 /// mechanism for a rotation.
@@ -28,7 +31,7 @@ impl Inertia {
 
     /// The directions that move q without inertia, with their lengths.
     fn massless(&self) -> impl Iterator<Item = (usize, f64)> {
-        let least = |length: f64| tolerances::MASSLESS_DIRECTION * self.largest * length * length;
+        let least = |length: f64| MASSLESS_DIRECTION * self.largest * length * length;
         let all = self.lengths.iter().copied().enumerate();
         all.filter(move |(i, length)| self.masses[*i] <= least(*length))
     }

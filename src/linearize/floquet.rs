@@ -4,7 +4,15 @@ use super::{Chart, Complex, Coordinates, Matrix, State, Variation, recurrence, t
 use crate::error::{Error, Result};
 use crate::math::eigen::{Eigen, eigen, singular_values};
 use crate::system::MechanicalSystem;
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
+
+/// Singular values of M - m that are none: so many vectors a multiplier has. Unit: `[1]` of the largest. Why: the
+/// square root of FLOW_RTOL.
+const NO_MULTIPLIER: f64 = 1e-6;
+
+/// Error of transition matrices over a period. Unit: `[1]` of their largest entry. Why: some ten times FLOW_RTOL, which
+/// is that of a step.
+const FLOW_ERROR: f64 = 1e-11;
 
 /// Growth of small changes over a period of a motion.
 #[derive(Clone, Debug)]
@@ -88,7 +96,7 @@ impl Floquet {
         let mut shifted = self.monodromy.map(Complex::from);
         (0..shifted.nrows()).for_each(|i| shifted[(i, i)] -= multiplier);
         let sizes = singular_values(&shifted)?;
-        Ok(sizes.iter().filter(|size| **size <= tolerances::NO_MULTIPLIER * sizes[0]).count())
+        Ok(sizes.iter().filter(|size| **size <= NO_MULTIPLIER * sizes[0]).count())
     }
 }
 
@@ -116,7 +124,7 @@ pub fn floquet(system: &dyn MechanicalSystem, start: &State, period: f64) -> Res
     }
     let monodromy = Chart::MassOrthogonal.at(&mut variation)?.states_of(&found.changes);
     let Eigen { values, conditions, errors, .. } = eigen(&monodromy)?;
-    let of_flow = tolerances::FLOW_ERROR * monodromy.amax().max(1.0);
+    let of_flow = FLOW_ERROR * monodromy.amax().max(1.0);
     // A defective multiplier is moved by the root of the error.
     let error = |(error, condition): (f64, &f64)| error + (of_flow * condition).min(of_flow.sqrt());
     let Coordinates { name: chart, states, .. } = found.start.clone();

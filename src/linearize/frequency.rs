@@ -2,10 +2,14 @@
 
 use super::{Complex, Kind, LinearModel, Matrix};
 use crate::math::eigen::ComplexMatrix;
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 use nalgebra::linalg::Hessenberg;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
+
+/// Least damping ratio of a peak that can be drawn, and the largest of one that points might miss. Unit: `[1]`. Why: a
+/// millionth of the axis; the spacing of points.
+const PEAKS: (f64, f64) = (1e-6, 0.2);
 
 /// Returns H(i w) = (C (i w E - A)^-1 B + D) (i w)^r at frequencies in Hz, each n_y x n_u; none at a pole. Where an input
 /// of the model is the derivative of order r of an input of the system, this is the response to the latter. What is below
@@ -140,7 +144,7 @@ impl Resonances {
         let mut all = self.frequencies(count);
         for mode in model.modes.iter().filter(|mode| mode.kind == Kind::Physical && mode.value.im > 0.0) {
             let ratio = mode.damping().abs();
-            if (tolerances::PEAKS.0..tolerances::PEAKS.1).contains(&ratio) {
+            if (PEAKS.0..PEAKS.1).contains(&ratio) {
                 all.extend(ACROSS.iter().map(|width| (mode.value.im + width * mode.value.re.abs()) / TAU));
             }
         }

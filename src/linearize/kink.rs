@@ -4,7 +4,7 @@ use super::{State, Variation};
 use crate::error::{Result, Warning, clock};
 use crate::math::{Piece, Rate, largest};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 
 /// Returns a warning for each part of the equations that has a threshold at the state: see [`changed_parts`].
 ///

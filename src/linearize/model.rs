@@ -2,9 +2,13 @@
 
 use super::{Coordinates, LinearizationPoint, Matrix, Units, Variation};
 use crate::error::{Warning, clock, two_digits};
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 pub use nalgebra::Complex;
 use std::f64::consts::TAU;
+
+/// Error of a model by its reduction that is warned of. Unit: `[1]` of the size of A. Why: six digits are printed.
+/// Test: `a_model_near_a_fold_has_an_error`.
+const REDUCTION_WARNED: f64 = 1e-6;
 
 /// A linear model of a mechanism at a state of its motion,
 ///
@@ -129,7 +133,7 @@ impl LinearModel {
                 two_digits(error)
             )
         };
-        (error > tolerances::REDUCTION_WARNED).then(|| {
+        (error > REDUCTION_WARNED).then(|| {
             Warning::new(text(), "choose another time, or state the start in coordinates that are farther off")
         })
     }

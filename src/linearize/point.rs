@@ -3,7 +3,7 @@
 use crate::formulation::Dynamics;
 use crate::math::{largest, largest_in};
 use crate::system::{OperatingPoint, Spin};
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 
 /// A state with its accelerations and multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -3,8 +3,16 @@
 use super::{State, Variation};
 use crate::error::Result;
 use crate::math::{dot, largest};
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 use std::f64::consts::TAU;
+
+/// Parts of a displacement after which the equations are compared. Unit: `[1]`. Why: an odd part and the whole: no
+/// symmetry of single positions passes for one of all. Test: `a_turn_is_no_gap`.
+const ON_THE_WAY: [f64; 2] = [0.371, 1.0];
+
+/// Difference of the terms of equations that are the same. Unit: `[1]` of the largest of their kind, at least 1. Why:
+/// the square root of rounding: of angles of some turns. Test: `a_turn_is_no_gap`.
+const SAME_EQUATIONS: f64 = 1e-8;
 
 /// Returns the largest difference of (q, v) between `end` and `start`, the operating point of `variation`. Whole turns and
 /// displacements are no difference where all terms of the equations with their derivatives are the same with them: M,
@@ -47,7 +55,7 @@ fn whole_turns(shift: f64, tolerance: f64) -> f64 {
 /// displacement.
 fn is_same(variation: &mut Variation, start: &State, end: f64, [turns, displacement]: [&[f64]; 2]) -> Result<bool> {
     let here = terms(variation);
-    let parts: &[f64] = if largest(displacement) > 0.0 { &tolerances::ON_THE_WAY } else { &[1.0] };
+    let parts: &[f64] = if largest(displacement) > 0.0 { &ON_THE_WAY } else { &[1.0] };
     let mut is_same = true;
     for part in parts {
         let shifts = turns.iter().zip(displacement).map(|(turn, moved)| turn + part * moved);
@@ -69,5 +77,5 @@ fn terms(variation: &Variation) -> [Vec<f64>; 6] {
 
 fn agree(a: &[f64], b: &[f64]) -> bool {
     let size = largest(a).max(largest(b)).max(1.0);
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerances::SAME_EQUATIONS * size)
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME_EQUATIONS * size)
 }

@@ -4,7 +4,24 @@ use super::changes::beside;
 use super::minimal::{Minimal, minimal};
 use super::{Changes, LinearizationPoint, Matrix, Reduction, Request, Variation};
 use crate::error::{Error, Result, clock, two_digits};
-use crate::tolerances::linearize as tolerances;
+
+/// Condition of the reduction from which on the error of a model by rounding of its state is measured. Unit: `[1]`.
+/// Why: below, the fourth power of it times rounding is less than REDUCTION_WARNED. Test:
+/// `a_model_near_a_fold_has_an_error`.
+const REDUCTION_MEASURED: f64 = 300.0;
+
+/// Part of the fourth power of the condition times rounding that is the error of a model. Unit: `[1]`. Why: beside
+/// folds of two cranks it is 0.05.
+const REDUCTION_ESTIMATE: f64 = 0.1;
+
+/// Error of a model by its reduction that is refused. Unit: `[1]` of the size of A. Why: no digit that is of use is
+/// left. Test: `redundancy_hides_no_singular_state`.
+const REDUCTION_REFUSED: f64 = 1e-2;
+
+/// Condition of the reduction from which on a mechanism without freedom may have some. Unit: `[1]`. Why: the square
+/// root of rounding: rows that depend on others leave so much beside a fold. Test:
+/// `redundancy_hides_no_singular_state`.
+const RANK_UNKNOWN: f64 = 1e7;
 
 /// Returns the condition of the reduction at a state and the error that follows: an estimate far from singular states,
 /// near them the change of the model in minimal coordinates where the state moves as far as rounding of phi lets it.
@@ -13,15 +30,15 @@ use crate::tolerances::linearize as tolerances;
 /// A model of which rounding leaves no digits: the state is as good as singular.
 pub(super) fn measure(variation: &mut Variation, request: &Request) -> Result<Reduction> {
     let condition = variation.dynamics.kkt.kept_indicator().recip();
-    if condition < tolerances::REDUCTION_MEASURED {
-        let error = f64::EPSILON * (tolerances::REDUCTION_ESTIMATE * condition.powi(4)).max(1.0);
+    if condition < REDUCTION_MEASURED {
+        let error = f64::EPSILON * (REDUCTION_ESTIMATE * condition.powi(4)).max(1.0);
         return Ok(Reduction { condition, error });
     }
     let chart = request.chart(variation);
     let point = variation.point.clone();
     let here = minimal(variation, &chart)?;
     if here.built.a.is_empty() {
-        let error = if condition > tolerances::RANK_UNKNOWN { f64::INFINITY } else { 0.0 };
+        let error = if condition > RANK_UNKNOWN { f64::INFINITY } else { 0.0 };
         return judged(Reduction { condition, error }, point.t);
     }
     let mut error: f64 = 0.0;
@@ -36,7 +53,7 @@ pub(super) fn measure(variation: &mut Variation, request: &Request) -> Result<Re
 /// Refuses a model of which rounding leaves no digits.
 fn judged(reduction: Reduction, t: f64) -> Result<Reduction> {
     let Reduction { condition, error } = reduction;
-    if error <= tolerances::REDUCTION_REFUSED {
+    if error <= REDUCTION_REFUSED {
         return Ok(reduction);
     }
     let result = if error.is_finite() {

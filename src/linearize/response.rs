@@ -5,7 +5,7 @@ use super::variation::at_state;
 use super::{Matrix, Variation};
 use crate::error::Result;
 use crate::system::OutputTangent;
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 
 /// dv' and dlambda of a formulation, one column for each change of a perturbation.
 #[derive(Clone, Debug)]

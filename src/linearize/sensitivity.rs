@@ -3,8 +3,11 @@
 use super::found::Found;
 use super::{Complex, Kind, Mode};
 use crate::error::Result;
-use crate::tolerances::linearize as tolerances;
-use crate::tolerances::modes::DEFECTIVE_MODE;
+use crate::tolerances::DEFECTIVE_MODE;
+
+/// Step of the differences that give the sensitivity of eigenvalues. Unit: `[1]` of the parameter. Why: its fourth
+/// power and rounding over it are both about 1e-12. Test: `eigenvalues_have_their_sensitivity`.
+const SENSITIVITY_STEP: f64 = 1e-3;
 
 /// The derivatives of the eigenvalues at a value of a parameter.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,7 +47,7 @@ pub(super) fn sensitivity(here: &Found, h: f64, model: impl Fn(&Found, f64) -> R
 
 /// Step of the differences: their error is its fourth power, and rounding over it.
 pub(super) fn step(at: f64, range: f64) -> f64 {
-    tolerances::SENSITIVITY_STEP * if at == 0.0 { range.abs() } else { at.abs() }
+    SENSITIVITY_STEP * if at == 0.0 { range.abs() } else { at.abs() }
 }
 
 fn nearest(found: &Found, value: Complex<f64>) -> Option<Complex<f64>> {

@@ -4,7 +4,15 @@ use super::entry::{Built, Request};
 use super::{Complex, Kind, Matrix, Mode, Variation, displacement};
 use crate::error::{Error, Result, clock};
 use crate::math::eigen::{ComplexMatrix, Deflation, Eigen, Split, Unsolved, eigen, finite, generalized};
-use crate::tolerances::linearize as tolerances;
+
+/// Kinds of modes are clear where the part of a spurious one off the constraints is so many times that of any physical
+/// one. Unit: `[1]`. Why: the least that is a gap.
+const SPURIOUS_GAP: f64 = 2.0;
+
+/// Rounding of the terms of x^H K x with the shape x of a mode. Unit: `[1]` of their sum. Why: four ulps: two for an
+/// entry of K, which is a sum of few elements, and two for the products. Test:
+/// `a_rigid_body_mode_is_zero_and_a_slow_one_is_not`.
+const ROUND_OFF_OF_K: f64 = 4.0 * f64::EPSILON;
 
 /// Eigenvalues with eigenvectors.
 struct Solved {
@@ -112,7 +120,7 @@ fn rounded(variation: &Variation, mode: Mode, error: f64) -> Mode {
     let terms: f64 = stiffness.map(|(&(i, j), k)| size(i) * k.abs() * size(j)).sum();
     let damping = entries.iter().zip(&variation.tangent.c).map(|(&(i, j), c)| shape(i).conj() * shape(j) * *c);
     let slope = (damping.sum::<Complex<f64>>() + mode.value * 2.0 * mode.mass).norm();
-    let rounding = tolerances::ROUND_OFF_OF_K * terms;
+    let rounding = ROUND_OFF_OF_K * terms;
     let most = if mode.mass > 0.0 { (rounding / mode.mass).sqrt() } else { 0.0 };
     let first_order = if slope > 0.0 { (rounding / slope).min(most) } else { most };
     Mode { rounding: most.max(error), error: first_order.max(error), ..mode }
@@ -193,9 +201,9 @@ fn kinds(
     order.iter().take(physical).for_each(|&j| kinds[j] = Kind::Physical);
     let worst = physical.checked_sub(1).map_or(0.0, |last| parts[order[last]]);
     let least = parts[order[physical]];
-    if least < tolerances::SPURIOUS_GAP * worst {
+    if least < SPURIOUS_GAP * worst {
         (0..kinds.len())
-            .filter(|&j| tolerances::SPURIOUS_GAP * parts[j] > least && parts[j] < tolerances::SPURIOUS_GAP * worst)
+            .filter(|&j| SPURIOUS_GAP * parts[j] > least && parts[j] < SPURIOUS_GAP * worst)
             .for_each(|j| kinds[j] = Kind::Uncertain);
     }
     Ok((kinds, Some([worst, least])))

@@ -5,7 +5,9 @@ use crate::error::{Error, Result, short};
 use crate::initial::assemble;
 use crate::prepared::{Overrides, PreparedScene};
 use crate::simulate::{Method, Span, Start};
-use crate::tolerances::linearize as tolerances;
+
+/// States of a run are integrated at least so well. Unit: `[1]`, rtol.
+const RUN_TOLERANCE: f64 = 1e-10;
 
 /// A state on the constraints.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,8 +43,8 @@ pub fn tighten(prepared: &mut PreparedScene, given: &Overrides) {
     if step.is_some() {
         return;
     }
-    *rtol = given.rtol.unwrap_or(rtol.min(tolerances::RUN_TOLERANCE));
-    *atol = given.atol.unwrap_or(atol.min(tolerances::RUN_TOLERANCE.max(*rtol)));
+    *rtol = given.rtol.unwrap_or(rtol.min(RUN_TOLERANCE));
+    *atol = given.atol.unwrap_or(atol.min(RUN_TOLERANCE.max(*rtol)));
 }
 
 /// Returns the states of the scene's motion at `times`, in their order, each projected onto the constraints.

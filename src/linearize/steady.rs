@@ -7,7 +7,14 @@ use crate::initial::{assemble, equilibrium};
 use crate::math::largest;
 use crate::prepared::PreparedScene;
 use crate::system::{MechanicalSystem, Rotating};
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
+
+/// An angle that no usual arrangement of parts around an axis repeats after. Unit: `[rad]`. Why: it is no rational part
+/// of a turn.
+const ODD_ANGLE: f64 = 1.0;
+
+/// Directions that are tried. Unit: `[directions]`.
+const STEADY_DIRECTIONS: usize = 3;
 
 /// An operating state with the equations it satisfies.
 pub struct Operating<'a> {
@@ -88,18 +95,18 @@ fn still<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operating<'a>
 fn is_same_all_around(axes: &Rotating, prepared: &PreparedScene, state: &State) -> Result<bool> {
     let still = vec![0.0; state.v.len()];
     let closed = assemble(prepared.system(), state.t, (&state.q, &state.v), &[])?;
-    let other = axes.turned(tolerances::ODD_ANGLE);
+    let other = axes.turned(ODD_ANGLE);
     let mut turned = closed.q.clone();
-    other.turn(tolerances::ODD_ANGLE, &mut turned);
+    other.turn(ODD_ANGLE, &mut turned);
     let mut here = Variation::new(axes, state.t, &closed.q, &still)?;
     let Ok(mut there) = Variation::new(&other, state.t, &turned, &still) else { return Ok(false) };
     let x = directions(&mut here)?;
     let mut y = x.clone();
-    y.column_iter_mut().for_each(|mut column| other.turn_directions(tolerances::ODD_ANGLE, column.as_mut_slice()));
+    y.column_iter_mut().for_each(|mut column| other.turn_directions(ODD_ANGLE, column.as_mut_slice()));
     let leaves = there.correct(&(there.g_times(&y)))?;
     let mut carried = inertia(&here);
     let pushed = inertia(&there);
-    other.turn_directions(tolerances::ODD_ANGLE, &mut carried);
+    other.turn_directions(ODD_ANGLE, &mut carried);
     let rounding = rounding(&here.dynamics, &here.tangent.k, &here.point.q);
     let is_closed = there.point.phi <= tolerances::STEADY && leaves.norm() <= tolerances::STEADY * y.norm();
     Ok(is_closed
@@ -120,7 +127,7 @@ fn inertia(variation: &Variation) -> Vec<f64> {
 fn directions(variation: &mut Variation) -> Result<Matrix> {
     // Multiples of the golden ratio and of similar numbers are evenly spread (Weyl).
     let spread = |i: usize, j: usize| ((i + 1) as f64 * (0.618_033_988_75 + 0.1 * j as f64)).fract() - 0.5;
-    let any = Matrix::from_fn(variation.velocities(), tolerances::STEADY_DIRECTIONS, spread);
+    let any = Matrix::from_fn(variation.velocities(), STEADY_DIRECTIONS, spread);
     let correction = variation.correct(&variation.g_times(&any))?;
     Ok(any - correction)
 }

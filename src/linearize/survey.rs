@@ -8,9 +8,15 @@ use super::{Branch, LociPoint, Matrix, Operating, Request, State, Variation, at_
 use crate::error::{Error, Result, Warning};
 use crate::prepared::{Overrides, PreparedScene};
 use crate::sweep::{Family, Range};
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
+
+/// Halvings of such a step with many modes. Unit: `[times]`. Why: each costs a model.
+const FEW_HALVINGS: usize = 3;
+
+/// Modes from which on FEW_HALVINGS are made. Unit: `[modes]`.
+const MANY_MODES: usize = 40;
 
 /// Eigenvalues at many states, as branches.
 #[derive(Clone, Debug)]
@@ -273,11 +279,7 @@ fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found,
     let places: Vec<f64> = outcomes.iter().map(|(at, _)| *at).collect();
     let behind = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
         (Ok(before), Ok(after)) => {
-            let halvings = if before.sample.modes.len() > tolerances::MANY_MODES {
-                tolerances::FEW_HALVINGS
-            } else {
-                tolerances::HALVINGS
-            };
+            let halvings = if before.sample.modes.len() > MANY_MODES { FEW_HALVINGS } else { tolerances::HALVINGS };
             refined(before, after, halvings, &between)
         }
         _ => Vec::new(),

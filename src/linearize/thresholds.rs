@@ -3,7 +3,21 @@
 use super::found::Found;
 use super::{Complex, Kind, Mode};
 use crate::error::Result;
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
+
+/// Thresholds sought between two values of a parameter, at most. Unit: `[thresholds]`. Why: each costs some 30 models.
+const THRESHOLDS: usize = 8;
+
+/// Part of a step of the parameter up to which a threshold is bracketed before its root is sought. Unit: `[1]`. Why:
+/// the function whose root it is is straight there. Test: `thresholds_are_located`.
+const BRACKET: f64 = 1e-5;
+
+/// Iterations of the search of a threshold. Unit: `[iterations]`. Why: a straight function takes three.
+const THRESHOLD_ITERATIONS: usize = 30;
+
+/// Errors of an eigenvalue within which it is on the imaginary axis. Unit: `[1]`. Why: errors are known to first order.
+/// Test: `thresholds_are_located`.
+const AXIS_ERRORS: f64 = 10.0;
 
 /// A value of the parameter at which eigenvalues meet or cross the imaginary axis.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -44,7 +58,7 @@ struct Signature {
 pub(super) fn between(low: &Found, high: &Found, model: &impl Fn(&Found, f64) -> Result<Found>) -> Vec<Threshold> {
     let mut found = Vec::new();
     let mut start = low.clone();
-    while signature(&start) != signature(high) && found.len() < tolerances::THRESHOLDS {
+    while signature(&start) != signature(high) && found.len() < THRESHOLDS {
         let Some((below, above)) = bracket(&start, high, model) else { break };
         found.extend(locate(&below, &above, model));
         start = above;
@@ -54,7 +68,7 @@ pub(super) fn between(low: &Found, high: &Found, model: &impl Fn(&Found, f64) ->
 
 /// Bisects up to a small part of the step: where a pair leaves the axis its real part is the root of the distance.
 fn bracket(low: &Found, high: &Found, model: &impl Fn(&Found, f64) -> Result<Found>) -> Option<(Found, Found)> {
-    let goal = tolerances::BRACKET * (high.sample.at - low.sample.at).abs();
+    let goal = BRACKET * (high.sample.at - low.sample.at).abs();
     let mut below = low.clone();
     let mut above = high.clone();
     while (above.sample.at - below.sample.at).abs() > goal {
@@ -115,7 +129,7 @@ fn root(
     if low.1 * high.1 > 0.0 {
         return Some((at, eigenvalue));
     }
-    for _ in 0..tolerances::THRESHOLD_ITERATIONS {
+    for _ in 0..THRESHOLD_ITERATIONS {
         at = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
         let is_inside = (at - low.0) * (at - high.0) < 0.0;
         if !is_inside || (high.0 - low.0).abs() <= tolerances::ROUND_OFF_OF_SUMS * at.abs() {
@@ -142,7 +156,7 @@ fn moving(found: &Found) -> impl Iterator<Item = &Mode> {
 }
 
 fn is_on_axis(mode: &Mode) -> bool {
-    mode.value.re.abs() <= tolerances::AXIS_ERRORS * mode.error + tolerances::SAME * mode.value.norm()
+    mode.value.re.abs() <= AXIS_ERRORS * mode.error + tolerances::SAME * mode.value.norm()
 }
 
 fn grows(mode: &Mode) -> bool {

@@ -1,7 +1,27 @@
 //! Newton's method: the loop and the convergence monitor of all iterations.
 
 use super::largest;
-use crate::tolerances::math as tolerances;
+use crate::tolerances;
+
+/// Rate of convergence of an iteration that needed one correction. Unit: `[1]`. Why: no second change tells it.
+const RATE_AT_ONCE: f64 = 1e-3;
+
+/// Below the stagnation tolerance changes that shrink by less than this no longer fall. Unit: `[1]`. Why: true
+/// convergence is faster, round-off has a rate of one. Test:
+/// `changes_that_do_not_contract_are_given_up_unless_they_are_round_off`.
+const STAGNANT: f64 = 0.9;
+
+/// Two sizes at which iterations of a longer and a shorter step no longer fall are of the same round-off up to this
+/// factor. Unit: `[1]`. Why: a step is halved at least, which would change the convergence by more.
+const ROUND_OFF_ALIKE: f64 = 10.0;
+
+/// Part of the tolerance up to which a change that no longer falls, as that of a longer step, is accepted as round-off.
+/// Unit: `[1]`. Why: a digit is left for the error of the step.
+const ROUND_OFF_TOLERABLE: f64 = 0.1;
+
+/// A matrix whose corrections shrink by less does not serve its own system. Unit: `[1]`. Test:
+/// `constraints_hold_and_the_penalty_does_not_matter`.
+const MATRIX_RENEWED: f64 = 0.3;
 
 /// Limits of an iteration; sizes are in the unit of its changes.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +74,7 @@ pub enum Verdict {
 #[derive(Clone, Debug)]
 pub struct Monitor {
     limits: Limits,
-    /// Ratio of successive changes; `tolerances::RATE_AT_ONCE` after a single one.
+    /// Ratio of successive changes; `RATE_AT_ONCE` after a single one.
     pub rate: f64,
     /// The largest ratio of successive changes above the stagnation tolerance; zero if there is none.
     pub slowest: f64,
@@ -75,7 +95,7 @@ impl Default for Monitor {
     fn default() -> Self {
         Monitor {
             limits: Limits::NONE,
-            rate: tolerances::RATE_AT_ONCE,
+            rate: RATE_AT_ONCE,
             slowest: 0.0,
             iterations: 0,
             has_stagnated: false,
@@ -104,13 +124,13 @@ impl Monitor {
     fn begin(&mut self, limits: Limits) {
         self.limits = limits;
         self.contraction = self.contraction.powf(0.8);
-        (self.rate, self.slowest, self.iterations) = (tolerances::RATE_AT_ONCE, 0.0, 0);
+        (self.rate, self.slowest, self.iterations) = (RATE_AT_ONCE, 0.0, 0);
         (self.has_stagnated, self.size) = (false, f64::INFINITY);
     }
 
     /// True if the corrections so far converge so slowly that the matrix is to be renewed.
     fn wants_matrix(&self) -> bool {
-        self.iterations > 1 && self.ratio > tolerances::MATRIX_RENEWED && self.size > self.limits.stagnation
+        self.iterations > 1 && self.ratio > MATRIX_RENEWED && self.size > self.limits.stagnation
     }
 
     /// True if the matrix of the last iteration can be used for the next one.
@@ -124,7 +144,7 @@ impl Monitor {
             Verdict::Continue => {}
             Verdict::Converged => self.stalled = 0.0,
             Verdict::Diverged if self.is_round_off(change) => {
-                (self.rate, self.has_stagnated) = (tolerances::RATE_AT_ONCE, true);
+                (self.rate, self.has_stagnated) = (RATE_AT_ONCE, true);
                 return Verdict::Converged;
             }
             Verdict::Diverged => self.stalled = change,
@@ -137,9 +157,8 @@ impl Monitor {
     /// and nearly dependent constraints make round-off larger than the estimate. Later steps accept this size at once;
     /// otherwise each would have to be shorter than the one before.
     fn is_round_off(&self, change: f64) -> bool {
-        let is_met_again = change <= tolerances::ROUND_OFF_ALIKE * self.stalled
-            && self.stalled <= tolerances::ROUND_OFF_ALIKE * change;
-        change <= self.limits.stagnation || change <= tolerances::ROUND_OFF_TOLERABLE && is_met_again
+        let is_met_again = change <= ROUND_OFF_ALIKE * self.stalled && self.stalled <= ROUND_OFF_ALIKE * change;
+        change <= self.limits.stagnation || change <= ROUND_OFF_TOLERABLE && is_met_again
     }
 
     fn watch(&mut self, change: f64) -> Verdict {
@@ -147,7 +166,7 @@ impl Monitor {
         self.iterations += 1;
         let last = std::mem::replace(&mut self.size, change.max(f64::MIN_POSITIVE));
         if change <= round_off {
-            self.rate = self.rate.min(tolerances::RATE_AT_ONCE);
+            self.rate = self.rate.min(RATE_AT_ONCE);
             return Verdict::Converged;
         }
         if self.iterations > 1 {
@@ -158,7 +177,7 @@ impl Monitor {
                 self.slowest = self.slowest.max(ratio);
             }
             let limit = tolerances::DIVERGED[usize::from(self.iterations > 2)];
-            let is_stagnant = self.iterations > 2 && change <= stagnation && self.rate > tolerances::STAGNANT;
+            let is_stagnant = self.iterations > 2 && change <= stagnation && self.rate > STAGNANT;
             let has_diverged = self.rate > limit && self.iterations > patience;
             if self.rate.is_nan() || is_stagnant || ratio > contraction || has_diverged {
                 return Verdict::Diverged;

@@ -3,7 +3,7 @@
 use super::Quadratic;
 use super::search::{Found, Space};
 use crate::math::eigen::{Complex, ComplexMatrix, Eigen, Matrix, Unsolved, eigen};
-use crate::tolerances::modes as tolerances;
+use crate::tolerances;
 
 type C = Complex<f64>;
 

@@ -4,7 +4,20 @@ use super::Quadratic;
 use super::shifted::Shifted;
 use crate::math::eigen::{Complex, Matrix, Options, Partial, Scalar, Unsolved, nearest};
 use crate::math::kkt::Singular;
-use crate::tolerances::modes as tolerances;
+use crate::tolerances;
+
+/// Imaginary parts that are rounding. Unit: `[1]` of the distance to the shift. Why: real double eigenvalues split by
+/// the root of the residual.
+const REAL_MODE: f64 = 1e-5;
+
+/// Eigenvectors that a real basis has of a conjugate are no new ones below this. Unit: `[1]`, square of their length.
+const NEW_MODE: f64 = 1e-6;
+
+/// The shift for the slowest modes, off the eigenvalues 0 of rigid bodies. Unit: `[1]` of the last of them.
+const SHIFT_OF_SLOWEST: f64 = 0.02;
+
+/// Distance of another shift from one that is an eigenvalue. Unit: `[1]` of itself.
+const SHIFT_BESIDE: f64 = 1e-3;
 
 type C = Complex<f64>;
 
@@ -60,7 +73,7 @@ pub fn find<'a>(equations: [&'a Quadratic; 2], count: usize, shift: C) -> Result
     let each = if shift.im > 0.0 { 1 } else { 2 };
     let mut wanted = (each * count + count / 8 + 6).min(equations[0].finite);
     let (sigma, rate) = if shift.norm() > 0.0 {
-        (shift + tolerances::SHIFT_BESIDE * shift.norm(), shift.norm())
+        (shift + SHIFT_BESIDE * shift.norm(), shift.norm())
     } else {
         slowest(equations[0], &mut wanted)?
     };
@@ -137,13 +150,13 @@ fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolve
             *count = (2 * *count).min(equations.finite);
             continue;
         }
-        let next = (tolerances::SHIFT_OF_SLOWEST * last).max(tolerances::ROUNDING_OF_K * fastest);
+        let next = (SHIFT_OF_SLOWEST * last).max(tolerances::ROUNDING_OF_K * fastest);
         if used <= last && used >= 1e-4 * last || next >= used && sigma < used {
             return Ok((C::from(next), last.max(next)));
         }
         sigma = next;
     }
-    Ok((C::from(sigma), sigma / tolerances::SHIFT_OF_SLOWEST))
+    Ok((C::from(sigma), sigma / SHIFT_OF_SLOWEST))
 }
 
 /// Returns the number of values to keep: up to the widest gap among the last ones, so that no pair is parted and both
@@ -166,7 +179,7 @@ fn modes<T: Scalar>(partial: &Partial<T>, cut: usize, sigma: C, shift: C) -> usi
     let values = partial.values.iter().take(cut).map(|theta| (sigma + theta.inv(), theta.norm().recip()));
     let inside = values.filter(|(value, _)| (value - shift).norm() <= radius);
     let halves = inside.map(|(value, far)| match value.im {
-        im if im.abs() <= tolerances::REAL_MODE * far => 1,
+        im if im.abs() <= REAL_MODE * far => 1,
         im if im > 0.0 => 2,
         _ => 0,
     });
@@ -181,7 +194,7 @@ fn real<T: Scalar>(partial: &Partial<T>, cut: usize, scale: &[f64]) -> Space {
     let part = |i: usize, j: usize| if j < cut { q[(i, j)].real() } else { q[(i, j - cut)].imaginary() };
     let parts = Matrix::from_fn(q.nrows(), count, part);
     let gram = (parts.transpose() * &parts).symmetric_eigen();
-    let mut kept: Vec<usize> = (0..count).filter(|&j| gram.eigenvalues[j] > tolerances::NEW_MODE).collect();
+    let mut kept: Vec<usize> = (0..count).filter(|&j| gram.eigenvalues[j] > NEW_MODE).collect();
     kept.sort_by(|&i, &j| gram.eigenvalues[j].total_cmp(&gram.eigenvalues[i]));
     let weights =
         Matrix::from_fn(count, kept.len(), |i, j| gram.eigenvectors[(i, kept[j])] / gram.eigenvalues[kept[j]].sqrt());

@@ -7,7 +7,7 @@ use crate::math::newton::{Limits, Monitor};
 use crate::math::{largest, largest_in};
 use crate::method_spec::OptionDoc;
 use crate::system::Need;
-use crate::tolerances::initial as tolerances;
+use crate::tolerances;
 
 /// ```text
 /// min |q - q~|_M  s.t.  phi = 0,   then   min |v - v~|_M  s.t.  G v + phi_t = 0

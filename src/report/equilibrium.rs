@@ -7,7 +7,7 @@ use crate::error::{Warning, clock};
 use crate::initial::{Equilibrium, Move, Stability, Way};
 use crate::prepared::PreparedScene;
 use crate::system::{Column, Names, OperatingPoint};
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 use serde::{Serialize, Serializer};
 
 /// The static equilibrium, or the fact that none was found.

@@ -2,7 +2,7 @@
 
 use crate::error::{percent, short_list, significant};
 use crate::simplify::{Hints, Rod, Unseen};
-use crate::tolerances::report::SAME;
+use crate::tolerances::SAME;
 
 pub fn hints_text(hints: &Hints) -> String {
     if !hints.skipped.is_empty() {

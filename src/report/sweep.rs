@@ -6,7 +6,7 @@ use super::tables::{shown, sweep_table, watched};
 use super::{Answer, Folder, Table};
 use crate::error::{Result, significant};
 use crate::sweep::{Limit, Nearest, Point, Range, Sweep};
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 use serde::Serialize;
 use serde_json::{Value, json};
 

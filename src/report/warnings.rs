@@ -4,8 +4,12 @@ use crate::analysis::{Drift, EnergyBalance, MOST_JUMPS, Record, WorstStep};
 use crate::error::Warning;
 use crate::error::significant;
 use crate::formulation::Statistics;
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 use crate::trajectory::Gap;
+
+/// Steps that end at round-off, from which on they deserve a warning. Unit: `[1]` of all steps. Test:
+/// `errors_at_round_off_are_told`.
+const STEPS_AT_ROUND_OFF: f64 = 0.1;
 
 pub fn warnings(record: &Record) -> Vec<Warning> {
     let energy = record.energy.as_ref().filter(|energy| energy.is_open()).map(open_balance);
@@ -36,7 +40,7 @@ pub fn at_round_off(&Statistics { steps, stagnated, .. }: &Statistics) -> Option
         || format!("{stagnated} of {steps} steps end at round-off, not at the tolerance: errors are larger than that");
     let hint = "a looser --rtol gives the same in less time; --check-error measures errors; for smaller ones choose a \
                 method of higher order, such as dop853, or radau_iia for stiff motions";
-    (stagnated as f64 > tolerances::STEPS_AT_ROUND_OFF * steps as f64).then(|| Warning::new(text(), hint))
+    (stagnated as f64 > STEPS_AT_ROUND_OFF * steps as f64).then(|| Warning::new(text(), hint))
 }
 
 fn open_joints(drift: &Drift) -> Option<Warning> {

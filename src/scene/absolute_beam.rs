@@ -22,7 +22,7 @@ use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::math::rotation::{matrix_from_quaternion, quaternion_from_vector, quaternion_product};
 use crate::math::screw::dot3;
-use crate::tolerances::body as tolerances;
+use crate::tolerances;
 use serde_json::{Map, Value};
 
 /// True for the type and keys of a beam in absolute coordinates.

@@ -4,7 +4,7 @@ use crate::error::{Error, Result, Warning, percent, significant};
 use crate::linearize::{Complex, Fate, LinearModel, Request, State, against, damping, frequency, linearize};
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
-use crate::tolerances::report::UNSEEN_MODE;
+use crate::tolerances::UNSEEN_MODE;
 
 /// Velocities of the largest scene of which all modes are computed, with some 40 matrices of that size.
 const MOST: usize = 300;

@@ -15,9 +15,17 @@ use crate::linearize::{Complex, Kind, Mode, State, amplitude, pairs, seen};
 use crate::math::largest;
 use crate::prepared::{Overrides, PreparedScene};
 use crate::system::{Dimensions, Need};
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 use serde::Serialize;
 use std::path::Path;
+
+/// A change of the scene that is estimated, from the start alone, to have less of an effect looks harmless. Unit:
+/// `[1]`, as the estimates. Test: `a_light_link_looks_superfluous_and_a_heavy_one_does_not`.
+const SUPERFLUOUS: f64 = 1e-3;
+
+/// The square of a phase of a shape that is smaller is rounding. Unit: `[1]` of the largest component. Why: the square
+/// of what rounding leaves of double eigenvalues.
+const NO_PHASE: f64 = 1e-6;
 
 /// The largest rotation of the small motions, rad, and their largest displacement, of the length of the scene: far
 /// enough that what moves by the second order, as at a dead centre, is told from what rests.
@@ -113,7 +121,7 @@ fn harmless(facts: &Facts, candidate: &dyn Candidate) -> Vec<Hint> {
     let mut found: Vec<(String, usize, Hint)> = Vec::new();
     for Proposal { subject, what, why, effect, edit } in candidate.propose(facts) {
         let mut scene = facts.scene().clone();
-        let changed = if effect < tolerances::SUPERFLUOUS { edit(&mut scene) } else { continue };
+        let changed = if effect < SUPERFLUOUS { edit(&mut scene) } else { continue };
         let changed = changed.and_then(|()| mechanism(&facts.source, &facts.watched, &scene));
         let Ok(Dimensions { v, lambda, .. }) = changed.map(|model| model.system().dimensions()) else { continue };
         let saved = v + lambda;
@@ -202,7 +210,7 @@ fn end(mode: &Mode, time: f64) -> Vec<[Vec<f64>; 2]> {
     let phases: [fn(&Complex<f64>) -> f64; 2] = [|x| x.re, |x| x.im];
     let parts = phases.map(|part| mode.shape.iter().map(part).collect::<Vec<f64>>());
     let speed = 1.0 / mode.mass.sqrt();
-    let is_there = |part: &Vec<f64>| size.is_finite() && largest(part).powi(2) > tolerances::NO_PHASE;
+    let is_there = |part: &Vec<f64>| size.is_finite() && largest(part).powi(2) > NO_PHASE;
     let motion = |part: Vec<f64>| [size, speed].map(|factor| part.iter().map(|x| factor * x).collect());
     parts.into_iter().filter(is_there).map(motion).collect()
 }

@@ -15,8 +15,33 @@ use crate::formulation::Statistics;
 use crate::integrator;
 use crate::method_spec::MethodSpec;
 use crate::system::MechanicalSystem;
-use crate::tolerances::simulate as tolerances;
+use crate::tolerances;
 use serde::Serialize;
+
+/// Work before automatic choice looks at the steps first. Unit: `[evaluations]`. Why: short runs try nothing.
+const IMPLICIT_TRIED: f64 = 200.0;
+
+/// How much farther a method must come for the same work to take over. Unit: `[1]`. Why: an explicit method takes a few
+/// long steps before stability limits them, and bdf begins with short ones.
+const WORTH: f64 = 2.0;
+
+/// Up to here a motion is begun again by a method that takes over. Unit: `[1]` of the span. Why: it costs that method
+/// no more of its work. Test: `what_takes_over_early_begins_at_the_start`.
+const BEGINNING: f64 = 0.1;
+
+/// What comes so much farther takes over before others have tried. Unit: `[1]`. Why: first steps that still grow do not
+/// tell which of two methods is the better one.
+const FAR_AHEAD: f64 = 30.0;
+
+/// Runs that stop again so near are not helped by the other method. Unit: `[1]` of the span. Nor would
+/// augmented_lagrangian help at singular states: it comes over those of n_four_bar, but 1e-4 to 1e-2 beside the motion.
+const STOPS_AGAIN: f64 = 1e-6;
+
+/// Work at most that an advice looks at at a time. Unit: `[evaluations]`.
+const ADVICE_WORK: f64 = 2e4;
+
+/// This part of the work that is left says enough of it. Unit: `[1]`.
+const TRIAL_SHOWS: f64 = 0.1;
 
 /// A part of a run with one method, and the reason for that method in one or two sentences.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -174,7 +199,7 @@ impl<'a> Drive<'a> {
             start,
             current: FIRST,
             stopped: 0,
-            window: tolerances::IMPLICIT_TRIED,
+            window: IMPLICIT_TRIED,
             contest: None,
             legs: Vec::new(),
             leg: Leg::of(span.start, &methods[FIRST], CALM.to_string()),
@@ -212,14 +237,14 @@ impl<'a> Drive<'a> {
         if failure.is_none() {
             return self.run.t >= self.span.end;
         }
-        let is_again = self.run.t - self.leg.from < tolerances::STOPS_AGAIN * (self.span.end - self.span.start);
+        let is_again = self.run.t - self.leg.from < STOPS_AGAIN * (self.span.end - self.span.start);
         self.stopped = if is_again { self.stopped + 1 } else { 1 };
         sink.stops().is_some() || self.stopped == self.methods.len()
     }
 
     /// True if the work since `mark` is representative of the motion: a good part of what is left at that pace.
     fn is_known(&self, mark: Mark) -> bool {
-        self.window > tolerances::ADVICE_WORK || self.run.mark().work > tolerances::TRIAL_SHOWS * self.run.left(mark)
+        self.window > ADVICE_WORK || self.run.mark().work > TRIAL_SHOWS * self.run.left(mark)
     }
 
     /// Another method and the reason, if it should continue: after the work since `mark`, or after a failure.
@@ -232,7 +257,7 @@ impl<'a> Drive<'a> {
         let Some((place, contest)) = self.best(mark)? else { return Ok(None) };
         self.contest = Some(contest);
         let kinds = [self.are_explicit[self.current], self.are_explicit[place]];
-        let wins = contest.gain > tolerances::WORTH;
+        let wins = contest.gain > WORTH;
         let because = words(&contest, [own, &self.methods[place]], kinds, wins);
         if !wins && self.leg.because == CALM {
             self.leg.because.clone_from(&because);
@@ -259,7 +284,7 @@ impl<'a> Drive<'a> {
         let mut best: Option<(usize, Contest)> = None;
         for &place in &rivals {
             let least = best.map_or(1.0, |(_, contest)| contest.gain.max(1.0));
-            if least > tolerances::FAR_AHEAD {
+            if least > FAR_AHEAD {
                 break;
             }
             let method = &self.methods[place];
@@ -282,7 +307,7 @@ impl<'a> Drive<'a> {
     /// True if the motion so far costs an implicit method little: it may begin at the start, where no errors of steps
     /// of the first method excite stiff modes, which it would have to follow.
     fn begins_again(&self, place: usize) -> bool {
-        let is_early = self.run.t - self.span.start < tolerances::BEGINNING * (self.span.end - self.span.start);
+        let is_early = self.run.t - self.span.start < BEGINNING * (self.span.end - self.span.start);
         is_early && self.legs.is_empty() && !self.are_explicit[place]
     }
 

@@ -8,7 +8,7 @@ use crate::formulation::{Dynamics, StepError};
 use crate::integrator::{From, Step};
 use crate::math::{Piece, largest};
 use crate::system::{Need, OperatingPoint, Road, Scratch};
-use crate::tolerances::simulate as tolerances;
+use crate::tolerances;
 
 const CONTINUOUS: &str = "write a law that passes through zero steadily, such as `tanh(x/width)` in the place of \
      `sign(x)`, or `smoothstep` in the place of `step` and `if`";

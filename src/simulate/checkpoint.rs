@@ -8,7 +8,7 @@ use crate::formulation::Statistics;
 use crate::math::expression::Switch;
 use crate::math::{Piece, Thresholds};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Terms};
-use crate::tolerances::report::JOINTS_OPEN;
+use crate::tolerances::JOINTS_OPEN;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

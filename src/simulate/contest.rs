@@ -11,7 +11,35 @@ use crate::error::{Failure, Result};
 use crate::formulation::{Dynamics, Statistics};
 use crate::modes::SpectralMode;
 use crate::system::{MechanicalSystem, OperatingPoint};
-use crate::tolerances::simulate as tolerances;
+use crate::tolerances;
+
+/// Work of an evaluation in implicit methods, with its share of factorizations and back-substitutions. Unit:
+/// `[evaluations by explicit ones]`. Why: 2 to 4 on the shipped scenes, whatever their size.
+const IMPLICIT_WORK: f64 = 3.0;
+
+/// Steps of an explicit method that are longer may be limited by stability. Unit: `[1]` of the longest stable step.
+/// Why: with the steps that it refuses again and again they are a quarter of it on average.
+const STABILITY_HOLDS: f64 = 0.1;
+
+/// Steps of an implicit method up to so long leave an explicit one worth trying. Unit: `[1]` of the longest stable
+/// step.
+const EXPLICIT_AGAIN: f64 = 20.0;
+
+/// The longest stable step of methods without a limit of their own. Unit: `[1]`, |lambda| h. Why: that of dop853.
+const STABLE_STEP: f64 = 6.1;
+
+/// Least work of a trial. Unit: `[evaluations]`. Why: the first steps of radau_iia, each up to five times the one
+/// before, and of bdf, each twice.
+const TRIAL_WORK: f64 = 300.0;
+
+/// Work of a trial, and what it is worth of what is left. Unit: `[1]` of the work it is compared with.
+const TRIAL_SHARE: f64 = 0.25;
+
+/// Steps grow where the next one is so many times their mean. Unit: `[1]`.
+const STEPS_GROW: f64 = 2.0;
+
+/// How often a run that is watched goes on for that. Unit: `[times]`.
+const WATCHED_AGAIN: usize = 5;
 
 /// Time reached by a run, s, the work of its steps in evaluations, and their number. Output rows do not count, so that
 /// the choice of a method does not depend on them.
@@ -87,7 +115,7 @@ impl Run<'_> {
     }
 
     pub fn mark(&self) -> Mark {
-        let price = if self.is_explicit { 1.0 } else { tolerances::IMPLICIT_WORK };
+        let price = if self.is_explicit { 1.0 } else { IMPLICIT_WORK };
         let Statistics { steps, rhs_evaluations, .. } = self.statistics();
         Mark { t: self.t, work: price * rhs_evaluations as f64, steps }
     }
@@ -104,7 +132,7 @@ impl Run<'_> {
     ) -> (Mark, Option<Failure>) {
         let mut mark = self.mark();
         let most = mark.work + most;
-        for _ in 0..=tolerances::WATCHED_AGAIN {
+        for _ in 0..=WATCHED_AGAIN {
             let start = self.mark();
             for part in [0.5, 1.0] {
                 self.allowance = start.work + part * work;
@@ -116,7 +144,7 @@ impl Run<'_> {
                 }
             }
             let growth = self.h / self.step_since(mark);
-            let has_grown = growth < tolerances::STEPS_GROW;
+            let has_grown = growth < STEPS_GROW;
             if self.t >= self.span.end || has_grown || self.mark().work + work > most || is_enough(self, mark, growth) {
                 break;
             }
@@ -137,7 +165,7 @@ impl Run<'_> {
 
     /// True if enough work remains for the trials of so many methods.
     pub fn leaves_trials(&self, mark: Mark, rivals: usize) -> bool {
-        tolerances::TRIAL_SHARE * self.left(mark) >= rivals as f64 * tolerances::TRIAL_WORK
+        TRIAL_SHARE * self.left(mark) >= rivals as f64 * TRIAL_WORK
     }
 
     /// The fastest mode of the state and the mean step since `mark`.
@@ -148,11 +176,9 @@ impl Run<'_> {
         dynamics.solve(self.t, q, v, |_, _| 0.0).ok()?;
         let mode = fastest(system, OperatingPoint { t: self.t, q, v, vdot: &dynamics.vdot, lambda: &dynamics.lambda })?;
         let stability = self.entry.stability.map(|stability| stability());
-        let limit =
-            stability.as_ref().map_or(tolerances::STABLE_STEP, |stability| stability.limit(mode.decay, mode.swing));
+        let limit = stability.as_ref().map_or(STABLE_STEP, |stability| stability.limit(mode.decay, mode.swing));
         let part = step * mode.rate() / limit;
-        let is_between =
-            if self.is_explicit { part > tolerances::STABILITY_HOLDS } else { part < tolerances::EXPLICIT_AGAIN };
+        let is_between = if self.is_explicit { part > STABILITY_HOLDS } else { part < EXPLICIT_AGAIN };
         Some(View { mode, step, is_between })
     }
 
@@ -173,8 +199,8 @@ impl Run<'_> {
         system: &dyn MechanicalSystem,
     ) -> Result<(Contest, Statistics)> {
         let own = self.mark();
-        let share = |work: f64| tolerances::TRIAL_SHARE * work;
-        let budget = tolerances::TRIAL_WORK.max(share(own.work - mark.work) / rivals as f64);
+        let share = |work: f64| TRIAL_SHARE * work;
+        let budget = TRIAL_WORK.max(share(own.work - mark.work) / rivals as f64);
         let most = share(self.left(mark)).min(own.work);
         let mut rival = self.rival(other, system, unseen(self.span))?;
         let is_hopeless = |rival: &Run, since: Mark, growth: f64| {

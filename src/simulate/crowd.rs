@@ -1,7 +1,20 @@
 //! Detection of threshold passages that accumulate without end (Zeno behaviour).
 
-use crate::tolerances::simulate as tolerances;
+use crate::tolerances;
 use serde::{Deserialize, Serialize};
+
+/// Turns at thresholds are looked at in windows of so many. Unit: `[turns]`.
+const TURNS_IN_WINDOW: usize = 250;
+
+/// Windows of turns in a row that decide. Where each is shorter and slower than the one before, the motion comes to
+/// rest at the threshold. Where all turns are nearer to each other than the tolerance, the motion is lost. Unit:
+/// `[windows]`.
+const WINDOWS_IN_ROW: usize = 4;
+
+/// Turns before a run, at the rate of the last window, with which it does not come to its end where the last windows
+/// were each shorter and slower than the one before. Unit: `[turns]`. Why: the motion comes to rest at the threshold,
+/// and the turns get ever more.
+const TURNS_IN_DECAY: f64 = 1e5;
 
 /// Statistics of the threshold passages of a run, in windows of a fixed number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -30,7 +43,7 @@ impl Crowd {
     pub fn add(&mut self, t: f64, rate: f64, moves: bool) {
         let Window { start, count, rates, moves: moved, .. } = &mut self.window;
         (*count, *rates, *moved) = (*count + 1, *rates + rate.abs(), *moved || moves);
-        if *count < tolerances::TURNS_IN_WINDOW {
+        if *count < TURNS_IN_WINDOW {
             return;
         }
         self.window.duration = t - *start;
@@ -44,10 +57,10 @@ impl Crowd {
     /// Number and duration of the passages in the last window, if the remaining time `left` would not be completed.
     pub fn endless(&self, left: f64) -> Option<(usize, f64)> {
         let duration = self.last?.duration;
-        let ahead = tolerances::TURNS_IN_WINDOW as f64 * left / duration;
+        let ahead = TURNS_IN_WINDOW as f64 * left / duration;
         let is_endless = ahead > tolerances::TURNS
-            || self.decaying >= tolerances::WINDOWS_IN_ROW && ahead > tolerances::TURNS_IN_DECAY
-            || self.unseen >= tolerances::WINDOWS_IN_ROW;
-        is_endless.then_some((tolerances::TURNS_IN_WINDOW, duration))
+            || self.decaying >= WINDOWS_IN_ROW && ahead > TURNS_IN_DECAY
+            || self.unseen >= WINDOWS_IN_ROW;
+        is_endless.then_some((TURNS_IN_WINDOW, duration))
     }
 }

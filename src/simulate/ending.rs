@@ -4,7 +4,16 @@ use super::{Run, Sink};
 use crate::error::Failure;
 use crate::formulation::StepError;
 use crate::math::largest_in;
-use crate::tolerances::simulate as tolerances;
+
+/// Steps that together come no farther than CRAWL end the run. Unit: `[steps]`.
+const CRAWLING_STEPS: usize = 50_000;
+
+/// Part of the span that CRAWLING_STEPS must exceed. Unit: `[1]` of the span. Why: at this rate a run takes 5e12 steps.
+const CRAWL: f64 = 1e-8;
+
+/// Joints that are open by this end a run: its motion is not that of the scene. Unit: `[1]` of the scene's size. Why:
+/// half of the size. Test: `joints_that_come_apart_are_a_failure`.
+const JOINTS_APART: f64 = 0.5;
 
 const SINGULAR: &str = "this tolerance is too near to round-off there: try a looser one, or a fixed --step with `rk4`, which \
      goes over it";
@@ -16,16 +25,13 @@ impl Run<'_> {
     pub fn check_progress(&mut self) -> Result<(), Failure> {
         let (since, tries) = self.progress;
         let advanced = self.t - since;
-        if advanced > tolerances::CRAWL * (self.span.end - self.span.start) {
+        if advanced > CRAWL * (self.span.end - self.span.start) {
             self.progress = (self.t, 0);
             return Ok(());
         }
         self.progress.1 += 1;
-        if tries > tolerances::CRAWLING_STEPS {
-            Err(self.failure(
-                format!("{} steps have come no farther than {advanced:.1e} s", tolerances::CRAWLING_STEPS),
-                None,
-            ))
+        if tries > CRAWLING_STEPS {
+            Err(self.failure(format!("{} steps have come no farther than {advanced:.1e} s", CRAWLING_STEPS), None))
         } else {
             Ok(())
         }
@@ -34,7 +40,7 @@ impl Run<'_> {
     /// Ends a run whose joints have come apart.
     pub fn check_joints(&self) -> Result<(), Failure> {
         let open = largest_in(&self.scales, &self.problem.dynamics.terms.phi);
-        if open > tolerances::JOINTS_APART {
+        if open > JOINTS_APART {
             Err(self.failure(format!("the joints have come apart by {open:.1e} of the scene's size"), None))
         } else {
             Ok(())

@@ -7,9 +7,23 @@ use crate::math::array::Each;
 use crate::method_spec::MethodSpec;
 use crate::projection;
 use crate::system::{Dimensions, MechanicalSystem};
-use crate::tolerances::simulate as tolerances;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
+
+/// Scenes of this length and more have one absolute tolerance. Unit: `[m]`. Why: README: a scene smaller than a
+/// centimetre gets 1e-8 of its length.
+const SHORT_SCENE: f64 = 1e-2;
+
+/// No absolute tolerance that nobody asked for is below. Unit: `[m, rad]`. Why: round-off leaves it of angles.
+const LEAST_ATOL: f64 = 1e-16;
+
+/// Errors of motions that amplify none are to be within so many tolerances. Unit: `[tolerances]`. Why: the promise of
+/// the README.
+const ERROR_OF_MOTION: f64 = 10.0;
+
+/// Velocities from which on a dense formulation deserves a word. Unit: `[velocities]`. Why: a step of a chain takes 100
+/// times as long as by index 1 there, with 300 600 times. Test: `dense_formulations_of_large_systems_are_warned_of`.
+const LARGE_FOR_DENSE: usize = 100;
 
 /// A method: formulation x integrator x projection, with its accuracy.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -74,10 +88,7 @@ impl Method {
     /// The default, with an absolute tolerance of 1e-8 of the length, m, of a scene that is smaller than a centimetre.
     pub fn of_length(length: f64) -> Self {
         let default = Method::default();
-        Method {
-            atol: (default.atol * (length / tolerances::SHORT_SCENE).min(1.0)).max(tolerances::LEAST_ATOL),
-            ..default
-        }
+        Method { atol: (default.atol * (length / SHORT_SCENE).min(1.0)).max(LEAST_ATOL), ..default }
     }
 
     /// Formulation + integrator + projection, the last where there is one.
@@ -98,7 +109,7 @@ impl Method {
     fn dense(&self, system: &dyn MechanicalSystem) -> Option<Warning> {
         let Dimensions { v: n, lambda: m, .. } = system.dimensions();
         let is_dense = formulation::make(&self.formulation, system).is_ok_and(|made| made.is_dense());
-        (is_dense && n >= tolerances::LARGE_FOR_DENSE).then(|| {
+        (is_dense && n >= LARGE_FOR_DENSE).then(|| {
             let (name, [n, m]) = (&self.formulation.name, [n, m].each(|count| count as f64));
             let operations = 3.0 * n * m * m + 4.0 * n * n * (n - m).max(0.0);
             let text = format!("{name} is dense: an evaluation takes {operations:.0e} operations with {n} velocities and {m} constraints, growing with n^3");
@@ -112,7 +123,7 @@ impl Method {
         let entry = integrator::find(&self.integrator).ok()?;
         let asked = Tolerance::new(self.rtol, self.atol, system);
         let reached = entry.tightening.reached(&asked);
-        let is_beyond = self.step.is_none() && reached > tolerances::ERROR_OF_MOTION * self.rtol;
+        let is_beyond = self.step.is_none() && reached > ERROR_OF_MOTION * self.rtol;
         is_beyond.then(|| {
             let name = entry.name;
             let rtol = short(self.rtol);

@@ -5,7 +5,23 @@ use super::{Run, Sink};
 use crate::error::Failure;
 use crate::formulation::StepError;
 use crate::integrator::{From, Step};
-use crate::tolerances::simulate as tolerances;
+use crate::tolerances;
+
+/// Sweeps of the projection of a row between steps near a singular state. Unit: `[sweeps]`. Why: a row may lie far
+/// nearer to it than the ends of steps, and each sweep squares the error of the positions over the rank indicator; four
+/// take 1e-3 to round-off at an indicator of 5e-3. Test: `rows_beside_the_folds_are_as_right_as_others`.
+const SINGULAR_ROW_SWEEPS: usize = 4;
+
+/// v' of the dense output is a difference over this. Unit: `[1]` of the step. Test: `rows_do_not_change_the_steps`.
+const DIFFERENCE_OF_ROWS: f64 = 1e-3;
+
+/// The v' of a row contradicts the dense output where the difference over the step is more than so many tolerated
+/// errors of v, and CONTRADICTED_PART. Unit: `[tolerated errors]`.
+const CONTRADICTED_ERRORS: f64 = 100.0;
+
+/// The v' of a row contradicts the dense output where the difference is also more than this part of all accelerations
+/// at hand. Unit: `[1]`. Test: `rows_do_not_change_the_steps`.
+const CONTRADICTED_PART: f64 = 0.2;
 
 impl Run<'_> {
     /// Writes the output rows within the step from `t` to `t + h`. Returns the fraction of the step of a row that
@@ -59,11 +75,7 @@ impl Run<'_> {
         self.integrator.interpolate(&mut rows.problem, step, theta, &mut rows.y)?;
         let is_checked = self.is_explicit && self.fixed.is_none() && !self.approach.reaches(h);
         if is_checked {
-            let apart = if theta + tolerances::DIFFERENCE_OF_ROWS < 1.0 {
-                tolerances::DIFFERENCE_OF_ROWS
-            } else {
-                -tolerances::DIFFERENCE_OF_ROWS
-            };
+            let apart = if theta + DIFFERENCE_OF_ROWS < 1.0 { DIFFERENCE_OF_ROWS } else { -DIFFERENCE_OF_ROWS };
             self.integrator.interpolate(&mut rows.problem, step, theta + apart, &mut rows.ahead)?;
             rows.differentiate(h * apart);
         }
@@ -83,7 +95,7 @@ impl Run<'_> {
             projection.is_some()
                 && problem.dynamics.kkt.rank_indicator() < tolerances::PLACED_STEPS * self.approach.largest
         };
-        if is_near() { project(t, y, problem, projection, tolerances::SINGULAR_ROW_SWEEPS - sweeps) } else { Ok(()) }
+        if is_near() { project(t, y, problem, projection, SINGULAR_ROW_SWEEPS - sweeps) } else { Ok(()) }
     }
 
     /// True if v' of the row differs from that of the dense output. This is not tested for implicit methods, in whose
@@ -97,8 +109,7 @@ impl Run<'_> {
         row.zip(&self.rows.vdot).zip(ends).zip(size).any(|(((row, dense), (a, b)), (v0, v1))| {
             let off = (row - dense).abs();
             let all = row.abs() + dense.abs() + a.abs() + b.abs();
-            off > tolerances::CONTRADICTED_PART * all
-                && h * off > tolerances::CONTRADICTED_ERRORS * self.tolerance.weight(*v0, *v1)
+            off > CONTRADICTED_PART * all && h * off > CONTRADICTED_ERRORS * self.tolerance.weight(*v0, *v1)
         })
     }
 }

@@ -6,7 +6,19 @@ use super::events::Events;
 use crate::error::Failure;
 use crate::formulation::StepError;
 use crate::integrator::{Control, From, first_step};
-use crate::tolerances::simulate as tolerances;
+use crate::tolerances;
+
+/// The parts of a fixed step that misses what acts by the clock. Unit: `[1]` of steps on which that is almost cubic.
+/// Why: a pulse of a tenth of the step is met to 1e-7 by rk4.
+const FINER_PARTS: f64 = 0.125;
+
+/// The part of what is resolved that one cubic shows. Unit: `[1]`. Why: the quarters between which a function is looked
+/// at.
+const SHOWN_BY_CUBIC: f64 = 0.25;
+
+/// A time of the grid of fixed steps nearer than this is passed over. Unit: `[1]` of the step. Test:
+/// `a_run_is_stopped_between_steps`.
+const PASSED_GRID_TIME: f64 = 1e-3;
 
 /// A time at which a step must end.
 #[derive(Clone, Copy)]
@@ -107,13 +119,10 @@ impl Run<'_> {
         let t = self.t;
         let Some(step) = self.fixed else { return self.events.resolved(t, size, stop) };
         let Events { timetable, pieces, .. } = &mut self.events;
-        if t >= self.divided
-            && timetable.resolved(t, size / tolerances::SHOWN_BY_CUBIC, stop, pieces)
-                >= size / tolerances::SHOWN_BY_CUBIC
-        {
+        if t >= self.divided && timetable.resolved(t, size / SHOWN_BY_CUBIC, stop, pieces) >= size / SHOWN_BY_CUBIC {
             return size;
         }
-        let parts = tolerances::FINER_PARTS * timetable.finely_resolved(t, size / tolerances::FINER_PARTS, pieces);
+        let parts = FINER_PARTS * timetable.finely_resolved(t, size / FINER_PARTS, pieces);
         self.divided = self.next_of_grid(step);
         parts.min(size)
     }
@@ -125,7 +134,7 @@ impl Run<'_> {
 
     /// The next time start + k h. Times are counted, not added up, so that round-off does not accumulate.
     fn next_of_grid(&self, h: f64) -> f64 {
-        let passed = ((self.t - self.span.start) / h + tolerances::PASSED_GRID_TIME).floor();
+        let passed = ((self.t - self.span.start) / h + PASSED_GRID_TIME).floor();
         self.span.start + (passed + 1.0) * h
     }
 

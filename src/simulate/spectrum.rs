@@ -4,7 +4,7 @@ use crate::formulation::{Dynamics, free_directions, reduce};
 use crate::math::kkt::Pattern;
 use crate::modes::{self, Sparse, SpectralMode, rate_bound};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
-use crate::tolerances::initial::DENSE_EIGENVALUES;
+use crate::tolerances::DENSE_EIGENVALUES;
 
 /// Modes of small perturbations of the motion with its coefficients frozen at one state:
 ///

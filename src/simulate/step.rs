@@ -6,8 +6,40 @@ use crate::formulation::StepError;
 use crate::integrator::From;
 use crate::math::largest;
 use crate::system::{Dimensions, Energy};
-use crate::tolerances::report::ENERGY_ROUND_OFF;
-use crate::tolerances::simulate as tolerances;
+use crate::tolerances;
+use crate::tolerances::ENERGY_ROUND_OFF;
+
+/// Smaller changes of the energy balance refuse no step. Unit: `[1]` of that by the tolerated errors of the state. Why:
+/// they move the motion by less than the tolerance. Test: `no_passage_is_wrong_in_silence`.
+const LOSS_SEEN: f64 = 0.1;
+
+/// Error of such a step. Unit: `[tolerated errors]`. Why: the next one is shorter by a half or so. Test:
+/// `no_passage_is_wrong_in_silence`.
+const REFUSED_FOR_ENERGY: f64 = 100.0;
+
+/// Round-off of a projection where the rows of G are well apart: near a singular state it is that over the square of
+/// the rank indicator. Unit: `[1]` of the largest state. Why: two operations; with ROUND_OFF, twice as much, motions
+/// leave their branch. Test: `every_passage_is_counted_and_none_is_called_left`.
+const PROJECTION_ROUND_OFF: f64 = 8.0 * f64::EPSILON;
+
+/// Sweeps of a projection near a singular state. Unit: `[sweeps]`. Why: one leaves errors of the positions, over the
+/// rank indicator, in the velocities. Test: `from_rest_at_a_change_point_it_goes_where_it_is_pushed_or_says_why_not`.
+const SINGULAR_SWEEPS: usize = 2;
+
+/// A correction of a projection above which it refuses the step. Unit: `[tolerated errors]`.
+const FAR_CORRECTION: f64 = 10.0;
+
+/// Change of the energy balance that refuses a step near a singular state. Unit: `[1]` of that by the tolerated errors
+/// of the state. Why: steps of `dop853` at 1e-5 and 1e-10 change it by 1.2 at most in 35 shipped scenes; wrong ones
+/// over flat states by up to a hundred. Test: `flat_states_are_passed_at_any_tolerance`.
+const SINGULAR_ENERGY: f64 = 2.0;
+
+/// Round-off of a projection above which a state is too near to a singular one. Unit: `[tolerated errors]`. Test:
+/// `from_rest_at_a_change_point_it_goes_where_it_is_pushed_or_says_why_not`.
+const SINGULAR_ROUND_OFF: f64 = 1e3;
+
+/// A dropped row may be open by so many times what the others are. Unit: `[1]`. Why: drift may open them all.
+const DROPPED_ROW_OPEN_OF_OTHERS: f64 = 1e3;
 
 /// True if an error in units of the tolerance refuses a step.
 pub fn is_too_large(error: f64) -> bool {
@@ -47,7 +79,7 @@ impl Run<'_> {
     /// Restores all dropped constraints from the last state on, which is projected on them first.
     fn release_rows(&mut self) -> Result<(), StepError> {
         self.drop_rows(&[]);
-        project(self.t, &mut self.y, &mut self.problem, &mut self.projection, tolerances::SINGULAR_SWEEPS)?;
+        project(self.t, &mut self.y, &mut self.problem, &mut self.projection, SINGULAR_SWEEPS)?;
         self.problem.derivative(self.t, &self.y, &mut self.slope)
     }
 
@@ -58,7 +90,7 @@ impl Run<'_> {
 
     /// Number of sweeps of the projection in a step of size `h`.
     pub fn sweeps(&self, h: f64) -> usize {
-        if self.is_singular(h) { tolerances::SINGULAR_SWEEPS } else { 1 }
+        if self.is_singular(h) { SINGULAR_SWEEPS } else { 1 }
     }
 
     /// True if states at the ends of steps satisfy the constraints, by a projection or by the formulation.
@@ -94,8 +126,8 @@ impl Run<'_> {
         let correction = self.correction();
         // `allowed` is at least one.
         let is_far = self.limits_projection
-            && correction > tolerances::FAR_CORRECTION
-            && correction > tolerances::FAR_CORRECTION * (self.allowed() + self.left_open()?);
+            && correction > FAR_CORRECTION
+            && correction > FAR_CORRECTION * (self.allowed() + self.left_open()?);
         if is_singular && (is_far || error.is_some_and(is_too_large)) {
             self.refusal = "the error of a step over a singular state stays above the tolerance";
             return self.error_within_constraints(t, h);
@@ -118,7 +150,7 @@ impl Run<'_> {
         }
         let relative = |row: usize| dynamics.terms.phi[row].abs() / self.scales[row];
         let kept = (0..self.scales.len()).filter(|row| !dynamics.dropped.contains(row)).map(relative);
-        let most = tolerances::ROUND_OFF_OF_PHI + tolerances::DROPPED_ROW_OPEN_OF_OTHERS * kept.fold(0.0, f64::max);
+        let most = tolerances::ROUND_OFF_OF_PHI + DROPPED_ROW_OPEN_OF_OTHERS * kept.fold(0.0, f64::max);
         dynamics.dropped.iter().any(|row| relative(*row) > most)
     }
 
@@ -138,7 +170,7 @@ impl Run<'_> {
             return Ok(0.0);
         }
         self.change.copy_from_slice(&self.y);
-        project(self.t, &mut self.change, &mut self.problem, &mut self.projection, tolerances::SINGULAR_SWEEPS)?;
+        project(self.t, &mut self.change, &mut self.problem, &mut self.projection, SINGULAR_SWEEPS)?;
         self.change.iter_mut().zip(&self.y).for_each(|(change, y)| *change -= y);
         if !self.tests_velocities {
             self.problem.split_mut(&mut self.change).1.fill(0.0);
@@ -154,7 +186,7 @@ impl Run<'_> {
         if !self.integrator.lower_order(from, &mut self.change) {
             return Ok(Some(f64::NAN));
         }
-        project(t, &mut self.change, &mut self.problem, &mut self.projection, tolerances::SINGULAR_SWEEPS)?;
+        project(t, &mut self.change, &mut self.problem, &mut self.projection, SINGULAR_SWEEPS)?;
         self.change.iter_mut().zip(&self.next).for_each(|(change, next)| *change -= next);
         Ok(Some(self.tolerance.norm_between(&self.y, &self.next, &self.change) / self.allowed()))
     }
@@ -176,13 +208,13 @@ impl Run<'_> {
         let Some(((start, _), (end, size))) = balance(self.t, y).zip(balance(t, next)) else { return 0.0 };
         let lost = (end - start).abs();
         let round_off = ENERGY_ROUND_OFF * size;
-        let is_seen = lost > tolerances::LOSS_SEEN * tolerated + round_off;
+        let is_seen = lost > LOSS_SEEN * tolerated + round_off;
         if is_seen && self.approach.refuses(lost) {
             self.refusal = "the energy balance changes by far more than in the steps before";
-            return tolerances::REFUSED_FOR_ENERGY;
+            return REFUSED_FOR_ENERGY;
         }
         self.lost = Some(lost.max(round_off));
-        lost / (tolerances::SINGULAR_ENERGY * tolerated + round_off)
+        lost / (SINGULAR_ENERGY * tolerated + round_off)
     }
 
     /// The error to be accepted, in units of the tolerance. Round-off of the largest coordinate moves all parts that
@@ -197,8 +229,8 @@ impl Run<'_> {
         let n = q.len();
         self.change[..n].fill(sizes[0]);
         self.change[n..].fill(sizes[1]);
-        let round_off = tolerances::PROJECTION_ROUND_OFF / (rank_indicator * rank_indicator)
-            * self.tolerance.norm(&self.next, &self.change);
-        1.0 + round_off.min(tolerances::SINGULAR_ROUND_OFF)
+        let round_off =
+            PROJECTION_ROUND_OFF / (rank_indicator * rank_indicator) * self.tolerance.norm(&self.next, &self.change);
+        1.0 + round_off.min(SINGULAR_ROUND_OFF)
     }
 }

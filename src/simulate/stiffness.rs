@@ -7,9 +7,23 @@ use crate::error::{Warning, short, two_digits};
 use crate::integrator::{self, Stability};
 use crate::modes::SpectralMode;
 use crate::system::{MechanicalSystem, OperatingPoint};
-use crate::tolerances::simulate as tolerances;
 use serde::Serialize;
 use std::fmt;
+
+/// What a rough estimate of the fastest mode may be off by. Unit: `[1]`. Test:
+/// `fixed_steps_that_are_too_long_are_told`.
+const DOUBTED_MODE: f64 = 0.5;
+
+/// Part of the limit of stability that is advised. Unit: `[1]`. Why: as of step control. Test:
+/// `fixed_steps_that_are_too_long_are_told`.
+const ADVISED_STEP: f64 = 0.9;
+
+/// Times the limit from which on another method deserves a word. Unit: `[1]`. Test: `shipped_scenes_are_not_warned_of`.
+const ANOTHER_METHOD: f64 = 3.0;
+
+/// Steps that an adaptive method may take for stability before anything is asked. Unit: `[steps]`. Test:
+/// `shipped_scenes_are_not_warned_of`.
+const STEPS_FOR_STABILITY: f64 = 150.0;
 
 /// Modes of the start for which an explicit method is unstable, or needs far more steps than accuracy requires.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -43,11 +57,11 @@ pub fn stiffness(
 ) -> Option<Stiffness> {
     let stability = explicit(method)?;
     let duration = span.end - span.start;
-    let longest = method.step.unwrap_or(duration / tolerances::STEPS_FOR_STABILITY);
+    let longest = method.step.unwrap_or(duration / STEPS_FOR_STABILITY);
     // Far below the limits along its own direction and both axes no mode is critical.
     let is_slow = |rate: f64, directions: &[(f64, f64)]| {
         let mut limits = directions.iter().map(|&(decay, swing)| stability.limit(decay, swing));
-        limits.all(|limit| rate * longest < tolerances::DOUBTED_MODE * limit)
+        limits.all(|limit| rate * longest < DOUBTED_MODE * limit)
     };
     let axes = [(1.0, 0.0), (0.0, 1.0)];
     if bound(system, state).is_some_and(|rate| is_slow(rate, &axes)) {
@@ -61,7 +75,7 @@ pub fn stiffness(
         Some(step) => (too_long(system, state, (step, duration), &stability)?, None),
         None => {
             let contest = rival(system, method, span, (state.q, state.v))?;
-            let gain = Some(contest.gain).filter(|gain| *gain > tolerances::ANOTHER_METHOD)?;
+            let gain = Some(contest.gain).filter(|gain| *gain > ANOTHER_METHOD)?;
             (contest.mode, Some(gain))
         }
     };
@@ -75,7 +89,7 @@ pub fn stiffness(
         stable_step,
         steps_for_stability: duration / stable_step,
         implicit_gain,
-        advice: advice(method, tolerances::ADVISED_STEP * stable_step),
+        advice: advice(method, ADVISED_STEP * stable_step),
     })
 }
 

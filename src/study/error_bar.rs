@@ -8,7 +8,7 @@ use crate::error::{Failure, Result};
 use crate::linearize::amplified;
 use crate::prepared::PreparedScene;
 use crate::simulate::{Method, Stop};
-use crate::tolerances::simulate as tolerances;
+use crate::tolerances;
 use serde::{Serialize, Serializer};
 use std::time::Duration;
 

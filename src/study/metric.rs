@@ -5,7 +5,7 @@ use super::watched::Watched;
 use crate::analysis::{Sizes, scales};
 use crate::scene::units::{Dimension, dimension_of};
 use crate::system::Column;
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 use serde::{Deserialize, Serialize};
 
 /// Size that the difference of an output is relative to, and how it is taken over time.

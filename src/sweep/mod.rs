@@ -46,7 +46,7 @@ pub use range::Range;
 
 use crate::math::largest;
 use crate::system::{Column, Names};
-use crate::tolerances::simulate as tolerances;
+use crate::tolerances;
 
 /// The states of a sweep.
 #[derive(Clone, Debug)]

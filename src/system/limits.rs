@@ -6,8 +6,17 @@ use crate::body::flexible::PointShape;
 use crate::body::{Bent, MarkerId, dot, norm};
 use crate::math::array::{Each, from_fn};
 use crate::scene::{Model, Part};
-use crate::tolerances::body as tolerances;
 use std::f64::consts::PI;
+
+/// Part of the energy of bending that elements miss, of order 2 in their length, that a finer mesh aims at. Unit:
+/// `[1]`.
+const MESH_AIM: f64 = 0.02;
+
+/// A quarter turn may be passed by so much of it. Unit: `[1]`.
+const QUARTER_TURN: f64 = 0.01;
+
+/// A line whose elements turn by less together is as good as straight. Unit: `[rad]`.
+const STRAIGHT: f64 = 0.5;
 
 /// Assumption of a part about its deformation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,10 +77,8 @@ impl Theory {
     /// `turn`, rad. Mesh: the error falls to the aim where it is `turn` now. Otherwise 0.
     pub fn elements_for(self, turn: f64) -> usize {
         match self {
-            Theory::Helix { elements, .. } => {
-                (elements as f64 * turn / (0.5 * PI) - tolerances::QUARTER_TURN).ceil() as usize
-            }
-            Theory::Mesh { elements } => (elements as f64 * (turn / tolerances::MESH_AIM).sqrt()).ceil() as usize,
+            Theory::Helix { elements, .. } => (elements as f64 * turn / (0.5 * PI) - QUARTER_TURN).ceil() as usize,
+            Theory::Mesh { elements } => (elements as f64 * (turn / MESH_AIM).sqrt()).ceil() as usize,
             _ => 0,
         }
     }
@@ -165,7 +172,7 @@ impl<const D: usize> Mechanism<D> {
             bend += norm(&here);
             around = [here, after, if i + 2 <= last { self.turn_between(elements[i + 2], q) } else { after }];
         }
-        if bend > tolerances::STRAIGHT { change / whole } else { 0.0 }
+        if bend > STRAIGHT { change / whole } else { 0.0 }
     }
 
     /// Rotation vector of the second marker relative to the first, rad.

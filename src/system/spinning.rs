@@ -7,7 +7,7 @@ use crate::joint::{Axis, Joint};
 use crate::math::array::{Each, from_fn};
 use crate::math::{Regime, Taylor, Time};
 use crate::scene::{Connection, Part};
-use crate::tolerances::body as tolerances;
+use crate::tolerances;
 
 impl<const D: usize> Mechanism<D> {
     /// The unit quaternions among the coordinates.

@@ -2,9 +2,13 @@
 
 use super::limit::Limit;
 use crate::linearize::Matrix;
-use crate::tolerances::{ROUND_OFF_OF_FACTORS, linearize as tolerances};
+use crate::tolerances::ROUND_OFF_OF_FACTORS;
 use serde::Serialize;
 use std::ops::Range;
+
+/// A measured entry that is off by more of its uncertainty is wrong. Unit: `[uncertainties]`. Why: the usual three.
+/// Test: `spoilt_terms_are_condemned_with_their_size`.
+const BEYOND_UNCERTAINTY: f64 = 3.0;
 
 /// The entry of a matrix of the model that is farthest from what was measured.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -97,7 +101,7 @@ impl Comparison {
             // The entry of the model has round-off, too, by the factorization of its constraints.
             let uncertainty = self.measured.uncertainties[(i, j)] + ROUND_OFF_OF_FACTORS / scale;
             let difference = (model - measured).abs();
-            let is_right = difference.is_nan() || difference <= tolerances::BEYOND_UNCERTAINTY * uncertainty;
+            let is_right = difference.is_nan() || difference <= BEYOND_UNCERTAINTY * uncertainty;
             largest_uncertainty = largest_uncertainty.max(uncertainty * scale);
             let relative = if difference.is_nan() { 0.0 } else { difference * scale };
             let is_worse = |other: &Deviation| (!is_right, relative) > (!other.is_right, other.relative);

@@ -8,8 +8,11 @@ use crate::error::Result;
 use crate::linearize::flow::Bundle;
 use crate::linearize::{Carried, Coordinates, Matrix, State};
 use crate::math::eigen::expm;
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 use serde::Serialize;
+
+/// Errors up to here are in the range where the lowest power of h rules. Unit: `[1]`.
+const LOWEST_POWER: f64 = 3e-3;
 
 /// Deviation of the frozen model from the variational equations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -54,7 +57,7 @@ pub fn frozen(
     let floor =
         (3.0 * tolerances::FLOW_ATOL * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
     let steps = steps[..errors.len()].to_vec();
-    let decay = decay(&steps, &errors, |_| tolerances::LOWEST_POWER, floor);
+    let decay = decay(&steps, &errors, |_| LOWEST_POWER, floor);
     let limit = transition_limit(&carried.start, &steps, &transitions).and_then(|found| {
         let names = &carried.start.states;
         let n = names.len();

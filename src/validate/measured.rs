@@ -16,9 +16,25 @@ use crate::error::Result;
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, Variation, beside};
 use crate::math::bounds;
 use crate::system::MechanicalSystem;
-use crate::tolerances::{ROUND_OFF_OF_SUMS, linearize as tolerances};
+use crate::tolerances;
+use crate::tolerances::ROUND_OFF_OF_SUMS;
 use serde::Serialize;
 use std::ops::Range;
+
+/// The largest perturbation of differences. Unit: `[1]` of the typical length, of 1 m at most, or rad. Why:
+/// extrapolation needs the first powers only. Test: `spoilt_terms_are_condemned_with_their_size`.
+const LARGEST_SHIFT: f64 = 0.1;
+
+/// A perturbation over the one before, and their number. Unit: `[1]`. Why: errors of second order fall by sixteen.
+/// Test: `spoilt_terms_are_condemned_with_their_size`.
+const SHIFT_RATIO: f64 = 0.25;
+
+/// Number of perturbations of differences. Unit: `[perturbations]`. Why: they reach 2e-5.
+const SHIFTS: i32 = 7;
+
+/// Perturbations whose differences are round-off but for the slope. Unit: `[1]`, m or rad. Why: the square root of
+/// rounding. Test: `spoilt_terms_are_condemned_with_their_size`.
+const TINY_SHIFTS: [f64; 2] = [1e-8, 3.7e-9];
 
 /// Deviations of the matrices; none where a matrix has no entries or was not measured.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -125,7 +141,7 @@ impl<'m, 'a> Bench<'m, 'a> {
             value.rows_mut(b.nrows(), outputs.len()).copy_from_slice(&outputs);
             Some(value)
         };
-        let reach = tolerances::LARGEST_SHIFT * system.length().min(1.0);
+        let reach = LARGEST_SHIFT * system.length().min(1.0);
         let mut tables = Vec::new();
         for place in 0..self.columns.len() {
             if is_over() {
@@ -137,9 +153,9 @@ impl<'m, 'a> Bench<'m, 'a> {
                 let difference = value(&shift, eps)? - value(&shift, -eps)?;
                 Some((eps, difference / (2.0 * eps)))
             };
-            let sizes = (0..tolerances::SHIFTS).map(|i| reach * tolerances::SHIFT_RATIO.powi(i) / unit);
+            let sizes = (0..SHIFTS).map(|i| reach * SHIFT_RATIO.powi(i) / unit);
             let slopes: Vec<(f64, Matrix)> = sizes.filter_map(&mut slope).collect();
-            let tiny = tolerances::TINY_SHIFTS.iter().filter_map(|eps| slope(eps / unit));
+            let tiny = TINY_SHIFTS.iter().filter_map(|eps| slope(eps / unit));
             tables.push((slopes, tiny.collect::<Vec<_>>()));
         }
         let mut limits = Limits::new(rows, self.columns.len());

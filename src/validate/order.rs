@@ -1,8 +1,13 @@
 //! Observed orders of convergence.
 
 use crate::math::bounds;
-use crate::tolerances::linearize as tolerances;
 use serde::Serialize;
+
+/// Points that an observed order needs. Unit: `[points]`.
+const SLOPE_POINTS: usize = 4;
+
+/// Errors this factor above rounding are not disturbed by it. Unit: `[1]`.
+const ABOVE_ROUNDING: f64 = 30.0;
 
 /// Observed order of errors as a power of a size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -21,13 +26,14 @@ pub struct Decay {
 /// Fits the slope by least squares over the points whose error is at most `largest` of their size and above the
 /// rounding error `floor`; both in the unit of the errors.
 pub fn decay(sizes: &[f64], errors: &[f64], largest: impl Fn(f64) -> f64, floor: f64) -> Decay {
-    let points = sizes.iter().zip(errors).filter(|(size, error)| {
-        error.is_finite() && **error > tolerances::ABOVE_ROUNDING * floor && **error <= largest(**size)
-    });
+    let points = sizes
+        .iter()
+        .zip(errors)
+        .filter(|(size, error)| error.is_finite() && **error > ABOVE_ROUNDING * floor && **error <= largest(**size));
     let logs: Vec<(f64, f64)> = points.map(|(size, error)| (size.log10(), error.log10())).collect();
-    let is_exact = is_exact(sizes, errors, tolerances::ABOVE_ROUNDING * floor);
+    let is_exact = is_exact(sizes, errors, ABOVE_ROUNDING * floor);
     let (low, high) = bounds(logs.iter().map(|(x, _)| *x));
-    let enough = logs.len() >= tolerances::SLOPE_POINTS;
+    let enough = logs.len() >= SLOPE_POINTS;
     Decay {
         order: enough.then(|| slope(&logs)),
         decades: if enough { high - low } else { 0.0 },
@@ -40,7 +46,7 @@ fn is_exact(sizes: &[f64], errors: &[f64], rounding: f64) -> bool {
     let finite = sizes.iter().zip(errors).filter(|(_, error)| error.is_finite());
     let (at, above): (Vec<_>, Vec<_>) = finite.partition(|(_, error)| **error <= rounding);
     let largest = at.iter().fold(0.0, |most: f64, (size, _)| most.max(**size));
-    let few = above.len() <= at.len() && at.len() >= tolerances::SLOPE_POINTS;
+    let few = above.len() <= at.len() && at.len() >= SLOPE_POINTS;
     above.is_empty() || few && above.iter().all(|(size, _)| **size > largest)
 }
 

@@ -8,7 +8,13 @@ use crate::linearize::flow::Snapshot;
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State};
 use crate::math::eigen::eigen;
 use crate::system::{MechanicalSystem, Scratch};
-use crate::tolerances::linearize as tolerances;
+
+/// Relative errors above are not in the range where eps^2 rules. Unit: `[1]`.
+const SECOND_ORDER_RANGE: f64 = 0.1;
+
+/// How many periods of the fastest mode a run counts at most. Unit: `[periods]`. Why: longer runs would cost more than
+/// they tell.
+const FASTEST_PERIODS: f64 = 8.0;
 
 /// Sizes of the perturbation, of (dq, dv/rate) in m or rad; the last one is so small that its error is rounding.
 pub const EPSILONS: [f64; 8] = [1e-1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-9];
@@ -79,7 +85,7 @@ impl Speed {
 
     /// Returns the period of a typical mode, s, limited to a number of periods of the fastest.
     pub fn period(&self) -> f64 {
-        std::f64::consts::TAU * (1.0 / self.usual).min(tolerances::FASTEST_PERIODS / self.fastest)
+        std::f64::consts::TAU * (1.0 / self.usual).min(FASTEST_PERIODS / self.fastest)
     }
 }
 
@@ -129,6 +135,6 @@ impl Norm {
         let errors: &[f64] = &errors.iter().zip(&end.members).map(own).collect::<Vec<f64>>();
         let size = self.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
         let floor = errors.last().copied().filter(|error| error.is_finite()).unwrap_or(0.0).max(1e-15);
-        decay(epsilons, errors, |eps| tolerances::SECOND_ORDER_RANGE * eps * size, floor)
+        decay(epsilons, errors, |eps| SECOND_ORDER_RANGE * eps * size, floor)
     }
 }

@@ -4,7 +4,8 @@ use crate::formulation::{Dynamics, ExponentialMap, StepError};
 use crate::linearize::{Matrix, State};
 use crate::math::{Piece, Rate, largest};
 use crate::system::{Excitation, MechanicalSystem, Need, OperatingPoint, Scratch};
-use crate::tolerances::{SAME, initial as tolerances};
+use crate::tolerances;
+use crate::tolerances::SAME;
 
 /// A perturbation of a state and of the inputs.
 pub struct Shift<'p> {

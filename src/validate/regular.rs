@@ -7,7 +7,7 @@ use crate::linearize::{State, changed_parts};
 use crate::simulate::{Method, Observation, Sink, Span, simulate};
 use crate::system::MechanicalSystem;
 use crate::tolerances::SAME;
-use crate::tolerances::math::TRUNCATED_RANK;
+use crate::tolerances::TRUNCATED_RANK;
 
 /// A state at which the equations change their form.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]

@@ -11,8 +11,20 @@ use super::{Decay, Deviation, Entry, Frozen, InputCheck, PerturbationSequence, S
 use crate::error::{Result, short_list, significant};
 use crate::linearize::{Built, Carried, Chart, State, Variation, minimal, refuse_large};
 use crate::system::{Column, MechanicalSystem};
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 use serde::Serialize;
+
+/// Perturbed motions are followed up to this part of the way to a change of form. Unit: `[1]`. Why: small perturbations
+/// are then still before it. Test: `an_event_ends_the_horizon`.
+const BEFORE_EVENT: f64 = 0.9;
+
+/// A frozen response that is farther off is told beside the verdict. Unit: `[1]`. Why: the larger of the horizons.
+/// Test: `a_frozen_response_that_is_far_off_is_told`.
+const FROZEN_OFF: f64 = 0.1;
+
+/// Perturbed motions are followed up to this part of the way to a singular state. Unit: `[1]`. Why: nearer, terms of
+/// second order grow with the inverse of the distance. Test: `a_singular_state_ends_the_comparison`.
+const BEFORE_SINGULAR: f64 = 0.5;
 
 /// Comparison of the linear model at a state with simulations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -104,8 +116,8 @@ pub fn validate_changed(
     let wished = settings.horizon.unwrap_or(speed.period());
     let End { singular, event } = end(system, start, wished)?;
     let before = |t: f64, part: f64| part * (t - start.t);
-    let regular = singular.map_or(wished, |t| before(t, tolerances::BEFORE_SINGULAR));
-    let smooth = event.as_ref().map_or(regular, |event| before(event.t, tolerances::BEFORE_EVENT));
+    let regular = singular.map_or(wished, |t| before(t, BEFORE_SINGULAR));
+    let smooth = event.as_ref().map_or(regular, |event| before(event.t, BEFORE_EVENT));
     let followed = regular.min(smooth);
     let mut sequences = Vec::new();
     let mut cut = Vec::new();
@@ -233,7 +245,7 @@ fn told(name: char, deviation: &Deviation) -> String {
 
 /// Says how far the frozen model leaves the motion where it does.
 fn frozen_errors(evidence: &Evidence) -> String {
-    let far = |error: &f64| *error > tolerances::FROZEN_OFF;
+    let far = |error: &f64| *error > FROZEN_OFF;
     let motions = evidence.sequences.iter().filter_map(|sequence| {
         let error = sequence.drift_lti.iter().copied().fold(0.0, f64::max);
         Some(format!("{} % along {}", percent(error), sequence.direction)).filter(|_| far(&error))

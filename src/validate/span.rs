@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, Snapshot, flow};
 use crate::linearize::{Along, Chart, State, Variation, minimal};
 use crate::system::MechanicalSystem;
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 use serde::Serialize;
 
 /// Perturbations along one direction of the first state, followed over the span.

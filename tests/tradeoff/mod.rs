@@ -10,7 +10,7 @@ use crate::scenes::{Ready, shipped};
 use holonom::simulate::{Method, Span};
 use holonom::study::work_precision::{Cell, Filter, Outcome, Plan, Runner, WorkPrecision, cheapest_by_method, grid};
 use holonom::study::{Motion, RunSample, Watched};
-use holonom::tolerances::report::TIED_COSTS;
+use holonom::tolerances::TIED_COSTS;
 use std::time::Duration;
 
 pub const ROWS: usize = 200;

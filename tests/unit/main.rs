@@ -20,7 +20,7 @@ mod forward;
 mod math;
 #[path = "../../src/plot/mod.rs"]
 mod plot;
-#[path = "../../src/tolerances/mod.rs"]
+#[path = "../../src/tolerances.rs"]
 mod tolerances;
 
 #[path = "../../src/analysis"]

@@ -9,12 +9,38 @@ use super::Branch;
 use super::path::PathPoint;
 use super::survey::Survey;
 use crate::math::array::Each;
-use crate::tolerances::report as tolerances;
+
+/// States on the way to a singular one are kept each time the rank indicator has halved since the last. Unit: `[1]`.
+const WAY_HALVED: f64 = 0.5;
+
+/// The way is followed below this part of the largest rank indicator. Unit: `[1]`.
+const WAY_BEGINS: f64 = 0.3;
+
+/// Velocities are compared at so many times the least rank indicator. Unit: `[1]`.
+const WAY_COMPARED: f64 = 6.0;
+
+/// The state after the one that is compared is at least so much farther on. Unit: `[1]` of the time between those
+/// compared.
+const WAY_APART: f64 = 0.25;
+
+/// A change of the velocity that no smooth motion makes. Unit: `[1]` of its size.
+const JUMPED: f64 = 0.1;
+
+/// A jump of the velocity is beside so many times what the lower rule makes of the same accelerations otherwise. Unit:
+/// `[1]`. Why: over long steps both rules err.
+const JUMP_DOUBTED: f64 = 3.0;
+
+/// A change of the velocity by this part of its size is a jump whatever the rules err by. Unit: `[1]`.
+const JUMP_DOUBTED_MOST: f64 = 0.5;
+
+/// Drift that can turn a motion at a singular state: of the positions relative to the square of the rank indicator, of
+/// the velocities relative to it. Unit: `[1]`.
+const DRIFT_TURNS: f64 = 0.01;
 
 /// Returns the rank indicator below which drift of the positions and velocities, relative to their scales, can change
 /// the branch of a motion.
 pub fn reach([position, velocity]: [f64; 2]) -> f64 {
-    (position / tolerances::DRIFT_TURNS).sqrt().max(velocity / tolerances::DRIFT_TURNS)
+    (position / DRIFT_TURNS).sqrt().max(velocity / DRIFT_TURNS)
 }
 
 /// States before and after a singular state.
@@ -41,7 +67,7 @@ impl Turning {
         let aside = self
             .way
             .iter()
-            .rposition(|sample| sample.t < t && sample.rank_indicator >= tolerances::WAY_COMPARED * rank_indicator)
+            .rposition(|sample| sample.t < t && sample.rank_indicator >= WAY_COMPARED * rank_indicator)
             .unwrap_or(0);
         let before = match self.way.get(..=aside) {
             Some(way) => way[aside.saturating_sub(1)..].to_vec(),
@@ -56,13 +82,13 @@ impl Turning {
     pub fn add(&mut self, states: &[PathPoint; 3], largest: f64, survey: &mut Survey) -> Option<(usize, Branch)> {
         let [before @ .., now] = states;
         let falls = now.rank_indicator < before[1].rank_indicator;
-        if now.rank_indicator > tolerances::WAY_BEGINS * largest {
+        if now.rank_indicator > WAY_BEGINS * largest {
             self.way.clear();
         } else if falls {
             if self.way.is_empty() {
                 self.way.extend(before.iter().filter(|sample| !sample.q.is_empty()).cloned());
             }
-            if self.way.last().is_none_or(|last| now.rank_indicator < tolerances::WAY_HALVED * last.rank_indicator) {
+            if self.way.last().is_none_or(|last| now.rank_indicator < WAY_HALVED * last.rank_indicator) {
                 self.way.push(now.clone());
             }
         }
@@ -83,10 +109,9 @@ impl Open {
         let is_next = match self.after.first() {
             None => {
                 now.t > from.t
-                    && now.rank_indicator
-                        >= (tolerances::WAY_COMPARED * self.rank_indicator).min(0.5 * from.rank_indicator)
+                    && now.rank_indicator >= (WAY_COMPARED * self.rank_indicator).min(0.5 * from.rank_indicator)
             }
-            Some(first) => now.t - first.t >= tolerances::WAY_APART * (first.t - from.t),
+            Some(first) => now.t - first.t >= WAY_APART * (first.t - from.t),
         };
         if is_next {
             self.after.push(now.clone());
@@ -105,8 +130,7 @@ impl Open {
         let doubt: Vec<f64> = change.iter().zip(&lower).map(|(change, lower)| change - lower).collect();
         let [after, before, doubt, jump] = survey.sizes((to.t, &to.q), [&to.v, &from.v, &doubt, &jump]);
         let size = after.max(before);
-        let smooth =
-            tolerances::JUMPED * size + (tolerances::JUMP_DOUBTED * doubt).min(tolerances::JUMP_DOUBTED_MOST * size);
+        let smooth = JUMPED * size + (JUMP_DOUBTED * doubt).min(JUMP_DOUBTED_MOST * size);
         match jump {
             _ if size <= 0.0 => Branch::Open,
             jump if (jump > smooth || jump.is_nan()) && self.may_turn => Branch::Left,

@@ -7,11 +7,24 @@ mod survey;
 use crate::error::{Failure, short_list};
 use crate::simulate::{Observation, Outcome};
 use crate::system::MechanicalSystem;
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 use branch::Turning;
 use path::{Path, PathPoint};
 use serde::Serialize;
 use survey::Survey;
+
+/// Dips of the rank indicator that are looked at. Unit: `[1]` of the largest.
+const DIP_OF_RANK: f64 = 0.8;
+
+/// A state is told as near to a singular one whose rank indicator is below. Unit: `[1]` of the largest.
+const TOLD_NEAR_SINGULAR: f64 = 1e-2;
+
+/// Drift may turn the motion where the rank indicator is below. Unit: `[1]` of the largest.
+const DRIFT_MAY_TURN: f64 = 0.2;
+
+/// A branch that was left so soon before a run ended was left because of what ended it. Unit: `[1]` of the time. Test:
+/// `a_driver_beyond_its_travel_is_named`.
+const LEFT_AT_END: f64 = 1e-5;
 
 /// Distance of a motion from singular states, by the rank indicator: the smallest sine of the angle between a row of G
 /// and those before it, in the metric of M^-1, without rows that depend on others everywhere.
@@ -90,7 +103,7 @@ impl Singularity {
     pub fn failure_of(&self, outcome: &Outcome) -> Option<Failure> {
         let ended = outcome.failure.clone();
         let is_before = |left: &Failure| match &ended {
-            Some(Failure { t, .. }) => left.t < t - tolerances::LEFT_AT_END * t.abs(),
+            Some(Failure { t, .. }) => left.t < t - LEFT_AT_END * t.abs(),
             None => true,
         };
         let left = self.failure().filter(is_before);
@@ -174,9 +187,10 @@ impl<'a> Watch<'a> {
     /// Removes a state that was examined only because drift might have changed the branch there.
     fn drop_if_far(&mut self, passing: usize) {
         let passed = &mut self.found.passed;
-        if passed.get(passing).is_some_and(|p| {
-            p.branch != Branch::Left && p.rank_indicator > tolerances::TOLD_NEAR_SINGULAR * self.largest
-        }) {
+        if passed
+            .get(passing)
+            .is_some_and(|p| p.branch != Branch::Left && p.rank_indicator > TOLD_NEAR_SINGULAR * self.largest)
+        {
             passed.remove(passing);
             self.found.count -= 1;
         }
@@ -194,7 +208,7 @@ impl<'a> Watch<'a> {
         let [a, b, c] = &self.last;
         b.rank_indicator <= a.rank_indicator
             && b.rank_indicator < c.rank_indicator
-            && b.rank_indicator < tolerances::DIP_OF_RANK * self.largest
+            && b.rank_indicator < DIP_OF_RANK * self.largest
     }
 
     fn look_at_dip(&mut self) {
@@ -203,8 +217,8 @@ impl<'a> Watch<'a> {
         let path = Path::new(&self.last, &rates);
         let indicators = [self.last[0].rank_indicator, self.last[2].rank_indicator];
         let drift = self.survey.drift(&self.last[1]);
-        let near = tolerances::TOLD_NEAR_SINGULAR * self.largest;
-        let turned = branch::reach(drift).min(tolerances::DRIFT_MAY_TURN * self.largest);
+        let near = TOLD_NEAR_SINGULAR * self.largest;
+        let turned = branch::reach(drift).min(DRIFT_MAY_TURN * self.largest);
         let Some((t, rank_indicator)) = self.survey.least_rank_indicator(&path, indicators, near.max(turned)) else {
             return;
         };

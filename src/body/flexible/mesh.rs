@@ -10,7 +10,7 @@ use super::shape::Inertia;
 use super::spec::{Axial, FrameConditions};
 use crate::body::{cross, dot, sub};
 use crate::math::array::from_fn;
-use crate::tolerances::body as tolerances;
+use crate::tolerances;
 
 /// Gauss points on an element of a uniform straight beam: exact for squares of cubics.
 const POINTS: usize = 4;

@@ -6,7 +6,7 @@ use super::spec::Theory;
 use crate::error::{Error, Result, short};
 use crate::math::array::from_fn;
 use crate::math::expression::Expression;
-use crate::tolerances::body as tolerances;
+use crate::tolerances;
 
 /// Number of equal parts of the beam at whose ends the section is checked.
 const LOOKED_AT: u32 = 2000;

@@ -6,7 +6,10 @@ use super::spec::{Elasticity, FlexibleBeam, Material, OneOrMany, SectionInertia,
 use crate::body::Build;
 use crate::error::{Error, Result, Warning, short};
 use crate::math::expression::{Number, Scope};
-use crate::tolerances::body as tolerances;
+
+/// Young's modulus of a solid that is smaller is probably in another unit. Unit: `[Pa]`. Why: the softest rubber has
+/// 1e5 to 1e6. Test: `a_modulus_in_another_unit_is_said`.
+const SOFTEST_SOLID: f64 = 1e5;
 
 const FORMS: &str = "give \"material\" and \"section\", or \"stiffness\" and \"inertia\"";
 
@@ -115,9 +118,9 @@ impl<const D: usize> Reader<'_, D> {
 
     /// Warns of a modulus that is probably in MPa or GPa.
     fn doubt_modulus(&self, e: f64) {
-        if e < tolerances::SOFTEST_SOLID {
+        if e < SOFTEST_SOLID {
             let modulus = short(e);
-            let text = format!("`E` is {modulus} Pa, and the softest rubber has {:e} Pa", tolerances::SOFTEST_SOLID);
+            let text = format!("`E` is {modulus} Pa, and the softest rubber has {:e} Pa", SOFTEST_SOLID);
             let hint = format!("for {modulus} GPa write {modulus}e9, for {modulus} MPa (N/mm^2) {modulus}e6");
             self.build.switches.borrow_mut().doubts.push(Warning::new(text, hint));
         }

@@ -13,7 +13,18 @@ use crate::body::Build;
 use crate::error::{Error, Result};
 use crate::math::Taylor;
 use crate::math::expression::{Expression, Number, Scope};
-use crate::tolerances::body as tolerances;
+use crate::tolerances;
+
+/// Integrals of shape functions are exact when halving the panels changes none by more. Unit: `[1]` of the largest.
+/// Why: round-off of sums over the panels is less.
+const RITZ_CONVERGED: f64 = 1e-12;
+
+/// As good as infinite: expressions have such slopes where the exact ones are. Unit: `[its own unit]`. Why: its square
+/// is still a number.
+const RITZ_INFINITE: f64 = 1e150;
+
+/// Panels at most. Unit: `[panels]`. Why: only functions that are not smooth, or not exact to rounding, need so many.
+const RITZ_PANELS: usize = 64;
 
 /// Largest number of functions: their integrals are computed for all pairs.
 const MOST: usize = 200;
@@ -87,7 +98,7 @@ impl Shapes for Functions {
         Station { dofs: self.dofs(), shapes: self.functions.iter().map(|f| f.at(s)).collect() }
     }
     fn breaks(&self) -> Vec<f64> {
-        (0..=tolerances::RITZ_PANELS).map(|k| self.line.length * k as f64 / tolerances::RITZ_PANELS as f64).collect()
+        (0..=RITZ_PANELS).map(|k| self.line.length * k as f64 / RITZ_PANELS as f64).collect()
     }
     fn profile(&self) -> &Profile {
         &self.profile
@@ -143,7 +154,7 @@ impl Functions {
             line: ReferenceLine::straight(length),
             functions,
             axial_mass_factor,
-            panels: tolerances::RITZ_PANELS,
+            panels: RITZ_PANELS,
             shortens: false,
             profile,
         };
@@ -153,8 +164,7 @@ impl Functions {
 
     /// Checks that functions and slopes are finite on the whole beam, ends included, where joints may be.
     fn check_finite(&self) -> Result<()> {
-        let places =
-            places([0.0, self.line.length], tolerances::RITZ_PANELS).map(|(s, _)| s).chain([0.0, self.line.length]);
+        let places = places([0.0, self.line.length], RITZ_PANELS).map(|(s, _)| s).chain([0.0, self.line.length]);
         for s in places {
             for function in &self.functions {
                 let Cross { displacement, rotation, strain, .. } = function.at(s);
@@ -162,7 +172,7 @@ impl Functions {
                     .iter()
                     .chain(&rotation)
                     .chain(&strain)
-                    .any(|value| value.is_nan() || value.abs() > tolerances::RITZ_INFINITE)
+                    .any(|value| value.is_nan() || value.abs() > RITZ_INFINITE)
                 {
                     return Err(function
                         .fault(format!("`{}` has no finite value and derivatives at x = {s}", function.value))
@@ -203,7 +213,7 @@ impl Functions {
         let mut panels = 1;
         let mut samples = self.samples([0.0, self.line.length], panels);
         let mut last = integrals(&samples);
-        while panels < tolerances::RITZ_PANELS {
+        while panels < RITZ_PANELS {
             panels *= 2;
             samples = self.samples([0.0, self.line.length], panels);
             let finer = integrals(&samples);
@@ -299,5 +309,5 @@ fn diagonals<const D: usize>(n: usize, (inertia, stiffness): &(Inertia<D>, Symme
 }
 
 fn agree(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerances::RITZ_CONVERGED * b.abs())
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= RITZ_CONVERGED * b.abs())
 }

@@ -2,8 +2,12 @@
 
 use crate::math::array::{Each, from_fn};
 use crate::math::rotation::Matrix3;
-use crate::tolerances::body::{ATOM, ROUNDED_INERTIA};
+use crate::tolerances::ROUNDED_INERTIA;
 use nalgebra::{Matrix3 as Tensor, SymmetricEigen, Vector3};
+
+/// Radius of gyration of what has no extent. Unit: `[m]`. Why: the radius of an atom; what files have below it is
+/// round-off. Test: `moments_of_round_off_are_zero`.
+const ATOM: f64 = 1e-10;
 
 /// A tensor that a body can have in the place of one that none has.
 pub struct Repaired {

@@ -5,7 +5,7 @@ use super::system::{EquilibriumSystem, Place};
 use crate::error::{Error, Failure, short};
 use crate::math::largest;
 use crate::system::{Limited, MechanicalSystem};
-use crate::tolerances::initial as tolerances;
+use crate::tolerances;
 
 pub(super) fn no_tangent() -> Error {
     Error::input("static equilibrium needs K, which these equations do not give")

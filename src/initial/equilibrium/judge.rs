@@ -4,7 +4,11 @@ use super::descent::gone;
 use super::system::{EquilibriumSystem, Place};
 use crate::math::largest;
 use crate::system::{Limited, Theory};
-use crate::tolerances::initial as tolerances;
+use crate::tolerances;
+
+/// How far an element of a beam may turn at an equilibrium, over what is warned of. Unit: `[1]`. Why: 0.95 of what it
+/// can turn at all.
+const TOO_FAR_TURNED: f64 = 0.95 / 0.75;
 
 /// Reference values of forces and stiffness from the start.
 pub(super) struct Judge {
@@ -42,7 +46,7 @@ impl Judge {
         system.deformations(&q[..rest.coordinates], &mut deformations);
         let mut parts = system.limited().iter().cloned().zip(deformations);
         let is_bent = |(limited, turn): &(Limited, f64)| match limited.theory {
-            Theory::Helix { .. } => *turn > tolerances::TOO_FAR_TURNED * limited.theory.most(),
+            Theory::Helix { .. } => *turn > TOO_FAR_TURNED * limited.theory.most(),
             _ => false,
         };
         parts.find(is_bent)

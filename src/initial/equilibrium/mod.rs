@@ -20,7 +20,7 @@ use super::{Metric, position};
 use crate::error::Result;
 use crate::math::largest;
 use crate::system::{Limited, MechanicalSystem};
-use crate::tolerances::initial as tolerances;
+use crate::tolerances;
 use descent::End;
 use judge::Judge;
 use newton::{Policy, newton};

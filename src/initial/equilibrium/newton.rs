@@ -3,7 +3,14 @@
 use super::system::{Change, EquilibriumSystem, Place};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
-use crate::tolerances::initial as tolerances;
+use crate::tolerances;
+
+/// Iterations at most of Newton's method on the forces, plain or damped. Unit: `[iterations]`. Why: bent beams need
+/// steps that grow before they shrink.
+const BALANCING_ITERATIONS: usize = 60;
+
+/// The shortest damped step, as part of the full one. Unit: `[1]`. Why: other ways come next.
+const SHORTEST_DAMPED: f64 = 1e-3;
 
 /// Safeguards of Newton's method.
 #[derive(Clone, Copy)]
@@ -14,10 +21,9 @@ pub(super) struct Policy {
 
 impl Policy {
     /// Undamped, without a limit on contraction: the steps of bent beams grow before they shrink.
-    pub const FULL: Policy =
-        Policy { limits: Limits { most: tolerances::BALANCING_ITERATIONS, ..Limits::NONE }, is_damped: false };
+    pub const FULL: Policy = Policy { limits: Limits { most: BALANCING_ITERATIONS, ..Limits::NONE }, is_damped: false };
     pub const DAMPED: Policy =
-        Policy { limits: Limits { most: tolerances::BALANCING_ITERATIONS, ..Limits::NONE }, is_damped: true };
+        Policy { limits: Limits { most: BALANCING_ITERATIONS, ..Limits::NONE }, is_damped: true };
     /// Near a solution: every step contracts.
     pub const NEAR: Policy = Policy {
         limits: Limits { most: tolerances::CLOSING_ITERATIONS, contraction: tolerances::NEWTON_HALVES, ..Limits::NONE },
@@ -73,7 +79,7 @@ fn residual(rest: &EquilibriumSystem, at: &Place, goal: Option<&[f64]>) -> Vec<f
 /// which does not depend on the units of forces and constraints (Deuflhard, section 3.3).
 fn damped(rest: &mut EquilibriumSystem, at: &Place, change: &Change, size: f64) -> Option<Place> {
     let mut part = 1.0;
-    while part > tolerances::SHORTEST_DAMPED {
+    while part > SHORTEST_DAMPED {
         let next = rest.moved(at, change, part);
         rest.evaluate(&next.q);
         let force = rest.force(&next.lambda);

@@ -3,9 +3,17 @@
 use super::system::{EquilibriumSystem, Place};
 use crate::formulation::{free_directions, reduce};
 use crate::modes::eigenvalues;
-use crate::tolerances::initial as tolerances;
+use crate::tolerances;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
+
+/// Part of K that may be skew before its eigenvalues do not tell stability. Unit: `[1]` of the largest entry. Why: far
+/// above round-off.
+const SKEW: f64 = 1e-6;
+
+/// A coordinate that is named takes part in a direction by this part of the largest. Unit: `[1]`.of how much a message
+/// says.
+const TAKES_PART: f64 = 0.3;
 
 /// Stability of an equilibrium, in increasing order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -46,7 +54,7 @@ pub(super) fn soft(rest: &mut EquilibriumSystem, place: &Place) -> Option<Soft> 
     let z = free_directions(&mut rest.dynamics)?;
     let k = reduce(&rest.dynamics.structure.tangent, &rest.tangent.k, &z);
     let symmetric = 0.5 * (&k + k.transpose());
-    let is_symmetric = (&k - &symmetric).amax() <= tolerances::SKEW * k.amax();
+    let is_symmetric = (&k - &symmetric).amax() <= SKEW * k.amax();
     if k.is_empty() {
         return Some(Soft { smallest: f64::INFINITY, directions: Vec::new(), is_symmetric, k, z });
     }
@@ -95,7 +103,7 @@ pub(super) fn named(rest: &EquilibriumSystem, directions: &[DVector<f64>]) -> Ve
     let names = rest.dynamics.system.names().v;
     let mut found = Vec::new();
     for direction in directions {
-        let taking = |i: &usize| direction[*i].abs() >= tolerances::TAKES_PART * direction.amax();
+        let taking = |i: &usize| direction[*i].abs() >= TAKES_PART * direction.amax();
         found.extend((0..direction.len()).filter(taking));
     }
     found.sort_unstable();

@@ -6,7 +6,11 @@ use crate::formulation::{Dynamics, ExponentialMap};
 use crate::math::kkt::{Pattern, SaddlePoint, Unsymmetric};
 use crate::math::{largest, largest_in};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Tangent};
-use crate::tolerances::initial as tolerances;
+use crate::tolerances;
+
+/// Terms of a balance of forces below this part of the largest of all are as good as none. Unit: `[1]`. Why: the square
+/// root of rounding.
+const BALANCED_LEAST: f64 = 1e-8;
 
 /// Coordinates and multipliers.
 #[derive(Clone, Debug)]
@@ -223,7 +227,7 @@ impl<'a> EquilibriumSystem<'a> {
         let reach = 1.0f64.max(largest(&place.q));
         let sizes = self.sizes(place).into_iter().zip(self.stiffness());
         let size: Vec<f64> = sizes.map(|(force, stiffness)| force + stiffness * reach).collect();
-        let least = tolerances::BALANCED_LEAST * largest(&size);
+        let least = BALANCED_LEAST * largest(&size);
         force.iter().zip(&size).all(|(force, size)| force.abs() <= tolerances::ROUND_OFF_OF_SUMS * size.max(least))
             && self.gap() <= tolerances::REDUNDANT_ROWS_CLOSED
     }

@@ -11,7 +11,7 @@ use crate::math::largest;
 use crate::math::newton::{Limits, Monitor, relative};
 use crate::method_spec::OptionDoc;
 use crate::system::{Need, OperatingPoint};
-use crate::tolerances::integrator as tolerances;
+use crate::tolerances;
 use matrix::Penalized;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

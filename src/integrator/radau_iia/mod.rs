@@ -19,7 +19,7 @@ use crate::formulation::{Dae, StepError};
 use crate::math::newton::Monitor;
 use crate::method_spec::OptionDoc;
 use crate::system::OperatingPoint;
-use crate::tolerances::integrator as tolerances;
+use crate::tolerances;
 use collocation::Collocation;
 use matrices::Matrices;
 use order::{Choice, Order, Seen, internal};

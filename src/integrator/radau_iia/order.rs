@@ -6,8 +6,22 @@ use crate::integrator::explicit::widest_gap;
 use crate::integrator::{Control, Tolerance};
 use crate::math::newton::Monitor;
 use crate::method_spec::MethodSpec;
-use crate::tolerances::integrator as tolerances;
+use crate::tolerances;
 use serde::{Deserialize, Serialize};
+
+/// Steps at one order before it may change. Unit: `[steps]`. Test: `no_more_work_than_other_codes`.
+const RADAU_STEADY: usize = 4;
+
+/// The gain in work that is worth a change of the order. Unit: `[1]`. Test: `no_more_work_than_other_codes`.
+const RADAU_GAIN: f64 = 1.2;
+
+/// Contraction of Newton's method that a larger step may come to. Unit: `[1]`. Test: `no_more_work_than_other_codes`.
+const RADAU_SLOW: f64 = 0.4;
+
+/// The shortest and the longest step that radau_iia tries over one that Newton's method did not solve. Unit: `[1]`.
+/// Why: contraction tells the length within, but its first rates are rough. Test:
+/// `turning_stiff_directions_do_not_limit_steps`.
+const RADAU_RETRIED: [f64; 2] = [0.25, 0.8];
 
 /// The methods with 3, 5 and 7 stages, and the one in use.
 ///
@@ -90,14 +104,14 @@ impl Order {
         let own = if seen.lower > 0.0 { seen.error / seen.lower } else { 0.0 };
         let fall = (own * self.choice.last_fall.unwrap_or(own)).sqrt();
         self.choice.last_fall = Some(own);
-        if self.choice.steady < tolerances::RADAU_STEADY {
+        if self.choice.steady < RADAU_STEADY {
             return;
         }
         let (best, gain) = self.neighbours().fold((self.current(), 1.0), |best, index| {
             let gain = self.gain(index, tolerance, seen, fall);
             if gain > best.1 { (index, gain) } else { best }
         });
-        if best != self.current() && gain > tolerances::RADAU_GAIN {
+        if best != self.current() && gain > RADAU_GAIN {
             self.set(best);
         }
     }
@@ -121,7 +135,7 @@ impl Order {
         let step = |error: f64, s: usize| error.powf(-1.0 / (s as f64 + 1.0));
         let ratio = step(error, new) / step(seen.error.max(1e-16), old);
         // A larger step contracts less.
-        let ratio = if new > old { ratio.min(tolerances::RADAU_SLOW / seen.theta) } else { ratio };
+        let ratio = if new > old { ratio.min(RADAU_SLOW / seen.theta) } else { ratio };
         ratio * old as f64 / new as f64
     }
 
@@ -138,7 +152,7 @@ impl Order {
     /// Sets how much shorter a step is tried again that Newton's method did not solve: so that it would contract well
     /// enough and not turn too far; as short as it may be where the residual has no value, or nothing is known.
     pub fn retry(&mut self, newton: &Monitor, has_value: bool, turned: f64) {
-        let [shortest, longest] = tolerances::RADAU_RETRIED;
+        let [shortest, longest] = RADAU_RETRIED;
         let is_known = has_value && newton.iterations > 1 && !newton.rate.is_nan();
         let shorter = if is_known { farthest(newton.rate, turned) } else { shortest };
         self.choice.control.retry = shorter.clamp(shortest, longest);
@@ -147,7 +161,7 @@ impl Order {
 
 /// The longest next step over the present one, which contracts with `rate` and has rotation vectors up to `turned`.
 fn farthest(rate: f64, turned: f64) -> f64 {
-    (tolerances::RADAU_SLOW / rate).min(0.9 * tolerances::RADAU_TURN / turned)
+    (RADAU_SLOW / rate).min(0.9 * tolerances::RADAU_TURN / turned)
 }
 
 /// Tolerance for the error estimate of order s + 1 at which the solution, of order 2 s, meets the given one.

@@ -6,7 +6,11 @@ use crate::formulation::{self, Dae, Dynamics, Residual, StepError};
 use crate::integrator::sums::accumulate;
 use crate::integrator::{From, Problem, round_off};
 use crate::system::{Dimensions, MechanicalSystem};
-use crate::tolerances::integrator as tolerances;
+use crate::tolerances;
+
+/// Error of a step of radau_iia that is the rounding of phi, over that of one state. Unit: `[1]`. Why: some operations
+/// a stage. Test: `gains_of_any_size_are_stepped_over`.
+const RADAU_ROUND_OFF: f64 = 10.0;
 
 /// V_i = v + h sum a_ij (A_j + W_j),  Q_i = q + h sum a_ij N(Q_j) (V_j + U_j), with the accelerations A, lambda and,
 /// where positions or velocities have multipliers of their own, the shifts U and W as unknowns.
@@ -182,7 +186,7 @@ impl Stages {
         if dae.gain().is_none() {
             return 1.0;
         }
-        1.0 + tolerances::RADAU_ROUND_OFF * self.round_off(problem, from, dae.rounding_time(from.h))
+        1.0 + RADAU_ROUND_OFF * self.round_off(problem, from, dae.rounding_time(from.h))
     }
 
     /// The residuals of all stages of a step. One evaluation per stage.

@@ -6,7 +6,7 @@ use crate::linearize::coordinates::least_moved;
 use crate::linearize::flow::Bundle;
 use crate::linearize::{Chart, Coordinates, LinearModel, Matrix, State, Variation};
 use crate::math::largest;
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 
 /// A chart that is continuous along a motion. The basis of `intrinsic` is transported parallel, that of
 /// `mass_orthogonal` moves as little as it can. Named coordinates z = B dq have a constant B and R = Z (B Z)^-1.

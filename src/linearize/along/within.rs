@@ -4,7 +4,10 @@ use super::{Along, along};
 use crate::error::{Error, Result, percent, short};
 use crate::linearize::{Chart, State};
 use crate::system::MechanicalSystem;
-use crate::tolerances::linearize as tolerances;
+
+/// Points along a motion at most, where interpolation needs them close. Unit: `[points]`. Why: files of more are hard
+/// to use.
+const WITHIN_MOST: usize = 20_000;
 
 /// Returns models at times so close that linear interpolation between them is within the part `error` of the largest
 /// entry of each kind of matrix, measured half-way. Intervals are halved, beginning with those of `times`.
@@ -27,12 +30,12 @@ pub fn within(
         if times.len() == before {
             return Ok(found);
         }
-        if times.len() > tolerances::WITHIN_MOST {
+        if times.len() > WITHIN_MOST {
             let at = found.intervals.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(i, _)| i);
             let text = format!(
                 "interpolation within {} needs more than {} points; it is worst near t = {} s",
                 percent(error),
-                tolerances::WITHIN_MOST,
+                WITHIN_MOST,
                 short(found.models[at].point.t)
             );
             return Err(Error::input(text).under("--within").hint("give more percent, or a shorter time"));

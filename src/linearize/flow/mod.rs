@@ -16,11 +16,14 @@ use crate::method_spec::MethodSpec;
 use crate::projection::Projection;
 use crate::simulate::{Observation, Parts, Segments, Sink, Stop};
 use crate::system::MechanicalSystem;
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 use bundle::Shape;
 use field::VariationalField;
 use projection::Straightening;
 use pushed::Pushed;
+
+/// Steps at most of such a run. Unit: `[steps]`. Test: `a_double_pendulum_is_chaotic`.
+const FLOW_STEPS: usize = 2_000_000;
 
 const SHORTER: &str = "choose a shorter time";
 
@@ -121,7 +124,7 @@ impl Sink for Counter<'_> {
         if (self.is_over)() {
             return Some(Stop { reason: "its time is over".to_string(), hint: SHORTER.to_string() });
         }
-        (self.steps > tolerances::FLOW_STEPS).then(|| Stop {
+        (self.steps > FLOW_STEPS).then(|| Stop {
             reason: "the explicit method that carries perturbations needs more than two million steps".to_string(),
             hint: "choose a shorter time, or a model without its fastest modes".to_string(),
         })

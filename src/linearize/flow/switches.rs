@@ -7,7 +7,11 @@ use crate::linearize::{Changes, State};
 use crate::math::{Piece, Rate};
 use crate::simulate::{Method, Observation, Sink, Span, simulate};
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
+
+/// Size of the changes (dq, dv) over which the argument of a switching function is differentiated. Unit: `[m, rad, m/s,
+/// rad/s]`. Why: its fourth power, the error of the differences, is about their round-off.
+const SALTATION_STEP: f64 = 1e-3;
 
 /// A change of form, with v' and the pieces before and after it.
 struct Event {
@@ -161,7 +165,7 @@ impl<'a> Arguments<'a> {
         let State { q, v, .. } = &self.event.state;
         let largest = |x: &[f64]| x.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let size = largest(dq).max(largest(dv)).max(f64::MIN_POSITIVE);
-        let step = tolerances::SALTATION_STEP / size;
+        let step = SALTATION_STEP / size;
         let mut value = |factor: f64| {
             let moved: Vec<f64> = dq.iter().map(|dq| factor * step * dq).collect();
             let mut there = q.clone();

@@ -11,7 +11,7 @@ use crate::linearize::{Matrix, Response, Variation};
 use crate::modes::search::{Found, Operator, Space};
 use crate::modes::shifted::Shifted;
 use crate::modes::{Quadratic, Sparse};
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 
 /// Adds H(s) - C (s - A)^-1 B at s = 0 to the direct part of each column, H the transfer function of all modes. `forces`
 /// are those of a unit of each state of the inputs and of each input.

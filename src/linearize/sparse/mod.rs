@@ -15,8 +15,11 @@ use crate::math::eigen::Unsolved;
 use crate::modes::reduce::{self, Modal};
 use crate::modes::search::{self, Found, Space};
 use crate::modes::{Quadratic, Sparse};
-use crate::tolerances::linearize as tolerances;
 use std::time::Instant;
+
+/// Residual of a mode that is returned, with the operator of the search. Unit: `[1]` of |theta x|. Why: rounding in K
+/// is some 1e-16 of the square of the fastest rate over the square of that of the mode, and nothing makes up for it.
+const MODE_RESIDUAL: f64 = 1e-4;
 
 type C = Complex<f64>;
 
@@ -147,7 +150,7 @@ fn finish(
         let [p, u] = [&space[0] * vector, &space[1] * vector];
         let residual = found.operator.residual(mode.value, p.iter().chain(u.iter()).copied());
         let residual = residual.map_err(|unsolved| refused(t, &unsolved))?;
-        if residual.is_nan() || residual > tolerances::MODE_RESIDUAL {
+        if residual.is_nan() || residual > MODE_RESIDUAL {
             return Err(refused(t, &Unsolved::NotConverged { converged: 0, wanted: modes.len() }));
         }
     }

@@ -1,7 +1,10 @@
 //! The exponential of a matrix.
 
 use super::{Matrix, Unsolved, dense};
-use crate::tolerances::math as tolerances;
+
+/// Norm of A above which the powers of A that choose the order of approximation are not formed. Unit: `[1]`. Why:
+/// higher powers would overflow.
+const EXPONENTIAL_OVERFLOW: f64 = 1e20;
 
 /// exp(A) by scaling and squaring of Pade approximants of order up to 13 (Al-Mohy and Higham, "A new scaling and
 /// squaring algorithm for the matrix exponential", SIAM J. Matrix Anal. Appl. 31, 2009). About 20 n^3 operations, and
@@ -16,7 +19,7 @@ pub fn expm(a: &Matrix) -> Result<Matrix, Unsolved> {
     }
     let mut halvings = 0;
     let mut scaled = a.clone();
-    while scaled.amax() > tolerances::EXPONENTIAL_OVERFLOW {
+    while scaled.amax() > EXPONENTIAL_OVERFLOW {
         scaled /= 2.0;
         halvings += 1;
     }

@@ -1,8 +1,16 @@
 //! Eigenvalues of x'' + K x = 0 with a symmetric K.
 
 use super::{Complex, ComplexMatrix, Eigen, Matrix, Unsolved, conjugates, dense};
-use crate::tolerances::math as tolerances;
+use crate::tolerances;
 use faer::{Par, Side};
+
+/// Asymmetry of a stiffness that is rounding. Unit: `[1]` of its largest entry. Why: ten times ROUND_OFF_OF_FACTORS:
+/// columns come from back-substitutions. Test: `an_undamped_chain_by_its_stiffness`.
+const SYMMETRIC: f64 = 1e-12;
+
+/// Rows of A from which on the second-order form is used. Unit: `[rows]`. Why: smaller ones take less than a
+/// millisecond, and keep the digits of slow modes among fast ones. Test: `an_undamped_chain_by_its_stiffness`.
+const SECOND_ORDER_ROWS: usize = 100;
 
 /// Returns the eigenvalues of A = [0 I; -K 0] by those of K = V diag(s) V^T, a tenth of the work of A and without
 /// rounding in the real parts; `None` for any other matrix, and for a small one, where the algorithm for A is as fast.
@@ -16,7 +24,7 @@ use faer::{Par, Side};
 pub fn second_order(a: &Matrix) -> Result<Option<Eigen>, Unsolved> {
     let n = a.nrows();
     let k = n / 2;
-    if n < tolerances::SECOND_ORDER_ROWS || n % 2 == 1 || !is_undamped(a, k) {
+    if n < SECOND_ORDER_ROWS || n % 2 == 1 || !is_undamped(a, k) {
         return Ok(None);
     }
     faer::set_global_parallelism(Par::Seq);
@@ -71,7 +79,7 @@ fn is_undamped(a: &Matrix, k: usize) -> bool {
         (0..k).all(|i| a[(i, j)] == 0.0 && a[(k + i, k + j)] == 0.0 && a[(i, k + j)] == f64::from(u8::from(i == j)))
     });
     let stiffness = a.view((k, 0), (k, k));
-    let slack = tolerances::SYMMETRIC * stiffness.amax();
+    let slack = SYMMETRIC * stiffness.amax();
     is_plain && (0..k).all(|j| (0..j).all(|i| (stiffness[(i, j)] - stiffness[(j, i)]).abs() <= slack))
 }
 

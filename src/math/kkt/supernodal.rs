@@ -3,7 +3,6 @@
 use super::Pattern;
 use super::order::order;
 use super::pivot::{Judge, Quality, Rule};
-use crate::tolerances::math as tolerances;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::sparse::linalg::cholesky::{
@@ -12,6 +11,10 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{Pair, SparseColMatRef, SymbolicSparseColMat};
 use faer::{MatMut, Par, Side, Spec};
+
+/// What the dense factorization puts in the place of a collapsed pivot: beyond, the multiplier is dropped. Unit: `[1]`.
+/// Why: its row and column of L vanish, and its square is still a number.
+const PLACE_OF_A_VANISHED_ROW: f64 = 1e200;
 
 /// Supernodal factors of S K S, where S scales the coordinates to unit mass and the rows of G to (G diag(M)^-1 G^T)_jj
 /// = 1, so that the thresholds of the pivots, which faer takes absolute, are relative ones.
@@ -81,7 +84,7 @@ impl Supernodal {
         let replaced = self.assemble(mass, g, rule);
         let regularization = LdltRegularization {
             dynamic_regularization_signs: Some(&self.signs),
-            dynamic_regularization_delta: tolerances::PLACE_OF_A_VANISHED_ROW,
+            dynamic_regularization_delta: PLACE_OF_A_VANISHED_ROW,
             dynamic_regularization_epsilon: rule.collapsed,
         };
         let matrix = SparseColMatRef::new(self.matrix.as_ref(), &self.entries);
@@ -133,7 +136,7 @@ impl Supernodal {
         let mut judge = Judge { n: self.n, rule, skipped, quality: Quality { replaced, ..Quality::GOOD } };
         for ((&d, &node), &sign) in self.diagonal.iter().zip(&self.order).zip(&self.signs) {
             let pivot = d * f64::from(sign);
-            let left_out = pivot.abs() >= 1e-3 * tolerances::PLACE_OF_A_VANISHED_ROW || pivot.is_nan();
+            let left_out = pivot.abs() >= 1e-3 * PLACE_OF_A_VANISHED_ROW || pivot.is_nan();
             if left_out || pivot <= rule.weak {
                 judge.judge(node, if left_out { 0.0 } else { pivot }, 1.0)?;
             }
@@ -163,7 +166,7 @@ impl Supernodal {
         let mut found = (1.0, 0);
         for (d, &sign) in self.diagonal.iter().zip(&self.signs) {
             let pivot: f64 = d * f64::from(sign);
-            if pivot > collapsed && pivot < 1e-3 * tolerances::PLACE_OF_A_VANISHED_ROW {
+            if pivot > collapsed && pivot < 1e-3 * PLACE_OF_A_VANISHED_ROW {
                 found.0 = pivot.min(found.0)
             } else {
                 found.1 += usize::from(sign < 0)

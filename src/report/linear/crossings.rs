@@ -73,7 +73,7 @@ const MOST_SLOPES: usize = 6;
 
 /// Rounding of one part of a number beside the other is none.
 fn cleaned(x: f64, other: f64) -> f64 {
-    if x.abs() <= crate::tolerances::report::SAME * other.abs() { 0.0 } else { x }
+    if x.abs() <= crate::tolerances::SAME * other.abs() { 0.0 } else { x }
 }
 
 fn complex(re: f64, im: f64, sign: &str) -> String {

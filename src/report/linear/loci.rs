@@ -11,8 +11,8 @@ use crate::math::bounds;
 use crate::plot::AxisSpec;
 use crate::report::figures::label;
 use crate::report::{Answer, Folder, Table, cell, table};
-use crate::tolerances::linearize as tolerances;
-use crate::tolerances::report::SAME;
+use crate::tolerances;
+use crate::tolerances::SAME;
 use serde::Serialize;
 use serde_json::{Value, json};
 

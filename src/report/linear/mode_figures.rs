@@ -4,7 +4,7 @@ use super::drawn::{self, DrawnMode, MOST_DRAWN, ORDERS, is_shown};
 use super::ranges::{FREE, fitted, notes, outside, padded, robust, shaded, whole};
 use crate::linearize::{Branch, Complex, damping};
 use crate::plot::{AxisSpec, Figure, Panel, Series, Style, Tint};
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 use std::f64::consts::TAU;
 
 /// Ratio of values above which an axis is logarithmic.

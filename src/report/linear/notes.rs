@@ -2,9 +2,12 @@
 
 use crate::error::two_digits;
 use crate::linearize::{LinearModel, Mode, Pair};
-use crate::tolerances::modes::{DEFECTIVE_MODE, EIGENVALUES_AGREE};
-use crate::tolerances::report as tolerances;
+use crate::tolerances::{DEFECTIVE_MODE, EIGENVALUES_AGREE};
 use std::fmt::Write;
+
+/// Error of an eigenvalue that is told beside the table. Unit: `[1]` of it. Why: four of the six digits that are
+/// printed hold. Test: `eigenvalues_have_their_errors`.
+const DOUBTFUL_DIGITS: f64 = 1e-4;
 
 /// Returns a line for each remark on the listed eigenvalues, by their numbers in the table; `names` are those of the
 /// velocities.
@@ -37,7 +40,7 @@ pub fn notes(model: &LinearModel, listed: &[(usize, Pair)], names: &[String]) ->
         );
     }
     for (number, Pair { mode, .. }) in others {
-        if mode.error > tolerances::DOUBTFUL_DIGITS * mode.value.norm() && !defective.contains(number) {
+        if mode.error > DOUBTFUL_DIGITS * mode.value.norm() && !defective.contains(number) {
             let error = two_digits(mode.error);
             let condition = mode.condition;
             let _ = writeln!(text, "  mode {number} is right to {error} 1/s only (condition {condition:.1e})");

@@ -2,7 +2,7 @@
 
 use crate::math::bounds;
 use crate::plot::{Form, Item, Panel, Spot, Tint};
-use crate::tolerances::linearize as tolerances;
+use crate::tolerances;
 
 /// Colour of growth, as an index in the palette.
 pub(super) const VERMILION: usize = 1;

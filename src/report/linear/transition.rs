@@ -4,7 +4,7 @@ use crate::error::{Result, significant};
 use crate::linearize::{Complex, Defect, Floquet, Lyapunov};
 use crate::plot::{Figure, Panel, Series};
 use crate::report::{Answer, Folder, Table, table};
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -3,7 +3,7 @@
 use crate::linearize::{Loci, LociVariable};
 use crate::math::bounds;
 use crate::scene::units::Dimension;
-use crate::tolerances::report::SAME;
+use crate::tolerances::SAME;
 
 /// Returns the speed of the rotation at the values of a parameter, rad/s: of the steady rotations where there are some;
 /// else the parameter itself if its unit is one of angular velocity. Empty where the loci know of no rotation.

@@ -6,7 +6,7 @@ use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::figures::{Floor, grouped, label, quantity};
 use crate::report::{Answer, Folder, Table};
 use crate::system::Names;
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 use crate::validate::{Curve, Decay, PerturbationSequence, Validation};
 use serde::Serialize;
 use serde_json::{Map, Value, json};

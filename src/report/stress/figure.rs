@@ -2,7 +2,7 @@
 
 use crate::plot::{Align, AxisSpec, Figure, Form, Item, Panel, Spot, Tint};
 use crate::study::stress::{Axis, Cell, Status, Stressed};
-use crate::tolerances::report::WRONG_MOTION;
+use crate::tolerances::WRONG_MOTION;
 
 /// Height of a row of cells, in nominal pixels.
 const ROW: f64 = 21.0;

@@ -6,7 +6,7 @@ use crate::report::Table;
 use crate::study::stress::{
     Axis, Best, Bound, GainVerdict, Level, Reason, Side, Status, StepVerdict, Stressed, Verdict,
 };
-use crate::tolerances::report::WRONG_MOTION;
+use crate::tolerances::WRONG_MOTION;
 
 /// Returns the verdict on a map: a sentence or two for each method.
 pub fn sentences(stressed: &Stressed) -> Vec<String> {

@@ -16,9 +16,31 @@ use crate::math::expression::Switch;
 use crate::math::signal::Signal;
 use crate::math::{Piece, Rate, Regime, Thresholds};
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
-use crate::tolerances::simulate as tolerances;
 use argument::Argument;
 use range::Range;
+
+/// A passage of a threshold nearer to the start of a step than this is at the start. Unit: `[1]` of the step. Why: some
+/// thousand ulps.
+const PASSAGE_AT_START: f64 = 1e-12;
+
+/// Passages are found to this. Unit: `[1]` of the span. Why: what is left of a coordinate there may be round-off.
+const PASSAGE: f64 = 1e-13;
+
+/// Switching functions of switching functions of ... that are settled at the start. Unit: `[levels]`.
+const NESTED_SWITCHES: usize = 10;
+
+/// An argument is at a threshold within this. Unit: `[1]` of its change over the step.
+const AT_THRESHOLD: f64 = 1e-10;
+
+/// A step up to so long ends on the next point of a cubic signal. Unit: `[intervals]`. Why: of steps of dop853 over
+/// coarse data half were refused; with 3, radau_iia would take a step an interval of fine data. Test:
+/// `steps_end_at_points_of_a_coarse_spline`.
+const NEAR_POINTS: f64 = 1.5;
+
+/// A point of a cubic signal nearer than this counts as reached. Unit: `[1]` of the interval. Why: what the jump of a
+/// third derivative does so late is its cube; where stages lie before the point, 0.05 left a thousand times the
+/// tolerated error. Test: `steps_end_at_points_that_are_near`.
+const AT_POINT: f64 = 1e-3;
 
 /// The place of a threshold in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +110,7 @@ impl<'a> Events<'a> {
             at: Vec::new(),
             near: Vec::new(),
             turned: vec![0; switches.len()],
-            shortest: tolerances::PASSAGE * (end - start),
+            shortest: PASSAGE * (end - start),
         }
     }
 
@@ -120,9 +142,9 @@ impl<'a> Events<'a> {
             let of_time = self.switches[number].of_time.as_ref();
             let x = of_time.map_or(self.start[number], |argument| argument.at(Rate::seeded(t, 0), regime));
             let rate = x.eps[0];
-            let (point, width) = signal.point_ahead(x.re, rate > 0.0, tolerances::AT_POINT)?;
+            let (point, width) = signal.point_ahead(x.re, rate > 0.0, AT_POINT)?;
             let step = (point - x.re) / rate;
-            (h * rate.abs() < tolerances::NEAR_POINTS * width && 0.0 < step && step < h).then_some(step)
+            (h * rate.abs() < NEAR_POINTS * width && 0.0 < step && step < h).then_some(step)
         };
         self.signals.iter().filter_map(step).reduce(f64::min)
     }
@@ -143,7 +165,7 @@ impl<'a> Events<'a> {
     pub fn begin(&mut self, at: OperatingPoint) {
         self.timetable.place(at.t, &mut self.pieces);
         // An argument may depend on other pieces.
-        for _ in 0..tolerances::NESTED_SWITCHES {
+        for _ in 0..NESTED_SWITCHES {
             let before = self.pieces.clone();
             self.start_at(at);
             for &number in &self.of_state {
@@ -197,10 +219,10 @@ impl<'a> Events<'a> {
                 range.beyond(x.re).abs() <= soon.max(part * swing) && range.outward(x) > 0.0
             };
             match () {
-                _ if is_at(a, tolerances::PASSAGE_AT_START) || range.beyond(a.re) > 0.0 && range.outward(a) > 0.0 => {
+                _ if is_at(a, PASSAGE_AT_START) || range.beyond(a.re) > 0.0 && range.outward(a) > 0.0 => {
                     return Ok(Some(Passage::AtStart(number)));
                 }
-                _ if is_at(b, tolerances::AT_THRESHOLD) => at.push(number),
+                _ if is_at(b, AT_THRESHOLD) => at.push(number),
                 _ => near.extend(Argument { range, a, b, h }.near_from().map(|theta| (theta, number))),
             }
         }
@@ -218,7 +240,7 @@ impl<'a> Events<'a> {
                 Ok(range.beyond(within[number].re))
             };
             let passage = argument.first_passage(first, &mut beyond)?;
-            if passage < tolerances::PASSAGE_AT_START {
+            if passage < PASSAGE_AT_START {
                 return Ok(Some(Passage::AtStart(number)));
             }
             first = passage.min(first);
@@ -266,7 +288,7 @@ impl<'a> Events<'a> {
             let x = self.start[turn.number];
             let sign = if self.pieces[turn.number] > turn.from { -1.0 } else { 1.0 };
             let was_driven_out = turn.rate > 0.0 || turn.from % 2 == 1;
-            was_driven_out && sign * x.eps[0] > tolerances::AT_THRESHOLD * turn.rate
+            was_driven_out && sign * x.eps[0] > AT_THRESHOLD * turn.rate
         };
         turns.iter().find(is_driven_back).copied()
     }

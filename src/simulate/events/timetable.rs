@@ -4,7 +4,18 @@ use super::range::{Range, first_out};
 use super::watch::Watch;
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::{Interval, Piece, Regime, Taylor, Thresholds};
-use crate::tolerances::simulate as tolerances;
+use crate::tolerances;
+
+/// An argument of time that is so near to a threshold may be there. Unit: `[1]` of its largest distance from one. Why:
+/// cancellation in a smoothstep leaves 15 ulps. Test: `a_function_that_comes_to_rest_on_a_threshold_passes_it_once`.
+const TIME_FUNCTION_ROUND_OFF: f64 = 1e-13;
+
+/// Intervals that a search for a change of form may look at; what is left is judged by its ends. Unit: `[intervals]`.
+const LOOKS_FOR_CHANGE: usize = 20_000;
+
+/// What a function of time may do beside its cubic where no estimate of the error sees to the rest. Unit: `[1]`, as
+/// before. Why: a pulse of a tenth of the step is met to 1e-7 by rk4.
+const RESOLVED_FINELY: f64 = 1e-4;
 
 /// The functions of time of a run: their changes of form, and the steps that resolve them.
 pub struct Timetable<'a> {
@@ -54,7 +65,7 @@ impl<'a> Timetable<'a> {
     /// The step, at most `h`, on which the functions of time are almost cubics.
     pub fn finely_resolved(&mut self, t: f64, h: f64, pieces: &[Piece]) -> f64 {
         self.watch.forget();
-        self.watch.resolved((t, h, f64::INFINITY), tolerances::RESOLVED_FINELY, Regime::held(pieces))
+        self.watch.resolved((t, h, f64::INFINITY), RESOLVED_FINELY, Regime::held(pieces))
     }
 
     /// The piece of an argument right after `t`: within round-off of a threshold, the side to which it leaves that.
@@ -71,8 +82,7 @@ impl<'a> Timetable<'a> {
         let near = thresholds.nearest(x.x).filter(|&(_, threshold)| (x.x - threshold).abs() <= margin(threshold));
         let Some((k, threshold)) = near else { return thresholds.piece(x.x).unwrap_or(0) };
         let range = Range { low: threshold, high: threshold }.widened(2.0 * margin(threshold));
-        let left =
-            Search { argument, range, regime }.first_exit(t, self.end, &mut tolerances::LOOKS_FOR_CHANGE.clone());
+        let left = Search { argument, range, regime }.first_exit(t, self.end, &mut LOOKS_FOR_CHANGE.clone());
         let side = left.map_or(0, |left| if argument.at(left, regime) > threshold { 1 } else { -1 });
         (2 * k as Piece + 1).wrapping_add_signed(side)
     }
@@ -84,7 +94,7 @@ impl<'a> Timetable<'a> {
             let Some(range) = Range::of(pieces[number], &switch.thresholds) else { continue };
             let exit = |range: Range, end: f64| {
                 let search = Search { argument, range, regime: Regime::held(pieces) };
-                search.first_exit(t, end, &mut tolerances::LOOKS_FOR_CHANGE.clone())
+                search.first_exit(t, end, &mut LOOKS_FOR_CHANGE.clone())
             };
             // A function that comes to rest on a threshold crosses it many times within round-off.
             let leaves = exit(range.widened(self.round_off[number]), first.unwrap_or(self.end));
@@ -105,8 +115,8 @@ fn round_off(switch: &Switch, start: f64, end: f64) -> f64 {
     let finite = |size: f64| if size.is_finite() { size } else { 0.0 };
     let inside = (0..=SAMPLES).map(|i| finite(distance(i as f64 / SAMPLES as f64))).fold(0.0, f64::max);
     let beyond = (1..=DOUBLINGS).map(|k| finite(distance(2f64.powi(k)))).fold(0.0, f64::max);
-    let is_round_off = inside <= tolerances::TIME_FUNCTION_ROUND_OFF * beyond;
-    tolerances::TIME_FUNCTION_ROUND_OFF * if is_round_off { beyond } else { inside }
+    let is_round_off = inside <= TIME_FUNCTION_ROUND_OFF * beyond;
+    TIME_FUNCTION_ROUND_OFF * if is_round_off { beyond } else { inside }
 }
 
 const SAMPLES: usize = 64;

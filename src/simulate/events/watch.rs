@@ -10,7 +10,21 @@ use crate::math::array::{Each, from_fn};
 use crate::math::expression::TimeFunction;
 use crate::math::signal::Signal;
 use crate::math::{Interval, Piece, Rate, Regime, Scalar, Taylor};
-use crate::tolerances::simulate as tolerances;
+use crate::tolerances;
+
+/// What lasts so long is not missed, nor anything longer. Unit: `[1]` of the span. Why: the promise of the README.
+/// Test: `a_bump_is_met_whenever_it_comes`.
+const NEVER_MISSED: f64 = 1e-4;
+
+/// A window is looked at whole for so many steps of the size at hand. Unit: `[steps]`.of speed. Test:
+/// `a_bump_is_met_whenever_it_comes`.
+const WATCHED_STEPS: f64 = 8.0;
+
+/// What is nothing of a function of time. Unit: `[its own unit]`. Why: round-off of a function of order one.
+const NO_FUNCTION: f64 = 1e-14;
+
+/// Enclosures of one window. Unit: `[enclosures]`. Why: with more those of the function are too wide.
+const LOOKS_IN_WINDOW: usize = 100;
 
 /// The functions of time of a run, and the time up to which they are resolved.
 pub struct Watch<'a> {
@@ -53,7 +67,7 @@ impl<'a> Watch<'a> {
     pub fn new(functions: &'a [TimeFunction], span: f64) -> Self {
         let watched = |function| Watched { function: Function::OfTime(function), is_loose: false };
         let functions = functions.iter().map(watched).collect();
-        Watch { functions, shortest: 0.5 * tolerances::NEVER_MISSED * span, seen: f64::NEG_INFINITY }
+        Watch { functions, shortest: 0.5 * NEVER_MISSED * span, seen: f64::NEG_INFINITY }
     }
 
     /// Time up to which steps are resolved, if known, and true for each function whose enclosures are too wide.
@@ -79,7 +93,7 @@ impl<'a> Watch<'a> {
         if self.functions.is_empty() || t + h <= self.seen {
             return h;
         }
-        let whole = (tolerances::WATCHED_STEPS * h).min(stop - t);
+        let whole = (WATCHED_STEPS * h).min(stop - t);
         let window = seen_window(&mut self.functions, (t, whole), (self.shortest, beside), regime);
         self.seen = t + window;
         // A step that differs by rounding from one that ends at the stop keeps its size.
@@ -128,7 +142,7 @@ impl Watched<'_> {
         if nodes.iter().any(|node| !node.x.is_finite()) {
             return None;
         }
-        let mut looks = tolerances::LOOKS_IN_WINDOW;
+        let mut looks = LOOKS_IN_WINDOW;
         for (i, quarter) in quarters(&times, &nodes).into_iter().enumerate() {
             let middle = self.at(0.5 * (quarter.from + quarter.to), regime);
             let a = nodes[i];
@@ -136,7 +150,7 @@ impl Watched<'_> {
             let width = quarter.to - quarter.from;
             let cubic = 0.5 * (a.x + b.x) + width / 8.0 * (a.d - b.d);
             let change = (b.x - a.x).abs() + 0.25 * width * (a.d.abs() + b.d.abs());
-            let small = tolerances::SAME * a.x.abs().max(b.x.abs()) + tolerances::NO_FUNCTION;
+            let small = tolerances::SAME * a.x.abs().max(b.x.abs()) + NO_FUNCTION;
             if (middle.x - cubic).abs() > beside * change + small {
                 return Some(quarter.from);
             }
@@ -203,7 +217,7 @@ fn quarters(times: &[f64; 5], nodes: &[Taylor<f64>; 5]) -> [Quarter; 4] {
     };
     std::array::from_fn(|i| {
         let allowed = from_fn(|level| {
-            let small = (tolerances::SAME * size + tolerances::NO_FUNCTION) / (times[4] - times[0]).powi(level as i32);
+            let small = (tolerances::SAME * size + NO_FUNCTION) / (times[4] - times[0]).powi(level as i32);
             let margin = bend(i, level).min(bend(i + 1, level)) + small;
             let hull = Interval::new(levels[i][level], levels[i + 1][level]);
             Interval { low: hull.low - margin, high: hull.high + margin }

@@ -2,7 +2,7 @@
 
 use crate::analysis::Drift;
 use crate::simulate::Method;
-use crate::tolerances::report as tolerances;
+use crate::tolerances;
 use serde::Serialize;
 
 /// How a simulation ended.

@@ -1,7 +1,7 @@
 //! One level of the staircase that deflates infinite eigenvalues.
 
 use super::super::{Matrix, Unsolved};
-use crate::tolerances::math as tolerances;
+use crate::tolerances;
 
 /// One level: with regular P = [P1 P2] and X = [X1 X2],
 ///

@@ -6,7 +6,7 @@ mod null_space;
 
 use super::balance::balance;
 use super::{Complex, ComplexMatrix, Matrix, Unsolved, dense, eigen};
-use crate::tolerances::math as tolerances;
+use crate::tolerances;
 use level::{Level, Ranks};
 
 /// Method of removing the infinite eigenvalues, one level (one for each size of their Jordan blocks) after the other.

@@ -2,7 +2,7 @@
 
 use super::super::{Unsolved, dense};
 use super::{Ordered, Partial, Ritz, Scalar};
-use crate::tolerances::math as tolerances;
+use crate::tolerances;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector};

@@ -1,6 +1,6 @@
 use super::super::{Deflation, Matrix, Unsolved, deflate, dense, eigen, finite};
 use super::samples::{Form, Mechanism, Random, chain, distance, random, residual, two_mass};
-use crate::tolerances::math::RANK_OF_PENCIL;
+use crate::tolerances::RANK_OF_PENCIL;
 
 const WAYS: [Deflation; 2] = [Deflation::NullSpace, Deflation::Gsvd];
 const FORMS: [Form; 4] = [Form::Index3, Form::Index2, Form::Index1, Form::Ggl];

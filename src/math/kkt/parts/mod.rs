@@ -23,7 +23,7 @@ use super::blocks::Blocks;
 use super::pivot::{Quality, Rule};
 use crate::math::add;
 use crate::math::threads::{Divisible, each, each_of};
-use crate::tolerances::system::NUMBERS_OF_A_PORTION;
+use crate::tolerances::NUMBERS_OF_A_PORTION;
 use plan::{PartPlan, Piece};
 use std::sync::Arc;
 

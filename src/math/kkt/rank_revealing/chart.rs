@@ -4,7 +4,7 @@ use super::super::Pattern;
 use super::pivoted::PivotedQr;
 use super::{scaled_rows, truncated};
 use crate::math::{add_scaled, dot};
-use crate::tolerances::math as tolerances;
+use crate::tolerances;
 
 /// Corrections d = Y c with G d = r at a nearby state, where S = diag(M)^-1/2 and Y = S Q_1 from the pivoted QR of (G
 /// S)^T at the base state: G Y c = r, by a pivoted QR of (G Y)^T. Such a d has no part along the base's null space in

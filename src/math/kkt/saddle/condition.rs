@@ -4,8 +4,12 @@ use super::super::supernodal::balance;
 use super::super::system::System;
 use super::{SaddlePoint, Singular};
 use crate::math::{add, norm};
-use crate::tolerances::math as tolerances;
+use crate::tolerances;
 use faer::{Mat, Side};
+
+/// Steps of the power iterations for the condition number of a large system. Unit: `[steps]`. Test:
+/// `condition_numbers`.
+const CONDITION_STEPS: usize = 40;
 
 impl SaddlePoint {
     /// The 2-norm condition number of E K E, where the diagonal E makes the masses one and the rows of G of unit norm in
@@ -77,7 +81,7 @@ fn power(scale: &[f64], e: impl Fn(&f64) -> f64, mut apply: impl FnMut(&[f64], &
     let mut x: Vec<f64> = (0..scale.len()).map(|i| (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin()).collect();
     let mut y = x.clone();
     let mut stretch = 0.0;
-    for _ in 0..tolerances::CONDITION_STEPS {
+    for _ in 0..CONDITION_STEPS {
         let length = norm(&x);
         x.iter_mut().zip(scale).for_each(|(x, s)| *x *= e(s) / length);
         if !apply(&x, &mut y) {

@@ -12,10 +12,18 @@ use super::redundant_rows::RedundantRowSolve;
 use super::system::System;
 use super::{Analysis, Pattern, Singular};
 use crate::math::{add, all_finite};
-use crate::tolerances::math as tolerances;
+use crate::tolerances;
 use kept::Kept;
 use orders::Orders;
 use std::sync::Arc;
+
+/// Equations, n + m, up to which the dense factorization settles whether the motion is determined. Unit: `[equations]`.
+/// Why: a wrong answer ends the run, so that more time is well spent than on a doubtful rank.
+const DENSE_EQUATIONS_OF_MOTION: usize = 1500;
+
+/// Multipliers with pivots up to here may be dependent where others are nearly so. Unit: `[1]` of its size before. Why:
+/// the square of TRUNCATED_RANK.
+const DOUBTED: f64 = 1e-8;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
@@ -178,7 +186,7 @@ impl SaddlePoint {
         let mut quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
         if total > tolerances::DENSE_EQUATIONS && quality.doubtful && !quality.replaced {
             // Round-off in pivots of dependent rows grows with the condition of the others. Null vectors tell them.
-            skipping.factor(&self.system, tolerances::DOUBTED)?;
+            skipping.factor(&self.system, DOUBTED)?;
             if skipping.rank_indicator(&self.system) < self.rank_tolerance {
                 self.way = Way::RedundantRowSolve;
                 return Ok(());
@@ -192,7 +200,7 @@ impl SaddlePoint {
             !is_doubtful && skipping.rank_indicator(&self.system) < 0.1 * self.rank_tolerance
         } else if is_doubtful {
             match skipping.probe(&self.system) {
-                Err(error) if total > tolerances::DENSE_EQUATIONS_OF_MOTION => return Err(error),
+                Err(error) if total > DENSE_EQUATIONS_OF_MOTION => return Err(error),
                 result => result.is_ok(),
             }
         } else {

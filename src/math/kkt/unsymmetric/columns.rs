@@ -2,8 +2,13 @@
 
 use super::Field;
 use crate::math::kkt::order::columns;
-use crate::tolerances::math as tolerances;
 use std::ops::Range;
+
+/// A diagonal pivot of the matrix of an implicit method up to which partial pivoting takes its place. Unit: `[1]` of
+/// the largest number that it is the difference of. Why: ten digits of a correction are left, and rows that could be
+/// dependent, whose pivots are round-off, stay the matter of partial pivoting. Test:
+/// `a_small_pivot_leads_to_partial_pivoting`.
+const UNPIVOTED: f64 = 1e-6;
 
 /// A matrix A with a symmetric pattern, whose first unknowns are eliminated column by column. L has the pattern of U^T,
 /// found once. What that leaves of the others, A_22 - L_21 U_12, is in the place of A_22.
@@ -113,7 +118,7 @@ impl<T: Field> Columns<T> {
         self.diagonal[j] = inverse;
         self.entries[own].iter_mut().for_each(|[l, _]| *l *= inverse);
         // Written so that a NaN is refused.
-        pivot.size() > tolerances::UNPIVOTED * self.largest[j]
+        pivot.size() > UNPIVOTED * self.largest[j]
     }
 
     /// Subtracts from column j, row j and their diagonal what the elimination of the columns before takes away.

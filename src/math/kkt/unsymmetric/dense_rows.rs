@@ -2,7 +2,18 @@
 
 use super::Field;
 use super::matrix::Matrix;
-use crate::tolerances::math as tolerances;
+
+/// Rows of an iteration matrix with fewer entries are not long, which would be eliminated last. Unit: `[entries]`.of
+/// speed: eliminated early, long rows fill the factors.
+const LONG_ROW: usize = 50;
+
+/// Rows of an iteration matrix with so many times the entries of the mean, or fewer, are not long either. Unit:
+/// `[1]`.of speed.
+const LONG_ROW_OF_MEAN: usize = 12;
+
+/// Entries of long rows are pivots only where all others are below this part. Unit: `[1]`. Why: they grow before their
+/// turn comes, by an estimate to some tens for beams of 10,000 elements.
+const LAST_CHOICE: f64 = 1e-4;
 
 /// Columns that are eliminated last. An early pivot in a dense row fills all columns that follow; so does the column of
 /// a multiplier that has only dense rows to take its pivot from.
@@ -19,12 +30,12 @@ impl DenseRows {
         let size = matrix.size();
         let mut counts = vec![0_usize; size];
         matrix.entries().for_each(|(row, _)| counts[row] += 1);
-        let many = (tolerances::LONG_ROW_OF_MEAN * matrix.values.len() / size.max(1)).max(tolerances::LONG_ROW);
+        let many = (LONG_ROW_OF_MEAN * matrix.values.len() / size.max(1)).max(LONG_ROW);
         let is_long = |row: usize| row < n && counts[row] > many;
         let mut columns: Vec<bool> = (0..size).map(is_long).collect();
         matrix.entries().filter(|&(row, col)| col >= n && is_long(row)).for_each(|(_, col)| columns[col] = true);
         let width = columns.iter().filter(|column| **column).count();
-        let rank = |row: usize| if is_long(row) { tolerances::LAST_CHOICE } else { 1.0 };
+        let rank = |row: usize| if is_long(row) { LAST_CHOICE } else { 1.0 };
         let is_worth_it = width > 0 && width * width <= matrix.values.len();
         is_worth_it.then(|| DenseRows { rank: (0..size).map(rank).collect(), columns })
     }

@@ -1,6 +1,6 @@
 //! The saddle-point system of implicit methods, whose upper block is not symmetric.
 
-use crate::tolerances::math as tolerances;
+use crate::tolerances;
 
 mod columns;
 mod dense;
@@ -8,6 +8,22 @@ mod dense_rows;
 mod field;
 mod matrix;
 mod sparse;
+
+/// Matrices of implicit methods with one entry in so many, or more, have dense factors. Unit: `[1]`. Why: measured on
+/// chains (factor and three solves, dense : sparse, microseconds): 20 rows (half full) 5 : 6, 40 (a third) 16 : 12, 100
+/// (an eighth) 88 : 32, 1000 20769 : 320, 100,000 - : 37,740; complex ones 7 : 9, 26 : 17, 149 : 43, 63920 : 400, - :
+/// 50,270.
+const DENSE_PART: usize = 3;
+
+/// Matrices of implicit methods with up to so many rows have dense factors, whatever their entries. Unit: `[1]`. Why:
+/// up to 20 rows dense and sparse factors take the same time, and partial pivoting tells more near singular states than
+/// pivots on the diagonal. Test: `implicit_steps_from_a_change_point_end`, on 17 rows.
+const DENSE_ROWS: usize = 20;
+
+/// A pivot of the scaled matrix of an implicit method below which it is singular. Unit: `[1]`. Why: below
+/// ROUND_OFF_OF_FACTORS, since stiffness h^2 over masses makes pivots small where no rank is lost. Test:
+/// `solves_what_it_multiplied`.
+const SINGULAR_ITERATION_MATRIX: f64 = 1e-14;
 #[cfg(test)]
 mod tests;
 mod unpivoted;
@@ -84,7 +100,7 @@ impl<T: Field> Unsymmetric<T> {
     pub fn new(mass: &Pattern, tangent: &Pattern, g: &Pattern) -> Option<Self> {
         let places = matrix::places(mass, tangent, g)?;
         let size = places.nrows();
-        let is_dense = size <= tolerances::DENSE_ROWS || tolerances::DENSE_PART * places.compute_nnz() >= size * size;
+        let is_dense = size <= DENSE_ROWS || DENSE_PART * places.compute_nnz() >= size * size;
         Self::at(places, g, is_dense)
     }
 
@@ -316,7 +332,7 @@ impl<T: Field> Unsymmetric<T> {
             Factors::Dense(factors) => factors.factor(&self.scaled),
             Factors::Sparse(factors) => factors.factor(&self.matrix.places, &self.scaled),
         };
-        smallest > tolerances::SINGULAR_ITERATION_MATRIX
+        smallest > SINGULAR_ITERATION_MATRIX
     }
 
     /// True for each row of G that is dropped.
