@@ -19,7 +19,6 @@ const MORE: &str = "give more time by --budget, or a shorter --horizon";
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   holonom validate models/four_bar_spring.json --at 0.3
-  holonom validate models/pendulum.json --along random:7 --horizon 0.1
   holonom validate models/double_pendulum.json --along 0..2:41")]
 pub struct Args {
     #[command(flatten)]

@@ -2,7 +2,7 @@
 
 use super::limit::Limit;
 use crate::linearize::Matrix;
-use crate::tolerances::ROUND_OFF_OF_FACTORS;
+use crate::tolerances::ROUND_OFF_OF_PHI;
 use serde::Serialize;
 use std::ops::Range;
 
@@ -83,7 +83,9 @@ impl Comparison {
         let columns: Vec<f64> = (0..model.ncols()).map(|j| if j < n { state(j) } else { input(j) }).collect();
         let output = |i: usize| {
             let size = largest(&mut (0..model.ncols()).map(|j| (model[(i, j)] * columns[j]).abs()));
-            if size > 0.0 { size } else { 1.0 }
+            // What is below its own round-off is measured in the unit of the output.
+            let known = largest(&mut (0..model.ncols()).map(|j| measured.uncertainties[(i, j)] * columns[j]));
+            if size > 1e3 * known { size } else { 1.0 }
         };
         let rows = (0..model.nrows()).map(|i| if i < n { state(i) * fastest } else { output(i) }).collect();
         Comparison { model, measured, scales: [rows, columns] }
@@ -98,8 +100,11 @@ impl Comparison {
             let scale = self.scales[1][j] / self.scales[0][i];
             let model = self.model[(i, j)];
             let measured = self.measured.values[(i, j)];
-            // The entry of the model has round-off, too, by the factorization of its constraints.
-            let uncertainty = self.measured.uncertainties[(i, j)] + ROUND_OFF_OF_FACTORS / scale;
+            // The entry of the model has round-off, too, as its constraints may nearly depend on each other.
+            if self.measured.uncertainties[(i, j)].is_infinite() {
+                continue;
+            }
+            let uncertainty = self.measured.uncertainties[(i, j)] + ROUND_OFF_OF_PHI / scale;
             let difference = (model - measured).abs();
             let is_right = difference.is_nan() || difference <= BEYOND_UNCERTAINTY * uncertainty;
             largest_uncertainty = largest_uncertainty.max(uncertainty * scale);

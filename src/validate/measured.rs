@@ -10,14 +10,14 @@
 //! the motion. Both limits are extrapolated.
 
 use super::deviation::{Comparison, Deviation, Limits};
-use super::limit::limit;
+use super::limit::{Limit, limit};
 use super::probe::{Probe, Shift};
 use crate::error::Result;
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, Variation, beside};
 use crate::math::bounds;
 use crate::system::MechanicalSystem;
 use crate::tolerances;
-use crate::tolerances::ROUND_OFF_OF_SUMS;
+use crate::tolerances::SAME;
 use serde::Serialize;
 use std::ops::Range;
 
@@ -70,6 +70,13 @@ struct Column {
     input: Option<(usize, usize)>,
     /// True if it is an input of the model and no state.
     is_input: bool,
+}
+
+/// True if the two sides of a state have different slopes: the even part of a change, which falls with its size where
+/// there is a derivative, does not fall.
+fn has_kink(slopes: &[(f64, Matrix, Matrix)], row: usize) -> bool {
+    let [Some((_, _, far)), Some((_, slope, near))] = [slopes.first(), slopes.last()] else { return false };
+    near[row].abs() > 0.5 * far[row].abs() && near[row].abs() > SAME * slope.amax()
 }
 
 /// The model at a state, and the memory to measure it.
@@ -149,30 +156,35 @@ impl<'m, 'a> Bench<'m, 'a> {
             }
             let shift = self.shift(place);
             let unit = self.size(place);
+            let middle = value(&shift, 0.0)?;
             let mut slope = |eps: f64| {
-                let difference = value(&shift, eps)? - value(&shift, -eps)?;
-                Some((eps, difference / (2.0 * eps)))
+                let [above, below] = [value(&shift, eps)?, value(&shift, -eps)?];
+                let even = (&above + &below - &middle * 2.0) / (2.0 * eps);
+                Some((eps, (above - below) / (2.0 * eps), even))
             };
             let sizes = (0..SHIFTS).map(|i| reach * SHIFT_RATIO.powi(i) / unit);
-            let slopes: Vec<(f64, Matrix)> = sizes.filter_map(&mut slope).collect();
+            let slopes: Vec<(f64, Matrix, Matrix)> = sizes.filter_map(&mut slope).collect();
             let tiny = TINY_SHIFTS.iter().filter_map(|eps| slope(eps / unit));
             tables.push((slopes, tiny.collect::<Vec<_>>()));
         }
         let mut limits = Limits::new(rows, self.columns.len());
         for row in 0..rows {
-            let found = |slopes: &[(f64, Matrix)], rounding: f64| {
+            let found = |slopes: &[(f64, Matrix, Matrix)], rounding: f64| {
                 let (sizes, values): (Vec<f64>, Vec<f64>) =
-                    slopes.iter().map(|(eps, slope)| (*eps, slope[row])).unzip();
+                    slopes.iter().map(|(eps, slope, _)| (*eps, slope[row])).unzip();
                 limit(&sizes, &values, 2, rounding)
             };
             // The round-off of the scene, from differences so small that they are nothing else.
             let noise = tables.iter().flat_map(|(slopes, tiny)| {
                 let rough = found(slopes, 0.0).value;
-                tiny.iter().map(move |(eps, slope)| (slope[row] - rough).abs() * eps)
+                tiny.iter().map(move |(eps, slope, _)| (slope[row] - rough).abs() * eps)
             });
-            let rounding = 2.0 * bounds(noise.filter(|x| x.is_finite())).1.max(0.0);
+            // A few differences do not show the largest one.
+            let rounding = 10.0 * bounds(noise.filter(|x| x.is_finite())).1.max(0.0);
             for (column, (slopes, _)) in tables.iter().enumerate() {
-                limits.set((row, column), found(slopes, rounding));
+                let limit = found(slopes, rounding);
+                let uncertainty = if has_kink(slopes, row) { f64::INFINITY } else { limit.uncertainty };
+                limits.set((row, column), Limit { uncertainty, ..limit });
             }
         }
         Some(limits)
@@ -227,7 +239,7 @@ impl<'m, 'a> Bench<'m, 'a> {
                 let place = (row, column);
                 let size = if row < k { sizes[place] } else { speeds[(row - k, column)] };
                 let values: Vec<f64> = slopes.iter().map(|slope| slope[place]).collect();
-                limits.set(place, limit(along.steps, &values, 1, ROUND_OFF_OF_SUMS * size));
+                limits.set(place, limit(along.steps, &values, 1, tolerances::FLOW_RTOL * size));
             }
         }
         limits
