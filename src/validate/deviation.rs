@@ -10,6 +10,14 @@ use std::ops::Range;
 /// Test: `spoilt_terms_are_condemned_with_their_size`.
 const BEYOND_UNCERTAINTY: f64 = 3.0;
 
+/// An entry whose uncertainty is more than this part of it is not judged. Unit: `[1]`. Why: the force of a stiff hinge
+/// turns round over the least perturbation, and the energy of a beam at rest is round-off.
+const VAGUE: f64 = 0.01;
+
+/// An entry that is right to this is not wrong. Unit: `[1]`. Why: no term is missing whose part is below the rounding of
+/// the perturbed states.
+const SAME_ENTRY: f64 = 1e-7;
+
 /// The entry of a matrix of the model that is farthest from what was measured.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Deviation {
@@ -106,7 +114,10 @@ impl Comparison {
             }
             let uncertainty = self.measured.uncertainties[(i, j)] + ROUND_OFF_OF_PHI / scale;
             let difference = (model - measured).abs();
-            let is_right = difference.is_nan() || difference <= BEYOND_UNCERTAINTY * uncertainty;
+            // Below are entries that rounding of the state makes up, or that change over the least perturbation.
+            let is_vague = uncertainty > VAGUE * model.abs().max(measured.abs());
+            let is_near = difference <= BEYOND_UNCERTAINTY * uncertainty || difference <= SAME_ENTRY * model.abs();
+            let is_right = difference.is_nan() || is_vague || is_near;
             largest_uncertainty = largest_uncertainty.max(uncertainty * scale);
             let relative = if difference.is_nan() { 0.0 } else { difference * scale };
             let is_worse = |other: &Deviation| (!is_right, relative) > (!other.is_right, other.relative);
