@@ -152,7 +152,8 @@ fn automatic(
     let rows = Vec::new();
     let drift = Drift::default();
     let scratch = Scratch::default();
-    let mut seen = Seen { system, watched, scales: system.scales(), scratch, rows, drift, begun: ThreadTime::now() };
+    let mut seen =
+        Seen { system, watched, scales: system.facts().scales.clone(), scratch, rows, drift, begun: ThreadTime::now() };
     let watch = Stopwatch::start();
     let run = simulate_automatic(system, tolerances, span, prepared.start(), &mut seen);
     let seconds = watch.cpu().as_secs_f64();

@@ -27,7 +27,7 @@ pub struct Gap {
 
 /// Names and units of what a run watches: the outputs, then the works.
 pub fn recorded(system: &dyn MechanicalSystem) -> Vec<Column> {
-    [system.columns(), system.works()].concat()
+    [system.facts().outputs.clone(), system.facts().works.clone()].concat()
 }
 
 /// The values of the `count` columns of [`recorded`] at a state with its works; without these they are zero.
@@ -55,7 +55,7 @@ pub fn on_pieces<R>(state: &Observation, scratch: &mut Scratch, read: impl FnOnc
 impl Trajectory {
     /// No rows, with the columns of a system.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
-        Trajectory { names: system.names(), outputs: recorded(system), rows: Vec::new() }
+        Trajectory { names: system.facts().names.clone(), outputs: recorded(system), rows: Vec::new() }
     }
 
     /// No rows, with time, the first `coordinates` and the outputs as the only columns.

@@ -166,7 +166,7 @@ fn outputs() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
         let prepared = PreparedScene::load(&path, &Overrides::default()).unwrap();
         let (system, (q, v), mut scratch) = (prepared.system(), prepared.start(), Scratch::default());
-        let mut out = vec![0.0; system.columns().len()];
+        let mut out = vec![0.0; system.facts().outputs.len()];
         let mut row = || {
             let before = count();
             let at = OperatingPoint { t: 0.0, q, v, vdot: &prepared.assembly.vdot, lambda: &prepared.assembly.lambda };

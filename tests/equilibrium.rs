@@ -33,7 +33,7 @@ fn left(system: &dyn MechanicalSystem, at: &Equilibrium) -> (f64, f64) {
 }
 
 fn output(scene: &Ready, at: &Equilibrium, name: &str) -> f64 {
-    let columns = scene.system().columns();
+    let columns = scene.system().facts().outputs.clone();
     let mut out = vec![0.0; columns.len()];
     let still = vec![0.0; scene.system().dimensions().v];
     let at = OperatingPoint { t: at.t, q: &at.q, v: &still, vdot: &still, lambda: &at.lambda };
@@ -97,7 +97,7 @@ fn shipped_scenes_come_to_rest() {
 fn the_squeezer_rests_where_the_reference_says() {
     let scene = shipped("andrews", &[]);
     let found = found(&scene);
-    let names = scene.system().names().q;
+    let names = scene.system().facts().names.q.clone();
     let angle = |name: &str| found.q[names.iter().position(|q| q == name).unwrap()];
     let beta = angle("K1.angle");
     assert!((beta - 3.284_208_655_963_953).abs() < 1e-10, "{beta}");
@@ -138,7 +138,7 @@ fn redundant_rows_are_no_obstacle() {
     let scene = shipped("parallelogram_redundant", &[]);
     let at = found(&scene);
     assert_eq!(at.stability, Stability::Stable);
-    let names = scene.system().names().lambda;
+    let names = scene.system().facts().names.lambda.clone();
     let vertical: Vec<f64> =
         names.iter().zip(&at.lambda).filter(|(name, _)| name.ends_with(".y")).map(|(_, force)| force.abs()).collect();
     assert!(vertical.iter().all(|force| *force < 15.0), "{vertical:?}");

@@ -154,7 +154,7 @@ fn state<const D: usize>(body: &Floating<D>) -> State<D> {
 
 /// M v' - f of the body.
 fn residual<const D: usize>(body: &Floating<D>, q: &[f64], v: &[f64], vdot: &[f64], gravity: &[f64; D]) -> Vec<f64> {
-    let pattern = body.mass_pattern();
+    let pattern = body.facts().mass_pattern;
     let mut mass = vec![0.0; pattern.len()];
     body.mass(q, &mut mass);
     let mut f = vec![0.0; v.len()];
@@ -175,7 +175,7 @@ fn motion<const D: usize>(
     v: &[f64],
     vdot: Option<&[f64]>,
 ) -> Vec<Frame<Taylor<f64>, D>> {
-    let mut frames = vec![Frame::world(); body.marker_count()];
+    let mut frames = vec![Frame::world(); body.markers().len()];
     BodyOver::<f64, D>::motion(body, q, v, vdot, 0, &mut frames);
     frames
 }
@@ -186,7 +186,7 @@ fn by_points<const D: usize>(cloud: &Cloud<D>, state: &State<D>) -> Vec<f64> {
     let mut r = vec![0.0; state.v.len()];
     for (i, (frame, mass)) in frames[1..].iter().zip(&cloud.masses).enumerate() {
         let force = std::array::from_fn(|k| mass * (frame.r[k].dd - state.gravity[k]));
-        let support = cloud.body.support(i + 1);
+        let support = cloud.body.facts().support(i + 1);
         let mut f = vec![0.0; support.len()];
         let wrench = Wrench { force, ..Wrench::zero() };
         BodyOver::<f64, D>::pull_back(&cloud.body, i + 1, &state.q, &frame.map(|x| x.x), &wrench, &mut f);
@@ -279,7 +279,7 @@ fn forces_in_space_do_the_work_of_the_energy() {
 fn tangent_is_the_slope<const D: usize>() {
     let body = cloud::<D>(true).body;
     let State { q, v, vdot, gravity } = state(&body);
-    let pattern = body.tangent_pattern();
+    let pattern = body.facts().tangent_pattern;
     let mut k = vec![0.0; pattern.len()];
     let mut c = vec![0.0; pattern.len()];
     body.tangent(BodyState { q: &q, v: &v, vdot: &vdot, gravity: &gravity }, &mut k, &mut c);
@@ -329,7 +329,7 @@ fn pull_back_keeps_power<const D: usize>() {
     for (i, frame) in frames.iter().enumerate() {
         let torque: [f64; 3] = stir.vector();
         let wrench = Wrench { force: stir.vector(), torque: if D == 2 { [0.0, 0.0, torque[2]] } else { torque } };
-        let support = body.support(i);
+        let support = body.facts().support(i);
         let mut f = vec![0.0; support.len()];
         BodyOver::<f64, D>::pull_back(&body, i, &q, &frame.map(|x| x.x), &wrench, &mut f);
         let generalized: f64 = support.iter().zip(&f).map(|(&velocity, f)| v[velocity] * f).sum();

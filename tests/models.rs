@@ -25,7 +25,7 @@ fn every_scene_starts_consistent_as_written() {
         // Speeds are up to some hundred rad/s.
         let slack = 1e-13 * speed(&start.v).max(1.0);
         assert!(rates_as_written(&path, start) < slack && start.after.phi_dot < slack, "{path:?}: {:?}", start.before);
-        let coordinates = ready.system().names().q;
+        let coordinates = ready.system().facts().names.q.clone();
         let positions = start.moves.iter().filter(|moved| coordinates.contains(&moved.name));
         let largest = positions.map(|moved| (moved.to - moved.from).abs()).fold(0.0, f64::max);
         assert!(largest < 1e-8 || is_guessed(&path), "{path:?} moved: {:?}", start.moves);

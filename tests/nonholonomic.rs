@@ -17,7 +17,7 @@ const END: f64 = 1.5;
 
 impl MechanicalSystem for Skate {
     fn dimensions(&self) -> Dimensions {
-        Dimensions { q: 3, v: 3, lambda: 1, nonholonomic: 1, states: 0 }
+        Dimensions { q: 3, v: 3, lambda: 1, nonholonomic: 1, ..Dimensions::default() }
     }
 
     fn evaluate(&self, _: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, _: &mut Scratch) {

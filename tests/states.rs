@@ -142,7 +142,7 @@ const SWING: f64 = 20.0;
 
 impl MechanicalSystem for Unread {
     fn dimensions(&self) -> Dimensions {
-        Dimensions { q: 1, v: 3, lambda: 0, nonholonomic: 0, states: 2 }
+        Dimensions { q: 1, v: 3, lambda: 0, states: 2, ..Dimensions::default() }
     }
     fn evaluate(&self, _: f64, _: &[f64], v: &[f64], _: Need, terms: &mut Terms, _: &mut Scratch) {
         terms.mass.copy_from_slice(&[1.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
@@ -176,7 +176,7 @@ struct Rotor;
 
 impl MechanicalSystem for Rotor {
     fn dimensions(&self) -> Dimensions {
-        Dimensions { q: 2, v: 2, lambda: 0, nonholonomic: 0, states: 1 }
+        Dimensions { q: 2, v: 2, lambda: 0, states: 1, ..Dimensions::default() }
     }
     /// w' = i, i' = 1 - i - w
     fn evaluate(&self, _: f64, _: &[f64], v: &[f64], _: Need, terms: &mut Terms, _: &mut Scratch) {

@@ -3,10 +3,11 @@
 use holonom::linearize::{Chart, State, states};
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::system::{
-    Column, Dimensions, LeviCivita, MechanicalSystem, Names, Need, OperatingPoint, OutputTangent, Scratch, Structure,
+    Dimensions, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Scratch, Structure, SystemFacts,
     Tangent, Terms,
 };
 use holonom::validate::{Settings, Validation, validate};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 fn scenes() -> Vec<PathBuf> {
@@ -122,6 +123,10 @@ impl MechanicalSystem for Wrong<'_> {
     fn dimensions(&self) -> Dimensions {
         self.inner.dimensions()
     }
+    fn facts(&self) -> Cow<'_, SystemFacts> {
+        let SystemFacts { names, inputs, excitations, .. } = self.inner.facts().into_owned();
+        Cow::Owned(SystemFacts { names, inputs, excitations, ..SystemFacts::new(self.dimensions()) })
+    }
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
         self.inner.evaluate(t, q, v, need, terms, scratch);
     }
@@ -147,23 +152,14 @@ impl MechanicalSystem for Wrong<'_> {
     fn levi_civita(&self, at: OperatingPoint, connection: &mut LeviCivita, scratch: &mut Scratch) -> bool {
         self.inner.levi_civita(at, connection, scratch)
     }
-    fn names(&self) -> Names {
-        self.inner.names()
-    }
     fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         self.inner.rate(q, v, qdot);
     }
     fn normalize(&self, q: &mut [f64]) {
         self.inner.normalize(q);
     }
-    fn inputs(&self) -> Vec<Column> {
-        self.inner.inputs()
-    }
     fn input_forces(&self, t: f64, q: &[f64], v: &[f64], f: &mut nalgebra::DMatrix<f64>, scratch: &mut Scratch) {
         self.inner.input_forces(t, q, v, f, scratch);
-    }
-    fn excitations(&self) -> Vec<holonom::system::Excitation> {
-        self.inner.excitations()
     }
     fn output_tangent(&self, _: OperatingPoint, _: &mut OutputTangent, _: &mut Scratch) -> bool {
         true
@@ -208,7 +204,7 @@ fn the_plain_projection_is_refused_off_equilibrium() {
 fn independent_coordinates_and_named_directions() {
     let prepared = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"));
     let state = &three(&prepared)[1];
-    let name = prepared.system().names().q.into_iter().find(|name| name.ends_with(".angle")).unwrap();
+    let name = prepared.system().facts().names.q.clone().into_iter().find(|name| name.ends_with(".angle")).unwrap();
     let settings = Settings {
         chart: Some(Chart::Independent(vec![name.clone()])),
         directions: vec![holonom::validate::Direction::Named(name)],

@@ -34,6 +34,8 @@ pub struct Divergence {
     /// E and the sizes of all forces at the last look at them.
     looked: f64,
     sizes: Vec<f64>,
+    /// A length of the scene, m; at least 1.
+    length: Option<f64>,
 }
 
 struct Start {
@@ -51,7 +53,7 @@ impl Divergence {
         ledger: &Ledger,
         scratch: &mut Scratch,
     ) -> Option<Stop> {
-        let effort = state.effort? * system.length().max(1.0);
+        let effort = state.effort? * *self.length.get_or_insert_with(|| system.facts().length.max(1.0));
         let Some(start) = &self.start else {
             self.start = Some(Start { q: state.q.to_vec(), v: state.v.to_vec(), potential: ledger.potential });
             self.held = ledger.kinetic + effort;

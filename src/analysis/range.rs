@@ -53,8 +53,8 @@ impl Range {
     /// A range without states.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         let start = |limited: &Limited| LargestDeformation { limited: limited.clone(), deformation: 0.0, t: 0.0 };
-        let parts: Vec<LargestDeformation> = system.limited().iter().map(start).collect();
-        let bodies = system.turning_bodies();
+        let parts: Vec<LargestDeformation> = system.facts().limited.iter().map(start).collect();
+        let bodies = system.facts().turning_bodies.clone();
         let now = vec![0.0; parts.len()];
         let spins = vec![0.0; bodies.len()];
         let held = HeldSignals::new(system);

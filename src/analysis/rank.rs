@@ -64,8 +64,8 @@ impl Rank {
         } else {
             (all - dependent_nearby(system, t, q).len(), dependent_rows(&structure.g, &terms.g, RANK))
         };
-        let groups = system.groups();
-        let names = system.names().lambda;
+        let groups = system.facts().groups();
+        let names = system.facts().names.lambda.clone();
         let redundant = dependence.rows.iter().map(|row| {
             let others = row.combination.iter().map(|(other, _)| owner(&groups, *other));
             redundant(&names[row.row], owner(&groups, row.row), others)

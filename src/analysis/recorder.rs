@@ -95,7 +95,7 @@ impl<'a> Recorder<'a> {
         Recorder {
             system,
             scratch: Scratch::default(),
-            scales: system.scales(),
+            scales: system.facts().scales.clone(),
             meter: EnergyMeter::default(),
             divergence: Divergence::default(),
             diverged: None,

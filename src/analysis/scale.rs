@@ -25,9 +25,9 @@ impl Sizes {
     /// Adds a row; `scales` are those of the rows of phi.
     pub fn add(&mut self, system: &dyn MechanicalSystem, state: &Observation, scales: &[f64], scratch: &mut Scratch) {
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, |most, value| most.max(value.abs()));
-        let q = system.own(state.q);
+        let q = system.dimensions().own(state.q);
         if self.start.is_empty() {
-            (self.start, self.length) = (q.to_vec(), system.length());
+            (self.start, self.length) = (q.to_vec(), system.facts().length);
         }
         self.travel = self.travel.max(largest(&mut q.iter().zip(&self.start).map(|(q, start)| q - start)));
         self.speed = self.speed.max(largest(&mut state.v.iter().copied()));

@@ -2,7 +2,8 @@
 
 use super::flexible::PointShape;
 use super::{
-    Bent, Body, BodyKernel, BodyOver, BodyState, Dual6, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, dot, sub,
+    Bent, Body, BodyFacts, BodyKernel, BodyOver, BodyState, Dual6, Energy, Frame, Marker, Pose, Wrench, cross, dot,
+    norm, sub,
 };
 use crate::forward::forward;
 use crate::math::array::{Each, from_fn};
@@ -94,37 +95,34 @@ pub(super) fn coordinate_path<S: Scalar>(
 }
 
 impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
-    fn coordinate_names(&self) -> Vec<String> {
-        BodyKernel::coordinate_names(self).into_iter().map(String::from).collect()
-    }
-    fn velocity_names(&self) -> Vec<String> {
-        BodyKernel::velocity_names(self).into_iter().map(String::from).collect()
-    }
-    fn marker_count(&self) -> usize {
-        self.markers().len()
-    }
-    fn marker(&self, index: usize) -> &Marker<D> {
-        &self.markers()[index]
-    }
-    fn support(&self, _marker: usize) -> Vec<usize> {
-        (0..BodyKernel::velocity_names(self).len()).collect()
+    fn facts(&self) -> BodyFacts {
+        let names = |names: Vec<&str>| names.into_iter().map(String::from).collect();
+        let has_constant_forces = BodyKernel::has_constant_forces(self);
+        BodyFacts {
+            coordinate_names: names(self.coordinate_names()),
+            velocity_names: names(self.velocity_names()),
+            supports: Vec::new(),
+            mass_pattern: self.mass_pattern(),
+            tangent_pattern: if has_constant_forces { Vec::new() } else { self.tangent_pattern() },
+            stiffness: Vec::new(),
+            oriented: self.oriented(),
+            turning: self.turning(),
+            freedom: self.freedom(),
+            has_constant_mass: true,
+            has_constant_forces,
+            reach: self.markers().iter().map(|marker| norm(&marker.offset)).fold(0.0, f64::max),
+            elastic_count: 0,
+            most_coordinates: MOST_COORDINATES,
+        }
     }
     forward! { BodyKernel =>
-        fn mass_pattern(&self) -> Vec<(usize, usize)>;
+        fn markers(&self) -> &[Marker<D>];
         fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]);
         fn normalize(&self, q: &mut [f64]);
-        fn oriented(&self) -> bool;
-        fn turning(&self) -> Option<usize>;
         fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D>;
-        fn freedom(&self) -> Option<Freedom>;
-        fn has_constant_forces(&self) -> bool;
     }
     fn mass(&self, _q: &[f64], values: &mut [f64]) {
         BodyKernel::mass(self, values);
-    }
-    fn add_stiffness(&self, _values: &mut [f64]) {}
-    fn tangent_pattern(&self) -> Vec<(usize, usize)> {
-        if BodyKernel::has_constant_forces(self) { Vec::new() } else { BodyKernel::tangent_pattern(self) }
     }
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
         if !BodyKernel::has_constant_forces(self) {
@@ -133,18 +131,6 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     }
     fn dissipation(&self, _v: &[f64]) -> f64 {
         0.0
-    }
-    fn has_constant_mass(&self) -> bool {
-        true
-    }
-    fn reach(&self) -> f64 {
-        self.markers().iter().map(|marker| dot(&marker.offset, &marker.offset).sqrt()).fold(0.0, f64::max)
-    }
-    fn elastic_count(&self) -> usize {
-        0
-    }
-    fn most_coordinates(&self) -> usize {
-        MOST_COORDINATES
     }
     fn shapes(&self) -> &[PointShape<D>] {
         &[]

@@ -7,6 +7,7 @@
 //! same two and [`Elements::with_body`](crate::scene::Elements::with_body), as in `tests/examples/own_body.rs`.
 
 mod build;
+mod facts;
 #[doc(hidden)]
 pub mod flexible;
 #[doc(hidden)]
@@ -30,6 +31,7 @@ mod state;
 mod turning;
 
 pub use build::{Build, MarkerId, MarkerTable, Switches};
+pub use facts::BodyFacts;
 pub use formula::{Formula, NamedOutput, NamedOutputs};
 pub(crate) use frame::turned;
 pub use frame::{Frame, Marker, Wrench, cross, dot, norm, scale, sub};
@@ -130,7 +132,7 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
         true
     }
 
-    /// See [`Body::turning`]. Default: none, for N = I.
+    /// See [`BodyFacts::turning`]. Default: none, for N = I.
     fn turning(&self) -> Option<usize> {
         None
     }
@@ -143,7 +145,7 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
         kernel::pose(self, q, v)
     }
 
-    /// See [`Body::freedom`]. Default: none, which is correct for every body.
+    /// See [`BodyFacts::freedom`]. Default: none, which is correct for every body.
     #[doc(hidden)]
     fn freedom(&self) -> Option<Freedom> {
         None
@@ -157,7 +159,7 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// f += weight and velocity-dependent inertia forces; `gravity` in m/s^2.
     fn own_forces<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]);
 
-    /// See [`Body::tangent_pattern`]; not called where the own forces are constant. Default: all, row by row.
+    /// See [`BodyFacts::tangent_pattern`]; not called where the own forces are constant. Default: all, row by row.
     fn tangent_pattern(&self) -> Vec<(usize, usize)> {
         let n = self.velocity_names().len();
         (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).collect()
@@ -186,7 +188,7 @@ pub trait BodyOver<S: Scalar, const D: usize> {
     /// Frames of the markers from number `first` on with their velocities, and their accelerations at v' = `vdot` (zero
     /// if not given).
     fn motion(&self, q: &[S], v: &[S], vdot: Option<&[S]>, first: usize, out: &mut [Frame<Taylor<S>, D>]);
-    /// f += J^T w for a wrench at the frame of marker `marker`; f is indexed as its [`support`](Body::support).
+    /// f += J^T w for a wrench at the frame of marker `marker`; f is indexed as its [support](BodyFacts::support).
     fn pull_back(&self, marker: usize, q: &[S], frame: &Frame<S, D>, wrench: &Wrench<S, D>, f: &mut [S]);
     /// Kinetic energy, and potential energy of weight and of the body's own deformation, J.
     fn energy(&self, q: &[S], v: &[S], gravity: &[f64; D]) -> Energy<S>;
@@ -219,53 +221,23 @@ pub struct Bent<'a, const D: usize> {
 
 /// The object-safe form of a body; implemented for every [`BodyKernel`].
 pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + Sync {
-    /// Names of the coordinates, such as `x` or `angle`.
-    fn coordinate_names(&self) -> Vec<String>;
-    /// Names of the velocities, in the order of v.
-    fn velocity_names(&self) -> Vec<String>;
-    /// Number of markers on the body, its own frame among them.
-    fn marker_count(&self) -> usize;
-    /// Position and axes of a marker on the body.
-    fn marker(&self, index: usize) -> &Marker<D>;
-    /// Indices of the velocities that move a marker, in increasing order.
-    fn support(&self, marker: usize) -> Vec<usize>;
-    /// Places of the mass matrix's lower triangle, each once.
-    fn mass_pattern(&self) -> Vec<(usize, usize)>;
-    /// Mass matrix M(q): `values` at the places of [`mass_pattern`](Body::mass_pattern).
+    /// What never changes. Evaluations do not ask for it: a model keeps it.
+    fn facts(&self) -> BodyFacts;
+    /// Its markers, its own frame first.
+    fn markers(&self) -> &[Marker<D>];
+    /// Mass matrix M(q): `values` at the places of [`BodyFacts::mass_pattern`].
     fn mass(&self, q: &[f64], values: &mut [f64]);
-    /// values += elastic stiffness of the body, at the places of M, for the weights of assembly.
-    fn add_stiffness(&self, values: &mut [f64]);
     /// f += weight, velocity-dependent inertia forces, and the body's own elastic and damping forces.
     fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]);
-    /// Places of the values of K and C of the body itself.
-    fn tangent_pattern(&self) -> Vec<(usize, usize)>;
-    /// k += d(M v' - f)/dq along the directions of v, c += d(M v' - f)/dv, with f the own forces.
+    /// k += d(M v' - f)/dq along the directions of v, c += d(M v' - f)/dv, with f the own forces, at the places of
+    /// [`BodyFacts::tangent_pattern`].
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]);
     /// Power dissipated by its damping, W.
     fn dissipation(&self, v: &[f64]) -> f64;
     /// Brings redundant coordinates (a quaternion) back to their normal form.
     fn normalize(&self, q: &mut [f64]);
-    /// True if its markers have an orientation; false for a point mass.
-    fn oriented(&self) -> bool;
-    /// Index of the first of three velocities that are an angular velocity in the body's own axes; `None` if N = I.
-    fn turning(&self) -> Option<usize>;
     /// Position, orientation and twist of the frame in which its markers are fixed when it is not deformed.
     fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D>;
-    /// What its velocities are, for a rigid body: its markers then move with its [`pose`](Self::pose), and nothing in
-    /// it dissipates. `None` where it is none, or makes no use of that.
-    fn freedom(&self) -> Option<Freedom>;
-    /// True if M does not depend on q.
-    fn has_constant_mass(&self) -> bool;
-    /// True if its own forces depend neither on q nor on v, and nothing in it dissipates.
-    fn has_constant_forces(&self) -> bool;
-    /// Largest distance of a marker from the origin of the coordinates, m.
-    fn reach(&self) -> f64;
-    /// Number of elastic coordinates, which are the last ones.
-    fn elastic_count(&self) -> usize;
-    /// Largest number of coordinates it may have. Default: no limit.
-    fn most_coordinates(&self) -> usize {
-        usize::MAX
-    }
     /// Displacement functions of its markers; empty for a rigid body.
     fn shapes(&self) -> &[flexible::PointShape<D>];
     /// Centre line, if it is a beam in a floating frame.
@@ -286,19 +258,20 @@ impl<const D: usize> Built<D> {
     /// Refuses a body of inconsistent sizes: a mistake in the code of its type, not in a scene.
     fn checked(self, markers: usize) -> Result<Self> {
         let Built { body, q, v } = &self;
+        let facts = body.facts();
         let sizes = [
-            ("coordinates", q.len(), body.coordinate_names().len()),
-            ("velocities", v.len(), body.velocity_names().len()),
-            ("markers", body.marker_count(), markers),
+            ("coordinates", q.len(), facts.coordinate_names.len()),
+            ("velocities", v.len(), facts.velocity_names.len()),
+            ("markers", body.markers().len(), markers),
         ];
         if let Some((what, found, expected)) = sizes.into_iter().find(|(_, found, expected)| found != expected) {
             return Err(mistaken(format!("{found} {what} where there should be {expected}")));
         }
-        if q.len() > body.most_coordinates() {
+        if q.len() > facts.most_coordinates {
             return Err(mistaken(format!("{} coordinates; at most {MOST_COORDINATES} are possible", q.len())));
         }
         let is_outside = |&(row, column): &(usize, usize)| column > row || row >= v.len();
-        match body.mass_pattern().iter().find(|place| is_outside(place)) {
+        match facts.mass_pattern.iter().find(|place| is_outside(place)) {
             Some((i, j)) => Err(mistaken(format!("the place ({i}, {j}) outside of the lower triangle of its M"))),
             None => Ok(self),
         }

@@ -50,12 +50,12 @@ pub fn run(args: Args) -> Result<()> {
     let in_file = args.at.in_file();
     let request = args.model.request()?;
     let prepared = args.at.load()?;
-    let inputs = prepared.system().inputs();
-    let outputs = prepared.system().columns();
+    let inputs = prepared.system().facts().inputs.clone();
+    let outputs = prepared.system().facts().outputs.clone();
     let chosen = Chosen {
         inputs: choose("input", &args.inputs, &inputs).map_err(in_file)?,
         outputs: choose("output", &args.outputs, &outputs)
-            .map_err(|error| accumulated(&args.outputs, &prepared.system().works()).unwrap_or(error))
+            .map_err(|error| accumulated(&args.outputs, &prepared.system().facts().works).unwrap_or(error))
             .map_err(in_file)?,
     };
     args.at.conclude(&prepared, |state, folder| {
@@ -127,8 +127,8 @@ fn respond<'p>(
     chosen: &Chosen,
     frequencies: Vec<f64>,
 ) -> FrequencyResponse<'p> {
-    let inputs = prepared.system().inputs();
-    let outputs = prepared.system().columns();
+    let inputs = prepared.system().facts().inputs.clone();
+    let outputs = prepared.system().facts().outputs.clone();
     let found = frequency_response(&model, &frequencies);
     let pole = Complex::new(f64::NAN, f64::NAN);
     let pair = |i: usize, j: usize| Response {

@@ -192,10 +192,11 @@ fn other(args: &Args, path: &Path) -> Result<PreparedScene> {
 /// It has neither: it is a scene of something else.
 pub fn unlike(own: &PreparedScene, other: &PreparedScene) -> Result<Option<Warning>> {
     let bodies = |scene: &PreparedScene| -> Vec<String> {
-        let names = scene.system().names().v.into_iter();
+        let names = scene.system().facts().names.v.clone().into_iter();
         names.map(|name| name.split('.').next().unwrap_or_default().trim_end_matches('\'').to_string()).collect()
     };
-    let outputs = |scene: &PreparedScene| scene.system().columns().into_iter().map(|column| column.name).collect();
+    let outputs =
+        |scene: &PreparedScene| scene.system().facts().outputs.iter().map(|column| column.name.clone()).collect();
     let shares = |list: &dyn Fn(&PreparedScene) -> Vec<String>| {
         let there = list(other);
         list(own).iter().any(|name| there.contains(name))
@@ -240,7 +241,7 @@ fn add(
 ) -> Result<Value> {
     let first = &models[0];
     let LinearizationPoint { t, is_equilibrium, .. } = first.point;
-    let linear = Linear { scene: &prepared.name, names: &prepared.system().names(), model: first };
+    let linear = Linear { scene: &prepared.name, names: &prepared.system().facts().names, model: first };
     let mut json = args.at.add(folder, "linear", (prepared, t), &LinearAnswer { prepared, linear })?;
     if let Some(against) = against {
         json["against"] = args.at.add(folder, "against", (prepared, t), &against)?;

@@ -43,7 +43,7 @@ fn checked(
     prepared: &PreparedScene,
     changed: bool,
 ) -> Result<Checkpoint> {
-    let names = prepared.system().names();
+    let names = prepared.system().facts().names.clone();
     let other = |found: &Map<String, Value>, known: &[String]| {
         let is_known = |name: &&String| known.contains(name);
         let new = found.keys().find(|name| !is_known(name)).or(known.iter().find(|name| !found.contains_key(*name)));

@@ -173,7 +173,7 @@ impl Answer for Simulated<'_> {
             }
         }
         let name = &prepared.name;
-        let length = prepared.system().length();
+        let length = prepared.system().facts().length;
         let ending = Ending::of(summary.failure.as_ref(), &record.drift, record.energy.as_ref());
         let shown = Shown::of_run(ending, record, length);
         let outputs = report::outputs_figure(name, (&record.trajectory, summary.error.as_ref()), &shown, args.separate);

@@ -53,7 +53,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         return over(&args, &prepared, &times, &directions).map_err(args.at.in_file());
     }
     let settings = Settings { chart: args.chart.chart(), directions, horizon: args.horizon, inputs: !args.no_inputs };
-    let names = prepared.system().names();
+    let names = prepared.system().facts().names.clone();
     let mut complaints = Vec::new();
     let watch = Stopwatch::start();
     let budget = args.budget.as_secs_f64();

@@ -195,7 +195,7 @@ impl<'a> Dynamics<'a> {
         self.lambda.copy_from_slice(&self.terms.phi);
         self.kkt.factor(&self.terms.mass, &self.terms.g).ok()?;
         self.kkt.solve(&mut self.vdot, &mut self.lambda).ok()?;
-        let scale = self.system.scales().into_iter().fold(0.0, f64::max);
+        let scale = self.system.facts().scales.iter().copied().fold(0.0, f64::max);
         (!self.kkt.left_out().is_empty()).then(|| self.kkt.inconsistency() / scale)
     }
 
@@ -222,7 +222,7 @@ impl<'a> Dynamics<'a> {
     }
 
     fn coordinate(&self, direction: usize) -> String {
-        let names = self.system.names().v;
+        let names = self.system.facts().names.v.clone();
         names.get(direction).map_or(String::new(), |name| name.trim_end_matches('\'').to_string())
     }
 
@@ -237,7 +237,7 @@ impl<'a> Dynamics<'a> {
         let open = phi.iter().position(|x| !x.is_finite());
         let entry = || g.iter().position(|g| !g.is_finite()).map(|entry| self.structure.g.entries[entry].0);
         let row = open.or_else(entry)?;
-        Some(format!("the constraint of `{}`", self.system.names().lambda.get(row)?))
+        Some(format!("the constraint of `{}`", self.system.facts().names.lambda.get(row)?))
     }
 
     /// v' and lambda at a state with phi'' = `acceleration_level`(phi, phi'), which is zero for the plain equations.

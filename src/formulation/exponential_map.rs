@@ -16,7 +16,7 @@ impl ExponentialMap {
     /// Memory for a system.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         let n = system.dimensions().q;
-        ExponentialMap { rotations: system.rotations(), stages: std::array::from_fn(|_| vec![0.0; n]) }
+        ExponentialMap { rotations: system.facts().rotations.clone(), stages: std::array::from_fn(|_| vec![0.0; n]) }
     }
 
     /// Writes q0 exp(change) to `q`; `change` is along the directions of v.

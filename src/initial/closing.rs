@@ -117,7 +117,7 @@ pub fn weyl(number: usize) -> f64 {
 /// Moves q away from the guess, farther with each number, along none of the held directions.
 fn beside(metric: &mut Metric, number: usize, q: &mut [f64], moved: &mut [f64]) {
     let amplitude = (tolerances::BESIDE * number as f64).min(1.0);
-    let length = metric.system.length();
+    let length = metric.system.facts().length;
     let mut away = vec![0.0; moved.len()];
     for (i, away) in away.iter_mut().enumerate() {
         let place = weyl(number * moved.len() + i);

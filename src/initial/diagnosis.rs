@@ -138,7 +138,7 @@ fn candidates(metric: &Metric, t: f64) -> Vec<Group> {
     let worst = metric.worst(&metric.terms.phi);
     let driven: Vec<usize> = metric.system.prescribed(t).iter().map(|driven| driven.row).collect();
     let is_driven = |group: &Group| group.rows.clone().any(|row| driven.contains(&row));
-    let mut open = metric.system.groups();
+    let mut open = metric.system.facts().groups();
     // The row of a driver is linear: Newton's method closes it at the cost of the others.
     open.retain(|group| is_driven(group) || gap(group) > PART_OF_GAP * worst);
     open.sort_by_key(|group| (!is_driven(group), group.rows.len(), Reverse(group.rows.start)));
@@ -148,7 +148,7 @@ fn candidates(metric: &Metric, t: f64) -> Vec<Group> {
 
 /// The rows of a joint that are angles.
 fn rotations(metric: &Metric, group: &Group) -> Vec<usize> {
-    let names = metric.system.names().lambda;
+    let names = metric.system.facts().names.lambda.clone();
     group.rows.clone().filter(|row| !is_length(&names[*row])).collect()
 }
 
@@ -190,7 +190,7 @@ fn blocked(metric: &Metric, group: &Group, t: f64, (is_free, has_fitting_axes): 
 /// The text for a driver that asks for more than its joints reach.
 fn beyond(metric: &Metric, group: &Group, driven: &Prescribed) -> Option<String> {
     let value = driven.value.filter(|_| group.rows.contains(&driven.row))?;
-    let unit = if is_length(&metric.system.names().lambda[driven.row]) { "m" } else { "rad" };
+    let unit = if is_length(&metric.system.facts().names.lambda[driven.row]) { "m" } else { "rad" };
     let reached = value + metric.terms.phi[driven.row];
     let value = significant(value, tolerances::DIGITS_OF_TRAVEL);
     let reached = significant(reached, tolerances::DIGITS_OF_TRAVEL);
@@ -213,7 +213,7 @@ fn general(metric: &Metric) -> Error {
 
 /// The error for lengths of which some may be in millimetres.
 fn unlike_lengths(metric: &Metric) -> Option<Error> {
-    let lengths = metric.system.lengths();
+    let lengths = metric.system.facts().lengths.clone();
     let (long, most) = lengths.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let (brief, least) = lengths.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
     if *most < UNLIKE_LENGTHS * least {

@@ -6,7 +6,7 @@ use crate::system::MechanicalSystem;
 /// Indices of the velocity directions that `hold` names: a coordinate (`crank.angle`), the rotation of a spatial body
 /// (`link.rotation`) or all of a body (`crank`).
 pub fn directions(system: &dyn MechanicalSystem, hold: &[String]) -> Result<Vec<usize>> {
-    let names = if hold.is_empty() { Vec::new() } else { system.names().v };
+    let names = if hold.is_empty() { Vec::new() } else { system.facts().names.v.clone() };
     let mut held = Vec::new();
     for (i, wanted) in hold.iter().enumerate() {
         let found: Vec<usize> = (0..names.len()).filter(|&k| matches(&names[k], wanted)).collect();

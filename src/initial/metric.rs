@@ -28,6 +28,8 @@ pub struct Metric<'a> {
     pub weights: Vec<f64>,
     pub values: Vec<f64>,
     pub scales: Vec<f64>,
+    /// Those of [`SystemFacts::stiffness`](crate::system::SystemFacts::stiffness).
+    stiffness: Vec<(usize, f64)>,
     pub held: Vec<usize>,
     /// phi of a state on the way, which counts as closed; none: zero.
     pub ahead: Vec<f64>,
@@ -60,6 +62,7 @@ impl<'a> Metric<'a> {
             all.rows += held.len();
             analysis = Arc::default();
         }
+        let facts = system.facts().into_owned();
         Metric {
             terms: Terms::new(system),
             scratch: Scratch::default(),
@@ -70,12 +73,13 @@ impl<'a> Metric<'a> {
             values: vec![1.0; rows.entries.len()],
             mass,
             rows,
-            scales: system.scales(),
+            scales: facts.scales,
+            stiffness: facts.stiffness,
             held,
             ahead: Vec::new(),
             without: Vec::new(),
             is_beside: false,
-            room: Room { turns: vec![0.0; system.turning_bodies().len()], ..Room::default() },
+            room: Room { turns: vec![0.0; facts.turning_bodies.len()], ..Room::default() },
             system,
         }
     }
@@ -96,7 +100,7 @@ impl<'a> Metric<'a> {
         let need = Need::MASS | Need::CONSTRAINTS | Need::G;
         self.evaluate(t, q, v, need);
         if let Some(row) = self.infinite_row() {
-            let group = self.system.groups().into_iter().find(|group| group.rows.contains(&row));
+            let group = self.system.facts().groups().into_iter().find(|group| group.rows.contains(&row));
             let name = group.map_or(String::new(), |group| group.name);
             return Err(Error::input(format!("at the start, joint `{name}` or its rate is infinite or not a number"))
                 .under("joints")
@@ -105,7 +109,7 @@ impl<'a> Metric<'a> {
         let most = largest(&self.terms.mass);
         let unit = if most > 0.0 { most } else { 1.0 };
         self.weights.copy_from_slice(&self.terms.mass);
-        self.system.add_stiffness(&mut self.weights);
+        self.stiffness.iter().for_each(|&(place, stiffness)| self.weights[place] += stiffness);
         for (weight, (i, j)) in self.weights.iter_mut().zip(&self.mass.entries) {
             *weight = if i == j { (*weight / unit).max(LEAST_WEIGHT) } else { *weight / unit };
         }
@@ -220,7 +224,7 @@ impl<'a> Metric<'a> {
     /// True if the terms at hand, those at q, are closed: up to a part of the scene's lengths and the round-off of its
     /// largest coordinate.
     pub fn is_closed(&self, q: &[f64]) -> bool {
-        let rounding = tolerances::ROUND_OFF * largest(self.system.own(q));
+        let rounding = tolerances::ROUND_OFF * largest(self.system.dimensions().own(q));
         let mut kept = (0..self.scales.len()).filter(|row| !self.without.contains(row));
         kept.all(|row| self.terms.phi[row].abs() <= CLOSED * self.scales[row] + rounding)
     }
@@ -257,14 +261,14 @@ impl<'a> Metric<'a> {
 
     /// True if some rows give joint coordinates their values at the start.
     pub fn has_initial(&self) -> bool {
-        self.system.groups().iter().any(|group| group.kind == INITIAL)
+        self.system.facts().groups().iter().any(|group| group.kind == INITIAL)
     }
 
     /// The joints with the largest residuals, for a message.
     pub fn culprits(&self, rows: &[f64]) -> String {
         let worst = self.worst(rows);
         let mut gaps: Vec<(String, f64)> = Vec::new();
-        for group in self.system.groups() {
+        for group in self.system.facts().groups() {
             let gap = group.rows.clone().fold(0.0f64, |gap, row| gap.max((rows[row] / self.scales[row]).abs()));
             if gap > 0.01 * worst {
                 gaps.push((group.name, group.rows.map(|row| rows[row].abs()).fold(0.0, f64::max)));

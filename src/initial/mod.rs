@@ -55,7 +55,7 @@ pub fn assemble_held(
 
 /// The error for a state at which the argument of a signal is where it has no value.
 fn beyond_signal(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Option<Error> {
-    let switches = system.switches();
+    let switches = system.switches().all;
     let mut arguments = vec![Rate::fixed(0.0); switches.len()];
     let vdot = vec![0.0; v.len()];
     let mut scratch = Scratch::default();
@@ -63,7 +63,7 @@ fn beyond_signal(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])
     let left = |(number, switch): (usize, &Switch)| {
         let signal = switch.signal.as_ref()?;
         let piece = signal.piece(arguments[number].re)?;
-        signal.is_undefined_on(piece).then(|| signal.left_by(system.owner_of_switch(number)))
+        signal.is_undefined_on(piece).then(|| signal.left_by(system.switches().owner(number)))
     };
     let message = switches.iter().enumerate().find_map(left)?;
     let error = Error::input(format!("at the start, {message}")).under("signals");
@@ -101,8 +101,9 @@ fn consistent(
     let after = metric.level(t, &assembled, &rates);
     let mut dynamics = Dynamics::new(system);
     dynamics.solve(t, &assembled, &rates, |_, _| 0.0).map_err(|halt| {
-        let force = system.infinite_force(t, &assembled, &rates, &mut Scratch::default());
-        force.map_or_else(|| stuck(&halt), |name| stuck(&halt).element(&name))
+        let forces = system.feeds(t, &assembled, &rates, &mut Scratch::default());
+        let infinite = forces.iter().find(|force| !force.is_finite);
+        infinite.map_or_else(|| stuck(&halt), |force| stuck(&halt).element(&force.name))
     })?;
     let moves = report::moves(system, (q, v), (&assembled, &rates));
     let Dynamics { vdot, lambda, .. } = dynamics;

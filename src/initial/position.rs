@@ -37,7 +37,7 @@ fn kept(metric: &Metric, moved: &[f64]) -> Result<()> {
     let Some(&held) = metric.held.iter().find(|&&held| moved[held].abs() > tolerances::SAME * most) else {
         return Ok(());
     };
-    let names = metric.system.names().v;
+    let names = metric.system.facts().names.v.clone();
     let name = names[held].trim_end_matches('\'');
     let by = short(moved[held]);
     Err(Error::input(format!("`{name}` is held, but the joints close only where it moves by {by} (m, rad)"))

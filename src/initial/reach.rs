@@ -45,7 +45,7 @@ fn follow(
     moved: &mut [f64],
 ) -> Result<(f64, Option<String>)> {
     position::close(alone, t, q)?;
-    let groups = all.system.groups().into_iter().filter(|group| group.kind == INITIAL);
+    let groups = all.system.facts().groups().into_iter().filter(|group| group.kind == INITIAL);
     let rows: Vec<usize> = groups.flat_map(|group| group.rows).collect();
     let done = path(all, &rows, t, q, moved);
     Ok((done, (done < 1.0).then(|| all.culprits(&all.terms.phi))))

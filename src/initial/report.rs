@@ -52,13 +52,13 @@ pub struct Move {
 
 /// Changes beyond round-off, without the angles that count full turns.
 pub(super) fn moves(system: &dyn MechanicalSystem, (q0, v0): (&[f64], &[f64]), (q, v): (&[f64], &[f64])) -> Vec<Move> {
-    let own = q.len() - system.turning_angles();
+    let own = system.dimensions().own_q();
     let moved = |(from, to): &(&f64, &f64)| (*to - *from).abs() > 1e-9 * (1.0 + from.abs());
     let pairs = || q0.iter().zip(q).take(own).chain(v0.iter().zip(v));
     if !pairs().any(|pair| moved(&pair)) {
         return Vec::new();
     }
-    let names = system.names();
+    let names = system.facts().names.clone();
     let names = names.q.into_iter().take(own).chain(names.v);
     let pairs = names.zip(pairs()).filter(|(_, pair)| moved(pair));
     let mut moves: Vec<Move> = pairs.map(|(name, (&from, &to))| Move { name, from, to }).collect();

@@ -56,7 +56,7 @@ impl<'a> Travel<'a> {
     /// Begins at a consistent state; `None` for a system without drivers.
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64]) -> Option<Self> {
         let rows: Vec<usize> = system.prescribed(t).iter().map(|driven| driven.row).collect();
-        let mut driven = system.groups();
+        let mut driven = system.facts().groups();
         driven.retain(|group| group.rows.clone().any(|row| rows.contains(&row)));
         if driven.is_empty() {
             return None;
@@ -109,7 +109,7 @@ impl<'a> Travel<'a> {
     /// Closes the state on trial; true if it was near a closed one.
     fn closes(&mut self, t: f64) -> bool {
         let Travel { metric, trial, moved, .. } = self;
-        let size = 1.0 + largest(metric.system.own(trial));
+        let size = 1.0 + largest(metric.system.dimensions().own(trial));
         moved.fill(0.0);
         let is_closed = closing::attempt(metric, t, trial, moved).unwrap_or(false);
         is_closed && largest(moved) <= TRAVEL_NEAR * size
@@ -135,7 +135,7 @@ impl<'a> Travel<'a> {
         let row = rows.start;
         let reason = match self.asked(row, until) {
             Some((asked, reached)) => {
-                let unit = if is_length(&self.metric.system.names().lambda[row]) { "m" } else { "rad" };
+                let unit = if is_length(&self.metric.system.facts().names.lambda[row]) { "m" } else { "rad" };
                 let asked = significant(asked, tolerances::DIGITS_OF_TRAVEL);
                 let reached = significant(reached, tolerances::DIGITS_OF_TRAVEL);
                 format!(

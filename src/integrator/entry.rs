@@ -22,7 +22,7 @@ impl Setup<'_> {
     /// Length of the flat state.
     pub fn len(&self) -> usize {
         let n = self.system.dimensions();
-        n.q + n.v + 1 + self.system.works().len()
+        n.q + n.v + 1 + self.system.facts().works.len()
     }
 
     /// True for a system without velocities.

@@ -43,7 +43,7 @@ pub(super) struct Directions {
 /// Names the directions of a state. The change of q along a velocity is named after the coordinate whose rate it is;
 /// where the velocity is an angular one, `rotor.wx`, after the rotation about that axis of the body, `rotor.rx`.
 pub(super) fn directions(system: &dyn MechanicalSystem, q: &[f64]) -> Directions {
-    let names = system.names();
+    let names = system.facts().names.clone();
     let mut unit = vec![0.0; names.v.len()];
     let mut rate = vec![0.0; names.q.len()];
     let moving = &names.v[..system.dimensions().moving()];
@@ -51,7 +51,7 @@ pub(super) fn directions(system: &dyn MechanicalSystem, q: &[f64]) -> Directions
         unit[direction] = 1.0;
         system.rate(q, &unit, &mut rate);
         unit[direction] = 0.0;
-        let mut moved = (0..rate.len() - system.turning_angles()).filter(|&i| rate[i] != 0.0);
+        let mut moved = (0..system.dimensions().own_q()).filter(|&i| rate[i] != 0.0);
         match (moved.next(), moved.next()) {
             (Some(i), None) if rate[i] == 1.0 => names.q[i].clone(),
             _ => turn(name),

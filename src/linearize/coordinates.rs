@@ -49,7 +49,7 @@ impl Terms {
         let Terms { r, b, tilt, turn, drift: [of_z, of_y], lift } = self;
         let states = variation.system().dimensions().states;
         let k = r.ncols() - states;
-        let own = variation.system().names().v.split_off(r.nrows() - states);
+        let own = variation.system().facts().names.v.clone().split_off(r.nrows() - states);
         Coordinates {
             name: name.to_string(),
             states: [names.0, names.1, own].concat(),
@@ -227,8 +227,8 @@ pub(super) fn levi_civita(variation: &mut Variation, connection: &mut LeviCivita
 pub(super) fn numbered(variation: &Variation, directions: usize) -> (Vec<String>, Vec<String>) {
     let system = variation.system();
     let count = directions - system.dimensions().states;
-    let mut taken = system.names().v.split_off(system.dimensions().moving());
-    taken.extend(system.inputs().into_iter().map(|input| input.name));
+    let mut taken = system.facts().names.v.clone().split_off(system.dimensions().moving());
+    taken.extend(system.facts().inputs.iter().map(|input| input.name.clone()));
     let mut names: Vec<String> = (1..=count).map(|i| format!("u{i}")).collect();
     while names.iter().any(|name| taken.contains(name)) {
         names.iter_mut().for_each(|name| name.insert(1, '_'));

@@ -23,8 +23,8 @@ impl Inertia {
         variation.dynamics.structure.mass.add_diagonal(&variation.dynamics.terms.mass, &mut masses);
         let is_rotation = |name: &String| [".angle", ".rx", ".ry", ".rz"].iter().any(|end| name.ends_with(end));
         let names = directions(system, &variation.point.q).q;
-        let lengths: Vec<f64> =
-            names.iter().map(|name| if is_rotation(name) { system.length() } else { 1.0 }).collect();
+        let length = system.facts().length;
+        let lengths: Vec<f64> = names.iter().map(|name| if is_rotation(name) { length } else { 1.0 }).collect();
         let largest = masses.iter().zip(&lengths).map(|(mass, length)| mass / (length * length)).fold(0.0, f64::max);
         Inertia { masses, lengths, largest }
     }

@@ -83,7 +83,7 @@ impl Variation<'_> {
         let p = self.correct(&rows)?;
         let left = self.g_times(&p) - rows;
         let held = (0..left.ncols()).find(|&j| left.column(j).amax() > PRESCRIBED);
-        match held.and_then(|j| self.system().inputs().into_iter().nth(j)) {
+        match held.and_then(|j| self.system().facts().inputs.clone().into_iter().nth(j)) {
             None => Ok(p),
             Some(input) => Err(Error::input(format!(
                 "at t = {} s the input `{}` moves a driver that other constraints hold",

@@ -20,7 +20,7 @@ pub fn kinks(system: &dyn MechanicalSystem, state: &State) -> Result<Vec<Warning
 /// # Errors
 /// See [`Variation::new`].
 pub(crate) fn changed_parts<'s>(system: &'s dyn MechanicalSystem, state: &State) -> Result<Vec<&'s str>> {
-    let switches = system.switches();
+    let switches = system.switches().all;
     let mut owners = Vec::new();
     if switches.is_empty() {
         return Ok(owners);
@@ -42,7 +42,7 @@ pub(crate) fn changed_parts<'s>(system: &'s dyn MechanicalSystem, state: &State)
             terms_of(system, at, scratch)
         };
         if is_near && differ(&side(2 * k), &side(2 * k + 2)) {
-            owners.push(system.owner_of_switch(number));
+            owners.push(system.switches().owner(number));
         }
     }
     owners.dedup();

@@ -74,7 +74,7 @@ impl Frame {
         let system = variation.system();
         let mut qdot = vec![0.0; variation.point.q.len()];
         system.rate(&variation.point.q, &variation.point.v, &mut qdot);
-        let mut outputs = vec![0.0; system.columns().len()];
+        let mut outputs = vec![0.0; system.facts().outputs.len()];
         system.outputs(variation.point.at(), &mut outputs, &mut variation.dynamics.scratch);
         let units = Units::new(system, &coordinates, orders);
         Frame { coordinates, qdot, outputs, units }

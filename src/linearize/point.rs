@@ -43,7 +43,7 @@ impl LinearizationPoint {
     /// The state whose terms and solution `dynamics` contains, with its K.
     pub(super) fn new(dynamics: &Dynamics, k: &[f64], t: f64, q: &[f64], v: &[f64]) -> Self {
         let terms = &dynamics.terms;
-        let scales = dynamics.system.scales();
+        let scales = dynamics.system.facts().scales.clone();
         LinearizationPoint {
             t,
             q: q.to_vec(),
@@ -55,7 +55,7 @@ impl LinearizationPoint {
             phi: largest_in(&scales, &terms.phi),
             phi_dot: largest_in(&scales, &terms.phi_dot),
             is_equilibrium: is_at_rest(dynamics, &rounding(dynamics, k, q), v),
-            axes: dynamics.system.axes(),
+            axes: dynamics.system.facts().axes,
             driven: dynamics.system.prescribed_spin(t),
         }
     }
@@ -85,7 +85,7 @@ fn is_at_rest(dynamics: &Dynamics, rounding: &[f64], v: &[f64]) -> bool {
     let moving = dynamics.system.dimensions().moving();
     let heaviness = structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j && *i < moving);
     let accelerations = heaviness.map(|((i, _), mass)| if *mass > 0.0 { usual[*i] / mass } else { 0.0 });
-    let speed = (accelerations.fold(0.0, f64::max) * dynamics.system.length().min(1.0)).sqrt();
+    let speed = (accelerations.fold(0.0, f64::max) * dynamics.system.facts().length.min(1.0)).sqrt();
     // Without loads there is only rounding: an acceleration of 1 m/s^2 or rad/s^2 is the reference then.
     let heaviest = structure.mass.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i == j);
     let heaviest = heaviest.fold(0.0f64, |most, (_, mass)| most.max(*mass));

@@ -24,7 +24,7 @@ const SAME_EQUATIONS: f64 = 1e-8;
 pub(super) fn gap(variation: &mut Variation, start: &State, end: &State) -> Result<f64> {
     let system = variation.system();
     let mut last = end.q.clone();
-    for rotation in system.rotations() {
+    for rotation in system.facts().rotations.clone() {
         let own = rotation.q..rotation.q + 4;
         if dot(&last[own.clone()], &start.q[own.clone()]) < 0.0 {
             last[own].iter_mut().for_each(|x| *x = -*x);

@@ -74,7 +74,7 @@ fn move_off(variation: &mut Variation, point: &LinearizationPoint, sign: f64) ->
     let system = variation.system();
     // Multiples of the golden ratio are evenly spread (Weyl).
     let part = |i: usize| 2.0 * ((i + 1) as f64 * 0.618_033_988_75).fract() - 1.0;
-    let scales = system.scales();
+    let scales = system.facts().scales.clone();
     let rows = Matrix::from_fn(scales.len(), 1, |i, _| sign * f64::EPSILON * scales[i] * part(i));
     let change = variation.correct(&rows)?;
     let mut rate = vec![0.0; point.q.len()];

@@ -23,7 +23,8 @@ impl Units {
         let k = chart.freedom();
         let is_named = !["intrinsic", "mass_orthogonal", "frozen"].contains(&chart.name.as_str());
         let z: Vec<&str> = chart.states[..k].iter().map(|name| if is_named { along(name) } else { NORMAL }).collect();
-        let own = system.inputs().into_iter().map(|column| column.unit);
+        let facts = system.facts();
+        let own = facts.inputs.iter().map(|column| column.unit.clone());
         let inputs: Vec<(String, usize)> = own.zip(orders.iter().copied()).collect();
         let rates = z.iter().map(|unit| rate(unit, 1));
         let internal = std::iter::repeat_n(String::new(), chart.r.ncols() - k);
@@ -31,7 +32,7 @@ impl Units {
         Units {
             states: z.iter().map(|unit| unit.to_string()).chain(rates).chain(internal).chain(of_inputs).collect(),
             inputs: inputs.iter().map(|(unit, order)| rate(unit, *order)).collect(),
-            outputs: system.columns().into_iter().map(|column| column.unit).collect(),
+            outputs: facts.outputs.iter().map(|column| column.unit.clone()).collect(),
         }
     }
 }

@@ -48,8 +48,8 @@ impl<'a> Variation<'a> {
         let tangent = Tangent::new(&dynamics.structure.tangent);
         let gdd = vec![0.0; dynamics.structure.g.entries.len()];
         let own = v.to_vec();
-        let excitations = system.excitations();
-        let outputs = system.columns().len();
+        let excitations = system.facts().excitations();
+        let outputs = system.facts().outputs.len();
         let point = LinearizationPoint::default();
         let mut variation = Variation { dynamics, point, tangent, gdd, v: own, excitations, outputs };
         variation.operate_at(t, q, v)?;
@@ -273,7 +273,7 @@ impl<'a> Variation<'a> {
     /// Returns the names of the inputs and of the outputs.
     pub fn names(&self) -> (Vec<String>, Vec<String>) {
         let names = |columns: Vec<Column>| columns.into_iter().map(|column| column.name).collect();
-        (names(self.system().inputs()), names(self.system().columns()))
+        (names(self.system().facts().inputs.clone()), names(self.system().facts().outputs.clone()))
     }
 
     /// Returns the derivatives of the outputs at the operating point.

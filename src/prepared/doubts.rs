@@ -49,7 +49,7 @@ pub fn doubts(mechanism: &AnyMechanism, guess: &[f64], assembly: &Assembly, has_
             (turned_over(mechanism, guess, &assembly.q), turned_far(mechanism, guess, &assembly.q, allowed))
         }
     };
-    let far = turned.or_else(|| moved_far(&assembly.moves, mechanism.system().length()));
+    let far = turned.or_else(|| moved_far(&assembly.moves, mechanism.system().facts().length));
     of_scene(mechanism).iter().cloned().chain(over).chain(beside(assembly)).chain(far).collect()
 }
 
@@ -77,7 +77,7 @@ fn turned_far<const D: usize>(mechanism: &Mechanism<D>, guess: &[f64], q: &[f64]
     let mut most: Option<(f64, &str)> = None;
     for (index, part) in model.given_bodies().iter().enumerate() {
         let own = part.first_q..part.first_q + part.nq;
-        let angle = turn(&part.body.coordinate_names(), &guess[own.clone()], &q[own]);
+        let angle = turn(&part.facts.coordinate_names, &guess[own.clone()], &q[own]);
         let allowed = if is_node(index) { FRAC_PI_2 } else { allowed };
         if angle > most.map_or(allowed, |(angle, _)| angle.max(allowed)) {
             most = Some((angle, &part.name));

@@ -71,7 +71,7 @@ impl Family {
     /// # Errors
     /// As [`Scene::parse`].
     pub fn outputs(&self) -> Result<Vec<Column>> {
-        Ok(AnyMechanism::new(self.scene()?.model).system().columns())
+        Ok(AnyMechanism::new(self.scene()?.model).system().facts().outputs.clone())
     }
 
     /// The scene's own value of a parameter.

@@ -25,7 +25,7 @@ pub fn refuse_rounding(mechanism: &AnyMechanism, q: &[f64], method: &Method) -> 
         AnyMechanism::Spatial(mechanism) => longest_lever(mechanism, q),
     };
     let system = mechanism.system();
-    let far = largest(system.own(q));
+    let far = largest(system.dimensions().own(q));
     let rounding = f64::EPSILON * far / lever;
     let is_far = far > FAR_FROM_ORIGIN * lever && rounding > ROUNDING_TOLERATED * method.rtol;
     if method.step.is_some() || lever == 0.0 || !is_far {
@@ -51,7 +51,7 @@ fn longest_lever<const D: usize>(mechanism: &Mechanism<D>, q: &[f64]) -> f64 {
     let model = mechanism.model();
     let reach = |marker: usize| {
         let part = model.carrier(marker);
-        part.map_or(0.0, |part| norm(&part.body.marker(marker - part.first_marker).offset))
+        part.map_or(0.0, |part| norm(&part.body.markers()[marker - part.first_marker].offset))
     };
     let lever = |markers: &[usize]| {
         let apart = markers.iter().skip(1).map(|&marker| norm(&sub(&place(marker), &place(markers[0]))));

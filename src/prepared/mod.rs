@@ -87,7 +87,7 @@ impl PreparedScene {
         let start = scene.start_time()?;
         let span = settings.span(start).map_err(|error| settings.place(error))?;
         let mechanism = AnyMechanism::new(scene.model);
-        let length = mechanism.system().length();
+        let length = mechanism.system().facts().length;
         let method = settings.method(is_automatic, length).map_err(|error| settings.place(error))?;
         method.check_options(mechanism.system()).map_err(|error| settings.place(error))?;
         let held = AnyMechanism::held(scene.held);
@@ -207,7 +207,7 @@ impl PreparedScene {
 /// Refuses an element with a switching function whose argument it never writes: its law would never switch.
 fn check_switches(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<()> {
     let vdot = vec![0.0; v.len()];
-    let count = system.switches().len();
+    let count = system.switches().all.len();
     if count == 0 {
         return Ok(());
     }
@@ -216,13 +216,13 @@ fn check_switches(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]
         system.switching(OperatingPoint { t, q, v, vdot: &vdot, lambda: &[] }, &mut out, &mut Scratch::default());
         out
     });
-    let is_read = |switch: usize| system.switches()[switch].thresholds != Thresholds::Held;
+    let is_read = |switch: usize| system.switches().all[switch].thresholds != Thresholds::Held;
     let is_unwritten = |switch: &usize| zeros[*switch].value() == 0.0 && ones[*switch].value() == 1.0;
     match (0..count).find(|switch| is_read(*switch) && is_unwritten(switch)) {
         None => Ok(()),
         Some(switch) => Err(Error::input(format!(
             "the type of {} has a switching function whose argument it never writes",
-            system.owner_of_switch(switch)
+            system.switches().owner(switch)
         ))
         .hint("this is a mistake in the code of the type: its kernel has to implement `switching`")),
     }

@@ -24,7 +24,7 @@ pub const ENTRY: Entry = Entry {
     make: |spec, system| {
         let n = system.dimensions();
         Ok(Some(Box::new(Exact {
-            scales: system.scales(),
+            scales: system.facts().scales.clone(),
             most: spec.whole("iterations", tolerances::PROJECTIONS, 1..=1000)?,
             rate: vec![0.0; n.q],
             step: vec![0.0; n.v],

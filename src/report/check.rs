@@ -103,7 +103,7 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
     let (system, Assembly { q, v, vdot, lambda, .. }) = (prepared.system(), &prepared.assembly);
     let found = Rank::at(system, OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda });
     let n = system.dimensions();
-    let names = system.names().lambda;
+    let names = system.facts().names.lambda.clone();
     Check {
         scene: prepared.name.clone(),
         dimension: D,
@@ -121,9 +121,9 @@ fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check 
         distance_to_singularity: found.distance_to_singularity,
         mass_range: found.mass_range,
         fastest_mode: found.fastest_mode,
-        length_scale: system.length(),
+        length_scale: system.facts().length,
         bodies: bodies(model),
-        joints: system.groups().iter().map(|group| joint_item(group, &names)).collect(),
+        joints: system.facts().groups().iter().map(|group| joint_item(group, &names)).collect(),
         forces: model
             .given_forces()
             .iter()
@@ -151,18 +151,18 @@ fn bodies<const D: usize>(model: &Model<D>) -> Vec<Element> {
 fn beam_item<const D: usize>(beam: &BeamLine, node: &Part<D>) -> Element {
     let elements = beam.elements.len();
     let nodes = beam.abscissae.len();
-    let detail = format!("{elements} elements, {nodes} nodes of {}", node.body.coordinate_names().join(" "));
+    let detail = format!("{elements} elements, {nodes} nodes of {}", node.facts.coordinate_names.join(" "));
     Element::new(&beam.name, "flexible beam, absolute", detail)
 }
 
 fn body_item<const D: usize>(part: &Part<D>) -> Element {
     let kind = match (part.nq, part.nv) {
         (7, 6) => "rigid, quaternion",
-        _ if part.body.elastic_count() > 0 => "flexible, floating frame",
-        _ if part.body.oriented() => "rigid",
+        _ if part.facts.elastic_count > 0 => "flexible, floating frame",
+        _ if part.facts.oriented => "rigid",
         _ => "point mass",
     };
-    let names = part.body.coordinate_names();
+    let names = &part.facts.coordinate_names;
     let detail = match names.as_slice() {
         [first @ .., last] if names.len() > SHOWN_NAMES => {
             let left_out = first.len() - (SHOWN_NAMES - 2);
@@ -183,7 +183,7 @@ fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {
     let gravity = model.gravity.iter().all(|&g| g == 0.0) && central == 0;
     let quaternions = model.given_bodies().iter().all(|part| part.nq == part.nv);
     let driven = model.joints.iter().all(|joint| !joint.element.depends_on_time());
-    let is_rigid = model.beams.is_empty() && model.bodies.iter().all(|part| part.body.elastic_count() == 0);
+    let is_rigid = model.beams.is_empty() && model.bodies.iter().all(|part| part.facts.elastic_count == 0);
     [
         (gravity, "gravity: none is given"),
         (D == 2, "the third dimension: no z, no quaternion"),

@@ -54,7 +54,7 @@ impl Answer for Stabilizations<'_> {
 
     fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         folder.table(stem, &stabilizations_table(&self.runs)?)?;
-        let length = self.prepared.system().length();
+        let length = self.prepared.system().facts().length;
         folder.figure(stem, stabilizations_figure(&self.prepared.name, &self.runs, length))
     }
 }

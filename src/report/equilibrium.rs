@@ -65,7 +65,7 @@ impl EquilibriumReport {
 
     pub fn of(prepared: &PreparedScene, found: Equilibrium) -> EquilibriumReport {
         let system = prepared.system();
-        let names = system.names();
+        let names = system.facts().names.clone();
         let vdot = vec![0.0; names.v.len()];
         let at = OperatingPoint { t: found.t, q: &found.q, v: &found.v, vdot: &vdot, lambda: &found.lambda };
         let outputs = OutputValues::at(system, at);

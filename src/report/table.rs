@@ -26,7 +26,7 @@ impl OutputValues {
 
     /// The values of all outputs of a system at a state.
     pub fn at(system: &dyn MechanicalSystem, at: OperatingPoint) -> Self {
-        let columns = system.columns();
+        let columns = system.facts().outputs.clone();
         let mut values = vec![0.0; columns.len()];
         system.outputs(at, &mut values, &mut Scratch::default());
         OutputValues { columns, values }

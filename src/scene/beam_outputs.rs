@@ -100,10 +100,10 @@ fn cut<const D: usize>(
         return Ok(known);
     }
     let part = &bodies[body];
-    let own = part.first_marker..part.first_marker + part.body.marker_count();
+    let own = part.first_marker..part.first_marker + part.body.markers().len();
     let slack = 1e-9 * line.length();
     let is_beyond = |marker: MarkerId| {
-        let s = part.body.marker(marker - own.start).offset[0];
+        let s = part.body.markers()[marker - own.start].offset[0];
         s >= at - slack && s > slack
     };
     let origin = line.point([0.0; D]);

@@ -44,7 +44,7 @@ pub fn central<const D: usize>(
     for part in &bodies[..bodies.len() - build.markers.states.len()] {
         let mass = mass(part).map_err(in_gravity)?;
         if mass > 0.0 {
-            let element = Box::new(CentralGravity::new(mu, mass, centre, &part.body.marker(0).offset));
+            let element = Box::new(CentralGravity::new(mu, mass, centre, &part.body.markers()[0].offset));
             let name = format!("gravity.{}", part.name);
             all.push(Connection { name, kind: "gravity", element, markers: vec![part.first_marker] });
         }
@@ -54,12 +54,12 @@ pub fn central<const D: usize>(
 
 /// Mass of a rigid body; zero if its centre of mass does not move.
 fn mass<const D: usize>(part: &Part<D>) -> Result<f64> {
-    let Some(freedom) = part.body.freedom() else {
+    let Some(freedom) = &part.facts.freedom else {
         return Err(flexible(&part.name));
     };
-    let mut values = vec![0.0; part.body.mass_pattern().len()];
+    let mut values = vec![0.0; part.facts.mass_pattern.len()];
     part.body.mass(&vec![0.0; part.nq], &mut values);
-    let first = part.body.mass_pattern().iter().position(|place| *place == (0, 0));
+    let first = part.facts.mass_pattern.iter().position(|place| *place == (0, 0));
     Ok(first.filter(|_| !freedom.translations.is_empty()).map_or(0.0, |first| values[first]))
 }
 

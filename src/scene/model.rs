@@ -3,7 +3,7 @@
 use super::place::{Cut, Place};
 use super::units::Unit;
 use crate::body::flexible::{Profile, Section};
-use crate::body::{Body, Energy, Formula, Frame, Marker, MarkerId, MarkerTable, Probe, Switches, Turning};
+use crate::body::{Body, BodyFacts, Energy, Formula, Frame, Marker, MarkerId, MarkerTable, Probe, Switches, Turning};
 use crate::force::{Beam, Force, Half, Station};
 use crate::joint::Joint;
 use crate::math::{Scalar, Taylor};
@@ -49,6 +49,8 @@ pub struct Part<const D: usize> {
     pub name: String,
     /// Kinematics, inertia and energy of the body.
     pub body: Box<dyn Body<D>>,
+    /// What the body says of itself.
+    pub facts: BodyFacts,
     /// Index of its first marker in the table.
     pub first_marker: MarkerId,
     /// Index of its first coordinate in q.

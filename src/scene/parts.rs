@@ -5,7 +5,7 @@ use super::format::SceneFile;
 use super::keys::{object, start_and_markers, take_kind, take_name, taken};
 use super::markers;
 use super::model::{BeamLine, Part};
-use crate::body::{BodyKind, Build, Built, Marker, MarkerId, MarkerTable, parse};
+use crate::body::{BodyFacts, BodyKind, Build, Built, Marker, MarkerId, MarkerTable, parse};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use serde_json::{Map, Value};
@@ -109,26 +109,26 @@ impl<const D: usize> Parts<D> {
     fn place(&mut self, name: String, markers: impl Iterator<Item = String>, built: Built<D>) {
         let index = self.bodies.len();
         let first_marker = self.table.names.len();
-        let oriented = built.body.oriented();
+        let facts = built.body.facts();
         let all = [name.clone()].into_iter().chain(markers);
-        all.for_each(|marker| self.table.add(marker, Some(index), oriented));
+        all.for_each(|marker| self.table.add(marker, Some(index), facts.oriented));
         self.table.body_names.push(name.clone());
-        self.add_part(name, first_marker, built);
+        self.add_part(name, first_marker, facts, built);
     }
 
     /// Adds a state: a body whose marker no reference can name.
     pub fn place_state(&mut self, name: &str, built: Built<D>) {
         let first_marker = self.table.names.len();
         self.table.add_state(name.to_string(), self.bodies.len());
-        self.add_part(name.to_string(), first_marker, built);
+        self.add_part(name.to_string(), first_marker, built.body.facts(), built);
     }
 
-    fn add_part(&mut self, name: String, first_marker: MarkerId, built: Built<D>) {
+    fn add_part(&mut self, name: String, first_marker: MarkerId, facts: BodyFacts, built: Built<D>) {
         let first_q = self.q.len();
         let first_v = self.v.len();
         let nq = built.q.len();
         let nv = built.v.len();
-        self.bodies.push(Part { name, first_marker, first_q, first_v, nq, nv, body: built.body });
+        self.bodies.push(Part { name, first_marker, first_q, first_v, nq, nv, facts, body: built.body });
         self.q.extend(built.q);
         self.v.extend(built.v);
     }

@@ -171,7 +171,7 @@ fn joined<const D: usize>(
 /// The largest coordinate of position, m.
 fn extent<const D: usize>(bodies: &[Part<D>], q: &[f64]) -> f64 {
     let positions = bodies.iter().flat_map(|part| {
-        let names = part.body.coordinate_names().into_iter().zip(&q[part.first_q..]);
+        let names = part.facts.coordinate_names.iter().zip(&q[part.first_q..]);
         names.filter(|(name, _)| ["x", "y", "z"].contains(&name.as_str())).map(|(_, x)| x.abs()).collect::<Vec<_>>()
     });
     positions.fold(0.0, f64::max)

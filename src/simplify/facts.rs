@@ -144,7 +144,7 @@ impl Facts {
     /// Largest displacement of a beam in a floating frame relative to its length.
     pub fn deformation(&self, beam: &str) -> Option<f64> {
         let system = self.prepared.system();
-        let limited = system.limited();
+        let limited = system.facts().limited.clone();
         let is_own = |part: &crate::system::Limited| part.part == beam && part.theory == Theory::SmallDisplacements;
         let place = limited.iter().position(is_own)?;
         let mut now = vec![0.0; limited.len()];
@@ -168,8 +168,8 @@ impl Facts {
     /// Values of the watched outputs that a model gives to a few states of the recorded motion; `None` where it has
     /// other coordinates, or no accelerations there.
     pub fn at_once(&self, model: &AnyMechanism) -> Option<Vec<Vec<f64>>> {
-        let own = self.prepared.system().names();
-        let other = model.system().names();
+        let own = self.prepared.system().facts().names.clone();
+        let other = model.system().facts().names.clone();
         (own.q == other.q && own.v == other.v).then(|| self.read(model, &self.watched, self.few_states())).flatten()
     }
 
@@ -199,7 +199,7 @@ impl Facts {
     pub fn work_share(&self, edited: &Value) -> Option<f64> {
         let edited = self.source.prepare(edited).ok().filter(|_| self.is_motion)?;
         let systems = [self.prepared.system(), edited.system()];
-        let [own, other] = systems.map(MechanicalSystem::names);
+        let [own, other] = systems.map(|system| system.facts().names.clone());
         if own.q != other.q || own.v != other.v {
             return None;
         }
@@ -253,7 +253,7 @@ pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body:
         start.insert("angle".to_string(), json!(turn));
         start.insert("angular_velocity".to_string(), json!(spin[2]));
     } else if kind == "rigid" {
-        let names = prepared.system().names().q;
+        let names = prepared.system().facts().names.q.clone();
         match names.iter().position(|own| *own == format!("{name}.qw")) {
             Some(first) => drop(start.insert("rotation".to_string(), json!(state.q.get(first..first + 4)?))),
             // The rotation from which its coordinates count.

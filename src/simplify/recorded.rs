@@ -61,7 +61,7 @@ pub fn record(
         system,
         watched,
         scratch: Scratch::default(),
-        scales: system.scales(),
+        scales: system.facts().scales.clone(),
         recorded: Recorded::default(),
         watch: Watch::new(system),
     };

@@ -95,7 +95,7 @@ pub fn hints(
         let skipped = "nothing moves at the start: `holonom simplify` looks at the motion".to_string();
         return Ok(Hints { skipped, ..Hints::default() });
     }
-    let watched: Vec<String> = prepared.system().columns().into_iter().map(|column| column.name).collect();
+    let watched: Vec<String> = prepared.system().facts().outputs.iter().map(|column| column.name.clone()).collect();
     let time = span.end - span.start;
     // Without outputs nothing is known of what counts.
     let parts = if watched.is_empty() { vec![1.0; modes.len()] } else { seen(&modes, time) };
@@ -104,7 +104,7 @@ pub fn hints(
     let slowest_seen = is_seen.iter().map(|mode| mode.value.norm()).reduce(f64::min);
     let states = small_motions((&prepared, &lines(&source, &prepared)), &is_seen, time);
     let unseen = modes.iter().zip(&parts).filter(|(_, part)| **part < tolerances::UNSEEN_MODE);
-    let names = prepared.system().names().v;
+    let names = prepared.system().facts().names.v.clone();
     let unseen = unseen.map(|(mode, part)| unseen_mode(mode, *part, &names)).collect();
     let mut dynamics = Dynamics::new(prepared.system());
     dynamics.evaluate(span.start, start.0, start.1, Need::DYNAMICS);
@@ -194,7 +194,7 @@ fn lines(source: &Source, prepared: &PreparedScene) -> Vec<Line> {
 /// The largest angular velocity of a body or rod, rad/s, and velocity of a marker, in lengths of the scene per second, at
 /// the start with the velocities `v`.
 fn largest_speed(prepared: &PreparedScene, lines: &[Line], v: &[f64]) -> f64 {
-    let length = prepared.system().length();
+    let length = prepared.system().facts().length;
     let placed = placed(prepared, &State { v: v.to_vec(), ..State::start(prepared) });
     let speed = |place: &Placed| (norm(&place.velocity) / length).max(norm(&place.spin));
     let turns = |[a, b]: &Line| {

@@ -175,7 +175,7 @@ impl Run<'_> {
         let jump = jumps(&now, &phi);
         let kink = jumps(&rate, &phi_dot);
         if let Some(row) = (0..jump.len()).find(|&row| jump[row].abs() > tolerances::SAME * self.scales[row]) {
-            let names = self.problem.dynamics.system.names().lambda;
+            let names = self.problem.dynamics.system.facts().names.lambda.clone();
             let by = two_digits(jump[row].abs());
             let reason = format!("what `{}` prescribes jumps by {by} m or rad", names[row]);
             return Err(
@@ -224,7 +224,7 @@ impl Run<'_> {
         let (now, loaded) = self.roads();
         let moving = self.tolerance.motion();
         self.y[moving] += loaded - potential;
-        let same = tolerances::SAME * self.problem.dynamics.system.length();
+        let same = tolerances::SAME * self.problem.dynamics.system.facts().length;
         let jump = |(old, new): &(Road, Road)| new.is_damped && (new.height - old.height).abs() > same;
         let Some((old, Road { tyre, height, .. })) = roads.into_iter().zip(now).find(jump) else { return Ok(()) };
         let signal = self.events.changed_signal(pieces, &format!("the force `{tyre}`"));

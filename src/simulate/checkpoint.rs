@@ -89,7 +89,7 @@ pub fn simulate_from(
 
 /// (q, v, w) at the start of a run.
 pub fn flat(system: &dyn MechanicalSystem, q: &[f64], v: &[f64]) -> Vec<f64> {
-    [q, v, &vec![0.0; 1 + system.works().len()]].concat()
+    [q, v, &vec![0.0; 1 + system.facts().works.len()]].concat()
 }
 
 impl Checkpoint {
@@ -126,11 +126,11 @@ impl Checkpoint {
         let mut terms = Terms::new(system);
         let mut scratch = Scratch::default();
         system.evaluate(self.t, q, v, Need::CONSTRAINTS, &mut terms, &mut scratch);
-        let scales = system.scales();
+        let scales = system.facts().scales.clone();
         let gap = |row: usize| terms.phi[row].abs() / scales[row];
         let widest = (0..n.lambda).max_by(|a, b| gap(*a).total_cmp(&gap(*b)));
         let Some(row) = widest.filter(|row| gap(*row).is_nan() || gap(*row) > JOINTS_OPEN) else { return Ok(()) };
-        let group = system.groups().into_iter().find(|group| group.rows.contains(&row));
+        let group = system.facts().groups().into_iter().find(|group| group.rows.contains(&row));
         let name = group.map_or(String::new(), |group| group.name);
         let gap = short(terms.phi[row]);
         Err(Error::input(format!("`{name}` is open by {gap} (m, rad) at the saved state, at t = {} s", clock(self.t)))
@@ -140,14 +140,14 @@ impl Checkpoint {
     /// True if the dimensions agree with those of the system.
     fn fits(&self, system: &dyn MechanicalSystem) -> bool {
         let n = system.dimensions();
-        let switches = system.switches();
+        let switches = system.switches().all;
         let exists = |piece: usize, s: &Switch| match s.thresholds {
             Thresholds::Held => piece <= 6,
             _ => piece < 2 || s.thresholds.get(piece.div_ceil(2) - 1).is_some(),
         };
         let are_pieces = self.pieces.iter().zip(switches).all(|(&piece, switch)| exists(piece as usize, switch));
         let lengths = [self.y.len(), self.turned_at.len(), self.pieces.len(), self.turned.len()];
-        let all = n.q + n.v + 1 + system.works().len();
+        let all = n.q + n.v + 1 + system.facts().works.len();
         lengths == [all, all, switches.len(), switches.len()]
             && self.statistics.is_possible()
             && are_pieces

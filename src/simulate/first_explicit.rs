@@ -16,5 +16,5 @@ const THRESHOLDS_OF_ADAMS: usize = 8;
 /// cubic signal, such as a road, has jumps in its third derivative.
 pub fn first_explicit(system: &dyn MechanicalSystem, rtol: f64) -> &'static str {
     let has_few = |switch: &Switch| switch.signal.is_none() && switch.thresholds.get(THRESHOLDS_OF_ADAMS).is_none();
-    if rtol <= RTOL_OF_ADAMS && system.switches().iter().all(has_few) { "adams" } else { "dop853" }
+    if rtol <= RTOL_OF_ADAMS && system.switches().all.iter().all(has_few) { "adams" } else { "dop853" }
 }

@@ -42,7 +42,7 @@ pub struct Gaps {
 
 impl Gaps {
     pub fn new(system: &dyn MechanicalSystem) -> Self {
-        let numbers = system.gaps();
+        let numbers = system.facts().gaps.clone();
         let zeros = vec![[0.0; 3]; numbers.len()];
         Gaps { start: zeros.clone(), end: zeros.clone(), within: zeros, numbers, cuts: 0, closed: None }
     }
@@ -107,7 +107,7 @@ impl Run<'_> {
             let Some(side) = Side::of_piece(self.events.pieces[number]) else { continue };
             let start = side.component(&self.gaps.start[i]);
             let at_end = side.component(&self.gaps.end[i]);
-            let reach = GAP_CLOSED * self.problem.dynamics.system.length();
+            let reach = GAP_CLOSED * self.problem.dynamics.system.facts().length;
             let is_closed_before = start <= reach;
             if at_end > reach || is_closed_before && at_end >= -reach {
                 continue;
@@ -168,7 +168,7 @@ impl Run<'_> {
         if self.gaps.numbers.is_empty() {
             return false;
         }
-        let far = GAP_OPEN * self.problem.dynamics.system.length();
+        let far = GAP_OPEN * self.problem.dynamics.system.facts().length;
         let closed = self.gaps.closed.take();
         let mut is_released = false;
         for (i, &number) in self.gaps.numbers.iter().enumerate() {

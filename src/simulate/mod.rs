@@ -201,7 +201,7 @@ impl<'a> Run<'a> {
             turned_at: zeros(),
             divided: span.start,
             factored: 0,
-            scales: system.scales(),
+            scales: system.facts().scales.clone(),
             tolerance,
             fixed,
             span,

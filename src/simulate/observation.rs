@@ -56,7 +56,7 @@ pub struct Observation<'a> {
     pub phi_ddot: &'a [f64],
     /// Work of forces without a potential and of moving constraints since the start, J.
     pub work: f64,
-    /// Work of the forces of [`MechanicalSystem::works`](crate::system::MechanicalSystem::works) since the start, J.
+    /// Work of the forces of [`SystemFacts::works`](crate::system::SystemFacts::works) since the start, J.
     pub works: &'a [f64],
     /// The pieces on which the run evaluates functions that change their form.
     pub pieces: &'a [Piece],
@@ -147,7 +147,7 @@ impl super::Run<'_> {
         let moving = dynamics.system.dimensions().moving();
         self.momentum.fill(0.0);
         dynamics.structure.mass.multiply_symmetric(&dynamics.terms.mass, v, &mut self.momentum);
-        let of_q = self.tolerance.weight(0.0, largest(dynamics.system.own(q)));
+        let of_q = self.tolerance.weight(0.0, largest(dynamics.system.dimensions().own(q)));
         let of_v = self.momentum.iter().zip(v).take(moving).map(|(p, v)| p.abs() * self.tolerance.weight(0.0, *v));
         of_v.sum::<f64>() + of_q * dynamics.terms.f.iter().take(moving).map(|f| f.abs()).sum::<f64>()
     }

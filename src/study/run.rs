@@ -76,7 +76,7 @@ impl<'a> Motion<'a> {
         let mut sink = Sampler {
             motion: self,
             scratch: Scratch::default(),
-            scales: self.system.scales(),
+            scales: self.system.facts().scales.clone(),
             rows: Vec::new(),
             sizes: Sizes::default(),
             drift: Drift::default(),

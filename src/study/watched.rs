@@ -23,7 +23,10 @@ impl Watched {
         let known = recorded(system);
         if known.is_empty() && names.is_empty() {
             let coordinate = |name| Column { name, unit: String::new() };
-            return Ok(Watched { columns: system.names().q.into_iter().map(coordinate).collect(), outputs: None });
+            return Ok(Watched {
+                columns: system.facts().names.q.clone().into_iter().map(coordinate).collect(),
+                outputs: None,
+            });
         }
         let place = |name: &String| find("output", name, known.iter().map(|column| column.name.as_str()));
         let places: Vec<usize> = match names {

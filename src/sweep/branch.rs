@@ -58,7 +58,7 @@ impl Ready {
     fn complete(self, value: f64, followed: Followed) -> Result<State> {
         let assembly = self.assemble(&followed.q)?;
         let system = self.mechanism.system();
-        let mut outputs = vec![0.0; system.columns().len()];
+        let mut outputs = vec![0.0; system.facts().outputs.len()];
         let Followed { dependent, rank_indicator, .. } = followed;
         let Assembly { q, v, vdot, lambda, .. } = assembly;
         let at = OperatingPoint { t: self.t, q: &q, v: &v, vdot: &vdot, lambda: &lambda };

@@ -54,8 +54,8 @@ impl Family {
         Ok(Sweep {
             scene: scene.name,
             range: range.clone(),
-            names: mechanism.system().names(),
-            outputs: mechanism.system().columns(),
+            names: mechanism.system().facts().names.clone(),
+            outputs: mechanism.system().facts().outputs.clone(),
             own_value: own,
             own: (is_own && range.contains(own)).then(|| start.point.clone()),
             points: first.into_iter().chain(middle).chain(second).collect(),

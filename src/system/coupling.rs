@@ -63,8 +63,8 @@ impl Couplings {
     ) -> Self {
         let own = |part: &crate::scene::Part<D>| {
             let first = pattern.entries.len();
-            let places = part.body.tangent_pattern().into_iter();
-            pattern.entries.extend(places.map(|(i, j)| (part.first_v + i, part.first_v + j)));
+            let places = part.facts.tangent_pattern.iter();
+            pattern.entries.extend(places.map(|&(i, j)| (part.first_v + i, part.first_v + j)));
             first..pattern.entries.len()
         };
         let bodies = model.bodies.iter().map(own).collect();

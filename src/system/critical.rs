@@ -57,9 +57,9 @@ pub(super) fn loads<const D: usize>(model: &Model<D>, part: &Part<D>) -> Vec<(Th
 /// The length of a beam hinged at both ends that buckles under the same axial force: between the outermost joints, or
 /// twice an end beyond them.
 fn free_length<const D: usize>(model: &Model<D>, part: &Part<D>, length: f64) -> f64 {
-    let own = part.first_marker..part.first_marker + part.body.marker_count();
+    let own = part.first_marker..part.first_marker + part.body.markers().len();
     let held = model.joints.iter().flat_map(|joint| &joint.markers).filter(|marker| own.contains(marker));
-    let places = held.map(|marker| part.body.marker(marker - own.start).offset[0]);
+    let places = held.map(|marker| part.body.markers()[marker - own.start].offset[0]);
     match places.fold(None, |ends, s| Some(ends.map_or([s, s], |[a, b]: [f64; 2]| [a.min(s), b.max(s)]))) {
         None => length,
         Some([first, last]) => (last - first).max(2.0 * first).max(2.0 * (length - last)),

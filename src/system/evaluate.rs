@@ -23,9 +23,9 @@ use std::sync::Arc;
 fn freedoms<const D: usize>(model: &Model<D>) -> Vec<Option<Arc<Freedom>>> {
     let mut last: Option<Arc<Freedom>> = None;
     let shared = |part: &Part<D>| {
-        let freedom = part.body.freedom()?;
-        if last.as_deref() != Some(&freedom) {
-            last = Some(Arc::new(freedom));
+        let freedom = part.facts.freedom.as_ref()?;
+        if last.as_deref() != Some(freedom) {
+            last = Some(Arc::new(freedom.clone()));
         }
         last.clone()
     };
@@ -66,7 +66,7 @@ impl<const D: usize> RigidParts<D> {
             }
         }
         let are_all_rigid = freedoms.iter().all(Option::is_some);
-        let is_rate = |part: &Part<D>| part.body.turning().is_none() && part.nq == part.nv;
+        let is_rate = |part: &Part<D>| part.facts.turning.is_none() && part.nq == part.nv;
         let mut parts = RigidParts {
             are_all_rigid,
             rates_are_velocities: are_all_rigid && model.bodies.iter().all(is_rate),
@@ -81,10 +81,10 @@ impl<const D: usize> RigidParts<D> {
         for (part, places) in model.bodies.iter().zip(masses) {
             let q = vec![0.0; part.nq];
             let v = vec![0.0; part.nv];
-            if part.body.has_constant_mass() {
+            if part.facts.has_constant_mass {
                 part.body.mass(&q, &mut parts.mass[places.clone()]);
             }
-            if part.body.has_constant_forces() {
+            if part.facts.has_constant_forces {
                 part.body.own_forces(&q, &v, &model.gravity, &mut parts.weight[part.first_v..][..part.nv]);
             }
         }
@@ -206,7 +206,7 @@ impl<const D: usize> Mechanism<D> {
         match self.model().markers.bodies[marker] {
             Some(body) if self.rigid.freedoms[body].is_some() => {
                 let part = &self.model().bodies[body];
-                poses[body].frame(part.body.marker(marker - part.first_marker))
+                poses[body].frame(&part.body.markers()[marker - part.first_marker])
             }
             _ => motion[marker],
         }

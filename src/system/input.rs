@@ -7,7 +7,6 @@ use super::workspace::Workspace;
 use crate::body::{Dual6, MOST_MARKERS, Wrench};
 use crate::math::array::from_fn;
 use crate::math::{Taylor, Time};
-use crate::scene::Target;
 use nalgebra::DMatrix;
 
 /// The equation that an input u is part of; it decides which derivatives of u are.
@@ -33,14 +32,6 @@ impl Excitation {
 }
 
 impl<const D: usize> Mechanism<D> {
-    pub(super) fn excitation(&self, target: Target) -> Excitation {
-        match target {
-            Target::Component { .. } | Target::Road { rate: false, .. } => Excitation::Force,
-            Target::Road { rate: true, .. } => Excitation::Displacement,
-            Target::Driver { joint } => Excitation::Constraint(self.rows_of_joint(joint).start),
-        }
-    }
-
     /// df/du of each input or, for `derivative` 1, df/du', n_v x n_u; the frames of `work` are those at q.
     pub(super) fn write_input_forces(
         &self,

@@ -42,7 +42,7 @@ impl LeviCivita {
     /// A body with constant M. Where N = I nothing changes along the motion; else h = w x J w of the angular velocity w
     /// in the body's axes, and W x = (x x J w + w x J x + J (w x x))/2.
     pub(super) fn add_constant_mass<const D: usize>(&mut self, part: &Part<D>, at: &OperatingPoint) {
-        let Some(first) = part.body.turning() else { return };
+        let Some(first) = part.facts.turning else { return };
         let inertia = inertia(part, of(at.q, part, true), first);
         let momentum = |w: &[f64; 3]| -> [f64; 3] { from_fn(|i| dot(&inertia[i], w)) };
         for (target, v) in [(&mut self.w, at.v), (&mut self.w_dot, at.vdot)] {
@@ -61,7 +61,7 @@ impl LeviCivita {
 
 /// The block of M that belongs to the angular velocity, whose first component has this index.
 fn inertia<const D: usize>(part: &Part<D>, q: &[f64], first: usize) -> [[f64; 3]; 3] {
-    let places = part.body.mass_pattern();
+    let places = &part.facts.mass_pattern;
     let mut values = vec![0.0; places.len()];
     part.body.mass(q, &mut values);
     let mut inertia = [[0.0; 3]; 3];

@@ -127,9 +127,9 @@ pub(super) fn limits<const D: usize>(model: &Model<D>) -> (Vec<Limited>, Vec<Ext
 
 /// Places of a body with elastic coordinates, which are the last ones of its q.
 fn bending<const D: usize>(part: &Part<D>) -> Option<Extent<D>> {
-    let first_q = part.first_q + part.nq - part.body.elastic_count();
+    let first_q = part.first_q + part.nq - part.facts.elastic_count;
     let mut points = part.body.shapes().to_vec();
-    let mut length = part.body.reach();
+    let mut length = part.facts.reach;
     if let Some(Bent { line, .. }) = part.body.bent() {
         length = line.length();
         let place = |k: usize| from_fn(|i| if i == 0 { length * k as f64 / POINTS as f64 } else { 0.0 });

@@ -4,26 +4,25 @@ use super::coupling::Couplings;
 use super::evaluate::RigidParts;
 use super::levi_civita::LeviCivita;
 use super::limits::{Extent, limits};
-use super::output::column;
+use super::model_facts::facts_of;
 use super::output_tangent::{OutputTangent, Slopes};
-use super::rows::{JointRows, PlacedJoint, groups, prescribed};
-use super::scale::{length_scale, named_lengths, row_scales};
-use super::spin::{Placement, Rotation, Spin};
+use super::rows::{JointRows, PlacedJoint, prescribed};
+use super::spin::{Rotation, Spin};
 use super::support::Support;
 use super::tangent::{Evaluation, OperatingPoint, Tangent};
 use super::view::{Plain, gathered};
 use super::workspace::Workspace;
 use super::{
-    Column, Dimensions, Energy, Excitation, Feed, Group, Limited, MechanicalSystem, Names, Need, Prescribed, Road,
-    Scratch, Structure, Terms,
+    Dimensions, Energy, Feed, MechanicalSystem, Need, Prescribed, Road, Scratch, Structure, SwitchFacts, SystemFacts,
+    Terms,
 };
-use crate::body::{Frame, cross};
+use crate::body::{Frame, Switches, cross};
 use crate::math::array::from_fn;
-use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Rate, Regime, Taylor, Time};
-use crate::scene::{Input, Model, Part};
+use crate::scene::{Model, Part};
 use nalgebra::DMatrix;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A model with the places of its coordinates, rows and matrix entries fixed.
@@ -39,8 +38,7 @@ pub struct Mechanism<const D: usize> {
     pub(super) rigid: RigidParts<D>,
     /// The velocities that move each marker; none for markers on the ground.
     pub(super) supports: Vec<Support>,
-    pub(super) length: f64,
-    limited: Vec<Limited>,
+    facts: SystemFacts,
     extents: Vec<Extent<D>>,
 }
 
@@ -53,8 +51,8 @@ impl<const D: usize> Mechanism<D> {
         let mut masses = Vec::new();
         for part in &model.bodies {
             let first = mass.entries.len();
-            let places = part.body.mass_pattern().into_iter();
-            mass.entries.extend(places.map(|(i, j)| (part.first_v + i, part.first_v + j)));
+            let places = part.facts.mass_pattern.iter();
+            mass.entries.extend(places.map(|&(i, j)| (part.first_v + i, part.first_v + j)));
             masses.push(first..mass.entries.len());
         }
         let mut g = Pattern { rows: 0, cols: v, entries: Vec::new() };
@@ -62,14 +60,21 @@ impl<const D: usize> Mechanism<D> {
         let joints: Vec<JointRows> =
             model.joints.iter().map(|joint| JointRows::new(&supports, joint, &mut g)).collect();
         let rigid = RigidParts::new(&model, &joints, &masses);
-        let dimensions =
-            Dimensions { q: q + model.turnings.len(), v, lambda: g.rows, nonholonomic: 0, states: model.states };
-        let length = length_scale(&model);
+        let turning_angles = model.turnings.len();
+        let dimensions = Dimensions {
+            q: q + turning_angles,
+            v,
+            lambda: g.rows,
+            nonholonomic: 0,
+            states: model.states,
+            turning_angles,
+        };
         let mut tangent = Pattern { rows: v, cols: v, entries: Vec::new() };
         let couplings = Couplings::new(&model, &supports, &rigid, &mut tangent);
         let structure = Structure { analysis: rigid.analysis(), ..Structure::new(mass, g, tangent) };
         let (limited, extents) = limits(&model);
-        Mechanism { model, dimensions, structure, joints, couplings, masses, rigid, supports, length, limited, extents }
+        let facts = facts_of(&model, &joints, &masses, limited);
+        Mechanism { model, dimensions, structure, joints, couplings, masses, rigid, supports, facts, extents }
     }
 
     /// The model that the equations belong to.
@@ -154,7 +159,7 @@ pub(super) fn place_body<const D: usize>(
     (q, v, vdot): (&[f64], &[f64], &[f64]),
     motion: &mut [Frame<Taylor<f64>, D>],
 ) {
-    let frames = &mut motion[..part.body.marker_count()];
+    let frames = &mut motion[..part.body.markers().len()];
     let vdot = (!vdot.is_empty()).then(|| of(vdot, part, false));
     part.body.motion(of(q, part, true), of(v, part, false), vdot, 0, frames);
 }
@@ -177,29 +182,22 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         self.dimensions
     }
 
+    fn facts(&self) -> Cow<'_, SystemFacts> {
+        Cow::Borrowed(&self.facts)
+    }
+
+    fn switches(&self) -> SwitchFacts<'_> {
+        let Switches { all, owners, time_functions, .. } = &self.model.switches;
+        SwitchFacts { all, owners, time_functions }
+    }
+
     fn structure(&self) -> Structure {
         self.structure.clone()
     }
 
-    fn names(&self) -> Names {
-        self.list_names()
-    }
-
-    fn turning_angles(&self) -> usize {
-        self.model.turnings.len()
-    }
-
     fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
-        self.own_rate(q, v, qdot);
-        self.turning_rates(q, v, qdot);
-    }
-
-    fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
         self.write_rates(q, v, qdot);
-    }
-
-    fn rotations(&self) -> Vec<Rotation> {
-        self.quaternions().collect()
+        self.turning_rates(q, v, qdot);
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
@@ -231,14 +229,14 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
 
     fn bracket(&self, v: &[f64], x: &[f64], out: &mut [f64]) {
         out.fill(0.0);
-        for Rotation { v: first, .. } in self.quaternions() {
+        for &Rotation { v: first, .. } in &self.facts.rotations {
             let three = |all: &[f64]| -> [f64; 3] { from_fn(|i| all[first + i]) };
             out[first..][..3].copy_from_slice(&cross(&three(v), &three(x)));
         }
     }
 
     fn levi_civita(&self, at: OperatingPoint, connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
-        let is_constant = self.model.bodies.iter().all(|part| part.body.has_constant_mass());
+        let is_constant = self.model.bodies.iter().all(|part| part.facts.has_constant_mass);
         if is_constant {
             connection.clear();
             for part in &self.model.bodies {
@@ -252,16 +250,6 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         self.driven_spin(t)
     }
 
-    fn placements(&self) -> Option<Vec<Placement>> {
-        self.placed_coordinates()
-    }
-
-    fn add_stiffness(&self, mass: &mut [f64]) {
-        for (part, places) in self.model.bodies.iter().zip(&self.masses) {
-            part.body.add_stiffness(&mut mass[places.clone()]);
-        }
-    }
-
     fn normalize(&self, q: &mut [f64]) {
         for part in &self.model.bodies {
             part.body.normalize(&mut q[part.first_q..part.first_q + part.nq]);
@@ -272,22 +260,6 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
         let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
         Some(self.viewed(at, scratch, |view| self.energies(view)))
-    }
-
-    fn columns(&self) -> Vec<Column> {
-        self.model.outputs.iter().map(column).collect()
-    }
-
-    fn works(&self) -> Vec<Column> {
-        self.model.works.iter().map(column).collect()
-    }
-
-    fn groups(&self) -> Vec<Group> {
-        groups(&self.model, &self.joints)
-    }
-
-    fn lengths(&self) -> Vec<(String, f64)> {
-        named_lengths(&self.model)
     }
 
     fn prescribed(&self, t: f64) -> Vec<Prescribed> {
@@ -303,11 +275,6 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         true
     }
 
-    fn inputs(&self) -> Vec<Column> {
-        let column = |input: &Input| Column { name: input.name.clone(), unit: input.unit.to_string() };
-        self.model.inputs.iter().map(column).collect()
-    }
-
     fn input_forces(&self, t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
         self.at(q, v, scratch, |work, regime| self.write_input_forces(0, (Time { t, regime }, q), work, f));
     }
@@ -316,34 +283,13 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         self.at(q, v, scratch, |work, regime| self.write_input_forces(1, (Time { t, regime }, q), work, f));
     }
 
-    fn excitations(&self) -> Vec<Excitation> {
-        self.model.inputs.iter().map(|input| self.excitation(input.target)).collect()
-    }
-
     fn input_values(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {
         self.viewed(OperatingPoint { vdot: &[], ..at }, scratch, |view| self.write_input_values(view, out));
-    }
-
-    fn switches(&self) -> &[Switch] {
-        &self.model.switches.all
-    }
-
-    fn owner_of_switch(&self, switch: usize) -> &str {
-        self.model.switches.owners.get(switch).map_or("", String::as_str)
-    }
-
-    fn infinite_force(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<String> {
-        let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
-        self.viewed(at, scratch, |view| self.find_infinite_force(view))
     }
 
     fn feeds(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Vec<Feed> {
         let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
         self.viewed(at, scratch, |view| self.list_feeds(view))
-    }
-
-    fn gaps(&self) -> Vec<usize> {
-        self.gap_lines().map(|(number, _)| number).collect()
     }
 
     fn write_gaps(&self, q: &[f64], out: &mut [[f64; 3]]) {
@@ -357,35 +303,15 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         self.at(q, v, scratch, |work, regime| self.find_roads(Time { t, regime }, work))
     }
 
-    fn time_functions(&self) -> &[TimeFunction] {
-        &self.model.switches.time_functions
-    }
-
     fn switching(&self, at: OperatingPoint, out: &mut [Rate], scratch: &mut Scratch) {
         self.at(at.q, at.v, scratch, |work, regime| self.write_arguments(at, regime, work, out));
-    }
-
-    fn limited(&self) -> &[Limited] {
-        &self.limited
     }
 
     fn deformations(&self, q: &[f64], out: &mut [f64]) {
         out.iter_mut().zip(&self.extents).for_each(|(out, extent)| *out = self.deformation(extent, q));
     }
 
-    fn turning_bodies(&self) -> Vec<String> {
-        self.oriented_bodies().map(|part| part.name.clone()).collect()
-    }
-
     fn spins(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
         self.write_spins(q, v, out);
-    }
-
-    fn length(&self) -> f64 {
-        self.length
-    }
-
-    fn scales(&self) -> Vec<f64> {
-        row_scales(&self.model, self.length)
     }
 }

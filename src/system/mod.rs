@@ -8,12 +8,14 @@ mod coupling;
 mod critical;
 mod equations;
 mod evaluate;
+mod facts;
 mod gaps;
 mod input;
 mod levi_civita;
 mod limits;
 mod locked;
 mod mechanism;
+mod model_facts;
 mod output;
 mod output_tangent;
 mod portions;
@@ -36,6 +38,9 @@ mod view;
 mod workspace;
 
 pub use equations::Equations;
+#[doc(hidden)]
+pub use facts::Group;
+pub use facts::{Column, Dimensions, Names, SwitchFacts, SystemFacts};
 pub use input::Excitation;
 #[doc(hidden)]
 pub use levi_civita::LeviCivita;
@@ -55,50 +60,9 @@ pub use terms::{Need, Scratch, Structure, Terms};
 #[doc(hidden)]
 pub use crate::body::Energy;
 use crate::math::Rate;
-use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use nalgebra::DMatrix;
-
-/// Numbers of coordinates, velocities and constraints.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Dimensions {
-    /// n_q
-    pub q: usize,
-    /// n_v
-    pub v: usize,
-    /// n_c
-    pub lambda: usize,
-    /// Number of nonholonomic constraints, the last ones: A v + a = 0, with A in the rows of G and A v + a in those of
-    /// phi'. They have no position, so phi is zero there.
-    pub nonholonomic: usize,
-    /// Number of velocities, the last ones, that are states xi of controllers, filters and actuators: xi' = r(t, q, v,
-    /// xi), with r in their rows of f and the identity in those of M. They have no position and no constraint: N and G
-    /// are zero there. Their errors are tested as those of velocities.
-    pub states: usize,
-}
-
-impl Dimensions {
-    /// Number of constraints that have a position, which come first.
-    pub fn holonomic(self) -> usize {
-        self.lambda - self.nonholonomic
-    }
-
-    /// Number of velocities that move q, which come first.
-    pub fn moving(self) -> usize {
-        self.v - self.states
-    }
-}
-
-/// Names of the columns of a trajectory.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Names {
-    /// Coordinates, n_q.
-    pub q: Vec<String>,
-    /// Velocities, n_v; the states xi come last.
-    pub v: Vec<String>,
-    /// Multipliers, n_c.
-    pub lambda: Vec<String>,
-}
+use std::borrow::Cow;
 
 /// What a force does at a state.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,18 +74,8 @@ pub struct Feed {
     pub power: f64,
     /// Sum of the sizes of its forces and torques, N and N m.
     pub size: f64,
-}
-
-/// The rows of phi that belong to one joint.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[doc(hidden)]
-pub struct Group {
-    /// Name of the joint in the scene.
-    pub name: String,
-    /// Type of the joint, such as `revolute`.
-    pub kind: String,
-    /// Range of the rows in phi.
-    pub rows: std::ops::Range<usize>,
+    /// False if a component of them is infinite or not a number.
+    pub is_finite: bool,
 }
 
 /// A row of phi that depends on t explicitly.
@@ -134,15 +88,6 @@ pub struct Prescribed {
     pub value: Option<f64>,
 }
 
-/// Name and unit of an output or input.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Column {
-    /// Name in the scene and in the header of files.
-    pub name: String,
-    /// Unit, such as `rad`; empty where it is not known.
-    pub unit: String,
-}
-
 /// M(q) v' + G(q,t)^T lambda = f(t,q,v), phi(q,t) = 0, q' = N(q) v.
 ///
 /// The last velocities may be states xi, see [`Dimensions::states`]: f, K and C then contain r and its derivatives, so
@@ -152,6 +97,17 @@ pub struct Column {
 pub trait MechanicalSystem: Send + Sync {
     /// n_q, n_v and n_c, and how many of the last ones are states or nonholonomic.
     fn dimensions(&self) -> Dimensions;
+
+    /// What never changes: names, units, lengths. Evaluations do not ask for it. Default: numbered
+    /// names, and none of what is optional.
+    fn facts(&self) -> Cow<'_, SystemFacts> {
+        Cow::Owned(SystemFacts::new(self.dimensions()))
+    }
+
+    /// Switching functions and functions of time. Default: none.
+    fn switches(&self) -> SwitchFacts<'_> {
+        SwitchFacts::default()
+    }
 
     /// Fills the terms named by `need` at (t, q, v); filling more is allowed. The places of the values of M and G are
     /// those of [`structure`](Self::structure). All values may be stale on entry.
@@ -187,38 +143,9 @@ pub trait MechanicalSystem: Send + Sync {
         false
     }
 
-    /// Names of q, v and lambda. Default: `q1, q2 ...`, `v1 ...` and `xi1 ...`, `lambda1 ...`.
-    fn names(&self) -> Names {
-        let n = self.dimensions();
-        let numbered = |prefix: &str, n: usize| (1..=n).map(|i| format!("{prefix}{i}")).collect::<Vec<String>>();
-        let v = [numbered("v", n.moving()), numbered("xi", n.states)].concat();
-        Names { q: numbered("q", n.q), v, lambda: numbered("lambda", n.lambda) }
-    }
-
-    /// Number of coordinates, the last ones, that count full turns of angles which the others give modulo 2 pi.
-    /// Default: 0.
-    fn turning_angles(&self) -> usize {
-        0
-    }
-
-    /// The coordinates without the turning angles.
-    fn own<'q>(&self, q: &'q [f64]) -> &'q [f64] {
-        &q[..q.len() - self.turning_angles()]
-    }
-
-    /// q' = N(q) v. Default: N = I.
+    /// q' = N(q) v; without the rates of turning angles, where `qdot` has no place for them. Default: N = I.
     fn rate(&self, _q: &[f64], v: &[f64], qdot: &mut [f64]) {
         qdot.copy_from_slice(&v[..qdot.len()]);
-    }
-
-    /// q' = N(q) v without the rates of turning angles, whose entries are not written.
-    fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]) {
-        self.rate(q, v, qdot);
-    }
-
-    /// The unit quaternions among the coordinates. Default: none.
-    fn rotations(&self) -> Vec<Rotation> {
-        Vec::new()
     }
 
     /// The constant rotation about a fixed axis that drives prescribe at `t`; `None`, the default, where nothing is
@@ -226,21 +153,6 @@ pub trait MechanicalSystem: Send + Sync {
     fn prescribed_spin(&self, _t: f64) -> Option<Spin> {
         None
     }
-
-    /// Rotation of the axes in which q and v are measured. Default: none, the axes of the world.
-    fn axes(&self) -> Option<Spin> {
-        None
-    }
-
-    /// The coordinates that change when the world is rotated; all others are invariant. `None`, the default, where
-    /// bodies have coordinates along fixed directions of the world.
-    fn placements(&self) -> Option<Vec<Placement>> {
-        None
-    }
-
-    /// mass += s^2 times the stiffness of bodies against their own deformation, at the places of M: assembly then
-    /// closes loops by moving bodies rather than by bending them. Default: nothing.
-    fn add_stiffness(&self, _mass: &mut [f64]) {}
 
     /// Brings redundant coordinates (quaternions) back to their normal form.
     fn normalize(&self, _q: &mut [f64]) {}
@@ -250,34 +162,13 @@ pub trait MechanicalSystem: Send + Sync {
         None
     }
 
-    /// Names and units of the outputs. Default: none.
-    fn columns(&self) -> Vec<Column> {
-        Vec::new()
-    }
-
-    /// Names and units of the works of single forces since the start of a run, which are no functions of the state:
-    /// the integrals of [`Terms::powers`]. Default: none.
-    fn works(&self) -> Vec<Column> {
-        Vec::new()
-    }
-
     /// Writes the outputs at a state with its v' and lambda.
     fn outputs(&self, _at: OperatingPoint, _out: &mut [f64], _scratch: &mut Scratch) {}
 
     /// Derivatives of all outputs at a state with its v' and lambda. Returns false where there are outputs without
     /// derivatives.
     fn output_tangent(&self, _at: OperatingPoint, _tangent: &mut OutputTangent, _scratch: &mut Scratch) -> bool {
-        self.columns().is_empty()
-    }
-
-    /// The inputs u: changes of what the equations contain, zero in a simulation. Default: none.
-    fn inputs(&self) -> Vec<Column> {
-        Vec::new()
-    }
-
-    /// The equation that each input is part of. Default: f(u).
-    fn excitations(&self) -> Vec<Excitation> {
-        vec![Excitation::Force; self.inputs().len()]
+        self.facts().outputs.is_empty()
     }
 
     /// df/du, n_v x n_u: the generalized forces per unit of each input.
@@ -293,24 +184,8 @@ pub trait MechanicalSystem: Send + Sync {
         out.fill(0.0);
     }
 
-    /// Switching functions, at whose thresholds the equations change: see [`Regime`](crate::math::Regime). Default:
-    /// none.
-    fn switches(&self) -> &[Switch] {
-        &[]
-    }
-
-    /// Owner of a switching function, such as "the force `push`".
-    fn owner_of_switch(&self, _switch: usize) -> &str {
-        "the equations"
-    }
-
     /// Writes the arguments of all switching functions with their rates along the motion, at a state with its v'.
     fn switching(&self, _at: OperatingPoint, _out: &mut [Rate], _scratch: &mut Scratch) {}
-
-    /// Name of the first force that is infinite or not a number at a state, if the forces have names.
-    fn infinite_force(&self, _t: f64, _q: &[f64], _v: &[f64], _scratch: &mut Scratch) -> Option<String> {
-        None
-    }
 
     /// What each force does at a state. Default: nothing is known.
     fn feeds(&self, _t: f64, _q: &[f64], _v: &[f64], _scratch: &mut Scratch) -> Vec<Feed> {
@@ -322,61 +197,18 @@ pub trait MechanicalSystem: Send + Sync {
         Vec::new()
     }
 
-    /// Numbers of the switching functions that hold a line: of forces along the gap between two markers that jump where
-    /// it closes. Default: none.
-    fn gaps(&self) -> Vec<usize> {
-        Vec::new()
-    }
-
     /// Writes the gaps, m, along the axes of the world.
     fn write_gaps(&self, _q: &[f64], _out: &mut [[f64; 3]]) {}
 
-    /// Functions of t alone in the equations: the time loop limits its steps so as to miss none. Default: none.
-    fn time_functions(&self) -> &[TimeFunction] {
-        &[]
-    }
-
-    /// Parts whose theory is valid up to some deformation only. Default: none.
-    fn limited(&self) -> &[Limited] {
-        &[]
-    }
-
-    /// Writes the deformation of each part of [`limited`](Self::limited), in the unit of its limit.
+    /// Writes the deformation of each part of [`SystemFacts::limited`], in the unit of its limit.
     fn deformations(&self, _q: &[f64], _out: &mut [f64]) {}
 
-    /// Names of the bodies that have an orientation. Default: none.
-    fn turning_bodies(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// Writes the magnitude of the angular velocity of each of [`turning_bodies`](Self::turning_bodies), rad/s.
+    /// Writes the magnitude of the angular velocity of each of [`SystemFacts::turning_bodies`], rad/s.
     fn spins(&self, _q: &[f64], _v: &[f64], _out: &mut [f64]) {}
-
-    /// Typical length of the mechanism, m. Default: 1.
-    fn length(&self) -> f64 {
-        1.0
-    }
-
-    /// Reference values of the rows of phi for drift: a length for rows in metres, 1 rad for angles. Default: 1.
-    fn scales(&self) -> Vec<f64> {
-        vec![1.0; self.dimensions().lambda]
-    }
-
-    /// Lengths by name, m, for messages: of bodies, from the origin to the farthest marker, and of rods. Default: none.
-    #[doc(hidden)]
-    fn lengths(&self) -> Vec<(String, f64)> {
-        Vec::new()
-    }
 
     /// The rows of phi that depend on t explicitly, with the values that they prescribe at `t`. Default: none.
     #[doc(hidden)]
     fn prescribed(&self, _t: f64) -> Vec<Prescribed> {
         Vec::new()
-    }
-
-    /// The rows of phi by joint. Default: each row is a group of its own.
-    fn groups(&self) -> Vec<Group> {
-        let names = self.names().lambda.into_iter().enumerate();
-        names.map(|(i, name)| Group { name, kind: "constraint".to_string(), rows: i..i + 1 }).collect()
     }
 }

@@ -1,41 +1,19 @@
 //! Outputs of a scene, written once over any scalar, so that values and derivatives agree.
 
+use super::Scratch;
 use super::locked::row_gradient;
 use super::mechanism::Mechanism;
 use super::tangent::OperatingPoint;
 use super::view::{Plain, View, gathered};
 use super::workspace::Workspace;
-use super::{Column, Names, Scratch};
 use crate::body::{Energy, Frame, MOST_MARKERS, Probe, Quantity, Wrench, norm, twist_len};
 use crate::force::{Action, Force, ForceOver};
 use crate::joint::{Joint, JointOver, MOST_ROWS, markers_per_pass};
 use crate::math::array::Each;
 use crate::math::{Regime, Scalar, Taylor};
-use crate::scene::{Connection, FORCE_SIZE, Measure, Part, TORQUE_SIZE, Watched};
-
-/// Name and unit of an output.
-pub(super) fn column(output: &Watched) -> Column {
-    Column { name: output.name.clone(), unit: output.unit.name.clone() }
-}
+use crate::scene::{FORCE_SIZE, Measure, TORQUE_SIZE};
 
 impl<const D: usize> Mechanism<D> {
-    /// Names of q, v and lambda.
-    pub(super) fn list_names(&self) -> Names {
-        let of_bodies = |names: fn(&Part<D>) -> Vec<String>| -> Vec<String> {
-            let bodies = self.model().bodies.iter();
-            bodies.flat_map(|part| names(part).into_iter().map(|name| part.full_name(&name))).collect()
-        };
-        let rows = |joint: &Connection<Box<dyn Joint<D>>>| -> Vec<String> {
-            let names = joint.element.row_names().into_iter();
-            names.map(|row| format!("joint.{}.{row}", joint.name)).collect()
-        };
-        Names {
-            q: [of_bodies(|part| part.body.coordinate_names()), self.turning_names()].concat(),
-            v: of_bodies(|part| part.body.velocity_names()),
-            lambda: self.model().joints.iter().flat_map(rows).collect(),
-        }
-    }
-
     /// Returns the state with its v' only where an output reads accelerations.
     pub(super) fn felt<'a>(&self, at: OperatingPoint<'a>) -> OperatingPoint<'a> {
         let is_accelerated = self.model().outputs.iter().any(|output| output.measure.feels_acceleration());

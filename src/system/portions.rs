@@ -40,8 +40,8 @@ impl BodyPortion {
                 v: own.first_v..last.first_v + last.nv,
                 masses: masses[first].start..masses[bodies.end - 1].end,
                 markers: before..markers,
-                varying_masses: bodies.clone().filter(|&i| !model.bodies[i].body.has_constant_mass()).collect(),
-                varying_forces: bodies.clone().filter(|&i| !model.bodies[i].body.has_constant_forces()).collect(),
+                varying_masses: bodies.clone().filter(|&i| !model.bodies[i].facts.has_constant_mass).collect(),
+                varying_forces: bodies.clone().filter(|&i| !model.bodies[i].facts.has_constant_forces).collect(),
                 bodies,
             });
         }

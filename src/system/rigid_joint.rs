@@ -188,7 +188,7 @@ impl<const D: usize> Side<D> {
             None => (model.bodies.len(), Arc::default(), &model.ground[marker]),
             Some(body) => {
                 let part = &model.bodies[body];
-                (body, freedoms[body].clone()?, part.body.marker(marker - part.first_marker))
+                (body, freedoms[body].clone()?, &part.body.markers()[marker - part.first_marker])
             }
         };
         let axes = match form {

@@ -1,16 +1,16 @@
 //! Equations of motion in axes that rotate with the mechanism.
 
-use super::spin::{Block, Placement, Rotation, Spin};
+use super::spin::{Block, Placement, Spin};
 use super::{
-    Column, Dimensions, Energy, Excitation, Group, LeviCivita, Limited, MechanicalSystem, Names, Need, OperatingPoint,
-    OutputTangent, Scratch, Structure, Tangent, Terms,
+    Dimensions, Energy, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Scratch, Structure,
+    SwitchFacts, SystemFacts, Tangent, Terms,
 };
 use crate::forward::forward;
 use crate::math::Rate;
 use crate::math::array::from_fn;
-use crate::math::expression::Switch;
 use crate::math::kkt::Pattern;
 use nalgebra::DMatrix;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -30,6 +30,7 @@ pub struct Rotating<'a> {
     /// The rotation of the axes.
     pub spin: Spin,
     placements: Vec<Placement>,
+    facts: SystemFacts,
     structure: Structure,
     /// Pattern of K and C of the inner system, and places in our own by row and column.
     inner_tangent: Arc<Pattern>,
@@ -51,7 +52,10 @@ impl<'a> Rotating<'a> {
     /// The system at fixed t in axes that rotate by `spin`. `None` where a body has coordinates along fixed directions
     /// of the world, so that it cannot rotate.
     pub fn new(inner: &'a dyn MechanicalSystem, t: f64, spin: Spin) -> Option<Self> {
-        let placements = inner.placements()?;
+        let mut facts = inner.facts().into_owned();
+        let placements = facts.placements.take()?;
+        facts.axes = Some(spin);
+        facts.works.clear();
         let mut structure = inner.structure();
         let inner_tangent = structure.tangent.clone();
         let mut places = placed(&inner_tangent);
@@ -68,7 +72,7 @@ impl<'a> Rotating<'a> {
         }
         structure.tangent = Arc::new(Pattern { entries, ..*structure.tangent });
         let g_places = placed(&structure.g);
-        Some(Rotating { inner, t, spin, placements, structure, inner_tangent, places, g_places })
+        Some(Rotating { inner, t, spin, placements, facts, structure, inner_tangent, places, g_places })
     }
 
     /// The same system after a rotation by `angle` about the axis, at the time at which that is reached.
@@ -78,6 +82,7 @@ impl<'a> Rotating<'a> {
             t: self.t + angle / self.spin.speed(),
             spin: self.spin,
             placements: self.placements.clone(),
+            facts: self.facts.clone(),
             structure: self.structure.clone(),
             inner_tangent: self.inner_tangent.clone(),
             places: self.places.clone(),
@@ -191,36 +196,23 @@ impl MechanicalSystem for Rotating<'_> {
         fn dimensions(&self) -> Dimensions;
         fn bracket(&self, v: &[f64], x: &[f64], out: &mut [f64]);
         fn levi_civita(&self, at: OperatingPoint, connection: &mut LeviCivita, scratch: &mut Scratch) -> bool;
-        fn names(&self) -> Names;
-        fn turning_angles(&self) -> usize;
         fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]);
-        fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]);
-        fn turning_bodies(&self) -> Vec<String>;
         fn spins(&self, q: &[f64], v: &[f64], out: &mut [f64]);
-        fn add_stiffness(&self, mass: &mut [f64]);
-        fn rotations(&self) -> Vec<Rotation>;
         fn normalize(&self, q: &mut [f64]);
-        fn columns(&self) -> Vec<Column>;
-        fn inputs(&self) -> Vec<Column>;
-        fn excitations(&self) -> Vec<Excitation>;
-        fn switches(&self) -> &[Switch];
-        fn owner_of_switch(&self, switch: usize) -> &str;
-        fn gaps(&self) -> Vec<usize>;
         fn write_gaps(&self, q: &[f64], out: &mut [[f64; 3]]);
-        fn limited(&self) -> &[Limited];
         fn deformations(&self, q: &[f64], out: &mut [f64]);
-        fn length(&self) -> f64;
-        fn scales(&self) -> Vec<f64>;
-        fn groups(&self) -> Vec<Group>;
-        fn lengths(&self) -> Vec<(String, f64)>;
     }
 
     fn structure(&self) -> Structure {
         self.structure.clone()
     }
 
-    fn axes(&self) -> Option<Spin> {
-        Some(self.spin)
+    fn facts(&self) -> Cow<'_, SystemFacts> {
+        Cow::Borrowed(&self.facts)
+    }
+
+    fn switches(&self) -> SwitchFacts<'_> {
+        SwitchFacts { time_functions: &[], ..self.inner.switches() }
     }
 
     fn evaluate(&self, _t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {

@@ -70,7 +70,7 @@ impl<const D: usize> Mechanism<D> {
 
 /// Places of the first elastic coordinate of a body and of its velocity.
 fn elastic<const D: usize>(part: &Part<D>) -> [usize; 2] {
-    let count = part.body.elastic_count();
+    let count = part.facts.elastic_count;
     [part.first_q + part.nq - count, part.first_v + part.nv - count]
 }
 

@@ -36,7 +36,7 @@ impl<const D: usize> Solid<D> {
     /// A body at the frames `motion` of all markers.
     fn new(part: &Part<D>, freedom: &Freedom, motion: &[Frame<Taylor<f64>, D>]) -> Self {
         let own = &motion[part.first_marker];
-        let offset = &part.body.marker(0).offset;
+        let offset = &part.body.markers()[0].offset;
         let mut centre = own.r;
         for (axis, &x) in own.axes.iter().zip(offset).filter(|(_, x)| **x != 0.0) {
             centre.iter_mut().zip(axis).for_each(|(centre, &axis)| *centre -= axis * x);

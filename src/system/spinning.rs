@@ -1,21 +1,15 @@
-//! The steady rotation that drives prescribe, and the coordinates that take part in it.
+//! The steady rotation that drives prescribe.
 
 use super::mechanism::Mechanism;
-use super::spin::{Placement, Rotation, Spin};
+use super::spin::Spin;
 use crate::body::{Frame, MarkerId, in_space};
 use crate::joint::{Axis, Joint};
 use crate::math::array::{Each, from_fn};
 use crate::math::{Regime, Taylor, Time};
-use crate::scene::{Connection, Part};
+use crate::scene::Connection;
 use crate::tolerances;
 
 impl<const D: usize> Mechanism<D> {
-    /// The unit quaternions among the coordinates.
-    pub(super) fn quaternions(&self) -> impl Iterator<Item = Rotation> {
-        let places = |part: &Part<D>| part.body.turning().map(|first| (part.first_q + first, part.first_v + first));
-        self.model().bodies.iter().filter_map(places).map(|(q, v)| Rotation { q, v })
-    }
-
     /// The rotation that all drives active at `t` prescribe in common; `None` where they differ or accelerate.
     pub(super) fn driven_spin(&self, t: f64) -> Option<Spin> {
         let mut common: Option<Spin> = None;
@@ -68,28 +62,6 @@ impl<const D: usize> Mechanism<D> {
             Some(Axis::Turn(axis)) => Some(Spin { velocity: axis.each(|x| speed * x), point: in_space(&frame.r) }),
             _ => None,
         }
-    }
-
-    /// All coordinates that change when the world is rotated, in the order of the bodies.
-    pub(super) fn placed_coordinates(&self) -> Option<Vec<Placement>> {
-        self.model().bodies.iter().map(placements).collect::<Option<Vec<_>>>().map(|all| all.concat())
-    }
-}
-
-/// Placements of one body: x, y(, z) first, then an angle or a quaternion where it has an orientation.
-fn placements<const D: usize>(part: &Part<D>) -> Option<Vec<Placement>> {
-    let body = &part.body;
-    let names = part.body.coordinate_names();
-    let own: Vec<&str> = names.iter().map(String::as_str).collect();
-    let place = Placement::Place { q: part.first_q, v: part.first_v, count: D };
-    let q = part.first_q + D;
-    let v = part.first_v + D;
-    match (D, own.as_slice()) {
-        (_, []) => Some(Vec::new()),
-        (2, ["x", "y", "angle", ..]) => Some(vec![place, Placement::Angle { q, v }]),
-        (3, ["x", "y", "z", "qw", ..]) => Some(vec![place, Placement::Axes { q, v }]),
-        (2, ["x", "y"]) | (3, ["x", "y", "z"]) if !body.oriented() => Some(vec![place]),
-        _ => None,
     }
 }
 

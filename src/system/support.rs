@@ -15,7 +15,7 @@ impl Support {
     pub fn of<const D: usize>(model: &Model<D>, marker: MarkerId) -> Support {
         let Some(body) = model.markers.bodies[marker] else { return Support::default() };
         let part = &model.bodies[body];
-        let mut velocities = part.body.support(marker - part.first_marker);
+        let mut velocities = part.facts.support(marker - part.first_marker);
         velocities.iter_mut().for_each(|velocity| *velocity += part.first_v);
         let is_contiguous = velocities.windows(2).all(|pair| pair[1] == pair[0] + 1);
         Support { body: Some(body), velocities, is_contiguous }

@@ -1,4 +1,4 @@
-//! Single forces and switching functions, as the time loop asks for them: arguments, powers, infinite forces.
+//! Single forces and switching functions, as the time loop asks for them: arguments and powers.
 
 use super::Feed;
 use super::mechanism::{Mechanism, with_frames};
@@ -41,22 +41,14 @@ impl<const D: usize> Mechanism<D> {
             self.act(i, view, &mut wrenches);
             let mut power = 0.0;
             let mut size = 0.0;
+            let mut is_finite = true;
             for (wrench, &marker) in wrenches.iter().zip(&force.markers) {
                 power += wrench.power(&view.frame(marker));
                 size += norm(&wrench.force) + norm(&wrench.torque);
+                is_finite &= all_finite(&wrench.force) && all_finite(&wrench.torque);
             }
-            Feed { name: force.name.clone(), power, size }
+            Feed { name: force.name.clone(), power, size, is_finite }
         };
         self.model().forces.iter().enumerate().map(feed).collect()
-    }
-
-    /// Name of the first force that is infinite or not a number.
-    pub(super) fn find_infinite_force(&self, view: &Plain<D>) -> Option<String> {
-        let is_infinite = |force: &usize| {
-            let mut wrenches = [Wrench::zero(); MOST_MARKERS];
-            self.act(*force, view, &mut wrenches);
-            wrenches.iter().any(|wrench| !all_finite(&wrench.force) || !all_finite(&wrench.torque))
-        };
-        (0..self.model().forces.len()).find(is_infinite).map(|force| self.model().forces[force].name.clone())
     }
 }

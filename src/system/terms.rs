@@ -83,7 +83,7 @@ pub struct Terms {
     pub l: Vec<f64>,
     /// Power of the forces that is not the rate of a potential, W.
     pub power: f64,
-    /// Rates of [`MechanicalSystem::works`].
+    /// Rates of [`SystemFacts::works`](super::SystemFacts::works).
     pub powers: Vec<f64>,
 }
 
@@ -103,7 +103,7 @@ impl Terms {
             g: zeros(structure.g.entries.len()),
             l: zeros(structure.g.entries.len()),
             power: 0.0,
-            powers: zeros(system.works().len()),
+            powers: zeros(system.facts().works.len()),
         }
     }
 }

@@ -1,18 +1,14 @@
 //! Angles in space that count full turns, the last coordinates of q.
 
 use super::mechanism::{Mechanism, of};
+use super::model_facts::oriented_bodies;
 use crate::body::{Carried, MarkerId, Pose, norm};
-use crate::scene::Part;
 
 impl<const D: usize> Mechanism<D> {
     /// The turning angles in q.
     #[inline]
     pub fn turned<'q>(&self, q: &'q [f64]) -> &'q [f64] {
         &q[q.len() - self.model().turnings.len()..]
-    }
-
-    pub(super) fn turning_names(&self) -> Vec<String> {
-        self.model().turnings.iter().map(|turning| turning.name.clone()).collect()
     }
 
     /// Writes the rates of the turning angles.
@@ -32,14 +28,9 @@ impl<const D: usize> Mechanism<D> {
         }
     }
 
-    /// All bodies but point masses.
-    pub(super) fn oriented_bodies(&self) -> impl Iterator<Item = &Part<D>> {
-        self.model().bodies.iter().filter(|part| part.body.oriented())
-    }
-
-    /// Writes the magnitude of the angular velocity of each of [`oriented_bodies`](Self::oriented_bodies), rad/s.
+    /// Writes the magnitude of the angular velocity of each body with an orientation, rad/s.
     pub(super) fn write_spins(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
-        for (out, part) in out.iter_mut().zip(self.oriented_bodies()) {
+        for (out, part) in out.iter_mut().zip(oriented_bodies(self.model())) {
             *out = norm(&part.body.pose(of(q, part, true), of(v, part, false)).spin);
         }
     }
@@ -52,7 +43,7 @@ impl<const D: usize> Mechanism<D> {
             None => Carried { body: Pose::ground(), marker: &model.ground[marker] },
             Some(part) => Carried {
                 body: part.body.pose(of(q, part, true), of(v, part, false)),
-                marker: part.body.marker(marker - part.first_marker),
+                marker: &part.body.markers()[marker - part.first_marker],
             },
         }
     }

@@ -118,7 +118,9 @@ impl<const D: usize> View<Dual6, D> for SeededView<'_, D> {
     }
     fn frame(&self, marker: MarkerId) -> Frame<Taylor<Dual6>, D> {
         match self.seed {
-            Seed::Body(part) if (part.first_marker..part.first_marker + part.body.marker_count()).contains(&marker) => {
+            Seed::Body(part)
+                if (part.first_marker..part.first_marker + part.body.markers().len()).contains(&marker) =>
+            {
                 let mut frame = Frame::world();
                 self.varied.write(part, marker, self.motion, &mut frame);
                 frame

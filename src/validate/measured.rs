@@ -148,7 +148,7 @@ impl<'m, 'a> Bench<'m, 'a> {
             value.rows_mut(b.nrows(), outputs.len()).copy_from_slice(&outputs);
             Some(value)
         };
-        let reach = LARGEST_SHIFT * system.length().min(1.0);
+        let reach = LARGEST_SHIFT * system.facts().length.min(1.0);
         let mut tables = Vec::new();
         for place in 0..self.columns.len() {
             if is_over() {

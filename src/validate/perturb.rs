@@ -47,7 +47,7 @@ pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [V
     let moving = system.dimensions().moving();
     let mut unit = vec![0.0; from.v.len()];
     let mut rate = vec![0.0; from.q.len()];
-    let own = rate.len() - system.turning_angles();
+    let own = system.dimensions().own_q();
     let dq = (0..moving).map(|j| {
         unit[j] = 1.0;
         system.rate(&from.q, &unit, &mut rate);
@@ -62,7 +62,7 @@ pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [V
 /// True if no function that changes its form is on another piece in one state than in the other.
 pub fn are_alike(system: &dyn MechanicalSystem, one: &State, other: &State) -> bool {
     let mut scratch = Scratch::default();
-    system.switches().is_empty() || pieces(system, one, &mut scratch) == pieces(system, other, &mut scratch)
+    system.switches().all.is_empty() || pieces(system, one, &mut scratch) == pieces(system, other, &mut scratch)
 }
 
 /// Typical and fastest rate of a model, 1/s.

@@ -31,7 +31,7 @@ pub struct Probe<'a> {
 
 /// Returns the pieces of the functions that change their form at a state.
 pub fn pieces(system: &dyn MechanicalSystem, state: &State, scratch: &mut Scratch) -> Vec<Piece> {
-    let switches = system.switches();
+    let switches = system.switches().all;
     let mut arguments = vec![Rate::fixed(0.0); switches.len()];
     let n = system.dimensions();
     let vdot = vec![0.0; n.v];
@@ -50,9 +50,9 @@ impl<'a> Probe<'a> {
         dynamics.scratch.pieces = pieces;
         dynamics.evaluate(start.t, &start.q, &start.v, Need::MASS | Need::CONSTRAINTS | Need::G);
         let residuals = [dynamics.terms.phi.clone(), dynamics.terms.phi_dot.clone()];
-        let excitations = system.excitations();
+        let excitations = system.facts().excitations();
         let forces = Matrix::zeros(start.v.len(), excitations.len());
-        let outputs = system.columns().len();
+        let outputs = system.facts().outputs.len();
         Probe { dynamics, start, map: ExponentialMap::new(system), excitations, residuals, forces, outputs }
     }
 

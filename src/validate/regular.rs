@@ -63,7 +63,7 @@ impl Sink for Watcher<'_> {
 /// A start that cannot be simulated.
 pub fn end(system: &dyn MechanicalSystem, start: &State, duration: f64) -> Result<End> {
     let is_constrained = system.dimensions().lambda > 0;
-    if !is_constrained && system.switches().is_empty() {
+    if !is_constrained && system.switches().all.is_empty() {
         return Ok(End::default());
     }
     let after = start.t + SAME * duration;

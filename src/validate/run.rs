@@ -149,7 +149,9 @@ pub fn validate_changed(
     let measured = found.unwrap_or_default();
     let mut inputs = Vec::new();
     let mut unchecked = Vec::new();
-    for (index, Column { name, .. }) in system.inputs().into_iter().enumerate().filter(|_| settings.inputs) {
+    for (index, Column { name, .. }) in
+        system.facts().inputs.clone().into_iter().enumerate().filter(|_| settings.inputs)
+    {
         let pulse = (index, name.clone());
         match input::check(system, start, (&model, &carried, &norm), pulse, 0.1 * followed)? {
             Pulsed::Checked(found) => inputs.push(found),

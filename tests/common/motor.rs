@@ -6,7 +6,10 @@
 //! i' = (U sin 2 t - R i - S i^3 - K w)/L,   w = x y' - y x'
 //! ```
 
-use holonom::system::{Column, Dimensions, MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
+use holonom::system::{
+    Column, Dimensions, MechanicalSystem, Need, OperatingPoint, Scratch, SystemFacts, Tangent, Terms,
+};
+use std::borrow::Cow;
 
 /// Its state is counted in so many A.
 pub struct Motor {
@@ -30,11 +33,12 @@ fn rate(t: f64, w: f64, i: f64) -> f64 {
 
 impl MechanicalSystem for Motor {
     fn dimensions(&self) -> Dimensions {
-        Dimensions { q: 2, v: 3, lambda: 1, nonholonomic: 0, states: 1 }
+        Dimensions { q: 2, v: 3, lambda: 1, states: 1, ..Dimensions::default() }
     }
 
-    fn works(&self) -> Vec<Column> {
-        vec![Column { name: "work of the motor".to_string(), unit: "J".to_string() }]
+    fn facts(&self) -> Cow<'_, SystemFacts> {
+        let works = vec![Column { name: "work of the motor".to_string(), unit: "J".to_string() }];
+        Cow::Owned(SystemFacts { works, ..SystemFacts::new(self.dimensions()) })
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], _: Need, terms: &mut Terms, _: &mut Scratch) {

@@ -13,7 +13,7 @@ fn loops_close_by_rigid_motion() {
     let ready = crate::scenes::parse(&slip);
     let start = ready.start();
     assert!(start.before.phi > 0.01 && start.after.phi < 1e-10, "{:?} {:?}", start.before, start.after);
-    let names = ready.system().names();
+    let names = ready.system().facts().names.clone();
     let elastic = |names: &[String], values: &[f64]| -> f64 {
         let rod = names.iter().zip(values).filter(|(name, _)| name.starts_with("rod.n") || name.starts_with("rod.m"));
         rod.fold(0.0, |largest, (_, x)| largest.max(x.abs()))

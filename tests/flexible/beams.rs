@@ -75,7 +75,7 @@ pub fn at_rest(ready: &Ready, names: &[&str]) -> Vec<f64> {
     let system = ready.system();
     let found =
         equilibrium(system, 0.0, (&ready.start().q, &ready.start().v)).unwrap_or_else(|error| panic!("{error}"));
-    let columns = system.columns();
+    let columns = system.facts().outputs.clone();
     let mut out = vec![0.0; columns.len()];
     let still = vec![0.0; system.dimensions().v];
     let at = OperatingPoint { t: found.t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };

@@ -80,8 +80,8 @@ fn place(system: &dyn MechanicalSystem, random: &mut Random) -> Vec<f64> {
         let own = name.split('.').nth(1).unwrap();
         ["x", "y", "z", "angle", "qw", "qx", "qy", "qz"].contains(&own)
     };
-    let names = system.names().q;
-    let own = names.len() - system.turning_angles();
+    let names = system.facts().names.q.clone();
+    let own = system.dimensions().own_q();
     let mut q: Vec<f64> =
         names[..own].iter().map(|name| random.next() * if is_frame(name) { 1.0 } else { 0.1 }).collect();
     q.resize(names.len(), 0.0);

@@ -144,7 +144,7 @@ fn the_mass_matrix_is_positive_at_any_slope() {
         ));
         let system = beam.system();
         let start = &beam.start().q;
-        let names = system.names().q;
+        let names = system.facts().names.q.clone();
         for slope in [0.0, 0.15, 0.4, 1.0] {
             let bent = |(i, name): (usize, &String)| match name.rsplit_once('_') {
                 Some((_, "rx" | "ry" | "rz")) => slope * (i as f64).sin(),

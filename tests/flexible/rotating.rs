@@ -253,7 +253,7 @@ fn a_motion_is_the_same_in_both_axes() {
             .unwrap();
     assert!(outcome.failure.is_none());
     // Elastic coordinates are the same from all sides.
-    let names = system.names().q;
+    let names = system.facts().names.q.clone();
     for (k, name) in names.iter().enumerate().skip(7) {
         let there = *world.column(name).last().unwrap();
         assert!((outcome.q[k] - there).abs() < 1e-8, "{name}: {} {there}", outcome.q[k]);

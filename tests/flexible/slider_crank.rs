@@ -139,12 +139,19 @@ fn frequencies(ready: &Ready, part: &str) -> Vec<f64> {
     let system: &dyn MechanicalSystem = ready.system();
     let n = system.dimensions();
     let structure = system.structure();
-    let kept: Vec<usize> = (0..n.v).filter(|&i| system.names().v[i].starts_with(part)).collect();
+    let kept: Vec<usize> = (0..n.v).filter(|&i| system.facts().names.v[i].starts_with(part)).collect();
     let q = &ready.start().q;
     let rest = vec![0.0; n.v];
     let lambda = vec![0.0; n.lambda];
     let mut straight = q.clone();
-    system.names().q.iter().zip(&mut straight).filter(|(name, _)| name.starts_with(part)).for_each(|(_, q)| *q = 0.0);
+    system
+        .facts()
+        .names
+        .q
+        .iter()
+        .zip(&mut straight)
+        .filter(|(name, _)| name.starts_with(part))
+        .for_each(|(_, q)| *q = 0.0);
     let mut terms = Terms::new(system);
     system.evaluate(0.0, &straight, &rest, Need::DYNAMICS, &mut terms, &mut Scratch::default());
     let mut tangent = Tangent::new(&structure.tangent);

@@ -4,7 +4,7 @@ mod evaluate;
 mod tangent;
 
 use holonom::body::flexible::PointShape;
-use holonom::body::{Bent, Body, BodyOver, BodyState, Energy, Frame, Freedom, Marker, Pose, Wrench};
+use holonom::body::{Bent, Body, BodyFacts, BodyOver, BodyState, Energy, Frame, Marker, Pose, Wrench};
 use holonom::joint::{Axis, ClosedForm, Joint, JointOver};
 use holonom::math::{Rate, Scalar, Taylor, Time};
 use holonom::scene::{AnyModel, Connection, Model, Part, Scene};
@@ -39,8 +39,9 @@ fn with_generic_joints<const D: usize>(mut model: Model<D>) -> Model<D> {
 /// The same model with bodies that do not say that they are rigid.
 fn with_generic_bodies<const D: usize>(mut model: Model<D>) -> Model<D> {
     let generic = |part: Part<D>| {
-        assert!(part.body.freedom().is_some(), "{} is not rigid", part.name);
-        Part { body: Box::new(GenericBody(part.body)) as Box<dyn Body<D>>, ..part }
+        assert!(part.facts.freedom.is_some(), "{} is not rigid", part.name);
+        let body = Box::new(GenericBody(part.body)) as Box<dyn Body<D>>;
+        Part { facts: body.facts(), body, ..part }
     };
     model.bodies = model.bodies.into_iter().map(generic).collect();
     model
@@ -99,30 +100,17 @@ where
 }
 
 impl<const D: usize> Body<D> for GenericBody<D> {
-    fn freedom(&self) -> Option<Freedom> {
-        None
+    fn facts(&self) -> BodyFacts {
+        BodyFacts { freedom: None, ..self.0.facts() }
     }
     same! {
-        fn coordinate_names(&self) -> Vec<String>;
-        fn velocity_names(&self) -> Vec<String>;
-        fn marker_count(&self) -> usize;
-        fn marker(&self, index: usize) -> &Marker<D>;
-        fn support(&self, marker: usize) -> Vec<usize>;
-        fn mass_pattern(&self) -> Vec<(usize, usize)>;
+        fn markers(&self) -> &[Marker<D>];
         fn mass(&self, q: &[f64], values: &mut [f64]);
-        fn add_stiffness(&self, values: &mut [f64]);
         fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]);
-        fn tangent_pattern(&self) -> Vec<(usize, usize)>;
         fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]);
         fn dissipation(&self, v: &[f64]) -> f64;
         fn normalize(&self, q: &mut [f64]);
-        fn oriented(&self) -> bool;
-        fn turning(&self) -> Option<usize>;
         fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D>;
-        fn has_constant_mass(&self) -> bool;
-        fn has_constant_forces(&self) -> bool;
-        fn reach(&self) -> f64;
-        fn elastic_count(&self) -> usize;
         fn shapes(&self) -> &[PointShape<D>];
         fn bent(&self) -> Option<Bent<'_, D>>;
     }

@@ -162,7 +162,7 @@ fn of_bodies<const D: usize>(model: Model<D>) -> [Vec<f64>; 5] {
     let at = OperatingPoint { t: 0.0, q, v, vdot, lambda: &[] };
     let mut tangent = Tangent::new(&mechanism.structure().tangent);
     assert!(mechanism.tangent(at, &mut tangent, &mut scratch));
-    let mut outputs = OutputTangent::new(mechanism.columns().len(), n.v, 0, 0);
+    let mut outputs = OutputTangent::new(mechanism.facts().outputs.len(), n.v, 0, 0);
     assert!(mechanism.output_tangent(at, &mut outputs, &mut scratch));
     let [k, c] = [&tangent.k, &tangent.c].map(|values| dense(&mechanism, values));
     let [q, v, vdot] = [outputs.q, outputs.v, outputs.vdot].map(|matrix| matrix.as_slice().to_vec());
@@ -198,7 +198,7 @@ fn locked_joints_agree_with_their_kernel() {
 #[test]
 fn reactions_of_planar_hinges_change_with_angles_alone() {
     let mechanism = Mechanism::new(planar(&scene(2, &[("revolute", Value::Null)])));
-    let names = mechanism.names().v;
+    let names = mechanism.facts().names.v.clone();
     let tangent = mechanism.structure().tangent;
     assert!(!tangent.entries.is_empty());
     assert!(tangent.entries.iter().all(|&(i, j)| i == j && names[i].contains("angle")), "{:?}", tangent.entries);

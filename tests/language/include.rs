@@ -82,7 +82,7 @@ fn what_is_included_is_joined_by_its_names() {
     let top = load(&folder.path().join("top.json"), &[("up_left_l", 0.8)]).unwrap();
     let parameters: Vec<(&str, f64)> = top.0.parameters.iter().collect();
     assert!(parameters.contains(&("up_left_m", 1.6)) && parameters.contains(&("up_right_l", 0.75)), "{parameters:?}");
-    assert!(top.system().names().q.contains(&"up_right_rod.angle".to_string()));
+    assert!(top.system().facts().names.q.contains(&"up_right_rod.angle".to_string()));
 }
 
 #[test]

@@ -19,7 +19,7 @@ fn scene(dimension: usize, shapes: &Value) -> holonom::Result<Scene> {
 
 fn read<const D: usize>(model: &Model<D>) -> (Vec<f64>, Vec<f64>) {
     let body = &model.bodies[0].body;
-    let mut values = vec![0.0; body.mass_pattern().len()];
+    let mut values = vec![0.0; body.facts().mass_pattern.len()];
     body.mass(&[], &mut values);
     (values, body.marker(0).offset.iter().map(|x| -x).collect())
 }

@@ -38,7 +38,7 @@ fn rocker(theta: f64) -> f64 {
 }
 
 fn state(ready: &Ready) -> impl Fn(&str) -> f64 {
-    let names = ready.system().names();
+    let names = ready.system().facts().names.clone();
     let values = names.q.into_iter().zip(ready.start().q.clone());
     let rates = names.v.into_iter().zip(ready.start().v.clone());
     let all: Vec<(String, f64)> = values.chain(rates).collect();

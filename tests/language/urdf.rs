@@ -72,7 +72,7 @@ fn joints_start_at_the_positions_that_they_are_given() {
     let mut scene = imported(ARM, None, &[]).scene;
     scene["initial"] = serde_json::json!({ "shoulder.angle": -0.5, "elbow.angle": 1.2 });
     let ready = parse(&scene.to_string());
-    let names = ready.system().names().q;
+    let names = ready.system().facts().names.q.clone();
     let at = |name: &str| ready.start().q[names.iter().position(|known| known == name).unwrap()];
     // About y: -0.5 + pi/2 + 1.2 for the lower link.
     let half = 0.5 * (0.7 + std::f64::consts::FRAC_PI_2);
@@ -105,7 +105,7 @@ fn a_loop_is_closed_from_a_posture() {
     let positions = vec!["A=-0.4".parse().unwrap(), "C=0.5".parse().unwrap()];
     let scene = import(&text, &Options { closures, positions, ..Options::default() }).unwrap().scene;
     let ready = parse(&scene.to_string());
-    let names = ready.system().names().q;
+    let names = ready.system().facts().names.q.clone();
     let turn = |body: &str| ready.start().q[names.iter().position(|known| *known == format!("{body}.qy")).unwrap()];
     assert!(ready.start().after.phi < 1e-12);
     // Near the posture: the crank leans by 0.4 against the other way.

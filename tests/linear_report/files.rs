@@ -14,7 +14,7 @@ fn linear<'a>(prepared: &'a PreparedScene, model: &'a LinearModel, names: &'a ho
 
 fn json(model: &LinearModel) -> Value {
     let prepared = prepared("four_bar_spring");
-    let names = prepared.system().names();
+    let names = prepared.system().facts().names.clone();
     serde_json::to_value(linear(&prepared, model, &names)).unwrap()
 }
 
@@ -103,7 +103,7 @@ fn no_file_holds_what_is_no_number() {
 fn arrays_fit_each_other() {
     let prepared = prepared("four_bar_spring");
     let model = descriptor(&prepared);
-    let names = prepared.system().names();
+    let names = prepared.system().facts().names.clone();
     let arrays = linear(&prepared, &model, &names).arrays();
     let find = |name: &str| &arrays.iter().find(|(known, _)| *known == name).unwrap().1;
     let shape = |name: &str| match find(name) {
@@ -131,7 +131,7 @@ fn arrays_fit_each_other() {
 #[test]
 fn arrays_for_both_programs_also_where_nothing_moves() {
     let prepared = prepared("four_bar_spring");
-    let names = prepared.system().names();
+    let names = prepared.system().facts().names.clone();
     for model in [descriptor(&prepared), empty(&prepared)] {
         let place = tempfile::tempdir().unwrap();
         let mut folder = Folder::create(place.path()).unwrap();

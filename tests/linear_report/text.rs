@@ -6,7 +6,7 @@ use holonom::report::linear::Linear;
 
 fn text(model: &LinearModel) -> String {
     let prepared = prepared("four_bar_spring");
-    let names = prepared.system().names();
+    let names = prepared.system().facts().names.clone();
     Linear { scene: &prepared.name, names: &names, model }.text()
 }
 

@@ -77,7 +77,7 @@ fn equilibria_of_the_squeezer() {
     ] {
         let scene = shipped("andrews", set);
         let found = equilibrium(scene.system(), 0.0, scene.0.start()).unwrap();
-        let angle = scene.system().names().q.iter().position(|name| name == "K1.angle").unwrap();
+        let angle = scene.system().facts().names.q.iter().position(|name| name == "K1.angle").unwrap();
         let turns = (found.q[angle] - beta) / std::f64::consts::TAU;
         assert!((turns - turns.round()).abs() < 1e-12, "{beta}: {}", found.q[angle]);
         assert_eq!(found.stability, stability);
@@ -129,7 +129,7 @@ fn moving_squeezer() {
     let system = scene.system();
     let (q, v) = scene.0.start();
     let mut v = v.to_vec();
-    let angle = system.names().v.iter().position(|name| name.starts_with("K1.angle") || name == "K1.w").unwrap();
+    let angle = system.facts().names.v.iter().position(|name| name.starts_with("K1.angle") || name == "K1.w").unwrap();
     v[angle] = reference.vector("v")[0];
     let moving = assemble(system, 0.0, (q, &v), &["K1.angle".to_string()]).unwrap();
     let mut variation = Variation::new(system, 0.0, &moving.q, &moving.v).unwrap();

@@ -5,7 +5,7 @@ use holonom::system::{MechanicalSystem, OperatingPoint, OutputTangent, Scratch};
 use nalgebra::DMatrix;
 
 pub fn outputs(system: &dyn MechanicalSystem, at: OperatingPoint) -> Vec<f64> {
-    let mut out = vec![0.0; system.columns().len()];
+    let mut out = vec![0.0; system.facts().outputs.len()];
     system.outputs(at, &mut out, &mut Scratch::default());
     out
 }
@@ -13,7 +13,7 @@ pub fn outputs(system: &dyn MechanicalSystem, at: OperatingPoint) -> Vec<f64> {
 pub fn tangent(system: &dyn MechanicalSystem, at: OperatingPoint) -> OutputTangent {
     let n = system.dimensions();
     // What was there before does not count.
-    let mut tangent = OutputTangent::new(system.columns().len(), n.v, n.lambda, system.inputs().len());
+    let mut tangent = OutputTangent::new(system.facts().outputs.len(), n.v, n.lambda, system.facts().inputs.len());
     let OutputTangent { q, v, vdot, lambda, u, udot } = &mut tangent;
     [q, v, vdot, lambda, u, udot].into_iter().for_each(|m| m.fill(7.0));
     assert!(system.output_tangent(at, &mut tangent, &mut Scratch::default()));
@@ -55,7 +55,7 @@ pub fn check(system: &dyn MechanicalSystem, at: OperatingPoint, near: f64, what:
     let n = system.dimensions();
     let exact = tangent(system, at);
     let values = outputs(system, at);
-    let names: Vec<String> = system.columns().into_iter().map(|column| column.name).collect();
+    let names: Vec<String> = system.facts().outputs.iter().map(|column| column.name.clone()).collect();
     let compare = |kind: &str, matrix: &DMatrix<f64>, column: usize, slopes: Vec<f64>| {
         for (row, difference) in slopes.into_iter().enumerate() {
             let found = matrix[(row, column)];

@@ -63,8 +63,8 @@ fn own_outputs_and_inputs() {
     let at = OperatingPoint { t: 0.7, q: &q, v: &v, vdot: &v, lambda: &[0.3] };
     // Sums of a few numbers near one.
     check(system, at, 1e-11, "chain");
-    assert_eq!(system.columns()[1].name, "power");
-    assert_eq!(system.inputs()[0].name, "push");
+    assert_eq!(system.facts().outputs[1].name, "power");
+    assert_eq!(system.facts().inputs[0].name, "push");
     let mut f = DMatrix::from_element(COUNT, 1, 7.0);
     system.input_forces(0.7, &q, &v, &mut f, &mut Scratch::default());
     assert_eq!(f[(COUNT - 1, 0)], q[0].cos());
@@ -76,5 +76,5 @@ fn without_outputs_there_is_nothing_to_derive() {
     let system: &dyn MechanicalSystem = &Silent;
     let at = OperatingPoint { t: 0.0, q: &[0.0], v: &[0.0], vdot: &[0.0], lambda: &[] };
     assert!(system.output_tangent(at, &mut OutputTangent::new(0, 1, 0, 0), &mut Scratch::default()));
-    assert!(system.inputs().is_empty());
+    assert!(system.facts().inputs.is_empty());
 }

@@ -122,7 +122,7 @@ fn inputs_add_to_components() {
         let mechanism = mechanism(&case.json(0.0));
         let system = mechanism.system();
         let unit = if case.is_torque { "N m" } else { "N" };
-        let inputs = system.inputs();
+        let inputs = system.facts().inputs.clone();
         assert_eq!(inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>(), ["first", "u"]);
         assert_eq!(inputs[1].unit, unit);
         let (q, v) = state(system);

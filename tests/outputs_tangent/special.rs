@@ -7,7 +7,7 @@ use holonom::system::{MechanicalSystem, OperatingPoint, OutputTangent};
 /// All coordinates, velocities and multipliers zero, quaternions at rest.
 fn at_zero(system: &dyn MechanicalSystem) -> OutputTangent {
     let n = system.dimensions();
-    let names = system.names().q;
+    let names = system.facts().names.q.clone();
     let q: Vec<f64> = names.iter().map(|name| if name.ends_with(".qw") { 1.0 } else { 0.0 }).collect();
     let v = vec![0.0; n.v];
     let lambda = vec![0.0; n.lambda];
@@ -47,11 +47,11 @@ fn sizes_at_zero_have_no_slope() {
         let mechanism = mechanism(&scene(dimension));
         let system = mechanism.system();
         let found = at_zero(system);
-        let position = system.columns().len() - 1;
+        let position = system.facts().outputs.len() - 1;
         for matrix in [&found.q, &found.v, &found.lambda, &found.u] {
             assert!(matrix.rows(0, position).iter().all(|slope| *slope == 0.0), "{dimension}: {matrix}");
         }
-        let d = system.names().v.iter().position(|name| name == "d.x'").unwrap();
+        let d = system.facts().names.v.iter().position(|name| name == "d.x'").unwrap();
         assert_eq!(found.q[(position, d)], 1.0);
     }
 }

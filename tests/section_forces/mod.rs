@@ -53,7 +53,7 @@ fn name(letter: &str, i: usize) -> String {
 fn at_rest(ready: &Ready, t: f64) -> (Vec<f64>, Vec<f64>) {
     let system = ready.system();
     let found = equilibrium(system, t, (&ready.start().q, &ready.start().v)).unwrap_or_else(|error| panic!("{error}"));
-    let mut out = vec![0.0; system.columns().len()];
+    let mut out = vec![0.0; system.facts().outputs.len()];
     let still = vec![0.0; system.dimensions().v];
     let at = OperatingPoint { t, q: &found.q, v: &still, vdot: &still, lambda: &found.lambda };
     system.outputs(at, &mut out, &mut Scratch::default());

@@ -24,7 +24,7 @@ pub struct HeldSignals {
 impl HeldSignals {
     /// Before the first row.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
-        let switches = system.switches();
+        let switches = system.switches().all;
         let mut ends = Vec::new();
         for (number, switch) in switches.iter().enumerate() {
             let Some(signal) = &switch.signal else { continue };

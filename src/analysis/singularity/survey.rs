@@ -183,7 +183,7 @@ impl<'a> Survey<'a> {
         let new = found.rows.iter().filter(|row| !self.dropped.contains(&row.row));
         let rows: Vec<usize> =
             new.flat_map(|row| row.combination.iter().map(|(other, _)| *other).chain([row.row])).collect();
-        let groups = self.system.groups();
+        let groups = self.system.facts().groups();
         let named = groups.iter().filter(|group| rows.iter().any(|row| group.rows.contains(row)));
         (Some(found.rank), named.map(|group| group.name.clone()).collect())
     }
@@ -191,7 +191,7 @@ impl<'a> Survey<'a> {
     /// Returns the drift of positions and velocities relative to the scene's scale, the latter also to the size of the
     /// velocity.
     pub fn drift(&self, state: &PathPoint) -> [f64; 2] {
-        let scale = self.system.scales().into_iter().fold(f64::INFINITY, f64::min);
+        let scale = self.system.facts().scales.iter().copied().fold(f64::INFINITY, f64::min);
         let speed = largest(&state.v).max(f64::MIN_POSITIVE);
         [largest(&state.phi) / scale, largest(&state.phi_dot) / (scale * speed)]
     }

@@ -29,7 +29,7 @@ mod tangent;
 
 use super::flexible::{Elastic, PointShape};
 use super::kernel::coordinate_path;
-use super::{Bent, Body, BodyOver, BodyState, Energy, Frame, Freedom, Marker, Pose, Wrench, norm};
+use super::{Bent, Body, BodyFacts, BodyOver, BodyState, Energy, Frame, Marker, Pose, Wrench, norm};
 use crate::math::rotation::{axes_from_quaternion, quaternion_rate};
 use crate::math::{Scalar, Taylor};
 use layout::Layout;
@@ -144,44 +144,45 @@ impl<S: Scalar, const D: usize> BodyOver<S, D> for Floating<D> {
 }
 
 impl<const D: usize> Body<D> for Floating<D> {
-    fn coordinate_names(&self) -> Vec<String> {
-        let rigid: &[&str] = if D == 2 { &["x", "y", "angle"] } else { &["x", "y", "z", "qw", "qx", "qy", "qz"] };
-        rigid.iter().map(|name| name.to_string()).chain(self.elastic.names.iter().cloned()).collect()
+    fn facts(&self) -> BodyFacts {
+        let coordinates: &[&str] = if D == 2 { &["x", "y", "angle"] } else { &["x", "y", "z", "qw", "qx", "qy", "qz"] };
+        let velocities: &[&str] = if D == 2 { &["x'", "y'", "angle'"] } else { &["x'", "y'", "z'", "wx", "wy", "wz"] };
+        let elastic = &self.elastic.names;
+        let named =
+            |rigid: &[&str], elastic: Vec<String>| rigid.iter().map(|name| name.to_string()).chain(elastic).collect();
+        let moved = |dofs: &[usize]| {
+            let elastic = dofs.iter().map(|dof| frame_velocities(D) + dof);
+            (0..frame_velocities(D)).chain(elastic).collect()
+        };
+        let stiffness = self.elastic.stiffness.iter().zip(&self.layout.sparing);
+        BodyFacts {
+            coordinate_names: named(coordinates, elastic.clone()),
+            velocity_names: named(velocities, elastic.iter().map(|name| format!("{name}'")).collect()),
+            supports: self.shapes.iter().map(|shape| moved(&shape.dofs)).collect(),
+            mass_pattern: self.layout.mass.clone(),
+            tangent_pattern: self.layout.tangent.clone(),
+            stiffness: stiffness.filter_map(|((.., stiffness), place)| Some(((*place)?, *stiffness))).collect(),
+            oriented: true,
+            turning: (D == 3).then_some(turn_velocity(D, 0)),
+            freedom: None,
+            has_constant_mass: false,
+            has_constant_forces: false,
+            reach: self.shapes.iter().map(|shape| norm(&shape.rest)).fold(0.0, f64::max),
+            elastic_count: elastic.len(),
+            most_coordinates: usize::MAX,
+        }
     }
-    fn velocity_names(&self) -> Vec<String> {
-        let rigid: &[&str] = if D == 2 { &["x'", "y'", "angle'"] } else { &["x'", "y'", "z'", "wx", "wy", "wz"] };
-        let elastic = self.elastic.names.iter().map(|name| format!("{name}'"));
-        rigid.iter().map(|name| name.to_string()).chain(elastic).collect()
-    }
-    fn marker_count(&self) -> usize {
-        self.markers.len()
-    }
-    fn marker(&self, index: usize) -> &Marker<D> {
-        &self.markers[index]
-    }
-    fn support(&self, marker: usize) -> Vec<usize> {
-        let elastic = self.shapes[marker].dofs.iter().map(|dof| frame_velocities(D) + dof);
-        (0..frame_velocities(D)).chain(elastic).collect()
-    }
-    fn mass_pattern(&self) -> Vec<(usize, usize)> {
-        self.layout.mass.clone()
+    fn markers(&self) -> &[Marker<D>] {
+        &self.markers
     }
     fn mass(&self, q: &[f64], values: &mut [f64]) {
         self.write_mass(q, values);
         self.add_disc_mass(q, values);
     }
-    fn add_stiffness(&self, values: &mut [f64]) {
-        for ((.., stiffness), place) in self.elastic.stiffness.iter().zip(&self.layout.sparing) {
-            place.iter().for_each(|&place| values[place] += stiffness);
-        }
-    }
     fn own_forces(&self, q: &[f64], v: &[f64], gravity: &[f64; D], f: &mut [f64]) {
         self.add_inertia_forces(q, v, gravity, f);
         self.add_disc_forces(q, v, f);
         self.add_elastic_forces(q, v, f);
-    }
-    fn tangent_pattern(&self) -> Vec<(usize, usize)> {
-        self.layout.tangent.clone()
     }
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
         self.add_inertia_tangent(at, k, c);
@@ -197,32 +198,11 @@ impl<const D: usize> Body<D> for Floating<D> {
             q[3..7].iter_mut().for_each(|x| *x /= norm);
         }
     }
-    fn oriented(&self) -> bool {
-        true
-    }
-    fn turning(&self) -> Option<usize> {
-        (D == 3).then_some(turn_velocity(D, 0))
-    }
     fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D> {
         match D {
             2 => Pose::in_plane([q[0], q[1], q[2]], [v[0], v[1], v[2]]),
             _ => Pose::in_space(q, v),
         }
-    }
-    fn freedom(&self) -> Option<Freedom> {
-        None
-    }
-    fn has_constant_mass(&self) -> bool {
-        false
-    }
-    fn has_constant_forces(&self) -> bool {
-        false
-    }
-    fn reach(&self) -> f64 {
-        self.shapes.iter().map(|shape| norm(&shape.rest)).fold(0.0, f64::max)
-    }
-    fn elastic_count(&self) -> usize {
-        self.elastic.names.len()
     }
     fn shapes(&self) -> &[PointShape<D>] {
         &self.shapes

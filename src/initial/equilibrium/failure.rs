@@ -44,7 +44,7 @@ const BEGIN_NEARER: &str = "begin nearer to it, or look at the motion with `holo
 
 /// Name of an entry of a place.
 fn name_of(system: &dyn MechanicalSystem, entry: usize) -> Option<String> {
-    let names = system.names();
+    let names = system.facts().names.clone();
     let n = system.dimensions();
     names.q.into_iter().chain(names.v.into_iter().skip(n.moving())).nth(entry)
 }
@@ -85,7 +85,7 @@ pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &Place, away: Opti
         return failure(format!("there is no static equilibrium: the forces move `{name}` on and on"), HOLD);
     }
     let worst = (0..balance.force.len()).max_by(|&i, &j| balance.force[i].abs().total_cmp(&balance.force[j].abs()));
-    let name = worst.and_then(|i| rest.dynamics.system.names().v.get(i).cloned()).unwrap_or_default();
+    let name = worst.and_then(|i| rest.dynamics.system.facts().names.v.get(i).cloned()).unwrap_or_default();
     failure(
         format!(
             "no static equilibrium was found; at the start a force of {} (N, N m) is left on `{}`",

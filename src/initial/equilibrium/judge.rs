@@ -42,9 +42,10 @@ impl Judge {
     /// The beam with an element that rotates beyond its theory, and the rotation, rad.
     pub fn bent(rest: &EquilibriumSystem, q: &[f64]) -> Option<(Limited, f64)> {
         let system = rest.dynamics.system;
-        let mut deformations = vec![0.0; system.limited().len()];
+        let facts = system.facts();
+        let mut deformations = vec![0.0; facts.limited.len()];
         system.deformations(&q[..rest.coordinates], &mut deformations);
-        let mut parts = system.limited().iter().cloned().zip(deformations);
+        let mut parts = facts.limited.iter().cloned().zip(deformations);
         let is_bent = |(limited, turn): &(Limited, f64)| match limited.theory {
             Theory::Helix { .. } => *turn > TOO_FAR_TURNED * limited.theory.most(),
             _ => false,

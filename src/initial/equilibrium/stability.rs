@@ -100,7 +100,7 @@ fn by_modes(rest: &EquilibriumSystem, Soft { z, k, .. }: &Soft) -> Option<Stabil
 
 /// Names of the coordinates with the largest components in the directions.
 pub(super) fn named(rest: &EquilibriumSystem, directions: &[DVector<f64>]) -> Vec<String> {
-    let names = rest.dynamics.system.names().v;
+    let names = rest.dynamics.system.facts().names.v.clone();
     let mut found = Vec::new();
     for direction in directions {
         let taking = |i: &usize| direction[*i].abs() >= TAKES_PART * direction.amax();

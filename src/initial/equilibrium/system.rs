@@ -90,7 +90,7 @@ impl<'a> EquilibriumSystem<'a> {
             ones: vec![1.0; n.v],
             tangent,
             matrix: matrix.ok_or_else(failure::no_memory)?.keeping_rows(),
-            scales: system.scales(),
+            scales: system.facts().scales.clone(),
             iterations: 0,
             values: vec![0.0; g.entries.len()],
             retraction: ExponentialMap::new(system),

@@ -67,7 +67,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         lambda_start: zeros(n.lambda),
         step: zeros(n.v),
         rows: zeros(n.lambda),
-        scales: setup.system.scales(),
+        scales: setup.system.facts().scales.clone(),
         retraction: ExponentialMap::new(setup.system),
         slope: zeros(setup.len()),
         control: Control::new(2.0, 0.2, 5.0),
@@ -167,7 +167,8 @@ impl Ali3p {
             }
             let change = self.iterate(problem, h)?;
             let still =
-                4.0 * tolerances::ROUND_OFF_OF_SUMS * largest(problem.dynamics.system.own(q)).max(1.0) / (h * h);
+                4.0 * tolerances::ROUND_OFF_OF_SUMS * largest(problem.dynamics.system.dimensions().own(q)).max(1.0)
+                    / (h * h);
             Ok::<_, StepError>(
                 change / (tolerances::NEWTON_STAGNATION * largest(&self.a_new).max(largest(v) / h)).max(still),
             )

@@ -41,8 +41,8 @@ impl Directions {
     /// The directions of a system.
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         let n = system.dimensions();
-        let rotations = system.rotations();
-        match of_bodies(n, n.q - system.turning_angles(), &rotations) {
+        let rotations = system.facts().rotations.clone();
+        match of_bodies(n, n.own_q(), &rotations) {
             Some(of) => Directions { of, other: None },
             None => {
                 let rows = n.q;

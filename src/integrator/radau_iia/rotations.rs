@@ -29,7 +29,7 @@ fn three(all: &[f64], first: usize) -> [f64; 3] {
 
 impl Rotations {
     pub fn new(most: usize, system: &dyn MechanicalSystem) -> Self {
-        let places = system.rotations();
+        let places = system.facts().rotations.clone();
         let [vectors, rates] = [0; 2].map(|_| vec![vec![0.0; 3 * places.len()]; most]);
         Rotations { places, vectors, rates }
     }

@@ -132,11 +132,8 @@ impl Stages {
                 self.velocity.copy_from_slice(&v[..nv]);
                 self.velocity.iter_mut().zip(&self.unknowns.u[i]).for_each(|(place, shift)| *place += shift);
                 // N does not depend on the angles that count full turns: they follow in the last sweep.
-                if sweep == sweeps {
-                    system.rate(q, &self.velocity, &mut self.qdot[i])
-                } else {
-                    system.own_rate(q, &self.velocity, &mut self.qdot[i])
-                }
+                let written = if sweep == sweeps { nq } else { self.n.own_q() };
+                system.rate(q, &self.velocity, &mut self.qdot[i][..written]);
                 self.rotations.set_rates(i, &self.velocity);
             }
             for (i, row) in method.a.iter().enumerate() {

@@ -1,10 +1,10 @@
 //! A motion with small and finite perturbations, and its layout in one flat state vector.
 
 use crate::linearize::{Changes, Matrix, State};
-use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
 use crate::math::{Piece, Scalar, Taylor};
-use crate::system::{Dimensions, MechanicalSystem, Need, Scratch, Structure, Terms};
+use crate::system::{Dimensions, MechanicalSystem, Need, Scratch, Structure, SwitchFacts, SystemFacts, Terms};
+use std::borrow::Cow;
 
 /// A motion, columns of its variational equations, and perturbed motions.
 #[derive(Clone, Debug)]
@@ -108,8 +108,7 @@ impl Shape {
     }
 
     pub fn carrier<'a>(&self, system: &'a dyn MechanicalSystem) -> Carrier<'a> {
-        let dimensions =
-            Dimensions { q: self.coordinates(), v: self.velocities(), lambda: 0, nonholonomic: 0, states: 0 };
+        let dimensions = Dimensions { q: self.coordinates(), v: self.velocities(), lambda: 0, ..Dimensions::default() };
         Carrier { system, dimensions }
     }
 
@@ -177,16 +176,12 @@ impl MechanicalSystem for Carrier<'_> {
         self.dimensions
     }
 
-    fn switches(&self) -> &[Switch] {
-        self.system.switches()
+    fn facts(&self) -> Cow<'_, SystemFacts> {
+        Cow::Owned(SystemFacts { length: self.system.facts().length, ..SystemFacts::new(self.dimensions) })
     }
 
-    fn length(&self) -> f64 {
-        self.system.length()
-    }
-
-    fn time_functions(&self) -> &[TimeFunction] {
-        self.system.time_functions()
+    fn switches(&self) -> SwitchFacts<'_> {
+        SwitchFacts { owners: &[], ..self.system.switches() }
     }
 
     fn evaluate(&self, _: f64, _: &[f64], _: &[f64], _: Need, _: &mut Terms, _: &mut Scratch) {}

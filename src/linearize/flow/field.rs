@@ -41,11 +41,11 @@ impl<'a> VariationalField<'a> {
             shape: *shape,
             variation,
             plain,
-            excitations: system.excitations(),
+            excitations: system.facts().excitations(),
             pulse: bundle.pulse,
             driven: bundle.driven.clone(),
             changes: Changes { q: zeros.clone(), v: zeros },
-            force: Matrix::zeros(shape.v, system.excitations().len()),
+            force: Matrix::zeros(shape.v, system.facts().excitations().len()),
             connection: (shape.basis > 0 && bundle.is_parallel).then(|| LeviCivita::new(shape.v)),
         })
     }

@@ -50,7 +50,7 @@ impl<'a> Straightening<'a> {
         let n = system.dimensions();
         let all = std::iter::once(&system).chain(members);
         let closers = all.map(|system| Closer::new(*system, dependent)).collect::<Result<_>>()?;
-        let pulse = bundle.pulse.and_then(|pulse| match system.excitations().get(pulse.input)? {
+        let pulse = bundle.pulse.and_then(|pulse| match system.facts().excitations().get(pulse.input)? {
             Excitation::Constraint(row) if !bundle.driven.is_empty() => Some((pulse, *row, bundle.driven.clone())),
             _ => None,
         });

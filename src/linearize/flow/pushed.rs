@@ -3,10 +3,9 @@
 use super::Pulse;
 use crate::forward::forward;
 use crate::math::array::Each;
-use crate::system::{
-    Dimensions, Excitation, Group, MechanicalSystem, Names, Need, Rotation, Scratch, Structure, Terms,
-};
+use crate::system::{Dimensions, Excitation, MechanicalSystem, Need, Scratch, Structure, SystemFacts, Terms};
 use nalgebra::DMatrix;
+use std::borrow::Cow;
 
 /// The equations with u(t) = amplitude times the pulse.
 pub struct Pushed<'a> {
@@ -14,6 +13,8 @@ pub struct Pushed<'a> {
     pulse: Pulse,
     amplitude: f64,
     excitation: Excitation,
+    /// Those of the system without its outputs, inputs and what its state is monitored for.
+    facts: SystemFacts,
     /// n_v and n_u.
     sizes: (usize, usize),
 }
@@ -21,9 +22,13 @@ pub struct Pushed<'a> {
 impl<'a> Pushed<'a> {
     /// None where the system has no such input.
     pub fn new(system: &'a dyn MechanicalSystem, pulse: Pulse, amplitude: f64) -> Option<Self> {
-        let all = system.excitations();
-        let excitation = *all.get(pulse.input)?;
-        Some(Pushed { system, pulse, amplitude, excitation, sizes: (system.dimensions().v, all.len()) })
+        let n = system.dimensions();
+        let all = system.facts();
+        let excitation = *all.excitations().get(pulse.input)?;
+        let sizes = (n.v, all.inputs.len());
+        let SystemFacts { names, rotations, length, lengths, scales, groups, .. } = all.into_owned();
+        let facts = SystemFacts { names, rotations, length, lengths, scales, groups, ..SystemFacts::new(n) };
+        Some(Pushed { system, pulse, amplitude, excitation, facts, sizes })
     }
 
     /// Adds df/du u + df/du' u' to f.
@@ -42,16 +47,12 @@ impl MechanicalSystem for Pushed<'_> {
     forward! { .system =>
         fn dimensions(&self) -> Dimensions;
         fn structure(&self) -> Structure;
-        fn names(&self) -> Names;
-        fn turning_angles(&self) -> usize;
         fn rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]);
-        fn own_rate(&self, q: &[f64], v: &[f64], qdot: &mut [f64]);
-        fn rotations(&self) -> Vec<Rotation>;
         fn normalize(&self, q: &mut [f64]);
-        fn length(&self) -> f64;
-        fn scales(&self) -> Vec<f64>;
-        fn groups(&self) -> Vec<Group>;
-        fn lengths(&self) -> Vec<(String, f64)>;
+    }
+
+    fn facts(&self) -> Cow<'_, SystemFacts> {
+        Cow::Borrowed(&self.facts)
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {

@@ -100,7 +100,7 @@ pub fn flow_through(
 
 /// Returns the changes of form between a state and a time.
 fn events(system: &dyn MechanicalSystem, start: &State, end: f64) -> Result<Vec<Event>> {
-    if system.switches().is_empty() || end <= start.t {
+    if system.switches().all.is_empty() || end <= start.t {
         return Ok(Vec::new());
     }
     let method = Method { rtol: tolerances::FLOW_RTOL, atol: tolerances::FLOW_ATOL, ..Method::default() };
@@ -153,7 +153,7 @@ impl<'a> Arguments<'a> {
 
     fn at(&mut self, q: &[f64], v: &[f64]) -> Vec<Rate> {
         let Event { state, vdot: [vdot, _], pieces: [pieces, _] } = self.event;
-        let mut all = vec![Rate::fixed(0.0); self.system.switches().len()];
+        let mut all = vec![Rate::fixed(0.0); self.system.switches().all.len()];
         self.scratch.pieces.clone_from(pieces);
         self.system.switching(OperatingPoint { t: state.t, q, v, vdot, lambda: &[] }, &mut all, &mut self.scratch);
         all

@@ -121,7 +121,7 @@ fn states(dae: &Dae, variation: &Variation, kept: &[usize]) -> Vec<String> {
     let Directions { mut q, v } = directions(system, &variation.point.q);
     q.resize(v.len(), String::new());
     let mut states = [q, v].concat();
-    let multipliers = system.names().lambda;
+    let multipliers = system.facts().names.lambda.clone();
     for (_, suffix) in
         [(Some(dae.lambda), ""), (dae.eta, " eta"), (dae.mu, " mu")].iter().filter(|kind| kind.0.is_some())
     {

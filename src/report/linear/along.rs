@@ -38,7 +38,7 @@ impl AlongAnswer<'_> {
 
     /// Returns the arrays along the motion, the time first, and the transition matrices.
     fn arrays(&self) -> Result<Vec<(&'static str, Array)>> {
-        let names = self.prepared.system().names();
+        let names = self.prepared.system().facts().names.clone();
         let scene = &self.prepared.name;
         let moment = |model: &LinearModel| Linear { scene, names: &names, model }.moment();
         let mut moments = self.along.models.iter().map(moment);
@@ -61,7 +61,7 @@ impl AlongAnswer<'_> {
     /// Returns names, units and errors, for NumPy and MATLAB.
     fn words(&self) -> Vec<(&'static str, Array)> {
         let model = self.first();
-        let names = self.prepared.system().names();
+        let names = self.prepared.system().facts().names.clone();
         let mut words = vec![
             ("scene", Array::Text(self.prepared.name.clone())),
             ("method", Array::Text(model.method.clone())),
@@ -95,7 +95,7 @@ impl AlongAnswer<'_> {
 impl Answer for AlongAnswer<'_> {
     fn json(&self) -> impl Serialize {
         let model = self.first();
-        let names = self.prepared.system().names();
+        let names = self.prepared.system().facts().names.clone();
         let Along { models, measured, deviations, .. } = self.along;
         let mut found = Map::new();
         let mut put = |key: &str, value: Value| _ = found.insert(key.to_string(), value);

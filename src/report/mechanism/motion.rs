@@ -38,7 +38,7 @@ impl<'a> Motion<'a> {
     /// Returns a warning if rows are too far apart to draw the mechanism between them.
     pub fn sparse(&self) -> Option<Warning> {
         let names = &self.trajectory.names.q;
-        let length = self.prepared.system().length();
+        let length = self.prepared.system().facts().length;
         let scale = |name: &String| if name.ends_with(['x', 'y', 'z']) && !name.contains(".q") { length } else { 1.0 };
         // On half the distance the cubic is 2^4 times as accurate.
         let is_far = |row: &[Vec<f64>]| {

@@ -196,11 +196,11 @@ const FAR: f64 = 0.25;
 
 fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
     let own = poses[part.first_marker];
-    let offset = in_space(&part.body.marker(0).offset);
+    let offset = in_space(&part.body.markers()[0].offset);
     let r = (0..3).fold(own.r, |r, i| along(r, own.axes[i], -offset[i]));
     let centre = Pose { r, axes: own.axes };
     let mut points: Vec<[f64; 3]> = Vec::new();
-    for k in 0..part.body.marker_count() {
+    for k in 0..part.body.markers().len() {
         let id = part.first_marker + k;
         // The body's own frame is drawn only if a joint or force uses it.
         if k > 0 || used[id] {
@@ -211,7 +211,7 @@ fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
     if points.len() < 2 || distance(&points, r) > FAR * size {
         add(&mut points, r);
     }
-    Limb { name: part.name.clone(), points, line: Vec::new(), centre, oriented: part.body.oriented(), may_spin: false }
+    Limb { name: part.name.clone(), points, line: Vec::new(), centre, oriented: part.facts.oriented, may_spin: false }
 }
 
 /// Draws the first node of an absolute beam as the whole beam, and drops the others.

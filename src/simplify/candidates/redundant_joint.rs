@@ -16,7 +16,7 @@ impl Candidate for RedundantJoint {
     }
 
     fn propose(&self, facts: &Facts) -> Vec<Proposal> {
-        let groups = facts.prepared.system().groups();
+        let groups = facts.prepared.system().facts().groups();
         groups.iter().filter_map(|group| proposal(facts, group)).collect()
     }
 }

@@ -89,8 +89,8 @@ pub struct Events<'a> {
 
 impl<'a> Events<'a> {
     pub fn new(system: &'a dyn MechanicalSystem, (start, end): (f64, f64)) -> Self {
-        let switches = system.switches();
-        let functions = system.time_functions();
+        let switches = system.switches().all;
+        let functions = system.switches().time_functions;
         let zeros = || vec![Rate::fixed(0.0); switches.len()];
         let is_of_state = |switch: &Switch| switch.of_time.is_none() && switch.thresholds != Thresholds::Held;
         let of_state: Vec<usize> = (0..switches.len()).filter(|&number| is_of_state(&switches[number])).collect();
@@ -312,7 +312,7 @@ impl<'a> Events<'a> {
 
     /// Name of the element of a switching function.
     pub fn owner(&self, number: usize) -> &str {
-        self.system.owner_of_switch(number)
+        self.system.switches().owner(number)
     }
 }
 

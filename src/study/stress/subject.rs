@@ -202,7 +202,7 @@ fn perturbed(
     if position == 0.0 && velocity == 0.0 {
         return (q, v);
     }
-    let size = system.scales().into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let size = system.facts().scales.iter().copied().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let mut random = Random(1);
     let dq: Vec<f64> = v.iter().map(|_| position * size * random.uniform()).collect();
     let from = q.clone();

@@ -5,13 +5,14 @@ mod jet;
 mod passes;
 
 use super::{
-    Column, Dimensions, Energy, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Scratch, Tangent,
-    Terms,
+    Column, Dimensions, Energy, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Scratch,
+    SystemFacts, Tangent, Terms,
 };
 use crate::math::{Dual, Regime, Scalar};
 use christoffel::christoffel;
 use nalgebra::DMatrix;
 use passes::{Memory, SeededEquations, constraints, curvature, fixed, output_slopes, tangent_of};
+use std::borrow::Cow;
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
 /// hand: phi is evaluated once over numbers that carry phi', gamma, phi_t and seven columns of G, and again for each
@@ -69,7 +70,14 @@ pub trait Equations: Send + Sync + 'static {
 impl<E: Equations> MechanicalSystem for E {
     fn dimensions(&self) -> Dimensions {
         let (n, m) = self.size();
-        Dimensions { q: n, v: n, lambda: m, nonholonomic: 0, states: 0 }
+        Dimensions { q: n, v: n, lambda: m, ..Dimensions::default() }
+    }
+
+    fn facts(&self) -> Cow<'_, SystemFacts> {
+        let named = |names: Vec<String>| names.into_iter().map(|name| Column { name, unit: String::new() }).collect();
+        let outputs = named(self.output_names());
+        let inputs = named(self.input_names());
+        Cow::Owned(SystemFacts { outputs, inputs, ..SystemFacts::new(self.dimensions()) })
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
@@ -130,10 +138,6 @@ impl<E: Equations> MechanicalSystem for E {
         Some(Energy { kinetic: scratch.with(|| Memory::new(n, m), kinetic), potential })
     }
 
-    fn columns(&self) -> Vec<Column> {
-        named(self.output_names())
-    }
-
     fn outputs(&self, at: OperatingPoint, out: &mut [f64], _scratch: &mut Scratch) {
         Equations::outputs(self, at.t, at.q, at.v, out);
     }
@@ -148,17 +152,9 @@ impl<E: Equations> MechanicalSystem for E {
         true
     }
 
-    fn inputs(&self) -> Vec<Column> {
-        named(self.input_names())
-    }
-
     fn input_forces(&self, t: f64, q: &[f64], _v: &[f64], f: &mut DMatrix<f64>, _scratch: &mut Scratch) {
         let mut forces = vec![0.0; f.len()];
         Equations::input_forces(self, t, q, &mut forces);
         f.copy_from(&DMatrix::from_row_slice(f.nrows(), f.ncols(), &forces));
     }
-}
-
-fn named(names: Vec<String>) -> Vec<Column> {
-    names.into_iter().map(|name| Column { name, unit: String::new() }).collect()
 }

@@ -89,7 +89,7 @@ fn models_in_a_constant_chart_follow_a_pulse_of_the_drive() {
     let bundle = Bundle { columns, driven: vec![1.0], pulse: Some(pulse), ..Bundle::of(&all[0]) };
     let mut end = Matrix::zeros(2, 1);
     flow(scene.system(), &bundle, &[0.4 + width], |snapshot| {
-        let angle = scene.system().names().v.iter().position(|name| name == "bob.angle'").unwrap();
+        let angle = scene.system().facts().names.v.iter().position(|name| name == "bob.angle'").unwrap();
         end = Matrix::from_column_slice(2, 1, &[snapshot.columns.q[(angle, 0)], snapshot.columns.v[(angle, 0)]]);
         true
     })

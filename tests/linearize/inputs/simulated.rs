@@ -29,7 +29,7 @@ fn compare(
     limit: f64,
 ) {
     let still = scene("0");
-    let names: Vec<String> = still.system().columns().into_iter().map(|column| column.name).collect();
+    let names: Vec<String> = still.system().facts().outputs.iter().map(|column| column.name.clone()).collect();
     let model = model(&mut variation(&still), "mcs", None);
     let end = settled + 3.0 / frequency;
     let run = scene(&format!("{amplitude}*sin(2*pi*{frequency}*t)")).tight(1e-11, end, 0.02 / frequency);
