@@ -1,69 +1,39 @@
 //! Names, parameters and checks with which an element reads its part of a scene.
 
-use super::formula::Locals;
-use super::{Formula, NamedOutputs, Probe, Quantity, Turned, Turning};
-use crate::error::{Error, Result, Warning, nearest, short, suggest};
+use super::marker_table::{MarkerId, MarkerTable};
+use super::probe::{Probe, Quantity};
+use super::turning::{Turned, Turning};
+use crate::error::{Error, Result, Warning, short};
 use crate::math::Thresholds;
 use crate::math::array::Each;
 use crate::math::expression::{Expression, Number, Parameters, Switch, TimeFunction};
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::path::Path;
 
-/// Index of a marker among all markers of a scene, those of the ground included.
-pub type MarkerId = usize;
-
-/// The markers of a scene by their full names, `body.marker`.
-#[derive(Clone, Debug, Default)]
-pub struct MarkerTable {
-    /// Full names in order; `body` alone names the marker at the body's own frame.
-    pub names: Vec<String>,
-    /// Index of the body that carries it; `None` is the ground.
-    pub bodies: Vec<Option<usize>>,
-    /// Names of the bodies, nodes of absolute beams among them.
-    pub body_names: Vec<String>,
-    /// False for point masses, whose markers have no orientation.
-    pub oriented: Vec<bool>,
-    /// Names of the states with their markers, which no reference can name.
-    pub states: Vec<(String, MarkerId)>,
-    places: HashMap<String, MarkerId>,
+/// An output of the scene as expressions read it.
+pub enum NamedOutput {
+    /// An expression that stands for it.
+    Text(String),
+    /// A scalar of markers.
+    Probe(Probe),
+    /// Another measure, of the output of this number, which outputs alone may use.
+    Other(usize),
 }
 
-impl MarkerTable {
-    /// Adds a marker; that of the body's own frame has to be its first.
-    pub fn add(&mut self, name: String, body: Option<usize>, oriented: bool) {
-        self.places.insert(name.clone(), self.names.len());
-        self.names.push(name);
-        self.bodies.push(body);
-        self.oriented.push(oriented);
-    }
+/// The outputs of a scene by their names.
+pub trait NamedOutputs<const D: usize> {
+    /// The output of this name, if there is one.
+    ///
+    /// # Errors
+    /// It is none that an expression may use.
+    fn find(&self, name: &str, build: &Build<D>) -> Option<Result<NamedOutput>>;
+}
 
-    /// Adds the marker of a state, a body of its own.
-    pub fn add_state(&mut self, name: String, body: usize) {
-        self.states.push((name.clone(), self.names.len()));
-        self.names.push(name);
-        self.bodies.push(Some(body));
-        self.oriented.push(false);
-    }
-
-    /// True if a marker has this name; that of a body or `ground` names its own frame.
-    pub fn has_body(&self, name: &str) -> bool {
-        self.places.contains_key(name)
-    }
-
-    /// Index of the marker with this full name.
-    pub fn find(&self, name: &str) -> Result<MarkerId> {
-        self.places.get(name).copied().ok_or_else(|| {
-            let given = self.names.len() - self.states.len();
-            let names = || self.names[..given].iter().map(String::as_str);
-            // A body's own frame may be meant; where nothing is near, its markers are listed alone.
-            let hint = match nearest(name, names()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => suggest(name, names().filter(|known| known.contains('.'))),
-            };
-            Error::input(format!("there is no marker `{name}`")).hint(hint)
-        })
+/// No outputs.
+impl<const D: usize> NamedOutputs<D> for () {
+    fn find(&self, _: &str, _: &Build<D>) -> Option<Result<NamedOutput>> {
+        None
     }
 }
 
@@ -103,7 +73,7 @@ pub struct Switches {
 
 impl Switches {
     /// Adds the switching functions of an expression and numbers them in it.
-    fn add(&mut self, expression: &mut Expression) {
+    pub(super) fn add(&mut self, expression: &mut Expression) {
         let switches = expression.number_switches(self.all.len());
         self.all.extend(switches);
         self.time_functions.extend(expression.time_functions());
@@ -246,29 +216,6 @@ impl<const D: usize> Build<'_, D> {
         }
     }
 
-    /// An expression over t alone, in the equations of motion: its value is
-    /// [`eval_held`](Expression::eval_held)`(&[time.t], time.regime)`, and `switching` of the kernel has to write its
-    /// [`arguments`](Expression::arguments).
-    pub fn function_of_time(&self, field: &str, number: &Number) -> Result<Expression> {
-        let formula = self.acting(field, number, false)?;
-        formula.function_of_time().map_err(|error| error.under(field))
-    }
-
-    /// An expression over t and marker quantities, and their rates if `rates` is true, in the equations of motion: its
-    /// switching functions are added to those of the scene.
-    pub fn acting(&self, field: &str, number: &Number, rates: bool) -> Result<Formula> {
-        self.acting_with(field, number, rates, &[])
-    }
-
-    /// The same with names of its own.
-    pub(crate) fn acting_with(&self, field: &str, number: &Number, rates: bool, locals: Locals) -> Result<Formula> {
-        let order = usize::from(rates);
-        let formula = Formula::parse(&number.to_string(), self, order, locals);
-        let mut formula = formula.map_err(|error| error.under(field))?;
-        self.switches.borrow_mut().add(&mut formula.expression);
-        Ok(formula)
-    }
-
     /// Number of a switching function that an element has in addition to its expressions; its threshold is zero.
     /// `switching` of its kernel writes the argument at this number; [`Regime::piece`](crate::math::Regime::piece)
     /// gives the side of zero whose law applies within a step: 0 below, 2 above.
@@ -304,11 +251,6 @@ impl<const D: usize> Build<'_, D> {
             self.turnings.borrow_mut().last_mut().into_iter().for_each(|last| last.name = name.to_string());
             turning
         })
-    }
-
-    /// An expression of an output, which may read accelerations too and does not act on the motion.
-    pub(crate) fn observing(&self, field: &str, number: &Number) -> Result<Formula> {
-        Formula::parse(&number.to_string(), self, 2, &[]).map_err(|error| error.under(field))
     }
 
     /// A marker quantity such as `crank.C.x` or `crank.angle`, or a state, with `'` for its rate.

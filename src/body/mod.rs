@@ -18,11 +18,13 @@ mod guided;
 mod inertia;
 mod kernel;
 mod kind;
+mod marker_table;
 mod orientation;
 mod parse;
 mod point_mass;
 mod pose;
 mod probe;
+mod read_formula;
 mod rigid;
 mod rigid_planar;
 mod rigid_spatial;
@@ -30,9 +32,9 @@ mod shapes;
 mod state;
 mod turning;
 
-pub use build::{Build, MarkerId, MarkerTable, Switches};
+pub use build::{Build, NamedOutput, NamedOutputs, Switches};
 pub use facts::BodyFacts;
-pub use formula::{Formula, NamedOutput, NamedOutputs};
+pub use formula::Formula;
 pub(crate) use frame::turned;
 pub use frame::{Frame, Marker, Wrench, cross, dot, norm, scale, sub};
 #[doc(hidden)]
@@ -43,6 +45,7 @@ pub use kind::ElementKind;
 #[doc(hidden)]
 pub use kind::Repeat;
 pub(crate) use kind::mistaken;
+pub use marker_table::{MarkerId, MarkerTable};
 #[doc(hidden)]
 pub use orientation::{Orientation, aim};
 #[doc(hidden)]

@@ -76,8 +76,7 @@ fn turned_far<const D: usize>(mechanism: &Mechanism<D>, guess: &[f64], q: &[f64]
     let is_node = |index: usize| model.beams.iter().any(|beam| beam.bodies().contains(&index));
     let mut most: Option<(f64, &str)> = None;
     for (index, part) in model.given_bodies().iter().enumerate() {
-        let own = part.first_q..part.first_q + part.nq;
-        let angle = turn(&part.facts.coordinate_names, &guess[own.clone()], &q[own]);
+        let angle = turn(&part.facts.coordinate_names, part.coordinates(guess), part.coordinates(q));
         let allowed = if is_node(index) { FRAC_PI_2 } else { allowed };
         if angle > most.map_or(allowed, |(angle, _)| angle.max(allowed)) {
             most = Some((angle, &part.name));

@@ -100,7 +100,7 @@ fn cut<const D: usize>(
         return Ok(known);
     }
     let part = &bodies[body];
-    let own = part.first_marker..part.first_marker + part.body.markers().len();
+    let own = part.markers();
     let slack = 1e-9 * line.length();
     let is_beyond = |marker: MarkerId| {
         let s = part.body.markers()[marker - own.start].offset[0];

@@ -64,6 +64,24 @@ pub struct Part<const D: usize> {
 }
 
 impl<const D: usize> Part<D> {
+    /// Its coordinates among all.
+    #[inline]
+    pub fn coordinates<'q>(&self, q: &'q [f64]) -> &'q [f64] {
+        &q[self.first_q..self.first_q + self.nq]
+    }
+
+    /// Its velocities among all, or what else has a value for each velocity.
+    #[inline]
+    pub fn velocities<'v>(&self, v: &'v [f64]) -> &'v [f64] {
+        &v[self.first_v..self.first_v + self.nv]
+    }
+
+    /// The range of its markers.
+    #[inline]
+    pub fn markers(&self) -> Range<MarkerId> {
+        self.first_marker..self.first_marker + self.body.markers().len()
+    }
+
     /// Name of a coordinate or velocity of the body; a state has its own.
     pub fn full_name(&self, name: &str) -> String {
         if name.is_empty() { self.name.clone() } else { format!("{}.{name}", self.name) }

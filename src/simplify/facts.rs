@@ -10,7 +10,7 @@ use crate::math::array::{Each, from_fn};
 use crate::prepared::{AnyMechanism, PreparedScene};
 use crate::scene::document::{self, carrier, find, is_rigid, text};
 use crate::study::Watched;
-use crate::system::{MechanicalSystem, Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
+use crate::system::{Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
 use serde_json::{Map, Value, json};
 
 /// The largest number of states that the estimates look at.
@@ -303,8 +303,8 @@ fn seen<const D: usize>(mechanism: &Mechanism<D>, states: &[State]) -> Seen {
     let model = mechanism.model();
     let kinetic = |state: &State| -> Vec<f64> {
         let of = |part: &crate::scene::Part<D>| {
-            let q = &state.q[part.first_q..][..part.nq];
-            let v = &state.v[part.first_v..][..part.nv];
+            let q = part.coordinates(&state.q);
+            let v = part.velocities(&state.v);
             part.body.energy(q, v, &model.gravity).kinetic
         };
         model.bodies.iter().map(of).collect()

@@ -1,11 +1,11 @@
 //! Places of the entries of K and C: a block for each body, and one for each pair of bodies that an element joins.
 
-use super::evaluate::RigidParts;
+use super::layout::Layout;
 use super::support::Support;
 use crate::joint::Lock;
 use crate::math::array::from_fn;
 use crate::math::kkt::Pattern;
-use crate::scene::{Connection, Model};
+use crate::scene::Connection;
 use std::ops::Range;
 
 /// Places of the blocks of all bodies, joints and forces.
@@ -14,8 +14,8 @@ pub(super) struct Couplings {
     /// Those of joints in closed form.
     pub locked: Vec<LockedBlocks>,
     /// Those of all other joints, with their indices.
-    pub joints: Vec<(usize, Coupling)>,
-    pub forces: Vec<Coupling>,
+    pub joints: Vec<(usize, ElementCoupling)>,
+    pub forces: Vec<ElementCoupling>,
 }
 
 /// Places of the blocks of K of a joint that locks motions of two rigid bodies, row by row: of their rotations alone
@@ -27,9 +27,9 @@ pub(super) struct LockedBlocks {
 }
 
 /// Blocks of one joint or force: the bodies that carry its markers, and the blocks of their pairs, column by column.
-pub(super) struct Coupling {
+pub(super) struct ElementCoupling {
     pub carriers: Vec<Carrier>,
-    blocks: Vec<Block>,
+    blocks: Vec<CouplingBlock>,
 }
 
 /// A body that carries markers of an element.
@@ -37,11 +37,11 @@ pub(super) struct Carrier {
     pub body: usize,
     /// The velocities of the system that move any of the element's markers on this body.
     pub velocities: Vec<usize>,
-    pub markers: Vec<Held>,
+    pub markers: Vec<CarriedMarker>,
 }
 
 /// One marker of an element on its carrier.
-pub(super) struct Held {
+pub(super) struct CarriedMarker {
     /// Index of the marker in the element.
     pub slot: usize,
     /// Places of the marker's velocities among those of the carrier.
@@ -49,18 +49,14 @@ pub(super) struct Held {
 }
 
 /// d(forces on the velocities of a row's carrier)/d(velocity directions of a column's carrier), row by row.
-pub(super) struct Block {
+pub(super) struct CouplingBlock {
     pub first_entry: usize,
     pub width: usize,
 }
 
 impl Couplings {
-    pub fn new<const D: usize>(
-        model: &Model<D>,
-        supports: &[Support],
-        rigid: &RigidParts<D>,
-        pattern: &mut Pattern,
-    ) -> Self {
+    pub fn new<const D: usize>(layout: &Layout<D>, pattern: &mut Pattern) -> Self {
+        let Layout { model, supports, .. } = layout;
         let own = |part: &crate::scene::Part<D>| {
             let first = pattern.entries.len();
             let places = part.facts.tangent_pattern.iter();
@@ -71,27 +67,23 @@ impl Couplings {
         let mut locked = Vec::new();
         let mut joints = Vec::new();
         for (joint, Connection { markers, .. }) in model.joints.iter().enumerate() {
-            match rigid.lock(model, joint) {
-                Some(lock) => locked.push(LockedBlocks::new(model, rigid, (joint, lock), pattern)),
-                None => joints.push((joint, Coupling::new(markers, supports, pattern))),
+            match layout.lock(joint) {
+                Some(lock) => locked.push(LockedBlocks::new(layout, (joint, lock), pattern)),
+                None => joints.push((joint, ElementCoupling::new(markers, supports, pattern))),
             }
         }
-        let forces = model.forces.iter().map(|force| Coupling::new(&force.markers, supports, pattern)).collect();
+        let forces = model.forces.iter().map(|force| ElementCoupling::new(&force.markers, supports, pattern)).collect();
         Couplings { bodies, locked, joints, forces }
     }
 }
 
 impl LockedBlocks {
-    fn new<const D: usize>(
-        model: &Model<D>,
-        rigid: &RigidParts<D>,
-        (joint, lock): (usize, &Lock<D>),
-        pattern: &mut Pattern,
-    ) -> Self {
+    fn new<const D: usize>(layout: &Layout<D>, (joint, lock): (usize, &Lock<D>), pattern: &mut Pattern) -> Self {
+        let model = &layout.model;
         let velocities = |slot: usize| {
             let body = model.markers.bodies[model.joints[joint].markers[slot]]?;
             let first = model.bodies[body].first_v;
-            let freedom = rigid.freedoms[body].as_ref()?;
+            let freedom = layout.freedoms[body].as_ref()?;
             let skipped = if lock.changes_with_rotations() { freedom.translations.len() } else { 0 };
             Some(first + skipped..first + freedom.count())
         };
@@ -108,22 +100,22 @@ impl LockedBlocks {
     }
 }
 
-impl Coupling {
+impl ElementCoupling {
     fn new(markers: &[usize], supports: &[Support], pattern: &mut Pattern) -> Self {
         let carriers = Carrier::all(markers, supports);
         let mut blocks = Vec::new();
         for column in &carriers {
             for row in &carriers {
-                blocks.push(Block { first_entry: pattern.entries.len(), width: column.velocities.len() });
+                blocks.push(CouplingBlock { first_entry: pattern.entries.len(), width: column.velocities.len() });
                 let places = row.velocities.iter().flat_map(|&i| column.velocities.iter().map(move |&j| (i, j)));
                 pattern.entries.extend(places);
             }
         }
-        Coupling { carriers, blocks }
+        ElementCoupling { carriers, blocks }
     }
 
     /// The blocks of one column, one for each row.
-    pub fn column(&self, column: usize) -> &[Block] {
+    pub fn column(&self, column: usize) -> &[CouplingBlock] {
         let n = self.carriers.len();
         &self.blocks[column * n..(column + 1) * n]
     }
@@ -145,7 +137,10 @@ impl Carrier {
         velocities.dedup();
         let held = |(slot, &marker): (usize, &usize)| {
             let places = supports[marker].velocities.iter();
-            Held { slot, places: places.filter_map(|velocity| velocities.binary_search(velocity).ok()).collect() }
+            CarriedMarker {
+                slot,
+                places: places.filter_map(|velocity| velocities.binary_search(velocity).ok()).collect(),
+            }
         };
         let markers = own().map(held).collect();
         Carrier { body, velocities, markers }

@@ -11,13 +11,16 @@
 //! along: a cantilever buckles at half of it, or at 1.3 times where a force at the tip makes it. A beam that is as
 //! stiff one way as the other never buckles sideways.
 
-use super::limits::{Extent, POINTS, Theory};
+use super::theory::Theory;
 use crate::body::Bent;
 use crate::body::flexible::{Line, Section};
 use crate::math::array::from_fn;
 use crate::scene::{Model, Part};
 use std::f64::consts::PI;
 use std::iter::zip;
+
+/// Number of equal parts of a beam's line at whose ends the deformation is evaluated, besides at its markers.
+pub(super) const POINTS: usize = 8;
 
 /// Ratio of a section load to its critical value, linear in the coordinates: pairs of a coordinate and its factor.
 pub(super) struct Load(Vec<(usize, f64)>);
@@ -37,7 +40,7 @@ impl Load {
 }
 
 /// Buckling limits of a beam in a floating frame, each with the load ratios along the beam.
-pub(super) fn loads<const D: usize>(model: &Model<D>, part: &Part<D>) -> Vec<(Theory, Extent<D>)> {
+pub(super) fn loads<const D: usize>(model: &Model<D>, part: &Part<D>) -> Vec<(Theory, Vec<Load>)> {
     let Some(Bent { line, stretches, first }) = part.body.bent() else { return Vec::new() };
     let length = line.length();
     let free = free_length(model, part, line.length());
@@ -51,13 +54,13 @@ pub(super) fn loads<const D: usize>(model: &Model<D>, part: &Part<D>) -> Vec<(Th
     let forces = if stiffens { Vec::new() } else { along(&|section| axial_force::<D>(section, free)) };
     let moments = if D == 3 { along(&|section| moment(section, length)) } else { Vec::new() };
     let all = [(Theory::SmallAxialForces, forces), (Theory::SmallMoments, moments)];
-    all.into_iter().filter(|(_, loads)| !loads.is_empty()).map(|(theory, all)| (theory, Extent::Loads(all))).collect()
+    all.into_iter().filter(|(_, loads)| !loads.is_empty()).collect()
 }
 
 /// The length of a beam hinged at both ends that buckles under the same axial force: between the outermost joints, or
 /// twice an end beyond them.
 fn free_length<const D: usize>(model: &Model<D>, part: &Part<D>, length: f64) -> f64 {
-    let own = part.first_marker..part.first_marker + part.body.markers().len();
+    let own = part.markers();
     let held = model.joints.iter().flat_map(|joint| &joint.markers).filter(|marker| own.contains(marker));
     let places = held.map(|marker| part.body.markers()[marker - own.start].offset[0]);
     match places.fold(None, |ends, s| Some(ends.map_or([s, s], |[a, b]: [f64; 2]| [a.min(s), b.max(s)]))) {

@@ -1,8 +1,7 @@
 //! What is known of a system before it moves: counts, names, units, and what its state is monitored for.
 
-use super::input::Excitation;
-use super::limits::Limited;
 use super::spin::{Placement, Rotation, Spin};
+use super::theory::Limited;
 use crate::math::expression::{Switch, TimeFunction};
 
 /// Numbers of coordinates, velocities and constraints.
@@ -67,6 +66,28 @@ pub struct Column {
     pub unit: String,
 }
 
+/// The equation that an input u is part of; it decides which derivatives of u are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Excitation {
+    /// f(u).
+    Force,
+    /// f(u, u'): a displacement under a damped element.
+    Displacement,
+    /// phi - u in this row: a prescribed coordinate. u' is part of phi', u'' of phi''.
+    Constraint(usize),
+}
+
+impl Excitation {
+    /// Order of the highest derivative of u in the equations of index 1.
+    pub fn order(self) -> usize {
+        match self {
+            Excitation::Force => 0,
+            Excitation::Displacement => 1,
+            Excitation::Constraint(_) => 2,
+        }
+    }
+}
+
 /// The rows of phi that belong to one joint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[doc(hidden)]
@@ -98,7 +119,7 @@ impl<'a> SwitchFacts<'a> {
 }
 
 /// Facts of a system that never change. Own equations fill what they have, over those of [`SystemFacts::new`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SystemFacts {
     /// Names of q, v and lambda.
     pub names: Names,
@@ -146,21 +167,9 @@ impl SystemFacts {
         let v = [numbered("v", n.moving()), numbered("xi", n.states)].concat();
         SystemFacts {
             names: Names { q: numbered("q", n.q), v, lambda: numbered("lambda", n.lambda) },
-            outputs: Vec::new(),
-            works: Vec::new(),
-            inputs: Vec::new(),
-            excitations: Vec::new(),
-            gaps: Vec::new(),
-            limited: Vec::new(),
-            turning_bodies: Vec::new(),
-            rotations: Vec::new(),
-            axes: None,
-            placements: None,
             length: 1.0,
-            lengths: Vec::new(),
             scales: vec![1.0; n.lambda],
-            stiffness: Vec::new(),
-            groups: Vec::new(),
+            ..SystemFacts::default()
         }
     }
 

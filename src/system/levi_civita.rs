@@ -1,7 +1,6 @@
 //! The mass metric along a motion.
 
-use super::mechanism::of;
-use super::tangent::OperatingPoint;
+use super::terms::OperatingPoint;
 use crate::body::{cross, dot};
 use crate::math::array::from_fn;
 use crate::scene::Part;
@@ -43,7 +42,7 @@ impl LeviCivita {
     /// in the body's axes, and W x = (x x J w + w x J x + J (w x x))/2.
     pub(super) fn add_constant_mass<const D: usize>(&mut self, part: &Part<D>, at: &OperatingPoint) {
         let Some(first) = part.facts.turning else { return };
-        let inertia = inertia(part, of(at.q, part, true), first);
+        let inertia = inertia(part, part.coordinates(at.q), first);
         let momentum = |w: &[f64; 3]| -> [f64; 3] { from_fn(|i| dot(&inertia[i], w)) };
         for (target, v) in [(&mut self.w, at.v), (&mut self.w_dot, at.vdot)] {
             let w: [f64; 3] = from_fn(|i| v[part.first_v + first + i]);

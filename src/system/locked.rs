@@ -74,7 +74,7 @@ impl<const D: usize> Lock<D> {
 }
 
 /// The two bodies of a joint, with what K = d(G^T lambda)/dq is added to.
-pub(super) struct Stiffness<'a, const D: usize> {
+pub(super) struct LockedStiffness<'a, const D: usize> {
     /// The bodies of markers A and B; none: the ground.
     pub solids: [Option<Solid<D>>; 2],
     /// The first entry of each block of K, `first[row][column]`.
@@ -87,7 +87,7 @@ pub(super) struct Stiffness<'a, const D: usize> {
 const A: Option<usize> = Some(0);
 const B: Option<usize> = Some(1);
 
-impl<const D: usize> Stiffness<'_, D> {
+impl<const D: usize> LockedStiffness<'_, D> {
     /// Adds that of a joint with the multipliers `lambda`.
     pub fn add(&mut self, lock: &Lock<D>, frames: [&Frame<Taylor<f64>, D>; 2], lambda: &[f64]) {
         let [a, b] = frames.each(|frame| frame.map(|x| x.x));

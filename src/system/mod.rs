@@ -3,14 +3,21 @@
 //! [`MechanicalSystem`] is what solvers see: M, f, phi, phi', gamma and G at a state. A scene becomes one through
 //! [`Mechanism`]; a researcher implements it directly, or writes M, f and phi once over any scalar as [`Equations`]
 //! and gets the derivatives.
+//!
+//! [`Mechanism`] has a layout of its model, which three parts read: `evaluate` writes the terms, `tangent` K and C, and
+//! `output` with `output_tangent` the outputs.
 
+mod actions;
 mod coupling;
 mod critical;
+mod dependence;
 mod equations;
 mod evaluate;
 mod facts;
-mod gaps;
+mod frames;
+mod gather;
 mod input;
+mod layout;
 mod levi_civita;
 mod limits;
 mod locked;
@@ -18,13 +25,13 @@ mod mechanism;
 mod model_facts;
 mod output;
 mod output_tangent;
+mod placed_joint;
 mod portions;
 mod rigid_joint;
-mod road;
 mod rotating;
 mod rows;
-mod scale;
 mod section;
+mod seed;
 mod solid;
 mod spin;
 mod spinning;
@@ -32,30 +39,28 @@ mod support;
 mod switching;
 mod tangent;
 mod terms;
+mod theory;
 mod turnings;
 mod variation;
 mod view;
-mod workspace;
 
 pub use equations::Equations;
 #[doc(hidden)]
 pub use facts::Group;
-pub use facts::{Column, Dimensions, Names, SwitchFacts, SystemFacts};
-pub use input::Excitation;
+pub use facts::{Column, Dimensions, Excitation, Names, SwitchFacts, SystemFacts};
 #[doc(hidden)]
 pub use levi_civita::LeviCivita;
-#[doc(hidden)]
-pub use limits::{Limited, Theory};
 pub use mechanism::Mechanism;
 pub use output_tangent::OutputTangent;
-#[doc(hidden)]
-pub use road::Road;
 #[doc(hidden)]
 pub use rotating::Rotating;
 #[doc(hidden)]
 pub use spin::{Placement, Rotation, Spin};
-pub use tangent::{OperatingPoint, Tangent};
-pub use terms::{Need, Scratch, Structure, Terms};
+#[doc(hidden)]
+pub use switching::Road;
+pub use terms::{Need, OperatingPoint, Scratch, Structure, Tangent, Terms};
+#[doc(hidden)]
+pub use theory::{Limited, Theory};
 
 #[doc(hidden)]
 pub use crate::body::Energy;

@@ -1,22 +1,17 @@
 //! The facts of a scene's model.
 
-use super::facts::{Column, Names, SystemFacts};
-use super::input::Excitation;
-use super::limits::Limited;
+use super::facts::{Column, Excitation, Names, SystemFacts};
+use super::layout::Layout;
 use super::rows::{JointRows, groups};
-use super::scale::{length_scale, named_lengths, row_scales};
 use super::spin::{Placement, Rotation};
-use crate::joint::Joint;
+use super::theory::Limited;
+use crate::body::norm;
+use crate::joint::{ClosedForm, Joint};
 use crate::scene::{Connection, Input, Model, Part, Target, Watched};
-use std::ops::Range;
 
-/// Facts of a model with the rows of its joints, the places of the bodies' values of M, and the parts with a limit.
-pub(super) fn facts_of<const D: usize>(
-    model: &Model<D>,
-    joints: &[JointRows],
-    masses: &[Range<usize>],
-    limited: Vec<Limited>,
-) -> SystemFacts {
+/// Facts of a model with the parts that have a limit.
+pub(super) fn facts_of<const D: usize>(layout: &Layout<D>, limited: Vec<Limited>) -> SystemFacts {
+    let Layout { model, joints, masses, .. } = layout;
     let column = |output: &Watched| Column { name: output.name.clone(), unit: output.unit.name.clone() };
     let input = |input: &Input| Column { name: input.name.clone(), unit: input.unit.to_string() };
     let length = length_scale(model);
@@ -66,7 +61,7 @@ fn excitation(joints: &[JointRows], target: Target) -> Excitation {
     match target {
         Target::Component { .. } | Target::Road { rate: false, .. } => Excitation::Force,
         Target::Road { rate: true, .. } => Excitation::Displacement,
-        Target::Driver { joint } => Excitation::Constraint(joints[joint].first),
+        Target::Driver { joint } => Excitation::Constraint(joints[joint].rows.start),
     }
 }
 
@@ -94,4 +89,34 @@ fn placements<const D: usize>(part: &Part<D>) -> Option<Vec<Placement>> {
         (2, ["x", "y"]) | (3, ["x", "y", "z"]) if !part.facts.oriented => Some(vec![place]),
         _ => None,
     }
+}
+
+/// A length typical of the scene, m: the largest distance of a marker from its body's origin or length of a rod; where
+/// there are none, of the ground's markers; else the extent of the start, if that is below 1.
+fn length_scale<const D: usize>(model: &Model<D>) -> f64 {
+    let bodies = model.bodies.iter().map(|part| part.facts.reach).fold(0.0, f64::max);
+    let rods = model.joints.iter().filter_map(|joint| rod_length(&*joint.element)).fold(0.0, f64::max);
+    let ground = model.ground.iter().map(|marker| norm(&marker.offset)).fold(0.0, f64::max);
+    [f64::max(bodies, rods), ground, model.extent.min(1.0)].into_iter().find(|length| *length > 0.0).unwrap_or(1.0)
+}
+
+/// The length of a rod, m; `None` for other joints.
+fn rod_length<const D: usize>(joint: &dyn Joint<D>) -> Option<f64> {
+    match joint.closed_form()? {
+        ClosedForm::Rod(length) => Some(length),
+        ClosedForm::Lock(_) => None,
+    }
+}
+
+/// Lengths above zero of bodies and rods, m, by name.
+fn named_lengths<const D: usize>(model: &Model<D>) -> Vec<(String, f64)> {
+    let bodies = model.bodies.iter().map(|part| (part.name.clone(), part.facts.reach));
+    let rods = model.joints.iter().filter_map(|joint| Some((joint.name.clone(), rod_length(&*joint.element)?)));
+    bodies.chain(rods).filter(|(_, length)| *length > 0.0).collect()
+}
+
+/// The unit of each row of phi that drift is measured against: the length for rows in metres, 1 rad for angles.
+fn row_scales<const D: usize>(model: &Model<D>, length: f64) -> Vec<f64> {
+    let rows = model.joints.iter().flat_map(|joint| joint.element.row_names());
+    rows.map(|row| if matches!(row, "x" | "y" | "z" | "length") { length } else { 1.0 }).collect()
 }

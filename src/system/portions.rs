@@ -1,8 +1,8 @@
 //! Bodies and joints of large mechanisms in portions that are evaluated at once. Portions follow from the model alone,
 //! and have places of their own for all that they write.
 
-use super::Terms;
 use super::rigid_joint::{JointTerms, RigidJoint};
+use super::terms::Terms;
 use crate::body::{Frame, Pose};
 use crate::math::Taylor;
 use crate::math::threads::Divisible;

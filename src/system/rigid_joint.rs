@@ -11,12 +11,12 @@
 //! | rotation in the plane | turn_B - turn_A less full turns | d | 0 |
 //! | rotation in space, e of A and b of B | e . b | -d . n | (d . e) (d . b) - d^2 e . b + (w_A x d) . n |
 //!
-//! with u = r/abs(r) and n = e x b. Rows of G are the generalized forces of what a unit of lambda does to the bodies: a
+//! with u = r/abs(r) and n = e x b. RowWriter of G are the generalized forces of what a unit of lambda does to the bodies: a
 //! force e or u on B at its marker and the opposite on A, at the marker of A, but of B if e moves with A; or a moment -n
 //! on B and n on A.
 
-use super::Need;
 use super::rows::JointRows;
+use super::terms::Need;
 use crate::body::{Frame, Freedom, MarkerId, Pose, cross, dot, in_space, sub, twist_len};
 use crate::joint::{ClosedForm, Joint, Lock, within_half_turn};
 use crate::math::array::{Each, from_fn};
@@ -30,7 +30,7 @@ use std::sync::Arc;
 pub(super) struct RigidJoint<const D: usize> {
     form: ClosedForm<D>,
     rows: Range<usize>,
-    sides: [Side<D>; 2],
+    sides: [JointSide<D>; 2],
     /// Place of its blocks in G, that of A before that of B.
     first_entry: usize,
     /// True if all translations of a point are locked and nothing else, between bodies that can move all ways.
@@ -38,7 +38,7 @@ pub(super) struct RigidJoint<const D: usize> {
 }
 
 /// A marker of the joint on its body.
-struct Side<const D: usize> {
+struct JointSide<const D: usize> {
     /// Index of the body's pose; that of the ground is the last.
     body: usize,
     offset: [f64; D],
@@ -62,8 +62,8 @@ pub(super) struct JointTerms<'a> {
 type Path<const D: usize> = [Taylor<f64>; D];
 
 /// The rows of a joint at one state.
-struct Rows<'a, const D: usize> {
-    sides: &'a [Side<D>; 2],
+struct RowWriter<'a, const D: usize> {
+    sides: &'a [JointSide<D>; 2],
     poses: [&'a Pose<D>; 2],
     /// phi, phi' and gamma; none where they are not needed.
     levels: Option<[&'a mut [f64]; 3]>,
@@ -81,14 +81,14 @@ impl<const D: usize> RigidJoint<D> {
     ) -> Option<Self> {
         let form = joint.element.closed_form()?;
         let &[a, b] = joint.markers.as_slice() else { return None };
-        let sides = [Side::new(model, freedoms, &form, a)?, Side::new(model, freedoms, &form, b)?];
+        let sides = [JointSide::new(model, freedoms, &form, a)?, JointSide::new(model, freedoms, &form, b)?];
         let is_point = match &form {
             ClosedForm::Lock(lock) => lock.translation.len() == D && lock.rotation.is_empty(),
             ClosedForm::Rod(_) => false,
         };
-        let is_free = |side: &Side<D>| [0, twist_len(D)].contains(&side.freedom.count());
+        let is_free = |side: &JointSide<D>| [0, twist_len(D)].contains(&side.freedom.count());
         let is_point = is_point && sides.iter().all(is_free);
-        Some(RigidJoint { form, rows: rows.range(), sides, first_entry: rows.first_entry(), is_point })
+        Some(RigidJoint { form, rows: rows.rows.clone(), sides, first_entry: rows.first_entry(), is_point })
     }
 
     /// Its first row, and its first entry of G.
@@ -130,7 +130,7 @@ impl<const D: usize> RigidJoint<D> {
         });
         let levels =
             need.includes(Need::CONSTRAINTS).then(|| [phi, phi_dot, gamma].map(|level| &mut level[self.rows.clone()]));
-        let mut rows = Rows { sides: &self.sides, poses, levels, blocks };
+        let mut rows = RowWriter { sides: &self.sides, poses, levels, blocks };
         match &self.form {
             ClosedForm::Rod(length) => rows.rod(&gap, *length),
             ClosedForm::Lock(lock) => {
@@ -177,7 +177,7 @@ fn write_lever<const D: usize>(sign: f64, arm: &Path<D>, block: &mut [f64]) {
     }
 }
 
-impl<const D: usize> Side<D> {
+impl<const D: usize> JointSide<D> {
     fn new(
         model: &Model<D>,
         freedoms: &[Option<Arc<Freedom>>],
@@ -196,7 +196,7 @@ impl<const D: usize> Side<D> {
             ClosedForm::Rod(_) => place.axes,
         };
         let is_moving = freedom.count() > 0;
-        Some(Side { body, offset: place.offset, axes, turn: place.turn, freedom, is_moving })
+        Some(JointSide { body, offset: place.offset, axes, turn: place.turn, freedom, is_moving })
     }
 
     /// Writes a row of the block.
@@ -207,7 +207,7 @@ impl<const D: usize> Side<D> {
     }
 }
 
-impl<const D: usize> Rows<'_, D> {
+impl<const D: usize> RowWriter<'_, D> {
     fn rod(&mut self, gap: &Path<D>, length: f64) {
         let distance = dot(gap, gap).sqrt();
         let u = from_fn(|k| gap[k].x / distance.x);

@@ -1,6 +1,6 @@
 //! Equations of motion in axes that rotate with the mechanism.
 
-use super::spin::{Block, Placement, Spin};
+use super::spin::{Placement, Spin, SpinBlock};
 use super::{
     Dimensions, Energy, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Scratch, Structure,
     SwitchFacts, SystemFacts, Tangent, Terms,
@@ -24,6 +24,7 @@ use std::sync::Arc;
 /// These are the equations of the motion at all times if they are invariant under the rotation: if joints to the
 /// ground, forces and gravity are symmetric about the axis. Components in the world are at each instant those in the
 /// axes.
+#[derive(Clone)]
 pub struct Rotating<'a> {
     inner: &'a dyn MechanicalSystem,
     t: f64,
@@ -34,18 +35,18 @@ pub struct Rotating<'a> {
     structure: Structure,
     /// Pattern of K and C of the inner system, and places in our own by row and column.
     inner_tangent: Arc<Pattern>,
-    places: Places,
-    /// Places in the pattern of G, by row and column.
-    g_places: Places,
+    places: EntryPlaces,
+    /// EntryPlaces in the pattern of G, by row and column.
+    g_places: EntryPlaces,
 }
 
-/// Places of entries by row and column.
-type Places = BTreeMap<(usize, usize), usize>;
+/// EntryPlaces of entries by row and column.
+type EntryPlaces = BTreeMap<(usize, usize), usize>;
 
 /// Derivatives of the motion of the axes with respect to q and v.
-struct Slopes {
+struct AxesSlopes {
     /// d(W xi)/dq, d(b)/dq and d(b)/dv, sorted by the first velocity of their block.
-    blocks: Vec<[Block; 3]>,
+    blocks: Vec<[SpinBlock; 3]>,
 }
 
 impl<'a> Rotating<'a> {
@@ -77,17 +78,7 @@ impl<'a> Rotating<'a> {
 
     /// The same system after a rotation by `angle` about the axis, at the time at which that is reached.
     pub fn turned(&self, angle: f64) -> Self {
-        Rotating {
-            inner: self.inner,
-            t: self.t + angle / self.spin.speed(),
-            spin: self.spin,
-            placements: self.placements.clone(),
-            facts: self.facts.clone(),
-            structure: self.structure.clone(),
-            inner_tangent: self.inner_tangent.clone(),
-            places: self.places.clone(),
-            g_places: self.g_places.clone(),
-        }
+        Rotating { t: self.t + angle / self.spin.speed(), ..self.clone() }
     }
 
     /// Rotates q by `angle` about the axis.
@@ -127,8 +118,8 @@ impl<'a> Rotating<'a> {
         sum
     }
 
-    fn slopes(&self, q: &[f64], v: &[f64]) -> Slopes {
-        Slopes { blocks: self.placements.iter().map(|&placement| self.spin.slopes(placement, q, v)).collect() }
+    fn slopes(&self, q: &[f64], v: &[f64]) -> AxesSlopes {
+        AxesSlopes { blocks: self.placements.iter().map(|&placement| self.spin.slopes(placement, q, v)).collect() }
     }
 
     /// Terms of the inner system at a state; v is measured in the world.
@@ -140,14 +131,14 @@ impl<'a> Rotating<'a> {
 
     /// target += A X with the values of A at `pattern`, X number `which` of the slopes, target in the pattern of K and
     /// C.
-    fn add_product(&self, pattern: &Pattern, values: &[f64], slopes: &Slopes, which: usize, target: &mut [f64]) {
+    fn add_product(&self, pattern: &Pattern, values: &[f64], slopes: &AxesSlopes, which: usize, target: &mut [f64]) {
         for (&(i, j), value) in pattern.entries.iter().zip(values) {
             slopes.each(which, j, |column, x| target[self.places[&(i, column)]] += value * x);
         }
     }
 
     /// target += M X, with M given by its lower triangle.
-    fn add_mass_product(&self, mass: &[f64], slopes: &Slopes, which: usize, target: &mut [f64]) {
+    fn add_mass_product(&self, mass: &[f64], slopes: &AxesSlopes, which: usize, target: &mut [f64]) {
         for (&(i, j), value) in self.structure.mass.entries.iter().zip(mass) {
             slopes.each(which, j, |column, x| target[self.places[&(i, column)]] += value * x);
             if i != j {
@@ -157,7 +148,7 @@ impl<'a> Rotating<'a> {
     }
 
     /// target += factor A X at the places of G, for A with the pattern of G.
-    fn add_gradient(&self, values: &[f64], slopes: &Slopes, which: usize, factor: f64, target: &mut [f64]) {
+    fn add_gradient(&self, values: &[f64], slopes: &AxesSlopes, which: usize, factor: f64, target: &mut [f64]) {
         for (&(i, j), value) in self.structure.g.entries.iter().zip(values) {
             slopes.each(which, j, |column, x| {
                 if let Some(&place) = self.g_places.get(&(i, column)) {
@@ -168,10 +159,10 @@ impl<'a> Rotating<'a> {
     }
 }
 
-impl Slopes {
+impl AxesSlopes {
     /// Calls `see` with column and value of each entry of row `row`.
     fn each(&self, which: usize, row: usize, mut see: impl FnMut(usize, f64)) {
-        let own = |blocks: &&[Block; 3]| (blocks[0].first..blocks[0].first + blocks[0].size).contains(&row);
+        let own = |blocks: &&[SpinBlock; 3]| (blocks[0].first..blocks[0].first + blocks[0].size).contains(&row);
         let place = self.blocks.partition_point(|blocks| blocks[0].first <= row);
         if let Some(blocks) = self.blocks[..place].last().filter(own) {
             let block = &blocks[which];
@@ -180,7 +171,7 @@ impl Slopes {
     }
 }
 
-fn placed(pattern: &Pattern) -> Places {
+fn placed(pattern: &Pattern) -> EntryPlaces {
     pattern.entries.iter().enumerate().map(|(k, &entry)| (entry, k)).collect()
 }
 
@@ -324,8 +315,8 @@ impl Rotating<'_> {
             let own: [f64; 3] = from_fn(|k| if size == 3 { v[first + k] } else { 0.0 });
             let is_turn = matches!(placement, Placement::Axes { .. });
             let rows = if is_turn { super::spin::skew(&own) } else { [[0.0; 3]; 3] };
-            [Block { first, size, rows }; 3]
+            [SpinBlock { first, size, rows }; 3]
         });
-        self.add_gradient(g, &Slopes { blocks: blocks.collect() }, 0, 1.0, values);
+        self.add_gradient(g, &AxesSlopes { blocks: blocks.collect() }, 0, 1.0, values);
     }
 }

@@ -5,22 +5,23 @@
 //! next to a joint carries the reaction of that joint to round-off. Arms and axes are those of the displaced beam, so
 //! that the forces depend on the choice of the floating frame only by the terms that its theory neglects.
 
-use super::mechanism::Mechanism;
-use super::view::View;
+use super::actions::{act, reaction_wrench};
+use super::layout::Layout;
+use super::view::StateView;
 use crate::body::{Frame, MOST_MARKERS, Wrench, cross, floating, sub};
 use crate::force::{Force, ForceOver};
 use crate::joint::{Joint, JointOver};
 use crate::math::array::{Each, from_fn};
 use crate::math::{Scalar, Taylor};
-use crate::scene::{Cut, Part};
+use crate::scene::{Cut, Model, Part};
 
 /// A sum of wrenches about one point.
-struct Sum<S, const D: usize> {
+struct WrenchSum<S, const D: usize> {
     about: [S; D],
     wrench: Wrench<S, D>,
 }
 
-impl<S: Scalar, const D: usize> Sum<S, D> {
+impl<S: Scalar, const D: usize> WrenchSum<S, D> {
     fn add(&mut self, at: &[S; D], wrench: &Wrench<S, D>) {
         let lever = cross(&sub(at, &self.about), &wrench.force);
         (0..D).for_each(|k| self.wrench.force[k] += wrench.force[k]);
@@ -28,44 +29,47 @@ impl<S: Scalar, const D: usize> Sum<S, D> {
     }
 }
 
-impl<const D: usize> Mechanism<D> {
-    /// Axial force, shear forces, torque and bending moments about the section, in the axes of the displaced section.
-    pub(super) fn section<S: Scalar>(&self, cut: &Cut<D>, view: &impl View<S, D>) -> [S; 6]
-    where
-        dyn Force<D>: ForceOver<S, D>,
-        dyn Joint<D>: JointOver<S, D>,
-    {
-        let part = &self.model().bodies[cut.body];
-        let own = view.frame(part.first_marker);
-        let [q, v] = elastic(part);
-        let at = floating::place(&own.map(|x| x.x), &cut.section, &cut.axes, |i| view.q(q + i));
-        let mut sum = Sum { about: at.r, wrench: Wrench::zero() };
-        let coordinate = |i: usize| Taylor::new(view.q(q + i), view.v(v + i), view.vdot(v + i));
-        let origin = own.r.each(|x| x.x);
-        for piece in &cut.beyond.pieces {
-            sum.add(&origin, &floating::load(piece, &own, coordinate, &self.model().gravity));
-        }
-        for disc in &cut.beyond.discs {
-            sum.add(&origin, &floating::resistance(disc, &own, coordinate));
-        }
-        let place = |marker: usize| view.frame(marker).r.each(|x| x.x);
-        for &(joint, slot) in &cut.joints {
-            let wrench = Wrench::from_twist_order(&self.reaction_wrench(view, joint, slot));
-            sum.add(&place(self.model().joints[joint].markers[slot]), &wrench);
-        }
-        for &(force, slot) in &cut.forces {
-            let mut wrenches = [Wrench::zero(); MOST_MARKERS];
-            self.act(force, view, &mut wrenches);
-            sum.add(&place(self.model().forces[force].markers[slot]), &wrenches[slot]);
-        }
-        in_axes(&at, &sum.wrench)
+/// Axial force, shear forces, torque and bending moments about the section, in the axes of the displaced section.
+pub(super) fn section<S: Scalar, const D: usize>(
+    layout: &Layout<D>,
+    cut: &Cut<D>,
+    view: &impl StateView<S, D>,
+) -> [S; 6]
+where
+    dyn Force<D>: ForceOver<S, D>,
+    dyn Joint<D>: JointOver<S, D>,
+{
+    let model = &layout.model;
+    let part = &model.bodies[cut.body];
+    let own = view.frame(part.first_marker);
+    let [q, v] = elastic(part);
+    let at = floating::place(&own.map(|x| x.x), &cut.section, &cut.axes, |i| view.q(q + i));
+    let mut sum = WrenchSum { about: at.r, wrench: Wrench::zero() };
+    let coordinate = |i: usize| Taylor::new(view.q(q + i), view.v(v + i), view.vdot(v + i));
+    let origin = own.r.each(|x| x.x);
+    for piece in &cut.beyond.pieces {
+        sum.add(&origin, &floating::load(piece, &own, coordinate, &model.gravity));
     }
+    for disc in &cut.beyond.discs {
+        sum.add(&origin, &floating::resistance(disc, &own, coordinate));
+    }
+    let place = |marker: usize| view.frame(marker).r.each(|x| x.x);
+    for &(joint, slot) in &cut.joints {
+        let wrench = Wrench::from_twist_order(&reaction_wrench(layout, view, joint, slot));
+        sum.add(&place(model.joints[joint].markers[slot]), &wrench);
+    }
+    for &(force, slot) in &cut.forces {
+        let mut wrenches = [Wrench::zero(); MOST_MARKERS];
+        act(model, force, view, &mut wrenches);
+        sum.add(&place(model.forces[force].markers[slot]), &wrenches[slot]);
+    }
+    in_axes(&at, &sum.wrench)
+}
 
-    /// The markers of the joints and forces beyond a section.
-    pub(super) fn markers_beyond(&self, cut: &Cut<D>) -> Vec<usize> {
-        let joints = cut.joints.iter().flat_map(|&(joint, _)| &self.model().joints[joint].markers);
-        joints.chain(cut.forces.iter().flat_map(|&(force, _)| &self.model().forces[force].markers)).copied().collect()
-    }
+/// The markers of the joints and forces beyond a section.
+pub(super) fn markers_beyond<const D: usize>(model: &Model<D>, cut: &Cut<D>) -> Vec<usize> {
+    let joints = cut.joints.iter().flat_map(|&(joint, _)| &model.joints[joint].markers);
+    joints.chain(cut.forces.iter().flat_map(|&(force, _)| &model.forces[force].markers)).copied().collect()
 }
 
 /// Places of the first elastic coordinate of a body and of its velocity.

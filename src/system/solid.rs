@@ -1,7 +1,7 @@
 //! Rigid bodies at a state: derivatives along their velocities, without those of their coordinates.
 
-use super::mechanism::Mechanism;
-use super::variation::{SeedDirection, fix};
+use super::gather::MovingFrames;
+use super::seed::{SeedDirection, fix};
 use crate::body::{Dual6, Frame, Freedom, Wrench, cross, sub};
 use crate::math::array::{Each, from_fn};
 use crate::math::{Scalar, Taylor};
@@ -34,7 +34,7 @@ pub(super) struct Solid<const D: usize> {
 
 impl<const D: usize> Solid<D> {
     /// A body at the frames `motion` of all markers.
-    fn new(part: &Part<D>, freedom: &Freedom, motion: &[Frame<Taylor<f64>, D>]) -> Self {
+    pub fn new(part: &Part<D>, freedom: &Freedom, motion: &MovingFrames<D>) -> Self {
         let own = &motion[part.first_marker];
         let offset = &part.body.markers()[0].offset;
         let mut centre = own.r;
@@ -177,13 +177,6 @@ impl<const D: usize> Solid<D> {
                 }
             }
         }
-    }
-}
-
-impl<const D: usize> Mechanism<D> {
-    /// A body at the frames `motion` of all markers; none if it is not rigid.
-    pub(super) fn solid(&self, body: usize, motion: &[Frame<Taylor<f64>, D>]) -> Option<Solid<D>> {
-        self.rigid.freedoms[body].as_ref().map(|freedom| Solid::new(&self.model().bodies[body], freedom, motion))
     }
 }
 

@@ -61,7 +61,7 @@ pub enum Placement {
 
 /// A 3 x 3 matrix among the velocities from `first` on; only the first `size` rows and columns count.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Block {
+pub(super) struct SpinBlock {
     pub first: usize,
     pub size: usize,
     pub rows: [[f64; 3]; 3],
@@ -112,9 +112,9 @@ impl Spin {
     }
 
     /// d(W xi)/dq, d(b)/dq and d(b)/dv along the directions of v.
-    pub(super) fn slopes(&self, placement: Placement, q: &[f64], v: &[f64]) -> [Block; 3] {
+    pub(super) fn slopes(&self, placement: Placement, q: &[f64], v: &[f64]) -> [SpinBlock; 3] {
         let (first, size) = Self::velocities(placement);
-        let block = |rows| Block { first, size, rows };
+        let block = |rows| SpinBlock { first, size, rows };
         let none = block([[0.0; 3]; 3]);
         match placement {
             Placement::Place { .. } => {

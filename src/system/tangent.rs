@@ -1,73 +1,46 @@
 //! K and C: derivatives of the residual of the equations of motion with respect to q and v.
 
-use super::coupling::{Block, Carrier, Coupling, LockedBlocks};
-use super::locked::Stiffness;
-use super::mechanism::{Mechanism, of};
+use super::coupling::{Carrier, CouplingBlock, Couplings, ElementCoupling, LockedBlocks};
+use super::gather::MovingFrames;
+use super::layout::Layout;
+use super::locked::LockedStiffness;
+use super::seed::{SeedDirection, fix};
 use super::solid::Solid;
-use super::variation::{SeedDirection, SeededBody, fix};
-use super::workspace::Workspace;
+use super::terms::{OperatingPoint, Tangent};
+use super::variation::SeededBody;
 use crate::body::{BodyState, Dual6, Frame, Wrench, twist_len};
 use crate::joint::{MOST_ROWS, markers_per_pass};
 use crate::math::array::Each;
-use crate::math::kkt::Pattern;
 use crate::math::{Regime, Scalar, Taylor, Time};
 
-/// A state with its accelerations and multipliers.
-#[derive(Clone, Copy, Debug)]
-pub struct OperatingPoint<'a> {
-    /// Time, s.
-    pub t: f64,
-    /// Coordinates, n_q.
-    pub q: &'a [f64],
-    /// Velocities, n_v.
-    pub v: &'a [f64],
-    /// Accelerations, n_v.
-    pub vdot: &'a [f64],
-    /// Multipliers, n_c.
-    pub lambda: &'a [f64],
-}
-
-/// Derivatives of r = M v' + G^T lambda - f, values at the places of `Structure::tangent`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Tangent {
-    /// K = dr/dq along the directions of v, at fixed v' and lambda.
-    pub k: Vec<f64>,
-    /// C = dr/dv = -df/dv.
-    pub c: Vec<f64>,
-}
-
-impl Tangent {
-    /// All zero, for the places of `pattern`.
-    pub fn new(pattern: &Pattern) -> Self {
-        Tangent { k: vec![0.0; pattern.entries.len()], c: vec![0.0; pattern.entries.len()] }
-    }
-}
-
 /// One evaluation of K and C.
-pub(super) struct Evaluation<'a, const D: usize> {
-    pub mechanism: &'a Mechanism<D>,
+pub(super) struct Tangents<'a, const D: usize> {
+    pub layout: &'a Layout<D>,
+    pub couplings: &'a Couplings,
     pub at: OperatingPoint<'a>,
     pub regime: Regime<'a>,
-    pub work: &'a mut Workspace<D>,
+    /// SeededFrames of all markers at the state with v' = 0.
+    pub motion: &'a MovingFrames<D>,
+    pub varied: &'a mut SeededBody<D>,
     pub tangent: &'a mut Tangent,
 }
 
-type Frames<const D: usize> = [Frame<Taylor<Dual6>, D>];
+type SeededFrames<const D: usize> = [Frame<Taylor<Dual6>, D>];
 
-impl<const D: usize> Evaluation<'_, D> {
+impl<const D: usize> Tangents<'_, D> {
     /// Differentiates every element with respect to each of its bodies, along q and along v.
     pub fn run(&mut self) {
         self.tangent.k.fill(0.0);
         self.tangent.c.fill(0.0);
-        let mechanism = self.mechanism;
+        let layout = self.layout;
         let time = Time { t: Dual6::fixed(self.at.t), regime: self.regime };
-        let couplings = &mechanism.couplings;
-        for (part, places) in mechanism.model().bodies.iter().zip(&couplings.bodies) {
+        let couplings = self.couplings;
+        for (part, places) in layout.model.bodies.iter().zip(&couplings.bodies) {
             let own = BodyState {
-                q: of(self.at.q, part, true),
-                v: of(self.at.v, part, false),
-                vdot: of(self.at.vdot, part, false),
-                gravity: &mechanism.model().gravity,
+                q: part.coordinates(self.at.q),
+                v: part.velocities(self.at.v),
+                vdot: part.velocities(self.at.vdot),
+                gravity: &layout.model.gravity,
             };
             part.body.tangent(own, &mut self.tangent.k[places.clone()], &mut self.tangent.c[places.clone()]);
         }
@@ -75,9 +48,9 @@ impl<const D: usize> Evaluation<'_, D> {
             self.locked(*joint, first);
         }
         for (joint, coupling) in &couplings.joints {
-            let lambda = &self.at.lambda[mechanism.rows_of_joint(*joint)];
-            let joint = &mechanism.model().joints[*joint];
-            let reaction = |frames: &Frames<D>, out: &mut [Wrench<Dual6, D>]| {
+            let lambda = &self.at.lambda[layout.rows_of_joint(*joint)];
+            let joint = &layout.model.joints[*joint];
+            let reaction = |frames: &SeededFrames<D>, out: &mut [Wrench<Dual6, D>]| {
                 for pass in 0..frames.len().div_ceil(markers_per_pass(D)) {
                     let mut slopes = [[Dual6::constant(0.0); 6]; MOST_ROWS];
                     joint.element.gradient(frames, time, pass, &mut slopes[..lambda.len()]);
@@ -87,8 +60,8 @@ impl<const D: usize> Evaluation<'_, D> {
             };
             self.element(coupling, &joint.markers, SeedDirection::Coordinates, 1.0, reaction);
         }
-        for (force, coupling) in mechanism.model().forces.iter().zip(&couplings.forces) {
-            let act = |frames: &Frames<D>, out: &mut [Wrench<Dual6, D>]| {
+        for (force, coupling) in layout.model.forces.iter().zip(&couplings.forces) {
+            let act = |frames: &SeededFrames<D>, out: &mut [Wrench<Dual6, D>]| {
                 force.element.act(frames, time.map(Taylor::running), out);
             };
             self.element(coupling, &force.markers, SeedDirection::Coordinates, -1.0, act);
@@ -100,27 +73,27 @@ impl<const D: usize> Evaluation<'_, D> {
 
     /// K of a joint between rigid bodies, in closed form.
     fn locked(&mut self, joint: usize, first: &[[Option<usize>; 2]; 2]) {
-        let mechanism = self.mechanism;
-        let motion = &self.work.motion;
-        let (model, Some(lock)) = (mechanism.model(), &mechanism.rigid.locks[joint]) else { return };
+        let Layout { model, locks, .. } = self.layout;
+        let motion = self.motion;
+        let Some(lock) = &locks[joint] else { return };
         let &[a, b] = &model.joints[joint].markers[..] else { return };
-        let solids = [a, b].map(|marker| mechanism.solid(model.markers.bodies[marker]?, motion));
-        let lambda = &self.at.lambda[mechanism.rows_of_joint(joint)];
+        let solids = [a, b].map(|marker| self.layout.solid(model.markers.bodies[marker]?, motion));
+        let lambda = &self.at.lambda[self.layout.rows_of_joint(joint)];
         let are_rotations = lock.changes_with_rotations();
-        let mut stiffness = Stiffness { solids, first, are_rotations, k: &mut self.tangent.k };
+        let mut stiffness = LockedStiffness { solids, first, are_rotations, k: &mut self.tangent.k };
         stiffness.add(lock, [&motion[a], &motion[b]], lambda);
     }
 
     /// The wrenches of one element, differentiated with respect to one of its bodies after the other.
     fn element(
         &mut self,
-        coupling: &Coupling,
+        coupling: &ElementCoupling,
         markers: &[usize],
         along: SeedDirection,
         sign: f64,
-        wrenches: impl Fn(&Frames<D>, &mut [Wrench<Dual6, D>]),
+        wrenches: impl Fn(&SeededFrames<D>, &mut [Wrench<Dual6, D>]),
     ) {
-        let model = self.mechanism.model();
+        let model = &self.layout.model;
         if let Some(pair) = self.pair(coupling) {
             return self.both(&pair, coupling, markers, (along, sign), wrenches);
         }
@@ -128,8 +101,9 @@ impl<const D: usize> Evaluation<'_, D> {
             let part = &model.bodies[carrier.body];
             for (pass, directions) in carrier.velocities.chunks(6).enumerate() {
                 let at = OperatingPoint { vdot: &[], ..self.at };
-                let Workspace { varied, motion, .. } = &mut *self.work;
-                varied.vary(along, part, (&at, self.mechanism.solid(carrier.body, motion)), directions);
+                let motion = self.motion;
+                let varied = &mut *self.varied;
+                varied.vary(along, part, (&at, self.layout.solid(carrier.body, motion)), directions);
                 varied.gather(part, markers, motion, |slot| model.markers.bodies[markers[slot]] == Some(carrier.body));
                 varied.acting.clear();
                 varied.acting.resize(markers.len(), Wrench::zero());
@@ -144,12 +118,12 @@ impl<const D: usize> Evaluation<'_, D> {
     }
 
     /// The bodies of an element, if they are two rigid ones with six directions in all.
-    fn pair(&self, coupling: &Coupling) -> Option<[Solid<D>; 2]> {
+    fn pair(&self, coupling: &ElementCoupling) -> Option<[Solid<D>; 2]> {
         let [a, b] = &coupling.carriers[..] else { return None };
         if a.velocities.len() + b.velocities.len() > 6 {
             return None;
         }
-        let of = |carrier: &Carrier| self.mechanism.solid(carrier.body, &self.work.motion);
+        let of = |carrier: &Carrier| self.layout.solid(carrier.body, self.motion);
         let a = of(a)?;
         let b = of(b)?;
         let b = b.behind(&a);
@@ -160,16 +134,16 @@ impl<const D: usize> Evaluation<'_, D> {
     fn both(
         &mut self,
         pair: &[Solid<D>; 2],
-        coupling: &Coupling,
+        coupling: &ElementCoupling,
         markers: &[usize],
         (along, sign): (SeedDirection, f64),
-        wrenches: impl Fn(&Frames<D>, &mut [Wrench<Dual6, D>]),
+        wrenches: impl Fn(&SeededFrames<D>, &mut [Wrench<Dual6, D>]),
     ) {
-        let Workspace { varied, motion, .. } = &mut *self.work;
-        let SeededBody { gathered, acting, .. } = varied;
+        let motion = self.motion;
+        let SeededBody { gathered, acting, .. } = &mut *self.varied;
         gathered.resize(markers.len(), Frame::world());
         for (&marker, out) in markers.iter().zip(gathered.iter_mut()) {
-            let body = self.mechanism.model().markers.bodies[marker];
+            let body = self.layout.model.markers.bodies[marker];
             match coupling.carriers.iter().zip(pair).find(|(carrier, _)| Some(carrier.body) == body) {
                 Some((_, solid)) => solid.seed(along, &motion[marker], out),
                 None => fix(&motion[marker], out),
@@ -180,7 +154,7 @@ impl<const D: usize> Evaluation<'_, D> {
         wrenches(gathered, acting);
         let is_moved = along == SeedDirection::Coordinates;
         for (place, (row, solid)) in coupling.carriers.iter().zip(pair).enumerate() {
-            let SeededBody { gathered, acting, f, .. } = &mut self.work.varied;
+            let SeededBody { gathered, acting, f, .. } = &mut *self.varied;
             f.clear();
             f.resize(row.velocities.len(), Dual6::fixed(0.0));
             for held in &row.markers {
@@ -194,12 +168,11 @@ impl<const D: usize> Evaluation<'_, D> {
 
     /// Pulls the wrenches back to generalized forces on the velocities of a carrier, into `varied.f`.
     fn pull_back(&mut self, row: &Carrier, (is_varied, is_moved): (bool, bool), markers: &[usize]) {
-        let part = &self.mechanism.model().bodies[row.body];
-        let Workspace { varied, motion, .. } = &mut *self.work;
-        let SeededBody { gathered, acting, moved, rest, f, pulled, .. } = varied;
+        let part = &self.layout.model.bodies[row.body];
+        let SeededBody { gathered, acting, moved, rest, f, pulled, .. } = &mut *self.varied;
         f.clear();
         f.resize(row.velocities.len(), Dual6::fixed(0.0));
-        if let Some(solid) = self.mechanism.solid(row.body, motion) {
+        if let Some(solid) = self.layout.solid(row.body, self.motion) {
             for held in &row.markers {
                 solid.pull_back(is_moved, &gathered[held.slot].r.each(|x| x.x), &acting[held.slot], f);
             }
@@ -207,7 +180,7 @@ impl<const D: usize> Evaluation<'_, D> {
         }
         if !is_varied {
             rest.clear();
-            rest.extend(of(self.at.q, part, true).iter().map(|&q| Dual6::fixed(q)));
+            rest.extend(part.coordinates(self.at.q).iter().map(|&q| Dual6::fixed(q)));
         }
         let q = if is_varied { moved } else { rest };
         for held in &row.markers {
@@ -225,10 +198,10 @@ impl<const D: usize> Evaluation<'_, D> {
     }
 
     /// Adds the derivatives of `varied.f` from number `from` on to columns `first..` of a block.
-    fn add(&mut self, (along, sign): (SeedDirection, f64), block: &Block, first: usize, from: usize) {
+    fn add(&mut self, (along, sign): (SeedDirection, f64), block: &CouplingBlock, first: usize, from: usize) {
         let values = if along == SeedDirection::Coordinates { &mut self.tangent.k } else { &mut self.tangent.c };
         let rows = values[block.first_entry..].chunks_exact_mut(block.width);
-        for (row, f) in rows.zip(&self.work.varied.f) {
+        for (row, f) in rows.zip(&self.varied.f) {
             row[first..].iter_mut().zip(&f.eps[from..]).for_each(|(value, slope)| *value += sign * slope);
         }
     }

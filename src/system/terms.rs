@@ -1,4 +1,4 @@
-//! The terms of the equations at one state.
+//! States, and the terms of the equations with their derivatives at one state.
 
 use super::MechanicalSystem;
 use crate::math::kkt::{Analysis, Pattern};
@@ -105,6 +105,37 @@ impl Terms {
             power: 0.0,
             powers: zeros(system.facts().works.len()),
         }
+    }
+}
+
+/// A state with its accelerations and multipliers.
+#[derive(Clone, Copy, Debug)]
+pub struct OperatingPoint<'a> {
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates, n_q.
+    pub q: &'a [f64],
+    /// Velocities, n_v.
+    pub v: &'a [f64],
+    /// Accelerations, n_v.
+    pub vdot: &'a [f64],
+    /// Multipliers, n_c.
+    pub lambda: &'a [f64],
+}
+
+/// Derivatives of r = M v' + G^T lambda - f, values at the places of `Structure::tangent`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tangent {
+    /// K = dr/dq along the directions of v, at fixed v' and lambda.
+    pub k: Vec<f64>,
+    /// C = dr/dv = -df/dv.
+    pub c: Vec<f64>,
+}
+
+impl Tangent {
+    /// All zero, for the places of `pattern`.
+    pub fn new(pattern: &Pattern) -> Self {
+        Tangent { k: vec![0.0; pattern.entries.len()], c: vec![0.0; pattern.entries.len()] }
     }
 }
 

@@ -1,35 +1,13 @@
 //! Frames of bodies differentiated along velocity directions.
 
-use super::mechanism::of;
+use super::gather::MovingFrames;
+use super::seed::{SeedDirection, fix};
 use super::solid::Solid;
-use super::tangent::OperatingPoint;
+use super::terms::OperatingPoint;
 use crate::body::{Dual6, Frame, Wrench};
-use crate::math::{Dual, Taylor};
+use crate::math::Taylor;
 use crate::scene::Part;
 use std::slice::from_mut;
-
-/// The quantity that is differentiated with respect to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SeedDirection {
-    /// q + N(q) e_j at fixed v.
-    Coordinates,
-    /// v + e_j at fixed q.
-    Velocities,
-    /// v' + e_j at fixed q and v.
-    Accelerations,
-}
-
-impl SeedDirection {
-    /// The derivative of a coordinate that a change along this direction is the first to appear in.
-    #[inline]
-    pub fn level<S>(self, number: &mut Taylor<S>) -> &mut S {
-        match self {
-            SeedDirection::Coordinates => &mut number.x,
-            SeedDirection::Velocities => &mut number.d,
-            SeedDirection::Accelerations => &mut number.dd,
-        }
-    }
-}
 
 /// One body over dual numbers of six of its velocity directions, with memory for the forces that follow.
 #[derive(Default)]
@@ -56,9 +34,6 @@ pub(super) struct SeededBody<const D: usize> {
     directions: Vec<Dual6>,
 }
 
-/// Frames of all markers with their motion.
-type Motion<const D: usize> = [Frame<Taylor<f64>, D>];
-
 impl<const D: usize> SeededBody<D> {
     /// Seeds a body along up to six of the system's velocity directions, which belong to it; along all if it is `solid`.
     /// Accelerations are those at v' = 0 where `at.vdot` is empty.
@@ -77,8 +52,8 @@ impl<const D: usize> SeededBody<D> {
 
     /// Writes the body's q, v and v' alone, whatever moves with them.
     pub fn vary_state(&mut self, along: SeedDirection, part: &Part<D>, at: &OperatingPoint, directions: &[usize]) {
-        let q = of(at.q, part, true);
-        let v = of(at.v, part, false);
+        let q = part.coordinates(at.q);
+        let v = part.velocities(at.v);
         self.directions.clear();
         self.directions.resize(part.nv, Dual6::fixed(0.0));
         for (j, &direction) in directions.iter().enumerate() {
@@ -87,7 +62,7 @@ impl<const D: usize> SeededBody<D> {
         lift(v, &mut self.moved_v);
         lift(q, &mut self.rest);
         lift(q, &mut self.moved);
-        lift(if at.vdot.is_empty() { at.vdot } else { of(at.vdot, part, false) }, &mut self.moved_vdot);
+        lift(if at.vdot.is_empty() { at.vdot } else { part.velocities(at.vdot) }, &mut self.moved_vdot);
         match along {
             SeedDirection::Coordinates => {
                 part.body.rate(&self.rest, &self.directions, &mut self.moved);
@@ -99,7 +74,7 @@ impl<const D: usize> SeededBody<D> {
     }
 
     /// Writes the frame of a marker of the seeded body.
-    pub fn write(&self, part: &Part<D>, marker: usize, motion: &Motion<D>, out: &mut Frame<Taylor<Dual6>, D>) {
+    pub fn write(&self, part: &Part<D>, marker: usize, motion: &MovingFrames<D>, out: &mut Frame<Taylor<Dual6>, D>) {
         match (&self.solid, self.along) {
             (Some(solid), Some(along)) => solid.seed(along, &motion[marker], out),
             _ => {
@@ -111,7 +86,13 @@ impl<const D: usize> SeededBody<D> {
     }
 
     /// Gathers the frames of an element's markers; those for which `is_seeded` belong to the seeded body.
-    pub fn gather(&mut self, part: &Part<D>, markers: &[usize], motion: &Motion<D>, is_seeded: impl Fn(usize) -> bool) {
+    pub fn gather(
+        &mut self,
+        part: &Part<D>,
+        markers: &[usize],
+        motion: &MovingFrames<D>,
+        is_seeded: impl Fn(usize) -> bool,
+    ) {
         let mut gathered = std::mem::take(&mut self.gathered);
         gathered.resize(markers.len(), Frame::world());
         for (slot, (&marker, out)) in markers.iter().zip(&mut gathered).enumerate() {
@@ -128,23 +109,4 @@ fn lift(from: &[f64], to: &mut Vec<Dual6>) {
 
 fn add(to: &mut [Dual6], directions: &[Dual6]) {
     to.iter_mut().zip(directions).for_each(|(to, &direction)| *to += direction);
-}
-
-/// Writes a frame whose derivatives are zero.
-pub(super) fn fix<const D: usize>(frame: &Frame<Taylor<f64>, D>, out: &mut Frame<Taylor<Dual6>, D>) {
-    let fix = |from: &Taylor<f64>, to: &mut Taylor<Dual6>| {
-        for (from, to) in [(from.x, &mut to.x), (from.d, &mut to.d), (from.dd, &mut to.dd)] {
-            *to = Dual { re: from, eps: [0.0; 6] };
-        }
-    };
-    frame.r.iter().zip(&mut out.r).for_each(|(from, to)| fix(from, to));
-    frame.axes.iter().flatten().zip(out.axes.iter_mut().flatten()).for_each(|(from, to)| fix(from, to));
-    fix(&frame.turn, &mut out.turn);
-}
-
-/// A frame whose derivatives are zero.
-pub(super) fn fixed<const D: usize>(frame: &Frame<Taylor<f64>, D>) -> Frame<Taylor<Dual6>, D> {
-    let mut out = Frame::world();
-    fix(frame, &mut out);
-    out
 }

@@ -1,15 +1,16 @@
 //! A state as outputs and energies read it, over one scalar type: floats give values, dual numbers derivatives.
 
-use super::mechanism::of;
-use super::tangent::OperatingPoint;
-use super::variation::{SeededBody, fixed};
-use crate::body::{Dual6, Energy, Frame, MOST_MARKERS, MarkerId};
+use super::gather::MovingFrames;
+use super::seed::fixed;
+use super::terms::OperatingPoint;
+use super::variation::SeededBody;
+use crate::body::{Dual6, Energy, Frame, MarkerId};
 use crate::math::array::from_fn;
-use crate::math::{Rate, Regime, Scalar, Taylor, Time};
+use crate::math::{Regime, Scalar, Taylor, Time};
 use crate::scene::{Model, Part};
 
 /// Access to the quantities of a state.
-pub(super) trait View<S: Scalar, const D: usize> {
+pub(super) trait StateView<S: Scalar, const D: usize> {
     fn time(&self) -> Time<'_, f64>;
     /// A coordinate of the system.
     fn q(&self, coordinate: usize) -> S;
@@ -33,7 +34,7 @@ pub(super) struct Plain<'a, const D: usize> {
     pub regime: Regime<'a>,
 }
 
-impl<const D: usize> View<f64, D> for Plain<'_, D> {
+impl<const D: usize> StateView<f64, D> for Plain<'_, D> {
     fn time(&self) -> Time<'_, f64> {
         Time { t: self.at.t, regime: self.regime }
     }
@@ -52,9 +53,9 @@ impl<const D: usize> View<f64, D> for Plain<'_, D> {
             None => frame = Frame::world().at(&self.model.ground[marker]),
             Some(part) => {
                 let OperatingPoint { q, v, vdot, .. } = self.at;
-                let vdot = (!vdot.is_empty()).then(|| of(vdot, part, false));
-                let q = of(q, part, true);
-                let v = of(v, part, false);
+                let vdot = (!vdot.is_empty()).then(|| part.velocities(vdot));
+                let q = part.coordinates(q);
+                let v = part.velocities(v);
                 let first = marker - part.first_marker;
                 part.body.motion(q, v, vdot, first, std::slice::from_mut(&mut frame));
             }
@@ -62,7 +63,7 @@ impl<const D: usize> View<f64, D> for Plain<'_, D> {
         frame
     }
     fn energy(&self, part: &Part<D>, gravity: &[f64; D]) -> Energy {
-        part.body.energy(of(self.at.q, part, true), of(self.at.v, part, false), gravity)
+        part.body.energy(part.coordinates(self.at.q), part.velocities(self.at.v), gravity)
     }
     fn lambda(&self, row: usize) -> f64 {
         self.at.lambda[row]
@@ -87,7 +88,7 @@ pub(super) enum Seed<'a, const D: usize> {
 pub(super) struct SeededView<'a, const D: usize> {
     pub at: OperatingPoint<'a>,
     pub regime: Regime<'a>,
-    pub motion: &'a [Frame<Taylor<f64>, D>],
+    pub motion: &'a MovingFrames<D>,
     pub varied: &'a SeededBody<D>,
     pub seed: Seed<'a, D>,
 }
@@ -103,7 +104,7 @@ impl<const D: usize> SeededView<'_, D> {
     }
 }
 
-impl<const D: usize> View<Dual6, D> for SeededView<'_, D> {
+impl<const D: usize> StateView<Dual6, D> for SeededView<'_, D> {
     fn time(&self) -> Time<'_, f64> {
         Time { t: self.at.t, regime: self.regime }
     }
@@ -118,9 +119,7 @@ impl<const D: usize> View<Dual6, D> for SeededView<'_, D> {
     }
     fn frame(&self, marker: MarkerId) -> Frame<Taylor<Dual6>, D> {
         match self.seed {
-            Seed::Body(part)
-                if (part.first_marker..part.first_marker + part.body.markers().len()).contains(&marker) =>
-            {
+            Seed::Body(part) if part.markers().contains(&marker) => {
                 let mut frame = Frame::world();
                 self.varied.write(part, marker, self.motion, &mut frame);
                 frame
@@ -134,8 +133,8 @@ impl<const D: usize> View<Dual6, D> for SeededView<'_, D> {
                 part.body.energy(&self.varied.moved, &self.varied.moved_v, gravity)
             }
             _ => {
-                let q = of(self.at.q, part, true);
-                let v = of(self.at.v, part, false);
+                let q = part.coordinates(self.at.q);
+                let v = part.velocities(self.at.v);
                 let Energy { kinetic, potential } = part.body.energy(q, v, gravity);
                 Energy { kinetic: Dual6::fixed(kinetic), potential: Dual6::fixed(potential) }
             }
@@ -159,32 +158,4 @@ impl<const D: usize> View<Dual6, D> for SeededView<'_, D> {
             _ => [Taylor::fixed(Dual6::fixed(0.0)); 3],
         }
     }
-}
-
-/// Calls `see` with `item` of each marker of an element in one slice; most elements have one or two markers.
-#[inline]
-pub(super) fn gathered<T: Copy, R>(
-    markers: &[MarkerId],
-    item: impl Fn(MarkerId) -> T,
-    see: impl FnOnce(&[T]) -> R,
-) -> R {
-    mapped(markers, |marker| item(*marker), see)
-}
-
-/// Calls `see` with `item` of each entry in one slice.
-#[inline]
-pub(super) fn mapped<S, T: Copy, R>(all: &[S], item: impl Fn(&S) -> T, see: impl FnOnce(&[T]) -> R) -> R {
-    match all {
-        [a] => see(&[item(a)]),
-        [a, b] => see(&[item(a), item(b)]),
-        _ => {
-            let many: [T; MOST_MARKERS] = from_fn(|i| item(&all[i.min(all.len() - 1)]));
-            see(&many[..all.len()])
-        }
-    }
-}
-
-/// A value and its rate, each with its own rate along the motion.
-pub(super) fn along_motion(x: Taylor<f64>) -> Taylor<Rate> {
-    Taylor::new(Rate { re: x.x, eps: [x.d] }, Rate { re: x.d, eps: [x.dd] }, Rate::fixed(x.dd))
 }

@@ -21,7 +21,7 @@ fn read<const D: usize>(model: &Model<D>) -> (Vec<f64>, Vec<f64>) {
     let body = &model.bodies[0].body;
     let mut values = vec![0.0; body.facts().mass_pattern.len()];
     body.mass(&[], &mut values);
-    (values, body.marker(0).offset.iter().map(|x| -x).collect())
+    (values, body.markers()[0].offset.iter().map(|x| -x).collect())
 }
 
 fn made(dimension: usize, shapes: Value) -> Made {
@@ -130,7 +130,7 @@ fn parts_make_the_whole() {
             &[],
         );
         let AnyModel::Spatial(model) = halves.unwrap().model else { unreachable!() };
-        model.bodies[0].body.marker(1).axes[0]
+        model.bodies[0].body.markers()[1].axes[0]
     };
     let half = |sign: f64| {
         let at: [f64; 3] = from_fn(|i| sign * 0.5 * axis[i]);

@@ -12,11 +12,7 @@
 
 use super::profile::Profile;
 use super::reference::ReferenceLine;
-use super::section::Section;
-use super::shape::{Inertia, Line, PointShape, SectionShape};
-use super::shorten::{shorten, shortening};
-use crate::body::{Frame, Marker, cross, in_space};
-use crate::math::array::from_fn;
+use super::shape::Inertia;
 
 /// Displacement, rotation and strain of one section per unit of one coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,7 +21,7 @@ pub struct Cross {
     pub displacement: [f64; 3],
     /// Small rotation r_x, r_y, r_z.
     pub rotation: [f64; 3],
-    /// Strains in the order of [`SectionShape::strains`].
+    /// Strains in the order of [`SectionShape::strains`](super::SectionShape::strains).
     pub strain: [f64; 6],
     /// Slopes w_y', w_z'.
     pub slope: [f64; 2],
@@ -110,49 +106,4 @@ pub trait Shapes: Send + Sync {
     /// The mass from `s` on, without second-order terms of shortening; one piece of all coordinates if the line
     /// shortens.
     fn inertia<const D: usize>(&self, s: f64) -> Inertia<D>;
-}
-
-impl<F: Shapes, const D: usize> Line<D> for F {
-    fn length(&self) -> f64 {
-        self.reference().length
-    }
-
-    fn at_rest(&self, s: f64) -> Frame<f64, D> {
-        self.reference().section(s)
-    }
-
-    fn point(&self, mut place: [f64; D]) -> PointShape<D> {
-        let s = std::mem::replace(&mut place[0], 0.0);
-        let (section, Station { dofs, shapes }) = (self.reference().section(s), self.at(s));
-        let rest = section.at(&Marker::point(place)).r;
-        let arm = Frame { r: [0.0; D], ..section }.at(&Marker::point(place)).r;
-        let translation = |shape: &Cross| {
-            let turned = cross(&shape.rotation, &in_space(&arm));
-            from_fn(|k| shape.displacement[k] + turned[k])
-        };
-        PointShape {
-            rest,
-            arm,
-            dofs,
-            translation: shapes.iter().map(translation).collect(),
-            rotation: shapes.iter().map(|shape| shape.rotation).collect(),
-            shortening: if self.shortens() { shortening(self, s) } else { Vec::new() },
-        }
-    }
-
-    fn section(&self, s: f64) -> SectionShape {
-        let Station { dofs, shapes } = self.at(s);
-        let strains = shapes.iter().map(|shape| shape.strain).collect();
-        SectionShape { dofs, strains }
-    }
-
-    fn material(&self, s: f64) -> Section {
-        self.profile().at(s)
-    }
-
-    fn beyond(&self, s: f64) -> Inertia<D> {
-        let mut inertia = self.inertia(s);
-        inertia.pieces.iter_mut().filter(|_| self.shortens()).for_each(|piece| shorten(self, s, piece));
-        inertia
-    }
 }

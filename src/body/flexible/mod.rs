@@ -15,6 +15,7 @@ mod reference;
 mod ritz;
 mod section;
 mod shape;
+mod shaped_line;
 mod shorten;
 mod spec;
 #[cfg(test)]

@@ -4,7 +4,7 @@ use crate::body::flexible::{Elastic, Inertia};
 use std::collections::BTreeMap;
 
 /// Patterns of M, K and C, and the entry of each contribution.
-pub(super) struct Layout {
+pub(super) struct FloatingLayout {
     /// Lower triangle of M: the frame's block row by row, the rows coupling elastic coordinates to the frame, then the
     /// others.
     pub mass: Vec<(usize, usize)>,
@@ -31,8 +31,8 @@ pub(super) struct PieceLayout {
     pub tangent: Vec<usize>,
 }
 
-impl Layout {
-    pub fn new<const D: usize>(elastic: &Elastic<D>, nv: usize) -> Layout {
+impl FloatingLayout {
+    pub fn new<const D: usize>(elastic: &Elastic<D>, nv: usize) -> FloatingLayout {
         let n = elastic.names.len();
         let mut mass = Places::default();
         let mut tangent = Places::default();
@@ -66,7 +66,7 @@ impl Layout {
             }
         };
         let both = |&(i, j, _): &(usize, usize, f64)| [tangent.find(nv + i, nv + j), tangent.find(nv + j, nv + i)];
-        Layout {
+        FloatingLayout {
             pieces: pieces.iter().map(|p| piece(&p.dofs)).collect(),
             discs: discs.iter().map(|disc| piece(&disc.dofs)).collect(),
             stiffness: elastic.stiffness.iter().map(both).collect(),

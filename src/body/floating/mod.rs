@@ -32,7 +32,7 @@ use super::kernel::coordinate_path;
 use super::{Bent, Body, BodyFacts, BodyOver, BodyState, Energy, Frame, Marker, Pose, Wrench, norm};
 use crate::math::rotation::{axes_from_quaternion, quaternion_rate};
 use crate::math::{Scalar, Taylor};
-use layout::Layout;
+use layout::FloatingLayout;
 use moving::Curves;
 
 pub use part::{load, resistance};
@@ -44,7 +44,7 @@ pub struct Floating<const D: usize> {
     /// The floating frame first; markers of a beam are at [s, y(, z)], with axes in those of the frame.
     markers: Vec<Marker<D>>,
     shapes: Vec<PointShape<D>>,
-    layout: Layout,
+    layout: FloatingLayout,
     curves: Vec<Curves<D>>,
     /// Constant contributions (place, value) of the discs to M, in the plane.
     discs_in_plane: Vec<(usize, f64)>,
@@ -73,7 +73,7 @@ const fn turn_velocity(dimension: usize, k: usize) -> usize {
 impl<const D: usize> Floating<D> {
     /// A body with these markers and the displacement functions of each; the first marker is the floating frame.
     pub fn new(elastic: Elastic<D>, markers: Vec<Marker<D>>, shapes: Vec<PointShape<D>>) -> Self {
-        let layout = Layout::new(&elastic, frame_velocities(D));
+        let layout = FloatingLayout::new(&elastic, frame_velocities(D));
         let curves = elastic.inertia.pieces.iter().map(Curves::of).collect();
         let mut body = Floating { elastic, markers, shapes, layout, curves, discs_in_plane: Vec::new() };
         body.discs_in_plane = body.constant_mass();
