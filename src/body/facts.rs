@@ -13,7 +13,7 @@ pub struct BodyFacts {
     pub supports: Vec<Vec<usize>>,
     /// Places of the mass matrix's lower triangle, each once.
     pub mass_pattern: Vec<(usize, usize)>,
-    /// Places of the values of K and C of the body itself.
+    /// Places of the values of K and C of the body itself; none where its own forces are constant.
     pub tangent_pattern: Vec<(usize, usize)>,
     /// Elastic stiffness at places of M, by their index in [`mass_pattern`](Self::mass_pattern): for the weights of
     /// assembly.
@@ -38,6 +38,32 @@ pub struct BodyFacts {
 }
 
 impl BodyFacts {
+    /// A rigid body with coordinates and velocities of these names, N = I and a diagonal mass matrix, that makes no use
+    /// of what its velocities are.
+    pub fn new<'n>(
+        coordinates: impl IntoIterator<Item = &'n str>,
+        velocities: impl IntoIterator<Item = &'n str>,
+    ) -> Self {
+        let velocity_names: Vec<String> = velocities.into_iter().map(String::from).collect();
+        let n = velocity_names.len();
+        BodyFacts {
+            coordinate_names: coordinates.into_iter().map(String::from).collect(),
+            velocity_names,
+            supports: Vec::new(),
+            mass_pattern: (0..n).map(|i| (i, i)).collect(),
+            tangent_pattern: (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).collect(),
+            stiffness: Vec::new(),
+            oriented: true,
+            turning: None,
+            freedom: None,
+            has_constant_mass: true,
+            has_constant_forces: false,
+            reach: 0.0,
+            elastic_count: 0,
+            most_coordinates: usize::MAX,
+        }
+    }
+
     /// Indices of the velocities that move a marker, in increasing order.
     pub fn support(&self, marker: usize) -> Vec<usize> {
         let all = || (0..self.velocity_names.len()).collect();

@@ -1,6 +1,6 @@
 //! A spatial body that may move along some world axes and turn about at most one: coordinates only for those.
 
-use super::{BodyKernel, Energy, Frame, Freedom, Marker, Wrench, cross, sub};
+use super::{BodyFacts, BodyKernel, Energy, Frame, Freedom, Marker, Wrench, cross, sub};
 use crate::error::{Error, Result};
 use crate::math::Scalar;
 use crate::math::array::{Each, from_fn};
@@ -67,21 +67,19 @@ impl<const D: usize> Guided<D> {
 }
 
 impl<const D: usize> BodyKernel<D> for Guided<D> {
-    fn coordinate_names(&self) -> Vec<&'static str> {
-        self.free().into_iter().map(|i| NAMES[i]).collect()
-    }
-    fn velocity_names(&self) -> Vec<&'static str> {
-        self.free().into_iter().map(|i| RATES[i]).collect()
+    /// The angular acceleration is zero at v' = 0: the axis is fixed in the world.
+    fn facts(&self) -> BodyFacts {
+        let translations = (0..3).filter(|&i| self.slots[i].is_some()).collect();
+        let rotations = self.turn.iter().map(|turn| self.axes.each(|own| own[turn.axis])).collect();
+        let free = self.free();
+        BodyFacts {
+            freedom: Some(Freedom { translations, rotations }),
+            has_constant_forces: true,
+            ..BodyFacts::new(free.iter().map(|&i| NAMES[i]), free.iter().map(|&i| RATES[i]))
+        }
     }
     fn markers(&self) -> &[Marker<D>] {
         &self.markers
-    }
-
-    /// The angular acceleration is zero at v' = 0: the axis is fixed in the world.
-    fn freedom(&self) -> Option<Freedom> {
-        let translations = (0..3).filter(|&i| self.slots[i].is_some()).collect();
-        let rotations = self.turn.iter().map(|turn| self.axes.each(|own| own[turn.axis])).collect();
-        Some(Freedom { translations, rotations })
     }
 
     fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
@@ -117,9 +115,6 @@ impl<const D: usize> BodyKernel<D> for Guided<D> {
         if let Some(turn) = self.turn {
             values[turn.slot] = self.moment;
         }
-    }
-    fn has_constant_forces(&self) -> bool {
-        true
     }
     fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
         for (slot, g) in self.slots.iter().zip(gravity) {

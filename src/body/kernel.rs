@@ -96,23 +96,18 @@ pub(super) fn coordinate_path<S: Scalar>(
 
 impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
     fn facts(&self) -> BodyFacts {
-        let names = |names: Vec<&str>| names.into_iter().map(String::from).collect();
-        let has_constant_forces = BodyKernel::has_constant_forces(self);
+        let facts = BodyKernel::facts(self);
+        let tangent_pattern = if facts.has_constant_forces { Vec::new() } else { facts.tangent_pattern };
+        let reach = self.markers().iter().map(|marker| norm(&marker.offset)).fold(0.0, f64::max);
         BodyFacts {
-            coordinate_names: names(self.coordinate_names()),
-            velocity_names: names(self.velocity_names()),
-            supports: Vec::new(),
-            mass_pattern: self.mass_pattern(),
-            tangent_pattern: if has_constant_forces { Vec::new() } else { self.tangent_pattern() },
-            stiffness: Vec::new(),
-            oriented: self.oriented(),
-            turning: self.turning(),
-            freedom: self.freedom(),
+            tangent_pattern,
+            reach,
             has_constant_mass: true,
-            has_constant_forces,
-            reach: self.markers().iter().map(|marker| norm(&marker.offset)).fold(0.0, f64::max),
             elastic_count: 0,
             most_coordinates: MOST_COORDINATES,
+            supports: Vec::new(),
+            stiffness: Vec::new(),
+            ..facts
         }
     }
     forward! { BodyKernel =>
@@ -125,7 +120,8 @@ impl<K: BodyKernel<D>, const D: usize> Body<D> for K {
         BodyKernel::mass(self, values);
     }
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
-        if !BodyKernel::has_constant_forces(self) {
+        // There are no places where the own forces are constant.
+        if !k.is_empty() {
             BodyKernel::tangent(self, at, k, c);
         }
     }

@@ -88,10 +88,8 @@ pub struct Energy<S = f64> {
 /// The equations of a rigid body of a few coordinates, at most [`MOST_COORDINATES`], with a constant M, written once
 /// over any scalar. Bodies beyond that implement [`Body`] and [`BodyOver`] themselves.
 pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
-    /// Coordinate names without that of the body, such as `x` or `qw`.
-    fn coordinate_names(&self) -> Vec<&'static str>;
-    /// Velocity names without that of the body, such as `x'` or `wx`.
-    fn velocity_names(&self) -> Vec<&'static str>;
+    /// What never changes, by [`BodyFacts::new`]; what follows from the kernel itself may be left out.
+    fn facts(&self) -> BodyFacts;
     /// The markers given to [`BodySpec::build`], in their order.
     fn markers(&self) -> &[Marker<D>];
 
@@ -122,23 +120,8 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
         kernel::pull_back(self, q, frame, wrench, f);
     }
 
-    /// Places of the mass matrix's lower triangle, in the order of the values of [`mass`](Self::mass). Default: the
-    /// diagonal.
-    fn mass_pattern(&self) -> Vec<(usize, usize)> {
-        (0..self.velocity_names().len()).map(|i| (i, i)).collect()
-    }
-    /// Mass matrix M, constant for such a body: `values` at the places of [`mass_pattern`](Self::mass_pattern).
+    /// Mass matrix M, constant for such a body: `values` at the places of [`BodyFacts::mass_pattern`].
     fn mass(&self, values: &mut [f64]);
-
-    /// True if its markers have an orientation; false for a point mass.
-    fn oriented(&self) -> bool {
-        true
-    }
-
-    /// See [`BodyFacts::turning`]. Default: none, for N = I.
-    fn turning(&self) -> Option<usize> {
-        None
-    }
 
     /// See [`Body::pose`].
     fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D>
@@ -148,25 +131,8 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
         kernel::pose(self, q, v)
     }
 
-    /// See [`BodyFacts::freedom`]. Default: none, which is correct for every body.
-    #[doc(hidden)]
-    fn freedom(&self) -> Option<Freedom> {
-        None
-    }
-
-    /// True if [`own_forces`](Self::own_forces) depend neither on q nor on v. Default: false.
-    fn has_constant_forces(&self) -> bool {
-        false
-    }
-
     /// f += weight and velocity-dependent inertia forces; `gravity` in m/s^2.
     fn own_forces<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]);
-
-    /// See [`BodyFacts::tangent_pattern`]; not called where the own forces are constant. Default: all, row by row.
-    fn tangent_pattern(&self) -> Vec<(usize, usize)> {
-        let n = self.velocity_names().len();
-        (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).collect()
-    }
 
     /// See [`Body::tangent`]; not called where the own forces are constant. Default: own forces over dual numbers, for
     /// the default places.

@@ -1,7 +1,7 @@
 //! Point mass: position only, no orientation.
 
 use super::rigid::{Initial, start_vector};
-use super::{BodyKernel, BodySpec, Build, Built, Energy, Frame, Freedom, Marker, Wrench};
+use super::{BodyFacts, BodyKernel, BodySpec, Build, Built, Energy, Frame, Freedom, Marker, Wrench};
 use crate::error::{Error, Result};
 use crate::math::Scalar;
 use crate::math::array::from_fn;
@@ -43,20 +43,14 @@ struct Particle<const D: usize> {
 }
 
 impl<const D: usize> BodyKernel<D> for Particle<D> {
-    fn coordinate_names(&self) -> Vec<&'static str> {
-        ["x", "y", "z"][..D].to_vec()
-    }
-    fn velocity_names(&self) -> Vec<&'static str> {
-        ["x'", "y'", "z'"][..D].to_vec()
+    fn facts(&self) -> BodyFacts {
+        let names = ["x", "y", "z"].into_iter().take(D);
+        let rates = ["x'", "y'", "z'"].into_iter().take(D);
+        let freedom = Some(Freedom { translations: (0..D).collect(), rotations: Vec::new() });
+        BodyFacts { oriented: false, freedom, has_constant_forces: true, ..BodyFacts::new(names, rates) }
     }
     fn markers(&self) -> &[Marker<D>] {
         &self.markers
-    }
-    fn oriented(&self) -> bool {
-        false
-    }
-    fn freedom(&self) -> Option<Freedom> {
-        Some(Freedom { translations: (0..D).collect(), rotations: Vec::new() })
     }
     fn frame<S: Scalar>(&self, q: &[S]) -> Frame<S, D> {
         Frame { r: from_fn(|i| q[i]), ..Frame::world() }
@@ -66,9 +60,6 @@ impl<const D: usize> BodyKernel<D> for Particle<D> {
     }
     fn mass(&self, values: &mut [f64]) {
         values.fill(self.mass);
-    }
-    fn has_constant_forces(&self) -> bool {
-        true
     }
     fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
         f.iter_mut().zip(gravity).for_each(|(f, g)| *f += S::constant(self.mass * g));

@@ -1,6 +1,6 @@
 //! Rigid body in the plane: x, y of the centre of mass and the angle, or those of them that are free.
 
-use super::{BodyKernel, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, sub};
+use super::{BodyFacts, BodyKernel, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, sub};
 use crate::math::Scalar;
 use crate::math::array::{Each, from_fn};
 
@@ -34,11 +34,15 @@ impl<const D: usize> RigidPlanar<D> {
 }
 
 impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
-    fn coordinate_names(&self) -> Vec<&'static str> {
-        self.free().map(|i| NAMES[i]).collect()
-    }
-    fn velocity_names(&self) -> Vec<&'static str> {
-        self.free().map(|i| RATES[i]).collect()
+    fn facts(&self) -> BodyFacts {
+        let Freedom { rotations, .. } = Freedom::all(D);
+        let translations = self.free().filter(|&i| i < 2).collect();
+        let rotations = if self.slots[2].is_some() { rotations } else { Vec::new() };
+        BodyFacts {
+            freedom: Some(Freedom { translations, rotations }),
+            has_constant_forces: true,
+            ..BodyFacts::new(self.free().map(|i| NAMES[i]), self.free().map(|i| RATES[i]))
+        }
     }
     fn markers(&self) -> &[Marker<D>] {
         &self.markers
@@ -71,18 +75,9 @@ impl<const D: usize> BodyKernel<D> for RigidPlanar<D> {
         }
         Pose::in_plane(self.coordinates(q), self.slots.each(|slot| slot.map_or(0.0, |slot| v[slot])))
     }
-    fn freedom(&self) -> Option<Freedom> {
-        let Freedom { rotations, .. } = Freedom::all(D);
-        let translations = self.free().filter(|&i| i < 2).collect();
-        let turns = self.slots[2].is_some();
-        Some(Freedom { translations, rotations: if turns { rotations } else { Vec::new() } })
-    }
 
     fn mass(&self, values: &mut [f64]) {
         self.free().zip(values).for_each(|(i, value)| *value = self.inertia[i]);
-    }
-    fn has_constant_forces(&self) -> bool {
-        true
     }
     fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], gravity: &[f64; D], f: &mut [S]) {
         for (slot, g) in self.slots.iter().zip(&gravity[..2]) {

@@ -1,6 +1,6 @@
 //! Rigid body in space: centre of mass, unit quaternion [w, x, y, z] and angular velocity in the body's axes.
 
-use super::{BodyKernel, BodyState, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, dot, sub};
+use super::{BodyFacts, BodyKernel, BodyState, Energy, Frame, Freedom, Marker, Pose, Wrench, cross, dot, sub};
 use crate::math::Scalar;
 use crate::math::array::from_fn;
 use crate::math::rotation::{Matrix3, axes_from_quaternion, quaternion_rate};
@@ -23,23 +23,23 @@ impl<const D: usize> RigidSpatial<D> {
 }
 
 impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
-    fn coordinate_names(&self) -> Vec<&'static str> {
-        vec!["x", "y", "z", "qw", "qx", "qy", "qz"]
-    }
-    fn velocity_names(&self) -> Vec<&'static str> {
-        vec!["x'", "y'", "z'", "wx", "wy", "wz"]
+    fn facts(&self) -> BodyFacts {
+        let diagonal = (0..6).map(|i| (i, i));
+        let products: &[_] = if self.has_products() { &[(4, 3), (5, 3), (5, 4)] } else { &[] };
+        BodyFacts {
+            mass_pattern: diagonal.chain(products.iter().copied()).collect(),
+            // C of the rotations.
+            tangent_pattern: (3..6).flat_map(|i| (3..6).map(move |j| (i, j))).collect(),
+            turning: Some(3),
+            freedom: Some(Freedom::all(D)),
+            ..BodyFacts::new(["x", "y", "z", "qw", "qx", "qy", "qz"], ["x'", "y'", "z'", "wx", "wy", "wz"])
+        }
     }
     fn markers(&self) -> &[Marker<D>] {
         &self.markers
     }
-    fn turning(&self) -> Option<usize> {
-        Some(3)
-    }
     fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D> {
         Pose::in_space(q, v)
-    }
-    fn freedom(&self) -> Option<Freedom> {
-        Some(Freedom::all(D))
     }
 
     /// x' = v, and for the quaternion p' = p (0, w) / 2.
@@ -65,10 +65,6 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
         }
     }
 
-    fn mass_pattern(&self) -> Vec<(usize, usize)> {
-        let diagonal = (0..6).map(|i| (i, i));
-        if self.has_products() { diagonal.chain([(4, 3), (5, 3), (5, 4)]).collect() } else { diagonal.collect() }
-    }
     fn mass(&self, values: &mut [f64]) {
         let j = &self.inertia;
         let all = [self.mass, self.mass, self.mass, j[0][0], j[1][1], j[2][2], j[1][0], j[2][0], j[2][1]];
@@ -81,10 +77,6 @@ impl<const D: usize> BodyKernel<D> for RigidSpatial<D> {
         f[3..].iter_mut().zip(gyroscopic).for_each(|(f, g)| *f -= g);
     }
     /// C = d(w x J w)/dw
-    /// C of the rotations.
-    fn tangent_pattern(&self) -> Vec<(usize, usize)> {
-        (3..6).flat_map(|i| (3..6).map(move |j| (i, j))).collect()
-    }
     fn tangent(&self, at: BodyState<D>, _k: &mut [f64], c: &mut [f64]) {
         let w = [at.v[3], at.v[4], at.v[5]];
         let momentum = self.angular_momentum(&w);

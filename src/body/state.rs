@@ -1,6 +1,6 @@
 //! A state xi of a controller, filter or actuator.
 
-use super::{BodyKernel, Energy, Frame, Marker};
+use super::{BodyFacts, BodyKernel, Energy, Frame, Marker};
 use crate::math::{Scalar, Taylor};
 
 /// A velocity xi without a coordinate, whose rate is the force on it, since its mass is one. Elements see it as all
@@ -16,17 +16,11 @@ impl<const D: usize> State<D> {
 }
 
 impl<const D: usize> BodyKernel<D> for State<D> {
-    fn coordinate_names(&self) -> Vec<&'static str> {
-        Vec::new()
-    }
-    fn velocity_names(&self) -> Vec<&'static str> {
-        vec![""]
+    fn facts(&self) -> BodyFacts {
+        BodyFacts { oriented: false, has_constant_forces: true, ..BodyFacts::new([], [""]) }
     }
     fn markers(&self) -> &[Marker<D>] {
         &self.markers
-    }
-    fn oriented(&self) -> bool {
-        false
     }
     fn rate<S: Scalar>(&self, _q: &[S], _v: &[S], _qdot: &mut [S]) {}
     fn frame<S: Scalar>(&self, _q: &[S]) -> Frame<S, D> {
@@ -39,9 +33,6 @@ impl<const D: usize> BodyKernel<D> for State<D> {
     }
     fn mass(&self, values: &mut [f64]) {
         values.fill(1.0);
-    }
-    fn has_constant_forces(&self) -> bool {
-        true
     }
     fn own_forces<S: Scalar>(&self, _q: &[S], _v: &[S], _gravity: &[f64; D], _f: &mut [S]) {}
     fn energy<S: Scalar>(&self, _q: &[S], _v: &[S], _gravity: &[f64; D]) -> Energy<S> {

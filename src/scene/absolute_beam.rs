@@ -13,17 +13,82 @@
 use super::beam_mass::NodeMass;
 use super::keys::start_and_markers;
 use super::markers;
-use super::model::BeamLine;
-use crate::body::flexible::{Damping, FlexibleBeam, MOST_ELEMENTS, Profile, ReferenceLine, curvature};
-use crate::body::{Body, Build, Built, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
+use crate::body::flexible::{Damping, FlexibleBeam, MOST_ELEMENTS, Profile, ReferenceLine, Section, curvature};
+use crate::body::{Body, Build, Built, Frame, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
 use crate::error::{Error, Result, short};
-use crate::force::Beam;
+use crate::force::{Beam, Half, Station};
 use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
 use crate::math::rotation::{matrix_from_quaternion, quaternion_from_vector, quaternion_product};
 use crate::math::screw::dot3;
+use crate::math::{Scalar, Taylor};
 use crate::tolerances;
 use serde_json::{Map, Value};
+use std::ops::Range;
+
+/// A flexible beam in absolute coordinates: bodies as nodes, and elements as forces between them.
+pub struct BeamLine {
+    /// Name of the beam in the scene.
+    pub name: String,
+    /// Index of its first node among the bodies; the others follow.
+    pub first_body: usize,
+    /// Index of its first element among the forces.
+    pub first_force: usize,
+    /// Abscissae of the nodes from the left end, m; one more than there are elements.
+    pub abscissae: Vec<f64>,
+    /// Beam elements from left to right, without mass.
+    pub elements: Vec<Beam>,
+    /// Stiffness and mass of the sections along the beam.
+    pub profile: Profile,
+    /// Mass of each element: the halves lumped at its two nodes.
+    pub halves: Vec<[Half; 2]>,
+}
+
+impl BeamLine {
+    /// Indices of its nodes among the bodies.
+    pub fn bodies(&self) -> Range<usize> {
+        self.first_body..self.first_body + self.abscissae.len()
+    }
+
+    /// Indices of its elements among the forces.
+    pub fn forces(&self) -> Range<usize> {
+        self.first_force..self.first_force + self.elements.len()
+    }
+
+    /// Length of the undeformed beam, m.
+    pub fn length(&self) -> f64 {
+        self.abscissae.last().copied().unwrap_or(0.0)
+    }
+
+    /// Point of the relaxed beam's line at `s`, in the axes of its left end, m.
+    pub fn relaxed(&self, s: f64) -> [f64; 3] {
+        self.elements.first().map_or([0.0; 3], |element| element.relaxed(s))
+    }
+
+    /// The section at `s`; at a node, that of the element to the left of it.
+    pub fn section(&self, s: f64) -> Section {
+        let element = self.element_at(s);
+        self.profile.within([self.abscissae[element], self.abscissae[element + 1]], s)
+    }
+
+    /// Position and internal forces of the section at `s` from the left end, 0 <= s <= length, without the inertia and
+    /// weight of the element itself; `node` gives the frame of a body of the model. At a node it is that of the element
+    /// to the left of it.
+    pub fn station<S: Scalar, const D: usize>(
+        &self,
+        s: f64,
+        node: impl Fn(usize) -> Frame<Taylor<S>, D>,
+    ) -> Station<S, D> {
+        let element = self.element_at(s);
+        let first = self.first_body + element;
+        self.elements[element].station([&node(first), &node(first + 1)], s - self.abscissae[element])
+    }
+
+    /// The element at `s`; its nodes are bodies `first_body` + this and the next.
+    pub fn element_at(&self, s: f64) -> usize {
+        self.abscissae.partition_point(|&abscissa| abscissa < s).clamp(1, self.elements.len()) - 1
+    }
+}
 
 /// True for the type and keys of a beam in absolute coordinates.
 pub fn is_absolute_beam(kind: &str, json: &Map<String, Value>) -> bool {

@@ -1,9 +1,10 @@
 //! Outputs of a beam at a place on its line.
 
+use super::absolute_beam::BeamLine;
 use super::keys::{find, missing};
 use super::kinematics::Elements;
 use super::measures::{MeasureKind, OutputSpec};
-use super::model::{BeamLine, Combination, Measure, ModelForce};
+use super::model::{Combination, Measure, ModelForce};
 use super::place::{Cut, Place, Reading};
 use crate::body::flexible::{Line, Stretch};
 use crate::body::{Bent, Build, Marker, MarkerId};

@@ -1,9 +1,10 @@
 //! Outputs that are read off markers: positions, angles and distances with their rates, of joints too.
 
+use super::absolute_beam::BeamLine;
 use super::format::SceneFile;
 use super::keys::{missing, named_component};
 use super::measures::{MeasureKind, OutputSpec};
-use super::model::{BeamLine, Connection, ModelForce, ModelJoint, Part};
+use super::model::{Connection, ModelForce, ModelJoint, Part};
 use crate::body::{Build, MarkerId, NamedOutput, NamedOutputs, Probe, Quantity, TurnAxes, Turned, in_space};
 use crate::error::{Error, Result, suggest};
 use crate::joint::{ClosedForm, JointCoordinate};

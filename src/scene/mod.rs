@@ -36,6 +36,8 @@ mod states;
 #[doc(hidden)]
 pub mod units;
 
+#[doc(hidden)]
+pub use absolute_beam::BeamLine;
 pub use builder::SceneBuilder;
 pub(crate) use document::refined;
 pub use elements::Elements;
@@ -46,9 +48,7 @@ pub use format::{Automatic, Simulation};
 pub use measures::MeasureKind;
 pub use model::Model;
 #[doc(hidden)]
-pub use model::{
-    BeamLine, Combination, Connection, EnergyPart, Input, Measure, ModelForce, ModelJoint, Part, Target, Watched,
-};
+pub use model::{Combination, Connection, EnergyPart, Input, Measure, ModelForce, ModelJoint, Part, Target, Watched};
 #[doc(hidden)]
 pub use model::{FORCE_SIZE, TORQUE_SIZE};
 #[doc(hidden)]

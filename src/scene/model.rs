@@ -1,12 +1,12 @@
 //! The checked, named model that a scene describes.
 
+use super::absolute_beam::BeamLine;
 use super::place::{Cut, Place};
 use super::units::Unit;
-use crate::body::flexible::{Profile, Section};
 use crate::body::{Body, BodyFacts, Energy, Formula, Frame, Marker, MarkerId, MarkerTable, Probe, Switches, Turning};
-use crate::force::{Beam, Force, Half, Station};
+use crate::force::Force;
 use crate::joint::Joint;
-use crate::math::{Scalar, Taylor};
+use crate::math::Scalar;
 use std::ops::Range;
 
 /// Bodies, joints and forces with all names and expressions resolved and checked.
@@ -88,70 +88,6 @@ impl<const D: usize> Part<D> {
     }
 }
 
-/// A flexible beam in absolute coordinates: bodies as nodes, and elements as forces between them.
-pub struct BeamLine {
-    /// Name of the beam in the scene.
-    pub name: String,
-    /// Index of its first node among the bodies; the others follow.
-    pub first_body: usize,
-    /// Index of its first element among the forces.
-    pub first_force: usize,
-    /// Abscissae of the nodes from the left end, m; one more than there are elements.
-    pub abscissae: Vec<f64>,
-    /// Beam elements from left to right, without mass.
-    pub elements: Vec<Beam>,
-    /// Stiffness and mass of the sections along the beam.
-    pub profile: Profile,
-    /// Mass of each element: the halves lumped at its two nodes.
-    pub halves: Vec<[Half; 2]>,
-}
-
-impl BeamLine {
-    /// Indices of its nodes among the bodies.
-    pub fn bodies(&self) -> Range<usize> {
-        self.first_body..self.first_body + self.abscissae.len()
-    }
-
-    /// Indices of its elements among the forces.
-    pub fn forces(&self) -> Range<usize> {
-        self.first_force..self.first_force + self.elements.len()
-    }
-
-    /// Length of the undeformed beam, m.
-    pub fn length(&self) -> f64 {
-        self.abscissae.last().copied().unwrap_or(0.0)
-    }
-
-    /// Point of the relaxed beam's line at `s`, in the axes of its left end, m.
-    pub fn relaxed(&self, s: f64) -> [f64; 3] {
-        self.elements.first().map_or([0.0; 3], |element| element.relaxed(s))
-    }
-
-    /// The section at `s`; at a node, that of the element to the left of it.
-    pub fn section(&self, s: f64) -> Section {
-        let element = self.element_at(s);
-        self.profile.within([self.abscissae[element], self.abscissae[element + 1]], s)
-    }
-
-    /// Position and internal forces of the section at `s` from the left end, 0 <= s <= length, without the inertia and
-    /// weight of the element itself; `node` gives the frame of a body of the model. At a node it is that of the element
-    /// to the left of it.
-    pub fn station<S: Scalar, const D: usize>(
-        &self,
-        s: f64,
-        node: impl Fn(usize) -> Frame<Taylor<S>, D>,
-    ) -> Station<S, D> {
-        let element = self.element_at(s);
-        let first = self.first_body + element;
-        self.elements[element].station([&node(first), &node(first + 1)], s - self.abscissae[element])
-    }
-
-    /// The element at `s`; its nodes are bodies `first_body` + this and the next.
-    pub fn element_at(&self, s: f64) -> usize {
-        self.abscissae.partition_point(|&abscissa| abscissa < s).clamp(1, self.elements.len()) - 1
-    }
-}
-
 /// A joint or force with its name, its kind in the scene and the markers it sees.
 pub struct Connection<E> {
     /// Name in the scene, or `beam.e3` for an element of an absolute beam.
@@ -216,7 +152,7 @@ pub enum Measure {
     Section {
         /// Index in [`Model::cuts`].
         cut: usize,
-        /// Component in the order of [`Station`]: axial force, shear y, z, torque, bending y, z.
+        /// Component in the order of [`Station`](crate::force::Station): axial force, shear y, z, torque, bending y, z.
         component: usize,
     },
     /// Magnitude of the force, or of the torque, with this index.

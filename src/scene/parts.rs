@@ -1,10 +1,10 @@
 //! The bodies of a scene, read one after the other.
 
-use super::absolute_beam::{AbsoluteBeam, is_absolute_beam};
+use super::absolute_beam::{AbsoluteBeam, BeamLine, is_absolute_beam};
 use super::format::SceneFile;
 use super::keys::{object, start_and_markers, take_kind, take_name, taken};
 use super::markers;
-use super::model::{BeamLine, Part};
+use super::model::Part;
 use crate::body::{BodyFacts, BodyKind, Build, Built, Marker, MarkerId, MarkerTable, parse};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;

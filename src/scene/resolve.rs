@@ -1,9 +1,10 @@
 //! From the typed file to the checked model.
 
+use super::absolute_beam::BeamLine;
 use super::elements::{Elements, Kinds};
 use super::format::{Dimension, SceneFile};
 use super::kinematics::{self, Named};
-use super::model::{BeamLine, Connection, Input, Model, ModelForce, ModelJoint, Part, Watched};
+use super::model::{Connection, Input, Model, ModelForce, ModelJoint, Part, Watched};
 use super::names::check_scene_name;
 use super::outputs;
 use super::parts::Parts;

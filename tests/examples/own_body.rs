@@ -1,7 +1,7 @@
 //! An own body: a ball in a fluid, which carries some of it along.
 
 use holonom::Result;
-use holonom::body::{BodyKernel, BodySpec, Build, Built, Energy, Frame, Initial, Marker};
+use holonom::body::{BodyFacts, BodyKernel, BodySpec, Build, Built, Energy, Frame, Initial, Marker};
 use holonom::math::{Scalar, expression::Number};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -36,11 +36,8 @@ struct Ball<const D: usize> {
 
 /// Coordinates x, y (and z in space); M = inertia I. How forces at its markers act follows from its frame.
 impl<const D: usize> BodyKernel<D> for Ball<D> {
-    fn coordinate_names(&self) -> Vec<&'static str> {
-        ["x", "y", "z"][..D].to_vec()
-    }
-    fn velocity_names(&self) -> Vec<&'static str> {
-        ["x'", "y'", "z'"][..D].to_vec()
+    fn facts(&self) -> BodyFacts {
+        BodyFacts::new(["x", "y", "z"].into_iter().take(D), ["x'", "y'", "z'"].into_iter().take(D))
     }
     fn markers(&self) -> &[Marker<D>] {
         &self.markers

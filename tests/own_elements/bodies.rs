@@ -2,7 +2,7 @@
 //! distance and a spring.
 
 use crate::common::{Run, adaptive, fixed, run};
-use holonom::body::{BodyKernel, BodySpec, Build, Built, Energy, Frame, Initial, Marker, cross, dot, sub};
+use holonom::body::{BodyFacts, BodyKernel, BodySpec, Build, Built, Energy, Frame, Initial, Marker, cross, dot, sub};
 use holonom::joint::{self, JointKernel, JointSpec};
 use holonom::linearize::{Request, State, linearize};
 use holonom::math::expression::Number;
@@ -55,17 +55,17 @@ struct OwnBody<const D: usize> {
 }
 
 impl<const D: usize> BodyKernel<D> for OwnBody<D> {
-    fn coordinate_names(&self) -> Vec<&'static str> {
-        if D == 2 { vec!["x", "y", "angle"] } else { vec!["x", "y", "z", "qw", "qx", "qy", "qz"] }
-    }
-    fn velocity_names(&self) -> Vec<&'static str> {
-        if D == 2 { vec!["x'", "y'", "angle'"] } else { vec!["x'", "y'", "z'", "wx", "wy", "wz"] }
+    fn facts(&self) -> BodyFacts {
+        match D {
+            2 => BodyFacts::new(["x", "y", "angle"], ["x'", "y'", "angle'"]),
+            _ => BodyFacts {
+                turning: Some(3),
+                ..BodyFacts::new(["x", "y", "z", "qw", "qx", "qy", "qz"], ["x'", "y'", "z'", "wx", "wy", "wz"])
+            },
+        }
     }
     fn markers(&self) -> &[Marker<D>] {
         &self.markers
-    }
-    fn turning(&self) -> Option<usize> {
-        (D == 3).then_some(3)
     }
     fn rate<S: Scalar>(&self, q: &[S], v: &[S], qdot: &mut [S]) {
         qdot[..3].copy_from_slice(&v[..3]);
