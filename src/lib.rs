@@ -101,19 +101,16 @@
 //! ```
 //! use holonom::prelude::*;
 //!
-//! let scene = Scene::parse(r#"{
+//! let model = Model::parse(r#"{
 //!     "name": "pendulum", "dimension": 2, "gravity": [0, -9.81],
 //!     "ground": { "markers": { "O": [0, 0] } },
 //!     "bodies": [{ "name": "bob", "type": "point_mass", "mass": 1, "initial": { "position": [1, 0] } }],
 //!     "joints": [{ "name": "rod", "type": "distance", "between": ["ground.O", "bob"], "length": 1 }],
 //!     "simulation": { "t_end": 1, "integrator": "dop853", "rtol": 1e-10, "atol": 1e-10 }
-//! }"#, &[])?;
-//! let prepared = PreparedScene::new(scene, &Default::default())?;
-//! let mut recorder = Recorder::new(prepared.system());
-//! let outcome = simulate(prepared.system(), &prepared.method, prepared.span()?, prepared.start(), &mut recorder)?;
-//! let record = recorder.finish();
-//! assert!(outcome.failure.is_none());
-//! assert!(record.drift.position.max < 1e-14);
+//! }"#)?;
+//! let mut run = model.run();
+//! run.to(1.0)?;
+//! assert!(run.record().drift.position.max < 1e-14);
 //! # Ok::<(), holonom::Error>(())
 //! ```
 
@@ -153,6 +150,7 @@ pub mod prepared;
 pub mod projection;
 #[doc(hidden)]
 pub mod report;
+pub mod run;
 pub mod scene;
 pub mod simplify;
 pub mod simulate;
@@ -169,12 +167,13 @@ pub use error::{Error, Result};
 /// What most programs need: `use holonom::prelude::*`.
 pub mod prelude {
     pub use crate::analysis::{Record, Recorder};
-    pub use crate::linearize::{Chart, LinearModel, Request, State, linearize};
+    pub use crate::linearize::{Chart, Linear, LinearModel, State, linearize};
     pub use crate::math::Scalar;
     pub use crate::method_spec::{Listed, MethodSpec};
-    pub use crate::prepared::{Overrides, PreparedScene};
+    pub use crate::prepared::{Family, Model, Overrides, linspace};
+    pub use crate::run::{End, Moment, Run, every, simulate};
     pub use crate::scene::{Elements, Scene, SceneBuilder};
-    pub use crate::simulate::{Method, Outcome, Span, simulate};
+    pub use crate::simulate::{Method, Span};
     pub use crate::system::{Equations, MechanicalSystem};
     pub use crate::validate::{Settings, validate};
     pub use crate::{Error, Result};

@@ -6,6 +6,7 @@ mod checkpoint;
 mod contest;
 mod crowd;
 mod ending;
+mod engine;
 mod events;
 mod first_explicit;
 mod gaps;
@@ -14,6 +15,7 @@ mod observation;
 mod output;
 mod passage;
 mod plan;
+mod roots;
 mod rows;
 mod segments;
 mod spectrum;
@@ -28,6 +30,8 @@ pub use crate::modes::SpectralMode;
 pub(crate) use automatic::known_methods;
 pub use automatic::{Leg, Trial, advise, simulate_automatic};
 pub use checkpoint::{Checkpoint, Start, simulate_from};
+pub use engine::End;
+pub(crate) use engine::{Choice, Engine, run_through};
 pub use method::Method;
 #[doc(hidden)]
 pub use method::{atol_of, check_pair};
@@ -43,7 +47,9 @@ pub use stiffness::{Stiffness, stiffness};
 use crowd::Crowd;
 use events::{Events, Passage};
 use gaps::Gaps;
+use output::RowsOfStep;
 use passage::SingularPassage;
+use roots::Roots;
 use rows::OutputRows;
 use step::is_too_large;
 use travel::Travelled;
@@ -86,7 +92,8 @@ pub fn simulate(
     Ok(simulate_from(system, method, span, Start::State(q, v), sink)?.0)
 }
 
-struct Run<'a> {
+/// The only time loop: a run from step to step.
+pub(crate) struct TimeLoop<'a> {
     problem: Problem<'a>,
     entry: &'static Entry,
     integrator: Box<dyn Integrator + 'a>,
@@ -134,8 +141,34 @@ struct Run<'a> {
     progress: (f64, usize),
     /// The travel of its drivers, if there are any.
     travelled: Option<Travelled<'a>>,
-    /// Work after which the run pauses, in evaluations: see [`Run::mark`].
+    /// Work after which the run pauses, in evaluations: see [`TimeLoop::mark`].
     allowance: f64,
+    /// Time at which the run pauses, s: at most the end of the span.
+    until: f64,
+    /// The last accepted step, until it is [completed](Self::complete).
+    last: Option<LastStep>,
+    roots: Roots,
+}
+
+/// An accepted step of which the dense output may still be read.
+#[derive(Clone, Copy)]
+pub(crate) struct LastStep {
+    start: f64,
+    size: f64,
+    error: Option<f64>,
+    /// True if it was shorter than the step control proposed.
+    is_cut: bool,
+    changes_form: bool,
+}
+
+/// What became of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Attempt {
+    Accepted,
+    /// It is to be tried again, shorter or on other pieces.
+    Refused,
+    /// The sink has what it wants: the step is not taken.
+    Stopped,
 }
 
 /// The projection of states on the dense output: that of the method; but where both levels are integrated, these are
@@ -162,8 +195,8 @@ pub(crate) struct Parts<'a> {
     pub limits_projection: bool,
 }
 
-impl<'a> Run<'a> {
-    fn new(system: &'a dyn MechanicalSystem, method: &'a Method, span: Span, y: Vec<f64>) -> Result<Self> {
+impl<'a> TimeLoop<'a> {
+    fn new(system: &'a dyn MechanicalSystem, method: &Method, span: Span, y: Vec<f64>) -> Result<Self> {
         let problem = || -> Result<Problem<'a>> {
             Ok(Problem::new(Dynamics::new(system), formulation::make(&method.formulation, system)?))
         };
@@ -181,13 +214,13 @@ impl<'a> Run<'a> {
             limits_projection: true,
         };
         let tolerance = entry.tightening.of_steps(&Tolerance::new(method.rtol, method.atol, system));
-        Ok(Run::of(parts, (tolerance, method.step), span, y))
+        Ok(TimeLoop::of(parts, (tolerance, method.step), span, y))
     }
 
     fn of(parts: Parts<'a>, (tolerance, fixed): (Tolerance, Option<f64>), span: Span, y: Vec<f64>) -> Self {
         let zeros = || vec![0.0; y.len()];
         let system = parts.problem.dynamics.system;
-        Run {
+        TimeLoop {
             is_explicit: parts.entry.stability.is_some(),
             problem: parts.problem,
             entry: parts.entry,
@@ -223,6 +256,9 @@ impl<'a> Run<'a> {
             progress: (span.start, 0),
             travelled: Travel::new(system, span.start, &y[..system.dimensions().q]).map(Travelled::new),
             allowance: f64::INFINITY,
+            until: span.end,
+            last: None,
+            roots: Roots::default(),
             y,
         }
     }
@@ -274,44 +310,69 @@ impl<'a> Run<'a> {
         Outcome { statistics: self.statistics(), t: self.t, q: q.to_vec(), v: v.to_vec(), failure }
     }
 
-    /// Steps to the end of the span, or until the work exceeds the allowance.
+    /// Steps until it [pauses](Self::is_paused), or until the work exceeds the allowance. The last step before a pause is
+    /// not completed, so that its dense output may be read.
     fn advance(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
-        self.take_steps(sink).map_err(|failure| self.explained(failure, sink))
+        while !self.is_paused(sink) {
+            if self.mark().work >= self.allowance {
+                return self.complete(sink).map_err(|failure| self.explained(failure, sink));
+            }
+            self.advance_once(sink)?;
+        }
+        Ok(())
     }
 
-    fn take_steps(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
-        while self.t < self.span.end && self.mark().work < self.allowance {
-            self.ask(sink)?;
-            self.check_progress()?;
-            self.check_crawl()?;
-            let stop = self.next_stop();
-            if self.entry.leads {
-                self.lead(stop)?;
-            }
-            let (mut size, mut end) = self.fit(stop);
-            let tried = size;
-            let Some(error) = self.try_step(size, end)? else { continue };
-            if !self.is_of_one_form(&mut size, &mut end, sink)? {
-                continue;
-            }
-            self.check_travel(self.end_of(size, end))?;
-            if let Some(theta) = self.output(size, end, sink)? {
+    /// Tries one step.
+    fn advance_once(&mut self, sink: &mut dyn Sink) -> Result<Attempt, Failure> {
+        self.take_step(sink).map_err(|failure| self.explained(failure, sink))
+    }
+
+    fn take_step(&mut self, sink: &mut dyn Sink) -> Result<Attempt, Failure> {
+        self.complete(sink)?;
+        if self.ask(sink)? {
+            return Ok(Attempt::Stopped);
+        }
+        self.check_progress()?;
+        self.check_crawl()?;
+        let stop = self.next_stop();
+        if self.entry.leads {
+            self.lead(stop)?;
+        }
+        let (mut size, mut end) = self.fit(stop);
+        let tried = size;
+        let Some(error) = self.try_step(size, end)? else { return Ok(Attempt::Refused) };
+        if !self.is_of_one_form(&mut size, &mut end, sink)? {
+            return Ok(Attempt::Refused);
+        }
+        self.check_travel(self.end_of(size, end))?;
+        match self.output(size, end, sink)? {
+            RowsOfStep::Written => {}
+            RowsOfStep::Stopped => return Ok(Attempt::Stopped),
+            RowsOfStep::Contradicted(theta) => {
                 self.problem.dynamics.statistics.rejected += 1;
                 self.cut = Some(theta * size);
-                continue;
-            }
-            self.accept(size, end, sink);
-            self.check_joints()?;
-            self.propose(size, error, end.is_some() || self.cut.is_some() || size < tried)?;
-            (self.growing, self.cut) = (true, None);
-            let changes_form =
-                self.end_gaps() || self.events.is_at_threshold() || stop.changes_form && self.t >= stop.t;
-            if changes_form && self.t < self.span.end {
-                self.change_form_seen(None, sink)?;
-            } else {
-                self.events.go_on();
+                return Ok(Attempt::Refused);
             }
         }
+        let start = self.t;
+        self.accept(size, end, sink);
+        self.check_joints()?;
+        let is_cut = end.is_some() || self.cut.is_some() || size < tried;
+        let changes_form = self.end_gaps() || self.events.is_at_threshold() || stop.changes_form && self.t >= stop.t;
+        self.last = Some(LastStep { start, size, error, is_cut, changes_form });
+        Ok(Attempt::Accepted)
+    }
+
+    /// Completes the last step: the method proposes the size of the next one, and the equations take their new form
+    /// where it ended at a threshold.
+    fn complete(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
+        let Some(LastStep { size, error, is_cut, changes_form, .. }) = self.last.take() else { return Ok(()) };
+        self.propose(size, error, is_cut)?;
+        (self.growing, self.cut) = (true, None);
+        if changes_form && self.t < self.span.end {
+            return self.change_form_seen(None, sink);
+        }
+        self.events.go_on();
         Ok(())
     }
 
@@ -340,7 +401,7 @@ impl<'a> Run<'a> {
             self.cut = Some(theta * *size);
             return Ok(false);
         }
-        let passage = self.end_at_passage(size, end).map_err(|halt| self.halted(&halt))?;
+        let passage = self.end_at_passage(size, end, sink).map_err(|halt| self.halted(&halt))?;
         match passage {
             None => return Ok(true),
             Some(Passage::AtStart(number)) => {
@@ -350,6 +411,7 @@ impl<'a> Run<'a> {
                     self.h *= 0.1;
                 }
             }
+            Some(Passage::OfRoot) => self.roots.passed = Some(self.t),
             Some(Passage::Within(theta)) => {
                 self.problem.dynamics.statistics.rejected += 1;
                 self.cut = Some(theta * *size);
@@ -361,7 +423,7 @@ impl<'a> Run<'a> {
     /// Tells the method that its step is accepted, and takes the size of the next one. A step that was cut to end at a
     /// given time does not reduce the size before it.
     fn propose(&mut self, size: f64, error: Option<f64>, is_cut: bool) -> Result<(), Failure> {
-        let Run { growing, is_moved, .. } = *self;
+        let TimeLoop { growing, is_moved, .. } = *self;
         let step = Accepted { h: size, error, growing, is_moved, tolerance: &self.tolerance };
         let proposed = self.integrator.accepted(&step);
         if error.is_none() {
@@ -375,9 +437,17 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Ends the run if the sink asks for it.
-    fn ask(&self, sink: &dyn Sink) -> Result<(), Failure> {
-        sink.stops().map_or(Ok(()), |Stop { reason, hint }| Err(Failure { t: self.t, reason, hint }))
+    /// True if the sink has what it wants; a failure where it gives the run up.
+    fn ask(&self, sink: &dyn Sink) -> Result<bool, Failure> {
+        match sink.stops() {
+            None => Ok(sink.is_done()),
+            Some(Stop { reason, hint }) => Err(Failure { t: self.t, reason, hint }),
+        }
+    }
+
+    /// True if nothing is left to do in this call.
+    fn is_paused(&self, sink: &dyn Sink) -> bool {
+        self.t >= self.until || self.roots.passed.is_some() || sink.is_done()
     }
 
     fn accept(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) {
@@ -388,6 +458,7 @@ impl<'a> Run<'a> {
         if let Some(lost) = self.lost.take() {
             self.approach.add_loss(lost);
         }
+        self.roots.accept(self.t);
         self.observe(self.fixed.or(Some(h)), sink);
     }
 }

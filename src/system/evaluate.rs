@@ -5,7 +5,7 @@ use super::mechanism::{Mechanism, of, place_body};
 use super::portions::{BodyPortion, BodyTerms, JointPortion, JointsTerms};
 use super::rigid_joint::RigidJoint;
 use super::rows::JointRows;
-use super::view::gathered;
+use super::view::{gathered, input_on};
 use super::workspace::Workspace;
 use super::{Need, Terms};
 use crate::body::{Frame, Freedom, MOST_MARKERS, MarkerId, Pose, Wrench};
@@ -232,9 +232,9 @@ impl<const D: usize> Mechanism<D> {
     fn forces(&self, time: Time<f64>, q: &[f64], work: &mut Workspace<D>, terms: &mut Terms) {
         for (i, force) in self.model().forces.iter().enumerate() {
             let power = match force.markers.len() {
-                1 => self.force::<1>(force, time, q, work, terms),
-                2 => self.force::<2>(force, time, q, work, terms),
-                _ => self.force::<MOST_MARKERS>(force, time, q, work, terms),
+                1 => self.force::<1>((i, force), time, q, work, terms),
+                2 => self.force::<2>((i, force), time, q, work, terms),
+                _ => self.force::<MOST_MARKERS>((i, force), time, q, work, terms),
             };
             for (rate, Watched { measure, unit, .. }) in terms.powers.iter_mut().zip(&self.model().works) {
                 if matches!(measure, Measure::Power { force } if *force == i) {
@@ -247,18 +247,24 @@ impl<const D: usize> Mechanism<D> {
     /// Adds a force with at most N markers to f, and returns its power.
     fn force<const N: usize>(
         &self,
-        Connection { element, markers, .. }: &Connection<Box<dyn Force<D>>>,
+        (index, Connection { element, markers, .. }): (usize, &Connection<Box<dyn Force<D>>>),
         time: Time<f64>,
         q: &[f64],
         work: &mut Workspace<D>,
         terms: &mut Terms,
     ) -> f64 {
         let n = markers.len();
-        let Workspace { motion, poses, pulled, .. } = work;
+        let Workspace { motion, poses, pulled, inputs, .. } = work;
         let mut frames = [Frame::world(); N];
         frames.iter_mut().zip(markers).for_each(|(frame, &marker)| *frame = self.moving_frame(marker, motion, poses));
         let mut wrenches = [Wrench::zero(); N];
-        let action = element.act(&frames[..n], time.map(Taylor::time), &mut wrenches[..n]);
+        let instant = time.map(Taylor::time);
+        let action = if inputs.is_empty() {
+            element.act(&frames[..n], instant, &mut wrenches[..n])
+        } else {
+            let input = input_on(self.model(), index, inputs).map(Taylor::fixed);
+            element.driven(&input, &frames[..n], instant, &mut wrenches[..n])
+        };
         let mut power = 0.0;
         for ((wrench, frame), &marker) in wrenches.iter().zip(&frames).zip(markers) {
             power += wrench.power(frame);

@@ -27,7 +27,7 @@ impl<const D: usize> Mechanism<D> {
     /// Origin of a marker in the world. It does not depend on the velocities: q stands in for v.
     fn origin_of(&self, marker: MarkerId, q: &[f64]) -> [f64; D] {
         let at = OperatingPoint { t: 0.0, q, v: q, vdot: &[], lambda: &[] };
-        let view = Plain { model: self.model(), at, regime: Regime::FREE };
+        let view = Plain { model: self.model(), at, regime: Regime::FREE, inputs: &[] };
         view.frame(marker).r.each(|r| r.x)
     }
 }

@@ -103,7 +103,9 @@ impl<const D: usize> Mechanism<D> {
 
     /// Calls `see` with a view of the state.
     fn viewed<R>(&self, at: OperatingPoint, scratch: &mut Scratch, see: impl FnOnce(&Plain<D>) -> R) -> R {
-        self.with_workspace(at.q, scratch, |_, regime| see(&Plain { model: &self.model, at, regime }))
+        self.with_workspace(at.q, scratch, |work, regime| {
+            see(&Plain { model: &self.model, at, regime, inputs: &work.inputs })
+        })
     }
 
     /// Calls `see` with the workspace as it was left.
@@ -114,7 +116,13 @@ impl<const D: usize> Mechanism<D> {
         see: impl FnOnce(&mut Workspace<D>, Regime) -> R,
     ) -> R {
         let make = || Workspace::new(self.model());
-        scratch.with(make, |work, regime| see(work, regime.turned(self.turned(q))))
+        let inputs = std::mem::take(&mut scratch.inputs);
+        let seen = scratch.with(make, |work, regime| {
+            work.inputs.clone_from(&inputs);
+            see(work, regime.turned(self.turned(q)))
+        });
+        scratch.inputs = inputs;
+        seen
     }
 
     /// Evaluates all frames at (q, v) and v' = 0, unless they are known.

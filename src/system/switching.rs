@@ -3,7 +3,7 @@
 use super::Feed;
 use super::mechanism::{Mechanism, with_frames};
 use super::tangent::OperatingPoint;
-use super::view::{Plain, View, along_motion, gathered};
+use super::view::{Plain, View, along_motion, gathered, input_on};
 use super::workspace::Workspace;
 use crate::body::{MOST_MARKERS, Wrench, norm};
 use crate::force::Force;
@@ -24,12 +24,13 @@ impl<const D: usize> Mechanism<D> {
         for joint in self.placed_joints() {
             with_frames(&work.motion, &joint.joint.markers, |frames| joint.switching(time, frames, out));
         }
-        let still = [Taylor::fixed(Rate::fixed(0.0)); 3];
-        for force in self.model().given_forces().iter().chain(self.model().rates()) {
+        let forces = self.model().given_forces().iter().chain(self.model().rates());
+        for (i, force) in forces.enumerate() {
+            let input = input_on(self.model(), i, &work.inputs).map(|u| Taylor::fixed(Rate::fixed(u)));
             gathered(
                 &force.markers,
                 |marker| work.motion[marker].map(along_motion),
-                |frames| force.element.switching(&still, frames, time.map(Taylor::running), out),
+                |frames| force.element.switching(&input, frames, time.map(Taylor::running), out),
             );
         }
     }

@@ -5,6 +5,7 @@ use super::locked::Stiffness;
 use super::mechanism::{Mechanism, of};
 use super::solid::Solid;
 use super::variation::{SeedDirection, SeededBody, fix};
+use super::view::input_on;
 use super::workspace::Workspace;
 use crate::body::{BodyState, Dual6, Frame, Wrench, twist_len};
 use crate::joint::{MOST_ROWS, markers_per_pass};
@@ -87,9 +88,10 @@ impl<const D: usize> Evaluation<'_, D> {
             };
             self.element(coupling, &joint.markers, SeedDirection::Coordinates, 1.0, reaction);
         }
-        for (force, coupling) in mechanism.model().forces.iter().zip(&couplings.forces) {
+        for (i, (force, coupling)) in mechanism.model().forces.iter().zip(&couplings.forces).enumerate() {
+            let input = input_on(mechanism.model(), i, &self.work.inputs).map(|u| Taylor::fixed(Dual6::constant(u)));
             let act = |frames: &Frames<D>, out: &mut [Wrench<Dual6, D>]| {
-                force.element.act(frames, time.map(Taylor::running), out);
+                force.element.driven(&input, frames, time.map(Taylor::running), out);
             };
             self.element(coupling, &force.markers, SeedDirection::Coordinates, -1.0, act);
             if force.element.depends_on_velocities() {

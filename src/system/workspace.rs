@@ -17,6 +17,8 @@ pub(super) struct Workspace<const D: usize> {
     pub pulled: Vec<f64>,
     /// The bodies that each output reads; empty until needed.
     pub read: Vec<Vec<Carrier>>,
+    /// Values of the inputs; empty where all are zero.
+    pub inputs: Vec<f64>,
     /// (q, v) that the frames belong to; empty where they have the accelerations of a given v'.
     placed: Vec<f64>,
 }
@@ -30,6 +32,7 @@ impl<const D: usize> Workspace<D> {
             varied: SeededBody::default(),
             pulled: Vec::new(),
             read: Vec::new(),
+            inputs: Vec::new(),
             placed: Vec::new(),
         }
     }
