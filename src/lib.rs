@@ -48,6 +48,7 @@
 //! | [`simulate`], [`trajectory`], [`prepared`] | the only time loop; its rows; a scene made ready | |
 //! | [`sweep`] | a scene assembled at many values of a parameter | |
 //! | [`analysis`] | what is seen of a state or of one run: rank and redundancy, singular states, drift, energy | |
+//! | [`run`] | [`run::Run`]: a motion that one holds, steps, drives by inputs and ends at events | |
 //! | [`linearize`] | linear models at a state, by every method; state-transition matrix, loci | a file and a line in [`linearize::registry`] |
 //! | [`validate`] | linear models against perturbed simulations | |
 //! | [`study`] | many simulations of one scene: drift under stabilizations, speed for accuracy ([`study::work_precision`]), maps over stress parameters ([`study::stress`]) | a stress parameter: an entry in [`study::stress::registry`] |

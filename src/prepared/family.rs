@@ -17,7 +17,7 @@ use std::sync::Arc;
 ///
 /// let periods = Family::load("models/pendulum.json")?.each("l", linspace(1.0, 2.0, 3), |model| {
 ///     let mut run = model.run();
-///     let End::Event(quarter) = run.until(|x| x.output("theta"), 10.0)? else { return Ok(f64::INFINITY) };
+///     let End::Event(quarter) = run.until(|x| x.output("angle"), 10.0)? else { return Ok(f64::INFINITY) };
 ///     Ok(4.0 * quarter)
 /// })?;
 /// assert!(periods[0] < periods[1] && periods[1] < periods[2]);

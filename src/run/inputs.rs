@@ -3,7 +3,6 @@
 use super::Moment;
 use crate::error::{Error, Result, short};
 use crate::formulation::Law;
-use crate::simulate::Observation;
 use crate::system::{Excitation, MechanicalSystem, Scratch};
 use crate::tolerances;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -130,17 +129,4 @@ fn continuous(laws: Vec<(usize, Continuous)>, moment: Moment) -> Arc<Law> {
         moment.read_unloaded(system, at, scratch);
         laws.iter().for_each(|(place, law)| u[*place] = law(at.0, moment));
     })
-}
-
-/// Reads states for the functions of a run.
-pub(super) struct Reader<'a> {
-    pub system: &'a dyn MechanicalSystem,
-    pub moment: Moment,
-    pub scratch: Scratch,
-}
-
-impl Reader<'_> {
-    pub fn read(&mut self, state: &Observation) {
-        self.moment.read(self.system, state, &mut self.scratch);
-    }
 }

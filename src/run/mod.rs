@@ -17,6 +17,7 @@
 
 mod inputs;
 mod moment;
+mod recording;
 mod simulated;
 
 pub use crate::simulate::End;
@@ -28,9 +29,10 @@ use crate::analysis::{Record, Recorder};
 use crate::error::{Error, Result, clock};
 use crate::formulation::Statistics;
 use crate::prepared::Model;
-use crate::simulate::{Checkpoint, Choice, Engine, Method, Observation, Sink, Span, Start, Stop, advise};
+use crate::simulate::{Checkpoint, Choice, Engine, Method, Span, Start, advise};
 use crate::system::{MechanicalSystem, Scratch};
-use inputs::{Inputs, Reader};
+use inputs::Inputs;
+use recording::{Reader, Recording, unsolved};
 
 /// A run: one motion, from its start as far as it was asked to go.
 ///
@@ -344,66 +346,5 @@ impl<'a> Run<'a> {
             End::Failed(failure) => Err(failure.into()),
             end => Ok(end),
         }
-    }
-}
-
-impl Reader<'_> {
-    fn read_present(&mut self, engine: &mut Engine) -> Result<()> {
-        engine.time_loop().see_state(&mut |state| self.read(state)).map_err(unsolved)
-    }
-}
-
-/// A state at which the equations have no solution.
-fn unsolved(halt: crate::formulation::StepError) -> Error {
-    let hint = halt.hint().unwrap_or("look at the state just before");
-    Error::input(halt.to_string()).hint(hint)
-}
-
-/// Records a run that may look for a root.
-struct Recording<'r, 'a> {
-    recorder: &'r mut Recorder<'a>,
-    reader: &'r mut Reader<'a>,
-    root: Option<&'r mut dyn FnMut(&Moment) -> f64>,
-}
-
-impl<'r, 'a> Recording<'r, 'a> {
-    fn of(recorder: &'r mut Recorder<'a>, reader: &'r mut Reader<'a>) -> Self {
-        Recording { recorder, reader, root: None }
-    }
-}
-
-impl Sink for Recording<'_, '_> {
-    fn accepted(&mut self, state: &Observation) {
-        self.recorder.accepted(state);
-    }
-
-    fn row(&mut self, state: &Observation) {
-        self.recorder.row(state);
-    }
-
-    fn watches_events(&self) -> bool {
-        self.recorder.watches_events()
-    }
-
-    fn before_event(&mut self, state: &Observation) {
-        self.recorder.before_event(state);
-    }
-
-    fn after_event(&mut self, state: &Observation) {
-        self.recorder.after_event(state);
-    }
-
-    fn stops(&self) -> Option<Stop> {
-        self.recorder.stops()
-    }
-
-    fn watches_root(&self) -> bool {
-        self.root.is_some()
-    }
-
-    fn root(&mut self, state: &Observation) -> f64 {
-        let Some(root) = &mut self.root else { return 1.0 };
-        self.reader.read(state);
-        root(&self.reader.moment)
     }
 }

@@ -8,9 +8,8 @@
 
 use super::checkpoint::flat;
 use super::contest::{Contest, Mark, Quiet, unseen};
-use super::engine::{Choice, run_through};
 use super::first_explicit::first_explicit;
-use super::{Checkpoint, Method, Outcome, Sink, Span, Start, TimeLoop};
+use super::{Method, Outcome, Sink, Span, TimeLoop};
 use crate::error::{Failure, Result, clock, two_digits};
 use crate::formulation::Statistics;
 use crate::integrator;
@@ -129,23 +128,6 @@ pub fn advise(
     drive.go(&mut Quiet(None), |drive, mark, changes| !changes && drive.is_known(mark))?;
     let Leg { method, because, .. } = drive.leg;
     Ok((method, because))
-}
-
-/// Integrates `system` from (q, v), which should be consistent, over `span`, with these `tolerances`: begins with an
-/// explicit method, and changes the method where another is faster. Returns the methods in their order, and a
-/// checkpoint from which a run of the last one can be continued.
-///
-/// # Errors
-/// Bad input only, as in [`simulate`](super::simulate).
-pub fn simulate_automatic(
-    system: &dyn MechanicalSystem,
-    tolerances: (f64, f64),
-    span: Span,
-    start: (&[f64], &[f64]),
-    sink: &mut dyn Sink,
-) -> Result<(Outcome, Vec<Leg>, Option<Checkpoint>)> {
-    let (rtol, atol) = tolerances;
-    run_through(system, &Choice::Automatic(rtol, atol), span, Start::State(start.0, start.1), sink)
 }
 
 /// A run that may change its method.

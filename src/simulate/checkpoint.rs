@@ -1,9 +1,8 @@
 //! Checkpoints: a run saved between two of its steps, and continued from there.
 
 use super::crowd::Crowd;
-use super::engine::{Choice, run_through};
 use super::passage::SingularPassage;
-use super::{Method, Outcome, Sink, Span, TimeLoop};
+use super::{Method, Sink, Span, TimeLoop};
 use crate::error::{Error, Failure, Result, clock, short};
 use crate::formulation::Statistics;
 use crate::math::expression::Switch;
@@ -78,22 +77,6 @@ impl<'a> From<&'a Checkpoint> for Start<'a> {
     fn from(saved: &'a Checkpoint) -> Self {
         Start::Saved(saved)
     }
-}
-
-/// Integrates `system` over `span`, or the rest of it. A run that fails is no error: its outcome says where
-/// and why, and the sink has what came before. Returns a checkpoint, too; none if the run could not begin.
-///
-/// # Errors
-/// Bad input only: an unknown or impossible method, a bad span, a saved run of another system or beyond the span.
-pub fn simulate_from(
-    system: &dyn MechanicalSystem,
-    method: &Method,
-    span: Span,
-    start: Start,
-    sink: &mut dyn Sink,
-) -> Result<(Outcome, Option<Checkpoint>)> {
-    let (outcome, _, saved) = run_through(system, &Choice::One(method.clone()), span, start, sink)?;
-    Ok((outcome, saved))
 }
 
 /// (q, v, w) at the start of a run.

@@ -2,15 +2,13 @@
 
 use super::automatic::Drive;
 use super::checkpoint::flat;
-use super::{Checkpoint, Leg, Method, Observation, Outcome, Sink, Span, Start, TimeLoop};
+use super::{Checkpoint, Leg, Method, Outcome, Sink, Span, Start, TimeLoop};
 use crate::error::{Failure, Result};
-use crate::formulation::{Law, Statistics, StepError};
+use crate::formulation::Statistics;
 use crate::system::MechanicalSystem;
-use std::sync::Arc;
 
 /// How a run, or a part of it, ended.
 #[derive(Clone, Debug, PartialEq)]
-#[must_use]
 pub enum End {
     /// At the time that was asked for.
     Reached,
@@ -175,70 +173,35 @@ pub(crate) fn run_through(
     Ok((outcome, legs, saved))
 }
 
-impl TimeLoop<'_> {
-    fn step_once(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
-        let steps = self.problem.dynamics.statistics.steps;
-        while !self.is_paused(sink) && self.problem.dynamics.statistics.steps == steps {
-            self.advance_once(sink)?;
-        }
-        Ok(())
-    }
+/// Integrates `system` over `span`, or the rest of it. A run that fails is no error: its outcome says where
+/// and why, and the sink has what came before. Returns a checkpoint, too; none if the run could not begin.
+///
+/// # Errors
+/// Bad input only: an unknown or impossible method, a bad span, a saved run of another system or beyond the span.
+pub fn simulate_from(
+    system: &dyn MechanicalSystem,
+    method: &Method,
+    span: Span,
+    start: Start,
+    sink: &mut dyn Sink,
+) -> Result<(Outcome, Option<Checkpoint>)> {
+    let (outcome, _, saved) = run_through(system, &Choice::One(method.clone()), span, start, sink)?;
+    Ok((outcome, saved))
+}
 
-    /// Moves the end of the span to a later time.
-    fn extend(&mut self, end: f64) {
-        let old = std::mem::replace(&mut self.span.end, end);
-        self.events.timetable.extend(self.t, (old, end), &self.events.pieces);
-        self.rows.next = self.next_row();
-    }
-
-    /// Shows the present state as a row, unless that was shown.
-    pub fn show_row(&mut self, sink: &mut dyn Sink) {
-        self.last_good_row(sink);
-    }
-
-    /// Calls `see` with the present state; terms that cannot be evaluated are an error.
-    pub fn see_state(&mut self, see: &mut dyn FnMut(&Observation)) -> Result<(), StepError> {
-        self.rows.y.copy_from_slice(&self.y);
-        self.rows.see(self.t, see)
-    }
-
-    /// Calls `see` with the state at a time within the last step, by the dense output; false where that is not known.
-    pub fn see_within(&mut self, t: f64, see: &mut dyn FnMut(&Observation)) -> Result<bool, StepError> {
-        let Some(last) = self.last.filter(|last| (last.start..=self.t).contains(&t)) else { return Ok(false) };
-        self.interpolate(t, last)?;
-        self.rows.see(t, see)?;
-        Ok(true)
-    }
-
-    /// Forgets on which side of a root the run is.
-    pub fn forget_root(&mut self) {
-        self.roots = Default::default();
-    }
-
-    /// Values of the inputs; empty where they are zero.
-    pub fn inputs(&self) -> &[f64] {
-        &self.problem.dynamics.scratch.inputs
-    }
-
-    /// Gives the inputs these values in all evaluations.
-    pub fn set_inputs(&mut self, u: &[f64], law: Option<&Arc<Law>>) {
-        self.events.set_inputs(u);
-        for dynamics in [&mut self.problem.dynamics, &mut self.rows.problem.dynamics] {
-            dynamics.scratch.inputs = u.to_vec();
-            dynamics.law = law.cloned();
-        }
-    }
-
-    /// Gives the inputs other values from the present state on: y' jumps there.
-    pub fn hold(&mut self, u: &[f64], sink: &mut dyn Sink) -> Result<(), Failure> {
-        self.complete(sink)?;
-        if self.problem.dynamics.scratch.inputs == u {
-            return Ok(());
-        }
-        let before = self.slope.clone();
-        let law = self.problem.dynamics.law.clone();
-        self.set_inputs(u, law.as_ref());
-        self.evaluate_start()?;
-        self.meet_jump(&before)
-    }
+/// Integrates `system` from (q, v), which should be consistent, over `span`, with these `tolerances`: begins with an
+/// explicit method, and changes the method where another is faster. Returns the methods in their order, and a
+/// checkpoint from which a run of the last one can be continued.
+///
+/// # Errors
+/// Bad input only, as in [`simulate`](super::simulate).
+pub fn simulate_automatic(
+    system: &dyn MechanicalSystem,
+    tolerances: (f64, f64),
+    span: Span,
+    start: (&[f64], &[f64]),
+    sink: &mut dyn Sink,
+) -> Result<(Outcome, Vec<Leg>, Option<Checkpoint>)> {
+    let (rtol, atol) = tolerances;
+    run_through(system, &Choice::Automatic(rtol, atol), span, Start::State(start.0, start.1), sink)
 }
