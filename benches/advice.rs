@@ -85,7 +85,7 @@ fn triple(method: &Method) -> Triple {
 
 fn measure(path: &Path) -> Result<Measured> {
     let clock = Instant::now();
-    let prepared = PreparedScene::load(path, &Overrides::default())?;
+    let prepared = PreparedScene::load_with(path, &Overrides::default())?;
     let own = triple(&prepared.method);
     let default = triple(&Method::default());
     let mut triples = grid(&Filter::default())?;

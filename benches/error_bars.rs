@@ -87,7 +87,7 @@ fn case(paths: &[PathBuf], random: &mut fastrand::Rng) -> Option<Case> {
     let part = 10f64.powf(-1.5 * random.f64());
     let steps = 10f64.powf(2.0 + 2.0 * random.f64());
     let moved = [(); 2].map(|()| (random.f64(), 0.8 + 0.4 * random.f64()));
-    let base = PreparedScene::load(path, &Overrides::default()).ok()?;
+    let base = PreparedScene::load_with(path, &Overrides::default()).ok()?;
     let whole = base.span().ok()?;
     let end = whole.start + part * (whole.end - whole.start);
     let span = Span { start: whole.start, end, output_step: (end - whole.start) / ROWS };
@@ -109,7 +109,7 @@ fn case(paths: &[PathBuf], random: &mut fastrand::Rng) -> Option<Case> {
         overrides.projection = Some(MethodSpec::named(projection));
         overrides.step = FIXED.contains(&integrator).then(|| (end - whole.start) / steps);
     }
-    let prepared = PreparedScene::load(path, &overrides).ok()?;
+    let prepared = PreparedScene::load_with(path, &overrides).ok()?;
     let scene = path.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned());
     Some(Case { scene, prepared, span, label: integrator.to_string() })
 }
@@ -118,7 +118,7 @@ fn case(paths: &[PathBuf], random: &mut fastrand::Rng) -> Option<Case> {
 fn truth(case: &Case, path: &Path) -> Option<[Run; 2]> {
     let with = |formulation: &str, integrator: &str, projection: &str, rtol: f64| {
         let set = case.prepared.parameters.iter().map(|(name, value)| (name.to_string(), value.into())).collect();
-        let mut prepared = PreparedScene::load(path, &Overrides { set, ..Overrides::default() }).ok()?;
+        let mut prepared = PreparedScene::load_with(path, &Overrides { set, ..Overrides::default() }).ok()?;
         let [formulation, integrator, projection] = [formulation, integrator, projection].map(MethodSpec::named);
         let atol = rtol * case.prepared.method.atol / case.prepared.method.rtol;
         let method = Method { formulation, integrator, projection, rtol, atol, step: None };

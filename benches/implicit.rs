@@ -35,7 +35,7 @@ fn shipped(name: &str, set: &[(&str, f64)], end: f64) -> Study {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
     let overrides = Overrides { set, ..Overrides::default() };
-    let prepared = PreparedScene::load(&path, &overrides).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = PreparedScene::load_with(&path, &overrides).unwrap_or_else(|error| panic!("{error}"));
     Study { name: name.to_string(), prepared, end }
 }
 

@@ -29,7 +29,7 @@ fn seconds(call: impl FnMut()) -> f64 {
 
 fn shipped(name: &str) -> PreparedScene {
     let path = Path::new(ROOT).join("models").join(format!("{name}.json"));
-    PreparedScene::load(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+    PreparedScene::load_with(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn at(prepared: &PreparedScene, t: f64) -> State {

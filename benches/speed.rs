@@ -19,7 +19,7 @@ use std::path::Path;
 
 fn shipped(name: &str, overrides: &Overrides) -> PreparedScene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
-    PreparedScene::load(&path, overrides).unwrap_or_else(|error| panic!("{error}"))
+    PreparedScene::load_with(&path, overrides).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn generated(scene: &serde_json::Value) -> PreparedScene {

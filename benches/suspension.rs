@@ -64,7 +64,8 @@ impl Sink for Clock {
 fn shipped(name: &str, set: &[(&str, f64)]) -> PreparedScene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(name);
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    PreparedScene::load(&path, &Overrides { set, ..Overrides::default() }).unwrap_or_else(|error| panic!("{error}"))
+    PreparedScene::load_with(&path, &Overrides { set, ..Overrides::default() })
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn method([formulation, integrator, projection]: [&str; 3], knob: Knob, value: f64) -> Method {

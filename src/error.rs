@@ -6,8 +6,9 @@ use std::path::PathBuf;
 /// Result with the library's [`Error`].
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
-/// An error of the library. [`Error::exit_code`] is the exit code of the program.
-#[derive(Debug, Clone, PartialEq)]
+/// An error of the library. [`Error::exit_code`] is the exit code of the program. `Debug` prints as `Display` does, so
+/// that a `main` that returns it says what is wrong.
+#[derive(Clone, PartialEq)]
 pub enum Error {
     /// The input is not valid.
     Input(Box<Input>),
@@ -178,6 +179,12 @@ impl fmt::Display for Error {
     }
 }
 
+impl fmt::Debug for Error {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, out)
+    }
+}
+
 impl fmt::Display for Input {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(file) = &self.file {
@@ -207,6 +214,13 @@ fn without_long_words(text: &str) -> String {
 }
 
 impl std::error::Error for Error {}
+
+/// For conversions that cannot fail.
+impl From<std::convert::Infallible> for Error {
+    fn from(never: std::convert::Infallible) -> Self {
+        match never {}
+    }
+}
 
 impl From<Failure> for Error {
     fn from(failure: Failure) -> Self {

@@ -48,6 +48,7 @@
 //! | [`simulate`], [`trajectory`], [`prepared`] | the only time loop; its rows; a scene made ready | |
 //! | [`sweep`] | a scene assembled at many values of a parameter | |
 //! | [`analysis`] | what is seen of a state or of one run: rank and redundancy, singular states, drift, energy | |
+//! | [`run`] | [`run::Run`]: a motion that one holds, steps, drives by inputs and ends at events | |
 //! | [`linearize`] | linear models at a state, by every method; state-transition matrix, loci | a file and a line in [`linearize::registry`] |
 //! | [`validate`] | linear models against perturbed simulations | |
 //! | [`study`] | many simulations of one scene: drift under stabilizations, speed for accuracy ([`study::work_precision`]), maps over stress parameters ([`study::stress`]) | a stress parameter: an entry in [`study::stress::registry`] |
@@ -101,19 +102,16 @@
 //! ```
 //! use holonom::prelude::*;
 //!
-//! let scene = Scene::parse(r#"{
+//! let model = Model::parse(r#"{
 //!     "name": "pendulum", "dimension": 2, "gravity": [0, -9.81],
 //!     "ground": { "markers": { "O": [0, 0] } },
 //!     "bodies": [{ "name": "bob", "type": "point_mass", "mass": 1, "initial": { "position": [1, 0] } }],
 //!     "joints": [{ "name": "rod", "type": "distance", "between": ["ground.O", "bob"], "length": 1 }],
 //!     "simulation": { "t_end": 1, "integrator": "dop853", "rtol": 1e-10, "atol": 1e-10 }
-//! }"#, &[])?;
-//! let prepared = PreparedScene::new(scene, &Default::default())?;
-//! let mut recorder = Recorder::new(prepared.system());
-//! let outcome = simulate(prepared.system(), &prepared.method, prepared.span()?, prepared.start(), &mut recorder)?;
-//! let record = recorder.finish();
-//! assert!(outcome.failure.is_none());
-//! assert!(record.drift.position.max < 1e-14);
+//! }"#)?;
+//! let mut run = model.run();
+//! run.to(1.0)?;
+//! assert!(run.record().drift.position.max < 1e-14);
 //! # Ok::<(), holonom::Error>(())
 //! ```
 
@@ -153,6 +151,7 @@ pub mod prepared;
 pub mod projection;
 #[doc(hidden)]
 pub mod report;
+pub mod run;
 pub mod scene;
 pub mod simplify;
 pub mod simulate;
@@ -169,12 +168,13 @@ pub use error::{Error, Result};
 /// What most programs need: `use holonom::prelude::*`.
 pub mod prelude {
     pub use crate::analysis::{Record, Recorder};
-    pub use crate::linearize::{Chart, LinearModel, Request, State, linearize};
+    pub use crate::linearize::{Chart, Linear, LinearModel, State, linearize};
     pub use crate::math::Scalar;
     pub use crate::method_spec::{Listed, MethodSpec};
-    pub use crate::prepared::{Overrides, PreparedScene};
+    pub use crate::prepared::{Family, Model, Overrides, linspace};
+    pub use crate::run::{End, Moment, Run, every, simulate};
     pub use crate::scene::{Elements, Scene, SceneBuilder};
-    pub use crate::simulate::{Method, Outcome, Span, simulate};
+    pub use crate::simulate::{Method, Span};
     pub use crate::system::{Equations, MechanicalSystem};
     pub use crate::validate::{Settings, validate};
     pub use crate::{Error, Result};

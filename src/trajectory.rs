@@ -44,11 +44,13 @@ pub fn values(
     all
 }
 
-/// Reads a state on the pieces of the run: of a law that jumps there, the run is still on the side it came from.
+/// Reads a state with the inputs and on the pieces of the run: of a law that jumps there, the run is still on the side it came from.
 pub fn on_pieces<R>(state: &Observation, scratch: &mut Scratch, read: impl FnOnce(&mut Scratch) -> R) -> R {
     scratch.pieces.extend_from_slice(state.pieces);
+    scratch.inputs.extend_from_slice(state.inputs);
     let found = read(scratch);
     scratch.pieces.clear();
+    scratch.inputs.clear();
     found
 }
 

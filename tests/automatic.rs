@@ -177,7 +177,10 @@ fn short_runs_try_nothing() {
 fn a_looser_rtol_takes_atol_along() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/andrews.json");
     let atol = |rtol, atol| {
-        PreparedScene::load(&path, &Overrides { rtol: Some(rtol), atol, ..Overrides::default() }).unwrap().method.atol
+        PreparedScene::load_with(&path, &Overrides { rtol: Some(rtol), atol, ..Overrides::default() })
+            .unwrap()
+            .method
+            .atol
     };
     assert_eq!([atol(1e-3, None), atol(1e-12, None), atol(1e-3, Some(1e-7))], [1e-5, 1e-11, 1e-7]);
 }

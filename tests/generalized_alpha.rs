@@ -47,7 +47,7 @@ fn a_stiff_motion_is_stepped_over() {
 
 fn shipped(name: &str) -> PreparedScene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
-    PreparedScene::load(&path, &Default::default()).unwrap()
+    PreparedScene::load_with(&path, &Default::default()).unwrap()
 }
 
 /// Turn of the top about the vertical after a second.

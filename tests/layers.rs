@@ -18,6 +18,7 @@ const LAYERS: &[&[&str]] = &[
     &["integrator"],
     &["simulate", "trajectory", "prepared", "sweep"],
     &["analysis"],
+    &["run"],
     &["linearize", "validate"],
     &["study"],
     &["simplify"],

@@ -156,7 +156,7 @@ fn path(scene: &str) -> PathBuf {
 
 fn prepared(scene: &str, set: &[(&str, f64)]) -> PreparedScene {
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    PreparedScene::load(&path(scene), &Overrides { set, ..Overrides::default() }).unwrap()
+    PreparedScene::load_with(&path(scene), &Overrides { set, ..Overrides::default() }).unwrap()
 }
 
 fn request(method: &str) -> Request {
@@ -169,7 +169,7 @@ fn model(prepared: &PreparedScene, state: &State, method: &str) -> LinearModel {
 
 fn over(scene: &str, range: &str, at: At) -> Loci {
     let overrides = Overrides::default();
-    let family = Family::load(&path(scene), &overrides).unwrap();
+    let family = Family::load_with(&path(scene), &overrides).unwrap();
     let range: Range = range.parse().unwrap();
     loci_over(&Variants { family: &family, overrides: &overrides, range: &range }, at, &request("mcs"), || ()).unwrap()
 }

@@ -23,6 +23,7 @@ mod redundancy;
 mod references;
 mod restart;
 mod robot_arm;
+mod runs;
 mod scenes;
 mod singular;
 mod spectrum;

@@ -27,6 +27,6 @@ fn exact_derivatives_agree_with_differences() {
     names.sort();
     assert!(names.len() >= 10);
     for path in names {
-        check(&PreparedScene::load(&path, &Default::default()).unwrap());
+        check(&PreparedScene::load_with(&path, &Default::default()).unwrap());
     }
 }

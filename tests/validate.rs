@@ -19,7 +19,7 @@ fn scenes() -> Vec<PathBuf> {
 }
 
 fn load(path: &Path) -> PreparedScene {
-    let mut prepared = PreparedScene::load(path, &Default::default()).unwrap();
+    let mut prepared = PreparedScene::load_with(path, &Default::default()).unwrap();
     if prepared.method.step.is_none() {
         prepared.method.rtol = prepared.method.rtol.min(1e-10);
         prepared.method.atol = prepared.method.atol.min(1e-10);
@@ -190,7 +190,8 @@ fn wrong_derivatives_are_refused() {
 fn the_plain_projection_is_refused_off_equilibrium() {
     let set = Overrides { set: vec![("c1".to_string(), 5.0.into())], ..Overrides::default() };
     let prepared =
-        PreparedScene::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"), &set).unwrap();
+        PreparedScene::load_with(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"), &set)
+            .unwrap();
     let state = &three(&prepared)[1];
     let settings = Settings { chart: Some(Chart::Frozen), ..Settings::default() };
     let found = validate(prepared.system(), state, &settings).unwrap();

@@ -7,7 +7,7 @@ use holonom::validate::{Deviation, Settings, Validation, horizon, validate, vali
 use std::path::Path;
 
 fn load(path: &Path) -> PreparedScene {
-    let mut prepared = PreparedScene::load(path, &Overrides::default()).unwrap();
+    let mut prepared = PreparedScene::load_with(path, &Overrides::default()).unwrap();
     prepared.method.rtol = prepared.method.rtol.min(1e-10);
     prepared.method.atol = prepared.method.atol.min(1e-10);
     prepared
@@ -169,7 +169,7 @@ fn an_event_ends_the_horizon() {
 fn a_projected_model_is_not_comparable() {
     let set = Overrides { set: vec![("c1".to_string(), 5.0.into())], ..Overrides::default() };
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json");
-    let prepared = PreparedScene::load(&path, &set).unwrap();
+    let prepared = PreparedScene::load_with(&path, &set).unwrap();
     let settings = Settings { chart: Some(Chart::Frozen), inputs: false, ..Settings::default() };
     let found = validate(prepared.system(), &state(&prepared, 0.3), &settings).unwrap();
     assert!(found.verdict.text.starts_with("frozen, not comparable"), "{}", found.verdict.text);

@@ -11,6 +11,7 @@ mod range;
 mod rank;
 mod recorder;
 mod scale;
+mod series;
 mod singularity;
 mod thinned;
 
@@ -30,6 +31,7 @@ pub(crate) use recorder::MOST_JUMPS;
 pub use recorder::{Record, Recorder, Row};
 #[doc(hidden)]
 pub use scale::{Sizes, scales};
+pub use series::Series;
 #[doc(hidden)]
 pub use singularity::{Branch, Nearest, Watch};
 pub use singularity::{Passing, Singularity};

@@ -164,10 +164,16 @@ impl<'a> Recorder<'a> {
         self
     }
 
-    /// Returns the record.
-    pub fn finish(mut self) -> Record {
+    /// The record so far, without the singular states.
+    pub fn record(&mut self) -> &Record {
         self.record.energy = self.meter.balance();
         self.record.worst_step = self.meter.worst();
+        &self.record
+    }
+
+    /// Returns the record.
+    pub fn finish(mut self) -> Record {
+        self.record();
         self.record.singularity = self.watch.finish();
         self.record
     }

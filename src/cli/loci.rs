@@ -149,7 +149,7 @@ fn over(args: &Args, scene: &SceneOptions, prepared: &PreparedScene, range: &Ran
         None => At::Start,
     };
     let overrides = args.run.overrides(scene, None);
-    let family = Family::load(&scene.path, &overrides)?;
+    let family = Family::load_with(&scene.path, &overrides)?;
     let variants = Variants { family: &family, overrides: &overrides, range };
     let bar = args.talk.progress(range.count as u64, &range.parameter);
     loci_over(&variants, at, request, || bar.inc(1)).map_err(|error| error.under("--sweep"))

@@ -35,7 +35,7 @@ pub struct Args {
 
 pub fn run(args: Args) -> Result<ExitCode> {
     let overrides = Overrides { set: args.scene.set.clone(), ..Overrides::default() };
-    let family = Family::load(&args.scene.path, &overrides)?;
+    let family = Family::load_with(&args.scene.path, &overrides)?;
     let known = family.outputs()?;
     known_output(&known, &args.outputs).map_err(|error| error.under("--outputs"))?;
     known_output(&known, args.against.as_slice()).map_err(|error| error.under("--against"))?;

@@ -42,7 +42,7 @@ impl Talk {
     /// Loads the scene, with warnings about its start.
     pub fn load(&self, path: &Path, overrides: &Overrides) -> Result<PreparedScene> {
         refuse_twice(&overrides.set)?;
-        let prepared = PreparedScene::load(path, overrides)?;
+        let prepared = PreparedScene::load_with(path, overrides)?;
         self.warn(&prepared.doubts);
         Ok(prepared)
     }

@@ -7,6 +7,7 @@ use crate::math::kkt::{SaddlePoint, Singular};
 use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
 use crate::tolerances::TRUNCATED_RANK;
 use std::fmt;
+use std::sync::Arc;
 
 /// The reason why a state cannot be evaluated or a step not be made.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,9 +120,14 @@ pub struct Dynamics<'a> {
     pub is_rank_deficient: bool,
     /// Counters of the work.
     pub statistics: Statistics,
-    /// Memory of the system.
+    /// Memory of the system, with the values of its inputs.
     pub scratch: Scratch,
+    /// Inputs that are functions of the state.
+    pub law: Option<Arc<Law>>,
 }
+
+/// Writes those of the inputs u that are functions of the state of a system at (t, q, v).
+pub type Law = dyn Fn(&dyn MechanicalSystem, (f64, &[f64], &[f64]), &mut [f64]) + Send + Sync;
 
 impl<'a> Dynamics<'a> {
     /// Patterns and memory for a system; nothing is evaluated.
@@ -146,12 +152,16 @@ impl<'a> Dynamics<'a> {
             is_rank_deficient: false,
             statistics: Statistics::default(),
             scratch: Scratch::default(),
+            law: None,
         }
     }
 
     /// Evaluates the terms `need` at a state.
     pub fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64], need: Need) {
         self.is_factored = false;
+        if let Some(law) = &self.law {
+            law(self.system, (t, q, v), &mut self.scratch.inputs);
+        }
         self.system.evaluate(t, q, v, need, &mut self.terms, &mut self.scratch);
     }
 

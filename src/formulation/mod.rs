@@ -30,7 +30,7 @@ use crate::method_spec::{MethodSpec, OptionDoc};
 pub use dae::{Dae, Row};
 #[doc(hidden)]
 pub use directions::{degrees_of_freedom, free_directions, reduce};
-pub use dynamics::{Dynamics, StepError};
+pub use dynamics::{Dynamics, Law, StepError};
 #[doc(hidden)]
 pub use exponential_map::ExponentialMap;
 pub(crate) use exponential_map::rotate;

@@ -7,18 +7,18 @@ use crate::method_spec::{Listed, MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
 
 /// The system and the specifications for which an integrator is made.
-pub struct Setup<'s> {
+pub struct Setup<'m, 's> {
     /// Its own name and options.
-    pub integrator: &'s MethodSpec,
+    pub integrator: &'m MethodSpec,
     /// Formulation with its options.
-    pub formulation: &'s MethodSpec,
+    pub formulation: &'m MethodSpec,
     /// The mechanism.
     pub system: &'s dyn MechanicalSystem,
     /// True for fixed steps.
     pub is_fixed: bool,
 }
 
-impl Setup<'_> {
+impl Setup<'_, '_> {
     /// Length of the flat state.
     pub fn len(&self) -> usize {
         let n = self.system.dimensions();
@@ -86,7 +86,7 @@ pub struct Entry {
 }
 
 /// Makes an integrator for a system, with memory for states of [`Setup::len`].
-pub type Make = for<'s> fn(&Setup<'s>) -> Result<Box<dyn Integrator + 's>>;
+pub type Make = for<'s> fn(&Setup<'_, 's>) -> Result<Box<dyn Integrator + 's>>;
 
 impl Entry {
     /// A method of this order with fixed steps for vector fields, which goes with all projections; for struct update.

@@ -34,6 +34,25 @@ pub fn beside([left, right]: [&Matrix; 2]) -> Matrix {
     both
 }
 
+/// Returns dq along the velocity directions of a unit of each coordinate, n_v x n_q, by least squares: N dq = q - q0.
+/// For quaternions this is right to first order.
+pub fn directions_of(system: &dyn MechanicalSystem, q: &[f64]) -> Matrix {
+    let n = system.dimensions();
+    let mut all = Matrix::zeros(n.v, n.q);
+    let mut unit = vec![0.0; n.v];
+    let mut rate = vec![0.0; n.q];
+    let own = n.own_q();
+    for j in 0..n.moving() {
+        unit[j] = 1.0;
+        system.rate(q, &unit, &mut rate);
+        unit[j] = 0.0;
+        // Columns of N are orthogonal to each other, but for angles that are counted over revolutions.
+        let size: f64 = rate[..own].iter().map(|x| x * x).sum();
+        rate[..own].iter().enumerate().for_each(|(k, x)| all[(j, k)] = x / size);
+    }
+    all
+}
+
 /// Names of the changes of q along each velocity direction that moves it, and of those of v.
 pub(super) struct Directions {
     pub q: Vec<String>,

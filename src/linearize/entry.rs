@@ -1,21 +1,36 @@
 //! A method of linearization: its request, its result and its entry in the registry.
 
 use super::input_states::{InputStates, primed};
-use super::{Changes, Chart, Coordinates, Cost, Frame, LinearModel, Matrix, Mode, Reduction, Variation};
+use super::{Changes, Chart, Coordinates, Cost, Frame, LinearModel, Matrix, Mode, Reduction, Reference, Variation};
 use crate::error::Result;
 use crate::method_spec::{Listed, MethodSpec, OptionDoc};
 use crate::system::Dimensions;
 
-/// The method and the chart of a linear model.
+/// The method and the chart of a linear model. Default: `mcs`, minimal coordinates, in the preferred chart.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Request {
+pub struct Linear {
     /// Method with its options.
     pub method: MethodSpec,
     /// Chart of minimal coordinates; none: `intrinsic` where the equations allow it, else `mass_orthogonal`.
     pub chart: Option<Chart>,
 }
 
-impl Request {
+#[doc(hidden)]
+pub type Request = Linear;
+
+impl Default for Linear {
+    fn default() -> Self {
+        Linear { method: MethodSpec::named("mcs"), chart: None }
+    }
+}
+
+impl Linear {
+    /// A model in independent coordinates by name, such as `crank.angle`.
+    pub fn in_coordinates<N: Into<String>>(names: impl IntoIterator<Item = N>) -> Self {
+        let names = names.into_iter().map(Into::into).collect();
+        Linear { chart: Some(Chart::Independent(names)), ..Linear::default() }
+    }
+
     pub(super) fn chart(&self, variation: &mut Variation) -> Chart {
         self.chart.clone().unwrap_or_else(|| Chart::preferred(variation))
     }
@@ -106,6 +121,7 @@ impl Built {
         let (mut inputs, outputs) = variation.names();
         self.add_input_states(&mut inputs);
         let Built { chart, states, a, b, c, d, e, input_states: InputStates { orders, .. }, coordinates, .. } = self;
+        let state = Reference::new(variation.system(), &variation.point, coordinates.as_ref());
         let frame = coordinates.map(|coordinates| Frame::new(variation, coordinates, &orders));
         let point = variation.point.clone();
         let reduction = Reduction::default();
@@ -123,6 +139,7 @@ impl Built {
             e,
             modes,
             frame,
+            state,
             point,
             cost,
             reduction,

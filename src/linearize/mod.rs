@@ -31,8 +31,10 @@ mod point;
 mod recurrence;
 mod reduction;
 mod redundant;
+mod reference;
 mod response;
 mod sensitivity;
+mod shown;
 mod singular;
 mod sparse;
 mod spectrum;
@@ -56,7 +58,7 @@ pub use along::{Along, Deviation, MeasuredA, along, within};
 pub use amplification::amplified;
 #[doc(hidden)]
 pub use changes::Changes;
-pub(crate) use changes::beside;
+pub(crate) use changes::{beside, directions_of};
 pub use chart::Chart;
 #[doc(hidden)]
 pub use comparison::{Comparison, compare};
@@ -64,7 +66,7 @@ pub use comparison::{Comparison, compare};
 pub use coordinates::{Coordinates, parallel};
 #[doc(hidden)]
 pub use entry::Built;
-pub use entry::{Entry, Request};
+pub use entry::{Entry, Linear, Request};
 #[doc(hidden)]
 pub use floquet::Defect;
 pub use floquet::{Floquet, floquet};
@@ -87,6 +89,7 @@ pub use model::{Complex, Cost, Frame, Kind, LinearModel, Mode, Reduction};
 pub use model::{are_conjugate, damping, frequency, pairs};
 use perturbation::Perturbation;
 pub use point::LinearizationPoint;
+pub use reference::Reference;
 pub use response::Response;
 pub use sensitivity::Sensitivity;
 pub use sparse::modal;

@@ -1,6 +1,6 @@
 //! The linear model that every method of linearization returns.
 
-use super::{Coordinates, LinearizationPoint, Matrix, Units, Variation};
+use super::{Coordinates, LinearizationPoint, Matrix, Reference, Units, Variation};
 use crate::error::{Warning, clock, two_digits};
 use crate::tolerances;
 pub use nalgebra::Complex;
@@ -47,7 +47,9 @@ pub struct LinearModel {
     pub modes: Vec<Mode>,
     /// The chart with what the outputs and rates are at the state; none of methods without minimal coordinates.
     pub frame: Option<Frame>,
-    /// The state that is perturbed.
+    /// The state that is perturbed, as the reference of a controller.
+    pub state: Reference,
+    /// The state that is perturbed, with its accelerations and multipliers.
     pub point: LinearizationPoint,
     /// Time, size and conditioning.
     pub cost: Cost,

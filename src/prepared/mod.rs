@@ -9,7 +9,7 @@ mod schema;
 mod settings;
 
 pub use any_mechanism::AnyMechanism;
-pub use family::Family;
+pub use family::{Family, linspace};
 pub use schema::schema;
 pub use settings::Overrides;
 
@@ -23,16 +23,25 @@ use crate::initial::{self, Assembly};
 use crate::math::array::Each;
 use crate::math::expression::Parameters;
 use crate::math::{Rate, Scalar, Thresholds};
-use crate::scene::{self, Scene};
+use crate::scene::Scene;
 use crate::simulate::{
-    Checkpoint, Leg, Method, Outcome, Sink, Span, Start, Stiffness, advise, simulate_automatic, simulate_from,
-    stiffness,
+    Checkpoint, Choice, Leg, Method, Outcome, Sink, Span, Start, Stiffness, advise, run_through, stiffness,
 };
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use std::path::Path;
 
-/// A scene ready to run.
-pub struct PreparedScene {
+/// A scene made ready: its mechanism, a consistent start and the method of its runs.
+///
+/// ```
+/// use holonom::prelude::*;
+///
+/// let model = Model::load("models/pendulum.json")?.set("l", 2.0)?;
+/// let mut run = model.run();
+/// run.to(1.0)?;
+/// assert!(run.record().drift.position.max < 1e-12);
+/// # Ok::<(), holonom::Error>(())
+/// ```
+pub struct Model {
     /// Name of the scene.
     pub name: String,
     /// Free text about the mechanism; empty if not given.
@@ -47,7 +56,7 @@ pub struct PreparedScene {
     pub method: Method,
     /// True if methods are chosen automatically, with the tolerances of `method`.
     pub is_automatic: bool,
-    /// Reason for the method, if it was chosen by [`PreparedScene::settled`].
+    /// Reason for the method, if it was chosen by [`Model::settled`].
     pub chosen_because: Option<String>,
     /// Consistent start, with what assembly found about it.
     pub assembly: Assembly,
@@ -60,28 +69,59 @@ pub struct PreparedScene {
     start_time: f64,
     /// `None` if no end time is given.
     span: Option<Span>,
+    /// What it was read from, if that is known.
+    family: Option<Family>,
 }
+
+#[doc(hidden)]
+pub type PreparedScene = Model;
 
 /// Outcome of a run, the methods used if they were chosen automatically, and a checkpoint to continue from.
 pub type Simulated = (Outcome, Vec<Leg>, Option<Checkpoint>);
 
-impl PreparedScene {
+impl Model {
     /// Reads a scene, assembles it and resolves its settings.
     ///
     /// # Errors
     /// Bad input of any kind: see [`Scene::load`], [`initial::assemble`], [`Method::check`].
-    pub fn load(path: &Path, overrides: &Overrides) -> Result<PreparedScene> {
-        let text = scene::read_text(path)?;
-        let prepared = overrides.elements.parse_in(scene::folder(Some(path)), &text, &overrides.set);
-        let prepared = prepared.and_then(|scene| PreparedScene::new(scene, overrides));
-        prepared.map_err(|error| scene::place(error, path, &text))
+    pub fn load(path: impl AsRef<Path>) -> Result<Model> {
+        Model::load_with(path.as_ref(), &Overrides::default())
+    }
+
+    /// The same with other settings, parameters and kinds of elements.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn load_with(path: &Path, overrides: &Overrides) -> Result<Model> {
+        Family::read(path, overrides)?.model()
+    }
+
+    /// Reads a scene from text; files that it names are in the current folder.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn parse(text: &str) -> Result<Model> {
+        Family::of_text(text.to_string(), None, &Overrides::default())?.model()
+    }
+
+    /// The model with another value of a parameter, assembled anew; the text is not read again. All else is as it was
+    /// read.
+    ///
+    /// # Errors
+    /// No such parameter; a value for which the scene is not valid; a model that was made from a [`Scene`].
+    pub fn set(&self, parameter: &str, value: f64) -> Result<Model> {
+        let family = self.family.as_ref().ok_or_else(|| {
+            Error::input(format!("the model `{}` does not know what it was made from", self.name))
+                .hint("make it by `load` or `parse`, or give the parameters where its scene is made")
+        })?;
+        family.with(parameter, value).model()
     }
 
     /// Assembles a scene and resolves its settings; `elements` and `set` of the overrides are not used.
     ///
     /// # Errors
     /// Bad input of any kind: see [`initial::assemble`], [`Method::check`].
-    pub fn new(scene: Scene, overrides: &Overrides) -> Result<PreparedScene> {
+    pub fn new(scene: Scene, overrides: &Overrides) -> Result<Model> {
         let settings = Settings { parameters: &scene.parameters, scene: &scene.simulation, overrides };
         let is_automatic = settings.is_automatic().map_err(|error| settings.place(error))?;
         let start = scene.start_time()?;
@@ -104,7 +144,7 @@ impl PreparedScene {
             doubts.extend(warnings);
         }
         doubts.extend(pulling(mechanism.system(), start, (&assembly.q, &assembly.v)));
-        Ok(PreparedScene {
+        Ok(Model {
             doubts,
             name: scene.name,
             about: scene.about,
@@ -119,6 +159,7 @@ impl PreparedScene {
             reference: scene.simulation.reference,
             start_time: start,
             span,
+            family: None,
         })
     }
 
@@ -131,7 +172,7 @@ impl PreparedScene {
     ///
     /// # Errors
     /// Bad input only: see [`advise`].
-    pub fn settled(mut self) -> Result<PreparedScene> {
+    pub fn settled(mut self) -> Result<Model> {
         if std::mem::take(&mut self.is_automatic) {
             // Without an end time, a method is chosen for one second of motion.
             let start = self.start_time;
@@ -177,20 +218,24 @@ impl PreparedScene {
     /// Bad input only: see [`simulate_from`]; a tolerance below the rounding of positions far from the origin.
     pub fn simulate_from(&self, method: &Method, span: Span, start: Start, sink: &mut dyn Sink) -> Result<Simulated> {
         refuse_rounding(&self.mechanism, self.start().0, method)?;
+        let (outcome, legs, next) = run_through(self.system(), &self.choice(method), span, start, sink)?;
         match start {
-            Start::State(q, v) if self.is_automatic => {
-                simulate_automatic(self.system(), (method.rtol, method.atol), span, (q, v), sink)
-            }
             Start::Saved(saved) if self.is_automatic => {
-                let (outcome, next) = simulate_from(self.system(), saved.method(), span, start, sink)?;
                 let leg = Leg::going_on(saved.t(), saved.method(), outcome.statistics);
                 Ok((outcome, vec![leg], next))
             }
-            _ => {
-                let (outcome, saved) = simulate_from(self.system(), method, span, start, sink)?;
-                Ok((outcome, Vec::new(), saved))
-            }
+            _ => Ok((outcome, legs, next)),
         }
+    }
+
+    /// The methods of a run with the tolerances of `method`.
+    pub(crate) fn choice(&self, method: &Method) -> Choice {
+        if self.is_automatic { Choice::Automatic(method.rtol, method.atol) } else { Choice::One(method.clone()) }
+    }
+
+    /// Refuses tolerances below the rounding of positions far from the origin.
+    pub(crate) fn check_rounding(&self) -> Result<()> {
+        refuse_rounding(&self.mechanism, self.start().0, &self.method)
     }
 
     /// Time at the start of the motion, s.

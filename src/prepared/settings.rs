@@ -43,8 +43,6 @@ pub struct Settings<'a> {
     pub overrides: &'a Overrides,
 }
 
-/// Number of rows of a trajectory by default.
-const ROWS: f64 = 500.0;
 /// A larger number of rows is taken for a mistake.
 const MOST_ROWS: f64 = 1e7;
 
@@ -157,7 +155,7 @@ impl Settings<'_> {
             .hint("give a later end: --until T, or \"t_end\" in \"simulation\" of the scene"));
         }
         let given = self.overrides.output_step.or(self.number("output_step", &scene.output_step)?);
-        let output_step = given.unwrap_or((end - start) / ROWS);
+        let output_step = given.unwrap_or(Span::from(start..end).output_step);
         if output_step > 0.0 && (end - start) / output_step < MOST_ROWS {
             Ok(Some(Span { start, end, output_step }))
         } else {

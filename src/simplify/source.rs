@@ -23,9 +23,9 @@ impl Source {
     /// Reads a scene and writes parameters, end time and method of the overrides into it.
     ///
     /// # Errors
-    /// As [`PreparedScene::load`]; no end time.
+    /// As [`PreparedScene::load_with`]; no end time.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Source> {
-        let prepared = PreparedScene::load(path, overrides)?;
+        let prepared = PreparedScene::load_with(path, overrides)?;
         let scene = read(&scene::read_text(path)?)?;
         let folder = scene::folder(Some(path));
         Source::settled(scene, folder, prepared, overrides).map_err(|error| error.in_file(path))

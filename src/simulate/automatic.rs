@@ -9,7 +9,7 @@
 use super::checkpoint::flat;
 use super::contest::{Contest, Mark, Quiet, unseen};
 use super::first_explicit::first_explicit;
-use super::{Checkpoint, Method, Outcome, Run, Sink, Span};
+use super::{Method, Outcome, Sink, Span, TimeLoop};
 use crate::error::{Failure, Result, clock, two_digits};
 use crate::formulation::Statistics;
 use crate::integrator;
@@ -100,7 +100,7 @@ pub fn known_methods(system: &dyn MechanicalSystem, tolerances: (f64, f64)) -> V
 /// steps, or nothing is known.
 pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Contest> {
     let methods = [method.clone(), implicit((method.rtol, method.atol))];
-    let mut drive = Drive::new(system, &methods, unseen(span), start).ok()?;
+    let mut drive = Drive::new(system, methods.into(), unseen(span), flat(system, start.0, start.1)).ok()?;
     drive.run.begin(&mut Quiet(None)).ok()?;
     let is_enough = |drive: &Drive, mark, changes| drive.contest.is_some() || changes || drive.is_known(mark);
     drive.go(&mut Quiet(None), is_enough).ok()?;
@@ -120,54 +120,26 @@ pub fn advise(
 ) -> Result<(Method, String)> {
     let methods = [known_methods(system, tolerances).swap_remove(FIRST), implicit(tolerances)];
     methods[FIRST].check()?;
-    let mut drive = Drive::new(system, &methods, unseen(span), start)?;
+    let mut drive = Drive::new(system, methods.into(), unseen(span), flat(system, start.0, start.1))?;
     if let Err(Failure { reason, .. }) = drive.run.begin(&mut Quiet(None)) {
         // Any method fails so: the run will report it at its start.
-        return Ok((methods[FIRST].clone(), format!("nothing was tried: {reason}")));
+        return Ok((drive.methods.swap_remove(FIRST), format!("nothing was tried: {reason}")));
     }
     drive.go(&mut Quiet(None), |drive, mark, changes| !changes && drive.is_known(mark))?;
     let Leg { method, because, .. } = drive.leg;
     Ok((method, because))
 }
 
-/// Integrates `system` from (q, v), which should be consistent, over `span`, with these `tolerances`: begins with an
-/// explicit method, and changes the method where another is faster. Returns the methods in their order, and a
-/// checkpoint from which a run of the last one can be continued.
-///
-/// # Errors
-/// Bad input only, as in [`simulate`](super::simulate).
-pub fn simulate_automatic(
-    system: &dyn MechanicalSystem,
-    tolerances: (f64, f64),
-    span: Span,
-    start: (&[f64], &[f64]),
-    sink: &mut dyn Sink,
-) -> Result<(Outcome, Vec<Leg>, Option<Checkpoint>)> {
-    span.check()?;
-    let methods = known_methods(system, tolerances);
-    methods[FIRST].check()?;
-    let mut drive = Drive::new(system, &methods, span, start)?;
-    let begun = drive.run.begin(sink);
-    let has_begun = begun.is_ok();
-    let failure = match begun {
-        Ok(()) => drive.go(sink, |_, _, _| false)?,
-        Err(failure) => Some(failure),
-    };
-    let saved = has_begun.then(|| drive.run.checkpoint(&methods[drive.current]));
-    let (outcome, legs) = drive.finish(failure, sink);
-    Ok((outcome, legs, saved))
-}
-
 /// A run that may change its method.
-struct Drive<'a> {
+pub(crate) struct Drive<'a> {
     system: &'a dyn MechanicalSystem,
-    methods: &'a [Method],
+    methods: Vec<Method>,
     /// True for each explicit one.
     are_explicit: Vec<bool>,
-    span: Span,
+    pub span: Span,
     /// The flat state at the start.
     start: Vec<f64>,
-    run: Run<'a>,
+    pub run: TimeLoop<'a>,
     /// Index of the present method.
     current: usize,
     /// Number of methods that failed at the present state.
@@ -182,20 +154,30 @@ struct Drive<'a> {
 }
 
 impl<'a> Drive<'a> {
-    fn new(
+    /// A run from the flat state `start` by the known methods.
+    pub fn chosen(
         system: &'a dyn MechanicalSystem,
-        methods: &'a [Method],
+        tolerances: (f64, f64),
         span: Span,
-        (q, v): (&[f64], &[f64]),
+        start: Vec<f64>,
     ) -> Result<Self> {
-        let start = flat(system, q, v);
+        let methods = known_methods(system, tolerances);
+        methods[FIRST].check()?;
+        Drive::new(system, methods, span, start)
+    }
+
+    /// The present method.
+    pub fn method(&self) -> &Method {
+        &self.methods[self.current]
+    }
+
+    fn new(system: &'a dyn MechanicalSystem, methods: Vec<Method>, span: Span, start: Vec<f64>) -> Result<Self> {
         let is_explicit = |method: &Method| Ok(integrator::find(&method.integrator)?.follows_fields());
         Ok(Drive {
             system,
-            methods,
             are_explicit: methods.iter().map(is_explicit).collect::<Result<_>>()?,
             span,
-            run: Run::new(system, &methods[FIRST], span, start.clone())?,
+            run: TimeLoop::new(system, &methods[FIRST], span, start.clone())?,
             start,
             current: FIRST,
             stopped: 0,
@@ -203,18 +185,24 @@ impl<'a> Drive<'a> {
             contest: None,
             legs: Vec::new(),
             leg: Leg::of(span.start, &methods[FIRST], CALM.to_string()),
+            methods,
         })
     }
 
     /// Continues to the end, to a failure that all methods have, or until `is_enough`, which is called after each
     /// comparison with the mark from which the work is measured, and true if the method should change.
-    fn go(&mut self, sink: &mut dyn Sink, is_enough: impl Fn(&Self, Mark, bool) -> bool) -> Result<Option<Failure>> {
+    pub fn go(
+        &mut self,
+        sink: &mut dyn Sink,
+        is_enough: impl Fn(&Self, Mark, bool) -> bool,
+    ) -> Result<Option<Failure>> {
         let mut mark = self.run.mark();
         let mut failure = None;
         loop {
             if failure.is_none() {
                 (mark, failure) = self.run.window(self.window, f64::INFINITY, sink, |_, _, _| false);
-                self.window *= 2.0;
+                let is_over = failure.is_none() && self.run.is_paused(sink);
+                self.window *= if is_over { 1.0 } else { 2.0 };
             }
             if self.is_over(failure.as_ref(), sink) {
                 break;
@@ -235,7 +223,7 @@ impl<'a> Drive<'a> {
 
     fn is_over(&mut self, failure: Option<&Failure>, sink: &dyn Sink) -> bool {
         if failure.is_none() {
-            return self.run.t >= self.span.end;
+            return self.run.is_paused(sink);
         }
         let is_again = self.run.t - self.leg.from < STOPS_AGAIN * (self.span.end - self.span.start);
         self.stopped = if is_again { self.stopped + 1 } else { 1 };
@@ -249,8 +237,8 @@ impl<'a> Drive<'a> {
 
     /// Another method and the reason, if it should continue: after the work since `mark`, or after a failure.
     fn look(&mut self, mark: Mark, failure: Option<&Failure>) -> Result<Option<(usize, String)>> {
-        let own = &self.methods[self.current];
         if let Some(Failure { t, reason, .. }) = failure {
+            let own = &self.methods[self.current];
             let because = format!("{} stopped at t = {} s: {reason}", own.triple(), clock(*t));
             return Ok(Some(((self.current + 1) % self.methods.len(), because)));
         }
@@ -258,6 +246,7 @@ impl<'a> Drive<'a> {
         self.contest = Some(contest);
         let kinds = [self.are_explicit[self.current], self.are_explicit[place]];
         let wins = contest.gain > WORTH;
+        let own = &self.methods[self.current];
         let because = words(&contest, [own, &self.methods[place]], kinds, wins);
         if !wins && self.leg.because == CALM {
             self.leg.because.clone_from(&because);
@@ -314,7 +303,7 @@ impl<'a> Drive<'a> {
     /// Continues the motion with another method, which comes to the present time from the start, unseen. From the
     /// present state where it does not come there for the work that this took.
     fn begin_again(&mut self, place: usize, because: String, sink: &mut dyn Sink) -> Result<Option<Failure>> {
-        let mut next = Run::new(self.system, &self.methods[place], self.span, self.start.clone())?;
+        let mut next = TimeLoop::new(self.system, &self.methods[place], self.span, self.start.clone())?;
         let mut quiet = Quiet(Some(sink));
         if next.begin(&mut quiet).is_err() || !next.reaches(&self.run, &mut quiet) {
             self.leg.add(&self.methods[place], next.statistics());
@@ -325,19 +314,25 @@ impl<'a> Drive<'a> {
     }
 
     /// Replaces the run by one that is at the same time; returns the one before.
-    fn replace(&mut self, next: Run<'a>, place: usize, because: String) -> Run<'a> {
+    fn replace(&mut self, next: TimeLoop<'a>, place: usize, because: String) -> TimeLoop<'a> {
         self.current = place;
         let before = std::mem::replace(&mut self.run, next);
+        (self.run.until, self.run.roots) = (before.until, before.roots);
         let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, &self.methods[place], because));
         self.legs.push(Leg { statistics: before.statistics(), ..leg });
         before
     }
 
-    fn finish(mut self, failure: Option<Failure>, sink: &mut dyn Sink) -> (Outcome, Vec<Leg>) {
+    pub fn finish(mut self, failure: Option<Failure>, sink: &mut dyn Sink) -> (Outcome, Vec<Leg>) {
         let outcome = self.run.finish(failure, sink);
+        let statistics = self.statistics();
         self.legs.push(Leg { statistics: outcome.statistics, ..self.leg });
-        let statistics = self.legs.iter().fold(Statistics::default(), |sum, leg| sum + leg.statistics);
         (Outcome { statistics, ..outcome }, self.legs)
+    }
+
+    /// Work of all methods.
+    pub fn statistics(&self) -> Statistics {
+        self.legs.iter().fold(self.run.statistics(), |sum, leg| sum + leg.statistics)
     }
 }
 

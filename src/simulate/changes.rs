@@ -1,8 +1,9 @@
 //! Change of the form of the equations at a state.
 
 use super::events::{Passage, Turn};
+use super::roots::Root;
 use super::rows::project;
-use super::{Run, Sink};
+use super::{Sink, TimeLoop};
 use crate::error::{Failure, two_digits};
 use crate::formulation::{Dynamics, StepError};
 use crate::integrator::{From, Step};
@@ -18,10 +19,15 @@ const BEYOND: &str = "give the signal more points, or \"beyond\": \"hold\" or \"
 const STEEP: &str = "make the edge a ramp, with a signal that is \"linear\" or \"cubic\", or `smoothstep` in the place \
      of `step`; or give the tyre no damping";
 
-impl Run<'_> {
+impl TimeLoop<'_> {
     /// The first threshold passed in the step just tried. A method that begins anew there ends on its dense output.
-    pub fn end_at_passage(&mut self, h: &mut f64, end: &mut Option<f64>) -> Result<Option<Passage>, StepError> {
-        let mut passage = self.passage(*h, self.end_of(*h, *end))?;
+    pub fn end_at_passage(
+        &mut self,
+        h: &mut f64,
+        end: &mut Option<f64>,
+        sink: &mut dyn Sink,
+    ) -> Result<Option<Passage>, StepError> {
+        let mut passage = self.passage(*h, self.end_of(*h, *end), sink)?;
         for _ in 0..tolerances::CUTS {
             let own = passage.filter(|_| self.entry.begins_anew);
             let Some(Passage::Within(theta)) = own else { break };
@@ -36,18 +42,32 @@ impl Run<'_> {
             let sweeps = self.sweeps(*h);
             project(t, &mut self.next, &mut self.problem, &mut self.rows.projection, sweeps)?;
             self.problem.derivative(t, &self.next, &mut self.next_slope)?;
-            passage = self.passage(*h, t)?;
+            passage = self.passage(*h, t, sink)?;
         }
         Ok(passage)
     }
 
+    /// The first threshold or root in the step of size `h` to `end`.
+    fn passage(&mut self, h: f64, end: f64, sink: &mut dyn Sink) -> Result<Option<Passage>, StepError> {
+        let threshold = self.threshold(h, end)?;
+        if let Some(Passage::AtStart(_)) = threshold {
+            return Ok(threshold);
+        }
+        Ok(match (threshold, self.root_within(h, end, sink)?) {
+            (_, Some(Root::AtStart)) => Some(Passage::OfRoot),
+            (Some(Passage::Within(a)), Some(Root::Within(b))) => Some(Passage::Within(a.min(b))),
+            (None, Some(Root::Within(theta))) => Some(Passage::Within(theta)),
+            (threshold, _) => threshold,
+        })
+    }
+
     /// The first threshold in the step of size `h` to `end`.
-    fn passage(&mut self, h: f64, end: f64) -> Result<Option<Passage>, StepError> {
+    fn threshold(&mut self, h: f64, end: f64) -> Result<Option<Passage>, StepError> {
         if !self.events.watches_state() {
             return Ok(None);
         }
         let mut prepared = false;
-        let Run { events, rows, integrator, problem, .. } = self;
+        let TimeLoop { events, rows, integrator, problem, .. } = self;
         let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
         let step = Step { from, to: &self.next, slope: &self.next_slope };
         let (q, v) = problem.split(step.to);
@@ -96,9 +116,14 @@ impl Run<'_> {
             }
         }
         self.meet_roads(roads, &pieces)?;
+        self.meet_jump(&before)
+    }
+
+    /// Goes on where y', which was `before`, may have jumped.
+    pub fn meet_jump(&mut self, before: &[f64]) -> Result<(), Failure> {
         self.integrator.restart();
         self.cut = None;
-        let jump: Vec<f64> = self.slope.iter().zip(&before).map(|(after, before)| self.h * (after - before)).collect();
+        let jump: Vec<f64> = self.slope.iter().zip(before).map(|(after, before)| self.h * (after - before)).collect();
         let begins_anew = self.entry.begins_anew;
         if self.fixed.is_none() && (begins_anew || self.tolerance.norm(&self.y, &jump) > 1.0) {
             self.start_small()?;
@@ -145,6 +170,11 @@ impl Run<'_> {
         let old = self.constraints();
         self.share_pieces();
         self.meet_constraints(old)?;
+        self.evaluate_start()
+    }
+
+    /// Evaluates y' and the switching functions at the start of the next step.
+    pub fn evaluate_start(&mut self) -> Result<(), Failure> {
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
         let ((q, v), (_, vdot)) = (self.problem.split(&self.y), self.problem.split(&self.slope));
         self.events.start_at(OperatingPoint { t: self.t, q, v, vdot, lambda: &[] });

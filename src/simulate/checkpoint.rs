@@ -2,12 +2,12 @@
 
 use super::crowd::Crowd;
 use super::passage::SingularPassage;
-use super::{Method, Outcome, Run, Sink, Span};
+use super::{Method, Sink, Span, TimeLoop};
 use crate::error::{Error, Failure, Result, clock, short};
 use crate::formulation::Statistics;
 use crate::math::expression::Switch;
 use crate::math::{Piece, Thresholds};
-use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Terms};
+use crate::system::{MechanicalSystem, Need, Scratch, Terms};
 use crate::tolerances::JOINTS_OPEN;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -21,7 +21,7 @@ pub struct Checkpoint {
     span: Span,
     t: f64,
     /// q, v, and the works since the start.
-    y: Vec<f64>,
+    pub(super) y: Vec<f64>,
     /// Rows of G that are dropped.
     dropped: Vec<usize>,
     /// The pieces on which functions are fixed, their next change at a given time, the time up to which functions of
@@ -47,6 +47,9 @@ pub struct Checkpoint {
     next_row: u64,
     factored: u64,
     statistics: Statistics,
+    /// Values of the inputs.
+    #[serde(default)]
+    inputs: Vec<f64>,
 }
 
 /// The start of a run.
@@ -58,33 +61,22 @@ pub enum Start<'a> {
     Saved(&'a Checkpoint),
 }
 
-/// Integrates `system` over `span`, or the rest of it. A run that fails is no error: its outcome says where
-/// and why, and the sink has what came before. Returns a checkpoint, too; none if the run could not begin.
-///
-/// # Errors
-/// Bad input only: an unknown or impossible method, a bad span, a saved run of another system or beyond the span.
-pub fn simulate_from(
-    system: &dyn MechanicalSystem,
-    method: &Method,
-    span: Span,
-    start: Start,
-    sink: &mut dyn Sink,
-) -> Result<(Outcome, Option<Checkpoint>)> {
-    method.check()?;
-    span.check()?;
-    let y = match start {
-        Start::State(q, v) => flat(system, q, v),
-        Start::Saved(saved) => saved.checked(system, span)?.y.clone(),
-    };
-    let mut run = Run::new(system, method, span, y)?;
-    let begun = match start {
-        Start::State(..) => run.begin(sink),
-        Start::Saved(saved) => run.go_on_from(saved, method, sink),
-    };
-    let has_begun = begun.is_ok();
-    let failure = begun.and_then(|()| run.advance(sink)).err();
-    let saved = has_begun.then(|| run.checkpoint(method));
-    Ok((run.finish(failure, sink), saved))
+impl<'a> From<(&'a [f64], &'a [f64])> for Start<'a> {
+    fn from((q, v): (&'a [f64], &'a [f64])) -> Self {
+        Start::State(q, v)
+    }
+}
+
+impl<'a, Q: AsRef<[f64]>, V: AsRef<[f64]>> From<&'a (Q, V)> for Start<'a> {
+    fn from((q, v): &'a (Q, V)) -> Self {
+        Start::State(q.as_ref(), v.as_ref())
+    }
+}
+
+impl<'a> From<&'a Checkpoint> for Start<'a> {
+    fn from(saved: &'a Checkpoint) -> Self {
+        Start::Saved(saved)
+    }
 }
 
 /// (q, v, w) at the start of a run.
@@ -147,8 +139,10 @@ impl Checkpoint {
         };
         let are_pieces = self.pieces.iter().zip(switches).all(|(&piece, switch)| exists(piece as usize, switch));
         let lengths = [self.y.len(), self.turned_at.len(), self.pieces.len(), self.turned.len()];
-        let all = n.q + n.v + 1 + system.facts().works.len();
+        let facts = system.facts();
+        let all = n.q + n.v + 1 + facts.works.len();
         lengths == [all, all, switches.len(), switches.len()]
+            && (self.inputs.is_empty() || self.inputs.len() == facts.inputs.len())
             && self.statistics.is_possible()
             && are_pieces
             && self.dropped.iter().all(|row| *row < n.lambda)
@@ -156,7 +150,7 @@ impl Checkpoint {
     }
 
     /// Refuses a checkpoint of another system, and one at or beyond the end of the span.
-    fn checked(&self, system: &dyn MechanicalSystem, span: Span) -> Result<&Self> {
+    pub(super) fn checked(&self, system: &dyn MechanicalSystem, span: Span) -> Result<&Self> {
         if !self.fits(system) {
             return Err(Error::input("the saved run is one of another system"));
         }
@@ -169,7 +163,7 @@ impl Checkpoint {
     }
 }
 
-impl Run<'_> {
+impl TimeLoop<'_> {
     /// Saves the values on which the next steps depend.
     pub fn checkpoint(&self, method: &Method) -> Checkpoint {
         let dynamics = &self.problem.dynamics;
@@ -198,12 +192,15 @@ impl Run<'_> {
             next_row: self.rows.next,
             factored: self.factored,
             statistics: self.statistics(),
+            inputs: dynamics.scratch.inputs.clone(),
         }
     }
 
     /// Continues from a checkpoint, and shows its state, as at any start.
-    fn go_on_from(&mut self, saved: &Checkpoint, method: &Method, sink: &mut dyn Sink) -> Result<(), Failure> {
+    pub fn go_on_from(&mut self, saved: &Checkpoint, method: &Method, sink: &mut dyn Sink) -> Result<(), Failure> {
         self.t = saved.t;
+        let law = self.problem.dynamics.law.clone();
+        self.set_inputs(&saved.inputs, law.as_ref());
         if saved.method == *method {
             self.recall(saved)?;
         } else {
@@ -227,7 +224,7 @@ impl Run<'_> {
     }
 
     /// The first row after the state.
-    fn next_row(&self) -> u64 {
+    pub fn next_row(&self) -> u64 {
         let Span { start, output_step, .. } = self.span;
         1 + ((self.t - start) / output_step * (1.0 + 4.0 * f64::EPSILON)) as u64
     }
@@ -246,16 +243,14 @@ impl Run<'_> {
         self.refer_to(saved.dense_reference);
         self.recall_events(saved);
         self.start_gaps();
-        self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
-        let ((q, v), (_, vdot)) = (self.problem.split(&self.y), self.problem.split(&self.slope));
-        self.events.start_at(OperatingPoint { t: self.t, q, v, vdot, lambda: &[] });
+        self.evaluate_start()?;
         // The work of the saved run includes that of this evaluation.
         self.problem.dynamics.statistics = saved.statistics;
         Ok(())
     }
 
     fn recall_events(&mut self, saved: &Checkpoint) {
-        let Run { events, t, .. } = self;
+        let TimeLoop { events, t, .. } = self;
         events.pieces.clone_from(&saved.pieces);
         events.turned.clone_from(&saved.turned);
         events.timetable.recall(*t, saved.next_change, saved.span.end, &saved.pieces);

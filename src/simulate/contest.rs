@@ -6,7 +6,7 @@
 //! related to the size of the steps.
 
 use super::spectrum::fastest;
-use super::{Method, Run, Sink, Span, Stop};
+use super::{Method, Sink, Span, Stop, TimeLoop};
 use crate::error::{Failure, Result};
 use crate::formulation::{Dynamics, Statistics};
 use crate::modes::SpectralMode;
@@ -94,24 +94,28 @@ impl Sink for Quiet<'_> {
     fn stops(&self) -> Option<Stop> {
         self.0.and_then(Sink::stops)
     }
+
+    fn is_done(&self) -> bool {
+        self.0.is_some_and(Sink::is_done)
+    }
 }
 
-impl Run<'_> {
-    /// A run by another method at the present state, which is to [go on](Run::go_on) from there.
-    pub fn rival<'a>(&self, method: &'a Method, system: &'a dyn MechanicalSystem, span: Span) -> Result<Run<'a>> {
-        let mut rival = Run::new(system, method, span, self.y.clone())?;
+impl TimeLoop<'_> {
+    /// A run by another method at the present state, which is to [go on](TimeLoop::go_on) from there.
+    pub fn rival<'a>(&self, method: &Method, system: &'a dyn MechanicalSystem, span: Span) -> Result<TimeLoop<'a>> {
+        let mut rival = TimeLoop::new(system, method, span, self.y.clone())?;
         (rival.t, rival.rows.next) = (self.t, self.rows.next);
         Ok(rival)
     }
 
     /// Runs from its start to the time of another run, whose rows it does not repeat; false if it fails, or takes more
     /// work than that.
-    pub fn reaches(&mut self, other: &Run, sink: &mut dyn Sink) -> bool {
-        let end = std::mem::replace(&mut self.span.end, other.t);
+    pub fn reaches(&mut self, other: &TimeLoop, sink: &mut dyn Sink) -> bool {
+        let until = std::mem::replace(&mut self.until, other.t);
         (self.rows.next, self.allowance) = (u64::MAX, self.mark().work + other.mark().work);
         let came = self.advance(sink).is_ok() && self.t >= other.t;
-        (self.span.end, self.rows.next) = (end, other.rows.next);
-        came && self.meet_change().is_ok()
+        (self.until, self.rows.next) = (until, other.rows.next);
+        came && self.complete(sink).is_ok() && self.meet_change().is_ok()
     }
 
     pub fn mark(&self) -> Mark {
@@ -139,13 +143,13 @@ impl Run<'_> {
                 if let Err(failure) = self.advance(sink) {
                     return (mark, Some(failure));
                 }
-                if part < 1.0 && self.t < self.span.end {
+                if part < 1.0 && !self.is_paused(sink) {
                     mark = self.mark();
                 }
             }
             let growth = self.h / self.step_since(mark);
             let has_grown = growth < STEPS_GROW;
-            if self.t >= self.span.end || has_grown || self.mark().work + work > most || is_enough(self, mark, growth) {
+            if self.is_paused(sink) || has_grown || self.mark().work + work > most || is_enough(self, mark, growth) {
                 break;
             }
         }
@@ -203,7 +207,7 @@ impl Run<'_> {
         let budget = TRIAL_WORK.max(share(own.work - mark.work) / rivals as f64);
         let most = share(self.left(mark)).min(own.work);
         let mut rival = self.rival(other, system, unseen(self.span))?;
-        let is_hopeless = |rival: &Run, since: Mark, growth: f64| {
+        let is_hopeless = |rival: &TimeLoop, since: Mark, growth: f64| {
             growth * rival.mark().pace(since) < tolerances::NO_ALTERNATIVE * least * own.pace(mark)
         };
         let (since, failure) = match rival.go_on(&self.problem.dynamics.dropped, self.h) {

@@ -1,9 +1,10 @@
 //! Failures that end a run early.
 
-use super::{Run, Sink};
+use super::{Sink, TimeLoop};
 use crate::error::Failure;
 use crate::formulation::StepError;
 use crate::math::largest_in;
+use crate::tolerances;
 
 /// Steps that together come no farther than CRAWL end the run. Unit: `[steps]`.
 const CRAWLING_STEPS: usize = 50_000;
@@ -20,7 +21,7 @@ const SINGULAR: &str = "this tolerance is too near to round-off there: try a loo
 
 const PASSES: &str = "`index1` with `dop853` and `manifold` goes over it";
 
-impl Run<'_> {
+impl TimeLoop<'_> {
     /// Ends a run that makes no progress.
     pub fn check_progress(&mut self) -> Result<(), Failure> {
         let (since, tries) = self.progress;
@@ -82,7 +83,8 @@ impl Run<'_> {
 
     /// Shows the last good state of a run that ends early.
     pub fn last_good_row(&mut self, sink: &mut dyn Sink) {
-        if self.rows.next > 0 && self.span.row(self.rows.next - 1) < self.t {
+        let is_new = self.t - self.rows.shown > tolerances::SAME * (self.span.end - self.span.start);
+        if is_new && self.rows.next > 0 && self.span.row(self.rows.next - 1) < self.t {
             // A state that cannot be evaluated is not shown.
             self.rows.y.copy_from_slice(&self.y);
             let _ = self.rows.emit(self.t, sink);

@@ -4,7 +4,7 @@
 //! length with a sign, so that the force is smooth through zero. It ends where r = 0, and the next one begins with the
 //! line of the other side. A gap that turns without closing is never held, since r before and after is not on one line.
 
-use super::Run;
+use super::TimeLoop;
 use crate::formulation::StepError;
 use crate::integrator::{From, Step};
 use crate::math::{Piece, Side};
@@ -61,7 +61,7 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-impl Run<'_> {
+impl TimeLoop<'_> {
     /// Reads the gaps at the present state.
     pub fn start_gaps(&mut self) {
         if !self.gaps.numbers.is_empty() {
@@ -72,7 +72,7 @@ impl Run<'_> {
 
     /// True if the step just tried closes a gap whose line is not held: it is held from now on.
     pub fn holds_line(&mut self) -> bool {
-        let Run { gaps, problem, events, next, .. } = self;
+        let TimeLoop { gaps, problem, events, next, .. } = self;
         if gaps.numbers.is_empty() {
             return false;
         }
@@ -136,7 +136,7 @@ impl Run<'_> {
         (h, end): (f64, f64),
         [mut low_value, mut high_value]: [f64; 2],
     ) -> Result<f64, StepError> {
-        let Run { gaps, rows, integrator, problem, .. } = self;
+        let TimeLoop { gaps, rows, integrator, problem, .. } = self;
         let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
         rows.problem.begin_step(from.t, from.y)?;
         let step = Step { from, to: &self.next, slope: &self.next_slope };

@@ -64,7 +64,7 @@ impl FromStr for Method {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self> {
-        let parts: Vec<&str> = text.split(" + ").collect();
+        let parts: Vec<&str> = text.split('+').map(str::trim).collect();
         let names = match parts[..] {
             [formulation, integrator] => [formulation, integrator, "none"],
             [formulation, integrator, projection] => [formulation, integrator, projection],
@@ -75,6 +75,20 @@ impl FromStr for Method {
         };
         let [formulation, integrator, projection] = names.map(MethodSpec::parse);
         Ok(Method { formulation: formulation?, integrator: integrator?, projection: projection?, ..Method::default() })
+    }
+}
+
+impl TryFrom<&str> for Method {
+    type Error = Error;
+
+    fn try_from(text: &str) -> Result<Self> {
+        text.parse()
+    }
+}
+
+impl From<&Method> for Method {
+    fn from(method: &Method) -> Self {
+        method.clone()
     }
 }
 
@@ -178,7 +192,7 @@ impl Method {
         Ok(())
     }
 
-    pub(super) fn make_integrator<'a>(&'a self, system: &'a dyn MechanicalSystem) -> Result<Box<dyn Integrator + 'a>> {
+    pub(super) fn make_integrator<'a>(&self, system: &'a dyn MechanicalSystem) -> Result<Box<dyn Integrator + 'a>> {
         let Method { integrator, formulation, step, .. } = self;
         (integrator::find(integrator)?.make)(&Setup { integrator, formulation, system, is_fixed: step.is_some() })
     }

@@ -1,19 +1,23 @@
 //! The only time loop: steps, step control, projection and output.
 
+mod advance;
 mod automatic;
 mod changes;
 mod checkpoint;
 mod contest;
 mod crowd;
 mod ending;
+mod engine;
 mod events;
 mod first_explicit;
 mod gaps;
+mod held;
 mod method;
 mod observation;
 mod output;
 mod passage;
 mod plan;
+mod roots;
 mod rows;
 mod segments;
 mod spectrum;
@@ -26,8 +30,10 @@ pub use crate::math::threads::spread;
 #[doc(hidden)]
 pub use crate::modes::SpectralMode;
 pub(crate) use automatic::known_methods;
-pub use automatic::{Leg, Trial, advise, simulate_automatic};
-pub use checkpoint::{Checkpoint, Start, simulate_from};
+pub use automatic::{Leg, Trial, advise};
+pub use checkpoint::{Checkpoint, Start};
+pub(crate) use engine::{Choice, Engine, run_through};
+pub use engine::{End, simulate_automatic, simulate_from};
 pub use method::Method;
 #[doc(hidden)]
 pub use method::{atol_of, check_pair};
@@ -41,17 +47,17 @@ pub use stiffness::explicit;
 pub use stiffness::{Stiffness, stiffness};
 
 use crowd::Crowd;
-use events::{Events, Passage};
+use events::Events;
 use gaps::Gaps;
 use passage::SingularPassage;
+use roots::Roots;
 use rows::OutputRows;
-use step::is_too_large;
 use travel::Travelled;
 
 use crate::error::{Failure, Result};
 use crate::formulation::{self, Dynamics, Statistics};
 use crate::initial::Travel;
-use crate::integrator::{self, Accepted, Entry, Integrator, Problem, Tolerance};
+use crate::integrator::{self, Entry, Integrator, Problem, Tolerance};
 use crate::method_spec::MethodSpec;
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
@@ -86,7 +92,8 @@ pub fn simulate(
     Ok(simulate_from(system, method, span, Start::State(q, v), sink)?.0)
 }
 
-struct Run<'a> {
+/// The only time loop: a run from step to step.
+pub(crate) struct TimeLoop<'a> {
     problem: Problem<'a>,
     entry: &'static Entry,
     integrator: Box<dyn Integrator + 'a>,
@@ -134,8 +141,24 @@ struct Run<'a> {
     progress: (f64, usize),
     /// The travel of its drivers, if there are any.
     travelled: Option<Travelled<'a>>,
-    /// Work after which the run pauses, in evaluations: see [`Run::mark`].
+    /// Work after which the run pauses, in evaluations: see [`TimeLoop::mark`].
     allowance: f64,
+    /// Time at which the run pauses, s: at most the end of the span.
+    until: f64,
+    /// The last accepted step, until it is [completed](Self::complete).
+    last: Option<LastStep>,
+    roots: Roots,
+}
+
+/// An accepted step of which the dense output may still be read.
+#[derive(Clone, Copy)]
+pub(crate) struct LastStep {
+    start: f64,
+    size: f64,
+    error: Option<f64>,
+    /// True if it was shorter than the step control proposed.
+    is_cut: bool,
+    changes_form: bool,
 }
 
 /// The projection of states on the dense output: that of the method; but where both levels are integrated, these are
@@ -162,8 +185,8 @@ pub(crate) struct Parts<'a> {
     pub limits_projection: bool,
 }
 
-impl<'a> Run<'a> {
-    fn new(system: &'a dyn MechanicalSystem, method: &'a Method, span: Span, y: Vec<f64>) -> Result<Self> {
+impl<'a> TimeLoop<'a> {
+    fn new(system: &'a dyn MechanicalSystem, method: &Method, span: Span, y: Vec<f64>) -> Result<Self> {
         let problem = || -> Result<Problem<'a>> {
             Ok(Problem::new(Dynamics::new(system), formulation::make(&method.formulation, system)?))
         };
@@ -181,13 +204,13 @@ impl<'a> Run<'a> {
             limits_projection: true,
         };
         let tolerance = entry.tightening.of_steps(&Tolerance::new(method.rtol, method.atol, system));
-        Ok(Run::of(parts, (tolerance, method.step), span, y))
+        Ok(TimeLoop::of(parts, (tolerance, method.step), span, y))
     }
 
     fn of(parts: Parts<'a>, (tolerance, fixed): (Tolerance, Option<f64>), span: Span, y: Vec<f64>) -> Self {
         let zeros = || vec![0.0; y.len()];
         let system = parts.problem.dynamics.system;
-        Run {
+        TimeLoop {
             is_explicit: parts.entry.stability.is_some(),
             problem: parts.problem,
             entry: parts.entry,
@@ -223,6 +246,9 @@ impl<'a> Run<'a> {
             progress: (span.start, 0),
             travelled: Travel::new(system, span.start, &y[..system.dimensions().q]).map(Travelled::new),
             allowance: f64::INFINITY,
+            until: span.end,
+            last: None,
+            roots: Roots::default(),
             y,
         }
     }
@@ -272,122 +298,5 @@ impl<'a> Run<'a> {
         }
         let (q, v) = self.problem.split(&self.y);
         Outcome { statistics: self.statistics(), t: self.t, q: q.to_vec(), v: v.to_vec(), failure }
-    }
-
-    /// Steps to the end of the span, or until the work exceeds the allowance.
-    fn advance(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
-        self.take_steps(sink).map_err(|failure| self.explained(failure, sink))
-    }
-
-    fn take_steps(&mut self, sink: &mut dyn Sink) -> Result<(), Failure> {
-        while self.t < self.span.end && self.mark().work < self.allowance {
-            self.ask(sink)?;
-            self.check_progress()?;
-            self.check_crawl()?;
-            let stop = self.next_stop();
-            if self.entry.leads {
-                self.lead(stop)?;
-            }
-            let (mut size, mut end) = self.fit(stop);
-            let tried = size;
-            let Some(error) = self.try_step(size, end)? else { continue };
-            if !self.is_of_one_form(&mut size, &mut end, sink)? {
-                continue;
-            }
-            self.check_travel(self.end_of(size, end))?;
-            if let Some(theta) = self.output(size, end, sink)? {
-                self.problem.dynamics.statistics.rejected += 1;
-                self.cut = Some(theta * size);
-                continue;
-            }
-            self.accept(size, end, sink);
-            self.check_joints()?;
-            self.propose(size, error, end.is_some() || self.cut.is_some() || size < tried)?;
-            (self.growing, self.cut) = (true, None);
-            let changes_form =
-                self.end_gaps() || self.events.is_at_threshold() || stop.changes_form && self.t >= stop.t;
-            if changes_form && self.t < self.span.end {
-                self.change_form_seen(None, sink)?;
-            } else {
-                self.events.go_on();
-            }
-        }
-        Ok(())
-    }
-
-    /// Tries a step. Returns its error in units of the tolerance, if there is an estimate; `None` if the step was
-    /// refused.
-    fn try_step(&mut self, size: f64, end: Option<f64>) -> Result<Option<Option<f64>>, Failure> {
-        let tried = self.step(size, end);
-        if tried.is_ok() && self.holds_line() {
-            self.problem.dynamics.statistics.rejected += 1;
-            return Ok(None);
-        }
-        self.h = match tried {
-            Ok(error) if !error.is_some_and(is_too_large) => return Ok(Some(error)),
-            Ok(error) => self.retry(size, error, self.refusal, None)?,
-            Err(halt) if halt.is_fatal() => return Err(self.halted(&halt)),
-            Err(halt) => self.retry(size, None, &halt.to_string(), halt.hint())?,
-        };
-        (self.growing, self.cut) = (false, None);
-        Ok(None)
-    }
-
-    /// True if the step just tried passed no threshold; else it prepares the next attempt.
-    fn is_of_one_form(&mut self, size: &mut f64, end: &mut Option<f64>, sink: &mut dyn Sink) -> Result<bool, Failure> {
-        if let Some(theta) = self.gap_closes(*size, self.end_of(*size, *end)).map_err(|halt| self.halted(&halt))? {
-            self.problem.dynamics.statistics.rejected += 1;
-            self.cut = Some(theta * *size);
-            return Ok(false);
-        }
-        let passage = self.end_at_passage(size, end).map_err(|halt| self.halted(&halt))?;
-        match passage {
-            None => return Ok(true),
-            Some(Passage::AtStart(number)) => {
-                self.change_form_seen(Some(number), sink)?;
-                // A step after which the function is on neither side is longer than the time to the threshold.
-                if self.fixed.is_none() && 0.1 * self.h > 2.0 * self.smallest() && self.events.is_undecided(number) {
-                    self.h *= 0.1;
-                }
-            }
-            Some(Passage::Within(theta)) => {
-                self.problem.dynamics.statistics.rejected += 1;
-                self.cut = Some(theta * *size);
-            }
-        }
-        Ok(false)
-    }
-
-    /// Tells the method that its step is accepted, and takes the size of the next one. A step that was cut to end at a
-    /// given time does not reduce the size before it.
-    fn propose(&mut self, size: f64, error: Option<f64>, is_cut: bool) -> Result<(), Failure> {
-        let Run { growing, is_moved, .. } = *self;
-        let step = Accepted { h: size, error, growing, is_moved, tolerance: &self.tolerance };
-        let proposed = self.integrator.accepted(&step);
-        if error.is_none() {
-            return Ok(());
-        }
-        self.h = if is_cut { self.h.max(proposed) } else { proposed };
-        if self.t < self.span.end && self.h < self.smallest() {
-            Err(self.too_small(format!("steps have fallen to {:.1e} s", self.h), None))
-        } else {
-            Ok(())
-        }
-    }
-
-    /// Ends the run if the sink asks for it.
-    fn ask(&self, sink: &dyn Sink) -> Result<(), Failure> {
-        sink.stops().map_or(Ok(()), |Stop { reason, hint }| Err(Failure { t: self.t, reason, hint }))
-    }
-
-    fn accept(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) {
-        self.t = self.end_of(h, end);
-        std::mem::swap(&mut self.y, &mut self.next);
-        std::mem::swap(&mut self.slope, &mut self.next_slope);
-        self.problem.dynamics.statistics.steps += 1;
-        if let Some(lost) = self.lost.take() {
-            self.approach.add_loss(lost);
-        }
-        self.observe(self.fixed.or(Some(h)), sink);
     }
 }

@@ -4,6 +4,7 @@ use crate::error::{Error, Result, significant};
 use crate::math::{Piece, largest};
 use crate::system::OperatingPoint;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 use std::time::Duration;
 
 /// The interval to simulate and the distance of the output rows.
@@ -15,6 +16,16 @@ pub struct Span {
     pub end: f64,
     /// Distance of the output rows, s.
     pub output_step: f64,
+}
+
+/// Number of rows of a trajectory by default.
+const ROWS: f64 = 500.0;
+
+/// `0.0..10.0`, with 500 rows.
+impl From<Range<f64>> for Span {
+    fn from(Range { start, end }: Range<f64>) -> Self {
+        Span { start, end, output_step: (end - start) / ROWS }
+    }
 }
 
 impl Span {
@@ -60,6 +71,8 @@ pub struct Observation<'a> {
     pub works: &'a [f64],
     /// The pieces on which the run evaluates functions that change their form.
     pub pieces: &'a [Piece],
+    /// Values of the inputs; empty where they are zero.
+    pub inputs: &'a [f64],
     /// Change of energy due to the tolerated errors of this step, J; `None` for fixed steps and output rows.
     pub tolerated: Option<f64>,
     /// The longest time between evaluations of the equations in the step, s; `None` at the start and in output rows.
@@ -98,9 +111,31 @@ pub trait Sink {
     fn before_event(&mut self, _state: &Observation) {}
     /// Called with the same state after the change: v' and lambda may have jumped, and v with a prescribed rate.
     fn after_event(&mut self, _state: &Observation) {}
-    /// Called before every step and after every row: returns the reason if the run should end here.
+    /// Called before every step and after every row: returns the reason if the run is given up here, which is a
+    /// failure.
     fn stops(&self) -> Option<Stop> {
         None
+    }
+    /// Called before every step and after every row: true if the run has shown what was wanted and ends here, which is
+    /// no failure.
+    fn is_done(&self) -> bool {
+        false
+    }
+    /// True if the run is to end at a root of [`root`](Self::root).
+    fn watches_root(&self) -> bool {
+        false
+    }
+    /// A function of the state, at whose first change of sign the run ends: a step ends there, and it is the last row.
+    /// Called at quarters of each step, and where the root is located.
+    fn root(&mut self, _state: &Observation) -> f64 {
+        1.0
+    }
+}
+
+/// A closure is called with every accepted step, the start included.
+impl<F: FnMut(&Observation)> Sink for F {
+    fn accepted(&mut self, state: &Observation) {
+        self(state);
     }
 }
 
@@ -131,7 +166,7 @@ impl Stop {
     }
 }
 
-impl super::Run<'_> {
+impl super::TimeLoop<'_> {
     /// Sum of the sizes of all generalized forces and multipliers at the present state, N and N m.
     pub fn effort(&self) -> f64 {
         let dynamics = &self.problem.dynamics;

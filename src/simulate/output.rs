@@ -1,7 +1,7 @@
 //! Output rows within a step.
 
 use super::rows::{OutputRows, project};
-use super::{Run, Sink};
+use super::{LastStep, Sink, TimeLoop};
 use crate::error::Failure;
 use crate::formulation::StepError;
 use crate::integrator::{From, Step};
@@ -23,12 +23,19 @@ const CONTRADICTED_ERRORS: f64 = 100.0;
 /// at hand. Unit: `[1]`. Test: `rows_do_not_change_the_steps`.
 const CONTRADICTED_PART: f64 = 0.2;
 
-impl Run<'_> {
-    /// Writes the output rows within the step from `t` to `t + h`. Returns the fraction of the step of a row that
-    /// contradicts it, if there is one: something acts there that the stages of the step did not evaluate. A step may
-    /// have millions of rows: where the sink stops the run among them, the step is left, and taken again by a run that
-    /// goes on from its start.
-    pub fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<Option<f64>, Failure> {
+/// The output rows of a step.
+pub enum RowsOfStep {
+    Written,
+    /// The sink has what it wants.
+    Stopped,
+    /// A row at this fraction of the step contradicts it: something acts there that its stages did not evaluate.
+    Contradicted(f64),
+}
+
+impl TimeLoop<'_> {
+    /// Writes the output rows within the step from `t` to `t + h`. A step may have millions of rows: where the sink
+    /// stops the run among them, the step is left, and taken again by a run that goes on from its start.
+    pub fn output(&mut self, h: f64, end: Option<f64>, sink: &mut dyn Sink) -> Result<RowsOfStep, Failure> {
         let end = self.end_of(h, end);
         let slack = tolerances::SAME * h;
         let first = self.rows.next;
@@ -36,10 +43,10 @@ impl Run<'_> {
         loop {
             let t = self.span.row(self.rows.next);
             if t > end + slack || self.rows.next > 0 && self.span.row(self.rows.next - 1) >= self.span.end {
-                return Ok(None);
+                return Ok(RowsOfStep::Written);
             }
-            if self.rows.next > first {
-                self.ask(sink)?;
+            if self.rows.next > first && self.ask(sink)? {
+                return Ok(RowsOfStep::Stopped);
             }
             if t > end - slack {
                 self.rows.y.copy_from_slice(&self.next);
@@ -49,7 +56,7 @@ impl Run<'_> {
                     self.prepare(h, end).map_err(|halt| self.halted(&halt))?;
                 }
                 if let Some(theta) = self.row_within(t, h, end).map_err(|halt| self.halted(&halt))? {
-                    return Ok(Some(theta));
+                    return Ok(RowsOfStep::Contradicted(theta));
                 }
                 self.rows.show(t, sink);
             }
@@ -85,6 +92,19 @@ impl Run<'_> {
         }
         self.rows.evaluate(t)?;
         Ok((is_checked && self.row_contradicts(h)).then_some(theta))
+    }
+
+    /// Writes the state at a time within the last step to the row, projected.
+    pub fn interpolate(&mut self, t: f64, last: LastStep) -> Result<(), StepError> {
+        let LastStep { start, size, .. } = last;
+        let from =
+            From { t: start, y: &self.next, slope: &self.next_slope, h: size, end: self.t, tolerance: &self.tolerance };
+        let step = Step { from, to: &self.y, slope: &self.slope };
+        let rows = &mut self.rows;
+        rows.problem.begin_step(start, &self.next)?;
+        self.integrator.prepare(&mut rows.problem, step)?;
+        self.integrator.interpolate(&mut rows.problem, step, (t - start) / size, &mut rows.y)?;
+        self.project_row(t, size)
     }
 
     /// Projects the row, near a singular state with more sweeps than a step that ends there would take.

@@ -1,7 +1,7 @@
 //! Choice of the step to try: the proposed one, adjusted near singular states, and cut where it must end or would miss
 //! a function of time.
 
-use super::Run;
+use super::TimeLoop;
 use super::events::Events;
 use crate::error::Failure;
 use crate::formulation::StepError;
@@ -28,7 +28,7 @@ pub struct NextStop {
     pub changes_form: bool,
 }
 
-impl Run<'_> {
+impl TimeLoop<'_> {
     pub fn first_step(&mut self) -> Result<f64, StepError> {
         match self.fixed {
             Some(step) => Ok(step),
@@ -61,18 +61,18 @@ impl Run<'_> {
         }
     }
 
-    /// The next time at which a step must end: a change of form, or the end of the run.
+    /// The next time at which a step must end: a change of form, or where the run pauses or ends.
     pub fn next_stop(&self) -> NextStop {
         match self.events.timetable.next_change() {
-            Some(t) if t < self.span.end => NextStop { t, changes_form: true },
-            _ => NextStop { t: self.span.end, changes_form: false },
+            Some(t) if t < self.span.end && t <= self.until => NextStop { t, changes_form: true },
+            _ => NextStop { t: self.until, changes_form: false },
         }
     }
 
     /// Takes the next step from a method that chooses it itself, unless a smaller one is to be tried.
     pub fn lead(&mut self, stop: NextStop) -> Result<(), Failure> {
         let limit = self.events.resolved(self.t, self.h.min(stop.t - self.t), stop.t);
-        let Run { h, tolerance, .. } = self;
+        let TimeLoop { h, tolerance, .. } = self;
         let from = From { t: self.t, y: &self.y, slope: &self.slope, h: *h, end: self.t + limit, tolerance };
         let size = match self.integrator.lead(&mut self.problem, from) {
             Ok(size) => size,

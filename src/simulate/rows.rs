@@ -1,6 +1,6 @@
 //! Output rows, and the observation of a state.
 
-use super::{Observation, Run, Sink};
+use super::{Observation, Sink, TimeLoop};
 use crate::formulation::{Statistics, StepError};
 use crate::integrator::Problem;
 use crate::math::all_finite;
@@ -19,6 +19,8 @@ pub struct OutputRows<'a> {
     pub vdot: Vec<f64>,
     pub ahead: Vec<f64>,
     phi_ddot: Vec<f64>,
+    /// Time of the last row shown, s.
+    pub shown: f64,
 }
 
 impl<'a> OutputRows<'a> {
@@ -29,7 +31,7 @@ impl<'a> OutputRows<'a> {
         let ahead = zeros();
         let vdot = vec![0.0; problem.dynamics.vdot.len()];
         let phi_ddot = vec![0.0; problem.dynamics.lambda.len()];
-        OutputRows { problem, projection, next: 0, y, slope, vdot, ahead, phi_ddot }
+        OutputRows { problem, projection, next: 0, y, slope, vdot, ahead, phi_ddot, shown: f64::NEG_INFINITY }
     }
 
     /// Evaluates the state in `y` and passes it to the sink.
@@ -63,7 +65,21 @@ impl<'a> OutputRows<'a> {
         Ok(())
     }
 
+    /// The function of the sink at the state in `y`.
+    pub fn root(&mut self, t: f64, sink: &mut dyn Sink) -> Result<f64, StepError> {
+        self.evaluate(t)?;
+        Ok(sink.root(&observation(t, &self.y, &self.problem, None, &mut self.phi_ddot)))
+    }
+
+    /// Calls `see` with the state in `y`.
+    pub fn see(&mut self, t: f64, see: &mut dyn FnMut(&Observation)) -> Result<(), StepError> {
+        self.evaluate(t)?;
+        see(&observation(t, &self.y, &self.problem, None, &mut self.phi_ddot));
+        Ok(())
+    }
+
     pub fn show(&mut self, t: f64, sink: &mut dyn Sink) {
+        self.shown = t;
         sink.row(&observation(t, &self.y, &self.problem, None, &mut self.phi_ddot));
     }
 }
@@ -90,7 +106,7 @@ pub fn project(
     Ok(())
 }
 
-impl Run<'_> {
+impl TimeLoop<'_> {
     /// Work of steps, and separately that of output rows.
     pub fn statistics(&self) -> Statistics {
         let rows = self.rows.problem.dynamics.statistics.of_steps();
@@ -117,7 +133,7 @@ impl Run<'_> {
 
     /// Sets the reference values of the rank indicators, that of a dense solver to `dense`.
     pub fn refer_to(&mut self, dense: f64) {
-        let Run { problem, rows, approach, .. } = self;
+        let TimeLoop { problem, rows, approach, .. } = self;
         [problem, &mut rows.problem].into_iter().for_each(|p| p.dynamics.refer_to(approach.largest, dense));
     }
 
@@ -155,6 +171,7 @@ pub fn observation<'o>(
         work: y[q.len() + v.len()],
         works: &y[q.len() + v.len() + 1..],
         pieces: &dynamics.scratch.pieces,
+        inputs: &dynamics.scratch.inputs,
         tolerated: None,
         apart: None,
         effort: None,

@@ -1,12 +1,12 @@
 //! A simulation in segments that end at given times, between which the state may be changed.
 
-use super::{Parts, Run, Sink, Span};
+use super::{Parts, Sink, Span, TimeLoop};
 use crate::error::Failure;
 use crate::integrator::Tolerance;
 
 /// A run of the time loop, one segment at a time, without output rows.
 pub(crate) struct Segments<'a> {
-    run: Run<'a>,
+    run: TimeLoop<'a>,
     is_begun: bool,
 }
 
@@ -14,12 +14,13 @@ impl<'a> Segments<'a> {
     /// Starts from the flat state `y` at `start`; `end` is the last time.
     pub fn new(parts: Parts<'a>, tolerance: Tolerance, (start, end): (f64, f64), y: Vec<f64>) -> Self {
         let span = Span { start, end, output_step: f64::INFINITY };
-        Segments { run: Run::of(parts, (tolerance, None), span, y), is_begun: false }
+        Segments { run: TimeLoop::of(parts, (tolerance, None), span, y), is_begun: false }
     }
 
     /// Continues to `end`.
     pub fn advance(&mut self, end: f64, sink: &mut dyn Sink) -> Result<(), Failure> {
         self.run.span.end = end;
+        self.run.until = end;
         if !self.is_begun {
             self.is_begun = true;
             self.run.begin(sink)?;
@@ -27,7 +28,8 @@ impl<'a> Segments<'a> {
             self.run.rows.next = 2;
         }
         self.run.meet_change()?;
-        self.run.advance(sink)
+        self.run.advance(sink)?;
+        self.run.complete(sink)
     }
 
     /// The flat state.

@@ -2,7 +2,7 @@
 
 use super::checkpoint::flat;
 use super::contest::{Quiet, unseen};
-use super::{Method, Run, Span};
+use super::{Method, Span, TimeLoop};
 use crate::error::Failure;
 use crate::math::largest;
 use crate::system::MechanicalSystem;
@@ -27,10 +27,10 @@ pub fn refused(
     span: Span,
     (q, v): (&[f64], &[f64]),
 ) -> Option<Failure> {
-    Run::new(system, method, unseen(span), flat(system, q, v)).ok()?.begin(&mut Quiet(None)).err()
+    TimeLoop::new(system, method, unseen(span), flat(system, q, v)).ok()?.begin(&mut Quiet(None)).err()
 }
 
-impl Run<'_> {
+impl TimeLoop<'_> {
     /// Finds the rows that depend on others at the start, and drops them until they are violated. Refuses
     /// velocities that no motion has, and a state at rest with accelerations that no motion has: bounded
     /// multipliers act along none of the dependent rows, so that a motion from rest begins along v', as along a

@@ -1,6 +1,6 @@
 //! One step: attempt, projection and error test.
 
-use super::Run;
+use super::TimeLoop;
 use super::rows::project;
 use crate::formulation::StepError;
 use crate::integrator::From;
@@ -46,7 +46,7 @@ pub fn is_too_large(error: f64) -> bool {
     error > 1.0 || error.is_nan()
 }
 
-impl Run<'_> {
+impl TimeLoop<'_> {
     /// Tries one step of size `h` with its projection, and writes y' at the new state to `next_slope`. Returns the error
     /// in units of the tolerance, if there is an estimate.
     pub fn step(&mut self, h: f64, end: Option<f64>) -> Result<Option<f64>, StepError> {
@@ -196,7 +196,7 @@ impl Run<'_> {
     /// state that change is also compared with those of the steps before.
     fn error_by_energy(&mut self, t: f64) -> f64 {
         let tolerated = self.tolerated_energy();
-        let Run { problem, y, next, .. } = self;
+        let TimeLoop { problem, y, next, .. } = self;
         let Dimensions { q: nq, v: nv, .. } = problem.dynamics.system.dimensions();
         // The balance, and the size of the energies, whose rounding changes it.
         let mut balance = |t: f64, y: &[f64]| {

@@ -1,6 +1,6 @@
 //! Runs that come to the end of a driver's travel, after which there is no motion.
 
-use super::{Run, Sink};
+use super::{Sink, TimeLoop};
 use crate::error::Failure;
 use crate::initial::{Travel, TravelEnd};
 use crate::math::largest_in;
@@ -43,7 +43,7 @@ impl<'a> Travelled<'a> {
     }
 }
 
-impl Run<'_> {
+impl TimeLoop<'_> {
     /// Ends the run if a driver came to the end of its travel in the step to `t`, where the state is `next`. A look
     /// takes some factorizations: only where the constraints are open or nearly lose rank, or now and then where their
     /// rank is not known.

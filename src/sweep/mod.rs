@@ -4,7 +4,7 @@
 //! use holonom::sweep::{Family, Range};
 //!
 //! // A crank of length 1 on a rod of length 2, held at an angle; the piston slides along x.
-//! let family = Family::parse(r#"{
+//! let family = Family::parse_with(r#"{
 //!     "name": "slider_crank", "dimension": 2, "parameters": { "angle": 0.5 },
 //!     "ground": { "markers": { "O": [0, 0] } },
 //!     "bodies": [

@@ -8,6 +8,7 @@ use super::placed_joint::PlacedJoint;
 use super::portions::{BodyPortion, BodyTerms, JointPortion, JointsTerms};
 use super::rigid_joint::RigidJoint;
 use super::terms::{Need, Terms};
+use super::view::input_on;
 use crate::body::{Frame, MOST_MARKERS, MarkerId, Pose, Wrench};
 use crate::math::array::Each;
 use crate::math::kkt::{Analysis, Lever};
@@ -111,6 +112,8 @@ pub(super) struct Evaluator<'a, const D: usize> {
     pub time: Time<'a, f64>,
     pub q: &'a [f64],
     pub v: &'a [f64],
+    /// Values of the inputs; empty where all are zero.
+    pub inputs: &'a [f64],
     pub need: Need,
 }
 
@@ -217,9 +220,9 @@ impl<const D: usize> Evaluator<'_, D> {
     fn forces(&self, memory: &mut EvaluationMemory<D>, terms: &mut Terms) {
         for (i, force) in self.layout.model.forces.iter().enumerate() {
             let power = match force.markers.len() {
-                1 => self.force::<1>(force, memory, terms),
-                2 => self.force::<2>(force, memory, terms),
-                _ => self.force::<MOST_MARKERS>(force, memory, terms),
+                1 => self.force::<1>(i, force, memory, terms),
+                2 => self.force::<2>(i, force, memory, terms),
+                _ => self.force::<MOST_MARKERS>(i, force, memory, terms),
             };
             for (rate, Watched { measure, unit, .. }) in terms.powers.iter_mut().zip(&self.layout.model.works) {
                 if matches!(measure, Measure::Power { force } if *force == i) {
@@ -232,6 +235,7 @@ impl<const D: usize> Evaluator<'_, D> {
     /// Adds a force with at most N markers to f, and returns its power.
     fn force<const N: usize>(
         &self,
+        index: usize,
         Connection { element, markers, .. }: &ModelForce<D>,
         EvaluationMemory { frames: placed, poses, pulled }: &mut EvaluationMemory<D>,
         terms: &mut Terms,
@@ -241,7 +245,13 @@ impl<const D: usize> Evaluator<'_, D> {
         let mut frames = [Frame::world(); N];
         frames.iter_mut().zip(markers).for_each(|(frame, &marker)| *frame = self.moving_frame(marker, motion, poses));
         let mut wrenches = [Wrench::zero(); N];
-        let action = element.act(&frames[..n], self.time.map(Taylor::time), &mut wrenches[..n]);
+        let instant = self.time.map(Taylor::time);
+        let action = if self.inputs.is_empty() {
+            element.act(&frames[..n], instant, &mut wrenches[..n])
+        } else {
+            let input = input_on(&self.layout.model, index, self.inputs).map(Taylor::fixed);
+            element.driven(&input, &frames[..n], instant, &mut wrenches[..n])
+        };
         let mut power = 0.0;
         for ((wrench, frame), &marker) in wrenches.iter().zip(&frames).zip(markers) {
             power += wrench.power(frame);

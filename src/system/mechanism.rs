@@ -50,6 +50,8 @@ pub struct Mechanism<const D: usize> {
 struct MechanismMemory<const D: usize> {
     evaluation: EvaluationMemory<D>,
     varied: SeededBody<D>,
+    /// Values of the inputs; empty where all are zero.
+    inputs: Vec<f64>,
 }
 
 impl<const D: usize> Mechanism<D> {
@@ -98,9 +100,18 @@ impl<const D: usize> Mechanism<D> {
         scratch: &mut Scratch,
         see: impl FnOnce(&mut MechanismMemory<D>, Regime) -> R,
     ) -> R {
-        let make =
-            || MechanismMemory { evaluation: EvaluationMemory::new(self.model()), varied: SeededBody::default() };
-        scratch.with(make, |memory, regime| see(memory, regime.turned(self.turned(q))))
+        let make = || MechanismMemory {
+            evaluation: EvaluationMemory::new(self.model()),
+            varied: SeededBody::default(),
+            inputs: Vec::new(),
+        };
+        let inputs = std::mem::take(&mut scratch.inputs);
+        let seen = scratch.with(make, |memory, regime| {
+            memory.inputs.clone_from(&inputs);
+            see(memory, regime.turned(self.turned(q)))
+        });
+        scratch.inputs = inputs;
+        seen
     }
 
     /// Calls `see` with the memory, whose frames are evaluated at a state with its v' or, where that is empty, v' = 0.
@@ -118,7 +129,9 @@ impl<const D: usize> Mechanism<D> {
 
     /// Calls `see` with a view of the state.
     fn viewed<R>(&self, at: OperatingPoint, scratch: &mut Scratch, see: impl FnOnce(&Plain<D>) -> R) -> R {
-        self.with_memory(at.q, scratch, |_, regime| see(&Plain { model: self.model(), at, regime }))
+        self.with_memory(at.q, scratch, |memory, regime| {
+            see(&Plain { model: self.model(), at, regime, inputs: &memory.inputs })
+        })
     }
 
     /// Writes d(phi, phi', phi'')/dq of all joints, by the places of G.
@@ -128,7 +141,7 @@ impl<const D: usize> Mechanism<D> {
         memory: &mut MechanismMemory<D>,
         mut write: impl FnMut(usize, Taylor<f64>),
     ) {
-        let MechanismMemory { evaluation, varied } = memory;
+        let MechanismMemory { evaluation, varied, .. } = memory;
         for joint in PlacedJoint::all(&self.layout) {
             joint.curvature((at, regime), &evaluation.frames.motion, varied, &mut write);
         }
@@ -166,8 +179,9 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
         self.with_memory(q, scratch, |memory, regime| {
             let Mechanism { layout, plan, .. } = self;
-            let evaluator = Evaluator { layout, plan, time: Time { t, regime }, q, v, need };
-            evaluator.write_terms(&mut memory.evaluation, terms);
+            let MechanismMemory { evaluation, inputs, .. } = &mut *memory;
+            let evaluator = Evaluator { layout, plan, time: Time { t, regime }, q, v, inputs, need };
+            evaluator.write_terms(evaluation, terms);
             if need.includes(Need::L) {
                 let at = unaccelerated(t, q, v);
                 memory.evaluation.frames.place(self.model(), &at);
@@ -177,9 +191,11 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn tangent(&self, at: OperatingPoint, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
-        self.placed(OperatingPoint { vdot: &[], ..at }, scratch, |MechanismMemory { evaluation, varied }, regime| {
+        self.placed(OperatingPoint { vdot: &[], ..at }, scratch, |memory, regime| {
+            let MechanismMemory { evaluation, varied, inputs } = memory;
             let Mechanism { layout, couplings, .. } = self;
-            Tangents { layout, couplings, at, regime, motion: &evaluation.frames.motion, varied, tangent }.run();
+            let motion = &evaluation.frames.motion;
+            Tangents { layout, couplings, at, regime, motion, varied, inputs, tangent }.run();
         });
         true
     }
@@ -233,7 +249,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
         let at = felt(self.model(), at);
         let read = |output: &crate::scene::Watched| carriers(&self.layout, &output.measure);
         let carriers = self.carriers.get_or_init(|| self.model().outputs.iter().map(read).collect());
-        self.placed(at, scratch, |MechanismMemory { evaluation, varied }, regime| {
+        self.placed(at, scratch, |MechanismMemory { evaluation, varied, .. }, regime| {
             let Mechanism { layout, couplings, .. } = self;
             OutputSlopes {
                 layout,
@@ -268,12 +284,9 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
 
     fn switching(&self, at: OperatingPoint, out: &mut [Rate], scratch: &mut Scratch) {
         self.placed(at, scratch, |memory, regime| {
-            write_arguments(
-                &self.layout,
-                Time { t: Rate::seeded(at.t, 0), regime },
-                &memory.evaluation.frames.motion,
-                out,
-            );
+            let MechanismMemory { evaluation, inputs, .. } = memory;
+            let time = Time { t: Rate::seeded(at.t, 0), regime };
+            write_arguments(&self.layout, time, &evaluation.frames.motion, inputs, out);
         });
     }
 

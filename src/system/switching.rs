@@ -6,7 +6,7 @@ use super::gather::{MovingFrames, gathered};
 use super::layout::Layout;
 use super::placed_joint::PlacedJoint;
 use super::terms::OperatingPoint;
-use super::view::{Plain, StateView};
+use super::view::{Plain, StateView, input_on};
 use crate::body::{Frame, MOST_MARKERS, MarkerId, Wrench, norm};
 use crate::force::InputKind;
 use crate::math::array::Each;
@@ -18,18 +18,19 @@ pub(super) fn write_arguments<const D: usize>(
     layout: &Layout<D>,
     time: Time<Rate>,
     motion: &MovingFrames<D>,
+    inputs: &[f64],
     out: &mut [Rate],
 ) {
     let model = &layout.model;
     for joint in PlacedJoint::all(layout) {
         gathered(&joint.joint.markers, |&marker| motion[marker], |frames| joint.switching(time, frames, out));
     }
-    let still = [Taylor::fixed(Rate::fixed(0.0)); 3];
-    for force in model.given_forces().iter().chain(model.rates()) {
+    for (i, force) in model.given_forces().iter().chain(model.rates()).enumerate() {
+        let input = input_on(model, i, inputs).map(|u| Taylor::fixed(Rate::fixed(u)));
         gathered(
             &force.markers,
             |&marker| motion[marker].map(along_motion),
-            |frames| force.element.switching(&still, frames, time.map(Taylor::running), out),
+            |frames| force.element.switching(&input, frames, time.map(Taylor::running), out),
         );
     }
 }
@@ -120,7 +121,7 @@ pub(super) fn write_gaps<const D: usize>(model: &Model<D>, q: &[f64], out: &mut 
 /// Origin of a marker in the world. It does not depend on the velocities: q stands in for v.
 fn origin_of<const D: usize>(model: &Model<D>, marker: MarkerId, q: &[f64]) -> [f64; D] {
     let at = OperatingPoint { t: 0.0, q, v: q, vdot: &[], lambda: &[] };
-    Plain { model, at, regime: Regime::FREE }.frame(marker).r.each(|r| r.x)
+    Plain { model, at, regime: Regime::FREE, inputs: &[] }.frame(marker).r.each(|r| r.x)
 }
 
 /// A value and its rate, each with its own rate along the motion.

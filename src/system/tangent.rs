@@ -8,6 +8,7 @@ use super::seed::{SeedDirection, fix};
 use super::solid::Solid;
 use super::terms::{OperatingPoint, Tangent};
 use super::variation::SeededBody;
+use super::view::input_on;
 use crate::body::{BodyState, Dual6, Frame, Wrench, twist_len};
 use crate::joint::{MOST_ROWS, markers_per_pass};
 use crate::math::array::Each;
@@ -22,6 +23,8 @@ pub(super) struct Tangents<'a, const D: usize> {
     /// SeededFrames of all markers at the state with v' = 0.
     pub motion: &'a MovingFrames<D>,
     pub varied: &'a mut SeededBody<D>,
+    /// Values of the inputs; empty where all are zero.
+    pub inputs: &'a [f64],
     pub tangent: &'a mut Tangent,
 }
 
@@ -60,9 +63,10 @@ impl<const D: usize> Tangents<'_, D> {
             };
             self.element(coupling, &joint.markers, SeedDirection::Coordinates, 1.0, reaction);
         }
-        for (force, coupling) in layout.model.forces.iter().zip(&couplings.forces) {
+        for (i, (force, coupling)) in layout.model.forces.iter().zip(&couplings.forces).enumerate() {
+            let input = input_on(&layout.model, i, self.inputs).map(|u| Taylor::fixed(Dual6::constant(u)));
             let act = |frames: &SeededFrames<D>, out: &mut [Wrench<Dual6, D>]| {
-                force.element.act(frames, time.map(Taylor::running), out);
+                force.element.driven(&input, frames, time.map(Taylor::running), out);
             };
             self.element(coupling, &force.markers, SeedDirection::Coordinates, -1.0, act);
             if force.element.depends_on_velocities() {

@@ -146,6 +146,9 @@ pub struct Scratch {
     /// Fixed pieces of the piecewise functions, by the number of their switching function; empty where each function
     /// takes the piece of its argument.
     pub pieces: Vec<Piece>,
+    /// Values of the inputs u, which add to the equations: a system reads them in each evaluation. Empty where all are
+    /// zero.
+    pub inputs: Vec<f64>,
 }
 
 impl Scratch {

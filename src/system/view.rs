@@ -32,6 +32,8 @@ pub(super) struct Plain<'a, const D: usize> {
     /// Frames have the accelerations v' of the state; where that is empty, those at v' = 0.
     pub at: OperatingPoint<'a>,
     pub regime: Regime<'a>,
+    /// Values of the inputs; empty where all are zero.
+    pub inputs: &'a [f64],
 }
 
 impl<const D: usize> StateView<f64, D> for Plain<'_, D> {
@@ -68,9 +70,21 @@ impl<const D: usize> StateView<f64, D> for Plain<'_, D> {
     fn lambda(&self, row: usize) -> f64 {
         self.at.lambda[row]
     }
-    fn input(&self, _: usize) -> [Taylor<f64>; 3] {
-        [Taylor::fixed(0.0); 3]
+    fn input(&self, force: usize) -> [Taylor<f64>; 3] {
+        input_on(self.model, force, self.inputs).map(Taylor::fixed)
     }
+}
+
+/// Sum of the inputs, held constant, on the three components of a force.
+pub(super) fn input_on<const D: usize>(model: &Model<D>, force: usize, inputs: &[f64]) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for (input, u) in model.inputs.iter().zip(inputs) {
+        match input.target.force() {
+            Some((target, component)) if target == force => sum[component] += u,
+            _ => {}
+        }
+    }
+    sum
 }
 
 /// The quantities that are seeded along six directions.

@@ -5,7 +5,7 @@ use super::{Decay, decay};
 use crate::error::Result;
 use crate::initial::assemble;
 use crate::linearize::flow::Snapshot;
-use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State};
+use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, directions_of};
 use crate::math::eigen::eigen;
 use crate::system::{MechanicalSystem, Scratch};
 
@@ -36,27 +36,16 @@ pub fn moved(
     Some(State { t: start.t, q: closed.q, v: closed.v })
 }
 
-/// Returns (dq, dv) from one state to another: dq along the velocity directions by least squares, N dq = q - q0. For
-/// quaternions this is right to first order, which changes errors of second order by terms of second order.
+/// Returns (dq, dv) from one state to another. For quaternions dq is right to first order, which changes errors of second
+/// order by terms of second order.
 pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [Vec<f64>; 2] {
     let change: Vec<f64> = to.q.iter().zip(&from.q).map(|(to, from)| to - from).collect();
     let dv = to.v.iter().zip(&from.v).map(|(to, from)| to - from).collect();
     if from.q.len() == from.v.len() {
         return [change, dv];
     }
-    let moving = system.dimensions().moving();
-    let mut unit = vec![0.0; from.v.len()];
-    let mut rate = vec![0.0; from.q.len()];
-    let own = system.dimensions().own_q();
-    let dq = (0..moving).map(|j| {
-        unit[j] = 1.0;
-        system.rate(&from.q, &unit, &mut rate);
-        unit[j] = 0.0;
-        // Columns of N are orthogonal to each other, but for angles that are counted over revolutions.
-        let size: f64 = rate[..own].iter().map(|x| x * x).sum();
-        rate[..own].iter().zip(&change).map(|(x, change)| x * change).sum::<f64>() / size
-    });
-    [dq.chain(vec![0.0; from.v.len() - moving]).collect(), dv]
+    let dq = directions_of(system, &from.q) * nalgebra::DVector::from_vec(change);
+    [dq.as_slice().to_vec(), dv]
 }
 
 /// True if no function that changes its form is on another piece in one state than in the other.

@@ -1,6 +1,8 @@
 //! Examples to copy: each file stands alone, and ends with a test that runs it.
 
+mod compared_methods;
 mod linear_model;
+mod many_runs;
 pub mod own_body;
 mod own_equations;
 pub mod own_force;
@@ -11,6 +13,7 @@ mod own_projection;
 mod own_simplification;
 mod own_tableau;
 mod scene_in_code;
+mod state_feedback;
 
 use holonom::analysis::Recorder;
 use holonom::simulate::{Method, Span, simulate};

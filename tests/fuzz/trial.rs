@@ -48,7 +48,7 @@ pub fn survive(path: &Path) -> Result<Ending, String> {
 }
 
 fn try_all(path: &Path) -> Result<Ending, String> {
-    let prepared = match PreparedScene::load(path, &Overrides::default()) {
+    let prepared = match PreparedScene::load_with(path, &Overrides::default()) {
         Ok(prepared) => prepared,
         Err(error) => return refused(&error),
     };

@@ -40,7 +40,7 @@ fn folder(main: &str, leg: &str) -> tempfile::TempDir {
 
 fn load(path: &Path, set: &[(&str, f64)]) -> holonom::Result<crate::scenes::Ready> {
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    PreparedScene::load(path, &Overrides { set, ..Overrides::default() }).map(crate::scenes::Ready)
+    PreparedScene::load_with(path, &Overrides { set, ..Overrides::default() }).map(crate::scenes::Ready)
 }
 
 #[track_caller]

@@ -206,7 +206,7 @@ fn joints_in_space_have_their_coordinates() {
 
 #[test]
 fn a_sweep_over_a_start_angle_is_a_position_curve() {
-    let family = Family::parse(&four_bar(r#""A.angle": "theta""#), &Overrides::default()).unwrap();
+    let family = Family::parse_with(&four_bar(r#""A.angle": "theta""#), &Overrides::default()).unwrap();
     let swept = family.sweep(&"theta=0.6..1.8:7".parse().unwrap(), |_| ()).unwrap();
     assert_eq!(swept.points.len(), 7);
     for point in &swept.points {

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use std::path::Path;
 
 pub fn prepared(name: &str) -> PreparedScene {
-    PreparedScene::load(&Path::new("models").join(format!("{name}.json")), &Overrides::default()).unwrap()
+    PreparedScene::load_with(&Path::new("models").join(format!("{name}.json")), &Overrides::default()).unwrap()
 }
 
 pub fn complex(re: f64, im: f64) -> Complex<f64> {
@@ -64,6 +64,7 @@ pub fn plain(prepared: &PreparedScene) -> LinearModel {
         e: None,
         modes,
         frame: None,
+        state: Default::default(),
         point: LinearizationPoint {
             states: 0,
             t,

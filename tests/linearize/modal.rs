@@ -13,7 +13,7 @@ type C = Complex<f64>;
 fn prepared(name: &str, set: &[(&str, f64)]) -> PreparedScene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    PreparedScene::load(&path, &Overrides { set, ..Overrides::default() }).unwrap()
+    PreparedScene::load_with(&path, &Overrides { set, ..Overrides::default() }).unwrap()
 }
 
 /// LociVariable gravity.

@@ -200,7 +200,7 @@ fn directions_without_inertia_are_coordinates() {
 /// Off equilibrium penalties leave the constraints, so that their frozen model is none of the motion.
 #[test]
 fn a_penalty_is_comparable_at_rest_only() {
-    let prepared = PreparedScene::load(&shipped("four_bar_spring"), &Overrides::default()).unwrap();
+    let prepared = PreparedScene::load_with(&shipped("four_bar_spring"), &Overrides::default()).unwrap();
     let comparable = |method: &str| by(&prepared, method, None).unwrap().is_comparable();
     assert!(comparable("mcs") && comparable("rcs") && comparable("penalty:projected=yes"));
     assert!(!comparable("penalty") && !comparable("augmented_lagrangian"));
@@ -285,7 +285,7 @@ fn a_machine_is_back_after_a_turn() {
 fn over(path: &Path, range: &str, at: At, set: &[(&str, f64)]) -> Loci {
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
     let overrides = Overrides { set, ..Overrides::default() };
-    let family = Family::load(path, &overrides).unwrap();
+    let family = Family::load_with(path, &overrides).unwrap();
     let range: Range = range.parse().unwrap();
     let request = Request { method: MethodSpec::parse("mcs").unwrap(), chart: None };
     loci_over(&Variants { family: &family, overrides: &overrides, range: &range }, at, &request, || ()).unwrap()
@@ -328,6 +328,6 @@ fn eigenvalues_have_their_sensitivity() {
     let loci = over(&shipped("two_mass"), "c1=40..41:2", At::Equilibrium, &[]);
     let found = loci.sensitivity.unwrap();
     assert!(found.at == 40.0 && found.slopes.iter().all(|(_, slope)| slope.is_none()), "{found:?}");
-    let prepared = PreparedScene::load(&shipped("two_mass"), &Overrides::default()).unwrap();
+    let prepared = PreparedScene::load_with(&shipped("two_mass"), &Overrides::default()).unwrap();
     assert!(at_rest(&prepared, &State::start(&prepared)).is_ok());
 }

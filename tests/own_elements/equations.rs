@@ -172,8 +172,8 @@ fn files_sweeps_and_maps_know_them() {
     std::fs::write(&path, scene().json().to_string()).unwrap();
     let overrides =
         Overrides { elements: elements(), set: vec![("k".into(), Number::Value(7.0))], ..Overrides::default() };
-    assert_eq!(PreparedScene::load(&path, &overrides).unwrap().parameters.get("k"), Some(7.0));
-    let family = Family::load(&path, &overrides).unwrap();
+    assert_eq!(PreparedScene::load_with(&path, &overrides).unwrap().parameters.get("k"), Some(7.0));
+    let family = Family::load_with(&path, &overrides).unwrap();
     let sweep = family.sweep(&Range::new("k", (0.0, 10.0), 3).unwrap(), |_| ()).unwrap();
     assert_eq!(sweep.points.len(), 3);
     let subject = study::stress::Subject::load(&path, &overrides).unwrap();

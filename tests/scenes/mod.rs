@@ -50,7 +50,7 @@ pub fn shipped(name: &str, parameters: &[(&str, f64)]) -> Ready {
 
 pub fn load(path: &Path, parameters: &[(&str, f64)]) -> Ready {
     let set = parameters.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    let prepared = PreparedScene::load(path, &Overrides { set, ..Overrides::default() });
+    let prepared = PreparedScene::load_with(path, &Overrides { set, ..Overrides::default() });
     Ready(prepared.unwrap_or_else(|error| panic!("{error}")))
 }
 

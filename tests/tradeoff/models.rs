@@ -10,7 +10,7 @@ fn variant(name: &str, set: &[(&str, f64)], until: f64) -> Variant {
     let overrides = Overrides { set, until: Some(until), ..Overrides::default() };
     Variant {
         name: name.to_string(),
-        prepared: PreparedScene::load(&model(name), &overrides).unwrap(),
+        prepared: PreparedScene::load_with(&model(name), &overrides).unwrap(),
         source: Some((model(name), overrides)),
     }
 }

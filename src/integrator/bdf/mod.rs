@@ -52,7 +52,7 @@ pub const ENTRY: Entry = Entry {
     )
 };
 
-fn make<'s>(setup: &Setup<'s>) -> error::Result<Box<dyn Integrator + 's>> {
+fn make<'s>(setup: &Setup<'_, 's>) -> error::Result<Box<dyn Integrator + 's>> {
     let zeros = || vec![0.0; setup.len()];
     Ok(Box::new(Bdf {
         stage: Stage::new(setup)?,

@@ -98,10 +98,12 @@ impl<'s> Equations<'s> {
         state.rows.as_ref().map_or_else(|| from.y.to_vec(), |rows| rows.start(from.y, from.slope, lambda))
     }
 
-    /// Takes over the pieces of functions, and the constants of the formulation, of a run.
+    /// Takes over the pieces of functions, the inputs, and the constants of the formulation, of a run.
     pub fn follow(&self, run: &Problem) {
         let Problem { dynamics, formulation, .. } = &mut self.state.borrow_mut().problem;
         dynamics.scratch.pieces.clone_from(&run.dynamics.scratch.pieces);
+        dynamics.scratch.inputs.clone_from(&run.dynamics.scratch.inputs);
+        dynamics.law.clone_from(&run.dynamics.law);
         formulation.recall(&run.formulation.settled());
     }
 

@@ -37,7 +37,7 @@ const BDF_APART: f64 = 5.0;
 struct Diffsol<'s> {
     scheme: Scheme,
     system: &'s dyn MechanicalSystem,
-    formulation: &'s MethodSpec,
+    formulation: MethodSpec,
     dae: Option<Dae>,
     frame: Option<Frame<'s>>,
     /// Rows that the equations of the frame do not contain.
@@ -66,7 +66,7 @@ const NOT_BEGUN: StepError =
     StepError::Unsuitable { reason: "the step has no solver", hint: "this is a mistake in holonom: please report it" };
 
 impl<'s> Diffsol<'s> {
-    fn make(scheme: Scheme, order: usize, setup: &Setup<'s>) -> error::Result<Box<dyn Integrator + 's>> {
+    fn make(scheme: Scheme, order: usize, setup: &Setup<'_, 's>) -> error::Result<Box<dyn Integrator + 's>> {
         let Setup { formulation, system, .. } = *setup;
         let dae = match scheme {
             Scheme::Tsit45 => None,
@@ -79,7 +79,7 @@ impl<'s> Diffsol<'s> {
         Ok(Box::new(Diffsol {
             scheme,
             system,
-            formulation,
+            formulation: formulation.clone(),
             dae,
             frame: None,
             dropped: Vec::new(),
@@ -93,7 +93,7 @@ impl<'s> Diffsol<'s> {
 
     /// The equations of a run at present: with the rows, pieces and constants of its problem.
     fn equations(&self, problem: &Problem) -> Result<Equations<'s>, StepError> {
-        let formulation = formulation::make(self.formulation, self.system).map_err(|_| TOO_LARGE)?;
+        let formulation = formulation::make(&self.formulation, self.system).map_err(|_| TOO_LARGE)?;
         let mut own = Problem::new(Dynamics::new(self.system), formulation);
         own.dynamics.drop_rows(&problem.dynamics.dropped);
         own.dynamics.wants_least = false;

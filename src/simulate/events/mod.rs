@@ -49,6 +49,8 @@ pub enum Passage {
     AtStart(usize),
     /// At this fraction of the step.
     Within(f64),
+    /// At the start, where the function of the sink is zero.
+    OfRoot,
 }
 
 /// A function that reached a threshold and changed its piece.
@@ -112,6 +114,11 @@ impl<'a> Events<'a> {
             turned: vec![0; switches.len()],
             shortest: PASSAGE * (end - start),
         }
+    }
+
+    /// Values of the inputs from now on.
+    pub fn set_inputs(&mut self, u: &[f64]) {
+        self.scratch.inputs = u.to_vec();
     }
 
     /// True if any function changes its form at thresholds.

@@ -51,6 +51,12 @@ impl<'a> Timetable<'a> {
         self.next = if is_farther { self.find_next(t, pieces) } else { next.filter(|next| *next < self.end) };
     }
 
+    /// Moves the end, up to which changes are known, from `old` to `end`.
+    pub fn extend(&mut self, t: f64, (old, end): (f64, f64), pieces: &[Piece]) {
+        self.end = end;
+        self.recall(t, self.next, old, pieces);
+    }
+
     /// The next time at which a function of time changes its form; `None` if there is none before the end.
     pub fn next_change(&self) -> Option<f64> {
         self.next

@@ -82,9 +82,9 @@ impl Subject<'static> {
     /// Reads a scene.
     ///
     /// # Errors
-    /// As [`PreparedScene::load`]; a scene without an end time.
+    /// As [`PreparedScene::load_with`]; a scene without an end time.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Self> {
-        let prepared = PreparedScene::load(path, overrides)?.settled()?;
+        let prepared = PreparedScene::load_with(path, overrides)?.settled()?;
         let span = prepared.span().map_err(|error| error.in_file(path))?;
         let base = Case {
             scene: Arc::new(scene::document::read(&scene::read_text(path)?)?),

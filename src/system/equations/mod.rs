@@ -11,7 +11,7 @@ use super::{
 use crate::math::{Dual, Regime, Scalar};
 use christoffel::christoffel;
 use nalgebra::DMatrix;
-use passes::{Memory, SeededEquations, constraints, curvature, fixed, output_slopes, tangent_of};
+use passes::{Memory, SeededEquations, add_inputs, constraints, curvature, fixed, output_slopes, tangent_of};
 use std::borrow::Cow;
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
@@ -82,6 +82,7 @@ impl<E: Equations> MechanicalSystem for E {
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
         let (n, m) = self.size();
+        let inputs = std::mem::take(&mut scratch.inputs);
         let fill = |memory: &mut Memory, _: Regime| {
             if need.includes(Need::MASS) {
                 self.mass(t, q, &mut memory.mass);
@@ -93,6 +94,9 @@ impl<E: Equations> MechanicalSystem for E {
             if need.includes(Need::FORCE) {
                 self.force(t, q, v, &mut terms.f);
                 terms.power = 0.0;
+                if !inputs.is_empty() {
+                    add_inputs(self, (t, q, v), &inputs, &mut memory.driven, terms);
+                }
             }
             if need.includes(Need::CONSTRAINTS) || need.includes(Need::G) {
                 constraints(self, (t, q, v), need, memory, terms);
@@ -103,6 +107,7 @@ impl<E: Equations> MechanicalSystem for E {
             }
         };
         scratch.with(|| Memory::new(n, m), fill);
+        scratch.inputs = inputs;
     }
 
     fn tangent(&self, at: OperatingPoint, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {

@@ -12,6 +12,8 @@ type Twice = Dual<Dual6, 6>;
 
 pub(super) struct Memory {
     pub mass: Vec<f64>,
+    /// df/du; empty until needed.
+    pub driven: Vec<f64>,
     jets: Vec<Jet>,
     rows: Vec<Jet>,
     moving: Vec<TaylorDual6>,
@@ -52,12 +54,31 @@ impl Memory {
         let zero = Taylor::fixed(0.0);
         Memory {
             mass: vec![0.0; n * n],
+            driven: Vec::new(),
             jets: vec![Jet::fixed(zero); n],
             rows: vec![Jet::fixed(zero); m],
             moving: vec![Dual::fixed(zero); n],
             curvatures: vec![Dual::fixed(zero); m],
             varied: None,
         }
+    }
+}
+
+/// f += (df/du) u, whose power is that of forces without a potential.
+pub(super) fn add_inputs(
+    equations: &impl Equations,
+    (t, q, v): (f64, &[f64], &[f64]),
+    inputs: &[f64],
+    driven: &mut Vec<f64>,
+    terms: &mut Terms,
+) {
+    driven.clear();
+    driven.resize(v.len() * inputs.len(), 0.0);
+    equations.input_forces(t, q, driven);
+    for ((row, f), v) in driven.chunks_exact(inputs.len()).zip(&mut terms.f).zip(v) {
+        let force: f64 = row.iter().zip(inputs).map(|(slope, u)| slope * u).sum();
+        *f += force;
+        terms.power += force * v;
     }
 }
 

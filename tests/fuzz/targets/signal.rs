@@ -13,5 +13,5 @@ fuzz_target!(|bytes: &[u8]| {
     let place = tempfile::tempdir().expect("a temporary folder");
     std::fs::write(place.path().join("f.csv"), bytes).expect("a file");
     std::fs::write(place.path().join("scene.json"), SCENE).expect("a file");
-    let _ = PreparedScene::load(&place.path().join("scene.json"), &Overrides::default());
+    let _ = PreparedScene::load_with(&place.path().join("scene.json"), &Overrides::default());
 });

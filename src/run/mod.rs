@@ -1,0 +1,350 @@
+//! Runs that one can hold: stepped, run to a time or to an event, driven by inputs, saved and read.
+//!
+//! ```
+//! use holonom::prelude::*;
+//!
+//! let model = Model::parse(r#"{
+//!     "name": "fall", "dimension": 2, "gravity": [0, -9.81],
+//!     "bodies": [{ "name": "ball", "type": "point_mass", "mass": 1, "initial": { "position": [0, 2] } }],
+//!     "outputs": [{ "name": "height", "measure": "position", "of": "ball", "component": "y" }]
+//! }"#)?;
+//! let mut run = model.run();
+//! let End::Event(t) = run.until(|x| x.output("height"), 5.0)? else { panic!("it falls") };
+//! assert!((t - (2.0 * 2.0 / 9.81_f64).sqrt()).abs() < 1e-9);
+//! assert!(run.record().output("height")?.last().abs() < 1e-9);
+//! # Ok::<(), holonom::Error>(())
+//! ```
+
+mod inputs;
+mod moment;
+mod recording;
+mod simulated;
+
+pub use crate::simulate::End;
+pub use inputs::{Input, every};
+pub use moment::Moment;
+pub use simulated::{Simulated, simulate};
+
+use crate::analysis::{Record, Recorder};
+use crate::error::{Error, Result, clock};
+use crate::formulation::Statistics;
+use crate::prepared::Model;
+use crate::simulate::{Checkpoint, Choice, Engine, Method, Span, Start, advise};
+use crate::system::{MechanicalSystem, Scratch};
+use inputs::Inputs;
+use recording::{Reader, Recording, unsolved};
+
+/// A run: one motion, from its start as far as it was asked to go.
+///
+/// [`step`](Self::step), [`to`](Self::to) and [`until`](Self::until) say how they ended; where the motion cannot go on
+/// they return the failure as an error, and what came before stays readable.
+pub struct Run<'a> {
+    system: &'a dyn MechanicalSystem,
+    choice: Choice,
+    start: Origin,
+    /// Time of the start of the motion, s.
+    began: f64,
+    /// The end that is planned, s.
+    end: Option<f64>,
+    output_step: Option<f64>,
+    named: Vec<(String, Input<'a>)>,
+    inputs: Inputs<'a>,
+    engine: Option<Engine<'a>>,
+    /// The reason why it cannot begin.
+    refused: Option<Error>,
+    recorder: Recorder<'a>,
+    reader: Reader<'a>,
+}
+
+/// The state at which a run begins.
+enum Origin {
+    State(Vec<f64>, Vec<f64>),
+    Saved(Box<Checkpoint>),
+}
+
+impl Origin {
+    fn start(&self) -> Start<'_> {
+        match self {
+            Origin::State(q, v) => Start::State(q, v),
+            Origin::Saved(saved) => Start::Saved(saved),
+        }
+    }
+}
+
+impl Model {
+    /// A run of this model from its start, by its method or, where that is automatic, by those that get farthest.
+    pub fn run(&self) -> Run<'_> {
+        let choice = self.choice(&self.method);
+        let (q, v) = self.start();
+        let span = self.span().ok();
+        let run = Run::of(self.system(), choice, Origin::State(q.to_vec(), v.to_vec()), self.start_time());
+        let refused = self.check_rounding().err();
+        Run { end: span.map(|span| span.end), output_step: span.map(|span| span.output_step), refused, ..run }
+    }
+}
+
+impl<'a> Run<'a> {
+    /// A run of `system` by `method` from a consistent state at `t`, or on from where another was saved.
+    pub fn new<'s>(system: &'a dyn MechanicalSystem, method: Method, t: f64, start: impl Into<Start<'s>>) -> Self {
+        let start = match start.into() {
+            Start::State(q, v) => Origin::State(q.to_vec(), v.to_vec()),
+            Start::Saved(saved) => Origin::Saved(Box::new(saved.clone())),
+        };
+        Run::of(system, Choice::One(method), start, t)
+    }
+
+    fn of(system: &'a dyn MechanicalSystem, choice: Choice, start: Origin, began: f64) -> Self {
+        Run {
+            system,
+            choice,
+            start,
+            began,
+            end: None,
+            output_step: None,
+            named: Vec::new(),
+            inputs: Inputs::default(),
+            engine: None,
+            refused: None,
+            recorder: Recorder::new(system),
+            reader: Reader { system, moment: Moment::of(system), scratch: Scratch::default() },
+        }
+    }
+
+    /// Drives an input of the system: by a closure `|t: f64, x: &Moment| ..`, or sampled by [`every`]. It adds to what
+    /// the scene gives the input. With automatic choice of methods, one is chosen at the start.
+    ///
+    /// The matrices of implicit methods do not contain the derivatives of a closure: with a stiff law explicit methods
+    /// take fewer steps.
+    pub fn input(mut self, name: &str, input: impl Into<Input<'a>>) -> Self {
+        self.named.push((name.to_string(), input.into()));
+        self
+    }
+
+    /// Plans the end, s: what a run to shorter times decides by the whole of the motion is then the same. Without this
+    /// it is that of the scene, or the time of the first call.
+    pub fn planned_to(mut self, end: f64) -> Self {
+        self.end = Some(end);
+        self
+    }
+
+    /// Distance of the rows of the record, s. Default: that of the scene, or a 500th of the planned time.
+    pub fn rows_every(mut self, output_step: f64) -> Self {
+        self.output_step = Some(output_step);
+        self
+    }
+
+    /// Begins where another run of the same system was saved.
+    pub fn from_saved(mut self, saved: &Checkpoint) -> Self {
+        self.start = Origin::Saved(Box::new(saved.clone()));
+        self
+    }
+
+    /// Records in another way, such as with [`Recorder::with_jumps`] or [`Recorder::with_progress`].
+    pub fn recording(mut self, change: impl FnOnce(Recorder<'a>) -> Recorder<'a>) -> Self {
+        self.recorder = change(self.recorder);
+        self
+    }
+
+    /// Takes one step, to the next sample of an input or the planned end at the latest.
+    ///
+    /// # Errors
+    /// Bad input; a run without a planned end; a motion that cannot go on.
+    pub fn step(&mut self) -> Result<End> {
+        let end = self.end.ok_or_else(|| {
+            Error::input("the run has no planned end")
+                .hint("give `planned_to`, \"t_end\" in the scene, or run `to` a time")
+        })?;
+        self.begin(end)?;
+        self.sample()?;
+        let until = self.inputs.next_sample(self.began).min(end);
+        let mut sink = Recording::of(&mut self.recorder, &mut self.reader);
+        let Some(engine) = &mut self.engine else { return Ok(End::Reached) };
+        let end = engine.step(until, &mut sink);
+        self.checked(end)
+    }
+
+    /// Runs to the time `t`, where a step ends.
+    ///
+    /// # Errors
+    /// Bad input; a motion that cannot go on.
+    pub fn to(&mut self, t: f64) -> Result<End> {
+        self.advance(t, None)
+    }
+
+    /// Runs until a function of the state changes sign, or to `t_end`. The place is located on the dense output, and a
+    /// step ends there. A function that is zero at the start has to become positive or negative first.
+    ///
+    /// The sign is compared at the quarters of each step: a function that is on the other side for less is not seen.
+    ///
+    /// # Errors
+    /// Bad input, among it a name in the function that does not exist; a motion that cannot go on.
+    pub fn until(&mut self, mut root: impl FnMut(&Moment) -> f64, t_end: f64) -> Result<End> {
+        self.advance(t_end, Some(&mut root))
+    }
+
+    /// The present state.
+    ///
+    /// # Errors
+    /// Bad input; a state at which the equations have no solution.
+    pub fn state(&mut self) -> Result<Moment> {
+        self.begin(self.end.unwrap_or(self.began + 1.0))?;
+        if let Some(engine) = &mut self.engine {
+            self.reader.read_present(engine)?;
+        }
+        Ok(self.reader.moment.clone())
+    }
+
+    /// The state at a time within the last step, by the dense output.
+    ///
+    /// # Errors
+    /// A time outside of it.
+    pub fn interpolate(&mut self, t: f64) -> Result<Moment> {
+        let Run { engine, reader, .. } = self;
+        let is_known = match engine {
+            Some(engine) => engine.time_loop().see_within(t, &mut |state| reader.read(state)).map_err(unsolved)?,
+            None => false,
+        };
+        if is_known {
+            return Ok(reader.moment.clone());
+        }
+        Err(Error::input(format!("t = {} s is not in the last step of the run", clock(t)))
+            .hint("interpolate after a step, at a time between its ends"))
+    }
+
+    /// The present state with all that the run carries: a run [from there](Self::from_saved) goes on bit by bit as this
+    /// one, but for what sampled inputs remember.
+    ///
+    /// # Errors
+    /// Bad input; a motion that cannot go on.
+    pub fn save(&mut self) -> Result<Checkpoint> {
+        self.begin(self.end.unwrap_or(self.began + 1.0))?;
+        let mut sink = Recording::of(&mut self.recorder, &mut self.reader);
+        match &mut self.engine {
+            Some(engine) => Ok(engine.save(&mut sink)?),
+            None => Err(Error::input("the run has not begun")),
+        }
+    }
+
+    /// The time that the run has reached, s.
+    pub fn t(&self) -> f64 {
+        match (&self.engine, &self.start) {
+            (Some(engine), _) => engine.t(),
+            (None, Origin::Saved(saved)) => saved.t(),
+            (None, Origin::State(..)) => self.began,
+        }
+    }
+
+    /// Counters of the work so far.
+    pub fn statistics(&self) -> Statistics {
+        self.engine.as_ref().map_or(Statistics::default(), Engine::statistics)
+    }
+
+    /// What was recorded so far: rows, drift, energy.
+    pub fn record(&mut self) -> &Record {
+        self.recorder.record()
+    }
+
+    /// The record of a run that is over, with the singular states on its way.
+    pub fn into_record(self) -> Record {
+        self.recorder.finish()
+    }
+
+    /// Begins the run, planned to `t` at least; or extends it.
+    fn begin(&mut self, t: f64) -> Result<()> {
+        if let Some(error) = &self.refused {
+            return Err(error.clone());
+        }
+        let planned = self.end.filter(|end| *end >= t).unwrap_or(t);
+        match &mut self.engine {
+            Some(engine) if self.end.is_some_and(|end| end < planned) => engine.extend(planned),
+            Some(_) => {}
+            None => match self.begun(planned) {
+                Ok(engine) => self.engine = Some(engine),
+                Err(error) => {
+                    self.refused = Some(error.clone());
+                    return Err(error);
+                }
+            },
+        }
+        self.end = Some(planned);
+        Ok(())
+    }
+
+    /// The engine at the start, which is shown.
+    fn begun(&mut self, end: f64) -> Result<Engine<'a>> {
+        let output_step = self.output_step.unwrap_or(Span::from(self.began..end).output_step);
+        let span = Span { start: self.began, end, output_step };
+        self.inputs = Inputs::new(self.system, std::mem::take(&mut self.named), &self.reader.moment)?;
+        let has_inputs = !self.inputs.is_empty();
+        if let (&Choice::Automatic(rtol, atol), Start::State(q, v), true) =
+            (&self.choice, self.start.start(), has_inputs)
+        {
+            self.choice = Choice::One(advise(self.system, (rtol, atol), span, (q, v))?.0);
+        }
+        let mut engine = Engine::new(self.system, &self.choice, span, self.start.start())?;
+        if has_inputs {
+            let mut u = self.inputs.zeros();
+            engine.time_loop().set_inputs(&u, self.inputs.law.as_ref());
+            match &self.start {
+                Origin::Saved(saved) => self.inputs.go_on(saved.t(), self.began),
+                // The first samples are taken before the first row is shown.
+                Origin::State(..) => {
+                    self.reader.read_present(&mut engine)?;
+                    self.inputs.sample((self.began, self.began), &self.reader.moment, &mut u);
+                    engine.time_loop().set_inputs(&u, self.inputs.law.as_ref());
+                }
+            }
+        }
+        let begun = engine.begin(self.start.start(), &mut Recording::of(&mut self.recorder, &mut self.reader));
+        self.reader.moment.check_names()?;
+        begun?;
+        Ok(engine)
+    }
+
+    /// Takes the samples that are due, and holds their values from here on.
+    fn sample(&mut self) -> Result<()> {
+        let t = self.t();
+        if self.inputs.next_sample(self.began) > t {
+            return Ok(());
+        }
+        let Some(engine) = &mut self.engine else { return Ok(()) };
+        self.reader.read_present(engine)?;
+        let mut u = engine.time_loop().inputs().to_vec();
+        self.inputs.sample((t, self.began), &self.reader.moment, &mut u);
+        self.reader.moment.check_names()?;
+        let mut sink = Recording::of(&mut self.recorder, &mut self.reader);
+        Ok(engine.time_loop().hold(&u, &mut sink)?)
+    }
+
+    fn advance(&mut self, t: f64, mut root: Option<&mut dyn FnMut(&Moment) -> f64>) -> Result<End> {
+        if !t.is_finite() || t < self.t() {
+            return Err(Error::input(format!("the run is at t = {} s and cannot go to {t} s", clock(self.t())))
+                .hint("give a later time"));
+        }
+        self.begin(t)?;
+        if let Some(engine) = &mut self.engine {
+            engine.time_loop().forget_root();
+        }
+        loop {
+            self.sample()?;
+            let until = self.inputs.next_sample(self.began).min(t);
+            let root = root.as_mut().map(|root| &mut **root as &mut dyn FnMut(&Moment) -> f64);
+            let mut sink = Recording { recorder: &mut self.recorder, reader: &mut self.reader, root };
+            let Some(engine) = &mut self.engine else { return Ok(End::Reached) };
+            let end = engine.advance(until, &mut sink)?;
+            if end != End::Reached || until >= t {
+                engine.time_loop().show_row(&mut sink);
+                return self.checked(end);
+            }
+        }
+    }
+
+    /// The end, or the error for which it came early.
+    fn checked(&self, end: End) -> Result<End> {
+        self.reader.moment.check_names()?;
+        match end {
+            End::Failed(failure) => Err(failure.into()),
+            end => Ok(end),
+        }
+    }
+}
