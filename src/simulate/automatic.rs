@@ -186,9 +186,9 @@ impl<'a> Drive<'a> {
         system: &'a dyn MechanicalSystem,
         methods: &'a [Method],
         span: Span,
-        (q, v): (&[f64], &[f64]),
+        start: (&[f64], &[f64]),
     ) -> Result<Self> {
-        let start = flat(system, q, v);
+        let start = flat(system, span.start, start)?;
         let is_explicit = |method: &Method| Ok(integrator::find(&method.integrator)?.follows_fields());
         Ok(Drive {
             system,

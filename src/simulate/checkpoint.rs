@@ -7,7 +7,7 @@ use crate::error::{Error, Failure, Result, clock, short};
 use crate::formulation::Statistics;
 use crate::math::expression::Switch;
 use crate::math::{Piece, Thresholds};
-use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Terms};
+use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Terms, check_start};
 use crate::tolerances::JOINTS_OPEN;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -73,7 +73,7 @@ pub fn simulate_from(
     method.check()?;
     span.check()?;
     let y = match start {
-        Start::State(q, v) => flat(system, q, v),
+        Start::State(q, v) => flat(system, span.start, (q, v))?,
         Start::Saved(saved) => saved.checked(system, span)?.y.clone(),
     };
     let mut run = Run::new(system, method, span, y)?;
@@ -87,9 +87,10 @@ pub fn simulate_from(
     Ok((run.finish(failure, sink), saved))
 }
 
-/// (q, v, w) at the start of a run.
-pub fn flat(system: &dyn MechanicalSystem, q: &[f64], v: &[f64]) -> Vec<f64> {
-    [q, v, &vec![0.0; 1 + system.works().len()]].concat()
+/// (q, v, w) at the start of a run, which the system must not refuse.
+pub fn flat(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<Vec<f64>> {
+    check_start(system, t, (q, v))?;
+    Ok([q, v, &vec![0.0; 1 + system.works().len()]].concat())
 }
 
 impl Checkpoint {

@@ -25,9 +25,9 @@ pub fn refused(
     system: &dyn MechanicalSystem,
     method: &Method,
     span: Span,
-    (q, v): (&[f64], &[f64]),
+    start: (&[f64], &[f64]),
 ) -> Option<Failure> {
-    Run::new(system, method, unseen(span), flat(system, q, v)).ok()?.begin(&mut Quiet(None)).err()
+    Run::new(system, method, unseen(span), flat(system, span.start, start).ok()?).ok()?.begin(&mut Quiet(None)).err()
 }
 
 impl Run<'_> {

@@ -35,7 +35,7 @@ mod variation;
 mod view;
 mod workspace;
 
-pub use equations::Equations;
+pub use equations::{Equations, Lagrangian};
 pub use input::Excitation;
 #[doc(hidden)]
 pub use levi_civita::LeviCivita;
@@ -54,6 +54,7 @@ pub use terms::{Need, Scratch, Structure, Terms};
 
 #[doc(hidden)]
 pub use crate::body::Energy;
+use crate::error::{Error, Result};
 use crate::math::Rate;
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
@@ -143,15 +144,42 @@ pub struct Column {
     pub unit: String,
 }
 
+/// Refuses a start with too many or too few numbers, or one that the system itself refuses.
+pub(crate) fn check_start(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<()> {
+    let n = system.dimensions();
+    for (found, wanted, what) in [(q.len(), n.q, "coordinates"), (v.len(), n.v, "velocities")] {
+        if found != wanted {
+            let message = format!("the start has {found} {what}, the system has {wanted}");
+            return Err(Error::input(message).hint(format!("give {wanted} numbers, in the order of the system's {what}")));
+        }
+    }
+    system.check(t, q, v)
+}
+
 /// M(q) v' + G(q,t)^T lambda = f(t,q,v), phi(q,t) = 0, q' = N(q) v.
 ///
 /// The last velocities may be states xi, see [`Dimensions::states`]: f, K and C then contain r and its derivatives, so
 /// that formulations and integrators need not tell them apart.
 ///
 /// Immutable while it is solved, so that threads can share it; scratch memory comes from the caller.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no equations of motion",
+    label = "no equations of motion",
+    note = "implement `holonom::system::Equations` (M, f and phi), `holonom::system::Lagrangian` (T, V and phi) or \
+            `holonom::system::MechanicalSystem` (all terms)"
+)]
 pub trait MechanicalSystem: Send + Sync {
     /// n_q, n_v and n_c, and how many of the last ones are states or nonholonomic.
     fn dimensions(&self) -> Dimensions;
+
+    /// Refuses a start, with q and v of the right lengths, that cannot be computed with: asked once before a run, an
+    /// assembly or a linear model. Default: nothing is refused.
+    ///
+    /// # Errors
+    /// Such a start.
+    fn check(&self, _t: f64, _q: &[f64], _v: &[f64]) -> Result<()> {
+        Ok(())
+    }
 
     /// Fills the terms named by `need` at (t, q, v); filling more is allowed. The places of the values of M and G are
     /// those of [`structure`](Self::structure). All values may be stale on entry.
