@@ -5,7 +5,9 @@ use crate::error::{Error, Result, clock};
 use crate::formulation::{Dynamics, StepError, free_directions};
 use crate::math::kkt::Pattern;
 use crate::math::memory::refuse_dense;
-use crate::system::{Column, Excitation, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Tangent, check_start};
+use crate::system::{
+    Column, Excitation, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Tangent, check_start,
+};
 
 /// Small changes (dq, dv) of a state, dq along the velocity directions, with those of v' and lambda:
 ///

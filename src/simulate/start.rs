@@ -21,12 +21,7 @@ const UNDETERMINED: &str = "the start is a singular state at rest, and the motio
 const BRANCHES: &str = "give velocities along one of the motions that meet there, or start beside it";
 
 /// The reason why no run from (q, v) begins; `None` where one does, or the method is not possible.
-pub fn refused(
-    system: &dyn MechanicalSystem,
-    method: &Method,
-    span: Span,
-    start: (&[f64], &[f64]),
-) -> Option<Failure> {
+pub fn refused(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Failure> {
     Run::new(system, method, unseen(span), flat(system, span.start, start).ok()?).ok()?.begin(&mut Quiet(None)).err()
 }
 

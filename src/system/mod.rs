@@ -26,6 +26,7 @@ mod section;
 mod solid;
 mod spin;
 mod spinning;
+mod start;
 mod support;
 mod switching;
 mod tangent;
@@ -49,12 +50,13 @@ pub use road::Road;
 pub use rotating::Rotating;
 #[doc(hidden)]
 pub use spin::{Placement, Rotation, Spin};
+pub(crate) use start::check_start;
 pub use tangent::{OperatingPoint, Tangent};
 pub use terms::{Need, Scratch, Structure, Terms};
 
 #[doc(hidden)]
 pub use crate::body::Energy;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::math::Rate;
 use crate::math::expression::{Switch, TimeFunction};
 use crate::math::kkt::Pattern;
@@ -142,18 +144,6 @@ pub struct Column {
     pub name: String,
     /// Unit, such as `rad`; empty where it is not known.
     pub unit: String,
-}
-
-/// Refuses a start with too many or too few numbers, or one that the system itself refuses.
-pub(crate) fn check_start(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<()> {
-    let n = system.dimensions();
-    for (found, wanted, what) in [(q.len(), n.q, "coordinates"), (v.len(), n.v, "velocities")] {
-        if found != wanted {
-            let message = format!("the start has {found} {what}, the system has {wanted}");
-            return Err(Error::input(message).hint(format!("give {wanted} numbers, in the order of the system's {what}")));
-        }
-    }
-    system.check(t, q, v)
 }
 
 /// M(q) v' + G(q,t)^T lambda = f(t,q,v), phi(q,t) = 0, q' = N(q) v.

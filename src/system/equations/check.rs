@@ -26,7 +26,8 @@ pub(super) fn symmetry<E: Equations>(system: &E, t: f64, q: &[f64]) -> Result<()
                     j + 1,
                     i + 1
                 );
-                return Err(Error::input(message).hint("write M row by row with both triangles: v^T M v/2 is the kinetic energy"));
+                return Err(Error::input(message)
+                    .hint("write M row by row with both triangles: v^T M v/2 is the kinetic energy"));
             }
         }
     }

@@ -50,11 +50,6 @@ type Mixed<S> = Dual<Dual<S, 1>, WIDTH>;
 ///     }
 /// }
 /// ```
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` has no equations of motion",
-    label = "no equations of motion",
-    note = "implement `holonom::system::Equations` (M, f and phi), `holonom::system::Lagrangian` (T, V and phi) or `holonom::system::MechanicalSystem` (all terms)"
-)]
 pub trait Lagrangian: Send + Sync + 'static {
     /// (n, n_c): coordinates, which are also the velocities, and constraints.
     fn size(&self) -> (usize, usize);
@@ -93,19 +88,24 @@ impl<L: Lagrangian> Equations for L {
         let zero = S::zero();
         let t = mixed(t, zero);
         let at_rest = |_| mixed(zero, zero);
-        state(n, |i| mixed(q[i], zero), at_rest, |q, v| {
-            for j in 0..n {
-                v[j].re.eps[0] = S::one();
-                for first in (j / WIDTH * WIDTH..n).step_by(WIDTH) {
-                    let energy = along(v, first, |v| self.kinetic(t, q, v));
-                    for (i, momentum) in (first..n).zip(&energy.eps) {
-                        mass[i * n + j] = momentum.eps[0];
-                        mass[j * n + i] = momentum.eps[0];
+        state(
+            n,
+            |i| mixed(q[i], zero),
+            at_rest,
+            |q, v| {
+                for j in 0..n {
+                    v[j].re.eps[0] = S::one();
+                    for first in (j / WIDTH * WIDTH..n).step_by(WIDTH) {
+                        let energy = along(v, first, |v| self.kinetic(t, q, v));
+                        for (i, momentum) in (first..n).zip(&energy.eps) {
+                            mass[i * n + j] = momentum.eps[0];
+                            mass[j * n + i] = momentum.eps[0];
+                        }
                     }
+                    v[j].re.eps[0] = zero;
                 }
-                v[j].re.eps[0] = zero;
-            }
-        });
+            },
+        );
     }
 
     fn force<S: Scalar>(&self, t: S, q: &[S], v: &[S], f: &mut [S]) {
@@ -115,19 +115,29 @@ impl<L: Lagrangian> Equations for L {
         let blocks = || (0..n).step_by(WIDTH);
         // d/dt(dT/dv) along the motion at v' = 0.
         let time = mixed(t, S::one());
-        state(n, |i| mixed(q[i], v[i]), |i| mixed(v[i], S::zero()), |q, v| {
-            for first in blocks() {
-                let energy = along(v, first, |v| self.kinetic(time, q, v));
-                f[first..].iter_mut().zip(&energy.eps).for_each(|(f, momentum)| *f -= momentum.eps[0]);
-            }
-        });
+        state(
+            n,
+            |i| mixed(q[i], v[i]),
+            |i| mixed(v[i], S::zero()),
+            |q, v| {
+                for first in blocks() {
+                    let energy = along(v, first, |v| self.kinetic(time, q, v));
+                    f[first..].iter_mut().zip(&energy.eps).for_each(|(f, momentum)| *f -= momentum.eps[0]);
+                }
+            },
+        );
         let t = Dual::fixed(t);
-        state(n, |i| Dual::fixed(q[i]), |i| Dual::fixed(v[i]), |q, v| {
-            for first in blocks() {
-                let energy = along(q, first, |q| self.kinetic(t, q, v) - Lagrangian::potential(self, t, q));
-                f[first..].iter_mut().zip(&energy.eps).for_each(|(f, slope)| *f += *slope);
-            }
-        });
+        state(
+            n,
+            |i| Dual::fixed(q[i]),
+            |i| Dual::fixed(v[i]),
+            |q, v| {
+                for first in blocks() {
+                    let energy = along(q, first, |q| self.kinetic(t, q, v) - Lagrangian::potential(self, t, q));
+                    f[first..].iter_mut().zip(&energy.eps).for_each(|(f, slope)| *f += *slope);
+                }
+            },
+        );
     }
 
     fn phi<S: Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
@@ -142,14 +152,17 @@ impl<L: Lagrangian> Equations for L {
     /// reactions; the energy that is reported is T2 + V.
     fn power(&self, t: f64, q: &[f64], v: &[f64]) -> f64 {
         let n = q.len();
-        let work = numbers(n, |_| 0.0, |f| {
-            Lagrangian::force(self, t, q, v, f);
-            f.iter().zip(v).map(|(f, v)| f * v).sum::<f64>()
-        });
+        let work = numbers(
+            n,
+            |_| 0.0,
+            |f| {
+                Lagrangian::force(self, t, q, v, f);
+                f.iter().zip(v).map(|(f, v)| f * v).sum::<f64>()
+            },
+        );
         let time = Rate { re: t, eps: [1.0] };
-        let lagrangian = |q: &mut [Rate], v: &mut [Rate]| {
-            self.kinetic(time, q, v) - Lagrangian::potential(self, time, q)
-        };
+        let lagrangian =
+            |q: &mut [Rate], v: &mut [Rate]| self.kinetic(time, q, v) - Lagrangian::potential(self, time, q);
         let lagrangian = state(n, |i| Rate::fixed(q[i]), |i| Rate::fixed(v[i]), lagrangian);
         let moving = |i: usize| Rate { re: q[i], eps: [v[i]] };
         let at_rest = state(n, moving, |_| Rate::fixed(0.0), |q, v| self.kinetic(time, q, v));
@@ -169,7 +182,10 @@ impl<L: Lagrangian> Equations for L {
         for i in 0..n {
             let bend = twice[i] - 2.0 * once[i] + at_rest[i];
             if bend.abs() > NOT_QUADRATIC * (twice[i].abs() + once[i].abs() + at_rest[i].abs()) {
-                let message = format!("the kinetic energy is not quadratic in the velocities: its degree in v{} is higher", i + 1);
+                let message = format!(
+                    "the kinetic energy is not quadratic in the velocities: its degree in v{} is higher",
+                    i + 1
+                );
                 return Err(Error::input(message).hint("T = v^T M(q, t) v/2 + b(q, t)^T v + c(q, t) is possible"));
             }
         }

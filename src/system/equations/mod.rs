@@ -19,8 +19,9 @@ use nalgebra::DMatrix;
 use passes::{Memory, SeededEquations, constraints, curvature, fixed, output_slopes, tangent_of};
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
-/// hand: phi is evaluated once over numbers that carry phi', gamma, phi_t and seven columns of G, and again for each
-/// eight columns more. Where both are needed, [`Scalar::sin_cos`] is cheaper than sine and cosine.
+/// hand: phi is evaluated once over numbers that carry phi', gamma, phi_t and seven columns of G (up to three coordinates:
+/// three), and again for each eight columns more. Where both are needed, [`Scalar::sin_cos`] is cheaper than sine and
+/// cosine.
 ///
 /// ```
 /// use holonom::math::Scalar;
