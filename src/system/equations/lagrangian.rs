@@ -5,8 +5,8 @@ use super::passes::fixed;
 use crate::error::{Error, Result};
 use crate::math::{Dual, Rate, Scalar};
 
-/// Rates of dT/dv that T may leave unexplained by M. Unit: `[1]` of their largest term. Why: round-off of second
-/// derivatives is far below, a cubic term in v far above. Test: `a_kinetic_energy_that_is_not_quadratic_is_refused`.
+/// Bends of dT/dv over v above this are none of round-off. Unit: `[1]` of dT/dv. Why: round-off of derivatives is far
+/// below, a cubic term in v far above. Test: `a_kinetic_energy_that_is_not_quadratic_is_refused`.
 const NOT_QUADRATIC: f64 = 1e-8;
 
 /// Coordinates of which the derivatives come from one evaluation of an energy.
@@ -27,9 +27,9 @@ type Mixed<S> = Dual<Dual<S, 1>, WIDTH>;
 /// ```
 ///
 /// follow by dual numbers, f with all Coriolis and centrifugal terms. G, gamma and second derivatives follow as those
-/// of [`Equations`], which every `Lagrangian` is: all formulations, integrators and linear models take it. One
-/// evaluation costs about n + n/3 of T with seven to fourteen numbers in the place of each: [`Equations`] with M and f
-/// written by hand are faster.
+/// of [`Equations`], which every `Lagrangian` is: all formulations, integrators and linear models take it. Up to six
+/// coordinates an evaluation takes T n times for M and twice for f, over numbers of seven to fourteen values:
+/// [`Equations`] with M and f written by hand are faster.
 ///
 /// ```
 /// use holonom::math::Scalar;
