@@ -40,7 +40,7 @@
 //! | [`joint`], [`force`] | constraints and wrenches over frames | a file and a line in the registry, or from outside |
 //! | [`scene`] | the JSON format, its checks and its schema; scenes built in code | |
 //! | `import` | scenes from URDF and MJCF (feature `urdf`) | |
-//! | [`system`] | [`system::MechanicalSystem`], which solvers see; own equations by [`system::Equations`] | implement it |
+//! | [`system`] | [`system::MechanicalSystem`], which solvers see; own equations by [`system::Equations`] or [`system::Lagrangian`] | implement it |
 //! | [`formulation`] | what is integrated: index 1, Baumgarte, invariant manifold, penalty, null space ... | a file and a line |
 //! | [`projection`] | what is done after a step: post-stabilization, coordinate projection | a file and a line |
 //! | [`initial`] | consistent q, v, then v' and lambda; static equilibrium | |
@@ -87,6 +87,7 @@
 //! | own | by | example |
 //! |---|---|---|
 //! | equations | [`system::Equations`], or [`system::MechanicalSystem`] in full | `own_equations.rs` |
+//! | energies | [`system::Lagrangian`] | `own_lagrangian.rs` |
 //! | joint | [`joint::JointSpec`], [`joint::JointKernel`], [`scene::Elements::with_joint`] | `own_joint.rs` |
 //! | force | [`force::ForceSpec`], [`force::ForceKernel`], [`scene::Elements::with_force`] | `own_force.rs` |
 //! | body | [`body::BodySpec`], [`body::BodyKernel`], [`scene::Elements::with_body`] | `own_body.rs` |
@@ -175,7 +176,7 @@ pub mod prelude {
     pub use crate::run::{End, Moment, Run, every, simulate};
     pub use crate::scene::{Elements, Scene, SceneBuilder};
     pub use crate::simulate::{Method, Span};
-    pub use crate::system::{Equations, MechanicalSystem};
+    pub use crate::system::{Equations, Lagrangian, MechanicalSystem};
     pub use crate::validate::{Settings, validate};
     pub use crate::{Error, Result};
 }

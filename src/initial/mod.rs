@@ -25,7 +25,7 @@ use crate::error::{Error, Result};
 use crate::formulation::{Dynamics, StepError};
 use crate::math::Rate;
 use crate::math::expression::Switch;
-use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
+use crate::system::{MechanicalSystem, OperatingPoint, Scratch, check_start};
 use metric::Metric;
 
 /// Makes a guess consistent at time `t` by the least change in the mass metric that keeps the coordinates named by
@@ -77,6 +77,7 @@ fn consistent(
     (q, v): (&[f64], &[f64]),
     hold: &[String],
 ) -> Result<Assembly> {
+    check_start(system, t, (q, v))?;
     let directions = holds::directions(system, hold)?;
     let mut metric = Metric::new(system, directions.clone());
     let mut assembled = q.to_vec();

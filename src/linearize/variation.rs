@@ -5,7 +5,9 @@ use crate::error::{Error, Result, clock};
 use crate::formulation::{Dynamics, StepError, free_directions};
 use crate::math::kkt::Pattern;
 use crate::math::memory::refuse_dense;
-use crate::system::{Column, Excitation, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Tangent};
+use crate::system::{
+    Column, Excitation, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Tangent, check_start,
+};
 
 /// Small changes (dq, dv) of a state, dq along the velocity directions, with those of v' and lambda:
 ///
@@ -42,8 +44,10 @@ impl<'a> Variation<'a> {
     /// The equations at a state, which should be on the constraints.
     ///
     /// # Errors
-    /// A state without determined accelerations; a singular one; equations without derivatives.
+    /// A state that the system refuses; one without determined accelerations; a singular one; equations without
+    /// derivatives.
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<Self> {
+        check_start(system, t, (q, v))?;
         let dynamics = Dynamics::new(system);
         let tangent = Tangent::new(&dynamics.structure.tangent);
         let gdd = vec![0.0; dynamics.structure.g.entries.len()];

@@ -100,7 +100,7 @@ pub fn known_methods(system: &dyn MechanicalSystem, tolerances: (f64, f64)) -> V
 /// steps, or nothing is known.
 pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Contest> {
     let methods = [method.clone(), implicit((method.rtol, method.atol))];
-    let mut drive = Drive::new(system, methods.into(), unseen(span), flat(system, start.0, start.1)).ok()?;
+    let mut drive = Drive::new(system, methods.into(), unseen(span), flat(system, span.start, start).ok()?).ok()?;
     drive.run.begin(&mut Quiet(None)).ok()?;
     let is_enough = |drive: &Drive, mark, changes| drive.contest.is_some() || changes || drive.is_known(mark);
     drive.go(&mut Quiet(None), is_enough).ok()?;
@@ -120,7 +120,7 @@ pub fn advise(
 ) -> Result<(Method, String)> {
     let methods = [known_methods(system, tolerances).swap_remove(FIRST), implicit(tolerances)];
     methods[FIRST].check()?;
-    let mut drive = Drive::new(system, methods.into(), unseen(span), flat(system, start.0, start.1))?;
+    let mut drive = Drive::new(system, methods.into(), unseen(span), flat(system, span.start, start)?)?;
     if let Err(Failure { reason, .. }) = drive.run.begin(&mut Quiet(None)) {
         // Any method fails so: the run will report it at its start.
         return Ok((drive.methods.swap_remove(FIRST), format!("nothing was tried: {reason}")));

@@ -7,7 +7,7 @@ use crate::error::{Error, Failure, Result, clock, short};
 use crate::formulation::Statistics;
 use crate::math::expression::Switch;
 use crate::math::{Piece, Thresholds};
-use crate::system::{MechanicalSystem, Need, Scratch, Terms};
+use crate::system::{MechanicalSystem, Need, Scratch, Terms, check_start};
 use crate::tolerances::JOINTS_OPEN;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -79,9 +79,10 @@ impl<'a> From<&'a Checkpoint> for Start<'a> {
     }
 }
 
-/// (q, v, w) at the start of a run.
-pub fn flat(system: &dyn MechanicalSystem, q: &[f64], v: &[f64]) -> Vec<f64> {
-    [q, v, &vec![0.0; 1 + system.facts().works.len()]].concat()
+/// (q, v, w) at the start of a run, which the system must not refuse.
+pub fn flat(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<Vec<f64>> {
+    check_start(system, t, (q, v))?;
+    Ok([q, v, &vec![0.0; 1 + system.facts().works.len()]].concat())
 }
 
 impl Checkpoint {

@@ -38,7 +38,7 @@ impl<'a> Engine<'a> {
     pub fn new(system: &'a dyn MechanicalSystem, choice: &Choice, span: Span, start: Start) -> Result<Self> {
         span.check()?;
         let y = match start {
-            Start::State(q, v) => flat(system, q, v),
+            Start::State(q, v) => flat(system, span.start, (q, v))?,
             Start::Saved(saved) => saved.checked(system, span)?.y.clone(),
         };
         let one = |method: &Method| {

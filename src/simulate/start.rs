@@ -21,13 +21,9 @@ const UNDETERMINED: &str = "the start is a singular state at rest, and the motio
 const BRANCHES: &str = "give velocities along one of the motions that meet there, or start beside it";
 
 /// The reason why no run from (q, v) begins; `None` where one does, or the method is not possible.
-pub fn refused(
-    system: &dyn MechanicalSystem,
-    method: &Method,
-    span: Span,
-    (q, v): (&[f64], &[f64]),
-) -> Option<Failure> {
-    TimeLoop::new(system, method, unseen(span), flat(system, q, v)).ok()?.begin(&mut Quiet(None)).err()
+pub fn refused(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Failure> {
+    let y = flat(system, span.start, start).ok()?;
+    TimeLoop::new(system, method, unseen(span), y).ok()?.begin(&mut Quiet(None)).err()
 }
 
 impl TimeLoop<'_> {

@@ -35,6 +35,7 @@ mod seed;
 mod solid;
 mod spin;
 mod spinning;
+mod start;
 mod support;
 mod switching;
 mod tangent;
@@ -44,7 +45,7 @@ mod turnings;
 mod variation;
 mod view;
 
-pub use equations::Equations;
+pub use equations::{Equations, Lagrangian};
 #[doc(hidden)]
 pub use facts::Group;
 pub use facts::{Column, Dimensions, Excitation, Names, SwitchFacts, SystemFacts};
@@ -56,6 +57,7 @@ pub use output_tangent::OutputTangent;
 pub use rotating::Rotating;
 #[doc(hidden)]
 pub use spin::{Placement, Rotation, Spin};
+pub(crate) use start::check_start;
 #[doc(hidden)]
 pub use switching::Road;
 pub use terms::{Need, OperatingPoint, Scratch, Structure, Tangent, Terms};
@@ -64,6 +66,7 @@ pub use theory::{Limited, Theory};
 
 #[doc(hidden)]
 pub use crate::body::Energy;
+use crate::error::Result;
 use crate::math::Rate;
 use crate::math::kkt::Pattern;
 use nalgebra::DMatrix;
@@ -99,6 +102,12 @@ pub struct Prescribed {
 /// that formulations and integrators need not tell them apart.
 ///
 /// Immutable while it is solved, so that threads can share it; scratch memory comes from the caller.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no equations of motion",
+    label = "no equations of motion",
+    note = "implement `holonom::system::Equations` (M, f and phi), `holonom::system::Lagrangian` (T, V and phi) or \
+            `holonom::system::MechanicalSystem` (all terms)"
+)]
 pub trait MechanicalSystem: Send + Sync {
     /// n_q, n_v and n_c, and how many of the last ones are states or nonholonomic.
     fn dimensions(&self) -> Dimensions;
@@ -112,6 +121,15 @@ pub trait MechanicalSystem: Send + Sync {
     /// Switching functions and functions of time. Default: none.
     fn switches(&self) -> SwitchFacts<'_> {
         SwitchFacts::default()
+    }
+
+    /// Refuses a start, with q and v of the right lengths, that cannot be computed with: asked once before a run, an
+    /// assembly or a linear model. Default: nothing is refused.
+    ///
+    /// # Errors
+    /// Such a start.
+    fn check(&self, _t: f64, _q: &[f64], _v: &[f64]) -> Result<()> {
+        Ok(())
     }
 
     /// Fills the terms named by `need` at (t, q, v); filling more is allowed. The places of the values of M and G are

@@ -9,6 +9,7 @@ pub mod own_force;
 pub mod own_formulation;
 pub mod own_integrator;
 pub mod own_joint;
+pub mod own_lagrangian;
 mod own_projection;
 mod own_simplification;
 mod own_tableau;

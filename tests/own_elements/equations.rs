@@ -78,7 +78,7 @@ fn motion(system: &dyn MechanicalSystem, method: &Method) -> Run {
 }
 
 /// Every formulation, by an integrator that takes it.
-fn methods() -> impl Iterator<Item = Method> {
+pub fn methods() -> impl Iterator<Item = Method> {
     formulation::registry().iter().map(|formulation| {
         let mut takers = integrator::registry().iter().filter(|entry| (entry.solves)(formulation));
         let taker = takers.find(|entry| entry.steps != Steps::Own).expect("each is integrated");

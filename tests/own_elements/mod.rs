@@ -3,5 +3,6 @@
 
 mod bodies;
 mod equations;
+mod lagrangian;
 mod passes;
 mod refused;

@@ -1,7 +1,7 @@
-//! A factor L D L^T without pivoting, over small blocks of a frozen pattern or, where it fills, over faer's.
+//! A factor L D L^T without pivoting, dense for a few unknowns, over small blocks of a frozen pattern or, where it fills, over faer's.
 
 use super::Pattern;
-use super::blocks::Blocks;
+use super::blocks::{Blocks, Small};
 use super::parts::{Parts, Plan};
 use super::pivot::{Quality, Rule};
 use super::supernodal::Supernodal;
@@ -12,6 +12,7 @@ const FILL_FOR_FAER: usize = 40;
 const LONGEST_LIST: usize = 30_000_000;
 
 pub(super) enum Ldlt {
+    Small(Box<Small>),
     Blocks(Box<Blocks>),
     Parts(Box<Parts>),
     Supernodal(Box<Supernodal>),
@@ -24,6 +25,9 @@ impl Ldlt {
 
     /// With a structure that is known.
     pub fn of(plan: &Plan, mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
+        if let Some(small) = Small::new(mass, g).filter(|_| !late.contains(&true)) {
+            return Ldlt::Small(Box::new(small));
+        }
         let [len, operations, products] = plan.sizes();
         let is_filled = operations > FILL_FOR_FAER * len || products > LONGEST_LIST;
         let faer = if is_filled { Supernodal::new(mass, g, late) } else { None };
@@ -38,6 +42,7 @@ impl Ldlt {
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         skipped.clear();
         match self {
+            Ldlt::Small(f) => f.factor(mass, g, rule, skipped),
             Ldlt::Blocks(f) => f.factor(mass, g, rule, skipped),
             Ldlt::Parts(f) => f.factor(mass, g, rule, skipped),
             Ldlt::Supernodal(f) => f.factor(mass, g, rule, skipped),
@@ -47,6 +52,7 @@ impl Ldlt {
     /// Solves in place; dropped multipliers are zero.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
         match self {
+            Ldlt::Small(f) => f.solve(top, bottom),
             Ldlt::Blocks(f) => f.solve(top, bottom),
             Ldlt::Parts(f) => f.solve(top, bottom),
             Ldlt::Supernodal(f) => f.solve(top, bottom),
@@ -65,6 +71,7 @@ impl Ldlt {
     /// above it.
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         match self {
+            Ldlt::Small(f) => f.smallest_ratio(collapsed),
             Ldlt::Blocks(f) => f.smallest_ratio(collapsed),
             Ldlt::Parts(f) => f.smallest_ratio(collapsed),
             Ldlt::Supernodal(f) => f.smallest_ratio(collapsed),

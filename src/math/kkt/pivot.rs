@@ -1,5 +1,6 @@
 //! Acceptance of pivots of L D L^T, and replacement of those that collapse.
 
+use crate::math::array::Each;
 use crate::tolerances;
 
 /// A pivot of the fast factorization that has collapsed: it stops, and the careful ways begin. Unit: `[1]` of its size
@@ -104,5 +105,30 @@ impl Judge<'_> {
         self.quality.doubtful |= pivot.abs() > tolerances::ROUND_OFF_OF_FACTORS * size;
         self.skipped.push(node - self.n);
         Ok(0.0)
+    }
+}
+
+/// The ratios of a joint's pivots with the largest first, from its block L D L^T, D on the diagonal and L below, and the
+/// sizes that pivots are compared with.
+pub(super) fn farthest_first<const W: usize>(rows: &[[f64; W]; W], sizes: &[f64; W], ratios: &mut [f64; W]) {
+    let l = |i: usize, p: usize| if i == p { 1.0 } else { rows[i][p] };
+    let scale = sizes.each(|size| size.sqrt().recip());
+    let mut block = [[0.0; W]; W];
+    for (i, j) in (0..W).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+        let sum: f64 = (0..=j).map(|p| l(i, p) * -rows[p][p] * l(j, p)).sum();
+        block[i][j] = sum * scale[i] * scale[j];
+        block[j][i] = block[i][j];
+    }
+    let mut is_left = [true; W];
+    for ratio in ratios.iter_mut() {
+        let left = (0..W).filter(|&i| is_left[i]);
+        let Some(next) = left.max_by(|&i, &j| block[i][i].total_cmp(&block[j][j])) else { return };
+        is_left[next] = false;
+        *ratio = block[next][next];
+        let row = block[next];
+        let part = row.each(|x| x / *ratio);
+        for i in (0..W).filter(|&i| is_left[i]) {
+            (0..W).for_each(|j| block[i][j] -= row[i] * part[j]);
+        }
     }
 }

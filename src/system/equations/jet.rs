@@ -2,21 +2,18 @@
 
 use crate::math::{Scalar, Taylor, Unary, operators};
 
-/// Directions in which a [`Jet`] is differentiated.
-pub(super) const WIDTH: usize = 8;
-
-/// A value with its first two time derivatives along a motion and its derivatives along [`WIDTH`] directions, so that
-/// an elementary function is evaluated once for all of them.
+/// A value with its first two time derivatives along a motion and its derivatives along `W` directions, so that an
+/// elementary function is evaluated once for all of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Jet {
+pub(super) struct Jet<const W: usize> {
     pub path: Taylor<f64>,
-    pub slope: [f64; WIDTH],
+    pub slope: [f64; W],
 }
 
-impl Jet {
+impl<const W: usize> Jet<W> {
     #[inline]
     pub fn fixed(path: Taylor<f64>) -> Self {
-        Jet { path, slope: [0.0; WIDTH] }
+        Jet { path, slope: [0.0; W] }
     }
     /// The function with this value and slope at `self`.
     #[inline]
@@ -27,15 +24,15 @@ impl Jet {
 
 /// A slope by its entries; a plain loop, since longer formulas are inlined with it.
 #[inline(always)]
-fn each(entry: impl Fn(usize) -> f64) -> [f64; WIDTH] {
-    let mut slope = [0.0; WIDTH];
+fn each<const W: usize>(entry: impl Fn(usize) -> f64) -> [f64; W] {
+    let mut slope = [0.0; W];
     for (i, place) in slope.iter_mut().enumerate() {
         *place = entry(i);
     }
     slope
 }
 
-impl Scalar for Jet {
+impl<const W: usize> Scalar for Jet<W> {
     #[inline]
     fn constant(x: f64) -> Self {
         Jet::fixed(Taylor::fixed(x))
@@ -61,7 +58,7 @@ impl Scalar for Jet {
 }
 
 operators! {
-    impl[] Jet:
+    impl[const W: usize] Jet<W>:
     Neg neg(a) = Jet { path: -a.path, slope: each(|i| -a.slope[i]) };
     Add add(a, b: Self) = Jet { path: a.path + b.path, slope: each(|i| a.slope[i] + b.slope[i]) };
     Sub sub(a, b: Self) = Jet { path: a.path - b.path, slope: each(|i| a.slope[i] - b.slope[i]) };

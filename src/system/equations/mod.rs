@@ -1,13 +1,18 @@
 //! Equations of a user, written once over any scalar.
 
+mod check;
 mod christoffel;
 mod jet;
+mod lagrangian;
 mod passes;
+
+pub use lagrangian::Lagrangian;
 
 use super::{
     Column, Dimensions, Energy, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Scratch,
     SystemFacts, Tangent, Terms,
 };
+use crate::error::Result;
 use crate::math::{Dual, Regime, Scalar};
 use christoffel::christoffel;
 use nalgebra::DMatrix;
@@ -15,8 +20,9 @@ use passes::{Memory, SeededEquations, add_inputs, constraints, curvature, fixed,
 use std::borrow::Cow;
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
-/// hand: phi is evaluated once over numbers that carry phi', gamma, phi_t and seven columns of G, and again for each
-/// eight columns more. Where both are needed, [`Scalar::sin_cos`] is cheaper than sine and cosine.
+/// hand: phi is evaluated once over numbers that carry phi', gamma, phi_t and seven columns of G (up to three coordinates:
+/// three), and again for each eight columns more. Where both are needed, [`Scalar::sin_cos`] is cheaper than sine and
+/// cosine.
 ///
 /// ```
 /// use holonom::math::Scalar;
@@ -40,10 +46,16 @@ use std::borrow::Cow;
 ///     }
 /// }
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no equations of motion",
+    label = "no equations of motion",
+    note = "implement `holonom::system::Equations` (M, f and phi), `holonom::system::Lagrangian` (T, V and phi) or \
+            `holonom::system::MechanicalSystem` (all terms)"
+)]
 pub trait Equations: Send + Sync + 'static {
     /// (n, n_c): coordinates, which are also the velocities, and constraints.
     fn size(&self) -> (usize, usize);
-    /// M, n x n, row by row.
+    /// M, n x n, row by row, both triangles.
     fn mass<S: Scalar>(&self, t: S, q: &[S], mass: &mut [S]);
     /// f, n: all forces but the reactions, velocity-dependent inertia forces included.
     fn force<S: Scalar>(&self, t: S, q: &[S], v: &[S], f: &mut [S]);
@@ -52,6 +64,19 @@ pub trait Equations: Send + Sync + 'static {
     /// Potential energy, J, of the forces that have one. Where it is given, the energy balance is reported.
     fn potential(&self, _t: f64, _q: &[f64]) -> Option<f64> {
         None
+    }
+    /// Power, W, that the energy balance counts as supplied: that of the forces without a potential, such as dampers and
+    /// motors, and the partial derivative of the potential with respect to t. Default: 0.
+    fn power(&self, _t: f64, _q: &[f64], _v: &[f64]) -> f64 {
+        0.0
+    }
+    /// Refuses a start, or parameters with which nothing can be computed; asked once before a run, an assembly or a
+    /// linear model. Default: nothing is refused.
+    ///
+    /// # Errors
+    /// Such a start: [`Error::input`](crate::Error::input).
+    fn check(&self, _t: f64, _q: &[f64], _v: &[f64]) -> Result<()> {
+        Ok(())
     }
     /// Names of the outputs. Default: none.
     fn output_names(&self) -> Vec<String> {
@@ -80,6 +105,11 @@ impl<E: Equations> MechanicalSystem for E {
         Cow::Owned(SystemFacts { outputs, inputs, ..SystemFacts::new(self.dimensions()) })
     }
 
+    fn check(&self, t: f64, q: &[f64], v: &[f64]) -> Result<()> {
+        check::symmetry(self, t, q)?;
+        Equations::check(self, t, q, v)
+    }
+
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
         let (n, m) = self.size();
         let inputs = std::mem::take(&mut scratch.inputs);
@@ -93,12 +123,12 @@ impl<E: Equations> MechanicalSystem for E {
             }
             if need.includes(Need::FORCE) {
                 self.force(t, q, v, &mut terms.f);
-                terms.power = 0.0;
+                terms.power = self.power(t, q, v);
                 if !inputs.is_empty() {
                     add_inputs(self, (t, q, v), &inputs, &mut memory.driven, terms);
                 }
             }
-            if need.includes(Need::CONSTRAINTS) || need.includes(Need::G) {
+            if m > 0 && (need.includes(Need::CONSTRAINTS) || need.includes(Need::G)) {
                 constraints(self, (t, q, v), need, memory, terms);
             }
             if need.includes(Need::L) {

@@ -1,7 +1,7 @@
 //! Derivatives of a user's equations by dual and Taylor numbers, some directions per pass.
 
 use super::Equations;
-use super::jet::{Jet, WIDTH};
+use super::jet::Jet;
 use crate::math::{Dual, Taylor};
 use crate::system::{Need, OperatingPoint, Tangent, Terms};
 use nalgebra::DMatrix;
@@ -10,16 +10,33 @@ type Dual6 = Dual<f64, 6>;
 type TaylorDual6 = Dual<Taylor<f64>, 6>;
 type Twice = Dual<Dual6, 6>;
 
+/// Columns of G of one pass over phi with that of time: in systems of up to three coordinates, and in larger ones.
+const FEW: usize = 4;
+const MANY: usize = 8;
+
 pub(super) struct Memory {
     pub mass: Vec<f64>,
     /// df/du; empty until needed.
     pub driven: Vec<f64>,
-    jets: Vec<Jet>,
-    rows: Vec<Jet>,
+    few: Jets<FEW>,
+    many: Jets<MANY>,
     moving: Vec<TaylorDual6>,
     curvatures: Vec<TaylorDual6>,
     /// Memory for K and C, made at their first use.
     pub varied: Option<SeededEquations>,
+}
+
+/// q and phi over numbers with W directions.
+struct Jets<const W: usize> {
+    q: Vec<Jet<W>>,
+    phi: Vec<Jet<W>>,
+}
+
+impl<const W: usize> Jets<W> {
+    fn new(n: usize, m: usize) -> Self {
+        let zeros = |n: usize| vec![Jet::fixed(Taylor::fixed(0.0)); n];
+        Jets { q: zeros(n), phi: zeros(m) }
+    }
 }
 
 /// The equations over dual numbers of six directions.
@@ -55,8 +72,8 @@ impl Memory {
         Memory {
             mass: vec![0.0; n * n],
             driven: Vec::new(),
-            jets: vec![Jet::fixed(zero); n],
-            rows: vec![Jet::fixed(zero); m],
+            few: Jets::new(n, m),
+            many: Jets::new(n, m),
             moving: vec![Dual::fixed(zero); n],
             curvatures: vec![Dual::fixed(zero); m],
             varied: None,
@@ -101,24 +118,38 @@ pub(super) fn output_slopes(x: &[f64], outputs: impl Fn(&[Dual6], &mut [Dual6]),
 }
 
 /// phi, phi', gamma and phi_t, and G, of which those that are needed: along q + v s with t + s, and along each
-/// coordinate and, last, time alone, eight of them per pass.
+/// coordinate and, last, time alone, as many per pass as a number has directions.
 #[inline]
 pub(super) fn constraints<E: Equations>(
     system: &E,
+    state: (f64, &[f64], &[f64]),
+    need: Need,
+    memory: &mut Memory,
+    terms: &mut Terms,
+) {
+    if state.1.len() < FEW {
+        pass(system, state, need, &mut memory.few, terms);
+    } else {
+        pass(system, state, need, &mut memory.many, terms);
+    }
+}
+
+fn pass<E: Equations, const W: usize>(
+    system: &E,
     (t, q, v): (f64, &[f64], &[f64]),
     need: Need,
-    Memory { jets, rows, .. }: &mut Memory,
+    Jets { q: jets, phi: rows }: &mut Jets<W>,
     terms: &mut Terms,
 ) {
     let n = q.len();
-    for first in (0..=n).step_by(WIDTH) {
-        let columns = first..n.min(first + WIDTH);
+    for first in (0..=n).step_by(W) {
+        let columns = first..n.min(first + W);
         for ((jet, &q), &v) in jets.iter_mut().zip(q).zip(v) {
             *jet = Jet::fixed(Taylor::new(q, v, 0.0));
         }
         jets[columns.clone()].iter_mut().enumerate().for_each(|(k, jet)| jet.slope[k] = 1.0);
         let mut time = Jet::fixed(Taylor::time(t));
-        let place_of_time = (n < first + WIDTH).then_some(n - first);
+        let place_of_time = (n < first + W).then_some(n - first);
         place_of_time.into_iter().for_each(|k| time.slope[k] = 1.0);
         system.phi(time, jets, rows);
         if need.includes(Need::CONSTRAINTS) {

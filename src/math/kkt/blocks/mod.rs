@@ -22,10 +22,11 @@ mod kernels;
 mod lanes;
 mod layout;
 mod schur;
+mod small;
 
-use super::pivot::{Judge, Quality, Rule};
+use super::pivot::{Judge, Quality, Rule, farthest_first};
 use crate::math::add;
-use crate::math::array::{Each, from_fn};
+use crate::math::array::from_fn;
 use dense::Dense;
 use factors::Factors;
 pub(super) use groups::Groups;
@@ -34,6 +35,7 @@ use lanes::Pair;
 pub(super) use layout::Layout;
 use layout::Run;
 use schur::Schur;
+pub(super) use small::Small;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -255,38 +257,12 @@ impl Blocks {
             let lost = W - ratios.iter().filter(|ratio| **ratio > collapsed).count();
             // In any order of the rows none is smaller than the product of all.
             if is_row && lost == 0 && W > 1 && ratios.iter().product::<f64>() < found.0 {
-                self.pivoted(first, place, &mut ratios);
+                let rows = self.work[place..].as_chunks::<W>().0;
+                rows.first_chunk().into_iter().for_each(|rows| farthest_first(rows, sizes, &mut ratios));
             }
             found.0 = ratios.iter().filter(|ratio| **ratio > collapsed).fold(found.0, |least: f64, x| least.min(*x));
             found.1 += if is_row { lost } else { 0 };
         }
         found
-    }
-
-    /// The ratios of a joint's pivots with the largest first, by those without, from L_jj D L_jj^T.
-    fn pivoted<const W: usize>(&self, first: usize, place: usize, ratios: &mut [f64; W]) {
-        let rows = self.work[place..].as_chunks::<W>().0;
-        let sizes = at::<_, W>(&self.sizes, first);
-        let (Some(rows), Some(sizes)) = (rows.first_chunk::<W>(), sizes) else { return };
-        let l = |i: usize, p: usize| if i == p { 1.0 } else { rows[i][p] };
-        let scale = sizes.each(|size| size.sqrt().recip());
-        let mut block = [[0.0; W]; W];
-        for (i, j) in (0..W).flat_map(|i| (0..=i).map(move |j| (i, j))) {
-            let sum: f64 = (0..=j).map(|p| l(i, p) * -rows[p][p] * l(j, p)).sum();
-            block[i][j] = sum * scale[i] * scale[j];
-            block[j][i] = block[i][j];
-        }
-        let mut is_left = [true; W];
-        for ratio in ratios.iter_mut() {
-            let left = (0..W).filter(|&i| is_left[i]);
-            let Some(next) = left.max_by(|&i, &j| block[i][i].total_cmp(&block[j][j])) else { return };
-            is_left[next] = false;
-            *ratio = block[next][next];
-            let row = block[next];
-            let part = row.each(|x| x / *ratio);
-            for i in (0..W).filter(|&i| is_left[i]) {
-                (0..W).for_each(|j| block[i][j] -= row[i] * part[j]);
-            }
-        }
     }
 }

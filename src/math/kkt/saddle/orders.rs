@@ -10,8 +10,6 @@ use std::sync::Arc;
 pub(super) struct Orders {
     /// Entries of M on its diagonal, with their coordinates.
     diagonal: Vec<(usize, usize)>,
-    /// Values of M that were met last.
-    mass: Vec<f64>,
     /// Coordinates without mass for which the factors are made; `found` is scratch for those of the current values.
     massless: Vec<bool>,
     found: Vec<bool>,
@@ -30,7 +28,6 @@ impl Orders {
         let entries = mass.entries.iter().enumerate();
         Orders {
             diagonal: entries.filter(|(_, (i, j))| i == j).map(|(entry, (i, _))| (entry, *i)).collect(),
-            mass: Vec::new(),
             massless: vec![true; g.cols],
             found: vec![true; g.cols],
             hubs: hubs(g),
@@ -64,11 +61,6 @@ impl Orders {
 
     /// Forgets the factors if other masses vanish.
     fn meet(&mut self, mass: &[f64]) {
-        if self.mass == mass {
-            return;
-        }
-        self.mass.clear();
-        self.mass.extend_from_slice(mass);
         self.found.fill(true);
         self.diagonal.iter().for_each(|&(entry, i)| self.found[i] &= mass[entry] == 0.0);
         if self.found != self.massless {

@@ -7,6 +7,7 @@ mod redundant;
 mod regular;
 mod reports;
 mod samples;
+mod small;
 
 use super::SaddlePoint;
 use samples::{Random, Sample, distance};
