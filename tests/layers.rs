@@ -24,6 +24,7 @@ const LAYERS: &[&[&str]] = &[
     &["plot"],
     &["report", "guide"],
     &["cli"],
+    &["python"],
 ];
 
 const LONGEST: usize = 400;

@@ -1,0 +1,193 @@
+"""Scenes."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from . import _core
+from ._answer import Answer, call, warn, word, words
+from ._functions import keep
+from ._linear import LinearModel, LinearMotion, model
+from ._run import Run, finished
+
+#: The names under which commands read a scene that is no file, and the summary of a run.
+_SCENE = "<scene>"
+_RUN = "<run>"
+
+
+class Scene:
+    """A mechanism with its settings: a scene file, or a dict with the same contents.
+
+    Keywords are values of its parameters, as numbers or as expressions. A parameter that is no name of Python goes into
+    `parameters`. A file is read anew by each command.
+
+    A force of type ``python`` in a dict takes a function as its law::
+
+        {"name": "drag", "type": "python", "between": ["ground", "bob"],
+         "function": lambda t, r, v: [-0.1 * v[0], -0.1 * v[1]]}
+
+    It returns the force on the second marker, N, from the time and from the position and velocity of the second marker
+    relative to the first, in world axes. The first marker gets the opposite force. Each call costs about a microsecond,
+    so an expression in the scene is faster.
+
+    >>> import holonom
+    >>> scene = holonom.Scene(holonom.command("generate", "chain", n=2))
+    >>> scene.name, len(scene.q)
+    ('chain_2', 6)
+    """
+
+    #: Name of the scene.
+    name: str
+    #: Names of the coordinates, velocities and multipliers.
+    q: list[str]
+    v: list[str]
+    #: Units of the outputs and inputs, by name.
+    outputs: dict[str, str]
+    inputs: dict[str, str]
+
+    def __init__(
+        self,
+        scene: str | os.PathLike[str] | Mapping[str, Any],
+        *,
+        parameters: Mapping[str, float | str] | None = None,
+        **more: float | str,
+    ) -> None:
+        self._functions: list[Callable[..., Any]] = []
+        if isinstance(scene, Mapping):
+            self._path = _SCENE
+            self._text = json.dumps(scene, default=self._plain)
+        else:
+            self._path = os.fspath(scene)
+            self._text = None
+        self._given = {**(parameters or {}), **more}
+        self._source: Any = scene
+        described = json.loads(_core.describe(self._words({}), self._texts()))
+        warn(described["warnings"], stacklevel=2)
+        self.name = described["name"]
+        self.q, self.v, self.lambda_ = (list(described[key]) for key in ("q", "v", "lambda"))
+        self.outputs, self.inputs = described["outputs"], described["inputs"]
+        #: Values of all parameters.
+        self.parameters: dict[str, float] = described["parameters"]
+
+    def with_(self, parameters: Mapping[str, float | str] | None = None, **more: float | str) -> Scene:
+        """Returns the scene with other values of some parameters.
+
+        >>> import holonom
+        >>> scene = holonom.Scene({"name": "m", "dimension": 2, "parameters": {"m": 1},
+        ...     "bodies": [{"name": "b", "type": "point_mass", "mass": "m"}]})
+        >>> scene.with_(m=2).parameters
+        {'m': 2.0}
+        """
+        return Scene(self._source, parameters={**self._given, **(parameters or {}), **more})
+
+    def simulate(self, **options: object) -> Run:
+        """Simulates; keywords are the options of ``holonom simulate``.
+
+        The usual ones are `until`, `output_step`, `rtol`, `atol`, `step`, `method="auto"`, `formulation`, `integrator`,
+        `projection`, `equilibrium`, `outputs_only` and `check_error`. Other threads of Python go on meanwhile. Ctrl-C
+        ends the run.
+        """
+        return self._simulate(options)
+
+    def _simulate(self, options: Mapping[str, object], start: str | None = None) -> Run:
+        texts = self._texts()
+        if start is not None:
+            texts.append((_RUN, start))
+            options = {**options, "start": _RUN}
+        return finished(self, _core.simulate(self._words(options), texts), stacklevel=3)
+
+    def linearize(self, **options: object) -> LinearModel | LinearMotion | list[Any]:
+        """Returns the linear model at the start or ``at=T``, or a list of them ``at=[T, ...]``.
+
+        ``along="A..B:N"`` returns the linear time-varying model. Others are `equilibrium`, `chart`, `method` and the other
+        options of ``holonom linearize``.
+        """
+        found = self._call("linearize", options)
+        return [model(one) for one in found] if isinstance(found, list) else model(found)
+
+    def check(self, **options: object) -> Answer:
+        """Returns what was modelled: coordinates, constraints, rank, redundancy. See ``holonom check --help``."""
+        return self._call("check", options)
+
+    def static(self, **options: object) -> Answer:
+        """Returns the static equilibrium that belongs to the start."""
+        found: Answer = self.check(static=True, **options).equilibrium
+        return found
+
+    def loci(self, **options: object) -> Any:
+        """Returns eigenvalues along the motion, or over a parameter. See ``holonom loci --help``."""
+        return self._call("loci", options)
+
+    def bode(self, **options: object) -> Any:
+        """Returns frequency responses. See ``holonom bode --help``."""
+        return self._call("bode", options)
+
+    def validate(self, **options: object) -> Any:
+        """Checks linear models by perturbed simulations. See ``holonom validate --help``."""
+        return self._call("validate", options)
+
+    def transition(self, **options: object) -> Any:
+        """Returns the growth of small changes along the motion. See ``holonom transition --help``."""
+        return self._call("transition", options)
+
+    def drift(self, **options: object) -> Any:
+        """Compares the drift under every stabilization. See ``holonom drift --help``."""
+        return self._call("drift", options)
+
+    def tradeoff(self, **options: object) -> Any:
+        """Measures the cost of each method for its accuracy. See ``holonom tradeoff --help``."""
+        return self._call("tradeoff", options)
+
+    def simplify(self, **options: object) -> Any:
+        """Finds the least model within a bound, such as ``within="5%"``. See ``holonom simplify --help``."""
+        return self._call("simplify", options)
+
+    def stress(self, **options: object) -> Any:
+        """Maps what steps, gains, masses and stiffness the scene takes. See ``holonom stress --help``."""
+        return self._call("stress", options)
+
+    def sweep(self, values: str, **options: object) -> Any:
+        """Assembles the scene at many values of a parameter, such as ``"travel=-0.08..0.08:81"``."""
+        return self._call("sweep", options, values)
+
+    def plot(self, **options: object) -> Any:
+        """Draws the mechanism; the figures are in `files`. See ``holonom plot --help``."""
+        return self._call("plot", options)
+
+    def command(self, name: str, *arguments: object, **options: object) -> Any:
+        """Calls any command of the command line on the scene, as `holonom.command` does."""
+        return self._call(name, options, *map(str, arguments))
+
+    def _call(self, name: str, options: Mapping[str, object], *arguments: str) -> Any:
+        return call(name, [*self._words({}), *arguments], options, self._texts(), stacklevel=4)
+
+    def _words(self, options: Mapping[str, object]) -> list[str]:
+        """The scene, its parameters and options as words of the command line."""
+        set_ = {name: word(value) for name, value in self._given.items()}
+        return [self._path, *words({"set": set_}), *words(options)]
+
+    def _texts(self) -> list[tuple[str, str]]:
+        return [] if self._text is None else [(_SCENE, self._text)]
+
+    def _plain(self, value: Any) -> Any:
+        """A value that JSON does not know: arrays and numbers of NumPy, functions."""
+        if callable(value):
+            self._functions.append(value)
+            return keep(value)
+        if hasattr(value, "tolist"):
+            return value.tolist()
+        raise TypeError(f"a scene cannot have a {type(value).__name__}: {value!r}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self._source, self._given)
+
+    def __repr__(self) -> str:
+        given = "".join(f", {name}={value!r}" for name, value in self._given.items())
+        return f"<holonom.Scene {self.name}{given}>"
+
+
+def _restored(scene: Any, parameters: Mapping[str, float | str]) -> Scene:
+    return Scene(scene, parameters=parameters)
