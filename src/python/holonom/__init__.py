@@ -8,7 +8,7 @@
 ...     "outputs": [{"name": "height", "measure": "position", "of": "bob", "component": "y"}],
 ... }, l=2)
 >>> run = pendulum.simulate(until=10, rtol=1e-10)
->>> round(run["height"].min(), 3)
+>>> print(run["height"].min().round(3))
 -2.0
 >>> bool(run.drift.position.max() < 1e-12)
 True

@@ -111,7 +111,11 @@ def call(
     all_words = ["holonom", name, *arguments, *words(options)]
     with tempfile.TemporaryDirectory(prefix="holonom-") as folder:
         data, text, told, failed = _core.command(all_words, given, folder)
-        files = {path.name: path.read_bytes() for path in sorted(Path(folder).iterdir()) if path.is_file()}
+        files = _files(Path(folder))
+        whole = Path(word(options.get("o", folder)), f"{name}.json")
+        if data is not None and whole.is_file():
+            # Long lists are in the file alone.
+            data = whole.read_text(encoding="utf-8")
     errors = [line.removeprefix("error: ") for line in told if line.startswith("error: ")]
     warn([line for line in told if line.startswith("warning: ")], stacklevel + 1)
     found = _answer(data, text, files)
@@ -120,6 +124,10 @@ def call(
         error.partial = found
         raise error
     return found
+
+
+def _files(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in sorted(folder.iterdir()) if path.is_file()}
 
 
 def _answer(data: str | None, text: str, files: Mapping[str, bytes]) -> Any:
@@ -154,8 +162,8 @@ def words(options: Mapping[str, object]) -> list[str]:
             found.append(name)
         elif value is False or value is None:
             continue
-        elif len(key) == 1 and key != "n":
-            found += ["-" + key, word(value)]
+        elif key == "o":
+            found += ["-o", word(value)]
         elif isinstance(value, Mapping):
             found += [f"{name}={label}={word(part)}" for label, part in value.items()]
         elif isinstance(value, (list, tuple)) or hasattr(value, "tolist"):

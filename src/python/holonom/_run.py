@@ -26,19 +26,19 @@ Array = NDArray[np.float64]
 class Columns(Mapping[str, Array]):
     """Named columns over the rows of a run: views of one array, `rows`, of which nothing is copied."""
 
-    def __init__(self, names: list[str], rows: Array) -> None:
-        self.names = names
+    def __init__(self, columns: list[str], rows: Array) -> None:
+        self.columns = columns
         self.rows = rows
 
     def __getitem__(self, name: str) -> Array:
         try:
-            column: Array = self.rows[:, self.names.index(name)]
+            column: Array = self.rows[:, self.columns.index(name)]
         except ValueError:
-            raise KeyError(f"there is no column `{name}`; there are {', '.join(self.names)}") from None
+            raise KeyError(f"there is no column `{name}`; there are {', '.join(self.columns)}") from None
         return column
 
     def __getattr__(self, name: str) -> Array:
-        if name.startswith("_") or name in ("names", "rows"):
+        if name.startswith("_") or name in ("columns", "rows"):
             raise AttributeError(name)
         try:
             return self[name]
@@ -46,22 +46,22 @@ class Columns(Mapping[str, Array]):
             raise AttributeError(error.args[0]) from None
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self.names)
+        return iter(self.columns)
 
     def __len__(self) -> int:
-        return len(self.names)
+        return len(self.columns)
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *(name for name in self.names if name.isidentifier())]
+        return [*super().__dir__(), *(name for name in self.columns if name.isidentifier())]
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({len(self.rows)} rows of {', '.join(self.names)})"
+        return f"{type(self).__name__}({len(self.rows)} rows of {', '.join(self.columns)})"
 
     def to_pandas(self) -> pandas.DataFrame:
         """Returns a data frame of all columns."""
         import pandas
 
-        return pandas.DataFrame(self.rows, columns=self.names)
+        return pandas.DataFrame(self.rows, columns=self.columns)
 
 
 class Run(Columns):
@@ -127,9 +127,10 @@ class Run(Columns):
         return found
 
     def restart(self, *, until: float, **options: object) -> Run:
-        """Goes on from the end to a later time, as one longer run would have, bit by bit with the same method.
+        """Goes on from the end to a later time; the rows begin at that end.
 
-        The rows begin at that end. Keywords are the options of ``holonom simulate``.
+        A run that was interrupted, or has fixed steps, goes on bit by bit as one longer run would have. Another one does
+        so within the error of the method. Keywords are the options of ``holonom simulate``.
         """
         return self.scene._simulate({"until": until, **options}, start=self._json)
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, overload
 
 from . import _core
 from ._answer import Answer, call, warn, word, words
@@ -39,15 +40,6 @@ class Scene:
     ('chain_2', 6)
     """
 
-    #: Name of the scene.
-    name: str
-    #: Names of the coordinates, velocities and multipliers.
-    q: list[str]
-    v: list[str]
-    #: Units of the outputs and inputs, by name.
-    outputs: dict[str, str]
-    inputs: dict[str, str]
-
     def __init__(
         self,
         scene: str | os.PathLike[str] | Mapping[str, Any],
@@ -56,24 +48,55 @@ class Scene:
         **more: float | str,
     ) -> None:
         self._functions: list[Callable[..., Any]] = []
-        if isinstance(scene, Mapping):
-            self._path = _SCENE
-            self._text = json.dumps(scene, default=self._plain)
-        else:
-            self._path = os.fspath(scene)
-            self._text = None
+        is_dict = isinstance(scene, Mapping)
+        self._path = _SCENE if isinstance(scene, Mapping) else os.fspath(scene)
+        self._text = json.dumps(scene, default=self._plain) if is_dict else None
         self._given = {**(parameters or {}), **more}
         self._source: Any = scene
-        described = json.loads(_core.describe(self._words({}), self._texts()))
-        warn(described["warnings"], stacklevel=2)
-        self.name = described["name"]
-        self.q, self.v, self.lambda_ = (list(described[key]) for key in ("q", "v", "lambda"))
-        self.outputs, self.inputs = described["outputs"], described["inputs"]
-        #: Values of all parameters.
-        self.parameters: dict[str, float] = described["parameters"]
+        warn(self._described["warnings"], stacklevel=2)
+
+    @functools.cached_property
+    def _described(self) -> dict[str, Any]:
+        described: dict[str, Any] = json.loads(_core.describe(self._words({}), self._texts()))
+        return described
+
+    @property
+    def name(self) -> str:
+        """Name of the scene."""
+        return str(self._described["name"])
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Values of all parameters."""
+        return dict(self._described["parameters"])
+
+    @property
+    def q(self) -> list[str]:
+        """Names of the coordinates."""
+        return list(self._described["q"])
+
+    @property
+    def v(self) -> list[str]:
+        """Names of the velocities."""
+        return list(self._described["v"])
+
+    @property
+    def lambda_(self) -> list[str]:
+        """Names of the multipliers."""
+        return list(self._described["lambda"])
+
+    @property
+    def outputs(self) -> dict[str, str]:
+        """Units of the outputs, by name."""
+        return dict(self._described["outputs"])
+
+    @property
+    def inputs(self) -> dict[str, str]:
+        """Units of the inputs, by name."""
+        return dict(self._described["inputs"])
 
     def with_(self, parameters: Mapping[str, float | str] | None = None, **more: float | str) -> Scene:
-        """Returns the scene with other values of some parameters.
+        """Returns the scene with other values of some parameters, which are checked when it is used.
 
         >>> import holonom
         >>> scene = holonom.Scene({"name": "m", "dimension": 2, "parameters": {"m": 1},
@@ -81,7 +104,11 @@ class Scene:
         >>> scene.with_(m=2).parameters
         {'m': 2.0}
         """
-        return Scene(self._source, parameters={**self._given, **(parameters or {}), **more})
+        changed = object.__new__(type(self))
+        given = {**self._given, **(parameters or {}), **more}
+        changed.__dict__.update({**self.__dict__, "_given": given})
+        changed.__dict__.pop("_described", None)
+        return changed
 
     def simulate(self, **options: object) -> Run:
         """Simulates; keywords are the options of ``holonom simulate``.
@@ -99,7 +126,13 @@ class Scene:
             options = {**options, "start": _RUN}
         return finished(self, _core.simulate(self._words(options), texts), stacklevel=3)
 
-    def linearize(self, **options: object) -> LinearModel | LinearMotion | list[Any]:
+    @overload
+    def linearize(self, *, along: str, **options: object) -> LinearMotion: ...
+    @overload
+    def linearize(self, *, at: Sequence[float], along: None = None, **options: object) -> list[LinearModel]: ...
+    @overload
+    def linearize(self, *, at: float | None = None, along: None = None, **options: object) -> LinearModel: ...
+    def linearize(self, **options: object) -> Any:
         """Returns the linear model at the start or ``at=T``, or a list of them ``at=[T, ...]``.
 
         ``along="A..B:N"`` returns the linear time-varying model. Others are `equilibrium`, `chart`, `method` and the other
@@ -110,7 +143,8 @@ class Scene:
 
     def check(self, **options: object) -> Answer:
         """Returns what was modelled: coordinates, constraints, rank, redundancy. See ``holonom check --help``."""
-        return self._call("check", options)
+        found: Answer = self._call("check", options)
+        return found
 
     def static(self, **options: object) -> Answer:
         """Returns the static equilibrium that belongs to the start."""

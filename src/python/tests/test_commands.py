@@ -72,7 +72,7 @@ def test_every_command_gives_its_answer(models):
     assert scene.transition(lyapunov=0.5).text
     assert "bode-0.csv" in holonom.Scene(inverted()).bode(output="x", points=20).files
     assert "stabilizations.csv" in scene.drift(until=0.2).files
-    assert "stress.json" in scene.stress(x="step=1e-3..1e-2:2", y="rtol=1e-6..1e-4:2", until=0.2).files
+    assert "stress.json" in scene.stress(x="step=1e-3..1e-2:2", y="tolerance=1e-6..1e-4:2", until=0.2).files
     assert "simplified.json" in scene.simplify(within="5%", until=0.2, at_most=3).files
     assert "tradeoff.csv" in scene.tradeoff(until=0.1, budget="1s", integrator="dop853").files
     assert scene.sweep("l=1..2:3").to_pandas()["x"].tolist() == [1, 1.5, 2]
