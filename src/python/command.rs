@@ -1,6 +1,7 @@
 //! Commands called from Python.
 
 use super::errors::{raised, refused};
+use super::force;
 use super::signals::on_thread;
 use crate::cli;
 use crate::cli::caller::set_words;
@@ -21,7 +22,11 @@ type Answer = (Option<String>, String, Vec<String>, bool);
 pub fn command(py: Python<'_>, words: Vec<String>, given: Vec<(PathBuf, String)>, folder: PathBuf) -> PyResult<Answer> {
     interrupt::ask(false);
     let called = on_thread(py, || interrupt::ask(true), move || with_given(given, || cli::call(&words, &folder)))?;
-    match called.or_raise()? {
+    let called = called.or_raise()?;
+    if let Some(error) = force::failure() {
+        return Err(error);
+    }
+    match called {
         Err(error) if error.kind() == ErrorKind::DisplayHelp => Ok((None, error.to_string(), Vec::new(), false)),
         Err(error) => Err(refused(&error)),
         Ok((Err(error), _)) => Err(raised(error)),

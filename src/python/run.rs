@@ -13,12 +13,12 @@ use crate::prepared::PreparedScene;
 use crate::report::{MOST_COORDINATES, Summary, summarize};
 use crate::simulate::{Start, Stop, spread};
 use crate::study::{Completed, error_bars};
-use crate::system::Column;
+use crate::system::{Column, Names};
 use crate::trajectory::{Trajectory, recorded};
 use clap::Parser;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_json::json;
+use serde_json::{Map, Value, json};
 use std::cell::RefCell;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -81,18 +81,20 @@ pub fn describe(py: Python<'_>, words: Vec<String>, given: Vec<(PathBuf, String)
     let described = move || {
         let prepared = options.common.load()?;
         let system = prepared.system();
-        let names = system.names();
-        let columns = |all: Vec<Column>| all.into_iter().map(|column| (column.name, column.unit.into())).collect();
-        let outputs: serde_json::Map<String, serde_json::Value> = columns(recorded(system));
-        let inputs: serde_json::Map<String, serde_json::Value> = columns(system.inputs());
+        let Names { q, v, lambda } = system.names();
+        let parameters: Map<String, Value> =
+            prepared.parameters.iter().map(|(name, value)| (name.to_string(), value.into())).collect();
         to_json(&json!({
-            "name": prepared.name, "about": prepared.about, "references": prepared.references,
-            "parameters": prepared.parameters.iter().collect::<std::collections::BTreeMap<_, _>>(),
-            "q": names.q, "v": names.v, "lambda": names.lambda, "outputs": outputs, "inputs": inputs,
+            "name": prepared.name, "parameters": parameters, "q": q, "v": v, "lambda": lambda,
+            "outputs": units(recorded(system)), "inputs": units(system.inputs()),
             "warnings": prepared.doubts.iter().map(Warning::to_string).collect::<Vec<_>>(),
         }))
     };
     py.detach(move || with_given(given, described)).map_err(raised)
+}
+
+fn units(columns: Vec<Column>) -> Map<String, Value> {
+    columns.into_iter().map(|column| (column.name, column.unit.into())).collect()
 }
 
 fn parsed(words: &[String]) -> PyResult<Options> {

@@ -6,6 +6,8 @@ import pickle
 import signal
 import threading
 import time
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
 import numpy as np
 import pytest
@@ -146,3 +148,42 @@ def test_andrews_mechanism_is_the_published_one(models):
     run = holonom.Scene(models / "andrews.json").simulate(until=0.03, rtol=1e-8)
     # In 80-bit arithmetic, as the scene says; 1e-8 of the largest angle is asked.
     assert run["beta"][-1] == pytest.approx(15.810771195, abs=1e-6)
+
+
+def simulated(scene):
+    """Run in a process of its own."""
+    return scene.simulate(until=0.5)
+
+
+def failed(scene):
+    """Run in a process of its own."""
+    return scene.simulate(integrator="rk5")
+
+
+def test_processes_give_the_same_rows_bit_by_bit():
+    scene = holonom.Scene(pendulum())
+    scenes = [scene.with_(l=length) for length in (0.5, 1, 2)]
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        for mine, theirs in zip(map(simulated, scenes), pool.map(simulated, scenes), strict=True):
+            assert theirs.rows.tobytes() == mine.rows.tobytes()
+        with pytest.raises(holonom.SceneError, match="there is no integrator `rk5`"):
+            pool.submit(failed, scene).result()
+
+
+def test_laws_in_python_serve_all_commands():
+    scene = holonom.Scene(oscillator(lambda t, r, v: (-9 * r[0], -9 * r[1]), name="laws"))
+    assert scene.check().degrees_of_freedom == 2
+    assert "verdict: right" in scene.validate(horizon=0.3, budget="20s").text
+    calls = []
+
+    def law(t, r, v):
+        calls.append(t)
+        if len(calls) > 50:
+            raise ZeroDivisionError("own")
+        return [0, 0]
+
+    broken = holonom.Scene(oscillator(law))
+    with pytest.raises(ZeroDivisionError, match="own"):
+        broken.drift()
+    # The exception is told once, and does not end other runs.
+    assert scene.simulate(until=0.1).t[-1] == 0.1
