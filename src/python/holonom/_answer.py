@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import html
 import io
 import json
@@ -16,6 +17,10 @@ from . import _core
 
 if TYPE_CHECKING:
     import pandas
+
+
+#: Names that a message lists.
+_NAMED = 12
 
 
 class HolonomWarning(UserWarning):
@@ -44,8 +49,7 @@ class Answer(Mapping[str, Any]):
         try:
             return self[name]
         except KeyError:
-            known = ", ".join(self)
-            raise AttributeError(f"there is no `{name}`; there are {known}") from None
+            raise AttributeError(unknown("key", name, list(self))) from None
 
     def __getitem__(self, key: str) -> Any:
         return _wrapped(self._data[key])
@@ -69,11 +73,25 @@ class Answer(Mapping[str, Any]):
         return pandas.read_csv(io.BytesIO(self.files[name or tables[0]]))
 
     def __repr__(self) -> str:
-        return self.text.strip() or f"Answer({', '.join(self)})"
+        return self.text.strip() or f"Answer({self._data})"
 
     def _repr_html_(self) -> str:
         figures = [data.decode() for name, data in self.files.items() if name.endswith(".svg")]
         return "\n".join([f"<pre>{html.escape(repr(self))}</pre>", *figures])
+
+
+def unknown(what: str, name: str, known: list[str]) -> str:
+    """Returns the message for a name that is not in the list, in the words of the command line.
+
+    >>> from holonom._answer import unknown
+    >>> print(unknown("column", "btea", ["t", "beta"]))
+    there is no column `btea`
+      help: did you mean `beta`?
+    """
+    near = difflib.get_close_matches(name, known, 1)
+    more = f" and {len(known) - _NAMED} more" if len(known) > _NAMED else ""
+    hint = f"did you mean `{near[0]}`?" if near else f"choose one of {', '.join(known[:_NAMED])}{more}"
+    return f"there is no {what} `{name}`\n  help: {hint}"
 
 
 def _wrapped(value: Any) -> Any:

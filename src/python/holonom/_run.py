@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._answer import Answer, warn
+from ._answer import Answer, unknown, warn
 
 if TYPE_CHECKING:
     import pandas
@@ -34,7 +34,7 @@ class Columns(Mapping[str, Array]):
         try:
             column: Array = self.rows[:, self.columns.index(name)]
         except ValueError:
-            raise KeyError(f"there is no column `{name}`; there are {', '.join(self.columns)}") from None
+            raise KeyError(unknown("column", name, self.columns)) from None
         return column
 
     def __getattr__(self, name: str) -> Array:
