@@ -18,6 +18,8 @@ use std::process::ExitCode;
 type Answer = (Option<String>, String, Vec<String>, bool);
 
 /// Calls a command with the texts `given` in the place of files; its own files go to `folder`.
+///
+/// Returns the result as JSON and as text, the warnings and errors, and true if the command failed.
 #[pyfunction]
 pub fn command(py: Python<'_>, words: Vec<String>, given: Vec<(PathBuf, String)>, folder: PathBuf) -> PyResult<Answer> {
     interrupt::ask(false);

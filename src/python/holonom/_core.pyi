@@ -19,13 +19,16 @@ class RunError(HolonomError):
 def command(
     words: Sequence[str], given: Sequence[tuple[str, str]], folder: str
 ) -> tuple[str | None, str, list[str], bool]:
-    """Calls a command; returns its result as JSON and as text, warnings and errors, and true if it failed."""
+    """Calls a command with the texts `given` in the place of files; its own files go to `folder`.
+
+    Returns the result as JSON and as text, the warnings and errors, and true if the command failed.
+    """
 
 def main(words: Sequence[str]) -> int:
     """Runs the command line of these words, the program first, and returns its exit code."""
 
 def simulate(words: Sequence[str], given: Sequence[tuple[str, str]]) -> dict[str, Any]:
-    """Simulates, with the rows as arrays of NumPy."""
+    """Simulates with the texts `given` in the place of files. `words` are the scene and the options of `simulate`."""
 
 def describe(words: Sequence[str], given: Sequence[tuple[str, str]]) -> str:
     """Reads and assembles a scene; returns its names, parameters and warnings as JSON."""

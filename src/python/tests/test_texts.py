@@ -1,5 +1,6 @@
 """The examples of the guide and the types of the package."""
 
+import ast
 import re
 import shutil
 import subprocess
@@ -52,10 +53,9 @@ def test_types_are_checked(tmp_path):
     assert "ndarray" in found.stdout and "holonom._answer.Answer" in found.stdout
 
 
-def test_the_stub_has_what_the_compiled_part_has():
-    stub = (Path(holonom.__file__).parent / "_core.pyi").read_text()
-    declared = set(re.findall(r"^(?:def |class |)(\w+)(?=[(:])", stub, re.MULTILINE)) - {"from", "import"}
-    assert declared == {name for name in dir(holonom._core) if not name.startswith("__") or name == "__version__"}
-    for name in ["command", "main", "simulate", "describe", "RunError", "SceneError", "HolonomError"]:
-        first = getattr(holonom._core, name).__doc__.split(".")[0]
-        assert " ".join(first.split()).rstrip(".")[:20] in stub or True
+def test_the_stub_says_what_the_compiled_part_says():
+    stub = ast.parse((Path(holonom.__file__).parent / "_core.pyi").read_text())
+    said = {node.name: ast.get_docstring(node) for node in stub.body if isinstance(node, (ast.FunctionDef, ast.ClassDef))}
+    assert {"__version__", *said} == {name for name in dir(holonom._core) if not name.startswith("__") or name == "__version__"}
+    for name, text in said.items():
+        assert " ".join(text.split()) == " ".join(getattr(holonom._core, name).__doc__.split())
