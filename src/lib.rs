@@ -55,9 +55,10 @@
 //! | [`simplify`] | the least model of a scene that keeps a promise | a file and a line in [`simplify::registry`], or from outside |
 //! | [`tolerances`] | thresholds that several files share, with what they decide, their unit, reason and test | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |
+//! | `python` | the compiled part of the Python package in `src/python` (feature `python`) | |
 //!
 //! Features, both on by default: `cli`, the module of that name and the program; `figures`, PNG and GIF beside SVG. `cli`
-//! includes `npz`, NumPy's archives, and `urdf`, the module `import`.
+//! includes `npz`, NumPy's archives, and `urdf`, the module `import`. `python` is for maturin, which builds the package.
 //!
 //! # Packages
 //!
@@ -150,6 +151,8 @@ mod modes;
 pub mod plot;
 pub mod prepared;
 pub mod projection;
+#[cfg(feature = "python")]
+mod python;
 #[doc(hidden)]
 pub mod report;
 pub mod run;

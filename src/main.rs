@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    holonom::cli::run()
+    holonom::cli::run(std::env::args_os())
 }

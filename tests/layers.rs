@@ -25,6 +25,7 @@ const LAYERS: &[&[&str]] = &[
     &["plot"],
     &["report", "guide"],
     &["cli"],
+    &["python"],
 ];
 
 const LONGEST: usize = 400;

@@ -4,6 +4,7 @@ pub use super::talk::{
     Output, Talk, command_line, fail, json_files, print, print_result, put, tell, to_json, unprintable,
 };
 
+use super::caller::elements;
 use crate::error::{Error, Result};
 use crate::math::expression::{Number, constant};
 use crate::math::memory::refuse_rows;
@@ -43,6 +44,13 @@ pub struct SceneOptions {
     /// Replace a parameter of the scene: a number, or an expression such as pi/2 or 2*l
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub set: Vec<(String, Number)>,
+}
+
+impl SceneOptions {
+    /// Returns the elements and parameters that replace those of the scene.
+    pub fn overrides(&self) -> Overrides {
+        Overrides { elements: elements(), set: self.set.clone(), ..Overrides::default() }
+    }
 }
 
 /// Heading of the options that change the scene's settings.
@@ -194,9 +202,8 @@ impl MethodOptions {
         let formulation = self.formulation.clone();
         let integrator = self.integrator.clone();
         let projection = self.projection.clone();
-        let set = scene.set.clone();
-        let rest = Overrides::default();
-        Overrides { set, method, formulation, integrator, projection, rtol, atol, step, until, output_step, ..rest }
+        let rest = scene.overrides();
+        Overrides { method, formulation, integrator, projection, rtol, atol, step, until, output_step, ..rest }
     }
 }
 

@@ -69,6 +69,12 @@ pub fn stop(folder: &Folder) -> Option<Stop> {
     })
 }
 
+/// Asks the running commands to end, or no longer asks the next ones, on behalf of a program that called them.
+#[cfg(feature = "python")]
+pub fn ask(is_asked: bool) {
+    IS_ASKED_FOR.store(is_asked, Ordering::Relaxed);
+}
+
 /// True if the command should end, after writing its results so far.
 pub fn is_asked() -> bool {
     IS_HEARD.store(true, Ordering::Relaxed);

@@ -1,14 +1,15 @@
 //! The command line: one file for each subcommand.
 
 mod bode;
+pub mod caller;
 mod check;
-mod common;
+pub(crate) mod common;
 mod completions;
 mod drift;
 mod generate;
 mod guide;
 mod import;
-mod interrupt;
+pub(crate) mod interrupt;
 mod linear;
 mod linearize;
 mod loci;
@@ -16,22 +17,26 @@ mod methods;
 mod models;
 mod plot;
 mod reference;
-mod restart;
+pub(crate) mod restart;
 mod simplify;
 mod simulate;
 mod stress;
 mod sweep;
 mod talk;
-mod terminal;
+pub mod terminal;
 mod tradeoff;
 mod transition;
 mod validate;
 
 use crate::clock;
 use crate::error::{Error, Result};
-use clap::{Parser, Subcommand};
+use caller::set_words;
+use clap::{CommandFactory, Parser, Subcommand};
+use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::OnceLock;
+use terminal::{Captured, captured};
 
 /// Simulates mechanisms as differential-algebraic equations and measures how far every method drifts off the
 /// constraints.
@@ -143,17 +148,38 @@ fn version() -> &'static str {
     })
 }
 
-/// Runs the command line and returns the exit code: 0 done, 1 the run failed, 2 bad input.
-pub fn run() -> ExitCode {
-    let command = Cli::parse().command;
+/// Runs the command of these words, the program first, and returns the exit code: 0 done, 1 the run failed, 2 bad input.
+pub fn run(words: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let command = Cli::parse_from(words).command;
     interrupt::listen();
-    if let Err(error) = refuse_threads() {
-        return failed(&error);
-    }
     if std::env::var_os(CLOCK).is_some_and(|clock| clock == "readings") {
         clock::count_readings();
     }
-    let result = match command {
+    execute(command).unwrap_or_else(|error| failed(&error))
+}
+
+/// Executes the command of these words, the program first, and keeps what it would print. Results go to `folder`, unless
+/// the words name another one.
+///
+/// # Errors
+/// Words that the command does not know; a request for help, whose text is the error.
+pub fn call(words: &[String], folder: &Path) -> Result<(Result<ExitCode>, Captured), clap::Error> {
+    let program = Cli::command();
+    let command = words.get(1).and_then(|name| program.find_subcommand(name));
+    let has = |option: &str| command.is_some_and(|it| it.get_arguments().any(|known| known.get_long() == Some(option)));
+    let mut all: Vec<OsString> = words.iter().map(OsString::from).collect();
+    all.extend(has("json").then(|| "--json".into()));
+    if has("figures") && !words.iter().any(|word| word == "-o") {
+        all.extend(["-o".into(), folder.as_os_str().to_owned()]);
+    }
+    let command = Cli::try_parse_from(all)?.command;
+    set_words(words);
+    Ok(captured(|| execute(command)))
+}
+
+fn execute(command: Command) -> Result<ExitCode> {
+    refuse_threads()?;
+    match command {
         Command::Check(args) => check::run(args),
         Command::Simulate(args) => simulate::run(args),
         Command::Drift(args) => drift::run(args),
@@ -176,8 +202,7 @@ pub fn run() -> ExitCode {
         Command::Schema => done(reference::schema()),
         Command::Completions(args) => done(completions::completions(args)),
         Command::Man(args) => done(completions::man(args)),
-    };
-    result.unwrap_or_else(|error| failed(&error))
+    }
 }
 
 fn done(result: Result<()>) -> Result<ExitCode> {

@@ -63,7 +63,7 @@ pub fn percentage(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let overrides = Overrides { set: args.scene.set.clone(), until: args.until, ..Overrides::default() };
+    let overrides = Overrides { until: args.until, ..args.scene.overrides() };
     let prepared = args.talk.load(&args.scene.path, &overrides)?;
     let name = prepared.name.clone();
     let source = Source::load(&args.scene.path, &overrides)?;

@@ -2,7 +2,6 @@
 
 use super::common::{Output, SceneOptions, Talk, fail};
 use crate::error::{Result, Warning, find};
-use crate::prepared::Overrides;
 use crate::report::{SweepAnswer, SweepLook};
 use crate::sweep::{Family, Range, Sweep};
 use crate::system::Column;
@@ -34,8 +33,7 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
-    let overrides = Overrides { set: args.scene.set.clone(), ..Overrides::default() };
-    let family = Family::load_with(&args.scene.path, &overrides)?;
+    let family = Family::load_with(&args.scene.path, &args.scene.overrides())?;
     let known = family.outputs()?;
     known_output(&known, &args.outputs).map_err(|error| error.under("--outputs"))?;
     known_output(&known, args.against.as_slice()).map_err(|error| error.under("--against"))?;

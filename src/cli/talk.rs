@@ -1,8 +1,9 @@
 //! What the commands print, and where their results go.
 
+pub use super::caller::command_line;
 pub use super::terminal::{print, tell};
 
-use super::terminal::visible;
+use super::terminal::{capture, is_captured, visible};
 use crate::error::{Error, Result, Warning};
 use crate::math::expression::{Number, Parameters};
 use crate::prepared::{Overrides, PreparedScene};
@@ -49,7 +50,7 @@ impl Talk {
 
     /// Prints a text of one of several results as it comes, unless JSON is requested or nothing.
     pub fn say(&self, text: &str) -> Result<()> {
-        if self.json || self.quiet { Ok(()) } else { print(text) }
+        if (self.json || self.quiet) && !is_captured() { Ok(()) } else { print(text) }
     }
 
     /// Moves the files into place, tells what they replace, prints the result, and names the files.
@@ -88,6 +89,10 @@ impl Talk {
 
     /// Prints the folder and the names of the files, if text is printed.
     pub fn tell_files(&self, written: &Written) -> Result<()> {
+        // Who takes the output has chosen the folder.
+        if is_captured() {
+            return Ok(());
+        }
         self.say(&format!("\nwritten to {}\n", written.listing()))
     }
 
@@ -123,8 +128,13 @@ impl Output {
     }
 }
 
-/// Prints the result: JSON if requested, else text.
+/// Prints the result: JSON if requested, else text. Who takes the output gets both.
 pub fn print_result(as_json: bool, json: &impl serde::Serialize, text: impl FnOnce() -> String) -> Result<()> {
+    if is_captured() {
+        let json = to_json(json)?;
+        capture(|captured| captured.json = Some(json));
+        return print(&text());
+    }
     if as_json { print(&to_json(json)?) } else { print(&text()) }
 }
 
@@ -164,9 +174,4 @@ fn refuse_twice(set: &[(String, Number)]) -> Result<()> {
             .under("--set")
             .hint("give each parameter one value")),
     }
-}
-
-/// The words of the command; characters of a name that are not text are replaced.
-pub fn command_line() -> Vec<String> {
-    std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect()
 }

@@ -1,17 +1,53 @@
-//! Text on standard output and standard error.
+//! Text on standard output and standard error, or kept for a program that called the command.
 //!
 //! Names, units and quotations come from scenes. Characters that control a terminal are escaped here, through which all
 //! text passes.
 
 use crate::error::{Error, Result};
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::io::{ErrorKind, Write};
+
+/// The output of a command that a program called.
+#[derive(Debug, Default)]
+pub struct Captured {
+    /// The result as JSON; none of a command that only prints text.
+    pub json: Option<String>,
+    /// The text for standard output.
+    pub text: String,
+    /// Warnings and errors, in their order.
+    pub told: Vec<String>,
+}
+
+thread_local! {
+    static CAPTURED: RefCell<Option<Captured>> = const { RefCell::new(None) };
+}
+
+/// Keeps the output of this thread during `work` in the place of printing it.
+pub fn captured<R>(work: impl FnOnce() -> R) -> (R, Captured) {
+    CAPTURED.set(Some(Captured::default()));
+    let result = work();
+    (result, CAPTURED.take().unwrap_or_default())
+}
+
+/// True if the output of this thread is kept.
+pub fn is_captured() -> bool {
+    CAPTURED.with_borrow(Option::is_some)
+}
+
+/// Calls `keep` with the output so far, and returns true, if it is kept.
+pub fn capture(keep: impl FnOnce(&mut Captured)) -> bool {
+    CAPTURED.with_borrow_mut(|captured| captured.as_mut().map(keep).is_some())
+}
 
 /// Writes to standard output; a closed pipe (`| head`) is no error.
 ///
 /// # Errors
 /// Other errors of the system, such as a full disk.
 pub fn print(text: &str) -> Result<()> {
+    if capture(|captured| captured.text += text) {
+        return Ok(());
+    }
     match std::io::stdout().write_all(visible(text).as_bytes()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Error::unwritten("standard output", error.to_string()))
@@ -22,6 +58,9 @@ pub fn print(text: &str) -> Result<()> {
 
 /// Writes a line to standard error, without an error if that is closed.
 pub fn tell(text: impl AsRef<str>) {
+    if capture(|captured| captured.told.push(text.as_ref().to_string())) {
+        return;
+    }
     let _ = writeln!(std::io::stderr(), "{}", visible(text.as_ref()));
 }
 

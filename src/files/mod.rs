@@ -13,7 +13,7 @@ mod read;
 mod staging;
 
 pub use array::Array;
-pub use read::{open, read, read_json, read_limited, read_text, refuse_large, refuse_many_values};
+pub use read::{open, read, read_json, read_limited, read_text, refuse_large, refuse_many_values, with_given};
 pub use staging::{Staging, abandon};
 
 use std::fs::OpenOptions;

@@ -58,6 +58,7 @@ chapters! {
     results
     troubleshooting
     rust
+    python
     large
     gallery
     references

@@ -34,7 +34,7 @@ macro_rules! chapters {
 
 chapters! {
     tutorial loops scenes expressions methods stabilization accuracy kinematics linear flexible speed extremes simplify
-    singular events results troubleshooting rust large gallery references changelog
+    singular events results troubleshooting rust python large gallery references changelog
 }
 
 #[test]

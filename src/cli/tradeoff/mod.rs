@@ -144,6 +144,6 @@ impl Args {
     }
 
     fn overrides(&self) -> Overrides {
-        Overrides { set: self.scene.set.clone(), until: self.until, ..Overrides::default() }
+        Overrides { until: self.until, ..self.scene.overrides() }
     }
 }
