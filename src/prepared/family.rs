@@ -1,15 +1,17 @@
-//! A scene as a function of one of its parameters.
+//! A scene as a function of its parameters.
 
 use super::{AnyMechanism, Overrides, PreparedScene};
 use crate::error::{Error, Result, Warning, suggest};
 use crate::math::expression::Number;
 use crate::scene::{self, Elements, Scene};
 use crate::system::Column;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// A scene of which one parameter will be varied.
+/// A scene of which parameters will be varied. Its text is read once.
 pub struct Family {
     text: String,
+    document: Value,
     path: Option<PathBuf>,
     elements: Elements,
     set: Vec<(String, Number)>,
@@ -33,7 +35,11 @@ impl Family {
     }
 
     fn new(text: String, path: Option<PathBuf>, Overrides { elements, set, .. }: &Overrides) -> Result<Family> {
-        let family = Family { text, path, elements: elements.clone(), set: set.clone() };
+        let document = scene::parsed(&text).map_err(|error| match &path {
+            Some(path) => scene::place(error, path, &text),
+            None => error,
+        })?;
+        let family = Family { text, document, path, elements: elements.clone(), set: set.clone() };
         family.scene()?;
         Ok(family)
     }
@@ -51,13 +57,21 @@ impl Family {
     /// # Errors
     /// As [`Scene::parse`]: the value may be outside of what the scene's expressions are defined for.
     pub fn scene_at(&self, parameter: &str, value: f64) -> Result<Scene> {
-        let own = (parameter.to_string(), Number::Value(value));
-        let set: Vec<(String, Number)> = self.set.iter().cloned().chain([own]).collect();
+        self.scene_with(&[parameter.to_string()], &[value])
+    }
+
+    /// The scene with other values of some parameters.
+    ///
+    /// # Errors
+    /// As [`Family::scene_at`].
+    pub fn scene_with(&self, parameters: &[String], values: &[f64]) -> Result<Scene> {
+        let own = parameters.iter().cloned().zip(values.iter().map(|value| Number::Value(*value)));
+        let set: Vec<(String, Number)> = self.set.iter().cloned().chain(own).collect();
         self.with(&set)
     }
 
     fn with(&self, set: &[(String, Number)]) -> Result<Scene> {
-        self.elements.parse_in(scene::folder(self.path.as_deref()), &self.text, set)
+        self.elements.resolve(scene::folder(self.path.as_deref()), self.document.clone(), set)
     }
 
     /// Warnings about the start; none where it cannot be assembled, which a sweep reports better.

@@ -152,10 +152,7 @@ impl Elements {
     /// # Errors
     /// As [`Scene::parse`].
     pub fn parse_in(&self, folder: &Path, text: &str, overrides: &[(String, Number)]) -> Result<Scene> {
-        if text.trim_start_matches('\u{feff}').trim().is_empty() {
-            return Err(Error::input("the file is empty").hint("a scene is a JSON object; see `holonom schema`"));
-        }
-        self.resolve(folder, json::read(text)?, overrides)
+        self.resolve(folder, parsed(text)?, overrides)
     }
 
     /// The scene of a document; files that it names are in `folder`.
@@ -175,6 +172,14 @@ impl Elements {
         let scene = file.and_then(|file| resolve::build(file, self, overrides, folder));
         scene.map(|scene| Scene { fingerprint, ..scene }).map_err(|error| origins.place(name_element(error, &json)))
     }
+}
+
+/// The document of a scene's text.
+pub(crate) fn parsed(text: &str) -> Result<Value> {
+    if text.trim_start_matches('\u{feff}').trim().is_empty() {
+        return Err(Error::input("the file is empty").hint("a scene is a JSON object; see `holonom schema`"));
+    }
+    json::read(text)
 }
 
 /// Folder of the scene file, from which the files that it names are found.
