@@ -121,13 +121,12 @@ impl Args {
         overrides: &Overrides,
         place: &Path,
     ) -> Result<(PreparedScene, StudyTable, usize)> {
-        let path = &self.common.scene.path;
         let plan = self.plan()?;
         let is_automatic = prepared.is_automatic;
         let prepared = prepared.settled()?;
         let recorded = Recorded { measures: &self.record, modes: self.linearize, is_at_rest: self.common.equilibrium };
-        let study = Study::new(path, &prepared, overrides, &plan.names, recorded);
-        let mut study = study.map_err(|error| error.in_file(path))?;
+        let study = Study::new(&self.common.scene.path, &prepared, overrides, &plan.names, recorded);
+        let mut study = study.map_err(|error| error.in_file(&self.common.scene.path))?;
         if is_automatic {
             study = study.with_method(&prepared.method);
             let because = prepared.chosen_because.as_deref().unwrap_or_default();
@@ -137,25 +136,36 @@ impl Args {
         if self.resume && place.join("study.json").exists() {
             table.add(StudyTable::read(place)?, place)?;
         }
-        let rows: Vec<usize> =
-            (0..plan.rows.len()).filter(|row| self.shard.is_none_or(|part| part.has(*row))).collect();
-        let missing: Vec<usize> = rows.iter().copied().filter(|row| !table.rows.contains_key(row)).collect();
-        let bar = self.common.talk.progress(missing.len() as u64, &prepared.name);
+        let (table, asked) = self.filled(table, (&study, &plan), self.common.talk.origin(&prepared), place);
+        Ok((prepared, table, asked))
+    }
+
+    /// Computes the rows that are missing, within the budget; returns the number that there should be, too.
+    fn filled(
+        &self,
+        table: StudyTable,
+        (study, plan): (&Study, &Plan),
+        origin: Origin,
+        place: &Path,
+    ) -> (StudyTable, usize) {
+        let is_missing = |row: &usize| self.shard.is_none_or(|part| part.has(*row)) && !table.rows.contains_key(row);
+        let missing: Vec<usize> = (0..plan.rows.len()).filter(is_missing).collect();
+        let asked = table.rows.len() + missing.len();
+        let bar = self.common.talk.progress(missing.len() as u64, "variants");
         let budget = self.budget.map(Budget::begin);
         let is_over = || interrupt::is_asked() || budget.is_some_and(|budget| budget.left().is_zero());
         let mut saved = Instant::now();
-        let origin = self.common.talk.origin(&prepared);
         let done = |table: &StudyTable| {
             bar.inc(1);
             if saved.elapsed() > SAVED {
                 // A failure to save is reported at the end.
-                let _ = save((table, rows.len()), origin.clone(), place);
+                let _ = save((table, asked), origin.clone(), place);
                 saved = Instant::now();
             }
         };
-        let table = table.filled((&study, &plan), missing, &is_over, done);
+        let table = table.filled((study, plan), missing, &is_over, done);
         bar.finish_and_clear();
-        Ok((prepared, table, rows.len()))
+        (table, asked)
     }
 
     /// Returns the commands that compute one variant alone, without its values.

@@ -16,7 +16,13 @@ const MARKED: usize = 40;
 /// Height of a panel of a map and of a scatter plot, nominal pixels, and width of a column of the latter.
 const MAP: f64 = 220.0;
 const SCATTER: f64 = 130.0;
-const COLUMN: f64 = 260.0;
+const COLUMN: f64 = 300.0;
+/// Widths of a letter, of the gap between two names, and of all beside the axes, nominal pixels.
+const LETTER: f64 = 9.5;
+const GAP: f64 = 16.0;
+const BESIDE: f64 = 200.0;
+/// Part of the range of a parameter that its axis is longer by at each end.
+const MARGIN: f64 = 0.05;
 /// Colour of variants that failed, and their mark.
 const FAILED: Tint = Tint::Body(1, 0.0);
 const MARK: &str = "×";
@@ -40,7 +46,8 @@ pub fn scatter_figure(table: &StudyTable) -> Option<Figure> {
     }
     let panel = |(y, x): (usize, usize)| {
         let points = table.rows.values().map(|row| (row.values[x], row.values[y])).collect();
-        let plain = Panel::new(name(table, x), name(table, y)).height(SCATTER);
+        let plain = Panel::new(axis(table, x), name(table, y)).height(SCATTER);
+        let plain = with_key(table, plain);
         plain.items(discs(points)).items(failures(table, |row| Spot::data(row.values[x], f64::NEG_INFINITY)))
     };
     let panels = drawn(table).flat_map(|y| (0..columns).map(move |x| (y, x))).map(panel);
@@ -82,7 +89,8 @@ pub fn coordinates_figure(table: &StudyTable) -> Option<Figure> {
             Item { spots: vec![at(1.0).moved(0.0, 6.0)], tint: Tint::Ink(0.0), form: text(*high) },
         ]);
     }
-    let width = (110.0 * columns.len() as f64).max(640.0);
+    let longest = columns.iter().map(|column| name(table, *column).chars().count()).max().unwrap_or(0) as f64;
+    let width = (BESIDE + (LETTER * longest + GAP) * columns.len() as f64).max(640.0);
     Some(Figure { width, ..titled(table, ": parallel coordinates") }.panel(with_key(table, panel)))
 }
 
@@ -134,18 +142,21 @@ fn curve(table: &StudyTable, column: usize) -> Panel {
 
 /// Colours a recorded column over both parameters: cells of a grid, else discs.
 fn map(table: &StudyTable, column: usize) -> Panel {
-    let [x, y] = [axis(table, 0), axis(table, 1)];
+    let [columns, rows] = [0, 1].map(|parameter| edges(table, parameter));
+    // A list may have one value of a parameter in all rows.
+    let is_grid = columns.len().min(rows.len()) > 2 && (columns.len() - 1) * (rows.len() - 1) == table.count;
+    let of_cells = |parameter: usize, edges: &[f64]| axis(table, parameter).range(edges[0], edges[edges.len() - 1]);
+    let axes = if is_grid { [of_cells(0, &columns), of_cells(1, &rows)] } else { [0, 1].map(|i| axis(table, i)) };
+    let [x, y] = axes;
     let mut panel = Panel::new(x, y).title(name(table, column)).height(MAP);
     panel.colors = name(table, column).into();
-    let [columns, rows] = [0, 1].map(|axis| edges(table, axis));
-    let is_grid = (columns.len() - 1) * (rows.len() - 1) == table.count;
     let item = |row: &StudyRow| {
         let tint = Tint::Value(row.values[column]);
-        let at = Spot::data(row.values[0], row.values[1]);
         if !is_grid {
-            return Item { spots: vec![at], tint, form: Form::Disc(4.0) };
+            return Item { spots: vec![Spot::data(row.values[0], row.values[1])], tint, form: Form::Disc(4.0) };
         }
-        let [(left, right), (low, high)] = [cell(&columns, row.values[0]), cell(&rows, row.values[1])];
+        let (left, right) = cell(&columns, row.values[0]);
+        let (low, high) = cell(&rows, row.values[1]);
         let spots = [(left, low), (right, low), (right, high), (left, high)].map(|(x, y)| Spot::data(x, y)).to_vec();
         Item { spots, tint, form: Form::Cell }
     };
@@ -154,12 +165,20 @@ fn map(table: &StudyTable, column: usize) -> Panel {
     panel.items(failures(table, |row| Spot::data(row.values[0], row.values[1]).moved(0.0, -5.0)))
 }
 
-/// Returns the axis of a parameter, logarithmic where that is how it was varied.
+/// Returns the axis of a parameter, logarithmic where that is how it was varied, with room at its ends.
 fn axis(table: &StudyTable, parameter: usize) -> AxisSpec {
+    let is_log = is_log(table, parameter);
+    let (low, high) = range(table, parameter);
+    let more = |at: f64| if is_log { low * (high / low).powf(at) } else { low + at * (high - low) };
+    let spec = AxisSpec { is_log, ..name(table, parameter).into() };
+    if low < high { spec.range(more(-MARGIN), more(1.0 + MARGIN)) } else { spec }
+}
+
+/// True if the values of a parameter were chosen with a constant factor.
+fn is_log(table: &StudyTable, parameter: usize) -> bool {
     let own = format!("{}=", table.columns[parameter].name);
     let plan = table.identity.get("plan").and_then(|plan| plan.as_str()).unwrap_or_default();
-    let is_log = plan.split(' ').any(|word| word.starts_with(&own) && word.ends_with(":log"));
-    AxisSpec { is_log, ..name(table, parameter).into() }
+    plan.split(' ').any(|word| word.starts_with(&own) && word.ends_with(":log"))
 }
 
 /// Returns the borders of cells about the values of a parameter.
@@ -167,10 +186,11 @@ fn edges(table: &StudyTable, parameter: usize) -> Vec<f64> {
     let mut values: Vec<f64> = table.rows.values().map(|row| row.values[parameter]).collect();
     values.sort_by(f64::total_cmp);
     values.dedup();
-    let is_log = axis(table, parameter).is_log;
+    let is_log = is_log(table, parameter);
     let middle = |a: f64, b: f64| if is_log { (a * b).sqrt() } else { 0.5 * (a + b) };
     let beyond = |a: f64, b: f64| if is_log { a * a / middle(a, b) } else { 2.0 * a - middle(a, b) };
-    let [first, last] = [&values[..2.min(values.len())], &values[values.len().saturating_sub(2)..]];
+    let first = &values[..values.len().min(2)];
+    let last = &values[values.len().saturating_sub(2)..];
     let ends = [beyond(first[0], first[first.len() - 1]), beyond(last[last.len() - 1], last[0])];
     let inner = values.windows(2).map(|pair| middle(pair[0], pair[1]));
     [ends[0]].into_iter().chain(inner).chain([ends[1]]).collect()

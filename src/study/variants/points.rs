@@ -200,7 +200,7 @@ mod tests {
             ("latin", "write latin:N"),
             ("latin:0", "`0` is no number of variants"),
             ("latin:x", "`x` is no number of variants"),
-            ("latn:9", "unknown sample `latn`"),
+            ("latn:9", "there is no sample `latn`"),
         ];
         for (text, message) in table {
             let error = text.parse::<Sample>().unwrap_err().to_string();
