@@ -35,7 +35,7 @@ impl Family {
     }
 
     fn new(text: String, path: Option<PathBuf>, Overrides { elements, set, .. }: &Overrides) -> Result<Family> {
-        let document = scene::parsed(&text).map_err(|error| match &path {
+        let document = scene::read_json(&text).map_err(|error| match &path {
             Some(path) => scene::place(error, path, &text),
             None => error,
         })?;

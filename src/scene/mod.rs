@@ -152,7 +152,7 @@ impl Elements {
     /// # Errors
     /// As [`Scene::parse`].
     pub fn parse_in(&self, folder: &Path, text: &str, overrides: &[(String, Number)]) -> Result<Scene> {
-        self.resolve(folder, parsed(text)?, overrides)
+        self.resolve(folder, read_json(text)?, overrides)
     }
 
     /// The scene of a document; files that it names are in `folder`.
@@ -174,8 +174,8 @@ impl Elements {
     }
 }
 
-/// The document of a scene's text.
-pub(crate) fn parsed(text: &str) -> Result<Value> {
+/// The document in a text.
+pub(crate) fn read_json(text: &str) -> Result<Value> {
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         return Err(Error::input("the file is empty").hint("a scene is a JSON object; see `holonom schema`"));
     }

@@ -222,7 +222,7 @@ impl StudyTable {
                 value(&other),
                 value(self)
             ))
-            .hint("all parts need the same scene, options and version of holonom"));
+            .hint("all rows need the same scene, options and version of holonom; name another folder with -o"));
         }
         for (place, row) in other.rows {
             match self.rows.get(&place) {
