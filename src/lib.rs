@@ -51,7 +51,7 @@
 //! | [`run`] | [`run::Run`]: a motion that one holds, steps, drives by inputs and ends at events | |
 //! | [`linearize`] | linear models at a state, by every method; state-transition matrix, loci | a file and a line in [`linearize::registry`] |
 //! | [`validate`] | linear models against perturbed simulations | |
-//! | [`study`] | many simulations of one scene: drift under stabilizations, speed for accuracy ([`study::work_precision`]), maps over stress parameters ([`study::stress`]) | a stress parameter: an entry in [`study::stress::registry`] |
+//! | [`study`] | many simulations of one scene: drift under stabilizations, speed for accuracy ([`study::work_precision`]), maps over stress parameters ([`study::stress`]), variants with recorded numbers ([`study::variants`]) | a stress parameter: an entry in [`study::stress::registry`] |
 //! | [`simplify`] | the least model of a scene that keeps a promise | a file and a line in [`simplify::registry`], or from outside |
 //! | [`tolerances`] | thresholds that several files share, with what they decide, their unit, reason and test | |
 //! | [`plot`], [`report`], [`cli`] | figures, files and text, the command line | one file a subcommand |

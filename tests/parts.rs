@@ -23,6 +23,7 @@ mod reactions;
 mod scenes;
 mod section_forces;
 mod signals;
+mod study;
 mod suspension;
 mod sweep;
 mod tangent;

@@ -43,7 +43,8 @@ pub fn man(args: Man) -> Result<()> {
         return print(&String::from_utf8_lossy(&page(command)?));
     };
     let mut folder = Folder::create(path)?;
-    let pages: Vec<clap::Command> = command.get_subcommands().filter(|one| one.get_name() != "help").cloned().collect();
+    let pages: Vec<clap::Command> =
+        command.get_subcommands().filter(|one| one.get_name() != "help" && !one.is_hide_set()).cloned().collect();
     folder.write("holonom.1", &page(command)?)?;
     for one in pages {
         let name = format!("holonom-{}", one.get_name());

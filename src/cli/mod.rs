@@ -10,6 +10,7 @@ mod generate;
 mod guide;
 mod import;
 pub(crate) mod interrupt;
+mod kinematics;
 mod linear;
 mod linearize;
 mod loci;
@@ -21,7 +22,7 @@ pub(crate) mod restart;
 mod simplify;
 mod simulate;
 mod stress;
-mod sweep;
+mod study;
 mod talk;
 pub mod terminal;
 mod tradeoff;
@@ -75,7 +76,10 @@ enum Command {
     /// It begins at the scene's own value of the parameter and goes outwards, each state from its neighbour, at the scene's
     /// start time. It finds the end of the travel. Multipliers and reactions are those of the equations of motion at that
     /// state, with the accelerations there.
-    Sweep(sweep::Args),
+    Kinematics(kinematics::Args),
+    /// The earlier name of `kinematics`
+    #[command(hide = true)]
+    Sweep(kinematics::Args),
     /// The mechanism itself: at one time, at several in one figure, or in motion
     Plot(plot::Args),
     /// Linear models (A, B, C, D) at states of the motion, by every approach, with their eigenvalues
@@ -110,6 +114,11 @@ enum Command {
     /// Equalities of MJCF are soft there and exact constraints here. Its motors become inputs. Standard error lists all that
     /// the scene leaves out, such as limits, contacts and meshes, and all that looks wrong in the file.
     Import(import::Args),
+    /// Many variants of the scene: a grid, a sample or a list of parameters, one row of recorded numbers each
+    ///
+    /// The scene is read once. Variants run on all cores, and their rows do not depend on the number of cores. Only the
+    /// recorded numbers are computed and written. A variant that fails is a row that says why.
+    Study(study::Args),
     /// Formulations, integrators and projections: what goes with what, proven orders, what each is for
     Methods(methods::Args),
     /// The scene format: keys, types of elements, measures, units and expressions
@@ -184,7 +193,11 @@ fn execute(command: Command) -> Result<ExitCode> {
         Command::Simulate(args) => simulate::run(args),
         Command::Drift(args) => drift::run(args),
         Command::Tradeoff(args) => tradeoff::run(args),
-        Command::Sweep(args) => sweep::run(args),
+        Command::Kinematics(args) => kinematics::run(args),
+        Command::Sweep(args) => {
+            terminal::tell("note: `sweep` is now called `kinematics`; `study` simulates variants");
+            kinematics::run(args)
+        }
         Command::Plot(args) => plot::run(args),
         Command::Linearize(args) => done(linearize::run(args)),
         Command::Loci(args) => loci::run(args),
@@ -192,6 +205,7 @@ fn execute(command: Command) -> Result<ExitCode> {
         Command::Validate(args) => validate::run(args),
         Command::Transition(args) => done(transition::run(args)),
         Command::Stress(args) => stress::run(args),
+        Command::Study(args) => study::run(args),
         Command::Simplify(args) => simplify::run(args),
         Command::Generate(args) => done(generate::run(args)),
         Command::Import(args) => done(import::run(args)),

@@ -48,6 +48,7 @@ chapters! {
     stabilization
     accuracy
     kinematics
+    studies
     linear
     flexible
     speed

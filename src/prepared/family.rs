@@ -84,7 +84,18 @@ impl Family {
     /// # Errors
     /// As [`Scene::parse`]: the value may be outside of what the scene's expressions are defined for.
     pub fn scene_at(&self, parameter: &str, value: f64) -> Result<Scene> {
-        self.with(parameter, value).resolved()
+        self.scene_with(&[parameter.to_string()], &[value])
+    }
+
+    /// The scene with other values of some parameters.
+    ///
+    /// # Errors
+    /// As [`Family::scene_at`].
+    pub fn scene_with(&self, parameters: &[String], values: &[f64]) -> Result<Scene> {
+        let own = parameters.iter().cloned().zip(values.iter().map(|value| Number::Value(*value)));
+        let mut family = self.clone();
+        family.overrides.set.extend(own);
+        family.resolved()
     }
 
     /// The model with the scene's own values.

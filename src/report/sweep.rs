@@ -1,4 +1,4 @@
-//! `sweep.json`, and the text on a sweep.
+//! `kinematics.json`, and the text on a sweep.
 
 use super::sweep_figure::{SweepLook, sweep_figure};
 use super::table::named;
@@ -112,7 +112,7 @@ impl SweepAnswer<'_> {
         let curve = self.sweep.curve();
         let [first, last] =
             [curve.first(), curve.last()].map(|point| point.map_or(String::new(), |point| significant(point.value, 6)));
-        format!("the mechanism moves from {first} to {last}: sweep within, or change the lengths that limit it")
+        format!("the mechanism moves from {first} to {last}: stay within, or change the lengths that limit it")
     }
 
     fn table(&self) -> String {

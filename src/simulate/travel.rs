@@ -26,7 +26,8 @@ const TRAVEL_TRIES: usize = 500;
 /// `a_driver_beyond_its_travel_is_named`.
 const TRAVEL_AHEAD_OF_CRAWL: f64 = 1e-2;
 
-const HINT: &str = "let the driver turn back before the end of its travel, or change lengths; `sweep` shows the travel";
+const HINT: &str =
+    "let the driver turn back before the end of its travel, or change lengths; `kinematics` shows the travel";
 
 /// The travel of a run's drivers.
 pub struct Travelled<'a> {

@@ -9,12 +9,14 @@ mod companion;
 mod drift;
 mod error_bar;
 mod metric;
+mod numbers;
 pub(crate) mod pool;
 pub(crate) mod price;
 mod queue;
 mod run;
 mod second_opinion;
 pub mod stress;
+pub mod variants;
 mod watched;
 pub mod work_precision;
 

@@ -324,6 +324,24 @@ fn assert_whole(folder: &Path) {
     }
 }
 
+#[test]
+fn an_interrupted_study_keeps_whole_rows() {
+    let place = Place::new(PENDULUM.replace(r#""gravity""#, r#""parameters": { "l": 1 }, "gravity""#));
+    let study = ["study", "scene.json", "--vary", "l=1..2:100000", "--figures", "none", "-o", "here"];
+    let output = interrupted(|_| start(&place, &study), "INT", has_ended_itself);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("error: interrupted: ") && err(&output).contains("--resume"), "{}", err(&output));
+    assert_whole_study(&place);
+}
+
+fn assert_whole_study(place: &Place) {
+    let table = place.text("here/study.csv");
+    let rows: Vec<csv::StringRecord> =
+        csv::Reader::from_reader(table.as_bytes()).records().map(Result::unwrap).collect();
+    assert_eq!(place.json("here/study.json")["rows"], rows.len());
+    assert!(rows.iter().all(|row| row.len() == 5 && row[2].parse::<f64>().is_ok() && row[4].is_empty()), "{table}");
+}
+
 /// A signal that comes while results are renamed: old ones or new ones, whole.
 #[test]
 fn a_signal_mixes_no_results() {

@@ -13,6 +13,7 @@ mod import;
 #[cfg(unix)]
 mod interrupted;
 mod jumps;
+mod kinematics;
 mod limits;
 mod linear;
 mod loci;
@@ -26,7 +27,7 @@ mod simplify;
 mod simulate;
 mod singular;
 mod stress;
-mod sweep;
+mod study;
 mod terminal;
 mod tradeoff;
 mod units;

@@ -3,10 +3,11 @@
 use super::*;
 
 /// Every command that writes results, with its file.
-const COMMANDS: [(&[&str], &str); 12] = [
+const COMMANDS: [(&[&str], &str); 13] = [
     (&["simulate"], "summary.json"),
     (&["drift"], "stabilizations.json"),
-    (&["sweep", "l=1..2:3"], "sweep.json"),
+    (&["kinematics", "l=1..2:3"], "kinematics.json"),
+    (&["study", "--vary", "a=0..1:2", "--record", "rod.angle"], "study.json"),
     (&["tradeoff", "--integrator", "rk4", "--digits", "3", "--rows", "3", "--budget", "1s"], "tradeoff.json"),
     (&["tradeoff", "--variants", "scene.json:l=1", "--repeats", "1"], "models.json"),
     (&["stress", "--map", "time", "--limit", "0.01"], "stress.json"),
@@ -20,7 +21,7 @@ const COMMANDS: [(&[&str], &str); 12] = [
 
 fn scene() -> String {
     let inputs = r#""inputs": [ { "name": "push", "force": "push", "component": "x" } ], "outputs": "#;
-    PENDULUM.replace(r#""gravity""#, r#""parameters": { "l": 1 }, "gravity""#).replace(r#""outputs": "#, inputs)
+    PENDULUM.replace(r#""gravity""#, r#""parameters": { "l": 1, "a": 0 }, "gravity""#).replace(r#""outputs": "#, inputs)
 }
 
 #[test]
@@ -28,7 +29,7 @@ fn every_command_says_how_to_repeat_it() {
     let place = Place::new(scene());
     for (command, file) in COMMANDS {
         let more = ["--set", "l=1.5", "--quiet", "-o", "here"];
-        let more = if command[0] == "sweep" { &more[2..] } else { &more[..] };
+        let more = if command[0] == "kinematics" { &more[2..] } else { &more[..] };
         let args = [&command[..1], &["scene.json"], &command[1..], more].concat();
         let code = place.run(&args).status.code();
         assert!(code == Some(0) || command[0] == "tradeoff", "{args:?}");
@@ -42,7 +43,7 @@ fn every_command_says_how_to_repeat_it() {
         files.iter().for_each(|name| assert!(place.path("here").join(name.as_str().unwrap()).is_file(), "{name}"));
         let method = if json["method"].is_object() { &json["method"] } else { &json["simulation"] };
         let is_named = method["integrator"] == "dop853";
-        assert!(is_named || ["sweep.json", "tradeoff.json"].contains(&file), "{file}: {method}");
+        assert!(is_named || ["kinematics.json", "tradeoff.json"].contains(&file), "{file}: {method}");
     }
 }
 

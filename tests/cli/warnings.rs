@@ -163,10 +163,11 @@ fn every_command_says_a_doubtful_start_once() {
         .replace(r#""gravity""#, r#""parameters": { "l": 1 }, "gravity""#)
         .replace(r#""outputs""#, r#""inputs": [{ "name": "u", "force": "push", "component": "x" }], "outputs""#);
     let place = Place::new(scene);
-    let commands: [&[&str]; 12] = [
+    let commands: [&[&str]; 13] = [
         &["check"],
         &["simulate"],
-        &["sweep", "l=1..2:3"],
+        &["kinematics", "l=1..2:3"],
+        &["study", "--vary", "l=1..2:3"],
         &["drift"],
         &["tradeoff", "--budget", "1s", "--repeats", "1"],
         &["stress", "--map", "gain", "--budget", "1"],

@@ -49,8 +49,8 @@ fn a_parameter_and_an_output_of_one_name_have_a_column_each() {
             .replace(r#""gravity""#, r#""parameters": { "theta": 0.1 }, "gravity""#)
             .replace(r#""angle": 0 }"#, r#""angle": "theta" }"#),
     );
-    place.done(&["sweep", "scene.json", "theta=0..1:3", "-o", "here"]);
-    let table = place.text("here/sweep.csv");
+    place.done(&["kinematics", "scene.json", "theta=0..1:3", "-o", "here"]);
+    let table = place.text("here/kinematics.csv");
     let headings: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     assert_eq!(headings[0], "parameters.theta");
     assert_eq!(headings.iter().filter(|heading| **heading == "theta").count(), 1, "{headings:?}");

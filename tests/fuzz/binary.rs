@@ -7,7 +7,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 /// Each with a short run; the scene's own may be endless.
-const COMMANDS: [&[&str]; 16] = [
+const COMMANDS: [&[&str]; 17] = [
     &["check"],
     &["simulate", "--until", "0.01", "--output-step", "0.001"],
     &["linearize"],
@@ -19,7 +19,8 @@ const COMMANDS: [&[&str]; 16] = [
     &["validate", "--horizon", "0.01", "--budget", "500ms"],
     &["bode", "--points", "10"],
     &["transition", "--lyapunov", "0.01"],
-    &["sweep", "m=1..2:3"],
+    &["kinematics", "m=1..2:3"],
+    &["study", "--vary", "m=1..2:3", "--until", "0.01", "--linearize"],
     &["stress", "--map", "time", "--limit", "50ms", "--budget", "500ms"],
     &["simplify", "--within", "10%", "--until", "0.01", "--budget", "500ms"],
     &["tradeoff", "--until", "0.01", "--digits", "3", "--budget", "500ms"],

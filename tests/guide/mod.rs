@@ -33,8 +33,8 @@ macro_rules! chapters {
 }
 
 chapters! {
-    tutorial loops scenes expressions methods stabilization accuracy kinematics linear flexible speed extremes simplify
-    singular events results troubleshooting rust python large gallery references changelog
+    tutorial loops scenes expressions methods stabilization accuracy kinematics studies linear flexible speed extremes
+    simplify singular events results troubleshooting rust python large gallery references changelog
 }
 
 #[test]

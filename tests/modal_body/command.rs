@@ -47,8 +47,11 @@ fn a_sweep_looks_there_too() {
         "value": "angle" });
     let driven = |scene: &mut Value| scene["joints"].as_array_mut().unwrap().push(drive);
     let folder = place(driven, "rod.npz");
-    done(folder.path(), &["sweep", "below/scene.json", "angle=0..0.6:4", "-o", "out", "--quiet", "--figures", "none"]);
-    assert_eq!(fs::read_to_string(folder.path().join("out/sweep.csv")).unwrap().lines().count(), 5);
+    done(
+        folder.path(),
+        &["kinematics", "below/scene.json", "angle=0..0.6:4", "-o", "out", "--quiet", "--figures", "none"],
+    );
+    assert_eq!(fs::read_to_string(folder.path().join("out/kinematics.csv")).unwrap().lines().count(), 5);
 }
 
 /// What the program says of the scene, from the file's name and place on.

@@ -115,17 +115,23 @@ mod simulate {
 
 #[path = "../../src/study"]
 mod study {
+    mod numbers;
     mod pool;
     mod queue;
     mod stress {
         mod ladder;
         mod period;
     }
+    mod variants {
+        mod plan;
+        mod points;
+    }
 }
 
 #[path = "../../src/sweep"]
 mod sweep {
     mod range;
+    pub use range::Range;
 }
 
 #[path = "../../src/validate"]

@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result, suggest};
 use crate::simulate::Span;
+use crate::study::numbers::Numbers;
 use crate::study::watched::Watched;
 use std::path::Path;
 
@@ -13,6 +14,9 @@ pub struct Given {
     headings: Vec<String>,
     rows: Vec<Vec<f64>>,
 }
+
+const HINT: &str =
+    "give a table of comma-separated values with headings, as trajectory.csv is one: t, then quantities by name";
 
 impl Given {
     /// Reads a table with headings like `trajectory.csv`: `t` and quantities by name.
@@ -29,23 +33,9 @@ impl Given {
     /// # Errors
     /// Text that is no table with a column `t`.
     pub fn parse(name: &str, text: &str) -> Result<Given> {
-        let wrong = |what: String| {
-            Error::input(what).hint("give a table of comma-separated values with headings, as trajectory.csv is one: t, then quantities by name")
-        };
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
-        let headings = reader.headers().map_err(|error| wrong(format!("this is no table: {error}")))?;
-        let headings: Vec<String> = headings.iter().map(str::to_string).collect();
+        let Numbers { headings, rows } = Numbers::parse(text).map_err(|error| error.hint(HINT))?;
         if headings.iter().all(|heading| heading != "t") {
-            return Err(wrong("there is no column `t`".to_string()));
-        }
-        let mut rows = Vec::new();
-        for (line, record) in reader.records().enumerate() {
-            let record = record.map_err(|error| wrong(format!("this is no table: {error}")))?;
-            let number = |cell: &str| match cell.parse::<f64>() {
-                Ok(value) if value.is_finite() => Ok(value),
-                _ => Err(wrong(format!("row {} has `{cell}`, which is no number", line + 1))),
-            };
-            rows.push(record.iter().map(number).collect::<Result<Vec<f64>>>()?);
+            return Err(Error::input("there is no column `t`").hint(HINT));
         }
         Ok(Given { name: name.to_string(), headings, rows })
     }

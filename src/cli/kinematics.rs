@@ -1,4 +1,4 @@
-//! `holonom sweep SCENE NAME=A..B:N`
+//! `holonom kinematics SCENE NAME=A..B:N`
 
 use super::common::{Output, SceneOptions, Talk, fail};
 use crate::error::{Result, Warning, find};
@@ -9,8 +9,8 @@ use std::process::ExitCode;
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
-  holonom sweep models/five_link_kinematics.json travel=-0.08..0.08:21 --outputs camber,toe --against wheel_travel
-  holonom sweep models/double_wishbone.json rack=-0.06..0.06:25 --json")]
+  holonom kinematics models/five_link_kinematics.json travel=-0.08..0.08:21 --outputs camber,toe --against wheel_travel
+  holonom kinematics models/double_wishbone.json rack=-0.06..0.06:25 --json")]
 pub struct Args {
     #[command(flatten)]
     scene: SceneOptions,
@@ -45,15 +45,16 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let look = SweepLook { outputs: &args.outputs, against: args.against.as_deref(), separate: args.separate };
     let answer = SweepAnswer { sweep: &sweep, look };
     let folder = args.output.folder(&sweep.scene)?;
-    args.talk.publish(folder, "sweep", args.talk.origin_of(&family.scene()?.parameters), &answer)?;
+    args.talk.publish(folder, "kinematics", args.talk.origin_of(&family.scene()?.parameters), &answer)?;
     answer.failure().map_or(Ok(ExitCode::SUCCESS), fail)
 }
 
 fn moves_nothing(sweep: &Sweep) -> Option<Warning> {
     let name = &sweep.range.parameter;
-    let text = format!("`{name}` changes no position: a sweep assembles positions and simulates nothing");
-    let hint =
-        format!("simulate with --set {name}=.., or follow eigenvalues by `holonom loci SCENE --sweep {name}=A..B`");
+    let text = format!("`{name}` changes no position: `kinematics` assembles positions and simulates nothing");
+    let hint = format!(
+        "simulate variants by `holonom study SCENE --vary {name}=A..B:N`, or follow eigenvalues by `holonom loci SCENE --sweep {name}=A..B`"
+    );
     sweep.moves_nothing().then(|| Warning::new(text, hint))
 }
 

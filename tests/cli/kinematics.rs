@@ -63,13 +63,13 @@ fn columns(text: &str) -> impl Fn(&str) -> Vec<f64> + use<> {
 #[test]
 fn camber_and_toe_over_the_travel_of_a_wheel() {
     let place = suspension();
-    let text = place.done(&["sweep", "scene.json", "travel=-0.08..0.08:81", "-o", "here"]);
-    assert_eq!(place.files("here"), ["sweep.csv", "sweep.json", "sweep.svg"]);
+    let text = place.done(&["kinematics", "scene.json", "travel=-0.08..0.08:81", "-o", "here"]);
+    assert_eq!(place.files("here"), ["kinematics.csv", "kinematics.json", "kinematics.svg"]);
     assert!(
         text.contains("81 of 81 values") && text.contains("(1.559°)") && text.contains("written to here"),
         "{text}"
     );
-    let csv = place.text("here/sweep.csv");
+    let csv = place.text("here/kinematics.csv");
     assert!(csv.starts_with("travel,carrier.x,carrier.y,carrier.z,carrier.qw,"), "{csv}");
     assert!(
         csv.lines().next().unwrap().ends_with("joint.lift.z,wheel_travel,camber,toe,track_change,wheelbase_change")
@@ -84,7 +84,7 @@ fn camber_and_toe_over_the_travel_of_a_wheel() {
     let off = ends.iter().zip([1.56, -1.62, -0.41, 0.21]).map(|(found, known)| (found - known).abs());
     assert!(off.fold(0.0, f64::max) < 0.01, "{ends:?}");
     assert!(camber.is_sorted_by(|a, b| a > b) && toe.is_sorted_by(|a, b| a < b));
-    let json = place.json("here/sweep.json");
+    let json = place.json("here/kinematics.json");
     assert_eq!((&json["status"], &json["failure"], &json["reached"]), (&"completed".into(), &Value::Null, &81.into()));
     let camber_json = &json["outputs"][1];
     assert_eq!(
@@ -96,8 +96,8 @@ fn camber_and_toe_over_the_travel_of_a_wheel() {
 #[test]
 fn a_value_is_what_the_scene_set_to_it_starts_at() {
     let place = suspension();
-    place.done(&["sweep", "scene.json", "travel=-0.08..0.08:5", "-o", "here", "--quiet", "--figures", "none"]);
-    let column = columns(&place.text("here/sweep.csv"));
+    place.done(&["kinematics", "scene.json", "travel=-0.08..0.08:5", "-o", "here", "--quiet", "--figures", "none"]);
+    let column = columns(&place.text("here/kinematics.csv"));
     for (i, set) in ["travel=-0.08", "travel=-0.04", "travel=0", "travel=0.04", "travel=0.08"].iter().enumerate() {
         let short = ["--until", "0.01", "--output-step", "0.01", "--figures", "none", "--quiet"];
         place.done(&[&["simulate", "scene.json", "--set", set, "-o", "one"], &short[..]].concat());
@@ -111,8 +111,8 @@ fn a_value_is_what_the_scene_set_to_it_starts_at() {
 #[test]
 fn the_piston_goes_as_in_the_closed_form() {
     let place = Place::new(SLIDER_CRANK);
-    place.done(&["sweep", "scene.json", "angle=-7..7:57", "-o", "here"]);
-    let column = columns(&place.text("here/sweep.csv"));
+    place.done(&["kinematics", "scene.json", "angle=-7..7:57", "-o", "here"]);
+    let column = columns(&place.text("here/kinematics.csv"));
     for (angle, (piston, crank)) in column("angle").iter().zip(column("piston_x").iter().zip(column("crank_angle"))) {
         let known = 0.15 * angle.cos() + (0.16 - (0.15 * angle.sin()).powi(2)).sqrt();
         assert!((piston - known).abs() < 1e-10 && (crank - angle).abs() < 1e-10, "at {angle}: {piston}, not {known}");
@@ -125,15 +125,15 @@ fn the_piston_goes_as_in_the_closed_form() {
 #[test]
 fn the_end_of_travel_is_found_and_what_lies_before_it_is_written() {
     let place = four_bar();
-    let output = place.run(&["sweep", "scene.json", "angle=0.5..3:26", "-o", "here"]);
+    let output = place.run(&["kinematics", "scene.json", "angle=0.5..3:26", "-o", "here"]);
     assert_eq!(output.status.code(), Some(1), "{}", err(&output));
     let end = ((1.8f64.powi(2) + 2.1f64.powi(2) - 9.0) / (2.0 * 1.8 * 2.1)).acos();
-    let json = place.json("here/sweep.json");
+    let json = place.json("here/kinematics.json");
     let limit = json["limits"][0]["value"].as_f64().unwrap();
     assert!((limit - end).abs() < 1e-6, "{limit}, not {end}");
     assert_eq!((&json["status"], json["failure"]["value"].as_f64()), (&"failed".into(), Some(1.8)));
     assert!(json["failure"]["reason"].as_str().unwrap().contains("the joints cannot all be closed"));
-    let reached = columns(&place.text("here/sweep.csv"))("angle");
+    let reached = columns(&place.text("here/kinematics.csv"))("angle");
     assert_eq!((reached.len(), reached[0], reached[12]), (13, 0.5, 1.7));
     let message = err(&output);
     assert!(message.starts_with("error: the branch ends at angle = 1.7") && message.contains("1.8 is out of reach"));
@@ -141,15 +141,15 @@ fn the_end_of_travel_is_found_and_what_lies_before_it_is_written() {
         message.contains("the mechanism moves from 0.5 to 1.7") && out(&output).contains("SINGULAR at"),
         "{message}"
     );
-    assert!(place.text("here/sweep.svg").contains("limit"));
+    assert!(place.text("here/kinematics.svg").contains("limit"));
 }
 
 #[test]
 fn figures_show_what_is_asked_for_in_degrees() {
     let place = suspension();
     let run = |more: &[&str]| {
-        place.done(&[&["sweep", "scene.json", "travel=-0.08..0.08:9", "-o", "here", "--quiet"], more].concat());
-        place.text("here/sweep.svg")
+        place.done(&[&["kinematics", "scene.json", "travel=-0.08..0.08:9", "-o", "here", "--quiet"], more].concat());
+        place.text("here/kinematics.svg")
     };
     let all = run(&[]);
     assert!([">angle (deg)<", ">position (m)<", ">travel<"].iter().all(|text| all.contains(text)), "{all}");
@@ -165,9 +165,9 @@ fn figures_show_what_is_asked_for_in_degrees() {
 #[test]
 fn json_is_the_file_and_nothing_else() {
     let place = four_bar();
-    let text = place.done(&["sweep", "scene.json", "angle=0.5..1.5:3", "--json"]);
-    assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), place.json("out/four_bar/sweep.json"));
-    let json = place.json("out/four_bar/sweep.json");
+    let text = place.done(&["kinematics", "scene.json", "angle=0.5..1.5:3", "--json"]);
+    assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), place.json("out/four_bar/kinematics.json"));
+    let json = place.json("out/four_bar/kinematics.json");
     let promised = [
         "holonom",
         "command",
@@ -196,11 +196,11 @@ fn json_is_the_file_and_nothing_else() {
 #[test]
 fn what_is_swept_can_be_set_and_turned_round() {
     let place = suspension();
-    let sweep = ["sweep", "scene.json", "travel=0.05..-0.05:3", "--set", "travel=0.01", "--quiet"];
+    let sweep = ["kinematics", "scene.json", "travel=0.05..-0.05:3", "--set", "travel=0.01", "--quiet"];
     place.done(&sweep);
-    let json = place.json("out/five_link_kinematics/sweep.json");
+    let json = place.json("out/five_link_kinematics/kinematics.json");
     assert_eq!((json["own_value"].as_f64(), json["outputs"][1]["own"]["at"].as_f64()), (Some(0.01), Some(0.01)));
-    let column = columns(&place.text("out/five_link_kinematics/sweep.csv"));
+    let column = columns(&place.text("out/five_link_kinematics/kinematics.csv"));
     assert_eq!(column("travel"), [0.05, 0.0, -0.05]);
 }
 
@@ -222,7 +222,7 @@ fn bad_sweeps_are_refused_and_nothing_is_written() {
         (&["travel=5..6"], "the mechanism can be moved to 0.3725"),
     ];
     for (args, message) in table {
-        let output = place.run(&[&["sweep", "scene.json"], args].concat());
+        let output = place.run(&[&["kinematics", "scene.json"], args].concat());
         assert_eq!((output.status.code(), out(&output)), (Some(2), String::new()), "{args:?}");
         assert!(err(&output).contains(message), "{args:?}: {}", err(&output));
         assert!(!place.path("out").exists());
@@ -233,7 +233,7 @@ fn bad_sweeps_are_refused_and_nothing_is_written() {
 fn a_parameter_that_moves_nothing_is_told() {
     let place = Place::new("");
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
-    let said = |scene: &str, range: &str| err(&place.run(&["sweep", models.join(scene).to_str().unwrap(), range]));
+    let said = |scene: &str, range: &str| err(&place.run(&["kinematics", models.join(scene).to_str().unwrap(), range]));
     let stiffness = said("four_bar_spring.json", "k1=10..100:5");
     assert!(stiffness.contains("`k1` changes no position") && stiffness.contains("holonom loci"), "{stiffness}");
     assert!(!said("double_wishbone.json", "rack=-0.01..0.01:3").contains("changes no position"));
