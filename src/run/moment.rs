@@ -29,6 +29,8 @@ pub struct Moment {
 struct Labels {
     names: Names,
     outputs: Vec<String>,
+    /// Number of the last of the outputs that are works.
+    works: usize,
     unknown: Mutex<Option<String>>,
 }
 
@@ -36,6 +38,7 @@ impl Moment {
     /// All values zero, with the names of a system.
     pub(super) fn of(system: &dyn MechanicalSystem) -> Self {
         let n = system.dimensions();
+        let works = system.works().len();
         let outputs: Vec<String> = recorded(system).into_iter().map(|column| column.name).collect();
         Moment {
             t: 0.0,
@@ -44,7 +47,7 @@ impl Moment {
             vdot: vec![0.0; n.v],
             lambda: vec![0.0; n.lambda],
             outputs: vec![0.0; outputs.len()],
-            labels: Arc::new(Labels { names: system.names(), outputs, unknown: Mutex::default() }),
+            labels: Arc::new(Labels { names: system.names(), outputs, works, unknown: Mutex::default() }),
         }
     }
 
@@ -108,7 +111,7 @@ impl Moment {
         self.vdot.fill(f64::NAN);
         self.lambda.fill(f64::NAN);
         self.outputs.fill(f64::NAN);
-        let own = self.outputs.len() - system.works().len();
+        let own = self.outputs.len() - self.labels.works;
         let at = OperatingPoint { t, q, v, vdot: &self.vdot, lambda: &self.lambda };
         system.outputs(at, &mut self.outputs[..own], scratch);
     }

@@ -270,7 +270,8 @@ pub trait MechanicalSystem: Send + Sync {
         self.columns().is_empty()
     }
 
-    /// The inputs u: changes of what the equations contain, zero in a simulation. Default: none.
+    /// The inputs u: changes of what the equations contain. In a run that drives them their values are
+    /// [`Scratch::inputs`], which [`evaluate`](Self::evaluate) adds; else they are zero. Default: none.
     fn inputs(&self) -> Vec<Column> {
         Vec::new()
     }
