@@ -242,6 +242,15 @@ fn a_wanted_stop_is_no_failure() {
 }
 
 #[test]
+fn a_run_is_stopped_by_its_sink() {
+    let mut run = from_one(&SWINGING, "index1 + dop853").shown_to(Enough(Cell::new(0)));
+    assert_eq!(run.to(10.0).unwrap(), End::Stopped);
+    assert_eq!(run.statistics().steps, 3);
+    let last = run.t();
+    assert_eq!(run.record().trajectory.times().last(), Some(last));
+}
+
+#[test]
 fn a_closure_is_a_sink() {
     let mut steps = 0;
     let mut count = |_: &Observation| steps += 1;

@@ -29,10 +29,10 @@ use crate::analysis::{Record, Recorder};
 use crate::error::{Error, Result, clock};
 use crate::formulation::Statistics;
 use crate::prepared::Model;
-use crate::simulate::{Checkpoint, Choice, Engine, Method, Span, Start, advise};
-use crate::system::{MechanicalSystem, Scratch};
+use crate::simulate::{Checkpoint, Choice, Engine, Method, Sink, Span, Start, advise};
+use crate::system::MechanicalSystem;
 use inputs::Inputs;
-use recording::{Reader, Recording, unsolved};
+use recording::{Observers, unsolved};
 
 /// A run: one motion, from its start as far as it was asked to go.
 ///
@@ -52,8 +52,7 @@ pub struct Run<'a> {
     engine: Option<Engine<'a>>,
     /// The reason why it cannot begin.
     refused: Option<Error>,
-    recorder: Recorder<'a>,
-    reader: Reader<'a>,
+    observers: Observers<'a>,
 }
 
 /// The state at which a run begins.
@@ -85,12 +84,23 @@ impl Model {
 
 impl<'a> Run<'a> {
     /// A run of `system` by `method` from a consistent state at `t`, or on from where another was saved.
-    pub fn new<'s>(system: &'a dyn MechanicalSystem, method: Method, t: f64, start: impl Into<Start<'s>>) -> Self {
+    pub fn new<'s, M: TryInto<Method>>(
+        system: &'a dyn MechanicalSystem,
+        method: M,
+        t: f64,
+        start: impl Into<Start<'s>>,
+    ) -> Self
+    where
+        Error: From<M::Error>,
+    {
         let start = match start.into() {
             Start::State(q, v) => Origin::State(q.to_vec(), v.to_vec()),
             Start::Saved(saved) => Origin::Saved(Box::new(saved.clone())),
         };
-        Run::of(system, Choice::One(method), start, t)
+        match method.try_into().map_err(Error::from) {
+            Ok(method) => Run::of(system, Choice::One(method), start, t),
+            Err(error) => Run { refused: Some(error), ..Run::of(system, Choice::One(Method::default()), start, t) },
+        }
     }
 
     fn of(system: &'a dyn MechanicalSystem, choice: Choice, start: Origin, began: f64) -> Self {
@@ -105,8 +115,7 @@ impl<'a> Run<'a> {
             inputs: Inputs::default(),
             engine: None,
             refused: None,
-            recorder: Recorder::new(system),
-            reader: Reader { system, moment: Moment::of(system), scratch: Scratch::default() },
+            observers: Observers::of(system),
         }
     }
 
@@ -117,7 +126,7 @@ impl<'a> Run<'a> {
     /// take fewer steps.
     pub fn input(mut self, name: &str, input: impl Into<Input<'a>>) -> Self {
         self.named.push((name.to_string(), input.into()));
-        self
+        self.unless_begun("inputs are given")
     }
 
     /// Plans the end, s: what a run to shorter times decides by the whole of the motion is then the same. Without this
@@ -136,12 +145,27 @@ impl<'a> Run<'a> {
     /// Begins where another run of the same system was saved.
     pub fn from_saved(mut self, saved: &Checkpoint) -> Self {
         self.start = Origin::Saved(Box::new(saved.clone()));
-        self
+        self.unless_begun("a start is given")
     }
 
     /// Records in another way, such as with [`Recorder::with_jumps`] or [`Recorder::with_progress`].
     pub fn recording(mut self, change: impl FnOnce(Recorder<'a>) -> Recorder<'a>) -> Self {
-        self.recorder = change(self.recorder);
+        self.observers.recorder = change(self.observers.recorder);
+        self
+    }
+
+    /// Shows the motion to a sink, too. The run ends with [`End::Stopped`] where the sink is [done](Sink::is_done).
+    pub fn shown_to(mut self, sink: impl Sink + 'a) -> Self {
+        self.observers.sink = Box::new(sink);
+        self.unless_begun("a sink is given")
+    }
+
+    /// Refuses what comes too late.
+    fn unless_begun(mut self, change: &str) -> Self {
+        if self.engine.is_some() {
+            let late = Error::input(format!("{change} after the run has begun"));
+            self.refused = Some(late.hint("give it before the first step"));
+        }
         self
     }
 
@@ -157,7 +181,7 @@ impl<'a> Run<'a> {
         self.begin(end)?;
         self.sample()?;
         let until = self.inputs.next_sample(self.began).min(end);
-        let mut sink = Recording::of(&mut self.recorder, &mut self.reader);
+        let mut sink = self.observers.looking(None);
         let Some(engine) = &mut self.engine else { return Ok(End::Reached) };
         let end = engine.step(until, &mut sink);
         self.checked(end)
@@ -189,9 +213,9 @@ impl<'a> Run<'a> {
     pub fn state(&mut self) -> Result<Moment> {
         self.begin(self.end.unwrap_or(self.began + 1.0))?;
         if let Some(engine) = &mut self.engine {
-            self.reader.read_present(engine)?;
+            self.observers.reader.read_present(engine)?;
         }
-        Ok(self.reader.moment.clone())
+        Ok(self.observers.reader.moment.clone())
     }
 
     /// The state at a time within the last step, by the dense output.
@@ -199,7 +223,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// A time outside of it.
     pub fn interpolate(&mut self, t: f64) -> Result<Moment> {
-        let Run { engine, reader, .. } = self;
+        let Run { engine, observers: Observers { reader, .. }, .. } = self;
         let is_known = match engine {
             Some(engine) => engine.time_loop().see_within(t, &mut |state| reader.read(state)).map_err(unsolved)?,
             None => false,
@@ -218,7 +242,7 @@ impl<'a> Run<'a> {
     /// Bad input; a motion that cannot go on.
     pub fn save(&mut self) -> Result<Checkpoint> {
         self.begin(self.end.unwrap_or(self.began + 1.0))?;
-        let mut sink = Recording::of(&mut self.recorder, &mut self.reader);
+        let mut sink = self.observers.looking(None);
         match &mut self.engine {
             Some(engine) => Ok(engine.save(&mut sink)?),
             None => Err(Error::input("the run has not begun")),
@@ -241,12 +265,12 @@ impl<'a> Run<'a> {
 
     /// What was recorded so far: rows, drift, energy.
     pub fn record(&mut self) -> &Record {
-        self.recorder.record()
+        self.observers.recorder.record()
     }
 
     /// The record of a run that is over, with the singular states on its way.
     pub fn into_record(self) -> Record {
-        self.recorder.finish()
+        self.observers.recorder.finish()
     }
 
     /// Begins the run, planned to `t` at least; or extends it.
@@ -274,7 +298,7 @@ impl<'a> Run<'a> {
     fn begun(&mut self, end: f64) -> Result<Engine<'a>> {
         let output_step = self.output_step.unwrap_or(Span::from(self.began..end).output_step);
         let span = Span { start: self.began, end, output_step };
-        self.inputs = Inputs::new(self.system, std::mem::take(&mut self.named), &self.reader.moment)?;
+        self.inputs = Inputs::new(self.system, std::mem::take(&mut self.named), &self.observers.reader.moment)?;
         let has_inputs = !self.inputs.is_empty();
         if let (&Choice::Automatic(rtol, atol), Start::State(q, v), true) =
             (&self.choice, self.start.start(), has_inputs)
@@ -289,14 +313,14 @@ impl<'a> Run<'a> {
                 Origin::Saved(saved) => self.inputs.go_on(saved.t(), self.began),
                 // The first samples are taken before the first row is shown.
                 Origin::State(..) => {
-                    self.reader.read_present(&mut engine)?;
-                    self.inputs.sample((self.began, self.began), &self.reader.moment, &mut u);
+                    self.observers.reader.read_present(&mut engine)?;
+                    self.inputs.sample((self.began, self.began), &self.observers.reader.moment, &mut u);
                     engine.time_loop().set_inputs(&u, self.inputs.law.as_ref());
                 }
             }
         }
-        let begun = engine.begin(self.start.start(), &mut Recording::of(&mut self.recorder, &mut self.reader));
-        self.reader.moment.check_names()?;
+        let begun = engine.begin(self.start.start(), &mut self.observers.looking(None));
+        self.observers.reader.moment.check_names()?;
         begun?;
         Ok(engine)
     }
@@ -308,11 +332,11 @@ impl<'a> Run<'a> {
             return Ok(());
         }
         let Some(engine) = &mut self.engine else { return Ok(()) };
-        self.reader.read_present(engine)?;
+        self.observers.reader.read_present(engine)?;
         let mut u = engine.time_loop().inputs().to_vec();
-        self.inputs.sample((t, self.began), &self.reader.moment, &mut u);
-        self.reader.moment.check_names()?;
-        let mut sink = Recording::of(&mut self.recorder, &mut self.reader);
+        self.inputs.sample((t, self.began), &self.observers.reader.moment, &mut u);
+        self.observers.reader.moment.check_names()?;
+        let mut sink = self.observers.looking(None);
         Ok(engine.time_loop().hold(&u, &mut sink)?)
     }
 
@@ -329,7 +353,7 @@ impl<'a> Run<'a> {
             self.sample()?;
             let until = self.inputs.next_sample(self.began).min(t);
             let root = root.as_mut().map(|root| &mut **root as &mut dyn FnMut(&Moment) -> f64);
-            let mut sink = Recording { recorder: &mut self.recorder, reader: &mut self.reader, root };
+            let mut sink = self.observers.looking(root);
             let Some(engine) = &mut self.engine else { return Ok(End::Reached) };
             let end = engine.advance(until, &mut sink)?;
             if end != End::Reached || until >= t {
@@ -341,7 +365,7 @@ impl<'a> Run<'a> {
 
     /// The end, or the error for which it came early.
     fn checked(&self, end: End) -> Result<End> {
-        self.reader.moment.check_names()?;
+        self.observers.reader.moment.check_names()?;
         match end {
             End::Failed(failure) => Err(failure.into()),
             end => Ok(end),

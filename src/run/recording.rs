@@ -30,42 +30,64 @@ pub(super) fn unsolved(halt: StepError) -> Error {
     Error::input(halt.to_string()).hint(hint)
 }
 
-/// Records a run that may look for a root.
-pub(super) struct Recording<'r, 'a> {
-    pub recorder: &'r mut Recorder<'a>,
-    pub reader: &'r mut Reader<'a>,
-    pub root: Option<&'r mut dyn FnMut(&Moment) -> f64>,
+/// All that sees a run.
+pub(super) struct Observers<'a> {
+    pub recorder: Recorder<'a>,
+    pub reader: Reader<'a>,
+    /// A sink of the user.
+    pub sink: Box<dyn Sink + 'a>,
 }
 
-impl<'r, 'a> Recording<'r, 'a> {
-    pub fn of(recorder: &'r mut Recorder<'a>, reader: &'r mut Reader<'a>) -> Self {
-        Recording { recorder, reader, root: None }
+impl<'a> Observers<'a> {
+    pub fn of(system: &'a dyn MechanicalSystem) -> Self {
+        let reader = Reader { system, moment: Moment::of(system), scratch: Scratch::default() };
+        Observers { recorder: Recorder::new(system), reader, sink: Box::new(()) }
+    }
+
+    /// The sink of a run that may look for a root.
+    pub fn looking<'r>(&'r mut self, root: Option<&'r mut dyn FnMut(&Moment) -> f64>) -> Recording<'r, 'a> {
+        Recording { observers: self, root }
+    }
+}
+
+pub(super) struct Recording<'r, 'a> {
+    observers: &'r mut Observers<'a>,
+    root: Option<&'r mut dyn FnMut(&Moment) -> f64>,
+}
+
+impl<'a> Recording<'_, 'a> {
+    fn sinks(&mut self) -> [&mut (dyn Sink + 'a); 2] {
+        [&mut self.observers.recorder, self.observers.sink.as_mut()]
     }
 }
 
 impl Sink for Recording<'_, '_> {
     fn accepted(&mut self, state: &Observation) {
-        self.recorder.accepted(state);
+        self.sinks().into_iter().for_each(|sink| sink.accepted(state));
     }
 
     fn row(&mut self, state: &Observation) {
-        self.recorder.row(state);
+        self.sinks().into_iter().for_each(|sink| sink.row(state));
     }
 
     fn watches_events(&self) -> bool {
-        self.recorder.watches_events()
+        self.observers.recorder.watches_events() || self.observers.sink.watches_events()
     }
 
     fn before_event(&mut self, state: &Observation) {
-        self.recorder.before_event(state);
+        self.sinks().into_iter().filter(|sink| sink.watches_events()).for_each(|sink| sink.before_event(state));
     }
 
     fn after_event(&mut self, state: &Observation) {
-        self.recorder.after_event(state);
+        self.sinks().into_iter().filter(|sink| sink.watches_events()).for_each(|sink| sink.after_event(state));
     }
 
     fn stops(&self) -> Option<Stop> {
-        self.recorder.stops()
+        self.observers.recorder.stops().or_else(|| self.observers.sink.stops())
+    }
+
+    fn is_done(&self) -> bool {
+        self.observers.sink.is_done()
     }
 
     fn watches_root(&self) -> bool {
@@ -74,7 +96,7 @@ impl Sink for Recording<'_, '_> {
 
     fn root(&mut self, state: &Observation) -> f64 {
         let Some(root) = &mut self.root else { return 1.0 };
-        self.reader.read(state);
-        root(&self.reader.moment)
+        self.observers.reader.read(state);
+        root(&self.observers.reader.moment)
     }
 }

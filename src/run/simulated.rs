@@ -1,6 +1,6 @@
 //! A whole run in one call.
 
-use super::{End, Moment, Run};
+use super::{Moment, Run};
 use crate::analysis::Record;
 use crate::error::{Error, Result};
 use crate::formulation::Statistics;
@@ -56,8 +56,7 @@ where
     Error: From<M::Error>,
 {
     let Span { start: t, end, output_step } = span.into();
-    let mut run = Run::new(system, method.try_into()?, t, start).rows_every(output_step);
-    let reached = run.to(end)?;
-    debug_assert_eq!(reached, End::Reached);
+    let mut run = Run::new(system, method, t, start).rows_every(output_step);
+    run.to(end)?;
     Ok(Simulated { state: run.state()?, statistics: run.statistics(), record: run.into_record() })
 }

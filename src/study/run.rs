@@ -181,6 +181,18 @@ impl Sink for Limited<'_> {
         self.sink.after_event(state);
     }
 
+    fn is_done(&self) -> bool {
+        self.sink.is_done()
+    }
+
+    fn watches_root(&self) -> bool {
+        self.sink.watches_root()
+    }
+
+    fn root(&mut self, state: &Observation) -> f64 {
+        self.sink.root(state)
+    }
+
     fn stops(&self) -> Option<Stop> {
         if let Some(stop) = self.sink.stops() {
             return Some(stop);

@@ -128,7 +128,8 @@ pub struct SystemFacts {
     /// Names and units of the works of single forces since the start of a run, which are no functions of the state:
     /// the integrals of [`Terms::powers`](super::Terms::powers).
     pub works: Vec<Column>,
-    /// The inputs u: changes of what the equations contain, zero in a simulation.
+    /// The inputs u: changes of what the equations contain. In a run that drives them their values are
+    /// [`Scratch::inputs`](super::Scratch::inputs), which an evaluation adds; else they are zero.
     pub inputs: Vec<Column>,
     /// The equation that each input is part of: f(u) for inputs beyond the end of this list.
     pub excitations: Vec<Excitation>,

@@ -1,10 +1,6 @@
 //! Own equations: M, f and phi, from which all derivatives follow.
 
-use holonom::Result;
-use holonom::analysis::Recorder;
-use holonom::math::Scalar;
-use holonom::simulate::{Method, Span, simulate};
-use holonom::system::Equations;
+use holonom::prelude::*;
 
 /// A point mass on a massless rod, in Cartesian coordinates; kg, m, s.
 pub struct Pendulum {
@@ -33,12 +29,10 @@ impl Equations for Pendulum {
 #[test]
 fn own_equations_are_simulated() -> Result<()> {
     let system = Pendulum { mass: 2.0, length: 0.5 };
-    let span = Span { start: 0.0, end: 3.0, output_step: 0.1 };
-    let mut recorder = Recorder::new(&system);
     // The start is consistent: `initial::assemble` makes one that is not.
-    let outcome = simulate(&system, &Method::default(), span, (&[0.5, 0.0], &[0.0, 0.0]), &mut recorder)?;
-    let record = recorder.finish();
-    assert!(outcome.failure.is_none() && record.drift.position.max < 1e-14);
-    assert_eq!(record.trajectory.rows.len(), 31);
+    let start = ([0.5, 0.0], [0.0, 0.0]);
+    let record = simulate(&system, "index1 + dop853 + manifold", &start, 0.0..3.0)?.record;
+    assert!(record.drift.position.max < 1e-14);
+    assert_eq!(record.trajectory.rows.len(), 501);
     Ok(())
 }

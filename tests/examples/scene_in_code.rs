@@ -1,9 +1,7 @@
 //! A scene built in code: a slider crank, simulated.
 
-use holonom::Result;
-use holonom::analysis::Recorder;
-use holonom::prepared::PreparedScene;
-use holonom::scene::{Elements, SceneBuilder, json};
+use holonom::prelude::*;
+use holonom::scene::json;
 
 #[test]
 fn a_slider_crank() -> Result<()> {
@@ -30,13 +28,12 @@ fn a_slider_crank() -> Result<()> {
         .simulation("t_end", 1.0)
         .build(&Elements::default())?;
 
-    let prepared = PreparedScene::new(scene, &Default::default())?;
-    let mut recorder = Recorder::new(prepared.system());
-    let (outcome, _) = prepared.simulate(&prepared.method, prepared.span()?, &mut recorder)?;
-    assert!(outcome.failure.is_none());
-    let trajectory = recorder.finish().trajectory;
-    let [x, angle] = ["x", "angle"].map(|output| trajectory.column(output).expect("an output of the scene"));
-    for (x, angle) in x.into_iter().zip(angle) {
+    let model = Model::new(scene, &Default::default())?;
+    let mut run = model.run();
+    run.to(1.0)?;
+    let x = run.record().output("x")?;
+    let angle = run.record().output("angle")?;
+    for (x, angle) in x.iter().zip(angle.iter()) {
         let (sin, cos) = angle.sin_cos();
         // Projected positions are on the constraints to round-off.
         assert!((x - (0.2 * cos + (0.36 - 0.04 * sin * sin).sqrt())).abs() < 1e-14, "{x} at {angle}");
