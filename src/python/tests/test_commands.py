@@ -1,5 +1,6 @@
 """The other commands, called and as a command line."""
 
+import io
 import json
 import subprocess
 import sys
@@ -102,6 +103,16 @@ def test_the_command_line_is_the_same(tmp_path):
     assert text == called.text
     refused = subprocess.run([*command[:3], "nothing"], capture_output=True, text=True, check=False)
     assert refused.returncode == 2 and "unrecognized subcommand" in refused.stderr
+
+
+def test_a_run_has_the_rows_of_the_command_line_bit_by_bit(models):
+    scene = holonom.Scene(models / "andrews.json", c0=4000)
+    files = scene.command("simulate", until=0.003).files
+    run = scene.simulate(until=0.003)
+    for name, part in [("trajectory", run.rows), ("drift", run.drift.rows), ("energy", run.energy.rows)]:
+        table = np.loadtxt(io.BytesIO(files[f"{name}.csv"]), delimiter=",", skiprows=1, quotechar='"')
+        mine = part if name == "trajectory" else np.column_stack([run.t, part])
+        assert table.tobytes() == np.ascontiguousarray(mine).tobytes(), name
 
 
 def test_commands_without_a_scene():
