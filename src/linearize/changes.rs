@@ -51,7 +51,7 @@ pub(super) fn directions(system: &dyn MechanicalSystem, q: &[f64]) -> Directions
         unit[direction] = 1.0;
         system.rate(q, &unit, &mut rate);
         unit[direction] = 0.0;
-        let mut moved = (0..system.dimensions().own_q()).filter(|&i| rate[i] != 0.0);
+        let mut moved = (0..system.dimensions().q_without_turns()).filter(|&i| rate[i] != 0.0);
         match (moved.next(), moved.next()) {
             (Some(i), None) if rate[i] == 1.0 => names.q[i].clone(),
             _ => turn(name),

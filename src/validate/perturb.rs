@@ -47,7 +47,7 @@ pub fn difference(system: &dyn MechanicalSystem, from: &State, to: &State) -> [V
     let moving = system.dimensions().moving();
     let mut unit = vec![0.0; from.v.len()];
     let mut rate = vec![0.0; from.q.len()];
-    let own = system.dimensions().own_q();
+    let own = system.dimensions().q_without_turns();
     let dq = (0..moving).map(|j| {
         unit[j] = 1.0;
         system.rate(&from.q, &unit, &mut rate);
