@@ -25,7 +25,7 @@ impl Sizes {
     /// Adds a row; `scales` are those of the rows of phi.
     pub fn add(&mut self, system: &dyn MechanicalSystem, state: &Observation, scales: &[f64], scratch: &mut Scratch) {
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, |most, value| most.max(value.abs()));
-        let q = system.dimensions().own(state.q);
+        let q = system.dimensions().without_turns(state.q);
         if self.start.is_empty() {
             (self.start, self.length) = (q.to_vec(), system.facts().length);
         }

@@ -60,7 +60,7 @@ pub(crate) use rigid_planar::RigidPlanar;
 pub(crate) use rigid_spatial::RigidSpatial;
 #[doc(hidden)]
 pub use shapes::MassProperties;
-pub(crate) use state::State;
+pub(crate) use state::StateBody;
 #[doc(hidden)]
 pub use turning::{TurnAxes, Turned, Turning};
 

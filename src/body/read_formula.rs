@@ -73,7 +73,7 @@ fn parse<const D: usize>(text: &str, build: &Build<D>, order: usize, locals: Loc
             _ => "use positions and velocities: accelerations depend on all forces",
         }));
     }
-    let names = Scope { build, order, named, probes: Default::default() };
+    let names = FormulaScope { build, order, named, probes: Default::default() };
     let expression = Expression::parse(&text, &names)?;
     if expression.is_constant() {
         expression.constant()?;
@@ -175,7 +175,7 @@ fn without_rate(name: &str) -> Error {
         .hint("positions, angles and distances have one: write it of these")
 }
 
-struct Scope<'a, const D: usize> {
+struct FormulaScope<'a, const D: usize> {
     build: &'a Build<'a, D>,
     /// Highest number of time derivatives.
     order: usize,
@@ -183,7 +183,7 @@ struct Scope<'a, const D: usize> {
     probes: RefCell<Vec<Probe>>,
 }
 
-impl<const D: usize> Names for Scope<'_, D> {
+impl<const D: usize> Names for FormulaScope<'_, D> {
     fn resolve(&self, name: &str) -> Option<Name> {
         if name == "t" {
             return Some(Name::Variable(0));

@@ -203,7 +203,7 @@ impl BodySpec for Rigid {
 }
 
 /// Position and velocity of a body's origin in the world.
-type Place<const D: usize> = ([f64; D], [f64; D]);
+type StartVectors<const D: usize> = ([f64; D], [f64; D]);
 
 impl Rigid {
     /// Mass, and what follows from shapes.
@@ -240,7 +240,7 @@ impl Rigid {
         &self,
         (mass, tensor): (f64, Option<Matrix3>),
         [x, y, _]: [f64; 3],
-        (position, velocity): Place<D>,
+        (position, velocity): StartVectors<D>,
         markers: Vec<Marker<D>>,
         initial: &Initial,
         build: &Build<D>,
@@ -271,7 +271,7 @@ impl Rigid {
         &self,
         (mass, tensor): (f64, Option<Matrix3>),
         origin: [f64; 3],
-        (position, velocity): Place<D>,
+        (position, velocity): StartVectors<D>,
         markers: Vec<Marker<D>>,
         initial: &Initial,
         build: &Build<D>,

@@ -5,17 +5,17 @@ use crate::math::{Scalar, Taylor};
 
 /// A velocity xi without a coordinate, whose rate is the force on it, since its mass is one. Elements see it as all
 /// else, at a marker: the one that stays at the world's origin and has the velocity xi along x.
-pub(crate) struct State<const D: usize> {
+pub(crate) struct StateBody<const D: usize> {
     markers: [Marker<D>; 1],
 }
 
-impl<const D: usize> State<D> {
+impl<const D: usize> StateBody<D> {
     pub fn new() -> Self {
-        State { markers: [Marker::point([0.0; D])] }
+        StateBody { markers: [Marker::point([0.0; D])] }
     }
 }
 
-impl<const D: usize> BodyKernel<D> for State<D> {
+impl<const D: usize> BodyKernel<D> for StateBody<D> {
     fn facts(&self) -> BodyFacts {
         BodyFacts { oriented: false, has_constant_forces: true, ..BodyFacts::new([], [""]) }
     }

@@ -224,7 +224,7 @@ impl<'a> Metric<'a> {
     /// True if the terms at hand, those at q, are closed: up to a part of the scene's lengths and the round-off of its
     /// largest coordinate.
     pub fn is_closed(&self, q: &[f64]) -> bool {
-        let rounding = tolerances::ROUND_OFF * largest(self.system.dimensions().own(q));
+        let rounding = tolerances::ROUND_OFF * largest(self.system.dimensions().without_turns(q));
         let mut kept = (0..self.scales.len()).filter(|row| !self.without.contains(row));
         kept.all(|row| self.terms.phi[row].abs() <= CLOSED * self.scales[row] + rounding)
     }

@@ -109,7 +109,7 @@ impl<'a> Travel<'a> {
     /// Closes the state on trial; true if it was near a closed one.
     fn closes(&mut self, t: f64) -> bool {
         let Travel { metric, trial, moved, .. } = self;
-        let size = 1.0 + largest(metric.system.dimensions().own(trial));
+        let size = 1.0 + largest(metric.system.dimensions().without_turns(trial));
         moved.fill(0.0);
         let is_closed = closing::attempt(metric, t, trial, moved).unwrap_or(false);
         is_closed && largest(moved) <= TRAVEL_NEAR * size

@@ -45,7 +45,7 @@ impl Tolerance {
     /// Tolerances for the states of a system.
     pub fn new(rtol: f64, atol: f64, system: &dyn MechanicalSystem) -> Self {
         let n = system.dimensions();
-        Tolerance { rtol, atol, turning: [n.own_q(), n.q], motion: n.q + n.v }
+        Tolerance { rtol, atol, turning: [n.q_without_turns(), n.q], motion: n.q + n.v }
     }
 
     /// Tolerated error between two states.
@@ -72,7 +72,7 @@ impl Tolerance {
 
     /// Round-off of sums, for the iterations of fixed steps at coordinates `q`.
     pub(super) fn exact(q: &[f64], system: &dyn MechanicalSystem) -> Self {
-        let size = Some(largest(system.dimensions().own(q)))
+        let size = Some(largest(system.dimensions().without_turns(q)))
             .filter(|size| *size > 0.0)
             .map_or(1.0, |size| size.clamp(tolerances::LEAST_LARGEST_Q, 1.0));
         Tolerance::new(tolerances::ROUND_OFF_OF_SUMS, tolerances::ROUND_OFF_OF_SUMS * size, system)
@@ -271,7 +271,7 @@ pub(super) fn round_off(
     // Angles that count full turns grow, and only they are rounded to that size.
     let system = problem.dynamics.system;
     let (moving, states) = v.split_at(system.dimensions().moving());
-    let of_q = tolerances::ROUND_OFF * largest(system.dimensions().own(q));
+    let of_q = tolerances::ROUND_OFF * largest(system.dimensions().without_turns(q));
     let of_v = tolerances::ROUND_OFF * largest(moving);
     let of_states = tolerances::ROUND_OFF * largest(states);
     change[..q.len()].fill(of_q);

@@ -39,7 +39,7 @@ pub const ENTRY: Entry = Entry {
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     let n = setup.system.dimensions();
     let zeros = |n: usize| vec![0.0; n];
-    if n.own_q() != n.moving() {
+    if n.q_without_turns() != n.moving() {
         return Err(Error::input(
             "rattle cannot integrate coordinates whose rates are not the velocities, q' = N(q) v",
         )

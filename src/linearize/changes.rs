@@ -41,7 +41,7 @@ pub fn directions_of(system: &dyn MechanicalSystem, q: &[f64]) -> Matrix {
     let mut all = Matrix::zeros(n.v, n.q);
     let mut unit = vec![0.0; n.v];
     let mut rate = vec![0.0; n.q];
-    let own = n.own_q();
+    let own = n.q_without_turns();
     for j in 0..n.moving() {
         unit[j] = 1.0;
         system.rate(q, &unit, &mut rate);
@@ -70,7 +70,7 @@ pub(super) fn directions(system: &dyn MechanicalSystem, q: &[f64]) -> Directions
         unit[direction] = 1.0;
         system.rate(q, &unit, &mut rate);
         unit[direction] = 0.0;
-        let mut moved = (0..system.dimensions().own_q()).filter(|&i| rate[i] != 0.0);
+        let mut moved = (0..system.dimensions().q_without_turns()).filter(|&i| rate[i] != 0.0);
         match (moved.next(), moved.next()) {
             (Some(i), None) if rate[i] == 1.0 => names.q[i].clone(),
             _ => turn(name),

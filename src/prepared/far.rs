@@ -25,7 +25,7 @@ pub fn refuse_rounding(mechanism: &AnyMechanism, q: &[f64], method: &Method) -> 
         AnyMechanism::Spatial(mechanism) => longest_lever(mechanism, q),
     };
     let system = mechanism.system();
-    let far = largest(system.dimensions().own(q));
+    let far = largest(system.dimensions().without_turns(q));
     let rounding = f64::EPSILON * far / lever;
     let is_far = far > FAR_FROM_ORIGIN * lever && rounding > ROUNDING_TOLERATED * method.rtol;
     if method.step.is_some() || lever == 0.0 || !is_far {

@@ -49,8 +49,8 @@ pub struct Part<const D: usize> {
     pub name: String,
     /// Kinematics, inertia and energy of the body.
     pub body: Box<dyn Body<D>>,
-    /// What the body says of itself.
-    pub facts: BodyFacts,
+    /// What the body says of itself; boxed, since evaluations read all else of a part.
+    pub facts: Box<BodyFacts>,
     /// Index of its first marker in the table.
     pub first_marker: MarkerId,
     /// Index of its first coordinate in q.

@@ -128,6 +128,7 @@ impl<const D: usize> Parts<D> {
         let first_v = self.v.len();
         let nq = built.q.len();
         let nv = built.v.len();
+        let facts = Box::new(facts);
         self.bodies.push(Part { name, first_marker, first_q, first_v, nq, nv, facts, body: built.body });
         self.q.extend(built.q);
         self.v.extend(built.v);

@@ -182,7 +182,7 @@ impl super::TimeLoop<'_> {
         let moving = dynamics.system.dimensions().moving();
         self.momentum.fill(0.0);
         dynamics.structure.mass.multiply_symmetric(&dynamics.terms.mass, v, &mut self.momentum);
-        let of_q = self.tolerance.weight(0.0, largest(dynamics.system.dimensions().own(q)));
+        let of_q = self.tolerance.weight(0.0, largest(dynamics.system.dimensions().without_turns(q)));
         let of_v = self.momentum.iter().zip(v).take(moving).map(|(p, v)| p.abs() * self.tolerance.weight(0.0, *v));
         of_v.sum::<f64>() + of_q * dynamics.terms.f.iter().take(moving).map(|f| f.abs()).sum::<f64>()
     }

@@ -225,7 +225,7 @@ impl TimeLoop<'_> {
         let rank_indicator =
             self.approach.rank_indicator.min(dynamics.rank_indicator.unwrap_or_else(|| dynamics.kkt.rank_indicator()));
         let (q, v) = self.problem.split(&self.next);
-        let sizes = [largest(dynamics.system.dimensions().own(q)), largest(v)];
+        let sizes = [largest(dynamics.system.dimensions().without_turns(q)), largest(v)];
         let n = q.len();
         self.change[..n].fill(sizes[0]);
         self.change[n..].fill(sizes[1]);

@@ -36,12 +36,12 @@ impl Dimensions {
     }
 
     /// Number of coordinates without the turning angles.
-    pub fn own_q(self) -> usize {
+    pub fn q_without_turns(self) -> usize {
         self.q - self.turning_angles
     }
 
     /// The coordinates without the turning angles.
-    pub fn own(self, q: &[f64]) -> &[f64] {
+    pub fn without_turns(self, q: &[f64]) -> &[f64] {
         &q[..q.len() - self.turning_angles]
     }
 }

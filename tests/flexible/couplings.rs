@@ -81,7 +81,7 @@ fn place(system: &dyn MechanicalSystem, random: &mut Random) -> Vec<f64> {
         ["x", "y", "z", "angle", "qw", "qx", "qy", "qz"].contains(&own)
     };
     let names = system.facts().names.q.clone();
-    let own = system.dimensions().own_q();
+    let own = system.dimensions().q_without_turns();
     let mut q: Vec<f64> =
         names[..own].iter().map(|name| random.next() * if is_frame(name) { 1.0 } else { 0.1 }).collect();
     q.resize(names.len(), 0.0);

@@ -41,7 +41,7 @@ fn with_generic_bodies<const D: usize>(mut model: Model<D>) -> Model<D> {
     let generic = |part: Part<D>| {
         assert!(part.facts.freedom.is_some(), "{} is not rigid", part.name);
         let body = Box::new(GenericBody(part.body)) as Box<dyn Body<D>>;
-        Part { facts: body.facts(), body, ..part }
+        Part { facts: Box::new(body.facts()), body, ..part }
     };
     model.bodies = model.bodies.into_iter().map(generic).collect();
     model

@@ -1,7 +1,7 @@
 //! Builds the equations of motion of a beam in a floating frame from its keys in a scene.
 
 use super::damping::{Basis, damping};
-use super::integrals::{Sum, add_stiffness, stretch};
+use super::integrals::{EntrySum, add_stiffness, stretch};
 use super::line::Shapes;
 use super::mesh::Mesh;
 use super::profile::Profile;
@@ -180,7 +180,7 @@ fn stiffened<const D: usize>(mesh: &Mesh<D>, element: usize, quartic: f64) -> Ve
 
 /// The beam in the coordinates of its nodes; without damping, and without the line, which is the mesh itself.
 fn nodal<const D: usize>(mesh: &Mesh<D>, quartic: Option<f64>) -> Elastic<D> {
-    let mut stiffness = Sum::default();
+    let mut stiffness = EntrySum::default();
     let mut stretches = Vec::new();
     for element in 0..mesh.count() {
         let (dofs, samples) = mesh.samples(element, mesh.points());

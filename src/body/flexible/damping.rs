@@ -1,7 +1,7 @@
 //! Damping matrix of a flexible body: Rayleigh or modal.
 
 use super::eigen::{Modes, dense, entries};
-use super::integrals::{Sum, mass_matrix};
+use super::integrals::{EntrySum, mass_matrix};
 use super::shape::{Elastic, Symmetric};
 use super::spec::{Damping, OneOrMany};
 use crate::body::Build;
@@ -43,7 +43,7 @@ fn rayleigh<const D: usize>(
     build: &Build<D>,
 ) -> Result<Symmetric> {
     let factor = |field, number: &Option<Number>| number.as_ref().map_or(Ok(0.0), |n| build.not_negative(field, n));
-    let mut sum = Sum::default();
+    let mut sum = EntrySum::default();
     sum.add_all(factor("mass", mass)?, &mass_matrix(&elastic.inertia));
     sum.add_all(factor("stiffness", stiffness)?, &elastic.stiffness);
     Ok(sum.finish())

@@ -15,7 +15,7 @@ use crate::math::array::{Each, from_fn};
 
 /// One element, with the shear parameters of its bending along y and z.
 #[derive(Clone, Copy, Debug)]
-pub struct Element {
+pub struct MeshElement {
     /// Left end of its axis, m; `axes` are the element's own. Both are in the axes of the floating frame.
     start: [f64; 3],
     axes: [[f64; 3]; 3],
@@ -29,7 +29,7 @@ pub struct Element {
     shear: [f64; 2],
 }
 
-impl Element {
+impl MeshElement {
     /// The element between two abscissae; the line must rotate by less than half a turn between them.
     pub fn new(line: &ReferenceLine, [from, to]: [f64; 2], section: &Section) -> Self {
         let start = line.at(from).1;
@@ -47,7 +47,7 @@ impl Element {
         let start = from_fn(|k| start[k] + arm[1] * y[k] + arm[2] * axes[2][k]);
         let ratio = |ei: f64, ga: f64| 12.0 * ei / (ga * length * length);
         let shear = [ratio(section.ei[1], section.ga[0]), ratio(section.ei[0], section.ga[1])];
-        Element { start, axes, arm, length, shortness: length / (to - from), shear }
+        MeshElement { start, axes, arm, length, shortness: length / (to - from), shear }
     }
 
     /// Displacement functions, at point r of the line, of the coordinates of both nodes and of the middle: x, y, r of

@@ -72,9 +72,9 @@ pub fn discs<const D: usize>(dofs: &[usize], samples: &[IntegrationPoint]) -> Ve
 
 /// A symmetric sparse matrix under assembly, ordered by place.
 #[derive(Default)]
-pub struct Sum(BTreeMap<(usize, usize), f64>);
+pub struct EntrySum(BTreeMap<(usize, usize), f64>);
 
-impl Sum {
+impl EntrySum {
     /// Adds to (i, j) and (j, i), which are one place.
     pub fn add(&mut self, i: usize, j: usize, value: f64) {
         *self.0.entry((i.max(j), i.min(j))).or_insert(0.0) += value;
@@ -90,7 +90,7 @@ impl Sum {
 }
 
 /// int strains^T stiffness strains over the samples, added to `sum`.
-pub fn add_stiffness(sum: &mut Sum, dofs: &[usize], samples: &[IntegrationPoint]) {
+pub fn add_stiffness(sum: &mut EntrySum, dofs: &[usize], samples: &[IntegrationPoint]) {
     for sample in samples {
         let stiffness = sample.section.stiffness();
         for (a, left) in sample.shapes.iter().enumerate() {
@@ -128,7 +128,7 @@ pub fn stretch(quartic: f64, start: f64, dofs: &[usize], samples: &[IntegrationP
 
 /// The elastic mass matrix of the undeformed body: M_ij = tr P_ij + sum r_i.J r_j of the discs.
 pub fn mass_matrix<const D: usize>(inertia: &Inertia<D>) -> Symmetric {
-    let mut sum = Sum::default();
+    let mut sum = EntrySum::default();
     for piece in &inertia.pieces {
         let n = 1 + piece.dofs.len();
         add_pairs(&mut sum, &piece.dofs, |a, b| {
@@ -145,7 +145,7 @@ pub fn mass_matrix<const D: usize>(inertia: &Inertia<D>) -> Symmetric {
     sum.finish()
 }
 
-fn add_pairs(sum: &mut Sum, dofs: &[usize], value: impl Fn(usize, usize) -> f64) {
+fn add_pairs(sum: &mut EntrySum, dofs: &[usize], value: impl Fn(usize, usize) -> f64) {
     for (a, &i) in dofs.iter().enumerate() {
         for (b, &j) in dofs.iter().enumerate().take(a + 1) {
             let value = value(a, b);

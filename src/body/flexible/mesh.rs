@@ -1,6 +1,6 @@
 //! A beam cut into finite elements.
 
-use super::element::Element;
+use super::element::MeshElement;
 use super::gauss::{gauss_legendre, on_interval};
 use super::integrals::{IntegrationPoint, discs, piece};
 use super::line::{Shapes, Station};
@@ -27,7 +27,7 @@ pub struct Mesh<const D: usize> {
     /// Abscissae of the nodes, m.
     pub nodes: Vec<f64>,
     line: ReferenceLine,
-    elements: Vec<Element>,
+    elements: Vec<MeshElement>,
     axial: Axial,
     profile: Profile,
     /// Index of each nodal coordinate among the free ones; `None` if the frame fixes it.
@@ -52,7 +52,7 @@ impl<const D: usize> Mesh<D> {
         let nodes = subdivide(&breaks(line.length, markers), elements);
         let elements = nodes
             .windows(2)
-            .map(|ends| Element::new(&line, [ends[0], ends[1]], &profile.at(0.5 * (ends[0] + ends[1]))))
+            .map(|ends| MeshElement::new(&line, [ends[0], ends[1]], &profile.at(0.5 * (ends[0] + ends[1]))))
             .collect();
         let mut mesh = Mesh { nodes, line, elements, axial, profile, free: Vec::new() };
         mesh.free = (0..mesh.total()).map(Some).collect();

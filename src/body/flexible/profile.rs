@@ -1,7 +1,7 @@
 //! The section along a beam.
 
 use super::gauss::{gauss_legendre, on_interval};
-use super::section::{Matter, Section, Shape};
+use super::section::{Matter, Section, SectionOutline};
 use super::spec::Theory;
 use crate::error::{Error, Result, short};
 use crate::math::array::from_fn;
@@ -16,13 +16,13 @@ const POINTS: usize = 6;
 /// The section of a beam as a function of s.
 #[derive(Clone, Debug)]
 pub struct Profile {
-    form: Form,
+    form: ProfileForm,
     /// True for rotary inertia of sections in bending (Rayleigh); that in torsion is always included.
     pub rotary: bool,
 }
 
 #[derive(Clone, Debug)]
-enum Form {
+enum ProfileForm {
     Uniform(Section),
     Tapered(Laws),
 }
@@ -31,25 +31,25 @@ impl Profile {
     /// The profile of these laws, which must give valid values on the whole length.
     pub(super) fn new(laws: Laws, length: f64, rotary: bool) -> Result<Self> {
         laws.check(length)?;
-        let form = if laws.vary() { Form::Tapered(laws) } else { Form::Uniform(laws.at(0.0)) };
+        let form = if laws.vary() { ProfileForm::Tapered(laws) } else { ProfileForm::Uniform(laws.at(0.0)) };
         Ok(Profile { form, rotary })
     }
 
     /// The same section along the whole beam; `rotary` keeps its rotary inertia.
     pub fn uniform(section: Section, rotary: bool) -> Self {
-        Profile { form: Form::Uniform(section), rotary }
+        Profile { form: ProfileForm::Uniform(section), rotary }
     }
 
     /// True if the section does not depend on s.
     pub fn is_uniform(&self) -> bool {
-        matches!(self.form, Form::Uniform(_))
+        matches!(self.form, ProfileForm::Uniform(_))
     }
 
     /// Section at `s`, m from the left end.
     pub fn at(&self, s: f64) -> Section {
         match &self.form {
-            Form::Uniform(section) => *section,
-            Form::Tapered(laws) => laws.at(s),
+            ProfileForm::Uniform(section) => *section,
+            ProfileForm::Tapered(laws) => laws.at(s),
         }
     }
 
@@ -62,7 +62,7 @@ impl Profile {
     /// The section with the mean compliance of a part of the beam, exact for its extension, its twist and its bending
     /// under a constant moment.
     pub fn mean(&self, ends: [f64; 2]) -> Section {
-        let Form::Tapered(laws) = &self.form else { return self.at(ends[0]) };
+        let ProfileForm::Tapered(laws) = &self.form else { return self.at(ends[0]) };
         let points: Vec<([f64; 9], f64)> =
             on_interval(&gauss_legendre(POINTS), ends).map(|(s, weight)| (laws.at(s).numbers(), weight)).collect();
         Section::of(from_fn(|i| {
@@ -98,8 +98,8 @@ impl Laws {
     pub fn at(&self, s: f64) -> Section {
         let value = |i: usize| self.laws[i].at(s);
         let section = match self.make {
-            Make::Rectangle(matter) => matter.fill(&Shape::rectangle(value(0), value(1)), self.dimension),
-            Make::Circle(matter) => matter.fill(&Shape::circle(value(0), value(1)), self.dimension),
+            Make::Rectangle(matter) => matter.fill(&SectionOutline::rectangle(value(0), value(1)), self.dimension),
+            Make::Circle(matter) => matter.fill(&SectionOutline::circle(value(0), value(1)), self.dimension),
             Make::Numbers => Section::of(from_fn(value)),
         };
         section.of_theory(self.theory)

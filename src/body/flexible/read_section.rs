@@ -19,7 +19,7 @@ impl Profile {
     /// # Errors
     /// Bad input: a stiffness or mass that is not above zero somewhere on the beam, or both forms given, or neither.
     pub fn of<const D: usize>(beam: &FlexibleBeam, length: f64, build: &Build<D>) -> Result<Profile> {
-        let read = Reader { build, variables: &["s"] };
+        let read = SectionReader { build, variables: &["s"] };
         let (make, laws) = match (&beam.material, &beam.section, &beam.stiffness, &beam.inertia) {
             (Some(material), Some(shape), None, None) => {
                 let Material { e, nu, g, rho } = material;
@@ -53,7 +53,7 @@ impl Section {
         build: &Build<D>,
     ) -> Result<Section> {
         let hint = "give \"material\" and \"section\", or \"stiffness\"";
-        let read = Reader { build, variables: &[] };
+        let read = SectionReader { build, variables: &[] };
         let (make, laws) = match (material, shape, stiffness) {
             (Some(Elasticity { e, nu, g }), Some(shape), None) => {
                 read.shape((e, nu.as_ref(), g.as_ref()), None, shape, theory)?
@@ -68,13 +68,13 @@ impl Section {
     }
 }
 
-struct Reader<'a, const D: usize> {
+struct SectionReader<'a, const D: usize> {
     build: &'a Build<'a, D>,
     /// Variables that the numbers may depend on in addition to parameters.
     variables: &'a [&'a str],
 }
 
-impl<const D: usize> Reader<'_, D> {
+impl<const D: usize> SectionReader<'_, D> {
     /// Laws of a section given by its form, (E, nu, G) and density; without density the inertia is zero.
     fn shape(
         &self,

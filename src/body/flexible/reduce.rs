@@ -48,7 +48,7 @@ pub fn beam<const D: usize>(
             .under("elements")
             .hint(format!("give fewer elements: at most {MOST} coordinates are possible")));
     }
-    let full = System {
+    let full = BeamMatrices {
         stiffness: dense(n, &nodal.stiffness),
         mass: dense(n, &mass_matrix(&nodal.inertia)),
         rigid: match conditions {
@@ -64,14 +64,14 @@ pub fn beam<const D: usize>(
 }
 
 /// Dense matrices of a beam, with the rigid motions that its frame does not remove.
-struct System {
+struct BeamMatrices {
     stiffness: Mat<f64>,
     mass: Mat<f64>,
     /// Rigid motions in columns: K R = 0.
     rigid: Mat<f64>,
 }
 
-fn modes<const D: usize>(full: &System, mesh: &Mesh<D>, markers: &[f64], count: Option<usize>) -> Result<Modes> {
+fn modes<const D: usize>(full: &BeamMatrices, mesh: &Mesh<D>, markers: &[f64], count: Option<usize>) -> Result<Modes> {
     let boundary = boundary(mesh, markers);
     let failed = || {
         Error::input("the modes cannot be told apart from round-off")
@@ -92,7 +92,7 @@ fn modes<const D: usize>(full: &System, mesh: &Mesh<D>, markers: &[f64], count: 
         return full.elastic_modes().map(|modes| modes.truncated(count)).ok_or_else(failed);
     }
     let basis = full.craig_bampton(&boundary, &interior, count).ok_or_else(failed)?;
-    let reduced = System {
+    let reduced = BeamMatrices {
         stiffness: basis.transpose() * &full.stiffness * &basis,
         mass: basis.transpose() * &full.mass * &basis,
         // Static shapes of the boundary's rigid motions are rigid motions.
@@ -120,7 +120,7 @@ fn block(matrix: MatRef<f64>, rows: &[usize], cols: &[usize]) -> Mat<f64> {
     Mat::from_fn(rows.len(), cols.len(), |i, j| matrix[(rows[i], cols[j])])
 }
 
-impl System {
+impl BeamMatrices {
     /// T, its rows in the order of the mesh.
     fn craig_bampton(&self, boundary: &[usize], interior: &[usize], count: usize) -> Option<Mat<f64>> {
         let mut basis = Mat::zeros(boundary.len() + interior.len(), boundary.len() + count);
@@ -186,7 +186,7 @@ fn project<const D: usize>(mesh: Mesh<D>, nodal: Elastic<D>, modes: Modes, short
     let basis = modes.vectors;
     let stretches = nodal.stretches.iter().map(|stretch| project_stretch(stretch, &basis)).collect();
     let names = (1..=basis.ncols()).map(|i| format!("mode{i}")).collect();
-    let line = Reduced { mesh, basis, shortens };
+    let line = ReducedLine { mesh, basis, shortens };
     Elastic {
         names,
         inertia: super::shape::Line::beyond(&line, 0.0),
@@ -258,13 +258,13 @@ fn project_stretch(stretch: &Stretch, basis: &Mat<f64>) -> Stretch {
 }
 
 /// Displacement functions of the modes: those of the mesh times the modal matrix.
-struct Reduced<const D: usize> {
+struct ReducedLine<const D: usize> {
     mesh: Mesh<D>,
     basis: Mat<f64>,
     shortens: bool,
 }
 
-impl<const D: usize> Shapes for Reduced<D> {
+impl<const D: usize> Shapes for ReducedLine<D> {
     fn reference(&self) -> &ReferenceLine {
         self.mesh.reference()
     }

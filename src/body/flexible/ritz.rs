@@ -2,7 +2,7 @@
 
 use super::eigen::{dense, first_dependent};
 use super::gauss::{gauss_legendre, on_interval};
-use super::integrals::{IntegrationPoint, Sum, add_stiffness, discs, mass_matrix, piece, stretch};
+use super::integrals::{EntrySum, IntegrationPoint, add_stiffness, discs, mass_matrix, piece, stretch};
 use super::line::{Bending, Cross, Shapes, Station};
 use super::profile::Profile;
 use super::reference::ReferenceLine;
@@ -32,28 +32,28 @@ const MOST: usize = 200;
 const POINTS: usize = 12;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum RitzKind {
     Bending,
     BendingZ,
     Axial,
     Torsion,
 }
 
-impl Kind {
+impl RitzKind {
     /// Key in the scene, and prefix of the coordinates' names.
     fn words(self) -> [&'static str; 2] {
         match self {
-            Kind::Bending => ["bending", "bend"],
-            Kind::BendingZ => ["bending_z", "bend_z"],
-            Kind::Axial => ["axial", "stretch"],
-            Kind::Torsion => ["torsion", "twist"],
+            RitzKind::Bending => ["bending", "bend"],
+            RitzKind::BendingZ => ["bending_z", "bend_z"],
+            RitzKind::Axial => ["axial", "stretch"],
+            RitzKind::Torsion => ["torsion", "twist"],
         }
     }
 }
 
 #[derive(Clone, Debug)]
 struct Function {
-    kind: Kind,
+    kind: RitzKind,
     /// JSON path under `ritz`.
     path: String,
     value: Expression,
@@ -64,10 +64,10 @@ impl Function {
         let Taylor { x: f, d: slope, dd: curvature } = self.value.eval(&[Taylor::<f64>::time(s)]);
         let bending = Bending { w: f, slope, turn: slope, turn_rate: curvature };
         match self.kind {
-            Kind::Bending => Cross::bending_y(bending),
-            Kind::BendingZ => Cross::bending_z(bending),
-            Kind::Axial => Cross::axial(f, slope),
-            Kind::Torsion => Cross::torsion(f, slope),
+            RitzKind::Bending => Cross::bending_y(bending),
+            RitzKind::BendingZ => Cross::bending_z(bending),
+            RitzKind::Axial => Cross::axial(f, slope),
+            RitzKind::Torsion => Cross::torsion(f, slope),
         }
     }
 
@@ -116,14 +116,14 @@ impl Functions {
     /// Bad input: none at all, one that is no expression of x, or one that is not finite on the beam.
     pub fn of<const D: usize>(ritz: &Ritz, length: f64, profile: Profile, build: &Build<D>) -> Result<Self> {
         let given = [
-            (Kind::Bending, &ritz.bending),
-            (Kind::BendingZ, &ritz.bending_z),
-            (Kind::Axial, &ritz.axial),
-            (Kind::Torsion, &ritz.torsion),
+            (RitzKind::Bending, &ritz.bending),
+            (RitzKind::BendingZ, &ritz.bending_z),
+            (RitzKind::Axial, &ritz.axial),
+            (RitzKind::Torsion, &ritz.torsion),
         ];
         let mut functions = Vec::new();
         for (kind, numbers) in given {
-            if D == 2 && matches!(kind, Kind::BendingZ | Kind::Torsion) && !numbers.is_empty() {
+            if D == 2 && matches!(kind, RitzKind::BendingZ | RitzKind::Torsion) && !numbers.is_empty() {
                 return Err(Error::input("a beam in the plane bends along y only")
                     .under(kind.words()[0])
                     .under("ritz")
@@ -206,7 +206,7 @@ impl Functions {
     pub fn elastic<const D: usize>(mut self, quartic: Option<f64>) -> Result<Elastic<D>> {
         let dofs = self.dofs();
         let integrals = |samples: &[IntegrationPoint]| {
-            let mut stiffness = Sum::default();
+            let mut stiffness = EntrySum::default();
             add_stiffness(&mut stiffness, &dofs, samples);
             (self.sum::<D>(samples), stiffness.finish())
         };
@@ -226,7 +226,7 @@ impl Functions {
         self.panels = panels;
         let (mut inertia, stiffness) = last;
         self.check_independent(&inertia, &stiffness)?;
-        self.shortens = quartic == Some(1.0) && self.functions.iter().all(|function| function.kind != Kind::Axial);
+        self.shortens = quartic == Some(1.0) && self.functions.iter().all(|function| function.kind != RitzKind::Axial);
         let quartic = quartic.filter(|_| !self.shortens);
         if self.shortens {
             inertia.pieces.iter_mut().for_each(|piece| shorten(&self, 0.0, piece));
@@ -254,7 +254,7 @@ impl Functions {
     /// Multiplies the mass block of the axial functions by their factor.
     fn scale_axial<const D: usize>(&self, piece: &mut Piece<D>) {
         let n = 1 + self.functions.len();
-        let axial = |a: usize| a > 0 && self.functions[a - 1].kind == Kind::Axial;
+        let axial = |a: usize| a > 0 && self.functions[a - 1].kind == RitzKind::Axial;
         for a in (0..n).filter(|&a| axial(a)) {
             for b in (0..n).filter(|&b| axial(b)) {
                 piece.products[a * n + b].iter_mut().flatten().for_each(|product| *product *= self.axial_mass_factor);
@@ -289,7 +289,7 @@ fn places([from, to]: [f64; 2], panels: usize) -> impl Iterator<Item = (f64, f64
     (0..panels).flat_map(move |k| on_interval(&rule, panel(k)).collect::<Vec<_>>())
 }
 
-fn function<const D: usize>(kind: Kind, i: usize, number: &Number, build: &Build<D>) -> Result<Function> {
+fn function<const D: usize>(kind: RitzKind, i: usize, number: &Number, build: &Build<D>) -> Result<Function> {
     let path = format!("{}[{i}]", kind.words()[0]);
     let names = Scope { parameters: build.parameters, variables: &["x"] };
     let value = number.expression(&names).map_err(|error| Error::from(error).under(&path))?;

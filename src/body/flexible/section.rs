@@ -64,7 +64,7 @@ pub(super) struct Matter {
 }
 
 impl Matter {
-    pub fn fill(&self, shape: &Shape, dimension: usize) -> Section {
+    pub fn fill(&self, shape: &SectionOutline, dimension: usize) -> Section {
         let Matter { e, g, rho } = *self;
         Section {
             ea: e * shape.area,
@@ -78,7 +78,7 @@ impl Matter {
 }
 
 /// Geometry of a section.
-pub(super) struct Shape {
+pub(super) struct SectionOutline {
     area: f64,
     /// Second moments of area about y and z, m^4.
     second: [f64; 2],
@@ -87,11 +87,11 @@ pub(super) struct Shape {
     shear: f64,
 }
 
-impl Shape {
+impl SectionOutline {
     /// A rectangle of height `h` along y and width `b` along z, m.
     pub fn rectangle(h: f64, b: f64) -> Self {
         let second = [h * b.powi(3) / 12.0, b * h.powi(3) / 12.0];
-        Shape { area: h * b, second, torsion: torsion_of_rectangle(h, b), shear: 5.0 / 6.0 }
+        SectionOutline { area: h * b, second, torsion: torsion_of_rectangle(h, b), shear: 5.0 / 6.0 }
     }
 
     /// A tube, or a full circle if the inner radius is zero.
@@ -101,7 +101,7 @@ impl Shape {
         // Cowper's factor for nu = 0 (J. Appl. Mech. 33 (1966) 335-340): 6/7 for a full circle, 1/2 for a thin tube.
         let ratio = (inner / outer).powi(2);
         let shear = 6.0 * (1.0 + ratio).powi(2) / (7.0 * (1.0 + ratio).powi(2) + 20.0 * ratio);
-        Shape { area, second: [second; 2], torsion: 2.0 * second, shear }
+        SectionOutline { area, second: [second; 2], torsion: 2.0 * second, shear }
     }
 }
 

@@ -23,7 +23,7 @@ use crate::math::{Dual, Scalar};
 type Matrix3 = [[f64; 3]; 3];
 
 /// Rotation of a disc in space: that of the frame, and a in it.
-struct Turning<S> {
+struct TurningDisc<S> {
     /// w and w'
     frame: [[S; 3]; 2],
     /// a, a' and a''
@@ -36,12 +36,12 @@ struct Resistance<S> {
     own: [S; 3],
 }
 
-impl<S: Scalar> Turning<S> {
+impl<S: Scalar> TurningDisc<S> {
     fn of<const D: usize>(disc: &Disc, q: &[S], v: &[S], vdot: &[S]) -> Self {
         let elastic = |x: &[S], first: usize| turn(disc, x.get(first..).unwrap_or(&[]));
         let frame = |x: &[S]| if x.is_empty() { [S::zero(); 3] } else { angular_velocity::<S, D>(x) };
         let [n, m] = [frame_coordinates(D), frame_velocities(D)];
-        Turning { frame: [frame(v), frame(vdot)], own: [elastic(q, n), elastic(v, m), elastic(vdot, m)] }
+        TurningDisc { frame: [frame(v), frame(vdot)], own: [elastic(q, n), elastic(v, m), elastic(vdot, m)] }
     }
 
     /// Angular velocity w_s of the disc in its own axes.
@@ -130,7 +130,7 @@ impl<const D: usize> Floating<D> {
     /// f -= velocity-dependent part of the discs' inertia forces.
     pub(super) fn add_disc_forces(&self, q: &[f64], v: &[f64], f: &mut [f64]) {
         for disc in self.elastic.inertia.discs.iter().filter(|_| D == 3) {
-            let resistance = Turning::of::<D>(disc, q, v, &[]).resistance(&disc.inertia);
+            let resistance = TurningDisc::of::<D>(disc, q, v, &[]).resistance(&disc.inertia);
             turns(D).for_each(|k| f[turn_velocity(D, k)] -= resistance.frame[k]);
             for (&dof, turn) in disc.dofs.iter().zip(&disc.rotation) {
                 f[frame_velocities(D) + dof] -= dot(turn, &resistance.own);
@@ -146,7 +146,7 @@ impl<const D: usize> Floating<D> {
             });
         }
         let energy = |disc: &Disc| {
-            let spin = Turning::of::<D>(disc, q, v, &[]).spin();
+            let spin = TurningDisc::of::<D>(disc, q, v, &[]).spin();
             dot(&spin, &times(&disc.inertia, &spin)) * 0.5
         };
         self.elastic.inertia.discs.iter().fold(S::zero(), |sum, disc| sum + energy(disc))
@@ -156,7 +156,7 @@ impl<const D: usize> Floating<D> {
     pub(super) fn add_disc_tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
         let discs = self.elastic.inertia.discs.iter().zip(&self.layout.discs);
         for (disc, places) in discs.filter(|_| D == 3) {
-            let slopes = Turning::of::<D>(disc, at.q, at.v, at.vdot).slopes(&disc.inertia);
+            let slopes = TurningDisc::of::<D>(disc, at.q, at.v, at.vdot).slopes(&disc.inertia);
             for l in 0..3 {
                 let column = turn_velocity(D, l);
                 let (frame, own) = slopes.along(2, &unit(l));
@@ -178,9 +178,9 @@ impl<const D: usize> Floating<D> {
 }
 
 /// Derivatives of the inertia moments by a, a' and w.
-struct Slopes(Resistance<Dual<f64, 9>>);
+struct DiscSlopes(Resistance<Dual<f64, 9>>);
 
-impl Slopes {
+impl DiscSlopes {
     /// Derivative along a direction of a (`by` = 0), a' (1) or w (2).
     fn along(&self, by: usize, direction: &[f64; 3]) -> ([f64; 3], [f64; 3]) {
         let slope = |x: &Dual<f64, 9>| (0..3).map(|k| x.eps[3 * by + k] * direction[k]).sum();
@@ -188,14 +188,16 @@ impl Slopes {
     }
 }
 
-impl Turning<f64> {
-    fn slopes(&self, inertia: &Matrix3) -> Slopes {
+impl TurningDisc<f64> {
+    fn slopes(&self, inertia: &Matrix3) -> DiscSlopes {
         let seeded = |x: &[f64; 3], by: usize| from_fn(|k| Dual::seeded(x[k], 3 * by + k));
         let fixed = |x: &[f64; 3]| x.map(Dual::fixed);
         let ([w, alpha], [a, rate, acceleration]) = (&self.frame, &self.own);
-        let turning =
-            Turning { frame: [seeded(w, 2), fixed(alpha)], own: [seeded(a, 0), seeded(rate, 1), fixed(acceleration)] };
-        Slopes(turning.resistance(inertia))
+        let turning = TurningDisc {
+            frame: [seeded(w, 2), fixed(alpha)],
+            own: [seeded(a, 0), seeded(rate, 1), fixed(acceleration)],
+        };
+        DiscSlopes(turning.resistance(inertia))
     }
 }
 

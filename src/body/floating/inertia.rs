@@ -1,6 +1,6 @@
 //! Mass matrix, inertia forces and energies from the shape integrals of the pieces.
 //!
-//! The kinetic energy is exact to second order in the deformation. With the integrals s, mu_i, W_i and P of [`Moving`],
+//! The kinetic energy is exact to second order in the deformation. With the integrals s, mu_i, W_i and P of [`MovingPiece`],
 //! V_i = int rho u' psi_i^T = sum_j q_j' P_ji, Q = int rho u u'^T = sum_i q_i' W_i, J = tr(P) - P, and
 //! ax(X) = int u x v of X = int u v^T:
 //!
@@ -11,7 +11,7 @@
 //! ```
 
 use super::algebra::*;
-use super::moving::{Moving, symmetric};
+use super::moving::{MovingPiece, symmetric};
 use super::{Floating, frame, frame_coordinates, frame_velocities, turn_velocity, turns};
 use crate::body::{Energy, Frame, cross, dot, unit};
 use crate::math::Scalar;
@@ -38,10 +38,19 @@ pub(super) fn angular_velocity<S: Scalar, const D: usize>(v: &[S]) -> [S; 3] {
 }
 
 impl<const D: usize> Floating<D> {
-    pub(super) fn moving<'a, S: Scalar>(&'a self, q: &'a [S], v: &'a [S]) -> impl Iterator<Item = Moving<'a, S, D>> {
+    pub(super) fn moving<'a, S: Scalar>(
+        &'a self,
+        q: &'a [S],
+        v: &'a [S],
+    ) -> impl Iterator<Item = MovingPiece<'a, S, D>> {
         let q = &q[frame_coordinates(D)..];
         let v = v.get(frame_velocities(D)..).unwrap_or(&[]);
-        self.elastic.inertia.pieces.iter().zip(&self.curves).map(move |(piece, curves)| Moving { piece, q, v, curves })
+        self.elastic.inertia.pieces.iter().zip(&self.curves).map(move |(piece, curves)| MovingPiece {
+            piece,
+            q,
+            v,
+            curves,
+        })
     }
 
     /// Writes the values of M.
@@ -71,7 +80,7 @@ impl<const D: usize> Floating<D> {
         self.write_frame_mass(&own, mass, &s, &symmetric(&p), values);
     }
 
-    fn write_frame_mass(&self, own: &Frame<f64, D>, mass: f64, s: &[f64; D], p: &Matrix<f64, D>, values: &mut [f64]) {
+    fn write_frame_mass(&self, own: &Frame<f64, D>, mass: f64, s: &[f64; D], p: &Tensor<f64, D>, values: &mut [f64]) {
         (0..D).for_each(|i| values[self.layout.frame_mass(i, i)] = mass);
         for k in turns(D) {
             let row = turn_velocity(D, k);

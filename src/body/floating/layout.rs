@@ -34,8 +34,8 @@ pub(super) struct PieceLayout {
 impl FloatingLayout {
     pub fn new<const D: usize>(elastic: &Elastic<D>, nv: usize) -> FloatingLayout {
         let n = elastic.names.len();
-        let mut mass = Places::default();
-        let mut tangent = Places::default();
+        let mut mass = IndexedPlaces::default();
+        let mut tangent = IndexedPlaces::default();
         for i in 0..nv + n {
             (0..nv.min(i + 1)).for_each(|j| mass.add(i, j));
             (0..nv).for_each(|j| tangent.add(i, j));
@@ -105,7 +105,7 @@ fn each_pair(dofs: &[usize], mut see: impl FnMut(usize, usize)) {
     dofs.iter().for_each(|&i| dofs.iter().for_each(|&j| see(i, j)));
 }
 
-fn block(dofs: &[usize], nv: usize, places: &Places) -> Vec<usize> {
+fn block(dofs: &[usize], nv: usize, places: &IndexedPlaces) -> Vec<usize> {
     let mut entries = Vec::new();
     each_pair(dofs, |i, j| entries.push(places.find(nv + i, nv + j)));
     entries
@@ -113,12 +113,12 @@ fn block(dofs: &[usize], nv: usize, places: &Places) -> Vec<usize> {
 
 /// A list of places with an index into it.
 #[derive(Default)]
-struct Places {
+struct IndexedPlaces {
     list: Vec<(usize, usize)>,
     index: BTreeMap<(usize, usize), usize>,
 }
 
-impl Places {
+impl IndexedPlaces {
     fn add(&mut self, i: usize, j: usize) {
         if let std::collections::btree_map::Entry::Vacant(place) = self.index.entry((i, j)) {
             place.insert(self.list.len());

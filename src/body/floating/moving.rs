@@ -15,7 +15,7 @@ use crate::math::Scalar;
 use crate::math::array::{Each, from_fn};
 
 /// One piece at a state.
-pub(super) struct Moving<'a, S, const D: usize> {
+pub(super) struct MovingPiece<'a, S, const D: usize> {
     pub piece: &'a Piece<D>,
     /// All elastic coordinates and velocities of the body.
     pub q: &'a [S],
@@ -26,7 +26,7 @@ pub(super) struct Moving<'a, S, const D: usize> {
 /// Second-order integrals of a piece, in the form in which they are used.
 pub(super) struct Curves<const D: usize> {
     /// P_ji + P_0ij at `[j * n + i]`; empty if all P_0ij are zero.
-    bent: Vec<Matrix<f64, D>>,
+    bent: Vec<Tensor<f64, D>>,
     /// True if there are m_ij; `swerves`: if ax(sum_ij q_i' q_j' P_0ij) is not zero.
     drifts: bool,
     swerves: bool,
@@ -52,7 +52,7 @@ impl<const D: usize> Curves<D> {
     }
 }
 
-impl<S: Scalar, const D: usize> Moving<'_, S, D> {
+impl<S: Scalar, const D: usize> MovingPiece<'_, S, D> {
     /// First moment s.
     pub fn s(&self) -> [S; D] {
         let mut s = self.piece.moments[0].map(S::constant);
@@ -85,7 +85,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
 
     /// Integral W_i of rho u phi_i^T.
     #[inline]
-    pub fn w(&self, i: usize) -> Matrix<S, D> {
+    pub fn w(&self, i: usize) -> Tensor<S, D> {
         let n = self.piece.dofs.len();
         if self.curves.bent.is_empty() {
             return self.against(i + 1);
@@ -98,7 +98,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
     }
 
     /// sum_i x_i W_i; int rho u u'^T if x are the velocities.
-    pub fn flow(&self, x: &[S]) -> Matrix<S, D> {
+    pub fn flow(&self, x: &[S]) -> Tensor<S, D> {
         let mut sum = [[S::zero(); D]; D];
         for (i, &dof) in self.piece.dofs.iter().enumerate() {
             if x[dof] != S::zero() {
@@ -110,12 +110,12 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
 
     /// sum_j x_j P_ji; int rho u' psi_i^T if x are the velocities.
     #[inline]
-    pub fn rated(&self, x: &[S], i: usize) -> Matrix<S, D> {
+    pub fn rated(&self, x: &[S], i: usize) -> Tensor<S, D> {
         self.sum_of_products(x, i + 1)
     }
 
     /// P, the symmetric part of P_00 + sum_j q_j P_j0 + sum_i q_i W_i.
-    pub fn p(&self) -> Matrix<S, D> {
+    pub fn p(&self) -> Tensor<S, D> {
         let mut sum = self.flow(self.q);
         add_matrix(&mut sum, S::one(), &self.against(0));
         symmetric(&sum)
@@ -133,7 +133,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
 
     /// sum_j x_j P_0ij
     #[inline]
-    pub fn curved(&self, x: &[S], i: usize) -> Matrix<S, D> {
+    pub fn curved(&self, x: &[S], i: usize) -> Tensor<S, D> {
         let mut sum = [[S::zero(); D]; D];
         for second in &self.piece.second[i] {
             add_matrix(&mut sum, x[self.piece.dofs[second.other]], &second.product);
@@ -157,7 +157,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
 
     /// int rho u psi_b^T to first order in q, b = 0 for psi_0 and 1 + i for psi_i.
     #[inline]
-    pub fn against(&self, b: usize) -> Matrix<S, D> {
+    pub fn against(&self, b: usize) -> Tensor<S, D> {
         let mut sum = self.sum_of_products(self.q, b);
         add_matrix(&mut sum, S::one(), &self.piece.products[b]);
         sum
@@ -165,7 +165,7 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
 
     /// sum_j x_j P_jb
     #[inline]
-    fn sum_of_products(&self, x: &[S], b: usize) -> Matrix<S, D> {
+    fn sum_of_products(&self, x: &[S], b: usize) -> Tensor<S, D> {
         let width = self.piece.dofs.len() + 1;
         let mut sum = [[S::zero(); D]; D];
         for (j, &dof) in self.piece.dofs.iter().enumerate() {
@@ -177,6 +177,6 @@ impl<S: Scalar, const D: usize> Moving<'_, S, D> {
 
 /// (m + m^T)/2
 #[inline]
-pub(super) fn symmetric<S: Scalar, const D: usize>(m: &Matrix<S, D>) -> Matrix<S, D> {
+pub(super) fn symmetric<S: Scalar, const D: usize>(m: &Tensor<S, D>) -> Tensor<S, D> {
     from_fn(|i| from_fn(|j| (m[i][j] + m[j][i]) * 0.5))
 }

@@ -15,13 +15,13 @@
 
 use super::algebra::*;
 use super::inertia::{angular_velocity, local, world};
-use super::moving::Moving;
+use super::moving::MovingPiece;
 use super::{Floating, frame, frame_velocities, turn_velocity, turns};
 use crate::body::{BodyState, Frame, cross, dot, unit};
 use crate::math::array::from_fn;
 
 /// Motion of the floating frame at a state.
-struct Motion<'a, const D: usize> {
+struct FrameMotion<'a, const D: usize> {
     own: Frame<f64, D>,
     w: [f64; 3],
     alpha: [f64; 3],
@@ -31,7 +31,7 @@ struct Motion<'a, const D: usize> {
     vdot: &'a [f64],
 }
 
-impl<const D: usize> Motion<'_, D> {
+impl<const D: usize> FrameMotion<'_, D> {
     /// alpha x u + w x (w x u)
     fn swept(&self, u: &[f64; D]) -> [f64; D] {
         let whirl = spin(&self.w, &spin(&self.w, u));
@@ -43,7 +43,7 @@ impl<const D: usize> Motion<'_, D> {
 impl<const D: usize> Floating<D> {
     pub(super) fn add_inertia_tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64]) {
         let own = frame::<f64, D>(at.q);
-        let motion = Motion {
+        let motion = FrameMotion {
             a: local(&own, &from_fn(|k| at.vdot[k] - at.gravity[k])),
             own,
             w: angular_velocity::<_, D>(at.v),
@@ -61,7 +61,7 @@ impl<const D: usize> Floating<D> {
     }
 
     /// k += d(r_r, r_t)/dtheta.
-    fn add_frame_stiffness(&self, motion: &Motion<D>, moving: &Moving<f64, D>, k: &mut [f64]) {
+    fn add_frame_stiffness(&self, motion: &FrameMotion<D>, moving: &MovingPiece<f64, D>, k: &mut [f64]) {
         let s = moving.s();
         let swept = motion.swept(&s);
         let rate = moving.momentum(moving.v);
@@ -79,7 +79,7 @@ impl<const D: usize> Floating<D> {
     }
 
     /// c += d(r_r, r_t)/dw.
-    fn add_frame_damping(&self, motion: &Motion<D>, moving: &Moving<f64, D>, c: &mut [f64]) {
+    fn add_frame_damping(&self, motion: &FrameMotion<D>, moving: &MovingPiece<f64, D>, c: &mut [f64]) {
         let s = moving.s();
         let rate = moving.momentum(moving.v);
         let w = &motion.w;
@@ -103,7 +103,7 @@ impl<const D: usize> Floating<D> {
     }
 
     /// d(r_r, r_t)/dq_j and d(r_r, r_t)/dq_j', d(r_j)/dtheta and d(r_j)/dw.
-    fn add_mixed(&self, motion: &Motion<D>, moving: &Moving<f64, D>, j: usize, k: &mut [f64], c: &mut [f64]) {
+    fn add_mixed(&self, motion: &FrameMotion<D>, moving: &MovingPiece<f64, D>, j: usize, k: &mut [f64], c: &mut [f64]) {
         let dof = moving.piece.dofs[j];
         let mu = moving.mu(j);
         let w = &motion.w;
@@ -122,10 +122,10 @@ impl<const D: usize> Floating<D> {
         let rated = moving.rated(moving.v, j);
         let curving = moving.curved(moving.v, j);
         let curved = moving.curved(motion.vdot, j);
-        let grown: Matrix<f64, D> = from_fn(|a| from_fn(|b| weighed[a][b] + weighed[b][a]));
+        let grown: Tensor<f64, D> = from_fn(|a| from_fn(|b| weighed[a][b] + weighed[b][a]));
         let (lever, swing, gyroscopic) =
             (cross(&mu, &motion.a), swung(&grown, &motion.alpha), cross(w, &swung(&grown, w)));
-        let flow: Matrix<f64, D> = from_fn(|a| from_fn(|b| rated[a][b] + curving[b][a]));
+        let flow: Tensor<f64, D> = from_fn(|a| from_fn(|b| rated[a][b] + curving[b][a]));
         let stretching = swung(&flow, w);
         let push = axial(&moving.rated(motion.vdot, j));
         let push_on = axial(&curved);
@@ -146,8 +146,8 @@ impl<const D: usize> Floating<D> {
     /// d(r_i)/dq_j and d(r_i)/dq_j', for all i of the piece.
     fn add_elastic(
         &self,
-        motion: &Motion<D>,
-        moving: &Moving<f64, D>,
+        motion: &FrameMotion<D>,
+        moving: &MovingPiece<f64, D>,
         piece: usize,
         j: usize,
         k: &mut [f64],

@@ -166,9 +166,10 @@ impl Ali3p {
                 is_factored = true;
             }
             let change = self.iterate(problem, h)?;
-            let still =
-                4.0 * tolerances::ROUND_OFF_OF_SUMS * largest(problem.dynamics.system.dimensions().own(q)).max(1.0)
-                    / (h * h);
+            let still = 4.0
+                * tolerances::ROUND_OFF_OF_SUMS
+                * largest(problem.dynamics.system.dimensions().without_turns(q)).max(1.0)
+                / (h * h);
             Ok::<_, StepError>(
                 change / (tolerances::NEWTON_STAGNATION * largest(&self.a_new).max(largest(v) / h)).max(still),
             )

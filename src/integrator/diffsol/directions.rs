@@ -42,7 +42,7 @@ impl Directions {
     pub fn new(system: &dyn MechanicalSystem) -> Self {
         let n = system.dimensions();
         let rotations = system.facts().rotations.clone();
-        match of_bodies(n, n.own_q(), &rotations) {
+        match of_bodies(n, n.q_without_turns(), &rotations) {
             Some(of) => Directions { of, other: None },
             None => {
                 let rows = n.q;

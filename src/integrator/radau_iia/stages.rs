@@ -132,7 +132,7 @@ impl Stages {
                 self.velocity.copy_from_slice(&v[..nv]);
                 self.velocity.iter_mut().zip(&self.unknowns.u[i]).for_each(|(place, shift)| *place += shift);
                 // N does not depend on the angles that count full turns: they follow in the last sweep.
-                let written = if sweep == sweeps { nq } else { self.n.own_q() };
+                let written = if sweep == sweeps { nq } else { self.n.q_without_turns() };
                 system.rate(q, &self.velocity, &mut self.qdot[i][..written]);
                 self.rotations.set_rates(i, &self.velocity);
             }

@@ -10,7 +10,7 @@ pub use array::{Array, Table};
 pub use spec::{Lumped, ModalBody, ModalData, Node, Nodes};
 
 use super::eigen::entries;
-use super::shape::{Elastic, Inertia, PointShape};
+use super::shape::{Elastic, Inertia, Piece, PointShape};
 use crate::body::{Build, parse};
 use crate::error::{Error, Result, short};
 use crate::math::array::from_fn;
@@ -112,6 +112,24 @@ fn resolve<const D: usize>(data: &ModalData<Table>, build: &Build<D>) -> Result<
 const COPIES: f64 = 40.0;
 
 fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
+    let stiffness = stiffness(data)?;
+    let n = stiffness.nrows();
+    let damping = damping(data, n)?;
+    let piece = piece(data, n)?;
+    inertia::check(&piece)?;
+    let elastic = Elastic {
+        names: (1..=n).map(|i| format!("mode{i}")).collect(),
+        inertia: Inertia { pieces: vec![piece], discs: Vec::new() },
+        stiffness: entries(stiffness.as_ref()),
+        damping: entries(damping.as_ref()),
+        stretches: Vec::new(),
+        line: None,
+    };
+    Ok(ModalShapes { elastic, nodes: nodes(data, n)? })
+}
+
+/// The stiffness matrix, whose size is the number of modes.
+fn stiffness(data: &ModalData<Array>) -> Result<Mat<f64>> {
     let Some(stiffness) = &data.modal_stiffness else {
         return Err(Error::input("the key `modal_stiffness` is missing").hint("give one number a mode, or a matrix"));
     };
@@ -124,54 +142,51 @@ fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
     let too_many = |error: Error| error.under("modal_stiffness").hint("keep fewer modes, the lowest ones");
     refuse_dense("this body", [n; 2], COPIES).map_err(too_many)?;
     let stiffness = matrix("modal_stiffness", stiffness, n)?;
-    let floor = smallest("modal_stiffness", &stiffness)?;
-    if floor <= 0.0 {
-        return Err(Error::input(format!(
-            "the stiffness matrix has the eigenvalue {}, but must be positive",
-            short(floor)
-        ))
-        .under("modal_stiffness")
-        .hint("leave out rigid-body modes: the body's frame has these motions already"));
+    let least = smallest("modal_stiffness", &stiffness)?;
+    if least <= 0.0 {
+        let text = format!("the stiffness matrix has the eigenvalue {}, but must be positive", short(least));
+        return Err(Error::input(text)
+            .under("modal_stiffness")
+            .hint("leave out rigid-body modes: the body's frame has these motions already"));
     }
-    let damping = match &data.modal_damping {
-        None => Mat::zeros(n, n),
-        Some(damping) => matrix("modal_damping", damping, n)?,
-    };
-    let floor = smallest("modal_damping", &damping)?;
-    if floor < 0.0 {
-        return Err(Error::input(format!("the damping matrix has the negative eigenvalue {}", short(floor)))
+    Ok(stiffness)
+}
+
+/// The damping matrix of `n` modes.
+fn damping(data: &ModalData<Array>, n: usize) -> Result<Mat<f64>> {
+    let Some(damping) = &data.modal_damping else { return Ok(Mat::zeros(n, n)) };
+    let damping = matrix("modal_damping", damping, n)?;
+    let least = smallest("modal_damping", &damping)?;
+    if least < 0.0 {
+        return Err(Error::input(format!("the damping matrix has the negative eigenvalue {}", short(least)))
             .under("modal_damping")
             .hint("such damping would be a source of energy: check the signs"));
     }
-    let piece = match &data.lumped {
-        Some(masses) => {
-            refuse_inertia(data)?;
-            inertia::of_lumped::<D>(masses, n)?
-        }
-        None => {
-            let identity = || Ok(Mat::identity(n, n));
-            let mass = data.modal_mass.as_ref().map_or_else(identity, |mass| matrix("modal_mass", mass, n))?;
-            inertia::of_couplings(data, &mass)?
-        }
-    };
-    inertia::check(&piece)?;
-    let point = |(name, node): &(String, Node<Array>)| {
-        let point = point::<D>(node, n).map_err(|error| error.under(format!("nodes.{name}")))?;
-        Ok((name.clone(), point))
-    };
-    let elastic = Elastic {
-        names: (1..=n).map(|i| format!("mode{i}")).collect(),
-        inertia: Inertia { pieces: vec![piece], discs: Vec::new() },
-        stiffness: entries(stiffness.as_ref()),
-        damping: entries(damping.as_ref()),
-        stretches: Vec::new(),
-        line: None,
-    };
+    Ok(damping)
+}
+
+/// The inertia of `n` modes, by masses at points or by mass integrals.
+fn piece<const D: usize>(data: &ModalData<Array>, n: usize) -> Result<Piece<D>> {
+    if let Some(masses) = &data.lumped {
+        refuse_inertia(data)?;
+        return inertia::of_lumped::<D>(masses, n);
+    }
+    let identity = || Ok(Mat::identity(n, n));
+    let mass = data.modal_mass.as_ref().map_or_else(identity, |mass| matrix("modal_mass", mass, n))?;
+    inertia::of_couplings(data, &mass)
+}
+
+/// The nodes by name, with their motion under `n` modes.
+fn nodes<const D: usize>(data: &ModalData<Array>, n: usize) -> Result<Vec<(String, PointShape<D>)>> {
     let nodes = data.nodes.as_ref().map_or(&[][..], |nodes| &nodes.0);
     if let Some(i) = (0..nodes.len()).find(|&i| nodes[..i].iter().any(|(name, _)| *name == nodes[i].0)) {
         return Err(Error::input(format!("two nodes are named `{}`", nodes[i].0)).under("nodes"));
     }
-    Ok(ModalShapes { elastic, nodes: nodes.iter().map(point).collect::<Result<_>>()? })
+    let point = |(name, node): &(String, Node<Array>)| {
+        let point = point::<D>(node, n).map_err(|error| error.under(format!("nodes.{name}")))?;
+        Ok((name.clone(), point))
+    };
+    nodes.iter().map(point).collect()
 }
 
 /// Refuses inertia keys together with lumped masses, from which they follow.
