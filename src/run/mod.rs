@@ -16,12 +16,14 @@
 //! ```
 
 mod inputs;
+mod marker;
 mod moment;
 mod recording;
 mod simulated;
 
 pub use crate::simulate::End;
 pub use inputs::{Input, every};
+pub use marker::MarkerFrame;
 pub use moment::Moment;
 pub use simulated::{Simulated, simulate};
 
