@@ -242,6 +242,22 @@ fn a_wanted_stop_is_no_failure() {
 }
 
 #[test]
+fn markers_are_placed_by_name() {
+    let model = Model::load("tests/examples/crane.json").unwrap();
+    let mut run = model.run();
+    run.to(1.5).unwrap();
+    let state = run.state().unwrap();
+    let [top, load] = ["rope.top", "rope"].map(|name| model.marker(name, &state).unwrap());
+    let (sin, cos) = state.output("sway").sin_cos();
+    assert!((top.position[0] - state.get("trolley.x")).abs() < 1e-12);
+    assert!((load.position[0] - top.position[0] - 5.0 * sin).abs() < 1e-12);
+    assert!((load.position[1] - top.position[1] + 5.0 * cos).abs() < 1e-12);
+    assert!((load.velocity[0] - state.get("rope.x'")).abs() < 1e-12);
+    assert!((load.axes[0][1] - sin).abs() < 1e-12 && load.axes[2] == [0.0, 0.0, 1.0]);
+    assert!(model.marker("rope.tip", &state).unwrap_err().to_string().contains("`rope.top`?"));
+}
+
+#[test]
 fn a_run_is_stopped_by_its_sink() {
     let mut run = from_one(&SWINGING, "index1 + dop853").shown_to(Enough(Cell::new(0)));
     assert_eq!(run.to(10.0).unwrap(), End::Stopped);

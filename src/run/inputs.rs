@@ -104,10 +104,15 @@ impl<'a> Inputs<'a> {
         self.samplers.iter().map(|sampler| sampler.time(start)).fold(f64::INFINITY, f64::min)
     }
 
+    /// True if a sample is due at `t`.
+    pub fn is_due(&self, t: f64, start: f64) -> bool {
+        self.samplers.iter().any(|sampler| sampler.is_due(t, start))
+    }
+
     /// Takes the samples that are due at `t`.
     pub fn sample(&mut self, (t, start): (f64, f64), moment: &Moment, u: &mut [f64]) {
         for sampler in &mut self.samplers {
-            if sampler.time(start) <= t {
+            if sampler.is_due(t, start) {
                 sampler.next += 1;
                 u[sampler.place] = (sampler.law)(moment);
             }
@@ -118,6 +123,10 @@ impl<'a> Inputs<'a> {
 impl Sampler<'_> {
     fn time(&self, start: f64) -> f64 {
         start + self.next as f64 * self.period
+    }
+
+    fn is_due(&self, t: f64, start: f64) -> bool {
+        self.time(start) <= t + tolerances::SAME * self.period
     }
 }
 

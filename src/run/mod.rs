@@ -16,12 +16,14 @@
 //! ```
 
 mod inputs;
+mod marker;
 mod moment;
 mod recording;
 mod simulated;
 
 pub use crate::simulate::End;
 pub use inputs::{Input, every};
+pub use marker::MarkerFrame;
 pub use moment::Moment;
 pub use simulated::{Simulated, simulate};
 
@@ -206,14 +208,21 @@ impl<'a> Run<'a> {
         self.advance(t_end, Some(&mut root))
     }
 
-    /// The present state.
+    /// The present state; before the run has begun the start, with all inputs zero.
     ///
     /// # Errors
     /// Bad input; a state at which the equations have no solution.
     pub fn state(&mut self) -> Result<Moment> {
-        self.begin(self.end.unwrap_or(self.began + 1.0))?;
-        if let Some(engine) = &mut self.engine {
-            self.observers.reader.read_present(engine)?;
+        if let Some(error) = &self.refused {
+            return Err(error.clone());
+        }
+        let span = Span::from(self.began..self.t() + 1.0);
+        let reader = &mut self.observers.reader;
+        match &mut self.engine {
+            Some(engine) => reader.read_present(engine)?,
+            None => {
+                reader.read_present(&mut Engine::new(self.system, &self.choice, span, self.start.start())?)?;
+            }
         }
         Ok(self.observers.reader.moment.clone())
     }
@@ -239,13 +248,11 @@ impl<'a> Run<'a> {
     /// one, but for what sampled inputs remember.
     ///
     /// # Errors
-    /// Bad input; a motion that cannot go on.
+    /// A run that has not begun; a motion that cannot go on.
     pub fn save(&mut self) -> Result<Checkpoint> {
-        self.begin(self.end.unwrap_or(self.began + 1.0))?;
-        let mut sink = self.observers.looking(None);
         match &mut self.engine {
-            Some(engine) => Ok(engine.save(&mut sink)?),
-            None => Err(Error::input("the run has not begun")),
+            Some(engine) => Ok(engine.save(&mut self.observers.looking(None))?),
+            None => Err(Error::input("the run has not begun").hint("take a step, or run to a time")),
         }
     }
 
@@ -328,7 +335,7 @@ impl<'a> Run<'a> {
     /// Takes the samples that are due, and holds their values from here on.
     fn sample(&mut self) -> Result<()> {
         let t = self.t();
-        if self.inputs.next_sample(self.began) > t {
+        if !self.inputs.is_due(t, self.began) {
             return Ok(());
         }
         let Some(engine) = &mut self.engine else { return Ok(()) };

@@ -48,7 +48,7 @@ pub struct Checkpoint {
     factored: u64,
     statistics: Statistics,
     /// Values of the inputs.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     inputs: Vec<f64>,
 }
 
