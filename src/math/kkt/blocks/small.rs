@@ -1,6 +1,6 @@
 //! L D L^T of a small matrix of which every entry may be there, as those of own equations are.
 //!
-//! The same operations in the same order as of one block of coordinates and one of multipliers, without lists of places.
+//! The same operations in the same order as of one body and one joint, without lists of places.
 
 use super::super::Pattern;
 use super::super::pivot::{Judge, Quality, Rule, farthest_first};
@@ -9,15 +9,18 @@ use crate::math::array::from_fn;
 
 /// The factors, with the memory to make them.
 pub(in super::super) struct Small {
-    /// Numbers of coordinates and of all unknowns.
+    /// Numbers of coordinates and multipliers.
     n: usize,
-    total: usize,
-    /// The upper triangle row by row, `total` apart: D on the diagonal, L^T beside it, but L^T D in the columns of
-    /// multipliers and rows of coordinates.
-    upper: Vec<f64>,
+    m: usize,
+    /// L of the coordinates, row by row; beyond the diagonal nothing is read.
+    lower: Vec<f64>,
+    /// G L^-T, row by row.
+    rows: Vec<f64>,
+    /// -G M^-1 G^T by its upper triangle, row by row; then D on the diagonal and L^T beside it.
+    schur: Vec<f64>,
     /// L^T of the row in work.
     scaled: Vec<f64>,
-    /// Inverses of the pivots, and what they are compared with.
+    /// Inverses of the pivots, those of multipliers last, and what the latter are compared with.
     inverse: Vec<f64>,
     sizes: Vec<f64>,
 }
@@ -26,86 +29,125 @@ impl Small {
     /// `None` for patterns with places that are not all there in their order, and for larger ones.
     pub fn new(mass: &Pattern, g: &Pattern) -> Option<Self> {
         let n = mass.rows;
-        let total = n + g.rows;
+        let m = g.rows;
+        let is_small = (1..=LARGEST).contains(&n) && m <= LARGEST;
         let zeros = |len: usize| vec![0.0; len];
-        let is_small = total > 0 && n <= LARGEST && g.rows <= LARGEST;
-        (is_small && *mass == Pattern::lower(n) && *g == Pattern::dense(g.rows, n)).then(|| Small {
+        (is_small && *mass == Pattern::lower(n) && *g == Pattern::dense(m, n)).then(|| Small {
             n,
-            total,
-            upper: zeros(total * total),
-            scaled: zeros(total),
-            inverse: zeros(total),
-            sizes: zeros(total),
+            m,
+            lower: zeros(n * n),
+            rows: zeros(m * n),
+            schur: zeros(m * m),
+            scaled: zeros(m),
+            inverse: zeros(n + m),
+            sizes: zeros(m),
         })
     }
 
     /// See [`Blocks::factor`](super::Blocks::factor).
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
-        let Small { n, total, upper, scaled, inverse, sizes } = self;
-        let (n, total) = (*n, *total);
-        let mut judge = Judge { n, rule, skipped, quality: Quality::GOOD };
-        fill(upper, (n, total), mass, g);
-        (0..n).for_each(|p| sizes[p] = upper[p * total + p]);
-        for p in 0..total {
-            if p == n {
-                (n..total).for_each(|j| sizes[j] = -upper[j * total + j]);
-            }
-            let (above, below) = upper.split_at_mut((p + 1) * total);
-            let row = &mut above[p * total..];
-            let sign = if p < n { 1.0 } else { -1.0 };
-            inverse[p] = judge.inverse(row[p], (sizes[p], sign), || p)?;
-            for (scaled, x) in scaled[p + 1..].iter_mut().zip(&row[p + 1..]) {
-                *scaled = x * inverse[p];
-            }
-            // Products of coordinates and multipliers take the other factor scaled, as those of blocks do.
-            let split = if p < n { n } else { total };
-            for (r, target) in (p + 1..total).zip(below.chunks_exact_mut(total)) {
-                subtract(&mut target[r..split.max(r)], &scaled[r..], row[r]);
-                subtract(&mut target[split.max(r)..], &row[split.max(r)..], scaled[r]);
-            }
-            row[p + 1..split.max(p + 1)].copy_from_slice(&scaled[p + 1..split.max(p + 1)]);
-        }
+        let mut judge = Judge { n: self.n, rule, skipped, quality: Quality::GOOD };
+        by_width!(self.n, self.factor_coordinates(mass, g, &mut judge))?;
+        self.factor_multipliers(&mut judge)?;
         Ok(judge.quality)
+    }
+
+    /// L and D of M, G L^-T and -G M^-1 G^T.
+    fn factor_coordinates<const N: usize>(&mut self, mass: &[f64], g: &[f64], judge: &mut Judge) -> Result<(), usize> {
+        let mut l = [[0.0; N]; N];
+        let mut entries = mass.iter();
+        for (i, row) in l.iter_mut().enumerate() {
+            row[..=i].iter_mut().zip(&mut entries).for_each(|(l, entry)| *l = *entry);
+        }
+        let sizes: [f64; N] = from_fn(|p| l[p][p]);
+        let mut inverse = [0.0; N];
+        for p in 0..N {
+            inverse[p] = judge.inverse(l[p][p], (sizes[p], 1.0), || p)?;
+            for q in p + 1..N {
+                let factor = l[q][p] * inverse[p];
+                (p + 1..=q).for_each(|r| l[q][r] -= factor * l[r][p]);
+            }
+            (p + 1..N).for_each(|q| l[q][p] *= inverse[p]);
+        }
+        let rows = self.rows.as_chunks_mut::<N>().0;
+        for (row, g) in rows.iter_mut().zip(g.as_chunks::<N>().0) {
+            *row = *g;
+            (0..N).for_each(|p| (p + 1..N).for_each(|q| row[q] -= row[p] * l[q][p]));
+        }
+        for (k, (row, schur)) in rows.iter().zip(self.schur.chunks_exact_mut(self.m.max(1))).enumerate() {
+            let scaled: [f64; N] = from_fn(|p| row[p] * inverse[p]);
+            for (row, entry) in rows[k..].iter().zip(&mut schur[k..]) {
+                *entry = (0..N).fold(0.0, |sum, p| sum - row[p] * scaled[p]);
+            }
+        }
+        self.lower.copy_from_slice(l.as_flattened());
+        self.inverse[..N].copy_from_slice(&inverse);
+        Ok(())
+    }
+
+    fn factor_multipliers(&mut self, judge: &mut Judge) -> Result<(), usize> {
+        let Small { n, m, schur, scaled, inverse, sizes, .. } = self;
+        (0..*m).for_each(|j| sizes[j] = -schur[j * *m + j]);
+        for p in 0..*m {
+            let (above, below) = schur.split_at_mut((p + 1) * *m);
+            let row = &mut above[p * *m + p..];
+            let own = judge.inverse(row[0], (sizes[p], -1.0), || *n + p)?;
+            inverse[*n + p] = own;
+            let scaled = &mut scaled[p + 1..];
+            scaled.iter_mut().zip(&row[1..]).for_each(|(scaled, x)| *scaled = x * own);
+            for (r, target) in below.chunks_exact_mut(*m).enumerate() {
+                subtract(&mut target[p + 1 + r..], &scaled[r..], row[1 + r]);
+            }
+            row[1..].copy_from_slice(scaled);
+        }
+        Ok(())
     }
 
     /// Solves in place; dropped multipliers are zero.
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
-        let Small { n, total, upper, inverse, .. } = self;
-        let rows = || upper.chunks_exact(*total);
-        let coordinates = || rows().take(*n).enumerate();
-        let multipliers = || rows().skip(*n).map(|row| &row[*n..]).enumerate();
-        for (p, row) in coordinates() {
-            let x = top[p];
-            subtract(&mut top[p + 1..], &row[p + 1..], x);
+        by_width!(self.n, self.solve_for(top, bottom));
+    }
+
+    fn solve_for<const N: usize>(&self, top: &mut [f64], bottom: &mut [f64]) {
+        let (l, _) = self.lower.as_chunks::<N>();
+        let (rows, _) = self.rows.as_chunks::<N>();
+        let (Some(l), Some(inverse)) = (l.first_chunk::<N>(), self.inverse.first_chunk::<N>()) else { return };
+        let Some(top) = top.first_chunk_mut::<N>() else { return };
+        (0..N).for_each(|p| (p + 1..N).for_each(|q| top[q] -= top[p] * l[q][p]));
+        (0..N).for_each(|p| top[p] *= inverse[p]);
+        for (x, row) in bottom.iter_mut().zip(rows) {
+            *x = (0..N).fold(*x, |x, p| x - top[p] * row[p]);
         }
-        for (p, row) in coordinates() {
-            top[p] *= inverse[p];
-            subtract(bottom, &row[*n..], top[p]);
+        self.solve_multipliers(bottom);
+        let mut sum = [0.0; N];
+        for (x, row) in bottom.iter().zip(rows) {
+            (0..N).for_each(|p| sum[p] += x * row[p]);
         }
-        for (p, row) in multipliers() {
+        (0..N).for_each(|p| top[p] -= sum[p] * inverse[p]);
+        (0..N).rev().for_each(|p| (p + 1..N).rev().for_each(|q| top[p] -= top[q] * l[q][p]));
+    }
+
+    fn solve_multipliers(&self, bottom: &mut [f64]) {
+        let Small { n, m, schur, inverse, .. } = self;
+        let upper = |p: usize| &schur[p * *m + p + 1..(p + 1) * *m];
+        for p in 0..*m {
             let x = bottom[p];
-            subtract(&mut bottom[p + 1..], &row[p + 1..], x);
+            subtract(&mut bottom[p + 1..], upper(p), x);
         }
         bottom.iter_mut().zip(&inverse[*n..]).for_each(|(x, inverse)| *x *= inverse);
-        for (p, row) in multipliers().rev() {
-            bottom[p] = bottom[p + 1..].iter().zip(&row[p + 1..]).fold(bottom[p], |sum, (x, l)| sum - x * l);
-        }
-        for (p, row) in coordinates().rev() {
-            let sum = bottom.iter().zip(&row[*n..]).fold(0.0, |sum, (x, g)| sum + x * g);
-            let start = top[p] - sum * inverse[p];
-            top[p] = top[p + 1..].iter().zip(&row[p + 1..]).rev().fold(start, |x, (y, l)| x - y * l);
+        for p in (0..*m).rev() {
+            bottom[p] = bottom[p + 1..].iter().zip(upper(p)).fold(bottom[p], |sum, (x, l)| sum - x * l);
         }
     }
 
     /// See [`Blocks::smallest_ratio`](super::Blocks::smallest_ratio).
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
-        if self.total == self.n { (1.0, 0) } else { by_width!(self.total - self.n, self.ratio(collapsed)) }
+        if self.m == 0 { (1.0, 0) } else { by_width!(self.m, self.ratio(collapsed)) }
     }
 
     fn ratio<const W: usize>(&self, collapsed: f64) -> (f64, usize) {
-        let Small { n, total, upper, sizes, .. } = self;
-        let rows = from_fn(|i| from_fn(|p| upper[(n + p.min(i)) * total + n + i.max(p)]));
-        let sizes = from_fn(|p| sizes[n + p]);
+        let rows = from_fn(|i| from_fn(|p| self.schur[p.min(i) * W + i.max(p)]));
+        let sizes = from_fn(|p| self.sizes[p]);
         let mut ratios: [f64; W] = from_fn(|p| -rows[p][p] / sizes[p]);
         // Written so that the NaN of a row of zeros has collapsed.
         let lost = W - ratios.iter().filter(|ratio| **ratio > collapsed).count();
@@ -113,18 +155,6 @@ impl Small {
             farthest_first(&rows, &sizes, &mut ratios);
         }
         (ratios.iter().filter(|ratio| **ratio > collapsed).fold(1.0, |least: f64, x| least.min(*x)), lost)
-    }
-}
-
-/// The upper triangle of [M G^T; G 0] from the lower one of M, both row by row.
-fn fill(upper: &mut [f64], (n, total): (usize, usize), mass: &[f64], g: &[f64]) {
-    let mut entries = mass.iter();
-    for i in 0..n {
-        (0..=i).zip(&mut entries).for_each(|(j, entry)| upper[j * total + i] = *entry);
-    }
-    for j in n..total {
-        (0..n).zip(&g[(j - n) * n..]).for_each(|(i, entry)| upper[i * total + j] = *entry);
-        upper[j * total + j..][..total - j].fill(0.0);
     }
 }
 

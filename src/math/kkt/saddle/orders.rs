@@ -61,6 +61,9 @@ impl Orders {
 
     /// Forgets the factors if other masses vanish.
     fn meet(&mut self, mass: &[f64]) {
+        if self.diagonal.iter().all(|&(entry, i)| (mass[entry] == 0.0) == self.massless[i]) {
+            return;
+        }
         self.found.fill(true);
         self.diagonal.iter().for_each(|&(entry, i)| self.found[i] &= mass[entry] == 0.0);
         if self.found != self.massless {
