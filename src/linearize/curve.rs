@@ -1,6 +1,7 @@
 //! Curves of eigenvalues between the points of a branch, by their derivatives.
 
 use super::{Branch, Complex};
+use crate::tolerances::EIGENVALUES_AGREE;
 
 type C = Complex<f64>;
 /// Time or parameter, the eigenvalue there and its derivative.
@@ -68,9 +69,11 @@ fn squared_rate(value: C, slope: C, length: f64) -> [f64; 2] {
 fn smooth((a, from, start): Knot, (b, to, end): Knot, inner: impl Iterator<Item = f64>) -> Option<Vec<(f64, C)>> {
     let rates = [squared_rate(from, start?, b - a), squared_rate(to, end?, b - a)];
     let ends = [squared(from), squared(to)];
-    for k in [0, 1] {
+    let size = from.norm().max(to.norm());
+    for (k, size) in [size, size * size].into_iter().enumerate() {
         let off = 0.5 * (rates[0][k] + rates[1][k]) - (ends[1][k] - ends[0][k]);
-        let is_smooth = off.abs() <= SMOOTH_INTERVAL * rates[0][k].abs().max(rates[1][k].abs());
+        let largest = rates[0][k].abs().max(rates[1][k].abs());
+        let is_smooth = off.abs() <= SMOOTH_INTERVAL * largest + EIGENVALUES_AGREE * size;
         if !is_smooth {
             return None;
         }

@@ -104,20 +104,21 @@ fn a_model_near_a_fold_has_an_error() {
     }
 }
 
-/// phi of the start is rounding, which a step of Newton's method would turn into 1e-12 rad beside this fold.
+/// phi of the start is rounding, which a step of Newton's method would turn into 4e-12 rad beside this fold: eigenvalues
+/// would be off by 2e-5 in the intrinsic chart at 1e-4, and by 1e-5 in a named one at 1e-3.
 #[test]
 fn a_start_beside_a_fold_stays() {
-    for angle in [1e-3f64, 1e-4] {
+    for (angle, chart) in [(1e-3f64, Some("c0.angle")), (1e-3, None), (1e-4, None)] {
         let prepared = parallelogram(2, angle);
         let [x, y] = [angle.cos(), angle.sin()];
         let crank = |place: f64| [place + 0.25 * x, 0.25 * y, angle];
         let given = [crank(0.0), crank(0.3), [0.5 * x, 0.5 * y, 0.0]].concat();
         assert_eq!(prepared.start().0, given);
-        let model = by(&prepared, "mcs", Some("c0.angle")).unwrap();
+        let model = by(&prepared, "mcs", chart).unwrap();
         let found = model.modes.iter().map(|mode| mode.value.im).fold(0.0, f64::max);
         let error = (found / crank_frequency(2, angle) - 1.0).abs();
-        println!("{angle}: {error:e} {:?}", model.reduction);
-        assert!(error < 1e-9, "{angle}: {error:e} of {:?}", model.reduction);
+        println!("{angle} {chart:?}: {error:e} {:?}", model.reduction);
+        assert!(error < 1e-10 && error < model.reduction.error, "{angle}: {error:e} of {:?}", model.reduction);
     }
 }
 

@@ -152,6 +152,7 @@ fn curves_follow_derivatives() {
     let times: Vec<f64> = (0..=20).map(|k| 0.05 * f64::from(k)).collect();
     let request = Request { method: MethodSpec::parse("mcs").unwrap(), chart: None };
     let loci = loci_along(&pendulum, &request, &times, || ());
+    assert!(loci.branches.iter().all(|branch| branch.curve().points.len() > 200));
     let states = holonom::linearize::states(&pendulum, &times, |_| ()).unwrap();
     for branch in &loci.branches {
         for (((_, value), slope), state) in branch.points.iter().zip(&branch.slopes).zip(&states) {
