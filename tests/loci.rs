@@ -40,7 +40,7 @@ fn sample(at: f64, upper: &[(Complex<f64>, [f64; 2])]) -> LociPoint {
     let mut modes: Vec<Vec<Mode>> = upper.iter().map(both).collect();
     modes.sort_by(|a, b| a[0].value.norm().total_cmp(&b[0].value.norm()));
     let mass = Matrix::from_diagonal(&nalgebra::DVector::from_vec(vec![1.0, 4.0]));
-    LociPoint { at, modes: modes.concat(), mass }
+    LociPoint { at, modes: modes.concat(), mass, slopes: Vec::new() }
 }
 
 fn grid(n: usize) -> impl Iterator<Item = f64> {

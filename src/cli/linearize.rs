@@ -127,6 +127,7 @@ fn along(args: &Args, prepared: &PreparedScene, times: &Times) -> Result<()> {
         None => linearize::along(prepared.system(), start, chart.as_ref(), &range.values(), progress)?,
     };
     bar.finish_and_clear();
+    args.at.talk.warn(&found.doubt());
     let answer = AlongAnswer { prepared, along: &found, formats: &args.format };
     let sealed = answer.stage(&mut folder, "ltv", args.at.talk.origin(prepared))?;
     args.at.talk.conclude(folder, &sealed, || answer.text())

@@ -73,7 +73,7 @@ fn iterate(
         metric.at_rest(t, q)?;
         let residual = metric.size_of_phi();
         let is_closed = metric.is_closed(q);
-        if is_closed && residual >= tolerances::NEWTON_HALVES * last {
+        if metric.is_rounding(q) || is_closed && residual >= tolerances::NEWTON_HALVES * last {
             return Ok(true);
         }
         last = residual;

@@ -13,6 +13,10 @@ use std::sync::Arc;
 /// freely, and the matrix is still far from singular.
 const LEAST_WEIGHT: f64 = 1e-6;
 
+/// phi that no step of Newton's method improves. Unit: `[1]` of the largest coordinate. Why: two ulps, of a sum of two
+/// products. Test: `a_start_beside_a_fold_stays`.
+const ROUNDED: f64 = 2.0 * f64::EPSILON;
+
 /// The largest phi of a closed loop after assembly, beside round-off of the largest coordinate. Unit: `[1]` of the
 /// scene's scale. Why: round-off of chains of transformations, up to thousands of them.
 const CLOSED: f64 = 1e-10;
@@ -227,6 +231,14 @@ impl<'a> Metric<'a> {
         let rounding = tolerances::ROUND_OFF * largest(self.system.dimensions().without_turns(q));
         let mut kept = (0..self.scales.len()).filter(|row| !self.without.contains(row));
         kept.all(|row| self.terms.phi[row].abs() <= CLOSED * self.scales[row] + rounding)
+    }
+
+    /// True if phi of the terms at hand is what its evaluation rounds. A step would move q by that over the rank indicator:
+    /// beside a fold farther than the state is from it, where its coordinates are exact as they are.
+    pub fn is_rounding(&self, q: &[f64]) -> bool {
+        let rounding = ROUNDED * largest(self.system.dimensions().without_turns(q));
+        let mut kept = (0..self.scales.len()).filter(|row| !self.without.contains(row));
+        kept.all(|row| self.terms.phi[row].abs() <= rounding)
     }
 
     /// q = start + factor N d

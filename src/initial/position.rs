@@ -25,9 +25,11 @@ pub fn close_moved(metric: &mut Metric, t: f64, q: &mut [f64], mut moved: Vec<f6
         }
         q.copy_from_slice(&closed);
     }
-    nearest::approach(metric, t, q, &mut moved)?;
-    // What the matrix at hand leaves of phi goes to round-off.
-    closing::attempt(metric, t, q, &mut moved)?;
+    if moved.iter().any(|moved| *moved != 0.0) {
+        nearest::approach(metric, t, q, &mut moved)?;
+        // What the matrix at hand leaves of phi goes to round-off.
+        closing::attempt(metric, t, q, &mut moved)?;
+    }
     kept(metric, &moved)
 }
 

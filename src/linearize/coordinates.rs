@@ -187,18 +187,24 @@ pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
     let turned_later = -bracket(vdot, &n);
     let wn = times(w, &n);
     let corrected = variation.gd_times(&n) - variation.g_times(&turned);
-    let n_dot = -variation.correct(&corrected)? - &n * (n.transpose() * &wn);
+    let n_dot = -variation.correct(&corrected)? - dense(&n, &dense(&n.transpose(), &wn));
     let momenta = variation.mass_times(&n_dot) + &wn;
-    let bent =
-        n_dot.transpose() * &momenta + n.transpose() * (times(mass_dot, &n_dot) + times(w_dot, &n) + times(w, &n_dot));
+    let rates = times(mass_dot, &n_dot) + times(w_dot, &n) + times(w, &n_dot);
+    let bent = dense(&n_dot.transpose(), &momenta) + dense(&n.transpose(), &rates);
     let b = variation.mass_times(&n).transpose();
     let turned_rate = -variation.bracket_of(&variation.point.v, &n_dot);
-    let drift = [-bent - &b * (turned_later + turned_rate), &b * (&n_dot * 2.0 - &turned)];
+    let drift = [-bent - dense(&b, &(turned_later + turned_rate)), dense(&b, &(&n_dot * 2.0 - &turned))];
     let none = Matrix::zeros(n.ncols(), n.ncols());
     let lift = Lift::parallel(variation, (&n, &b), (&n_dot, &connection))?;
     let names = numbered(variation, n.ncols());
     let terms = Terms { r: n, b, tilt: n_dot - turned, turn: none, drift, lift };
     Ok(terms.named(variation, "intrinsic", names))
+}
+
+/// A x, without the work where either is zero: at rest, and of bodies that do not turn in space.
+fn dense(a: &Matrix, x: &Matrix) -> Matrix {
+    let is_zero = |matrix: &Matrix| matrix.iter().all(|x| *x == 0.0);
+    if is_zero(a) || is_zero(x) { Matrix::zeros(a.nrows(), x.ncols()) } else { a * x }
 }
 
 /// A x with an A of few entries: blocks of bodies.

@@ -1,6 +1,7 @@
 //! The eigenvalues at one state of a survey.
 
-use super::{LociPoint, State};
+use super::slopes::Slope;
+use super::{LinearModel, LociPoint, Operating, State, Variation};
 use crate::error::Warning;
 
 /// Result at one state.
@@ -14,4 +15,26 @@ pub(super) struct Found {
     pub is_equilibrium: bool,
     pub turning: Option<f64>,
     pub doubt: Option<Warning>,
+}
+
+impl Found {
+    /// The eigenvalues of a model at a time or value.
+    pub fn new(operating: &Operating, variation: &Variation, at: f64, model: LinearModel) -> Self {
+        let doubt = operating.doubt.clone().or(model.doubt());
+        Found {
+            state: operating.state.clone(),
+            is_equilibrium: model.point.is_equilibrium,
+            turning: model.point.axes.map(|spin| spin.speed()),
+            sample: LociPoint { at, modes: model.modes, mass: variation.mass(), slopes: Vec::new() },
+            method: model.method,
+            chart: model.chart,
+            doubt,
+        }
+    }
+
+    /// The same with derivatives.
+    pub fn with_slopes(mut self, slopes: Vec<Slope>) -> Self {
+        self.sample.slopes = slopes;
+        self
+    }
 }

@@ -15,12 +15,14 @@ const EQUAL_MODES: f64 = 1e-3;
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub value: Complex<f64>,
+    /// Its derivative with respect to time or the parameter, where it is known.
+    pub slope: Option<Complex<f64>>,
     shape: Vec<Complex<f64>>,
 }
 
 impl Node {
-    pub fn new(mode: &Mode) -> Self {
-        Node { value: mode.value, shape: mode.shape.clone() }
+    pub fn new(mode: &Mode, slope: Option<Complex<f64>>) -> Self {
+        Node { value: mode.value, slope, shape: mode.shape.clone() }
     }
 
     fn side(&self) -> Side {

@@ -1,11 +1,12 @@
 //! The registry of methods of linearization, and the linear model by one of them.
 
-use super::entry::{Entry, Request};
+use super::entry::{Built, Entry, Request};
 use super::minimal::MCS;
+use super::slopes::{ModelRate, Slope};
 use super::spectrum::{Spectrum, spectrum};
 use super::unconstrained::{AUGMENTED_LAGRANGIAN, BAUMGARTE, FORCE_PROJECTION, PENALTY};
 use super::variation::refuse_all_modes;
-use super::{Cost, LinearModel, Variation, reduction, redundant};
+use super::{Cost, LinearModel, Reduction, Variation, reduction, redundant};
 use crate::error::Result;
 use std::time::Instant;
 
@@ -32,20 +33,61 @@ pub fn refuse_large(velocities: usize) -> Result<()> {
 /// # Errors
 /// An unknown method or option; a chart that does not exist there; eigenvalues that cannot be computed.
 pub fn linearize(variation: &mut Variation, request: &Request) -> Result<LinearModel> {
+    Ok(solve(variation, request)?.finish(variation, request))
+}
+
+/// Returns the matrices of the model at the state of `variation`.
+///
+/// # Errors
+/// An unknown method or option; a chart that does not exist there.
+pub(super) fn build(variation: &mut Variation, request: &Request) -> Result<Built> {
     let entry = request.method.entry(registry())?;
-    refuse_large(variation.velocities())?;
-    let clock = Instant::now();
     if variation.has_drivers() {
         variation.prescribed()?;
     }
+    (entry.build)(variation, request)
+}
+
+/// A model with its eigenvectors.
+pub(super) struct Solved {
+    pub built: Built,
+    pub spectrum: Spectrum,
+    reduction: Reduction,
+    cost: Cost,
+}
+
+/// Returns the model at the state of `variation`, before its matrices are named.
+///
+/// # Errors
+/// See [`linearize`].
+pub(super) fn solve(variation: &mut Variation, request: &Request) -> Result<Solved> {
+    request.method.entry(registry())?;
+    refuse_large(variation.velocities())?;
+    let clock = Instant::now();
     let reduction = reduction::measure(variation, request)?;
-    let built = (entry.build)(variation, request)?;
+    let built = build(variation, request)?;
     let assembly_seconds = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let Spectrum { modes, conditioning, off_constraints } = spectrum(variation, &built, request)?;
+    let spectrum = spectrum(variation, &built, request)?;
     let eigen_seconds = clock.elapsed().as_secs_f64();
+    let Spectrum { conditioning, off_constraints, .. } = spectrum;
     let cost = Cost { assembly_seconds, eigen_seconds, conditioning, size: built.a.nrows(), off_constraints };
-    let mut model = built.finish(variation, request.method.to_string(), modes, cost);
-    model.modes.iter_mut().for_each(|mode| mode.error = mode.error.max(reduction.error * mode.value.norm()));
-    Ok(LinearModel { reduction, ..model })
+    Ok(Solved { built, spectrum, reduction, cost })
+}
+
+impl Solved {
+    /// Returns the derivatives of the finite modes, where there are left vectors and models beside this one; see
+    /// [`ModelRate::new`].
+    pub fn slopes(&self, steps: &[f64], model: impl FnMut(f64) -> Result<Built>) -> Vec<Slope> {
+        let Spectrum { vectors, modes, .. } = &self.spectrum;
+        let Some(vectors) = vectors else { return Vec::new() };
+        ModelRate::new(&self.built, steps, model).map_or_else(Vec::new, |rate| rate.slopes(vectors, modes))
+    }
+
+    /// The model, without the eigenvectors.
+    pub fn finish(self, variation: &mut Variation, request: &Request) -> LinearModel {
+        let Solved { built, spectrum: Spectrum { mut modes, .. }, reduction, cost } = self;
+        modes.iter_mut().for_each(|mode| mode.error = mode.error.max(reduction.error * mode.value.norm()));
+        LinearModel { reduction, ..built.finish(variation, request.method.to_string(), modes, cost) }
+    }
 }

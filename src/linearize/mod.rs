@@ -7,6 +7,7 @@ mod changes;
 mod chart;
 mod comparison;
 mod coordinates;
+mod curve;
 mod displacement;
 mod entry;
 mod excited;
@@ -33,9 +34,9 @@ mod reduction;
 mod redundant;
 mod reference;
 mod response;
-mod sensitivity;
 mod shown;
 mod singular;
+mod slopes;
 mod sparse;
 mod spectrum;
 mod states;
@@ -46,6 +47,7 @@ mod tracking;
 mod transition;
 mod unconstrained;
 mod units;
+mod variants;
 mod variation;
 mod visible;
 
@@ -91,22 +93,25 @@ use perturbation::Perturbation;
 pub use point::LinearizationPoint;
 pub use reference::Reference;
 pub use response::Response;
-pub use sensitivity::Sensitivity;
+pub use slopes::Slope;
 pub use sparse::modal;
 pub(crate) use states::tighten;
 #[doc(hidden)]
 pub use states::within_run;
 pub use states::{State, states};
 pub use steady::{Operating, at_rest};
-pub use survey::{At, Loci, LociVariable, loci_along, loci_over};
 #[doc(hidden)]
-pub use survey::{Gap, Reached, Variants};
+pub use survey::{Gap, Reached};
+pub use survey::{Loci, LociVariable, loci_along, loci_over};
 pub use thresholds::{Threshold, ThresholdKind};
 #[doc(hidden)]
 pub use tracking::track;
 pub use tracking::{Branch, LociPoint};
 pub use transition::{Transition, transition};
 pub use units::Units;
+#[doc(hidden)]
+pub use variants::Variants;
+pub use variants::{At, Sensitivity};
 pub use variation::Variation;
 pub(crate) use visible::visible;
 #[doc(hidden)]

@@ -24,7 +24,8 @@ const REDUCTION_REFUSED: f64 = 1e-2;
 const RANK_UNKNOWN: f64 = 1e7;
 
 /// Returns the condition of the reduction at a state and the error that follows: an estimate far from singular states,
-/// near them the change of the model in minimal coordinates where the state moves as far as rounding of phi lets it.
+/// near them the change of the model in minimal coordinates where the state moves as far as rounding of phi lets it. That
+/// bounds the error: a start that is closed to rounding has not moved, and may be right to the last digit of its numbers.
 ///
 /// # Errors
 /// A model of which rounding leaves no digits: the state is as good as singular.

@@ -3,7 +3,7 @@
 use super::entry::{Built, Request};
 use super::{Complex, Kind, Matrix, Mode, Variation, displacement};
 use crate::error::{Error, Result, clock};
-use crate::math::eigen::{ComplexMatrix, Deflation, Eigen, Split, Unsolved, eigen, finite, generalized};
+use crate::math::eigen::{ComplexMatrix, Deflation, Eigen, Split, Unsolved, eigen, finite, generalized, times};
 
 /// Kinds of modes are clear where the part of a spurious one off the constraints is so many times that of any physical
 /// one. Unit: `[1]`. Why: the least that is a gap.
@@ -18,6 +18,8 @@ const ROUND_OFF_OF_K: f64 = 4.0 * f64::EPSILON;
 struct Solved {
     values: Vec<Complex<f64>>,
     right: ComplexMatrix,
+    /// Left vectors, y^H E x = 1, where they are known.
+    left: Option<ComplexMatrix>,
     /// Participation of the states in each mode; none where left vectors are not known.
     participation: Option<Matrix>,
     conditioning: f64,
@@ -27,9 +29,18 @@ struct Solved {
     conditions: Vec<f64>,
 }
 
+/// Eigenvectors in the states of a model, a column for each of its finite modes.
+pub(super) struct Vectors {
+    pub right: ComplexMatrix,
+    /// With y^H E x = 1; zero for a defective eigenvalue.
+    pub left: ComplexMatrix,
+}
+
 /// The modes of a model, with the measures on which their classes are based.
 pub(super) struct Spectrum {
     pub modes: Vec<Mode>,
+    /// Vectors of the finite modes; none by QZ, which gives no left ones.
+    pub vectors: Option<Vectors>,
     /// Condition number of the eigenvectors.
     pub conditioning: f64,
     pub off_constraints: Option<[f64; 2]>,
@@ -39,22 +50,31 @@ pub(super) struct Spectrum {
 pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Request) -> Result<Spectrum> {
     let t = variation.point.t;
     let solved = solve(built, request).map_err(|unsolved| refused(t, &unsolved))?;
-    let shapes = complex(&built.shapes(variation.system().dimensions())) * &solved.right;
+    let shapes = times(&built.shapes(variation.system().dimensions()), &solved.right);
     let weighed = weighed(variation, &shapes);
-    let (kinds, off_constraints) = kinds(variation, &solved.values, &shapes, &weighed)?;
-    let mut modes = modes(variation, built, &solved, (&shapes, &weighed), &kinds);
-    modes.sort_by_key(|mode| mode.kind);
+    // Every motion in minimal coordinates is one that the constraints allow.
+    let (kinds, off_constraints) = if built.coordinates.is_some() {
+        (vec![Kind::Physical; solved.values.len()], None)
+    } else {
+        kinds(variation, &solved.values, &shapes, &weighed)?
+    };
+    let modes = modes(variation, built, &solved, (&shapes, &weighed), &kinds);
+    let mut numbered: Vec<(usize, Mode)> = modes.into_iter().enumerate().collect();
+    numbered.sort_by_key(|(_, mode)| mode.kind);
+    let (order, mut modes): (Vec<usize>, Vec<Mode>) = numbered.into_iter().unzip();
+    let sorted = |matrix: &ComplexMatrix| matrix.select_columns(&order);
+    let vectors = solved.left.as_ref().map(|left| Vectors { right: sorted(&solved.right), left: sorted(left) });
     let value = (Complex::new(f64::INFINITY, 0.0), Kind::Infinite);
     let infinite = mode(value, Vec::new(), Vec::new(), Vec::new(), Vec::new());
     modes.extend(std::iter::repeat_n(infinite, built.infinite));
-    Ok(Spectrum { modes, conditioning: solved.conditioning, off_constraints })
+    Ok(Spectrum { modes, vectors, conditioning: solved.conditioning, off_constraints })
 }
 
 /// Returns the modes of a model without E all of which are physical, their vectors in its states, and the condition
 /// number of these.
 pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode>, ComplexMatrix, f64), Unsolved> {
     let solved = solve_plain(built)?;
-    let shapes = complex(&built.shapes(variation.system().dimensions())) * &solved.right;
+    let shapes = times(&built.shapes(variation.system().dimensions()), &solved.right);
     let weighed = weighed(variation, &shapes);
     let modes = modes(variation, built, &solved, (&shapes, &weighed), &vec![Kind::Physical; solved.values.len()]);
     Ok((modes, solved.right, solved.conditioning))
@@ -76,7 +96,7 @@ fn modes(
     kinds: &[Kind],
 ) -> Vec<Mode> {
     let moving = variation.system().dimensions().moving();
-    let outputs = complex(&built.c) * &solved.right;
+    let outputs = times(&built.c, &solved.right);
     let column = |matrix: &ComplexMatrix, i: usize| matrix.column(i).iter().copied().collect();
     let of = |(i, value): (usize, &Complex<f64>)| {
         let parts = solved.participation.as_ref();
@@ -129,7 +149,8 @@ fn rounded(variation: &Variation, mode: Mode, error: f64) -> Mode {
 /// Solves a model without E.
 fn solve_plain(built: &Built) -> Result<Solved, Unsolved> {
     let Eigen { values, right, left, conditioning, errors, conditions } = eigen(&built.a)?;
-    Ok(Solved { values, participation: Some(parts(&left, &right)), right, conditioning, errors, conditions })
+    let participation = Some(parts(&left, &right));
+    Ok(Solved { values, participation, right, left: Some(left), conditioning, errors, conditions })
 }
 
 fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
@@ -141,7 +162,7 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
             let errors = vec![0.0; found.values.len()];
             let conditions = vec![f64::NAN; found.values.len()];
             let Split { values, right, .. } = found;
-            return Ok(Solved { values, right, participation: None, conditioning, errors, conditions });
+            return Ok(Solved { values, right, left: None, participation: None, conditioning, errors, conditions });
         }
         Some("gsvd") => Deflation::Gsvd,
         _ => Deflation::NullSpace,
@@ -150,13 +171,14 @@ fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
     if found.deflated.infinite() != built.infinite {
         return Err(Unsolved::Doubtful { gap: found.deflated.gap });
     }
-    let participation = Some(parts(&(complex(&e.transpose()) * &found.left), &found.right));
+    let participation = Some(parts(&times(&e.transpose(), &found.left), &found.right));
     let values = found.values;
     let right = found.right;
     let conditioning = found.conditioning;
     let errors = found.errors;
     let conditions = found.conditions;
-    Ok(Solved { values, right, participation, conditioning, errors, conditions })
+    let left = Some(found.left);
+    Ok(Solved { values, right, left, participation, conditioning, errors, conditions })
 }
 
 /// Returns the participation |y_i x_i|, each column with sum 1.
@@ -188,9 +210,8 @@ fn kinds(
     }
     let added = displacement::added_mass(variation);
     let add = |x: &ComplexMatrix| ComplexMatrix::from_fn(x.nrows(), x.ncols(), |i, j| x[(i, j)] * added[i]);
-    let z = complex(&z);
-    let off = shapes - &z * (z.transpose() * weighed);
-    let weighed_off = complex(&variation.mass()) * &off + add(&off);
+    let off = shapes - times(&z, &times(&z.transpose(), weighed));
+    let weighed_off = self::weighed(variation, &off) + add(&off);
     let weighed = &(weighed + add(shapes));
     let size = |x: &ComplexMatrix, mx: &ComplexMatrix, j: usize| x.column(j).dotc(&mx.column(j)).re.max(0.0).sqrt();
     let part = |j: usize| Some(size(shapes, weighed, j)).filter(|x| *x > 0.0).map(|x| size(&off, &weighed_off, j) / x);
@@ -218,10 +239,6 @@ fn completed(values: &[Complex<f64>], parts: Vec<Option<f64>>) -> Vec<f64> {
         known.iter().min_by(|a, b| (a.0 - value).norm().total_cmp(&(b.0 - value).norm())).map_or(1.0, |(_, part)| *part)
     };
     values.iter().zip(parts).map(|(value, part)| part.unwrap_or_else(|| nearest(value))).collect()
-}
-
-fn complex(matrix: &Matrix) -> ComplexMatrix {
-    matrix.map(Complex::from)
 }
 
 impl From<Unsolved> for Error {

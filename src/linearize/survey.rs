@@ -1,13 +1,14 @@
 //! Linear models at many states: along a motion, or over a parameter.
 
 use super::found::Found;
-use super::sensitivity::{Sensitivity, sensitivity, step};
+use super::method::{build, solve};
 use super::states::{Walk, follow};
 use super::thresholds::{self, Threshold};
-use super::{Branch, LociPoint, Matrix, Operating, Request, State, Variation, at_rest, linearize, tighten, track};
+use super::variants::{At, Models, SLOPE_STEP, Sensitivity, Variants};
+use super::{Branch, LinearizationPoint, LociPoint, Operating, Request, State, Variation, track};
 use crate::error::{Error, Result, Warning};
-use crate::prepared::{Overrides, PreparedScene};
-use crate::sweep::{Family, Range};
+use crate::prepared::PreparedScene;
+use crate::sweep::Range;
 use crate::tolerances;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -82,28 +83,6 @@ pub struct Gap {
     pub error: Error,
 }
 
-/// One scene for each value of a parameter.
-pub struct Variants<'a> {
-    /// The scene as a function of its parameters.
-    pub family: &'a Family,
-    /// Simulation options of each scene.
-    pub overrides: &'a Overrides,
-    /// The parameter and its values.
-    pub range: &'a Range,
-}
-
-/// State of each scene at which the model is made.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum At {
-    /// The consistent start.
-    Start,
-    /// The state of the motion at a time, s.
-    Time(f64),
-    /// The equilibrium at the scene's start time. Each search begins at the equilibrium of the neighbour, outwards from
-    /// the value nearest to the scene's own, so that a branch of equilibria is followed.
-    Equilibrium,
-}
-
 type Outcome = (f64, Result<Found>);
 
 /// Returns the eigenvalues at `times` (increasing) of the scene's motion; `progress` is called for each. Where the
@@ -122,20 +101,56 @@ pub fn loci_along<'a>(
         None => walk.to(t).inspect_err(|error| stopped = Some(error.clone())),
     };
     let states: Vec<(f64, Result<State>)> = times.iter().map(|&t| (t, go_to(t))).inspect(|_| progress()).collect();
-    let moving = |state, t| found(&Operating::moving(prepared, state), t, request);
+    let steps: Vec<f64> = times.get(1).map(|second| SLOPE_STEP * (second - times[0])).into_iter().collect();
     let next = |kept: &mut Option<Variation<'a>>, state: State, t: f64| {
         let mut variation = match kept.take() {
             Some(mut variation) => variation.operate_at(state.t, &state.q, &state.v).map(|()| variation),
             None => state.variation(prepared),
         }?;
-        let outcome = found_by(&mut variation, &Operating::moving(prepared, state), t, request);
+        let outcome = found(&mut variation, (prepared, state), t, request, &steps);
         *kept = Some(variation);
         outcome
     };
     let outcome = |kept: &mut Option<_>, (t, state): (f64, Result<State>)| (t, state.and_then(|s| next(kept, s, t)));
     let outcomes: Vec<Outcome> = states.into_par_iter().map_init(|| None, outcome).collect();
-    let between = |before: &Found, t: f64| moving(follow(prepared, &before.state, t)?, t);
+    let between = |before: &Found, t: f64| {
+        let state = follow(prepared, &before.state, t)?;
+        found(&mut state.variation(prepared)?, (prepared, state), t, request, &[])
+    };
     collect(LociVariable::Time, outcomes, between)
+}
+
+/// Returns the eigenvalues at a state of the motion, with their derivatives by differences of the model over these
+/// steps.
+fn found(
+    variation: &mut Variation,
+    (prepared, state): (&PreparedScene, State),
+    t: f64,
+    request: &Request,
+    steps: &[f64],
+) -> Result<Found> {
+    let solved = solve(variation, request)?;
+    let point = variation.point.clone();
+    let slopes = solved.slopes(steps, |step| {
+        move_along(variation, &point, step)?;
+        build(variation, request)
+    });
+    if !steps.is_empty() {
+        variation.operate_at(point.t, &point.q, &point.v)?;
+    }
+    let model = solved.finish(variation, request);
+    Ok(Found::new(&Operating::moving(prepared, state), variation, t, model).with_slopes(slopes))
+}
+
+/// Operates a step along the tangent of the motion.
+fn move_along(variation: &mut Variation, point: &LinearizationPoint, step: f64) -> Result<()> {
+    let system = variation.system();
+    let moved = |x: &[f64], rate: &[f64]| -> Vec<f64> { x.iter().zip(rate).map(|(x, rate)| x + step * rate).collect() };
+    let mut rate = vec![0.0; point.q.len()];
+    system.rate(&point.q, &point.v, &mut rate);
+    let mut q = moved(&point.q, &rate);
+    system.normalize(&mut q);
+    variation.operate_at(point.t + step, &q, &moved(&point.v, &point.vdot))
 }
 
 /// Returns the eigenvalues of a scene for each value of a parameter; `progress` is called for each. Values without a
@@ -145,114 +160,52 @@ pub fn loci_along<'a>(
 /// A parameter that the scene does not have.
 pub fn loci_over(variants: &Variants, at: At, request: &Request, progress: impl Fn() + Sync) -> Result<Loci> {
     let own = variants.family.own_value(&variants.range.parameter)?;
+    let models = Models { variants, at, request };
     let values = variants.range.values();
-    let outcomes: Vec<Outcome> = match at {
-        At::Equilibrium => {
-            let distance = |i: &usize| (values[*i] - own).abs();
-            let middle = (0..values.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
-            let (before, after) = values.split_at(middle);
-            let down = || at_rest_along(variants, before.iter().rev(), values.get(middle), request, &progress);
-            let up = || at_rest_along(variants, after.iter(), None, request, &progress);
-            let (down, up) = rayon::join(down, up);
-            down.into_iter().rev().chain(up).collect()
-        }
-        _ => {
-            let outcome = |&value: &f64| (value, variants.found(value, at, request));
-            values.par_iter().map(outcome).inspect(|_| progress()).collect()
-        }
+    let outcomes: Vec<Outcome> = if at == At::Equilibrium {
+        let distance = |i: &usize| (values[*i] - own).abs();
+        let middle = (0..values.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
+        let (before, after) = values.split_at(middle);
+        let down = || at_rest_along(&models, before.iter().rev(), values.get(middle), &progress);
+        let up = || at_rest_along(&models, after.iter(), None, &progress);
+        let (down, up) = rayon::join(down, up);
+        down.into_iter().rev().chain(up).collect()
+    } else {
+        let outcome = |&value: &f64| (value, models.found(value, None, &models.steps(value)));
+        values.par_iter().map(outcome).inspect(|_| progress()).collect()
     };
-    let between = |before: &Found, value: f64| match at {
-        At::Equilibrium => {
-            let prepared = variants.prepared(value)?;
-            found(&rest(&prepared, Some(&before.state.q))?, value, request)
-        }
-        _ => variants.found(value, at, request),
-    };
+    let between = |before: &Found, value: f64| models.found(value, Some(&before.state.q), &[]);
     let nearest = outcomes.iter().filter_map(|(_, outcome)| outcome.as_ref().ok());
     let nearest = nearest.min_by(|a, b| (a.sample.at - own).abs().total_cmp(&(b.sample.at - own).abs()));
-    let range = variants.range;
-    let sensitivity = nearest.filter(|_| !matches!(at, At::Time(_))).and_then(|nearest| {
-        let place = own.clamp(range.from.min(range.to), range.from.max(range.to));
-        let here = between(nearest, place).ok()?;
-        sensitivity(&here, step(place, range.to - range.from), between).ok()
-    });
+    let sensitivity = nearest.and_then(|nearest| models.sensitivity(own, Some(&nearest.state.q)));
     let located = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
         // At a time each model takes a simulation.
         (Ok(before), Ok(after)) if !matches!(at, At::Time(_)) => thresholds::between(before, after, &between),
         _ => Vec::new(),
     };
     let thresholds: Vec<Vec<Threshold>> = outcomes.par_windows(2).map(located).collect();
-    let loci = collect(LociVariable::Parameter(range.clone()), outcomes, between);
+    let loci = collect(LociVariable::Parameter(variants.range.clone()), outcomes, between);
     Ok(Loci { thresholds: thresholds.concat(), sensitivity, ..loci })
 }
 
 /// Equilibria from value to value, the first from that of the scene at the value `behind`.
 fn at_rest_along<'v>(
-    variants: &Variants,
+    models: &Models,
     values: impl Iterator<Item = &'v f64>,
     behind: Option<&f64>,
-    request: &Request,
     progress: &(impl Fn() + Sync),
 ) -> Vec<Outcome> {
-    let first = |value: f64| rest(&variants.prepared(value)?, None).map(|rest| rest.state.q);
-    let mut guess = behind.and_then(|&value| first(value).ok());
-    let mut next = |value: f64| {
-        let prepared = variants.prepared(value)?;
-        let rest = rest(&prepared, guess.as_deref())?;
-        guess = Some(rest.state.q.clone());
-        found(&rest, value, request)
-    };
+    let mut guess = behind.and_then(|&value| models.equilibrium(value).ok());
     let mut outcomes = Vec::new();
     for &value in values {
-        outcomes.push((value, next(value)));
+        let outcome = models.found(value, guess.as_deref(), &models.steps(value));
+        if let Ok(found) = &outcome {
+            guess = Some(found.state.q.clone());
+        }
+        outcomes.push((value, outcome));
         progress();
     }
     outcomes
-}
-
-/// Returns the equilibrium near a guess; where there is none, that near the scene's own start.
-fn rest<'a>(prepared: &'a PreparedScene, guess: Option<&[f64]>) -> Result<Operating<'a>> {
-    let start = State::start(prepared);
-    let near = guess.filter(|q| q.len() == start.q.len()).map(|q| State { q: q.to_vec(), ..start.clone() });
-    match near.map(|near| at_rest(prepared, &near)) {
-        Some(Ok(rest)) => Ok(rest),
-        _ => at_rest(prepared, &start),
-    }
-}
-
-impl Variants<'_> {
-    fn prepared(&self, value: f64) -> Result<PreparedScene> {
-        let scene = self.family.scene_at(&self.range.parameter, value)?;
-        let mut prepared = PreparedScene::new(scene, self.overrides)?;
-        tighten(&mut prepared, self.overrides);
-        Ok(prepared)
-    }
-
-    fn found(&self, value: f64, at: At, request: &Request) -> Result<Found> {
-        let prepared = self.prepared(value)?;
-        let state = match at {
-            At::Time(t) => super::states(&prepared, &[t], |_| ())?.into_iter().next(),
-            _ => None,
-        };
-        let state = state.unwrap_or_else(|| State::start(&prepared));
-        found(&Operating::moving(&prepared, state), value, request)
-    }
-}
-
-fn found(operating: &Operating, at: f64, request: &Request) -> Result<Found> {
-    found_by(&mut operating.variation()?, operating, at, request)
-}
-
-fn found_by(variation: &mut Variation, operating: &Operating, at: f64, request: &Request) -> Result<Found> {
-    let model = linearize(variation, request)?;
-    let mass: Matrix = variation.mass();
-    let reduction_doubt = model.doubt();
-    let is_equilibrium = model.point.is_equilibrium;
-    let turning = model.point.axes.map(|spin| spin.speed());
-    let sample = LociPoint { at, modes: model.modes, mass };
-    let state = operating.state.clone();
-    let doubt = operating.doubt.clone().or(reduction_doubt);
-    Ok(Found { state, sample, method: model.method, chart: model.chart, is_equilibrium, turning, doubt })
 }
 
 /// Returns states between two, as many as it takes to match the modes.
@@ -312,9 +265,6 @@ fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found,
 /// Restricts branches to the requested times or values.
 fn asked(branches: Vec<Branch>, places: &[f64]) -> Vec<Branch> {
     let places: BTreeSet<u64> = places.iter().map(|place| place.to_bits()).collect();
-    let at_places = |mut branch: Branch| {
-        branch.points.retain(|(at, _)| places.contains(&at.to_bits()));
-        branch
-    };
+    let at_places = |branch: Branch| branch.retain(|at| places.contains(&at.to_bits()));
     branches.into_iter().map(at_places).filter(|branch| !branch.points.is_empty()).collect()
 }

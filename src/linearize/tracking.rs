@@ -1,6 +1,7 @@
 //! Eigenvalues of one state after another, joined to branches.
 
 use super::matching::{Node, is_clear, matching};
+use super::slopes::Slope;
 use super::{Complex, Kind, Matrix, Mode};
 
 /// One eigenvalue followed through time or a parameter.
@@ -10,6 +11,17 @@ pub struct Branch {
     pub kind: Kind,
     /// Time or parameter, and the eigenvalue there, 1/s.
     pub points: Vec<(f64, Complex<f64>)>,
+    /// Derivative of the eigenvalue at each point, where it is known.
+    pub slopes: Vec<Option<Complex<f64>>>,
+}
+
+impl Branch {
+    /// Returns the branch with the points at some times or values only.
+    pub(super) fn retain(self, is_kept: impl Fn(f64) -> bool) -> Self {
+        let all = self.points.into_iter().zip(self.slopes).filter(|((at, _), _)| is_kept(*at));
+        let (points, slopes) = all.unzip();
+        Branch { kind: self.kind, points, slopes }
+    }
 }
 
 /// The eigenvalues at a time or at a value of a parameter.
@@ -21,16 +33,20 @@ pub struct LociPoint {
     pub modes: Vec<Mode>,
     /// M there, the metric in which shapes are compared.
     pub mass: Matrix,
+    /// Derivatives of the first modes; empty where they are not known.
+    pub slopes: Vec<Slope>,
 }
 
 impl LociPoint {
     /// A time or value without a linear model.
     pub fn gap(at: f64) -> Self {
-        LociPoint { at, modes: Vec::new(), mass: Matrix::zeros(0, 0) }
+        LociPoint { at, modes: Vec::new(), mass: Matrix::zeros(0, 0), slopes: Vec::new() }
     }
 
     fn nodes(&self, kind: Kind) -> Vec<Node> {
-        self.modes.iter().filter(|mode| mode.kind == kind).map(Node::new).collect()
+        let slopes = self.slopes.iter().map(|slope| slope.derivative).chain(std::iter::repeat(None));
+        let own = self.modes.iter().zip(slopes).filter(|(mode, _)| mode.kind == kind);
+        own.map(|(mode, slope)| Node::new(mode, slope)).collect()
     }
 
     /// True if it is clear which physical mode of `next` belongs to which of these.
@@ -59,8 +75,8 @@ struct Thread {
 /// (1 - MAC) + |lambda - p| / (|lambda| + |p|),   MAC = |x^H M y|^2 / ((x^H M x)(y^H M y))
 /// ```
 ///
-/// with p the extrapolation of the last two values of the branch, of a pair that of its real part and of the square of
-/// its imaginary part. The shapes x and y are changes along the velocity directions of the whole mechanism, so those of
+/// with p the extrapolation of the branch by its derivative, or by its last two values, of a pair that of its real part
+/// and of the square of its imaginary part. The shapes x and y are changes along the velocity directions of the whole mechanism, so those of
 /// neighbouring states compare: modes that cross keep their shapes, modes that veer exchange them slowly. Modal
 /// assurance criterion: Allemang and Brown, Proc. 1st Int. Modal Analysis Conf. (1982) 110-116. A conjugate pair is
 /// followed by a pair, or by two real eigenvalues, of which the larger belongs to the branch with im > 0. Where the
@@ -70,8 +86,8 @@ pub fn track(samples: &[LociPoint]) -> Vec<Branch> {
     let mut threads = Vec::new();
     for sample in samples {
         if sample.modes.is_empty() {
-            let gap = (sample.at, Complex::new(f64::NAN, f64::NAN));
-            threads.iter().for_each(|thread: &Thread| push(&mut branches, thread.place, gap));
+            let gap = Complex::new(f64::NAN, f64::NAN);
+            threads.iter().for_each(|thread: &Thread| push(&mut branches, thread.place, (sample.at, gap), None));
             continue;
         }
         let before = std::mem::take(&mut threads);
@@ -91,9 +107,10 @@ fn kind(branches: &[Branch], thread: &Thread) -> Kind {
     branches.get(thread.place).map_or(Kind::Physical, |branch| branch.kind)
 }
 
-fn push(branches: &mut [Branch], place: usize, point: (f64, Complex<f64>)) {
+fn push(branches: &mut [Branch], place: usize, point: (f64, Complex<f64>), slope: Option<Complex<f64>>) {
     if let Some(branch) = branches.get_mut(place) {
         branch.points.push(point);
+        branch.slopes.push(slope);
     }
 }
 
@@ -108,12 +125,12 @@ fn go_on(threads: Vec<Thread>, sample: &LociPoint, kind: Kind, branches: &mut Ve
     for (thread, end) in threads.iter().zip(next) {
         let Some(end) = end else { continue };
         is_new[end] = false;
-        push(branches, thread.place, (sample.at, ends[end].value));
+        push(branches, thread.place, (sample.at, ends[end].value), ends[end].slope);
         going.push(thread.moved(sample.at, ends[end].clone()));
     }
     for end in upper_first(&ends).into_iter().filter(|&end| is_new[end]) {
         going.push(Thread { place: branches.len(), at: sample.at, last: ends[end].clone(), before: None });
-        branches.push(Branch { kind, points: vec![(sample.at, ends[end].value)] });
+        branches.push(Branch { kind, points: vec![(sample.at, ends[end].value)], slopes: vec![ends[end].slope] });
     }
     going
 }
@@ -138,16 +155,21 @@ fn upper_first(nodes: &[Node]) -> Vec<usize> {
 }
 
 impl Thread {
-    /// Returns the eigenvalue at a time or value, by a straight line through the last two: of the value where it is
-    /// real; else of its real part and of the square of its imaginary part, which is smooth also where a pair comes
-    /// from the real axis.
+    /// Returns the eigenvalue at a time or value by its derivative, or where that is not known by a straight line through
+    /// the last two: of the value where it is real; else of its real part and of the square of its imaginary part, which
+    /// is smooth also where a pair comes from the real axis.
     fn predicted(&self, at: f64) -> Complex<f64> {
         let value = self.last.value;
-        let Some((place, before)) = self.before else { return value };
-        let factor = (at - self.at) / (self.at - place);
-        let on = |last: f64, before: f64| last + (last - before) * factor;
-        let square = on(value.im * value.im, before.im * before.im);
-        let next = Complex::new(on(value.re, before.re), square.max(0.0).sqrt().copysign(value.im));
+        let along = at - self.at;
+        let [re, square] = match (self.last.slope, self.before) {
+            (Some(slope), _) => [slope.re, 2.0 * value.im * slope.im],
+            (None, Some((place, before))) => {
+                [value.re - before.re, value.im * value.im - before.im * before.im].map(|x| x / (self.at - place))
+            }
+            (None, None) => return value,
+        };
+        let im = (value.im * value.im + square * along).max(0.0).sqrt().copysign(value.im);
+        let next = Complex::new(value.re + re * along, im);
         if next.re.is_finite() && next.im.is_finite() { next } else { value }
     }
 

@@ -248,7 +248,10 @@ impl<'a> Variation<'a> {
     pub fn push_all(&mut self, force: &mut Matrix, rows: &mut Matrix) -> Result<(), StepError> {
         let columns = force.column_iter_mut().zip(rows.column_iter_mut());
         for (mut force, mut rows) in columns {
-            self.push(force.as_mut_slice(), rows.as_mut_slice())?;
+            // Nothing answers to nothing: such as to velocities without damping, at rest.
+            if force.iter().chain(rows.iter()).any(|x| *x != 0.0) {
+                self.push(force.as_mut_slice(), rows.as_mut_slice())?;
+            }
         }
         Ok(())
     }

@@ -210,3 +210,56 @@ fn loci_of_a_simpler_model_are_drawn_and_matched() {
     assert!(told["against"]["modes"][1]["there"].is_null());
     assert!(place.text("here/loci_modes.svg").contains(">one<"));
 }
+
+/// A disc of 1 kg on a shaft of 2500 N/m: damping of 3 N s/m turns with it, and 2 N s/m does not.
+const JEFFCOTT: &str = r#"{ "name": "jeffcott", "dimension": 2, "parameters": { "speed": 40 },
+    "ground": { "markers": { "O": [0, 0] } },
+    "bodies": [
+        { "name": "shaft", "type": "rigid", "mass": 1, "inertia": 1, "markers": { "O": [0, 0] } },
+        { "name": "disc", "type": "rigid", "mass": 1, "inertia": 1, "markers": { "O": [0, 0] } }],
+    "joints": [
+        { "name": "bearing", "type": "revolute", "between": ["ground.O", "shaft.O"] },
+        { "name": "drive", "type": "driver", "between": ["ground.O", "shaft.O"], "coordinate": "angle", "value": "speed*t" },
+        { "name": "turns", "type": "equation", "expression": "disc.angle - shaft.angle" }],
+    "forces": [
+        { "name": "bend", "type": "bushing", "between": ["shaft.O", "disc.O"], "stiffness": [2500, 2500, 0], "damping": [3, 3, 0] },
+        { "name": "air", "type": "applied_force", "at": "disc.O", "force": ["-2*disc.x'", "-2*disc.y'"] }],
+    "simulation": { "t_end": 1 } }"#;
+
+/// A cantilever under a force P along its end, of eight elements, whose threshold is 0.08 % below 20.0509536.
+const BECK: &str = r#"{ "name": "beck", "dimension": 2, "parameters": { "P": 20 }, "ground": { "markers": { "wall": [0, 0] } },
+    "bodies": [{ "name": "rod", "type": "flexible_beam", "frame": "absolute", "length": 1, "elements": 8,
+        "stiffness": { "EA": 1e8, "EI": 1 }, "inertia": { "rhoA": 1 }, "markers": { "root": [0, 0], "tip": [1, 0] } }],
+    "joints": [{ "name": "clamp", "type": "weld", "between": ["ground.wall", "rod.root"] }],
+    "forces": [{ "name": "follow", "type": "applied_force", "at": "rod.tip", "axes": "marker", "force": ["-P", 0] }],
+    "simulation": { "t_end": 1 } }"#;
+
+/// In text to eleven digits, in the file to all, in the figure to six.
+#[test]
+fn published_thresholds_are_told() {
+    let place = Place::new(JEFFCOTT);
+    let text = place.done(&["loci", "scene.json", "--sweep", "speed=40..120:5", "--equilibrium", "-o", "here"]);
+    let told = "speed = 83.333333333: an eigenvalue crosses the imaginary axis at +-33.3333i 1/s, growth above";
+    assert!(text.contains(told), "{text}");
+    assert!(text.contains("change of each eigenvalue per unit of speed at 40"), "{text}");
+    let json = place.json("here/loci.json");
+    let threshold = &json["thresholds"][0];
+    assert!((threshold["at"].as_f64().unwrap() - 250.0 / 3.0).abs() < 1e-10, "{threshold}");
+    assert_eq!((&threshold["kind"], &threshold["growing"]), (&"crossing".into(), &serde_json::json!([0, 1])));
+    assert!(
+        json["branches"][0]["points"][0]["d_im"].is_number()
+            && json["sensitivity"]["eigenvalues"][0]["error"].is_number()
+    );
+    let figure = place.text("here/loci_modes.svg");
+    assert!(figure.contains(">83.3333<") && !figure.contains("83.33333"), "{figure}");
+
+    let place = Place::new(BECK);
+    let text = place.done(&["loci", "scene.json", "--sweep", "P=19..21:3", "--equilibrium", "-o", "here"]);
+    assert!(
+        text.contains("  P = 20.035") && text.contains("two eigenvalues meet at +-11.0099i 1/s, growth above"),
+        "{text}"
+    );
+    let at = place.json("here/loci.json")["thresholds"][0]["at"].as_f64().unwrap();
+    assert!((at / 20.0509536 - 1.0).abs() < 9e-4, "{at}");
+    assert!(place.text("here/loci_modes.svg").contains(">20.0351<"));
+}

@@ -3,6 +3,7 @@
 mod auto;
 mod check;
 mod check_error;
+mod controller;
 mod drift;
 mod equilibrium;
 mod examples;

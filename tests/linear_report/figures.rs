@@ -22,7 +22,8 @@ fn says(svg: &str, parts: &[&str]) {
 }
 
 fn branch(kind: Kind, value: impl Fn(f64) -> Complex<f64>) -> Branch {
-    Branch { kind, points: (0..50).map(|k| 0.02 * f64::from(k)).map(|t| (t, value(t))).collect() }
+    let points = (0..50).map(|k| 0.02 * f64::from(k)).map(|t| (t, value(t))).collect();
+    Branch { kind, points, slopes: vec![None; 50] }
 }
 
 fn pair(kind: Kind, value: impl Fn(f64) -> Complex<f64>) -> [Branch; 2] {

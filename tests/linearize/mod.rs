@@ -17,3 +17,4 @@ mod shipped;
 mod steps;
 mod sure;
 mod systems;
+mod thresholds;

@@ -1,13 +1,9 @@
 //! How sure a linear model is: near singular states, among fast modes, over whole turns, at thresholds.
 
-use holonom::linearize::{
-    At, Chart, Kind, LinearModel, Loci, Request, State, ThresholdKind, Variants, at_rest, floquet, linearize,
-    loci_over, states,
-};
+use holonom::linearize::{Chart, Kind, LinearModel, Request, State, floquet, linearize, states};
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Overrides, PreparedScene};
 use holonom::scene::Scene;
-use holonom::sweep::{Family, Range};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -15,7 +11,7 @@ fn scene(text: &str) -> PreparedScene {
     PreparedScene::new(Scene::parse(text, &[]).unwrap(), &Overrides::default()).unwrap()
 }
 
-fn shipped(name: &str) -> PathBuf {
+pub fn shipped(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"))
 }
 
@@ -108,6 +104,24 @@ fn a_model_near_a_fold_has_an_error() {
     }
 }
 
+/// phi of the start is rounding, which a step of Newton's method would turn into 4e-12 rad beside this fold: eigenvalues
+/// would be off by 2e-5 in the intrinsic chart at 1e-4, and by 1e-5 in a named one at 1e-3.
+#[test]
+fn a_start_beside_a_fold_stays() {
+    for (angle, chart) in [(1e-3f64, Some("c0.angle")), (1e-3, None), (1e-4, None)] {
+        let prepared = parallelogram(2, angle);
+        let [x, y] = [angle.cos(), angle.sin()];
+        let crank = |place: f64| [place + 0.25 * x, 0.25 * y, angle];
+        let given = [crank(0.0), crank(0.3), [0.5 * x, 0.5 * y, 0.0]].concat();
+        assert_eq!(prepared.start().0, given);
+        let model = by(&prepared, "mcs", chart).unwrap();
+        let found = model.modes.iter().map(|mode| mode.value.im).fold(0.0, f64::max);
+        let error = (found / crank_frequency(2, angle) - 1.0).abs();
+        println!("{angle} {chart:?}: {error:e} {:?}", model.reduction);
+        assert!(error < 1e-10 && error < model.reduction.error, "{angle}: {error:e} of {:?}", model.reduction);
+    }
+}
+
 /// Two of four cranks are redundant, which must not hide that all are nearly in line.
 #[test]
 fn redundancy_hides_no_singular_state() {
@@ -154,7 +168,8 @@ fn eigenvalues_have_their_errors() {
     assert!(fast.error < 1e-8 * fast.value.norm() && fast.condition < 10.0, "{fast:?}");
 }
 
-fn ziegler(p: f64, c: f64) -> String {
+/// Ziegler's column at a load P, with damping c.
+pub fn ziegler(p: f64, c: f64) -> String {
     format!(
         r#"{{ "name": "ziegler", "dimension": 2, "parameters": {{ "P": {p:?}, "c": {c:?} }},
             "ground": {{ "markers": {{ "O": [0, 0] }} }},
@@ -280,54 +295,4 @@ fn a_machine_is_back_after_a_turn() {
     let found = floquet(prepared.system(), &start, 0.1157002336).unwrap();
     assert!((found.multipliers[0].re - 1.0).abs() < 1e-4, "{:?}", found.multipliers);
     assert!((found.multipliers[1].re - 0.0092079).abs() < 1e-5, "{:?}", found.multipliers);
-}
-
-fn over(path: &Path, range: &str, at: At, set: &[(&str, f64)]) -> Loci {
-    let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    let overrides = Overrides { set, ..Overrides::default() };
-    let family = Family::load_with(path, &overrides).unwrap();
-    let range: Range = range.parse().unwrap();
-    let request = Request { method: MethodSpec::parse("mcs").unwrap(), chart: None };
-    loci_over(&Variants { family: &family, overrides: &overrides, range: &range }, at, &request, || ()).unwrap()
-}
-
-/// Ziegler's column: flutter at P = 7/2 - sqrt 2 where two frequencies meet, and with damping at 41/28 + c^2/2, where a
-/// pair crosses the axis.
-#[test]
-fn thresholds_are_located() {
-    let folder = std::env::temp_dir().join(format!("holonom-thresholds-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let write = |c: f64| {
-        let path = folder.join(format!("ziegler-{c}.json"));
-        std::fs::write(&path, ziegler(1.0, c)).unwrap();
-        path
-    };
-    let undamped = over(&write(0.0), "P=1..3:9", At::Start, &[]);
-    let [flutter] = undamped.thresholds[..] else { panic!("{:?}", undamped.thresholds) };
-    assert_eq!((flutter.kind, flutter.growing), (ThresholdKind::Coalescence, [0, 1]));
-    assert!((flutter.at - (3.5 - 2f64.sqrt())).abs() < 1e-10, "{flutter:?}");
-    let c = 0.1;
-    let damped = over(&write(c), "P=1..2:5", At::Start, &[]);
-    let [crossing] = damped.thresholds[..] else { panic!("{:?}", damped.thresholds) };
-    assert_eq!((crossing.kind, crossing.growing), (ThresholdKind::Crossing, [0, 1]));
-    assert!((crossing.at - (41.0 / 28.0 + c * c / 2.0)).abs() < 1e-11, "{crossing:?}");
-    std::fs::remove_dir_all(&folder).unwrap();
-}
-
-/// Derivatives of the frequency of the four-bar with its spring at rest, which follows the parameter.
-#[test]
-fn eigenvalues_have_their_sensitivity() {
-    for (range, known) in [("k1=90..110:3", 0.0351335269169975), ("m3=0.9..1.1:3", -3.51335269169975)] {
-        let loci = over(&shipped("four_bar_spring"), range, At::Equilibrium, &[("p0", 1.5), ("w0", 0.0)]);
-        let found = loci.sensitivity.unwrap();
-        let (value, slope) = found.slopes[0];
-        let slope = slope.unwrap();
-        assert!(value.im > 0.0 && (slope.im / known - 1.0).abs() < 1e-9, "{range}: {value} {slope}");
-    }
-    // s^2 + c/4 s + 25 at its double root: c = 40 has none.
-    let loci = over(&shipped("two_mass"), "c1=40..41:2", At::Equilibrium, &[]);
-    let found = loci.sensitivity.unwrap();
-    assert!(found.at == 40.0 && found.slopes.iter().all(|(_, slope)| slope.is_none()), "{found:?}");
-    let prepared = PreparedScene::load_with(&shipped("two_mass"), &Overrides::default()).unwrap();
-    assert!(at_rest(&prepared, &State::start(&prepared)).is_ok());
 }

@@ -65,15 +65,15 @@ fn matrices(LinearModel { a, b, c, d, frame, .. }: &LinearModel) -> [Matrix; 6] 
     [a.clone(), b.clone(), c.clone(), d.clone(), r, tilt]
 }
 
-/// Returns the deviations of each kind of matrix, and the largest in each interval.
-pub(super) fn deviations(models: &[LinearModel], middles: &[Middle]) -> (Vec<Deviation>, Vec<f64>) {
+/// Returns the deviations of each kind of matrix, and the largest in each interval of so many that has a model half-way.
+pub(super) fn deviations(models: &[LinearModel], middles: &[Middle], stride: usize) -> (Vec<Deviation>, Vec<f64>) {
     let ends: Vec<[Matrix; 6]> = models.iter().map(matrices).collect();
     let mut intervals = vec![0.0f64; middles.len()];
     let mut found = Vec::new();
     for (i, of) in NAMES.into_iter().enumerate() {
         let largest = ends.iter().fold(0.0f64, |most, all| most.max(size(&all[i])));
         let mut worst = Deviation { of, largest, error: 0.0, t: models[0].point.t };
-        for ((pair, middle), interval) in ends.windows(2).zip(middles).zip(&mut intervals) {
+        for ((pair, middle), interval) in ends.windows(2).step_by(stride).zip(middles).zip(&mut intervals) {
             let off = size(&(&middle.matrices[i] - (&pair[0][i] + &pair[1][i]) * 0.5));
             let error = if off > 0.0 { off / largest.max(off) } else { 0.0 };
             *interval = interval.max(error);

@@ -13,14 +13,18 @@ use super::flow::{Snapshot, flow_through};
 use super::minimal::restrict;
 use super::spectrum::spectrum;
 use super::{
-    Branch, Chart, Coordinates, Cost, LinearModel, LociPoint, Matrix, Request, Response, State, Variation,
+    Branch, Chart, Coordinates, Cost, LinearModel, LociPoint, Matrix, Request, Response, State, Variation, reduction,
     refuse_large, track,
 };
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Warning};
 use crate::method_spec::MethodSpec;
 use crate::system::MechanicalSystem;
 use course::Course;
 use measure::{Middle, measure};
+
+/// Intervals in which interpolation is measured, about: all up to this number. Unit: `[intervals]`. Why: a step of the
+/// motion ends half-way, which takes as long as the model at the next time. Test: `a_long_motion_is_measured_in_parts`.
+const MEASURED_INTERVALS: usize = 200;
 
 /// Linear models along a motion in one continuous chart,
 ///
@@ -37,7 +41,8 @@ pub struct Along {
     pub transitions: Vec<Matrix>,
     /// A against the limit of (Phi(t + h, t) - I)/h, at some of the times.
     pub measured: Vec<MeasuredA>,
-    /// Deviations of linear interpolation half-way between the times, for each kind of matrix.
+    /// Deviations of linear interpolation half-way between the times, for each kind of matrix: in all intervals, or in
+    /// some that are spread evenly where there are many.
     pub deviations: Vec<Deviation>,
     /// Of a transported basis, where the motion returns to its start: C with R(end) = R(start) C, in the intrinsic chart a
     /// rotation.
@@ -45,7 +50,7 @@ pub struct Along {
     pub closure: Option<Matrix>,
     /// The eigenvalues as branches.
     pub branches: Vec<Branch>,
-    /// The largest deviation in each interval, as a part of the largest entry.
+    /// The largest deviation in each of those intervals, as a part of the largest entry.
     intervals: Vec<f64>,
 }
 
@@ -53,6 +58,12 @@ impl Along {
     /// Returns the transition matrix from the first to the last time.
     pub fn whole(&self) -> Option<Matrix> {
         self.transitions.iter().cloned().reduce(|product, next| next * product)
+    }
+
+    /// Warning of the state that is nearest to a singular one, where rounding changes its model.
+    pub fn doubt(&self) -> Option<Warning> {
+        let worst = self.models.iter().max_by(|a, b| a.reduction.error.total_cmp(&b.reduction.error));
+        worst.and_then(LinearModel::doubt)
     }
 }
 
@@ -66,6 +77,18 @@ pub fn along(
     start: &State,
     chart: Option<&Chart>,
     times: &[f64],
+    progress: impl FnMut(f64),
+) -> Result<Along> {
+    let stride = times.len().saturating_sub(1).div_ceil(MEASURED_INTERVALS).max(1);
+    along_by(system, start, chart, (times, stride), progress)
+}
+
+/// As [`along`], interpolation being measured in every interval of so many.
+fn along_by(
+    system: &dyn MechanicalSystem,
+    start: &State,
+    chart: Option<&Chart>,
+    (times, stride): (&[f64], usize),
     mut progress: impl FnMut(f64),
 ) -> Result<Along> {
     refuse_large(system.dimensions().v)?;
@@ -82,13 +105,18 @@ pub fn along(
         variation,
         course,
         request,
+        stride,
         models: Vec::new(),
         middles: Vec::new(),
         masses: Vec::new(),
         transitions: Vec::new(),
     };
     pass.add(first)?;
-    let instants: Vec<f64> = times.windows(2).flat_map(|pair| [0.5 * (pair[0] + pair[1]), pair[1]]).collect();
+    let mut instants = Vec::new();
+    for (i, pair) in times.windows(2).enumerate() {
+        instants.extend(i.is_multiple_of(stride).then_some(0.5 * (pair[0] + pair[1])));
+        instants.push(pair[1]);
+    }
     let mut outcome = Ok(());
     flow_through(system, &bundle, &instants, |snapshot| {
         outcome = pass.meet(snapshot);
@@ -104,8 +132,10 @@ struct Pass<'a> {
     variation: Variation<'a>,
     course: Course,
     request: Request,
+    /// Interpolation is measured in every interval of so many.
+    stride: usize,
     models: Vec<LinearModel>,
-    /// Half-way between two times.
+    /// Half-way between two times, in the intervals in which interpolation is measured.
     middles: Vec<Middle>,
     masses: Vec<Matrix>,
     transitions: Vec<Matrix>,
@@ -117,7 +147,8 @@ impl Pass<'_> {
         let State { t, q, v } = &snapshot.motion;
         self.variation.operate_at(*t, q, v)?;
         let chart = self.course.at(&mut self.variation, &snapshot.basis)?;
-        if self.middles.len() < self.models.len() {
+        let interval = self.models.len() - 1;
+        if interval.is_multiple_of(self.stride) && self.middles.len() * self.stride <= interval {
             self.middles.push(Middle::new(&model(&mut self.variation, chart)?));
             return Ok(());
         }
@@ -131,20 +162,26 @@ impl Pass<'_> {
 
     /// Adds the model at the state of the variation, with its modes; a state whose eigenvalues fail has none.
     fn add(&mut self, chart: Coordinates) -> Result<()> {
+        let reduction = reduction::measure(&mut self.variation, &self.request)?;
         let built = built(&mut self.variation, chart)?;
         let modes = spectrum(&mut self.variation, &built, &self.request).map_or_else(|_| Vec::new(), |all| all.modes);
         self.masses.push(self.variation.mass());
         let cost = Cost { size: built.a.nrows(), ..Cost::default() };
-        self.models.push(built.finish(&mut self.variation, self.request.method.to_string(), modes, cost));
+        let model = built.finish(&mut self.variation, self.request.method.to_string(), modes, cost);
+        self.models.push(LinearModel { reduction, ..model });
         Ok(())
     }
 
     fn finish(self, system: &dyn MechanicalSystem) -> Result<Along> {
-        let Pass { course, models, middles, masses, transitions, .. } = self;
-        let sample =
-            |(model, mass): (&LinearModel, Matrix)| LociPoint { at: model.point.t, modes: model.modes.clone(), mass };
+        let Pass { course, models, middles, masses, transitions, stride, .. } = self;
+        let sample = |(model, mass): (&LinearModel, Matrix)| LociPoint {
+            at: model.point.t,
+            modes: model.modes.clone(),
+            mass,
+            slopes: Vec::new(),
+        };
         let samples: Vec<LociPoint> = models.iter().zip(masses).map(sample).collect();
-        let (deviations, intervals) = measure::deviations(&models, &middles);
+        let (deviations, intervals) = measure::deviations(&models, &middles, stride);
         let measured = measure(system, &course, &models);
         let closure = course.closure(&models);
         Ok(Along { transitions, closure, measured, deviations, branches: track(&samples), intervals, models })

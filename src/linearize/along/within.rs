@@ -1,6 +1,6 @@
 //! Points along a motion, as close as interpolation needs them.
 
-use super::{Along, along};
+use super::{Along, along_by};
 use crate::error::{Error, Result, percent, short};
 use crate::linearize::{Chart, State};
 use crate::system::MechanicalSystem;
@@ -13,7 +13,7 @@ const WITHIN_MOST: usize = 20_000;
 /// entry of each kind of matrix, measured half-way. Intervals are halved, beginning with those of `times`.
 ///
 /// # Errors
-/// Those of [`along`]; too many points.
+/// Those of [`along`](super::along); too many points.
 pub fn within(
     system: &dyn MechanicalSystem,
     start: &State,
@@ -24,7 +24,7 @@ pub fn within(
 ) -> Result<Along> {
     let mut times = times.to_vec();
     loop {
-        let found = along(system, start, chart, &times, &mut progress)?;
+        let found = along_by(system, start, chart, (&times, 1), &mut progress)?;
         let before = times.len();
         times = finer(&times, &found.intervals, error);
         if times.len() == before {

@@ -23,6 +23,12 @@ pub fn product<T: Field + 'static, A: Conjugate<Canonical = T>>(a: MatRef<A>, b:
     product
 }
 
+/// The product of a real and a complex matrix, by products of real ones.
+pub fn times(a: &Matrix, x: &ComplexMatrix) -> ComplexMatrix {
+    let of = |part: Matrix| product(view(a), view(&part));
+    of(x.map(|x| x.re)).zip_map(&of(x.map(|x| x.im)), Complex::new)
+}
+
 /// The size of finite square matrices of equal size; an error for others.
 pub fn square(matrices: &[&Matrix]) -> Result<usize, Unsolved> {
     let n = matrices.first().map_or(0, |first| first.nrows());

@@ -23,7 +23,7 @@ mod unsolved;
 
 pub use assignment::assign;
 pub use deflate::{Deflated, Deflation, Finite, deflate, finite};
-pub use dense::singular_values;
+pub use dense::{singular_values, times};
 pub use exponential::expm;
 pub use found::Eigen;
 pub use krylov::{Options, Partial, Scalar, nearest};

@@ -1,8 +1,8 @@
 //! Values of a parameter at which eigenvalues meet or cross the imaginary axis, and their derivatives: as text, in files
 //! and in figures.
 
-use crate::error::significant;
-use crate::linearize::{Sensitivity, Threshold, ThresholdKind};
+use crate::error::{significant, two_digits};
+use crate::linearize::{Sensitivity, Slope, Threshold, ThresholdKind};
 use crate::plot::Figure;
 use crate::report::sweep_figure::marked;
 use serde::Serialize;
@@ -21,15 +21,18 @@ pub struct SlopeFile {
     pub im: f64,
     pub d_re: Option<f64>,
     pub d_im: Option<f64>,
+    /// |error| of the derivative.
+    pub error: Option<f64>,
 }
 
 impl SensitivityFile {
     pub fn new(found: &Sensitivity) -> Self {
-        let slopes = found.slopes.iter().map(|(value, slope)| SlopeFile {
+        let slopes = found.slopes.iter().map(|Slope { value, derivative, error }| SlopeFile {
             re: value.re,
             im: value.im,
-            d_re: slope.map(|slope| slope.re),
-            d_im: slope.map(|slope| slope.im),
+            d_re: derivative.map(|slope| slope.re),
+            d_im: derivative.map(|slope| slope.im),
+            error: derivative.map(|_| *error),
         });
         SensitivityFile { at: found.at, eigenvalues: slopes.collect() }
     }
@@ -48,7 +51,7 @@ pub fn threshold_lines(name: &str, thresholds: &[Threshold]) -> String {
             std::cmp::Ordering::Less => ", growth below",
             std::cmp::Ordering::Equal => "",
         };
-        let value = complex(threshold.re, threshold.im, "+-");
+        let value = complex(threshold.re, threshold.im);
         format!("  {} = {}: {what} {value} 1/s{growth}\n", name, significant(threshold.at, 11))
     };
     thresholds.iter().map(line).collect()
@@ -58,9 +61,16 @@ pub fn threshold_lines(name: &str, thresholds: &[Threshold]) -> String {
 pub fn sensitivity_lines(name: &str, found: Option<&SensitivityFile>) -> String {
     let Some(found) = found else { return String::new() };
     let one = |slope: &SlopeFile| {
-        let value = complex(slope.re, slope.im, "+-");
-        match (slope.d_re, slope.d_im) {
-            (Some(re), Some(im)) => format!("    {value}: {}\n", complex(cleaned(re, im), cleaned(im, re), "+-")),
+        let value = complex(slope.re, slope.im);
+        match (slope.d_re, slope.d_im, slope.error) {
+            (Some(re), Some(im), Some(error)) if re.hypot(im) <= error => {
+                format!("    {value}: 0, to {}\n", two_digits(error))
+            }
+            (Some(re), Some(im), Some(error)) => {
+                let is_doubtful = error > DOUBTFUL_SLOPE * re.hypot(im);
+                let doubt = if is_doubtful { format!(", right to {}", two_digits(error)) } else { String::new() };
+                format!("    {value}: {}{doubt}\n", complex(re, im))
+            }
             _ => format!("    {value}: none, the eigenvalue is defective or zero\n"),
         }
     };
@@ -71,14 +81,20 @@ pub fn sensitivity_lines(name: &str, found: Option<&SensitivityFile>) -> String 
 /// Largest number of derivatives in the text; the file has all.
 const MOST_SLOPES: usize = 6;
 
+/// Error of a derivative that is told. Unit: `[1]` of it. Why: six digits are printed.
+const DOUBTFUL_SLOPE: f64 = 1e-6;
+
 /// Rounding of one part of a number beside the other is none.
 fn cleaned(x: f64, other: f64) -> f64 {
     if x.abs() <= crate::tolerances::SAME * other.abs() { 0.0 } else { x }
 }
 
-fn complex(re: f64, im: f64, sign: &str) -> String {
+/// A pair of numbers re +- im i.
+fn complex(re: f64, im: f64) -> String {
+    let im = cleaned(im, re);
     let re = cleaned(re, im);
-    let imaginary = || format!("{sign}{}i", significant(im, 6));
+    let sign = if im < 0.0 { "-+" } else { "+-" };
+    let imaginary = || format!("{sign}{}i", significant(im.abs(), 6));
     match (re == 0.0, im == 0.0) {
         (_, true) => significant(re, 6),
         (true, false) => imaginary(),
@@ -86,12 +102,15 @@ fn complex(re: f64, im: f64, sign: &str) -> String {
     }
 }
 
+/// Significant digits of a threshold in figures; text and files have more.
+const DRAWN_DIGITS: usize = 6;
+
 /// Adds a vertical line at each threshold to all panels.
 pub fn with_thresholds(figure: Option<Figure>, thresholds: &[Threshold]) -> Option<Figure> {
     let mut figure = figure?;
     for panel in &mut figure.panels {
         for threshold in thresholds {
-            *panel = marked(std::mem::take(panel), threshold.at, &significant(threshold.at, 11));
+            *panel = marked(std::mem::take(panel), threshold.at, &significant(threshold.at, DRAWN_DIGITS));
         }
     }
     Some(figure)

@@ -225,6 +225,8 @@ impl Linear<'_> {
             ("vdot", Array::vector(&point.vdot)),
             ("lambda", Array::vector(&point.lambda)),
             ("u", Array::vector(&point.u)),
+            ("condition", Array::number(model.reduction.condition)),
+            ("error_reduction", Array::number(model.reduction.error)),
         ];
         arrays.extend(self.frame_arrays());
         arrays

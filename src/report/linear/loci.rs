@@ -76,6 +76,11 @@ struct PointFile {
     im: f64,
     frequency_hz: f64,
     damping_ratio: f64,
+    /// Derivative of `re` and `im`, where it is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    d_re: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    d_im: Option<f64>,
 }
 
 /// Growth by less than this part over the whole motion is not reported.
@@ -208,7 +213,11 @@ fn cells(value: Option<Complex<f64>>) -> [String; 4] {
 }
 
 fn finite(branch: &Branch) -> impl Iterator<Item = (f64, Complex<f64>)> + Clone {
-    branch.points.iter().copied().filter(|(_, value)| value.re.is_finite() && value.im.is_finite())
+    branch.points.iter().copied().filter(|(_, value)| is_finite(*value))
+}
+
+fn is_finite(value: Complex<f64>) -> bool {
+    value.re.is_finite() && value.im.is_finite()
 }
 
 fn told(error: &Error) -> (&str, Option<&str>) {
@@ -239,15 +248,18 @@ fn mode_summary(mode: String, branch: &Branch, least: f64) -> ModeSummary {
 }
 
 fn branch_file(mode: String, branch: &Branch) -> BranchFile {
-    let point = |(at, value): (f64, Complex<f64>)| PointFile {
-        at,
+    let point = |((at, value), slope): (&(f64, Complex<f64>), &Option<Complex<f64>>)| PointFile {
+        at: *at,
         re: value.re,
         im: value.im,
-        frequency_hz: frequency(value),
-        damping_ratio: damping(value),
+        frequency_hz: frequency(*value),
+        damping_ratio: damping(*value),
+        d_re: slope.map(|slope| slope.re),
+        d_im: slope.map(|slope| slope.im),
     };
     let pair = finite(branch).all(|(_, value)| value.im > 0.0);
-    BranchFile { mode, kind: branch.kind, pair, points: finite(branch).map(point).collect() }
+    let points = branch.points.iter().zip(&branch.slopes).filter(|((_, value), _)| is_finite(*value));
+    BranchFile { mode, kind: branch.kind, pair, points: points.map(point).collect() }
 }
 
 /// Largest number of lines of the table; the files have all modes.

@@ -113,7 +113,7 @@ fn lines(modes: &[DrawnMode], value: impl Fn(Complex<f64>) -> f64) -> Vec<Series
         // Real here, elsewhere the lower one of a pair: it must not hide the other one, which may be as large.
         let is_partner = mode.branch.points.iter().any(|(_, value)| value.im < 0.0);
         let style = if is_partner { Style::Thin } else { Style::Line };
-        Series::line(name, points(mode.branch, &value)).style(style)
+        Series::line(name, points(&mode.branch.curve(), &value)).style(style)
     };
     modes.iter().map(line).collect()
 }

@@ -54,7 +54,9 @@ pub fn loci_figure(
             panel = panel.series(Series::dots(name, others).style(style).color(VERMILION));
         }
     }
-    panel = panel.series(Series::line("", joined(of(Kind::Physical))).style(Style::Thin).color(BLACK));
+    let curves: Vec<Branch> = drawn.iter().map(|branch| finite(&branch.curve(), is_upper)).collect();
+    let curves = joined(curves.iter().filter(|branch| branch.kind == Kind::Physical));
+    panel = panel.series(Series::line("", curves).style(Style::Thin).color(BLACK));
     panel.colors = along.into();
     Some(Figure::new().title(title).panel(panel.items(dots(points(of(Kind::Physical)), &window))))
 }
@@ -80,28 +82,18 @@ fn finite(branch: &Branch, is_upper: bool) -> Branch {
     };
     let gap = Complex::new(f64::NAN, f64::NAN);
     let points = branch.points.iter().map(|(at, value)| (*at, if is_shown(*value) { *value } else { gap }));
-    Branch { kind: branch.kind, points: points.collect() }
+    Branch { kind: branch.kind, points: points.collect(), slopes: Vec::new() }
 }
 
 fn points<'a>(branches: impl Iterator<Item = &'a Branch>) -> impl Iterator<Item = (f64, Complex<f64>)> {
     branches.flat_map(|branch| &branch.points).copied().filter(|(_, value)| value.re.is_finite())
 }
 
-/// Returns the branches as one line with gaps. Between two states a pair becomes real at the axis, not on the way to
-/// it.
+/// Returns the branches as one line with gaps.
 fn joined<'a>(branches: impl Iterator<Item = &'a Branch>) -> Vec<(f64, f64)> {
-    let mut line = Vec::new();
-    for branch in branches {
-        for (i, (_, value)) in branch.points.iter().enumerate() {
-            let before = i.checked_sub(1).map_or(*value, |before| branch.points[before].1);
-            if (before.im == 0.0) != (value.im == 0.0) {
-                line.push((if value.im == 0.0 { before.re } else { value.re }, 0.0));
-            }
-            line.push((value.re, value.im));
-        }
-        line.push((f64::NAN, f64::NAN));
-    }
-    line
+    let gap = (f64::NAN, f64::NAN);
+    let line = |branch: &'a Branch| branch.points.iter().map(|(_, value)| (value.re, value.im)).chain([gap]);
+    branches.flat_map(line).collect()
 }
 
 /// True if every eigenvalue below the real axis has its conjugate at the same value of the parameter.

@@ -1,6 +1,6 @@
 //! `transition-T.json`: growth of small changes along the motion, its text and its figure.
 
-use crate::error::{Result, significant};
+use crate::error::{Result, significant, two_digits};
 use crate::linearize::{Complex, Defect, Floquet, Lyapunov};
 use crate::plot::{Figure, Panel, Series};
 use crate::report::{Answer, Folder, Table, table};
@@ -59,10 +59,11 @@ fn floquet_json(found: &Floquet, defects: &[Defect]) -> Value {
 }
 
 fn floquet_text(scene: &str, t: f64, found: &Floquet, defects: &[Defect]) -> String {
-    let mut table = Table::new(&["multiplier re", "im", "size", "grows by (1/s)"]);
-    for (value, exponent) in found.multipliers.iter().zip(found.exponents()) {
-        let cells = [value.re, value.im, value.norm(), exponent.re];
-        table.row(cells.map(|x| significant(x, 7)));
+    let mut table = Table::new(&["multiplier re", "im", "size", "error", "condition", "grows by (1/s)"]);
+    let sure = found.errors.iter().zip(&found.conditions);
+    for ((value, exponent), (error, condition)) in found.multipliers.iter().zip(found.exponents()).zip(sure) {
+        let [re, im, size, growth] = [value.re, value.im, value.norm(), exponent.re].map(|x| significant(x, 7));
+        table.row([re, im, size, two_digits(*error), two_digits(*condition), growth]);
     }
     let verdict = match (found.is_stable(tolerances::MULTIPLIER_OUTSIDE), defects.first()) {
         (false, _) => "small changes grow".to_string(),

@@ -128,6 +128,16 @@ fn a_pendulum_has_its_a_along_the_motion() {
     assert!(found.measured.iter().all(|measured| measured.error < 1e-9), "{:?}", found.measured);
 }
 
+/// Of many intervals some are measured, evenly spread: the error is still h^2/8 A''.
+#[test]
+fn a_long_motion_is_measured_in_parts() {
+    let [few, many] = [101, 501].map(|count| models(&Pendulum, &released(2.0), "intrinsic", (2.0, count)));
+    let ratio = few.deviations[0].error / many.deviations[0].error;
+    assert!((ratio / 25.0 - 1.0).abs() < 0.02 && many.models.len() == 501, "{ratio}");
+    assert!((few.deviations[0].t - many.deviations[0].t).abs() < 0.03, "{:?} {:?}", few.deviations, many.deviations);
+    assert!((few.whole().unwrap() - many.whole().unwrap()).amax() < 1e-10);
+}
+
 /// A pendulum hung on a support that moves as A cos(W t): theta'' + (g - A W^2 cos(W t))/l theta = 0.
 fn shaken(amplitude: f64, speed: f64) -> String {
     format!(

@@ -139,10 +139,10 @@ pub struct Finite {
 pub fn finite(a: &Matrix, e: &Matrix, by: Deflation) -> Result<Finite, Unsolved> {
     let deflated = deflate(a, e, by, tolerances::RANK_OF_PENCIL)?;
     let inner = eigen(&deflated.rate)?;
-    let mut right = dense::complex(&deflated.basis) * inner.right;
+    let mut right = dense::times(&deflated.basis, &inner.right);
     let lengths: Vec<f64> = right.column_iter().map(|column| column.norm()).collect();
     dense::normalize(&mut right);
-    let mut left = dense::complex(&deflated.left.transpose()) * inner.left;
+    let mut left = dense::times(&deflated.left.transpose(), &inner.left);
     left.column_iter_mut().zip(lengths).for_each(|(mut y, length)| y.iter_mut().for_each(|y| *y *= length));
     let conditioning = dense::condition(&right)?;
     let errors = inner.errors;

@@ -1,0 +1,118 @@
+//! Curves of eigenvalues between the points of a branch, by their derivatives.
+
+use super::{Branch, Complex};
+use crate::tolerances::EIGENVALUES_AGREE;
+
+type C = Complex<f64>;
+/// Time or parameter, the eigenvalue there and its derivative.
+type Knot = (f64, C, Option<C>);
+
+/// Points of a curve, about. Unit: `[points]`. Why: more are not seen in a figure.
+const CURVE_POINTS: usize = 800;
+
+/// Parts into which an interval is divided at most. Unit: `[parts]`. Why: chords of a cubic that are not seen.
+const CURVE_PARTS: usize = 12;
+
+/// Largest difference of the mean of both derivatives from the slope of the chord where a cubic is drawn. Unit: `[1]` of the
+/// larger derivative. Why: 0 for a parabola, 1/2 for a root at its end: there eigenvalues meet, and no cubic follows.
+/// Test: `curves_follow_derivatives`.
+const SMOOTH_INTERVAL: f64 = 0.4;
+
+impl Branch {
+    /// Returns the branch with points between its own that follow its derivatives: cubic Hermite interpolation of a real
+    /// eigenvalue, or of the real part and of the square of the imaginary part of one of a pair, which is smooth up to the
+    /// value at which the pair becomes real and beyond. Where derivatives are unknown, or belong to no smooth curve, the
+    /// chord stays.
+    pub fn curve(&self) -> Branch {
+        let parts = (CURVE_POINTS / self.points.len().max(1)).clamp(1, CURVE_PARTS);
+        let slopes = self.slopes.iter().copied().chain(std::iter::repeat(None));
+        let knots: Vec<Knot> =
+            self.points.iter().zip(slopes).map(|((at, value), slope)| (*at, *value, slope)).collect();
+        let mut points = Vec::new();
+        for pair in knots.windows(2) {
+            points.push((pair[0].0, pair[0].1));
+            points.extend(between(pair[0], pair[1], parts));
+        }
+        points.extend(self.points.last());
+        Branch { kind: self.kind, slopes: vec![None; points.len()], points }
+    }
+}
+
+/// Returns points between two knots, in their order.
+fn between(from: Knot, to: Knot, parts: usize) -> Vec<(f64, C)> {
+    let inner = (1..parts).map(|i| i as f64 / parts as f64);
+    let is_real = |knot: Knot| knot.1.im == 0.0;
+    let is_known = from.1.im.is_finite() && to.1.im.is_finite();
+    if !is_known {
+        Vec::new()
+    } else if is_real(from) == is_real(to) {
+        smooth(from, to, inner).unwrap_or_default()
+    } else if is_real(to) {
+        meeting(from, to, parts)
+    } else {
+        let mut points = meeting(to, from, parts);
+        points.reverse();
+        points
+    }
+}
+
+/// The real part and the square of the imaginary part of an eigenvalue, or their derivatives along `length`.
+fn squared(value: C) -> [f64; 2] {
+    [value.re, value.im * value.im]
+}
+
+fn squared_rate(value: C, slope: C, length: f64) -> [f64; 2] {
+    [slope.re * length, 2.0 * value.im * slope.im * length]
+}
+
+/// The cubic between two knots that are both real or both of a pair; none where it is not smooth.
+fn smooth((a, from, start): Knot, (b, to, end): Knot, inner: impl Iterator<Item = f64>) -> Option<Vec<(f64, C)>> {
+    let rates = [squared_rate(from, start?, b - a), squared_rate(to, end?, b - a)];
+    let ends = [squared(from), squared(to)];
+    let size = from.norm().max(to.norm());
+    for (k, size) in [size, size * size].into_iter().enumerate() {
+        let off = 0.5 * (rates[0][k] + rates[1][k]) - (ends[1][k] - ends[0][k]);
+        let largest = rates[0][k].abs().max(rates[1][k].abs());
+        let is_smooth = off.abs() <= SMOOTH_INTERVAL * largest + EIGENVALUES_AGREE * size;
+        if !is_smooth {
+            return None;
+        }
+    }
+    let cubic = |k: usize, s: f64| hermite([ends[0][k], ends[1][k]], [rates[0][k], rates[1][k]], s);
+    let point = |s: f64| (a + s * (b - a), C::new(cubic(0, s), cubic(1, s).max(0.0).sqrt().copysign(from.im)));
+    Some(inner.map(point).collect())
+}
+
+/// The curve from an eigenvalue of a pair over the value at which the pair becomes real to a real one, m -+ sqrt(d): the mean
+/// m of the pair goes straight on, and d is the cubic with the values and derivatives that both ends have. Half-way on the
+/// axis where derivatives do not tell.
+fn meeting((a, from, start): Knot, (b, to, end): Knot, parts: usize) -> Vec<(f64, C)> {
+    let Some((start, end)) = start.zip(end) else { return vec![(0.5 * (a + b), C::new(from.re, 0.0))] };
+    let mean = |s: f64| from.re + start.re * (b - a) * s;
+    let gap = to.re - mean(1.0);
+    let ends = [-from.im * from.im, gap * gap];
+    let rates = [-2.0 * from.im * start.im, 2.0 * gap * (end.re - start.re)].map(|rate| rate * (b - a));
+    let square = |s: f64| hermite(ends, rates, s);
+    let mut meets = [0.0, 1.0];
+    for _ in 0..f64::MANTISSA_DIGITS {
+        let middle = 0.5 * (meets[0] + meets[1]);
+        meets[usize::from(square(middle) > 0.0)] = middle;
+    }
+    let meets = meets[1];
+    // Closer together where the roots are steep.
+    let near = |i: usize| (i as f64 / parts as f64).powi(2);
+    let pair = (0..parts).rev().map(|i| {
+        let s = meets * (1.0 - near(i));
+        (s, C::new(mean(s), (-square(s)).max(0.0).sqrt().copysign(from.im)))
+    });
+    let real = (1..parts).map(|i| {
+        let s = meets + (1.0 - meets) * near(i);
+        (s, C::new(mean(s) + square(s).max(0.0).sqrt().copysign(gap), 0.0))
+    });
+    pair.chain(real).map(|(s, value)| (a + s * (b - a), value)).collect()
+}
+
+/// The cubic with these values and derivatives at s = 0 and s = 1.
+fn hermite([p, q]: [f64; 2], [u, v]: [f64; 2], s: f64) -> f64 {
+    p + s * (u + s * (3.0 * (q - p) - 2.0 * u - v + s * (2.0 * (p - q) + u + v)))
+}
