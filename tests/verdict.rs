@@ -114,7 +114,7 @@ fn spoilt_terms_are_condemned_with_their_size() {
     let mut count = 0;
     for (place, (name, t)) in SCENES.into_iter().enumerate() {
         let prepared = model(name);
-        count += spoilt_are_condemned(&prepared, &state(&prepared, t), place, 1e-4);
+        count += spoilt_are_condemned(&prepared, &state(&prepared, t), place, 1e-5);
     }
     assert!(count >= 40, "{count}");
 }
