@@ -54,7 +54,29 @@ pub struct Entry {
     pub measured: f64,
 }
 
-/// Measured values and their uncertainties.
+/// A row of which an entry is not judged.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Unjudged {
+    /// State or output.
+    pub row: String,
+    /// State or input of the first such entry.
+    pub column: String,
+    /// Why it is not judged.
+    pub reason: Reason,
+}
+
+/// Why an entry is not judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reason {
+    /// Its slopes on both sides of the state differ.
+    Kink,
+    /// Rounding, curvature or a singular state nearby hides it.
+    Hidden,
+}
+
+/// Measured values and their uncertainties: infinite where the two sides of the state differ, with no number where
+/// too few perturbed states exist.
 #[derive(Clone, Debug)]
 pub struct Limits {
     pub values: Matrix,
@@ -116,7 +138,7 @@ impl Comparison {
         let mut worst: Option<Deviation> = None;
         let mut largest_uncertainty = 0.0f64;
         for (i, j) in rows.flat_map(|i| columns.clone().map(move |j| (i, j))) {
-            let Some(found) = self.deviation((i, j), names) else { continue };
+            let Ok(found) = self.deviation((i, j), names) else { continue };
             largest_uncertainty = largest_uncertainty.max(found.relative_uncertainty);
             let is_worse = |other: &Deviation| (!found.is_right, found.relative) > (!other.is_right, other.relative);
             if worst.as_ref().is_none_or(is_worse) {
@@ -126,8 +148,19 @@ impl Comparison {
         worst.map(|found| Deviation { relative_uncertainty: largest_uncertainty, ..found })
     }
 
-    /// Returns the deviation of an entry with its own uncertainty; none where that is too large to judge.
-    fn deviation(&self, (i, j): (usize, usize), names: [&[String]; 2]) -> Option<Deviation> {
+    /// Returns the rows of which an entry is not judged, with the first one of each. `names` are as above.
+    pub fn unjudged(&self, names: [&[String]; 2]) -> Vec<Unjudged> {
+        let [rows, columns] = names;
+        let first = |i: usize| {
+            let mut entries = columns.iter().enumerate();
+            let (column, reason) = entries.find_map(|(j, name)| Some((name, self.deviation((i, j), names).err()?)))?;
+            Some(Unjudged { row: rows[i].clone(), column: column.clone(), reason })
+        };
+        (0..rows.len()).filter_map(first).collect()
+    }
+
+    /// Returns the deviation of an entry with its own uncertainty, or why it is not judged.
+    fn deviation(&self, (i, j): (usize, usize), names: [&[String]; 2]) -> Result<Deviation, Reason> {
         let scale = self.scales[1][j] / self.scales[0][i];
         let model = self.model[(i, j)];
         let measured = self.measured.values[(i, j)];
@@ -135,8 +168,11 @@ impl Comparison {
         let round_off = ROUND_OFF_OF_PHI / scale;
         let uncertainty = self.measured.uncertainties[(i, j)] + round_off + self.unknown[i] / self.scales[1][j];
         let is_vague = uncertainty > VAGUE * model.abs().max(measured.abs());
+        if uncertainty.is_infinite() && measured.is_finite() {
+            return Err(Reason::Kink);
+        }
         if uncertainty.is_infinite() || is_vague && uncertainty * scale > VAGUE {
-            return None;
+            return Err(Reason::Hidden);
         }
         let difference = (model - measured).abs();
         let relative = if difference.is_nan() { 0.0 } else { difference * scale };
@@ -144,40 +180,42 @@ impl Comparison {
         let entry = Entry { row: names[0][i].clone(), column: names[1][j].clone(), model, measured };
         let relative_uncertainty = uncertainty * scale;
         let is_right = difference.is_nan() || is_near;
-        Some(Deviation { difference, uncertainty, relative, relative_uncertainty, entry, is_right })
+        Ok(Deviation { difference, uncertainty, relative, relative_uncertainty, entry, is_right })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Comparison, Deviation, Limits};
+    use super::{Comparison, Deviation, Limits, Reason, Unjudged};
     use crate::linearize::Matrix;
 
     /// x'' = -4 x with one output, whose row is compared.
-    fn output(model: [f64; 2], measured: [f64; 2], uncertainty: f64) -> Option<Deviation> {
+    fn output(model: [f64; 2], measured: [f64; 2], uncertainty: f64) -> (Option<Deviation>, Vec<Unjudged>) {
         let whole = |row: [f64; 2]| Matrix::from_row_slice(3, 2, &[0.0, 1.0, -4.0, 0.0, row[0], row[1]]);
         let uncertainties = Matrix::from_fn(3, 2, |i, _| if i == 2 { uncertainty } else { 1e-12 });
         let limits = Limits { values: whole(measured), uncertainties };
-        let names = |all: &[&str]| all.iter().map(|name| name.to_string()).collect::<Vec<_>>();
+        let rows = ["x", "x'", "y"].map(str::to_string);
         let comparison = Comparison::new(whole(model), limits, (1, 2), 2.0);
-        comparison.worst(2..3, 0..2, [&names(&["x", "x'", "y"]), &names(&["x", "x'"])])
+        let names: [&[String]; 2] = [&rows, &rows[..2]];
+        (comparison.worst(2..3, 0..2, names), comparison.unjudged(names))
     }
 
     #[test]
     fn what_is_hardly_known_is_not_judged() {
-        // Three percent of an entry may be uncertain; a small entry beside a large one is judged at its own size.
-        assert!(output([100.0, 0.0], [100.0, 0.0], 0.02).unwrap().is_right);
-        let small = output([100.0, 1.0], [100.0, 0.0], 0.02).unwrap();
+        // A small entry beside a large one is judged by its own uncertainty.
+        assert!(output([100.0, 0.0], [100.0, 0.0], 0.02).0.unwrap().is_right);
+        let small = output([100.0, 1.0], [100.0, 0.0], 0.02).0.unwrap();
         assert!(!small.is_right && small.entry.column == "x'" && small.difference == 1.0, "{small:?}");
-        assert_eq!(output([2e10, 2e10], [1e10, 1e10], 2e10), None);
-        assert_eq!(output([1.0, 1.0], [1.0, 1.0], f64::INFINITY), None);
+        let named = |reason| vec![Unjudged { row: "y".to_string(), column: "x".to_string(), reason }];
+        assert_eq!(output([2e10, 2e10], [1e10, 1e10], 2e10), (None, named(Reason::Hidden)));
+        assert_eq!(output([1.0, 1.0], [1.0, 1.0], f64::INFINITY), (None, named(Reason::Kink)));
     }
 
     #[test]
     fn what_rounding_leaves_of_an_output_condemns_nothing() {
-        let found = output([0.0, 0.0], [4e-10, 1e-10], 1e-12).unwrap();
+        let found = output([0.0, 0.0], [4e-10, 1e-10], 1e-12).0.unwrap();
         assert!(found.is_right && found.relative < 1e-9, "{found:?}");
-        let spoilt = output([0.0, 1e-5], [4e-10, 1e-10], 1e-12).unwrap();
+        let spoilt = output([0.0, 1e-5], [4e-10, 1e-10], 1e-12).0.unwrap();
         assert!(!spoilt.is_right && (spoilt.difference - 1e-5).abs() < 1e-9, "{spoilt:?}");
     }
 }
