@@ -23,6 +23,7 @@ const LAYERS: &[&[&str]] = &[
     &["simplify"],
     &["plot"],
     &["report", "guide"],
+    &["view"],
     &["cli"],
 ];
 

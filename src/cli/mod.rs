@@ -26,6 +26,7 @@ mod terminal;
 mod tradeoff;
 mod transition;
 mod validate;
+mod view;
 
 use crate::clock;
 use crate::error::{Error, Result};
@@ -73,6 +74,8 @@ enum Command {
     Sweep(sweep::Args),
     /// The mechanism itself: at one time, at several in one figure, or in motion
     Plot(plot::Args),
+    /// One page for a browser: the mechanism in motion to turn around, its outputs, drift and modes
+    View(view::Args),
     /// Linear models (A, B, C, D) at states of the motion, by every approach, with their eigenvalues
     Linearize(linearize::Args),
     /// Eigenvalues along the motion, or over a parameter: each mode followed, with figures
@@ -135,8 +138,12 @@ const CLOCK: &str = "HOLONOM_CLOCK";
 /// The version with the features of this build.
 fn version() -> &'static str {
     static VERSION: OnceLock<String> = OnceLock::new();
-    let features =
-        [("figures", cfg!(feature = "figures")), ("npz", cfg!(feature = "npz")), ("urdf", cfg!(feature = "urdf"))];
+    let features = [
+        ("figures", cfg!(feature = "figures")),
+        ("npz", cfg!(feature = "npz")),
+        ("urdf", cfg!(feature = "urdf")),
+        ("view", cfg!(feature = "view")),
+    ];
     VERSION.get_or_init(|| {
         let names: Vec<&str> = features.iter().filter(|(_, is_built)| *is_built).map(|(name, _)| *name).collect();
         format!("{} (features: cli {})", env!("CARGO_PKG_VERSION"), names.join(" "))
@@ -160,6 +167,7 @@ pub fn run() -> ExitCode {
         Command::Tradeoff(args) => tradeoff::run(args),
         Command::Sweep(args) => sweep::run(args),
         Command::Plot(args) => plot::run(args),
+        Command::View(args) => view::run(args),
         Command::Linearize(args) => done(linearize::run(args)),
         Command::Loci(args) => loci::run(args),
         Command::Bode(args) => done(bode::run(args)),

@@ -56,6 +56,7 @@ chapters! {
     singular
     events
     results
+    view
     troubleshooting
     rust
     large

@@ -3,7 +3,7 @@
 use super::place::{Cut, Place};
 use super::units::Unit;
 use crate::body::flexible::{Profile, Section};
-use crate::body::{Body, Energy, Formula, Frame, Marker, MarkerId, MarkerTable, Probe, Switches, Turning};
+use crate::body::{Body, Energy, Formula, Frame, Marker, MarkerId, MarkerTable, Probe, Solid, Switches, Turning};
 use crate::force::{Beam, Force, Half, Station};
 use crate::joint::Joint;
 use crate::math::{Scalar, Taylor};
@@ -59,6 +59,8 @@ pub struct Part<const D: usize> {
     pub nq: usize,
     /// Number of its velocities.
     pub nv: usize,
+    /// Shapes that it is made of, where the scene gives them.
+    pub solids: Vec<Solid>,
 }
 
 impl<const D: usize> Part<D> {
