@@ -141,3 +141,9 @@ mod validate {
     mod limit;
     mod order;
 }
+
+#[path = "../../src/view"]
+mod view {
+    mod encode;
+    mod rows;
+}
