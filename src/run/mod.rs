@@ -320,7 +320,9 @@ impl<'a> Run<'a> {
                 Origin::Saved(saved) => self.inputs.go_on(saved.t(), self.began),
                 // The first samples are taken before the first row is shown.
                 Origin::State(..) => {
-                    self.observers.reader.read_present(&mut engine)?;
+                    let read = self.observers.reader.read_present(&mut engine);
+                    self.observers.reader.moment.check_names()?;
+                    read?;
                     self.inputs.sample((self.began, self.began), &self.observers.reader.moment, &mut u);
                     engine.time_loop().set_inputs(&u, self.inputs.law.as_ref());
                 }
