@@ -60,7 +60,7 @@ fn a_page_has_the_motion_with_its_curves() {
 fn a_finished_run_and_others_are_shown_with_their_parameters() {
     let place = Place::new(
         PENDULUM
-            .replace("\"mass\": 1", "\"mass\": \"m\"")
+            .replace("\"mass\": 1, \"inertia\": \"1/12\"", "\"mass\": \"m\", \"inertia\": \"m/12\"")
             .replace("\"gravity\"", "\"parameters\": { \"m\": 1 }, \"gravity\""),
     );
     place.done(&["simulate", "scene.json", "-o", "one", "--view"]);
