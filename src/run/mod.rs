@@ -100,8 +100,8 @@ impl<'a> Run<'a> {
             Start::Saved(saved) => Origin::Saved(Box::new(saved.clone())),
         };
         match method.try_into().map_err(Error::from) {
-            Ok(method) => Run::of(system, Choice::One(method), start, t),
-            Err(error) => Run { refused: Some(error), ..Run::of(system, Choice::One(Method::default()), start, t) },
+            Ok(method) => Run::of(system, Choice::One(Box::new(method)), start, t),
+            Err(error) => Run { refused: Some(error), ..Run::of(system, Choice::One(Box::default()), start, t) },
         }
     }
 
@@ -310,7 +310,7 @@ impl<'a> Run<'a> {
         if let (&Choice::Automatic(rtol, atol), Start::State(q, v), true) =
             (&self.choice, self.start.start(), has_inputs)
         {
-            self.choice = Choice::One(advise(self.system, (rtol, atol), span, (q, v))?.0);
+            self.choice = Choice::One(Box::new(advise(self.system, (rtol, atol), span, (q, v))?.0));
         }
         let mut engine = Engine::new(self.system, &self.choice, span, self.start.start())?;
         if has_inputs {
