@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   holonom study models/quarter_car.json --vary c_strut=500..4000:8 --record travel
-  holonom study models/quarter_car.json --vary c_strut=500..4000 --vary m_body=300..500 --sample latin:6 --linearize")]
+  holonom study models/quarter_car.json --vary c_strut=500..4000 --sample latin:6 --linearize")]
 pub struct Args {
     #[command(flatten)]
     common: Common,

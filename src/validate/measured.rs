@@ -186,7 +186,10 @@ impl<'m, 'a> Bench<'m, 'a> {
             let rounding = 10.0 * bounds(noise.filter(|x| x.is_finite())).1.max(0.0);
             for (column, (slopes, _)) in tables.iter().enumerate() {
                 let limit = found(slopes, rounding);
-                let uncertainty = if has_kink(slopes, row, rounding) { f64::INFINITY } else { limit.uncertainty };
+                // A change that is mostly even, as of a kinetic energy near rest, rounds by its even part.
+                let even = slopes.iter().map(|(_, _, even)| even[row].abs()).fold(0.0, f64::max);
+                let rounded = limit.uncertainty + f64::EPSILON * even;
+                let uncertainty = if has_kink(slopes, row, rounding) { f64::INFINITY } else { rounded };
                 limits.set((row, column), Limit { uncertainty, ..limit });
             }
         }
