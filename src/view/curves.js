@@ -44,7 +44,7 @@ function drawCurves(state) {
   shown.forEach((curve, k) => {
     const own = series.length;
     const color = colors[k % colors.length];
-    series.push({ label: curve.name, stroke: color, width: 1.6, value: (_, value) => number(value, curve.unit) });
+    series.push({ label: curve.name, stroke: color, width: 1.6, pxAlign: 0, value: (_, value) => number(value, curve.unit) });
     columns.push(curve.values);
     if (curve.bar.some((bar) => bar !== null)) sides[own] = addBar(curve, color, series, columns, bands);
   });
@@ -87,7 +87,7 @@ function plotLook(state, shown) {
     cursor: { drag: { x: false, y: false }, points: { size: 5 } },
     legend: { live: true },
     scales: { x: { time: false }, y: isLog ? { distr: 3 } : { range: (_, low, high) => room(low, high) } },
-    axes: [{ ...axis, size: 30, values: (_, ticks) => ticks.map((t, i) => (i === ticks.length - 1 ? `${short(t)} s` : short(t))) }, { ...axis, size: 68, values: (_, ticks) => ticks.map((y) => (y === null || y === undefined ? '' : short(y))) }],
+    axes: [{ ...axis, size: 30, values: (_, ticks) => ticks.map((t, i) => (i === ticks.length - 1 ? `${short(t)} s` : short(t))) }, { ...axis, size: 68, space: 24, values: (_, ticks) => ticks.map((y) => (y === null || y === undefined ? '' : short(y))) }],
   };
 }
 

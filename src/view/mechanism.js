@@ -95,7 +95,9 @@ function addJoint(mechanism, joint, ghost) {
   const material = paint(look.isDark ? '#c8d0da' : '#3b4450', look, ghost);
   const name = `${joint.name} (${joint.kind})`;
   const objects = [];
-  const axis = joint.axis ? vector(joint.axis).normalize() : null;
+  // A hinge of a planar scene turns about z, which is not written.
+  const isPlanarHinge = look.isPlanar && joint.kind === 'revolute';
+  const axis = joint.axis ? vector(joint.axis).normalize() : isPlanarHinge ? Z() : null;
   const slides = ['prismatic', 'cylindrical', 'point_on_line'].includes(joint.kind) && axis && joint.ends.length > 1;
   const travel = slides ? travelOf(joint, axis, clip, look) : [0, 0];
   const usable = JOINTS[joint.kind] && (axis || !['revolute', 'prismatic', 'cylindrical', 'point_on_line', 'planar'].includes(joint.kind));

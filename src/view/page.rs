@@ -17,7 +17,9 @@ const CODE: &str =
 const LIBRARIES: &[u8] = include_bytes!("libraries.js.gz");
 const LICENSES: &str = include_str!("LICENSES.txt");
 
-/// Numbers that a page has room for: 5.3 bytes each, beside 300 kB of code.
+/// Bytes that a page has room for beside 310 kB of code: of parts, and of numbers with 16/3 bytes each in base64.
+const BYTES: usize = 175_000;
+/// Numbers for which the parts are chosen that are shown.
 const NUMBERS: usize = 31_000;
 /// Numbers of all further runs together: with them a page stays below 1 MB.
 const NUMBERS_OF_GHOSTS: usize = 80_000;
@@ -70,7 +72,8 @@ pub fn page(run: &Run, extras: &Extras) -> String {
     let (of_row, all_curves) = curves(run, &[0]);
     note_rest(&mut notes, "outputs", of_row.len(), all_curves);
     let of_row = numbers_of_row(run, &parts) + of_row.iter().map(Curve::len).sum::<usize>();
-    let rows = even_rows(run.rows, extras.rows.min(NUMBERS.saturating_sub(of_modes) / of_row));
+    let numbers = (BYTES.saturating_sub(parts.bytes()) * 3 / 16).saturating_sub(of_modes);
+    let rows = even_rows(run.rows, extras.rows.min(numbers / of_row));
     let curves = curves(run, &rows).0;
     let mut mechanisms = vec![Moving::new(run, parts, &rows)];
     let of_ghost = NUMBERS.min(NUMBERS_OF_GHOSTS / extras.ghosts.len().max(1));

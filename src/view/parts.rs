@@ -124,6 +124,12 @@ impl Parts {
         parts
     }
 
+    /// Returns about how many bytes the parts take as JSON.
+    pub fn bytes(&self) -> usize {
+        let text = serde_json::to_string(&(&self.bodies, &self.joints, &self.forces, &self.traces));
+        text.map_or(0, |text| text.len())
+    }
+
     fn add_body(&mut self, i: usize, limb: &Limb, solids: &[Solid]) {
         let is_line = limb.line.len() > 1;
         let is_deformed = limb.is_elastic && !is_line;
