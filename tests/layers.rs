@@ -24,8 +24,10 @@ const LAYERS: &[&[&str]] = &[
     &["simplify"],
     &["plot"],
     &["report", "guide"],
+    &["linear", "methods", "parts"],
     &["cli"],
     &["python"],
+    &["research"],
 ];
 
 const LONGEST: usize = 400;

@@ -51,6 +51,7 @@ pub use facts::Group;
 pub use facts::{Column, Dimensions, Excitation, Names, SwitchFacts, SystemFacts};
 #[doc(hidden)]
 pub use levi_civita::LeviCivita;
+#[doc(hidden)]
 pub use mechanism::Mechanism;
 pub use output_tangent::OutputTangent;
 #[doc(hidden)]
@@ -64,8 +65,8 @@ pub use terms::{Need, OperatingPoint, Scratch, Structure, Tangent, Terms};
 #[doc(hidden)]
 pub use theory::{Limited, Theory};
 
-#[doc(hidden)]
 pub use crate::body::Energy;
+pub use crate::math::Scalar;
 use crate::error::Result;
 use crate::math::Rate;
 use crate::math::kkt::Pattern;
