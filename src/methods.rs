@@ -15,8 +15,8 @@ pub use crate::formulation::{
     Dae, Dynamics, Entry as FormulationEntry, Formulation, Row as DaeRow, StepError, registry as formulations,
 };
 pub use crate::integrator::{
-    Accepted, Control, Dense, Entry as IntegratorEntry, ErrorEstimate, Explicit, From as StepStart, Integrator, Problem,
-    Setup, Stability, Step, Steps, Tableau, Tightening, Tolerance, registry as integrators,
+    Accepted, Control, Dense, Entry as IntegratorEntry, ErrorEstimate, Explicit, From as StepStart, Integrator,
+    Problem, Setup, Stability, Step, Steps, Tableau, Tightening, Tolerance, registry as integrators,
 };
 pub use crate::method_spec::{Listed, MethodSpec, OptionDoc};
 pub use crate::projection::{Entry as ProjectionEntry, Projection, registry as projections};

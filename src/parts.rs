@@ -18,11 +18,17 @@
 //! ```
 
 pub use crate::body::{
-    BodyFacts, BodyKernel, BodySpec, Build, Built as BuiltBody, Energy, Frame, Initial, Marker, MarkerId, Wrench, cross,
-    dot, norm, scale, sub,
+    BodyFacts, BodyKernel, BodySpec, Build, Built as BuiltBody, Frame, Initial, Marker, MarkerId, Wrench, cross, dot,
+    norm, scale, sub,
 };
 pub use crate::force::{Action, Built as BuiltForce, ForceKernel, ForceSpec, InputKind, Instant, Motion};
 pub use crate::joint::{Built as BuiltJoint, JointKernel, JointSpec};
 pub use crate::math::expression::Number;
-pub use crate::math::{Scalar, Taylor, Time};
-pub use crate::scene::{Elements, Scene, SceneBuilder, json};
+pub use crate::math::{Taylor, Time};
+#[doc(no_inline)]
+pub use crate::run::Scene;
+#[doc(no_inline)]
+pub use crate::scene::json;
+pub use crate::scene::{Elements, SceneBuilder};
+#[doc(no_inline)]
+pub use crate::system::{Energy, Scalar};

@@ -68,6 +68,6 @@
 pub use crate::import;
 #[cfg_attr(research, doc(inline))]
 pub use crate::{
-    analysis, body, force, formulation, initial, integrator, joint, linearize, math, method_spec, plot, prepared, projection,
-    report, scene, simplify, simulate, sweep, tolerances, trajectory, validate,
+    analysis, body, force, formulation, initial, integrator, joint, linearize, math, method_spec, plot, prepared,
+    projection, report, scene, simplify, simulate, sweep, tolerances, trajectory, validate,
 };

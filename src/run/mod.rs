@@ -21,7 +21,7 @@ mod moment;
 mod recording;
 mod simulated;
 
-pub use crate::analysis::{Drift, DriftLevel, EnergyBalance, Extremes, Record, Recorder, Series};
+pub use crate::analysis::{Drift, DriftLevel, EnergyBalance, Extremes, Record, Recorder, Series, Singularity};
 pub use crate::formulation::Statistics;
 pub use crate::initial::Assembly;
 pub use crate::math::expression::Parameters;

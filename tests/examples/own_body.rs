@@ -1,7 +1,9 @@
 //! An own body: a ball in a fluid, which carries some of it along.
 
 use holonom::Result;
-use holonom::parts::{BodyFacts, BodyKernel, BodySpec, Build, BuiltBody, Elements, Energy, Frame, Initial, Marker, Number, Scalar};
+use holonom::parts::{
+    BodyFacts, BodyKernel, BodySpec, Build, BuiltBody, Elements, Energy, Frame, Initial, Marker, Number, Scalar,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -18,7 +20,12 @@ pub struct BallInFluid {
 impl BodySpec for BallInFluid {
     const TYPE: &'static str = "ball_in_fluid";
 
-    fn build<const D: usize>(&self, markers: Vec<Marker<D>>, start: &Initial, build: &Build<D>) -> Result<BuiltBody<D>> {
+    fn build<const D: usize>(
+        &self,
+        markers: Vec<Marker<D>>,
+        start: &Initial,
+        build: &Build<D>,
+    ) -> Result<BuiltBody<D>> {
         let mass = build.positive("mass", &self.mass)?;
         let inertia = mass + build.not_negative("added", &self.added)?;
         let weight = mass - build.not_negative("displaced", &self.displaced)?;
