@@ -59,6 +59,7 @@ pub struct Failure {
 }
 
 /// Reason of the failure of a run that the user interrupted.
+#[doc(hidden)]
 pub const INTERRUPTED: &str = "interrupted";
 
 /// A reason to doubt a result, with a remedy.
@@ -232,6 +233,7 @@ impl From<Failure> for Error {
 const LONGEST_NAME: usize = 200;
 
 /// The name in `known` nearest to `found`: one or two typing errors away, or longer and beginning with it.
+#[doc(hidden)]
 pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if found.len() > LONGEST_NAME {
         return None;
@@ -250,6 +252,7 @@ pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
 }
 
 /// "did you mean" for a name that is not in the list, or the list itself when nothing is near.
+#[doc(hidden)]
 pub fn suggest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     suggest_one_of(found, known.into_iter().collect())
 }
@@ -270,6 +273,7 @@ fn suggest_one_of(found: &str, mut known: Vec<&str>) -> String {
 }
 
 /// The place of `name` among the known names of this sort; else [`Error::unknown`].
+#[doc(hidden)]
 pub fn find<'a>(what: &str, name: &str, mut known: impl Iterator<Item = &'a str> + Clone) -> Result<usize> {
     let names = known.clone();
     known.position(|known| known == name).ok_or_else(|| Error::unknown(what, name, names))
@@ -279,6 +283,7 @@ pub fn find<'a>(what: &str, name: &str, mut known: impl Iterator<Item = &'a str>
 const MOST_NAMES: usize = 12;
 
 /// The beginning of a user's text, short enough for a message.
+#[doc(hidden)]
 pub fn excerpt(text: &str) -> String {
     const MOST: usize = 60;
     match text.char_indices().nth(MOST) {
@@ -288,21 +293,25 @@ pub fn excerpt(text: &str) -> String {
 }
 
 /// A number rounded to so many digits after the first.
+#[doc(hidden)]
 pub fn rounded(value: f64, digits: usize) -> f64 {
     format!("{value:.digits$e}").parse().unwrap_or(value)
 }
 
 /// A number with at most four significant digits, without trailing zeros: 0.5, 1.25e-7.
+#[doc(hidden)]
 pub fn short(value: f64) -> String {
     shown(rounded(value, 3))
 }
 
 /// A number with at most two significant digits: 0.5, 1.2e-7.
+#[doc(hidden)]
 pub fn two_digits(value: f64) -> String {
     shown(rounded(value, 1))
 }
 
 /// A number with this number of significant digits, without an exponent if that is short.
+#[doc(hidden)]
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_string();
@@ -316,6 +325,7 @@ pub fn significant(value: f64, digits: usize) -> String {
 }
 
 /// A part in per cent with three significant digits, without an exponent from 0.0001 % on: 0.123 %, 3e-5 %.
+#[doc(hidden)]
 pub fn percent(part: f64) -> String {
     let rounded = format!("{:.2e}", 100.0 * part).parse().unwrap_or(f64::NAN);
     match rounded {
@@ -325,6 +335,7 @@ pub fn percent(part: f64) -> String {
 }
 
 /// A time with at most nine significant digits: 0.6 for 0.6000000000000001.
+#[doc(hidden)]
 pub fn clock(t: f64) -> String {
     shown(rounded(t, 8))
 }
@@ -340,6 +351,7 @@ fn shown(rounded: f64) -> String {
 const NAMED: usize = 5;
 
 /// The first few names, and the number of the others.
+#[doc(hidden)]
 pub fn short_list(names: &[String]) -> String {
     match names {
         few if few.len() <= NAMED => few.join(", "),

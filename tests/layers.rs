@@ -25,8 +25,10 @@ const LAYERS: &[&[&str]] = &[
     &["plot"],
     &["report", "guide"],
     &["view"],
+    &["linear", "methods", "parts"],
     &["cli"],
     &["python"],
+    &["research"],
 ];
 
 const LONGEST: usize = 400;

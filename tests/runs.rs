@@ -1,6 +1,7 @@
 //! Runs that one can hold: events, inputs, pauses and restarts, against closed forms.
 
 use holonom::prelude::*;
+use holonom::run::{Recorder, Run, Span};
 use holonom::simulate::{Observation, Sink, Start};
 use std::cell::Cell;
 use std::f64::consts::PI;

@@ -27,6 +27,7 @@ pub struct Record {
     /// Number of times at which a watched quantity jumped.
     pub jumps: usize,
     /// Outputs without a finite value at some rows.
+    #[doc(hidden)]
     pub gaps: Vec<Gap>,
     /// Least, greatest and mean values of the outputs over the rows.
     pub extremes: Vec<Extremes>,
@@ -35,16 +36,20 @@ pub struct Record {
     /// `None` where the system defines no potential.
     pub energy: Option<EnergyBalance>,
     /// The step in which the energy balance changes most.
+    #[doc(hidden)]
     pub worst_step: WorstStep,
     /// The output row with the largest error of the balance.
+    #[doc(hidden)]
     pub worst_row: WorstRow,
     /// Singular states on the way.
     pub singularity: Singularity,
     /// Deformations of parts whose theory is valid for small ones only.
+    #[doc(hidden)]
     pub range: Range,
     /// Largest |phi|, |phi'|, |phi''| at each output row.
     pub drift_rows: Vec<[f64; 3]>,
     /// Energies at each output row; empty where the system defines no potential.
+    #[doc(hidden)]
     pub ledger_rows: Vec<Ledger>,
 }
 
@@ -140,6 +145,7 @@ impl<'a> Recorder<'a> {
 
     /// Passes each row on as it comes, and keeps those that curves need of the outputs, of the first `coordinates`, of
     /// drift and energies: memory is bounded, however long the run.
+    #[doc(hidden)]
     pub fn with_rows(mut self, coordinates: usize, pass: impl FnMut(Row) + 'a) -> Self {
         self.pass = Some(Box::new(pass));
         self.keep(coordinates)

@@ -43,16 +43,20 @@ pub struct Build<'a, const D: usize> {
     /// Values of the scene's parameters.
     pub parameters: &'a Parameters,
     /// All markers that joints and forces may name; none yet where a body is made.
+    #[doc(hidden)]
     pub markers: &'a MarkerTable,
     /// Outputs that expressions may use by their names.
+    #[doc(hidden)]
     pub outputs: &'a dyn NamedOutputs<D>,
     /// Acceleration of gravity in world axes, m/s^2.
     pub gravity: [f64; D],
     /// Folder from which the files that the scene names are found.
     pub folder: &'a Path,
     /// Switching functions, functions of t and warnings of the elements read so far.
+    #[doc(hidden)]
     pub switches: &'a RefCell<Switches>,
     /// Angles to be counted through full turns that elements have asked for so far.
+    #[doc(hidden)]
     pub turnings: &'a RefCell<Vec<Turning>>,
 }
 
@@ -234,6 +238,7 @@ impl<const D: usize> Build<'_, D> {
 
     /// Index of an angle in space that an element needs counted through full turns; it begins within half a turn of
     /// `start`. In the plane angles are coordinates.
+    #[doc(hidden)]
     pub fn turning(&self, terms: Vec<Turned>, start: f64) -> usize {
         let mut all = self.turnings.borrow_mut();
         if D == 3 {
@@ -254,6 +259,7 @@ impl<const D: usize> Build<'_, D> {
     }
 
     /// A marker quantity such as `crank.C.x` or `crank.angle`, or a state, with `'` for its rate.
+    #[doc(hidden)]
     pub fn probe(&self, name: &str) -> Option<Probe> {
         let (state, order) = name.strip_suffix('\'').map_or((name, 1), |state| (state, 2));
         match self.markers.states.iter().find(|(known, _)| known == state) {

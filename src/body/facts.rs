@@ -24,6 +24,7 @@ pub struct BodyFacts {
     pub turning: Option<usize>,
     /// What its velocities are, for a rigid body: its markers then move with its [`pose`](super::Body::pose), and
     /// nothing in it dissipates. `None` where it is none, or makes no use of that.
+    #[doc(hidden)]
     pub freedom: Option<Freedom>,
     /// True if M does not depend on q.
     pub has_constant_mass: bool,

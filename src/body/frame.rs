@@ -130,6 +130,7 @@ impl<S: Scalar, const D: usize> Frame<S, D> {
     /// The frame with its derivatives along its own twist: direction `first` moves it along x; rotations are about the
     /// world's axes through its origin, so de = w x e.
     #[inline]
+    #[doc(hidden)]
     pub fn seeded(&self, first: usize) -> Frame<Dual<S, 6>, D> {
         let mut frame = self.map(Dual::fixed);
         for i in 0..D {

@@ -85,8 +85,8 @@ pub struct Energy<S = f64> {
     pub potential: S,
 }
 
-/// The equations of a rigid body of a few coordinates, at most [`MOST_COORDINATES`], with a constant M, written once
-/// over any scalar. Bodies beyond that implement [`Body`] and [`BodyOver`] themselves.
+/// The equations of a rigid body of a few coordinates, at most `MOST_COORDINATES`, with a constant M, written once
+/// over any scalar. Bodies beyond that implement `Body` and `BodyOver` themselves.
 pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// What never changes, by [`BodyFacts::new`]; what follows from the kernel itself may be left out.
     fn facts(&self) -> BodyFacts;
@@ -123,7 +123,8 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// Mass matrix M, constant for such a body: `values` at the places of [`BodyFacts::mass_pattern`].
     fn mass(&self, values: &mut [f64]);
 
-    /// See [`Body::pose`].
+    /// See `Body::pose`.
+    #[doc(hidden)]
     fn pose(&self, q: &[f64], v: &[f64]) -> Pose<D>
     where
         Self: Sized,
@@ -134,8 +135,9 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     /// f += weight and velocity-dependent inertia forces; `gravity` in m/s^2.
     fn own_forces<S: Scalar>(&self, q: &[S], v: &[S], gravity: &[f64; D], f: &mut [S]);
 
-    /// See [`Body::tangent`]; not called where the own forces are constant. Default: own forces over dual numbers, for
+    /// See `Body::tangent`; not called where the own forces are constant. Default: own forces over dual numbers, for
     /// the default places.
+    #[doc(hidden)]
     fn tangent(&self, at: BodyState<D>, k: &mut [f64], c: &mut [f64])
     where
         Self: Sized,
@@ -220,6 +222,7 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + S
 /// A body ready for the model, with the initial q and v that its scene gives.
 pub struct Built<const D: usize> {
     /// The body with its markers.
+    #[doc(hidden)]
     pub body: Box<dyn Body<D>>,
     /// Coordinates at the start.
     pub q: Vec<f64>,
@@ -251,7 +254,7 @@ impl<const D: usize> Built<D> {
     }
 }
 
-/// The keys of a kind of body in a scene, without [`SHARED_KEYS`], and the body they make.
+/// The keys of a kind of body in a scene, without `SHARED_KEYS`, and the body they make.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no body of a scene",
     note = "implement `holonom::body::BodySpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"

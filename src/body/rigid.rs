@@ -31,6 +31,7 @@ pub struct Rigid {
     /// about one axis alone, the moment about that. A body that does not turn needs none.
     #[serde(default, deserialize_with = "present")]
     #[schemars(with = "Inertia")]
+    #[doc(hidden)]
     pub inertia: Option<Inertia>,
     /// In the place of `mass`, `inertia` and `origin`: parts, given in the body's axes from its origin, wherever that is;
     /// mass, centre of mass and inertia are those of their sum.
@@ -63,6 +64,7 @@ pub struct Initial {
     /// Of the body's origin in the world, m/s.
     pub velocity: Option<Vec<Number>>,
     /// rad/s: one number in the plane; 3 numbers in the body's axes in space, or one about the only axis that is `free`.
+    #[doc(hidden)]
     pub angular_velocity: Option<Inertia>,
     /// Of a flexible body in a floating frame: elastic coordinates by name, as `check` lists them. Default: zero.
     pub elastic: Option<BTreeMap<String, Number>>,

@@ -127,15 +127,17 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
         false
     }
     /// Number of the piece that holds the line between its first two markers, if its force jumps where they meet: the
-    /// piece is zero for its law, else the [`Side`](crate::math::Side) that the gap counts as positive. Default: none.
+    /// piece is zero for its law, else the `Side` that the gap counts as positive. Default: none.
     fn gap(&self) -> Option<usize> {
         None
     }
     /// The wheel to be drawn, if it is one.
+    #[doc(hidden)]
     fn wheel(&self, _frames: &Motion<f64, D>, _time: Instant<f64>) -> Option<Wheel> {
         None
     }
     /// The beam element whose sections outputs may read, if it is one.
+    #[doc(hidden)]
     fn beam(&self) -> Option<&Beam> {
         None
     }
@@ -213,7 +215,7 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
 pub struct Built<const D: usize> {
     /// The kernel, boxed.
     pub force: Box<dyn Force<D>>,
-    /// 1 to [`MOST_MARKERS`], as [`Build::between`] or [`Build::marker`] find them.
+    /// 1 to `MOST_MARKERS`, as [`Build::between`] or [`Build::marker`] find them.
     pub markers: Vec<MarkerId>,
 }
 

@@ -93,17 +93,18 @@ pub struct Dynamics<'a> {
     /// Terms at the last state.
     pub terms: Terms,
     /// The saddle-point matrix above and its factors.
+    #[doc(hidden)]
     pub kkt: SaddlePoint,
     /// Constraints that depend on the others wherever phi = 0, and are dropped.
     pub dropped: Vec<usize>,
-    /// Rows count as dependent below this fraction of the reference value: see [`SaddlePoint::factor_truncated`].
+    /// Rows count as dependent below this fraction of the reference value: see `SaddlePoint::factor_truncated`.
     pub rank_tolerance: f64,
     /// Rank indicator of a dense solver other than `kkt` at the last solution.
     pub dense_indicator: f64,
     /// Reference value of `dense_indicator`, set at the start of a step as that of `kkt` is.
     pub dense_reference: f64,
     /// Rank indicator of G at the last solution where that came from another solver than `kkt`: see
-    /// [`SaddlePoint::rank_indicator`].
+    /// `SaddlePoint::rank_indicator`.
     pub rank_indicator: Option<f64>,
     /// True if multipliers of redundant rows are to be those of least norm, as for output; v' does not depend on it.
     pub wants_least: bool,
@@ -123,6 +124,7 @@ pub struct Dynamics<'a> {
     /// Memory of the system, with the values of its inputs.
     pub scratch: Scratch,
     /// Inputs that are functions of the state.
+    #[doc(hidden)]
     pub law: Option<Arc<Law>>,
 }
 
@@ -173,7 +175,7 @@ impl<'a> Dynamics<'a> {
         factored.map_err(|singular| self.halt(singular))
     }
 
-    /// Factors the matrix truncated near singular states: see [`SaddlePoint::factor_truncated`].
+    /// Factors the matrix truncated near singular states: see `SaddlePoint::factor_truncated`.
     pub fn factor_truncated(&mut self) -> Result<(), StepError> {
         self.statistics.factorizations += 1;
         let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g, self.rank_tolerance);
@@ -209,7 +211,7 @@ impl<'a> Dynamics<'a> {
         (!self.kkt.left_out().is_empty()).then(|| self.kkt.inconsistency() / scale)
     }
 
-    /// Drops these rows from now on: see [`SaddlePoint::drop_rows`].
+    /// Drops these rows from now on: see `SaddlePoint::drop_rows`.
     pub fn drop_rows(&mut self, rows: &[usize]) {
         if self.dropped != rows {
             self.kkt.drop_rows(rows);

@@ -26,11 +26,13 @@ pub struct Statistics {
     /// Accepted states at which G was rank deficient.
     pub rank_deficient: u64,
     /// Work outside the steps: a first look at the start, output rows, and the search for thresholds within steps.
+    #[doc(hidden)]
     pub rows: Work,
 }
 
 impl Statistics {
     /// Work of the steps alone, without `rows`.
+    #[doc(hidden)]
     pub fn of_steps(&self) -> Work {
         let Statistics {
             rhs_evaluations, jacobian_evaluations, factorizations, newton_iterations, projections, ..
@@ -50,6 +52,7 @@ impl Statistics {
     }
 
     /// Work of steps and `rows`.
+    #[doc(hidden)]
     pub fn whole(&self) -> Work {
         self.of_steps() + self.rows
     }

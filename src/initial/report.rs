@@ -19,10 +19,13 @@ pub struct Assembly {
     #[serde(skip)]
     pub lambda: Vec<f64>,
     /// Residuals of the guess.
+    #[doc(hidden)]
     pub before: Level,
     /// Residuals of the start.
+    #[doc(hidden)]
     pub after: Level,
     /// Coordinates and velocities that changed, largest first.
+    #[doc(hidden)]
     pub moves: Vec<Move>,
     /// True if Newton's method comes from the guess to a singular state with open joints, and they closed from beside
     /// the guess: on one of several branches.

@@ -62,13 +62,14 @@ pub enum ClosedForm<const D: usize> {
 
 /// A joint's equations, written once over any scalar.
 pub trait JointKernel<const D: usize>: Send + Sync + 'static {
-    /// A name for each row, 1 to [`MOST_ROWS`]: the direction it constrains. Rows named `x`, `y`, `z` and `length` are
+    /// A name for each row, 1 to `MOST_ROWS`: the direction it constrains. Rows named `x`, `y`, `z` and `length` are
     /// in metres, all others in radians: drift is measured in these units. A single row `length` is that of a rod,
     /// whose tension outputs can read; that of a single row `angle` is a torque.
     fn row_names(&self) -> Vec<&'static str>;
     /// True if phi depends on t explicitly; phi_t is taken as zero if not.
     fn depends_on_time(&self) -> bool;
     /// Its axis with the first marker at `first`, if it has one.
+    #[doc(hidden)]
     fn joint_axis(&self, _first: &Frame<f64, D>) -> Option<Axis> {
         None
     }
@@ -190,7 +191,7 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
 pub struct Built<const D: usize> {
     /// The kernel, boxed.
     pub joint: Box<dyn Joint<D>>,
-    /// 1 to [`MOST_MARKERS`], as [`Build::between`] or [`Build::marker`] find them.
+    /// 1 to `MOST_MARKERS`, as [`Build::between`] or [`Build::marker`] find them.
     pub markers: Vec<MarkerId>,
 }
 

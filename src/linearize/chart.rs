@@ -41,6 +41,7 @@ impl Chart {
     /// # Errors
     /// Names that do not exist, too many or too few, or not independent at this state; `intrinsic` for equations that
     /// do not say how M changes.
+    #[doc(hidden)]
     pub fn at(&self, variation: &mut Variation) -> Result<Coordinates> {
         refuse_all_modes(variation.velocities(), COPIES)?;
         let z = variation.free_directions()?;

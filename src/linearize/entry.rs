@@ -161,7 +161,7 @@ pub struct Entry {
     /// Options that it takes.
     pub options: &'static [OptionDoc],
     /// Builds the matrices at the state of a variation.
-    pub build: fn(&mut Variation, &Request) -> Result<Built>,
+    pub build: fn(&mut Variation, &Linear) -> Result<Built>,
 }
 
 impl Listed for Entry {

@@ -73,6 +73,7 @@ impl Floquet {
     ///
     /// # Errors
     /// Singular values that do not converge.
+    #[doc(hidden)]
     pub fn defects(&self, slack: f64) -> Result<Vec<Defect>> {
         let mut left: Vec<Complex<f64>> = self.multipliers.clone();
         left.retain(|multiplier| (multiplier.norm() - 1.0).abs() <= slack);

@@ -6,7 +6,7 @@ use crate::math::{Piece, Rate, largest};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use crate::tolerances;
 
-/// Returns a warning for each part of the equations that has a threshold at the state: see [`changed_parts`].
+/// Returns a warning for each part of the equations that has a threshold at the state: see `changed_parts`.
 ///
 /// # Errors
 /// See [`Variation::new`].

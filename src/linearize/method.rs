@@ -1,6 +1,6 @@
 //! The registry of methods of linearization, and the linear model by one of them.
 
-use super::entry::{Built, Entry, Request};
+use super::entry::{Built, Entry, Linear};
 use super::minimal::MCS;
 use super::slopes::{ModelRate, Slope};
 use super::spectrum::{Spectrum, spectrum};
@@ -32,7 +32,7 @@ pub fn refuse_large(velocities: usize) -> Result<()> {
 ///
 /// # Errors
 /// An unknown method or option; a chart that does not exist there; eigenvalues that cannot be computed.
-pub fn linearize(variation: &mut Variation, request: &Request) -> Result<LinearModel> {
+pub fn linearize(variation: &mut Variation, request: &Linear) -> Result<LinearModel> {
     Ok(solve(variation, request)?.finish(variation, request))
 }
 
@@ -40,7 +40,7 @@ pub fn linearize(variation: &mut Variation, request: &Request) -> Result<LinearM
 ///
 /// # Errors
 /// An unknown method or option; a chart that does not exist there.
-pub(super) fn build(variation: &mut Variation, request: &Request) -> Result<Built> {
+pub(super) fn build(variation: &mut Variation, request: &Linear) -> Result<Built> {
     let entry = request.method.entry(registry())?;
     if variation.has_drivers() {
         variation.prescribed()?;
@@ -60,7 +60,7 @@ pub(super) struct Solved {
 ///
 /// # Errors
 /// See [`linearize`].
-pub(super) fn solve(variation: &mut Variation, request: &Request) -> Result<Solved> {
+pub(super) fn solve(variation: &mut Variation, request: &Linear) -> Result<Solved> {
     request.method.entry(registry())?;
     refuse_large(variation.velocities())?;
     let clock = Instant::now();
@@ -85,7 +85,7 @@ impl Solved {
     }
 
     /// The model, without the eigenvectors.
-    pub fn finish(self, variation: &mut Variation, request: &Request) -> LinearModel {
+    pub fn finish(self, variation: &mut Variation, request: &Linear) -> LinearModel {
         let Solved { built, spectrum: Spectrum { mut modes, .. }, reduction, cost } = self;
         modes.iter_mut().for_each(|mode| mode.error = mode.error.max(reduction.error * mode.value.norm()));
         LinearModel { reduction, ..built.finish(variation, request.method.to_string(), modes, cost) }

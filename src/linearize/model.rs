@@ -46,14 +46,17 @@ pub struct LinearModel {
     /// infinite ones; each kind from the slowest.
     pub modes: Vec<Mode>,
     /// The chart with what the outputs and rates are at the state; none of methods without minimal coordinates.
+    #[doc(hidden)]
     pub frame: Option<Frame>,
     /// The state that is perturbed, as the reference of a controller.
     pub state: Reference,
     /// The state that is perturbed, with its accelerations and multipliers.
     pub point: LinearizationPoint,
     /// Time, size and conditioning.
+    #[doc(hidden)]
     pub cost: Cost,
     /// Condition of the reduction to the directions that the constraints allow, and the error that follows.
+    #[doc(hidden)]
     pub reduction: Reduction,
 }
 

@@ -29,8 +29,10 @@ pub struct LinearizationPoint {
     /// True if v = 0 and v' = 0, to rounding.
     pub is_equilibrium: bool,
     /// Rotation of the axes in which q and v are expressed; none in the inertial frame.
+    #[doc(hidden)]
     pub axes: Option<Spin>,
     /// Rotation that drives prescribe, if any.
+    #[doc(hidden)]
     pub driven: Option<Spin>,
 }
 

@@ -2,7 +2,7 @@
 
 use super::changes::beside;
 use super::minimal::{Minimal, minimal};
-use super::{Changes, LinearizationPoint, Matrix, Reduction, Request, Variation};
+use super::{Changes, Linear, LinearizationPoint, Matrix, Reduction, Variation};
 use crate::error::{Error, Result, clock, two_digits};
 
 /// Condition of the reduction from which on the error of a model by rounding of its state is measured. Unit: `[1]`.
@@ -29,7 +29,7 @@ const RANK_UNKNOWN: f64 = 1e7;
 ///
 /// # Errors
 /// A model of which rounding leaves no digits: the state is as good as singular.
-pub(super) fn measure(variation: &mut Variation, request: &Request) -> Result<Reduction> {
+pub(super) fn measure(variation: &mut Variation, request: &Linear) -> Result<Reduction> {
     let condition = variation.dynamics.kkt.kept_indicator().recip();
     if condition < REDUCTION_MEASURED {
         let error = f64::EPSILON * (REDUCTION_ESTIMATE * condition.powi(4)).max(1.0);

@@ -1,6 +1,6 @@
 //! Eigenvalues of a model, classed as physical, spurious and infinite.
 
-use super::entry::{Built, Request};
+use super::entry::{Built, Linear};
 use super::{Complex, Kind, Matrix, Mode, Variation, displacement};
 use crate::error::{Error, Result, clock};
 use crate::math::eigen::{ComplexMatrix, Deflation, Eigen, Split, Unsolved, eigen, finite, generalized, times};
@@ -47,7 +47,7 @@ pub(super) struct Spectrum {
 }
 
 /// Returns all modes of a model.
-pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Request) -> Result<Spectrum> {
+pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Linear) -> Result<Spectrum> {
     let t = variation.point.t;
     let solved = solve(built, request).map_err(|unsolved| refused(t, &unsolved))?;
     let shapes = times(&built.shapes(variation.system().dimensions()), &solved.right);
@@ -153,7 +153,7 @@ fn solve_plain(built: &Built) -> Result<Solved, Unsolved> {
     Ok(Solved { values, participation, right, left: Some(left), conditioning, errors, conditions })
 }
 
-fn solve(built: &Built, request: &Request) -> Result<Solved, Unsolved> {
+fn solve(built: &Built, request: &Linear) -> Result<Solved, Unsolved> {
     let Some(e) = &built.e else { return solve_plain(built) };
     let by = match request.method.text("solver") {
         Some("qz") => {

@@ -5,7 +5,7 @@ use super::method::{build, solve};
 use super::states::{Walk, follow};
 use super::thresholds::{self, Threshold};
 use super::variants::{At, Models, SLOPE_STEP, Sensitivity, Variants};
-use super::{Branch, LinearizationPoint, LociPoint, Operating, Request, State, Variation, track};
+use super::{Branch, Linear, LinearizationPoint, LociPoint, Operating, State, Variation, track};
 use crate::error::{Error, Result, Warning};
 use crate::prepared::PreparedScene;
 use crate::sweep::Range;
@@ -31,14 +31,17 @@ pub struct Loci {
     /// All times or values of the parameter, in their order.
     pub places: Vec<f64>,
     /// Those with a linear model.
+    #[doc(hidden)]
     pub reached: Vec<Reached>,
     /// Those without one.
+    #[doc(hidden)]
     pub gaps: Vec<Gap>,
     /// Branches, physical ones first.
     pub branches: Vec<Branch>,
     /// Values of a parameter at which eigenvalues meet or cross the imaginary axis.
     pub thresholds: Vec<Threshold>,
     /// Derivatives of the eigenvalues with respect to a parameter at the scene's own value, or at the nearest of the range.
+    #[doc(hidden)]
     pub sensitivity: Option<Sensitivity>,
     /// Warnings about the states, each once.
     pub doubts: Vec<Warning>,
@@ -90,7 +93,7 @@ type Outcome = (f64, Result<Found>);
 /// are added for it.
 pub fn loci_along<'a>(
     prepared: &'a PreparedScene,
-    request: &Request,
+    request: &Linear,
     times: &[f64],
     progress: impl Fn() + Sync,
 ) -> Loci {
@@ -126,7 +129,7 @@ fn found(
     variation: &mut Variation,
     (prepared, state): (&PreparedScene, State),
     t: f64,
-    request: &Request,
+    request: &Linear,
     steps: &[f64],
 ) -> Result<Found> {
     let solved = solve(variation, request)?;
@@ -158,7 +161,7 @@ fn move_along(variation: &mut Variation, point: &LinearizationPoint, step: f64) 
 ///
 /// # Errors
 /// A parameter that the scene does not have.
-pub fn loci_over(variants: &Variants, at: At, request: &Request, progress: impl Fn() + Sync) -> Result<Loci> {
+pub fn loci_over(variants: &Variants, at: At, request: &Linear, progress: impl Fn() + Sync) -> Result<Loci> {
     let own = variants.family.own_value(&variants.range.parameter)?;
     let models = Models { variants, at, request };
     let values = variants.range.values();

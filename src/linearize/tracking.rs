@@ -34,6 +34,7 @@ pub struct LociPoint {
     /// M there, the metric in which shapes are compared.
     pub mass: Matrix,
     /// Derivatives of the first modes; empty where they are not known.
+    #[doc(hidden)]
     pub slopes: Vec<Slope>,
 }
 

@@ -11,8 +11,10 @@ pub struct Transition {
     /// The motion at the end.
     pub state: State,
     /// The chart at the start, whose states (z, y) are the columns.
+    #[doc(hidden)]
     pub start: Coordinates,
     /// (dq, dv) at the end of a unit of each state at the start.
+    #[doc(hidden)]
     pub changes: Changes,
 }
 

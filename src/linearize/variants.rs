@@ -3,7 +3,7 @@
 use super::found::Found;
 use super::method::build;
 use super::slopes::Slope;
-use super::{Kind, LociPoint, Mode, Operating, Request, State, at_rest, method, states, tighten};
+use super::{Kind, Linear, LociPoint, Mode, Operating, State, at_rest, method, states, tighten};
 use crate::error::Result;
 use crate::prepared::{Overrides, PreparedScene};
 use crate::sweep::{Family, Range};
@@ -44,6 +44,7 @@ pub struct Sensitivity {
     /// The value of the parameter.
     pub at: f64,
     /// Those of the physical eigenvalues with im >= 0.
+    #[doc(hidden)]
     pub slopes: Vec<Slope>,
 }
 
@@ -51,7 +52,7 @@ pub struct Sensitivity {
 pub(super) struct Models<'a> {
     pub variants: &'a Variants<'a>,
     pub at: At,
-    pub request: &'a Request,
+    pub request: &'a Linear,
 }
 
 impl Models<'_> {

@@ -147,6 +147,7 @@ impl<'a> Variation<'a> {
     }
 
     /// Returns -K dq - C dv, a column each.
+    #[doc(hidden)]
     pub fn force(&self, changes: &Changes) -> Matrix {
         let (pattern, mut force) =
             (&self.dynamics.structure.tangent, Matrix::zeros(self.velocities(), changes.q.ncols()));
@@ -161,6 +162,7 @@ impl<'a> Variation<'a> {
     }
 
     /// Returns G dv' for phi'' + c1 phi' + c0 phi = 0, a column each: -(Gdd + c1 Gd + c0 G) dq - (G1 + c1 G) dv.
+    #[doc(hidden)]
     pub fn rows(&self, changes: &Changes, [c1, c0]: [f64; 2]) -> Matrix {
         let Dynamics { structure, terms, .. } = &self.dynamics;
         let mut rows = Matrix::zeros(structure.g.rows, changes.q.ncols());

@@ -185,6 +185,7 @@ pub struct Time<'a, S> {
     /// Time, s.
     pub t: S,
     /// Piece of each switching function within the step.
+    #[doc(hidden)]
     pub regime: Regime<'a>,
 }
 

@@ -53,7 +53,7 @@ pub fn quaternion_from_vector(a: &[f64; 3]) -> [f64; 4] {
 }
 
 /// a' of the rotation vector `a` of p0^-1 p, with w in the axes of p: w + a x w/2 + c a x (a x w), see
-/// [`screw`](super::screw). Smooth below 2 pi; w itself where the axis is fixed.
+/// `screw`. Smooth below 2 pi; w itself where the axis is fixed.
 pub fn rotation_vector_rate(a: &[f64; 3], w: &[f64; 3]) -> [f64; 3] {
     let across = cross3(a, w);
     let twice = cross3(a, &across);

@@ -62,16 +62,17 @@ pub trait Scalar:
     /// The plain value; branches of an expression are decided on it.
     fn value(&self) -> f64;
 
-    /// The least and the largest plain value; they differ for an [`Interval`](super::Interval) only.
+    /// The least and the largest plain value; they differ for an `Interval` only.
     fn bounds(&self) -> [f64; 2] {
         [self.value(); 2]
     }
 
     /// f(self) by the chain rule over the nested scalar.
+    #[doc(hidden)]
     fn unary(self, function: Unary) -> Self;
 
     /// The derivative of order `order` of a function at `self`: `derivative` gives bounds on those of any order between
-    /// two plain values, which are the same twice but for an [`Interval`](super::Interval).
+    /// two plain values, which are the same twice but for an `Interval`.
     fn compose(self, order: usize, derivative: &impl Fn(usize, [f64; 2]) -> [f64; 2]) -> Self;
 
     /// The constant 0.

@@ -51,6 +51,7 @@ pub struct Model {
     /// Values of the named parameters, overrides applied.
     pub parameters: Parameters,
     /// The equations of motion.
+    #[doc(hidden)]
     pub mechanism: AnyMechanism,
     /// Formulation, integrator, projection, tolerances and step.
     pub method: Method,
@@ -83,7 +84,7 @@ impl Model {
     /// Reads a scene, assembles it and resolves its settings.
     ///
     /// # Errors
-    /// Bad input of any kind: see [`Scene::load`], [`initial::assemble`], [`Method::check`].
+    /// Bad input of any kind: see [`Scene::load`], `initial::assemble`, [`Method::check`].
     pub fn load(path: impl AsRef<Path>) -> Result<Model> {
         Model::load_with(path.as_ref(), &Overrides::default())
     }
@@ -120,7 +121,7 @@ impl Model {
     /// Assembles a scene and resolves its settings; `elements` and `set` of the overrides are not used.
     ///
     /// # Errors
-    /// Bad input of any kind: see [`initial::assemble`], [`Method::check`].
+    /// Bad input of any kind: see `initial::assemble`, [`Method::check`].
     pub fn new(scene: Scene, overrides: &Overrides) -> Result<Model> {
         let settings = Settings { parameters: &scene.parameters, scene: &scene.simulation, overrides };
         let is_automatic = settings.is_automatic().map_err(|error| settings.place(error))?;
@@ -171,7 +172,7 @@ impl Model {
     /// Replaces automatic choice by one method, the one chosen for the beginning of the motion.
     ///
     /// # Errors
-    /// Bad input only: see [`advise`].
+    /// Bad input only: see `advise`.
     pub fn settled(mut self) -> Result<Model> {
         if std::mem::take(&mut self.is_automatic) {
             // Without an end time, a method is chosen for one second of motion.
@@ -195,6 +196,7 @@ impl Model {
     }
 
     /// Stiffness that makes the method unsuitable for this motion, if it is explicit and was not chosen automatically.
+    #[doc(hidden)]
     pub fn stiffness(&self, span: Span) -> Option<Stiffness> {
         let Assembly { q, v, vdot, lambda, .. } = &self.assembly;
         let state = OperatingPoint { t: span.start, q, v, vdot, lambda };
@@ -206,6 +208,7 @@ impl Model {
     ///
     /// # Errors
     /// Bad input only: see [`simulate`](crate::simulate::simulate).
+    #[doc(hidden)]
     pub fn simulate(&self, method: &Method, span: Span, sink: &mut dyn Sink) -> Result<(Outcome, Vec<Leg>)> {
         let (q, v) = self.start();
         self.simulate_from(method, span, Start::State(q, v), sink).map(|(outcome, legs, _)| (outcome, legs))
@@ -215,7 +218,8 @@ impl Model {
     /// Returns a checkpoint to continue from, too.
     ///
     /// # Errors
-    /// Bad input only: see [`simulate_from`]; a tolerance below the rounding of positions far from the origin.
+    /// Bad input only: see [`simulate_from`](crate::simulate::simulate_from); a tolerance below the rounding of positions far from the origin.
+    #[doc(hidden)]
     pub fn simulate_from(&self, method: &Method, span: Span, start: Start, sink: &mut dyn Sink) -> Result<Simulated> {
         refuse_rounding(&self.mechanism, self.start().0, method)?;
         let (outcome, legs, next) = run_through(self.system(), &self.choice(method), span, start, sink)?;

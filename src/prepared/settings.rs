@@ -17,6 +17,7 @@ pub struct Overrides {
     /// True to start from the static equilibrium that belongs to the scene's start.
     pub equilibrium: bool,
     /// Automatic choice in place of the scene's formulation, integrator, projection and step.
+    #[doc(hidden)]
     pub method: Option<Automatic>,
     /// Formulation in place of the scene's.
     pub formulation: Option<MethodSpec>,

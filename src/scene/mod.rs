@@ -76,9 +76,11 @@ pub struct Scene {
     /// Values of the named parameters, overrides applied.
     pub parameters: Parameters,
     /// Bodies, joints, forces, outputs and inputs.
+    #[doc(hidden)]
     pub model: AnyModel,
     /// The model with further joints that hold the joint coordinates of `initial`, and with joints that hold their
     /// rates; `None` where it gives none of these.
+    #[doc(hidden)]
     pub held: [Option<Box<AnyModel>>; 2],
     /// Initial guess of q for assembly, in the order of the bodies.
     pub q: Vec<f64>,
@@ -87,6 +89,7 @@ pub struct Scene {
     /// Coordinates, or bodies, whose values and rates assembly does not change.
     pub hold: Vec<String>,
     /// Settings of the simulation, as they are given.
+    #[doc(hidden)]
     pub simulation: Simulation,
     /// Hash of what it says of the mechanism.
     pub fingerprint: String,

@@ -53,7 +53,7 @@ pub struct StabilizedRun {
 /// `stop` is asked whether a run should end, `done` is called after each run.
 ///
 /// # Errors
-/// Only one stabilization; bad input of any kind: see [`simulate`].
+/// Only one stabilization; bad input of any kind: see `simulate`.
 pub fn drift_under_stabilizations(
     prepared: &PreparedScene,
     stop: impl Fn() -> Option<Stop> + Sync,

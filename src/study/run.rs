@@ -21,6 +21,7 @@ pub struct Motion<'a> {
     /// Start, end and output step.
     pub span: Span,
     /// The quantities that are compared.
+    #[doc(hidden)]
     pub watched: Watched,
     /// Ratio atol / rtol.
     pub ratio: f64,
@@ -57,7 +58,7 @@ impl<'a> Motion<'a> {
     /// Runs `method` until it ends, is stopped, or a limit is over; the sink receives the motion.
     ///
     /// # Errors
-    /// Bad input only, as [`simulate`].
+    /// Bad input only, as `simulate`.
     pub(crate) fn simulate(&self, method: &Method, limit: Option<Limit>, sink: &mut dyn Sink) -> Result<Ended> {
         let watch = Stopwatch::start();
         let mut limited = Limited { sink, is_stopped: self.is_stopped, limit, watch, over: Cell::new(None) };
@@ -69,7 +70,7 @@ impl<'a> Motion<'a> {
     /// Runs `method` until it ends or a limit is over, and samples the motion.
     ///
     /// # Errors
-    /// Bad input only, as [`simulate`].
+    /// Bad input only, as `simulate`.
     pub fn run(&self, method: &Method, limit: impl Into<Limit>) -> Result<RunSample> {
         // One thread, so that the time is that of the method.
         faer::set_global_parallelism(faer::Par::Seq);

@@ -104,10 +104,12 @@ pub struct Group {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SwitchFacts<'a> {
     /// Switching functions: see [`Regime`](crate::math::Regime).
+    #[doc(hidden)]
     pub all: &'a [Switch],
     /// Owners of the switching functions, such as "the force `push`".
     pub owners: &'a [String],
     /// Functions of t alone: the time loop limits its steps so as to miss none.
+    #[doc(hidden)]
     pub time_functions: &'a [TimeFunction],
 }
 
@@ -137,15 +139,19 @@ pub struct SystemFacts {
     /// it closes.
     pub gaps: Vec<usize>,
     /// Parts whose theory is valid up to some deformation only.
+    #[doc(hidden)]
     pub limited: Vec<Limited>,
     /// Names of the bodies that have an orientation.
     pub turning_bodies: Vec<String>,
     /// The unit quaternions among the coordinates.
+    #[doc(hidden)]
     pub rotations: Vec<Rotation>,
     /// Rotation of the axes in which q and v are measured; `None` for the axes of the world.
+    #[doc(hidden)]
     pub axes: Option<Spin>,
     /// The coordinates that change when the world is rotated; all others are invariant. `None` where bodies have
     /// coordinates along fixed directions of the world.
+    #[doc(hidden)]
     pub placements: Option<Vec<Placement>>,
     /// Typical length of the mechanism, m.
     pub length: f64,
@@ -181,6 +187,7 @@ impl SystemFacts {
     }
 
     /// The rows of phi by joint, or row by row.
+    #[doc(hidden)]
     pub fn groups(&self) -> Vec<Group> {
         if !self.groups.is_empty() {
             return self.groups.clone();

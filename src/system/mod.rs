@@ -51,9 +51,9 @@ pub use facts::Group;
 pub use facts::{Column, Dimensions, Excitation, Names, SwitchFacts, SystemFacts};
 #[doc(hidden)]
 pub use levi_civita::LeviCivita;
+#[doc(hidden)]
 pub use mechanism::Mechanism;
 pub use output_tangent::OutputTangent;
-#[doc(hidden)]
 pub use rotating::Rotating;
 #[doc(hidden)]
 pub use spin::{Placement, Rotation, Spin};
@@ -64,11 +64,11 @@ pub use terms::{Need, OperatingPoint, Scratch, Structure, Tangent, Terms};
 #[doc(hidden)]
 pub use theory::{Limited, Theory};
 
-#[doc(hidden)]
 pub use crate::body::Energy;
 use crate::error::Result;
 use crate::math::Rate;
-use crate::math::kkt::Pattern;
+pub use crate::math::Scalar;
+pub use crate::math::kkt::Pattern;
 use nalgebra::DMatrix;
 use std::borrow::Cow;
 
@@ -162,6 +162,7 @@ pub trait MechanicalSystem: Send + Sync {
 
     /// Levi-Civita connection of the mass metric along the motion. Returns false where it is not provided, which is the
     /// default.
+    #[doc(hidden)]
     fn levi_civita(&self, _at: OperatingPoint, _connection: &mut LeviCivita, _scratch: &mut Scratch) -> bool {
         false
     }
@@ -173,6 +174,7 @@ pub trait MechanicalSystem: Send + Sync {
 
     /// The constant rotation about a fixed axis that drives prescribe at `t`; `None`, the default, where nothing is
     /// driven or the drives prescribe anything else.
+    #[doc(hidden)]
     fn prescribed_spin(&self, _t: f64) -> Option<Spin> {
         None
     }
@@ -208,14 +210,17 @@ pub trait MechanicalSystem: Send + Sync {
     }
 
     /// Writes the arguments of all switching functions with their rates along the motion, at a state with its v'.
+    #[doc(hidden)]
     fn switching(&self, _at: OperatingPoint, _out: &mut [Rate], _scratch: &mut Scratch) {}
 
     /// What each force does at a state. Default: nothing is known.
+    #[doc(hidden)]
     fn feeds(&self, _t: f64, _q: &[f64], _v: &[f64], _scratch: &mut Scratch) -> Vec<Feed> {
         Vec::new()
     }
 
     /// The roads under the wheels at a state. Default: none.
+    #[doc(hidden)]
     fn roads(&self, _t: f64, _q: &[f64], _v: &[f64], _scratch: &mut Scratch) -> Vec<Road> {
         Vec::new()
     }

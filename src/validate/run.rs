@@ -39,16 +39,20 @@ pub struct Validation {
     /// Time of the first singular state of the motion, half way to which they were followed, s.
     pub singular: Option<f64>,
     /// The first change of form of the equations, short of which they were followed.
+    #[doc(hidden)]
     pub event: Option<Event>,
     /// Rate by which velocities are divided to compare them with positions, 1/s.
     pub rate: f64,
     /// Result for each direction.
     pub sequences: Vec<PerturbationSequence>,
     /// Comparison of exp(A h) with the state-transition matrix.
+    #[doc(hidden)]
     pub frozen: Frozen,
     /// A, B, C and D against measured ones.
+    #[doc(hidden)]
     pub measured: Measured,
     /// Result for each input; empty if inputs are not checked.
+    #[doc(hidden)]
     pub inputs: Vec<InputCheck>,
     /// Names of inputs that move nothing that the model has states of, and are not checked.
     pub unchecked: Vec<String>,

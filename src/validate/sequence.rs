@@ -22,6 +22,7 @@ pub struct PerturbationSequence {
     /// not written) where the perturbed state does not exist.
     pub errors_ltv: Vec<f64>,
     /// Order of these errors in epsilon.
+    #[doc(hidden)]
     pub order_ltv: Decay,
     /// Norm of the same difference less the prediction by exp(A t).
     pub errors_lti: Vec<f64>,
@@ -32,6 +33,7 @@ pub struct PerturbationSequence {
     /// Times at which the frozen model is off by 1 % and 10 %, s; none: not within the time followed.
     pub horizons: [Option<f64>; 2],
     /// Changes of the velocity directions that move most, at `curve_epsilon`.
+    #[doc(hidden)]
     pub curves: Vec<Curve>,
     /// Size of the perturbation of the curves, m or rad.
     pub curve_epsilon: f64,

@@ -21,11 +21,13 @@ pub struct SpanCheck {
     /// At each time, and for each size, the norm of the simulated change less that by the transition matrices.
     pub errors_ltv: Vec<Vec<f64>>,
     /// Order of these errors in the size, at each time.
+    #[doc(hidden)]
     pub orders: Vec<Decay>,
 }
 
 impl SpanCheck {
     /// Returns the time with the lowest order, and the order; none where no time has one.
+    #[doc(hidden)]
     pub fn lowest(&self) -> Option<(f64, &Decay)> {
         let told = self.times.iter().copied().zip(&self.orders).filter(|(_, decay)| decay.order.is_some());
         told.min_by(|a, b| a.1.order.unwrap_or(0.0).total_cmp(&b.1.order.unwrap_or(0.0)))

@@ -1,6 +1,6 @@
 //! A linear model at an equilibrium: eigenvalues of a pendulum that hangs at rest.
 
-use holonom::linearize::{Linear, State, at_rest};
+use holonom::linear::{State, at_rest, linearize};
 use holonom::prelude::*;
 
 #[test]

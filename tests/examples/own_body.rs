@@ -1,8 +1,9 @@
 //! An own body: a ball in a fluid, which carries some of it along.
 
 use holonom::Result;
-use holonom::body::{BodyFacts, BodyKernel, BodySpec, Build, Built, Energy, Frame, Initial, Marker};
-use holonom::math::{Scalar, expression::Number};
+use holonom::parts::{
+    BodyFacts, BodyKernel, BodySpec, Build, BuiltBody, Elements, Energy, Frame, Initial, Marker, Number, Scalar,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -19,12 +20,17 @@ pub struct BallInFluid {
 impl BodySpec for BallInFluid {
     const TYPE: &'static str = "ball_in_fluid";
 
-    fn build<const D: usize>(&self, markers: Vec<Marker<D>>, start: &Initial, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(
+        &self,
+        markers: Vec<Marker<D>>,
+        start: &Initial,
+        build: &Build<D>,
+    ) -> Result<BuiltBody<D>> {
         let mass = build.positive("mass", &self.mass)?;
         let inertia = mass + build.not_negative("added", &self.added)?;
         let weight = mass - build.not_negative("displaced", &self.displaced)?;
         let (q, v) = start.translation(build)?;
-        Ok(Built { body: Box::new(Ball { inertia, weight, markers }), q: q.to_vec(), v: v.to_vec() })
+        Ok(BuiltBody { body: Box::new(Ball { inertia, weight, markers }), q: q.to_vec(), v: v.to_vec() })
     }
 }
 
@@ -60,7 +66,7 @@ impl<const D: usize> BodyKernel<D> for Ball<D> {
 
 #[test]
 fn scenes_use_it_by_its_type_name() -> Result<()> {
-    let elements = holonom::scene::Elements::default().with_body::<BallInFluid>()?;
+    let elements = Elements::default().with_body::<BallInFluid>()?;
     let scene = r#"{ "name": "ball", "dimension": 2, "gravity": [0, -10],
         "bodies": [{ "name": "ball", "type": "ball_in_fluid", "mass": 3, "added": 1, "displaced": 1 }] }"#;
     let prepared = holonom::prepared::PreparedScene::new(elements.parse(scene, &[])?, &Default::default())?;

@@ -1,9 +1,8 @@
 //! An own force: a spring that hardens as it is stretched.
 
 use holonom::Result;
-use holonom::body::{Build, Wrench, dot, norm, sub};
-use holonom::force::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
-use holonom::math::{Scalar, expression::Number};
+use holonom::parts::{Action, Build, BuiltForce, Elements, ForceKernel, ForceSpec, Instant, Motion, Number, Scalar};
+use holonom::parts::{Wrench, dot, norm, sub};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -21,10 +20,10 @@ pub struct HardeningSpring {
 impl ForceSpec for HardeningSpring {
     const TYPE: &'static str = "hardening_spring";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltForce<D>> {
         let k = build.not_negative("stiffness", &self.stiffness)?;
         let k3 = build.not_negative("hardening", &self.hardening)?;
-        Ok(Built { force: Box::new(Spring { k, k3 }), markers: build.between(&self.between)? })
+        Ok(BuiltForce { force: Box::new(Spring { k, k3 }), markers: build.between(&self.between)? })
     }
 }
 
@@ -48,7 +47,7 @@ impl<const D: usize> ForceKernel<D> for Spring {
 
 #[test]
 fn scenes_use_it_by_its_type_name() -> Result<()> {
-    let elements = holonom::scene::Elements::default().with_force::<HardeningSpring>()?;
+    let elements = Elements::default().with_force::<HardeningSpring>()?;
     let scene = r#"{ "name": "bead", "dimension": 3,
         "bodies": [{ "name": "bead", "type": "point_mass", "mass": 1, "initial": { "position": [2, 0, 0] } }],
         "forces": [{ "name": "spring", "type": "hardening_spring", "between": ["ground", "bead"],

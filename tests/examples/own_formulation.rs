@@ -1,12 +1,10 @@
 //! An own formulation: a vector field q', v' for explicit integrators.
 
 use holonom::Result;
-use holonom::formulation::{Dynamics, Entry, Formulation, StepError};
-use holonom::method_spec::{Listed, OptionDoc};
-use holonom::simulate::Method;
+use holonom::methods::{Dynamics, Formulation, FormulationEntry, Listed, Method, OptionDoc, StepError};
 
 /// phi'' + rate phi' = 0
-pub static BRAKED: Entry = Entry {
+pub static BRAKED: FormulationEntry = FormulationEntry {
     name: "braked",
     about: "phi'' + rate phi' = 0",
     options: &[OptionDoc { name: "rate", about: "at which phi' decays, 1/s (default 1)" }],

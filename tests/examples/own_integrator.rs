@@ -1,13 +1,10 @@
 //! An own integrator: one step of y' = F(t, y), with y = (q, v, work).
 
 use holonom::Result;
-use holonom::formulation::StepError;
-use holonom::integrator::{Control, Entry, From, Integrator, Problem};
-use holonom::method_spec::Listed;
-use holonom::simulate::Method;
+use holonom::methods::{Control, Integrator, IntegratorEntry, Listed, Method, Problem, StepError, StepStart};
 
 /// The explicit midpoint rule, y_1 = y + h F(t + h/2, y + h/2 F(t, y)).
-pub static MIDPOINT: Entry = Entry::new("midpoint", "the explicit midpoint rule", 2, |setup| {
+pub static MIDPOINT: IntegratorEntry = IntegratorEntry::new("midpoint", "the explicit midpoint rule", 2, |setup| {
     let zeros = || vec![0.0; setup.len()];
     Ok(Box::new(Midpoint { middle: zeros(), slope: zeros(), control: Control::new(2.0, 0.2, 5.0) }))
 });
@@ -19,7 +16,7 @@ struct Midpoint {
 }
 
 impl Integrator for Midpoint {
-    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         let h = from.h;
         let ahead = |out: &mut [f64], h: f64, slope: &[f64]| {
             out.iter_mut().zip(from.y.iter().zip(slope)).for_each(|(out, (y, slope))| *out = y + h * slope);

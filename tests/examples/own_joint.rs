@@ -1,10 +1,8 @@
 //! An own joint: a point stays on a parabola.
 
 use holonom::Result;
-use holonom::body::{Build, Frame, dot, sub};
-use holonom::joint::{Built, JointKernel, JointSpec};
-use holonom::math::{Scalar, Time, expression::Number};
-use holonom::scene::{Elements, SceneBuilder, json};
+use holonom::parts::{Build, BuiltJoint, Elements, Frame, JointKernel, JointSpec, Number, Scalar, SceneBuilder, Time};
+use holonom::parts::{dot, json, sub};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -20,9 +18,9 @@ pub struct PointOnParabola {
 impl JointSpec for PointOnParabola {
     const TYPE: &'static str = "point_on_parabola";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         let curvature = build.number("curvature", &self.curvature)?;
-        Ok(Built { joint: Box::new(Parabola { curvature }), markers: build.between(&self.between)? })
+        Ok(BuiltJoint { joint: Box::new(Parabola { curvature }), markers: build.between(&self.between)? })
     }
 }
 

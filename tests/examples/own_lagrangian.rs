@@ -1,12 +1,9 @@
 //! Own equations from energies: M, f with its Coriolis terms and all derivatives follow from T and V.
 
 use holonom::Result;
-use holonom::analysis::Recorder;
-use holonom::linearize::{Request, Variation, linearize};
-use holonom::math::Scalar;
-use holonom::method_spec::MethodSpec;
-use holonom::simulate::{Method, Span, simulate};
-use holonom::system::Lagrangian;
+use holonom::linear::{Linear, Variation, linearize};
+use holonom::methods::{Method, MethodSpec};
+use holonom::prelude::*;
 
 const GRAVITY: f64 = 9.81;
 
@@ -36,15 +33,11 @@ impl Lagrangian for DoublePendulum {
 fn a_lagrangian_is_simulated_and_linearized() -> Result<()> {
     let system = DoublePendulum { masses: [1.0, 1.0], lengths: [1.0, 1.0] };
     let method = Method { rtol: 1e-10, atol: 1e-10, ..Method::default() };
-    let span = Span { start: 0.0, end: 2.0, output_step: 0.1 };
-    let mut recorder = Recorder::new(&system);
-    let outcome = simulate(&system, &method, span, (&[1.5, -0.5], &[0.0, 1.0]), &mut recorder)?;
-    assert!(outcome.failure.is_none());
-    let energy = recorder.finish().energy.and_then(|energy| energy.relative_max_error);
-    assert!(energy.is_some_and(|error| error < 1e-9));
+    let record = simulate(&system, &method, &([1.5, -0.5], [0.0, 1.0]), 0.0..2.0)?.record;
+    assert!(record.energy_error() < 1e-9);
 
     // Hanging at rest, omega^2 = (2 -+ sqrt 2) g/l.
-    let request = Request { method: MethodSpec::named("mcs"), chart: None };
+    let request = Linear { method: MethodSpec::named("mcs"), chart: None };
     let model = linearize(&mut Variation::new(&system, 0.0, &[0.0, 0.0], &[0.0, 0.0])?, &request)?;
     let mut frequencies: Vec<f64> = model.modes.iter().map(|mode| mode.value.im.abs()).collect();
     frequencies.sort_by(f64::total_cmp);

@@ -1,14 +1,11 @@
 //! An own projection: what is done to q and v after each step.
 
 use holonom::Result;
-use holonom::formulation::{Dynamics, StepError};
-use holonom::method_spec::Listed;
-use holonom::projection::{Entry, Projection};
-use holonom::simulate::Method;
+use holonom::methods::{Dynamics, Listed, Method, Projection, ProjectionEntry, StepError};
 use holonom::system::Need;
 
 /// Velocities back to G v + phi_t = 0, moving least in the mass metric; positions drift.
-static VELOCITIES: Entry = Entry {
+static VELOCITIES: ProjectionEntry = ProjectionEntry {
     name: "velocities",
     about: "G v + phi_t = 0 after each step",
     options: &[],

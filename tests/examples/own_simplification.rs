@@ -1,8 +1,8 @@
 //! An own kind of simplification: a pendulum becomes a point mass on a massless rod.
 
-use holonom::prepared::Overrides;
-use holonom::scene::json;
-use holonom::simplify::{Candidate, Facts, Proposal, Settings, Source, simplify};
+use holonom::parts::json;
+use holonom::research::simplify::{Candidate, Facts, Proposal, Settings, Source, simplify};
+use holonom::run::Overrides;
 
 /// A rigid body with a small moment of inertia on a pin of the ground, by its part J/(m l^2) of the whole.
 struct MathematicalPendulum;

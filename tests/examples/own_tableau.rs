@@ -1,15 +1,13 @@
 //! An own explicit Runge-Kutta method: its tableau.
 
 use holonom::Result;
-use holonom::integrator::{Control, Entry, ErrorEstimate, Explicit, Steps, Tableau};
-use holonom::method_spec::Listed;
-use holonom::simulate::Method;
+use holonom::methods::{Control, ErrorEstimate, Explicit, IntegratorEntry, Listed, Method, Steps, Tableau};
 
 /// Bogacki and Shampine, Appl. Math. Lett. 2 (1989) 321-325: order 3 with an error estimate of order 2, adaptive steps.
-static BS23: Entry = Entry {
+static BS23: IntegratorEntry = IntegratorEntry {
     steps: Steps::Either,
     stability: Some(|| TABLEAU.stability()),
-    ..Entry::new("bs23", "Bogacki and Shampine's pair, 4 evaluations a step", 3, |setup| {
+    ..IntegratorEntry::new("bs23", "Bogacki and Shampine's pair, 4 evaluations a step", 3, |setup| {
         Ok(Box::new(Explicit::new(&TABLEAU, setup.len())))
     })
 };

@@ -1,7 +1,7 @@
 //! A scene built in code: a slider crank, simulated.
 
+use holonom::parts::{Elements, SceneBuilder, json};
 use holonom::prelude::*;
-use holonom::scene::json;
 
 #[test]
 fn a_slider_crank() -> Result<()> {

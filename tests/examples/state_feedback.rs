@@ -1,6 +1,6 @@
 //! A controller of one's own: a linear model of a crane, feedback from it, and the run under it.
 
-use holonom::linearize::{Linear, Matrix};
+use holonom::linear::Matrix;
 use holonom::prelude::*;
 
 /// u = -K x with the least integral of x^T Q x + u^2/1e6, by the Riccati equation P' = A^T P + P A - P B B^T P/r + Q.

@@ -31,10 +31,12 @@ const LEFT_AT_END: f64 = 1e-5;
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Singularity {
     /// The state of the motion that was nearest to a singular one; `None` without constraints.
+    #[doc(hidden)]
     pub nearest: Option<Nearest>,
     /// Number of singular or nearly singular states passed.
     pub count: usize,
     /// The first thousand of them, in order.
+    #[doc(hidden)]
     pub passed: Vec<Passing>,
 }
 

@@ -10,7 +10,7 @@ use roxmltree::Node;
 /// An element of a body, in a frame of it.
 pub struct Placed<'a, 'i> {
     pub node: Node<'a, 'i>,
-    /// That of the <frame>s around it.
+    /// That of the `<frame>`s around it.
     pub frame: Transform,
     /// Default class of what names none.
     pub class: Option<&'a str>,
@@ -42,7 +42,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(())
     }
 
-    /// The elements of a body, with those of the <frame>s in it.
+    /// The elements of a body, with those of the `<frame>`s in it.
     fn contents(&self, owner: Node<'a, 'i>, frame: Transform, class: Option<&'a str>) -> Result<Vec<Placed<'a, 'i>>> {
         let mut parts = Vec::new();
         for node in owner.children().filter(Node::is_element) {

@@ -5,7 +5,7 @@ use crate::import::xml::{Element, all, place};
 use roxmltree::Node;
 use std::collections::HashMap;
 
-/// Default classes: the <default>s of each, its own first, then those around it.
+/// Default classes: the `<default>`s of each, its own first, then those around it.
 pub struct Classes<'a, 'i> {
     chains: HashMap<&'a str, Vec<Node<'a, 'i>>>,
 }

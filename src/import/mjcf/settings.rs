@@ -10,7 +10,7 @@ pub struct Settings {
     pub unit: f64,
     /// The axes of Euler angles in their order; true for those that do not turn with the frame.
     pub euler: [(usize, bool); 3],
-    /// True: masses follow from geoms; false: from <inertial>; `None`: from geoms where there is no <inertial>.
+    /// True: masses follow from geoms; false: from `<inertial>`; `None`: from geoms where there is no `<inertial>`.
     pub from_geoms: Option<bool>,
     /// Groups of geoms that have mass.
     pub groups: [f64; 2],

@@ -13,7 +13,7 @@ use super::flow::{Snapshot, flow_through};
 use super::minimal::restrict;
 use super::spectrum::spectrum;
 use super::{
-    Branch, Chart, Coordinates, Cost, LinearModel, LociPoint, Matrix, Request, Response, State, Variation, reduction,
+    Branch, Chart, Coordinates, Cost, Linear, LinearModel, LociPoint, Matrix, Response, State, Variation, reduction,
     refuse_large, track,
 };
 use crate::error::{Error, Result, Warning};
@@ -40,9 +40,11 @@ pub struct Along {
     /// Phi_k from each time to the next, without the states of inputs.
     pub transitions: Vec<Matrix>,
     /// A against the limit of (Phi(t + h, t) - I)/h, at some of the times.
+    #[doc(hidden)]
     pub measured: Vec<MeasuredA>,
     /// Deviations of linear interpolation half-way between the times, for each kind of matrix: in all intervals, or in
     /// some that are spread evenly where there are many.
+    #[doc(hidden)]
     pub deviations: Vec<Deviation>,
     /// Of a transported basis, where the motion returns to its start: C with R(end) = R(start) C, in the intrinsic chart a
     /// rotation.
@@ -100,7 +102,7 @@ fn along_by(
     let course = Course::new(&mut variation, &chart)?;
     let first = course.start.clone();
     let bundle = course.bundle(start);
-    let request = Request { method: MethodSpec::named("mcs"), chart: Some(chart) };
+    let request = Linear { method: MethodSpec::named("mcs"), chart: Some(chart) };
     let mut pass = Pass {
         variation,
         course,
@@ -131,7 +133,7 @@ fn along_by(
 struct Pass<'a> {
     variation: Variation<'a>,
     course: Course,
-    request: Request,
+    request: Linear,
     /// Interpolation is measured in every interval of so many.
     stride: usize,
     models: Vec<LinearModel>,

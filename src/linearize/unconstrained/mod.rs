@@ -11,7 +11,7 @@ pub(super) use force_projection::FORCE_PROJECTION;
 pub(super) use penalty::{AUGMENTED_LAGRANGIAN, PENALTY};
 
 use super::changes::directions;
-use super::entry::{Built, Request};
+use super::entry::{Built, Linear};
 use super::input_states::InputStates;
 use super::minimal::restrict;
 use super::model::REDUNDANT;
@@ -31,7 +31,7 @@ const PROJECTED: OptionDoc = OptionDoc {
 /// where A = diag(B, B) A_u X0 is exact at any state for an exact formulation.
 fn build(
     variation: &mut Variation,
-    request: &Request,
+    request: &Linear,
     response: impl FnOnce(&mut Variation, &Perturbation) -> Result<Response>,
 ) -> Result<Built> {
     if request.method.one_of("projected", &["no", "yes"])? == "yes" {

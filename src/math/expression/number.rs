@@ -26,6 +26,7 @@ impl Number {
     /// # Errors
     ///
     /// If the expression cannot be parsed, depends on anything but parameters, or its value is not finite.
+    #[doc(hidden)]
     pub fn evaluate(&self, parameters: &dyn Names) -> Result<f64, ExpressionError> {
         match self {
             Number::Value(value) if value.is_finite() => Ok(*value),
@@ -39,6 +40,7 @@ impl Number {
     /// # Errors
     ///
     /// If the expression cannot be parsed, or its value is constant and not finite.
+    #[doc(hidden)]
     pub fn expression(&self, names: &dyn Names) -> Result<Expression, ExpressionError> {
         let expression = match self {
             Number::Value(value) => Expression::from(*value),

@@ -76,6 +76,7 @@ impl Parameters {
     ///
     /// # Errors
     /// A name that expressions use themselves, or that is one of a parameter or another signal.
+    #[doc(hidden)]
     pub fn add_signal(&mut self, signal: Signal) -> std::result::Result<(), ExpressionError> {
         let name = signal.name();
         let taken = match () {
@@ -92,6 +93,7 @@ impl Parameters {
     }
 
     /// The signals, in the order of the scene.
+    #[doc(hidden)]
     pub fn signals(&self) -> &[Arc<Signal>] {
         &self.signals
     }

@@ -98,6 +98,7 @@ pub struct Farther {
 
 impl Stressed {
     /// Returns the verdicts by integrator, each by velocities and by positions; empty for other maps.
+    #[doc(hidden)]
     pub fn gains(&self) -> Vec<GainVerdict> {
         let methods = if self.map.name == "gain" { self.map.methods.len() } else { 0 };
         let levels = [Quantity::Velocity, Quantity::Position];

@@ -37,12 +37,16 @@ pub struct Map {
     /// One line of description.
     pub about: String,
     /// First axis, the columns.
+    #[doc(hidden)]
     pub x: Axis,
     /// Second axis, the rows.
+    #[doc(hidden)]
     pub y: Axis,
     /// Compared methods, one panel each.
+    #[doc(hidden)]
     pub methods: Vec<AxisPlace>,
     /// Quantity that figures and tables show; files contain all.
+    #[doc(hidden)]
     pub quantity: Quantity,
 }
 

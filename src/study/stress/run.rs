@@ -36,6 +36,7 @@ pub struct Stressed {
     /// Names of the quantities whose errors the cells give.
     pub watched: Vec<String>,
     /// The difference of the reference in the middle of the map from a run of diffsol; none without such a reference.
+    #[doc(hidden)]
     pub second_opinion: Option<SecondOpinion>,
     /// Cells, columns fastest.
     pub cells: Vec<Cell>,

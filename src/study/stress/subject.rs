@@ -55,6 +55,7 @@ pub struct Subject<'a> {
     /// Values of the scene's parameters.
     pub values: Parameters,
     /// The case without changes.
+    #[doc(hidden)]
     pub base: Case,
     /// Numbers of coordinates, velocities and constraints.
     pub dimensions: Dimensions,
@@ -115,7 +116,7 @@ impl<'a> Subject<'a> {
     /// A subject of own equations from a consistent (q, v). Stress parameters of scenes do not apply.
     ///
     /// # Errors
-    /// As [`simulate`].
+    /// As `simulate`.
     pub fn of_equations(
         name: &str,
         system: &'a dyn MechanicalSystem,
@@ -152,6 +153,7 @@ impl<'a> Subject<'a> {
     ///
     /// # Errors
     /// The changed scene is not valid.
+    #[doc(hidden)]
     pub fn with<T>(&self, case: &Case, run: impl FnOnce(&Motion) -> Result<T>) -> Result<T> {
         let span = |start: f64| Span { start, end: start + case.duration, output_step: case.duration / ROWS };
         let perturbed = |system: &dyn MechanicalSystem, start: f64, state: (&[f64], &[f64])| {

@@ -49,6 +49,7 @@ pub struct Lack {
 
 impl WorkPrecision {
     /// Returns the reason why no run is known to have this many digits; none where one is.
+    #[doc(hidden)]
     pub fn lacks(&self, digits: u32) -> Option<Lack> {
         if self.recommend(digits).is_some() {
             return None;

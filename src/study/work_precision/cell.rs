@@ -110,6 +110,7 @@ impl Cell {
     }
 
     /// Returns the drift of a completed run.
+    #[doc(hidden)]
     pub fn drift(&self) -> Option<Held> {
         let Outcome::Completed { drift, .. } = self.outcome else { return None };
         Some(drift)

@@ -53,6 +53,7 @@ pub struct WorkPrecision {
     /// Number of times at which motions are compared, after the start up to the end.
     pub rows: usize,
     /// Reference values; none before they are computed.
+    #[doc(hidden)]
     pub reference: Option<Reference>,
     /// Runs by method, from loose to tight.
     pub cells: Vec<Cell>,

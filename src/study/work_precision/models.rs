@@ -104,7 +104,7 @@ pub struct ModelCost {
     pub failure: Option<Failure>,
 }
 
-/// Difference of an output relative to its size in the motion of the full model: see [`ErrorMetric`].
+/// Difference of an output relative to its size in the motion of the full model: see `ErrorMetric`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OutputError {
     /// Name of the output.

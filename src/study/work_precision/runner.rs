@@ -31,6 +31,7 @@ pub struct Plan {
     /// True if methods far behind are tried at tighter tolerances too.
     pub is_exhaustive: bool,
     /// Reference values that replace a computed reference.
+    #[doc(hidden)]
     pub given: Option<Given>,
 }
 
