@@ -231,6 +231,11 @@ pub struct Built<const D: usize> {
 }
 
 impl<const D: usize> Built<D> {
+    /// The body of a kernel, with its coordinates and velocities at the start.
+    pub fn new(kernel: impl BodyKernel<D>, q: Vec<f64>, v: Vec<f64>) -> Self {
+        Built { body: Box::new(kernel), q, v }
+    }
+
     /// Refuses a body of inconsistent sizes: a mistake in the code of its type, not in a scene.
     fn checked(self, markers: usize) -> Result<Self> {
         let Built { body, q, v } = &self;

@@ -99,6 +99,7 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     /// Writes the arguments of its switching functions at the numbers that [`Build::switch`] gave; those of an
     /// expression by
     /// [`Expression::arguments`](crate::math::expression::Expression::arguments). Default: it has none.
+    #[doc(hidden)]
     fn switching(&self, _frames: &[Frame<Rate, D>], _time: Time<Rate>, _out: &mut [Rate]) {}
 }
 
@@ -190,12 +191,18 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
 /// A joint ready for the model, with its markers.
 pub struct Built<const D: usize> {
     /// The kernel, boxed.
+    #[doc(hidden)]
     pub joint: Box<dyn Joint<D>>,
     /// 1 to `MOST_MARKERS`, as [`Build::between`] or [`Build::marker`] find them.
     pub markers: Vec<MarkerId>,
 }
 
 impl<const D: usize> Built<D> {
+    /// The joint of a kernel at its markers.
+    pub fn new(kernel: impl JointKernel<D>, markers: Vec<MarkerId>) -> Self {
+        Built { joint: Box::new(kernel), markers }
+    }
+
     /// Refuses too few or too many rows or markers: a mistake in the code of the type, not in a scene.
     fn checked(self) -> Result<Self> {
         let rows = self.joint.row_names().len();
