@@ -175,7 +175,7 @@ impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
 /// The object-safe form of a force; implemented for every [`ForceKernel`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no equations of a force",
-    note = "implement `holonom::force::ForceKernel<D>`: `act` over any scalar, for D = 2, 3 or both"
+    note = "implement `holonom::parts::ForceKernel<D>`: `act` over any scalar, for D = 2, 3 or both"
 )]
 pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send + Sync {
     /// The wheel to be drawn, if it is one.
@@ -241,7 +241,7 @@ impl<const D: usize> Built<D> {
 /// The keys of a kind of force in a scene, without name and type: see [`JointSpec`](crate::joint::JointSpec).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no force of a scene",
-    note = "implement `holonom::force::ForceSpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"
+    note = "implement `holonom::parts::ForceSpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"
 )]
 pub trait ForceSpec: DeserializeOwned + JsonSchema {
     /// Its `type` in scenes.

@@ -117,7 +117,7 @@ pub trait JointOver<S: Scalar, const D: usize> {
 /// The object-safe form of a joint; implemented for every [`JointKernel`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no equations of a joint",
-    note = "implement `holonom::joint::JointKernel<D>`: phi over any scalar, for D = 2, 3 or both"
+    note = "implement `holonom::parts::JointKernel<D>`: phi over any scalar, for D = 2, 3 or both"
 )]
 pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Dual6, D> + Send + Sync {
     /// Names of the rows of phi.
@@ -220,7 +220,7 @@ impl<const D: usize> Built<D> {
 /// [`Number`](crate::math::expression::Number) may be an expression.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no joint of a scene",
-    note = "implement `holonom::joint::JointSpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"
+    note = "implement `holonom::parts::JointSpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"
 )]
 pub trait JointSpec: DeserializeOwned + JsonSchema {
     /// Its `type` in scenes.
