@@ -166,17 +166,17 @@ impl Error {
     }
 }
 
-/// `{error}` calls settings by their names, `{error:#}` as the options of the command line.
 impl fmt::Display for Error {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let text = match self {
-            Error::Input(input) => input.to_string(),
+        match self {
+            Error::Input(input) => input.fmt(out),
             Error::File { path, problem } | Error::Unwritten { path, problem } => {
-                return write!(out, "{}: {problem}", path.display());
+                write!(out, "{}: {problem}", path.display())
             }
-            Error::Run(Failure { t, reason, hint }) => format!("stopped at t = {t:.6e} s: {reason}\n  help: {hint}"),
-        };
-        out.write_str(&if out.alternate() { text } else { without_options(&text) })
+            Error::Run(Failure { t, reason, hint }) => {
+                write!(out, "stopped at t = {t:.6e} s: {reason}\n  help: {hint}")
+            }
+        }
     }
 }
 
@@ -184,34 +184,6 @@ impl fmt::Debug for Error {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, out)
     }
-}
-
-/// The text with `--output-step` as the setting `output_step`; a whole command in quotation marks stays.
-fn without_options(text: &str) -> String {
-    let mut plain = String::with_capacity(text.len());
-    for (number, part) in text.split('`').enumerate() {
-        let is_quoted = number % 2 == 1;
-        let mark = if is_quoted { "" } else { "`" };
-        plain.push_str(if number > 0 { "`" } else { "" });
-        let mut rest = part;
-        while let Some(start) = option_start(rest).filter(|start| !is_quoted || *start == 0) {
-            let name = &rest[start + 2..];
-            let end = name.find(|c: char| c != '-' && !c.is_ascii_alphanumeric()).unwrap_or(name.len());
-            plain.extend([&rest[..start], mark, &name[..end].replace('-', "_"), mark]);
-            rest = &name[end..];
-        }
-        plain.push_str(rest);
-    }
-    plain
-}
-
-/// Place of the first word that is an option.
-fn option_start(text: &str) -> Option<usize> {
-    let is_option = |(at, _): &(usize, &str)| {
-        let is_first = text[..*at].chars().next_back().is_none_or(|before| !before.is_alphanumeric() && before != '-');
-        is_first && text[at + 2..].starts_with(|c: char| c.is_ascii_lowercase())
-    };
-    text.match_indices("--").find(is_option).map(|(at, _)| at)
 }
 
 impl fmt::Display for Input {
@@ -432,16 +404,6 @@ mod tests {
             (Some("alpha"), None)
         );
         assert_eq!(suggest("hinge", ["weld", "gear"]), "choose one of weld, gear");
-    }
-
-    #[test]
-    fn options_are_settings_for_a_program() {
-        let hint = "give --output-step H, `--method auto` or `holonom check --static`; a--b -- c stays";
-        let error = Error::input("the name `x--y` is odd").under("--until").hint(hint);
-        let options = format!("at --until: the name `x--y` is odd\n  help: {hint}");
-        assert_eq!(format!("{error:#}"), options);
-        let settings = "give `output_step` H, `method auto` or `holonom check --static`; a--b -- c stays";
-        assert_eq!(error.to_string(), format!("at `until`: the name `x--y` is odd\n  help: {settings}"));
     }
 
     #[test]

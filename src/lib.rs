@@ -107,7 +107,8 @@
 //! | `l` | d(G v + phi_t)/dq along the directions of v | `h, rtol, atol` | step, tolerances |
 //!
 //! Features, both on by default: `cli`, the module of that name and the program; `figures`, PNG and GIF beside SVG. `cli`
-//! includes `npz`, NumPy's archives, and `urdf`, the module `import`. `python` is for maturin, which builds the package.
+//! includes `view`, the page that shows a motion; `npz`, NumPy's archives, and `urdf`, the module `import`. `python` is
+//! for maturin, which builds the package.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -181,6 +182,9 @@ pub mod tolerances;
 pub mod trajectory;
 #[doc(hidden)]
 pub mod validate;
+#[cfg(feature = "view")]
+#[doc(hidden)]
+pub mod view;
 
 pub use error::{Error, Result};
 

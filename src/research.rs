@@ -39,7 +39,8 @@
 //! | `study` | many simulations of one scene: drift under stabilizations, speed for accuracy (`study::work_precision`), maps over stress parameters (`study::stress`), variants with recorded numbers (`study::variants`) | a stress parameter: an entry in `study::stress::registry` |
 //! | `simplify` | the least model of a scene that keeps a promise | a file and a line in `simplify::registry`, or from outside |
 //! | `tolerances` | thresholds that several files share, with what they decide, their unit, reason and test | |
-//! | `plot`, `report`, `cli` | figures, files and text, the command line | one file a subcommand |
+//! | `plot`, `report`, `view` | figures, files and text, the page that shows a motion | |
+//! | `cli` | the command line | one file a subcommand |
 //! | `python` | the compiled part of the Python package in `src/python` (feature `python`) | |
 //!
 //! # Packages

@@ -24,6 +24,7 @@ const LAYERS: &[&[&str]] = &[
     &["simplify"],
     &["plot"],
     &["report", "guide"],
+    &["view"],
     &["linear", "methods", "parts"],
     &["cli"],
     &["python"],

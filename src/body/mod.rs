@@ -59,7 +59,7 @@ pub use rigid::Initial;
 pub(crate) use rigid_planar::RigidPlanar;
 pub(crate) use rigid_spatial::RigidSpatial;
 #[doc(hidden)]
-pub use shapes::MassProperties;
+pub use shapes::{Form, MassProperties, Solid, solids};
 pub(crate) use state::StateBody;
 #[doc(hidden)]
 pub use turning::{TurnAxes, Turned, Turning};

@@ -6,8 +6,9 @@ use crate::error::{Error, Failure, INTERRUPTED, Result};
 use crate::integrator;
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
-use crate::report::Stabilizations;
+use crate::report::{Ending, Shown, Stabilizations};
 use crate::study::{StabilizedRun, drift_under_stabilizations, stabilizations};
+use crate::view::{Extras, Run, page};
 use std::process::ExitCode;
 
 #[derive(clap::Args)]
@@ -20,6 +21,9 @@ pub struct Args {
     common: Common,
     #[command(flatten)]
     output: Output,
+    /// The page of `holonom view`, too: the run with the least drift, the others as ghosts
+    #[arg(long)]
+    view: bool,
 }
 
 pub fn run(args: Args) -> Result<ExitCode> {
@@ -27,13 +31,33 @@ pub fn run(args: Args) -> Result<ExitCode> {
     let prepared = load(&args.common)?;
     args.common.span(&prepared)?;
     let count = stabilizations(&prepared, 1.0)?.len();
-    let folder = args.output.folder(&prepared.name)?;
+    let mut folder = args.output.folder(&prepared.name)?;
     let bar = args.common.talk.progress(count as u64, "drift");
     let runs = drift_under_stabilizations(&prepared, || interrupt::stop(&folder), || bar.inc(1))?;
     bar.finish_and_clear();
+    if args.view {
+        view(&prepared, &runs).iter().try_for_each(|page| folder.write("stabilizations-view.html", page.as_bytes()))?;
+    }
     let answer = Stabilizations { prepared: &prepared, runs };
     args.common.talk.publish(folder, "stabilizations", args.common.talk.origin(&prepared), &answer)?;
     fatal(&answer.runs).map_or(Ok(ExitCode::SUCCESS), |failure| Err(failure.clone().into()))
+}
+
+/// Returns the page of all runs with their own motion; none without any.
+fn view(prepared: &PreparedScene, runs: &[StabilizedRun]) -> Option<String> {
+    let mut shown: Vec<&StabilizedRun> = runs.iter().filter(|run| !run.motion.rows.is_empty()).collect();
+    // Failed ones last, then by their drift.
+    shown.sort_by(|a, b| a.drift.position.max.total_cmp(&b.drift.position.max));
+    shown.sort_by_key(|run| run.failure.is_some());
+    let (best, others) = shown.split_first()?;
+    let ghosts = others.iter().map(|run| motion_of(prepared, run)).collect();
+    Some(page(&motion_of(prepared, best), &Extras { ghosts, ..Extras::default() }))
+}
+
+fn motion_of<'a>(prepared: &'a PreparedScene, run: &'a StabilizedRun) -> Run<'a> {
+    let ending = Ending::of(run.failure.as_ref(), &run.drift, run.energy.as_ref());
+    let rows = Shown::of_trajectory(ending, &run.motion).rows;
+    Run { label: run.method.clone(), rows, ..Run::new(prepared, &run.motion) }
 }
 
 /// Refuses a formulation or a projection, since all of them are compared.

@@ -10,9 +10,10 @@ use crate::linearize::{
 };
 use crate::method_spec::MethodSpec;
 use crate::prepared::PreparedScene;
-use crate::report::linear::{AgainstAnswer, AlongAnswer, ArrayFormat, Linear, LinearAnswer, MethodsAnswer};
+use crate::report::linear::{AgainstAnswer, AlongAnswer, ArrayFormat, Linear, LinearAnswer, MethodsAnswer, stem_at};
 use crate::report::{Answer, Folder, uncertain_kinds};
 use crate::sweep::Range;
+use crate::view::{Extras, Run, page, still};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -46,6 +47,9 @@ pub struct Args {
     /// Modes nearest to this circular frequency
     #[arg(long, value_name = "RAD_PER_S", value_parser = number, requires = "modes")]
     shift: Option<f64>,
+    /// The page of `holonom view` with the mode shapes, too, for each state
+    #[arg(long, conflicts_with = "along")]
+    view: bool,
     /// Another scene of the mechanism, such as simplified.json: which modes it has lost, and how far others shift
     #[arg(long, value_name = "SCENE")]
     against: Option<PathBuf>,
@@ -242,6 +246,11 @@ fn add(
 ) -> Result<Value> {
     let first = &models[0];
     let LinearizationPoint { t, is_equilibrium, .. } = first.point;
+    if args.view {
+        let still = still(prepared, &first.point);
+        let page = page(&Run::new(prepared, &still), &Extras { model: Some(first), ..Extras::default() });
+        folder.write(&format!("{}.html", stem_at("view", t)), page.as_bytes())?;
+    }
     let linear = Linear { scene: &prepared.name, names: &prepared.system().facts().names, model: first };
     let mut json = args.at.add(folder, "linear", (prepared, t), &LinearAnswer { prepared, linear })?;
     if let Some(against) = against {

@@ -28,6 +28,7 @@ pub mod terminal;
 mod tradeoff;
 mod transition;
 mod validate;
+mod view;
 
 use crate::clock;
 use crate::error::{Error, Result};
@@ -82,6 +83,8 @@ enum Command {
     Sweep(kinematics::Args),
     /// The mechanism itself: at one time, at several in one figure, or in motion
     Plot(plot::Args),
+    /// One page for a browser: the mechanism in motion to turn around, its outputs, drift and modes
+    View(view::Args),
     /// Linear models (A, B, C, D) at states of the motion, by every approach, with their eigenvalues
     Linearize(linearize::Args),
     /// Eigenvalues along the motion, or over a parameter: each mode followed, with figures
@@ -149,8 +152,12 @@ const CLOCK: &str = "HOLONOM_CLOCK";
 /// The version with the features of this build.
 fn version() -> &'static str {
     static VERSION: OnceLock<String> = OnceLock::new();
-    let features =
-        [("figures", cfg!(feature = "figures")), ("npz", cfg!(feature = "npz")), ("urdf", cfg!(feature = "urdf"))];
+    let features = [
+        ("figures", cfg!(feature = "figures")),
+        ("npz", cfg!(feature = "npz")),
+        ("urdf", cfg!(feature = "urdf")),
+        ("view", cfg!(feature = "view")),
+    ];
     VERSION.get_or_init(|| {
         let names: Vec<&str> = features.iter().filter(|(_, is_built)| *is_built).map(|(name, _)| *name).collect();
         format!("{} (features: cli {})", env!("CARGO_PKG_VERSION"), names.join(" "))
@@ -199,6 +206,7 @@ fn execute(command: Command) -> Result<ExitCode> {
             kinematics::run(args)
         }
         Command::Plot(args) => plot::run(args),
+        Command::View(args) => view::run(args),
         Command::Linearize(args) => done(linearize::run(args)),
         Command::Loci(args) => loci::run(args),
         Command::Bode(args) => done(bode::run(args)),
@@ -224,7 +232,7 @@ fn done(result: Result<()>) -> Result<ExitCode> {
 }
 
 fn failed(error: &Error) -> ExitCode {
-    terminal::tell(format!("error: {error:#}"));
+    terminal::tell(format!("error: {error}"));
     ExitCode::from(error.exit_code())
 }
 

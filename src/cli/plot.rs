@@ -12,6 +12,7 @@ use crate::report::mechanism::{
 use crate::report::{Ending, FinishedRun, Folder, Format, Origin, Shown, outputs_figure};
 use crate::simulate::Span;
 use crate::trajectory::Trajectory;
+use crate::view::{Run, glb};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -39,6 +40,9 @@ pub struct Args {
     /// The mechanism in motion
     #[arg(long, value_enum, value_name = "FORMAT")]
     animate: Option<Moving>,
+    /// The motion as motion.glb, a file of glTF for viewers, slides and Blender
+    #[arg(long)]
+    gltf: bool,
     /// Frames a second
     #[arg(long, default_value_t = 25.0, requires = "animate", value_parser = rate)]
     fps: f64,
@@ -82,6 +86,8 @@ fn rate(text: &str) -> Result<f64, String> {
 
 /// Least and largest number of rows of the trajectory.
 const ROWS: (f64, f64) = (600.0, 20_000.0);
+/// Largest number of poses in a file of glTF.
+const MOST_POSES: usize = 1000;
 /// Longer animations are probably a mistake.
 const MOST_FRAMES: f64 = 1000.0;
 
@@ -92,6 +98,8 @@ struct Drawn {
     failure: Option<Failure>,
     times: Vec<f64>,
     animation: Option<Film>,
+    #[serde(skip)]
+    has_gltf: bool,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<String>,
 }
@@ -130,6 +138,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         failure: failure.clone().or(failed),
         times: Vec::new(),
         animation: None,
+        has_gltf: args.gltf,
         files: Vec::new(),
     };
     let motion = Motion::new(&prepared, &trajectory).titled(shown.title(&prepared.name));
@@ -155,7 +164,7 @@ impl Args {
 
     /// True if the mechanism is drawn at other times than its start.
     fn is_in_motion(&self) -> bool {
-        self.stroboscope || self.animate.is_some() || !self.at.is_empty()
+        self.stroboscope || self.animate.is_some() || !self.at.is_empty() || self.gltf
     }
 
     /// Returns the time span of the motion. The start alone needs no run, and no end time.
@@ -202,7 +211,9 @@ impl Args {
 
     /// Refuses what cannot be drawn, before anything is computed.
     fn check(&self, prepared: &PreparedScene, span: Option<Span>) -> Result<()> {
-        if self.output.figures == Format::None && (self.stroboscope || self.outputs || self.animate.is_none()) {
+        if self.output.figures == Format::None
+            && (self.stroboscope || self.outputs || self.animate.is_none() && !self.gltf)
+        {
             return Err(Error::input("there is nothing to draw").under("--figures").hint("choose svg or png"));
         }
         if self.at.len() > 1 && !self.stroboscope {
@@ -256,7 +267,7 @@ impl Args {
             let figure = stroboscope_figure(motion, look, &drawn.times);
             folder.figure("stroboscope", Some(figure))?;
             self.seal(folder, "stroboscope", prepared, drawn)?;
-        } else if self.animate.is_none() && !self.outputs || !self.at.is_empty() {
+        } else if self.animate.is_none() && !self.outputs && !self.gltf || !self.at.is_empty() {
             let t = self.at.first().map_or(prepared.start_time(), |t| t.min(motion.reach().1));
             let state = if self.at.is_empty() { State::start(prepared) } else { motion.state(t) };
             drawn.times = vec![t];
@@ -267,6 +278,11 @@ impl Args {
             let figure = outputs_figure(&prepared.name, (motion.trajectory(), None), shown, self.separate);
             folder.figure("plot-outputs", figure)?;
             self.seal(folder, "plot-outputs", prepared, drawn)?;
+        }
+        if self.gltf {
+            let run = Run::new(prepared, motion.trajectory());
+            folder.write("motion.glb", &glb(&run, MOST_POSES))?;
+            self.seal(folder, "motion", prepared, drawn)?;
         }
         match self.animate {
             Some(format) => self.animation(format, motion, look, folder, drawn),
@@ -365,6 +381,9 @@ impl Drawn {
             let pace = if speed.is_empty() { "in real time".to_string() } else { speed };
             let span = format!("from {} to {} s", significant(film.start, 4), significant(film.end, 4));
             lines.push(format!("{} {span}: {} frames, {} a second, {pace}", self.scene, film.frames, film.fps));
+        }
+        if self.has_gltf {
+            lines.push(format!("{}: the motion as glTF", self.scene));
         }
         if lines.is_empty() {
             lines.push(format!("{}: outputs over time", self.scene));

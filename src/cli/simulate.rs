@@ -11,6 +11,7 @@ use crate::simulate::{Span, Start, spread};
 use crate::study::{Completed, error_bars};
 use crate::system::{Dimensions, Scratch};
 use crate::trajectory::{Trajectory, recorded};
+use crate::view::{Extras, Run, page};
 use serde::Serialize;
 use std::cell::RefCell;
 use std::path::PathBuf;
@@ -35,6 +36,9 @@ pub struct Args {
     /// One panel an output in its figure (default: one for those of a unit whose ranges are alike)
     #[arg(long)]
     separate: bool,
+    /// The page of `holonom view`, too
+    #[arg(long, conflicts_with = "outputs_only")]
+    view: bool,
     /// Give each output an error bar, from a second run with ten times the tolerance or twice the step
     #[arg(long)]
     check_error: bool,
@@ -133,9 +137,10 @@ impl Args {
         self.common.span_with(prepared, columns, self.keeps_rows())
     }
 
-    /// True if all rows are needed at the end: arrays have their size first, and errors compare all rows of two runs.
+    /// True if all rows are needed at the end: arrays have their size first, errors compare all rows of two runs, and a
+    /// page shows the coordinates.
     fn keeps_rows(&self) -> bool {
-        self.check_error || self.format.iter().any(|format| *format != Format::Csv)
+        self.check_error || self.view || self.format.iter().any(|format| *format != Format::Csv)
     }
 
     fn row_files(&self, prepared: &PreparedScene, folder: &mut Folder) -> Result<RowFiles> {
@@ -179,6 +184,20 @@ impl Answer for Simulated<'_> {
         let outputs = report::outputs_figure(name, (&record.trajectory, summary.error.as_ref()), &shown, args.separate);
         folder.figure("outputs", outputs)?;
         folder.figure("drift", report::drift_figure(name, record, &shown, length))?;
-        folder.figure("energy", report::energy_figure(name, record, &shown))
+        folder.figure("energy", report::energy_figure(name, record, &shown))?;
+        if args.view && shown.rows > 0 {
+            let run = Run {
+                rows: shown.rows,
+                drift: &record.drift_rows,
+                energy: &record.ledger_rows,
+                bars: summary.error.as_ref(),
+                ..Run::new(prepared, &record.trajectory)
+            };
+            folder.write(
+                "view.html",
+                page(&run, &Extras { notes: shown.note().into_iter().collect(), ..Extras::default() }).as_bytes(),
+            )?;
+        }
+        Ok(())
     }
 }

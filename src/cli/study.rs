@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
-  holonom study models/quarter_car.json --vary c_strut=500..4000:8 --record 'max(tyre_load),rms(travel)'
+  holonom study models/quarter_car.json --vary c_strut=500..4000:8 --record travel
   holonom study models/quarter_car.json --vary c_strut=500..4000 --vary m_body=300..500 --sample latin:6 --linearize")]
 pub struct Args {
     #[command(flatten)]

@@ -57,6 +57,7 @@ chapters! {
     singular
     events
     results
+    view
     troubleshooting
     rust
     python

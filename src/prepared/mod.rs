@@ -234,7 +234,11 @@ impl Model {
 
     /// The methods of a run with the tolerances of `method`.
     pub(crate) fn choice(&self, method: &Method) -> Choice {
-        if self.is_automatic { Choice::Automatic(method.rtol, method.atol) } else { Choice::One(method.clone()) }
+        if self.is_automatic {
+            Choice::Automatic(method.rtol, method.atol)
+        } else {
+            Choice::One(Box::new(method.clone()))
+        }
     }
 
     /// Refuses tolerances below the rounding of positions far from the origin.

@@ -198,10 +198,10 @@ impl Write for Stream {
 }
 
 /// Endings of the files of results.
-const ENDINGS: [&str; 8] = ["csv", "json", "svg", "png", "gif", "npz", "mat", "md"];
+const ENDINGS: [&str; 10] = ["csv", "json", "svg", "png", "gif", "npz", "mat", "md", "html", "glb"];
 /// Results whose files have other names than theirs.
 const FAMILIES: [(&str, &[&str]); 2] =
-    [("summary", &["trajectory", "drift", "energy", "outputs"]), ("simplify", &["simplified"])];
+    [("summary", &["trajectory", "drift", "energy", "outputs", "view"]), ("simplify", &["simplified"])];
 
 /// True if a command that writes the result `seal` may write `name`: a result that somebody else has written, or
 /// changed, must not make it remove other files.

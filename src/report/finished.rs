@@ -1,7 +1,7 @@
 //! A finished run, read back from its folder.
 
 use super::figures::Ending;
-use crate::analysis::{Drift, DriftLevel, EnergyBalance, thin};
+use crate::analysis::{Drift, DriftLevel, EnergyBalance, Ledger, thin};
 use crate::error::{Error, Failure, Result, suggest};
 use crate::files;
 use crate::math::expression::Number;
@@ -17,6 +17,7 @@ pub struct FinishedRun {
     pub failure: Option<Failure>,
     pub ending: Ending,
     path: PathBuf,
+    files: Vec<String>,
     headings: Vec<String>,
     rows: Vec<Vec<f64>>,
 }
@@ -70,7 +71,32 @@ impl FinishedRun {
         let number = |(name, value): (String, Value)| Some((name, Number::Value(value.as_f64()?)));
         let ending = saved.ending();
         let parameters = saved.parameters.into_iter().filter_map(number).collect();
-        Ok(FinishedRun { parameters, failure: saved.failure, ending, path, headings, rows })
+        Ok(FinishedRun { parameters, failure: saved.failure, ending, path, files: saved.files, headings, rows })
+    }
+
+    /// Returns the largest |phi|, |phi'| and |phi''| at each row; none where they were not written.
+    pub fn drift(&self) -> Result<Vec<[f64; 3]>> {
+        self.levels("drift.csv")
+    }
+
+    /// Returns the energies at each row; none where they were not written.
+    pub fn energy(&self) -> Result<Vec<Ledger>> {
+        let rows = self.levels("energy.csv")?.into_iter();
+        Ok(rows.map(|[kinetic, potential, work, error]| Ledger { kinetic, potential, work, error }).collect())
+    }
+
+    /// Returns the columns after the time of another table of the run.
+    fn levels<const N: usize>(&self, name: &str) -> Result<Vec<[f64; N]>> {
+        if !self.files.iter().any(|file| file == name) {
+            return Ok(Vec::new());
+        }
+        let path = self.path.with_file_name(name);
+        let (_, rows) = read_table(&path, false).map_err(|error| error.in_file(&path))?;
+        let values = |row: &Vec<f64>| row.get(1..).and_then(|row| row.try_into().ok());
+        rows.iter()
+            .map(values)
+            .collect::<Option<_>>()
+            .ok_or_else(|| Error::input(format!("this table does not have a time and {N} columns")).in_file(&path))
     }
 
     /// Returns the motion of the system; with time and outputs alone where that is all that was written.

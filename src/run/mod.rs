@@ -104,8 +104,8 @@ impl<'a> Run<'a> {
             Start::Saved(saved) => Origin::Saved(Box::new(saved.clone())),
         };
         match method.try_into().map_err(Error::from) {
-            Ok(method) => Run::of(system, Choice::One(method), start, t),
-            Err(error) => Run { refused: Some(error), ..Run::of(system, Choice::One(Method::default()), start, t) },
+            Ok(method) => Run::of(system, Choice::One(Box::new(method)), start, t),
+            Err(error) => Run { refused: Some(error), ..Run::of(system, Choice::One(Box::default()), start, t) },
         }
     }
 
@@ -314,7 +314,7 @@ impl<'a> Run<'a> {
         if let (&Choice::Automatic(rtol, atol), Start::State(q, v), true) =
             (&self.choice, self.start.start(), has_inputs)
         {
-            self.choice = Choice::One(advise(self.system, (rtol, atol), span, (q, v))?.0);
+            self.choice = Choice::One(Box::new(advise(self.system, (rtol, atol), span, (q, v))?.0));
         }
         let mut engine = Engine::new(self.system, &self.choice, span, self.start.start())?;
         if has_inputs {
@@ -324,7 +324,9 @@ impl<'a> Run<'a> {
                 Origin::Saved(saved) => self.inputs.go_on(saved.t(), self.began),
                 // The first samples are taken before the first row is shown.
                 Origin::State(..) => {
-                    self.observers.reader.read_present(&mut engine)?;
+                    let read = self.observers.reader.read_present(&mut engine);
+                    self.observers.reader.moment.check_names()?;
+                    read?;
                     self.inputs.sample((self.began, self.began), &self.observers.reader.moment, &mut u);
                     engine.time_loop().set_inputs(&u, self.inputs.law.as_ref());
                 }

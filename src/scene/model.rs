@@ -3,7 +3,9 @@
 use super::absolute_beam::BeamLine;
 use super::place::{Cut, Place};
 use super::units::Unit;
-use crate::body::{Body, BodyFacts, Energy, Formula, Frame, Marker, MarkerId, MarkerTable, Probe, Switches, Turning};
+use crate::body::{
+    Body, BodyFacts, Energy, Formula, Frame, Marker, MarkerId, MarkerTable, Probe, Solid, Switches, Turning,
+};
 use crate::force::Force;
 use crate::joint::Joint;
 use crate::math::Scalar;
@@ -61,6 +63,8 @@ pub struct Part<const D: usize> {
     pub nq: usize,
     /// Number of its velocities.
     pub nv: usize,
+    /// Shapes that it is made of, where the scene gives them.
+    pub solids: Vec<Solid>,
 }
 
 impl<const D: usize> Part<D> {

@@ -5,7 +5,7 @@ use super::format::SceneFile;
 use super::keys::{object, start_and_markers, take_kind, take_name, taken};
 use super::markers;
 use super::model::Part;
-use crate::body::{BodyFacts, BodyKind, Build, Built, Marker, MarkerId, MarkerTable, parse};
+use crate::body::{BodyFacts, BodyKind, Build, Built, Marker, MarkerId, MarkerTable, parse, solids};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use serde_json::{Map, Value};
@@ -100,8 +100,13 @@ impl<const D: usize> Parts<D> {
         let mut all = vec![Marker::point(origin)];
         let named = markers::markers(&given, &origin, build)?;
         all.extend(named.iter().map(|(_, marker)| *marker));
+        // Other kinds of bodies may have a key of this name, too.
+        let shapes = json.get("shapes").filter(|_| kind.name == "rigid").cloned();
         let built = (kind.build)(Value::Object(json), all, &initial, build)?;
         self.place(name.to_string(), named.iter().map(|(marker, _)| format!("{name}.{marker}")), built);
+        if let Some(part) = self.bodies.last_mut() {
+            part.solids = solids(shapes.as_ref(), build)?;
+        }
         Ok(())
     }
 
@@ -129,7 +134,8 @@ impl<const D: usize> Parts<D> {
         let nq = built.q.len();
         let nv = built.v.len();
         let facts = Box::new(facts);
-        self.bodies.push(Part { name, first_marker, first_q, first_v, nq, nv, facts, body: built.body });
+        let solids = Vec::new();
+        self.bodies.push(Part { name, first_marker, first_q, first_v, nq, nv, facts, solids, body: built.body });
         self.q.extend(built.q);
         self.v.extend(built.v);
     }

@@ -45,6 +45,9 @@ pub struct Checkpoint {
     divided: f64,
     progress: (f64, usize),
     next_row: u64,
+    /// Time of the last row that was shown, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    shown: Option<f64>,
     factored: u64,
     statistics: Statistics,
     /// Values of the inputs.
@@ -191,6 +194,7 @@ impl TimeLoop<'_> {
             divided: self.divided,
             progress: self.progress,
             next_row: self.rows.next,
+            shown: self.rows.shown.is_finite().then_some(self.rows.shown),
             factored: self.factored,
             statistics: self.statistics(),
             inputs: dynamics.scratch.inputs.clone(),
@@ -216,6 +220,7 @@ impl TimeLoop<'_> {
         if saved.method == *method {
             // The work of the saved run includes that of this row.
             self.rows.problem.dynamics.statistics = saved.statistics.rows.into();
+            self.rows.shown = saved.shown.unwrap_or(f64::NEG_INFINITY);
         }
         let is_same = self.span.start == saved.span.start && self.span.output_step == saved.span.output_step;
         // A row at the very time of the state may have been written, or not.

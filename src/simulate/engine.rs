@@ -23,13 +23,13 @@ pub enum End {
 /// The methods of a run.
 #[derive(Clone, Debug)]
 pub(crate) enum Choice {
-    One(Method),
+    One(Box<Method>),
     /// Chosen while it runs, with these rtol and atol.
     Automatic(f64, f64),
 }
 
 pub(crate) enum Engine<'a> {
-    One(Box<TimeLoop<'a>>, Method),
+    One(Box<TimeLoop<'a>>, Box<Method>),
     Automatic(Box<Drive<'a>>),
 }
 
@@ -43,7 +43,7 @@ impl<'a> Engine<'a> {
         };
         let one = |method: &Method| {
             method.check()?;
-            Ok(Engine::One(Box::new(TimeLoop::new(system, method, span, y.clone())?), method.clone()))
+            Ok(Engine::One(Box::new(TimeLoop::new(system, method, span, y.clone())?), Box::new(method.clone())))
         };
         match (choice, start) {
             (Choice::One(method), _) => one(method),
@@ -185,7 +185,7 @@ pub fn simulate_from(
     start: Start,
     sink: &mut dyn Sink,
 ) -> Result<(Outcome, Option<Checkpoint>)> {
-    let (outcome, _, saved) = run_through(system, &Choice::One(method.clone()), span, start, sink)?;
+    let (outcome, _, saved) = run_through(system, &Choice::One(Box::new(method.clone())), span, start, sink)?;
     Ok((outcome, saved))
 }
 

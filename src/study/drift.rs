@@ -11,6 +11,9 @@ use crate::system::Names;
 use crate::trajectory::Trajectory;
 use serde::Serialize;
 
+/// Largest number of rows of [`StabilizedRun::motion`].
+const MOST_ROWS: usize = 300;
+
 /// A run under one stabilization.
 #[derive(Serialize)]
 pub struct StabilizedRun {
@@ -41,6 +44,9 @@ pub struct StabilizedRun {
     /// Record of the run; of its trajectory the times only.
     #[serde(skip)]
     pub record: Record,
+    /// Rows of the motion, at most [`MOST_ROWS`].
+    #[serde(skip)]
+    pub motion: Trajectory,
 }
 
 /// Runs the scene under every stabilization. Gains follow from the mean step of the run without one, which comes first;
@@ -116,8 +122,11 @@ fn one(prepared: &PreparedScene, method: Method, stop: impl Fn() -> Option<Stop>
         simulate(prepared.system(), &method, prepared.span()?, prepared.start(), &mut recorder)?;
     let wall_seconds = watch.wall().as_secs_f64();
     let mut record = recorder.finish();
-    // Only the times of the motion are shown, and there are many records.
+    // There are many records: figures show their times alone, and a page shows some of their rows.
     let rows = record.trajectory.times().map(|t| vec![t]).collect();
+    let mut motion = record.trajectory;
+    let stride = motion.rows.len().div_ceil(MOST_ROWS).max(1);
+    motion.rows = motion.rows.into_iter().step_by(stride).collect();
     record.trajectory = Trajectory { names: Names::default(), outputs: Vec::new(), rows };
     let Method { formulation, projection, .. } = method;
     Ok(StabilizedRun {
@@ -139,5 +148,6 @@ fn one(prepared: &PreparedScene, method: Method, stop: impl Fn() -> Option<Stop>
         factorizations: statistics.factorizations,
         wall_seconds,
         record,
+        motion,
     })
 }

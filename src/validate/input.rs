@@ -68,7 +68,8 @@ pub(super) fn check(
         ..Bundle::of(start)
     };
     let half = start.t + 0.5 * width;
-    let (snapshots, charts) = carried.flow(&bundle, &[half, start.t + width])?;
+    let snapshots = carried.flow(&bundle, &[half, start.t + width])?;
+    let charts = carried.charts(&snapshots)?;
     let ([middle, end], [chart, last]) = (&snapshots[..], &charts[..]) else { return Ok(Pulsed::TooSlow) };
     let errors_ltv = norm.errors(system, end, &end.columns, &EPSILONS);
     let order_ltv = norm.order(system, end, &EPSILONS, &errors_ltv);
@@ -76,7 +77,8 @@ pub(super) fn check(
         2 => (response(model, &pulse, 0.5 * width), lifted(chart, &middle.columns, (input, pulse.jet(half)[0] / size))),
         _ => (lti, last.states_of(&end.columns)),
     };
-    let error_lti = norm.states(chart, &(&lti / size - &reached)) / norm.states(chart, &reached);
+    let freedom = chart.freedom();
+    let error_lti = norm.states(freedom, &(&lti / size - &reached)) / norm.states(freedom, &reached);
     Ok(Pulsed::Checked(InputCheck { input: name, width, amplitudes, errors_ltv, order_ltv, error_lti }))
 }
 

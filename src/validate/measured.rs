@@ -9,7 +9,7 @@
 //! motion needs to be integrated. States and inputs are perturbed one at a time. The chart at h is that carried along
 //! the motion. Both limits are extrapolated.
 
-use super::deviation::{Comparison, Deviation, Limits};
+use super::deviation::{Comparison, Deviation, Limits, Unjudged};
 use super::limit::{Limit, limit};
 use super::probe::{Probe, Shift};
 use crate::error::Result;
@@ -47,6 +47,8 @@ pub struct Measured {
     pub c: Option<Deviation>,
     /// Of D.
     pub d: Option<Deviation>,
+    /// Rows of which entries are not judged.
+    pub unjudged: Vec<Unjudged>,
 }
 
 impl Measured {
@@ -72,11 +74,12 @@ struct Column {
     is_input: bool,
 }
 
-/// True if the two sides of a state have different slopes: the even part of a change, which falls with its size where
-/// there is a derivative, does not fall.
-fn has_kink(slopes: &[(f64, Matrix, Matrix)], row: usize) -> bool {
-    let [Some((_, _, far)), Some((_, slope, near))] = [slopes.first(), slopes.last()] else { return false };
-    near[row].abs() > 0.5 * far[row].abs() && near[row].abs() > SAME * slope.amax()
+/// True if the two sides of a state have different slopes: the even part of a change over its size, which falls with
+/// the size where there is a derivative, does not fall and is not the `rounding` of the change.
+fn has_kink(slopes: &[(f64, Matrix, Matrix)], row: usize, rounding: f64) -> bool {
+    let [Some((_, _, far)), Some((eps, slope, near))] = [slopes.first(), slopes.last()] else { return false };
+    let least = (SAME * slope[row].abs()).max(rounding / eps);
+    near[row].abs() > 0.5 * far[row].abs() && near[row].abs() > least
 }
 
 /// The model at a state, and the memory to measure it.
@@ -183,7 +186,7 @@ impl<'m, 'a> Bench<'m, 'a> {
             let rounding = 10.0 * bounds(noise.filter(|x| x.is_finite())).1.max(0.0);
             for (column, (slopes, _)) in tables.iter().enumerate() {
                 let limit = found(slopes, rounding);
-                let uncertainty = if has_kink(slopes, row) { f64::INFINITY } else { limit.uncertainty };
+                let uncertainty = if has_kink(slopes, row, rounding) { f64::INFINITY } else { limit.uncertainty };
                 limits.set((row, column), Limit { uncertainty, ..limit });
             }
         }
@@ -311,6 +314,7 @@ impl<'m, 'a> Bench<'m, 'a> {
             b: block(0..n, own..columns.len()),
             c: block(n..all, 0..own),
             d: block(n..all, own..columns.len()),
+            unjudged: comparison.unjudged([&rows, &columns]),
         })
     }
 }

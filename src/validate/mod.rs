@@ -14,6 +14,7 @@ mod input;
 mod limit;
 mod measured;
 mod order;
+mod passage;
 mod perturb;
 mod probe;
 mod regular;
@@ -21,7 +22,7 @@ mod run;
 mod sequence;
 mod span;
 
-pub use deviation::{Deviation, Entry};
+pub use deviation::{Deviation, Entry, Reason, Unjudged};
 pub use direction::Direction;
 #[doc(hidden)]
 pub use frozen::Frozen;
@@ -31,6 +32,7 @@ pub(crate) use input::InputCheck;
 pub use measured::Measured;
 #[doc(hidden)]
 pub use order::{Decay, decay};
+pub use passage::Passage;
 #[doc(hidden)]
 pub use run::validate_changed;
 pub use run::{Event, Validation, Verdict, validate, validate_until};

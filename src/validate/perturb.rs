@@ -8,6 +8,7 @@ use crate::linearize::flow::Snapshot;
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, directions_of};
 use crate::math::eigen::eigen;
 use crate::system::{MechanicalSystem, Scratch};
+use crate::tolerances::ROUNDED_ZERO;
 
 /// Relative errors above are not in the range where eps^2 rules. Unit: `[1]`.
 const SECOND_ORDER_RANGE: f64 = 0.1;
@@ -16,7 +17,11 @@ const SECOND_ORDER_RANGE: f64 = 0.1;
 /// they tell.
 const FASTEST_PERIODS: f64 = 8.0;
 
-/// Sizes of the perturbation, of (dq, dv/rate) in m or rad; the last one is so small that its error is rounding.
+/// Errors of smaller perturbations are rounding. Unit: `[m, rad]`. Why: their squares are. Test:
+/// `quick_scenes_follow_their_linear_models`.
+const ROUNDED_SIZE: f64 = 1e-8;
+
+/// Sizes of the perturbation, of (dq, dv/rate) in m or rad; that of the last one is [rounding](ROUNDED_SIZE).
 pub const EPSILONS: [f64; 8] = [1e-1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-9];
 
 /// Returns `start` perturbed by eps x0 and projected onto the constraints of position and velocity; none where that
@@ -95,9 +100,9 @@ impl Norm {
         self.size((&rest(dq, cq), &rest(dv, cv)))
     }
 
-    /// Returns the norm of states (z, y) of a chart.
-    pub fn states(&self, chart: &Coordinates, x: &Matrix) -> f64 {
-        self.size(x.as_slice().split_at(chart.freedom()))
+    /// Returns the norm of states (z, y), of which the first are displacements.
+    pub fn states(&self, freedom: usize, x: &Matrix) -> f64 {
+        self.size(x.as_slice().split_at(freedom))
     }
 
     /// Returns |difference of the motions - eps changes| of each perturbed motion.
@@ -116,14 +121,15 @@ impl Norm {
     }
 
     /// Returns the order of such errors in eps, without those of motions that ended on other pieces of the equations.
-    /// That of the smallest perturbation is taken for rounding.
+    /// The largest of those below [`ROUNDED_SIZE`] is taken for rounding.
     pub fn order(&self, system: &dyn MechanicalSystem, end: &Snapshot, epsilons: &[f64], errors: &[f64]) -> Decay {
         let own = |(error, member): (&f64, &State)| {
             if are_alike(system, &end.motion, member) { *error } else { f64::NAN }
         };
         let errors: &[f64] = &errors.iter().zip(&end.members).map(own).collect::<Vec<f64>>();
         let size = self.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
-        let floor = errors.last().copied().filter(|error| error.is_finite()).unwrap_or(0.0).max(1e-15);
+        let rounding = errors.iter().zip(epsilons).filter(|(error, eps)| error.is_finite() && **eps < ROUNDED_SIZE);
+        let floor = rounding.map(|(error, _)| *error).fold(ROUNDED_ZERO, f64::max);
         decay(epsilons, errors, |eps| SECOND_ORDER_RANGE * eps * size, floor)
     }
 }

@@ -66,7 +66,9 @@ impl<'a> Probe<'a> {
         let mut q = self.start.q.clone();
         self.map.apply(self.dynamics.system, &self.start.q, &scaled(shift.q), &mut q);
         let mut v: Vec<f64> = self.start.v.iter().zip(scaled(shift.v)).map(|(v, dv)| v + dv).collect();
-        self.close(&mut q, &mut v, input)?;
+        // A velocity or a force leaves the constraints of position as they are.
+        let is_displaced = shift.q.iter().any(|dq| *dq != 0.0) || self.driven(input, 0).is_some();
+        self.close(&mut q, &mut v, (input, is_displaced))?;
         self.solve(&q, &v, input)?;
         let Dynamics { system, vdot, lambda, scratch, .. } = &mut self.dynamics;
         let mut outputs = vec![0.0; self.outputs];
@@ -102,10 +104,33 @@ impl<'a> Probe<'a> {
     }
 
     /// Moves q and v back to the residuals of the start by the least corrections, to round-off.
-    fn close(&mut self, q: &mut [f64], v: &mut [f64], input: Option<(usize, [f64; 3])>) -> Result<(), StepError> {
+    fn close(
+        &mut self,
+        q: &mut [f64],
+        v: &mut [f64],
+        (input, is_displaced): (Option<(usize, [f64; 3])>, bool),
+    ) -> Result<(), StepError> {
         if self.residuals[0].is_empty() {
             return Ok(());
         }
+        if is_displaced {
+            self.close_positions(q, v, input)?;
+        }
+        let need = Need::MASS | Need::CONSTRAINTS | Need::G;
+        let mut step = vec![0.0; v.len()];
+        self.dynamics.evaluate(self.start.t, q, v, need);
+        self.dynamics.factor_truncated()?;
+        self.correction(1, input, &mut step)?;
+        v.iter_mut().zip(&step).for_each(|(v, dv)| *v -= dv);
+        // Once more, for what rounding left.
+        self.dynamics.evaluate(self.start.t, q, v, need);
+        self.correction(1, input, &mut step)?;
+        v.iter_mut().zip(&step).for_each(|(v, dv)| *v -= dv);
+        Ok(())
+    }
+
+    /// Moves q back to phi of the start.
+    fn close_positions(&mut self, q: &mut [f64], v: &[f64], input: Option<(usize, [f64; 3])>) -> Result<(), StepError> {
         let t = self.start.t;
         let need = Need::MASS | Need::CONSTRAINTS | Need::G;
         let mut step = vec![0.0; v.len()];
@@ -127,12 +152,6 @@ impl<'a> Probe<'a> {
         }
         if last > SAME * largest(q).max(1.0) {
             return Err(StepError::Open);
-        }
-        for _ in 0..2 {
-            self.dynamics.evaluate(t, q, v, need);
-            self.dynamics.factor_truncated()?;
-            self.correction(1, input, &mut step)?;
-            v.iter_mut().zip(&step).for_each(|(v, dv)| *v -= dv);
         }
         Ok(())
     }

@@ -3,12 +3,13 @@
 use super::frozen::frozen;
 use super::input::{self, Pulsed};
 use super::measured::{Along, Measured, measure};
+use super::passage::passage;
 use super::perturb::{Norm, Speed};
 pub use super::regular::Event;
 use super::regular::{End, end};
 use super::sequence::sequence;
 use super::{Decay, Deviation, Entry, Frozen, InputCheck, PerturbationSequence, Settings};
-use crate::error::{Result, short_list, significant};
+use crate::error::{Result, percent, short_list, significant};
 use crate::linearize::{Built, Carried, Chart, State, Variation, minimal, refuse_large};
 use crate::system::{Column, MechanicalSystem};
 use crate::tolerances;
@@ -121,8 +122,10 @@ pub fn validate_changed(
     let End { singular, event } = end(system, start, wished)?;
     let before = |t: f64, part: f64| part * (t - start.t);
     let regular = singular.map_or(wished, |t| before(t, BEFORE_SINGULAR));
+    let event = event.filter(|event| event.t - start.t < regular);
     let smooth = event.as_ref().map_or(regular, |event| before(event.t, BEFORE_EVENT));
     let followed = regular.min(smooth);
+    let through = event.as_ref().map(|_| start.t + regular);
     let mut sequences = Vec::new();
     let mut cut = Vec::new();
     for direction in &settings.directions {
@@ -132,13 +135,10 @@ pub fn validate_changed(
         }
         let x0 = direction.state(&model.coordinates, norm.rate)?;
         if model.built.a.nrows() > 0 {
-            sequences.push(sequence(
-                system,
-                start,
-                (&model, &carried, &norm),
-                (&x0, &speed),
-                (direction.name(), followed),
-            )?);
+            let own = (direction.name(), followed);
+            let found = sequence(system, start, (&model, &carried, &norm), (&x0, &speed), own)?;
+            let passage = through.and_then(|t| passage(system, start, (&model, &norm), (&x0, t), is_over));
+            sequences.push(PerturbationSequence { passage, ..found });
         }
     }
     cut.extend(sequences.iter().filter_map(|sequence| shortened(sequence, followed)));
@@ -163,7 +163,8 @@ pub fn validate_changed(
             Pulsed::TooSlow => cut.push(format!("the input `{name}` was not checked")),
         }
     }
-    let verdict = judge(&Evidence { sequences: &sequences, inputs: &inputs, measured: &measured, is_projected });
+    let found = Evidence { sequences: &sequences, inputs: &inputs, measured: &measured, event: &event, is_projected };
+    let verdict = judge(&found);
     Ok(Validation {
         t: start.t,
         chart: name,
@@ -197,6 +198,7 @@ struct Evidence<'e> {
     sequences: &'e [PerturbationSequence],
     inputs: &'e [InputCheck],
     measured: &'e Measured,
+    event: &'e Option<Event>,
     /// True for the plain projection, which belongs to no chart.
     is_projected: bool,
 }
@@ -205,15 +207,12 @@ fn judge(evidence: &Evidence) -> Verdict {
     let rows = evidence.sequences.iter().map(|sequence| (&sequence.direction, &sequence.order_ltv));
     let rows = rows.chain(evidence.inputs.iter().map(|input| (&input.input, &input.order_ltv)));
     let orders = rows.clone().map(|(_, decay)| decay);
-    let passes =
-        |decay: &Decay| decay.is_exact || decay.order.is_some_and(|order| order > 2.0 - tolerances::ORDER_SLACK);
-    let ltv = orders.clone().all(passes);
+    let ltv = orders.clone().all(is_second);
     let lti = evidence.measured.all().all(|(_, deviation)| deviation.is_right);
     let lowest = orders.clone().filter_map(|decay| decay.order).fold(f64::INFINITY, f64::min);
     let order = if lowest.is_finite() { format!("order {lowest:.2}") } else { "exact to rounding".to_string() };
-    let is_untold = |decay: &Decay| !decay.is_exact && decay.order.is_none();
     let untold: Vec<String> = rows.filter(|(_, decay)| is_untold(decay)).map(|(name, _)| name.clone()).collect();
-    let are_others_right = orders.filter(|decay| !is_untold(decay)).all(passes);
+    let are_others_right = orders.filter(|decay| !is_untold(decay)).all(is_second);
     let entries: Vec<String> = evidence.measured.all().map(|(name, deviation)| told(name, deviation)).collect();
     let entries = if entries.is_empty() { String::new() } else { format!("{}; ", entries.join(", ")) };
     let text = match (ltv, lti) {
@@ -231,8 +230,36 @@ fn judge(evidence: &Evidence) -> Verdict {
         (true, false) => format!("wrong: {entries}the variational equations are right ({order} in eps)"),
         (false, _) => format!("wrong, or too near to rounding to tell: {entries}{order} in eps, where 2 is expected"),
     };
-    let text = if ltv { text + &frozen_errors(evidence) } else { text };
+    let text = if ltv { text + &beyond_event(evidence) + &frozen_errors(evidence) } else { text };
     Verdict { ltv, lti, text }
+}
+
+fn is_untold(decay: &Decay) -> bool {
+    !decay.is_exact && decay.order.is_none()
+}
+
+/// True if errors fall as the square of the size, or are rounding.
+fn is_second(decay: &Decay) -> bool {
+    decay.is_exact || decay.order.is_some_and(|order| order > 2.0 - tolerances::ORDER_SLACK)
+}
+
+/// Says where the equations change their form within the horizon, and whether small changes were followed through. The
+/// linear model ends there, so that this is no part of the verdict on it.
+fn beyond_event(evidence: &Evidence) -> String {
+    let Some(Event { t, owner }) = evidence.event else { return String::new() };
+    let place = format!("t = {} s, where {owner} changes its form", significant(*t, 6));
+    let passages: Vec<&Decay> =
+        evidence.sequences.iter().filter_map(|sequence| Some(&sequence.passage.as_ref()?.order)).collect();
+    if passages.is_empty() || passages.iter().any(|decay| is_untold(decay)) {
+        return format!("; the horizon ends at {place}");
+    }
+    let lowest = passages.iter().filter_map(|decay| decay.order).reduce(f64::min);
+    let order = lowest.map_or("exact to rounding".to_string(), |order| format!("order {order:.2} in eps"));
+    if passages.iter().all(|decay| is_second(decay)) {
+        format!("; through {place}, they follow the variational equations with their jump ({order})")
+    } else {
+        format!("; through {place}, they do not follow the variational equations with their jump ({order})")
+    }
 }
 
 /// Says how far a matrix is right, or which entry is wrong.
@@ -254,14 +281,10 @@ fn frozen_errors(evidence: &Evidence) -> String {
     let far = |error: &f64| *error > FROZEN_OFF;
     let motions = evidence.sequences.iter().filter_map(|sequence| {
         let error = sequence.drift_lti.iter().copied().fold(0.0, f64::max);
-        Some(format!("{} % along {}", percent(error), sequence.direction)).filter(|_| far(&error))
+        Some(format!("{} along {}", percent(error), sequence.direction)).filter(|_| far(&error))
     });
     let pulses = evidence.inputs.iter().filter(|input| far(&input.error_lti));
-    let pulses = pulses.map(|input| format!("{} % after the pulse of {}", percent(input.error_lti), input.input));
+    let pulses = pulses.map(|input| format!("{} after the pulse of {}", percent(input.error_lti), input.input));
     let all: Vec<String> = motions.chain(pulses).collect();
     if all.is_empty() { String::new() } else { format!("; frozen, it is off by up to {}", short_list(&all)) }
-}
-
-fn percent(part: f64) -> String {
-    significant(100.0 * part, 2)
 }

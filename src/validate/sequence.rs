@@ -1,11 +1,11 @@
 //! Perturbations of many sizes along one direction, simulated and predicted.
 
-use super::Decay;
 use super::horizon::{SHARES, horizon, horizons};
 use super::perturb::{EPSILONS, Norm, Speed, are_alike, difference, moved};
+use super::{Decay, Passage};
 use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, Snapshot};
-use crate::linearize::{Carried, Coordinates, Matrix, Minimal, State};
+use crate::linearize::{Carried, Matrix, Minimal, State};
 use crate::math::array::Each;
 use crate::math::eigen::expm;
 use crate::system::MechanicalSystem;
@@ -37,6 +37,8 @@ pub struct PerturbationSequence {
     pub curves: Vec<Curve>,
     /// Size of the perturbation of the curves, m or rad.
     pub curve_epsilon: f64,
+    /// The motions through changes of form; none where there are none on the way, or motions do not come through.
+    pub passage: Option<Passage>,
 }
 
 /// Change along one velocity direction over time, simulated and predicted.
@@ -69,9 +71,10 @@ struct Followed<'a> {
     /// The first time asked for, s.
     first: f64,
     times: Vec<f64>,
+    carried: &'a Carried<'a>,
     snapshots: Vec<Snapshot>,
-    /// The chart at each time.
-    charts: Vec<Coordinates>,
+    /// The states of the perturbation at each time, by the variational equations.
+    states: Vec<Matrix>,
     /// exp(A t) x0 at each time.
     predicted: Vec<Matrix>,
 }
@@ -85,13 +88,13 @@ pub(super) fn sequence(
     (direction, duration): (String, f64),
 ) -> Result<PerturbationSequence> {
     let followed = follow(system, start, (model, carried, norm), x0, duration)?;
-    let ends = followed.snapshots.last().zip(followed.charts.last());
-    let Some((end, chart)) = ends else {
+    let Some(end) = followed.snapshots.last() else {
         return Err(Error::input(format!("no perturbed motion came to {:.1e} s in the time", followed.first))
             .hint("give more time by --budget, or a shorter --horizon"));
     };
     let last = &followed.predicted[followed.snapshots.len() - 1];
     let errors_ltv = norm.errors(system, end, &end.columns, &followed.epsilons);
+    let chart = carried.charts(std::slice::from_ref(end))?.remove(0);
     let errors_lti = norm.errors(system, end, &chart.changes_of(last), &followed.epsilons);
     let smooth = errors_ltv.iter().zip(&followed.alike).map(|(error, alike)| if *alike { *error } else { f64::NAN });
     let order_ltv = norm.order(system, end, &followed.epsilons, &smooth.collect::<Vec<f64>>());
@@ -113,13 +116,14 @@ pub(super) fn sequence(
         horizons,
         curves,
         curve_epsilon,
+        passage: None,
     })
 }
 
 fn follow<'a>(
     system: &'a dyn MechanicalSystem,
     start: &State,
-    (model, carried, norm): (&Minimal, &Carried, &'a Norm),
+    (model, carried, norm): (&Minimal, &'a Carried, &'a Norm),
     x0: &Matrix,
     duration: f64,
 ) -> Result<Followed<'a>> {
@@ -131,22 +135,20 @@ fn follow<'a>(
     let bundle = Bundle { columns, members, ..Bundle::of(start) };
     let mut times: Vec<f64> = (1..=ROWS).map(|i| duration * i as f64 / ROWS as f64).collect();
     let first = times[0];
-    let (snapshots, charts) = carried.flow(&bundle, &times.iter().map(|t| start.t + t).collect::<Vec<f64>>())?;
+    let snapshots = carried.flow(&bundle, &times.iter().map(|t| start.t + t).collect::<Vec<f64>>())?;
+    let states = carried.states(&snapshots)?;
     let step = expm(&(&model.built.a * (duration / ROWS as f64)))?;
     let mut predicted = vec![&step * x0];
     (1..ROWS).for_each(|i| predicted.push(&step * &predicted[i - 1]));
     times.truncate(snapshots.len());
-    Ok(Followed { system, norm, epsilons, alike, first, times, snapshots, charts, predicted })
+    Ok(Followed { system, norm, epsilons, alike, first, times, carried, snapshots, states, predicted })
 }
 
 impl Followed<'_> {
     /// Returns the relative error of the frozen model at each time.
     fn drift(&self) -> Vec<f64> {
-        let error = |((snapshot, chart), lti): ((&Snapshot, &Coordinates), &Matrix)| {
-            let ltv = chart.states_of(&snapshot.columns);
-            self.norm.states(chart, &(&ltv - lti)) / self.norm.states(chart, &ltv)
-        };
-        self.snapshots.iter().zip(&self.charts).zip(&self.predicted).map(error).collect()
+        let size = |x: &Matrix| self.norm.states(self.carried.start.freedom(), x);
+        self.states.iter().zip(&self.predicted).map(|(ltv, lti)| size(&(ltv - lti)) / size(ltv)).collect()
     }
 
     /// Returns the curves that move most, and the size of their perturbation.
@@ -155,18 +157,22 @@ impl Followed<'_> {
         let Some(&eps) = self.epsilons.get(member) else { return (Vec::new(), 0.0) };
         let column = |i: usize| self.snapshots.iter().map(move |snapshot| snapshot.columns.q[(i, 0)]);
         let largest = |i: usize| column(i).fold(0.0f64, |most, x| most.max(x.abs()));
-        let mut order: Vec<usize> = (0..self.charts.first().map_or(0, |chart| chart.r.nrows())).collect();
+        let mut order: Vec<usize> = (0..self.carried.start.r.nrows()).collect();
         order.sort_by(|&i, &j| largest(j).total_cmp(&largest(i)));
         let pairs = self.snapshots.iter().map(|snapshot| (&snapshot.motion, &snapshot.members[member]));
         let simulated: Vec<Vec<f64>> =
             pairs.map(|(motion, member)| difference(self.system, motion, member)).map(|[dq, _]| dq).collect();
-        let frozen = |direction: usize, chart: &Coordinates, x: &Matrix| eps * chart.changes_of(x).q[(direction, 0)];
-        let predicted = || self.charts.iter().zip(&self.predicted);
+        let freedom = self.carried.start.freedom();
+        let frozen = |direction: usize, snapshot: &Snapshot, x: &Matrix| {
+            let row = self.carried.basis(snapshot).view((direction, 0), (1, freedom));
+            eps * (row * x.rows(0, freedom))[0]
+        };
+        let predicted = || self.snapshots.iter().zip(&self.predicted);
         let curve = |direction: usize| Curve {
             direction,
             simulated: simulated.iter().map(|dq| dq[direction]).collect(),
             ltv: column(direction).map(|x| eps * x).collect(),
-            lti: predicted().map(|(chart, x)| frozen(direction, chart, x)).collect(),
+            lti: predicted().map(|(snapshot, x)| frozen(direction, snapshot, x)).collect(),
         };
         (order.into_iter().take(CURVES).map(curve).collect(), eps)
     }

@@ -32,6 +32,7 @@ mod study;
 mod terminal;
 mod tradeoff;
 mod units;
+mod view;
 mod warnings;
 mod words;
 
@@ -161,7 +162,7 @@ fn help_and_version_are_no_errors() {
     for args in [&["--help"][..], &["simulate", "--help"], &["check", "-h"], &["help", "drift"]] {
         assert!(place.done(args).contains("Usage: holonom"), "{args:?}");
     }
-    let version = format!("holonom {} (features: cli figures npz urdf)\n", env!("CARGO_PKG_VERSION"));
+    let version = format!("holonom {} (features: cli figures npz urdf view)\n", env!("CARGO_PKG_VERSION"));
     assert_eq!(place.done(&["--version"]), version);
 }
 

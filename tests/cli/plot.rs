@@ -60,7 +60,7 @@ fn points(data: &str) -> Vec<(f64, f64)> {
 }
 
 /// A mass that runs round the origin at a distance of 1 m with 1 m/s: at the angle t.
-const BOB: &str = r#"{
+pub const BOB: &str = r#"{
   "name": "bob", "dimension": 2,
   "ground": { "markers": { "O": [0, 0] } },
   "bodies": [{ "name": "bob", "type": "point_mass", "mass": 1,

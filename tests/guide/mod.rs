@@ -34,7 +34,7 @@ macro_rules! chapters {
 
 chapters! {
     tutorial loops scenes expressions methods stabilization accuracy kinematics studies linear flexible speed extremes
-    simplify singular events results troubleshooting rust python large gallery references changelog
+    simplify singular events results view troubleshooting rust python large gallery references changelog
 }
 
 #[test]

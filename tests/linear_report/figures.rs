@@ -291,6 +291,7 @@ fn validation_shows_orders_and_predictions() {
         horizons: [None; 2],
         curves,
         curve_epsilon: 0.01,
+        passage: None,
     };
     let angles = names(&["a.angle'", "b.angle'"]);
     let both = |size: f64| validation_figure("v", &angles, &sequence(vec![curve(0, 1.0), curve(1, size)])).unwrap();

@@ -117,7 +117,6 @@ fn a_start_beside_a_fold_stays() {
         let model = by(&prepared, "mcs", chart).unwrap();
         let found = model.modes.iter().map(|mode| mode.value.im).fold(0.0, f64::max);
         let error = (found / crank_frequency(2, angle) - 1.0).abs();
-        println!("{angle} {chart:?}: {error:e} {:?}", model.reduction);
         assert!(error < 1e-10 && error < model.reduction.error, "{angle}: {error:e} of {:?}", model.reduction);
     }
 }

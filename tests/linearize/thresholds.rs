@@ -144,9 +144,8 @@ fn curves_follow_derivatives() {
     for branch in &loci.branches {
         let curve = branch.curve();
         let chords = Branch { slopes: Vec::new(), ..branch.clone() }.curve();
-        println!("{:e} {:e}", off(&curve, exact), off(&chords, exact));
         assert!(off(&curve, exact) < 0.05 && curve.points.len() > 60, "{curve:?}");
-        assert!(curve.points.is_sorted_by(|a, b| a.0 < b.0) && chords.points.len() == 9);
+        assert!(curve.points.is_sorted_by(|a, b| a.0 < b.0) && off(&chords, exact) > 0.4);
     }
     let pendulum = PreparedScene::load_with(&shipped("pendulum"), &Overrides::default()).unwrap();
     let times: Vec<f64> = (0..=20).map(|k| 0.05 * f64::from(k)).collect();

@@ -64,6 +64,7 @@ mod integrator {
 mod linearize {
     mod least_norm;
     pub use nalgebra::Complex;
+    pub type Matrix = nalgebra::DMatrix<f64>;
 }
 
 #[path = "../../src/modes"]
@@ -136,6 +137,13 @@ mod sweep {
 
 #[path = "../../src/validate"]
 mod validate {
+    mod deviation;
     mod limit;
     mod order;
+}
+
+#[path = "../../src/view"]
+mod view {
+    mod encode;
+    mod rows;
 }

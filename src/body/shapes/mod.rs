@@ -1,7 +1,10 @@
 //! Mass, centre of mass and inertia of a rigid body from the shapes that it is made of.
 
 mod crossing;
+mod solid;
 mod uniform;
+
+pub use solid::{Form, Solid, solids};
 
 use super::{Build, Orientation, Repeat, in_space};
 use crate::error::{Error, Result, short};

@@ -31,7 +31,7 @@ class Scene:
          "function": lambda t, r, v: [-0.1 * v[0], -0.1 * v[1]]}
 
     It returns the force on the second marker, N, from the time and from the position and velocity of the second marker
-    relative to the first, in world axes. The first marker gets the opposite force. Each call costs about a microsecond,
+    relative to the first, in world axes. The first marker gets the opposite force. Each call costs a microsecond or two,
     so an expression in the scene is faster.
 
     >>> import holonom

@@ -58,7 +58,7 @@ pub(super) fn label(quantity: &str, unit: &str) -> String {
 pub const MOST_COORDINATES: usize = 12;
 
 /// Returns the quantity of a unit, for an axis; a percentage may be one of any quantity.
-pub(super) fn quantity(unit: &str) -> &'static str {
+pub(crate) fn quantity(unit: &str) -> &'static str {
     let dimension = dimension_of(unit).filter(|dimension| *dimension != Dimension::Strain);
     dimension.map_or("value", Dimension::word)
 }

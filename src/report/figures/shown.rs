@@ -101,12 +101,17 @@ impl Shown {
 
     /// Returns the title with a note on what is not drawn.
     pub fn title(&self, title: &str) -> String {
-        let Some(Cut { t, ending }) = self.cut else { return title.to_string() };
+        self.note().map_or_else(|| title.to_string(), |note| format!("{title} ({note})"))
+    }
+
+    /// Returns a note on what is not drawn, if anything.
+    pub fn note(&self) -> Option<String> {
+        let Cut { t, ending } = self.cut?;
         let (word, from) = ending.words();
-        match t {
-            None => format!("{title} (the run {word} at once)"),
-            Some(t) => format!("{title} (not drawn: t ≥ {} s, {from})", significant(t, 4)),
-        }
+        Some(match t {
+            None => format!("the run {word} at once"),
+            Some(t) => format!("not drawn: t ≥ {} s, {from}", significant(t, 4)),
+        })
     }
 
     /// Returns the name of a curve with the same note, short enough for a legend.

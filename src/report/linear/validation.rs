@@ -7,7 +7,7 @@ use crate::report::figures::{Floor, grouped, label, quantity};
 use crate::report::{Answer, Folder, Table};
 use crate::system::Names;
 use crate::tolerances;
-use crate::validate::{Curve, Decay, PerturbationSequence, Validation};
+use crate::validate::{Curve, Decay, Passage, PerturbationSequence, Reason, Validation};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -63,6 +63,7 @@ impl Answer for ValidationAnswer<'_> {
             "b": measured.b,
             "c": measured.c,
             "d": measured.d,
+            "unjudged": measured.unjudged,
             "directions": sequences.iter().map(|sequence| direction(self.names, sequence)).collect::<Vec<Value>>(),
             "frozen": { "steps": frozen.steps, "errors": frozen.errors, "decay": frozen.decay, "limit": frozen.limit },
             "inputs": self.found.inputs,
@@ -80,6 +81,10 @@ impl Answer for ValidationAnswer<'_> {
                 .horizons
                 .map(|time| time.map_or(format!("> {}", significant(end, 3)), |time| significant(time, 4)));
             table.row([sequence.direction.clone(), order(&sequence.order_ltv), decades(&sequence.order_ltv), one, ten]);
+            if let Some(Passage { t, order: decay, .. }) = &sequence.passage {
+                let name = format!("{} up to t = {} s", sequence.direction, significant(*t, 6));
+                table.row([name, order(decay), decades(decay), String::new(), String::new()]);
+            }
         }
         for input in &found.inputs {
             let lti = format!("{:.1e} (frozen)", input.error_lti);
@@ -90,16 +95,18 @@ impl Answer for ValidationAnswer<'_> {
             [] => String::new(),
             names => format!("  not checked, since they move no degree of freedom: {}\n", names.join(", ")),
         };
+        let kinks = unjudged(found, Reason::Kink, "not measured, since they have a kink at this state");
+        let hidden = unjudged(found, Reason::Hidden, "not judged, since an entry is not known to 3 %");
         let singular = found.singular.map_or(String::new(), |t| {
             let t = significant(t, 6);
             format!(" (half of the way to t = {t} s, where the mechanism is singular: linear models end there)")
         });
         let event = found.event.as_ref().map_or(String::new(), |event| {
             let t = significant(event.t, 6);
-            format!(" (before t = {t} s, where {} changes its form: linear models end there)", event.owner)
+            format!(" (before t = {t} s, where {} changes its form)", event.owner)
         });
         format!(
-            "{} at t = {} s: the linear model (chart {}) against simulations over {} s{singular}{event}\n\n{table}{unchecked}\n  exp(A h) against the state-transition matrix: order {} in h\n  verdict: {}\n",
+            "{} at t = {} s: the linear model (chart {}) against simulations over {} s{singular}{event}\n\n{table}{unchecked}{kinks}{hidden}\n  exp(A h) against the state-transition matrix: order {} in h\n  verdict: {}\n",
             self.scene,
             significant(found.t, 9),
             found.chart,
@@ -118,6 +125,13 @@ impl Answer for ValidationAnswer<'_> {
         }
         Ok(())
     }
+}
+
+/// Returns a line with the states and outputs that are not judged for a reason; empty where there are none.
+fn unjudged(found: &Validation, reason: Reason, text: &str) -> String {
+    let own = found.measured.unjudged.iter().filter(|row| row.reason == reason);
+    let names: Vec<&str> = own.map(|row| row.row.as_str()).collect();
+    if names.is_empty() { String::new() } else { format!("  {text}: {}\n", names.join(", ")) }
 }
 
 fn order(decay: &Decay) -> String {
@@ -151,6 +165,7 @@ fn direction(names: &Names, sequence: &PerturbationSequence) -> Value {
         "horizons": horizons(sequence),
         "curve_epsilon": sequence.curve_epsilon,
         "curves": curves.collect::<Vec<Value>>(),
+        "passage": sequence.passage,
     })
 }
 

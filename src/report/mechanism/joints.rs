@@ -158,10 +158,10 @@ pub fn turn(pen: &mut Canvas, at: [f64; 3], axis: [f64; 3], radius: f64, ink: Ti
     pen.arrow(spots, ink, BOLD);
 }
 
-/// Draws the pitch circles of two wheels, each with a spoke that rotates with it.
-pub fn gear(pen: &mut Canvas, link: &Link, _: &Sight) {
+/// Returns the radii of the pitch circles of two wheels, m; none for wheels without a distance.
+pub fn pitch_radii(link: &Link) -> Option<[f64; 2]> {
     // Proportional to the numbers of teeth.
-    let [turn_a, turn_b, ..] = link.turns[..] else { return };
+    let [turn_a, turn_b, ..] = link.turns[..] else { return None };
     let [a, b] = [&link.ends[0], &link.ends[1]];
     let [za, zb] = [turn_a.abs(), turn_b.abs()];
     let gap = sub(&b.r, &a.r);
@@ -170,12 +170,15 @@ pub fn gear(pen: &mut Canvas, link: &Link, _: &Sight) {
     let inner = if turn_a * turn_b < 0.0 { -1.0 } else { 1.0 };
     let towards = sub(&out(a.axes[2], gap).map(|x| za * x), &out(b.axes[2], gap.map(|x| -x)).map(|x| inner * zb * x));
     let module = dot(&gap, &towards) / dot(&towards, &towards);
-    if !module.is_finite() || norm(&gap) == 0.0 {
-        return;
-    }
+    (module.is_finite() && norm(&gap) > 0.0).then(|| [za, zb].map(|count| (module * count).abs()))
+}
+
+/// Draws the pitch circles of two wheels, each with a spoke that rotates with it.
+pub fn gear(pen: &mut Canvas, link: &Link, _: &Sight) {
+    let Some(radii) = pitch_radii(link) else { return };
     pen.layer = Layer::Rod;
-    for (k, (wheel, count)) in [(a, za), (b, zb)].into_iter().enumerate() {
-        pitch_circle(pen, wheel, (module * count).abs(), link.carriers[k]);
+    for (k, radius) in radii.into_iter().enumerate() {
+        pitch_circle(pen, &link.ends[k], radius, link.carriers[k]);
     }
 }
 

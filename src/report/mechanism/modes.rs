@@ -32,7 +32,7 @@ const REST: f64 = 0.6;
 const FAR: f64 = 0.5;
 
 /// A mode shape with an amplitude that can be seen.
-struct Swing<'a> {
+pub struct Swing<'a> {
     prepared: &'a PreparedScene,
     model: &'a LinearModel,
     mode: &'a Mode,
@@ -53,7 +53,7 @@ pub fn mode_figure(prepared: &PreparedScene, look: &Look, model: &LinearModel) -
     // The same axes for all, so that they can be compared.
     let empty = panel(look, &rest, pictures.iter().map(Vec::as_slice).chain([ground.as_slice()]), &[]);
     let panels = drawn.iter().zip(pictures).map(|((number, pair), items)| {
-        let panel = empty.clone().title(format!("mode {number}: {}", title(pair)));
+        let panel = empty.clone().title(format!("mode {number}: {}", mode_title(pair)));
         labelled(look, &rest, panel.items(ground.iter().cloned().chain(items)))
     });
     let name = format!("{}, modes at t = {} s", prepared.name, significant(model.point.t, 4));
@@ -66,13 +66,13 @@ pub fn mode_figure(prepared: &PreparedScene, look: &Look, model: &LinearModel) -
 }
 
 /// Returns the physical modes with a shape, with their numbers.
-fn shaped(model: &LinearModel) -> Vec<(usize, Pair<'_>)> {
+pub fn shaped(model: &LinearModel) -> Vec<(usize, Pair<'_>)> {
     let numbered = pairs(model, Kind::Physical).into_iter().enumerate().map(|(i, pair)| (i + 1, pair));
     numbered.filter(|(_, pair)| pair.mode.shape.iter().any(|part| part.norm() > 0.0)).collect()
 }
 
 /// Returns frequency and damping ratio of an oscillating mode, the rate of another.
-fn title(pair: &Pair) -> String {
+pub fn mode_title(pair: &Pair) -> String {
     let mode = pair.mode;
     let text = if mode.is_zero() {
         "0 Hz".to_string()
@@ -84,7 +84,8 @@ fn title(pair: &Pair) -> String {
     text.replace('-', "−")
 }
 
-fn at_rest(prepared: &PreparedScene, model: &LinearModel) -> Snapshot {
+/// Returns the mechanism at the operating point.
+pub fn at_rest(prepared: &PreparedScene, model: &LinearModel) -> Snapshot {
     let point = &model.point;
     snapshot(&prepared.mechanism, &State { t: point.t, q: point.q.clone(), v: point.v.clone() })
 }
@@ -109,7 +110,8 @@ fn grey(item: Item) -> Item {
 }
 
 impl<'a> Swing<'a> {
-    fn new(prepared: &'a PreparedScene, model: &'a LinearModel, mode: &'a Mode, rest: &Snapshot) -> Self {
+    /// Chooses the amplitude at the operating point `rest`.
+    pub fn new(prepared: &'a PreparedScene, model: &'a LinearModel, mode: &'a Mode, rest: &Snapshot) -> Self {
         // At this phase the real part of the shape is largest: the sum of squares is real.
         let moving = prepared.system().dimensions().moving();
         let squares: Complex<f64> = mode.shape.iter().take(moving).map(|part| part * part).sum();
@@ -146,7 +148,8 @@ impl<'a> Swing<'a> {
         self.mode.shape.iter().map(|part| (part * turn).re).collect()
     }
 
-    fn snapshot(&self, angle: f64) -> Snapshot {
+    /// Returns the mechanism at a phase angle, rad.
+    pub fn snapshot(&self, angle: f64) -> Snapshot {
         let point = &self.model.point;
         let system = self.prepared.system();
         let mut q = point.q.clone();

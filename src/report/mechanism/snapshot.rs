@@ -1,13 +1,13 @@
 //! Positions of bodies, joints and forces at one time, in space for planar and spatial scenes alike.
 
 use super::view::{along, direction, straight};
-use crate::body::{Bent, Frame, Marker, Wrench, cross, dot, in_space, norm, sub, twist_len};
+use crate::body::{Bent, Frame, Marker, Solid, Wrench, cross, dot, in_space, norm, sub, twist_len};
 use crate::force::Wheel;
 use crate::joint::{Axis, Joint, JointOver, MOST_ROWS, markers_per_pass};
 use crate::linearize::State;
 use crate::math::{Regime, Taylor, Time};
 use crate::prepared::AnyMechanism;
-use crate::scene::{BeamLine, Connection, Model, Part};
+use crate::scene::{BeamLine, Connection, Model, ModelJoint, Part};
 use crate::system::{Mechanism, Scratch};
 
 /// A marker in space.
@@ -31,6 +31,8 @@ pub struct Limb {
     pub centre: Pose,
     /// False for point masses.
     pub oriented: bool,
+    /// True if its markers move against each other.
+    pub is_elastic: bool,
     /// True if it may rotate about its own axis, which its outline does not show.
     pub may_spin: bool,
 }
@@ -38,6 +40,7 @@ pub struct Limb {
 /// A joint or force.
 #[derive(Clone, Debug)]
 pub struct Link {
+    pub name: String,
     pub kind: &'static str,
     /// Its markers.
     pub ends: Vec<Pose>,
@@ -91,6 +94,46 @@ pub fn snapshot(mechanism: &AnyMechanism, state: &State) -> Snapshot {
         AnyMechanism::Planar(mechanism) => of(mechanism, state),
         AnyMechanism::Spatial(mechanism) => of(mechanism, state),
     }
+}
+
+/// Returns the shapes of each body, placed from its centre of mass.
+pub fn solids(mechanism: &AnyMechanism) -> Vec<Vec<Solid>> {
+    match mechanism {
+        AnyMechanism::Planar(mechanism) => mechanism.model().given_bodies().iter().map(centred).collect(),
+        AnyMechanism::Spatial(mechanism) => mechanism.model().given_bodies().iter().map(centred).collect(),
+    }
+}
+
+fn centred<const D: usize>(part: &Part<D>) -> Vec<Solid> {
+    // The first marker is the origin of the body, from which shapes are placed.
+    let origin = in_space(&part.body.markers()[0].offset);
+    let shifted = |solid: &Solid| Solid { at: along(solid.at, origin, 1.0), ..solid.clone() };
+    part.solids.iter().map(shifted).collect()
+}
+
+/// Returns the size of the force in each joint, N: of -G^T lambda at its second marker, or at its only one.
+pub fn reactions(mechanism: &AnyMechanism, state: &State, lambda: &[f64]) -> Vec<f64> {
+    match mechanism {
+        AnyMechanism::Planar(mechanism) => reactions_of(mechanism, state, lambda),
+        AnyMechanism::Spatial(mechanism) => reactions_of(mechanism, state, lambda),
+    }
+}
+
+fn reactions_of<const D: usize>(mechanism: &Mechanism<D>, state: &State, lambda: &[f64]) -> Vec<f64> {
+    let frames = frames(mechanism, state);
+    let time = Time { t: state.t, regime: Regime::FREE.turned(mechanism.turned(&state.q)) };
+    let size = |(i, joint): (usize, &ModelJoint<D>)| {
+        let own: Vec<_> = joint.markers.iter().map(|marker| frames[*marker]).collect();
+        let slot = own.len().min(2) - 1;
+        let mut rows = [[0.0; 6]; MOST_ROWS];
+        let rows = &mut rows[..joint.element.row_names().len()];
+        JointOver::<f64, D>::gradient(&*joint.element, &own, time, slot / markers_per_pass(D), rows);
+        let first = slot % markers_per_pass(D) * twist_len(D);
+        let lambda = &lambda[mechanism.rows_of_joint(i)];
+        let force = |k: usize| lambda.iter().zip(&*rows).map(|(lambda, row)| lambda * row[first + k]).sum::<f64>();
+        (0..D).map(|k| force(k).powi(2)).sum::<f64>().sqrt()
+    };
+    mechanism.model().joints.iter().enumerate().map(size).collect()
 }
 
 /// Returns the positions of all markers.
@@ -170,6 +213,7 @@ fn link<E, const D: usize>(model: &Model<D>, connection: &Connection<E>, poses: 
         |marker: &&usize| model.markers.bodies[**marker].is_none_or(|body| body < model.given_bodies().len());
     let markers = || connection.markers.iter().filter(is_placed);
     Link {
+        name: connection.name.clone(),
         kind: connection.kind,
         ends: markers().map(|marker| poses[*marker]).collect(),
         carriers: markers().map(|marker| model.markers.bodies[*marker]).collect(),
@@ -211,7 +255,15 @@ fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
     if points.len() < 2 || distance(&points, r) > FAR * size {
         add(&mut points, r);
     }
-    Limb { name: part.name.clone(), points, line: Vec::new(), centre, oriented: part.facts.oriented, may_spin: false }
+    Limb {
+        name: part.name.clone(),
+        points,
+        line: Vec::new(),
+        centre,
+        oriented: part.facts.oriented,
+        is_elastic: part.facts.elastic_count > 0,
+        may_spin: false,
+    }
 }
 
 /// Draws the first node of an absolute beam as the whole beam, and drops the others.
