@@ -12,7 +12,8 @@
 //! ```
 
 pub use crate::formulation::{
-    Dae, Dynamics, Entry as FormulationEntry, Formulation, Row as DaeRow, StepError, registry as formulations,
+    Dae, Dynamics, Entry as FormulationEntry, Formulation, MakeField as MakeFormulation, Row as DaeRow, StepError,
+    registry as formulations,
 };
 pub use crate::integrator::{
     Accepted, Control, Dense, Entry as IntegratorEntry, ErrorEstimate, Explicit, From as StepStart, Integrator,

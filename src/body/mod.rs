@@ -193,7 +193,7 @@ pub struct Bent<'a, const D: usize> {
 /// The object-safe form of a body; implemented for every [`BodyKernel`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no equations of a body",
-    note = "implement `holonom::body::BodyKernel<D>`: its frame over any scalar and its mass, for D = 2, 3 or both"
+    note = "implement `holonom::parts::BodyKernel<D>`: its frame over any scalar and its mass, for D = 2, 3 or both"
 )]
 pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + Sync {
     /// What never changes. Evaluations do not ask for it: a model keeps it.
@@ -231,6 +231,11 @@ pub struct Built<const D: usize> {
 }
 
 impl<const D: usize> Built<D> {
+    /// The body of a kernel, with its coordinates and velocities at the start.
+    pub fn new(kernel: impl BodyKernel<D>, q: Vec<f64>, v: Vec<f64>) -> Self {
+        Built { body: Box::new(kernel), q, v }
+    }
+
     /// Refuses a body of inconsistent sizes: a mistake in the code of its type, not in a scene.
     fn checked(self, markers: usize) -> Result<Self> {
         let Built { body, q, v } = &self;
@@ -257,7 +262,7 @@ impl<const D: usize> Built<D> {
 /// The keys of a kind of body in a scene, without `SHARED_KEYS`, and the body they make.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no body of a scene",
-    note = "implement `holonom::body::BodySpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"
+    note = "implement `holonom::parts::BodySpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"
 )]
 pub trait BodySpec: DeserializeOwned + JsonSchema {
     /// Its `type` in scenes.

@@ -16,6 +16,7 @@ impl<const D: usize> Build<'_, D> {
     /// An expression over t alone, in the equations of motion: its value is
     /// [`eval_held`](Expression::eval_held)`(&[time.t], time.regime)`, and `switching` of the kernel has to write its
     /// [`arguments`](Expression::arguments).
+    #[doc(hidden)]
     pub fn function_of_time(&self, field: &str, number: &Number) -> Result<Expression> {
         let formula = self.acting(field, number, false)?;
         formula.function_of_time().map_err(|error| error.under(field))
@@ -23,6 +24,7 @@ impl<const D: usize> Build<'_, D> {
 
     /// An expression over t and marker quantities, and their rates if `rates` is true, in the equations of motion: its
     /// switching functions are added to those of the scene.
+    #[doc(hidden)]
     pub fn acting(&self, field: &str, number: &Number, rates: bool) -> Result<Formula> {
         self.acting_with(field, number, rates, &[])
     }

@@ -114,6 +114,7 @@ pub trait ForceKernel<const D: usize>: Send + Sync + 'static {
     /// Writes the arguments of its switching functions with these inputs at the numbers that [`Build::switch`] gave;
     /// those of an expression by [`Expression::arguments`](crate::math::expression::Expression::arguments). Default: it
     /// has none.
+    #[doc(hidden)]
     fn switching(
         &self,
         _input: &[Taylor<Rate>; 3],
@@ -174,7 +175,7 @@ impl<K: ForceKernel<D>, S: Scalar, const D: usize> ForceOver<S, D> for K {
 /// The object-safe form of a force; implemented for every [`ForceKernel`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no equations of a force",
-    note = "implement `holonom::force::ForceKernel<D>`: `act` over any scalar, for D = 2, 3 or both"
+    note = "implement `holonom::parts::ForceKernel<D>`: `act` over any scalar, for D = 2, 3 or both"
 )]
 pub trait Force<const D: usize>: ForceOver<f64, D> + ForceOver<Dual6, D> + Send + Sync {
     /// The wheel to be drawn, if it is one.
@@ -214,12 +215,18 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
 /// A force ready for the model, with its markers.
 pub struct Built<const D: usize> {
     /// The kernel, boxed.
+    #[doc(hidden)]
     pub force: Box<dyn Force<D>>,
     /// 1 to `MOST_MARKERS`, as [`Build::between`] or [`Build::marker`] find them.
     pub markers: Vec<MarkerId>,
 }
 
 impl<const D: usize> Built<D> {
+    /// The force of a kernel at its markers.
+    pub fn new(kernel: impl ForceKernel<D>, markers: Vec<MarkerId>) -> Self {
+        Built { force: Box::new(kernel), markers }
+    }
+
     /// Refuses too few or too many markers: a mistake in the code of the type, not in a scene.
     fn checked(self) -> Result<Self> {
         let markers = self.markers.len();
@@ -234,7 +241,7 @@ impl<const D: usize> Built<D> {
 /// The keys of a kind of force in a scene, without name and type: see [`JointSpec`](crate::joint::JointSpec).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no force of a scene",
-    note = "implement `holonom::force::ForceSpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"
+    note = "implement `holonom::parts::ForceSpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"
 )]
 pub trait ForceSpec: DeserializeOwned + JsonSchema {
     /// Its `type` in scenes.

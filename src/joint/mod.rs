@@ -99,6 +99,7 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     /// Writes the arguments of its switching functions at the numbers that [`Build::switch`] gave; those of an
     /// expression by
     /// [`Expression::arguments`](crate::math::expression::Expression::arguments). Default: it has none.
+    #[doc(hidden)]
     fn switching(&self, _frames: &[Frame<Rate, D>], _time: Time<Rate>, _out: &mut [Rate]) {}
 }
 
@@ -116,7 +117,7 @@ pub trait JointOver<S: Scalar, const D: usize> {
 /// The object-safe form of a joint; implemented for every [`JointKernel`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no equations of a joint",
-    note = "implement `holonom::joint::JointKernel<D>`: phi over any scalar, for D = 2, 3 or both"
+    note = "implement `holonom::parts::JointKernel<D>`: phi over any scalar, for D = 2, 3 or both"
 )]
 pub trait Joint<const D: usize>: JointOver<f64, D> + JointOver<Dual6, D> + Send + Sync {
     /// Names of the rows of phi.
@@ -190,12 +191,18 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
 /// A joint ready for the model, with its markers.
 pub struct Built<const D: usize> {
     /// The kernel, boxed.
+    #[doc(hidden)]
     pub joint: Box<dyn Joint<D>>,
     /// 1 to `MOST_MARKERS`, as [`Build::between`] or [`Build::marker`] find them.
     pub markers: Vec<MarkerId>,
 }
 
 impl<const D: usize> Built<D> {
+    /// The joint of a kernel at its markers.
+    pub fn new(kernel: impl JointKernel<D>, markers: Vec<MarkerId>) -> Self {
+        Built { joint: Box::new(kernel), markers }
+    }
+
     /// Refuses too few or too many rows or markers: a mistake in the code of the type, not in a scene.
     fn checked(self) -> Result<Self> {
         let rows = self.joint.row_names().len();
@@ -213,7 +220,7 @@ impl<const D: usize> Built<D> {
 /// [`Number`](crate::math::expression::Number) may be an expression.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no joint of a scene",
-    note = "implement `holonom::joint::JointSpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"
+    note = "implement `holonom::parts::JointSpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"
 )]
 pub trait JointSpec: DeserializeOwned + JsonSchema {
     /// Its `type` in scenes.

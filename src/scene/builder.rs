@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 /// A scene written in code: the keys of a scene file, with the same checks, and errors that name the same places.
 ///
 /// ```
-/// use holonom::scene::{Elements, SceneBuilder, json};
+/// use holonom::parts::{Elements, SceneBuilder, json};
 ///
 /// let scene = SceneBuilder::new("pendulum", 2)
 ///     .with("gravity", [0.0, -9.81])

@@ -53,7 +53,7 @@ pub use stress::{
     Cell as StressCell, Limits as StressLimits, Map as StressMap, Status as StressStatus, Stressed, Subject,
     maps as stress_maps, stress,
 };
-pub use variants::{Axis, Measure, Plan, Recorded, Study, StudyRow, StudyTable};
+pub use variants::{Axis, Filling, Measure, Plan, Recorded, Sample, Study, StudyRow, StudyTable};
 #[doc(hidden)]
 pub use watched::Watched;
 pub use work_precision::{

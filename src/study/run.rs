@@ -33,6 +33,7 @@ pub struct Motion<'a> {
 
 impl<'a> Motion<'a> {
     /// The motion of a scene over a span, without its start.
+    #[doc(hidden)]
     pub fn of(
         prepared: &'a PreparedScene,
         span: Span,
@@ -71,6 +72,7 @@ impl<'a> Motion<'a> {
     ///
     /// # Errors
     /// Bad input only, as `simulate`.
+    #[doc(hidden)]
     pub fn run(&self, method: &Method, limit: impl Into<Limit>) -> Result<RunSample> {
         // One thread, so that the time is that of the method.
         faer::set_global_parallelism(faer::Par::Seq);

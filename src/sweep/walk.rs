@@ -11,6 +11,7 @@ impl Family {
     /// # Errors
     /// A parameter that the scene does not have; a scene that cannot be assembled where the sweep begins, or not be
     /// moved from its own value into the range. A branch that ends in the range is no error: see `Sweep::limits`.
+    #[doc(hidden)]
     pub fn sweep(&self, range: &Range, mut progress: impl FnMut(usize)) -> Result<Sweep> {
         let values = range.values();
         let own = self.own_value(&range.parameter)?;

@@ -54,6 +54,7 @@ pub use levi_civita::LeviCivita;
 #[doc(hidden)]
 pub use mechanism::Mechanism;
 pub use output_tangent::OutputTangent;
+#[doc(hidden)]
 pub use rotating::Rotating;
 #[doc(hidden)]
 pub use spin::{Placement, Rotation, Spin};

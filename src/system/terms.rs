@@ -153,6 +153,7 @@ pub struct Scratch {
 
 impl Scratch {
     /// Calls `see` with the memory of type `T`, made the first time or where the memory was of another type.
+    #[doc(hidden)]
     pub fn with<T: Any + Send, R>(&mut self, make: impl FnOnce() -> T, see: impl FnOnce(&mut T, Regime) -> R) -> R {
         let kept = self.memory.take().and_then(|memory| memory.downcast().ok());
         let mut memory: Box<T> = kept.unwrap_or_else(|| Box::new(make()));

@@ -30,7 +30,7 @@ impl BodySpec for BallInFluid {
         let inertia = mass + build.not_negative("added", &self.added)?;
         let weight = mass - build.not_negative("displaced", &self.displaced)?;
         let (q, v) = start.translation(build)?;
-        Ok(BuiltBody { body: Box::new(Ball { inertia, weight, markers }), q: q.to_vec(), v: v.to_vec() })
+        Ok(BuiltBody::new(Ball { inertia, weight, markers }, q.to_vec(), v.to_vec()))
     }
 }
 

@@ -23,7 +23,7 @@ impl ForceSpec for HardeningSpring {
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltForce<D>> {
         let k = build.not_negative("stiffness", &self.stiffness)?;
         let k3 = build.not_negative("hardening", &self.hardening)?;
-        Ok(BuiltForce { force: Box::new(Spring { k, k3 }), markers: build.between(&self.between)? })
+        Ok(BuiltForce::new(Spring { k, k3 }, build.between(&self.between)?))
     }
 }
 

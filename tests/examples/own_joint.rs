@@ -20,7 +20,7 @@ impl JointSpec for PointOnParabola {
 
     fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         let curvature = build.number("curvature", &self.curvature)?;
-        Ok(BuiltJoint { joint: Box::new(Parabola { curvature }), markers: build.between(&self.between)? })
+        Ok(BuiltJoint::new(Parabola { curvature }, build.between(&self.between)?))
     }
 }
 

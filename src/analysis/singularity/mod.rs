@@ -85,6 +85,7 @@ pub enum Branch {
 
 impl Singularity {
     /// Returns the first state at which the motion left its branch.
+    #[doc(hidden)]
     pub fn left(&self) -> Option<&Passing> {
         self.passed.iter().find(|passing| passing.branch == Branch::Left)
     }
@@ -102,6 +103,7 @@ impl Singularity {
 
     /// Returns the failure of a run with this outcome: that of a motion that left its branch, unless the run ended at
     /// that state, for a reason of its own.
+    #[doc(hidden)]
     pub fn failure_of(&self, outcome: &Outcome) -> Option<Failure> {
         let ended = outcome.failure.clone();
         let is_before = |left: &Failure| match &ended {

@@ -69,6 +69,7 @@ pub struct Reason {
 
 impl Stressed {
     /// Returns the summary of each method.
+    #[doc(hidden)]
     pub fn verdicts(&self) -> Vec<Verdict> {
         (0..self.map.methods.len()).map(|method| self.verdict(method)).collect()
     }
