@@ -81,12 +81,13 @@ pub fn describe(py: Python<'_>, words: Vec<String>, given: Vec<(PathBuf, String)
     let described = move || {
         let prepared = options.common.load()?;
         let system = prepared.system();
-        let Names { q, v, lambda } = system.names();
+        let facts = system.facts();
+        let Names { q, v, lambda } = &facts.names;
         let parameters: Map<String, Value> =
             prepared.parameters.iter().map(|(name, value)| (name.to_string(), value.into())).collect();
         to_json(&json!({
             "name": prepared.name, "parameters": parameters, "q": q, "v": v, "lambda": lambda,
-            "outputs": units(recorded(system)), "inputs": units(system.inputs()),
+            "outputs": units(recorded(system)), "inputs": units(facts.inputs.clone()),
             "warnings": prepared.doubts.iter().map(Warning::to_string).collect::<Vec<_>>(),
         }))
     };

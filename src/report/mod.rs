@@ -30,6 +30,7 @@ pub(crate) use answer::object;
 pub use check::{Check, check};
 pub use drift::Stabilizations;
 pub use equilibrium::EquilibriumReport;
+#[cfg(feature = "view")]
 pub(crate) use figures::quantity;
 pub use figures::{Ending, MOST_COORDINATES, Shown, drift_figure, energy_figure, outputs_figure};
 pub use files::{Folder, Format, Written, write_whole};

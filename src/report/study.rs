@@ -5,6 +5,7 @@ use super::table::count;
 use super::tables::{cell, table};
 use super::{Answer, Folder, Table};
 use crate::error::{Result, significant};
+#[cfg(feature = "npz")]
 use crate::files::Array;
 use crate::study::variants::{StudyRow, StudyTable};
 use serde::Serialize;
