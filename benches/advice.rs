@@ -18,7 +18,7 @@ use holonom::error::Result;
 use holonom::formulation::Statistics;
 use holonom::linearize::amplified;
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::report::Table;
 use holonom::simulate::{Leg, Method, Observation, Sink, Span, Stop, atol_of, simulate_automatic};
 use holonom::study::work_precision::{Cell, Filter, Outcome, Plan, Runner, Triple, WorkPrecision, grid};
@@ -85,7 +85,7 @@ fn triple(method: &Method) -> Triple {
 
 fn measure(path: &Path) -> Result<Measured> {
     let clock = Instant::now();
-    let prepared = PreparedScene::load_with(path, &Overrides::default())?;
+    let prepared = Model::load_with(path, &Overrides::default())?;
     let own = triple(&prepared.method);
     let default = triple(&Method::default());
     let mut triples = grid(&Filter::default())?;
@@ -141,7 +141,7 @@ fn measure(path: &Path) -> Result<Measured> {
 
 /// Auto at rtol 10^-decades; none where it did not come to its end.
 fn automatic(
-    prepared: &PreparedScene,
+    prepared: &Model,
     (result, watched): (&WorkPrecision, &Watched),
     span: Span,
     decades: u32,

@@ -11,7 +11,7 @@ use cpu_time::ThreadTime;
 use holonom::analysis::Recorder;
 use holonom::formulation::Statistics;
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Automatic;
 use holonom::simulate::{Leg, Method, Span, Stop};
 use holonom::study::{Completed, ErrorBars};
@@ -59,7 +59,7 @@ struct Run {
     legs: Vec<Leg>,
 }
 
-fn run(prepared: &PreparedScene, method: &Method, span: Span, limit: f64) -> Option<Run> {
+fn run(prepared: &Model, method: &Method, span: Span, limit: f64) -> Option<Run> {
     let begun = ThreadTime::now();
     let stop = || too_slow(begun.elapsed().as_secs_f64() > limit);
     let mut recorder = Recorder::new(prepared.system()).with_stop(stop);
@@ -75,7 +75,7 @@ fn too_slow(is_over: bool) -> Option<Stop> {
 /// A scene with other parameters, a part of its span and a method.
 struct Case {
     scene: String,
-    prepared: PreparedScene,
+    prepared: Model,
     span: Span,
     label: String,
 }
@@ -87,7 +87,7 @@ fn case(paths: &[PathBuf], random: &mut fastrand::Rng) -> Option<Case> {
     let part = 10f64.powf(-1.5 * random.f64());
     let steps = 10f64.powf(2.0 + 2.0 * random.f64());
     let moved = [(); 2].map(|()| (random.f64(), 0.8 + 0.4 * random.f64()));
-    let base = PreparedScene::load_with(path, &Overrides::default()).ok()?;
+    let base = Model::load_with(path, &Overrides::default()).ok()?;
     let whole = base.span().ok()?;
     let end = whole.start + part * (whole.end - whole.start);
     let span = Span { start: whole.start, end, output_step: (end - whole.start) / ROWS };
@@ -109,7 +109,7 @@ fn case(paths: &[PathBuf], random: &mut fastrand::Rng) -> Option<Case> {
         overrides.projection = Some(MethodSpec::named(projection));
         overrides.step = FIXED.contains(&integrator).then(|| (end - whole.start) / steps);
     }
-    let prepared = PreparedScene::load_with(path, &overrides).ok()?;
+    let prepared = Model::load_with(path, &overrides).ok()?;
     let scene = path.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned());
     Some(Case { scene, prepared, span, label: integrator.to_string() })
 }
@@ -118,7 +118,7 @@ fn case(paths: &[PathBuf], random: &mut fastrand::Rng) -> Option<Case> {
 fn truth(case: &Case, path: &Path) -> Option<[Run; 2]> {
     let with = |formulation: &str, integrator: &str, projection: &str, rtol: f64| {
         let set = case.prepared.parameters.iter().map(|(name, value)| (name.to_string(), value.into())).collect();
-        let mut prepared = PreparedScene::load_with(path, &Overrides { set, ..Overrides::default() }).ok()?;
+        let mut prepared = Model::load_with(path, &Overrides { set, ..Overrides::default() }).ok()?;
         let [formulation, integrator, projection] = [formulation, integrator, projection].map(MethodSpec::named);
         let atol = rtol * case.prepared.method.atol / case.prepared.method.rtol;
         let method = Method { formulation, integrator, projection, rtol, atol, step: None };

@@ -5,7 +5,7 @@
 //! most for each. Both columns are level where cost is linear; a matrix of global size would show as growth with N.
 
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Span, simulate};
 use serde_json::json;
@@ -36,7 +36,7 @@ unsafe impl GlobalAlloc for Peak {
 static ALLOCATOR: Peak = Peak;
 
 /// A beam that is clamped at one end and falls at the other.
-fn cantilever(dimension: usize, frame: &str, elements: usize) -> PreparedScene {
+fn cantilever(dimension: usize, frame: &str, elements: usize) -> Model {
     let zeros = vec![json!(0); dimension];
     let at = |s: String| [vec![json!(s)], zeros[1..].to_vec()].concat();
     let (stiffness, inertia, gravity) = match dimension {
@@ -55,13 +55,12 @@ fn cantilever(dimension: usize, frame: &str, elements: usize) -> PreparedScene {
             "markers": { "root": zeros, "tip": at(format!("0.1*{elements}")) } }],
         "joints": [{ "name": "wall", "type": "weld", "between": ["ground.wall", "beam.root"] }],
     });
-    let prepared =
-        Scene::parse(&scene.to_string(), &[]).and_then(|scene| PreparedScene::new(scene, &Overrides::default()));
+    let prepared = Scene::parse(&scene.to_string(), &[]).and_then(|scene| Model::new(scene, &Overrides::default()));
     prepared.unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Seconds of a step, from the difference of a long and a short run, and the most bytes held.
-fn cost(prepared: &PreparedScene, method: &Method, step: f64, steps: usize) -> (f64, usize) {
+fn cost(prepared: &Model, method: &Method, step: f64, steps: usize) -> (f64, usize) {
     let run = |steps: usize| {
         let span = Span { start: 0.0, end: step * steps as f64, output_step: step * steps as f64 };
         let begin = Instant::now();

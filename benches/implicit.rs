@@ -9,7 +9,7 @@ mod common;
 use common::{Case, least_times};
 use holonom::analysis::Recorder;
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::{Scene, generate};
 use holonom::simulate::{Method, Span, simulate};
 use std::path::Path;
@@ -20,7 +20,7 @@ const ROWS: f64 = 50.0;
 
 struct Study {
     name: String,
-    prepared: PreparedScene,
+    prepared: Model,
     end: f64,
 }
 
@@ -35,13 +35,12 @@ fn shipped(name: &str, set: &[(&str, f64)], end: f64) -> Study {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
     let overrides = Overrides { set, ..Overrides::default() };
-    let prepared = PreparedScene::load_with(&path, &overrides).unwrap_or_else(|error| panic!("{error}"));
+    let prepared = Model::load_with(&path, &overrides).unwrap_or_else(|error| panic!("{error}"));
     Study { name: name.to_string(), prepared, end }
 }
 
 fn generated(name: &str, scene: &serde_json::Value, end: f64) -> Study {
-    let prepared =
-        Scene::parse(&scene.to_string(), &[]).and_then(|scene| PreparedScene::new(scene, &Default::default()));
+    let prepared = Scene::parse(&scene.to_string(), &[]).and_then(|scene| Model::new(scene, &Default::default()));
     Study { name: name.to_string(), prepared: prepared.unwrap_or_else(|error| panic!("{error}")), end }
 }
 

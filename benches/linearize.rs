@@ -13,7 +13,7 @@ use holonom::linearize::{
 };
 use holonom::math::eigen::eigen;
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::{Scene, generate};
 use holonom::system::{MechanicalSystem, Need};
 use serde_json::{Value, json};
@@ -27,12 +27,12 @@ fn seconds(call: impl FnMut()) -> f64 {
     common::least_times(&mut [(String::new(), Box::new(call))])[0]
 }
 
-fn shipped(name: &str) -> PreparedScene {
+fn shipped(name: &str) -> Model {
     let path = Path::new(ROOT).join("models").join(format!("{name}.json"));
-    PreparedScene::load_with(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
+    Model::load_with(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn at(prepared: &PreparedScene, t: f64) -> State {
+fn at(prepared: &Model, t: f64) -> State {
     states(prepared, &[t], |_| ()).unwrap_or_else(|error| panic!("{error}")).remove(0)
 }
 
@@ -163,11 +163,11 @@ fn differences() {
 }
 
 /// A chain of elastic beams that hangs along gravity.
-fn hanging(links: usize) -> PreparedScene {
+fn hanging(links: usize) -> Model {
     let mut scene = generate::flexible_chain(links);
     scene["gravity"] = json!([9.81, 0]);
     let scene = Scene::parse(&scene.to_string(), &[]);
-    scene.and_then(|scene| PreparedScene::new(scene, &Overrides::default())).unwrap_or_else(|error| panic!("{error}"))
+    scene.and_then(|scene| Model::new(scene, &Overrides::default())).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Twenty modes of chains, against all modes by minimal coordinates, and against the number of links.

@@ -10,21 +10,20 @@ use common::{Case, compare};
 use equations::andrews::{Andrews, START};
 use holonom::formulation::Dynamics;
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::{Scene, generate};
 use holonom::simulate::{Method, Outcome, Span, simulate};
 use holonom::system::{MechanicalSystem, Need};
 use std::cell::RefCell;
 use std::path::Path;
 
-fn shipped(name: &str, overrides: &Overrides) -> PreparedScene {
+fn shipped(name: &str, overrides: &Overrides) -> Model {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
-    PreparedScene::load_with(&path, overrides).unwrap_or_else(|error| panic!("{error}"))
+    Model::load_with(&path, overrides).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn generated(scene: &serde_json::Value) -> PreparedScene {
-    let prepared =
-        Scene::parse(&scene.to_string(), &[]).and_then(|scene| PreparedScene::new(scene, &Default::default()));
+fn generated(scene: &serde_json::Value) -> Model {
+    let prepared = Scene::parse(&scene.to_string(), &[]).and_then(|scene| Model::new(scene, &Default::default()));
     prepared.unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -41,7 +40,7 @@ fn case<'a>(name: impl Into<String>, call: impl FnMut() + 'a) -> Case<'a> {
     (name.into(), Box::new(call))
 }
 
-fn run(prepared: &PreparedScene, method: &Method, end: f64) -> Outcome {
+fn run(prepared: &Model, method: &Method, end: f64) -> Outcome {
     motion(prepared.system(), prepared.start(), method, end)
 }
 

@@ -7,7 +7,7 @@
 
 use holonom::analysis::Recorder;
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate};
 use std::path::Path;
 use std::time::Instant;
@@ -61,11 +61,10 @@ impl Sink for Clock {
     }
 }
 
-fn shipped(name: &str, set: &[(&str, f64)]) -> PreparedScene {
+fn shipped(name: &str, set: &[(&str, f64)]) -> Model {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(name);
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    PreparedScene::load_with(&path, &Overrides { set, ..Overrides::default() })
-        .unwrap_or_else(|error| panic!("{error}"))
+    Model::load_with(&path, &Overrides { set, ..Overrides::default() }).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn method([formulation, integrator, projection]: [&str; 3], knob: Knob, value: f64) -> Method {
@@ -79,7 +78,7 @@ fn method([formulation, integrator, projection]: [&str; 3], knob: Knob, value: f
 }
 
 /// Height of the chassis and position of the carrier, m, every hundredth of a second; `None` if the run fails.
-fn positions(prepared: &PreparedScene, method: &Method) -> Option<Vec<[f64; 4]>> {
+fn positions(prepared: &Model, method: &Method) -> Option<Vec<[f64; 4]>> {
     let mut recorder = Recorder::new(prepared.system());
     let span = Span { start: 0.0, end: END, output_step: 0.01 };
     let outcome = simulate(prepared.system(), method, span, prepared.start(), &mut recorder);
@@ -106,7 +105,7 @@ struct Cost {
 }
 
 /// The fastest of some runs.
-fn time(prepared: &PreparedScene, method: &Method) -> Cost {
+fn time(prepared: &Model, method: &Method) -> Cost {
     let span = Span { start: 0.0, end: END, output_step: END };
     let run = || {
         let begin = Instant::now();
@@ -121,7 +120,7 @@ fn time(prepared: &PreparedScene, method: &Method) -> Cost {
 }
 
 /// The line of a method, with the first of its steps or tolerances that is close enough; its wall time.
-fn line(prepared: &PreparedScene, names: [&str; 3], knob: Knob, exact: &[[f64; 4]]) -> Option<(f64, String)> {
+fn line(prepared: &Model, names: [&str; 3], knob: Knob, exact: &[[f64; 4]]) -> Option<(f64, String)> {
     let values: &[f64] = match knob {
         Step => &STEPS,
         Tolerance => &TOLERANCES,
@@ -139,7 +138,7 @@ fn line(prepared: &PreparedScene, names: [&str; 3], knob: Knob, exact: &[[f64; 4
 }
 
 /// All methods on one scene, the fastest first.
-fn table(title: &str, prepared: &PreparedScene) {
+fn table(title: &str, prepared: &Model) {
     let exact = method(["index1", "dop853", "exact"], Tolerance, 1e-11);
     let exact = positions(prepared, &exact).unwrap_or_else(|| panic!("{title}: the tight run failed"));
     println!("\n{title}");

@@ -2,7 +2,7 @@
 //! that of several threads: least ones of many rounds, in which all take turns.
 
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::PreparedScene;
+use holonom::prepared::Model;
 use holonom::scene::{Scene, generate};
 use holonom::simulate::{Method, Span, simulate, spread};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -18,7 +18,7 @@ fn pool(threads: usize) -> ThreadPool {
 }
 
 /// Seconds of a run of some steps.
-fn seconds(prepared: &PreparedScene, method: &Method, steps: usize) -> f64 {
+fn seconds(prepared: &Model, method: &Method, steps: usize) -> f64 {
     let end = steps as f64 * STEP;
     let clock = Instant::now();
     let span = Span { start: 0.0, end, output_step: end };
@@ -27,7 +27,7 @@ fn seconds(prepared: &PreparedScene, method: &Method, steps: usize) -> f64 {
     clock.elapsed().as_secs_f64()
 }
 
-fn compare(name: &str, prepared: &PreparedScene, names: [&str; 3]) {
+fn compare(name: &str, prepared: &Model, names: [&str; 3]) {
     let [formulation, integrator, projection] = names.map(MethodSpec::named);
     let method = Method { formulation, integrator, projection, step: Some(STEP), ..Method::default() };
     let pools = [1, 2, 4].map(pool);
@@ -50,7 +50,7 @@ fn main() {
     let sizes: Vec<usize> = sizes.collect();
     for n in if sizes.is_empty() { vec![1000, 2000, 3000, 10_000] } else { sizes } {
         let scene = Scene::parse(&generate::n_four_bar(n).to_string(), &[]);
-        let prepared = scene.and_then(|scene| PreparedScene::new(scene, &Default::default()));
+        let prepared = scene.and_then(|scene| Model::new(scene, &Default::default()));
         let prepared = prepared.unwrap_or_else(|error| panic!("{error}"));
         for names in [["index1", "rk4", "manifold"], ["ggl", "generalized_alpha", "none"]] {
             compare(&format!("n_four_bar, N = {n}, {}", names[1]), &prepared, names);

@@ -4,7 +4,7 @@ use crate::common::counting::count;
 use crate::common::driven_pendulum::{self, DrivenPendulum};
 use crate::common::{adaptive, fixed};
 use holonom::math::Scalar;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::{Scene, generate};
 use holonom::simulate::{Method, Observation, Outcome, Sink, Span, simulate, spread};
 use holonom::system::{Equations, MechanicalSystem, OperatingPoint, Scratch};
@@ -129,7 +129,7 @@ fn methods_for_the_constraints_themselves() {
     let (q, v) = driven_pendulum::start();
     check_methods("driven pendulum", &DIRECT, &DrivenPendulum, (&q, &v), 0.01);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/andrews.json");
-    let prepared = PreparedScene::load_with(&path, &Overrides::default()).unwrap();
+    let prepared = Model::load_with(&path, &Overrides::default()).unwrap();
     check_methods("andrews", &DIRECT, prepared.system(), prepared.start(), 1e-5);
 }
 
@@ -138,7 +138,7 @@ fn methods_for_the_constraints_themselves() {
 fn scenes() {
     for name in ["andrews", "parallelogram_redundant", "universal_shaft", "spinning_top"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
-        let prepared = PreparedScene::load_with(&path, &Overrides::default()).unwrap();
+        let prepared = Model::load_with(&path, &Overrides::default()).unwrap();
         check(name, prepared.system(), prepared.start(), 1e-5);
     }
 }
@@ -154,7 +154,7 @@ fn flexible_beams() {
     ];
     for name in ["flexible_slider_crank_fe", "flexible_four_bar", "flexible_pendulum", "right_angle_cantilever"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
-        let prepared = PreparedScene::load_with(&path, &Overrides::default()).unwrap();
+        let prepared = Model::load_with(&path, &Overrides::default()).unwrap();
         check_methods(name, &methods, prepared.system(), prepared.start(), 1e-8);
     }
 }
@@ -164,7 +164,7 @@ fn flexible_beams() {
 fn outputs() {
     for name in ["andrews", "spinning_top", "flexible_slider_crank", "flexible_pendulum", "five_link_suspension"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
-        let prepared = PreparedScene::load_with(&path, &Overrides::default()).unwrap();
+        let prepared = Model::load_with(&path, &Overrides::default()).unwrap();
         let (system, (q, v), mut scratch) = (prepared.system(), prepared.start(), Scratch::default());
         let mut out = vec![0.0; system.facts().outputs.len()];
         let mut row = || {
@@ -205,7 +205,7 @@ fn adaptive_steps_and_rows() {
 fn large_systems_on_some_threads() {
     // Two parts of the saddle-point matrix, and portions of bodies, joints and sums.
     let scene = Scene::parse(&generate::n_four_bar(3000).to_string(), &[]).unwrap();
-    let prepared = PreparedScene::new(scene, &Overrides::default()).unwrap();
+    let prepared = Model::new(scene, &Overrides::default()).unwrap();
     let methods = [("index1", "rk4", "manifold"), ("ggl", "generalized_alpha", "none")];
     let check = || check_methods("n_four_bar", &methods, prepared.system(), prepared.start(), 1e-4);
     check();

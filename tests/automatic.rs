@@ -4,7 +4,7 @@ use crate::scenes::{Ready, parse, shipped};
 use holonom::analysis::{Record, Recorder};
 use holonom::formulation::{Statistics, Work};
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::simulate::{Leg, Method, Outcome, Span, simulate, simulate_automatic};
 use std::path::Path;
 
@@ -177,10 +177,7 @@ fn short_runs_try_nothing() {
 fn a_looser_rtol_takes_atol_along() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/andrews.json");
     let atol = |rtol, atol| {
-        PreparedScene::load_with(&path, &Overrides { rtol: Some(rtol), atol, ..Overrides::default() })
-            .unwrap()
-            .method
-            .atol
+        Model::load_with(&path, &Overrides { rtol: Some(rtol), atol, ..Overrides::default() }).unwrap().method.atol
     };
     assert_eq!([atol(1e-3, None), atol(1e-12, None), atol(1e-3, Some(1e-7))], [1e-5, 1e-11, 1e-7]);
 }

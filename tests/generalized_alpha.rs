@@ -7,7 +7,7 @@ use crate::common::{adaptive, distance, fixed, stepwise, until};
 use holonom::analysis::Recorder;
 use holonom::math::Scalar;
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::PreparedScene;
+use holonom::prepared::Model;
 use holonom::scene::Scene;
 use holonom::scene::generate;
 use holonom::simulate::Span;
@@ -15,7 +15,7 @@ use holonom::simulate::{Method, Outcome, simulate};
 use holonom::system::Equations;
 use std::path::Path;
 
-fn run(prepared: &PreparedScene, integrator: &str, step: f64) -> (Outcome, f64) {
+fn run(prepared: &Model, integrator: &str, step: f64) -> (Outcome, f64) {
     let method = Method {
         formulation: MethodSpec::named("index3"),
         integrator: MethodSpec::parse(integrator).unwrap(),
@@ -35,7 +35,7 @@ fn run(prepared: &PreparedScene, integrator: &str, step: f64) -> (Outcome, f64) 
 /// on the soft spring.
 #[test]
 fn a_stiff_motion_is_stepped_over() {
-    let prepared = PreparedScene::new(Scene::parse(STIFF, &[]).unwrap(), &Default::default()).unwrap();
+    let prepared = Model::new(Scene::parse(STIFF, &[]).unwrap(), &Default::default()).unwrap();
     let (outcome, x) = run(&prepared, "generalized_alpha:rho_inf=0.5", 0.01);
     assert!(outcome.failure.is_none(), "{:?}", outcome.failure);
     let slow = slow_position();
@@ -45,13 +45,13 @@ fn a_stiff_motion_is_stepped_over() {
     assert!(outcome.statistics.newton_iterations < 6000, "{:?}", outcome.statistics);
 }
 
-fn shipped(name: &str) -> PreparedScene {
+fn shipped(name: &str) -> Model {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
-    PreparedScene::load_with(&path, &Default::default()).unwrap()
+    Model::load_with(&path, &Default::default()).unwrap()
 }
 
 /// Turn of the top about the vertical after a second.
-fn precession(prepared: &PreparedScene, method: &Method) -> f64 {
+fn precession(prepared: &Model, method: &Method) -> f64 {
     let mut recorder = Recorder::new(prepared.system());
     let outcome =
         simulate(prepared.system(), method, prepared.span().unwrap(), prepared.start(), &mut recorder).unwrap();
@@ -189,7 +189,7 @@ fn redundant_constraints_that_contradict_each_other_end_the_run() {
 #[test]
 fn a_chain_of_two_hundred_links() {
     let (_, make) = generate::registry().iter().find(|(name, _)| *name == "chain").unwrap();
-    let prepared = PreparedScene::new(Scene::parse(&make(200).to_string(), &[]).unwrap(), &Default::default()).unwrap();
+    let prepared = Model::new(Scene::parse(&make(200).to_string(), &[]).unwrap(), &Default::default()).unwrap();
     for formulation in ["index3", "ggl"] {
         let method = fixed(formulation, "generalized_alpha", "none", 1e-3);
         let span = Span { start: 0.0, end: 0.1, output_step: 0.1 };

@@ -5,7 +5,7 @@ use holonom::linearize::{
     at_rest, frequency_response, linearize, loci_along, loci_over, track,
 };
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
 use holonom::sweep::{Family, Range};
 use std::f64::consts::TAU;
@@ -154,16 +154,16 @@ fn path(scene: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{scene}.json"))
 }
 
-fn prepared(scene: &str, set: &[(&str, f64)]) -> PreparedScene {
+fn prepared(scene: &str, set: &[(&str, f64)]) -> Model {
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    PreparedScene::load_with(&path(scene), &Overrides { set, ..Overrides::default() }).unwrap()
+    Model::load_with(&path(scene), &Overrides { set, ..Overrides::default() }).unwrap()
 }
 
 fn request(method: &str) -> Request {
     Request { method: MethodSpec::parse(method).unwrap(), chart: None }
 }
 
-fn model(prepared: &PreparedScene, state: &State, method: &str) -> LinearModel {
+fn model(prepared: &Model, state: &State, method: &str) -> LinearModel {
     linearize(&mut state.variation(prepared).unwrap(), &request(method)).unwrap()
 }
 
@@ -268,7 +268,7 @@ fn what_cancels_to_round_off_does_not_respond() {
         "outputs": [
             { "name": "angle", "measure": "angle", "of": "rod" }, { "name": "energy", "measure": "energy" },
             { "name": "pin", "measure": "reaction", "of": "h" }] }"#;
-    let prepared = PreparedScene::new(Scene::parse(text, &[]).unwrap(), &Overrides::default()).unwrap();
+    let prepared = Model::new(Scene::parse(text, &[]).unwrap(), &Overrides::default()).unwrap();
     let state = at_rest(&prepared, &State::start(&prepared)).unwrap().state;
     for method in ["mcs", "rcs", "rcs:form=index2", "baumgarte"] {
         for response in frequency_response(&model(&prepared, &state, method), &frequencies()) {

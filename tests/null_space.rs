@@ -4,7 +4,7 @@ use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::equations::pendulum::Pendulum;
 use crate::common::{adaptive, distance, fixed, run, until};
 use crate::scenes::shipped;
-use holonom::prepared::PreparedScene;
+use holonom::prepared::Model;
 use holonom::scene::Scene;
 use holonom::simulate::{Observation, Sink, Span, simulate};
 use holonom::system::MechanicalSystem;
@@ -141,8 +141,7 @@ fn dense_formulations_of_large_systems_are_warned_of() {
         let doubts = |links: usize| {
             let scene =
                 holonom::scene::generate::registry().iter().find(|(name, _)| *name == "chain").unwrap().1(links);
-            let prepared =
-                PreparedScene::new(Scene::parse(&scene.to_string(), &[]).unwrap(), &Default::default()).unwrap();
+            let prepared = Model::new(Scene::parse(&scene.to_string(), &[]).unwrap(), &Default::default()).unwrap();
             method(formulation).doubts(prepared.system())
         };
         assert_eq!(doubts(30), []);

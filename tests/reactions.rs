@@ -1,7 +1,7 @@
 //! Reactions of equations and drives against closed forms.
 
 use crate::scenes::{Ready, parse};
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
 use serde_json::{Value, json};
 
@@ -64,7 +64,7 @@ fn the_reaction_of_an_equation_is_its_multiplier() {
 
 fn refused(output: Value) -> String {
     let scene = Scene::parse(&cam("follower.y - 0.1 - 0.1*sin(cam.angle)", &json!([output])).to_string(), &[]);
-    let prepared = scene.and_then(|scene| PreparedScene::new(scene, &Overrides::default()));
+    let prepared = scene.and_then(|scene| Model::new(scene, &Overrides::default()));
     prepared.err().map_or(String::new(), |error| error.to_string())
 }
 

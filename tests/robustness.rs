@@ -1,7 +1,7 @@
 //! Whatever stands in a scene, reading and assembling it ends with a study or with a message, soon and without a panic.
 
 use holonom::Error;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
 use std::panic::catch_unwind;
 use std::time::{Duration, Instant};
@@ -202,8 +202,7 @@ fn survive(text: &str) -> bool {
     let clock = Instant::now();
     let text_of_it = text.to_string();
     let result = catch_unwind(move || {
-        let prepared =
-            Scene::parse(&text_of_it, &[]).and_then(|scene| PreparedScene::new(scene, &Overrides::default()));
+        let prepared = Scene::parse(&text_of_it, &[]).and_then(|scene| Model::new(scene, &Overrides::default()));
         prepared.map(|prepared| {
             let (q, v) = prepared.start();
             assert!(q.iter().chain(v).all(|x| x.is_finite()), "the start is not finite");

@@ -5,7 +5,7 @@ use crate::common::stiff::{STIFF, slow_position};
 use crate::common::{adaptive, distance, fixed, run, stepwise, until};
 use crate::scenes::{Ready, parse, shipped};
 use holonom::integrator::{Entry, registry};
-use holonom::prepared::PreparedScene;
+use holonom::prepared::Model;
 use holonom::projection::registry as projections;
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Span};
@@ -153,7 +153,7 @@ fn a_stiff_motion_is_stepped_over() {
 #[test]
 fn a_damped_stiff_motion_is_stepped_over_at_any_tolerance() {
     let scene = Scene::parse(STIFF, &[("damping".to_string(), 1e3.into())]).unwrap();
-    let ready = Ready(PreparedScene::new(scene, &Default::default()).unwrap());
+    let ready = Ready(Model::new(scene, &Default::default()).unwrap());
     for (tolerance, most) in [(1e-4, 100), (1e-6, 200), (1e-8, 500), (1e-10, 1500)] {
         for formulation in ["index1", "ggl"] {
             let run = ready.run(&stepwise(formulation, "bdf", "none", tolerance), ready.span());

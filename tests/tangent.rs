@@ -2,11 +2,11 @@
 
 use crate::scenes::differences::stirred;
 use holonom::formulation::Dynamics;
-use holonom::prepared::PreparedScene;
+use holonom::prepared::Model;
 use holonom::system::OperatingPoint;
 use std::path::Path;
 
-fn check(prepared: &PreparedScene) {
+fn check(prepared: &Model) {
     let system = prepared.system();
     let (q, v) = prepared.start();
     let t = 0.1;
@@ -27,6 +27,6 @@ fn exact_derivatives_agree_with_differences() {
     names.sort();
     assert!(names.len() >= 10);
     for path in names {
-        check(&PreparedScene::load_with(&path, &Default::default()).unwrap());
+        check(&Model::load_with(&path, &Default::default()).unwrap());
     }
 }

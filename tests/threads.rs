@@ -2,19 +2,19 @@
 
 use holonom::analysis::Recorder;
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::PreparedScene;
+use holonom::prepared::Model;
 use holonom::scene::{Scene, generate};
 use holonom::simulate::{Method, Outcome, Span, simulate, spread};
 use rayon::ThreadPoolBuilder;
 use serde_json::{Value, json};
 
-fn prepared(scene: &Value) -> PreparedScene {
+fn prepared(scene: &Value) -> Model {
     let scene = Scene::parse(&scene.to_string(), &[]);
-    scene.and_then(|scene| PreparedScene::new(scene, &Default::default())).unwrap()
+    scene.and_then(|scene| Model::new(scene, &Default::default())).unwrap()
 }
 
 /// The end of two steps, and all numbers of the rows, bit by bit.
-fn run(prepared: &PreparedScene, names: [&str; 3], step: f64) -> (Outcome, Vec<u64>) {
+fn run(prepared: &Model, names: [&str; 3], step: f64) -> (Outcome, Vec<u64>) {
     let [formulation, integrator, projection] = names.map(MethodSpec::named);
     let method = Method { formulation, integrator, projection, step: Some(step), ..Method::default() };
     let span = Span { start: 0.0, end: 2.0 * step, output_step: step };

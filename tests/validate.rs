@@ -1,7 +1,7 @@
 //! Linear models of the shipped scenes against perturbed simulations, and wrong models that must be refused.
 
 use holonom::linearize::{Chart, State, states};
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::system::{
     Dimensions, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Scratch, Structure, SystemFacts,
     Tangent, Terms,
@@ -18,8 +18,8 @@ fn scenes() -> Vec<PathBuf> {
     paths
 }
 
-fn load(path: &Path) -> PreparedScene {
-    let mut prepared = PreparedScene::load_with(path, &Default::default()).unwrap();
+fn load(path: &Path) -> Model {
+    let mut prepared = Model::load_with(path, &Default::default()).unwrap();
     if prepared.method.step.is_none() {
         prepared.method.rtol = prepared.method.rtol.min(1e-10);
         prepared.method.atol = prepared.method.atol.min(1e-10);
@@ -28,7 +28,7 @@ fn load(path: &Path) -> PreparedScene {
 }
 
 /// The start and two states of the run.
-fn three(prepared: &PreparedScene) -> Vec<State> {
+fn three(prepared: &Model) -> Vec<State> {
     let start = prepared.start_time();
     let (length, row) = prepared.span().map_or((0.0, 1.0), |span| (span.end - start, span.output_step));
     // At rows of output, which fixed steps meet.
@@ -36,7 +36,7 @@ fn three(prepared: &PreparedScene) -> Vec<State> {
     states(prepared, if length > 0.0 { &times } else { &times[..1] }, |_| {}).unwrap()
 }
 
-fn check(prepared: &PreparedScene, state: &State) -> Validation {
+fn check(prepared: &Model, state: &State) -> Validation {
     let found = validate(prepared.system(), state, &Settings::default()).unwrap();
     let name = format!("{} at {} s", prepared.name, state.t);
     let orders = found.sequences.iter().map(|sequence| &sequence.order_ltv);
@@ -190,8 +190,7 @@ fn wrong_derivatives_are_refused() {
 fn the_plain_projection_is_refused_off_equilibrium() {
     let set = Overrides { set: vec![("c1".to_string(), 5.0.into())], ..Overrides::default() };
     let prepared =
-        PreparedScene::load_with(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"), &set)
-            .unwrap();
+        Model::load_with(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json"), &set).unwrap();
     let state = &three(&prepared)[1];
     let settings = Settings { chart: Some(Chart::Frozen), ..Settings::default() };
     let found = validate(prepared.system(), state, &settings).unwrap();

@@ -2,29 +2,29 @@
 //! size, in the entry where they are.
 
 use holonom::linearize::{Built, Chart, Matrix, State, states};
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::validate::{Deviation, Reason, Settings, Validation, horizon, validate, validate_changed};
 use std::path::Path;
 
-fn load(path: &Path) -> PreparedScene {
-    let mut prepared = PreparedScene::load_with(path, &Overrides::default()).unwrap();
+fn load(path: &Path) -> Model {
+    let mut prepared = Model::load_with(path, &Overrides::default()).unwrap();
     prepared.method.rtol = prepared.method.rtol.min(1e-10);
     prepared.method.atol = prepared.method.atol.min(1e-10);
     prepared
 }
 
-fn model(name: &str) -> PreparedScene {
+fn model(name: &str) -> Model {
     load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json")))
 }
 
-fn scene(json: &serde_json::Value) -> PreparedScene {
+fn scene(json: &serde_json::Value) -> Model {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.json");
     std::fs::write(&path, json.to_string()).unwrap();
     load(&path)
 }
 
-fn state(prepared: &PreparedScene, t: f64) -> State {
+fn state(prepared: &Model, t: f64) -> State {
     states(prepared, &[t], |_| {}).unwrap().remove(0)
 }
 
@@ -83,7 +83,7 @@ fn spoil(built: &mut Built, name: char, (i, j): (usize, usize), part: f64) -> f6
 }
 
 /// Validates the model with a spoilt entry at `place` of a matrix. Returns the size that was added, and what is found.
-fn validate_spoilt(prepared: &PreparedScene, state: &State, name: char, place: usize, part: f64) -> (f64, Validation) {
+fn validate_spoilt(prepared: &Model, state: &State, name: char, place: usize, part: f64) -> (f64, Validation) {
     let mut size = 0.0;
     let found = validate_changed(prepared.system(), state, &entries(), &|| false, |built| {
         let (rows, columns) = matrix(built, name).shape();
@@ -168,7 +168,7 @@ fn right_models_are_blessed() {
 }
 
 /// A mass of 1 kg on a line, at x with a speed, under a force.
-fn mass(force: &str, [x, speed]: [f64; 2]) -> PreparedScene {
+fn mass(force: &str, [x, speed]: [f64; 2]) -> Model {
     scene(&serde_json::json!({ "name": "mass", "dimension": 2,
         "bodies": [{ "name": "m", "type": "rigid", "mass": 1, "inertia": 0, "free": ["x"],
                      "initial": { "position": [x, 0], "velocity": [speed, 0] } }],
@@ -177,7 +177,7 @@ fn mass(force: &str, [x, speed]: [f64; 2]) -> PreparedScene {
         "simulation": { "t_end": 1, "rtol": 1e-11, "atol": 1e-13 } }))
 }
 
-fn over(prepared: &PreparedScene, horizon: f64) -> Validation {
+fn over(prepared: &Model, horizon: f64) -> Validation {
     let settings = Settings { horizon: Some(horizon), ..Settings::default() };
     validate(prepared.system(), &state(prepared, 0.0), &settings).unwrap()
 }
@@ -237,7 +237,7 @@ fn an_output_with_a_kink_is_named() {
 fn a_projected_model_is_not_comparable() {
     let set = Overrides { set: vec![("c1".to_string(), 5.0.into())], ..Overrides::default() };
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/four_bar_spring.json");
-    let prepared = PreparedScene::load_with(&path, &set).unwrap();
+    let prepared = Model::load_with(&path, &set).unwrap();
     let settings = Settings { chart: Some(Chart::Frozen), inputs: false, ..Settings::default() };
     let found = validate(prepared.system(), &state(&prepared, 0.3), &settings).unwrap();
     assert!(found.verdict.text.starts_with("frozen, not comparable"), "{}", found.verdict.text);

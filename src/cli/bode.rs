@@ -4,7 +4,7 @@ use super::common::positive;
 use super::linear::{AtStates, ModelOptions};
 use crate::error::{Error, Result, Warning, clock, find, short};
 use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_response};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::linear::{FrequencyResponse, Magnitude, Response};
 use crate::system::Column;
 
@@ -122,7 +122,7 @@ fn frequencies(args: &Args, model: &LinearModel) -> Result<Vec<f64>> {
 
 fn respond<'p>(
     args: &Args,
-    prepared: &'p PreparedScene,
+    prepared: &'p Model,
     model: LinearModel,
     chosen: &Chosen,
     frequencies: Vec<f64>,

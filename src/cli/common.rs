@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::math::expression::{Number, constant};
 use crate::math::memory::refuse_rows;
 use crate::method_spec::{Listed, MethodSpec};
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::scene::Automatic;
 use crate::simulate::Span;
 use crate::system::Dimensions;
@@ -169,7 +169,7 @@ pub fn set_by(error: Error, option: &str) -> Error {
 }
 
 impl Common {
-    pub fn load(&self) -> Result<PreparedScene> {
+    pub fn load(&self) -> Result<Model> {
         self.talk.load(&self.scene.path, &self.overrides())
     }
 
@@ -179,14 +179,14 @@ impl Common {
     }
 
     /// Returns the time span, if its rows fit into memory.
-    pub fn span(&self, prepared: &PreparedScene) -> Result<Span> {
+    pub fn span(&self, prepared: &Model) -> Result<Span> {
         let Dimensions { q, v, lambda, .. } = prepared.system().dimensions();
         self.span_with(prepared, 1 + q + v + lambda + recorded(prepared.system()).len(), true)
     }
 
     /// Returns the time span, if its rows with this number of columns fit into memory, or into a file where they are
     /// not kept.
-    pub fn span_with(&self, prepared: &PreparedScene, columns: usize, is_kept: bool) -> Result<Span> {
+    pub fn span_with(&self, prepared: &Model, columns: usize, is_kept: bool) -> Result<Span> {
         let span = prepared.span().map_err(|error| error.in_file(&self.scene.path))?;
         refuse_rows((span.end - span.start) / span.output_step + 1.0, columns, is_kept)
             .map_err(|error| error.under("--output-step").hint("give a larger one, or an earlier end with --until"))?;

@@ -5,7 +5,7 @@ use super::interrupt;
 use crate::error::{Error, Failure, INTERRUPTED, Result};
 use crate::integrator;
 use crate::method_spec::MethodSpec;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::{Ending, Shown, Stabilizations};
 use crate::study::{StabilizedRun, drift_under_stabilizations, stabilizations};
 use crate::view::{Extras, Run, page};
@@ -44,7 +44,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 /// Returns the page of all runs with their own motion; none without any.
-fn view(prepared: &PreparedScene, runs: &[StabilizedRun]) -> Option<String> {
+fn view(prepared: &Model, runs: &[StabilizedRun]) -> Option<String> {
     let mut shown: Vec<&StabilizedRun> = runs.iter().filter(|run| !run.motion.rows.is_empty()).collect();
     // Failed ones last, then by their drift.
     shown.sort_by(|a, b| a.drift.position.max.total_cmp(&b.drift.position.max));
@@ -54,7 +54,7 @@ fn view(prepared: &PreparedScene, runs: &[StabilizedRun]) -> Option<String> {
     Some(page(&motion_of(prepared, best), &Extras { ghosts, ..Extras::default() }))
 }
 
-fn motion_of<'a>(prepared: &'a PreparedScene, run: &'a StabilizedRun) -> Run<'a> {
+fn motion_of<'a>(prepared: &'a Model, run: &'a StabilizedRun) -> Run<'a> {
     let ending = Ending::of(run.failure.as_ref(), &run.drift, run.energy.as_ref());
     let rows = Shown::of_trajectory(ending, &run.motion).rows;
     Run { label: run.method.clone(), rows, ..Run::new(prepared, &run.motion) }
@@ -75,7 +75,7 @@ fn refuse_stabilization(method: &MethodOptions) -> Result<()> {
 
 /// Loads the scene; with an integrator of the command line and the first formulation it accepts, since the comparison
 /// does not depend on the scene's own.
-fn load(common: &Common) -> Result<PreparedScene> {
+fn load(common: &Common) -> Result<Model> {
     let mut overrides = common.overrides();
     if let Some(entry) = overrides.integrator.as_ref().and_then(|spec| integrator::find(spec).ok()) {
         overrides.formulation = entry.accepts().next().map(MethodSpec::named);

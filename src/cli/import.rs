@@ -3,7 +3,7 @@
 use super::common::{put, tell, to_json};
 use crate::error::{Error, Result};
 use crate::import::{Closure, Given, Options, import};
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::scene::Scene;
 use std::path::PathBuf;
 
@@ -46,7 +46,7 @@ pub fn run(args: Args) -> Result<()> {
         imported.left_out.iter().for_each(|what| tell(format!("left out: {what}")));
         imported.warnings.iter().for_each(|what| tell(format!("warning: {what}")));
     }
-    let ready = Scene::parse(&text, &[]).and_then(|scene| PreparedScene::new(scene, &Overrides::default()));
+    let ready = Scene::parse(&text, &[]).and_then(|scene| Model::new(scene, &Overrides::default()));
     match ready {
         Err(_) if imported.scene["bodies"].as_array().is_some_and(Vec::is_empty) => {
             tell("warning: no body moves\n  help: --free lets the base of a URDF file move freely");

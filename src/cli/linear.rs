@@ -5,7 +5,7 @@ use crate::analysis::Range;
 use crate::error::{Error, Result};
 use crate::linearize::{Chart, Operating, Request, State, at_rest, kinks, registry, states, tighten};
 use crate::method_spec::MethodSpec;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::linear::stem_at;
 use crate::report::{Answer, Folder};
 use serde_json::Value;
@@ -59,7 +59,7 @@ pub struct AtStates {
 }
 
 impl AtStates {
-    pub fn load(&self) -> Result<PreparedScene> {
+    pub fn load(&self) -> Result<Model> {
         self.run.load_tight(&self.scene, &self.talk)
     }
 
@@ -70,7 +70,7 @@ impl AtStates {
     /// Publishes the results at all states, which `result` [adds](Self::add). As JSON one alone is no list.
     pub fn conclude(
         &self,
-        prepared: &PreparedScene,
+        prepared: &Model,
         mut result: impl FnMut(&Operating, &mut Folder) -> Result<Value>,
     ) -> Result<()> {
         let places = self.states.states(prepared, &self.talk).map_err(self.in_file())?;
@@ -85,7 +85,7 @@ impl AtStates {
         &self,
         folder: &mut Folder,
         what: &str,
-        (prepared, t): (&PreparedScene, f64),
+        (prepared, t): (&Model, f64),
         answer: &impl Answer,
     ) -> Result<Value> {
         let sealed = answer.stage(folder, &stem_at(what, t), self.talk.origin(prepared))?;
@@ -113,7 +113,7 @@ impl ModelOptions {
 
 impl MethodOptions {
     /// Loads the scene with these settings, its tolerances tightened for linear models.
-    pub fn load_tight(&self, scene: &SceneOptions, talk: &Talk) -> Result<PreparedScene> {
+    pub fn load_tight(&self, scene: &SceneOptions, talk: &Talk) -> Result<Model> {
         let overrides = self.overrides(scene, None);
         let mut prepared = talk.load(&scene.path, &overrides)?;
         tighten(&mut prepared, &overrides);
@@ -126,7 +126,7 @@ impl StateOptions {
         self.at.len().max(1)
     }
 
-    pub fn states<'a>(&self, prepared: &'a PreparedScene, talk: &Talk) -> Result<Vec<Operating<'a>>> {
+    pub fn states<'a>(&self, prepared: &'a Model, talk: &Talk) -> Result<Vec<Operating<'a>>> {
         let found = self.operating(prepared, talk)?;
         for place @ Operating { state, doubt, .. } in &found {
             talk.warn(doubt);
@@ -137,13 +137,13 @@ impl StateOptions {
     }
 
     /// The state of another scene at a time.
-    pub fn at<'a>(&self, prepared: &'a PreparedScene, talk: &Talk, t: f64) -> Result<Operating<'a>> {
+    pub fn at<'a>(&self, prepared: &'a Model, talk: &Talk, t: f64) -> Result<Operating<'a>> {
         let own = StateOptions { at: vec![t], equilibrium: self.equilibrium };
         let found = own.states(prepared, talk)?.pop();
         found.ok_or_else(|| Error::input(format!("there is no state at t = {t} s")))
     }
 
-    fn operating<'a>(&self, prepared: &'a PreparedScene, talk: &Talk) -> Result<Vec<Operating<'a>>> {
+    fn operating<'a>(&self, prepared: &'a Model, talk: &Talk) -> Result<Vec<Operating<'a>>> {
         let times = if self.at.is_empty() { vec![prepared.start_time()] } else { self.at.clone() };
         if !self.equilibrium {
             let bar = talk.progress(times.len() as u64, &prepared.name);

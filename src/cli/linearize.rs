@@ -9,7 +9,7 @@ use crate::linearize::{
     compare, kinks, states, within_run,
 };
 use crate::method_spec::MethodSpec;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::linear::{AgainstAnswer, AlongAnswer, ArrayFormat, Linear, LinearAnswer, MethodsAnswer, stem_at};
 use crate::report::{Answer, Folder, uncertain_kinds};
 use crate::sweep::Range;
@@ -102,7 +102,7 @@ pub fn run(args: Args) -> Result<()> {
 }
 
 /// Returns the state of the motion at the first time of a range.
-pub fn begin(at: &AtStates, prepared: &PreparedScene, range: &Range) -> Result<State> {
+pub fn begin(at: &AtStates, prepared: &Model, range: &Range) -> Result<State> {
     within_run(prepared, &[range.from, range.to]).map_err(|error| error.at("--along"))?;
     let start = states(prepared, &[range.from], |_| ())?.swap_remove(0);
     at.talk.warn(&kinks(prepared.system(), &start)?);
@@ -110,7 +110,7 @@ pub fn begin(at: &AtStates, prepared: &PreparedScene, range: &Range) -> Result<S
 }
 
 /// Writes the models along the motion.
-fn along(args: &Args, prepared: &PreparedScene, times: &Times) -> Result<()> {
+fn along(args: &Args, prepared: &Model, times: &Times) -> Result<()> {
     if args.method != "mcs" {
         let error = Error::input("--along makes models in minimal coordinates, which only mcs has");
         return Err(error.under("--method").hint("leave out --method"));
@@ -186,7 +186,7 @@ fn requests(args: &Args) -> Result<Vec<Request>> {
     first.chain(charts).chain(names.map(|name| MethodSpec::parse(name).map(request))).collect()
 }
 
-fn other(args: &Args, path: &Path) -> Result<PreparedScene> {
+fn other(args: &Args, path: &Path) -> Result<Model> {
     let scene = SceneOptions { path: path.to_path_buf(), set: Vec::new() };
     args.at.run.load_tight(&scene, &args.at.talk)
 }
@@ -195,14 +195,13 @@ fn other(args: &Args, path: &Path) -> Result<PreparedScene> {
 ///
 /// # Errors
 /// It has neither: it is a scene of something else.
-pub fn unlike(own: &PreparedScene, other: &PreparedScene) -> Result<Option<Warning>> {
-    let bodies = |scene: &PreparedScene| -> Vec<String> {
+pub fn unlike(own: &Model, other: &Model) -> Result<Option<Warning>> {
+    let bodies = |scene: &Model| -> Vec<String> {
         let names = scene.system().facts().names.v.clone().into_iter();
         names.map(|name| name.split('.').next().unwrap_or_default().trim_end_matches('\'').to_string()).collect()
     };
-    let outputs =
-        |scene: &PreparedScene| scene.system().facts().outputs.iter().map(|column| column.name.clone()).collect();
-    let shares = |list: &dyn Fn(&PreparedScene) -> Vec<String>| {
+    let outputs = |scene: &Model| scene.system().facts().outputs.iter().map(|column| column.name.clone()).collect();
+    let shares = |list: &dyn Fn(&Model) -> Vec<String>| {
         let there = list(other);
         list(own).iter().any(|name| there.contains(name))
     };
@@ -226,8 +225,8 @@ pub fn unlike(own: &PreparedScene, other: &PreparedScene) -> Result<Option<Warni
 /// The modes of `model` against those of another scene at the same time.
 fn compared<'s>(
     args: &Args,
-    prepared: &PreparedScene,
-    scene: &'s PreparedScene,
+    prepared: &Model,
+    scene: &'s Model,
     (own, model): (&Operating, &LinearModel),
     requests: &[Request],
 ) -> Result<AgainstAnswer<'s>> {
@@ -240,7 +239,7 @@ fn compared<'s>(
 /// Writes the first model, and what it is compared with; returns the JSON to print.
 fn add(
     args: &Args,
-    prepared: &PreparedScene,
+    prepared: &Model,
     (models, against): (&[LinearModel], Option<AgainstAnswer>),
     folder: &mut Folder,
 ) -> Result<Value> {

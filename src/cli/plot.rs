@@ -5,7 +5,7 @@ use super::interrupt;
 use crate::analysis::Recorder;
 use crate::error::{Error, Failure, Result, Warning, clock, significant};
 use crate::linearize::State;
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::report::mechanism::{
     Look, Motion, Trace, View, animation, find_trace, mechanism_figure, output_traces, stroboscope_figure, up,
 };
@@ -151,7 +151,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 
 impl Args {
     /// Returns the scene, with the parameters of the finished run if there is one.
-    fn load(&self, finished: Option<&FinishedRun>) -> Result<PreparedScene> {
+    fn load(&self, finished: Option<&FinishedRun>) -> Result<Model> {
         let Some(run) = finished else { return self.common.load() };
         let overrides = Overrides { set: run.parameters.clone(), ..Overrides::default() };
         let prepared = self.common.talk.load(&self.common.scene.path, &overrides);
@@ -168,7 +168,7 @@ impl Args {
     }
 
     /// Returns the time span of the motion. The start alone needs no run, and no end time.
-    fn span(&self, prepared: &PreparedScene, finished: Option<&Trajectory>) -> Result<Option<Span>> {
+    fn span(&self, prepared: &Model, finished: Option<&Trajectory>) -> Result<Option<Span>> {
         match finished {
             _ if !self.is_in_motion() && !self.outputs => Ok(None),
             None => self.common.span(prepared).map(Some),
@@ -184,7 +184,7 @@ impl Args {
         }
     }
 
-    fn look(&self, prepared: &PreparedScene) -> Result<Look> {
+    fn look(&self, prepared: &Model) -> Result<Look> {
         let is_planar = prepared.mechanism.dimension() == 2;
         let plain = Look::plain(&prepared.mechanism);
         let view = match &self.view {
@@ -210,7 +210,7 @@ impl Args {
     }
 
     /// Refuses what cannot be drawn, before anything is computed.
-    fn check(&self, prepared: &PreparedScene, span: Option<Span>) -> Result<()> {
+    fn check(&self, prepared: &Model, span: Option<Span>) -> Result<()> {
         if self.output.figures == Format::None
             && (self.stroboscope || self.outputs || self.animate.is_none() && !self.gltf)
         {
@@ -232,12 +232,7 @@ impl Args {
     }
 
     /// Runs the scene, with rows close enough to interpolate the states between them.
-    fn simulate(
-        &self,
-        prepared: &PreparedScene,
-        span: Span,
-        folder: &Folder,
-    ) -> Result<(Trajectory, Ending, Option<Failure>)> {
+    fn simulate(&self, prepared: &Model, span: Span, folder: &Folder) -> Result<(Trajectory, Ending, Option<Failure>)> {
         let length = span.end - span.start;
         let wanted = (length / span.output_step).clamp(ROWS.0, ROWS.1);
         // Evenly chosen times are times of rows.
@@ -344,7 +339,7 @@ impl Args {
     }
 
     /// Writes what it takes to draw the figure again.
-    fn seal(&self, folder: &mut Folder, name: &str, prepared: &PreparedScene, drawn: &Drawn) -> Result<()> {
+    fn seal(&self, folder: &mut Folder, name: &str, prepared: &Model, drawn: &Drawn) -> Result<()> {
         let origin = self.common.talk.origin(prepared);
         let simulation = origin.simulation.filter(|_| self.from.is_none());
         folder.seal(&format!("{name}.json"), Origin { simulation, ..origin }, drawn).map(drop)

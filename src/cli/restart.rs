@@ -1,7 +1,7 @@
 //! `--start FILE`: the end of another run of the same scene.
 
 use crate::error::{Error, Result, Warning};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::simulate::Checkpoint;
 use serde::Deserialize;
 use serde_json::{Map, Value};
@@ -24,7 +24,7 @@ struct LastRow {
 }
 
 /// Reads the state from which the run of this summary can continue, with a scene that may be `changed` since.
-pub fn read(path: &Path, prepared: &PreparedScene, changed: bool) -> Result<Checkpoint> {
+pub fn read(path: &Path, prepared: &Model, changed: bool) -> Result<Checkpoint> {
     let text = crate::files::read_json(path).map_err(|error| Error::file(path, error))?;
     let saved = parse(&text).and_then(|saved| checked(saved, prepared, changed));
     saved.map_err(|error| error.under("--start").in_file(path))
@@ -40,7 +40,7 @@ fn parse(text: &str) -> Result<Saved> {
 /// Refuses a run of another scene, and a state that no run has left.
 fn checked(
     Saved { parameters, scene_hash, r#final: LastRow { q, v }, restart }: Saved,
-    prepared: &PreparedScene,
+    prepared: &Model,
     changed: bool,
 ) -> Result<Checkpoint> {
     let names = prepared.system().facts().names.clone();
@@ -78,7 +78,7 @@ fn checked(
 }
 
 /// Returns a warning if the run does not continue as it was.
-pub fn doubt(saved: &Checkpoint, prepared: &PreparedScene) -> Option<Warning> {
+pub fn doubt(saved: &Checkpoint, prepared: &Model) -> Option<Warning> {
     let t = saved.t();
     let method = saved.method();
     if !prepared.is_automatic && *method != prepared.method {

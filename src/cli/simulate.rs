@@ -5,7 +5,7 @@ use super::{interrupt, restart};
 use crate::analysis::{Record, Recorder};
 use crate::error::{Error, Result, Warning};
 use crate::files::{mat, npz};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::{self, Answer, Ending, Folder, RowFiles, Shown, Summary, summarize};
 use crate::simulate::{Span, Start, spread};
 use crate::study::{Completed, error_bars};
@@ -126,7 +126,7 @@ fn on_all_threads<R>(work: impl FnOnce() -> R) -> R {
 
 impl Args {
     /// Returns the time span, if its rows fit into memory, or into a file.
-    fn span(&self, prepared: &PreparedScene) -> Result<Span> {
+    fn span(&self, prepared: &Model) -> Result<Span> {
         let Dimensions { q, v, lambda, .. } = prepared.system().dimensions();
         let outputs = recorded(prepared.system()).len();
         if self.outputs_only && outputs == 0 {
@@ -143,7 +143,7 @@ impl Args {
         self.check_error || self.view || self.format.iter().any(|format| *format != Format::Csv)
     }
 
-    fn row_files(&self, prepared: &PreparedScene, folder: &mut Folder) -> Result<RowFiles> {
+    fn row_files(&self, prepared: &Model, folder: &mut Folder) -> Result<RowFiles> {
         let (system, (q, v)) = (prepared.system(), prepared.start());
         let trajectory = if self.outputs_only { Trajectory::of_outputs(system, 0) } else { Trajectory::new(system) };
         let headings = self.format.contains(&Format::Csv).then(|| trajectory.headings());
@@ -153,7 +153,7 @@ impl Args {
 
 struct Simulated<'a> {
     args: &'a Args,
-    prepared: &'a PreparedScene,
+    prepared: &'a Model,
     record: &'a Record,
     summary: &'a Summary,
 }

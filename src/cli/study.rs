@@ -3,7 +3,7 @@
 use super::common::{Common, Output, duration, fail, print};
 use super::interrupt;
 use crate::error::{Error, Result, Warning};
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::report::{Answer, Folder, Origin, StudyAnswer, cell};
 use crate::study::Budget;
 use crate::study::variants::{Axis, Plan, Recorded, Sample, Shard, Study, StudyTable};
@@ -115,12 +115,7 @@ impl Args {
     }
 
     /// Computes the rows that were asked for; returns them with their number.
-    fn computed(
-        &self,
-        prepared: PreparedScene,
-        overrides: &Overrides,
-        place: &Path,
-    ) -> Result<(PreparedScene, StudyTable, usize)> {
+    fn computed(&self, prepared: Model, overrides: &Overrides, place: &Path) -> Result<(Model, StudyTable, usize)> {
         let plan = self.plan()?;
         let is_automatic = prepared.is_automatic;
         let prepared = prepared.settled()?;

@@ -6,7 +6,7 @@ pub use super::terminal::{print, tell};
 use super::terminal::{capture, is_captured, visible};
 use crate::error::{Error, Result, Warning};
 use crate::math::expression::{Number, Parameters};
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::report::{Answer, Folder, Format, Origin, Written, write_whole};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -41,9 +41,9 @@ pub struct Output {
 
 impl Talk {
     /// Loads the scene, with warnings about its start.
-    pub fn load(&self, path: &Path, overrides: &Overrides) -> Result<PreparedScene> {
+    pub fn load(&self, path: &Path, overrides: &Overrides) -> Result<Model> {
         refuse_twice(&overrides.set)?;
-        let prepared = PreparedScene::load_with(path, overrides)?;
+        let prepared = Model::load_with(path, overrides)?;
         self.warn(&prepared.doubts);
         Ok(prepared)
     }
@@ -66,7 +66,7 @@ impl Talk {
     }
 
     /// Returns the origin of a result: the command line, the scene's parameters and method, and the warnings so far.
-    pub fn origin(&self, prepared: &PreparedScene) -> Origin {
+    pub fn origin(&self, prepared: &Model) -> Origin {
         Origin { simulation: Some(prepared.method.clone()), ..self.origin_of(&prepared.parameters) }
     }
 

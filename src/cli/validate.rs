@@ -7,7 +7,7 @@ use super::linearize::{Times, begin, span};
 use crate::clock::Stopwatch;
 use crate::error::{Error, Result, Warning};
 use crate::linearize::along;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::Answer;
 use crate::report::linear::{SpanAnswer, ValidationAnswer};
 use crate::validate::{Direction, Settings, validate_along, validate_until};
@@ -81,7 +81,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
 }
 
 /// Checks the models along a span of the motion.
-fn over(args: &Args, prepared: &PreparedScene, times: &Times, directions: &[Direction]) -> Result<ExitCode> {
+fn over(args: &Args, prepared: &Model, times: &Times, directions: &[Direction]) -> Result<ExitCode> {
     let range = &times.range;
     let mut folder = args.at.output.folder(&prepared.name)?;
     let bar = args.at.talk.progress(1000, &prepared.name);

@@ -6,7 +6,7 @@ use crate::analysis::{Ledger, Recorder};
 use crate::error::{Error, Failure, Result, clock};
 use crate::linearize::{LinearModel, Request, linearize, states};
 use crate::method_spec::MethodSpec;
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::report::{Answer, Ending, FinishedRun, Folder, Shown};
 use crate::simulate::Span;
 use crate::trajectory::Trajectory;
@@ -45,7 +45,7 @@ pub struct Args {
 
 /// A motion with all that a page shows of it.
 struct Seen {
-    prepared: PreparedScene,
+    prepared: Model,
     trajectory: Trajectory,
     drift: Vec<[f64; 3]>,
     energy: Vec<Ledger>,
@@ -125,7 +125,7 @@ impl Args {
     }
 
     /// Runs the scene, with as many rows as the page shows.
-    fn simulate(&self, prepared: PreparedScene, span: Span, folder: &Folder) -> Result<Seen> {
+    fn simulate(&self, prepared: Model, span: Span, folder: &Folder) -> Result<Seen> {
         let length = span.end - span.start;
         let bar = self.common.talk.progress(1000, &prepared.name);
         let mut recorder = Recorder::new(prepared.system())
@@ -147,7 +147,7 @@ impl Args {
     }
 
     /// Returns the linear model whose modes are shown.
-    fn model(&self, prepared: &PreparedScene) -> Result<LinearModel> {
+    fn model(&self, prepared: &Model) -> Result<LinearModel> {
         let t = self.at.unwrap_or_else(|| prepared.start_time());
         let state = states(prepared, &[t], |_| ()).map_err(|error| error.under("--at"))?.swap_remove(0);
         let request = Request { method: MethodSpec::named("mcs"), chart: None };

@@ -4,7 +4,7 @@ use super::flow::{Bundle, flow};
 use super::least_norm::least_norm;
 use super::{Chart, Matrix, State, Variation};
 use crate::error::{Error, Result};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::simulate::{Method, Span, stiffness};
 use crate::system::{MechanicalSystem, OperatingPoint};
 
@@ -59,7 +59,7 @@ fn amplification(
 /// # Errors
 /// Too many degrees of freedom, a motion that cannot go on, or one that `goes_on` ends; modes that are too fast for the
 /// explicit method that integrates small changes.
-pub fn amplified(prepared: &PreparedScene, span: Span, goes_on: impl FnMut(f64) -> bool) -> Result<f64> {
+pub fn amplified(prepared: &Model, span: Span, goes_on: impl FnMut(f64) -> bool) -> Result<f64> {
     let start = State::start(prepared);
     let state = OperatingPoint {
         t: start.t,

@@ -3,7 +3,7 @@
 use super::Variation;
 use crate::error::{Error, Result, short};
 use crate::initial::assemble;
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::simulate::{Method, Span, Start};
 
 /// States of a run are integrated at least so well. Unit: `[1]`, rtol.
@@ -22,7 +22,7 @@ pub struct State {
 
 impl State {
     /// The consistent start of a scene.
-    pub fn start(prepared: &PreparedScene) -> Self {
+    pub fn start(prepared: &Model) -> Self {
         let (q, v) = prepared.start();
         State { t: prepared.start_time(), q: q.to_vec(), v: v.to_vec() }
     }
@@ -31,14 +31,14 @@ impl State {
     ///
     /// # Errors
     /// See [`Variation::new`].
-    pub fn variation<'a>(&self, prepared: &'a PreparedScene) -> Result<Variation<'a>> {
+    pub fn variation<'a>(&self, prepared: &'a Model) -> Result<Variation<'a>> {
         Variation::new(prepared.system(), self.t, &self.q, &self.v)
     }
 }
 
 /// Tightens the tolerances that the command line does not give, so that states are more accurate than what is derived
 /// from them.
-pub fn tighten(prepared: &mut PreparedScene, given: &Overrides) {
+pub fn tighten(prepared: &mut Model, given: &Overrides) {
     let Method { rtol, atol, step, .. } = &mut prepared.method;
     if step.is_some() {
         return;
@@ -51,7 +51,7 @@ pub fn tighten(prepared: &mut PreparedScene, given: &Overrides) {
 ///
 /// # Errors
 /// A time before the start or after the end of the run; a run that stops before it.
-pub fn states(prepared: &PreparedScene, times: &[f64], progress: impl FnMut(f64)) -> Result<Vec<State>> {
+pub fn states(prepared: &Model, times: &[f64], progress: impl FnMut(f64)) -> Result<Vec<State>> {
     within_run(prepared, times)?;
     let mut order: Vec<usize> = (0..times.len()).collect();
     order.sort_by(|&i, &j| times[i].total_cmp(&times[j]));
@@ -67,12 +67,12 @@ pub fn states(prepared: &PreparedScene, times: &[f64], progress: impl FnMut(f64)
 
 /// The scene's motion, integrated from one time to the next.
 pub(super) struct Walk<'a> {
-    prepared: &'a PreparedScene,
+    prepared: &'a Model,
     last: State,
 }
 
 impl<'a> Walk<'a> {
-    pub fn new(prepared: &'a PreparedScene) -> Self {
+    pub fn new(prepared: &'a Model) -> Self {
         Walk { prepared, last: State::start(prepared) }
     }
 
@@ -91,7 +91,7 @@ impl<'a> Walk<'a> {
 ///
 /// # Errors
 /// The first such time.
-pub fn within_run(prepared: &PreparedScene, times: &[f64]) -> Result<()> {
+pub fn within_run(prepared: &Model, times: &[f64]) -> Result<()> {
     let start = prepared.start_time();
     let end = prepared.span().map_or(f64::INFINITY, |span| span.end);
     let Some(t) = times.iter().find(|t| !(start..=end).contains(*t)) else { return Ok(()) };
@@ -104,7 +104,7 @@ pub fn within_run(prepared: &PreparedScene, times: &[f64]) -> Result<()> {
 }
 
 /// Integrates to `end` and projects the state onto the constraints.
-pub(super) fn follow(prepared: &PreparedScene, from: &State, end: f64) -> Result<State> {
+pub(super) fn follow(prepared: &Model, from: &State, end: f64) -> Result<State> {
     let span = Span { start: from.t, end, output_step: end - from.t };
     let start = Start::State(&from.q, &from.v);
     let (outcome, _, _) = prepared.simulate_from(&prepared.method, span, start, &mut ())?;

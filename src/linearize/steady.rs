@@ -5,7 +5,7 @@ use super::{Changes, Matrix, State, Variation};
 use crate::error::{Error, Result, Warning, short};
 use crate::initial::{assemble, equilibrium};
 use crate::math::largest;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::system::{MechanicalSystem, Rotating};
 use crate::tolerances;
 
@@ -20,7 +20,7 @@ const STEADY_DIRECTIONS: usize = 3;
 pub struct Operating<'a> {
     /// The state.
     pub state: State,
-    prepared: &'a PreparedScene,
+    prepared: &'a Model,
     /// Rotating axes in which v is expressed; only for a steady rotation.
     axes: Option<Rotating<'a>>,
     /// Warning where the state may not be the requested one.
@@ -29,7 +29,7 @@ pub struct Operating<'a> {
 
 impl<'a> Operating<'a> {
     /// A state of the motion.
-    pub fn moving(prepared: &'a PreparedScene, state: State) -> Self {
+    pub fn moving(prepared: &'a Model, state: State) -> Self {
         Operating { state, prepared, axes: None, doubt: None }
     }
 
@@ -55,7 +55,7 @@ impl<'a> Operating<'a> {
 ///
 /// # Errors
 /// No equilibrium is found: the state moves, or force remains. Drives that accelerate.
-pub fn at_rest<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operating<'a>> {
+pub fn at_rest<'a>(prepared: &'a Model, state: &State) -> Result<Operating<'a>> {
     let Some(spin) = prepared.system().prescribed_spin(state.t) else { return still(prepared, state) };
     match Rotating::new(prepared.system(), state.t, spin) {
         Some(axes) if is_same_all_around(&axes, prepared, state)? => {
@@ -77,7 +77,7 @@ pub fn at_rest<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operati
     }
 }
 
-fn still<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operating<'a>> {
+fn still<'a>(prepared: &'a Model, state: &State) -> Result<Operating<'a>> {
     let found = equilibrium(prepared.system(), state.t, (&state.q, &state.v))?;
     let rest = State { t: state.t, v: found.v, q: found.q };
     let operating = Operating::moving(prepared, rest);
@@ -92,7 +92,7 @@ fn still<'a>(prepared: &'a PreparedScene, state: &State) -> Result<Operating<'a>
 
 /// True if a rotation of everything that moves, at the time when drives have turned it so far, changes nothing: the
 /// inertia forces, the directions that constraints allow, and M, K and C along these.
-fn is_same_all_around(axes: &Rotating, prepared: &PreparedScene, state: &State) -> Result<bool> {
+fn is_same_all_around(axes: &Rotating, prepared: &Model, state: &State) -> Result<bool> {
     let still = vec![0.0; state.v.len()];
     let closed = assemble(prepared.system(), state.t, (&state.q, &state.v), &[])?;
     let other = axes.turned(ODD_ANGLE);

@@ -7,7 +7,7 @@ use super::thresholds::{self, Threshold};
 use super::variants::{At, Models, SLOPE_STEP, Sensitivity, Variants};
 use super::{Branch, Linear, LinearizationPoint, LociPoint, Operating, State, Variation, track};
 use crate::error::{Error, Result, Warning};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::sweep::Range;
 use crate::tolerances;
 use rayon::prelude::*;
@@ -91,12 +91,7 @@ type Outcome = (f64, Result<Found>);
 /// Returns the eigenvalues at `times` (increasing) of the scene's motion; `progress` is called for each. Where the
 /// motion cannot go on, the later times are gaps. Where the matching of modes is not clear, states between the times
 /// are added for it.
-pub fn loci_along<'a>(
-    prepared: &'a PreparedScene,
-    request: &Linear,
-    times: &[f64],
-    progress: impl Fn() + Sync,
-) -> Loci {
+pub fn loci_along<'a>(prepared: &'a Model, request: &Linear, times: &[f64], progress: impl Fn() + Sync) -> Loci {
     let mut walk = Walk::new(prepared);
     let mut stopped = None;
     let mut go_to = |t: f64| match &stopped {
@@ -127,7 +122,7 @@ pub fn loci_along<'a>(
 /// steps.
 fn found(
     variation: &mut Variation,
-    (prepared, state): (&PreparedScene, State),
+    (prepared, state): (&Model, State),
     t: f64,
     request: &Linear,
     steps: &[f64],

@@ -5,7 +5,7 @@ use super::method::build;
 use super::slopes::Slope;
 use super::{Kind, Linear, LociPoint, Mode, Operating, State, at_rest, method, states, tighten};
 use crate::error::Result;
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::sweep::{Family, Range};
 
 /// Step of the differences of the model from which eigenvalues have their derivatives in figures. Unit: `[1]` of the
@@ -59,7 +59,7 @@ impl Models<'_> {
     /// Applies a function to the scene with a value of the parameter at its state; an equilibrium is sought near `guess`.
     fn operate<T>(&self, value: f64, guess: Option<&[f64]>, then: impl FnOnce(&Operating) -> Result<T>) -> Result<T> {
         let Variants { family, overrides, range } = self.variants;
-        let mut prepared = PreparedScene::new(family.scene_at(&range.parameter, value)?, overrides)?;
+        let mut prepared = Model::new(family.scene_at(&range.parameter, value)?, overrides)?;
         tighten(&mut prepared, overrides);
         let moving = |state| Operating::moving(&prepared, state);
         then(&match self.at {
@@ -113,7 +113,7 @@ impl Models<'_> {
 }
 
 /// Returns the equilibrium near a guess; where there is none, that near the scene's own start.
-fn rest<'a>(prepared: &'a PreparedScene, guess: Option<&[f64]>) -> Result<Operating<'a>> {
+fn rest<'a>(prepared: &'a Model, guess: Option<&[f64]>) -> Result<Operating<'a>> {
     let start = State::start(prepared);
     let near = guess.filter(|q| q.len() == start.q.len()).map(|q| State { q: q.to_vec(), ..start.clone() });
     match near.map(|near| at_rest(prepared, &near)) {

@@ -74,9 +74,6 @@ pub struct Model {
     family: Option<Family>,
 }
 
-#[doc(hidden)]
-pub type PreparedScene = Model;
-
 /// Outcome of a run, the methods used if they were chosen automatically, and a checkpoint to continue from.
 pub type Simulated = (Outcome, Vec<Leg>, Option<Checkpoint>);
 

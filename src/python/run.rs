@@ -9,7 +9,7 @@ use crate::cli::common::{Common, to_json};
 use crate::cli::restart;
 use crate::error::{Error, INTERRUPTED, Result, Warning};
 use crate::files::with_given;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::{MOST_COORDINATES, Summary, summarize};
 use crate::simulate::{Start, Stop, spread};
 use crate::study::{Completed, error_bars};
@@ -143,7 +143,7 @@ fn stop(is_asked: &AtomicBool) -> Option<Stop> {
 }
 
 /// Returns a recorder that passes the rows on, unless a comparison of two runs needs all of them.
-fn recorder<'a>(options: &Options, prepared: &'a PreparedScene, rows: &'a RefCell<Rows>) -> Recorder<'a> {
+fn recorder<'a>(options: &Options, prepared: &'a Model, rows: &'a RefCell<Rows>) -> Recorder<'a> {
     let mut recorder = Recorder::new(prepared.system()).with_jumps();
     if options.outputs_only {
         recorder = recorder.with_outputs_only();
@@ -155,7 +155,7 @@ fn recorder<'a>(options: &Options, prepared: &'a PreparedScene, rows: &'a RefCel
     recorder.with_rows(coordinates, |row| rows.borrow_mut().add(&row))
 }
 
-fn columns(options: &Options, prepared: &PreparedScene) -> Trajectory {
+fn columns(options: &Options, prepared: &Model) -> Trajectory {
     let system = prepared.system();
     if options.outputs_only { Trajectory::of_outputs(system, 0) } else { Trajectory::new(system) }
 }

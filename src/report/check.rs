@@ -9,7 +9,7 @@ use crate::error::{Failure, significant};
 use crate::initial::Assembly;
 use crate::math::kkt::has_least_norm;
 use crate::math::largest;
-use crate::prepared::{AnyMechanism, PreparedScene};
+use crate::prepared::{self, AnyMechanism};
 use crate::scene::{BeamLine, Model, Part};
 use crate::simplify::Hints;
 use crate::simulate::{SpectralMode, refused};
@@ -92,14 +92,14 @@ impl Element {
     }
 }
 
-pub fn check(prepared: &PreparedScene) -> Check {
+pub fn check(prepared: &prepared::Model) -> Check {
     match &prepared.mechanism {
         AnyMechanism::Planar(mechanism) => inspect(prepared, mechanism.model()),
         AnyMechanism::Spatial(mechanism) => inspect(prepared, mechanism.model()),
     }
 }
 
-fn inspect<const D: usize>(prepared: &PreparedScene, model: &Model<D>) -> Check {
+fn inspect<const D: usize>(prepared: &prepared::Model, model: &Model<D>) -> Check {
     let (system, Assembly { q, v, vdot, lambda, .. }) = (prepared.system(), &prepared.assembly);
     let found = Rank::at(system, OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda });
     let n = system.dimensions();
@@ -286,7 +286,7 @@ impl Check {
 }
 
 impl Start {
-    fn of(prepared: &PreparedScene) -> Start {
+    fn of(prepared: &prepared::Model) -> Start {
         let Assembly { q, v, vdot, lambda, .. } = &prepared.assembly;
         let at = OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda };
         let moving = ..prepared.system().dimensions().moving();

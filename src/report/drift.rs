@@ -6,7 +6,7 @@ use super::{Answer, Folder, Table, cell, table};
 use crate::analysis::Drift;
 use crate::error::Result;
 use crate::plot::{AxisSpec, Figure, Panel, Series};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::simulate::Method;
 use crate::study::StabilizedRun;
 use serde::Serialize;
@@ -14,7 +14,7 @@ use serde_json::json;
 
 /// A scene under every stabilization.
 pub struct Stabilizations<'a> {
-    pub prepared: &'a PreparedScene,
+    pub prepared: &'a Model,
     pub runs: Vec<StabilizedRun>,
 }
 

@@ -5,7 +5,7 @@ use super::table::{OutputValues, moves_text, named};
 use crate::analysis::Range;
 use crate::error::{Warning, clock};
 use crate::initial::{Equilibrium, Move, Stability, Way};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::system::{Column, Names, OperatingPoint};
 use crate::tolerances;
 use serde::{Serialize, Serializer};
@@ -63,7 +63,7 @@ impl EquilibriumReport {
         EquilibriumReport { t, ..EquilibriumReport::default() }
     }
 
-    pub fn of(prepared: &PreparedScene, found: Equilibrium) -> EquilibriumReport {
+    pub fn of(prepared: &Model, found: Equilibrium) -> EquilibriumReport {
         let system = prepared.system();
         let names = system.facts().names.clone();
         let vdot = vec![0.0; names.v.len()];

@@ -8,7 +8,7 @@ use crate::error::{Failure, Warning, clock, short_list, significant};
 use crate::formulation::Statistics;
 use crate::initial::Assembly;
 use crate::math::kkt::has_least_norm;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::simulate::{Checkpoint, Leg, Method, Outcome, Stiffness};
 use crate::study::ErrorBars;
 use serde::{Serialize, Serializer};
@@ -63,7 +63,7 @@ struct Chosen {
 }
 
 impl Chosen {
-    fn of(prepared: &PreparedScene, legs: &[Leg], end: f64) -> Self {
+    fn of(prepared: &Model, legs: &[Leg], end: f64) -> Self {
         let ends = legs.iter().skip(1).map(|leg| leg.from).chain([end]);
         let longest =
             legs.iter().zip(ends).max_by(|(a, a_end), (b, b_end)| (a_end - a.from).total_cmp(&(b_end - b.from)));
@@ -100,7 +100,7 @@ const SHOWN: f64 = 0.1;
 
 /// Collects the summary of a run, with warnings from before it.
 pub fn summarize(
-    (prepared, stiffness, early): (&PreparedScene, Option<Stiffness>, &[Warning]),
+    (prepared, stiffness, early): (&Model, Option<Stiffness>, &[Warning]),
     (outcome, legs): (&Outcome, &[Leg]),
     record: &Record,
     wall_seconds: f64,

@@ -3,7 +3,7 @@
 use super::facts::{initial, placed};
 use super::source::Source;
 use crate::linearize::State;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::scene::document::{carrier, elements, find_mut, text};
 use crate::tolerances::SAME;
 use serde_json::Value;
@@ -12,7 +12,7 @@ use serde_json::Value;
 /// the guesses of the scene it would come to another start. What assembly leaves where it is keeps its expressions.
 /// Where the start of a moved body cannot be written (elastic coordinates, an angle that is `free` in space) all stays as
 /// it is.
-pub fn carried(source: &Source, prepared: &PreparedScene) -> Source {
+pub fn carried(source: &Source, prepared: &Model) -> Source {
     let moves = &prepared.assembly.moves;
     let is_moved = |body: &&Value| moves.iter().any(|change| carrier(&change.name) == text(body, "name"));
     let moved: Vec<&Value> = elements(&source.scene, "bodies").iter().filter(is_moved).collect();
@@ -32,6 +32,6 @@ pub fn carried(source: &Source, prepared: &PreparedScene) -> Source {
     let near = |own: &[f64], other: &[f64]| {
         own.len() == other.len() && own.iter().zip(other).all(|(x, y)| (x - y).abs() <= SAME * (1.0 + x.abs()))
     };
-    let is_same = |again: PreparedScene| near(&start.q, again.start().0) && near(&start.v, again.start().1);
+    let is_same = |again: Model| near(&start.q, again.start().0) && near(&start.v, again.start().1);
     if source.prepare(&scene).is_ok_and(is_same) { Source { scene, ..source.clone() } } else { source.clone() }
 }

@@ -11,7 +11,7 @@ use super::{LEAST, Settings};
 use crate::analysis::Passing;
 use crate::error::{Error, Failure, Result, Warning, clock, percent, rounded, short_list, significant};
 use crate::integrator;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::simulate::{Method, atol_of};
 use crate::study::work_precision::tighter;
 use crate::study::{Motion, SecondOpinion, Watched, second_opinion};
@@ -42,7 +42,7 @@ const COARSER: [f64; 2] = [2.0, 10.0];
 pub struct Accurate {
     /// The scene, until where the time allowed for.
     pub source: Source,
-    pub prepared: PreparedScene,
+    pub prepared: Model,
     pub recorded: Recorded,
     pub promise: Promise,
     /// True if the time did not allow for the whole.
@@ -263,7 +263,7 @@ fn shorter(source: &Source, recorded: &Recorded, stopped: &Failure) -> Result<So
     Ok(source)
 }
 
-fn watched(prepared: &PreparedScene, settings: &Settings) -> Result<Watched> {
+fn watched(prepared: &Model, settings: &Settings) -> Result<Watched> {
     if !(settings.within > 0.0 && settings.within < 1.0) {
         return Err(Error::input("a promise is above 0 % and below 100 %").under("--within").hint("write --within 5%"));
     }

@@ -7,7 +7,7 @@ use crate::formulation::Dynamics;
 use crate::linearize::State;
 use crate::math::Taylor;
 use crate::math::array::{Each, from_fn};
-use crate::prepared::{AnyMechanism, PreparedScene};
+use crate::prepared::{AnyMechanism, Model};
 use crate::scene::document::{self, carrier, find, is_rigid, text};
 use crate::study::Watched;
 use crate::system::{Mechanism, Need, OperatingPoint, Scratch, Terms, Theory};
@@ -23,7 +23,7 @@ pub struct Facts {
     /// The scene.
     pub source: Source,
     /// The scene ready to run.
-    pub prepared: PreparedScene,
+    pub prepared: Model,
     /// Names of the outputs that the promise is about.
     pub watched: Vec<String>,
     states: Vec<State>,
@@ -64,7 +64,7 @@ impl Placed {
 
 impl Facts {
     /// Facts from a recorded run of the model.
-    pub fn new(source: Source, prepared: PreparedScene, watched: Vec<String>, recorded: Recorded) -> Facts {
+    pub fn new(source: Source, prepared: Model, watched: Vec<String>, recorded: Recorded) -> Facts {
         let Recorded { states, redundant, .. } = recorded;
         let stride = states.len().div_ceil(STATES).max(1);
         let states: Vec<State> = states.into_iter().step_by(stride).collect();
@@ -74,7 +74,7 @@ impl Facts {
     /// Facts from small motions about the start, the first of `states`.
     pub(super) fn at_start(
         source: Source,
-        prepared: PreparedScene,
+        prepared: Model,
         watched: Vec<String>,
         states: Vec<State>,
         redundant: Vec<usize>,
@@ -238,7 +238,7 @@ impl Facts {
 }
 
 /// `initial` of a rigid body or point mass at a state with these places of markers; none of another.
-pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body: &Value) -> Option<Value> {
+pub fn initial(prepared: &Model, state: &State, places: &[Placed], body: &Value) -> Option<Value> {
     let name = text(body, "name");
     let kind = text(body, "type");
     if !is_rigid(body) {
@@ -269,12 +269,12 @@ pub fn initial(prepared: &PreparedScene, state: &State, places: &[Placed], body:
 }
 
 /// Index of a marker, or of the frame of a body, among all markers.
-pub(super) fn marker(prepared: &PreparedScene, name: &str) -> Option<usize> {
+pub(super) fn marker(prepared: &Model, name: &str) -> Option<usize> {
     prepared.mechanism.markers().find(name).ok()
 }
 
 /// Placements of all markers at a state.
-pub(super) fn placed(prepared: &PreparedScene, state: &State) -> Vec<Placed> {
+pub(super) fn placed(prepared: &Model, state: &State) -> Vec<Placed> {
     let mut scratch = Scratch::default();
     match &prepared.mechanism {
         AnyMechanism::Planar(mechanism) => places(mechanism, state, &mut scratch),

@@ -3,7 +3,7 @@
 use crate::error::{Error, Result, Warning, percent, significant};
 use crate::linearize::{Complex, Fate, LinearModel, Request, State, against, damping, frequency, linearize};
 use crate::method_spec::MethodSpec;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::tolerances::UNSEEN_MODE;
 
 /// Velocities of the largest scene of which all modes are computed, with some 40 matrices of that size.
@@ -22,7 +22,7 @@ const OPPOSITE: f64 = 0.1;
 ///
 /// # Errors
 /// A scene with more than 300 velocities; a start without a linear model.
-pub fn at_start(prepared: &PreparedScene) -> Result<LinearModel> {
+pub fn at_start(prepared: &Model) -> Result<LinearModel> {
     let velocities = prepared.system().dimensions().v;
     if velocities > MOST {
         return Err(Error::input(format!("it has {velocities} velocities; of up to {MOST} all modes are computed")));
@@ -33,7 +33,7 @@ pub fn at_start(prepared: &PreparedScene) -> Result<LinearModel> {
 
 /// Warnings where outputs see modes of the start, or damping of these, that the simpler model has not: a motion that
 /// excites them is another one than that of the promise.
-pub fn lost(richest: &PreparedScene, simpler: &PreparedScene) -> Vec<Warning> {
+pub fn lost(richest: &Model, simpler: &Model) -> Vec<Warning> {
     let time = richest.span().map_or(1.0, |span| span.end - span.start);
     let (found, is_at_rest) = match at_start(richest).and_then(|own| Ok((own, at_start(simpler)?))) {
         Ok((own, other)) => (against(&own, &other, time), own.point.is_equilibrium && other.point.is_equilibrium),

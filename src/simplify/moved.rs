@@ -8,7 +8,7 @@ use crate::body::dot;
 use crate::linearize::State;
 use crate::math::array::{Each, from_fn};
 use crate::math::random::Random;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::scene::document::{
     elements, elements_mut, find_mut, is_rigid, mentions, multiply, multiply_velocities, number, pair, take, text,
 };
@@ -157,7 +157,7 @@ impl<'a> Movable<'a> {
     }
 
     /// Start of the bodies.
-    fn places(&self, prepared: &PreparedScene) -> Vec<(String, Placed)> {
+    fn places(&self, prepared: &Model) -> Vec<(String, Placed)> {
         let all = placed(prepared, &State::start(prepared));
         let names = elements(&self.source.scene, "bodies").iter().map(|body| text(body, "name"));
         names.filter_map(|name| Some((name.to_string(), *all.get(super::facts::marker(prepared, name)?)?))).collect()
@@ -259,7 +259,7 @@ impl<'a> Movable<'a> {
 }
 
 /// Potential energy at the start, J.
-fn potential(prepared: &PreparedScene) -> Option<f64> {
+fn potential(prepared: &Model) -> Option<f64> {
     let ((q, v), t) = (prepared.start(), prepared.start_time());
     Some(prepared.system().energy(t, q, v, &mut Scratch::default())?.potential)
 }

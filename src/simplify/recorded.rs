@@ -5,7 +5,7 @@ use super::run::counted;
 use crate::analysis::{Singularity, Sizes, Watch};
 use crate::error::{Failure, INTERRUPTED, Result};
 use crate::linearize::State;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::simulate::{Method, Observation, Sink, Span};
 use crate::study::{Motion, Watched};
 use crate::system::{MechanicalSystem, Scratch};
@@ -51,7 +51,7 @@ impl Recorded {
 /// # Errors
 /// Bad input, and the failure of a run that does not complete for another reason.
 pub fn record(
-    prepared: &PreparedScene,
+    prepared: &Model,
     watched: &Watched,
     method: &Method,
     is_stopped: &(dyn Fn() -> bool + Sync),

@@ -3,7 +3,7 @@
 use super::promise::Promise;
 use crate::error::{Failure, Result, percent};
 use crate::formulation::{Statistics, Work};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::simulate::{Method, explicit};
 use crate::study::price::{Class, Worker};
 use crate::study::{Motion, RunSample, Watched};
@@ -76,7 +76,7 @@ impl Run {
 /// # Errors
 /// It has not all outputs, or no end time.
 pub fn sampled(
-    prepared: &PreparedScene,
+    prepared: &Model,
     names: &[String],
     allowed: Duration,
     is_stopped: &(dyn Fn() -> bool + Sync),
@@ -88,7 +88,7 @@ pub fn sampled(
 
 /// The work of the steps of a run in solutions of the equations of motion, times velocities and constraints. Rows are
 /// as many in every model.
-pub fn counted(prepared: &PreparedScene, method: &Method, statistics: Statistics) -> f64 {
+pub fn counted(prepared: &Model, method: &Method, statistics: Statistics) -> f64 {
     let Dimensions { v, lambda, .. } = prepared.system().dimensions();
     let steps = Statistics { rows: Work::default(), ..statistics };
     worker(method).work(steps) * (v + lambda) as f64
@@ -103,7 +103,7 @@ fn worker(method: &Method) -> Worker<'_> {
 /// # Errors
 /// As [`sampled`].
 pub fn measured(
-    prepared: &PreparedScene,
+    prepared: &Model,
     promise: &Promise,
     allowed: Duration,
     is_stopped: &(dyn Fn() -> bool + Sync),

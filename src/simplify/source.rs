@@ -1,7 +1,7 @@
 //! The full model as JSON, from which poorer ones are made.
 
 use crate::error::Result;
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::scene::document::{complete, elements_mut, read, take};
 use crate::scene::{self, Elements};
 use crate::simulate::Method;
@@ -23,9 +23,9 @@ impl Source {
     /// Reads a scene and writes parameters, end time and method of the overrides into it.
     ///
     /// # Errors
-    /// As [`PreparedScene::load_with`]; no end time.
+    /// As [`Model::load_with`]; no end time.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Source> {
-        let prepared = PreparedScene::load_with(path, overrides)?;
+        let prepared = Model::load_with(path, overrides)?;
         let scene = read(&scene::read_text(path)?)?;
         let folder = scene::folder(Some(path));
         Source::settled(scene, folder, prepared, overrides).map_err(|error| error.in_file(path))
@@ -38,10 +38,10 @@ impl Source {
     pub fn new(scene: Value, overrides: &Overrides) -> Result<Source> {
         let folder = Path::new("");
         let whole = overrides.elements.resolve(folder, scene.clone(), &overrides.set)?;
-        Source::settled(scene, folder, PreparedScene::new(whole, overrides)?, overrides)
+        Source::settled(scene, folder, Model::new(whole, overrides)?, overrides)
     }
 
-    fn settled(mut scene: Value, folder: &Path, prepared: PreparedScene, overrides: &Overrides) -> Result<Source> {
+    fn settled(mut scene: Value, folder: &Path, prepared: Model, overrides: &Overrides) -> Result<Source> {
         complete(&mut scene, folder, &overrides.set)?;
         let prepared = prepared.settled()?;
         let span = prepared.span()?;
@@ -58,9 +58,9 @@ impl Source {
     ///
     /// # Errors
     /// What the change has made of the scene is none, or cannot be assembled.
-    pub fn prepare(&self, scene: &Value) -> Result<PreparedScene> {
+    pub fn prepare(&self, scene: &Value) -> Result<Model> {
         let scene = self.elements.resolve(&self.folder, scene.clone(), &[])?;
-        PreparedScene::new(scene, &Overrides::default())
+        Model::new(scene, &Overrides::default())
     }
 
     /// The scene with absolute paths of the files that it names, so that it may be written anywhere.

@@ -13,7 +13,7 @@ use crate::formulation::{Dynamics, ExponentialMap};
 use crate::initial::{Assembly, assemble};
 use crate::linearize::{Complex, Kind, Mode, State, amplitude, pairs, seen};
 use crate::math::largest;
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::system::{Dimensions, Need};
 use crate::tolerances;
 use serde::Serialize;
@@ -78,12 +78,7 @@ pub struct Unseen {
 ///
 /// # Errors
 /// A scene without an end time, or with more than 300 velocities; one whose modes cannot be computed.
-pub fn hints(
-    prepared: PreparedScene,
-    path: &Path,
-    overrides: &Overrides,
-    candidates: &[&dyn Candidate],
-) -> Result<Hints> {
+pub fn hints(prepared: Model, path: &Path, overrides: &Overrides, candidates: &[&dyn Candidate]) -> Result<Hints> {
     let model = modes::at_start(&prepared)?;
     let source = Source::load(path, overrides)?;
     let span = prepared.span()?;
@@ -153,7 +148,7 @@ fn unseen_mode(mode: &Mode, seen: f64, names: &[String]) -> Unseen {
 }
 
 /// The start, the state to which it goes on, and that at an end of each mode.
-fn small_motions((prepared, lines): (&PreparedScene, &[Line]), modes: &[&Mode], time: f64) -> Vec<State> {
+fn small_motions((prepared, lines): (&Model, &[Line]), modes: &[&Mode], time: f64) -> Vec<State> {
     let start = State::start(prepared);
     let reach = |change: &[f64]| largest_speed(prepared, lines, change) / REACH;
     let on = way_on(prepared, reach, time);
@@ -173,7 +168,7 @@ fn small_motions((prepared, lines): (&PreparedScene, &[Line]), modes: &[&Mode], 
 
 /// The state to which the velocities and accelerations of the start lead within `reach` and the time of the motion;
 /// none where they do not lead on.
-fn way_on(prepared: &PreparedScene, reach: impl Fn(&[f64]) -> f64, time: f64) -> Option<State> {
+fn way_on(prepared: &Model, reach: impl Fn(&[f64]) -> f64, time: f64) -> Option<State> {
     let Assembly { v, vdot, .. } = &prepared.assembly;
     let fastest = reach(v).max((0.5 * reach(vdot)).sqrt());
     let ahead = time.min(1.0 / fastest);
@@ -185,7 +180,7 @@ fn way_on(prepared: &PreparedScene, reach: impl Fn(&[f64]) -> f64, time: f64) ->
 /// The markers at the ends of a rod without mass.
 type Line = [usize; 2];
 
-fn lines(source: &Source, prepared: &PreparedScene) -> Vec<Line> {
+fn lines(source: &Source, prepared: &Model) -> Vec<Line> {
     let rods = elements(&source.scene, "joints").iter().filter(|joint| text(joint, "type") == "distance");
     let ends = |[a, b]: [&str; 2]| Some([marker(prepared, a)?, marker(prepared, b)?]);
     rods.filter_map(|rod| pair(rod).and_then(ends)).collect()
@@ -193,7 +188,7 @@ fn lines(source: &Source, prepared: &PreparedScene) -> Vec<Line> {
 
 /// The largest angular velocity of a body or rod, rad/s, and velocity of a marker, in lengths of the scene per second, at
 /// the start with the velocities `v`.
-fn largest_speed(prepared: &PreparedScene, lines: &[Line], v: &[f64]) -> f64 {
+fn largest_speed(prepared: &Model, lines: &[Line], v: &[f64]) -> f64 {
     let length = prepared.system().facts().length;
     let placed = placed(prepared, &State { v: v.to_vec(), ..State::start(prepared) });
     let speed = |place: &Placed| (norm(&place.velocity) / length).max(norm(&place.spin));
@@ -216,7 +211,7 @@ fn end(mode: &Mode, time: f64) -> Vec<[Vec<f64>; 2]> {
 }
 
 /// The state at a displacement from the start, on the constraints; none where they do not close.
-fn beside(prepared: &PreparedScene, t: f64, change: &[f64], v: &[f64]) -> Option<State> {
+fn beside(prepared: &Model, t: f64, change: &[f64], v: &[f64]) -> Option<State> {
     let (system, (start, before)) = (prepared.system(), prepared.start());
     let mut q = start.to_vec();
     ExponentialMap::new(system).apply(system, start, change, &mut q);

@@ -4,7 +4,7 @@ use super::watched::Watched;
 use crate::error::{Error, Failure, rounded};
 use crate::formulation::{Statistics, softer};
 use crate::integrator::{Tightening, Tolerance, find};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::simulate::{Checkpoint, Leg, Method, Observation, Outcome, Sink, Span, Start, Stop, simulate_from};
 use crate::system::{MechanicalSystem, Scratch};
 use crate::trajectory::Trajectory;
@@ -51,7 +51,7 @@ pub struct Part {
 
 impl Part {
     /// The parts of a run; those of a method that was replaced before it made a step are left out.
-    pub fn of(prepared: &PreparedScene, run: &Completed) -> Vec<Part> {
+    pub fn of(prepared: &Model, run: &Completed) -> Vec<Part> {
         let Span { start, end, .. } = run.span;
         if run.legs.is_empty() {
             return vec![Part { method: prepared.method.clone(), from: start, to: end }];
@@ -93,7 +93,7 @@ pub type Watch<'a> = (&'a dyn Fn(f64), &'a (dyn Fn() -> Option<Stop> + Sync));
 /// The companion of a run: coarser, and begun anew in the middle where it would take the very steps of the run, as
 /// where steps grow by a largest factor from their beginning to the end. Finer where a coarser run diverges, or does not
 /// come to the end.
-pub fn companion(prepared: &PreparedScene, run: &Completed, parts: &[Part], watch: Watch) -> Companion {
+pub fn companion(prepared: &Model, run: &Completed, parts: &[Part], watch: Watch) -> Companion {
     let Statistics { steps, stagnated, .. } = run.statistics;
     let is_at_round_off = stagnated as f64 > AT_ROUND_OFF * steps as f64;
     let coarser = |method: &Method| Changed::coarser(method, is_at_round_off, prepared.system());
@@ -142,7 +142,7 @@ fn has_diverged(trajectory: &Trajectory, companion: &[(f64, Vec<f64>)]) -> bool 
 
 /// Runs the parts one after the other, each by its changed method.
 fn rerun(
-    prepared: &PreparedScene,
+    prepared: &Model,
     span: Span,
     parts: &[Part],
     change: &dyn Fn(&Method) -> Changed,

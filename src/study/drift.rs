@@ -5,7 +5,7 @@ use crate::analysis::{Drift, EnergyBalance, Record, Recorder, Singularity};
 use crate::clock::Stopwatch;
 use crate::error::{Error, Failure, Result, significant};
 use crate::method_spec::MethodSpec;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::simulate::{Method, Outcome, Stop, simulate};
 use crate::system::Names;
 use crate::trajectory::Trajectory;
@@ -55,7 +55,7 @@ pub struct StabilizedRun {
 /// # Errors
 /// Only one stabilization; bad input of any kind: see `simulate`.
 pub fn drift_under_stabilizations(
-    prepared: &PreparedScene,
+    prepared: &Model,
     stop: impl Fn() -> Option<Stop> + Sync,
     done: impl Fn() + Sync,
 ) -> Result<Vec<StabilizedRun>> {
@@ -76,7 +76,7 @@ pub fn drift_under_stabilizations(
 ///
 /// # Errors
 /// There is only one.
-pub fn stabilizations(prepared: &PreparedScene, step: f64) -> Result<Vec<Method>> {
+pub fn stabilizations(prepared: &Model, step: f64) -> Result<Vec<Method>> {
     let gain = significant(1.0 / step, 3);
     let baumgarte = format!("baumgarte:alpha={gain},beta={gain}");
     let invariant_manifold = format!("invariant_manifold:gamma={gain}");
@@ -115,7 +115,7 @@ pub fn stabilizations(prepared: &PreparedScene, step: f64) -> Result<Vec<Method>
     Err(Error::input(message).under(path).hint("name another, as in --integrator dop853 or --integrator radau_iia"))
 }
 
-fn one(prepared: &PreparedScene, method: Method, stop: impl Fn() -> Option<Stop>) -> Result<StabilizedRun> {
+fn one(prepared: &Model, method: Method, stop: impl Fn() -> Option<Stop>) -> Result<StabilizedRun> {
     let mut recorder = Recorder::new(prepared.system()).with_stop(stop);
     let watch = Stopwatch::start();
     let Outcome { statistics, failure, .. } =

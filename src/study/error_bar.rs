@@ -6,7 +6,7 @@ use super::second_opinion::{SecondOpinion, second_opinion};
 use super::watched::Watched;
 use crate::error::{Failure, Result};
 use crate::linearize::amplified;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::simulate::{Method, Stop};
 use crate::tolerances;
 use serde::{Serialize, Serializer};
@@ -53,7 +53,7 @@ pub struct ErrorBar {
 /// Gives each output an error bar, and compares the run with one of diffsol and with motions nearby. `show` is called
 /// with the times, `stop` asked whether the run should end.
 pub fn error_bars(
-    prepared: &PreparedScene,
+    prepared: &Model,
     run: Completed,
     (show, stop): (impl Fn(f64), impl Fn() -> Option<Stop> + Sync),
 ) -> ErrorBars {
@@ -68,7 +68,7 @@ pub fn error_bars(
 
 impl ErrorBars {
     /// The bars alone, from a companion of the run.
-    pub fn of(prepared: &PreparedScene, run: Completed, watch: Watch) -> ErrorBars {
+    pub fn of(prepared: &Model, run: Completed, watch: Watch) -> ErrorBars {
         let companion = companion(prepared, &run, &Part::of(prepared, &run), watch);
         let Method { rtol, atol, step, .. } = companion.method;
         ErrorBars {
@@ -85,7 +85,7 @@ impl ErrorBars {
 }
 
 /// Compares the run with one of diffsol.
-fn confirm(prepared: &PreparedScene, run: &Completed, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<SecondOpinion> {
+fn confirm(prepared: &Model, run: &Completed, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<SecondOpinion> {
     let parts = Part::of(prepared, run);
     let longest = parts.iter().max_by(|a, b| a.duration().total_cmp(&b.duration()))?;
     let watched = Watched::new(prepared.system(), &[]).ok()?;

@@ -6,7 +6,7 @@ use crate::analysis::{Drift, Sizes};
 use crate::clock::Stopwatch;
 use crate::error::{Failure, INTERRUPTED, Result};
 use crate::formulation::Statistics;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::simulate::{Method, Observation, Outcome, Sink, Span, Stop, simulate};
 use crate::system::{MechanicalSystem, Scratch};
 use std::cell::Cell;
@@ -34,12 +34,7 @@ pub struct Motion<'a> {
 impl<'a> Motion<'a> {
     /// The motion of a scene over a span, without its start.
     #[doc(hidden)]
-    pub fn of(
-        prepared: &'a PreparedScene,
-        span: Span,
-        watched: Watched,
-        is_stopped: &'a (dyn Fn() -> bool + Sync),
-    ) -> Self {
+    pub fn of(prepared: &'a Model, span: Span, watched: Watched, is_stopped: &'a (dyn Fn() -> bool + Sync)) -> Self {
         Motion {
             system: prepared.system(),
             start: prepared.start(),

@@ -25,7 +25,7 @@ pub use page::{Extras, ROWS, page};
 
 use crate::analysis::Ledger;
 use crate::linearize::LinearizationPoint;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::study::ErrorBars;
 use crate::system::{OperatingPoint, Scratch};
 use crate::trajectory::{Trajectory, values};
@@ -35,7 +35,7 @@ pub struct Run<'a> {
     /// Name beside its colour, where a page shows several.
     pub label: String,
     /// Its scene, with the parameters of the run.
-    pub prepared: &'a PreparedScene,
+    pub prepared: &'a Model,
     /// Rows with all columns.
     pub trajectory: &'a Trajectory,
     /// Number of its first rows that are shown.
@@ -50,14 +50,14 @@ pub struct Run<'a> {
 
 impl<'a> Run<'a> {
     /// A motion of which nothing but its rows is known.
-    pub fn new(prepared: &'a PreparedScene, trajectory: &'a Trajectory) -> Self {
+    pub fn new(prepared: &'a Model, trajectory: &'a Trajectory) -> Self {
         let rows = trajectory.rows.len();
         Run { label: prepared.name.clone(), prepared, trajectory, rows, drift: &[], energy: &[], bars: None }
     }
 }
 
 /// Returns a motion of one row: the state of a linear model.
-pub fn still(prepared: &PreparedScene, point: &LinearizationPoint) -> Trajectory {
+pub fn still(prepared: &Model, point: &LinearizationPoint) -> Trajectory {
     let LinearizationPoint { t, q, v, vdot, lambda, .. } = point;
     let system = prepared.system();
     let mut still = Trajectory::new(system);

@@ -3,7 +3,7 @@
 use super::clip::Clip;
 use super::parts::Parts;
 use crate::linearize::LinearModel;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::mechanism::{Swing, at_rest, mode_title, shaped};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -25,7 +25,7 @@ const PHASES: usize = 20;
 const MOST: usize = 20;
 
 /// Returns the slowest physical modes with a shape that fit into this many numbers, and their number without a limit.
-pub fn modes(prepared: &PreparedScene, model: &LinearModel, parts: &Parts, numbers: usize) -> (Vec<ModePart>, usize) {
+pub fn modes(prepared: &Model, model: &LinearModel, parts: &Parts, numbers: usize) -> (Vec<ModePart>, usize) {
     let rest = at_rest(prepared, model);
     let found = shaped(model);
     let mut shown: Vec<ModePart> = Vec::new();

@@ -3,7 +3,7 @@
 use crate::absolute_beam::shooting::Rod;
 use crate::absolute_beam::statics::{equilibrium, place};
 use crate::scenes::{Ready, model, parse};
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
 use nalgebra::Vector3;
 use std::f64::consts::FRAC_PI_4;
@@ -65,7 +65,7 @@ fn tip(name: &str, beam: &str, elements: usize, parameters: &[(&str, f64)]) -> [
     let set: Vec<_> =
         parameters.iter().chain(&[("t_load", 1.0)]).map(|(name, x)| (name.to_string(), (*x).into())).collect();
     let scene = Scene::parse(&text, &set).unwrap_or_else(|error| panic!("{error}"));
-    let ready = Ready(PreparedScene::new(scene, &Overrides::default()).unwrap_or_else(|error| panic!("{error}")));
+    let ready = Ready(Model::new(scene, &Overrides::default()).unwrap_or_else(|error| panic!("{error}")));
     place(&ready, &equilibrium(&ready, 10), &format!("{beam}.tip"))
 }
 

@@ -5,12 +5,12 @@ mod loops;
 mod sizes;
 
 use holonom::initial::Assembly;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
 use serde_json::Value;
 
-fn prepared(scene: &str) -> holonom::Result<PreparedScene> {
-    PreparedScene::new(Scene::parse(scene, &[])?, &Overrides::default())
+fn prepared(scene: &str) -> holonom::Result<Model> {
+    Model::new(Scene::parse(scene, &[])?, &Overrides::default())
 }
 
 fn assembled(scene: &Value) -> holonom::Result<Assembly> {

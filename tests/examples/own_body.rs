@@ -69,7 +69,7 @@ fn scenes_use_it_by_its_type_name() -> Result<()> {
     let elements = Elements::default().with_body::<BallInFluid>()?;
     let scene = r#"{ "name": "ball", "dimension": 2, "gravity": [0, -10],
         "bodies": [{ "name": "ball", "type": "ball_in_fluid", "mass": 3, "added": 1, "displaced": 1 }] }"#;
-    let prepared = holonom::prepared::PreparedScene::new(elements.parse(scene, &[])?, &Default::default())?;
+    let prepared = holonom::prepared::Model::new(elements.parse(scene, &[])?, &Default::default())?;
     assert_eq!(prepared.assembly.vdot, [0.0, -5.0], "(3 - 1) 10/(3 + 1)");
     Ok(())
 }

@@ -52,7 +52,7 @@ fn scenes_use_it_by_its_type_name() -> Result<()> {
         "bodies": [{ "name": "bead", "type": "point_mass", "mass": 1, "initial": { "position": [2, 0, 0] } }],
         "forces": [{ "name": "spring", "type": "hardening_spring", "between": ["ground", "bead"],
                      "stiffness": 3, "hardening": 5 }] }"#;
-    let prepared = holonom::prepared::PreparedScene::new(elements.parse(scene, &[])?, &Default::default())?;
+    let prepared = holonom::prepared::Model::new(elements.parse(scene, &[])?, &Default::default())?;
     assert_eq!(prepared.assembly.vdot, [-46.0, 0.0, 0.0], "-(3 2 + 5 2^3)");
     Ok(())
 }

@@ -51,7 +51,7 @@ fn scenes_use_it_by_its_type_name() -> Result<()> {
         .body("bead", "point_mass", json!({ "mass": 1, "initial": { "position": [1, 0.3] } }))
         .joint("wire", "point_on_parabola", json!({ "between": ["ground", "bead"], "curvature": 2 }))
         .build(&Elements::default().with_joint::<PointOnParabola>()?)?;
-    let prepared = holonom::prepared::PreparedScene::new(scene, &Default::default())?;
+    let prepared = holonom::prepared::Model::new(scene, &Default::default())?;
     let (q, _) = prepared.start();
     assert!((q[1] - q[0] * q[0]).abs() < 1e-15, "assembly puts it on the parabola: {q:?}");
     Ok(())

@@ -3,7 +3,7 @@
 use holonom::analysis::{Record, Recorder};
 use holonom::error::{Error, Result};
 use holonom::linearize::{Request, State, linearize};
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::report::{cell, check, summarize, table};
 use holonom::simulate::{Stop, simulate};
 use holonom::system::Dimensions;
@@ -48,7 +48,7 @@ pub fn survive(path: &Path) -> Result<Ending, String> {
 }
 
 fn try_all(path: &Path) -> Result<Ending, String> {
-    let prepared = match PreparedScene::load_with(path, &Overrides::default()) {
+    let prepared = match Model::load_with(path, &Overrides::default()) {
         Ok(prepared) => prepared,
         Err(error) => return refused(&error),
     };
@@ -75,7 +75,7 @@ fn try_all(path: &Path) -> Result<Ending, String> {
     Ok(ending)
 }
 
-fn run(prepared: &PreparedScene) -> Result<Ending, String> {
+fn run(prepared: &Model) -> Result<Ending, String> {
     let Ok(span) = prepared.span() else { return Ok(Ending::Completed) };
     prepared.stiffness(span);
     let Dimensions { v, lambda, .. } = prepared.system().dimensions();

@@ -1,6 +1,6 @@
 //! Scenes in scenes: the same motion as alone, and errors in the file where they are written.
 
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
 use std::fs;
 use std::path::Path;
@@ -40,7 +40,7 @@ fn folder(main: &str, leg: &str) -> tempfile::TempDir {
 
 fn load(path: &Path, set: &[(&str, f64)]) -> holonom::Result<crate::scenes::Ready> {
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    PreparedScene::load_with(path, &Overrides { set, ..Overrides::default() }).map(crate::scenes::Ready)
+    Model::load_with(path, &Overrides { set, ..Overrides::default() }).map(crate::scenes::Ready)
 }
 
 #[track_caller]

@@ -1,7 +1,7 @@
 //! Elements written once and repeated: the same as written out, and a Stewart platform.
 
 use crate::scenes::{dop853, model, parse, shipped};
-use holonom::prepared::PreparedScene;
+use holonom::prepared::Model;
 use holonom::report::check;
 use holonom::simulate::Span;
 use serde_json::Value;
@@ -63,7 +63,7 @@ fn mistakes_in_copies_have_their_name_and_the_place_of_the_text() {
     let path = folder.path().join("scene.json");
     let load = |bodies: &str| {
         std::fs::write(&path, chain(bodies, "", "", "")).unwrap();
-        let error = PreparedScene::load_with(&path, &Default::default()).map(|_| ()).unwrap_err().to_string();
+        let error = Model::load_with(&path, &Default::default()).map(|_| ()).unwrap_err().to_string();
         error.rsplit_once("scene.json:").unwrap().1.to_string()
     };
     let plain = r#"{ "name": "a", "type": "point_mass", "mass": 1 }"#;

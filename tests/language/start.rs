@@ -1,7 +1,7 @@
 //! Starts by coordinates of joints, and aims of bodies by their axes.
 
 use crate::scenes::{Ready, parse};
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
 use holonom::sweep::Family;
 use std::f64::consts::PI;
@@ -46,7 +46,7 @@ fn state(ready: &Ready) -> impl Fn(&str) -> f64 {
 }
 
 /// A slider crank, crank 1 and rod 2.5, with the slider ahead: it comes from 1.5 to 3.5.
-fn slider_crank(initial: &str) -> Result<PreparedScene, String> {
+fn slider_crank(initial: &str) -> Result<Model, String> {
     let rod = |name: &str, length: f64, initial: &str| {
         format!(
             r#"{{ "name": "{name}", "type": "rigid", "mass": 1, "inertia": 0.1, "origin": [{}, 0],
@@ -68,7 +68,7 @@ fn slider_crank(initial: &str) -> Result<PreparedScene, String> {
         rod("rod", 2.5, r#""position": [0.88, 0.48], "angle": -0.19"#)
     );
     let scene = Scene::parse(&text, &[]).map_err(|error| error.to_string())?;
-    PreparedScene::new(scene, &Overrides::default()).map_err(|error| error.to_string())
+    Model::new(scene, &Overrides::default()).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -144,7 +144,7 @@ fn a_loop_is_turned_to_an_angle_far_from_the_guess() {
 fn values_that_cannot_be_are_refused_with_their_names() {
     let refused = |initial: &str| {
         let scene = Scene::parse(&four_bar(initial), &[]);
-        scene.and_then(|scene| PreparedScene::new(scene, &Overrides::default())).map(|_| ()).unwrap_err().to_string()
+        scene.and_then(|scene| Model::new(scene, &Overrides::default())).map(|_| ()).unwrap_err().to_string()
     };
     let table = [
         (r#""A.angle": 1, "B.angle": 3"#, "at initial: the joints cannot be closed with the coordinates in `initial`"),

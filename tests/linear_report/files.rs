@@ -3,12 +3,12 @@
 use super::sample::{descriptor, empty, plain, prepared};
 use holonom::files::Array;
 use holonom::linearize::LinearModel;
-use holonom::prepared::PreparedScene;
+use holonom::prepared::Model;
 use holonom::report::Folder;
 use holonom::report::linear::{Linear, stem_at};
 use serde_json::Value;
 
-fn linear<'a>(prepared: &'a PreparedScene, model: &'a LinearModel, names: &'a holonom::system::Names) -> Linear<'a> {
+fn linear<'a>(prepared: &'a Model, model: &'a LinearModel, names: &'a holonom::system::Names) -> Linear<'a> {
     Linear { scene: &prepared.name, names, model }
 }
 

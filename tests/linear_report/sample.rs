@@ -1,13 +1,13 @@
 //! Models to write and draw.
 
 use holonom::linearize::{Complex, Cost, Kind, LinearModel, LinearizationPoint, Matrix, Mode, Reduction};
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::system::{Need, OperatingPoint, Scratch, Tangent, Terms};
 use nalgebra::{DMatrix, DVector};
 use std::path::Path;
 
-pub fn prepared(name: &str) -> PreparedScene {
-    PreparedScene::load_with(&Path::new("models").join(format!("{name}.json")), &Overrides::default()).unwrap()
+pub fn prepared(name: &str) -> Model {
+    Model::load_with(&Path::new("models").join(format!("{name}.json")), &Overrides::default()).unwrap()
 }
 
 pub fn complex(re: f64, im: f64) -> Complex<f64> {
@@ -15,7 +15,7 @@ pub fn complex(re: f64, im: f64) -> Complex<f64> {
 }
 
 /// The start of a scene with M, K and C on the directions that the constraints allow, held as they are.
-pub fn plain(prepared: &PreparedScene) -> LinearModel {
+pub fn plain(prepared: &Model) -> LinearModel {
     let system = prepared.system();
     let n = prepared.system().dimensions();
     let structure = system.structure();
@@ -124,7 +124,7 @@ fn mode(a: &Matrix, z: &Matrix, value: Complex<f64>) -> Mode {
 }
 
 /// A model of the four bar with an eigenvalue of each kind and E.
-pub fn descriptor(prepared: &PreparedScene) -> LinearModel {
+pub fn descriptor(prepared: &Model) -> LinearModel {
     let mut model = plain(prepared);
     let mode = |value, kind, participation: Vec<f64>| Mode {
         value,
@@ -149,7 +149,7 @@ pub fn descriptor(prepared: &PreparedScene) -> LinearModel {
 }
 
 /// Nothing moves.
-pub fn empty(prepared: &PreparedScene) -> LinearModel {
+pub fn empty(prepared: &Model) -> LinearModel {
     let mut model = plain(prepared);
     (model.states, model.modes) = (Vec::new(), Vec::new());
     (model.a, model.b) = (Matrix::zeros(0, 0), Matrix::zeros(0, 1));

@@ -3,32 +3,32 @@
 use crate::linearize::reference::distance;
 use holonom::linearize::{Chart, Complex, LinearModel, Matrix, Request, State, Variation, at_rest, linearize, modal};
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::{Scene, generate};
 use nalgebra::DMatrix;
 use std::path::Path;
 
 type C = Complex<f64>;
 
-fn prepared(name: &str, set: &[(&str, f64)]) -> PreparedScene {
+fn prepared(name: &str, set: &[(&str, f64)]) -> Model {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(format!("{name}.json"));
     let set = set.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    PreparedScene::load_with(&path, &Overrides { set, ..Overrides::default() }).unwrap()
+    Model::load_with(&path, &Overrides { set, ..Overrides::default() }).unwrap()
 }
 
 /// LociVariable gravity.
-fn hanging_chain(links: usize) -> PreparedScene {
+fn hanging_chain(links: usize) -> Model {
     let mut scene = generate::flexible_chain(links);
     scene["gravity"] = serde_json::json!([9.81, 0]);
-    PreparedScene::new(Scene::parse(&scene.to_string(), &[]).unwrap(), &Overrides::default()).unwrap()
+    Model::new(Scene::parse(&scene.to_string(), &[]).unwrap(), &Overrides::default()).unwrap()
 }
 
-fn start(prepared: &PreparedScene) -> State {
+fn start(prepared: &Model) -> State {
     let (q, v) = prepared.start();
     State { t: prepared.start_time(), q: q.to_vec(), v: v.to_vec() }
 }
 
-fn rest(prepared: &PreparedScene) -> State {
+fn rest(prepared: &Model) -> State {
     at_rest(prepared, &start(prepared)).unwrap().state
 }
 
@@ -63,7 +63,7 @@ fn gap(a: &LinearModel, b: &LinearModel, s: C) -> f64 {
 }
 
 /// The `count` modes at `shift` are the nearest of all.
-fn check(prepared: &PreparedScene, state: &State, count: usize, shift: f64) {
+fn check(prepared: &Model, state: &State, count: usize, shift: f64) {
     let mut variation = state.variation(prepared).unwrap();
     let shift = C::new(0.0, shift);
     let model =

@@ -2,20 +2,20 @@
 
 use holonom::linearize::{Chart, Kind, LinearModel, Request, State, floquet, linearize, states};
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
-fn scene(text: &str) -> PreparedScene {
-    PreparedScene::new(Scene::parse(text, &[]).unwrap(), &Overrides::default()).unwrap()
+fn scene(text: &str) -> Model {
+    Model::new(Scene::parse(text, &[]).unwrap(), &Overrides::default()).unwrap()
 }
 
 pub fn shipped(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"))
 }
 
-fn by(prepared: &PreparedScene, method: &str, chart: Option<&str>) -> Result<LinearModel, String> {
+fn by(prepared: &Model, method: &str, chart: Option<&str>) -> Result<LinearModel, String> {
     let request = Request { method: MethodSpec::parse(method).unwrap(), chart: chart.map(Chart::parse) };
     let state = State::start(prepared);
     let mut variation = state.variation(prepared).map_err(|error| error.to_string())?;
@@ -23,7 +23,7 @@ fn by(prepared: &PreparedScene, method: &str, chart: Option<&str>) -> Result<Lin
 }
 
 /// A bar on parallel cranks of 0.5 m, at an angle to the line of their bearings.
-fn parallelogram(cranks: usize, angle: f64) -> PreparedScene {
+fn parallelogram(cranks: usize, angle: f64) -> Model {
     let [x, y] = [angle.cos(), angle.sin()];
     let of = |i: usize| (format!("c{i}"), 0.3 * i as f64);
     let mut bodies = Vec::new();
@@ -214,13 +214,13 @@ fn directions_without_inertia_are_coordinates() {
 /// Off equilibrium penalties leave the constraints, so that their frozen model is none of the motion.
 #[test]
 fn a_penalty_is_comparable_at_rest_only() {
-    let prepared = PreparedScene::load_with(&shipped("four_bar_spring"), &Overrides::default()).unwrap();
+    let prepared = Model::load_with(&shipped("four_bar_spring"), &Overrides::default()).unwrap();
     let comparable = |method: &str| by(&prepared, method, None).unwrap().is_comparable();
     assert!(comparable("mcs") && comparable("rcs") && comparable("penalty:projected=yes"));
     assert!(!comparable("penalty") && !comparable("augmented_lagrangian"));
 }
 
-fn turning(torque: &str) -> PreparedScene {
+fn turning(torque: &str) -> Model {
     scene(&format!(
         r#"{{ "name": "rotor", "dimension": 2, "ground": {{ "markers": {{ "O": [0, 0] }} }},
             "bodies": [{{ "name": "rotor", "type": "rigid", "mass": 1, "inertia": 1, "free": ["angle"],

@@ -3,7 +3,7 @@
 use super::sure::{shipped, ziegler};
 use holonom::linearize::{At, Branch, Complex, Loci, Request, Slope, ThresholdKind, Variants, loci_along, loci_over};
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::sweep::{Family, Range};
 use std::path::Path;
 
@@ -147,7 +147,7 @@ fn curves_follow_derivatives() {
         assert!(off(&curve, exact) < 0.05 && curve.points.len() > 60, "{curve:?}");
         assert!(curve.points.is_sorted_by(|a, b| a.0 < b.0) && off(&chords, exact) > 0.4);
     }
-    let pendulum = PreparedScene::load_with(&shipped("pendulum"), &Overrides::default()).unwrap();
+    let pendulum = Model::load_with(&shipped("pendulum"), &Overrides::default()).unwrap();
     let times: Vec<f64> = (0..=20).map(|k| 0.05 * f64::from(k)).collect();
     let request = Request { method: MethodSpec::parse("mcs").unwrap(), chart: None };
     let loci = loci_along(&pendulum, &request, &times, || ());

@@ -1,7 +1,7 @@
 //! A pendulum swinging with an amplitude of 1 rad for very long, against its closed form.
 
 use holonom::Result;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Observation, Sink, Span, simulate};
 use std::f64::consts::{PI, TAU};
@@ -21,7 +21,7 @@ fn mean(a: f64, b: f64) -> f64 {
 }
 
 /// A point of 1 kg on a rod of 1 m.
-pub fn pendulum() -> Result<PreparedScene> {
+pub fn pendulum() -> Result<Model> {
     let (sin, cos) = AMPLITUDE.sin_cos();
     let scene = format!(
         r#"{{ "name": "pendulum", "dimension": 2, "gravity": [0, -{GRAVITY}],
@@ -31,7 +31,7 @@ pub fn pendulum() -> Result<PreparedScene> {
              "joints": [{{ "name": "rod", "type": "distance", "between": ["ground.O", "bob"], "length": 1 }}] }}"#,
         -cos
     );
-    PreparedScene::new(Scene::parse(&scene, &[])?, &Overrides::default())
+    Model::new(Scene::parse(&scene, &[])?, &Overrides::default())
 }
 
 /// The part of a period since the last passage of the lowest point to the right, in [0, 1): with sin(theta/2) = k sin a,

@@ -3,7 +3,7 @@
 use crate::outputs_tangent::compare::{outputs, tangent};
 use crate::scenes::dop853;
 use holonom::analysis::Recorder;
-use holonom::prepared::PreparedScene;
+use holonom::prepared::Model;
 use holonom::scene::Elements;
 use holonom::simulate::simulate;
 use holonom::system::OperatingPoint;
@@ -26,7 +26,7 @@ fn other(measure: &str, component: &str) -> Option<(&'static str, f64)> {
 }
 
 /// A shipped scene as it is, the same in other units, and the factor of each output.
-fn both(name: &str) -> (PreparedScene, PreparedScene, Vec<f64>) {
+fn both(name: &str) -> (Model, Model, Vec<f64>) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
     let plain: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let mut changed = plain.clone();
@@ -41,8 +41,7 @@ fn both(name: &str) -> (PreparedScene, PreparedScene, Vec<f64>) {
     }
     let prepared = |json: &Value| {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
-        PreparedScene::new(Elements::default().parse_in(&folder, &json.to_string(), &[]).unwrap(), &Default::default())
-            .unwrap()
+        Model::new(Elements::default().parse_in(&folder, &json.to_string(), &[]).unwrap(), &Default::default()).unwrap()
     };
     (prepared(&plain), prepared(&changed), factors)
 }
@@ -58,7 +57,7 @@ fn values_and_derivatives_are_in_the_unit() {
     {
         let (plain, changed, factors) = both(name);
         assert!(factors.iter().any(|factor| *factor != 1.0), "{name}");
-        let state = |prepared: &PreparedScene| prepared.assembly.clone();
+        let state = |prepared: &Model| prepared.assembly.clone();
         let a = state(&plain);
         let at = OperatingPoint { t: plain.start_time(), q: &a.q, v: &a.v, vdot: &a.vdot, lambda: &a.lambda };
         let [values, others] = [&plain, &changed].map(|prepared| outputs(prepared.system(), at));
@@ -82,7 +81,7 @@ fn values_and_derivatives_are_in_the_unit() {
 #[test]
 fn turns_are_joined_in_the_unit() {
     let (plain, changed, factors) = both("spinning_top");
-    let run = |prepared: &PreparedScene| {
+    let run = |prepared: &Model| {
         let mut recorder = Recorder::new(prepared.system());
         simulate(prepared.system(), &dop853(1e-9), prepared.span().unwrap(), prepared.start(), &mut recorder).unwrap();
         recorder.finish().trajectory

@@ -9,7 +9,7 @@ use holonom::math::expression::Number;
 use holonom::math::rotation::{axes_from_quaternion, quaternion_rate};
 use holonom::math::{Scalar, Time};
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::PreparedScene;
+use holonom::prepared::Model;
 use holonom::scene::Elements;
 use holonom::simulate::{Method, Span};
 use schemars::JsonSchema;
@@ -169,14 +169,14 @@ const SPATIAL: &str = r#"{ "name": "spatial", "dimension": 3, "gravity": [0, 0, 
     "outputs": [{ "name": "pull", "measure": "reaction", "of": "rod", "component": "axial" }] }"#;
 
 /// The scene, and the same of own elements.
-fn pair(text: &str) -> [PreparedScene; 2] {
+fn pair(text: &str) -> [Model; 2] {
     let elements = Elements::default().with_body::<OwnRigid>().and_then(Elements::with_joint::<OwnDistance>).unwrap();
     let own = text.replace("\"rigid\"", "\"own_rigid\"").replace("\"distance\"", "\"own_distance\"");
     let built_in = text.replace("[0.3],", "0.3,").replace("[0.1],", "0.1,");
-    [built_in, own].map(|text| PreparedScene::new(elements.parse(&text, &[]).unwrap(), &Default::default()).unwrap())
+    [built_in, own].map(|text| Model::new(elements.parse(&text, &[]).unwrap(), &Default::default()).unwrap())
 }
 
-fn motion(prepared: &PreparedScene, method: &Method) -> Run {
+fn motion(prepared: &Model, method: &Method) -> Run {
     let span = Span { start: 0.0, end: 1.0, output_step: 0.05 };
     run(prepared.system(), method, span, prepared.start()).completed()
 }

@@ -8,7 +8,7 @@ use holonom::linearize::{self, LinearModel, Request, State, Variation, at_rest, 
 use holonom::math::Scalar;
 use holonom::math::expression::Number;
 use holonom::method_spec::{Listed, MethodSpec};
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::report::mechanism;
 use holonom::scene::{Elements, SceneBuilder, json};
 use holonom::simulate::{Method, Span};
@@ -69,8 +69,8 @@ fn scene() -> SceneBuilder {
         .simulation("t_end", 1.0)
 }
 
-fn prepared() -> PreparedScene {
-    PreparedScene::new(scene().build(&elements()).unwrap(), &Default::default()).unwrap()
+fn prepared() -> Model {
+    Model::new(scene().build(&elements()).unwrap(), &Default::default()).unwrap()
 }
 
 fn motion(system: &dyn MechanicalSystem, method: &Method) -> Run {
@@ -172,7 +172,7 @@ fn files_sweeps_and_maps_know_them() {
     std::fs::write(&path, scene().json().to_string()).unwrap();
     let overrides =
         Overrides { elements: elements(), set: vec![("k".into(), Number::Value(7.0))], ..Overrides::default() };
-    assert_eq!(PreparedScene::load_with(&path, &overrides).unwrap().parameters.get("k"), Some(7.0));
+    assert_eq!(Model::load_with(&path, &overrides).unwrap().parameters.get("k"), Some(7.0));
     let family = Family::load_with(&path, &overrides).unwrap();
     let sweep = family.sweep(&Range::new("k", (0.0, 10.0), 3).unwrap(), |_| ()).unwrap();
     assert_eq!(sweep.points.len(), 3);
@@ -187,8 +187,8 @@ fn figures_show_them() {
     let prepared = prepared();
     let bare =
         SceneBuilder::new("bead", 2).body("bead", "point_mass", json!({ "initial": { "position": START }, "mass": 1 }));
-    let bare = PreparedScene::new(bare.build(&Elements::default()).unwrap(), &Default::default()).unwrap();
-    let areas = |prepared: &PreparedScene| {
+    let bare = Model::new(bare.build(&Elements::default()).unwrap(), &Default::default()).unwrap();
+    let areas = |prepared: &Model| {
         let look = mechanism::Look::plain(&prepared.mechanism);
         mechanism::mechanism_figure(prepared, &look, &State::start(prepared)).to_svg().len()
     };

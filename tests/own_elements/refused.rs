@@ -7,7 +7,7 @@ use holonom::body::{Build, Frame, Wrench};
 use holonom::force::{self, Action, ForceKernel, ForceSpec, Instant, Motion};
 use holonom::joint::{Built, JointKernel, JointSpec};
 use holonom::math::{Scalar, Time};
-use holonom::prepared::PreparedScene;
+use holonom::prepared::Model;
 use holonom::scene::{Elements, SceneBuilder, json};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -132,7 +132,7 @@ impl<const D: usize> ForceKernel<D> for Still {
 fn a_switching_function_without_an_argument_is_refused() {
     let elements = Elements::default().with_force::<Forgetful>().unwrap();
     let scene = bead().force("f", "forgetful", json!({})).build(&elements).unwrap();
-    let found = PreparedScene::new(scene, &Default::default()).map(|_| ()).unwrap_err().to_string();
+    let found = Model::new(scene, &Default::default()).map(|_| ()).unwrap_err().to_string();
     assert!(
         found.contains("the type of the force `f` has a switching function whose argument it never writes"),
         "{found}"

@@ -8,7 +8,7 @@ pub mod random;
 use holonom::analysis::{Record, Recorder};
 use holonom::initial::Assembly;
 use holonom::method_spec::MethodSpec;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
 use holonom::simulate::{Method, Outcome, Span, simulate};
 use holonom::system::MechanicalSystem;
@@ -35,7 +35,7 @@ pub fn model(name: &str) -> PathBuf {
 }
 
 /// A scene with its consistent start.
-pub struct Ready(pub PreparedScene);
+pub struct Ready(pub Model);
 
 /// A run that came to its end.
 pub struct Run {
@@ -50,13 +50,13 @@ pub fn shipped(name: &str, parameters: &[(&str, f64)]) -> Ready {
 
 pub fn load(path: &Path, parameters: &[(&str, f64)]) -> Ready {
     let set = parameters.iter().map(|(name, value)| (name.to_string(), (*value).into())).collect();
-    let prepared = PreparedScene::load_with(path, &Overrides { set, ..Overrides::default() });
+    let prepared = Model::load_with(path, &Overrides { set, ..Overrides::default() });
     Ready(prepared.unwrap_or_else(|error| panic!("{error}")))
 }
 
 pub fn parse(json: &str) -> Ready {
     let scene = Scene::parse(json, &[]).unwrap_or_else(|error| panic!("{error}\n{json}"));
-    Ready(PreparedScene::new(scene, &Overrides::default()).unwrap_or_else(|error| panic!("{error}")))
+    Ready(Model::new(scene, &Overrides::default()).unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// dop853 on index 1 with manifold projection at one tolerance, relative and absolute.

@@ -2,7 +2,7 @@
 
 use crate::common::readings;
 use crate::scenes::model;
-use holonom::prepared::{Overrides, PreparedScene};
+use holonom::prepared::{Model, Overrides};
 use holonom::study::work_precision::models::{ModelCost, ModelCosts, Variant, compare};
 
 fn variant(name: &str, set: &[(&str, f64)], until: f64) -> Variant {
@@ -10,7 +10,7 @@ fn variant(name: &str, set: &[(&str, f64)], until: f64) -> Variant {
     let overrides = Overrides { set, until: Some(until), ..Overrides::default() };
     Variant {
         name: name.to_string(),
-        prepared: PreparedScene::load_with(&model(name), &overrides).unwrap(),
+        prepared: Model::load_with(&model(name), &overrides).unwrap(),
         source: Some((model(name), overrides)),
     }
 }

@@ -4,7 +4,7 @@ use super::{Args, Question};
 use crate::cli::common::fail;
 use crate::cli::interrupt;
 use crate::error::{Result, percent};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::tradeoff::{MeasuredModel, ModelsAndMethods};
 use crate::simplify::{Settings, Simplification, Source, registry, simplify};
 use crate::study::Motion;
@@ -19,7 +19,7 @@ const WITHIN: [f64; 3] = [0.1, 0.01, 1e-3];
 /// Part of the budget for each search.
 const SEARCH: u32 = 8;
 
-pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
+pub fn run(args: &Args, prepared: Model) -> Result<ExitCode> {
     args.check_choices(prepared.system())?;
     let folder = args.output.folder(&prepared.name)?;
     let name = prepared.name.clone();
@@ -52,9 +52,9 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
 type Named = (String, Vec<String>);
 
 /// The models that are simpler than the scene, each once, with what they leave out.
-fn models(args: &Args, prepared: &PreparedScene, bar: &ProgressBar) -> Result<Vec<(Named, PreparedScene)>> {
+fn models(args: &Args, prepared: &Model, bar: &ProgressBar) -> Result<Vec<(Named, Model)>> {
     let source = Source::load(&args.scene.path, &args.overrides())?;
-    let mut models: Vec<(Named, PreparedScene)> = Vec::new();
+    let mut models: Vec<(Named, Model)> = Vec::new();
     for within in WITHIN {
         let settings = Settings {
             within,
@@ -76,7 +76,7 @@ fn models(args: &Args, prepared: &PreparedScene, bar: &ProgressBar) -> Result<Ve
 }
 
 /// Methods on a model, their errors against its own motion.
-fn measure(args: &Args, prepared: &PreparedScene, budget: Duration) -> Result<WorkPrecision> {
+fn measure(args: &Args, prepared: &Model, budget: Duration) -> Result<WorkPrecision> {
     let span = prepared.span()?;
     let Question { watched, plan } = args.question(prepared, budget, None)?;
     let motion = Motion::of(prepared, span, watched, &interrupt::is_asked);

@@ -5,7 +5,7 @@ use crate::cli::common::fail;
 use crate::cli::interrupt;
 use crate::error::{Error, Result};
 use crate::files;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::tradeoff::MethodsAnswer;
 use crate::report::{Folder, write_whole};
 use crate::scene;
@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 /// Interval at which results so far are written.
 const SAVED: Duration = Duration::from_secs(5);
 
-pub fn run(args: &Args, prepared: &PreparedScene) -> Result<ExitCode> {
+pub fn run(args: &Args, prepared: &Model) -> Result<ExitCode> {
     let given = args.reference(prepared).as_deref().map(Given::read).transpose()?;
     let question = args.question(prepared, args.budget, given)?;
     let folder = args.output.folder(&prepared.name)?;
@@ -31,7 +31,7 @@ pub fn run(args: &Args, prepared: &PreparedScene) -> Result<ExitCode> {
 
 impl Question {
     /// Returns the results so far: none, or those that `--resume` finds.
-    fn begin(&self, args: &Args, prepared: &PreparedScene, place: &Path) -> Result<WorkPrecision> {
+    fn begin(&self, args: &Args, prepared: &Model, place: &Path) -> Result<WorkPrecision> {
         let span = prepared.span()?;
         let rows = self.plan.rows;
         let fresh = WorkPrecision {
@@ -41,7 +41,7 @@ impl Question {
         if args.resume { resumed(place, fresh) } else { Ok(fresh) }
     }
 
-    fn measure(self, args: &Args, prepared: &PreparedScene, place: &Path, measured: &mut WorkPrecision) -> Result<()> {
+    fn measure(self, args: &Args, prepared: &Model, place: &Path, measured: &mut WorkPrecision) -> Result<()> {
         let span = prepared.span()?;
         let bar = args.talk.progress(1000, &prepared.name);
         let clock = Instant::now();
@@ -60,7 +60,7 @@ impl Question {
     }
 }
 
-fn report(args: &Args, prepared: &PreparedScene, measured: &WorkPrecision, folder: Folder) -> Result<ExitCode> {
+fn report(args: &Args, prepared: &Model, measured: &WorkPrecision, folder: Folder) -> Result<ExitCode> {
     // Methods and tolerances are those of the cells.
     let origin = args.talk.origin_of(&prepared.parameters);
     args.talk.publish(folder, "tradeoff", origin, &MethodsAnswer::new(measured, &args.named(), args.digits))?;
@@ -73,7 +73,7 @@ fn report(args: &Args, prepared: &PreparedScene, measured: &WorkPrecision, folde
 
 impl Args {
     /// Returns the table of reference values: that of the command line, or that of the scene.
-    fn reference(&self, prepared: &PreparedScene) -> Option<PathBuf> {
+    fn reference(&self, prepared: &Model) -> Option<PathBuf> {
         let own = || Some(scene::folder(Some(&self.scene.path)).join(prepared.reference.as_ref()?));
         self.reference.clone().or_else(own)
     }

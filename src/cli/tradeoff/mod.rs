@@ -7,7 +7,7 @@ mod models;
 use super::common::{Output, SceneOptions, Talk, duration, number};
 use crate::error::Result;
 use crate::method_spec::MethodSpec;
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::study::Watched;
 use crate::study::work_precision::{Filter, Given, Plan, grid};
 use crate::system::MechanicalSystem;
@@ -98,7 +98,7 @@ struct Question {
 
 impl Args {
     /// Returns what to measure of a scene within `budget`; against these values, if they are given.
-    fn question(&self, prepared: &PreparedScene, budget: Duration, given: Option<Given>) -> Result<Question> {
+    fn question(&self, prepared: &Model, budget: Duration, given: Option<Given>) -> Result<Question> {
         let span = prepared.span()?;
         let system = prepared.system();
         let rows = usize::from(self.rows);
@@ -123,7 +123,7 @@ impl Args {
         Ok(Question { watched, plan })
     }
 
-    fn outputs(&self, prepared: &PreparedScene, given: Option<&Given>) -> Vec<String> {
+    fn outputs(&self, prepared: &Model, given: Option<&Given>) -> Vec<String> {
         let known = recorded(prepared.system());
         let has = |name: &&str| known.iter().any(|column| column.name == **name);
         match given {

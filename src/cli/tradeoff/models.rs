@@ -4,13 +4,13 @@ use super::Args;
 use crate::cli::common::{assignment, set_by};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::report::tradeoff::ModelsAnswer;
 use crate::study::work_precision::models::{Variant, compare};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
+pub fn run(args: &Args, prepared: Model) -> Result<ExitCode> {
     let mut others = Vec::new();
     for text in &args.variants {
         others.push(variant(text, args, &prepared)?);
@@ -34,7 +34,7 @@ pub fn run(args: &Args, prepared: PreparedScene) -> Result<ExitCode> {
 }
 
 /// Reads a scene with parameters of its own.
-fn variant(text: &str, args: &Args, like: &PreparedScene) -> Result<Variant> {
+fn variant(text: &str, args: &Args, like: &Model) -> Result<Variant> {
     let (path, set) = match text.rsplit_once(':') {
         Some((path, rest)) if rest.contains('=') => (path, rest),
         _ => (text, ""),
@@ -50,7 +50,7 @@ fn variant(text: &str, args: &Args, like: &PreparedScene) -> Result<Variant> {
     let prepared = args
         .talk
         .load(Path::new(path), &overrides)
-        .and_then(PreparedScene::settled)
+        .and_then(Model::settled)
         .map_err(|error| set_by(error, "--variants"))?;
     let source = Some((PathBuf::from(path), overrides));
     Ok(Variant { name: named(Path::new(path), set), prepared, source })

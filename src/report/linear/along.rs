@@ -6,7 +6,7 @@ use super::mode_figures::motion_figure;
 use crate::error::{Error, Result, significant, two_digits};
 use crate::files::{Array, mat};
 use crate::linearize::{Along, Deviation, LinearModel, Matrix, MeasuredA};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::table::count;
 use crate::report::{Answer, Folder, Table};
 use serde::Serialize;
@@ -26,7 +26,7 @@ pub enum ArrayFormat {
 
 /// Linear models along a motion.
 pub struct AlongAnswer<'a> {
-    pub prepared: &'a PreparedScene,
+    pub prepared: &'a Model,
     pub along: &'a Along,
     pub formats: &'a [ArrayFormat],
 }

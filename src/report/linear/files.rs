@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::files::{Array, mat};
 use crate::linearize::{Complex, Coordinates, Frame, Kind, LinearModel, Matrix, Mode, Units, damping, frequency};
 use crate::math::largest;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::report::mechanism::{Look, mode_figure};
 use crate::report::table::named;
 use crate::report::{Answer, Folder, cell, object};
@@ -31,7 +31,7 @@ pub fn stem_at(what: &str, t: f64) -> String {
 
 /// A linear model with the figure of its modes.
 pub struct LinearAnswer<'a> {
-    pub prepared: &'a PreparedScene,
+    pub prepared: &'a Model,
     pub linear: Linear<'a>,
 }
 

@@ -13,7 +13,7 @@ use crate::joint::Axis;
 use crate::linearize::State;
 use crate::math::bounds;
 use crate::plot::{Align, Animation, AxisSpec, Figure, Form, Item, Panel, Series, Spot, Tint};
-use crate::prepared::{AnyMechanism, PreparedScene};
+use crate::prepared::{AnyMechanism, Model};
 
 /// Options of a figure of the mechanism.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ impl Look {
 }
 
 /// Draws the mechanism at one time.
-pub fn mechanism_figure(prepared: &PreparedScene, look: &Look, state: &State) -> Figure {
+pub fn mechanism_figure(prepared: &Model, look: &Look, state: &State) -> Figure {
     let scene = snapshot(&prepared.mechanism, state);
     let mut items = supports(look, std::slice::from_ref(&scene));
     items.extend(picture(look, &scene, &Course { travels: Vec::new(), lengths: lengths(&scene) }, 0.0));

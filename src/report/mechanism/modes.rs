@@ -10,7 +10,7 @@ use crate::formulation::ExponentialMap;
 use crate::linearize::{Complex, Kind, LinearModel, Mode, Pair, State, pairs};
 use crate::math::bounds;
 use crate::plot::{Figure, Item, Tint};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use std::f64::consts::TAU;
 
 /// Largest number of modes in one figure.
@@ -33,7 +33,7 @@ const FAR: f64 = 0.5;
 
 /// A mode shape with an amplitude that can be seen.
 pub struct Swing<'a> {
-    prepared: &'a PreparedScene,
+    prepared: &'a Model,
     model: &'a LinearModel,
     mode: &'a Mode,
     /// Largest amplitude, in units of the shape, and phase of the shape, rad.
@@ -43,7 +43,7 @@ pub struct Swing<'a> {
 
 /// Draws the slowest physical modes, one panel each: the operating point in grey, the mechanism at both ends of its
 /// motion. `None` where no mode has a shape.
-pub fn mode_figure(prepared: &PreparedScene, look: &Look, model: &LinearModel) -> Option<Figure> {
+pub fn mode_figure(prepared: &Model, look: &Look, model: &LinearModel) -> Option<Figure> {
     let found = shaped(model);
     let drawn = &found[..found.len().min(MOST)];
     let rest = at_rest(prepared, model);
@@ -85,7 +85,7 @@ pub fn mode_title(pair: &Pair) -> String {
 }
 
 /// Returns the mechanism at the operating point.
-pub fn at_rest(prepared: &PreparedScene, model: &LinearModel) -> Snapshot {
+pub fn at_rest(prepared: &Model, model: &LinearModel) -> Snapshot {
     let point = &model.point;
     snapshot(&prepared.mechanism, &State { t: point.t, q: point.q.clone(), v: point.v.clone() })
 }
@@ -94,7 +94,7 @@ fn course(rest: &Snapshot) -> Course {
     Course { travels: Vec::new(), lengths: lengths(rest) }
 }
 
-fn picture_of(prepared: &PreparedScene, look: &Look, model: &LinearModel, mode: &Mode, rest: &Snapshot) -> Vec<Item> {
+fn picture_of(prepared: &Model, look: &Look, model: &LinearModel, mode: &Mode, rest: &Snapshot) -> Vec<Item> {
     let swing = Swing::new(prepared, model, mode, rest);
     let course = course(rest);
     let still = picture(look, rest, &course, REST).map(grey);
@@ -111,7 +111,7 @@ fn grey(item: Item) -> Item {
 
 impl<'a> Swing<'a> {
     /// Chooses the amplitude at the operating point `rest`.
-    pub fn new(prepared: &'a PreparedScene, model: &'a LinearModel, mode: &'a Mode, rest: &Snapshot) -> Self {
+    pub fn new(prepared: &'a Model, model: &'a LinearModel, mode: &'a Mode, rest: &Snapshot) -> Self {
         // At this phase the real part of the shape is largest: the sum of squares is real.
         let moving = prepared.system().dimensions().moving();
         let squares: Complex<f64> = mode.shape.iter().take(moving).map(|part| part * part).sum();

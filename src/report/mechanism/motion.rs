@@ -2,7 +2,7 @@
 
 use crate::error::{Warning, clock};
 use crate::linearize::State;
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::system::MechanicalSystem;
 use crate::trajectory::Trajectory;
 
@@ -13,7 +13,7 @@ const BETWEEN_ROWS: f64 = 0.01;
 /// A computed motion.
 pub struct Motion<'a> {
     /// The scene.
-    pub prepared: &'a PreparedScene,
+    pub prepared: &'a Model,
     /// Title of its figures.
     pub title: String,
     trajectory: &'a Trajectory,
@@ -21,7 +21,7 @@ pub struct Motion<'a> {
 
 impl<'a> Motion<'a> {
     /// The motion of a trajectory with at least one row.
-    pub fn new(prepared: &'a PreparedScene, trajectory: &'a Trajectory) -> Self {
+    pub fn new(prepared: &'a Model, trajectory: &'a Trajectory) -> Self {
         Motion { prepared, title: prepared.name.clone(), trajectory }
     }
 

@@ -7,7 +7,7 @@ use crate::error::{Result, Warning};
 use crate::formulation::ExponentialMap;
 use crate::math::expression::{Number, Parameters};
 use crate::math::random::Random;
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::scene::{self, Elements};
 use crate::simulate::{Method, Span, Stop, simulate};
 use crate::study::run::Motion;
@@ -83,9 +83,9 @@ impl Subject<'static> {
     /// Reads a scene.
     ///
     /// # Errors
-    /// As [`PreparedScene::load_with`]; a scene without an end time.
+    /// As [`Model::load_with`]; a scene without an end time.
     pub fn load(path: &Path, overrides: &Overrides) -> Result<Self> {
-        let prepared = PreparedScene::load_with(path, overrides)?.settled()?;
+        let prepared = Model::load_with(path, overrides)?.settled()?;
         let span = prepared.span().map_err(|error| error.in_file(path))?;
         let base = Case {
             scene: Arc::new(scene::document::read(&scene::read_text(path)?)?),
@@ -186,7 +186,7 @@ impl<'a> Subject<'a> {
             output_step: Some(span.output_step),
             ..Overrides::default()
         };
-        let prepared = PreparedScene::new(scene, &overrides)?;
+        let prepared = Model::new(scene, &overrides)?;
         perturbed(prepared.system(), span.start, prepared.start())
     }
 }

@@ -7,7 +7,7 @@ use crate::error::{Error, INTERRUPTED, Result, clock};
 use crate::integrator;
 use crate::linearize::{Kind, LinearModel, Operating, Request, State, at_rest, linearize, states};
 use crate::method_spec::MethodSpec;
-use crate::prepared::{Family, Overrides, PreparedScene};
+use crate::prepared::{Family, Model, Overrides};
 use crate::simulate::{Method, Outcome, Span, Stop};
 use crate::study::companion::Completed;
 use crate::study::error_bar::ErrorBars;
@@ -52,7 +52,7 @@ impl Study {
     /// that does not exist.
     pub fn new(
         path: &Path,
-        prepared: &PreparedScene,
+        prepared: &Model,
         overrides: &Overrides,
         names: &[String],
         recorded: Recorded,
@@ -115,11 +115,11 @@ impl Study {
         }
     }
 
-    fn prepare(&self, values: &[f64]) -> Result<PreparedScene> {
-        PreparedScene::new(self.family.scene_with(&self.names, values)?, &self.overrides)
+    fn prepare(&self, values: &[f64]) -> Result<Model> {
+        Model::new(self.family.scene_with(&self.names, values)?, &self.overrides)
     }
 
-    fn record(&self, prepared: &PreparedScene, is_over: &(dyn Fn() -> bool + Sync)) -> Result<Vec<f64>> {
+    fn record(&self, prepared: &Model, is_over: &(dyn Fn() -> bool + Sync)) -> Result<Vec<f64>> {
         let mut all = if self.measures.is_empty() { Vec::new() } else { self.simulate(prepared, is_over)? };
         let Some(count) = self.modes else { return Ok(all) };
         let found = eigenvalues(&model(prepared, self.is_at_rest)?);
@@ -131,7 +131,7 @@ impl Study {
         Ok(all)
     }
 
-    fn simulate(&self, prepared: &PreparedScene, is_over: &(dyn Fn() -> bool + Sync)) -> Result<Vec<f64>> {
+    fn simulate(&self, prepared: &Model, is_over: &(dyn Fn() -> bool + Sync)) -> Result<Vec<f64>> {
         let system = prepared.system();
         let span = prepared.span()?;
         let mut courses = self.courses(prepared)?;
@@ -162,7 +162,7 @@ impl Study {
     }
 
     /// Returns the courses of the measures that have one, before the first row.
-    fn courses(&self, prepared: &PreparedScene) -> Result<Vec<Option<Course>>> {
+    fn courses(&self, prepared: &Model) -> Result<Vec<Option<Course>>> {
         let trajectory = Trajectory::new(prepared.system());
         let headings = trajectory.headings();
         let output_step = prepared.span()?.output_step;
@@ -177,7 +177,7 @@ impl Study {
     }
 
     /// Refuses measures that cannot be read, and times at which there is no row.
-    fn check(&self, prepared: &PreparedScene) -> Result<()> {
+    fn check(&self, prepared: &Model) -> Result<()> {
         if self.measures.is_empty() {
             return Ok(());
         }
@@ -199,7 +199,7 @@ impl Study {
     }
 }
 
-fn measures(prepared: &PreparedScene, asked: &Recorded) -> Result<Vec<Measure>> {
+fn measures(prepared: &Model, asked: &Recorded) -> Result<Vec<Measure>> {
     let outputs = recorded(prepared.system());
     let mut measures = Vec::new();
     for text in asked.measures {
@@ -219,7 +219,7 @@ fn measures(prepared: &PreparedScene, asked: &Recorded) -> Result<Vec<Measure>> 
 }
 
 /// Returns a number of the whole run.
-fn of_run(what: &What, prepared: &PreparedScene, outcome: &Outcome, record: &Record) -> f64 {
+fn of_run(what: &What, prepared: &Model, outcome: &Outcome, record: &Record) -> f64 {
     match what {
         What::Drift => record.drift.position.relative_max,
         What::EnergyError => record.energy.map_or(f64::NAN, |energy| energy.max_error),
@@ -233,7 +233,7 @@ fn of_run(what: &What, prepared: &PreparedScene, outcome: &Outcome, record: &Rec
 }
 
 /// Returns the linear model at the start, or at the equilibrium that belongs to it.
-fn model(prepared: &PreparedScene, is_at_rest: bool) -> Result<LinearModel> {
+fn model(prepared: &Model, is_at_rest: bool) -> Result<LinearModel> {
     let start = State::start(prepared);
     let operating = if is_at_rest {
         at_rest(prepared, &start)?

@@ -3,7 +3,7 @@
 use super::plan::Plan;
 use super::study::Study;
 use crate::error::{Error, Result, excerpt};
-use crate::prepared::PreparedScene;
+use crate::prepared::Model;
 use crate::study::pool::{cores, into_inner, locked, run_all};
 use crate::system::Column;
 use serde_json::{Map, Value, json};
@@ -82,7 +82,7 @@ const FAILURE: &str = "failure";
 impl StudyTable {
     /// A table without rows, of a study whose nominal variant is `prepared`; `again` is the beginning of the commands
     /// that compute one variant alone.
-    pub fn new(study: &Study, plan: &Plan, prepared: &PreparedScene, again: Vec<Vec<String>>) -> StudyTable {
+    pub fn new(study: &Study, plan: &Plan, prepared: &Model, again: Vec<Vec<String>>) -> StudyTable {
         let parameter = |name: &String| Column { name: name.clone(), unit: String::new() };
         let columns: Vec<Column> = plan.names.iter().map(parameter).chain(study.columns()).collect();
         let nominal: Map<String, Value> =

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Failure, Result};
 use crate::formulation::Statistics;
-use crate::prepared::{Overrides, PreparedScene};
+use crate::prepared::{Model, Overrides};
 use crate::scene;
 use crate::simulate::{Method, Span};
 use crate::study::metric::ErrorMetric;
@@ -23,7 +23,7 @@ pub struct Variant {
     /// Name.
     pub name: String,
     /// The prepared scene.
-    pub prepared: PreparedScene,
+    pub prepared: Model,
     /// File and options of the scene, from which a finer mesh can be made.
     pub source: Option<(PathBuf, Overrides)>,
 }
@@ -31,11 +31,11 @@ pub struct Variant {
 impl Variant {
     /// Returns the model with twice the elements and modes of its beams; none without beams, or where it cannot be
     /// built.
-    fn finer(&self) -> Option<PreparedScene> {
+    fn finer(&self) -> Option<Model> {
         let (path, overrides) = self.source.as_ref()?;
         let text = scene::refined(&scene::read_text(path).ok()?)?;
         let scene = overrides.elements.parse_in(scene::folder(Some(path)), &text, &overrides.set).ok()?;
-        PreparedScene::new(scene, overrides).and_then(PreparedScene::settled).ok()
+        Model::new(scene, overrides).and_then(Model::settled).ok()
     }
 }
 
