@@ -8,8 +8,7 @@ mod common;
 use equations::andrews::Andrews;
 use holonom::formulation::Dynamics;
 use holonom::linearize::{
-    Chart, Complex, LinearModel, Matrix, Request, State, Variation, at_rest, linearize, minimal, modal, registry,
-    states,
+    Chart, Complex, Linear, LinearModel, Matrix, State, Variation, at_rest, linearize, minimal, modal, registry, states,
 };
 use holonom::math::eigen::eigen;
 use holonom::method_spec::MethodSpec;
@@ -189,7 +188,7 @@ fn chains() {
             println!("   {} modes from {:.4} to {:.4} rad/s", values.len() / 2, values[0].norm(), values[39].norm());
             continue;
         }
-        let request = Request { method: MethodSpec::named("mcs"), chart: Some(Chart::MassOrthogonal) };
+        let request = Linear { method: MethodSpec::named("mcs"), chart: Some(Chart::MassOrthogonal) };
         let clock = Instant::now();
         let all = linearize(&mut variation, &request).unwrap();
         let dense = 1e3 * clock.elapsed().as_secs_f64();
@@ -209,7 +208,7 @@ fn methods() {
         let prepared = shipped(name);
         let mut variation = at(&prepared, t).variation(&prepared).unwrap();
         for entry in registry() {
-            let request = Request { method: MethodSpec::named(entry.name), chart: None };
+            let request = Linear { method: MethodSpec::named(entry.name), chart: None };
             let Ok(model) = linearize(&mut variation, &request) else { continue };
             let costs = (0..20).filter_map(|_| linearize(&mut variation, &request).ok()).map(|model| model.cost);
             let least = costs.fold([f64::INFINITY; 2], |[a, b], c| [a.min(c.assembly_seconds), b.min(c.eigen_seconds)]);

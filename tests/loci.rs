@@ -1,7 +1,7 @@
 //! Eigenvalues followed along a motion and over a parameter, and frequency responses.
 
 use holonom::linearize::{
-    At, Branch, Complex, Kind, LinearModel, Loci, LociPoint, LociVariable, Matrix, Mode, Request, State, Variants,
+    At, Branch, Complex, Kind, Linear, LinearModel, Loci, LociPoint, LociVariable, Matrix, Mode, State, Variants,
     at_rest, frequency_response, linearize, loci_along, loci_over, track,
 };
 use holonom::method_spec::MethodSpec;
@@ -159,8 +159,8 @@ fn prepared(scene: &str, set: &[(&str, f64)]) -> Model {
     Model::load_with(&path(scene), &Overrides { set, ..Overrides::default() }).unwrap()
 }
 
-fn request(method: &str) -> Request {
-    Request { method: MethodSpec::parse(method).unwrap(), chart: None }
+fn request(method: &str) -> Linear {
+    Linear { method: MethodSpec::parse(method).unwrap(), chart: None }
 }
 
 fn model(prepared: &Model, state: &State, method: &str) -> LinearModel {

@@ -5,12 +5,14 @@ use super::linear::{AtStates, ChartOptions};
 use super::simplify::percentage;
 use crate::error::{Error, Result, Warning};
 use crate::linearize::{
-    self, Chart, Complex, Kind, LinearModel, LinearizationPoint, Operating, Request, State, Variation, against,
-    compare, kinks, states, within_run,
+    self, Chart, Complex, Kind, Linear, LinearModel, LinearizationPoint, Operating, State, Variation, against, compare,
+    kinks, states, within_run,
 };
 use crate::method_spec::MethodSpec;
 use crate::prepared::Model;
-use crate::report::linear::{AgainstAnswer, AlongAnswer, ArrayFormat, Linear, LinearAnswer, MethodsAnswer, stem_at};
+use crate::report::linear::{
+    AgainstAnswer, AlongAnswer, ArrayFormat, LinearAnswer, MethodsAnswer, NamedModel, stem_at,
+};
 use crate::report::{Answer, Folder, uncertain_kinds};
 use crate::sweep::Range;
 use crate::view::{Extras, Run, page, still};
@@ -137,7 +139,7 @@ fn along(args: &Args, prepared: &Model, times: &Times) -> Result<()> {
     args.at.talk.conclude(folder, &sealed, || answer.text())
 }
 
-fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Result<Vec<LinearModel>> {
+fn models(args: &Args, requests: &[Linear], variation: &mut Variation) -> Result<Vec<LinearModel>> {
     match args.modes {
         Some(count) => {
             let shift = Complex::new(0.0, args.shift.unwrap_or(0.0));
@@ -158,13 +160,13 @@ fn models(args: &Args, requests: &[Request], variation: &mut Variation) -> Resul
 }
 
 /// Warning for a method that is left out of the comparison.
-fn without_model(request: &Request, error: Error) -> Warning {
+fn without_model(request: &Linear, error: Error) -> Warning {
     let Error::Input(input) = error else { return Warning::new(error.to_string(), "take another time") };
     let text = format!("no model by {}: {}", request.method, input.message);
     Warning::new(text, input.hint.unwrap_or_default())
 }
 
-fn requests(args: &Args) -> Result<Vec<Request>> {
+fn requests(args: &Args) -> Result<Vec<Linear>> {
     let chart = args.chart.chart();
     if args.modes.is_some() && args.method != "mcs" {
         return Err(Error::input("--modes has a method of its own").hint("leave out --method, or --modes"));
@@ -172,12 +174,12 @@ fn requests(args: &Args) -> Result<Vec<Request>> {
     if args.against.is_some() && args.method == "all" {
         return Err(Error::input("--against compares models by one method").hint("name it, or leave out --against"));
     }
-    let request = |method: MethodSpec| Request { method, chart: chart.clone() };
+    let request = |method: MethodSpec| Linear { method, chart: chart.clone() };
     if args.method != "all" {
         return Ok(vec![request(MethodSpec::parse(&args.method)?)]);
     }
     let charts = if args.chart.chart().is_none() { vec![Chart::MassOrthogonal, Chart::Frozen] } else { Vec::new() };
-    let charts = charts.into_iter().map(|chart| Ok(Request { method: MethodSpec::named("mcs"), chart: Some(chart) }));
+    let charts = charts.into_iter().map(|chart| Ok(Linear { method: MethodSpec::named("mcs"), chart: Some(chart) }));
     let all = ["rcs", "rcs:form=index2", "rcs:form=index1", "rcs:form=ggl", "rcs:solver=gsvd", "rcs:solver=qz"];
     let rest = linearize::registry().iter().map(|entry| entry.name).filter(|name| !["mcs", "rcs"].contains(name));
     let projected = ["baumgarte:projected=yes", "penalty:projected=yes", "augmented_lagrangian:projected=yes"];
@@ -228,7 +230,7 @@ fn compared<'s>(
     prepared: &Model,
     scene: &'s Model,
     (own, model): (&Operating, &LinearModel),
-    requests: &[Request],
+    requests: &[Linear],
 ) -> Result<AgainstAnswer<'s>> {
     let places = args.at.states.at(scene, &args.at.talk, own.state.t)?;
     let other = models(args, &requests[..1], &mut places.variation()?)?;
@@ -250,7 +252,7 @@ fn add(
         let page = page(&Run::new(prepared, &still), &Extras { model: Some(first), ..Extras::default() });
         folder.write(&format!("{}.html", stem_at("view", t)), page.as_bytes())?;
     }
-    let linear = Linear { scene: &prepared.name, names: &prepared.system().facts().names, model: first };
+    let linear = NamedModel { scene: &prepared.name, names: &prepared.system().facts().names, model: first };
     let mut json = args.at.add(folder, "linear", (prepared, t), &LinearAnswer { prepared, linear })?;
     if let Some(against) = against {
         json["against"] = args.at.add(folder, "against", (prepared, t), &against)?;

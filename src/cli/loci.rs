@@ -4,7 +4,7 @@ use super::common::{MethodOptions, Output, SceneOptions, Talk, fail, number, pos
 use super::linear::ModelOptions;
 use super::linearize::unlike;
 use crate::error::{Error, Result, short};
-use crate::linearize::{At, Gap, Kind, Loci, Request, Variants, loci_along, loci_over, refuse_large, within_run};
+use crate::linearize::{At, Gap, Kind, Linear, Loci, Variants, loci_along, loci_over, refuse_large, within_run};
 use crate::prepared::Model;
 use crate::report::linear::LociAnswer;
 use crate::report::{Answer, Sealed, uncertain_kinds};
@@ -94,14 +94,14 @@ fn failed<'l>(args: &Args, loci: &'l Loci) -> Option<&'l Gap> {
     }
 }
 
-fn loci(args: &Args, scene: &SceneOptions, prepared: &Model, request: &Request) -> Result<Loci> {
+fn loci(args: &Args, scene: &SceneOptions, prepared: &Model, request: &Linear) -> Result<Loci> {
     match &args.sweep {
         Some(range) => over(args, scene, prepared, range, request),
         None => along(args, prepared, request),
     }
 }
 
-fn other(args: &Args, own: &Model, path: &Path, request: &Request) -> Result<(String, Loci)> {
+fn other(args: &Args, own: &Model, path: &Path, request: &Linear) -> Result<(String, Loci)> {
     let scene = SceneOptions { path: path.to_path_buf(), set: Vec::new() };
     let prepared = args.run.load_tight(&scene, &args.talk)?;
     args.talk.warn(&unlike(own, &prepared)?);
@@ -110,7 +110,7 @@ fn other(args: &Args, own: &Model, path: &Path, request: &Request) -> Result<(St
     Ok((prepared.name, found))
 }
 
-fn along(args: &Args, prepared: &Model, request: &Request) -> Result<Loci> {
+fn along(args: &Args, prepared: &Model, request: &Linear) -> Result<Loci> {
     let times = times(args, prepared)?;
     let bar = args.talk.progress(times.len() as u64, &prepared.name);
     Ok(loci_along(prepared, request, &times, || bar.inc(1)))
@@ -142,7 +142,7 @@ fn times(args: &Args, prepared: &Model) -> Result<Vec<f64>> {
     }
 }
 
-fn over(args: &Args, scene: &SceneOptions, prepared: &Model, range: &Range, request: &Request) -> Result<Loci> {
+fn over(args: &Args, scene: &SceneOptions, prepared: &Model, range: &Range, request: &Linear) -> Result<Loci> {
     let at = match args.at {
         Some(t) => within_run(prepared, &[t]).map(|()| At::Time(t))?,
         None if args.equilibrium => At::Equilibrium,

@@ -15,9 +15,6 @@ pub struct Linear {
     pub chart: Option<Chart>,
 }
 
-#[doc(hidden)]
-pub type Request = Linear;
-
 impl Default for Linear {
     fn default() -> Self {
         Linear { method: MethodSpec::named("mcs"), chart: None }

@@ -68,7 +68,7 @@ pub use comparison::{Comparison, compare};
 pub use coordinates::{Coordinates, parallel};
 #[doc(hidden)]
 pub use entry::Built;
-pub use entry::{Entry, Linear, Request};
+pub use entry::{Entry, Linear};
 #[doc(hidden)]
 pub use floquet::Defect;
 pub use floquet::{Floquet, floquet};

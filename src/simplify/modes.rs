@@ -1,7 +1,7 @@
 //! The modes of the start, and those that a simpler model has lost.
 
 use crate::error::{Error, Result, Warning, percent, significant};
-use crate::linearize::{Complex, Fate, LinearModel, Request, State, against, damping, frequency, linearize};
+use crate::linearize::{Complex, Fate, Linear, LinearModel, State, against, damping, frequency, linearize};
 use crate::method_spec::MethodSpec;
 use crate::prepared::Model;
 use crate::tolerances::UNSEEN_MODE;
@@ -28,7 +28,7 @@ pub fn at_start(prepared: &Model) -> Result<LinearModel> {
         return Err(Error::input(format!("it has {velocities} velocities; of up to {MOST} all modes are computed")));
     }
     let mut variation = State::start(prepared).variation(prepared)?;
-    linearize(&mut variation, &Request { method: MethodSpec::named("mcs"), chart: None })
+    linearize(&mut variation, &Linear { method: MethodSpec::named("mcs"), chart: None })
 }
 
 /// Warnings where outputs see modes of the start, or damping of these, that the simpler model has not: a motion that

@@ -1,13 +1,13 @@
 //! Beams in steady rotation: closed forms and published frequencies, and all frames against one another.
 
 use crate::scenes::{Ready, parse, shipped};
-use holonom::linearize::{Chart, Operating, Request, State, at_rest, linearize};
+use holonom::linearize::{Chart, Linear, Operating, State, at_rest, linearize};
 use holonom::method_spec::MethodSpec;
 use holonom::simulate::Span;
 use holonom::system::Rotating;
 
-fn mcs() -> Request {
-    Request { method: MethodSpec::named("mcs"), chart: None }
+fn mcs() -> Linear {
+    Linear { method: MethodSpec::named("mcs"), chart: None }
 }
 
 /// Angular frequencies of a model about rest in turning axes, from the slowest, each pair once.
@@ -167,7 +167,7 @@ fn a_steady_rotation_has_one_spectrum() {
     let blade = shipped("rotating_blade", &[("speed", 6.0)]);
     let operating = at_rest(&blade.0, &State::start(&blade.0)).unwrap();
     let slowest = |method: &str, chart: Option<Chart>| {
-        let request = Request { method: MethodSpec::named(method), chart };
+        let request = Linear { method: MethodSpec::named(method), chart };
         let model = linearize(&mut operating.variation().unwrap(), &request).unwrap();
         model.modes.iter().map(|mode| mode.value.im).filter(|im| *im > 1.0).fold(f64::INFINITY, f64::min)
     };

@@ -5,11 +5,11 @@ use holonom::files::Array;
 use holonom::linearize::LinearModel;
 use holonom::prepared::Model;
 use holonom::report::Folder;
-use holonom::report::linear::{Linear, stem_at};
+use holonom::report::linear::{NamedModel, stem_at};
 use serde_json::Value;
 
-fn linear<'a>(prepared: &'a Model, model: &'a LinearModel, names: &'a holonom::system::Names) -> Linear<'a> {
-    Linear { scene: &prepared.name, names, model }
+fn linear<'a>(prepared: &'a Model, model: &'a LinearModel, names: &'a holonom::system::Names) -> NamedModel<'a> {
+    NamedModel { scene: &prepared.name, names, model }
 }
 
 fn json(model: &LinearModel) -> Value {

@@ -2,12 +2,12 @@
 
 use super::sample::{complex, descriptor, empty, plain, prepared};
 use holonom::linearize::{Kind, LinearModel, Mode};
-use holonom::report::linear::Linear;
+use holonom::report::linear::NamedModel;
 
 fn text(model: &LinearModel) -> String {
     let prepared = prepared("four_bar_spring");
     let names = prepared.system().facts().names.clone();
-    Linear { scene: &prepared.name, names: &names, model }.text()
+    NamedModel { scene: &prepared.name, names: &names, model }.text()
 }
 
 fn mode(re: f64, im: f64, kind: Kind) -> Mode {

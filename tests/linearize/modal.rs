@@ -1,7 +1,7 @@
 //! A few modes by sparse methods against all modes of dense ones.
 
 use crate::linearize::reference::distance;
-use holonom::linearize::{Chart, Complex, LinearModel, Matrix, Request, State, Variation, at_rest, linearize, modal};
+use holonom::linearize::{Chart, Complex, Linear, LinearModel, Matrix, State, Variation, at_rest, linearize, modal};
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Model, Overrides};
 use holonom::scene::{Scene, generate};
@@ -33,7 +33,7 @@ fn rest(prepared: &Model) -> State {
 }
 
 fn dense(variation: &mut Variation) -> LinearModel {
-    linearize(variation, &Request { method: MethodSpec::named("mcs"), chart: Some(Chart::Frozen) }).unwrap()
+    linearize(variation, &Linear { method: MethodSpec::named("mcs"), chart: Some(Chart::Frozen) }).unwrap()
 }
 
 /// Those with im >= 0, the double zeros of rigid bodies left out, which are known to the root of rounding.

@@ -2,12 +2,12 @@
 
 use crate::linearize::reference::Reference;
 use crate::linearize::systems::system;
-use holonom::linearize::{Chart, Complex, Kind, LinearModel, Request, Variation, linearize};
+use holonom::linearize::{Chart, Complex, Kind, Linear, LinearModel, Variation, linearize};
 use holonom::method_spec::MethodSpec;
 
 /// A method as on the command line, in a chart.
-pub fn request(method: &str, chart: Option<Chart>) -> Request {
-    Request { method: MethodSpec::parse(method).unwrap(), chart }
+pub fn request(method: &str, chart: Option<Chart>) -> Linear {
+    Linear { method: MethodSpec::parse(method).unwrap(), chart }
 }
 
 pub fn model(variation: &mut Variation, method: &str, chart: Option<Chart>) -> LinearModel {

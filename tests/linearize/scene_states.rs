@@ -3,7 +3,7 @@
 use crate::linearize::models::{model, values};
 use crate::linearize::reference::distance;
 use crate::scenes::{Ready, dop853, parse, shipped};
-use holonom::linearize::{Chart, Complex, Kind, Request, State, Variation, at_rest, linearize, states};
+use holonom::linearize::{Chart, Complex, Kind, Linear, State, Variation, at_rest, linearize, states};
 use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span};
 use holonom::validate::{Settings, validate};
@@ -247,7 +247,7 @@ fn a_chart_has_names_of_its_own() {
     );
     let at = start(&scene);
     let mut variation = at.variation(&scene.0).unwrap();
-    let request = Request { method: MethodSpec::named("mcs"), chart: Some(Chart::Intrinsic) };
+    let request = Linear { method: MethodSpec::named("mcs"), chart: Some(Chart::Intrinsic) };
     let model = linearize(&mut variation, &request).unwrap();
     assert_eq!(model.states, ["u__1", "u__2", "u__1'", "u__2'", "u1"]);
 }

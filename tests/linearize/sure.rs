@@ -1,6 +1,6 @@
 //! How sure a linear model is: near singular states, among fast modes, over whole turns, at thresholds.
 
-use holonom::linearize::{Chart, Kind, LinearModel, Request, State, floquet, linearize, states};
+use holonom::linearize::{Chart, Kind, Linear, LinearModel, State, floquet, linearize, states};
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
@@ -16,7 +16,7 @@ pub fn shipped(name: &str) -> PathBuf {
 }
 
 fn by(prepared: &Model, method: &str, chart: Option<&str>) -> Result<LinearModel, String> {
-    let request = Request { method: MethodSpec::parse(method).unwrap(), chart: chart.map(Chart::parse) };
+    let request = Linear { method: MethodSpec::parse(method).unwrap(), chart: chart.map(Chart::parse) };
     let state = State::start(prepared);
     let mut variation = state.variation(prepared).map_err(|error| error.to_string())?;
     linearize(&mut variation, &request).map_err(|error| error.to_string())

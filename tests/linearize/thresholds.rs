@@ -1,7 +1,7 @@
 //! Eigenvalues over a parameter: thresholds against published values, derivatives, and the curves between points.
 
 use super::sure::{shipped, ziegler};
-use holonom::linearize::{At, Branch, Complex, Loci, Request, Slope, ThresholdKind, Variants, loci_along, loci_over};
+use holonom::linearize::{At, Branch, Complex, Linear, Loci, Slope, ThresholdKind, Variants, loci_along, loci_over};
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Model, Overrides};
 use holonom::sweep::{Family, Range};
@@ -12,7 +12,7 @@ fn over(path: &Path, range: &str, at: At, set: &[(&str, f64)]) -> Loci {
     let overrides = Overrides { set, ..Overrides::default() };
     let family = Family::load_with(path, &overrides).unwrap();
     let range: Range = range.parse().unwrap();
-    let request = Request { method: MethodSpec::parse("mcs").unwrap(), chart: None };
+    let request = Linear { method: MethodSpec::parse("mcs").unwrap(), chart: None };
     loci_over(&Variants { family: &family, overrides: &overrides, range: &range }, at, &request, || ()).unwrap()
 }
 
@@ -149,7 +149,7 @@ fn curves_follow_derivatives() {
     }
     let pendulum = Model::load_with(&shipped("pendulum"), &Overrides::default()).unwrap();
     let times: Vec<f64> = (0..=20).map(|k| 0.05 * f64::from(k)).collect();
-    let request = Request { method: MethodSpec::parse("mcs").unwrap(), chart: None };
+    let request = Linear { method: MethodSpec::parse("mcs").unwrap(), chart: None };
     let loci = loci_along(&pendulum, &request, &times, || ());
     assert!(loci.branches.iter().all(|branch| branch.curve().points.len() > 200));
     let states = holonom::linearize::states(&pendulum, &times, |_| ()).unwrap();

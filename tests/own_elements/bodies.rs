@@ -4,7 +4,7 @@
 use crate::common::{Run, adaptive, fixed, run};
 use holonom::body::{BodyFacts, BodyKernel, BodySpec, Build, Built, Energy, Frame, Initial, Marker, cross, dot, sub};
 use holonom::joint::{self, JointKernel, JointSpec};
-use holonom::linearize::{Request, State, linearize};
+use holonom::linearize::{Linear, State, linearize};
 use holonom::math::expression::Number;
 use holonom::math::rotation::{axes_from_quaternion, quaternion_rate};
 use holonom::math::{Scalar, Time};
@@ -207,7 +207,7 @@ fn they_move_as_the_built_in_ones() {
 fn their_linear_models_are_those_of_the_built_in_ones() {
     for text in [PLANAR, SPATIAL] {
         let models = pair(text).map(|prepared| {
-            let request = Request { method: MethodSpec::named("mcs"), chart: None };
+            let request = Linear { method: MethodSpec::named("mcs"), chart: None };
             linearize(&mut State::start(&prepared).variation(&prepared).unwrap(), &request).unwrap()
         });
         let [expected, found] = models.map(|model| (model.a, model.c));

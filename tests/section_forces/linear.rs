@@ -2,7 +2,7 @@
 
 use crate::scenes::{Ready, parse};
 use crate::section_forces::{at_rest, frame_keys, reactions, sections};
-use holonom::linearize::{Chart, LinearModel, Matrix, Request, Variation, linearize};
+use holonom::linearize::{Chart, Linear, LinearModel, Matrix, Variation, linearize};
 use holonom::method_spec::MethodSpec;
 
 /// A clamped beam with its root as output, whose load at the tip is an input.
@@ -28,7 +28,7 @@ fn clamped(dimension: usize, frame: &str) -> Ready {
 }
 
 fn model(variation: &mut Variation, method: &str) -> LinearModel {
-    let request = Request { method: MethodSpec::parse(method).unwrap(), chart: Some(Chart::MassOrthogonal) };
+    let request = Linear { method: MethodSpec::parse(method).unwrap(), chart: Some(Chart::MassOrthogonal) };
     linearize(variation, &request).unwrap_or_else(|error| panic!("{method}: {error}"))
 }
 

@@ -1,6 +1,6 @@
 //! `ltv.npz`, `ltv.mat` and `ltv.json`: linear models along a motion.
 
-use super::Linear;
+use super::NamedModel;
 use super::files::{matrix, unit_arrays, units};
 use super::mode_figures::motion_figure;
 use crate::error::{Error, Result, significant, two_digits};
@@ -40,7 +40,7 @@ impl AlongAnswer<'_> {
     fn arrays(&self) -> Result<Vec<(&'static str, Array)>> {
         let names = self.prepared.system().facts().names.clone();
         let scene = &self.prepared.name;
-        let moment = |model: &LinearModel| Linear { scene, names: &names, model }.moment();
+        let moment = |model: &LinearModel| NamedModel { scene, names: &names, model }.moment();
         let mut moments = self.along.models.iter().map(moment);
         let mut stacks: Vec<(&'static str, Vec<Array>)> = Vec::new();
         for (key, array) in moments.next().into_iter().flatten() {

@@ -1,6 +1,6 @@
 //! `linear-T.json`, and the arrays of `linear-T.npz` and `linear-T.mat`.
 
-use super::Linear;
+use super::NamedModel;
 use crate::error::Result;
 use crate::files::{Array, mat};
 use crate::linearize::{Complex, Coordinates, Frame, Kind, LinearModel, Matrix, Mode, Units, damping, frequency};
@@ -32,7 +32,7 @@ pub fn stem_at(what: &str, t: f64) -> String {
 /// A linear model with the figure of its modes.
 pub struct LinearAnswer<'a> {
     pub prepared: &'a Model,
-    pub linear: Linear<'a>,
+    pub linear: NamedModel<'a>,
 }
 
 impl Answer for LinearAnswer<'_> {
@@ -52,7 +52,7 @@ impl Answer for LinearAnswer<'_> {
     }
 }
 
-impl Linear<'_> {
+impl NamedModel<'_> {
     /// Writes the arrays for NumPy and for MATLAB; `stem` is the name of the files without extension.
     pub fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         let arrays = self.arrays();
@@ -100,7 +100,7 @@ impl Linear<'_> {
     }
 }
 
-impl Serialize for Linear<'_> {
+impl Serialize for NamedModel<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let model = self.model;
         object!(serializer,
@@ -166,7 +166,7 @@ fn largest_parts<'a>(states: &'a [String], parts: &[f64]) -> Vec<(&'a str, f64)>
     named
 }
 
-impl Linear<'_> {
+impl NamedModel<'_> {
     /// Returns all arrays, with names that Python and MATLAB both allow. Columns of `mode_shapes` (along `v`) and
     /// `participation` (along `states`) belong to the `eigenvalues`; they are zero where nothing is known.
     pub fn arrays(&self) -> Vec<(&'static str, Array)> {

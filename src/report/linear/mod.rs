@@ -40,7 +40,7 @@ use crate::system::Names;
 
 /// A linear model with the names of its scene.
 #[derive(Clone, Copy)]
-pub struct Linear<'a> {
+pub struct NamedModel<'a> {
     pub scene: &'a str,
     /// Names of the coordinates, velocities and multipliers of the operating point.
     pub names: &'a Names,

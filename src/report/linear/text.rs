@@ -1,6 +1,6 @@
 //! Text on a linear model, and on several.
 
-use super::Linear;
+use super::NamedModel;
 use super::notes::notes;
 use crate::error::{short, significant};
 use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, Pair, pairs};
@@ -26,7 +26,7 @@ fn input_states(model: &LinearModel) -> String {
     }
 }
 
-impl Linear<'_> {
+impl NamedModel<'_> {
     /// Returns method, chart and state, then the modes.
     pub fn text(&self) -> String {
         let model = self.model;

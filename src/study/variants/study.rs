@@ -5,7 +5,7 @@ use super::measure::{Measure, What};
 use crate::analysis::{Record, Recorder};
 use crate::error::{Error, INTERRUPTED, Result, clock};
 use crate::integrator;
-use crate::linearize::{Kind, LinearModel, Operating, Request, State, at_rest, linearize, states};
+use crate::linearize::{Kind, Linear, LinearModel, Operating, State, at_rest, linearize, states};
 use crate::method_spec::MethodSpec;
 use crate::prepared::{Family, Model, Overrides};
 use crate::simulate::{Method, Outcome, Span, Stop};
@@ -241,7 +241,7 @@ fn model(prepared: &Model, is_at_rest: bool) -> Result<LinearModel> {
         let projected = states(prepared, &[start.t], |_| ())?.pop();
         Operating::moving(prepared, projected.unwrap_or(start))
     };
-    let request = Request { method: MethodSpec::named("mcs"), chart: None };
+    let request = Linear { method: MethodSpec::named("mcs"), chart: None };
     linearize(&mut operating.variation()?, &request)
 }
 
