@@ -7,7 +7,7 @@
 //! use holonom::methods::Method;
 //!
 //! let method: Method = "ggl + radau_iia".parse()?;
-//! assert_eq!(method.triple(), "ggl + radau_iia + none");
+//! assert_eq!(method.triple(), "ggl + radau_iia");
 //! # Ok::<(), holonom::Error>(())
 //! ```
 
