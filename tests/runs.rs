@@ -1,8 +1,11 @@
 //! Runs that one can hold: events, inputs, pauses and restarts, against closed forms.
 
+use holonom::linear::Matrix;
 use holonom::prelude::*;
 use holonom::run::{Recorder, Run, Span};
 use holonom::simulate::{Observation, Sink, Start};
+use holonom::system::{Column, Dimensions, MechanicalSystem, Need, Scratch, SystemFacts, Terms};
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::f64::consts::PI;
 
@@ -308,4 +311,31 @@ fn methods_are_read_from_text() {
     assert!((run("index1 + dop853").unwrap() - 1.0_f64.cos()).abs() < 1e-8);
     let error = run("index1 + dop8533").map(|_| ()).unwrap_err().to_string();
     assert!(error.contains("did you mean `dop853`?"), "{error}");
+}
+
+/// x'' = u by its M and f, without the term of u.
+struct Deaf;
+
+impl MechanicalSystem for Deaf {
+    fn dimensions(&self) -> Dimensions {
+        Dimensions { q: 1, v: 1, ..Dimensions::default() }
+    }
+    fn facts(&self) -> Cow<'_, SystemFacts> {
+        let inputs = vec![Column { name: "u".to_string(), unit: "N".to_string() }];
+        Cow::Owned(SystemFacts { inputs, ..SystemFacts::new(self.dimensions()) })
+    }
+    fn evaluate(&self, _: f64, _: &[f64], _: &[f64], _: Need, terms: &mut Terms, _: &mut Scratch) {
+        terms.mass[0] = 1.0;
+        terms.f[0] = 0.0;
+    }
+    fn input_forces(&self, _: f64, _: &[f64], _: &[f64], f: &mut Matrix, _: &mut Scratch) {
+        f[(0, 0)] = 1.0;
+    }
+}
+
+#[test]
+fn a_system_that_ignores_its_inputs_is_refused() {
+    let mut run = Run::new(&Deaf, method("index1 + rk4"), 0.0, &([0.0], [0.0])).input("u", every(0.1, |_| 1.0));
+    let error = run.to(1.0).unwrap_err().to_string();
+    assert!(error.contains("an evaluation does not add them") && error.contains("`scratch.inputs`"), "{error}");
 }

@@ -3,8 +3,10 @@
 use super::Moment;
 use crate::error::{Error, Result, short};
 use crate::formulation::Law;
-use crate::system::{Excitation, MechanicalSystem, Scratch};
+use crate::math::largest;
+use crate::system::{Excitation, MechanicalSystem, Need, Scratch, Terms};
 use crate::tolerances;
+use nalgebra::DMatrix;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// An input u of a run. A closure `|t: f64, x: &Moment| ..` is one that is evaluated with the equations, at every stage
@@ -85,6 +87,29 @@ impl<'a> Inputs<'a> {
 
     pub fn is_empty(&self) -> bool {
         self.count == 0
+    }
+
+    /// Refuses a system whose evaluation leaves out the inputs: u = 1 must change f by df/du.
+    ///
+    /// # Errors
+    /// Such a system.
+    pub fn check_added(&self, system: &dyn MechanicalSystem, (t, q, v): (f64, &[f64], &[f64])) -> Result<()> {
+        let mut slopes = DMatrix::zeros(v.len(), self.count);
+        system.input_forces(t, q, v, &mut slopes, &mut Scratch::default());
+        let f = |inputs: Vec<f64>| {
+            let mut terms = Terms::new(system);
+            let mut scratch = Scratch::default();
+            scratch.inputs = inputs;
+            system.evaluate(t, q, v, Need::DYNAMICS, &mut terms, &mut scratch);
+            terms.f
+        };
+        let without = f(self.zeros());
+        let is_seen = slopes.amax() > tolerances::SAME * largest(&without);
+        if is_seen && f(vec![1.0; self.count]) == without {
+            return Err(Error::input("the equations have inputs, and an evaluation does not add them")
+                .hint("`evaluate` adds df/du times `scratch.inputs` to f"));
+        }
+        Ok(())
     }
 
     /// Values before the first sample.

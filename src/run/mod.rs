@@ -311,6 +311,9 @@ impl<'a> Run<'a> {
         let span = Span { start: self.began, end, output_step };
         self.inputs = Inputs::new(self.system, std::mem::take(&mut self.named), &self.observers.reader.moment)?;
         let has_inputs = !self.inputs.is_empty();
+        if let (Start::State(q, v), true) = (self.start.start(), has_inputs) {
+            self.inputs.check_added(self.system, (self.began, q, v))?;
+        }
         if let (&Choice::Automatic(rtol, atol), Start::State(q, v), true) =
             (&self.choice, self.start.start(), has_inputs)
         {
