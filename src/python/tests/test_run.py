@@ -96,7 +96,7 @@ def test_other_threads_go_on_during_a_run():
 
     thread = threading.Thread(target=count)
     thread.start()
-    holonom.Scene(pendulum()).simulate(until=20)
+    holonom.Scene(pendulum()).simulate(until=400)
     done.set()
     thread.join()
     assert len(ticks) > 3
