@@ -212,19 +212,7 @@ fn loci_of_a_simpler_model_are_drawn_and_matched() {
 }
 
 /// A disc of 1 kg on a shaft of 2500 N/m: damping of 3 N s/m turns with it, and 2 N s/m does not.
-const JEFFCOTT: &str = r#"{ "name": "jeffcott", "dimension": 2, "parameters": { "speed": 40 },
-    "ground": { "markers": { "O": [0, 0] } },
-    "bodies": [
-        { "name": "shaft", "type": "rigid", "mass": 1, "inertia": 1, "markers": { "O": [0, 0] } },
-        { "name": "disc", "type": "rigid", "mass": 1, "inertia": 1, "markers": { "O": [0, 0] } }],
-    "joints": [
-        { "name": "bearing", "type": "revolute", "between": ["ground.O", "shaft.O"] },
-        { "name": "drive", "type": "driver", "between": ["ground.O", "shaft.O"], "coordinate": "angle", "value": "speed*t" },
-        { "name": "turns", "type": "equation", "expression": "disc.angle - shaft.angle" }],
-    "forces": [
-        { "name": "bend", "type": "bushing", "between": ["shaft.O", "disc.O"], "stiffness": [2500, 2500, 0], "damping": [3, 3, 0] },
-        { "name": "air", "type": "applied_force", "at": "disc.O", "force": ["-2*disc.x'", "-2*disc.y'"] }],
-    "simulation": { "t_end": 1 } }"#;
+const JEFFCOTT: &str = include_str!("../data/jeffcott.json");
 
 /// A cantilever under a force P along its end, of eight elements, whose threshold is 0.08 % below 20.0509536.
 const BECK: &str = r#"{ "name": "beck", "dimension": 2, "parameters": { "P": 20 }, "ground": { "markers": { "wall": [0, 0] } },

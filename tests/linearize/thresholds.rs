@@ -88,19 +88,7 @@ fn beck_s_column() {
 
 /// A disc of 1 kg at the middle of a massless shaft of 2500 N/m, with damping of 3 N s/m that turns with it and 2 N s/m that
 /// does not.
-pub const JEFFCOTT: &str = r#"{ "name": "jeffcott", "dimension": 2, "parameters": { "speed": 40 },
-    "ground": { "markers": { "O": [0, 0] } },
-    "bodies": [
-        { "name": "shaft", "type": "rigid", "mass": 1, "inertia": 1, "markers": { "O": [0, 0] } },
-        { "name": "disc", "type": "rigid", "mass": 1, "inertia": 1, "markers": { "O": [0, 0] } }],
-    "joints": [
-        { "name": "bearing", "type": "revolute", "between": ["ground.O", "shaft.O"] },
-        { "name": "drive", "type": "driver", "between": ["ground.O", "shaft.O"], "coordinate": "angle", "value": "speed*t" },
-        { "name": "turns", "type": "equation", "expression": "disc.angle - shaft.angle" }],
-    "forces": [
-        { "name": "bend", "type": "bushing", "between": ["shaft.O", "disc.O"], "stiffness": [2500, 2500, 0], "damping": [3, 3, 0] },
-        { "name": "air", "type": "applied_force", "at": "disc.O", "force": ["-2*disc.x'", "-2*disc.y'"] }],
-    "simulation": { "t_end": 1 } }"#;
+const JEFFCOTT: &str = include_str!("../data/jeffcott.json");
 
 /// A Jeffcott rotor whirls by its internal damping above W = w (1 + ce/ci), with w = sqrt(k/m) and ci, ce the damping that
 /// turns and that does not: 83.3333 rad/s, to rounding. In axes that turn it crosses the axis at W - w.

@@ -183,9 +183,13 @@ class Scene:
         """Maps what steps, gains, masses and stiffness the scene takes. See ``holonom stress --help``."""
         return self._call("stress", options)
 
-    def sweep(self, values: str, **options: object) -> Any:
+    def kinematics(self, values: str, **options: object) -> Any:
         """Assembles the scene at many values of a parameter, such as ``"travel=-0.08..0.08:81"``."""
-        return self._call("sweep", options, values)
+        return self._call("kinematics", options, values)
+
+    def study(self, **options: object) -> Any:
+        """Runs variants and records numbers of each, such as ``vary="l=1..2:5"``. See ``holonom study --help``."""
+        return self._call("study", options)
 
     def plot(self, **options: object) -> Any:
         """Draws the mechanism; the figures are in `files`. See ``holonom plot --help``."""

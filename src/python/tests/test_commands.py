@@ -76,7 +76,9 @@ def test_every_command_gives_its_answer(models):
     assert "stress.json" in scene.stress(x="step=1e-3..1e-2:2", y="tolerance=1e-6..1e-4:2", until=0.2).files
     assert "simplified.json" in scene.simplify(within="5%", until=0.2, at_most=3).files
     assert "tradeoff.csv" in scene.tradeoff(until=0.1, budget="1s", integrator="dop853").files
-    assert scene.sweep("l=1..2:3").to_pandas()["x"].tolist() == [1, 1.5, 2]
+    study = holonom.Scene(pendulum()).study(vary="l=1..2:3", record="x", until=0.1)
+    assert "study.csv" in study.files and "3 of 3 variants" in study.text
+    assert scene.kinematics("l=1..2:3").to_pandas()["x"].tolist() == [1, 1.5, 2]
     assert b"<svg" in scene.plot().files["mechanism.svg"]
 
 
@@ -89,7 +91,7 @@ def test_files_go_to_a_folder_on_request(tmp_path):
 
 def test_a_failed_check_raises_with_its_answer(models):
     with pytest.raises(holonom.RunError) as caught:
-        holonom.Scene(models / "five_link_kinematics.json").sweep("travel=0..3:4")
+        holonom.Scene(models / "five_link_kinematics.json").kinematics("travel=0..3:4")
     assert caught.value.partial.text and "travel" in str(caught.value)
 
 
