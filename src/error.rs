@@ -32,6 +32,7 @@ pub enum Error {
 
 /// Bad input: its place, what is wrong, and the remedy.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[doc(hidden)]
 pub struct Input {
     /// JSON path such as `joints[2].between[1]`, or an option such as `--at`; empty for the whole file.
     pub path: String,
@@ -49,6 +50,7 @@ pub struct Input {
 
 /// Time and cause of the early end of a run.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[doc(hidden)]
 pub struct Failure {
     /// Time of the last good state, s.
     pub t: f64,

@@ -73,14 +73,14 @@
 //! |---|---|
 //! | [`prelude`] | names that most programs need |
 //! | [`run`] | scenes read and run: models, families, inputs, events, records, checkpoints |
-//! | [`system`] | own equations by M, f and phi, by energies, or in full |
+//! | [`system`] | own equations by M, f and phi, or by energies |
 //! | [`linear`] | linear models at a state or along a motion, their modes, loci and check by simulation |
 //! | [`parts`] | own joints, forces and bodies; scenes built in code |
-//! | [`methods`] | formulations, integrators and projections by name; own ones |
+//! | [`methods`] | formulations, integrators and projections by name |
 //! | [`study`] | drift under stabilizations, speed for accuracy, stress maps, variants |
 //! | [`error`] | errors with place and remedy |
 //! | [`guide`] | chapters that explain how to model, simulate, linearize and judge results |
-//! | [`research`] | all that these are made of. It is unstable |
+//! | [`research`] | own methods, systems in full, and all that the crate is made of. It is unstable |
 //!
 //! [`guide::rust`] has an example of each.
 //!

@@ -14,17 +14,7 @@
 //! # Ok::<(), Error>(())
 //! ```
 
-#[doc(no_inline)]
-pub use crate::linearize::Complex;
 pub use crate::linearize::{
-    Along, At, Branch, Chart, Floquet, Kind, Linear, LinearModel, LinearizationPoint, Loci, LociPoint, LociVariable,
-    Lyapunov, Matrix, Mode, Operating, Reference, Sensitivity, State, Threshold, ThresholdKind, Transition, Variants,
-    Variation, along, at_rest, floquet, frequency_response, linearize, loci_along, loci_over, lyapunov, states,
-    transition,
+    Linear, LinearModel, Matrix, State, along, at_rest, floquet, linearize, loci_along, loci_over, states, transition,
 };
-pub use crate::math::eigen::ComplexMatrix;
-#[doc(no_inline)]
-pub use crate::study::Range;
-pub use crate::validate::{
-    Direction, PerturbationSequence, Settings, SpanCheck, Validation, Verdict, validate, validate_along,
-};
+pub use crate::validate::{Validation, validate};

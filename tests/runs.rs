@@ -2,7 +2,8 @@
 
 use holonom::linear::Matrix;
 use holonom::prelude::*;
-use holonom::run::{Recorder, Run, Span};
+use holonom::research::results::{Recorder, Span};
+use holonom::run::Run;
 use holonom::simulate::{Observation, Sink, Start};
 use holonom::system::{Column, Dimensions, MechanicalSystem, Need, Scratch, SystemFacts, Terms};
 use std::borrow::Cow;

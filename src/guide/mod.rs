@@ -3,6 +3,7 @@
 //! `holonom guide` lists them in a terminal, and `holonom guide CHAPTER` prints one.
 
 /// A chapter.
+#[doc(hidden)]
 pub struct Chapter {
     /// Name of its file and module.
     pub name: &'static str,
@@ -33,6 +34,7 @@ macro_rules! chapters {
             pub mod $name {}
         )*
         /// All chapters, in the order of reading.
+        #[doc(hidden)]
         pub const CHAPTERS: &[Chapter] = &[
             $(Chapter { name: stringify!($name), text: include_str!(concat!(stringify!($name), ".md")) }),*
         ];

@@ -21,21 +21,20 @@ mod moment;
 mod recording;
 mod simulated;
 
-pub use crate::analysis::{Drift, DriftLevel, EnergyBalance, Extremes, Record, Recorder, Series, Singularity};
-pub use crate::formulation::Statistics;
-pub use crate::initial::Assembly;
-pub use crate::math::expression::Parameters;
+pub use crate::analysis::Record;
 pub use crate::prepared::{Family, Model, Overrides, linspace};
 pub use crate::scene::Scene;
-pub use crate::simulate::{Checkpoint, End, Observation, Sink, Span, Start, Stop};
-pub use crate::trajectory::Trajectory;
+pub use crate::simulate::{Checkpoint, End, Sink};
 pub use inputs::{Input, every};
+#[doc(hidden)]
 pub use marker::MarkerFrame;
 pub use moment::Moment;
 pub use simulated::{Simulated, simulate};
 
+use crate::analysis::Recorder;
 use crate::error::{Error, Result, clock};
-use crate::simulate::{Choice, Engine, Method, advise};
+use crate::formulation::Statistics;
+use crate::simulate::{Choice, Engine, Method, Span, Start, advise};
 use crate::system::MechanicalSystem;
 use inputs::Inputs;
 use recording::{Observers, unsolved};

@@ -35,28 +35,36 @@ pub use budget::Limit;
 #[doc(hidden)]
 pub use companion::Completed;
 #[doc(hidden)]
+pub use drift::StabilizedRun;
+pub use drift::drift_under_stabilizations;
+#[doc(hidden)]
 pub use drift::stabilizations;
-pub use drift::{StabilizedRun, drift_under_stabilizations};
 #[doc(hidden)]
 pub use error_bar::{ErrorBar, ErrorBars, error_bars};
 #[doc(hidden)]
 pub use metric::ErrorMetric;
 #[doc(hidden)]
 pub use metric::Norm;
+#[doc(hidden)]
 pub use run::Motion;
 #[doc(hidden)]
 pub use run::RunSample;
 #[doc(hidden)]
 pub use second_opinion::SecondOpinion;
 pub(crate) use second_opinion::second_opinion;
+#[doc(hidden)]
 pub use stress::{
-    Cell as StressCell, Limits as StressLimits, Map as StressMap, Status as StressStatus, Stressed, Subject,
-    maps as stress_maps, stress,
+    Cell as StressCell, Limits as StressLimits, Status as StressStatus, Stressed, Subject, maps as stress_maps,
 };
-pub use variants::{Axis, Filling, Measure, Plan, Recorded, Sample, Study, StudyRow, StudyTable};
+pub use stress::{Map as StressMap, stress};
+#[doc(hidden)]
+pub use variants::{Axis, Filling, Measure, Recorded, Sample, StudyRow};
+pub use variants::{Plan, Study, StudyTable};
 #[doc(hidden)]
 pub use watched::Watched;
+pub use work_precision::Runner as Tradeoff;
+#[doc(hidden)]
 pub use work_precision::{
     Cell as TradeoffCell, Filter, Held as TradeoffDrift, Outcome as TradeoffOutcome, Plan as TradeoffPlan,
-    Recommendation, Runner as Tradeoff, Triple, WorkPrecision, grid,
+    Recommendation, Triple, WorkPrecision, grid,
 };

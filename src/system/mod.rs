@@ -48,11 +48,13 @@ mod view;
 pub use equations::{Equations, Lagrangian};
 #[doc(hidden)]
 pub use facts::Group;
+#[doc(hidden)]
 pub use facts::{Column, Dimensions, Excitation, Names, SwitchFacts, SystemFacts};
 #[doc(hidden)]
 pub use levi_civita::LeviCivita;
 #[doc(hidden)]
 pub use mechanism::Mechanism;
+#[doc(hidden)]
 pub use output_tangent::OutputTangent;
 #[doc(hidden)]
 pub use rotating::Rotating;
@@ -61,6 +63,7 @@ pub use spin::{Placement, Rotation, Spin};
 pub(crate) use start::check_start;
 #[doc(hidden)]
 pub use switching::Road;
+#[doc(hidden)]
 pub use terms::{Need, OperatingPoint, Scratch, Structure, Tangent, Terms};
 #[doc(hidden)]
 pub use theory::{Limited, Theory};
@@ -69,7 +72,7 @@ pub use crate::body::Energy;
 use crate::error::Result;
 use crate::math::Rate;
 pub use crate::math::Scalar;
-pub use crate::math::kkt::Pattern;
+use crate::math::kkt::Pattern;
 use nalgebra::DMatrix;
 use std::borrow::Cow;
 
@@ -107,8 +110,9 @@ pub struct Prescribed {
     message = "`{Self}` has no equations of motion",
     label = "no equations of motion",
     note = "implement `holonom::system::Equations` (M, f and phi), `holonom::system::Lagrangian` (T, V and phi) or \
-            `holonom::system::MechanicalSystem` (all terms)"
+            `holonom::research::systems::MechanicalSystem` (all terms)"
 )]
+#[doc(hidden)]
 pub trait MechanicalSystem: Send + Sync {
     /// n_q, n_v and n_c, and how many of the last ones are states or nonholonomic.
     fn dimensions(&self) -> Dimensions;

@@ -1,7 +1,8 @@
 //! An own formulation: a vector field q', v' for explicit integrators.
 
 use holonom::Result;
-use holonom::methods::{Dynamics, Formulation, FormulationEntry, Listed, Method, OptionDoc, StepError};
+use holonom::methods::Method;
+use holonom::research::methods::{Dynamics, Formulation, FormulationEntry, Listed, OptionDoc, StepError};
 
 /// phi'' + rate phi' = 0
 pub static BRAKED: FormulationEntry = FormulationEntry {

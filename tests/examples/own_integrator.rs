@@ -1,7 +1,8 @@
 //! An own integrator: one step of y' = F(t, y), with y = (q, v, work).
 
 use holonom::Result;
-use holonom::methods::{Control, Integrator, IntegratorEntry, Listed, Method, Problem, StepError, StepStart};
+use holonom::methods::Method;
+use holonom::research::methods::{Control, Integrator, IntegratorEntry, Listed, Problem, StepError, StepStart};
 
 /// The explicit midpoint rule, y_1 = y + h F(t + h/2, y + h/2 F(t, y)).
 pub static MIDPOINT: IntegratorEntry = IntegratorEntry::new("midpoint", "the explicit midpoint rule", 2, |setup| {

@@ -1,9 +1,10 @@
 //! Own equations from energies: M, f with its Coriolis terms and all derivatives follow from T and V.
 
 use holonom::Result;
-use holonom::linear::{Linear, Variation, linearize};
+use holonom::linear::{Linear, linearize};
 use holonom::methods::{Method, MethodSpec};
 use holonom::prelude::*;
+use holonom::research::results::Variation;
 
 const GRAVITY: f64 = 9.81;
 

@@ -1,7 +1,8 @@
 //! An own projection: what is done to q and v after each step.
 
 use holonom::Result;
-use holonom::methods::{Dynamics, Listed, Method, Projection, ProjectionEntry, StepError};
+use holonom::methods::Method;
+use holonom::research::methods::{Dynamics, Listed, Projection, ProjectionEntry, StepError};
 use holonom::system::Need;
 
 /// Velocities back to G v + phi_t = 0, moving least in the mass metric; positions drift.

@@ -1,7 +1,8 @@
 //! An own explicit Runge-Kutta method: its tableau.
 
 use holonom::Result;
-use holonom::methods::{Control, ErrorEstimate, Explicit, IntegratorEntry, Listed, Method, Steps, Tableau};
+use holonom::methods::Method;
+use holonom::research::methods::{Control, ErrorEstimate, Explicit, IntegratorEntry, Listed, Steps, Tableau};
 
 /// Bogacki and Shampine, Appl. Math. Lett. 2 (1989) 321-325: order 3 with an error estimate of order 2, adaptive steps.
 static BS23: IntegratorEntry = IntegratorEntry {

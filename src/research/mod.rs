@@ -1,7 +1,16 @@
-//! Unstable: the modules that the rest of the crate is made of. Their names and types change without notice.
+//! Unstable: what the rest of the crate is made of. Its names and types change without notice.
 //!
 //! The stable interface is the other modules of the crate. A program that needs more takes it from here, as in
-//! `use holonom::research::initial::assemble`, and pins the version. Their pages are shown by
+//! `use holonom::research::methods::Integrator`, and pins the version.
+//!
+//! | module | what is there |
+//! |---|---|
+//! | [`methods`] | traits of own integrators, formulations and projections |
+//! | [`systems`] | the trait that solvers see, for systems with their own derivatives |
+//! | [`results`] | types of fields and arguments that a program seldom names |
+//!
+//! The modules of the layers below are here, too, as in `use holonom::research::initial::assemble`. Their pages are
+//! shown by
 //!
 //! ```text
 //! RUSTDOCFLAGS="--cfg research" cargo doc --no-deps --open
@@ -63,6 +72,10 @@
 //! | recording backend of figures, `plot` | backends of plotters | these draw lines without antialiasing, at whole pixels, and SVG files two to seven times as large |
 //! | palette of GIF files, `files` | GIF backend of plotters | one palette serves all frames, of which only the differences are written |
 //! | sparse LU, `integrator::diffsol` | `FaerSparseLU` of diffsol | that panics on a matrix without factors; this is faer's, too, and reports it |
+
+pub mod methods;
+pub mod results;
+pub mod systems;
 
 #[cfg(feature = "urdf")]
 #[cfg_attr(research, doc(inline))]

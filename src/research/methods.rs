@@ -1,0 +1,14 @@
+//! Own methods: the traits of integrators, formulations and projections, and what their functions take and return.
+//!
+//! An entry of one's own is a `static`, whose [`spec`](Listed::spec) a [`Method`](crate::methods::Method) takes like a
+//! built-in one. [The guide](crate::guide::rust) has a complete example of each.
+
+pub use crate::formulation::{
+    Dae, Dynamics, Entry as FormulationEntry, Formulation, MakeField as MakeFormulation, Row as DaeRow, StepError,
+};
+pub use crate::integrator::{
+    Accepted, Control, Dense, Entry as IntegratorEntry, ErrorEstimate, Explicit, From as StepStart, Integrator,
+    Problem, Setup, Stability, Step, Steps, Tableau, Tightening, Tolerance,
+};
+pub use crate::method_spec::{Listed, OptionDoc};
+pub use crate::projection::{Entry as ProjectionEntry, Projection};
