@@ -4,6 +4,7 @@ use super::common::{json_files, print_result};
 use crate::error::{Error, Result};
 use crate::report::Table;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
@@ -38,7 +39,7 @@ struct Listed {
 pub fn run(args: Args) -> Result<()> {
     let mut scenes = scenes(&args.folder)?;
     if let Some(tag) = &args.tag {
-        let known: Vec<String> = scenes.iter().flat_map(|scene| scene.tags.clone()).collect();
+        let known: BTreeSet<String> = scenes.iter().flat_map(|scene| scene.tags.clone()).collect();
         scenes.retain(|scene| scene.tags.contains(tag));
         if scenes.is_empty() {
             return Err(Error::unknown("tag", tag, known.iter().map(String::as_str)));
