@@ -4,9 +4,12 @@
 //! to, or a unit of measure; why it has this value; and a test that fails where it is a thousand times larger or smaller.
 //! One without a reason is a choice, and one without a test was not tried with other values.
 //!
-//! Round-off has a level by the operations that made the number: [`ROUND_OFF`] a few, [`ROUNDED_ZERO`] one that should be
-//! zero, [`ROUND_OFF_OF_SUMS`] some tens, [`ROUND_OFF_OF_FACTORS`] a factorization, [`ROUND_OFF_OF_PHI`] nearly dependent
-//! constraints. What a person calls the same is [`SAME`]. A new threshold takes one of these, or says why not.
+//! Levels come first, since most decisions need one of them. Round-off has a level by the operations that made the
+//! number: [`ROUND_OFF`] a few, [`ROUNDED_ZERO`] one that should be zero, [`ROUND_OFF_OF_SUMS`] some tens,
+//! [`ROUND_OFF_OF_FACTORS`] a factorization, [`ROUND_OFF_OF_SOLUTIONS`] what is computed with it, [`ROUND_OFF_OF_PHI`]
+//! nearly dependent constraints, [`ROOT_OF_ROUND_OFF`] what is squared on its way, [`HALF_OF_THE_DIGITS`] a difference.
+//! People have levels, too: [`SAME`], [`SIX_DIGITS`], [`UNSEEN`], [`TOLD`], [`WRONG_MOTION`] and [`LOST_MOTION`]. A new
+//! threshold takes one of these, or says why not.
 
 use std::f64::consts::FRAC_PI_6;
 
@@ -27,33 +30,46 @@ pub const ROUND_OFF_OF_SUMS: f64 = 1e-14;
 /// `nearly_dependent_rows_are_truncated`.
 pub const ROUND_OFF_OF_FACTORS: f64 = 1e-13;
 
+/// Solutions with a factorization, and what is summed or located with them: residuals, energies, symmetry, the end of
+/// a search. A pivot below is dropped where the fast factorization has stopped. Unit: `[1]` of the largest that enters.
+/// Why: ten times ROUND_OFF_OF_FACTORS. Test: `an_undamped_chain_by_its_stiffness`.
+pub const ROUND_OFF_OF_SOLUTIONS: f64 = 1e-12;
+
+/// Zeros whose squares decide, double roots and differences of first order: an iteration no longer falls, redundant
+/// rows contradict each other, two mechanisms are the same. Unit: `[1]` of the largest of their kind, or of the range
+/// that is searched. Why: the square root of rounding. Test: `redundant_rows_and_singular_positions_are_passed`.
+pub const ROOT_OF_ROUND_OFF: f64 = 1e-8;
+
+/// Differences that have lost half of their digits: their sign and what is divided by them tell nothing. Unit: `[1]` of
+/// the terms. Why: ten times the square root of rounding. Test: `a_rate_at_a_dead_centre_is_refused`.
+pub const HALF_OF_THE_DIGITS: f64 = 1e-7;
+
 /// Places, times, rates and numbers of a scene that agree so far are the same, and a part so small is zero. Unit: `[1]`
 /// of the length, step, rate or number that they are compared with. Why: between the round-off of what is computed from
 /// a scene and what anybody means.
 pub const SAME: f64 = 1e-9;
 
+/// Six digits, with which data are typed and results are printed: what differs by less is the same for the reader, and
+/// a smaller part is none. Unit: `[1]` of what it is a part of. Why: far above what rounding leaves. Test:
+/// `moments_that_no_body_has_are_made_valid`.
+pub const SIX_DIGITS: f64 = 1e-6;
+
+/// A part that no figure shows, or a time that no reader tells from the next. Unit: `[1]` of what it is a part of. Why:
+/// three digits. Test: `a_mode_that_no_output_sees_is_told`.
+pub const UNSEEN: f64 = 1e-3;
+
+/// What is off, open or near a singular state by this is told, as a warning. Unit: `[1]` of its scale. Why: the promise
+/// of the README.
+pub const TOLD: f64 = 1e-2;
+
 /// Changes of Newton's method beside its solution shrink to this part of the last one at least; else there is none
 /// near, or what is left is round-off. Unit: `[1]`. Why: quadratic convergence does better from the second change on.
 pub const NEWTON_HALVES: f64 = 0.5;
-
-/// Changes of an iteration that no longer fall are round-off up to here: of q of an equilibrium, of v' of a step. Unit:
-/// `[1]` of the largest, of q of 1 m or rad at least. Why: the square root of rounding: of two corrections that small
-/// the second is nothing. Test: `redundant_rows_and_singular_positions_are_passed`.
-pub const NEWTON_STAGNATION: f64 = 1e-8;
-
-/// Largest phi of redundant rows of a state that is found: by that they may contradict each other. Unit: `[1]` of its
-/// scale. Why: the square root of rounding.
-pub const REDUNDANT_ROWS_CLOSED: f64 = 1e-8;
 
 /// What round-off leaves of phi where rows depend, or nearly depend, on others. Unit: `[1]` of its scale. Why: above
 /// the round-off of chains of transformations. Test:
 /// `from_rest_at_a_change_point_it_goes_where_it_is_pushed_or_says_why_not`.
 pub const ROUND_OFF_OF_PHI: f64 = 1e-11;
-
-/// A principal moment of inertia may be above the sum of the others by so much. Unit: `[1]` of the largest. Why: data
-/// are rounded to a few digits, so that a thin rod may miss the bound by that. Test:
-/// `moments_that_no_body_has_are_made_valid`.
-pub const ROUNDED_INERTIA: f64 = 1e-6;
 
 /// What comes no farther than this is no alternative. Unit: `[1]`.
 pub const NO_ALTERNATIVE: f64 = 0.5;
@@ -78,16 +94,15 @@ pub const CLOSING_ITERATIONS: usize = 12;
 /// `a_loop_is_turned_to_an_angle_far_from_the_guess`.
 pub const LEAST_PART: f64 = 1e-4;
 
-/// The part of the forces that may be left at an equilibrium, and beyond which a direction that nothing holds is
-/// loaded. Unit: `[1]` of those that balance. Why: far above round-off, which stiff beams amplify.
-pub const FORCE_LEFT: f64 = 1e-6;
-
 /// Changes of Newton's method that shrink to this part lead to the one solution around the start. Unit: `[1]`. Why: P.
 /// Deuflhard, Newton Methods for Nonlinear Problems, 2011, section 5.1.
 pub const UNIQUE_CONTRACTION: f64 = 0.25;
 
 /// Velocities up to which all eigenvalues of a state are computed. Unit: `[velocities]`. Why: time goes with the cube.
 pub const DENSE_EIGENVALUES: usize = 300;
+
+/// Modes from which on work for each of them is saved: motions side by side, models between two values. Unit: `[modes]`.
+pub const MANY_MODES: usize = 40;
 
 /// The largest rotation of a body in a step of the assembly. Unit: `[rad]`. Why: beyond, a step is none along the
 /// circles on which bars move. Test: none: with 0.3 to 3 the same loops close.
@@ -104,21 +119,17 @@ pub const BESIDE: f64 = 0.1;
 /// begin.
 pub const APPROACH_STEPS: usize = 200;
 
-/// Steps towards the nearest state that are this small end there. Unit: `[m, rad]` over 1 and the way from the guess.
-/// Why: round-off.
-pub const SETTLED: f64 = 1e-12;
-
 /// Digits of the value that a driver asks for, and of the end of its travel. Unit: `[digits]`. Why: the end is known to
 /// some ten. Test: `a_driver_beyond_its_travel_is_named`.
 pub const DIGITS_OF_TRAVEL: usize = 9;
 
+/// The size of an atom: no length is meant that is smaller, and what files or motions have below is round-off. Unit:
+/// `[m, rad]`. Test: `moments_of_round_off_are_zero`.
+pub const ATOM: f64 = 1e-10;
+
 /// The part of the stagnation tolerance that is round-off: an iteration ends there, and fixed steps converge to it.
 /// Unit: `[1]` of the stagnation tolerance. Why: together 1e-15 of v', 1e-16 of v.
 pub const ROUND_OFF_OF_STAGNATION: f64 = 1e-7;
-
-/// The largest q is taken for no smaller than this where round-off is told. Unit: `[m, rad]`. Why: scenes of nanometres
-/// keep their own scale.
-pub const LEAST_LARGEST_Q: f64 = 1e-10;
 
 /// Corrections at most of a step that cannot be tried smaller. Unit: `[iterations]`. Why: a step that does not converge
 /// ends the run. Test: `order_nine`.
@@ -147,16 +158,13 @@ pub const PERIODIC: f64 = 1e-5;
 /// with it. Test: `an_upright_pendulum_is_unstable`.
 pub const FLOW_RTOL: f64 = 1e-12;
 
-/// Absolute tolerance of the columns of the variational equations, which are of size 1. Unit: `[1]`. Why: a tenth of
-/// FLOW_RTOL.
-pub const FLOW_ATOL: f64 = 1e-13;
+/// The tightest tolerance by which steps are controlled unless a tighter one is asked for: errors fall in proportion
+/// down to a tenth of it. Unit: `[1]`, rtol, and atol of what is of size 1. Test:
+/// `motions_that_amplify_a_little_are_as_accurate_as_asked`.
+pub const TIGHTEST: f64 = 1e-13;
 
 /// A mode that changes by more in a step may be another. Unit: `[1]`, cost of the match. Why: half of the above.
 pub const CHANGED_MODE: f64 = 0.5;
-
-/// Rounding of products that say whether a mechanism is the same all around. Unit: `[1]` of their terms. Why: the
-/// square root of rounding.
-pub const STEADY: f64 = 1e-8;
 
 /// Halvings of a step in which it is not clear which mode is which. Unit: `[times]`.
 pub const HALVINGS: usize = 6;
@@ -173,14 +181,6 @@ pub const FEWEST_CHARTS: usize = 4;
 /// `a_rank_near_the_tolerance_is_doubtful`.
 pub const RANK_GAP: f64 = 10.0;
 
-/// Singular values of a balanced pencil that are zero. Unit: `[1]` of the largest. Why: rounding leaves about 1e-15; a
-/// choice above. Test: `chains_are_deflated`.
-pub const RANK_OF_PENCIL: f64 = 1e-10;
-
-/// |y^H x| of unit vectors below which an eigenvalue is defective. Unit: `[1]`. Why: ten times the square root of
-/// rounding, by which a double eigenvalue splits.
-pub const DEFECTIVE: f64 = 1e-7;
-
 /// Up to so many n + m doubts about the rank are settled by the dense rank-revealing factorization, and condition
 /// numbers are those of all eigenvalues. Unit: `[equations]`. Why: 10 to 100 ms there; it costs their cube. Test:
 /// `nearly_dependent_rows_are_truncated`.
@@ -196,9 +196,9 @@ pub const RANK: f64 = 1e-10;
 /// `from_rest_at_a_change_point_it_goes_where_it_is_pushed_or_says_why_not`.
 pub const TRUNCATED_RANK: f64 = 1e-4;
 
-/// Multipliers with a pivot below are dropped where the fast factorization has stopped. Unit: `[1]` of its size before.
-/// Why: ten times ROUND_OFF_OF_FACTORS: round-off over the square of the rank indicator of the others.
-pub const COLLAPSED: f64 = 1e-12;
+/// A pivot of the fast factorization, or of a mass matrix, that has collapsed: the careful ways begin. Unit: `[1]` of its
+/// size before, or of the largest. Why: ten times ROUND_OFF_OF_SOLUTIONS, for what is doubtful shall be looked at.
+pub const COLLAPSED_FAST: f64 = 1e-11;
 
 /// Rates above which an iteration has diverged: after two changes, and later. Unit: `[1]`. Why: of the first two one
 /// may have corrected what the start left of its constraints. Test:
@@ -215,6 +215,11 @@ pub const UNKNOWNS_OF_A_PART: usize = 10_000;
 /// the blocks of L; eight make a step of four-bar linkages on one thread 4 % dearer.
 pub const MOST_PARTS: usize = 8;
 
+/// Groups of unknowns at most that the parts of a saddle-point matrix have in common; a group that is coupled to more is
+/// one of them. Unit: `[groups]`. Why: eight parts of three chains beside each other; elimination of so many, all coupled
+/// to each other, is some per cent of that of two parts. Test: `what_is_coupled_everywhere_is_not_divided`.
+pub const LARGEST_SEPARATOR: usize = 32;
+
 /// Backward error of the eigenvalues of a dense matrix, and rounding of its entries. Unit: `[1]` of the norm of the
 /// balanced matrix. Why: four ulps; the QR algorithm leaves one or two. Test:
 /// `a_rigid_body_mode_is_zero_and_a_slow_one_is_not`.
@@ -227,29 +232,16 @@ pub const EIGENVALUES_AGREE: f64 = 1e-6;
 /// |y| |x| / |y^H x| of eigenvalues from which on their vectors are taken for dependent. Unit: `[1]`.
 pub const DEFECTIVE_MODE: f64 = 1e5;
 
-/// The slowest rate that rounding in K leaves: slower growth or decay does not tell stability. Unit: `[1]` of the
-/// fastest. Why: some ten times the square root of rounding.
-pub const ROUNDING_OF_K: f64 = 1e-7;
-
-/// A length, an angle, a speed or a swing of the kinetic energy that is smaller is zero by symmetry, or as good as
-/// that: no errors are relative to it. Unit: `[1]` of the largest of its kind. Why: the promise of the README.
-pub const ZERO_BY_SYMMETRY: f64 = 1e-3;
-
-/// Energies in which rounding leaves this part of themselves show nothing below it. Unit: `[1]`.
-pub const ENERGY_ROUND_OFF: f64 = 1e-12;
-
-/// A state is told as singular whose rank indicator is below. Unit: `[1]` of the largest.
-pub const TOLD_SINGULAR: f64 = 1e-3;
-
 /// A motion whose outputs or energy are off by this is not the one that was asked for. Unit: `[1]` of their scales.
 /// Why: the promise of the README.
 pub const WRONG_MOTION: f64 = 0.1;
 
+/// A motion that is off by this has left its mechanism: what it does later means nothing. Unit: `[1]` of the scene's
+/// size, or of the energy converted. Why: half of it. Test: `joints_that_come_apart_are_a_failure`.
+pub const LOST_MOTION: f64 = 0.5;
+
 /// Costs within this factor of the least are a tie. Unit: `[1]`. Why: counted work tells times no better; a choice.
 pub const TIED_COSTS: f64 = 1.15;
-
-/// Joints that are open by this at the end: a warning. Unit: `[1]` of the scene's size.
-pub const JOINTS_OPEN: f64 = 1e-2;
 
 /// Assembly that turns a body by more may have found another configuration than the one that was meant. Unit: `[rad]`.
 /// Why: a guess by hand is nearer, and branches are farther apart. Test: `a_doubtful_start_is_said`.
@@ -259,13 +251,22 @@ pub const ASSEMBLY_TURNED: f64 = FRAC_PI_6;
 /// double one.
 pub const MULTIPLIER_OUTSIDE: f64 = 1e-5;
 
-/// Outputs that change by less with a mode do not see it. Unit: `[1]` of their change with another mode of the same
-/// kinetic energy. Test: `a_mode_that_no_output_sees_is_told`.
-pub const UNSEEN_MODE: f64 = 1e-3;
-
 /// Steps are placed about a singular state where the rank indicator is below. Unit: `[1]` of the largest so far. Test:
 /// `short_steps_stop_before_the_singular_state_until_one_as_long_as_before_goes_over_it`.
 pub const PLACED_STEPS: f64 = 0.3;
+
+/// A state whose rank indicator is below is near a singular one. Unit: `[1]` of the largest so far, or of the reference
+/// value. Test: `generalized_alpha_passes_the_flat_position`.
+pub const NEAR_SINGULAR: f64 = 0.1;
+
+/// A change of the energy balance in a step is an error where it is so many times the others. Unit: `[1]`. Why: those of
+/// good steps differ by up to 10; one that left the motion by 200 tolerances had 50. Test:
+/// `no_passage_is_wrong_in_silence`.
+pub const UNUSUAL_LOSS: f64 = 20.0;
+
+/// Below a stagnation tolerance changes that shrink by less than this no longer fall. Unit: `[1]`. Why: true convergence
+/// is faster, round-off has a rate of one. Test: `changes_that_do_not_contract_are_given_up_unless_they_are_round_off`.
+pub const STAGNANT: f64 = 0.9;
 
 /// A run with so many turns at thresholds before it, at the rate of the last window, does not come to its end. Unit:
 /// `[turns]`.

@@ -17,10 +17,6 @@ const ENERGY_DIVERGED: f64 = 1e6;
 /// `a_motion_that_a_force_feeds_without_end_ends`.
 const ENERGY_LOOKED: f64 = 4.0;
 
-/// A force grows with a motion that diverges by this between two looks. Unit: `[1]`. Why: one that is proportional to
-/// the motion grows by 2. Test: `a_motion_that_a_force_feeds_without_end_ends`.
-const FEED_GROWN: f64 = 1.5;
-
 /// Compares the energy E, kinetic + change of potential, with what the scene holds.
 ///
 /// A force F gives F x over a distance x. So a scene of length L holds its kinetic energy at the start and the largest
@@ -72,7 +68,8 @@ impl Divergence {
         let feeds = system.feeds(state.t, state.q, state.v, scratch);
         let before = std::mem::replace(&mut self.sizes, feeds.iter().map(|feed| feed.size).collect());
         let (i, feed) = feeds.iter().enumerate().max_by(|a, b| a.1.power.total_cmp(&b.1.power))?;
-        let has_grown = feed.size > FEED_GROWN * before.get(i).copied().unwrap_or(f64::INFINITY);
+        // A force in proportion to a motion that diverges grows by 2.
+        let has_grown = feed.size > 1.5 * before.get(i).copied().unwrap_or(f64::INFINITY);
         let at_start = system.feeds(state.t, &start.q, &start.v, scratch);
         let is_given = (at_start[i].size - feed.size).abs() <= tolerances::SAME * feed.size;
         (is_beyond && feed.power > 0.0 && has_grown && !is_given).then(|| diverged(feed, energy, self.held))

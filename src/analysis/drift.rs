@@ -2,10 +2,8 @@
 
 use crate::math::{largest, largest_in};
 use crate::simulate::Observation;
+use crate::tolerances;
 use serde::Serialize;
-
-/// Joints that are open by this make a motion meaningless. Unit: `[1]` of the scene's size.
-const MEANINGLESS: f64 = 0.1;
 
 /// Constraint drift at the three levels: phi, phi' = G v + phi_t and phi'' = G v' - gamma.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -44,7 +42,7 @@ impl Drift {
     /// True if the joints came apart so far that the motion means nothing.
     pub fn has_open_joints(&self) -> bool {
         let open = self.position.relative_max;
-        open.is_nan() || open > MEANINGLESS
+        open.is_nan() || open > tolerances::WRONG_MOTION
     }
 }
 

@@ -7,13 +7,6 @@ use crate::tolerances;
 use crate::trajectory::on_pieces;
 use serde::Serialize;
 
-/// A motion that turns over this part of what is tolerated is none. Unit: `[1]`.
-const ENERGY_UNSEEN: f64 = 1e-3;
-
-/// A balance that is open by this part is that of another motion: a warning. Unit: `[1]` of the energy converted. Why:
-/// the promise of the README.
-const ENERGY_OPEN: f64 = 0.01;
-
 /// An output row whose energy is off by so many errors of the steps is not of their motion: a warning. Unit: `[1]`.
 /// Why: dense output is less accurate than steps by ten or so. Test: `a_row_that_no_step_confirms_is_told`.
 const ROW_BEYOND_STEPS: f64 = 1e3;
@@ -21,20 +14,6 @@ const ROW_BEYOND_STEPS: f64 = 1e3;
 /// The balance of a good run is open by less than so many times what the tolerance lets it. Unit: `[1]`. Why: the
 /// promise of the README.
 const ENERGY_BEYOND: f64 = 10.0;
-
-/// The change of the energy balance in one step may be an error where it is so many times that in any other. Unit:
-/// `[1]`. Why: those of good runs differ by up to 10. Test: `no_passage_is_wrong_in_silence`.
-const CHANGE_ALONE: f64 = 20.0;
-
-/// Such a change is seen from here on. Unit: `[1]` of that by the tolerated errors of the step. Why: below, the motion
-/// is within its tolerance. Test: `no_passage_is_wrong_in_silence`.
-const CHANGE_SEEN: f64 = 0.3;
-
-/// Steps among which one may be alone. Unit: `[steps]`.
-const STEPS_COMPARED: usize = 10;
-
-/// A run that stopped had diverged before if its energy error is this. Unit: `[1]` of the energy converted.
-const BLOWN_UP: f64 = 0.5;
 
 /// Energy at the start and the end, and the largest error of the balance. The work of dampers, applied forces, tyres
 /// and moving constraints is integrated along with the motion, so the error is the method's.
@@ -92,9 +71,10 @@ impl WorstStep {
 
     /// True if the balance changes far more than in any other step, and by more than a part of what is tolerated.
     pub fn is_alone(&self) -> bool {
-        self.steps >= STEPS_COMPARED
-            && self.change > CHANGE_ALONE * self.other
-            && self.change > CHANGE_SEEN * self.tolerated
+        self.steps >= 10
+            && self.change > tolerances::UNUSUAL_LOSS * self.other
+            // Below 0.3, the motion is within its tolerance.
+            && self.change > 0.3 * self.tolerated
     }
 }
 
@@ -119,7 +99,7 @@ impl WorstRow {
     /// True if the row has a part of its energy that no step has: rows and steps are not of one motion.
     pub fn contradicts(&self, steps: &EnergyBalance) -> bool {
         let of_steps = steps.max_error.max(steps.tolerated.unwrap_or(0.0));
-        self.error > ROW_BEYOND_STEPS * of_steps && self.error > ENERGY_OPEN * self.size
+        self.error > ROW_BEYOND_STEPS * of_steps && self.error > tolerances::TOLD * self.size
     }
 }
 
@@ -137,18 +117,18 @@ pub struct EnergyMeter {
 impl EnergyBalance {
     /// True if the error is of the size of the energies that were converted: the motion means nothing.
     pub fn is_lost(&self) -> bool {
-        self.relative_max_error.is_some_and(|part| part.is_nan() || part > BLOWN_UP)
+        self.relative_max_error.is_some_and(|part| part.is_nan() || part > tolerances::LOST_MOTION)
     }
 
     /// True if the balance has an error larger than the tolerance, or the order of a method, makes likely.
     pub fn is_open(&self) -> bool {
         let Some(part) =
-            self.relative_max_error.filter(|part| part.is_nan() || *part > tolerances::ENERGY_ROUND_OFF.sqrt())
+            self.relative_max_error.filter(|part| part.is_nan() || *part > tolerances::ROUND_OFF_OF_SOLUTIONS.sqrt())
         else {
             return false;
         };
         part.is_nan()
-            || part > ENERGY_OPEN
+            || part > tolerances::TOLD
             || self.tolerated.is_some_and(|tolerated| self.max_error > ENERGY_BEYOND * tolerated)
     }
 }
@@ -168,7 +148,7 @@ impl EnergyMeter {
         let change = (row.error - std::mem::replace(&mut self.error, row.error)).abs();
         if let Some(tolerated) = state.tolerated {
             *balance.tolerated.get_or_insert(0.0) += tolerated;
-            let round_off = tolerances::ENERGY_ROUND_OFF * (row.kinetic + row.potential.abs() + row.work.abs());
+            let round_off = tolerances::ROUND_OFF_OF_SOLUTIONS * (row.kinetic + row.potential.abs() + row.work.abs());
             self.worst.add(state.t, change.max(round_off), tolerated);
         }
         let Sizes { kinetic, potential, change } = &mut self.sizes;
@@ -198,8 +178,8 @@ impl EnergyMeter {
         let Sizes { kinetic, potential, change } = self.sizes;
         let turned_over = kinetic.max(change);
         self.balance.map(|balance| {
-            let nothing =
-                (tolerances::ENERGY_ROUND_OFF * potential).max(ENERGY_UNSEEN * balance.tolerated.unwrap_or(0.0));
+            let nothing = (tolerances::ROUND_OFF_OF_SOLUTIONS * potential)
+                .max(tolerances::UNSEEN * balance.tolerated.unwrap_or(0.0));
             let relative_max_error = (turned_over > nothing).then(|| balance.max_error / turned_over);
             EnergyBalance { relative_max_error, ..balance }
         })

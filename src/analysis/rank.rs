@@ -5,14 +5,8 @@ use crate::math::kkt::{Dependence, dependent_rows};
 use crate::math::largest;
 use crate::simulate::{SpectralMode, Spectrum};
 use crate::system::{Group, MechanicalSystem, Need, OperatingPoint, Structure, Terms};
-use crate::tolerances::RANK;
+use crate::tolerances::{RANK, UNSEEN};
 use serde::Serialize;
-
-/// Distance to the nearby state that tells a singular one from redundant rows. Unit: `[m, rad]`.
-const STATE_BESIDE: f64 = 1e-3;
-
-/// Newton's steps to bring it to the constraints. Unit: `[steps]`.
-const STATE_BESIDE_SWEEPS: usize = 8;
 
 /// Rank of the constraints and conditioning at a state.
 #[derive(Clone, Debug)]
@@ -117,8 +111,9 @@ pub fn dependent_nearby(system: &dyn MechanicalSystem, t: f64, q: &[f64]) -> Vec
         return Vec::new();
     }
     let size = largest(&step).max(f64::MIN_POSITIVE);
-    step.iter_mut().for_each(|x| *x *= STATE_BESIDE / size);
-    for sweep in 0..=STATE_BESIDE_SWEEPS {
+    step.iter_mut().for_each(|x| *x *= UNSEEN / size);
+    // Newton's steps to the constraints of the nearby state.
+    for sweep in 0..=8 {
         system.rate(&aside, &step, &mut rate);
         let sign = if sweep == 0 { 1.0 } else { -1.0 };
         aside.iter_mut().zip(&rate).for_each(|(q, rate)| *q += sign * rate);

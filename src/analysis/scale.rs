@@ -44,7 +44,7 @@ impl Sizes {
         // Angles in a small mechanism do not make lengths larger.
         let length = self.length.min(1.0);
         let (least, most) = self.kinetic.unwrap_or_default();
-        let energy = (most - least).max(tolerances::ZERO_BY_SYMMETRY * most);
+        let energy = (most - least).max(tolerances::UNSEEN * most);
         match dimension {
             Dimension::Angle => self.travel,
             Dimension::Length => self.travel * length,
@@ -90,9 +90,7 @@ pub fn scales(columns: &[Column], rows: &[Vec<f64>], sizes: &Sizes) -> Vec<f64> 
                 }
             }
             Some(kind @ (Dimension::Force | Dimension::Torque)) => of_kind(unit, kind),
-            Some(kind) if kind != Dimension::Strain => {
-                largest(i).max(tolerances::ZERO_BY_SYMMETRY * of_kind(unit, kind))
-            }
+            Some(kind) if kind != Dimension::Strain => largest(i).max(tolerances::UNSEEN * of_kind(unit, kind)),
             _ => largest(i).max(tolerances::SAME * of_unit(unit)),
         };
         if scale > 0.0 { scale } else { 1.0 }

@@ -5,7 +5,7 @@ use crate::error::{Error, Result, short};
 use crate::math::array::from_fn;
 use crate::math::expression::Number;
 use crate::math::rotation::Matrix3;
-use crate::tolerances::ROUNDED_INERTIA;
+use crate::tolerances::SIX_DIGITS;
 use nalgebra::{Matrix3 as Tensor, SymmetricEigen};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -87,7 +87,7 @@ pub fn physical(tensor: &Matrix3) -> Result<()> {
     let mut moments: Vec<f64> =
         SymmetricEigen::new(Tensor::from_fn(|i, j| tensor[i][j])).eigenvalues.iter().copied().collect();
     moments.sort_by(f64::total_cmp);
-    let slack = ROUNDED_INERTIA * moments[2].abs();
+    let slack = SIX_DIGITS * moments[2].abs();
     if moments[0] < -slack {
         return Err(Error::input(format!(
             "a principal moment of inertia is {}, but cannot be negative",

@@ -7,10 +7,6 @@ use crate::math::expression::Number;
 use crate::math::rotation::{axes_from_quaternion, quaternion_from_vector};
 use crate::tolerances;
 
-/// A vector as short as this gives an axis no direction. Unit: `[1]`. Why: of unit vectors it leaves four digits of a
-/// direction.
-const NO_AXIS: f64 = 1e-12;
-
 /// The keys of an orientation in space; none of them is no rotation.
 #[derive(Clone, Copy)]
 pub struct Orientation<'a> {
@@ -56,7 +52,7 @@ impl Orientation<'_> {
 pub fn aim(z: Option<[f64; 3]>, x: Option<[f64; 3]>) -> Result<[[f64; 3]; 3]> {
     let unit = |v: [f64; 3], name: &str| -> Result<[f64; 3]> {
         let length = norm(&v);
-        if length > NO_AXIS {
+        if length > tolerances::ROUND_OFF_OF_SOLUTIONS {
             Ok(v.each(|c| c / length))
         } else {
             Err(Error::input("the axis has no direction of its own")

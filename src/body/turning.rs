@@ -9,10 +9,7 @@ use super::frame::turned;
 use super::{Carried, Frame, MarkerId, cross, dot, sub};
 use crate::math::array::{Each, from_fn};
 use crate::math::{Regime, Scalar};
-
-/// Cosine of the elevation below which the x axis of one marker is along the z axis of the other, and there is no
-/// angle. Unit: `[1]`. Why: its inverse is the rate of the angle.
-const UPRIGHT: f64 = 1e-6;
+use crate::tolerances;
 
 /// Below this one the rate is that of an axis which leans so much. Unit: `[1]`. Why: a faster one would make steps
 /// short for an angle alone.
@@ -100,7 +97,7 @@ impl Turning {
         let mut sum = 0.0;
         for term in &self.terms {
             let [c, s, _] = term.at(&marker);
-            if c * c + s * s < UPRIGHT * UPRIGHT {
+            if c * c + s * s < tolerances::SIX_DIGITS * tolerances::SIX_DIGITS {
                 return before;
             }
             sum += term.factor * s.atan2(c);

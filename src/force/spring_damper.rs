@@ -7,12 +7,9 @@ use crate::error::Result;
 use crate::math::array::Each;
 use crate::math::expression::Number;
 use crate::math::{Rate, Scalar, Side, Taylor};
+use crate::tolerances;
 use schemars::JsonSchema;
 use serde::Deserialize;
-
-/// A gap whose line is held takes it from its rate below this. Unit: `[1]` of the free length. Why: the direction of a
-/// shorter one is rounded. Test: `a_spring_passes_its_anchor`.
-const NEARLY_CLOSED: f64 = 1e-6;
 
 /// Tension k (l - free_length) + c l' - preload along the line between two markers; its direction is undefined at
 /// l = 0, unless free_length and preload are zero and there is no damping. Or a tension by any law.
@@ -96,7 +93,8 @@ impl Spring {
     ) -> Action<S> {
         let values = gap.each(|x| x.x.value());
         let rates = gap.each(|x| x.d.value());
-        let is_open = norm(&values) > NEARLY_CLOSED * self.free.max(self.preload.abs() / self.k.max(f64::MIN_POSITIVE));
+        let is_open =
+            norm(&values) > tolerances::SIX_DIGITS * self.free.max(self.preload.abs() / self.k.max(f64::MIN_POSITIVE));
         let line = side.along(if is_open { values } else { rates });
         let length = gap.iter().zip(line).fold(Taylor::fixed(S::zero()), |sum, (x, u)| sum + *x * u);
         let stretch = length - self.free;

@@ -5,15 +5,8 @@ use super::linearized::write_diagonal;
 use crate::math::dot;
 use crate::math::kkt::Pattern;
 use crate::system::Dimensions;
+use crate::tolerances;
 use nalgebra::DMatrix;
-
-/// What is left of a column of Z Z^T where all directions of motion are found. Unit: `[1]` of the column without
-/// constraints. Why: above the round-off of the saddle-point system over the square of TRUNCATED_RANK.
-const NO_DIRECTION: f64 = 1e-10;
-
-/// Entries of Z^T M Z may differ so much from those of the identity. Unit: `[1]`. Why: beyond, the directions are made
-/// orthonormal again.
-const ORTHONORMAL: f64 = 1e-6;
 
 /// Number of velocities minus number of independent rows of G, at the state whose factors are in `dynamics`.
 pub fn degrees_of_freedom(dynamics: &Dynamics) -> usize {
@@ -66,7 +59,7 @@ fn any_directions(dynamics: &mut Dynamics) -> Option<DMatrix<f64>> {
 fn is_identity(gram: &DMatrix<f64>) -> bool {
     let n = gram.nrows();
     let mut places = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
-    places.all(|(i, j)| (gram[(i, j)] - if i == j { 1.0 } else { 0.0 }).abs() <= ORTHONORMAL)
+    places.all(|(i, j)| (gram[(i, j)] - if i == j { 1.0 } else { 0.0 }).abs() <= tolerances::SIX_DIGITS)
 }
 
 fn diagonal(dynamics: &Dynamics) -> Vec<f64> {
@@ -126,7 +119,7 @@ impl Rest<'_, '_> {
     }
 
     fn is_round_off(&self, pivot: f64, j: usize) -> bool {
-        !(pivot > 0.0 && pivot >= NO_DIRECTION * self.whole[j])
+        !(pivot > 0.0 && pivot >= tolerances::RANK * self.whole[j])
     }
 
     /// A coordinate with at least the n-th part of the largest pivot: the one that forces without symmetry move most.

@@ -70,7 +70,7 @@ struct TangentSpace {
 /// in the chart, or on another branch of the constraints.
 const LIMITS: Limits = Limits {
     round_off: f64::EPSILON,
-    stagnation: tolerances::NEWTON_STAGNATION,
+    stagnation: tolerances::ROOT_OF_ROUND_OFF,
     contraction: tolerances::NEWTON_HALVES,
     ..Limits::NONE
 };

@@ -4,21 +4,6 @@ use super::Metric;
 use crate::error::Result;
 use crate::tolerances;
 
-/// Damped Newton's steps at most from a guess to closed joints. Unit: `[steps]`. Why: loops of random angles take 56 at
-/// most.
-const CLOSING_STEPS: usize = 80;
-
-/// Beginnings of the assembly beside its guess where it does not close from there. Unit: `[beginnings]`. Why: of 199
-/// loops with random angles one needs four. Test: `loops_close_from_random_angles`.
-const RESTARTS: usize = 12;
-
-/// Beginnings of the assembly beside its guess where there are many velocities. Unit: `[beginnings]`. Why: each takes
-/// seconds.
-const FEW_RESTARTS: usize = 3;
-
-/// Velocities from which on the assembly begins less often. Unit: `[velocities]`.
-const LARGE_ASSEMBLY: usize = 300;
-
 /// Closes the joints: d = -W^-1 G^T (G W^-1 G^T)^-1 phi, damped until |phi| falls. Where that ends at an open state, G
 /// has lost rank there, such as with all bars of a loop on one line. Then it begins again from states beside the guess.
 /// Returns true if the joints are closed; else q is the open state with the smallest |phi|. Adds the way to `moved`.
@@ -31,8 +16,9 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> R
         return Ok(true);
     }
     let mut least = metric.residual(t, q);
-    let is_large = moved.len() > LARGE_ASSEMBLY;
-    let restarts = if is_large { FEW_RESTARTS } else { RESTARTS };
+    let is_large = moved.len() > tolerances::DENSE_EIGENVALUES;
+    // Each takes seconds where there are many velocities; of 199 loops with random angles one needs four.
+    let restarts = if is_large { 3 } else { 12 };
     for number in 1..=restarts {
         let (mut from, mut way) = guess.clone();
         beside(metric, number, &mut from, &mut way);
@@ -69,7 +55,8 @@ fn iterate(
     (d, start): (&mut [f64], &mut Vec<f64>),
 ) -> Result<bool> {
     let mut last = f64::INFINITY;
-    for _ in 0..CLOSING_STEPS {
+    // Loops of random angles take 56 at most.
+    for _ in 0..80 {
         metric.at_rest(t, q)?;
         let residual = metric.size_of_phi();
         let is_closed = metric.is_closed(q);

@@ -1,9 +1,5 @@
 //! Continuation in one parameter.
 
-/// Steps at most of a continuation. Unit: `[steps]`. Why: halving to the resolution of a sweep takes 27, to that of a
-/// travel 40.
-const CONTINUATION_STEPS: usize = 1000;
-
 /// Moves a parameter from `at` to `target` in steps, the first of the size `first`. `reach` continues the solution to a
 /// value, and returns the factor of the next step; where it does not come there, the step is halved. Ends where a step
 /// falls below `least`; returns the value reached, and that step.
@@ -14,7 +10,8 @@ pub fn continuation(
     mut reach: impl FnMut(f64) -> Option<f64>,
 ) -> (f64, f64) {
     let mut step = first;
-    for _ in 0..CONTINUATION_STEPS {
+    // Halving to the resolution of a sweep takes 27, to that of a travel 40.
+    for _ in 0..1000 {
         if at == target {
             break;
         }

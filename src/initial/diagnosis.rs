@@ -8,20 +8,6 @@ use crate::system::{Group, Prescribed};
 use crate::tolerances;
 use std::cmp::Reverse;
 
-/// Joints that may be what is in the way have gaps of this part of the largest. Unit: `[1]`.
-const PART_OF_GAP: f64 = 1e-3;
-
-/// Joints that are left out one after the other to see whether the others close. Unit: `[joints]`.
-const JOINTS_TRIED: usize = 8;
-
-/// Bodies move so far along a direction of motion if they are free at all. Unit: `[1]` of an arbitrary change of their
-/// coordinates. Why: above round-off. Test: `a_joint_too_many_is_named`.
-const LOCKED: f64 = 1e-8;
-
-/// A gap that falls by less than this in a step is the least. Unit: `[1]` of the gap. Why: four digits are told. Test:
-/// `a_bar_that_is_too_short_is_named_with_the_gap`.
-const GAP_SETTLED: f64 = 1e-7;
-
 /// Lengths in a scene that does not close of which some may be in millimetres. Unit: `[1]`, the largest over the
 /// smallest. Why: half of a thousand. Test: `millimetres_among_metres_are_named`.
 const UNLIKE_LENGTHS: f64 = 500.0;
@@ -83,7 +69,7 @@ fn least_gap(metric: &mut Metric, rows: &[usize], t: f64, q: &mut Vec<f64>) {
     metric.drop_rows(rows);
     for _ in 0..tolerances::APPROACH_STEPS {
         let Some(next) = with_less_gap(metric, rows, t, q, gap) else { break };
-        let is_slow = next.1 > (1.0 - GAP_SETTLED) * gap;
+        let is_slow = next.1 > (1.0 - tolerances::HALF_OF_THE_DIGITS) * gap;
         (*q, gap) = next;
         if is_slow {
             break;
@@ -110,7 +96,7 @@ fn moves(metric: &mut Metric, rows: &[usize], t: f64, q: &[f64]) -> bool {
     let free = metric.largest_along(rows, &left);
     metric.drop_rows(&[]);
     metric.residual(t, q);
-    free > LOCKED * all
+    free > tolerances::ROOT_OF_ROUND_OFF * all
 }
 
 /// A closed state whose rows r have a smaller gap than that of q, with that gap.
@@ -140,9 +126,10 @@ fn candidates(metric: &Metric, t: f64) -> Vec<Group> {
     let is_driven = |group: &Group| group.rows.clone().any(|row| driven.contains(&row));
     let mut open = metric.system.facts().groups();
     // The row of a driver is linear: Newton's method closes it at the cost of the others.
-    open.retain(|group| is_driven(group) || gap(group) > PART_OF_GAP * worst);
+    open.retain(|group| is_driven(group) || gap(group) > tolerances::UNSEEN * worst);
     open.sort_by_key(|group| (!is_driven(group), group.rows.len(), Reverse(group.rows.start)));
-    open.truncate(JOINTS_TRIED);
+    // Each is dropped in turn to see whether the others close.
+    open.truncate(8);
     open
 }
 

@@ -7,10 +7,6 @@ use crate::math::newton::{Limits, Monitor};
 use crate::system::MechanicalSystem;
 use crate::tolerances;
 
-/// Newton's iterations at most from a guess to the state that continues the one it was taken from. Unit:
-/// `[iterations]`.
-const FOLLOWING_ITERATIONS: usize = 20;
-
 /// Positions that satisfy the constraints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Followed {
@@ -27,7 +23,7 @@ pub struct Followed {
 /// the continuation of the state from which the guess was taken; convergence to other solutions is slower (P.
 /// Deuflhard, Newton Methods for Nonlinear Problems, 2011, section 5.1).
 const LIMITS: Limits = Limits {
-    most: FOLLOWING_ITERATIONS,
+    most: 20,
     round_off: tolerances::ROUND_OFF_OF_PHI,
     contraction: tolerances::UNIQUE_CONTRACTION,
     ..Limits::NONE

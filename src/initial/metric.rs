@@ -9,10 +9,6 @@ use crate::system::{MechanicalSystem, Need, Scratch, Structure, Terms};
 use crate::tolerances;
 use std::sync::Arc;
 
-/// Weight of directions without mass in the metric of the assembly. Unit: `[1]` of the largest mass. Why: they move
-/// freely, and the matrix is still far from singular.
-const LEAST_WEIGHT: f64 = 1e-6;
-
 /// phi that no step of Newton's method improves. Unit: `[1]` of the largest coordinate. Why: two ulps, of a sum of two
 /// products. Test: `a_start_beside_a_fold_stays`.
 const ROUNDED: f64 = 2.0 * f64::EPSILON;
@@ -115,7 +111,7 @@ impl<'a> Metric<'a> {
         self.weights.copy_from_slice(&self.terms.mass);
         self.stiffness.iter().for_each(|&(place, stiffness)| self.weights[place] += stiffness);
         for (weight, (i, j)) in self.weights.iter_mut().zip(&self.mass.entries) {
-            *weight = if i == j { (*weight / unit).max(LEAST_WEIGHT) } else { *weight / unit };
+            *weight = if i == j { (*weight / unit).max(tolerances::SIX_DIGITS) } else { *weight / unit };
         }
         let n = self.terms.g.len();
         self.values[..n].copy_from_slice(&self.terms.g);

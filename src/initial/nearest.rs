@@ -5,18 +5,6 @@ use crate::error::Result;
 use crate::math::largest;
 use crate::tolerances;
 
-/// Steps towards the nearest state below this are judged by their size, not by the distance. Unit: `[m, rad]` over 1
-/// and the way from the guess. Why: there the distance falls by its square, which the corrections of the joints hide.
-/// Test: `they_move_as_the_built_in_ones`.
-const STEP_DECIDES: f64 = 1e-3;
-
-/// Small steps towards the nearest state that do not fall below this part of the smallest are round-off. Unit: `[1]`.
-const STAGNANT_STEP: f64 = 0.9;
-
-/// So many of them in a row end the way to the nearest state: far from the guess steps fall slowly. Unit: `[steps]`.
-/// Test: `they_move_as_the_built_in_ones`.
-const STALLED_STEPS: usize = 8;
-
 /// Moves a closed q along the constraints until |q - q_0|_W is least, by steps [W G^T; G 0] [d; .] = [-W (q - q_0);
 /// -phi]. A step is halved until the joints close after it by Newton's method with the matrix before it, and the
 /// distance falls. Where no step does so, the last closed state is kept. `moved` is the way from the guess.
@@ -33,9 +21,10 @@ pub fn approach(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -
         let size = largest(&d);
         let travel = 1.0 + largest(moved);
         // Near the nearest state the distance changes by the square of the step: by its round-off.
-        let is_close = size <= STEP_DECIDES * travel;
-        stalled = if size > STAGNANT_STEP * smallest { stalled + 1 } else { 0 };
-        if size <= tolerances::SETTLED * travel || (is_close && stalled > STALLED_STEPS) {
+        // There the distance falls by the square of the step, which the corrections of the joints hide.
+        let is_close = size <= tolerances::UNSEEN * travel;
+        stalled = if size > tolerances::STAGNANT * smallest { stalled + 1 } else { 0 };
+        if size <= tolerances::ROUND_OFF_OF_SOLUTIONS * travel || (is_close && stalled > 8) {
             break;
         }
         smallest = smallest.min(size);

@@ -5,10 +5,6 @@ use super::{Metric, position};
 use crate::error::{Error, Result};
 use crate::scene::INITIAL;
 
-/// A path that ends after this part of the way comes to its end in the limit only. Unit: `[1]` of the way. Why: at a
-/// dead centre its steps halve. Test: `a_value_on_another_branch_is_refused`.
-const NEARLY_THERE: f64 = 0.999;
-
 /// Closes the joints with the rows of `initial`, as [`position::close`], on the branch of the guess: phi of these rows,
 /// whose size at the guess is `gap`, goes to zero as (1 - s) gap, s from 0 to 1 in steps in each of which Newton's
 /// method contracts. Where the joints do not close without the rows, or the path comes to the values only in the limit,
@@ -26,7 +22,8 @@ pub fn reach(alone: &mut Metric, all: &mut Metric, t: f64, q: &mut [f64]) -> Res
     };
     q.copy_from_slice(&guess);
     match position::close(all, t, q) {
-        Ok(()) if done < NEARLY_THERE => Err(Error::input(format!(
+        // At a dead centre steps halve: the path comes to its end in the limit only.
+        Ok(()) if done < 0.999 => Err(Error::input(format!(
             "the values in `initial` are on another branch of the mechanism than its guess{ended}"
         ))
         .under(INITIAL)

@@ -9,28 +9,12 @@ use crate::math::largest;
 use crate::system::{Group, MechanicalSystem};
 use crate::tolerances;
 
-/// The end of a travel is found to this part of the run. Unit: `[1]`. Why: round-off of a driver's value, with a
-/// margin. Test: `a_driver_beyond_its_travel_is_named`.
-const TRAVEL_RESOLVED: f64 = 1e-12;
-
-/// A state that is closed for a driver is the continuation of another within this distance. Unit: `[m, rad]` over 1 and
-/// the largest coordinate. Why: other configurations are farther.
-const TRAVEL_NEAR: f64 = 0.1;
-
-/// The driver to blame is one without which the joints close this part of the run after the end of the travel. Unit:
-/// `[1]`. Test: `a_driver_beyond_its_travel_is_named`.
-const TRAVEL_BEYOND: f64 = 1e-3;
-
 /// Samples of what a driver asks for after the end of its travel. Unit: `[samples]`.of how much a message says.
 const TRAVEL_SAMPLES: u32 = 400;
 
 /// Looks for the end of a travel ahead of a run that fails or crawls, each twice as far as the one before. Unit:
 /// `[looks]`. Why: the first is at a millionth of the time. Test: `a_driver_beyond_its_travel_is_named`.
 const TRAVEL_LOOKS: i32 = 20;
-
-/// Thirds that are cut off around the extreme of what a driver asks for. Unit: `[1]`. Why: (2/3)^60 is below round-off.
-/// Test: `a_driver_beyond_its_travel_is_named`.
-const EXTREME_HALVINGS: usize = 60;
 
 /// The joints of a system with drivers, closed at one time after the other.
 pub struct Travel<'a> {
@@ -84,7 +68,7 @@ impl<'a> Travel<'a> {
             return None;
         }
         let start = self.last.0;
-        let resolution = TRAVEL_RESOLVED * (until - start).abs() + f64::EPSILON * t.abs();
+        let resolution = tolerances::ROUND_OFF_OF_SOLUTIONS * (until - start).abs() + f64::EPSILON * t.abs();
         continuation(start, t, (t - start, resolution), |next| {
             let is_closed = self.closes_from_last(next);
             if is_closed {
@@ -112,7 +96,8 @@ impl<'a> Travel<'a> {
         let size = 1.0 + largest(metric.system.dimensions().without_turns(trial));
         moved.fill(0.0);
         let is_closed = closing::attempt(metric, t, trial, moved).unwrap_or(false);
-        is_closed && largest(moved) <= TRAVEL_NEAR * size
+        // Other configurations are farther.
+        is_closed && largest(moved) <= 0.1 * size
     }
 
     /// True if a state near the last one is closed at `t`; that is on trial then.
@@ -153,7 +138,7 @@ impl<'a> Travel<'a> {
         let t = self.last.0;
         let rows: Vec<usize> = self.driven[driven].rows.clone().collect();
         self.metric.drop_rows(&rows);
-        let is_closed = self.closes_from_last(t + TRAVEL_BEYOND * (until - t));
+        let is_closed = self.closes_from_last(t + tolerances::UNSEEN * (until - t));
         self.metric.drop_rows(&[]);
         is_closed
     }
@@ -179,7 +164,8 @@ impl<'a> Travel<'a> {
         // The extreme is between the neighbours of the sample.
         let mut low = f64::max(farthest - apart, t);
         let mut high = f64::min(farthest + apart, until);
-        for _ in 0..EXTREME_HALVINGS {
+        // (2/3)^60 is below round-off.
+        for _ in 0..60 {
             let left = low + 1.0 / 3.0 * (high - low);
             let right = low + 2.0 / 3.0 * (high - low);
             if (value(left)? - reached).abs() < (value(right)? - reached).abs() { low = left } else { high = right }

@@ -5,14 +5,6 @@ use crate::error::{Error, Result, short};
 use crate::math::largest;
 use crate::tolerances;
 
-/// A start that keeps less than this part of the given velocities contradicts the joints. Unit: `[1]`. Why: no start
-/// that anybody meant.
-const VELOCITIES_KEPT: f64 = 1e-6;
-
-/// Rates of joint coordinates that take velocities so much larger cannot be given: the state is at a dead centre. Unit:
-/// `[1]`. Why: half of the digits of the velocities would be lost. Test: `a_rate_at_a_dead_centre_is_refused`.
-const DEAD_CENTRE: f64 = 1e-7;
-
 pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> {
     let given = v.to_vec();
     // The second iteration removes the round-off of the first.
@@ -28,7 +20,7 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
     let largest = largest(v).max(asked);
     let is_met = metric.worst(&metric.terms.phi_dot) <= tolerances::SAME * largest.max(f64::MIN_POSITIVE);
     // Beside a dead centre a rate is met by velocities beyond all bounds.
-    if is_met && metric.has_initial() && asked < DEAD_CENTRE * largest {
+    if is_met && metric.has_initial() && asked < tolerances::HALF_OF_THE_DIGITS * largest {
         let message =
             format!("the rates in `initial` take velocities of {largest:.1e}: the joints are at a dead centre");
         return Err(Error::input(message)
@@ -46,7 +38,7 @@ pub fn fit(metric: &mut Metric, t: f64, q: &[f64], v: &mut [f64]) -> Result<()> 
     let driven = metric.terms.phi_t.iter().any(|rate| *rate != 0.0);
     // Below, a second moves nothing by more than rounding: a run at rest leaves such velocities.
     let moves = asked > f64::EPSILON * metric.system.facts().length;
-    if moves && !driven && after < VELOCITIES_KEPT * VELOCITIES_KEPT * before {
+    if moves && !driven && after < tolerances::SIX_DIGITS * tolerances::SIX_DIGITS * before {
         let names = metric.system.facts().names.v.clone();
         let fastest = (0..given.len()).max_by(|&i, &j| given[i].abs().total_cmp(&given[j].abs())).unwrap_or(0);
         return Err(Error::input(format!(

@@ -8,10 +8,6 @@ use crate::tolerances;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Error below which the next step is chosen with the whole gain. Unit: `[tolerated errors]`. Why: from there steps
-/// double and more, as at a start. With 1e-3 evaluations are as many, with 0.1 there are a tenth more.
-const FAR_BELOW: f64 = 1e-2;
-
 /// Steps are not controlled more tightly than this unless that is asked for. Unit: `[1]`. Why: Newton's methods, which
 /// go two digits further, and projections near singular states come near round-off. Test:
 /// `steps_are_never_looser_than_asked_nor_tighter_than_round_off`.
@@ -19,11 +15,6 @@ const CONTROLLED_RTOL: f64 = 1e-11;
 
 /// How often a guess of the first step is divided by ten where y' has no value ahead. Unit: `[divisions]`.
 const FIRST_STEP_SHORTER: usize = 20;
-
-/// The longest guess of the first step. Unit: `[1]` of the span. Why: as in SUNDIALS IDA. At rest y' is round-off and
-/// sets no time of its own, and a load that rises there is seen early, if at all. Test:
-/// `a_load_that_grows_from_zero_moves_what_is_at_rest`.
-const FIRST_STEP_OF_SPAN: f64 = 1e-3;
 
 /// Tolerated local error of component y: atol + rtol |y|, with one atol for metres, radians and their rates, and y
 /// measured from the origin: a mechanism of micrometres needs a smaller atol in proportion, one far from the origin
@@ -74,7 +65,7 @@ impl Tolerance {
     pub(super) fn exact(q: &[f64], system: &dyn MechanicalSystem) -> Self {
         let size = Some(largest(system.dimensions().without_turns(q)))
             .filter(|size| *size > 0.0)
-            .map_or(1.0, |size| size.clamp(tolerances::LEAST_LARGEST_Q, 1.0));
+            .map_or(1.0, |size| size.clamp(tolerances::ATOM, 1.0));
         Tolerance::new(tolerances::ROUND_OFF_OF_SUMS, tolerances::ROUND_OFF_OF_SUMS * size, system)
     }
 
@@ -254,7 +245,8 @@ impl Control {
 
 /// Growth by half the gain where that of the whole one, err^-expo, is near 1, and by all of it beyond.
 fn damped(whole: f64, exponent: f64) -> f64 {
-    whole.sqrt().max(whole * FAR_BELOW.powf(0.5 * exponent))
+    // From there steps double and more, as at a start. With 1e-3 evaluations are as many, with 0.1 a tenth more.
+    whole.sqrt().max(whole * 0.01f64.powf(0.5 * exponent))
 }
 
 /// Round-off of changes of y, over the tolerated errors; with `divisor`, s, where v is found from q by a division by
@@ -292,7 +284,8 @@ pub fn first_step(
     let d0 = tolerance.norm(y, y);
     let d1 = tolerance.norm(y, slope);
     let guess = if d0 < 1e-10 || d1 < 1e-10 { 1e-6 } else { 0.01 * d0 / d1 };
-    let mut guess = guess.min(FIRST_STEP_OF_SPAN * span);
+    // As in IDA: at rest y' sets no time of its own, and a load that rises there is seen early, if at all.
+    let mut guess = guess.min(tolerances::UNSEEN * span);
     let mut next = vec![0.0; y.len()];
     for shorter in 0..=FIRST_STEP_SHORTER {
         let ahead: Vec<f64> = y.iter().zip(slope).map(|(y, slope)| y + guess * slope).collect();

@@ -10,20 +10,21 @@ use crate::math::kkt::{Pattern, Singular, Unsymmetric};
 use crate::math::newton::{Limits, Monitor};
 use crate::math::{all_finite, largest};
 use crate::system::Need;
+use crate::tolerances;
 use serde_json::Value;
-
-/// Corrections of a half-explicit stage that no longer fall are round-off up to here. Unit: `[1]` of the largest
-/// acceleration. Why: ten times ROUND_OFF_OF_FACTORS; above, as of accelerations at rest under load, the stage is
-/// factored. Test: `the_velocity_constraint_is_held_to_round_off`.
-const STAGE_STAGNATION: f64 = 1e-12;
 
 /// Order of the rows of the cubic, whose error over a step is O(h^4).
 const CUBIC: usize = 4;
 
 /// Corrections of a stage, relative to its acceleration. Ten cost as much as a factorization; those that leave more
 /// than a tenth would take more.
-const CORRECTIONS: Limits =
-    Limits { most: 10, round_off: f64::EPSILON, stagnation: STAGE_STAGNATION, contraction: 0.1, ..Limits::NONE };
+const CORRECTIONS: Limits = Limits {
+    most: 10,
+    round_off: f64::EPSILON,
+    stagnation: tolerances::ROUND_OFF_OF_SOLUTIONS,
+    contraction: 0.1,
+    ..Limits::NONE
+};
 
 /// The constants of a half-explicit method.
 pub struct Tableau {

@@ -13,13 +13,6 @@ use crate::tolerances;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Changes of v at the middle of a step of rattle that no longer fall are round-off up to here. Unit: `[1]` of the
-/// largest v. Why: near the square root of rounding.
-const STAGNATION_OF_VELOCITY: f64 = 1e-9;
-
-/// Iterations at most of rattle. Unit: `[iterations]`. Why: its matrix has no K: the contraction is h^2 K/M.
-const RATTLE_ITERATIONS: usize = 100;
-
 /// ```text
 /// v_h = v + h/2 M^-1 (f(t, q, v_h) - G(q)^T lambda),   q_1 = q + h v_h,   phi(q_1) = 0
 /// v_1 = v_h + h/2 M^-1 (f(t_1, q_1, v_h) - G(q_1)^T mu),   G(q_1) v_1 + phi_t = 0
@@ -88,7 +81,8 @@ struct Rattle {
 
 /// Limits on changes over their stagnation tolerance.
 const LIMITS: Limits = Limits {
-    most: RATTLE_ITERATIONS,
+    // The matrix has no K: the contraction is h^2 K/M.
+    most: 100,
     tolerance: tolerances::ROUND_OFF_OF_STAGNATION,
     round_off: tolerances::ROUND_OFF_OF_STAGNATION,
     stagnation: 1.0,
@@ -142,7 +136,7 @@ impl Rattle {
     /// Stagnation tolerance of the relative change of v_h: in tiny steps the round-off of phi over h dominates.
     fn still(&self, h: f64) -> f64 {
         let of_phi = 16.0 * f64::EPSILON * largest(&self.q) / h;
-        STAGNATION_OF_VELOCITY.max(of_phi / largest(&self.half))
+        tolerances::ROOT_OF_ROUND_OFF.max(of_phi / largest(&self.half))
     }
 
     /// One correction of v_h for the forces and for phi(q_1). Returns its size relative to v_h.

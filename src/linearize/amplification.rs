@@ -7,12 +7,10 @@ use crate::error::{Error, Result};
 use crate::prepared::Model;
 use crate::simulate::{Method, Span, stiffness};
 use crate::system::{MechanicalSystem, OperatingPoint};
+use crate::tolerances;
 
 /// Times up to which the growth of small changes is looked at. Unit: `[times]`.
 const AMPLIFIED_TIMES: u32 = 20;
-
-/// Degrees of freedom up to which it is. Unit: `[degrees of freedom]`. Why: that many motions side by side.
-const AMPLIFIED_FREEDOM: usize = 40;
 
 /// Returns the largest growth of any small change of the start up to any of `times` (increasing, after the start): the
 /// norm of the transition matrices in mass-orthonormal states (z, y/s). The rate s is the one that makes the norm
@@ -33,10 +31,10 @@ fn amplification(
     };
     let at_start = chart(start)?;
     let columns = at_start.changes();
-    if columns.q.ncols() > 2 * AMPLIFIED_FREEDOM {
+    if columns.q.ncols() > 2 * tolerances::MANY_MODES {
         return Err(Error::input(format!(
             "more than {} degrees of freedom are too many to carry small changes of",
-            AMPLIFIED_FREEDOM
+            tolerances::MANY_MODES
         )));
     }
     if columns.q.ncols() == 0 {

@@ -7,12 +7,6 @@ type C = Complex<f64>;
 /// Time or parameter, the eigenvalue there and its derivative.
 type Knot = (f64, C, Option<C>);
 
-/// Points of a curve, about. Unit: `[points]`. Why: more are not seen in a figure.
-const CURVE_POINTS: usize = 800;
-
-/// Parts into which an interval is divided at most. Unit: `[parts]`. Why: chords of a cubic that are not seen.
-const CURVE_PARTS: usize = 12;
-
 /// Largest difference of the mean of both derivatives from the slope of the chord where a cubic is drawn. Unit: `[1]` of the
 /// larger derivative. Why: 0 for a parabola, 1/2 for a root at its end: there eigenvalues meet, and no cubic follows.
 /// Test: `curves_follow_derivatives`.
@@ -24,7 +18,8 @@ impl Branch {
     /// value at which the pair becomes real and beyond. Where derivatives are unknown, or belong to no smooth curve, the
     /// chord stays.
     pub fn curve(&self) -> Branch {
-        let parts = (CURVE_POINTS / self.points.len().max(1)).clamp(1, CURVE_PARTS);
+        // More are not seen in a figure, nor chords of a twelfth of a cubic.
+        let parts = (800 / self.points.len().max(1)).clamp(1, 12);
         let slopes = self.slopes.iter().copied().chain(std::iter::repeat(None));
         let knots: Vec<Knot> =
             self.points.iter().zip(slopes).map(|((at, value), slope)| (*at, *value, slope)).collect();

@@ -2,10 +2,7 @@
 
 use super::changes::directions;
 use super::{Matrix, Variation};
-
-/// A direction with less inertia than this has none. Unit: `[1]` of the largest mass, per square of the length of the
-/// mechanism for a rotation. Why: the square root of rounding. Test: `directions_without_inertia_are_coordinates`.
-const MASSLESS_DIRECTION: f64 = 1e-8;
+use crate::tolerances;
 
 /// The masses of the directions of v, and the length by which each moves points: 1 for a position, the length of the
 /// mechanism for a rotation.
@@ -31,7 +28,7 @@ impl Inertia {
 
     /// The directions that move q without inertia, with their lengths.
     fn massless(&self) -> impl Iterator<Item = (usize, f64)> {
-        let least = |length: f64| MASSLESS_DIRECTION * self.largest * length * length;
+        let least = |length: f64| tolerances::ROOT_OF_ROUND_OFF * self.largest * length * length;
         let all = self.lengths.iter().copied().enumerate();
         all.filter(move |(i, length)| self.masses[*i] <= least(*length))
     }

@@ -4,10 +4,7 @@ use super::{Matrix, Variation};
 use crate::error::{Error, Result, clock};
 use crate::formulation::Dynamics;
 use crate::system::Excitation;
-
-/// A driver that a change of q moves by a unit less this is held by other constraints. Unit: `[1]`. Why: above the
-/// square root of rounding. Test: `a_driver_that_is_held_is_refused`.
-const PRESCRIBED: f64 = 1e-6;
+use crate::tolerances;
 
 /// Derivatives of the equations with respect to the inputs.
 pub struct Excited {
@@ -82,7 +79,7 @@ impl Variation<'_> {
         let rows = self.driven_rows();
         let p = self.correct(&rows)?;
         let left = self.g_times(&p) - rows;
-        let held = (0..left.ncols()).find(|&j| left.column(j).amax() > PRESCRIBED);
+        let held = (0..left.ncols()).find(|&j| left.column(j).amax() > tolerances::SIX_DIGITS);
         match held.and_then(|j| self.system().facts().inputs.clone().into_iter().nth(j)) {
             None => Ok(p),
             Some(input) => Err(Error::input(format!(

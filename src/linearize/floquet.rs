@@ -6,10 +6,6 @@ use crate::math::eigen::{Eigen, eigen, singular_values};
 use crate::system::MechanicalSystem;
 use crate::tolerances;
 
-/// Singular values of M - m that are none: so many vectors a multiplier has. Unit: `[1]` of the largest. Why: the
-/// square root of FLOW_RTOL.
-const NO_MULTIPLIER: f64 = 1e-6;
-
 /// Error of transition matrices over a period. Unit: `[1]` of their largest entry. Why: some ten times FLOW_RTOL, which
 /// is that of a step.
 const FLOW_ERROR: f64 = 1e-11;
@@ -97,7 +93,7 @@ impl Floquet {
         let mut shifted = self.monodromy.map(Complex::from);
         (0..shifted.nrows()).for_each(|i| shifted[(i, i)] -= multiplier);
         let sizes = singular_values(&shifted)?;
-        Ok(sizes.iter().filter(|size| **size <= NO_MULTIPLIER * sizes[0]).count())
+        Ok(sizes.iter().filter(|size| **size <= tolerances::SIX_DIGITS * sizes[0]).count())
     }
 }
 

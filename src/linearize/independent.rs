@@ -4,10 +4,7 @@ use super::changes::{Directions, directions};
 use super::coordinates::constant;
 use super::{Coordinates, Matrix, Variation, displacement};
 use crate::error::{Error, Result, clock};
-
-/// Coordinates are not independent that leave a direction of motion this small a part of what they could. Unit: `[1]`.
-/// Why: half of the digits of the model would be lost.
-const INDEPENDENT: f64 = 1e-7;
+use crate::tolerances;
 
 /// A coordinate that can be chosen: its name, that of its rate, and its direction of v.
 struct Candidate {
@@ -32,7 +29,7 @@ pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String
     let weighed = weighed(variation, z);
     let rows = Matrix::from_fn(degrees, degrees, |i, j| weighed[(chosen[i].direction, j)]);
     let smallest = rows.singular_values().iter().fold(f64::INFINITY, |least, x| least.min(*x));
-    if smallest < INDEPENDENT {
+    if smallest < tolerances::HALF_OF_THE_DIGITS {
         let message = format!("{} are not independent at t = {} s", names.join(", "), clock(variation.point.t));
         return Err(Error::input(message).under("--chart").hint(format!("independent here are: {}", best())));
     }

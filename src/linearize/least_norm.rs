@@ -1,12 +1,5 @@
 //! The least norm of transition matrices over the units of their states.
 
-/// Powers of ten within which the rate of the metric is sought. Unit: `[log10 of 1/s]`.
-const RATES_SOUGHT: [f64; 2] = [-4.0, 8.0];
-
-/// How often the range of these rates is made smaller by a third. Unit: `[times]`. Why: (2/3)^20 of twelve decades: a
-/// hundredth of a power of e.
-const RATES_THIRDS: usize = 20;
-
 type Matrix = nalgebra::DMatrix<f64>;
 
 /// min over s of the largest norm of diag(1, 1/s) X diag(1, s), and of that of the start, 1. It is convex in log s:
@@ -16,8 +9,9 @@ pub fn least_norm(matrices: &[Matrix], k: usize) -> f64 {
         let norms = matrices.iter().map(|matrix| scaled(matrix, k, 10f64.powf(power)).singular_values().max());
         norms.fold(1.0, f64::max)
     };
-    let [mut low, mut high] = RATES_SOUGHT;
-    for _ in 0..RATES_THIRDS {
+    // Powers of ten of 1/s; (2/3)^20 of twelve decades is a hundredth of a power of e.
+    let [mut low, mut high] = [-4.0, 8.0];
+    for _ in 0..20 {
         let third = (high - low) / 3.0;
         if largest(low + third) < largest(high - third) { high -= third } else { low += third }
     }

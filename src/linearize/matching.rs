@@ -4,13 +4,6 @@ use super::{Complex, Matrix, Mode};
 use crate::math::eigen::{ComplexMatrix, assign};
 use crate::tolerances;
 
-/// A step in which two modes could be exchanged for less is not clear. Unit: `[1]`, cost of the match. Why: see the
-/// cost.
-const CLEAR_MATCH: f64 = 1.0;
-
-/// Modes whose values agree before and after are one for the eye: it does not matter which is which. Unit: `[1]`.
-const EQUAL_MODES: f64 = 1e-3;
-
 /// An eigenvalue with its shape.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
@@ -77,7 +70,7 @@ fn is_allowed(from: Side, to: Side) -> bool {
 }
 
 fn are_equal(a: Complex<f64>, b: Complex<f64>) -> bool {
-    (a - b).norm() <= EQUAL_MODES * a.norm().max(b.norm())
+    (a - b).norm() <= tolerances::UNSEEN * a.norm().max(b.norm())
 }
 
 /// True if it is clear which mode is which: they change little, and the best assignment is much better than any in
@@ -93,7 +86,7 @@ pub(super) fn is_clear(starts: &[&Node], ends: &[Node], mass: &Matrix) -> bool {
         let is_pair = from.partner[i] == Some(k) || to.partner[j] == Some(l);
         let is_possible = !is_pair && is_allowed(from.sides[i], to.sides[l]) && is_allowed(from.sides[k], to.sides[j]);
         let is_one = are_equal(values[i], values[k]) && are_equal(to.values[j], to.values[l]);
-        !is_possible || is_one || cost[(i, l)] + cost[(k, j)] - cost[(i, j)] - cost[(k, l)] >= CLEAR_MATCH
+        !is_possible || is_one || cost[(i, l)] + cost[(k, j)] - cost[(i, j)] - cost[(k, l)] >= 1.0
     };
     // Where the number of modes changes, states between do not help.
     starts.len() != ends.len()

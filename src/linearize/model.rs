@@ -6,10 +6,6 @@ use crate::tolerances;
 pub use nalgebra::Complex;
 use std::f64::consts::TAU;
 
-/// Error of a model by its reduction that is warned of. Unit: `[1]` of the size of A. Why: six digits are printed.
-/// Test: `a_model_near_a_fold_has_an_error`.
-const REDUCTION_WARNED: f64 = 1e-6;
-
 /// A linear model of a mechanism at a state of its motion,
 ///
 /// ```text
@@ -138,7 +134,7 @@ impl LinearModel {
                 two_digits(error)
             )
         };
-        (error > REDUCTION_WARNED).then(|| {
+        (error > tolerances::SIX_DIGITS).then(|| {
             Warning::new(text(), "choose another time, or state the start in coordinates that are farther off")
         })
     }

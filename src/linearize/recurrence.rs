@@ -10,10 +10,6 @@ use std::f64::consts::TAU;
 /// symmetry of single positions passes for one of all. Test: `a_turn_is_no_gap`.
 const ON_THE_WAY: [f64; 2] = [0.371, 1.0];
 
-/// Difference of the terms of equations that are the same. Unit: `[1]` of the largest of their kind, at least 1. Why:
-/// the square root of rounding: of angles of some turns. Test: `a_turn_is_no_gap`.
-const SAME_EQUATIONS: f64 = 1e-8;
-
 /// Returns the largest difference of (q, v) between `end` and `start`, the operating point of `variation`. Whole turns and
 /// displacements are no difference where all terms of the equations with their derivatives are the same with them: M,
 /// G, Gd, v', K and C. A displacement that is no whole turn has to leave them the same on its way, too. The sign of a
@@ -77,5 +73,5 @@ fn terms(variation: &Variation) -> [Vec<f64>; 6] {
 
 fn agree(a: &[f64], b: &[f64]) -> bool {
     let size = largest(a).max(largest(b)).max(1.0);
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME_EQUATIONS * size)
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerances::ROOT_OF_ROUND_OFF * size)
 }

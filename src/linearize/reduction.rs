@@ -4,24 +4,12 @@ use super::changes::beside;
 use super::minimal::{Minimal, minimal};
 use super::{Changes, Linear, LinearizationPoint, Matrix, Reduction, Variation};
 use crate::error::{Error, Result, clock, two_digits};
+use crate::tolerances;
 
 /// Condition of the reduction from which on the error of a model by rounding of its state is measured. Unit: `[1]`.
-/// Why: below, the fourth power of it times rounding is less than REDUCTION_WARNED. Test:
+/// Why: below, the fourth power of it times rounding is less than SIX_DIGITS. Test:
 /// `a_model_near_a_fold_has_an_error`.
 const REDUCTION_MEASURED: f64 = 300.0;
-
-/// Part of the fourth power of the condition times rounding that is the error of a model. Unit: `[1]`. Why: beside
-/// folds of two cranks it is 0.05.
-const REDUCTION_ESTIMATE: f64 = 0.1;
-
-/// Error of a model by its reduction that is refused. Unit: `[1]` of the size of A. Why: no digit that is of use is
-/// left. Test: `redundancy_hides_no_singular_state`.
-const REDUCTION_REFUSED: f64 = 1e-2;
-
-/// Condition of the reduction from which on a mechanism without freedom may have some. Unit: `[1]`. Why: the square
-/// root of rounding: rows that depend on others leave so much beside a fold. Test:
-/// `redundancy_hides_no_singular_state`.
-const RANK_UNKNOWN: f64 = 1e7;
 
 /// Returns the condition of the reduction at a state and the error that follows: an estimate far from singular states,
 /// near them the change of the model in minimal coordinates where the state moves as far as rounding of phi lets it. That
@@ -32,14 +20,15 @@ const RANK_UNKNOWN: f64 = 1e7;
 pub(super) fn measure(variation: &mut Variation, request: &Linear) -> Result<Reduction> {
     let condition = variation.dynamics.kkt.kept_indicator().recip();
     if condition < REDUCTION_MEASURED {
-        let error = f64::EPSILON * (REDUCTION_ESTIMATE * condition.powi(4)).max(1.0);
+        // Beside folds of two cranks it is 0.05.
+        let error = f64::EPSILON * (0.1 * condition.powi(4)).max(1.0);
         return Ok(Reduction { condition, error });
     }
     let chart = request.chart(variation);
     let point = variation.point.clone();
     let here = minimal(variation, &chart)?;
     if here.built.a.is_empty() {
-        let error = if condition > RANK_UNKNOWN { f64::INFINITY } else { 0.0 };
+        let error = if condition > 1.0 / tolerances::HALF_OF_THE_DIGITS { f64::INFINITY } else { 0.0 };
         return judged(Reduction { condition, error }, point.t);
     }
     let mut error: f64 = 0.0;
@@ -54,7 +43,7 @@ pub(super) fn measure(variation: &mut Variation, request: &Linear) -> Result<Red
 /// Refuses a model of which rounding leaves no digits.
 fn judged(reduction: Reduction, t: f64) -> Result<Reduction> {
     let Reduction { condition, error } = reduction;
-    if error <= REDUCTION_REFUSED {
+    if error <= tolerances::TOLD {
         return Ok(reduction);
     }
     let result = if error.is_finite() {

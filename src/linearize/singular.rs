@@ -7,19 +7,10 @@ use crate::initial::assemble;
 use crate::math::largest;
 use crate::system::{MechanicalSystem, Need};
 
-/// How much G changes to the nearby state that a singular one is compared with. Unit: `[1]` of its largest entry. Why:
-/// far beyond TRUNCATED_RANK, below which rows count as dependent, and near enough to be the same assembly. Test:
-/// `singular_states`.
-const NEARBY_STATE: f64 = 0.02;
-
 /// The rank indicator at which a state is looked at before it is linearized. Unit: `[1]`. Why: the square of its
 /// inverse times rounding, of the state as well, is a part of the accelerations: 1e-4 beside a fold, whatever the
 /// chart. Test: `singular_states`.
 const SINGULAR_MODEL: f64 = 1e-5;
-
-/// Growth of the rank indicator from a singular state to a nearby one, at least. Unit: `[1]`. Why: beside others it is
-/// about the same. Test: `singular_states`.
-const SINGULAR_GROWTH: f64 = 1e2;
 
 /// True if rows of G are dependent, or nearly so: at a singular state, and where constraints are redundant.
 pub(super) fn is_suspect(dynamics: &Dynamics) -> bool {
@@ -38,7 +29,8 @@ pub(super) fn refuse(dynamics: &Dynamics, point: &LinearizationPoint, directions
     let here = Rank::of(dynamics);
     let Some(beside) = rank_nearby(dynamics.system, point, directions) else { return Ok(()) };
     let t = short(point.t);
-    let is_near = here.rank_indicator < SINGULAR_MODEL && beside.rank_indicator > SINGULAR_GROWTH * here.rank_indicator;
+    // Beside others it is about the same.
+    let is_near = here.rank_indicator < SINGULAR_MODEL && beside.rank_indicator > 1e2 * here.rank_indicator;
     let problem = if beside.rank > here.rank {
         format!("only {} constraints are independent, {} beside it", here.rank, beside.rank)
     } else if is_near {
@@ -84,7 +76,8 @@ fn rank_nearby(system: &dyn MechanicalSystem, point: &LinearizationPoint, direct
     }
     let mut rate = vec![0.0; point.q.len()];
     system.rate(&point.q, &direction, &mut rate);
-    let step = NEARBY_STATE * size / slope;
+    // Far beyond TRUNCATED_RANK, and near enough to be the same assembly.
+    let step = 0.02 * size / slope;
     let mut moved: Vec<f64> = point.q.iter().zip(&rate).map(|(q, rate)| q + step * rate).collect();
     system.normalize(&mut moved);
     let beside = assemble(system, point.t, (&moved, &point.v), &[]).ok()?;

@@ -13,9 +13,6 @@ use crate::tolerances;
 /// of a turn.
 const ODD_ANGLE: f64 = 1.0;
 
-/// Directions that are tried. Unit: `[directions]`.
-const STEADY_DIRECTIONS: usize = 3;
-
 /// An operating state with the equations it satisfies.
 pub struct Operating<'a> {
     /// The state.
@@ -108,7 +105,8 @@ fn is_same_all_around(axes: &Rotating, prepared: &Model, state: &State) -> Resul
     let pushed = inertia(&there);
     other.turn_directions(ODD_ANGLE, &mut carried);
     let rounding = rounding(&here.dynamics, &here.tangent.k, &here.point.q);
-    let is_closed = there.point.phi <= tolerances::STEADY && leaves.norm() <= tolerances::STEADY * y.norm();
+    let is_closed =
+        there.point.phi <= tolerances::ROOT_OF_ROUND_OFF && leaves.norm() <= tolerances::ROOT_OF_ROUND_OFF * y.norm();
     Ok(is_closed
         && agree(&carried, &pushed, rounding.into_iter())
         && agree(&products(&here, &x), &products(&there, &y), std::iter::repeat(0.0)))
@@ -127,7 +125,7 @@ fn inertia(variation: &Variation) -> Vec<f64> {
 fn directions(variation: &mut Variation) -> Result<Matrix> {
     // Multiples of the golden ratio and of similar numbers are evenly spread (Weyl).
     let spread = |i: usize, j: usize| ((i + 1) as f64 * (0.618_033_988_75 + 0.1 * j as f64)).fract() - 0.5;
-    let any = Matrix::from_fn(variation.velocities(), STEADY_DIRECTIONS, spread);
+    let any = Matrix::from_fn(variation.velocities(), 3, spread);
     let correction = variation.correct(&variation.g_times(&any))?;
     Ok(any - correction)
 }
@@ -142,5 +140,8 @@ fn products(variation: &Variation, x: &Matrix) -> Vec<f64> {
 
 fn agree(a: &[f64], b: &[f64], rounding: impl Iterator<Item = f64>) -> bool {
     let size = largest(a).max(largest(b));
-    a.iter().zip(b).zip(rounding).all(|((a, b), rounding)| (a - b).abs() <= tolerances::STEADY * size + rounding)
+    a.iter()
+        .zip(b)
+        .zip(rounding)
+        .all(|((a, b), rounding)| (a - b).abs() <= tolerances::ROOT_OF_ROUND_OFF * size + rounding)
 }

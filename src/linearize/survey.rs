@@ -13,12 +13,6 @@ use crate::tolerances;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Halvings of such a step with many modes. Unit: `[times]`. Why: each costs a model.
-const FEW_HALVINGS: usize = 3;
-
-/// Modes from which on FEW_HALVINGS are made. Unit: `[modes]`.
-const MANY_MODES: usize = 40;
-
 /// Eigenvalues at many states, as branches.
 #[derive(Clone, Debug)]
 pub struct Loci {
@@ -230,7 +224,9 @@ fn collect(along: LociVariable, outcomes: Vec<Outcome>, between: impl Fn(&Found,
     let places: Vec<f64> = outcomes.iter().map(|(at, _)| *at).collect();
     let behind = |pair: &[Outcome]| match (&pair[0].1, &pair[1].1) {
         (Ok(before), Ok(after)) => {
-            let halvings = if before.sample.modes.len() > MANY_MODES { FEW_HALVINGS } else { tolerances::HALVINGS };
+            let halvings =
+                // Each costs a model.
+                if before.sample.modes.len() > tolerances::MANY_MODES { 3 } else { tolerances::HALVINGS };
             refined(before, after, halvings, &between)
         }
         _ => Vec::new(),

@@ -5,15 +5,9 @@ use super::{Complex, Kind, Mode};
 use crate::error::Result;
 use crate::tolerances;
 
-/// Thresholds sought between two values of a parameter, at most. Unit: `[thresholds]`. Why: each costs some 30 models.
-const THRESHOLDS: usize = 8;
-
 /// Part of a step of the parameter up to which a threshold is bracketed before its root is sought. Unit: `[1]`. Why:
 /// the function whose root it is is straight there. Test: `thresholds_are_located`.
 const BRACKET: f64 = 1e-5;
-
-/// Iterations of the search of a threshold. Unit: `[iterations]`. Why: a straight function takes three.
-const THRESHOLD_ITERATIONS: usize = 30;
 
 /// Errors of an eigenvalue within which it is on the imaginary axis. Unit: `[1]`. Why: errors are known to first order.
 /// Test: `thresholds_are_located`.
@@ -58,7 +52,8 @@ struct Signature {
 pub(super) fn between(low: &Found, high: &Found, model: &impl Fn(&Found, f64) -> Result<Found>) -> Vec<Threshold> {
     let mut found = Vec::new();
     let mut start = low.clone();
-    while signature(&start) != signature(high) && found.len() < THRESHOLDS {
+    // Each costs some 30 models.
+    while signature(&start) != signature(high) && found.len() < 8 {
         let Some((below, above)) = bracket(&start, high, model) else { break };
         found.extend(locate(&below, &above, model));
         start = above;
@@ -129,7 +124,8 @@ fn root(
     if low.1 * high.1 > 0.0 {
         return Some((at, eigenvalue));
     }
-    for _ in 0..THRESHOLD_ITERATIONS {
+    // A straight function takes three.
+    for _ in 0..30 {
         at = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
         let is_inside = (at - low.0) * (at - high.0) < 0.0;
         if !is_inside || (high.0 - low.0).abs() <= tolerances::ROUND_OFF_OF_SUMS * at.abs() {

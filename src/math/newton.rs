@@ -6,18 +6,9 @@ use crate::tolerances;
 /// Rate of convergence of an iteration that needed one correction. Unit: `[1]`. Why: no second change tells it.
 const RATE_AT_ONCE: f64 = 1e-3;
 
-/// Below the stagnation tolerance changes that shrink by less than this no longer fall. Unit: `[1]`. Why: true
-/// convergence is faster, round-off has a rate of one. Test:
-/// `changes_that_do_not_contract_are_given_up_unless_they_are_round_off`.
-const STAGNANT: f64 = 0.9;
-
 /// Two sizes at which iterations of a longer and a shorter step no longer fall are of the same round-off up to this
 /// factor. Unit: `[1]`. Why: a step is halved at least, which would change the convergence by more.
 const ROUND_OFF_ALIKE: f64 = 10.0;
-
-/// Part of the tolerance up to which a change that no longer falls, as that of a longer step, is accepted as round-off.
-/// Unit: `[1]`. Why: a digit is left for the error of the step.
-const ROUND_OFF_TOLERABLE: f64 = 0.1;
 
 /// A matrix whose corrections shrink by less does not serve its own system. Unit: `[1]`. Test:
 /// `constraints_hold_and_the_penalty_does_not_matter`.
@@ -158,7 +149,8 @@ impl Monitor {
     /// otherwise each would have to be shorter than the one before.
     fn is_round_off(&self, change: f64) -> bool {
         let is_met_again = change <= ROUND_OFF_ALIKE * self.stalled && self.stalled <= ROUND_OFF_ALIKE * change;
-        change <= self.limits.stagnation || change <= ROUND_OFF_TOLERABLE && is_met_again
+        // A digit is left for the error of the step.
+        change <= self.limits.stagnation || change <= 0.1 && is_met_again
     }
 
     fn watch(&mut self, change: f64) -> Verdict {
@@ -177,7 +169,7 @@ impl Monitor {
                 self.slowest = self.slowest.max(ratio);
             }
             let limit = tolerances::DIVERGED[usize::from(self.iterations > 2)];
-            let is_stagnant = self.iterations > 2 && change <= stagnation && self.rate > STAGNANT;
+            let is_stagnant = self.iterations > 2 && change <= stagnation && self.rate > tolerances::STAGNANT;
             let has_diverged = self.rate > limit && self.iterations > patience;
             if self.rate.is_nan() || is_stagnant || ratio > contraction || has_diverged {
                 return Verdict::Diverged;

@@ -5,9 +5,6 @@ use crate::math::eigen::{Complex, Matrix};
 use serde::Serialize;
 use std::fmt;
 
-/// A mode that is slower is one of rounding, or as good as none. Unit: `[1/s]`.
-const SLOWEST_MODE: f64 = 1e-6;
-
 /// The mode exp(-decay t) cos(swing t) of an eigenvalue -decay + i swing and its conjugate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SpectralMode {
@@ -27,7 +24,8 @@ impl SpectralMode {
 impl fmt::Display for SpectralMode {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.decay, self.swing) {
-            _ if self.rate() < SLOWEST_MODE => write!(out, "neither swings nor decays"),
+            // Slower ones are rounding, or as good as none.
+            _ if self.rate() < 1e-6 => write!(out, "neither swings nor decays"),
             (decay, swing) if swing > decay.abs() => write!(out, "swings at {} rad/s", two_digits(swing)),
             (decay, _) if decay < 0.0 => write!(out, "grows at {} 1/s", two_digits(-decay)),
             (decay, _) => write!(out, "decays at {} 1/s", two_digits(decay)),

@@ -4,10 +4,6 @@ use super::{Sparse, SpectralMode};
 use crate::math::array::Each;
 use crate::math::{dot, norm};
 
-/// Iterations for the fastest mode alone. Unit: `[iterations]`. Why: a few percent where others are as fast. Test:
-/// `shipped_scenes_are_not_warned_of`.
-const POWER_ITERATIONS: usize = 60;
-
 /// The fastest modes, by power iteration of (x, v) -> (v, -Z Z^T (K x + C v)); `accelerate` returns Z Z^T f, the
 /// accelerations due to a force f alone, and `None` where these are not finite.
 pub fn fastest(
@@ -24,7 +20,8 @@ pub fn fastest(
         c.add_product(v, -1.0, &mut force);
         accelerate(force)
     };
-    for _ in 0..POWER_ITERATIONS {
+    // A few per cent are left where others are as fast.
+    for _ in 0..60 {
         let a = follow(&x, &v)?;
         let size = norm(&a) + norm(&v);
         if size == 0.0 {

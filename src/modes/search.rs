@@ -6,18 +6,8 @@ use crate::math::eigen::{Complex, Matrix, Options, Partial, Scalar, Unsolved, ne
 use crate::math::kkt::Singular;
 use crate::tolerances;
 
-/// Imaginary parts that are rounding. Unit: `[1]` of the distance to the shift. Why: real double eigenvalues split by
-/// the root of the residual.
-const REAL_MODE: f64 = 1e-5;
-
-/// Eigenvectors that a real basis has of a conjugate are no new ones below this. Unit: `[1]`, square of their length.
-const NEW_MODE: f64 = 1e-6;
-
 /// The shift for the slowest modes, off the eigenvalues 0 of rigid bodies. Unit: `[1]` of the last of them.
 const SHIFT_OF_SLOWEST: f64 = 0.02;
-
-/// Distance of another shift from one that is an eigenvalue. Unit: `[1]` of itself.
-const SHIFT_BESIDE: f64 = 1e-3;
 
 type C = Complex<f64>;
 
@@ -73,7 +63,7 @@ pub fn find<'a>(equations: [&'a Quadratic; 2], count: usize, shift: C) -> Result
     let each = if shift.im > 0.0 { 1 } else { 2 };
     let mut wanted = (each * count + count / 8 + 6).min(equations[0].finite);
     let (sigma, rate) = if shift.norm() > 0.0 {
-        (shift + SHIFT_BESIDE * shift.norm(), shift.norm())
+        (shift + tolerances::UNSEEN * shift.norm(), shift.norm())
     } else {
         slowest(equations[0], &mut wanted)?
     };
@@ -146,11 +136,11 @@ fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolve
         };
         let rates = partial.values.iter().map(|theta| (used + theta.inv()).norm());
         let last = rates.fold(0.0, f64::max);
-        if last < tolerances::ROUNDING_OF_K * fastest && *count < equations.finite {
+        if last < tolerances::HALF_OF_THE_DIGITS * fastest && *count < equations.finite {
             *count = (2 * *count).min(equations.finite);
             continue;
         }
-        let next = (SHIFT_OF_SLOWEST * last).max(tolerances::ROUNDING_OF_K * fastest);
+        let next = (SHIFT_OF_SLOWEST * last).max(tolerances::HALF_OF_THE_DIGITS * fastest);
         if used <= last && used >= 1e-4 * last || next >= used && sigma < used {
             return Ok((C::from(next), last.max(next)));
         }
@@ -179,7 +169,8 @@ fn modes<T: Scalar>(partial: &Partial<T>, cut: usize, sigma: C, shift: C) -> usi
     let values = partial.values.iter().take(cut).map(|theta| (sigma + theta.inv(), theta.norm().recip()));
     let inside = values.filter(|(value, _)| (value - shift).norm() <= radius);
     let halves = inside.map(|(value, far)| match value.im {
-        im if im.abs() <= REAL_MODE * far => 1,
+        // Real double eigenvalues split by the root of the residual.
+        im if im.abs() <= 1e-5 * far => 1,
         im if im > 0.0 => 2,
         _ => 0,
     });
@@ -194,7 +185,8 @@ fn real<T: Scalar>(partial: &Partial<T>, cut: usize, scale: &[f64]) -> Space {
     let part = |i: usize, j: usize| if j < cut { q[(i, j)].real() } else { q[(i, j - cut)].imaginary() };
     let parts = Matrix::from_fn(q.nrows(), count, part);
     let gram = (parts.transpose() * &parts).symmetric_eigen();
-    let mut kept: Vec<usize> = (0..count).filter(|&j| gram.eigenvalues[j] > NEW_MODE).collect();
+    // A conjugate adds a real vector that is new, or its round-off, squared.
+    let mut kept: Vec<usize> = (0..count).filter(|&j| gram.eigenvalues[j] > 1e-6).collect();
     kept.sort_by(|&i, &j| gram.eigenvalues[j].total_cmp(&gram.eigenvalues[i]));
     let weights =
         Matrix::from_fn(count, kept.len(), |i, j| gram.eigenvectors[(i, kept[j])] / gram.eigenvalues[kept[j]].sqrt());

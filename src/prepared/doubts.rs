@@ -11,18 +11,6 @@ use crate::system::{MechanicalSystem, Mechanism, Road, Scratch};
 use crate::tolerances;
 use std::f64::consts::FRAC_PI_2;
 
-/// Assembly that moves a position by so many lengths of the mechanism may have found another configuration than the one
-/// that was meant. Unit: `[1]`.
-const ASSEMBLY_MOVED: f64 = 1.0;
-
-/// A tyre whose wheel starts above the road by more pulls it down. Unit: `[1]` of the radius. Why: below a static
-/// compression of some 5 %. Test: `a_tyre_that_pulls_or_sinks_is_said`.
-const TYRE_PULLS: f64 = 1e-2;
-
-/// A guess whose axes have a smaller cosine has them against each other. Unit: `[1]`. Why: within 26 degrees of
-/// opposite.
-const AXES_AGAINST: f64 = -0.9;
-
 /// Warnings about the scene alone.
 pub fn of_scene(mechanism: &AnyMechanism) -> &[Warning] {
     match mechanism {
@@ -56,7 +44,7 @@ pub fn doubts(mechanism: &AnyMechanism, guess: &[f64], assembly: &Assembly, has_
 /// Tyres that pull their wheels down at the start.
 pub fn pulling(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Vec<Warning> {
     let roads = system.roads(t, q, v, &mut Scratch::default());
-    let pulls = |road: &&Road| !road.lifts && road.load < 0.0 && road.compression() < -TYRE_PULLS;
+    let pulls = |road: &&Road| !road.lifts && road.load < 0.0 && road.compression() < -tolerances::TOLD;
     let warning = |road: &Road| {
         let above = significant(road.clearance - road.radius, 2);
         let force = significant(-road.load, 2);
@@ -116,7 +104,7 @@ fn moved_far(moves: &[Move], length: f64) -> Option<Warning> {
     let is_far = |step: &&Move| {
         let (_, coordinate) = step.name.rsplit_once('.').unwrap_or(("", &step.name));
         match coordinate {
-            "x" | "y" | "z" => (step.to - step.from).abs() > ASSEMBLY_MOVED * length,
+            "x" | "y" | "z" => (step.to - step.from).abs() > length,
             _ => false,
         }
     };
@@ -141,7 +129,8 @@ fn turned_over(mechanism: &Mechanism<3>, guess: &[f64], q: &[f64]) -> Vec<Warnin
         mechanism.model().joints.iter().map(cosine).collect::<Vec<f64>>()
     };
     let joints = mechanism.model().joints.iter().zip(cosines(guess).into_iter().zip(cosines(q)));
-    let over = joints.filter(|(_, (guess, found))| *guess > AXES_AGAINST && *found < 0.0);
+    // Guesses within 26 degrees of opposite had them so.
+    let over = joints.filter(|(_, (guess, found))| *guess > -0.9 && *found < 0.0);
     let warning = |(joint, _): (&ModelJoint<3>, _)| {
         Warning::new(
             format!(

@@ -9,10 +9,6 @@ use crate::scene::Connection;
 use crate::simulate::Method;
 use crate::system::{MechanicalSystem, Mechanism, Scratch};
 
-/// Coordinates count as far from the origin from here on. Unit: `[1]` of the longest lever of the joints. Why: nearer
-/// ones are rounded by 1e-12 of it. Test: `a_tolerance_below_the_rounding_of_positions_is_refused`.
-const FAR_FROM_ORIGIN: f64 = 1e4;
-
 /// Rounding of a lever that steps can be controlled with. Unit: `[1]` of rtol. Why: with 2 a double pendulum took three
 /// times the steps, with 20 two hundred times. Test: `a_tolerance_below_the_rounding_of_positions_is_refused`.
 const ROUNDING_TOLERATED: f64 = 4.0;
@@ -27,7 +23,8 @@ pub fn refuse_rounding(mechanism: &AnyMechanism, q: &[f64], method: &Method) -> 
     let system = mechanism.system();
     let far = largest(system.dimensions().without_turns(q));
     let rounding = f64::EPSILON * far / lever;
-    let is_far = far > FAR_FROM_ORIGIN * lever && rounding > ROUNDING_TOLERATED * method.rtol;
+    // Nearer ones are rounded by 1e-12 of the lever.
+    let is_far = far > 1e4 * lever && rounding > ROUNDING_TOLERATED * method.rtol;
     if method.step.is_some() || lever == 0.0 || !is_far {
         return Ok(());
     }

@@ -14,11 +14,8 @@ use crate::scene::{BeamLine, Model, Part};
 use crate::simplify::Hints;
 use crate::simulate::{SpectralMode, refused};
 use crate::system::{Group, OperatingPoint};
+use crate::tolerances;
 use serde::Serialize;
-
-/// Accelerations of a start that rests. Unit: `[1]` of the largest that single forces make. Why: those of a scene whose
-/// data are given to seven digits.
-const RESTING_START: f64 = 1e-6;
 
 /// Size of a model, and its rank and conditioning at the start.
 #[derive(Clone, Debug, Serialize)]
@@ -295,7 +292,7 @@ impl Start {
         Start {
             velocity,
             acceleration,
-            is_equilibrium: velocity == 0.0 && largest(vdot) < RESTING_START,
+            is_equilibrium: velocity == 0.0 && largest(vdot) < tolerances::SIX_DIGITS,
             outputs: OutputValues::at(prepared.system(), at),
         }
     }

@@ -93,7 +93,7 @@ impl SweepAnswer<'_> {
     fn singular_line(&self) -> String {
         let Nearest { value, rank_indicator } = self.sweep.nearest_singular;
         let place = format!("{} = {}", self.sweep.range.parameter, significant(value, 8));
-        if rank_indicator < tolerances::TOLD_SINGULAR {
+        if rank_indicator < tolerances::UNSEEN {
             format!("  SINGULAR at {place}: distance {rank_indicator:.1e}\n")
         } else {
             format!("  nearest to a singular state at {place}: distance {rank_indicator:.1e} (1 is far)\n")

@@ -7,10 +7,6 @@ use crate::formulation::Statistics;
 use crate::tolerances;
 use crate::trajectory::Gap;
 
-/// Steps that end at round-off, from which on they deserve a warning. Unit: `[1]` of all steps. Test:
-/// `errors_at_round_off_are_told`.
-const STEPS_AT_ROUND_OFF: f64 = 0.1;
-
 pub fn warnings(record: &Record) -> Vec<Warning> {
     let energy = record.energy.as_ref().filter(|energy| energy.is_open()).map(open_balance);
     let energy = energy.or_else(|| record.worst_step.is_alone().then(|| energy_jump(&record.worst_step)));
@@ -40,15 +36,14 @@ pub fn at_round_off(&Statistics { steps, stagnated, .. }: &Statistics) -> Option
         || format!("{stagnated} of {steps} steps end at round-off, not at the tolerance: errors are larger than that");
     let hint = "a looser --rtol gives the same in less time; --check-error measures errors; for smaller ones choose a \
                 method of higher order, such as dop853, or radau_iia for stiff motions";
-    (stagnated as f64 > STEPS_AT_ROUND_OFF * steps as f64).then(|| Warning::new(text(), hint))
+    (stagnated as f64 > 0.1 * steps as f64).then(|| Warning::new(text(), hint))
 }
 
 fn open_joints(drift: &Drift) -> Option<Warning> {
     let open = drift.position.relative_final;
     let text =
         || format!("the joints have come apart by {open:.1e} of the scene's size: the motion is not that of the scene");
-    (open > tolerances::JOINTS_OPEN)
-        .then(|| Warning::new(text(), "choose a projection such as `manifold`, or a smaller step"))
+    (open > tolerances::TOLD).then(|| Warning::new(text(), "choose a projection such as `manifold`, or a smaller step"))
 }
 
 fn open_balance(energy: &EnergyBalance) -> Warning {

@@ -9,13 +9,6 @@ use crate::body::flexible::{Profile, Section, gauss_legendre, on_interval};
 use crate::force::Half;
 use crate::math::array::from_fn;
 
-/// Rotary inertia of a planar node without that of its section, for M must have an inverse. Unit: `[1]` of its mass and
-/// the square of the element's length. Why: it lowers the square of a frequency by this part of (k h)^2, k being the
-/// wave number and h the length, and lumping the mass by (k h)^4/720: this is the smaller part unless k h < 0.27, where
-/// both are below 1e-5. A smaller one makes the nodes' own rotation faster: here it is forty times as fast as the
-/// shortest wave.
-const SECTION_INERTIA: f64 = 1e-4;
-
 /// Gauss points on an element.
 const POINTS: usize = 6;
 
@@ -86,7 +79,10 @@ impl NodeMass {
     pub fn about(&self) -> [f64; 2] {
         from_fn(|i| match self.sum(|lump| lump.rotary[i]) {
             inertia if inertia > 0.0 => inertia,
-            _ => SECTION_INERTIA * self.mass() * self.longest().powi(2),
+            // Rotary inertia, for M must have an inverse. It lowers the square of a frequency by 1e-4 (k h)^2, with the
+            // wave number k and the length h, and lumping lowers it by (k h)^4/720. The first part is the smaller one
+            // unless both are below 1e-5. The nodes' own rotation is forty times as fast as the shortest wave.
+            _ => 1e-4 * self.mass() * self.longest().powi(2),
         })
     }
 

@@ -15,13 +15,10 @@ use crate::prepared::Model;
 use crate::simulate::{Method, atol_of};
 use crate::study::work_precision::tighter;
 use crate::study::{Motion, SecondOpinion, Watched, second_opinion};
+use crate::tolerances;
 use crate::trajectory::recorded;
 use serde_json::json;
 use std::time::Duration;
-
-/// The tightest relative tolerance that a model is measured by. Unit: `[1]`. Why: the accurate run that it is measured
-/// against is a tenth of that at least, where round-off begins.
-const TIGHTEST: f64 = 1e-12;
 
 /// Kind of the trials of methods.
 pub const METHOD: &str = "method";
@@ -151,7 +148,7 @@ impl Base {
                 let order = integrator::find(&method.integrator).map_or(1, |entry| entry.order);
                 Method { step: Some(rounded(step * part.powf(1.0 / order as f64), 0)), ..method.clone() }
             }
-            None => at(method, (part * method.rtol).max(TIGHTEST)),
+            None => at(method, (part * method.rtol).max(10.0 * tolerances::TIGHTEST)),
         })
         .filter(|finer| finer.step < method.step || finer.rtol < method.rtol)
     }

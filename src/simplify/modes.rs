@@ -4,7 +4,7 @@ use crate::error::{Error, Result, Warning, percent, significant};
 use crate::linearize::{Complex, Fate, Linear, LinearModel, State, against, damping, frequency, linearize};
 use crate::method_spec::MethodSpec;
 use crate::prepared::Model;
-use crate::tolerances::UNSEEN_MODE;
+use crate::tolerances::UNSEEN;
 
 /// Velocities of the largest scene of which all modes are computed, with some 40 matrices of that size.
 const MOST: usize = 300;
@@ -49,7 +49,7 @@ pub fn lost(richest: &Model, simpler: &Model) -> Vec<Warning> {
     // Off equilibrium eigenvalues do not tell what grows. Values are without rounding.
     let grows = |value: Complex<f64>| is_at_rest && value.re > 0.0;
     // What grows is seen in the end, however little of it outputs see at first.
-    let is_told = |mode: &&Fate| mode.seen > SEEN || grows(mode.value) && mode.seen > UNSEEN_MODE;
+    let is_told = |mode: &&Fate| mode.seen > SEEN || grows(mode.value) && mode.seen > UNSEEN;
     let seen = || found.modes.iter().filter(is_told);
     // Of a mode that grows and its image that decays as fast, as of what stands upright, the first is told.
     let is_image = |mode: &Fate| mode.value.re < 0.0 && seen().any(|other| is_opposite(other.value, mode.value));

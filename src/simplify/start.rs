@@ -19,14 +19,6 @@ use crate::tolerances;
 use serde::Serialize;
 use std::path::Path;
 
-/// A change of the scene that is estimated, from the start alone, to have less of an effect looks harmless. Unit:
-/// `[1]`, as the estimates. Test: `a_light_link_looks_superfluous_and_a_heavy_one_does_not`.
-const SUPERFLUOUS: f64 = 1e-3;
-
-/// The square of a phase of a shape that is smaller is rounding. Unit: `[1]` of the largest component. Why: the square
-/// of what rounding leaves of double eigenvalues.
-const NO_PHASE: f64 = 1e-6;
-
 /// The largest rotation of the small motions, rad, and their largest displacement, of the length of the scene: far
 /// enough that what moves by the second order, as at a dead centre, is told from what rests.
 const REACH: f64 = 0.3;
@@ -95,10 +87,10 @@ pub fn hints(prepared: Model, path: &Path, overrides: &Overrides, candidates: &[
     // Without outputs nothing is known of what counts.
     let parts = if watched.is_empty() { vec![1.0; modes.len()] } else { seen(&modes, time) };
     let is_seen: Vec<&Mode> =
-        modes.iter().zip(&parts).filter(|(_, part)| **part >= tolerances::UNSEEN_MODE).map(|(mode, _)| *mode).collect();
+        modes.iter().zip(&parts).filter(|(_, part)| **part >= tolerances::UNSEEN).map(|(mode, _)| *mode).collect();
     let slowest_seen = is_seen.iter().map(|mode| mode.value.norm()).reduce(f64::min);
     let states = small_motions((&prepared, &lines(&source, &prepared)), &is_seen, time);
-    let unseen = modes.iter().zip(&parts).filter(|(_, part)| **part < tolerances::UNSEEN_MODE);
+    let unseen = modes.iter().zip(&parts).filter(|(_, part)| **part < tolerances::UNSEEN);
     let names = prepared.system().facts().names.v.clone();
     let unseen = unseen.map(|(mode, part)| unseen_mode(mode, *part, &names)).collect();
     let mut dynamics = Dynamics::new(prepared.system());
@@ -116,7 +108,7 @@ fn harmless(facts: &Facts, candidate: &dyn Candidate) -> Vec<Hint> {
     let mut found: Vec<(String, usize, Hint)> = Vec::new();
     for Proposal { subject, what, why, effect, edit } in candidate.propose(facts) {
         let mut scene = facts.scene().clone();
-        let changed = if effect < SUPERFLUOUS { edit(&mut scene) } else { continue };
+        let changed = if effect < tolerances::UNSEEN { edit(&mut scene) } else { continue };
         let changed = changed.and_then(|()| mechanism(&facts.source, &facts.watched, &scene));
         let Ok(Dimensions { v, lambda, .. }) = changed.map(|model| model.system().dimensions()) else { continue };
         let saved = v + lambda;
@@ -205,7 +197,8 @@ fn end(mode: &Mode, time: f64) -> Vec<[Vec<f64>; 2]> {
     let phases: [fn(&Complex<f64>) -> f64; 2] = [|x| x.re, |x| x.im];
     let parts = phases.map(|part| mode.shape.iter().map(part).collect::<Vec<f64>>());
     let speed = 1.0 / mode.mass.sqrt();
-    let is_there = |part: &Vec<f64>| size.is_finite() && largest(part).powi(2) > NO_PHASE;
+    // The square of what rounding leaves of double eigenvalues.
+    let is_there = |part: &Vec<f64>| size.is_finite() && largest(part).powi(2) > 1e-6;
     let motion = |part: Vec<f64>| [size, speed].map(|factor| part.iter().map(|x| factor * x).collect());
     parts.into_iter().filter(is_there).map(motion).collect()
 }

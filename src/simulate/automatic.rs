@@ -33,16 +33,6 @@ const BEGINNING: f64 = 0.1;
 /// tell which of two methods is the better one.
 const FAR_AHEAD: f64 = 30.0;
 
-/// Runs that stop again so near are not helped by the other method. Unit: `[1]` of the span. Nor would
-/// augmented_lagrangian help at singular states: it comes over those of n_four_bar, but 1e-4 to 1e-2 beside the motion.
-const STOPS_AGAIN: f64 = 1e-6;
-
-/// Work at most that an advice looks at at a time. Unit: `[evaluations]`.
-const ADVICE_WORK: f64 = 2e4;
-
-/// This part of the work that is left says enough of it. Unit: `[1]`.
-const TRIAL_SHOWS: f64 = 0.1;
-
 /// A part of a run with one method, and the reason for that method in one or two sentences.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Leg {
@@ -225,14 +215,15 @@ impl<'a> Drive<'a> {
         if failure.is_none() {
             return self.run.is_paused(sink);
         }
-        let is_again = self.run.t - self.leg.from < STOPS_AGAIN * (self.span.end - self.span.start);
+        let is_again = self.run.t - self.leg.from < tolerances::SIX_DIGITS * (self.span.end - self.span.start);
         self.stopped = if is_again { self.stopped + 1 } else { 1 };
         sink.stops().is_some() || self.stopped == self.methods.len()
     }
 
     /// True if the work since `mark` is representative of the motion: a good part of what is left at that pace.
     fn is_known(&self, mark: Mark) -> bool {
-        self.window > ADVICE_WORK || self.run.mark().work > TRIAL_SHOWS * self.run.left(mark)
+        // Evaluations; a tenth of the work that is left says enough of it.
+        self.window > 2e4 || self.run.mark().work > 0.1 * self.run.left(mark)
     }
 
     /// Another method and the reason, if it should continue: after the work since `mark`, or after a failure.

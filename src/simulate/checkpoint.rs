@@ -8,7 +8,7 @@ use crate::formulation::Statistics;
 use crate::math::expression::Switch;
 use crate::math::{Piece, Thresholds};
 use crate::system::{MechanicalSystem, Need, Scratch, Terms, check_start};
-use crate::tolerances::JOINTS_OPEN;
+use crate::tolerances::TOLD;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -125,7 +125,7 @@ impl Checkpoint {
         let scales = system.facts().scales.clone();
         let gap = |row: usize| terms.phi[row].abs() / scales[row];
         let widest = (0..n.lambda).max_by(|a, b| gap(*a).total_cmp(&gap(*b)));
-        let Some(row) = widest.filter(|row| gap(*row).is_nan() || gap(*row) > JOINTS_OPEN) else { return Ok(()) };
+        let Some(row) = widest.filter(|row| gap(*row).is_nan() || gap(*row) > TOLD) else { return Ok(()) };
         let group = system.facts().groups().into_iter().find(|group| group.rows.contains(&row));
         let name = group.map_or(String::new(), |group| group.name);
         let gap = short(terms.phi[row]);

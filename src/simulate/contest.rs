@@ -21,25 +21,12 @@ const IMPLICIT_WORK: f64 = 3.0;
 /// Why: with the steps that it refuses again and again they are a quarter of it on average.
 const STABILITY_HOLDS: f64 = 0.1;
 
-/// Steps of an implicit method up to so long leave an explicit one worth trying. Unit: `[1]` of the longest stable
-/// step.
-const EXPLICIT_AGAIN: f64 = 20.0;
-
-/// The longest stable step of methods without a limit of their own. Unit: `[1]`, |lambda| h. Why: that of dop853.
-const STABLE_STEP: f64 = 6.1;
-
 /// Least work of a trial. Unit: `[evaluations]`. Why: the first steps of radau_iia, each up to five times the one
 /// before, and of bdf, each twice.
 const TRIAL_WORK: f64 = 300.0;
 
 /// Work of a trial, and what it is worth of what is left. Unit: `[1]` of the work it is compared with.
 const TRIAL_SHARE: f64 = 0.25;
-
-/// Steps grow where the next one is so many times their mean. Unit: `[1]`.
-const STEPS_GROW: f64 = 2.0;
-
-/// How often a run that is watched goes on for that. Unit: `[times]`.
-const WATCHED_AGAIN: usize = 5;
 
 /// Time reached by a run, s, the work of its steps in evaluations, and their number. Output rows do not count, so that
 /// the choice of a method does not depend on them.
@@ -136,7 +123,8 @@ impl TimeLoop<'_> {
     ) -> (Mark, Option<Failure>) {
         let mut mark = self.mark();
         let most = mark.work + most;
-        for _ in 0..=WATCHED_AGAIN {
+        // A run whose steps still grow is watched again.
+        for _ in 0..=5 {
             let start = self.mark();
             for part in [0.5, 1.0] {
                 self.allowance = start.work + part * work;
@@ -148,7 +136,7 @@ impl TimeLoop<'_> {
                 }
             }
             let growth = self.h / self.step_since(mark);
-            let has_grown = growth < STEPS_GROW;
+            let has_grown = growth < 2.0;
             if self.is_paused(sink) || has_grown || self.mark().work + work > most || is_enough(self, mark, growth) {
                 break;
             }
@@ -180,9 +168,10 @@ impl TimeLoop<'_> {
         dynamics.solve(self.t, q, v, |_, _| 0.0).ok()?;
         let mode = fastest(system, OperatingPoint { t: self.t, q, v, vdot: &dynamics.vdot, lambda: &dynamics.lambda })?;
         let stability = self.entry.stability.map(|stability| stability());
-        let limit = stability.as_ref().map_or(STABLE_STEP, |stability| stability.limit(mode.decay, mode.swing));
+        // That of dop853, for methods without a limit of their own.
+        let limit = stability.as_ref().map_or(6.1, |stability| stability.limit(mode.decay, mode.swing));
         let part = step * mode.rate() / limit;
-        let is_between = if self.is_explicit { part > STABILITY_HOLDS } else { part < EXPLICIT_AGAIN };
+        let is_between = if self.is_explicit { part > STABILITY_HOLDS } else { part < 20.0 };
         Some(View { mode, step, is_between })
     }
 

@@ -11,11 +11,6 @@ const TURNS_IN_WINDOW: usize = 250;
 /// `[windows]`.
 const WINDOWS_IN_ROW: usize = 4;
 
-/// Turns before a run, at the rate of the last window, with which it does not come to its end where the last windows
-/// were each shorter and slower than the one before. Unit: `[turns]`. Why: the motion comes to rest at the threshold,
-/// and the turns get ever more.
-const TURNS_IN_DECAY: f64 = 1e5;
-
 /// Statistics of the threshold passages of a run, in windows of a fixed number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Crowd {
@@ -59,7 +54,8 @@ impl Crowd {
         let duration = self.last?.duration;
         let ahead = TURNS_IN_WINDOW as f64 * left / duration;
         let is_endless = ahead > tolerances::TURNS
-            || self.decaying >= WINDOWS_IN_ROW && ahead > TURNS_IN_DECAY
+            // The turns of a motion that comes to rest at the threshold get ever more.
+            || self.decaying >= WINDOWS_IN_ROW && ahead > 1e5
             || self.unseen >= WINDOWS_IN_ROW;
         is_endless.then_some((TURNS_IN_WINDOW, duration))
     }

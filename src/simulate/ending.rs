@@ -6,15 +6,8 @@ use crate::formulation::StepError;
 use crate::math::largest_in;
 use crate::tolerances;
 
-/// Steps that together come no farther than CRAWL end the run. Unit: `[steps]`.
+/// Steps that together come no farther than 1e-8 of the span end the run. Unit: `[steps]`.
 const CRAWLING_STEPS: usize = 50_000;
-
-/// Part of the span that CRAWLING_STEPS must exceed. Unit: `[1]` of the span. Why: at this rate a run takes 5e12 steps.
-const CRAWL: f64 = 1e-8;
-
-/// Joints that are open by this end a run: its motion is not that of the scene. Unit: `[1]` of the scene's size. Why:
-/// half of the size. Test: `joints_that_come_apart_are_a_failure`.
-const JOINTS_APART: f64 = 0.5;
 
 const SINGULAR: &str = "this tolerance is too near to round-off there: try a looser one, or a fixed --step with `rk4`, which \
      goes over it";
@@ -26,7 +19,8 @@ impl TimeLoop<'_> {
     pub fn check_progress(&mut self) -> Result<(), Failure> {
         let (since, tries) = self.progress;
         let advanced = self.t - since;
-        if advanced > CRAWL * (self.span.end - self.span.start) {
+        // At this rate a run takes 5e12 steps.
+        if advanced > tolerances::ROOT_OF_ROUND_OFF * (self.span.end - self.span.start) {
             self.progress = (self.t, 0);
             return Ok(());
         }
@@ -41,7 +35,7 @@ impl TimeLoop<'_> {
     /// Ends a run whose joints have come apart.
     pub fn check_joints(&self) -> Result<(), Failure> {
         let open = largest_in(&self.scales, &self.problem.dynamics.terms.phi);
-        if open > JOINTS_APART {
+        if open > tolerances::LOST_MOTION {
             Err(self.failure(format!("the joints have come apart by {open:.1e} of the scene's size"), None))
         } else {
             Ok(())

@@ -11,22 +11,6 @@ use crate::math::{Piece, Side};
 use crate::system::MechanicalSystem;
 use crate::tolerances;
 
-/// A gap that reverses is on one line with itself before within this. Unit: `[1]`, sine of the angle. Why: round-off of
-/// positions over the gap; one that turns by half a revolution in a step passes it by chance once in a million steps.
-/// Test: `a_spring_passes_its_anchor`.
-const ON_ONE_LINE: f64 = 1e-7;
-
-/// A gap counts as closed within this. Unit: `[1]` of the scene's length. Why: the force that acts so much too long
-/// moves nothing beyond round-off. Test: `a_spring_passes_its_anchor`.
-const GAP_CLOSED: f64 = 1e-11;
-
-/// The line of a gap is held until it is open by this. Unit: `[1]` of the scene's length. Why: the direction of a
-/// shorter gap is rounded. Test: `a_spring_passes_its_anchor`.
-const GAP_OPEN: f64 = 1e-3;
-
-/// Looks at the dense output for the time at which a gap closes. Unit: `[looks]`. Why: it converges in ten.
-const LOOKS_AT_GAP: usize = 40;
-
 /// The gaps of a system at both ends of a step.
 pub struct Gaps {
     /// Numbers of their pieces.
@@ -53,7 +37,7 @@ impl Gaps {
         let b = &self.end[i];
         let along = dot(a, b);
         let across = dot(a, a) * dot(b, b) - along * along;
-        along < 0.0 && across <= (ON_ONE_LINE * along).powi(2)
+        along < 0.0 && across <= (tolerances::HALF_OF_THE_DIGITS * along).powi(2)
     }
 }
 
@@ -107,7 +91,8 @@ impl TimeLoop<'_> {
             let Some(side) = Side::of_piece(self.events.pieces[number]) else { continue };
             let start = side.component(&self.gaps.start[i]);
             let at_end = side.component(&self.gaps.end[i]);
-            let reach = GAP_CLOSED * self.problem.dynamics.system.facts().length;
+            // The force that acts so much too long moves nothing beyond round-off.
+            let reach = tolerances::ROUND_OFF_OF_PHI * self.problem.dynamics.system.facts().length;
             let is_closed_before = start <= reach;
             if at_end > reach || is_closed_before && at_end >= -reach {
                 continue;
@@ -143,7 +128,8 @@ impl TimeLoop<'_> {
         integrator.prepare(&mut rows.problem, step)?;
         let mut low = 0.0;
         let mut high = 1.0;
-        for _ in 0..LOOKS_AT_GAP {
+        // It converges in ten.
+        for _ in 0..40 {
             let theta = low + (high - low) * low_value / (low_value - high_value);
             integrator.interpolate(&mut rows.problem, step, theta, &mut rows.y)?;
             problem.dynamics.system.write_gaps(problem.split(&rows.y).0, &mut gaps.within);
@@ -168,7 +154,7 @@ impl TimeLoop<'_> {
         if self.gaps.numbers.is_empty() {
             return false;
         }
-        let far = GAP_OPEN * self.problem.dynamics.system.facts().length;
+        let far = tolerances::UNSEEN * self.problem.dynamics.system.facts().length;
         let closed = self.gaps.closed.take();
         let mut is_released = false;
         for (i, &number) in self.gaps.numbers.iter().enumerate() {

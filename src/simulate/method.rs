@@ -10,17 +10,6 @@ use crate::system::{Dimensions, MechanicalSystem};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
-/// Scenes of this length and more have one absolute tolerance. Unit: `[m]`. Why: README: a scene smaller than a
-/// centimetre gets 1e-8 of its length.
-const SHORT_SCENE: f64 = 1e-2;
-
-/// No absolute tolerance that nobody asked for is below. Unit: `[m, rad]`. Why: round-off leaves it of angles.
-const LEAST_ATOL: f64 = 1e-16;
-
-/// Errors of motions that amplify none are to be within so many tolerances. Unit: `[tolerances]`. Why: the promise of
-/// the README.
-const ERROR_OF_MOTION: f64 = 10.0;
-
 /// Velocities from which on a dense formulation deserves a word. Unit: `[velocities]`. Why: a step of a chain takes 100
 /// times as long as by index 1 there, with 300 600 times. Test: `dense_formulations_of_large_systems_are_warned_of`.
 const LARGE_FOR_DENSE: usize = 100;
@@ -102,7 +91,8 @@ impl Method {
     /// The default, with an absolute tolerance of 1e-8 of the length, m, of a scene that is smaller than a centimetre.
     pub fn of_length(length: f64) -> Self {
         let default = Method::default();
-        Method { atol: (default.atol * (length / SHORT_SCENE).min(1.0)).max(LEAST_ATOL), ..default }
+        // A scene shorter than a centimetre gets 1e-8 of its length, and no less than what round-off leaves of angles.
+        Method { atol: (default.atol * (length / 0.01).min(1.0)).max(1e-16), ..default }
     }
 
     /// Formulation + integrator + projection, the last where there is one.
@@ -137,7 +127,8 @@ impl Method {
         let entry = integrator::find(&self.integrator).ok()?;
         let asked = Tolerance::new(self.rtol, self.atol, system);
         let reached = entry.tightening.reached(&asked);
-        let is_beyond = self.step.is_none() && reached > ERROR_OF_MOTION * self.rtol;
+        // The promise of the README.
+        let is_beyond = self.step.is_none() && reached > 10.0 * self.rtol;
         is_beyond.then(|| {
             let name = entry.name;
             let rtol = short(self.rtol);

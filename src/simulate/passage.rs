@@ -6,33 +6,13 @@ use serde::{Deserialize, Deserializer, Serialize};
 /// Steps over singular states by which others are judged. Unit: `[steps]`. Test: `no_passage_is_wrong_in_silence`.
 const LOSSES_KNOWN: usize = 4;
 
-/// A step over a singular state that changes the energy balance by so many times the largest change before is refused.
-/// Unit: `[1]`. Why: those of good steps differ by up to 10; one that left the motion by 200 tolerances had 50. Test:
-/// `no_passage_is_wrong_in_silence`.
-const UNUSUAL_LOSS: f64 = 20.0;
-
-/// Steps of one passage of a singular state that are refused for their energy balance. Unit: `[steps]`. Why: with three
-/// some passages ended in steps without a size; what is accepted after that is told. Test:
-/// `no_passage_is_wrong_in_silence`.
-const LOSSES_REFUSED: usize = 1;
-
-/// A state whose rank indicator is below is near a singular one. Unit: `[1]` of the largest so far.
-const NEAR_SINGULAR: f64 = 0.1;
-
 /// A state whose rank indicator is below is singular to round-off: no step is placed from it. Unit: `[1]` of the
 /// largest so far. Test: `from_rest_at_a_change_point_it_goes_where_it_is_pushed_or_says_why_not`.
 const AT_SINGULAR: f64 = 1e-6;
 
-/// Steps near a singular state that are so short will not come over it. Unit: `[1]` of those far from it.
-const STUCK_AT_SINGULAR: f64 = 1e-8;
-
 /// How late a fixed step over a singular state may start, rather than after a step so short. Unit: `[1]` of the step.
 /// Test: `rk4_with_projection_keeps_its_order_through_the_folds`.
 const LATE_FIXED_STEP: f64 = 0.05;
-
-/// The local error of a step over a singular state. Unit: `[1]` of the error of the run. Why: there are few of them.
-/// Test: `rk4_with_projection_follows_the_reference`.
-const SINGULAR_SHARE: f64 = 0.1;
 
 /// The approach to a singular state, where G loses rank, by the rank indicator of a constraint row at the last accepted
 /// states, which falls to zero there linearly in time.
@@ -120,7 +100,9 @@ impl SingularPassage {
     /// True if a change of the energy balance is far beyond those of all steps over singular states so far: then the
     /// step is refused, once in a passage.
     pub fn refuses(&mut self, lost: f64) -> bool {
-        let is_unusual = self.known >= LOSSES_KNOWN && self.refused < LOSSES_REFUSED && lost > UNUSUAL_LOSS * self.lost;
+        let is_unusual =
+            // With three refused steps some passages ended in steps without a size.
+            self.known >= LOSSES_KNOWN && self.refused == 0 && lost > tolerances::UNUSUAL_LOSS * self.lost;
         self.refused += usize::from(is_unusual);
         is_unusual
     }
@@ -142,12 +124,12 @@ impl SingularPassage {
 
     /// True if the last state is near a singular one.
     pub fn is_near(&self) -> bool {
-        self.rank_indicator < NEAR_SINGULAR * self.largest
+        self.rank_indicator < tolerances::NEAR_SINGULAR * self.largest
     }
 
     /// True if steps of size `h` are too small to pass a singular state.
     pub fn is_stuck(&self, h: f64) -> bool {
-        self.may_be_singular() && h < STUCK_AT_SINGULAR * self.regular
+        self.may_be_singular() && h < tolerances::ROOT_OF_ROUND_OFF * self.regular
     }
 
     /// Time to the singular state at the last rate, s.
@@ -186,7 +168,8 @@ impl SingularPassage {
             return left;
         }
         let scale = (-self.largest / self.rate).min((self.largest / self.bend.abs()).sqrt());
-        let local_error = f64::EPSILON.max(SINGULAR_SHARE * (h / scale).powi(order as i32));
+        // There are few such steps.
+        let local_error = f64::EPSILON.max(0.1 * (h / scale).powi(order as i32));
         let longest = scale * local_error.powf(1.0 / (order as f64 + 1.0));
         let across = h.max(longest).min((end - ahead) / (1.0 - gap));
         let before = ahead - gap * across;

@@ -16,10 +16,6 @@ const FINER_PARTS: f64 = 0.125;
 /// at.
 const SHOWN_BY_CUBIC: f64 = 0.25;
 
-/// A time of the grid of fixed steps nearer than this is passed over. Unit: `[1]` of the step. Test:
-/// `a_run_is_stopped_between_steps`.
-const PASSED_GRID_TIME: f64 = 1e-3;
-
 /// A time at which a step must end.
 #[derive(Clone, Copy)]
 pub struct NextStop {
@@ -134,7 +130,7 @@ impl TimeLoop<'_> {
 
     /// The next time start + k h. Times are counted, not added up, so that round-off does not accumulate.
     fn next_of_grid(&self, h: f64) -> f64 {
-        let passed = ((self.t - self.span.start) / h + PASSED_GRID_TIME).floor();
+        let passed = ((self.t - self.span.start) / h + tolerances::UNSEEN).floor();
         self.span.start + (passed + 1.0) * h
     }
 

@@ -6,6 +6,7 @@
 use super::{Sink, TimeLoop};
 use crate::formulation::StepError;
 use crate::integrator::{From, Step};
+use crate::tolerances;
 
 /// Parts of a step between which the sign is compared. Unit: `[steps]`. Why: steps of dop853 are a third of an
 /// oscillation, in which a function may dip below zero and return. Test: `a_short_dip_is_found`.
@@ -14,21 +15,6 @@ const PARTS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// The place at which the sign is read first. Unit: `[steps]`. Why: a run that goes on from a root is on neither side.
 /// Test: `a_run_goes_on_from_root_to_root`.
 const FIRST_LOOK: f64 = 1e-6;
-
-/// A root this near to the end of the step is there. Unit: `[steps]`. Why: the dense output is exact at the end, and
-/// steps that are taken again come so near at once. Test: `a_fall_ends_at_the_ground`.
-const AT_END: f64 = 1e-12;
-
-/// A root this near to an end of the step is there. Unit: `[1]` of the span. Why: no step is shorter. Test:
-/// `a_jump_over_zero_is_an_event`.
-const NO_TIME: f64 = 1e-13;
-
-/// Width to which a root is enclosed. Unit: `[steps]`. Why: rounding of the function. Test:
-/// `a_fall_ends_at_the_ground`.
-const LOCATED: f64 = 1e-13;
-
-/// Evaluations at most to locate a root. Unit: `[evaluations]`. Why: the Illinois rule takes about ten.
-const LOOKS_AT_ROOT: usize = 100;
 
 /// The root that a run looks for.
 #[derive(Clone, Copy, Debug, Default)]
@@ -96,9 +82,10 @@ impl TimeLoop<'_> {
         self.roots.start = Some(start);
         let Some(bracket) = first_change((0.0, start), &mut self.roots.end, &mut look)? else { return Ok(None) };
         let theta = located(bracket, &mut look)?;
-        let no_time = (NO_TIME * (self.span.end - self.span.start)).max(f64::EPSILON * end.abs());
+        let no_time =
+            (tolerances::ROUND_OFF_OF_FACTORS * (self.span.end - self.span.start)).max(f64::EPSILON * end.abs());
         let is_at_start = theta * h <= no_time;
-        self.roots.is_at_end = (1.0 - theta) * h <= no_time.max(AT_END * h) && !is_at_start;
+        self.roots.is_at_end = (1.0 - theta) * h <= no_time.max(tolerances::ROUND_OFF_OF_SOLUTIONS * h) && !is_at_start;
         Ok(match theta {
             _ if is_at_start => Some(Root::AtStart),
             _ if self.roots.is_at_end => None,
@@ -131,8 +118,9 @@ fn located(
     look: &mut impl FnMut(f64) -> Result<f64, StepError>,
 ) -> Result<f64, StepError> {
     let sign = low.1.signum();
-    for _ in 0..LOOKS_AT_ROOT {
-        if high.1 == 0.0 || high.0 - low.0 <= LOCATED {
+    // The Illinois rule takes about ten.
+    for _ in 0..100 {
+        if high.1 == 0.0 || high.0 - low.0 <= tolerances::ROUND_OFF_OF_FACTORS {
             break;
         }
         let theta = low.0 + (high.0 - low.0) * low.1 / (low.1 - high.1);

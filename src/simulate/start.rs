@@ -6,13 +6,7 @@ use super::{Method, Span, TimeLoop};
 use crate::error::Failure;
 use crate::math::largest;
 use crate::system::MechanicalSystem;
-
-/// What round-off may leave of accelerations of constraints, and of their lengths, at a singular start. Unit: `[1]` of
-/// the usual ones.
-const CONTRADICTING_START: f64 = 1e-6;
-
-/// Velocities at a singular start that are none. Unit: `[1]` of what the accelerations would make over the run.
-const START_AT_REST: f64 = 1e-12;
+use crate::tolerances;
 
 const NO_BRANCH: &str = "the start is a singular state, with velocities that no motion through it has: constraints \
      that depend on each other there ask for different accelerations";
@@ -38,7 +32,8 @@ impl TimeLoop<'_> {
         let (dependent, contradiction) = dynamics.dependent_rows(self.t, q, v);
         let duration = self.span.end - self.span.start;
         let mut is_undetermined = false;
-        let is_at_rest = largest(&v[moving]) <= START_AT_REST * largest(&dynamics.vdot[moving]) * duration;
+        let is_at_rest =
+            largest(&v[moving]) <= tolerances::ROUND_OFF_OF_SOLUTIONS * largest(&dynamics.vdot[moving]) * duration;
         if !dependent.is_empty() && is_at_rest {
             let vdot = dynamics.vdot.clone();
             let (_, contradiction) = dynamics.dependent_rows(self.t, q, &vdot);
@@ -58,6 +53,6 @@ impl TimeLoop<'_> {
     /// and that would open joints during the run.
     fn is_contradiction(&self, (contradiction, usual): (f64, f64)) -> bool {
         let opened = contradiction * (self.span.end - self.span.start).powi(2);
-        contradiction > CONTRADICTING_START * usual && opened > CONTRADICTING_START * largest(&self.scales)
+        contradiction > tolerances::SIX_DIGITS * usual && opened > tolerances::SIX_DIGITS * largest(&self.scales)
     }
 }

@@ -7,15 +7,7 @@ use crate::integrator::From;
 use crate::math::largest;
 use crate::system::{Dimensions, Energy};
 use crate::tolerances;
-use crate::tolerances::ENERGY_ROUND_OFF;
-
-/// Smaller changes of the energy balance refuse no step. Unit: `[1]` of that by the tolerated errors of the state. Why:
-/// they move the motion by less than the tolerance. Test: `no_passage_is_wrong_in_silence`.
-const LOSS_SEEN: f64 = 0.1;
-
-/// Error of such a step. Unit: `[tolerated errors]`. Why: the next one is shorter by a half or so. Test:
-/// `no_passage_is_wrong_in_silence`.
-const REFUSED_FOR_ENERGY: f64 = 100.0;
+use crate::tolerances::ROUND_OFF_OF_SOLUTIONS;
 
 /// Round-off of a projection where the rows of G are well apart: near a singular state it is that over the square of
 /// the rank indicator. Unit: `[1]` of the largest state. Why: two operations; with ROUND_OFF, twice as much, motions
@@ -37,9 +29,6 @@ const SINGULAR_ENERGY: f64 = 2.0;
 /// Round-off of a projection above which a state is too near to a singular one. Unit: `[tolerated errors]`. Test:
 /// `from_rest_at_a_change_point_it_goes_where_it_is_pushed_or_says_why_not`.
 const SINGULAR_ROUND_OFF: f64 = 1e3;
-
-/// A dropped row may be open by so many times what the others are. Unit: `[1]`. Why: drift may open them all.
-const DROPPED_ROW_OPEN_OF_OTHERS: f64 = 1e3;
 
 /// True if an error in units of the tolerance refuses a step.
 pub fn is_too_large(error: f64) -> bool {
@@ -150,7 +139,8 @@ impl TimeLoop<'_> {
         }
         let relative = |row: usize| dynamics.terms.phi[row].abs() / self.scales[row];
         let kept = (0..self.scales.len()).filter(|row| !dynamics.dropped.contains(row)).map(relative);
-        let most = tolerances::ROUND_OFF_OF_PHI + DROPPED_ROW_OPEN_OF_OTHERS * kept.fold(0.0, f64::max);
+        // Drift may open them all.
+        let most = tolerances::ROUND_OFF_OF_PHI + 1e3 * kept.fold(0.0, f64::max);
         dynamics.dropped.iter().any(|row| relative(*row) > most)
     }
 
@@ -207,11 +197,13 @@ impl TimeLoop<'_> {
         };
         let Some(((start, _), (end, size))) = balance(self.t, y).zip(balance(t, next)) else { return 0.0 };
         let lost = (end - start).abs();
-        let round_off = ENERGY_ROUND_OFF * size;
-        let is_seen = lost > LOSS_SEEN * tolerated + round_off;
+        let round_off = ROUND_OFF_OF_SOLUTIONS * size;
+        // Less moves the motion by less than the tolerance.
+        let is_seen = lost > 0.1 * tolerated + round_off;
         if is_seen && self.approach.refuses(lost) {
             self.refusal = "the energy balance changes by far more than in the steps before";
-            return REFUSED_FOR_ENERGY;
+            // The next step is shorter by a half or so.
+            return 100.0;
         }
         self.lost = Some(lost.max(round_off));
         lost / (SINGULAR_ENERGY * tolerated + round_off)

@@ -10,17 +10,6 @@ use crate::system::{MechanicalSystem, OperatingPoint};
 use serde::Serialize;
 use std::fmt;
 
-/// What a rough estimate of the fastest mode may be off by. Unit: `[1]`. Test:
-/// `fixed_steps_that_are_too_long_are_told`.
-const DOUBTED_MODE: f64 = 0.5;
-
-/// Part of the limit of stability that is advised. Unit: `[1]`. Why: as of step control. Test:
-/// `fixed_steps_that_are_too_long_are_told`.
-const ADVISED_STEP: f64 = 0.9;
-
-/// Times the limit from which on another method deserves a word. Unit: `[1]`. Test: `shipped_scenes_are_not_warned_of`.
-const ANOTHER_METHOD: f64 = 3.0;
-
 /// Steps that an adaptive method may take for stability before anything is asked. Unit: `[steps]`. Test:
 /// `shipped_scenes_are_not_warned_of`.
 const STEPS_FOR_STABILITY: f64 = 150.0;
@@ -61,7 +50,8 @@ pub fn stiffness(
     // Far below the limits along its own direction and both axes no mode is critical.
     let is_slow = |rate: f64, directions: &[(f64, f64)]| {
         let mut limits = directions.iter().map(|&(decay, swing)| stability.limit(decay, swing));
-        limits.all(|limit| rate * longest < DOUBTED_MODE * limit)
+        // The estimate of the fastest mode is rough.
+        limits.all(|limit| rate * longest < 0.5 * limit)
     };
     let axes = [(1.0, 0.0), (0.0, 1.0)];
     if bound(system, state).is_some_and(|rate| is_slow(rate, &axes)) {
@@ -75,7 +65,7 @@ pub fn stiffness(
         Some(step) => (too_long(system, state, (step, duration), &stability)?, None),
         None => {
             let contest = rival(system, method, span, (state.q, state.v))?;
-            let gain = Some(contest.gain).filter(|gain| *gain > ANOTHER_METHOD)?;
+            let gain = Some(contest.gain).filter(|gain| *gain > 3.0)?;
             (contest.mode, Some(gain))
         }
     };
@@ -89,7 +79,8 @@ pub fn stiffness(
         stable_step,
         steps_for_stability: duration / stable_step,
         implicit_gain,
-        advice: advice(method, ADVISED_STEP * stable_step),
+        // As of step control.
+        advice: advice(method, 0.9 * stable_step),
     })
 }
 

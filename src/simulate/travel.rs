@@ -4,20 +4,13 @@ use super::{Sink, TimeLoop};
 use crate::error::Failure;
 use crate::initial::{Travel, TravelEnd};
 use crate::math::largest_in;
-
-/// Constraints that are open by more may be so because a driver is beyond its travel. Unit: `[1]` of their scales. Why:
-/// a look takes some factorizations. Test: `a_driver_beyond_its_travel_is_named`.
-const TRAVEL_OPEN: f64 = 1e-6;
+use crate::tolerances;
 
 /// Steps after which the travel of drivers is looked at where no rank indicator is known. Unit: `[steps]`. Why: a look
 /// takes as long as a few steps. Test: `a_driver_beyond_its_travel_is_named`.
 const TRAVEL_STEPS: usize = 20;
 
-/// A run that fails so soon before the end of a travel fails because of it. Unit: `[1]` of the span. Test:
-/// `a_driver_beyond_its_travel_is_named`.
-const TRAVEL_AHEAD: f64 = 1e-3;
-
-/// Steps tried that come no farther than TRAVEL_AHEAD: they may crawl towards the end of a travel. Unit: `[steps]`.
+/// Steps tried that come no farther than UNSEEN: they may crawl towards the end of a travel. Unit: `[steps]`.
 /// Why: a look takes as long as a few steps. Test: `a_driver_beyond_its_travel_is_named`.
 const TRAVEL_TRIES: usize = 500;
 
@@ -50,7 +43,7 @@ impl TimeLoop<'_> {
     /// rank is not known.
     pub fn check_travel(&mut self, t: f64) -> Result<(), Failure> {
         let open = largest_in(&self.scales, &self.problem.dynamics.terms.phi);
-        let is_doubtful = open > TRAVEL_OPEN || self.approach.may_be_singular();
+        let is_doubtful = open > tolerances::SIX_DIGITS || self.approach.may_be_singular();
         let Some(travelled) = &mut self.travelled else { return Ok(()) };
         travelled.steps += 1;
         let is_unknown = self.approach.is_unknown() && travelled.steps >= TRAVEL_STEPS;
@@ -76,7 +69,7 @@ impl TimeLoop<'_> {
             return Ok(());
         }
         let (since, _) = std::mem::replace(&mut travelled.crawl, (self.t, 0));
-        if self.t - since > TRAVEL_AHEAD * duration {
+        if self.t - since > tolerances::UNSEEN * duration {
             return Ok(());
         }
         let (q, _) = self.problem.split(&self.y);
@@ -86,7 +79,7 @@ impl TimeLoop<'_> {
 
     /// The failure of a run, whose reason may be the end of a travel near the last state.
     pub fn explained(&mut self, failure: Failure, sink: &dyn Sink) -> Failure {
-        let part = if self.approach.is_near() { TRAVEL_AHEAD_OF_CRAWL } else { TRAVEL_AHEAD };
+        let part = if self.approach.is_near() { TRAVEL_AHEAD_OF_CRAWL } else { tolerances::UNSEEN };
         let Some(travelled) = self.travelled.as_mut().filter(|_| sink.stops().is_none()) else { return failure };
         let (q, _) = self.problem.split(&self.y);
         let ahead = part * (self.span.end - self.span.start);

@@ -9,10 +9,6 @@ use crate::simulate::{Checkpoint, Leg, Method, Observation, Outcome, Sink, Span,
 use crate::system::{MechanicalSystem, Scratch};
 use crate::trajectory::Trajectory;
 
-/// Tolerance of a companion's steps over that of the run's steps, at least. Unit: `[1]`. Why: half of the tenfold
-/// tolerance that a companion has. Test: `steps_at_their_tightest_have_a_companion_with_longer_ones`.
-const COARSER_STEPS: f64 = 5.0;
-
 /// A completed run.
 #[derive(Clone, Copy, Debug)]
 pub struct Completed<'a> {
@@ -226,7 +222,8 @@ impl Changed {
         let of_steps = |rtol: f64| tightening.of_steps(&at(rtol)).rtol;
         let coarsest = method.rtol.max(COARSEST);
         let mut factor = if order < HIGH_ORDER && !is_at_round_off { 10.0 } else { 100.0 };
-        let least = COARSER_STEPS * of_steps(method.rtol);
+        // Half of the tenfold tolerance that a companion has.
+        let least = 5.0 * of_steps(method.rtol);
         while of_steps(factor * method.rtol) < least && factor * method.rtol < coarsest {
             factor *= 10.0;
         }

@@ -72,7 +72,7 @@ impl ErrorMetric {
         let scale = |(i, column): (usize, &Column)| {
             let part = match dimension_of(&column.unit) {
                 Some(Dimension::Energy) => 1.0,
-                _ => tolerances::ZERO_BY_SYMMETRY,
+                _ => tolerances::UNSEEN,
             };
             norm.size(metric.rows.iter().map(|row| row[i])).max(part * metric.scales[i])
         };

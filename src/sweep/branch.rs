@@ -7,13 +7,7 @@ use crate::math::array::Each;
 use crate::prepared::AnyMechanism;
 use crate::scene::Scene;
 use crate::system::{OperatingPoint, Scratch};
-
-/// Ends of a branch are found to this. Unit: `[1]` of the range. Why: the README promises a millionth.
-const PARAMETER_END: f64 = 1e-8;
-
-/// Distance at which the other branch is looked for beside an end. Unit: `[1]` of the range. Why: at a distance d the
-/// state is as far away as the root of d.
-const BRANCH_BESIDE: f64 = 1e-2;
+use crate::tolerances;
 
 /// An assembled state.
 #[derive(Clone)]
@@ -98,7 +92,7 @@ pub struct Branch<'a> {
 impl<'a> Branch<'a> {
     pub fn new(family: &'a Family, range: &'a Range, start: State) -> Self {
         let parameter = range.parameter.as_str();
-        let resolution = PARAMETER_END * range.length();
+        let resolution = tolerances::ROOT_OF_ROUND_OFF * range.length();
         let nearest = start.nearest();
         let redundant = start.dependent.len();
         Branch { family, parameter, resolution, last: start, before: None, nearest, redundant }
@@ -196,7 +190,8 @@ impl<'a> Branch<'a> {
         let last = &self.last.point.q;
         let q = ready.assemble(last).ok()?.q;
         let size = last.iter().fold(1.0f64, |size, q| size.max(q.abs()));
-        let is_beside = q.iter().zip(last).all(|(q, last)| (q - last).abs() < BRANCH_BESIDE * size);
+        // At a distance d the state is as far away as the root of d.
+        let is_beside = q.iter().zip(last).all(|(q, last)| (q - last).abs() < tolerances::TOLD * size);
         let followed = Followed { q, rank_indicator: 0.0, dependent: Vec::new() };
         if is_beside { ready.complete(target, followed).ok() } else { None }
     }

@@ -8,9 +8,6 @@ use crate::body::{Bent, MarkerId, dot, norm};
 use crate::math::array::{Each, from_fn};
 use crate::scene::{Model, Part};
 
-/// A line whose elements turn by less together is as good as straight. Unit: `[rad]`.
-const STRAIGHT: f64 = 0.5;
-
 /// The places of a part at which its deformation is evaluated.
 pub(super) enum Extent<const D: usize> {
     /// Points of a body, with its first elastic coordinate and its length, m.
@@ -98,7 +95,8 @@ fn roughness<const D: usize>(model: &Model<D>, elements: &[[MarkerId; 2]], q: &[
         bend += norm(&here);
         around = [here, after, if i + 2 <= last { turn_between(model, elements[i + 2], q) } else { after }];
     }
-    if bend > STRAIGHT { change / whole } else { 0.0 }
+    // A line that bends by less is as good as straight.
+    if bend > 0.5 { change / whole } else { 0.0 }
 }
 
 /// Rotation vector of the second marker relative to the first, rad.

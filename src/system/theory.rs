@@ -6,9 +6,6 @@ use std::f64::consts::PI;
 /// `[1]`.
 const MESH_AIM: f64 = 0.02;
 
-/// A quarter turn may be passed by so much of it. Unit: `[1]`.
-const QUARTER_TURN: f64 = 0.01;
-
 /// Assumption of a part about its deformation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Theory {
@@ -68,7 +65,8 @@ impl Theory {
     /// `turn`, rad. Mesh: the error falls to the aim where it is `turn` now. Otherwise 0.
     pub fn elements_for(self, turn: f64) -> usize {
         match self {
-            Theory::Helix { elements, .. } => (elements as f64 * turn / (0.5 * PI) - QUARTER_TURN).ceil() as usize,
+            // A quarter turn may be passed by so much of it.
+            Theory::Helix { elements, .. } => (elements as f64 * turn / (0.5 * PI) - 0.01).ceil() as usize,
             Theory::Mesh { elements } => (elements as f64 * (turn / MESH_AIM).sqrt()).ceil() as usize,
             _ => 0,
         }

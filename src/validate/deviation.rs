@@ -2,13 +2,9 @@
 
 use super::limit::Limit;
 use crate::linearize::Matrix;
-use crate::tolerances::ROUND_OFF_OF_PHI;
+use crate::tolerances::{HALF_OF_THE_DIGITS, ROUND_OFF_OF_PHI};
 use serde::Serialize;
 use std::ops::Range;
-
-/// A measured entry that is off by more of its uncertainty is wrong. Unit: `[uncertainties]`. Why: the usual three.
-/// Test: `spoilt_terms_are_condemned_with_their_size`.
-const BEYOND_UNCERTAINTY: f64 = 3.0;
 
 /// An entry whose uncertainty is more than this part of it, and of the largest of its row, is not judged. Unit: `[1]`.
 /// Why: the force of a stiff hinge near zero turns round over the least perturbation; terms that matter are larger.
@@ -19,10 +15,6 @@ const VAGUE: f64 = 0.03;
 /// counts as uncertainty. Unit: `[1]`. Why: round-off differs by decades from one perturbation to another, and the energy
 /// of a beam at rest is nothing else. Test: `what_rounding_leaves_of_an_output_condemns_nothing`.
 const ABOVE_ROUND_OFF: f64 = 1e3;
-
-/// An entry that is right to this is not wrong. Unit: `[1]`. Why: no term is missing whose part is below the rounding of
-/// the perturbed states.
-const SAME_ENTRY: f64 = 1e-7;
 
 /// The entry of a matrix of the model that is farthest from what was measured.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -176,7 +168,8 @@ impl Comparison {
         }
         let difference = (model - measured).abs();
         let relative = if difference.is_nan() { 0.0 } else { difference * scale };
-        let is_near = difference <= BEYOND_UNCERTAINTY * uncertainty || difference <= SAME_ENTRY * model.abs();
+        // The usual three.
+        let is_near = difference <= 3.0 * uncertainty || difference <= HALF_OF_THE_DIGITS * model.abs();
         let entry = Entry { row: names[0][i].clone(), column: names[1][j].clone(), model, measured };
         let relative_uncertainty = uncertainty * scale;
         let is_right = difference.is_nan() || is_near;

@@ -11,9 +11,6 @@ use crate::math::eigen::expm;
 use crate::tolerances;
 use serde::Serialize;
 
-/// Errors up to here are in the range where the lowest power of h rules. Unit: `[1]`.
-const LOWEST_POWER: f64 = 3e-3;
-
 /// Deviation of the frozen model from the variational equations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Frozen {
@@ -59,9 +56,10 @@ pub fn frozen(
     // Fast modes are accurate relative to the fastest rate, not the slow one; and the error of the shortest step counts
     // as rounding.
     let floor =
-        (3.0 * tolerances::FLOW_ATOL * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
+        (3.0 * tolerances::TIGHTEST * (speed.fastest / rate).max(1.0)).max(errors.first().copied().unwrap_or(0.0));
     let steps = steps[..errors.len()].to_vec();
-    let decay = decay(&steps, &errors, |_| LOWEST_POWER, floor);
+    // Up to here the lowest power of h rules.
+    let decay = decay(&steps, &errors, |_| 3e-3, floor);
     let limit = transition_limit(&carried.start, &steps, &transitions).and_then(|found| {
         let names = &carried.start.states;
         let n = names.len();
@@ -79,7 +77,7 @@ fn transition_limit(start: &Coordinates, steps: &[f64], transitions: &[Matrix]) 
     let mut limits = Limits::new(n, n);
     for place in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
         let slopes = transitions.iter().rev().zip(&sizes).map(|(x, h)| (x[place] - first[place]) / h);
-        let rounding = tolerances::FLOW_ATOL * first[(place.1, place.1)].abs().max(1.0);
+        let rounding = tolerances::TIGHTEST * first[(place.1, place.1)].abs().max(1.0);
         limits.set(place, limit(&sizes, &slopes.collect::<Vec<f64>>(), 1, rounding));
     }
     (transitions.len() >= tolerances::FEWEST_CHARTS).then_some(limits)

@@ -8,17 +8,6 @@ use crate::math::array::Each;
 use crate::math::eigen::expm;
 use crate::tolerances;
 
-/// States in a period of the fastest mode between which a first passage is interpolated. Unit: `[states]`. Why: an
-/// error that oscillates is then right to a percent. Test: `horizons_are_first_passages`.
-const STATES_A_PERIOD: f64 = 24.0;
-
-/// Such states at most. Unit: `[states]`. Why: each costs a step of the motion.
-const MOST_STATES: f64 = 600.0;
-
-/// Halvings of the time of the first of them. Unit: `[times]`. Why: a passage at a thousandth of the first state is
-/// still found. Test: `horizons_are_first_passages`.
-const HALVED_STATES: i32 = 12;
-
 /// The errors at which a horizon ends.
 pub const SHARES: [f64; 2] = [0.01, 0.1];
 
@@ -66,9 +55,11 @@ pub fn horizons(
 /// Even times up to `end`, a part of the period of the fastest mode apart, and halvings of the first.
 fn times(end: f64, fastest: f64) -> Vec<f64> {
     let period = std::f64::consts::TAU / fastest;
-    let count = (end / period * STATES_A_PERIOD).ceil().clamp(60.0, MOST_STATES);
+    // An error that oscillates is right to a percent then; each state costs a step of the motion.
+    let count = (end / period * 24.0).ceil().clamp(60.0, 600.0);
     let first = end / count;
-    let halved = (1..=HALVED_STATES).rev().map(|i| first * 0.5f64.powi(i));
+    // A passage at a thousandth of the first state is still found.
+    let halved = (1..=12).rev().map(|i| first * 0.5f64.powi(i));
     halved.chain((1..=count as usize).map(|i| end * i as f64 / count)).collect()
 }
 

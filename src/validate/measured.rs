@@ -21,17 +21,6 @@ use crate::tolerances::SAME;
 use serde::Serialize;
 use std::ops::Range;
 
-/// The largest perturbation of differences. Unit: `[1]` of the typical length, of 1 m at most, or rad. Why:
-/// extrapolation needs the first powers only. Test: `spoilt_terms_are_condemned_with_their_size`.
-const LARGEST_SHIFT: f64 = 0.1;
-
-/// A perturbation over the one before, and their number. Unit: `[1]`. Why: errors of second order fall by sixteen.
-/// Test: `spoilt_terms_are_condemned_with_their_size`.
-const SHIFT_RATIO: f64 = 0.25;
-
-/// Number of perturbations of differences. Unit: `[perturbations]`. Why: they reach 2e-5.
-const SHIFTS: i32 = 7;
-
 /// Perturbations whose differences are round-off but for the slope. Unit: `[1]`, m or rad. Why: the square root of
 /// rounding. Test: `spoilt_terms_are_condemned_with_their_size`.
 const TINY_SHIFTS: [f64; 2] = [1e-8, 3.7e-9];
@@ -151,7 +140,8 @@ impl<'m, 'a> Bench<'m, 'a> {
             value.rows_mut(b.nrows(), outputs.len()).copy_from_slice(&outputs);
             Some(value)
         };
-        let reach = LARGEST_SHIFT * system.facts().length.min(1.0);
+        // Extrapolation needs the first powers only.
+        let reach = 0.1 * system.facts().length.min(1.0);
         let mut tables = Vec::new();
         for place in 0..self.columns.len() {
             if is_over() {
@@ -165,7 +155,8 @@ impl<'m, 'a> Bench<'m, 'a> {
                 let even = (&above + &below - &middle * 2.0) / (2.0 * eps);
                 Some((eps, (above - below) / (2.0 * eps), even))
             };
-            let sizes = (0..SHIFTS).map(|i| reach * SHIFT_RATIO.powi(i) / unit);
+            // Errors of second order fall by sixteen, and the last perturbation is 2e-5.
+            let sizes = (0..7).map(|i| reach * 0.25f64.powi(i) / unit);
             let slopes: Vec<(f64, Matrix, Matrix)> = sizes.filter_map(&mut slope).collect();
             let tiny = TINY_SHIFTS.iter().filter_map(|eps| slope(eps / unit));
             tables.push((slopes, tiny.collect::<Vec<_>>()));

@@ -58,7 +58,7 @@ pub(super) fn passage(
 
 /// Returns the state of a motion at the time `t`; none where it does not come so far.
 fn reached(system: &dyn MechanicalSystem, start: &State, t: f64, is_over: &dyn Fn() -> bool) -> Option<State> {
-    let method = Method { rtol: tolerances::FLOW_RTOL, atol: tolerances::FLOW_ATOL, ..Method::default() };
+    let method = Method { rtol: tolerances::FLOW_RTOL, atol: tolerances::TIGHTEST, ..Method::default() };
     let span = Span { start: start.t, end: t, output_step: t - start.t };
     let outcome = simulate(system, &method, span, (&start.q, &start.v), &mut Limited(is_over)).ok()?;
     outcome.failure.is_none().then_some(State { t, q: outcome.q, v: outcome.v })

@@ -8,20 +8,9 @@ use crate::linearize::flow::Snapshot;
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, directions_of};
 use crate::math::eigen::eigen;
 use crate::system::{MechanicalSystem, Scratch};
-use crate::tolerances::ROUNDED_ZERO;
+use crate::tolerances::{ROOT_OF_ROUND_OFF, ROUNDED_ZERO};
 
-/// Relative errors above are not in the range where eps^2 rules. Unit: `[1]`.
-const SECOND_ORDER_RANGE: f64 = 0.1;
-
-/// How many periods of the fastest mode a run counts at most. Unit: `[periods]`. Why: longer runs would cost more than
-/// they tell.
-const FASTEST_PERIODS: f64 = 8.0;
-
-/// Errors of smaller perturbations are rounding. Unit: `[m, rad]`. Why: their squares are. Test:
-/// `quick_scenes_follow_their_linear_models`.
-const ROUNDED_SIZE: f64 = 1e-8;
-
-/// Sizes of the perturbation, of (dq, dv/rate) in m or rad; that of the last one is [rounding](ROUNDED_SIZE).
+/// Sizes of the perturbation, of (dq, dv/rate) in m or rad; that of the last one is [rounding](tolerances::ROOT_OF_ROUND_OFF).
 pub const EPSILONS: [f64; 8] = [1e-1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-9];
 
 /// Returns `start` perturbed by eps x0 and projected onto the constraints of position and velocity; none where that
@@ -79,7 +68,8 @@ impl Speed {
 
     /// Returns the period of a typical mode, s, limited to a number of periods of the fastest.
     pub fn period(&self) -> f64 {
-        std::f64::consts::TAU * (1.0 / self.usual).min(FASTEST_PERIODS / self.fastest)
+        // Longer runs would cost more than they tell.
+        std::f64::consts::TAU * (1.0 / self.usual).min(8.0 / self.fastest)
     }
 }
 
@@ -121,15 +111,16 @@ impl Norm {
     }
 
     /// Returns the order of such errors in eps, without those of motions that ended on other pieces of the equations.
-    /// The largest of those below [`ROUNDED_SIZE`] is taken for rounding.
+    /// The largest of those below the square root of round-off is taken for rounding.
     pub fn order(&self, system: &dyn MechanicalSystem, end: &Snapshot, epsilons: &[f64], errors: &[f64]) -> Decay {
         let own = |(error, member): (&f64, &State)| {
             if are_alike(system, &end.motion, member) { *error } else { f64::NAN }
         };
         let errors: &[f64] = &errors.iter().zip(&end.members).map(own).collect::<Vec<f64>>();
         let size = self.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
-        let rounding = errors.iter().zip(epsilons).filter(|(error, eps)| error.is_finite() && **eps < ROUNDED_SIZE);
+        let rounding =
+            errors.iter().zip(epsilons).filter(|(error, eps)| error.is_finite() && **eps < ROOT_OF_ROUND_OFF);
         let floor = rounding.map(|(error, _)| *error).fold(ROUNDED_ZERO, f64::max);
-        decay(epsilons, errors, |eps| SECOND_ORDER_RANGE * eps * size, floor)
+        decay(epsilons, errors, |eps| 0.1 * eps * size, floor)
     }
 }

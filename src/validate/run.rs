@@ -15,18 +15,6 @@ use crate::system::{Column, MechanicalSystem};
 use crate::tolerances;
 use serde::Serialize;
 
-/// Perturbed motions are followed up to this part of the way to a change of form. Unit: `[1]`. Why: small perturbations
-/// are then still before it. Test: `an_event_ends_the_horizon`.
-const BEFORE_EVENT: f64 = 0.9;
-
-/// A frozen response that is farther off is told beside the verdict. Unit: `[1]`. Why: the larger of the horizons.
-/// Test: `a_frozen_response_that_is_far_off_is_told`.
-const FROZEN_OFF: f64 = 0.1;
-
-/// Perturbed motions are followed up to this part of the way to a singular state. Unit: `[1]`. Why: nearer, terms of
-/// second order grow with the inverse of the distance. Test: `a_singular_state_ends_the_comparison`.
-const BEFORE_SINGULAR: f64 = 0.5;
-
 /// Comparison of the linear model at a state with simulations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Validation {
@@ -121,9 +109,11 @@ pub fn validate_changed(
     let wished = settings.horizon.unwrap_or(speed.period());
     let End { singular, event } = end(system, start, wished)?;
     let before = |t: f64, part: f64| part * (t - start.t);
-    let regular = singular.map_or(wished, |t| before(t, BEFORE_SINGULAR));
+    // Nearer, terms of second order grow with the inverse of the distance.
+    let regular = singular.map_or(wished, |t| before(t, 0.5));
     let event = event.filter(|event| event.t - start.t < regular);
-    let smooth = event.as_ref().map_or(regular, |event| before(event.t, BEFORE_EVENT));
+    // Small perturbations are then still before it.
+    let smooth = event.as_ref().map_or(regular, |event| before(event.t, 0.9));
     let followed = regular.min(smooth);
     let through = event.as_ref().map(|_| start.t + regular);
     let mut sequences = Vec::new();
@@ -278,7 +268,7 @@ fn told(name: char, deviation: &Deviation) -> String {
 
 /// Says how far the frozen model leaves the motion where it does.
 fn frozen_errors(evidence: &Evidence) -> String {
-    let far = |error: &f64| *error > FROZEN_OFF;
+    let far = |error: &f64| *error > tolerances::WRONG_MOTION;
     let motions = evidence.sequences.iter().filter_map(|sequence| {
         let error = sequence.drift_lti.iter().copied().fold(0.0, f64::max);
         Some(format!("{} along {}", percent(error), sequence.direction)).filter(|_| far(&error))

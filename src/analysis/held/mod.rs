@@ -8,10 +8,6 @@ use crate::simulate::Observation;
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use end::End;
 
-/// A signal that keeps the value of an end for a larger part of a run deserves a warning. Unit: `[1]` of the run. Why:
-/// most of it. Test: `a_signal_that_ends_early_is_said`.
-const HELD_SIGNAL: f64 = 0.5;
-
 /// The signals of a system that keep the value of an end where measured data end, and for how long they do.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeldSignals {
@@ -56,7 +52,8 @@ impl HeldSignals {
     /// Returns a warning for each signal that keeps the value of an end for most of the run.
     pub fn warnings(&self) -> Vec<Warning> {
         let Some((first, last)) = self.span else { return Vec::new() };
-        let longest = HELD_SIGNAL * (last - first);
+        // Most of the run.
+        let longest = 0.5 * (last - first);
         let mut named: Vec<&End> = Vec::new();
         for end in self.ends.iter().filter(|end| end.seconds > longest) {
             if named.iter().all(|other| other.signal != end.signal) {

@@ -9,29 +9,10 @@ use super::Branch;
 use super::path::PathPoint;
 use super::survey::Survey;
 use crate::math::array::Each;
-
-/// States on the way to a singular one are kept each time the rank indicator has halved since the last. Unit: `[1]`.
-const WAY_HALVED: f64 = 0.5;
-
-/// The way is followed below this part of the largest rank indicator. Unit: `[1]`.
-const WAY_BEGINS: f64 = 0.3;
+use crate::tolerances;
 
 /// Velocities are compared at so many times the least rank indicator. Unit: `[1]`.
 const WAY_COMPARED: f64 = 6.0;
-
-/// The state after the one that is compared is at least so much farther on. Unit: `[1]` of the time between those
-/// compared.
-const WAY_APART: f64 = 0.25;
-
-/// A change of the velocity that no smooth motion makes. Unit: `[1]` of its size.
-const JUMPED: f64 = 0.1;
-
-/// A jump of the velocity is beside so many times what the lower rule makes of the same accelerations otherwise. Unit:
-/// `[1]`. Why: over long steps both rules err.
-const JUMP_DOUBTED: f64 = 3.0;
-
-/// A change of the velocity by this part of its size is a jump whatever the rules err by. Unit: `[1]`.
-const JUMP_DOUBTED_MOST: f64 = 0.5;
 
 /// Drift that can turn a motion at a singular state: of the positions relative to the square of the rank indicator, of
 /// the velocities relative to it. Unit: `[1]`.
@@ -82,13 +63,13 @@ impl Turning {
     pub fn add(&mut self, states: &[PathPoint; 3], largest: f64, survey: &mut Survey) -> Option<(usize, Branch)> {
         let [before @ .., now] = states;
         let falls = now.rank_indicator < before[1].rank_indicator;
-        if now.rank_indicator > WAY_BEGINS * largest {
+        if now.rank_indicator > tolerances::PLACED_STEPS * largest {
             self.way.clear();
         } else if falls {
             if self.way.is_empty() {
                 self.way.extend(before.iter().filter(|sample| !sample.q.is_empty()).cloned());
             }
-            if self.way.last().is_none_or(|last| now.rank_indicator < WAY_HALVED * last.rank_indicator) {
+            if self.way.last().is_none_or(|last| now.rank_indicator < 0.5 * last.rank_indicator) {
                 self.way.push(now.clone());
             }
         }
@@ -111,7 +92,7 @@ impl Open {
                 now.t > from.t
                     && now.rank_indicator >= (WAY_COMPARED * self.rank_indicator).min(0.5 * from.rank_indicator)
             }
-            Some(first) => now.t - first.t >= WAY_APART * (first.t - from.t),
+            Some(first) => now.t - first.t >= 0.25 * (first.t - from.t),
         };
         if is_next {
             self.after.push(now.clone());
@@ -130,7 +111,9 @@ impl Open {
         let doubt: Vec<f64> = change.iter().zip(&lower).map(|(change, lower)| change - lower).collect();
         let [after, before, doubt, jump] = survey.sizes((to.t, &to.q), [&to.v, &from.v, &doubt, &jump]);
         let size = after.max(before);
-        let smooth = JUMPED * size + (JUMP_DOUBTED * doubt).min(JUMP_DOUBTED_MOST * size);
+        // No smooth motion changes its velocity by a tenth, and a half is a jump whatever the rules err by: over long
+        // steps both do.
+        let smooth = 0.1 * size + (3.0 * doubt).min(0.5 * size);
         match jump {
             _ if size <= 0.0 => Branch::Open,
             jump if (jump > smooth || jump.is_nan()) && self.may_turn => Branch::Left,

@@ -13,19 +13,6 @@ use path::{Path, PathPoint};
 use serde::Serialize;
 use survey::Survey;
 
-/// Dips of the rank indicator that are looked at. Unit: `[1]` of the largest.
-const DIP_OF_RANK: f64 = 0.8;
-
-/// A state is told as near to a singular one whose rank indicator is below. Unit: `[1]` of the largest.
-const TOLD_NEAR_SINGULAR: f64 = 1e-2;
-
-/// Drift may turn the motion where the rank indicator is below. Unit: `[1]` of the largest.
-const DRIFT_MAY_TURN: f64 = 0.2;
-
-/// A branch that was left so soon before a run ended was left because of what ended it. Unit: `[1]` of the time. Test:
-/// `a_driver_beyond_its_travel_is_named`.
-const LEFT_AT_END: f64 = 1e-5;
-
 /// Distance of a motion from singular states, by the rank indicator: the smallest sine of the angle between a row of G
 /// and those before it, in the metric of M^-1, without rows that depend on others everywhere.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -107,7 +94,8 @@ impl Singularity {
     pub fn failure_of(&self, outcome: &Outcome) -> Option<Failure> {
         let ended = outcome.failure.clone();
         let is_before = |left: &Failure| match &ended {
-            Some(Failure { t, .. }) => left.t < t - LEFT_AT_END * t.abs(),
+            // Left so soon before the end, it was left because of what ended the run.
+            Some(Failure { t, .. }) => left.t < t - 1e-5 * t.abs(),
             None => true,
         };
         let left = self.failure().filter(is_before);
@@ -193,7 +181,7 @@ impl<'a> Watch<'a> {
         let passed = &mut self.found.passed;
         if passed
             .get(passing)
-            .is_some_and(|p| p.branch != Branch::Left && p.rank_indicator > TOLD_NEAR_SINGULAR * self.largest)
+            .is_some_and(|p| p.branch != Branch::Left && p.rank_indicator > tolerances::TOLD * self.largest)
         {
             passed.remove(passing);
             self.found.count -= 1;
@@ -212,7 +200,7 @@ impl<'a> Watch<'a> {
         let [a, b, c] = &self.last;
         b.rank_indicator <= a.rank_indicator
             && b.rank_indicator < c.rank_indicator
-            && b.rank_indicator < DIP_OF_RANK * self.largest
+            && b.rank_indicator < 0.8 * self.largest
     }
 
     fn look_at_dip(&mut self) {
@@ -221,8 +209,8 @@ impl<'a> Watch<'a> {
         let path = Path::new(&self.last, &rates);
         let indicators = [self.last[0].rank_indicator, self.last[2].rank_indicator];
         let drift = self.survey.drift(&self.last[1]);
-        let near = TOLD_NEAR_SINGULAR * self.largest;
-        let turned = branch::reach(drift).min(DRIFT_MAY_TURN * self.largest);
+        let near = tolerances::TOLD * self.largest;
+        let turned = branch::reach(drift).min(0.2 * self.largest);
         let Some((t, rank_indicator)) = self.survey.least_rank_indicator(&path, indicators, near.max(turned)) else {
             return;
         };
@@ -233,7 +221,7 @@ impl<'a> Watch<'a> {
         }
         let judged = self.turning.judge(&mut self.survey);
         self.settle(judged);
-        let is_singular = rank_indicator < tolerances::TOLD_SINGULAR * self.largest;
+        let is_singular = rank_indicator < tolerances::UNSEEN * self.largest;
         let (lost, joints) = self.survey.dependence(t, &q, 10.0 * rank_indicator);
         self.turning.begin(
             self.found.passed.len(),

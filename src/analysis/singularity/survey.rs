@@ -6,28 +6,7 @@ use crate::math::array::Each;
 use crate::math::kkt::dependent_rows;
 use crate::math::largest;
 use crate::system::{Dimensions, MechanicalSystem, Need};
-use crate::tolerances::TRUNCATED_RANK;
-
-/// Unknowns up to which the joints that depend on each other are named. Unit: `[unknowns]`. Why: time goes with the
-/// cube.
-const NAMED_DEPENDENT_JOINTS: usize = 1000;
-
-/// Unknowns up to which the condition number of the nearest state is computed. Unit: `[unknowns]`. Why: time goes with
-/// the cube.
-const CONDITION_OF_RUN: usize = 300;
-
-/// Golden sections for a passage of a singular state end here. Unit: `[1]` of a path.
-const GOLDEN_SHORTEST: f64 = 1e-6;
-
-/// Golden sections for a passage also end where the rank indicator is this part of TOLD_NEAR_SINGULAR. Unit: `[1]`.
-const GOLDEN_NEAR: f64 = 5e-4;
-
-/// The points of the two lines that meet in a passage, by the rank indicator as a part of what counts as near. Unit:
-/// `[1]`. Why: the lines are straight there, and round-off is small.
-const LINES_ASIDE: f64 = 2e-2;
-
-/// Newton's steps that bring a path back to the drift of the motion. Unit: `[steps]`.
-const PATH_SWEEPS: usize = 2;
+use crate::tolerances::{DENSE_EIGENVALUES, DENSE_EQUATIONS, SIX_DIGITS, TRUNCATED_RANK};
 
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
@@ -114,7 +93,8 @@ impl<'a> Survey<'a> {
         let mut step = vec![0.0; self.rest.len()];
         let mut rate = vec![0.0; q.len()];
         let largest = self.largest;
-        for _ in 0..PATH_SWEEPS {
+        // Newton's steps back to the drift of the motion.
+        for _ in 0..2 {
             let dynamics = self.constraints(t, &q);
             dynamics.kkt.rank_reference = largest;
             dynamics.terms.phi.iter_mut().zip(&path.phi).for_each(|(phi, drift)| *phi -= drift);
@@ -137,13 +117,13 @@ impl<'a> Survey<'a> {
         let [mut from, _, mut to] = path.times;
         let width = to - from;
         // Steps near round-off of the time do not come closer.
-        let shortest = (GOLDEN_SHORTEST * width).max(8.0 * f64::EPSILON * from.abs().max(to.abs()));
+        let shortest = (SIX_DIGITS * width).max(8.0 * f64::EPSILON * from.abs().max(to.abs()));
         let mut inner = [to - GOLDEN * (to - from), from + GOLDEN * (to - from)];
         let mut values = inner.each(|t| self.rank_indicator_on(path, t));
         // The inner values of a symmetric minimum give no slope.
         let outer = [(indicators[0] - values[0]) / (inner[0] - from), (indicators[1] - values[1]) / (to - inner[1])];
         let mut steepest = 2.0 * outer[0].abs().max(outer[1].abs());
-        while to - from > shortest && values[0].min(values[1]) > GOLDEN_NEAR * bound {
+        while to - from > shortest && values[0].min(values[1]) > 5e-4 * bound {
             steepest = steepest.max(2.0 * (values[1] - values[0]).abs() / (inner[1] - inner[0]));
             if values[0].min(values[1]) - steepest * (to - from) > bound {
                 return None;
@@ -163,7 +143,8 @@ impl<'a> Survey<'a> {
         let mut aside = 1e-3 * width;
         let mut sides = |aside: f64| [t - aside, t + aside].each(|t| self.rank_indicator_on(path, t));
         let [before, after] = sides(aside);
-        aside = (LINES_ASIDE * bound * aside / before.max(after)).min(0.1 * width);
+        // The lines are straight there, and round-off is small.
+        aside = (2e-2 * bound * aside / before.max(after)).min(0.1 * width);
         let [before, after] = sides(aside);
         // The lines of a round minimum do not meet near zero.
         if least < 0.5 * before.min(after) {
@@ -175,7 +156,8 @@ impl<'a> Survey<'a> {
 
     /// Returns the rank at a position, and the joints whose rows depend on each other there.
     pub fn dependence(&mut self, t: f64, q: &[f64], tolerance: f64) -> (Option<usize>, Vec<String>) {
-        if self.unknowns() > NAMED_DEPENDENT_JOINTS {
+        // Time goes with the cube.
+        if self.unknowns() > DENSE_EQUATIONS {
             return (None, Vec::new());
         }
         let dynamics = self.constraints(t, q);
@@ -213,7 +195,7 @@ impl<'a> Survey<'a> {
     }
 
     pub fn condition_at_nearest(&mut self) -> Option<f64> {
-        if self.unknowns() > CONDITION_OF_RUN {
+        if self.unknowns() > DENSE_EIGENVALUES {
             return None;
         }
         let (t, q) = std::mem::take(&mut self.nearest);

@@ -15,14 +15,6 @@ use crate::math::Taylor;
 use crate::math::expression::{Expression, Number, Scope};
 use crate::tolerances;
 
-/// Integrals of shape functions are exact when halving the panels changes none by more. Unit: `[1]` of the largest.
-/// Why: round-off of sums over the panels is less.
-const RITZ_CONVERGED: f64 = 1e-12;
-
-/// As good as infinite: expressions have such slopes where the exact ones are. Unit: `[its own unit]`. Why: its square
-/// is still a number.
-const RITZ_INFINITE: f64 = 1e150;
-
 /// Panels at most. Unit: `[panels]`. Why: only functions that are not smooth, or not exact to rounding, need so many.
 const RITZ_PANELS: usize = 64;
 
@@ -172,7 +164,8 @@ impl Functions {
                     .iter()
                     .chain(&rotation)
                     .chain(&strain)
-                    .any(|value| value.is_nan() || value.abs() > RITZ_INFINITE)
+                    // Its square is still a number; the exact value is infinite.
+                    .any(|value| value.is_nan() || value.abs() > 1e150)
                 {
                     return Err(function
                         .fault(format!("`{}` has no finite value and derivatives at x = {s}", function.value))
@@ -309,5 +302,5 @@ fn diagonals<const D: usize>(n: usize, (inertia, stiffness): &(Inertia<D>, Symme
 }
 
 fn agree(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= RITZ_CONVERGED * b.abs())
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerances::ROUND_OFF_OF_SOLUTIONS * b.abs())
 }

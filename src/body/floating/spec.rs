@@ -8,9 +8,6 @@ use crate::error::{Error, Result, find, short};
 use crate::math::expression::Number;
 use std::collections::BTreeMap;
 
-/// Positions in files are rounded to this. Unit: `[1]` of the largest.
-const ROUNDED_PLACES: f64 = 1e-5;
-
 impl BodySpec for FlexibleBeam {
     const TYPE: &'static str = "flexible_beam";
 
@@ -52,7 +49,8 @@ impl BodySpec for ModalBody {
 
 /// The interface node at a position.
 fn node_at<const D: usize>(nodes: &[(String, PointShape<D>)], at: &[f64; D], size: f64) -> Result<PointShape<D>> {
-    let is_there = |node: &PointShape<D>| node.rest.iter().zip(at).all(|(a, b)| (a - b).abs() <= ROUNDED_PLACES * size);
+    // Files have five or six digits.
+    let is_there = |node: &PointShape<D>| node.rest.iter().zip(at).all(|(a, b)| (a - b).abs() <= 1e-5 * size);
     let written = |at: &[f64; D]| format!("[{}]", at.map(short).join(", "));
     nodes.iter().find(|(_, node)| is_there(node)).map(|(_, node)| node.clone()).ok_or_else(|| {
         let known: Vec<String> =

@@ -2,12 +2,8 @@
 
 use crate::math::array::{Each, from_fn};
 use crate::math::rotation::Matrix3;
-use crate::tolerances::ROUNDED_INERTIA;
+use crate::tolerances::{ATOM, SIX_DIGITS};
 use nalgebra::{Matrix3 as Tensor, SymmetricEigen, Vector3};
-
-/// Radius of gyration of what has no extent. Unit: `[m]`. Why: the radius of an atom; what files have below it is
-/// round-off. Test: `moments_of_round_off_are_zero`.
-const ATOM: f64 = 1e-10;
 
 /// A tensor that a body can have in the place of one that none has.
 pub struct Repaired {
@@ -35,7 +31,7 @@ pub fn repaired(tensor: &Matrix3, mass: f64) -> Option<Repaired> {
     order.sort_by(|i, j| eigen.eigenvalues[*i].total_cmp(&eigen.eigenvalues[*j]));
     let before = order.each(|i| eigen.eigenvalues[i]);
     let [a, b, c] = before;
-    let slack = ROUNDED_INERTIA * c.abs();
+    let slack = SIX_DIGITS * c.abs();
     if a >= -slack && c <= a + b + slack {
         return None;
     }

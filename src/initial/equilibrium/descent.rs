@@ -9,27 +9,6 @@ use crate::tolerances;
 /// Steps at most of the descent to an equilibrium in pseudo-time. Unit: `[steps]`.
 const DESCENT_STEPS: usize = 500;
 
-/// Length of the first step of the descent. Unit: `[m, rad]`. Why: rotations must stay small.
-const DESCENT_FIRST: f64 = 0.1;
-
-/// Newton's method is tried when the force has fallen by this since it was tried last. Unit: `[1]`.
-const DESCENT_FALL: f64 = 0.03;
-
-/// Work of a step of the descent over what K predicts, below which the next step is shorter. Unit: `[1]`. Why: as in
-/// trust regions.
-const DESCENT_SHORTER: f64 = 0.4;
-
-/// Work of a step of the descent over what K predicts, above which the next step is longer. Unit: `[1]`. Why: as in
-/// trust regions.
-const DESCENT_LONGER: f64 = 0.75;
-
-/// The shift of K in the descent, over the first, at which steps no longer move anything. Unit: `[1]`. Why: a step is
-/// 1e-13 m or rad then.
-const DESCENT_STIFFEST: f64 = 1e12;
-
-/// Further iterations of a step of the descent, at the same shift. Unit: `[iterations]`.
-const RELAXATIONS: usize = 6;
-
 /// Limits of the return to phi = 0, in units of the scene's scale: round-off, also of nearly dependent rows.
 const CLOSING: Limits = Limits {
     most: tolerances::CLOSING_ITERATIONS,
@@ -61,11 +40,14 @@ pub(super) enum End {
 /// Toint, Trust-Region Methods, 2000, chapter 6. Returns the result and the number of steps.
 pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
     let Some(mut at) = rest.balance(q) else { return (End::Stuck(Place { q: q.to_vec(), lambda: Vec::new() }), 0) };
-    let mut shift = largest(&at.force) / DESCENT_FIRST;
-    let most = DESCENT_STIFFEST * shift;
+    // The first step is a tenth of a metre or radian long: rotations must stay small.
+    let mut shift = largest(&at.force) / 0.1;
+    // Steps of 1e-13 m or rad move nothing.
+    let most = 1e12 * shift;
     let mut tried = norm(&at.force);
     for step in 0..DESCENT_STEPS {
-        if norm(&at.force) <= DESCENT_FALL * tried {
+        // Newton's method is tried again when the force has fallen.
+        if norm(&at.force) <= 0.03 * tried {
             tried = norm(&at.force);
             if let Some((place, true)) = newton(rest, at.place.clone(), None, Policy::NEAR) {
                 return (End::Equilibrium(place), step);
@@ -79,8 +61,9 @@ pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
         match if factored { advance(rest, &at, shift) } else { None } {
             Some((next, gain)) => {
                 shift *= match gain {
-                    gain if gain > DESCENT_LONGER => 0.25,
-                    gain if gain < DESCENT_SHORTER => 2.0,
+                    // As in trust regions: the work over what K predicts.
+                    gain if gain > 0.75 => 0.25,
+                    gain if gain < 0.4 => 2.0,
                     _ => 1.0,
                 };
                 at = next;
@@ -132,7 +115,8 @@ fn onward(rest: &mut EquilibriumSystem, from: &Place, change: &Change, size: f64
 /// on a circle, and one iteration moves along the tangent, which stretches it.
 fn relax(rest: &mut EquilibriumSystem, at: &mut Balance, way: &mut [f64], shift: f64, enough: f64) -> Option<()> {
     let mut last = f64::INFINITY;
-    for _ in 0..RELAXATIONS {
+    // Further iterations at the same shift.
+    for _ in 0..6 {
         let left: Vec<f64> = at.force.iter().zip(&*way).map(|(force, way)| force - shift * way).collect();
         let size = norm(&left);
         if size <= enough {

@@ -58,7 +58,7 @@ pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &Place, away: Opti
     if let Some(soft) = soft(rest, start) {
         let along = |d: &nalgebra::DVector<f64>| d.iter().zip(&balance.force).map(|(d, f)| d * f).sum::<f64>().abs();
         let loaded: Vec<_> =
-            soft.directions.into_iter().filter(|d| along(d) > tolerances::FORCE_LEFT * all * d.amax()).collect();
+            soft.directions.into_iter().filter(|d| along(d) > tolerances::SIX_DIGITS * all * d.amax()).collect();
         if !loaded.is_empty() {
             let names = named(rest, &loaded).join("`, `");
             let moving = rest.dynamics.system.dimensions().moving();

@@ -5,9 +5,6 @@ use super::system::{EquilibriumSystem, Place};
 use crate::initial::continuation;
 use crate::tolerances;
 
-/// First part of the missing force that is put back on. Unit: `[1]`.
-const LOAD_FIRST: f64 = 0.1;
-
 /// f - G^T lambda = (1 - s) (f - G^T lambda)(start), s from 0 to 1: the residual force of the start is removed in
 /// parts, each solved by Newton's method from the solution before. Where the start is an unloaded equilibrium this is
 /// load stepping. Returns the place reached, its s, and the number of steps.
@@ -16,7 +13,7 @@ pub(super) fn homotopy(rest: &mut EquilibriumSystem, start: &Place) -> (Place, f
     let missing = rest.force(&start.lambda);
     let mut at = start.clone();
     let mut steps = 0;
-    let (s, _) = continuation(0.0, 1.0, (LOAD_FIRST, tolerances::LEAST_PART), |next| {
+    let (s, _) = continuation(0.0, 1.0, (0.1, tolerances::LEAST_PART), |next| {
         let goal: Vec<f64> = missing.iter().map(|force| (1.0 - next) * force).collect();
         let (place, contracts) = newton(rest, at.clone(), Some(&goal), Policy::NEAR)?;
         at = place;

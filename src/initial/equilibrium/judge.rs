@@ -6,10 +6,6 @@ use crate::math::largest;
 use crate::system::{Limited, Theory};
 use crate::tolerances;
 
-/// How far an element of a beam may turn at an equilibrium, over what is warned of. Unit: `[1]`. Why: 0.95 of what it
-/// can turn at all.
-const TOO_FAR_TURNED: f64 = 0.95 / 0.75;
-
 /// Reference values of forces and stiffness from the start.
 pub(super) struct Judge {
     q: Vec<f64>,
@@ -35,7 +31,7 @@ impl Judge {
         // Without loads, rounded springs are the loads of parts that have no spring.
         let rounded = rounding * largest(&self.stiffness);
         let loads = self.loads.max(largest(&rest.sizes(&balance.place))).max(rounded);
-        let allowed = self.stiffness.iter().map(|k| tolerances::FORCE_LEFT * loads + rounding * k);
+        let allowed = self.stiffness.iter().map(|k| tolerances::SIX_DIGITS * loads + rounding * k);
         balance.force.iter().zip(allowed).all(|(force, allowed)| force.abs() <= allowed)
     }
 
@@ -47,7 +43,8 @@ impl Judge {
         system.deformations(&q[..rest.coordinates], &mut deformations);
         let mut parts = facts.limited.iter().cloned().zip(deformations);
         let is_bent = |(limited, turn): &(Limited, f64)| match limited.theory {
-            Theory::Helix { .. } => *turn > TOO_FAR_TURNED * limited.theory.most(),
+            // 0.95 of what an element can turn at all, over what is warned of.
+            Theory::Helix { .. } => *turn > 0.95 / 0.75 * limited.theory.most(),
             _ => false,
         };
         parts.find(is_bent)

@@ -180,7 +180,7 @@ fn finish(mut rest: EquilibriumSystem, found: Found, steps: usize) -> Result<Equ
     }
     let residual = largest(&rest.force(&place.lambda));
     let gap = rest.gap();
-    if gap > tolerances::REDUNDANT_ROWS_CLOSED {
+    if gap > tolerances::ROOT_OF_ROUND_OFF {
         return Err(failure::contradiction(rest.t));
     }
     let t = rest.t;

@@ -9,9 +9,6 @@ use crate::tolerances;
 /// steps that grow before they shrink.
 const BALANCING_ITERATIONS: usize = 60;
 
-/// The shortest damped step, as part of the full one. Unit: `[1]`. Why: other ways come next.
-const SHORTEST_DAMPED: f64 = 1e-3;
-
 /// Safeguards of Newton's method.
 #[derive(Clone, Copy)]
 pub(super) struct Policy {
@@ -58,7 +55,7 @@ pub(super) fn newton(
         if part > tolerances::AWAY {
             return Err(());
         }
-        let is_small = part <= tolerances::NEWTON_STAGNATION;
+        let is_small = part <= tolerances::ROOT_OF_ROUND_OFF;
         let is_damped = policy.is_damped && !is_small;
         let next = if is_damped { damped(rest, &at, &change, size) } else { Some(rest.moved(&at, &change, 1.0)) };
         at = next.ok_or(())?;
@@ -79,7 +76,7 @@ fn residual(rest: &EquilibriumSystem, at: &Place, goal: Option<&[f64]>) -> Vec<f
 /// which does not depend on the units of forces and constraints (Deuflhard, section 3.3).
 fn damped(rest: &mut EquilibriumSystem, at: &Place, change: &Change, size: f64) -> Option<Place> {
     let mut part = 1.0;
-    while part > SHORTEST_DAMPED {
+    while part > tolerances::UNSEEN {
         let next = rest.moved(at, change, part);
         rest.evaluate(&next.q);
         let force = rest.force(&next.lambda);

@@ -7,14 +7,6 @@ use crate::tolerances;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
 
-/// Part of K that may be skew before its eigenvalues do not tell stability. Unit: `[1]` of the largest entry. Why: far
-/// above round-off.
-const SKEW: f64 = 1e-6;
-
-/// A coordinate that is named takes part in a direction by this part of the largest. Unit: `[1]`.of how much a message
-/// says.
-const TAKES_PART: f64 = 0.3;
-
 /// Stability of an equilibrium, in increasing order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -54,7 +46,7 @@ pub(super) fn soft(rest: &mut EquilibriumSystem, place: &Place) -> Option<Soft> 
     let z = free_directions(&mut rest.dynamics)?;
     let k = reduce(&rest.dynamics.structure.tangent, &rest.tangent.k, &z);
     let symmetric = 0.5 * (&k + k.transpose());
-    let is_symmetric = (&k - &symmetric).amax() <= SKEW * k.amax();
+    let is_symmetric = (&k - &symmetric).amax() <= tolerances::SIX_DIGITS * k.amax();
     if k.is_empty() {
         return Some(Soft { smallest: f64::INFINITY, directions: Vec::new(), is_symmetric, k, z });
     }
@@ -94,7 +86,7 @@ fn by_modes(rest: &EquilibriumSystem, Soft { z, k, .. }: &Soft) -> Option<Stabil
     let values = eigenvalues(k, &c, moving)?;
     let size = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
     let growth = values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
-    let is_sure = growth.abs() > tolerances::ROUNDING_OF_K * size;
+    let is_sure = growth.abs() > tolerances::HALF_OF_THE_DIGITS * size;
     is_sure.then_some(if growth > 0.0 { Stability::Unstable } else { Stability::Stable })
 }
 
@@ -103,7 +95,8 @@ pub(super) fn named(rest: &EquilibriumSystem, directions: &[DVector<f64>]) -> Ve
     let names = rest.dynamics.system.facts().names.v.clone();
     let mut found = Vec::new();
     for direction in directions {
-        let taking = |i: &usize| direction[*i].abs() >= TAKES_PART * direction.amax();
+        // A coordinate that is named.
+        let taking = |i: &usize| direction[*i].abs() >= 0.3 * direction.amax();
         found.extend((0..direction.len()).filter(taking));
     }
     found.sort_unstable();

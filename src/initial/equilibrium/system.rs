@@ -8,10 +8,6 @@ use crate::math::{largest, largest_in};
 use crate::system::{MechanicalSystem, Need, OperatingPoint, Tangent};
 use crate::tolerances;
 
-/// Terms of a balance of forces below this part of the largest of all are as good as none. Unit: `[1]`. Why: the square
-/// root of rounding.
-const BALANCED_LEAST: f64 = 1e-8;
-
 /// Coordinates and multipliers.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
@@ -227,8 +223,8 @@ impl<'a> EquilibriumSystem<'a> {
         let reach = 1.0f64.max(largest(&place.q));
         let sizes = self.sizes(place).into_iter().zip(self.stiffness());
         let size: Vec<f64> = sizes.map(|(force, stiffness)| force + stiffness * reach).collect();
-        let least = BALANCED_LEAST * largest(&size);
+        let least = tolerances::ROOT_OF_ROUND_OFF * largest(&size);
         force.iter().zip(&size).all(|(force, size)| force.abs() <= tolerances::ROUND_OFF_OF_SUMS * size.max(least))
-            && self.gap() <= tolerances::REDUNDANT_ROWS_CLOSED
+            && self.gap() <= tolerances::ROOT_OF_ROUND_OFF
     }
 }

@@ -10,27 +10,15 @@ use super::{
 use crate::formulation::StepError;
 use crate::math::array::{Each, from_fn};
 use crate::method_spec::OptionDoc;
+use crate::tolerances;
 use coefficients::{Coefficients, MOST, ROOM, error_constants};
 use rows::{QUAD, Rows, plus, quad, store};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// The shortest step of adams over one that was refused. Unit: `[1]`. Why: the error tells the length, but not over a
-/// kink.
-const ADAMS_SHRINK: f64 = 0.2;
-
 /// Error that a step of adams aims at. Unit: `[tolerated errors]`. Why: with 0.5 a third more steps are refused, with
 /// 0.1 there are more of them.
 const ADAMS_AIM: f64 = 0.25;
-
-/// Steps of adams stay equal unless the next one can be so much longer. Unit: `[1]`. Why: with 1.05 to 1.2 evaluations
-/// are the fewest, with 2, as in the code ODE, 5 % more.
-const ADAMS_LONGER: f64 = 1.1;
-
-/// Steps of adams are not controlled more tightly than this unless that is asked for. Unit: `[1]`. Why: it has no
-/// Newton's method, and errors fell in proportion down to 1e-14. Test:
-/// `motions_that_amplify_a_little_are_as_accurate_as_asked`.
-const ADAMS_RTOL: f64 = 1e-13;
 
 /// ```text
 /// y~ = y + h sum_{i=1..k} g_i Phi*_i,   y_1 = y~ + h g_{k+1} (F(t_1, y~) - Phi~_1)
@@ -52,7 +40,7 @@ pub const ENTRY: Entry = Entry {
     steps: Steps::Own,
     // At the order of least error that of the corrected solution is as large as that of the prediction, which is
     // tested, and errors of steps add up. Over motions that amplify none they were 50 times those of dop853.
-    tightening: Tightening { factor: 0.003, power: 1.0, least: ADAMS_RTOL },
+    tightening: Tightening { factor: 0.003, power: 1.0, least: tolerances::TIGHTEST },
     options: &[OptionDoc { name: "order", about: "the highest order, 2 to 13 (default 13)" }],
     // That of the lowest orders, Heun's; it shrinks as the order rises.
     stability: Some(|| Stability::Polynomial(vec![1.0, 1.0, 0.5])),
@@ -124,7 +112,7 @@ struct Tried {
 impl Adams {
     fn new(len: usize, most: usize) -> Self {
         let zeros = || vec![0.0; len];
-        let mut control = Control::new(1.0, ADAMS_SHRINK, 2.0);
+        let mut control = Control::new(1.0, 0.2, 2.0);
         control.order = 2;
         Adams {
             order: 1,
@@ -283,7 +271,8 @@ impl Adams {
         self.control.exponent = power(self.order);
         self.control.safety = ADAMS_AIM.powf(self.control.exponent);
         let ratio = (ADAMS_AIM / next.max(1e-30)).powf(power(self.tried.next));
-        self.ratio = if (1.0..ADAMS_LONGER).contains(&ratio) { 1.0 } else { ratio };
+        // With 1.05 to 1.2 evaluations are the fewest, with 2, as in the code ODE, 5 % more.
+        self.ratio = if (1.0..1.1).contains(&ratio) { 1.0 } else { ratio };
     }
 }
 

@@ -171,7 +171,7 @@ impl Ali3p {
                 * largest(problem.dynamics.system.dimensions().without_turns(q)).max(1.0)
                 / (h * h);
             Ok::<_, StepError>(
-                change / (tolerances::NEWTON_STAGNATION * largest(&self.a_new).max(largest(v) / h)).max(still),
+                change / (tolerances::ROOT_OF_ROUND_OFF * largest(&self.a_new).max(largest(v) / h)).max(still),
             )
         })?;
         problem.dynamics.statistics.stagnated += u64::from(converged && newton.has_stagnated);
@@ -208,7 +208,7 @@ impl Ali3p {
             .phi
             .iter()
             .zip(&self.scales)
-            .any(|(phi, scale)| phi.abs() > tolerances::REDUNDANT_ROWS_CLOSED * scale);
+            .any(|(phi, scale)| phi.abs() > tolerances::ROOT_OF_ROUND_OFF * scale);
         if off {
             return Err(StepError::NotConverged);
         }

@@ -4,23 +4,6 @@ use super::history::HIGHEST;
 use crate::integrator::Control;
 use serde::{Deserialize, Serialize};
 
-/// Error of a step below which bdf doubles the next one at the beginning of a motion. Unit: `[1]` of the tolerated
-/// error of a step. Why: twice the step with the same order has four times the error.
-const BDF_START: f64 = 0.1;
-
-/// Refused attempts of a step after which bdf returns to order 1. Unit: `[attempts]`. Why: as in IDA: the past does not
-/// predict what comes.
-const BDF_FAILURES: usize = 3;
-
-/// Error of a step of bdf up to which its order does not fall. Unit: `[1]` of the tolerated error of a step. Why: such
-/// a step may grow, and round-off, which does not decrease with the order, may be most of the error. Test:
-/// `the_tightest_tolerance`.
-const BDF_SMALL: f64 = 0.05;
-
-/// Steps of bdf that would grow by less than this stay as they are. Unit: `[1]`. Why: as in VODE: formulas and the
-/// matrix are those of equal steps.
-const BDF_GROWTH: f64 = 1.5;
-
 /// Order k and step size, from the norms of h^(j+1) y^(j+1) for j = k - 2 to k + 1: the order falls where these no
 /// longer decrease with j, as they do not where the formula of order k is unstable, and rises where they do. A run
 /// begins with order 1, then 2, and doubles every step as long as that goes well. From order 3 on, whose formulas are
@@ -80,7 +63,8 @@ impl Order {
         let [lowest, lower, own, _] = self.terms;
         match self.k {
             1 => false,
-            k if own <= BDF_SMALL * (k as f64 + 1.0) => false,
+            // The step may grow, and round-off, which does not fall with the order, may be most of its error.
+            k if own <= 0.05 * (k as f64 + 1.0) => false,
             2 => lower <= 0.5 * own,
             _ => lowest.max(lower) <= own,
         }
@@ -94,7 +78,8 @@ impl Order {
         }
         (self.is_starting, self.failures) = (false, self.failures + 1);
         let k = match self.failures {
-            BDF_FAILURES.. => 1,
+            // As in IDA: the past does not predict what comes.
+            3.. => 1,
             _ if self.falls() => self.k - 1,
             _ => self.k,
         };
@@ -108,7 +93,8 @@ impl Order {
         (self.last, self.failures) = (h, 0);
         let [_, lower, own, higher] = self.terms;
         let highest = HIGHEST.min(known - 1);
-        self.is_starting &= growing && own <= BDF_START * (self.k as f64 + 1.0);
+        // Twice the step at one order has four times the error.
+        self.is_starting &= growing && own <= 0.1 * (self.k as f64 + 1.0);
         if self.is_starting {
             self.set(STABLE.min(highest));
             return 2.0 * h;
@@ -126,7 +112,8 @@ impl Order {
         let order = k as f64 + 1.0;
         let factor = (2.0 * term / order + 1e-4).powf(-1.0 / order);
         match factor {
-            _ if factor >= BDF_GROWTH && may_grow => h * factor.min(2.0),
+            // As in VODE: formulas and the matrix are those of equal steps.
+            _ if factor >= 1.5 && may_grow => h * factor.min(2.0),
             _ if factor <= 1.0 => h * factor.clamp(0.5, 0.9),
             _ => h,
         }

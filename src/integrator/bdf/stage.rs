@@ -10,21 +10,6 @@ use crate::math::newton::Limits;
 use crate::system::{Dimensions, OperatingPoint};
 use crate::tolerances;
 
-/// Error that Newton's method may leave of a step of bdf. Unit: `[1]` of the tolerated error of a step. Why: what it
-/// leaves of the constraints is drift. Test: `ggl_holds_both_constraints_and_runs_repeat_bit_by_bit`.
-const STAGE_ERROR: f64 = 0.01;
-
-/// Corrections at most of a step of bdf. Unit: `[iterations]`. Why: more cost as much as a shorter step.
-const STAGE_ITERATIONS: usize = 7;
-
-/// Rate of convergence up to which the matrix of bdf serves the next step too. Unit: `[1]`. Why: an iteration more
-/// costs an evaluation, a matrix about four.
-const STAGE_MATRIX_KEPT: f64 = 0.1;
-
-/// The factors of bdf serve steps up to this factor longer or shorter. Unit: `[1]`. Why: stiff directions contract by 1
-/// - 1/1.1^2 with them.
-const STAGE_BAND: f64 = 1.1;
-
 /// ```text
 /// v = v* + g (a + w),   q = q* + g N (v + u),   M a + G^T lambda = f
 /// ```
@@ -55,7 +40,7 @@ pub struct Stage {
 pub struct Matrix(Iteration<f64>);
 
 impl Factors for Matrix {
-    const BAND: f64 = STAGE_BAND;
+    const BAND: f64 = 1.1;
 
     fn metric(&self, Size { h: g, .. }: Size) -> f64 {
         g * g
@@ -153,11 +138,14 @@ impl Stage {
         self.advance(problem, g);
         self.round_off = round_off(problem, tolerance, from.y, None, &mut self.change);
         let limits = Limits {
-            most: STAGE_ITERATIONS,
-            tolerance: STAGE_ERROR,
+            // More cost as much as a shorter step.
+            most: 7,
+            // What is left of the constraints is drift.
+            tolerance: 0.01,
             round_off: self.round_off,
             stagnation: tolerances::RADAU_STAGNATION * self.round_off,
-            kept_rate: STAGE_MATRIX_KEPT,
+            // An iteration more costs an evaluation, a matrix about four.
+            kept_rate: 0.1,
             ..Limits::NONE
         };
         let mut monitor = std::mem::take(&mut self.matrix.monitor);

@@ -19,19 +19,11 @@ use crate::error;
 use crate::formulation::{self, Dae, Dynamics, StepError};
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
+use crate::tolerances;
 use ::diffsol::Tableau;
 use equations::Equations;
 use rows::Rows;
 use solver::{Counters, Frame, Scheme};
-
-/// Steps of diffsol up to which a failed evaluation is told as the reason for their size. Unit: `[1]` of the time. Why:
-/// steps that shrink without end come there, others do not. Test: `what_cannot_be_evaluated_is_named`.
-const CREEPING_STEP: f64 = 1e-9;
-
-/// Distance of a moved state from the polynomial of its steps from which the bdf of diffsol begins again. Unit: `[1]`
-/// of the tolerated error of a step. Why: half of the correction that refuses a step; each beginning, at order 1, costs
-/// accuracy. Test: `coordinates_are_told_from_states`.
-const BDF_APART: f64 = 5.0;
 
 /// A method of diffsol on the equations of a run.
 struct Diffsol<'s> {
@@ -138,7 +130,8 @@ impl<'s> Diffsol<'s> {
         let mut change = vec![0.0; from.y.len()];
         self.write(from.t, &mut change)?;
         change.iter_mut().zip(from.y).for_each(|(change, y)| *change -= y);
-        Ok(from.tolerance.norm(from.y, &change) > BDF_APART)
+        // Half of the correction that refuses a step: each beginning, at order 1, costs accuracy.
+        Ok(from.tolerance.norm(from.y, &change) > 5.0)
     }
 
     /// Makes steps up to `t`, none of which ends after `from.end`.
@@ -150,7 +143,7 @@ impl<'s> Diffsol<'s> {
             let stepped = frame.with_mut(|solver| solver.step(from.end));
             let advanced = frame.with(|solver| solver.t()) - before;
             let failure = frame.equations().take_failure();
-            self.cause = failure.or(self.cause.take().filter(|_| advanced <= CREEPING_STEP * before.abs()));
+            self.cause = failure.or(self.cause.take().filter(|_| advanced <= tolerances::SAME * before.abs()));
             frame.equations().count(&mut problem.dynamics.statistics);
             let counters = frame.with(|solver| solver.counters());
             counters.add_since(std::mem::replace(&mut self.counted, counters), &mut problem.dynamics.statistics);

@@ -10,41 +10,6 @@ use crate::math::newton::Limits;
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances;
 
-/// Error of v' that generalized_alpha may leave where steps are controlled. Unit: `[1]` of the stagnation tolerance.
-/// Why: phi is round-off then, and no more is asked of v'.
-const CONTROLLED_ERROR: f64 = 1e-6;
-
-/// Changes of v' at the end of a step of generalized_alpha that are small beside its local error. Unit: `[1]` of the
-/// change of a in the step. Why: the local error of v is about h/T of h times that change, with T the time scale of the
-/// motion, and what is left after a correction that small is a hundredth of it or less. Test:
-/// `fixed_steps_do_not_see_units`.
-const PART_OF_CHANGE: f64 = 1e-6;
-
-/// Corrections at most of a step of generalized_alpha. Unit: `[iterations]`. Why: as many as far predictions and kinks
-/// of forces want.
-const GENERALIZED_ALPHA_ITERATIONS: usize = 25;
-
-/// Rate of convergence up to which the matrix of generalized_alpha serves the next step too. Unit: `[1]`. Why: an
-/// iteration more costs far less than K and C.
-const GENERALIZED_ALPHA_MATRIX_KEPT: f64 = 1e-2;
-
-/// Corrections up to which a matrix of a step before serves the next step too. Unit: `[iterations]`. Why: a matrix
-/// costs about four, and a new one converges in three or two. Test: `generalized_alpha_passes_the_flat_position`.
-const CORRECTIONS_WITH_OLD_MATRIX: usize = 4;
-
-/// Corrections of generalized_alpha that no longer fall before an iteration ends by stagnation. Unit: `[iterations]`.
-/// Why: their rate is the mean of two ratios, and one may be smaller by chance.
-const CORRECTIONS_OF_ROUND_OFF: usize = 3;
-
-/// Rank indicator below which generalized_alpha keeps a matrix of a step before also after long iterations. Unit: `[1]`
-/// of the indicator at regular states. Why: a matrix from there converges at the singular state too. Test:
-/// `generalized_alpha_passes_the_flat_position`.
-const NEARLY_SINGULAR: f64 = 0.1;
-
-/// The matrix of generalized_alpha serves steps up to this factor longer or shorter. Unit: `[1]`. Why: M is most of it,
-/// and the rate is watched.
-const MATRIX_BAND: f64 = 1.3;
-
 /// The matrix for v'_1.
 pub(super) struct Matrix {
     scheme: Scheme,
@@ -52,7 +17,7 @@ pub(super) struct Matrix {
 }
 
 impl Factors for Matrix {
-    const BAND: f64 = MATRIX_BAND;
+    const BAND: f64 = 1.3;
 
     /// Shifts have the metric of M alone, since sums of corrections in the metrics of several states would depend on
     /// the iteration.
@@ -72,11 +37,14 @@ impl Factors for Matrix {
 /// Limits on changes over their stagnation tolerance.
 fn limits(is_fixed: bool) -> Limits {
     Limits {
-        most: GENERALIZED_ALPHA_ITERATIONS,
-        tolerance: if is_fixed { tolerances::ROUND_OFF_OF_STAGNATION } else { CONTROLLED_ERROR },
+        // As many as far predictions and kinks of forces want.
+        most: 25,
+        // phi is round-off then, and no more is asked of v'.
+        tolerance: if is_fixed { tolerances::ROUND_OFF_OF_STAGNATION } else { 1e-6 },
         round_off: tolerances::ROUND_OFF_OF_STAGNATION,
         stagnation: 1.0,
-        kept_rate: GENERALIZED_ALPHA_MATRIX_KEPT,
+        // An iteration more costs far less than K and C.
+        kept_rate: 1e-2,
         ..Limits::NONE
     }
 }
@@ -112,8 +80,10 @@ impl Newton {
     /// kept.
     pub fn accepted(&mut self) {
         let monitor = &self.matrix.monitor;
-        let of_round_off = if monitor.has_stagnated { CORRECTIONS_OF_ROUND_OFF } else { 0 };
-        let is_short = monitor.iterations <= CORRECTIONS_WITH_OLD_MATRIX + of_round_off;
+        // Rates of round-off are means of two ratios, and one may be small by chance.
+        let of_round_off = if monitor.has_stagnated { 3 } else { 0 };
+        // A matrix costs about four corrections, and a new one converges in three or two.
+        let is_short = monitor.iterations <= 4 + of_round_off;
         let is_economical = is_short || self.matrix.is_fresh || self.is_nearly_singular;
         self.matrix.pass_on(self.matrix.monitor.keeps_matrix() && is_economical);
     }
@@ -136,7 +106,8 @@ impl Newton {
         self.matrix.pass_on(true);
         self.is_stale = self.matrix.serves(&problem.dynamics);
         let kkt = &problem.dynamics.kkt;
-        self.is_nearly_singular = kkt.is_factored() && kkt.rank_indicator() < NEARLY_SINGULAR * kkt.rank_reference;
+        self.is_nearly_singular =
+            kkt.is_factored() && kkt.rank_indicator() < tolerances::NEAR_SINGULAR * kkt.rank_reference;
         let mut monitor = std::mem::take(&mut self.matrix.monitor);
         let converged = monitor.solve(self.limits, |renews| {
             motion.advance(problem, from, to);
@@ -193,7 +164,7 @@ impl Newton {
             return 0.0;
         }
         let rounding = f64::EPSILON * largest(problem.split(to).0) / motion.scheme.slopes(h).q;
-        rounding.min(PART_OF_CHANGE * motion.largest_change())
+        rounding.min(tolerances::SIX_DIGITS * motion.largest_change())
     }
 
     /// Stagnation tolerances of the changes of v'_1 and of xi'_1, from the largest a_1 and v_1/h of each.
@@ -203,11 +174,10 @@ impl Newton {
         let size = largest(&motion.end.a[..moving]).max(largest(&v[..moving]) / h);
         let of_states = largest(&motion.end.a[moving..v.len()]).max(largest(&v[moving..v.len()]) / h);
         let Slopes { q: by_q, v: by_v, .. } = motion.scheme.slopes(h);
-        let reach =
-            Some(largest(q)).filter(|reach| *reach > 0.0).map_or(1.0, |reach| reach.max(tolerances::LEAST_LARGEST_Q));
+        let reach = Some(largest(q)).filter(|reach| *reach > 0.0).map_or(1.0, |reach| reach.max(tolerances::ATOM));
         [
-            (tolerances::NEWTON_STAGNATION * size).max(tolerances::ROUND_OFF_OF_SUMS * reach / by_q),
-            (tolerances::NEWTON_STAGNATION * of_states).max(tolerances::ROUND_OFF_OF_SUMS / by_v),
+            (tolerances::ROOT_OF_ROUND_OFF * size).max(tolerances::ROUND_OFF_OF_SUMS * reach / by_q),
+            (tolerances::ROOT_OF_ROUND_OFF * of_states).max(tolerances::ROUND_OFF_OF_SUMS / by_v),
         ]
     }
 }

@@ -9,19 +9,8 @@ use crate::method_spec::MethodSpec;
 use crate::tolerances;
 use serde::{Deserialize, Serialize};
 
-/// Steps at one order before it may change. Unit: `[steps]`. Test: `no_more_work_than_other_codes`.
-const RADAU_STEADY: usize = 4;
-
-/// The gain in work that is worth a change of the order. Unit: `[1]`. Test: `no_more_work_than_other_codes`.
-const RADAU_GAIN: f64 = 1.2;
-
 /// Contraction of Newton's method that a larger step may come to. Unit: `[1]`. Test: `no_more_work_than_other_codes`.
 const RADAU_SLOW: f64 = 0.4;
-
-/// The shortest and the longest step that radau_iia tries over one that Newton's method did not solve. Unit: `[1]`.
-/// Why: contraction tells the length within, but its first rates are rough. Test:
-/// `turning_stiff_directions_do_not_limit_steps`.
-const RADAU_RETRIED: [f64; 2] = [0.25, 0.8];
 
 /// The methods with 3, 5 and 7 stages, and the one in use.
 ///
@@ -104,14 +93,15 @@ impl Order {
         let own = if seen.lower > 0.0 { seen.error / seen.lower } else { 0.0 };
         let fall = (own * self.choice.last_fall.unwrap_or(own)).sqrt();
         self.choice.last_fall = Some(own);
-        if self.choice.steady < RADAU_STEADY {
+        // Steps at one order come first, and a change must be worth the new matrices.
+        if self.choice.steady < 4 {
             return;
         }
         let (best, gain) = self.neighbours().fold((self.current(), 1.0), |best, index| {
             let gain = self.gain(index, tolerance, seen, fall);
             if gain > best.1 { (index, gain) } else { best }
         });
-        if best != self.current() && gain > RADAU_GAIN {
+        if best != self.current() && gain > 1.2 {
             self.set(best);
         }
     }
@@ -152,7 +142,8 @@ impl Order {
     /// Sets how much shorter a step is tried again that Newton's method did not solve: so that it would contract well
     /// enough and not turn too far; as short as it may be where the residual has no value, or nothing is known.
     pub fn retry(&mut self, newton: &Monitor, has_value: bool, turned: f64) {
-        let [shortest, longest] = RADAU_RETRIED;
+        // Contraction tells the length within, but its first rates are rough.
+        let [shortest, longest] = [0.25, 0.8];
         let is_known = has_value && newton.iterations > 1 && !newton.rate.is_nan();
         let shorter = if is_known { farthest(newton.rate, turned) } else { shortest };
         self.choice.control.retry = shorter.clamp(shortest, longest);

@@ -8,18 +8,6 @@ use crate::integrator::{From, Problem};
 use crate::math::newton::{Limits, Monitor};
 use crate::tolerances;
 
-/// Rate of convergence up to which the matrices of radau_iia serve the next step too. Unit: `[1]`. Why: an iteration
-/// more costs an evaluation a stage, about as much as a new matrix does. Test: `no_more_work_than_other_codes`.
-const RADAU_MATRIX_KEPT: f64 = 3e-5;
-
-/// Corrections of a fixed step of radau_iia that may grow. Unit: `[iterations]`. Why: such a step cannot be tried
-/// smaller. Test: `long_chains_take_fixed_steps`.
-const RADAU_PATIENCE: usize = 10;
-
-/// The least rate by which the error that an iteration leaves is told. Unit: `[1]`. Why: two changes tell little of the
-/// rate. Test: `no_more_work_than_other_codes`.
-const RADAU_LEAST_RATE: f64 = 0.1;
-
 /// The equations of all stages of one step.
 pub struct System<'a> {
     pub dae: &'a Dae,
@@ -52,9 +40,12 @@ impl System<'_> {
             tolerance: (10.0 * f64::EPSILON / tolerance.rtol).max(tolerance.rtol.sqrt().min(0.03)),
             round_off,
             stagnation: tolerances::RADAU_STAGNATION * stagnation,
-            patience: if *is_fixed { RADAU_PATIENCE } else { 0 },
-            least_rate: RADAU_LEAST_RATE,
-            kept_rate: RADAU_MATRIX_KEPT,
+            // A fixed step cannot be tried smaller.
+            patience: if *is_fixed { 10 } else { 0 },
+            // Two changes tell little of the rate.
+            least_rate: 0.1,
+            // An iteration more costs an evaluation a stage, about as much as a new matrix.
+            kept_rate: 3e-5,
             ..Limits::NONE
         };
         let converged = newton.solve(limits, |_| {

@@ -5,10 +5,7 @@ use crate::linearize::coordinates::parallel;
 use crate::linearize::flow::{Bundle, Snapshot, flow_until};
 use crate::linearize::{Chart, Coordinates, Matrix, State, Variation};
 use crate::system::{LeviCivita, MechanicalSystem, Need, OperatingPoint};
-
-/// A basis so near to an orthonormal one is made so by one step of Newton's method. Unit: `[1]`, entries of X^T M X - I.
-/// Why: the square root of rounding. Test: `the_intrinsic_chart_is_followed`.
-const NEARLY_ORTHONORMAL: f64 = 1e-8;
+use crate::tolerances;
 
 /// A chart at the start and its continuation along the motion: constant charts stay, as all do at an equilibrium; the
 /// basis of the intrinsic one is transported parallel, in the same steps as the motion.
@@ -118,7 +115,7 @@ pub fn nearest(variation: &mut Variation, n: &Matrix) -> Result<Coordinates> {
 fn orthonormal(x: Matrix, variation: &Variation) -> Matrix {
     let square = x.tr_mul(&variation.mass_times(&x));
     let off = Matrix::identity(x.ncols(), x.ncols()) - &square;
-    if off.amax() < NEARLY_ORTHONORMAL {
+    if off.amax() < tolerances::ROOT_OF_ROUND_OFF {
         return &x + &x * (off * 0.5);
     }
     let square = square.symmetric_eigen();

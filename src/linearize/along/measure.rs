@@ -6,17 +6,6 @@ use crate::linearize::flow::flow;
 use crate::linearize::{Coordinates, LinearModel, Matrix, State, Variation};
 use crate::system::MechanicalSystem;
 
-/// A is measured at so many states along a motion. Unit: `[states]`. Why: they tell a wrong term, which is wrong nearly
-/// everywhere.
-const MEASURED_STATES: usize = 5;
-
-/// The longest step of the transition matrices by which A is measured, over the time of its fastest change. Unit:
-/// `[1]`. Why: the sixth power of it, over those of two that the extrapolation divides by, is round-off.
-const MEASURED_STEP: f64 = 0.2;
-
-/// Number of these steps, each half of the last. Unit: `[steps]`. Why: of more, the shortest ones are round-off.
-const MEASURED_STEPS: u32 = 7;
-
 /// A against the limit of (Phi(t + h, t) - I)/h for h to 0. Velocities are divided by a rate of the model; both numbers
 /// are parts of the largest entry of A.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -94,7 +83,8 @@ fn size(matrix: &Matrix) -> f64 {
 /// Measures A at some of the times, spread evenly; where a motion cannot be followed from one, nothing is known there.
 pub(super) fn measure(system: &dyn MechanicalSystem, course: &Course, models: &[LinearModel]) -> Vec<MeasuredA> {
     let last = models.len() - 1;
-    let count = MEASURED_STATES.min(last);
+    // They tell a wrong term, which is wrong nearly everywhere.
+    let count = last.min(5);
     let places = (0..count).map(|i| i * last / count.max(1));
     places.filter_map(|place| of_a(system, course, &models[place]).ok().flatten()).collect()
 }
@@ -111,8 +101,9 @@ fn of_a(system: &dyn MechanicalSystem, course: &Course, model: &LinearModel) -> 
         return Ok(None);
     }
     let point = &model.point;
-    let longest = MEASURED_STEP / rate;
-    let steps: Vec<f64> = (0..MEASURED_STEPS).rev().map(|i| longest / f64::from(1u32 << i)).collect();
+    // The sixth power of it, over those of two that the extrapolation divides by, is round-off.
+    let longest = 0.2 / rate;
+    let steps: Vec<f64> = (0..7).rev().map(|i| longest / f64::from(1u32 << i)).collect();
     let times: Vec<f64> = steps.iter().map(|h| point.t + h).collect();
     let state = State { t: point.t, q: point.q.clone(), v: point.v.clone() };
     let mut course = course.from(start);

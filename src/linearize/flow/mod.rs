@@ -22,9 +22,6 @@ use field::VariationalField;
 use projection::Straightening;
 use pushed::Pushed;
 
-/// Steps at most of such a run. Unit: `[steps]`. Test: `a_double_pendulum_is_chaotic`.
-const FLOW_STEPS: usize = 2_000_000;
-
 const SHORTER: &str = "choose a shorter time";
 
 /// Integrates a bundle and passes it to `see` at `times` (increasing, after the start), by dop853 on the equations of
@@ -91,7 +88,7 @@ pub fn flow_until(
         limits_projection: false,
     };
     let horizon = times.last().map_or(start.t, |last| last.max(start.t));
-    let tolerance = Tolerance::new(tolerances::FLOW_RTOL, tolerances::FLOW_ATOL, &carrier);
+    let tolerance = Tolerance::new(tolerances::FLOW_RTOL, tolerances::TIGHTEST, &carrier);
     let mut run = Segments::new(parts, tolerance, (start.t, horizon), shape.pack(bundle));
     let mut counter = Counter { steps: 0, is_over };
     for &end in times {
@@ -124,7 +121,7 @@ impl Sink for Counter<'_> {
         if (self.is_over)() {
             return Some(Stop { reason: "its time is over".to_string(), hint: SHORTER.to_string() });
         }
-        (self.steps > FLOW_STEPS).then(|| Stop {
+        (self.steps > 2_000_000).then(|| Stop {
             reason: "the explicit method that carries perturbations needs more than two million steps".to_string(),
             hint: "choose a shorter time, or a model without its fastest modes".to_string(),
         })

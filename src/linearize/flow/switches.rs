@@ -9,10 +9,6 @@ use crate::simulate::{Method, Observation, Sink, Span, simulate};
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
 use crate::tolerances;
 
-/// Size of the changes (dq, dv) over which the argument of a switching function is differentiated. Unit: `[m, rad, m/s,
-/// rad/s]`. Why: its fourth power, the error of the differences, is about their round-off.
-const SALTATION_STEP: f64 = 1e-3;
-
 /// A change of form, with v' and the pieces before and after it.
 struct Event {
     state: State,
@@ -103,7 +99,7 @@ fn events(system: &dyn MechanicalSystem, start: &State, end: f64) -> Result<Vec<
     if system.switches().all.is_empty() || end <= start.t {
         return Ok(Vec::new());
     }
-    let method = Method { rtol: tolerances::FLOW_RTOL, atol: tolerances::FLOW_ATOL, ..Method::default() };
+    let method = Method { rtol: tolerances::FLOW_RTOL, atol: tolerances::TIGHTEST, ..Method::default() };
     let span = Span { start: start.t, end, output_step: end - start.t };
     let mut found = Events::default();
     let outcome = simulate(system, &method, span, (&start.q, &start.v), &mut found)?;
@@ -165,7 +161,8 @@ impl<'a> Arguments<'a> {
         let State { q, v, .. } = &self.event.state;
         let largest = |x: &[f64]| x.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let size = largest(dq).max(largest(dv)).max(f64::MIN_POSITIVE);
-        let step = SALTATION_STEP / size;
+        // Its fourth power, the error of the differences, is about their round-off.
+        let step = 1e-3 / size;
         let mut value = |factor: f64| {
             let moved: Vec<f64> = dq.iter().map(|dq| factor * step * dq).collect();
             let mut there = q.clone();

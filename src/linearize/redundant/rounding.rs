@@ -4,11 +4,6 @@ use crate::formulation::Row;
 use crate::linearize::changes::beside;
 use crate::linearize::{Matrix, Variation};
 
-/// Entries of the pencil of all coordinates that are only rounding. Unit: `[1]` of the largest, in the metric of the
-/// mass. Why: ten times less than what rounds the largest itself, so that frequencies that are a million times lower
-/// keep five digits.
-const FROZEN_ZERO: f64 = 1e-17;
-
 /// K, C, G, Gd and -(Gdd, G1) of a pencil.
 pub struct Parts {
     pub k: Matrix,
@@ -71,7 +66,8 @@ fn over(entry: f64, scale: f64) -> f64 {
 /// Sets entries to zero whose size is below rounding of the `usual` size in their row.
 fn drop_small(matrix: &mut Matrix, sizes: &Matrix, usual: impl Fn(usize) -> f64) {
     for ((i, j), size) in (0..sizes.ncols()).flat_map(|j| (0..sizes.nrows()).map(move |i| (i, j))).zip(sizes.iter()) {
-        if *size < FROZEN_ZERO * usual(i) {
+        // A tenth of what rounds the largest: frequencies a million times lower keep five digits.
+        if *size < 1e-17 * usual(i) {
             matrix[(i, j)] = 0.0;
         }
     }

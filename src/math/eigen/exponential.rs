@@ -2,10 +2,6 @@
 
 use super::{Matrix, Unsolved, dense};
 
-/// Norm of A above which the powers of A that choose the order of approximation are not formed. Unit: `[1]`. Why:
-/// higher powers would overflow.
-const EXPONENTIAL_OVERFLOW: f64 = 1e20;
-
 /// exp(A) by scaling and squaring of Pade approximants of order up to 13 (Al-Mohy and Higham, "A new scaling and
 /// squaring algorithm for the matrix exponential", SIAM J. Matrix Anal. Appl. 31, 2009). About 20 n^3 operations, and
 /// 2 n^3 for each doubling of |A| above 4.
@@ -19,7 +15,8 @@ pub fn expm(a: &Matrix) -> Result<Matrix, Unsolved> {
     }
     let mut halvings = 0;
     let mut scaled = a.clone();
-    while scaled.amax() > EXPONENTIAL_OVERFLOW {
+    // Its powers, which choose the order, would overflow.
+    while scaled.amax() > 1e20 {
         scaled /= 2.0;
         halvings += 1;
     }

@@ -10,10 +10,6 @@ use faer::linalg::gevd::{ComputeEigenvectors, GevdParams, gevd_real, gevd_scratc
 use faer::linalg::temp_mat_scratch;
 use faer::{Mat, Par, Spec};
 
-/// Residual |beta A x - alpha E x| above which x is no eigenvector. Unit: `[1]` of |x| and the norm of the pencil. Why:
-/// ten times ROUND_OFF_OF_FACTORS.
-const EIGENVECTOR_OF_PENCIL: f64 = 1e-12;
-
 /// Eigenvalues alpha / beta of a pencil, see [`generalized`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Generalized {
@@ -135,7 +131,7 @@ fn vector(pencil: &Balanced, (unit, beta): &(Unit, f64), right: &Mat<f64>) -> Ve
     };
     let residual = (product(&pencil.a) * Complex::from(*beta) - product(&pencil.e) * unit.value).norm();
     let size = pencil.a.norm() * beta.abs() + pencil.e.norm() * unit.value.norm();
-    if residual <= EIGENVECTOR_OF_PENCIL * size * x.norm() {
+    if residual <= tolerances::ROUND_OFF_OF_SOLUTIONS * size * x.norm() {
         x.iter().zip(&pencil.cols).map(|(x, d)| *x * *d).collect()
     } else {
         vec![Complex::ZERO; n]

@@ -4,10 +4,6 @@ use super::{Complex, ComplexMatrix, Eigen, Matrix, Unsolved, conjugates, dense};
 use crate::tolerances;
 use faer::{Par, Side};
 
-/// Asymmetry of a stiffness that is rounding. Unit: `[1]` of its largest entry. Why: ten times ROUND_OFF_OF_FACTORS:
-/// columns come from back-substitutions. Test: `an_undamped_chain_by_its_stiffness`.
-const SYMMETRIC: f64 = 1e-12;
-
 /// Rows of A from which on the second-order form is used. Unit: `[rows]`. Why: smaller ones take less than a
 /// millisecond, and keep the digits of slow modes among fast ones. Test: `an_undamped_chain_by_its_stiffness`.
 const SECOND_ORDER_ROWS: usize = 100;
@@ -79,7 +75,7 @@ fn is_undamped(a: &Matrix, k: usize) -> bool {
         (0..k).all(|i| a[(i, j)] == 0.0 && a[(k + i, k + j)] == 0.0 && a[(i, k + j)] == f64::from(u8::from(i == j)))
     });
     let stiffness = a.view((k, 0), (k, k));
-    let slack = SYMMETRIC * stiffness.amax();
+    let slack = tolerances::ROUND_OFF_OF_SOLUTIONS * stiffness.amax();
     is_plain && (0..k).all(|j| (0..j).all(|i| (stiffness[(i, j)] - stiffness[(j, i)]).abs() <= slack))
 }
 
@@ -92,7 +88,7 @@ fn roots(square: f64) -> [Complex<f64>; 2] {
 
 /// A double zero has one vector, to rounding.
 fn is_zero(value: Complex<f64>, largest: f64) -> bool {
-    value.norm_sqr() <= f64::EPSILON * largest * tolerances::DEFECTIVE
+    value.norm_sqr() <= f64::EPSILON * largest * tolerances::HALF_OF_THE_DIGITS
 }
 
 /// Condition number of the vectors. Those of one s are orthogonal to those of any other; two of one s have the singular

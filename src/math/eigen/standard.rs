@@ -13,18 +13,6 @@ use faer::{Mat, Par};
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use std::f64::consts::SQRT_2;
 
-/// Residual of an eigenvector in the matrix before it was balanced, above which it is computed again there. Unit: `[1]`
-/// of |A| |x|. Why: a thousand times ROUND_OFF_OF_FACTORS.
-const EIGENVECTOR_REPEATED: f64 = 1e-10;
-
-/// Residual of an eigenpair above which the eigenvalue counts as not converged. Unit: `[1]` of |A| |x|. Why: the square
-/// root of rounding, which defective eigenvalues reach.
-const EIGENVALUE_FAILED: f64 = 1e-8;
-
-/// Condition number of the right eigenvectors up to which their inverse gives the left ones. Unit: `[1]`. Why: half of
-/// the digits are left; beyond, left vectors are computed by themselves.
-const WELL_CONDITIONED_VECTORS: f64 = 1e8;
-
 /// All eigenvalues with left and right vectors: balancing (Parlett and Reinsch, by powers of two), then the QR
 /// algorithm. About 30 n^3 operations.
 ///
@@ -119,7 +107,7 @@ fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Res
             (x, y) = inverse::vectors(&complex, unit.value, unit.column as u64, tolerances::ROUND_OFF_OF_FACTORS)?;
             off = residual(&complex, unit.value, &x);
         }
-        converged += if off <= EIGENVALUE_FAILED { 1 + usize::from(unit.is_pair()) } else { 0 };
+        converged += if off <= tolerances::ROOT_OF_ROUND_OFF { 1 + usize::from(unit.is_pair()) } else { 0 };
         found.push((x, y));
     }
     let wanted = a.nrows();
@@ -169,7 +157,8 @@ fn mend(a: &Matrix, units: &[Unit], right: &mut [Vector], left: &mut [Vector]) -
     let of_left = residuals(a, units, left, true);
     for (j, unit) in units.iter().enumerate() {
         let before = of_right[j].max(of_left[j]);
-        if before > EIGENVECTOR_REPEATED {
+        // A thousand times the round-off of factors.
+        if before > 1e-10 {
             let complex = dense::complex(a);
             let (x, y) = inverse::vectors(&complex, unit.value, unit.column as u64, tolerances::ROUND_OFF_OF_FACTORS)?;
             let of_adjoint = residual(&complex.adjoint(), unit.value.conj(), &y);
@@ -207,7 +196,7 @@ fn biorthogonal(
     mut left: ComplexMatrix,
     conditioning: f64,
 ) -> ComplexMatrix {
-    if conditioning < WELL_CONDITIONED_VECTORS {
+    if conditioning < 1.0 / tolerances::ROOT_OF_ROUND_OFF {
         let n = basis.nrows();
         faer::set_global_parallelism(Par::Seq);
         let inverse = dense::view(basis).transpose().partial_piv_lu().solve(Mat::<f64>::identity(n, n));
@@ -229,7 +218,7 @@ fn biorthogonal(
     }
     for (mut y, x) in left.column_iter_mut().zip(right.column_iter()) {
         let product = y.dotc(&x);
-        let factor = if product.norm() > tolerances::DEFECTIVE { product.conj().inv() } else { Complex::ZERO };
+        let factor = if product.norm() > tolerances::HALF_OF_THE_DIGITS { product.conj().inv() } else { Complex::ZERO };
         y.iter_mut().for_each(|y| *y *= factor);
     }
     left

@@ -2,10 +2,7 @@
 
 use super::Pattern;
 use crate::math::{add_scaled, dot, norm};
-
-/// Coefficients of the rows on which a row depends that are not named. Unit: `[1]` for rows of unit length. Why: the
-/// square root of rounding.
-const NAMED_DEPENDENCE: f64 = 1e-8;
+use crate::tolerances;
 
 /// The rank of a matrix, and its dependent rows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -110,7 +107,7 @@ impl Basis {
             if c != 0.0 {
                 add_scaled(-c, &member.along, &mut along[..k]);
             }
-            if c.abs() > NAMED_DEPENDENCE {
+            if c.abs() > tolerances::ROOT_OF_ROUND_OFF {
                 combination.push((member.row, c * length / member.length));
             }
         }

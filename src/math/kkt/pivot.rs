@@ -3,18 +3,6 @@
 use crate::math::array::Each;
 use crate::tolerances;
 
-/// A pivot of the fast factorization that has collapsed: it stops, and the careful ways begin. Unit: `[1]` of its size
-/// before. Why: ten times COLLAPSED, for what is doubtful shall be looked at.
-const COLLAPSED_FAST: f64 = 1e-11;
-
-/// Pivots of the fast factorization whose solutions need a refinement. Unit: `[1]` of its size before. Why: half of the
-/// digits are lost there.
-const WEAK_FAST: f64 = 1e-7;
-
-/// A collapsed pivot of a coordinate is replaced by this part of the largest mass. Unit: `[1]`. Why: the square root of
-/// rounding: refinement makes up for it. Test: `a_large_system_with_massless_bodies_and_redundant_rows`.
-const REPLACED_MASS: f64 = 1e-7;
-
 /// Ratios of a pivot to its size before elimination. For a multiplier the ratio is the squared sine of the angle
 /// between its row of G and the rows before it, in the metric of M^-1; round-off of exactly dependent rows leaves 1e-16
 /// to 1e-14.
@@ -30,12 +18,13 @@ pub(super) struct Rule {
 
 impl Rule {
     /// Stops at a collapsed pivot: the fast path.
-    pub const STRICT: Rule = Rule { collapsed: COLLAPSED_FAST, weak: WEAK_FAST, floor: None };
+    pub const STRICT: Rule =
+        Rule { collapsed: tolerances::COLLAPSED_FAST, weak: tolerances::HALF_OF_THE_DIGITS, floor: None };
 
     /// Continues at a collapsed pivot: a multiplier is dropped, a coordinate gets a small mass.
     pub fn lenient(collapsed: f64, mass_diagonal: &[f64]) -> Rule {
         let largest = mass_diagonal.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
-        let floor = REPLACED_MASS * if largest > 0.0 { largest } else { 1.0 };
+        let floor = tolerances::HALF_OF_THE_DIGITS * if largest > 0.0 { largest } else { 1.0 };
         Rule { collapsed, weak: 1e-8, floor: Some(floor) }
     }
 }
@@ -100,7 +89,7 @@ impl Judge<'_> {
         let Some(floor) = self.rule.floor else { return Err(node) };
         if node < self.n {
             self.quality.replaced = true;
-            return Ok(1.0 / (REPLACED_MASS * size).max(floor));
+            return Ok(1.0 / (tolerances::HALF_OF_THE_DIGITS * size).max(floor));
         }
         self.quality.doubtful |= pivot.abs() > tolerances::ROUND_OFF_OF_FACTORS * size;
         self.skipped.push(node - self.n);

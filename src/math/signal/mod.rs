@@ -12,10 +12,6 @@ mod cubic;
 mod points;
 mod spline;
 
-/// A signal whose last two points differ by less is level at that end: it is meant to be held beyond. Unit: `[1]` of
-/// the range of its values. Why: a smooth ramp of 50 points ends so; a measured road does not. Test:
-/// `a_signal_that_ends_early_is_said`.
-const LEVEL_END: f64 = 1e-3;
 #[cfg(test)]
 mod tests;
 
@@ -24,6 +20,7 @@ pub use points::{Beyond, Interpolation, PointsError};
 use super::regime::{Piece, Thresholds};
 use super::scalar::Scalar;
 use crate::math::array::Each;
+use crate::tolerances;
 use cubic::{BoundsTree, Cubic, bounds, derived, hull, value};
 use std::sync::Arc;
 
@@ -200,7 +197,7 @@ impl Signal {
         let count = self.cubics.len();
         let [end, neighbour] = if beyond_last { [count, count - 1] } else { [0, 1] };
         let height = |row: usize| self.cubics.get(row).map_or(self.last, |cubic| cubic[0]);
-        let is_level = (height(end) - height(neighbour)).abs() <= LEVEL_END * (high - low);
+        let is_level = (height(end) - height(neighbour)).abs() <= tolerances::UNSEEN * (high - low);
         (!is_level).then(|| height(end))
     }
 

@@ -5,6 +5,7 @@ use crate::error::{significant, two_digits};
 use crate::linearize::{Sensitivity, Slope, Threshold, ThresholdKind};
 use crate::plot::Figure;
 use crate::report::sweep_figure::marked;
+use crate::tolerances;
 use serde::Serialize;
 
 /// Derivatives of the eigenvalues at a value of the parameter.
@@ -67,7 +68,7 @@ pub fn sensitivity_lines(name: &str, found: Option<&SensitivityFile>) -> String 
                 format!("    {value}: 0, to {}\n", two_digits(error))
             }
             (Some(re), Some(im), Some(error)) => {
-                let is_doubtful = error > DOUBTFUL_SLOPE * re.hypot(im);
+                let is_doubtful = error > tolerances::SIX_DIGITS * re.hypot(im);
                 let doubt = if is_doubtful { format!(", right to {}", two_digits(error)) } else { String::new() };
                 format!("    {value}: {}{doubt}\n", complex(re, im))
             }
@@ -80,9 +81,6 @@ pub fn sensitivity_lines(name: &str, found: Option<&SensitivityFile>) -> String 
 
 /// Largest number of derivatives in the text; the file has all.
 const MOST_SLOPES: usize = 6;
-
-/// Error of a derivative that is told. Unit: `[1]` of it. Why: six digits are printed.
-const DOUBTFUL_SLOPE: f64 = 1e-6;
 
 /// Rounding of one part of a number beside the other is none.
 fn cleaned(x: f64, other: f64) -> f64 {

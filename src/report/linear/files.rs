@@ -9,11 +9,9 @@ use crate::prepared::Model;
 use crate::report::mechanism::{Look, mode_figure};
 use crate::report::table::named;
 use crate::report::{Answer, Folder, cell, object};
+use crate::tolerances;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
-
-/// Parts of bodies in a mode that are left out of a file. Unit: `[1]` of its kinetic energy.
-const PART_OF_MODE: f64 = 1e-3;
 
 /// Largest components; those of phi and phi' over their scales.
 #[derive(Serialize)]
@@ -146,7 +144,7 @@ fn eigenvalue(model: &LinearModel, mode: &Mode) -> Value {
     let finite = |value: f64| is_finite.then_some(value);
     let value = shown(mode);
     let parts = largest_parts(&model.states, &mode.participation).into_iter();
-    let parts = parts.filter(|(_, part)| *part >= PART_OF_MODE);
+    let parts = parts.filter(|(_, part)| *part >= tolerances::UNSEEN);
     json!({
         "re": finite(value.re),
         "im": finite(value.im),

@@ -5,10 +5,6 @@ use crate::linearize::{LinearModel, Mode, Pair};
 use crate::tolerances::{DEFECTIVE_MODE, EIGENVALUES_AGREE};
 use std::fmt::Write;
 
-/// Error of an eigenvalue that is told beside the table. Unit: `[1]` of it. Why: four of the six digits that are
-/// printed hold. Test: `eigenvalues_have_their_errors`.
-const DOUBTFUL_DIGITS: f64 = 1e-4;
-
 /// Returns a line for each remark on the listed eigenvalues, by their numbers in the table; `names` are those of the
 /// velocities.
 pub fn notes(model: &LinearModel, listed: &[(usize, Pair)], names: &[String]) -> String {
@@ -40,7 +36,8 @@ pub fn notes(model: &LinearModel, listed: &[(usize, Pair)], names: &[String]) ->
         );
     }
     for (number, Pair { mode, .. }) in others {
-        if mode.error > DOUBTFUL_DIGITS * mode.value.norm() && !defective.contains(number) {
+        // Four of the six digits that are printed hold.
+        if mode.error > 1e-4 * mode.value.norm() && !defective.contains(number) {
             let error = two_digits(mode.error);
             let condition = mode.condition;
             let _ = writeln!(text, "  mode {number} is right to {error} 1/s only (condition {condition:.1e})");

@@ -3,10 +3,6 @@
 use crate::linearize::Complex;
 use crate::tolerances;
 
-/// Steps of the phase that are so near to 180 degrees are those of an undamped response. Unit: `[deg]`. Why: ten digits
-/// of a response of a damped one are farther away.
-const UNDAMPED_PHASE: f64 = 1e-3;
-
 /// Returns phases in degrees without jumps of 360; NaN where the response is zero or has a pole.
 ///
 /// The first phase is 90 n plus the angle of H / i^n, about 0 or -180 by its sign, where H grows as w^n: a rate leads its
@@ -47,7 +43,8 @@ fn first(frequencies: &[f64], values: &[Complex<f64>], known: &[usize]) -> f64 {
 /// turns.
 fn step(values: &[Complex<f64>], known: &[usize], k: usize, turn: f64) -> f64 {
     let step = turn - 360.0 * (turn / 360.0).round();
-    if step.abs() < 180.0 - UNDAMPED_PHASE {
+    // In degrees: ten digits of a damped response are farther away.
+    if step.abs() < 180.0 - 1e-3 {
         return step;
     }
     // Between the two values the response is infinite or zero: towards a pole it grows, from it it falls.

@@ -4,11 +4,8 @@ use crate::error::{Warning, clock};
 use crate::linearize::State;
 use crate::prepared::Model;
 use crate::system::MechanicalSystem;
+use crate::tolerances;
 use crate::trajectory::Trajectory;
-
-/// Error of the cubic between two rows of a finished run above which drawings between them are doubtful. Unit: `[1]` of
-/// the scene's length, or rad. Why: it is seen in a figure. Test: `a_finished_run_is_drawn`.
-const BETWEEN_ROWS: f64 = 0.01;
 
 /// A computed motion.
 pub struct Motion<'a> {
@@ -45,7 +42,7 @@ impl<'a> Motion<'a> {
             let ((q, ..), found) = (self.trajectory.row_state(&row[1]), self.between(&row[0], &row[2], row[1][0]).q);
             let errors =
                 names.iter().zip(q.iter().zip(found)).map(|(name, (q, found))| (q - found).abs() / scale(name));
-            errors.fold(0.0, f64::max) / 16.0 > BETWEEN_ROWS
+            errors.fold(0.0, f64::max) / 16.0 > tolerances::TOLD
         };
         let row = self.trajectory.rows.windows(3).find(|row| !names.is_empty() && is_far(row))?;
         let text = format!("rows at t = {} s are too far apart to draw the mechanism between them", clock(row[1][0]));

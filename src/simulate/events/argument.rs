@@ -3,16 +3,8 @@
 use super::range::{Range, first_out};
 use crate::math::Rate;
 
-/// The dense output is looked at where the cubic between both ends of a step comes nearer to a threshold. Unit: `[1]`
-/// of its range.
-const NEAR_THRESHOLD: f64 = 0.2;
-
 /// Places at which the dense output is looked at where a step comes near a threshold. Unit: `[places]`.
 const LOOKS_AT_STEP: usize = 8;
-
-/// Halvings of the interval in which the cubic of a step passes a threshold. Unit: `[halvings]`. Why: thresholds a
-/// millionth of a step apart are taken in order. Test: `a_law_of_many_kinks_is_found_kink_by_kink`.
-const HALVINGS_OF_CUBIC: usize = 20;
 
 /// An argument over a step of size `h`, given by its values and rates at both ends.
 pub struct Argument {
@@ -46,7 +38,7 @@ impl Argument {
         let looks = || [0.0].into_iter().chain(Self::looks()).chain([1.0]);
         let values = looks().map(|theta| self.cubic(theta));
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        let margin = NEAR_THRESHOLD * (high - low);
+        let margin = 0.2 * (high - low);
         let beyond = |theta: f64| self.range.beyond(self.cubic(theta));
         let near = looks().find(|theta| beyond(*theta) >= -margin)?;
         let outside = looks().find(|theta| beyond(*theta) >= 0.0);
@@ -57,7 +49,8 @@ impl Argument {
     fn passed_before(&self, outside: f64) -> f64 {
         let mut low = outside - Self::APART;
         let mut high = outside;
-        for _ in 0..HALVINGS_OF_CUBIC {
+        // Thresholds a millionth of a step apart are taken in order.
+        for _ in 0..20 {
             let middle = 0.5 * (low + high);
             if self.range.beyond(self.cubic(middle)) < 0.0 { low = middle } else { high = middle }
         }

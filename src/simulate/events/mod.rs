@@ -16,18 +16,9 @@ use crate::math::expression::Switch;
 use crate::math::signal::Signal;
 use crate::math::{Piece, Rate, Regime, Thresholds};
 use crate::system::{MechanicalSystem, OperatingPoint, Scratch};
+use crate::tolerances;
 use argument::Argument;
 use range::Range;
-
-/// A passage of a threshold nearer to the start of a step than this is at the start. Unit: `[1]` of the step. Why: some
-/// thousand ulps.
-const PASSAGE_AT_START: f64 = 1e-12;
-
-/// Passages are found to this. Unit: `[1]` of the span. Why: what is left of a coordinate there may be round-off.
-const PASSAGE: f64 = 1e-13;
-
-/// Switching functions of switching functions of ... that are settled at the start. Unit: `[levels]`.
-const NESTED_SWITCHES: usize = 10;
 
 /// An argument is at a threshold within this. Unit: `[1]` of its change over the step.
 const AT_THRESHOLD: f64 = 1e-10;
@@ -36,11 +27,6 @@ const AT_THRESHOLD: f64 = 1e-10;
 /// coarse data half were refused; with 3, radau_iia would take a step an interval of fine data. Test:
 /// `steps_end_at_points_of_a_coarse_spline`.
 const NEAR_POINTS: f64 = 1.5;
-
-/// A point of a cubic signal nearer than this counts as reached. Unit: `[1]` of the interval. Why: what the jump of a
-/// third derivative does so late is its cube; where stages lie before the point, 0.05 left a thousand times the
-/// tolerated error. Test: `steps_end_at_points_that_are_near`.
-const AT_POINT: f64 = 1e-3;
 
 /// The place of a threshold in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,7 +98,7 @@ impl<'a> Events<'a> {
             at: Vec::new(),
             near: Vec::new(),
             turned: vec![0; switches.len()],
-            shortest: PASSAGE * (end - start),
+            shortest: tolerances::ROUND_OFF_OF_FACTORS * (end - start),
         }
     }
 
@@ -149,7 +135,7 @@ impl<'a> Events<'a> {
             let of_time = self.switches[number].of_time.as_ref();
             let x = of_time.map_or(self.start[number], |argument| argument.at(Rate::seeded(t, 0), regime));
             let rate = x.eps[0];
-            let (point, width) = signal.point_ahead(x.re, rate > 0.0, AT_POINT)?;
+            let (point, width) = signal.point_ahead(x.re, rate > 0.0, tolerances::UNSEEN)?;
             let step = (point - x.re) / rate;
             (h * rate.abs() < NEAR_POINTS * width && 0.0 < step && step < h).then_some(step)
         };
@@ -172,7 +158,8 @@ impl<'a> Events<'a> {
     pub fn begin(&mut self, at: OperatingPoint) {
         self.timetable.place(at.t, &mut self.pieces);
         // An argument may depend on other pieces.
-        for _ in 0..NESTED_SWITCHES {
+        // Switching functions whose arguments switch, level by level.
+        for _ in 0..10 {
             let before = self.pieces.clone();
             self.start_at(at);
             for &number in &self.of_state {
@@ -226,7 +213,9 @@ impl<'a> Events<'a> {
                 range.beyond(x.re).abs() <= soon.max(part * swing) && range.outward(x) > 0.0
             };
             match () {
-                _ if is_at(a, PASSAGE_AT_START) || range.beyond(a.re) > 0.0 && range.outward(a) > 0.0 => {
+                _ if is_at(a, tolerances::ROUND_OFF_OF_SOLUTIONS)
+                    || range.beyond(a.re) > 0.0 && range.outward(a) > 0.0 =>
+                {
                     return Ok(Some(Passage::AtStart(number)));
                 }
                 _ if is_at(b, AT_THRESHOLD) => at.push(number),
@@ -247,7 +236,7 @@ impl<'a> Events<'a> {
                 Ok(range.beyond(within[number].re))
             };
             let passage = argument.first_passage(first, &mut beyond)?;
-            if passage < PASSAGE_AT_START {
+            if passage < tolerances::ROUND_OFF_OF_SOLUTIONS {
                 return Ok(Some(Passage::AtStart(number)));
             }
             first = passage.min(first);

@@ -6,16 +6,8 @@ use crate::math::expression::{Switch, TimeFunction};
 use crate::math::{Interval, Piece, Regime, Taylor, Thresholds};
 use crate::tolerances;
 
-/// An argument of time that is so near to a threshold may be there. Unit: `[1]` of its largest distance from one. Why:
-/// cancellation in a smoothstep leaves 15 ulps. Test: `a_function_that_comes_to_rest_on_a_threshold_passes_it_once`.
-const TIME_FUNCTION_ROUND_OFF: f64 = 1e-13;
-
 /// Intervals that a search for a change of form may look at; what is left is judged by its ends. Unit: `[intervals]`.
 const LOOKS_FOR_CHANGE: usize = 20_000;
-
-/// What a function of time may do beside its cubic where no estimate of the error sees to the rest. Unit: `[1]`, as
-/// before. Why: a pulse of a tenth of the step is met to 1e-7 by rk4.
-const RESOLVED_FINELY: f64 = 1e-4;
 
 /// The functions of time of a run: their changes of form, and the steps that resolve them.
 pub struct Timetable<'a> {
@@ -71,7 +63,8 @@ impl<'a> Timetable<'a> {
     /// The step, at most `h`, on which the functions of time are almost cubics.
     pub fn finely_resolved(&mut self, t: f64, h: f64, pieces: &[Piece]) -> f64 {
         self.watch.forget();
-        self.watch.resolved((t, h, f64::INFINITY), RESOLVED_FINELY, Regime::held(pieces))
+        // A pulse of a tenth of the step is met to 1e-7 by rk4.
+        self.watch.resolved((t, h, f64::INFINITY), 1e-4, Regime::held(pieces))
     }
 
     /// The piece of an argument right after `t`: within round-off of a threshold, the side to which it leaves that.
@@ -121,8 +114,8 @@ fn round_off(switch: &Switch, start: f64, end: f64) -> f64 {
     let finite = |size: f64| if size.is_finite() { size } else { 0.0 };
     let inside = (0..=SAMPLES).map(|i| finite(distance(i as f64 / SAMPLES as f64))).fold(0.0, f64::max);
     let beyond = (1..=DOUBLINGS).map(|k| finite(distance(2f64.powi(k)))).fold(0.0, f64::max);
-    let is_round_off = inside <= TIME_FUNCTION_ROUND_OFF * beyond;
-    TIME_FUNCTION_ROUND_OFF * if is_round_off { beyond } else { inside }
+    let is_round_off = inside <= tolerances::ROUND_OFF_OF_FACTORS * beyond;
+    tolerances::ROUND_OFF_OF_FACTORS * if is_round_off { beyond } else { inside }
 }
 
 const SAMPLES: usize = 64;

@@ -16,15 +16,8 @@ use crate::tolerances;
 /// Test: `a_bump_is_met_whenever_it_comes`.
 const NEVER_MISSED: f64 = 1e-4;
 
-/// A window is looked at whole for so many steps of the size at hand. Unit: `[steps]`.of speed. Test:
-/// `a_bump_is_met_whenever_it_comes`.
-const WATCHED_STEPS: f64 = 8.0;
-
 /// What is nothing of a function of time. Unit: `[its own unit]`. Why: round-off of a function of order one.
 const NO_FUNCTION: f64 = 1e-14;
-
-/// Enclosures of one window. Unit: `[enclosures]`. Why: with more those of the function are too wide.
-const LOOKS_IN_WINDOW: usize = 100;
 
 /// The functions of time of a run, and the time up to which they are resolved.
 pub struct Watch<'a> {
@@ -93,7 +86,8 @@ impl<'a> Watch<'a> {
         if self.functions.is_empty() || t + h <= self.seen {
             return h;
         }
-        let whole = (WATCHED_STEPS * h).min(stop - t);
+        // A window is looked at whole for eight steps of this size.
+        let whole = (8.0 * h).min(stop - t);
         let window = seen_window(&mut self.functions, (t, whole), (self.shortest, beside), regime);
         self.seen = t + window;
         // A step that differs by rounding from one that ends at the stop keeps its size.
@@ -142,7 +136,8 @@ impl Watched<'_> {
         if nodes.iter().any(|node| !node.x.is_finite()) {
             return None;
         }
-        let mut looks = LOOKS_IN_WINDOW;
+        // With more the enclosures of the function are too wide.
+        let mut looks = 100;
         for (i, quarter) in quarters(&times, &nodes).into_iter().enumerate() {
             let middle = self.at(0.5 * (quarter.from + quarter.to), regime);
             let a = nodes[i];

@@ -2,10 +2,8 @@
 
 use super::cell::{Cell, Quantity, Status};
 use super::run::Stressed;
+use crate::tolerances;
 use serde::Serialize;
-
-/// Errors that are those of the reference. Unit: `[1]` of the scales. Why: above REFERENCE_RTOL.
-const REFERENCE_NOISE: f64 = 1e-9;
 
 /// One integrator on the map of gains, judged by the drift of velocities or positions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -198,7 +196,7 @@ impl<'a> Levels<'a> {
         let at = |(column, step): (usize, &StepVerdict)| {
             let ((best, cell), none) = (self.best(column)?, self.named("none", column)?);
             let pairs = self.stressed.watched.iter().zip(cell.errors.iter().zip(&none.errors));
-            let seen = pairs.filter(|(_, (own, none))| **own > REFERENCE_NOISE && **none > REFERENCE_NOISE);
+            let seen = pairs.filter(|(_, (own, none))| **own > tolerances::SAME && **none > tolerances::SAME);
             let ratios = seen.map(|(output, (own, none))| (output, own / none));
             let (output, ratio) = ratios.max_by(|a, b| a.1.total_cmp(&b.1))?;
             Some(Farther { step: step.step, gain: best.gain, output: output.clone(), ratio })

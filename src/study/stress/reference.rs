@@ -6,11 +6,8 @@ use crate::simulate::Method;
 use crate::study::budget::{Budget, Limit};
 use crate::study::metric::ErrorMetric;
 use crate::study::second_opinion::{SecondOpinion, second_opinion};
+use crate::tolerances;
 use std::time::Duration;
-
-/// Tolerance of the references of stress. Unit: `[1]`, rtol. Why: the tightest of the tolerances that methods are tried
-/// at.
-const REFERENCE_RTOL: f64 = 1e-13;
 
 /// Result of the search for a reference.
 pub(super) enum Search {
@@ -31,7 +28,7 @@ impl Search {
         let mut longest = None;
         for names in METHODS {
             let [formulation, integrator, projection] = names.map(MethodSpec::named);
-            let rtol = REFERENCE_RTOL;
+            let rtol = tolerances::TIGHTEST;
             let method = Method { formulation, integrator, projection, rtol, atol: rtol, step: None };
             let case = Case { method, ..case.clone() };
             let search = subject.with(&case, |motion| {

@@ -4,6 +4,7 @@ use super::measure::Reduction;
 use crate::analysis::Extremes;
 use crate::math::expression::{Expression, ExpressionError, Parameters, Scope};
 use crate::system::Column;
+use crate::tolerances;
 
 /// An expression over the columns of a trajectory, with all that its values gave so far.
 pub struct Course {
@@ -30,10 +31,6 @@ enum Quantity {
     Column(usize),
     Expression(Box<Expression>),
 }
-
-/// Difference of times that are the same but for rounding. Unit: `[1]` of the output step. Why: rows stand at multiples
-/// of the step, which are rounded, and times are typed in decimals. Test: `values_at_a_time_are_those_of_its_row`.
-pub const SAME_TIME: f64 = 1e-6;
 
 impl Course {
     /// # Errors
@@ -86,7 +83,7 @@ impl Course {
             self.integral.1 += h;
             self.pass_level((before, from - self.argument), (h, x - self.argument));
         }
-        if self.at.is_none() && (t - self.argument).abs() <= SAME_TIME * self.output_step {
+        if self.at.is_none() && (t - self.argument).abs() <= tolerances::SIX_DIGITS * self.output_step {
             self.at = Some(x);
         }
         self.last = Some((t, x));

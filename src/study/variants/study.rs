@@ -1,6 +1,6 @@
 //! The scene of a study, and one variant of it.
 
-use super::course::{Course, SAME_TIME};
+use super::course::Course;
 use super::measure::{Measure, What};
 use crate::analysis::{Record, Recorder};
 use crate::error::{Error, INTERRUPTED, Result, clock};
@@ -13,6 +13,7 @@ use crate::study::companion::Completed;
 use crate::study::error_bar::ErrorBars;
 use crate::study::price::Worker;
 use crate::system::Column;
+use crate::tolerances;
 use crate::trajectory::{Trajectory, recorded};
 use std::path::Path;
 
@@ -185,8 +186,12 @@ impl Study {
         for (measure, course) in self.measures.iter().zip(self.courses(prepared)?) {
             let Some(t) = course.and_then(|course| course.asked_time()) else { continue };
             let steps = (t - start) / output_step;
-            let is_row = (steps - steps.round()).abs() <= SAME_TIME || (t - end).abs() <= SAME_TIME * output_step;
-            if !is_row || t < start - SAME_TIME * output_step || t > end + SAME_TIME * output_step {
+            let is_row = (steps - steps.round()).abs() <= tolerances::SIX_DIGITS
+                || (t - end).abs() <= tolerances::SIX_DIGITS * output_step;
+            if !is_row
+                || t < start - tolerances::SIX_DIGITS * output_step
+                || t > end + tolerances::SIX_DIGITS * output_step
+            {
                 let [start, end, t] = [start, end, t].map(clock);
                 let message =
                     format!("there is no row at t = {t} s, but every {output_step} s from {start} s to {end} s");

@@ -6,9 +6,6 @@ use crate::simulate::Method;
 use crate::tolerances;
 use serde::Serialize;
 
-/// Drift that is round-off: two runs below tie. Unit: `[1]` of the scene's size.
-const DRIFT_ROUND_OFF: f64 = 1e-12;
-
 /// Largest number of digits recommended for.
 const MOST_DIGITS: u32 = 14;
 
@@ -109,7 +106,7 @@ impl WorkPrecision {
     /// as the cheapest of them; the one to choose first.
     fn cheapest(&self, digits: u32, is_meant: &dyn Fn(&Cell) -> bool) -> Vec<usize> {
         // Outputs that do not move do not show open constraints.
-        let gap = 0.1f64.powi(digits as i32).max(DRIFT_ROUND_OFF);
+        let gap = 0.1f64.powi(digits as i32).max(tolerances::ROUND_OFF_OF_SOLUTIONS);
         let is_closed = |cell: &Cell| cell.drift().is_some_and(|drift| drift.position <= gap);
         let good = |cell: &Cell| cell.digits() >= Some(f64::from(digits)) && is_closed(cell) && is_meant(cell);
         let cost = |place: &usize| self.cells[*place].cost.unwrap_or(f64::INFINITY);
@@ -149,7 +146,7 @@ pub fn front<T>(items: impl Iterator<Item = T>, of: impl Fn(&T) -> (f64, f64)) -
 
 /// Returns the order of preference, less is better: decades of drift, then how well the method is known.
 fn merit(cell: &Cell) -> (i32, [usize; 3], u32) {
-    let drift = cell.drift().map_or(1.0, Held::largest).max(DRIFT_ROUND_OFF);
+    let drift = cell.drift().map_or(1.0, Held::largest).max(tolerances::ROUND_OFF_OF_SOLUTIONS);
     let Method { integrator, formulation, projection, .. } = &cell.method;
     let names = [integrator, formulation, projection].map(|spec| spec.name.as_str());
     let mut known = [0; 3];

@@ -10,13 +10,11 @@ use crate::study::price::median;
 use crate::study::run::Motion;
 use crate::study::watched::Watched;
 use crate::system::{Column, Dimensions};
+use crate::tolerances;
 use crate::trajectory::recorded;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
-
-/// How much tighter the run is that tells a model's own error. Unit: `[1]`. Why: two digits.
-const MODEL_TIGHTER: f64 = 1e-2;
 
 /// A model with its name, such as `rod.json:modes=2`.
 pub struct Variant {
@@ -259,6 +257,7 @@ pub fn tighter(method: &Method) -> Method {
         return Method { step: Some(0.1 * step), ..method.clone() };
     }
     // Below this, only round-off remains.
-    let rtol = (MODEL_TIGHTER * method.rtol).max(1e-13).min(method.rtol);
+    // Two digits more.
+    let rtol = (1e-2 * method.rtol).max(tolerances::TIGHTEST).min(method.rtol);
     Method { rtol, atol: method.atol * rtol / method.rtol, ..method.clone() }
 }

@@ -11,9 +11,6 @@ use crate::study::second_opinion::SecondOpinion;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// The reference's error over what is asked for. Unit: `[1]`. Why: one digit.
-const REFERENCE_MARGIN: f64 = 0.1;
-
 /// Reference values with their error.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Reference {
@@ -58,7 +55,8 @@ impl Reference {
         (digits, budget): (u32, Duration),
     ) -> Result<(Reference, Vec<RunSample>)> {
         let Motion { span, watched, .. } = motion;
-        let wanted = REFERENCE_MARGIN * 0.1f64.powf(f64::from(digits));
+        // One digit better than what is asked for.
+        let wanted = 0.1 * 0.1f64.powf(f64::from(digits));
         let lines = climb(motion, wanted, budget)?;
         let pace = pace(&lines, *span);
         let mut checked = check(&lines, watched).ok_or_else(|| nothing(&lines, *span, budget))?;

@@ -11,9 +11,6 @@ use crate::study::budget::{Budget, Limit};
 use crate::study::run::{Motion, RunSample};
 use std::time::Duration;
 
-/// Part of the budget below which a run is quick. Unit: `[1]`.
-const QUICK_RUN: f64 = 5e-4;
-
 /// Plan of a measurement.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -114,7 +111,7 @@ impl<'a> Runner<'a> {
         let limit = Limit { wall: self.budget.left(), cpu };
         let first = self.motion.run(method, limit)?;
         let mut seconds = vec![first.seconds];
-        let quick = QUICK_RUN * self.plan.budget.as_secs_f64();
+        let quick = 5e-4 * self.plan.budget.as_secs_f64();
         while first.failure.is_none() && seconds.len() < self.plan.repeats && first.seconds < quick {
             seconds.push(self.motion.run(method, limit)?.seconds);
         }

@@ -2,10 +2,7 @@
 
 use super::Equations;
 use crate::error::{Error, Result, short};
-
-/// Entries of M that differ by more are no mirror images. Unit: `[1]` of sqrt(M_ii M_jj), at least of the entries. Why:
-/// two formulas of one term differ by round-off. Test: `a_mass_matrix_that_is_not_symmetric_is_refused`.
-const NOT_SYMMETRIC: f64 = 1e-9;
+use crate::tolerances;
 
 /// Refuses an M whose triangles differ: solvers read the lower one.
 pub(super) fn symmetry<E: Equations>(system: &E, t: f64, q: &[f64]) -> Result<()> {
@@ -17,7 +14,7 @@ pub(super) fn symmetry<E: Equations>(system: &E, t: f64, q: &[f64]) -> Result<()
             let lower = mass[i * n + j];
             let upper = mass[j * n + i];
             let diagonal = (mass[i * n + i] * mass[j * n + j]).abs().sqrt();
-            if (lower - upper).abs() > NOT_SYMMETRIC * diagonal.max(lower.abs()).max(upper.abs()) {
+            if (lower - upper).abs() > tolerances::SAME * diagonal.max(lower.abs()).max(upper.abs()) {
                 let [lower, upper] = [lower, upper].map(short);
                 let message = format!(
                     "the mass matrix is not symmetric: {lower} in row {}, column {}, but {upper} in row {}, column {}",

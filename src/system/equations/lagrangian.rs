@@ -4,10 +4,7 @@ use super::Equations;
 use super::passes::fixed;
 use crate::error::{Error, Result};
 use crate::math::{Dual, Rate, Scalar};
-
-/// Bends of dT/dv over v above this are none of round-off. Unit: `[1]` of dT/dv. Why: round-off of derivatives is far
-/// below, a cubic term in v far above. Test: `a_kinetic_energy_that_is_not_quadratic_is_refused`.
-const NOT_QUADRATIC: f64 = 1e-8;
+use crate::tolerances;
 
 /// Coordinates of which the derivatives come from one evaluation of an energy.
 const WIDTH: usize = 6;
@@ -181,7 +178,7 @@ impl<L: Lagrangian> Equations for L {
         let [at_rest, once, twice] = [0.0, 1.0, 2.0].map(momenta);
         for i in 0..n {
             let bend = twice[i] - 2.0 * once[i] + at_rest[i];
-            if bend.abs() > NOT_QUADRATIC * (twice[i].abs() + once[i].abs() + at_rest[i].abs()) {
+            if bend.abs() > tolerances::ROOT_OF_ROUND_OFF * (twice[i].abs() + once[i].abs() + at_rest[i].abs()) {
                 let message = format!(
                     "the kinetic energy is not quadratic in the velocities: its degree in v{} is higher",
                     i + 1

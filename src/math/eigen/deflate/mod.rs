@@ -54,7 +54,7 @@ impl Deflated {
 
 /// Removes the infinite eigenvalues, by a staircase of rank decisions (Van Dooren, "The computation of Kronecker's
 /// canonical form of a singular pencil", Linear Algebra Appl. 27, 1979). For equations of index 3 these are m at each
-/// of three levels. Singular values of the balanced pencil below `tolerance` (see `tolerances::RANK_OF_PENCIL`) are
+/// of three levels. Singular values of the balanced pencil below `tolerance` (see `tolerances::RANK`) are
 /// zero. About 30 n^3 operations for each level.
 ///
 /// # Errors
@@ -137,7 +137,7 @@ pub struct Finite {
 /// # Errors
 /// Those of [`deflate`] and [`eigen`].
 pub fn finite(a: &Matrix, e: &Matrix, by: Deflation) -> Result<Finite, Unsolved> {
-    let deflated = deflate(a, e, by, tolerances::RANK_OF_PENCIL)?;
+    let deflated = deflate(a, e, by, tolerances::RANK)?;
     let inner = eigen(&deflated.rate)?;
     let mut right = dense::times(&deflated.basis, &inner.right);
     let lengths: Vec<f64> = right.column_iter().map(|column| column.norm()).collect();

@@ -6,14 +6,11 @@ mod space;
 
 use super::{Complex, Unsolved};
 use crate::math::kkt::Field;
+use crate::tolerances;
 use nalgebra::{DMatrix, DVector};
 use ritz::Ritz;
 use schur::Ordered;
 use space::Krylov;
-
-/// Values were missing in a search before where the sum of the largest magnitudes has grown by more than this part.
-/// Unit: `[1]`. Why: the square root of rounding; a value that was missing is a part of the sum by itself.
-const KRYLOV_NEW: f64 = 1e-8;
 
 type C = Complex<f64>;
 
@@ -113,7 +110,10 @@ pub fn nearest<T: Scalar>(
         converged = ritz.converged(count, space.rest, options.tolerance);
         if converged == count {
             let size: f64 = ritz.values[..count].iter().map(|theta| theta.norm()).sum();
-            if !options.repeats || count == n || known.is_some_and(|before: f64| size - before <= KRYLOV_NEW * size) {
+            if !options.repeats
+                || count == n
+                || known.is_some_and(|before: f64| size - before <= tolerances::ROOT_OF_ROUND_OFF * size)
+            {
                 return space.finish(ritz, count);
             }
             known = Some(size);

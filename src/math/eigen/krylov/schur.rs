@@ -6,9 +6,6 @@ use crate::tolerances;
 use nalgebra::DMatrix;
 use nalgebra::linalg::Schur;
 
-/// QR steps at most for each eigenvalue. Unit: `[steps]`. Why: two or three are usual; LAPACK allows thirty.
-const QR_STEPS: usize = 60;
-
 /// H = Q T Q^H with upper triangular T; of a real H T has a block of two rows for each conjugate pair.
 pub struct Ordered<T> {
     pub q: DMatrix<T>,
@@ -21,7 +18,8 @@ impl<T: Scalar> Ordered<T> {
             return Ok(ordered);
         }
         let m = h.nrows();
-        let schur = Schur::try_new(h.clone(), f64::EPSILON, QR_STEPS * m.max(1));
+        // Two or three an eigenvalue are usual; LAPACK allows thirty.
+        let schur = Schur::try_new(h.clone(), f64::EPSILON, 60 * m.max(1));
         let (q, t) = schur.ok_or(Unsolved::NotConverged { converged: 0, wanted: m })?.unpack();
         let mut ordered = Ordered { q, t };
         ordered.sort();

@@ -1,6 +1,6 @@
 use super::super::{Deflation, Matrix, Unsolved, deflate, dense, eigen, finite};
 use super::samples::{Form, Mechanism, Random, chain, distance, random, residual, two_mass};
-use crate::tolerances::RANK_OF_PENCIL;
+use crate::tolerances::RANK;
 
 const WAYS: [Deflation; 2] = [Deflation::NullSpace, Deflation::Gsvd];
 const FORMS: [Form; 4] = [Form::Index3, Form::Index2, Form::Index1, Form::Ggl];
@@ -22,7 +22,7 @@ fn both_ways_leave_the_finite_eigenvalues() {
         for form in FORMS {
             let (a, e, infinite, zeros) = mechanism.pencil(&form);
             for way in WAYS {
-                let deflated = deflate(&a, &e, way, RANK_OF_PENCIL).unwrap();
+                let deflated = deflate(&a, &e, way, RANK).unwrap();
                 assert_eq!(deflated.infinite(), infinite);
                 assert!(deflated.gap > 1e6, "{}", deflated.gap);
                 let error = distance(&eigen(&deflated.rate).unwrap().values, &mechanism.values(), zeros);
@@ -39,7 +39,7 @@ fn levels_are_the_blocks_of_the_forms() {
     for (form, expected) in FORMS.iter().zip(levels) {
         let (a, e, ..) = mechanism.pencil(form);
         for way in WAYS {
-            assert_eq!(deflate(&a, &e, way, RANK_OF_PENCIL).unwrap().levels, expected);
+            assert_eq!(deflate(&a, &e, way, RANK).unwrap().levels, expected);
         }
     }
 }
@@ -49,7 +49,7 @@ fn basis_and_left_basis_reproduce_the_pencil() {
     for form in FORMS {
         let (a, e, ..) = random(8, 3, 4).pencil(&form);
         for way in WAYS {
-            let d = deflate(&a, &e, way, RANK_OF_PENCIL).unwrap();
+            let d = deflate(&a, &e, way, RANK).unwrap();
             let eye = Matrix::identity(d.rate.nrows(), d.rate.nrows());
             assert!((&a * &d.basis - &e * &d.basis * &d.rate).amax() < 1e-11);
             assert!((&d.left * &a - &d.rate * &d.left * &e).amax() < 1e-10);
@@ -92,7 +92,7 @@ fn redundant_constraints_make_the_pencil_singular() {
         let (a, e, ..) = redundant().pencil(&form);
         let dependent = if matches!(form, Form::Ggl) { 2 } else { 1 };
         for way in WAYS {
-            assert_eq!(deflate(&a, &e, way, RANK_OF_PENCIL), Err(Unsolved::SingularPencil { dependent }));
+            assert_eq!(deflate(&a, &e, way, RANK), Err(Unsolved::SingularPencil { dependent }));
         }
     }
 }
@@ -110,7 +110,7 @@ fn scaling_of_rows_columns_and_time_does_not_matter() {
             let cols = numbers.powers(n, 8.0);
             let scaled = |x: &Matrix, s: f64| Matrix::from_fn(n, n, |i, j| x[(i, j)] * rows[i] * cols[j] * s);
             for way in WAYS {
-                let deflated = deflate(&scaled(&a, 1e-6), &scaled(&e, 1.0), way, RANK_OF_PENCIL).unwrap();
+                let deflated = deflate(&scaled(&a, 1e-6), &scaled(&e, 1.0), way, RANK).unwrap();
                 assert_eq!(deflated.infinite(), infinite);
                 let expected: Vec<_> = mechanism.values().iter().map(|x| x * 1e-6).collect();
                 let error = distance(&eigen(&deflated.rate).unwrap().values, &expected, zeros);
@@ -128,7 +128,7 @@ fn chains_are_deflated() {
             let mechanism = chain(links);
             let (a, e, infinite, zeros) = mechanism.pencil(&form);
             for way in WAYS {
-                let deflated = deflate(&a, &e, way, RANK_OF_PENCIL).unwrap();
+                let deflated = deflate(&a, &e, way, RANK).unwrap();
                 let error = distance(&eigen(&deflated.rate).unwrap().values, &mechanism.values(), zeros);
                 eprintln!("{way:?} n = {}: {error:.1e}, gap {:.1e}", a.nrows(), deflated.gap);
                 assert_eq!(deflated.infinite(), infinite);
@@ -150,7 +150,7 @@ fn small_cases() {
     let plain = finite(&(&eye * 3.0), &(&eye * 2.0), Deflation::NullSpace).unwrap();
     assert!(plain.values.iter().all(|x| (x - 1.5).norm() < 1e-15) && plain.deflated.levels.is_empty());
     for way in WAYS {
-        let nothing = deflate(&Matrix::zeros(2, 2), &Matrix::zeros(2, 2), way, RANK_OF_PENCIL);
+        let nothing = deflate(&Matrix::zeros(2, 2), &Matrix::zeros(2, 2), way, RANK);
         assert_eq!(nothing, Err(Unsolved::SingularPencil { dependent: 2 }));
     }
     assert_eq!(finite(&eye, &Matrix::zeros(3, 3), Deflation::NullSpace), Err(Unsolved::Shape));

@@ -1,9 +1,6 @@
 //! A graph cut into parts of about equal size that nothing couples but a few nodes, the separator.
 
-/// A group of unknowns that is coupled to more, and to more than four square roots of all, belongs to the separator.
-/// Unit: `[groups]`. Why: as for coordinates that come behind their multipliers: eliminated before them it would make
-/// one dense block of all. Test: `a_hub_and_separate_mechanisms_are_divided`.
-const COUPLED_TO_MANY: usize = 32;
+use crate::tolerances;
 
 /// The part of nodes of the separator: the last in any comparison.
 pub const SEPARATOR: u32 = u32::MAX;
@@ -15,7 +12,7 @@ pub const SEPARATOR: u32 = u32::MAX;
 /// from the farther ones. In chains, trees and rows of loops these are few. Nodes that are coupled to very many belong
 /// to the separator first.
 pub fn divide(neighbours: &[Vec<u32>], most: usize, largest: usize) -> Option<(Vec<u32>, usize)> {
-    let many = COUPLED_TO_MANY.max(4 * neighbours.len().isqrt());
+    let many = tolerances::LARGEST_SEPARATOR.max(4 * neighbours.len().isqrt());
     let (hubs, nodes): (Vec<u32>, Vec<u32>) =
         (0..neighbours.len() as u32).partition(|&node| neighbours[node as usize].len() > many);
     let is_small = |part: &[u32]| part.iter().filter(|part| **part == SEPARATOR).count() <= largest;

@@ -7,11 +7,6 @@ use super::division::{SEPARATOR, divide};
 use crate::tolerances;
 use std::sync::Arc;
 
-/// Groups of unknowns at most that the parts of a saddle-point matrix have in common. Unit: `[groups]`. Why: eight
-/// parts of three chains beside each other; elimination of so many, all coupled to each other, is some per cent of that
-/// of two parts. Test: `what_is_coupled_everywhere_is_not_divided`.
-const LARGEST_SEPARATOR: usize = 32;
-
 /// The structure of the factors of a saddle-point matrix.
 pub enum Plan {
     Whole(Arc<Layout>),
@@ -268,7 +263,7 @@ fn of_groups(groups: &Groups, most: usize) -> Option<(Vec<u32>, usize)> {
         list.sort_unstable();
         list.dedup();
     });
-    let (division, parts) = divide(&neighbours, most, LARGEST_SEPARATOR)?;
+    let (division, parts) = divide(&neighbours, most, tolerances::LARGEST_SEPARATOR)?;
     let mut of_group = vec![SEPARATOR; total];
     rest.iter().zip(division).for_each(|(&group, part)| of_group[group] = part);
     // A late coordinate comes behind all its multipliers.

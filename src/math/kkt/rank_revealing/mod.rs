@@ -14,10 +14,6 @@ use crate::math::{add, index_of_largest, norm};
 use crate::tolerances;
 use pivoted::{PivotedCholesky, PivotedQr};
 
-/// Pivots of a mass matrix that are none: the motion along them is not determined. Unit: `[1]` of the largest, or of
-/// the diagonal. Why: a hundred times ROUND_OFF_OF_FACTORS.
-const MASSLESS: f64 = 1e-11;
-
 /// With S = diag(M)^-1/2 (massless coordinates: the largest of the others) and rows of G S scaled by D^-1 to unit norm:
 ///
 /// ```text
@@ -116,7 +112,7 @@ impl NullSpace {
             self.qr.apply_transposed(&mut self.w);
             self.reduced.values[k * size..(k + 1) * size].copy_from_slice(&self.w[r..]);
         }
-        if self.reduced.factor(MASSLESS, &mut self.a[r..]).is_err() {
+        if self.reduced.factor(tolerances::COLLAPSED_FAST, &mut self.a[r..]).is_err() {
             self.a[..r].fill(0.0);
             self.qr.apply(&mut self.a);
             scale_by(&self.scale, &mut self.a);

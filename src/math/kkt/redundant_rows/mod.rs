@@ -16,10 +16,6 @@ use super::system::System;
 use crate::math::{add, index_of_largest, largest};
 use crate::tolerances;
 
-/// Refinements at most where pivots of coordinates are true ones, and where some were replaced. Unit: `[sweeps]`. Why:
-/// replaced masses make the contraction slow.
-const REFINEMENTS: [usize; 2] = [3, 40];
-
 pub(super) struct RedundantRowSolve {
     factor: Ldlt,
     skipped: Vec<usize>,
@@ -125,7 +121,7 @@ impl RedundantRowSolve {
 
     /// The smallest ratio of a pivot to its size without the rows that are dropped.
     pub fn kept_ratio(&self) -> f64 {
-        self.factor.smallest_ratio(tolerances::COLLAPSED).0
+        self.factor.smallest_ratio(tolerances::ROUND_OFF_OF_SOLUTIONS).0
     }
 
     /// Norm of the inconsistent part of the last right side r2.
@@ -138,7 +134,9 @@ impl RedundantRowSolve {
     pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64], is_least: bool) {
         self.inconsistency = self.project(system, bottom);
         let RedundantRowSolve { factor, a, lambda, top: r1, bottom: r2, .. } = self;
-        iterate(factor, system, (top, bottom), (a, lambda), (r1, r2), REFINEMENTS[usize::from(self.replaced)]);
+        // Replaced masses make the contraction slow.
+        let refinements = if self.replaced { 40 } else { 3 };
+        iterate(factor, system, (top, bottom), (a, lambda), (r1, r2), refinements);
         top.copy_from_slice(&self.a);
         bottom.copy_from_slice(&self.lambda);
         if is_least {

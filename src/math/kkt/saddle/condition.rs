@@ -7,10 +7,6 @@ use crate::math::{add, norm};
 use crate::tolerances;
 use faer::{Mat, Side};
 
-/// Steps of the power iterations for the condition number of a large system. Unit: `[steps]`. Test:
-/// `condition_numbers`.
-const CONDITION_STEPS: usize = 40;
-
 impl SaddlePoint {
     /// The 2-norm condition number of E K E, where the diagonal E makes the masses one and the rows of G of unit norm in
     /// the mass metric, so that it does not depend on units; without dropped rows. By the eigenvalues up to n + m = 600,
@@ -81,7 +77,8 @@ fn power(scale: &[f64], e: impl Fn(&f64) -> f64, mut apply: impl FnMut(&[f64], &
     let mut x: Vec<f64> = (0..scale.len()).map(|i| (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin()).collect();
     let mut y = x.clone();
     let mut stretch = 0.0;
-    for _ in 0..CONDITION_STEPS {
+    // Power iterations: the condition number is told with two digits.
+    for _ in 0..40 {
         let length = norm(&x);
         x.iter_mut().zip(scale).for_each(|(x, s)| *x *= e(s) / length);
         if !apply(&x, &mut y) {

@@ -21,10 +21,6 @@ use std::sync::Arc;
 /// Why: a wrong answer ends the run, so that more time is well spent than on a doubtful rank.
 const DENSE_EQUATIONS_OF_MOTION: usize = 1500;
 
-/// Multipliers with pivots up to here may be dependent where others are nearly so. Unit: `[1]` of its size before. Why:
-/// the square of TRUNCATED_RANK.
-const DOUBTED: f64 = 1e-8;
-
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
     None,
@@ -130,7 +126,7 @@ impl SaddlePoint {
             return Ok(());
         }
         let least = part * self.rank_reference;
-        if is_fast && self.is_regular(part) || least * least <= tolerances::COLLAPSED {
+        if is_fast && self.is_regular(part) || least * least <= tolerances::ROUND_OFF_OF_SOLUTIONS {
             return if is_fast { Ok(()) } else { self.factor_rank_revealing() };
         }
         let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(&self.system)));
@@ -183,15 +179,15 @@ impl SaddlePoint {
     fn factor_rank_revealing(&mut self) -> Result<(), Singular> {
         let total = self.n + self.m;
         let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(&self.system)));
-        let mut quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
+        let mut quality = skipping.factor(&self.system, tolerances::ROUND_OFF_OF_SOLUTIONS)?;
         if total > tolerances::DENSE_EQUATIONS && quality.doubtful && !quality.replaced {
             // Round-off in pivots of dependent rows grows with the condition of the others. Null vectors tell them.
-            skipping.factor(&self.system, DOUBTED)?;
+            skipping.factor(&self.system, tolerances::ROOT_OF_ROUND_OFF)?;
             if skipping.rank_indicator(&self.system) < self.rank_tolerance {
                 self.way = Way::RedundantRowSolve;
                 return Ok(());
             }
-            quality = skipping.factor(&self.system, tolerances::COLLAPSED)?;
+            quality = skipping.factor(&self.system, tolerances::ROUND_OFF_OF_SOLUTIONS)?;
         }
         let is_doubtful = quality.replaced || quality.doubtful;
         // In a large system it is not determined which nearly dependent rows are so, only whether dropping some, or

@@ -3,14 +3,6 @@
 use super::Field;
 use super::matrix::Matrix;
 
-/// Rows of an iteration matrix with fewer entries are not long, which would be eliminated last. Unit: `[entries]`.of
-/// speed: eliminated early, long rows fill the factors.
-const LONG_ROW: usize = 50;
-
-/// Rows of an iteration matrix with so many times the entries of the mean, or fewer, are not long either. Unit:
-/// `[1]`.of speed.
-const LONG_ROW_OF_MEAN: usize = 12;
-
 /// Entries of long rows are pivots only where all others are below this part. Unit: `[1]`. Why: they grow before their
 /// turn comes, by an estimate to some tens for beams of 10,000 elements.
 const LAST_CHOICE: f64 = 1e-4;
@@ -30,7 +22,8 @@ impl DenseRows {
         let size = matrix.size();
         let mut counts = vec![0_usize; size];
         matrix.entries().for_each(|(row, _)| counts[row] += 1);
-        let many = (LONG_ROW_OF_MEAN * matrix.values.len() / size.max(1)).max(LONG_ROW);
+        // Eliminated early, rows that are long beside the mean fill the factors.
+        let many = (12 * matrix.values.len() / size.max(1)).max(50);
         let is_long = |row: usize| row < n && counts[row] > many;
         let mut columns: Vec<bool> = (0..size).map(is_long).collect();
         matrix.entries().filter(|&(row, col)| col >= n && is_long(row)).for_each(|(_, col)| columns[col] = true);

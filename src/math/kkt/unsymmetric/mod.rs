@@ -295,7 +295,7 @@ impl<T: Field> Unsymmetric<T> {
         let g = &self.g;
         let factors = || Ldlt::new(&Pattern::diagonal(g.cols), g, &vec![false; g.cols]);
         let (fast, skipped) = self.redundancy.get_or_insert_with(|| (factors(), Vec::with_capacity(g.rows)));
-        let rule = Rule::lenient(tolerances::COLLAPSED, &self.weight);
+        let rule = Rule::lenient(tolerances::ROUND_OFF_OF_SOLUTIONS, &self.weight);
         if fast.factor(&self.weight, values, rule, skipped).is_err() {
             return false;
         }

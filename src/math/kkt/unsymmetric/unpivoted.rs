@@ -8,10 +8,6 @@ use crate::math::threads::each_of;
 use crate::tolerances;
 use faer::sparse::SymbolicSparseColMat;
 
-/// Unknowns at most that the parts of a matrix of an implicit step have in common. Unit: `[unknowns]`. Why: as many as
-/// are in the groups of [`LARGEST_SEPARATOR`], of eight at most.
-const LARGEST_CORE: usize = 256;
-
 /// L U with pivots on the diagonal, in an order that has each multiplier behind all its coordinates: with A symmetric
 /// and positive definite on the null space of G no pivot vanishes then, unless its row of G depends on rows before it;
 /// h^2 K and h C change that little. Where a pivot is small beside the numbers whose difference it is, the matrix is not
@@ -136,7 +132,8 @@ fn division(places: &SymbolicSparseColMat<usize>, n: usize) -> (Vec<u32>, usize)
     let size = places.nrows();
     let neighbours = (0..size).map(|col| places.row_idx_of_col_raw(col).iter().map(|&row| row as u32).collect());
     let most = (size / tolerances::UNKNOWNS_OF_A_PART).min(tolerances::MOST_PARTS);
-    let divided = if most > 1 { divide(&neighbours.collect::<Vec<_>>(), most, LARGEST_CORE) } else { None };
+    let divided =
+        if most > 1 { divide(&neighbours.collect::<Vec<_>>(), most, 8 * tolerances::LARGEST_SEPARATOR) } else { None };
     let (mut of_node, count) = divided.unwrap_or_else(|| (vec![0; size], 1));
     // A multiplier comes behind all its coordinates.
     for node in n..size {
