@@ -41,7 +41,7 @@ pub const ENTRY: Entry = Entry {
     dae: None,
     field: Some(|_, system| {
         let n = system.dimensions();
-        refuse_dense("null_space", [n.v, n.v.max(n.lambda)], COPIES).map_err(|error| error.hint(SPARSE))?;
+        refuse_dense("null_space", n.v, n.v.max(n.lambda), COPIES).map_err(|error| error.hint(SPARSE))?;
         let tangent_space = TangentSpace::new(system);
         Ok(Box::new(tangent_space.ok_or_else(|| Error::input("null_space: M and G do not fit each other"))?))
     }),

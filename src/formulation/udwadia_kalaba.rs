@@ -33,7 +33,7 @@ pub const ENTRY: Entry = Entry {
         let structure = system.structure();
         let tolerance = spec.not_negative("tolerance", 1e-10)?;
         let n = system.dimensions();
-        refuse_dense("udwadia_kalaba", [n.v, n.v.max(n.lambda)], COPIES).map_err(|error| error.hint(SPARSE))?;
+        refuse_dense("udwadia_kalaba", n.v, n.v.max(n.lambda), COPIES).map_err(|error| error.hint(SPARSE))?;
         let solver = Reduced::new(&structure.mass, &structure.g, tolerance);
         Ok(Box::new(Dense(solver.ok_or_else(|| Error::input("udwadia_kalaba: M and G do not fit each other"))?)))
     }),

@@ -380,5 +380,5 @@ pub(super) fn at_state(t: f64, halt: &StepError) -> Error {
 /// Bad input, with the alternative.
 pub(crate) fn refuse_all_modes(velocities: usize, copies: f64) -> Result<()> {
     let hint = "`holonom linearize --modes N` finds some of the modes by sparse methods";
-    refuse_dense("a linear model with all its modes", [velocities; 2], copies).map_err(|error| error.hint(hint))
+    refuse_dense("a linear model with all its modes", velocities, velocities, copies).map_err(|error| error.hint(hint))
 }

@@ -13,7 +13,7 @@ const SMALL: f64 = 64e6;
 ///
 /// # Errors
 /// Bad input with the size and the limit; the caller adds the remedy.
-pub fn refuse_dense(what: &str, [rows, columns]: [usize; 2], copies: f64) -> Result<()> {
+pub fn refuse_dense(what: &str, rows: usize, columns: usize, copies: f64) -> Result<()> {
     let wanted = 8.0 * copies * rows as f64 * columns as f64;
     let limit = if wanted > SMALL { limit() } else { MOST };
     if wanted <= limit {
@@ -105,13 +105,13 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_is_refused() {
-        assert!(refuse_dense("a", [1000, 1000], 8.0).is_ok());
-        let error = refuse_dense("null_space", [200_000, 200_000], 2.0).unwrap_err().to_string();
+        assert!(refuse_dense("a", 1000, 1000, 8.0).is_ok());
+        let error = refuse_dense("null_space", 200_000, 200_000, 2.0).unwrap_err().to_string();
         assert!(
             error.starts_with("null_space takes dense matrices of 200000 x 200000, 640.0 GB in all: the limit is ")
         );
         // No product overflows.
-        assert!(refuse_dense("a", [usize::MAX; 2], 1.0).is_err());
+        assert!(refuse_dense("a", usize::MAX, usize::MAX, 1.0).is_err());
     }
 
     #[test]

@@ -199,8 +199,8 @@ impl Monitor {
     }
 
     /// Restores the state of [`memory`](Self::memory).
-    pub fn recall(&mut self, [contraction, stalled]: [f64; 2]) {
-        (self.contraction, self.stalled) = (contraction, stalled);
+    pub fn recall(&mut self, memory: [f64; 2]) {
+        [self.contraction, self.stalled] = memory;
     }
 }
 

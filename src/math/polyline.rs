@@ -6,7 +6,7 @@ type Pt = (f64, f64);
 pub(crate) fn clipped(points: &[Pt], inside: [Pt; 2]) -> Vec<Vec<Pt>> {
     let mut parts: Vec<Vec<Pt>> = Vec::new();
     for pair in points.windows(2) {
-        let Some((from, to)) = segment(pair[0], pair[1], inside) else { continue };
+        let Some((from, to)) = segment(pair[0], pair[1], inside[0], inside[1]) else { continue };
         match parts.last_mut() {
             Some(part) if part.last() == Some(&from) => part.push(to),
             _ => parts.push(vec![from, to]),
@@ -16,7 +16,7 @@ pub(crate) fn clipped(points: &[Pt], inside: [Pt; 2]) -> Vec<Vec<Pt>> {
 }
 
 /// Returns the part of a segment inside a rectangle (Liang and Barsky).
-fn segment(from: Pt, to: Pt, [low, high]: [Pt; 2]) -> Option<(Pt, Pt)> {
+fn segment(from: Pt, to: Pt, low: Pt, high: Pt) -> Option<(Pt, Pt)> {
     let dx = to.0 - from.0;
     let dy = to.1 - from.1;
     let across = [(-dx, from.0 - low.0), (dx, high.0 - from.0)];

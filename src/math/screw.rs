@@ -141,24 +141,24 @@ pub fn pull_back<S: Scalar>(a: &Vector<S>, p: &Vector<S>, n: &Vector<S>, m: &Vec
 
 /// [`shift`] in the plane, for a rotation by `a` about z.
 #[inline]
-pub fn planar_shift<S: Scalar>(a: S, [x, y]: [S; 2]) -> [S; 2] {
+pub fn planar_shift<S: Scalar>(a: S, p: [S; 2]) -> [S; 2] {
     let square = a * a;
     let along = S::one() - cotangent(square) * square;
     let across = a * 0.5;
-    [along * x + across * y, along * y - across * x]
+    [along * p[0] + across * p[1], along * p[1] - across * p[0]]
 }
 
 /// [`pull_back`] in the plane: the components of the force, and the torque about z.
 #[inline]
-pub fn planar_pull_back<S: Scalar>(a: S, [x, y]: [S; 2], [nx, ny]: [S; 2], m: S) -> ([S; 2], S) {
+pub fn planar_pull_back<S: Scalar>(a: S, p: [S; 2], n: [S; 2], m: S) -> ([S; 2], S) {
     let square = a * a;
     let c = cotangent(square);
     let slope = cotangent_slope(square);
     let along = S::one() - c * square;
     let across = a * 0.5;
-    let np = nx * x + ny * y;
-    let gradient = (nx * y - ny * x) * 0.5 - a * 2.0 * np * (c + square * slope);
-    ([along * nx - across * ny, along * ny + across * nx], m + gradient)
+    let np = n[0] * p[0] + n[1] * p[1];
+    let gradient = (n[0] * p[1] - n[1] * p[0]) * 0.5 - a * 2.0 * np * (c + square * slope);
+    ([along * n[0] - across * n[1], along * n[1] + across * n[0]], m + gradient)
 }
 
 /// 1/(n + 1)!, indexed by n.

@@ -49,7 +49,7 @@ pub fn generalized(a: &Matrix, e: &Matrix) -> Result<Generalized, Unsolved> {
     let finiteness = |unit: &(Unit, f64)| unit.1 / unit.0.value.norm().hypot(unit.1);
     found.sort_by(|a, b| finiteness(b).total_cmp(&finiteness(a)).then(conjugates::compare(&a.0.value, &b.0.value)));
     let mut units: Vec<Unit> = found.iter().map(|unit| unit.0).collect();
-    let vectors: Vec<_> = found.iter().map(|unit| vector(&balanced, unit, &right)).collect();
+    let vectors: Vec<_> = found.iter().map(|(unit, beta)| vector(&balanced, unit, *beta, &right)).collect();
     let mut right = conjugates::matrix(&units, &vectors, n);
     dense::normalize(&mut right);
     units.iter_mut().for_each(|unit| unit.value *= balanced.time);
@@ -121,7 +121,7 @@ fn check(pencil: &Balanced, found: &[(Unit, f64)]) -> Result<(), Unsolved> {
 }
 
 /// The vector of a unit; zero if back substitution failed.
-fn vector(pencil: &Balanced, (unit, beta): &(Unit, f64), right: &Mat<f64>) -> Vec<Complex<f64>> {
+fn vector(pencil: &Balanced, unit: &Unit, beta: f64, right: &Mat<f64>) -> Vec<Complex<f64>> {
     let n = pencil.a.nrows();
     let x = ComplexMatrix::from_vec(n, 1, unit.vector(right.as_ref()));
     let product = |matrix: &Matrix| {
@@ -129,7 +129,7 @@ fn vector(pencil: &Balanced, (unit, beta): &(Unit, f64), right: &Mat<f64>) -> Ve
         let im = x.map(|x| x.im);
         (matrix * re).zip_map(&(matrix * im), Complex::new)
     };
-    let residual = (product(&pencil.a) * Complex::from(*beta) - product(&pencil.e) * unit.value).norm();
+    let residual = (product(&pencil.a) * Complex::from(beta) - product(&pencil.e) * unit.value).norm();
     let size = pencil.a.norm() * beta.abs() + pencil.e.norm() * unit.value.norm();
     if residual <= tolerances::ROUND_OFF_OF_SOLUTIONS * size * x.norm() {
         x.iter().zip(&pencil.cols).map(|(x, d)| *x * *d).collect()

@@ -39,7 +39,7 @@ pub fn eigen(a: &Matrix) -> Result<Eigen, Unsolved> {
     dense::normalize(&mut left);
     let basis = real_basis(&units, &right);
     let conditioning = dense::condition(&basis)?;
-    let left = biorthogonal(&units, (&right, &basis), left, conditioning);
+    let left = biorthogonal(&units, &right, &basis, left, conditioning);
     units.iter_mut().for_each(|unit| unit.value *= size);
     let values = conjugates::values(&units);
     if values.iter().all(|value| value.is_finite()) {
@@ -192,7 +192,8 @@ fn real_basis(units: &[Unit], right: &ComplexMatrix) -> Matrix {
 /// X^-H = W^-T U of X = W U.
 fn biorthogonal(
     units: &[Unit],
-    (right, basis): (&ComplexMatrix, &Matrix),
+    right: &ComplexMatrix,
+    basis: &Matrix,
     mut left: ComplexMatrix,
     conditioning: f64,
 ) -> ComplexMatrix {

@@ -64,7 +64,7 @@ pub(super) struct Judge<'a> {
 impl Judge<'_> {
     /// The inverse of a pivot, whose sign is that of `sign`.
     #[inline(always)]
-    pub fn inverse(&mut self, pivot: f64, (size, sign): (f64, f64), node: impl Fn() -> usize) -> Result<f64, usize> {
+    pub fn inverse(&mut self, pivot: f64, size: f64, sign: f64, node: impl Fn() -> usize) -> Result<f64, usize> {
         let positive = sign * pivot;
         // Written so that a NaN is judged too.
         if positive > self.rule.weak * size && positive < f64::INFINITY {

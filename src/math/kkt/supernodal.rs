@@ -80,7 +80,7 @@ impl Supernodal {
     }
 
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
-        balance((&self.mass, mass), (&self.g, g), Some(&self.late), &mut self.scale);
+        balance(&self.mass, mass, &self.g, g, Some(&self.late), &mut self.scale);
         let replaced = self.assemble(mass, g, rule);
         let regularization = LdltRegularization {
             dynamic_regularization_signs: Some(&self.signs),
@@ -212,8 +212,10 @@ fn read_diagonal(cholesky: &SymbolicCholesky<usize>, factor: &[f64], diagonal: &
 /// Scales that make the masses one and the rows of G of unit norm in the mass metric, (G diag(M)^-1 G^T)_jj = 1, by
 /// node. Late coordinates (by default those without mass) are scaled by the entries of the scaled rows.
 pub(super) fn balance(
-    (mass, mass_values): (&Pattern, &[f64]),
-    (g, g_values): (&Pattern, &[f64]),
+    mass: &Pattern,
+    mass_values: &[f64],
+    g: &Pattern,
+    g_values: &[f64],
     late: Option<&[bool]>,
     scale: &mut [f64],
 ) {

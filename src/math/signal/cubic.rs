@@ -5,7 +5,7 @@ use crate::math::array::from_fn;
 pub type Cubic = [f64; 4];
 
 /// The cubic over an interval of width `h` with given values and slopes at both ends.
-pub fn hermite(h: f64, [y0, y1]: [f64; 2], [s0, s1]: [f64; 2]) -> Cubic {
+pub fn hermite(h: f64, y0: f64, y1: f64, s0: f64, s1: f64) -> Cubic {
     let m = (y1 - y0) / h;
     let t = (s0 + s1 - 2.0 * m) / h;
     [y0, s0, (m - s0) / h - t, t / h]
@@ -16,12 +16,13 @@ pub fn derived(cubic: &Cubic, order: usize) -> Cubic {
     (0..order.min(4)).fold(*cubic, |[_, b, c, d], _| [b, 2.0 * c, 3.0 * d, 0.0])
 }
 
-pub fn value([a, b, c, d]: &Cubic, s: f64) -> f64 {
+pub fn value(cubic: &Cubic, s: f64) -> f64 {
+    let [a, b, c, d] = cubic;
     ((d * s + c) * s + b) * s + a
 }
 
 /// Least and largest value over `from..to`: at the ends, or where the derivative is zero.
-pub fn bounds(cubic: &Cubic, [from, to]: [f64; 2]) -> [f64; 2] {
+pub fn bounds(cubic: &Cubic, from: f64, to: f64) -> [f64; 2] {
     let [b, c, d, _] = derived(cubic, 1);
     // b + c s + d s^2 = 0, without cancellation.
     let root = (c * c - 4.0 * b * d).max(0.0).sqrt();
@@ -52,7 +53,7 @@ impl BoundsTree {
     pub fn new(cubics: impl ExactSizeIterator<Item = (Cubic, f64)>) -> Self {
         let n = cubics.len();
         let mut nodes = vec![[NONE; ORDERS]; n];
-        nodes.extend(cubics.map(|(cubic, h)| from_fn(|k| bounds(&derived(&cubic, k), [0.0, h]))));
+        nodes.extend(cubics.map(|(cubic, h)| from_fn(|k| bounds(&derived(&cubic, k), 0.0, h))));
         for k in (1..n).rev() {
             nodes[k] = from_fn(|order| hull(nodes[2 * k][order], nodes[2 * k + 1][order]));
         }

@@ -153,7 +153,7 @@ impl Signal {
             if low == high {
                 [value(&derived(cubic, order), low - start); 2]
             } else {
-                bounds(&derived(cubic, order), [low - start, high - start])
+                bounds(&derived(cubic, order), low - start, high - start)
             }
         })
     }
@@ -166,7 +166,7 @@ impl Signal {
             let (row, shift) = self.place(low);
             self.cubic(row, shift, x)
         } else {
-            x.compose(0, &|order, x| self.derivative_bounds(order, x))
+            x.compose(0, &|order, [low, high]| self.derivative_bounds(order, low, high))
         }
     }
 
@@ -235,31 +235,31 @@ impl Signal {
     }
 
     /// Bounds on the derivative of order `order` of a cubic signal between two arguments.
-    fn derivative_bounds(&self, order: usize, [low, high]: [f64; 2]) -> [f64; 2] {
+    fn derivative_bounds(&self, order: usize, low: f64, high: f64) -> [f64; 2] {
         let ([first, last], shift) = (self.range(), self.shift(low));
         let low = low - shift;
         let high = high - shift;
         if self.beyond != Beyond::Repeat || high <= last {
-            return self.bounds_within(order, [low, high]);
+            return self.bounds_within(order, low, high);
         }
         let period = last - first;
         if high - low >= period {
-            return self.bounds_within(order, [first, last]);
+            return self.bounds_within(order, first, last);
         }
-        hull(self.bounds_within(order, [low, last]), self.bounds_within(order, [first, high - period]))
+        hull(self.bounds_within(order, low, last), self.bounds_within(order, first, high - period))
     }
 
-    fn bounds_within(&self, order: usize, [low, high]: [f64; 2]) -> [f64; 2] {
+    fn bounds_within(&self, order: usize, low: f64, high: f64) -> [f64; 2] {
         let from = self.interval(low);
         let to = self.interval(high);
-        let part = |row: usize, [low, high]: [f64; 2]| {
+        let part = |row: usize, low: f64, high: f64| {
             let start = self.knots[row];
-            bounds(&derived(&self.cubics[row], order), [low - start, high - start])
+            bounds(&derived(&self.cubics[row], order), low - start, high - start)
         };
         if from == to {
-            return part(from, [low, high]);
+            return part(from, low, high);
         }
-        let ends = hull(part(from, [low, self.knots[from + 1]]), part(to, [self.knots[to], high]));
+        let ends = hull(part(from, low, self.knots[from + 1]), part(to, self.knots[to], high));
         self.tree.as_ref().map_or(ends, |tree| hull(ends, tree.over(order, from + 1, to)))
     }
 }

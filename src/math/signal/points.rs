@@ -81,7 +81,7 @@ pub fn cubics(points: &[[f64; 2]], interpolation: Interpolation, repeats: bool) 
     let row = |(i, pair): (usize, &[[f64; 2]])| {
         let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
         match interpolation {
-            Interpolation::Cubic => hermite(x1 - x0, [y0, y1], [slopes[i], slopes[i + 1]]),
+            Interpolation::Cubic => hermite(x1 - x0, y0, y1, slopes[i], slopes[i + 1]),
             Interpolation::Linear => [y0, (y1 - y0) / (x1 - x0), 0.0, 0.0],
             Interpolation::Previous => [y0, 0.0, 0.0, 0.0],
         }

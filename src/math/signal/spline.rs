@@ -19,7 +19,7 @@ fn inner(h: &[f64], m: &[f64], a: usize, b: usize) -> Row {
 
 /// The first condition of not-a-knot from the two intervals at an end, and the last one mirrored: the third derivative
 /// is continuous at the point between them.
-fn end([h0, h1]: [f64; 2], [m0, m1]: [f64; 2]) -> Row {
+fn end(h0: f64, h1: f64, m0: f64, m1: f64) -> Row {
     let sum = h0 + h1;
     [0.0, h1, sum, ((h0 + 2.0 * sum) * h1 * m0 + h0 * h0 * m1) / sum]
 }
@@ -36,9 +36,9 @@ pub fn not_a_knot(points: &[[f64; 2]]) -> Vec<f64> {
             vec![m[0] - bend * h[0], m[0] + bend * h[0], m[1] + bend * h[1]]
         }
         _ => {
-            let [_, diagonal, beside, right] = end([h[last], h[last - 1]], [m[last], m[last - 1]]);
+            let [_, diagonal, beside, right] = end(h[last], h[last - 1], m[last], m[last - 1]);
             let rows = (1..=last).map(|i| inner(&h, &m, i - 1, i));
-            let rows = [end([h[0], h[1]], [m[0], m[1]])].into_iter().chain(rows);
+            let rows = [end(h[0], h[1], m[0], m[1])].into_iter().chain(rows);
             solve(&rows.chain([[beside, diagonal, 0.0, right]]).collect::<Vec<_>>())
         }
     }

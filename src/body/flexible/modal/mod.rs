@@ -140,7 +140,7 @@ fn stiffness(data: &ModalData<Array>) -> Result<Mat<f64>> {
             .hint("a body without any is of type \"rigid\""));
     }
     let too_many = |error: Error| error.under("modal_stiffness").hint("keep fewer modes, the lowest ones");
-    refuse_dense("this body", [n; 2], COPIES).map_err(too_many)?;
+    refuse_dense("this body", n, n, COPIES).map_err(too_many)?;
     let stiffness = matrix("modal_stiffness", stiffness, n)?;
     let least = smallest("modal_stiffness", &stiffness)?;
     if least <= 0.0 {

@@ -65,7 +65,7 @@ impl<T: Scalar> Ordered<T> {
             while k > 0 {
                 let before = start - sizes[k - 1];
                 let is_sorted = self.radius(start, sizes[k]) <= self.radius(before, sizes[k - 1]);
-                if is_sorted || !self.swap(before, [sizes[k - 1], sizes[k]]) {
+                if is_sorted || !self.swap(before, sizes[k - 1], sizes[k]) {
                     break;
                 }
                 sizes.swap(k - 1, k);
@@ -82,7 +82,7 @@ impl<T: Scalar> Ordered<T> {
     /// Exchanges neighbouring blocks A and B; false where they have a common eigenvalue. With A X - X B = C, their
     /// coupling, the vectors of B are [-X; 1] (Bai, Demmel, "On swapping diagonal blocks in real Schur form", Linear
     /// Algebra Appl. 186 (1993) 73-95).
-    fn swap(&mut self, start: usize, [p, q]: [usize; 2]) -> bool {
+    fn swap(&mut self, start: usize, p: usize, q: usize) -> bool {
         let both = p + q;
         let block = self.t.view((start, start), (both, both)).clone_owned();
         let a = block.view((0, 0), (p, p)).clone_owned();

@@ -104,7 +104,8 @@ impl Bodies {
     /// their products.
     pub fn push(
         &mut self,
-        (first, width): (usize, usize),
+        first: usize,
+        width: usize,
         mass: &[(usize, (usize, usize))],
         sides: Vec<Side>,
         target: impl Fn(u32, u32) -> usize,
@@ -114,7 +115,7 @@ impl Bodies {
             self.targets.extend((l..sides.len()).map(|k| target(sides[k].position, sides[l].position) as u32));
         }
         let blocks = sides.iter().map(|side| side.entries as usize..(side.entries + side.rows * width as u32) as usize);
-        let dense = Dense::new((first, width), mass, blocks.collect(), self.dense.last().map_or(0, Dense::end));
+        let dense = Dense::new(first, width, mass, blocks.collect(), self.dense.last().map_or(0, Dense::end));
         // A point's rows, one for each translation: 2 of 3 coordinates in the plane, 3 of 6 in space.
         let translations = match width {
             3 => 2,

@@ -30,7 +30,8 @@ impl Dense {
     /// Of `width` coordinates from `first` on with these entries of M and blocks; L stands from `place` on. `None` if M
     /// is diagonal.
     pub fn new(
-        (first, width): (usize, usize),
+        first: usize,
+        width: usize,
         mass: &[(usize, (usize, usize))],
         blocks: Vec<Range<usize>>,
         place: usize,
@@ -57,14 +58,15 @@ impl Dense {
     pub(super) fn factor(
         &self,
         mass: &[f64],
-        (lower, inverse): (&mut [f64], &mut [f64]),
+        lower: &mut [f64],
+        inverse: &mut [f64],
         judge: &mut Judge,
     ) -> Result<(), usize> {
         let mut m = [[0.0; LARGEST]; LARGEST];
         self.entries.iter().for_each(|&(entry, p, q)| m[p][q] += mass[entry]);
         let sizes: [f64; LARGEST] = from_fn(|p| m[p][p]);
         for p in 0..self.width {
-            let own = judge.inverse(m[p][p], (sizes[p], 1.0), || self.first + p)?;
+            let own = judge.inverse(m[p][p], sizes[p], 1.0, || self.first + p)?;
             inverse[self.first + p] = own;
             for q in p + 1..self.width {
                 let factor = m[q][p] * own;

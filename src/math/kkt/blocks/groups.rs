@@ -24,16 +24,11 @@ impl Groups {
         let coordinates = coordinates(mass, g, late);
         let columns = neighbours(g.rows, g.entries.iter().copied());
         let rows = alike((0..g.rows).collect(), |row| &columns[row]);
-        Self::of((mass, g), coordinates, rows, late)
+        Self::of(mass, g, coordinates, rows, late)
     }
 
     /// With a partition of the coordinates and of the rows that is given.
-    pub fn of(
-        (mass, g): (&Pattern, &Pattern),
-        coordinates: Vec<Vec<usize>>,
-        rows: Vec<Vec<usize>>,
-        late: &[bool],
-    ) -> Self {
+    pub fn of(mass: &Pattern, g: &Pattern, coordinates: Vec<Vec<usize>>, rows: Vec<Vec<usize>>, late: &[bool]) -> Self {
         let of_coordinate = numbers(&coordinates, g.cols);
         let of_row = numbers(&rows, g.rows);
         let pattern = |rows: usize, entries: Vec<(usize, usize)>| Pattern {

@@ -92,7 +92,7 @@ impl Elimination<'_, '_> {
             let Some(diagonal) = diagonal.as_chunks_mut::<W>().0.first_chunk_mut::<W>() else { return Ok(()) };
             for p in 0..W {
                 let node = || layout.nodes[run.first + j * W + p];
-                inverse[p] = judge.inverse(diagonal[p][p], (sizes[p], run.sign), node)?;
+                inverse[p] = judge.inverse(diagonal[p][p], sizes[p], run.sign, node)?;
                 if !run.is_diagonal {
                     for q in p + 1..W {
                         let factor = diagonal[q][p] * inverse[p];
@@ -163,7 +163,7 @@ impl<T: Lanes> Solution<'_, T> {
             let (positions, others) = below.split_at(height as usize);
             work = rest;
             below = others;
-            let Some(mine) = solved_forward(run, own, inverse, (run.first + j * W, x)) else { return };
+            let Some(mine) = solved_forward(run, own, inverse, run.first + j * W, x) else { return };
             for (row, &position) in own[W * W..].as_chunks::<W>().0.iter().zip(positions) {
                 let x = &mut x[position as usize];
                 *x = (0..W).fold(*x, |x, p| x - mine[p] * row[p]);
@@ -187,7 +187,7 @@ impl<T: Lanes> Solution<'_, T> {
                 let x = x[position as usize];
                 (0..W).for_each(|p| sum[p] = sum[p] + x * row[p]);
             }
-            solve_backward(run, own, (inverse, &sum), (run.first + j * W, x));
+            solve_backward(run, own, inverse, &sum, run.first + j * W, x);
         }
     }
 }
@@ -198,7 +198,8 @@ fn solved_forward<T: Lanes, const W: usize>(
     run: &Run,
     block: &[f64],
     inverse: &[f64; W],
-    (first, x): (usize, &mut [T]),
+    first: usize,
+    x: &mut [T],
 ) -> Option<[T; W]> {
     let diagonal = block.as_chunks::<W>().0.first_chunk::<W>()?;
     let x = at_mut::<_, W>(x, first)?;
@@ -213,8 +214,10 @@ fn solved_forward<T: Lanes, const W: usize>(
 fn solve_backward<T: Lanes, const W: usize>(
     run: &Run,
     block: &[f64],
-    (inverse, sum): (&[f64; W], &[T; W]),
-    (first, x): (usize, &mut [T]),
+    inverse: &[f64; W],
+    sum: &[T; W],
+    first: usize,
+    x: &mut [T],
 ) {
     let diagonal = block.as_chunks::<W>().0.first_chunk::<W>();
     let (Some(diagonal), Some(x)) = (diagonal, at_mut::<_, W>(x, first)) else { return };

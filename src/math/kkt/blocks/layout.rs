@@ -85,14 +85,16 @@ impl Layout {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool], levers: &[Lever]) -> Self {
         let groups = Groups::new(mass, g, late);
         let order = groups.in_order(&order(mass, g, late));
-        Self::of((mass, g), &groups, (order, &[]), levers)
+        Self::of(mass, g, &groups, order, &[], levers)
     }
 
     /// For groups in an order, the `last` behind the others: these have all blocks between each other.
     pub fn of(
-        (mass, g): (&Pattern, &Pattern),
+        mass: &Pattern,
+        g: &Pattern,
         groups: &Groups,
-        (order, last): (Vec<usize>, &[usize]),
+        order: Vec<usize>,
+        last: &[usize],
         levers: &[Lever],
     ) -> Self {
         let entries = find(mass, g, groups);
@@ -134,7 +136,7 @@ impl Layout {
         let positions = layout.coordinates.iter().map(|&(_, p)| p);
         layout.late = positions.filter(|&p| p as usize >= layout.early_unknowns).collect();
         layout.slots(mass, g);
-        layout.add_bodies(mass, (&first, groups), entries, levers);
+        layout.add_bodies(mass, &first, groups, entries, levers);
         layout.runs = layout.runs(own);
         layout.own_runs = layout.runs.partition_point(|run| run.columns.start < own);
         let begin = layout.columns.get(own).map(|column| (column.first, column.diagonal));
@@ -145,7 +147,8 @@ impl Layout {
     fn add_bodies(
         &mut self,
         mass: &Pattern,
-        (first, groups): (&[usize], &Groups),
+        first: &[usize],
+        groups: &Groups,
         mut entries: Vec<Option<Entries>>,
         levers: &[Lever],
     ) {
@@ -168,8 +171,7 @@ impl Layout {
                 })
                 .collect();
             blocks.sort_by_key(|side| side.position);
-            let own = (coordinates[0], coordinates.len());
-            bodies.push(own, &masses, blocks, |row, column| self.product(row, column));
+            bodies.push(coordinates[0], coordinates.len(), &masses, blocks, |row, column| self.product(row, column));
         }
         self.bodies = bodies;
     }
@@ -240,7 +242,9 @@ impl Layout {
             let mut slots = Vec::new();
             for (entry, (a, b)) in entries.enumerate() {
                 if let (Some(a), Some(b)) = (places[a], places[b]) {
-                    slots.push((entry as u32, self.slot(a.max(b), a.min(b)) as u32));
+                    let (row, p) = a.max(b);
+                    let (column, q) = a.min(b);
+                    slots.push((entry as u32, self.slot(row, p, column, q) as u32));
                 }
             }
             slots
@@ -250,7 +254,7 @@ impl Layout {
         (self.mass_slots, self.g_slots) = (of_mass, of_g);
     }
 
-    fn slot(&mut self, (row, p): (usize, usize), (column, q): (usize, usize)) -> usize {
+    fn slot(&mut self, row: usize, p: usize, column: usize, q: usize) -> usize {
         let width = self.columns[column].width;
         let block = if row == column { self.columns[column].diagonal } else { self.block(row, column) };
         self.columns[column].is_diagonal &= row != column || p == q;

@@ -140,10 +140,10 @@ impl Blocks {
         }
         self.mass.clear();
         for &(entry, i) in &self.layout.bodies.masses {
-            self.inverse_masses[i] = judge.inverse(mass[entry], (mass[entry], 1.0), || i)?;
+            self.inverse_masses[i] = judge.inverse(mass[entry], mass[entry], 1.0, || i)?;
         }
         for body in &self.layout.bodies.dense {
-            body.factor(mass, (&mut self.lower, &mut self.inverse_masses), judge)?;
+            body.factor(mass, &mut self.lower, &mut self.inverse_masses, judge)?;
         }
         if !judge.quality.weak && !judge.quality.replaced {
             self.mass.extend_from_slice(mass);
@@ -207,7 +207,9 @@ impl Blocks {
     }
 
     /// Solves [M G^T; G 0] [d; .] = [0; b] for two b at once.
-    pub fn project(&mut self, [b, c]: [&[f64]; 2], [d, e]: [&mut [f64]; 2]) {
+    pub fn project(&mut self, bottoms: [&[f64]; 2], corrections: [&mut [f64]; 2]) {
+        let [b, c] = bottoms;
+        let [d, e] = corrections;
         let n = self.n;
         let len = self.layout.nodes.len();
         let all = 0..self.layout.runs.len();

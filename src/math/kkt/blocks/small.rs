@@ -62,7 +62,7 @@ impl Small {
         let sizes: [f64; N] = from_fn(|p| l[p][p]);
         let mut inverse = [0.0; N];
         for p in 0..N {
-            inverse[p] = judge.inverse(l[p][p], (sizes[p], 1.0), || p)?;
+            inverse[p] = judge.inverse(l[p][p], sizes[p], 1.0, || p)?;
             for q in p + 1..N {
                 let factor = l[q][p] * inverse[p];
                 (p + 1..=q).for_each(|r| l[q][r] -= factor * l[r][p]);
@@ -91,7 +91,7 @@ impl Small {
         for p in 0..*m {
             let (above, below) = schur.split_at_mut((p + 1) * *m);
             let row = &mut above[p * *m + p..];
-            let own = judge.inverse(row[0], (sizes[p], -1.0), || *n + p)?;
+            let own = judge.inverse(row[0], sizes[p], -1.0, || *n + p)?;
             inverse[*n + p] = own;
             let scaled = &mut scaled[p + 1..];
             scaled.iter_mut().zip(&row[1..]).for_each(|(scaled, x)| *scaled = x * own);

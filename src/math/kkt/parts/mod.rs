@@ -83,7 +83,7 @@ impl Parts {
     /// See [`Blocks::factor`].
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         let Parts { division, all } = self;
-        each_of(all, |part| part.factor(&division.parts[part.number], (mass, g), rule));
+        each_of(all, |part| part.factor(&division.parts[part.number], mass, g, rule));
         let mut quality = Quality::GOOD;
         for part in &*all {
             quality = quality.with(part.quality.map_err(|node| division.node(part.number, node))?);
@@ -102,8 +102,9 @@ impl Parts {
     /// See [`Blocks::solve`].
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
         let Parts { division, all } = self;
-        let given: (&[f64], &[f64]) = (top, bottom);
-        each_of(all, |part| part.forward(&division.parts[part.number], given));
+        let given_top: &[f64] = top;
+        let given_bottom: &[f64] = bottom;
+        each_of(all, |part| part.forward(&division.parts[part.number], given_top, given_bottom));
         let Some((first, others)) = all.split_first_mut() else { return };
         let last = first.blocks.last();
         others.iter_mut().for_each(|other| add(other.blocks.last(), last));
@@ -142,7 +143,7 @@ impl Part {
         }
     }
 
-    fn factor(&mut self, plan: &PartPlan, (mass, g): (&[f64], &[f64]), rule: Rule) {
+    fn factor(&mut self, plan: &PartPlan, mass: &[f64], g: &[f64], rule: Rule) {
         plan.mass.read(mass, &mut self.mass);
         plan.g.read(g, &mut self.blocks.g);
         self.skipped.clear();
@@ -150,7 +151,7 @@ impl Part {
         self.quality = self.blocks.factor_own(&self.mass, &mut judge).map(|()| judge.quality);
     }
 
-    fn forward(&mut self, plan: &PartPlan, (top, bottom): (&[f64], &[f64])) {
+    fn forward(&mut self, plan: &PartPlan, top: &[f64], bottom: &[f64]) {
         plan.coordinates.read(top, &mut self.top);
         plan.rows.read(bottom, &mut self.bottom);
         self.blocks.forward(&mut self.top, &self.bottom);

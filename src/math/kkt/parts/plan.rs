@@ -90,7 +90,7 @@ impl Plan {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool], levers: &[Lever]) -> Self {
         let parts = (g.cols + g.rows) / tolerances::UNKNOWNS_OF_A_PART;
         let count = parts.min(tolerances::MOST_PARTS);
-        let division = if count > 1 { Division::new((mass, g), late, levers, count) } else { None };
+        let division = if count > 1 { Division::new(mass, g, late, levers, count) } else { None };
         match division {
             Some(division) => Plan::Parts(Arc::new(division)),
             None => Plan::Whole(Arc::new(Layout::new(mass, g, late, levers))),
@@ -110,9 +110,9 @@ impl Plan {
 
 impl Division {
     /// Into this number of parts at most; `None` if even two have too much in common.
-    pub fn new((mass, g): (&Pattern, &Pattern), late: &[bool], levers: &[Lever], most: usize) -> Option<Self> {
-        let whole = Whole::new((mass, g), late, most)?;
-        let parts: Vec<_> = (0..whole.parts as u32).map(|part| whole.part((mass, g), late, levers, part)).collect();
+    pub fn new(mass: &Pattern, g: &Pattern, late: &[bool], levers: &[Lever], most: usize) -> Option<Self> {
+        let whole = Whole::new(mass, g, late, most)?;
+        let parts: Vec<_> = (0..whole.parts as u32).map(|part| whole.part(mass, g, late, levers, part)).collect();
         Some(Division {
             n: g.cols,
             coordinates: pieces(parts.iter().map(|part| &part.coordinates)),
@@ -144,7 +144,7 @@ struct Whole {
 }
 
 impl Whole {
-    fn new((mass, g): (&Pattern, &Pattern), late: &[bool], most: usize) -> Option<Self> {
+    fn new(mass: &Pattern, g: &Pattern, late: &[bool], most: usize) -> Option<Self> {
         let groups = Groups::new(mass, g, late);
         let (of_group, parts) = of_groups(&groups, most)?;
         let count = groups.coordinates.len();
@@ -161,7 +161,7 @@ impl Whole {
         Some(Whole { groups, of_group, of_coordinate, of_row, separator, parts })
     }
 
-    fn part(&self, (mass, g): (&Pattern, &Pattern), late: &[bool], levers: &[Lever], part: u32) -> PartPlan {
+    fn part(&self, mass: &Pattern, g: &Pattern, late: &[bool], levers: &[Lever], part: u32) -> PartPlan {
         let members = |of: &[u32]| (0..of.len()).filter(|&k| [part, SEPARATOR].contains(&of[k])).collect::<Vec<_>>();
         let coordinates = members(&self.of_coordinate);
         let rows = members(&self.of_row);
@@ -187,8 +187,10 @@ impl Whole {
         let own_levers = levers.iter().filter(|lever| place_of_entry[lever.first_entry] != usize::MAX);
         let own_levers: Vec<Lever> =
             own_levers.map(|lever| Lever { first_entry: place_of_entry[lever.first_entry], ..*lever }).collect();
-        let layout =
-            self.layout((&own_mass, &own_g), &own_late, &own_levers, (&place_of_coordinate, &place_of_row), part);
+        let coordinate_groups = self.members(&self.groups.coordinates, 0, &place_of_coordinate, part);
+        let row_groups = self.members(&self.groups.rows, self.groups.coordinates.len(), &place_of_row, part);
+        let groups = Groups::of(&own_mass, &own_g, coordinate_groups, row_groups, &own_late);
+        let layout = self.layout(&own_mass, &own_g, &groups, &own_late, &own_levers, part);
         let is_known = |of: &[u32], k: usize| of[k] == part || part == 0;
         PartPlan {
             layout: Arc::new(layout),
@@ -199,26 +201,29 @@ impl Whole {
         }
     }
 
-    /// The layout of a part, with the separator behind.
+    /// True if a group is one of the part, or of the separator.
+    fn is_in(&self, group: usize, part: u32) -> bool {
+        [part, SEPARATOR].contains(&self.of_group[group])
+    }
+
+    /// Those of `groups`, of which the first has the number `first`, that are in a part, by their places in it.
+    fn members(&self, groups: &[Vec<usize>], first: usize, place: &[usize], part: u32) -> Vec<Vec<usize>> {
+        let own = groups.iter().enumerate().filter(|(k, _)| self.is_in(first + k, part));
+        own.map(|(_, group)| group.iter().map(|&member| place[member]).collect()).collect()
+    }
+
+    /// The layout of a part with its groups, the separator behind.
     fn layout(
         &self,
-        (mass, g): (&Pattern, &Pattern),
+        mass: &Pattern,
+        g: &Pattern,
+        groups: &Groups,
         late: &[bool],
         levers: &[Lever],
-        (place_of_coordinate, place_of_row): (&[usize], &[usize]),
         part: u32,
     ) -> Layout {
-        let count = self.groups.coordinates.len();
-        let is_here = |group: usize| [part, SEPARATOR].contains(&self.of_group[group]);
-        let here = |first: usize, groups: &[Vec<usize>], place: &[usize]| -> Vec<Vec<usize>> {
-            let own = groups.iter().enumerate().filter(|(k, _)| is_here(first + k));
-            own.map(|(_, group)| group.iter().map(|&member| place[member]).collect()).collect()
-        };
-        let coordinates = here(0, &self.groups.coordinates, place_of_coordinate);
-        let rows = here(count, &self.groups.rows, place_of_row);
-        let of_coordinates = coordinates.len();
-        let groups = Groups::of((mass, g), coordinates, rows, late);
-        let members: Vec<usize> = (0..self.of_group.len()).filter(|&group| is_here(group)).collect();
+        let of_coordinates = groups.coordinates.len();
+        let members: Vec<usize> = (0..self.of_group.len()).filter(|&group| self.is_in(group, part)).collect();
         let place_of_group = places(&members, self.of_group.len());
         let last: Vec<usize> = self.separator.iter().map(|&group| place_of_group[group]).collect();
         let nodes = last.iter().flat_map(|&group| {
@@ -231,7 +236,7 @@ impl Whole {
         let nodes: Vec<usize> = nodes.collect();
         let mut order = groups.in_order(&order_before(mass, g, late, &nodes));
         order.retain(|group| !last.contains(group));
-        Layout::of((mass, g), &groups, (order, &last), levers)
+        Layout::of(mass, g, groups, order, &last, levers)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::Pattern;
 use super::pivoted::PivotedQr;
-use super::{scaled_rows, truncated};
+use super::{coordinate_scale, scaled_rows, truncated};
 use crate::math::{add_scaled, dot};
 use crate::tolerances;
 
@@ -47,8 +47,8 @@ impl Chart {
 
     /// Makes the state with these values the base.
     pub fn rebase(&mut self, mass: &[f64], g: &[f64]) {
-        let values = &mut self.base.values;
-        scaled_rows((&self.mass, mass), (&self.g, g), &mut self.scale, &mut self.norms, values);
+        coordinate_scale(&self.mass, mass, &mut self.scale);
+        scaled_rows(&self.g, g, &self.scale, &mut self.norms, &mut self.base.values);
         self.base.factor(tolerances::RANK);
         let rank = self.base.rank;
         self.place.bars.fill(true);

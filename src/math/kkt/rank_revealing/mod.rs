@@ -86,9 +86,8 @@ impl NullSpace {
 
     /// Factors; rows count as dependent below `tolerance` of the largest pivot.
     pub fn factor(&mut self, system: &System, tolerance: f64) -> Result<(), Singular> {
-        let mass = (&*system.mass, &system.mass_values[..]);
-        let g = (&*system.g, &system.g_values[..]);
-        scaled_rows(mass, g, &mut self.scale, &mut self.norms, &mut self.qr.values);
+        coordinate_scale(&system.mass, &system.mass_values, &mut self.scale);
+        scaled_rows(&system.g, &system.g_values, &self.scale, &mut self.norms, &mut self.qr.values);
         self.qr.factor(tolerance);
         self.factor_reduced(system)?;
         self.span_null();
@@ -197,20 +196,18 @@ fn truncated(tolerance: f64, reference: f64) -> f64 {
     tolerance.max(tolerances::TRUNCATED_RANK * reference)
 }
 
-/// S, the sizes of the rows of G S, and (D^-1 G S)^T by columns.
-fn scaled_rows(
-    (mass, mass_values): (&Pattern, &[f64]),
-    (g, g_values): (&Pattern, &[f64]),
-    scale: &mut [f64],
-    norms: &mut [f64],
-    columns: &mut [f64],
-) {
+/// S: the inverse roots of the masses, for coordinates without mass the largest of them.
+fn coordinate_scale(mass: &Pattern, mass_values: &[f64], scale: &mut [f64]) {
     scale.fill(0.0);
     mass.add_diagonal(mass_values, scale);
     scale.iter_mut().for_each(|s| *s = if *s > 0.0 { s.sqrt().recip() } else { 0.0 });
     let largest = scale.iter().fold(0.0, |a: f64, &b| a.max(b));
     let massless = if largest > 0.0 { largest } else { 1.0 };
     scale.iter_mut().filter(|s| **s == 0.0).for_each(|s| *s = massless);
+}
+
+/// The sizes of the rows of G S, and (D^-1 G S)^T by columns.
+fn scaled_rows(g: &Pattern, g_values: &[f64], scale: &[f64], norms: &mut [f64], columns: &mut [f64]) {
     let n = scale.len();
     columns.fill(0.0);
     for (&(j, i), value) in g.entries.iter().zip(g_values) {

@@ -133,14 +133,40 @@ impl RedundantRowSolve {
     /// are those of least norm.
     pub fn solve(&mut self, system: &System, top: &mut [f64], bottom: &mut [f64], is_least: bool) {
         self.inconsistency = self.project(system, bottom);
-        let RedundantRowSolve { factor, a, lambda, top: r1, bottom: r2, .. } = self;
-        // Replaced masses make the contraction slow.
-        let refinements = if self.replaced { 40 } else { 3 };
-        iterate(factor, system, (top, bottom), (a, lambda), (r1, r2), refinements);
+        self.iterate(system, top, bottom);
         top.copy_from_slice(&self.a);
         bottom.copy_from_slice(&self.lambda);
         if is_least {
             self.project(system, bottom);
+        }
+    }
+
+    /// [M G^T; G 0] [a; lambda] = [top; bottom] with a factor that may be of a nearby matrix: corrected until a
+    /// correction is round-off.
+    fn iterate(&mut self, system: &System, top: &[f64], bottom: &[f64]) {
+        let RedundantRowSolve { factor, a, lambda, top: r1, bottom: r2, replaced, .. } = self;
+        a.fill(0.0);
+        lambda.fill(0.0);
+        let mut last = [f64::INFINITY; 2];
+        // Replaced masses make the contraction slow.
+        let refinements = if *replaced { 40 } else { 3 };
+        for _ in 0..refinements {
+            r1.copy_from_slice(top);
+            r2.copy_from_slice(bottom);
+            system.residual(a, lambda, r1, r2);
+            factor.solve(r1, r2);
+            let sizes = [largest(r1), largest(r2)];
+            // A correction that does not shrink is round-off.
+            if !(sizes[0] < 0.5 * last[0] || sizes[1] < 0.5 * last[1]) {
+                break;
+            }
+            add(r1, a);
+            add(r2, lambda);
+            let small = 1e-16;
+            if sizes[0] <= small * largest(a) && sizes[1] <= small * largest(lambda) {
+                break;
+            }
+            last = sizes;
         }
     }
 
@@ -154,37 +180,4 @@ impl RedundantRowSolve {
 /// Numbers in [-1, 1] without pattern.
 fn arbitrary(i: usize) -> f64 {
     (1.0 + 0.7 * i as f64 * (i as f64 + 3.0)).sin()
-}
-
-/// Solves [M G^T; G 0] [a; lambda] = [top; bottom] with a factor that may be of a nearby matrix, in at most `sweeps`
-/// corrections, until a correction is round-off. `residual` is scratch.
-fn iterate(
-    factor: &mut Ldlt,
-    system: &System,
-    (top, bottom): (&[f64], &[f64]),
-    (a, lambda): (&mut [f64], &mut [f64]),
-    (r1, r2): (&mut [f64], &mut [f64]),
-    sweeps: usize,
-) {
-    a.fill(0.0);
-    lambda.fill(0.0);
-    let mut last = [f64::INFINITY; 2];
-    for _ in 0..sweeps {
-        r1.copy_from_slice(top);
-        r2.copy_from_slice(bottom);
-        system.residual(a, lambda, r1, r2);
-        factor.solve(r1, r2);
-        let sizes = [largest(r1), largest(r2)];
-        // A correction that does not shrink is round-off.
-        if !(sizes[0] < 0.5 * last[0] || sizes[1] < 0.5 * last[1]) {
-            break;
-        }
-        add(r1, a);
-        add(r2, lambda);
-        let small = 1e-16;
-        if sizes[0] <= small * largest(a) && sizes[1] <= small * largest(lambda) {
-            break;
-        }
-        last = sizes;
-    }
 }

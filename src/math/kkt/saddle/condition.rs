@@ -22,7 +22,7 @@ impl SaddlePoint {
         }
         self.system.store(mass, g);
         let mut scale = vec![1.0; self.n + self.m];
-        balance((&self.system.mass, mass), (&self.system.g, g), None, &mut scale);
+        balance(&self.system.mass, mass, &self.system.g, g, None, &mut scale);
         if scale.is_empty() {
             1.0
         } else if scale.len() <= tolerances::DENSE_EQUATIONS {

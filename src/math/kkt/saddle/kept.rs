@@ -83,12 +83,13 @@ impl Kept {
     pub fn solve(
         &mut self,
         system: &System,
-        (top, bottom): (&mut [f64], &mut [f64]),
+        top: &mut [f64],
+        bottom: &mut [f64],
         counts_all: bool,
         is_least: bool,
     ) -> Result<(), Singular> {
         self.inconsistency = if counts_all { self.project(system, bottom)? } else { 0.0 };
-        solve(&mut self.inner, &self.rows, (top, bottom, &mut self.bottom), is_least)?;
+        solve(&mut self.inner, &self.rows, top, bottom, &mut self.bottom, is_least)?;
         if is_least {
             self.project(system, bottom)?;
         }
@@ -101,7 +102,7 @@ impl Kept {
         let Kept { inner, rows, dropped, bottom: short, least, .. } = self;
         let mut result = Ok(());
         let mut inverse = |top: &mut [f64], bottom: &mut [f64]| {
-            let solved = solve(inner, rows, (top, bottom, short), true);
+            let solved = solve(inner, rows, top, bottom, short, true);
             result = result.and(solved);
         };
         let norm = least.project(system, dropped, &mut inverse, v);
@@ -113,7 +114,9 @@ impl Kept {
 fn solve(
     inner: &mut SaddlePoint,
     rows: &[usize],
-    (top, bottom, short): (&mut [f64], &mut [f64], &mut [f64]),
+    top: &mut [f64],
+    bottom: &mut [f64],
+    short: &mut [f64],
     is_least: bool,
 ) -> Result<(), Singular> {
     short.iter_mut().zip(rows).for_each(|(value, row)| *value = bottom[*row]);

@@ -168,7 +168,7 @@ impl SaddlePoint {
 
     fn factor_fast(&mut self, mass: &[f64], g: &[f64]) -> bool {
         let Some(orders) = &mut self.fast else { return false };
-        let Some(quality) = orders.factor(&self.system, (mass, g)) else { return false };
+        let Some(quality) = orders.factor(&self.system, mass, g) else { return false };
         if quality.weak {
             self.system.store(mass, g);
         }
@@ -238,9 +238,9 @@ impl SaddlePoint {
         ) {
             (Way::Ldlt { refine: false }, Some(fast), ..) => fast.solve(top, bottom),
             (Way::Ldlt { refine: true }, Some(fast), ..) => {
-                refine(fast, system, (top, bottom), (&mut self.top, &mut self.bottom))
+                refine(fast, system, top, bottom, &mut self.top, &mut self.bottom)
             }
-            (Way::Kept, _, Some(kept), ..) => kept.solve(system, (top, bottom), counts_all, is_least)?,
+            (Way::Kept, _, Some(kept), ..) => kept.solve(system, top, bottom, counts_all, is_least)?,
             (Way::RedundantRowSolve, .., Some(skipping), _) => skipping.solve(system, top, bottom, is_least),
             (Way::Dense, .., Some(dense)) => dense.solve(system, top, bottom),
             _ => return Err(Singular::NotFactored),
@@ -282,7 +282,8 @@ impl SaddlePoint {
         result
     }
     /// The same for two right sides.
-    pub fn solve_projections(&mut self, bottoms: [&[f64]; 2], [d, e]: [&mut [f64]; 2]) -> Result<(), Singular> {
+    pub fn solve_projections(&mut self, bottoms: [&[f64]; 2], corrections: [&mut [f64]; 2]) -> Result<(), Singular> {
+        let [d, e] = corrections;
         let fits = bottoms.iter().all(|b| b.len() == self.m) && d.len() == self.n && e.len() == self.n;
         if let (true, Way::Ldlt { refine: false }, Some(fast)) =
             (fits, self.way, self.fast.as_mut().and_then(Orders::taken))
@@ -296,12 +297,7 @@ impl SaddlePoint {
 }
 
 /// Solves with one step of refinement against the values of the system.
-fn refine(
-    fast: &mut Ldlt,
-    system: &System,
-    (top, bottom): (&mut [f64], &mut [f64]),
-    (a, lambda): (&mut [f64], &mut [f64]),
-) {
+fn refine(fast: &mut Ldlt, system: &System, top: &mut [f64], bottom: &mut [f64], a: &mut [f64], lambda: &mut [f64]) {
     a.copy_from_slice(top);
     lambda.copy_from_slice(bottom);
     fast.solve(a, lambda);

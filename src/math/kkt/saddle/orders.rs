@@ -38,7 +38,8 @@ impl Orders {
     }
 
     /// Factors; `None` if a pivot collapses in each order.
-    pub fn factor(&mut self, System { mass: m, g: j, .. }: &System, (mass, g): (&[f64], &[f64])) -> Option<Quality> {
+    pub fn factor(&mut self, system: &System, mass: &[f64], g: &[f64]) -> Option<Quality> {
+        let System { mass: m, g: j, .. } = system;
         self.meet(mass);
         for (order, factors) in self.factors.iter_mut().enumerate() {
             let late = |(massless, hub): (&bool, &bool)| *massless || *hub && order == 0;

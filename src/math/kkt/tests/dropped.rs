@@ -52,7 +52,7 @@ fn dropped_rows_share_the_multipliers() {
     let mut a = r1;
     let mut lambda = r2;
     solver.solve(&mut a, &mut lambda).unwrap();
-    agree((&a, &lambda), expected, 1e-10);
+    agree(&a, &lambda, expected, 1e-10);
 }
 
 #[test]

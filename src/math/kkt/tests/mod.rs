@@ -38,7 +38,7 @@ pub fn agrees_with_lu(sample: &Sample, random: &mut Random, tolerance: f64) {
     let (r1, r2) = right_side(sample, random);
     let (a, lambda, solver) = solved(sample, &r1, &r2);
     assert!(!solver.is_rank_deficient());
-    agree((&a, &lambda), sample.by_lu(&r1, &r2), tolerance);
+    agree(&a, &lambda, sample.by_lu(&r1, &r2), tolerance);
 }
 
 /// The solver that has found what the pseudo-inverse gives.
@@ -46,12 +46,12 @@ pub fn agreeing_with_svd(sample: &Sample, random: &mut Random, tolerance: f64) -
     let r1 = random.vector(sample.sizes().0);
     let r2 = reachable(sample, random);
     let (a, lambda, solver) = solved(sample, &r1, &r2);
-    agree((&a, &lambda), sample.by_svd(&r1, &r2), tolerance);
+    agree(&a, &lambda, sample.by_svd(&r1, &r2), tolerance);
     solver
 }
 
 /// Refuses a and lambda unless they are these.
-pub fn agree((a, lambda): (&[f64], &[f64]), expected: (Vec<f64>, Vec<f64>), tolerance: f64) {
+pub fn agree(a: &[f64], lambda: &[f64], expected: (Vec<f64>, Vec<f64>), tolerance: f64) {
     assert!(distance(a, &expected.0) < tolerance, "a {:e}", distance(a, &expected.0));
     assert!(distance(lambda, &expected.1) < tolerance, "lambda {:e}", distance(lambda, &expected.1));
 }

@@ -11,9 +11,12 @@ use crate::math::threads::spread;
 /// Solutions of both, and the rows that both drop; by the threads of the pool, too, to the bit.
 fn both(
     sample: &Sample,
-    (late, levers): (&[bool], &[Lever]),
-    (r1, r2): (&[f64], &[f64]),
-    (count, rule): (usize, Rule),
+    late: &[bool],
+    levers: &[Lever],
+    r1: &[f64],
+    r2: &[f64],
+    count: usize,
+    rule: Rule,
 ) -> [(Vec<f64>, Vec<usize>); 2] {
     let (n, _) = sample.sizes();
     let mut top = r1.to_vec();
@@ -23,7 +26,7 @@ fn both(
     whole.factor(&sample.mass_values, &sample.g_values, rule, &mut skipped).ok().unwrap();
     whole.solve(&mut top, &mut bottom);
     let expected = ([top, bottom].concat(), skipped);
-    let division = Division::new((&sample.mass, &sample.g), late, levers, count).unwrap();
+    let division = Division::new(&sample.mass, &sample.g, late, levers, count).unwrap();
     assert_eq!(division.parts.len(), count);
     let mut parts = Parts::new(division.into());
     let mut solved = || {
@@ -43,7 +46,7 @@ fn both(
 fn agrees(sample: &Sample, late: &[bool], levers: &[Lever], random: &mut Random) {
     let (r1, r2) = right_side(sample, random);
     for count in [2, 3, 4, 8] {
-        let [(expected, _), (found, _)] = both(sample, (late, levers), (&r1, &r2), (count, Rule::STRICT));
+        let [(expected, _), (found, _)] = both(sample, late, levers, &r1, &r2, count, Rule::STRICT);
         // Round-off of some hundred operations in another order.
         assert!(distance(&found, &expected) < 1e-13, "{count}: {:e}", distance(&found, &expected));
     }
@@ -114,7 +117,7 @@ fn as_many_rows_are_dropped_in_parts() {
     let r2 = reachable(&sample, &mut random);
     let rule = Rule::lenient(1e-13, &sample.mass_values);
     for count in [2, 4] {
-        let [expected, found] = both(&sample, (&[false; 360], &[]), (&r1, &r2), (count, rule));
+        let [expected, found] = both(&sample, &[false; 360], &[], &r1, &r2, count, rule);
         assert_eq!((found.1.len(), expected.1.len()), (4, 4));
         // Multipliers of dependent rows are any of many, the motion is the same, to round-off as above.
         assert!(distance(&found.0[..360], &expected.0[..360]) < 1e-13);
@@ -126,7 +129,7 @@ fn a_collapsed_pivot_is_told_by_its_number_in_the_whole() {
     let mut random = Random(35);
     let mut sample = Sample::chain(100, &mut random);
     sample.append(&[(130, 2.0)]);
-    let division = Division::new((&sample.mass, &sample.g), &[false; 300], &[], 4).unwrap();
+    let division = Division::new(&sample.mass, &sample.g, &[false; 300], &[], 4).unwrap();
     let mut parts = Parts::new(division.into());
     let collapsed = parts.factor(&sample.mass_values, &sample.g_values, Rule::STRICT, &mut vec![]).err();
     assert!([Some(300 + 130), Some(300 + 200)].contains(&collapsed), "{collapsed:?}");
@@ -136,5 +139,5 @@ fn a_collapsed_pivot_is_told_by_its_number_in_the_whole() {
 fn what_is_coupled_everywhere_is_not_divided() {
     let mut random = Random(36);
     let net = Sample::net(100, &mut random);
-    assert!(Division::new((&net.mass, &net.g), &vec![false; net.g.cols], &[], 4).is_none());
+    assert!(Division::new(&net.mass, &net.g, &vec![false; net.g.cols], &[], 4).is_none());
 }

@@ -15,7 +15,8 @@ fn right_side(n: usize) -> Vec<f64> {
 }
 
 /// Solutions with all rows, truncated, and with a row dropped.
-fn solve(solver: &mut SaddlePoint, (mass, g): &Values, (n, m): (usize, usize)) -> Vec<Solution> {
+fn solve(solver: &mut SaddlePoint, values: &Values, n: usize, m: usize) -> Vec<Solution> {
+    let (mass, g) = values;
     solver.rank_reference = 0.3;
     let mut solved = |part: Option<f64>| {
         let factored = match part {
@@ -84,12 +85,12 @@ fn a_used_saddle_point_solves_as_a_fresh_one() {
         Sample::net(6, &mut random),
     ];
     for (k, sample) in samples.iter().enumerate() {
-        let sizes = sample.sizes();
+        let (n, m) = sample.sizes();
         let states = states(sample, 70, &mut random);
         let mut used = SaddlePoint::new(&sample.mass, &sample.g);
         for (i, state) in states.iter().enumerate() {
             let mut fresh = SaddlePoint::new(&sample.mass, &sample.g);
-            assert_eq!(solve(&mut used, state, sizes), solve(&mut fresh, state, sizes), "sample {k}, state {i}");
+            assert_eq!(solve(&mut used, state, n, m), solve(&mut fresh, state, n, m), "sample {k}, state {i}");
         }
         let kinds = |is: fn(&SaddlePoint) -> bool| {
             let mut fresh = SaddlePoint::new(&sample.mass, &sample.g);

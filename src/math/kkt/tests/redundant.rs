@@ -38,7 +38,7 @@ fn the_dense_way_agrees_with_the_pseudo_inverse() {
         let mut lambda = r2.clone();
         dense.solve(&system, &mut a, &mut lambda);
         assert_eq!(dense.left_out().len(), copies);
-        agree((&a, &lambda), sample.by_svd(&r1, &r2), 1e-11);
+        agree(&a, &lambda, sample.by_svd(&r1, &r2), 1e-11);
     }
 }
 

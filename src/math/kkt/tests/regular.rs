@@ -182,7 +182,8 @@ fn bodies_levers_and_single_entries_agree() {
             let (other, mut pair): (Vec<f64>, _) = (r2.iter().rev().copied().collect(), [vec![9.0; n], vec![9.0; n]]);
             let [first, second] = &mut pair;
             blocks.project([&r2, &other], [first, second]);
-            let alone = [&r2, &other].map(|bottom| of(&mut blocks, &vec![0.0; n], bottom)[0].clone());
+            let mut alone = |bottom: &[f64]| of(&mut blocks, &vec![0.0; n], bottom)[0].clone();
+            let alone = [alone(&r2), alone(&other)];
             assert_eq!(pair, alone);
             of(&mut blocks, &r1, &r2).concat()
         });

@@ -35,9 +35,9 @@ impl<T: Field> Unpivoted<T> {
         let (of_node, count) = division(places, n);
         let nodes = |part: u32| order(places, n, (0..of_node.len()).filter(|&node| of_node[node] == part).collect());
         let separator = nodes(SEPARATOR);
-        let part = |part: u32| Part::new(places, &of_node, (part, nodes(part)), &separator);
+        let part = |part: u32| Part::new(places, &of_node, part, nodes(part), &separator);
         let parts = (0..count as u32).map(part).collect::<Option<_>>()?;
-        Some(Unpivoted { parts, last: Part::new(places, &of_node, (SEPARATOR, separator), &[])? })
+        Some(Unpivoted { parts, last: Part::new(places, &of_node, SEPARATOR, separator, &[])? })
     }
 
     /// Factors the matrix with these values at its places; returns false where a pivot is too small.
@@ -73,7 +73,8 @@ impl<T: Field> Part<T> {
     fn new(
         places: &SymbolicSparseColMat<usize>,
         of_node: &[u32],
-        (part, nodes): (u32, Vec<usize>),
+        part: u32,
+        nodes: Vec<usize>,
         separator: &[usize],
     ) -> Option<Self> {
         let own = nodes.len();
