@@ -266,7 +266,7 @@ impl<T: Number> Iteration<T> {
             }
             subtract(&structure.tangent, &at.tangent.c, slopes.w, w, a);
             subtract(&structure.tangent, &at.tangent.k, slopes.w_q, w, a);
-            rows.subtract(&structure.g, &at.l, |slope| slope.w, (w, gw), lambda);
+            rows.subtract(&structure.g, &at.l, |slope| slope.w, w, gw, lambda);
         }
         if !mu.is_empty() {
             for (i, row) in mu.iter_mut().enumerate() {
@@ -278,7 +278,7 @@ impl<T: Number> Iteration<T> {
                 T::solve_symmetric(solver, u, mu, part)?;
             }
             subtract(&structure.tangent, &at.tangent.k, slopes.u, u, a);
-            rows.subtract(&structure.g, &at.l, |slope| slope.u, (u, gu), lambda);
+            rows.subtract(&structure.g, &at.l, |slope| slope.u, u, gu, lambda);
         }
         Ok(matrix.solve(a, lambda)?)
     }
@@ -291,7 +291,8 @@ impl<T: Number> RowSlopes<T> {
         pattern: &Pattern,
         l: &[f64],
         by: impl Fn(&RowSlope<T>) -> [T; 2],
-        (x, gx): (&[T], &[T]),
+        x: &[T],
+        gx: &[T],
         lambda: &mut [T],
     ) {
         let factors = self.lambda.each(|slope| by(&slope).each(|factor| factor / slope.a[0]));

@@ -40,7 +40,7 @@ pub struct Point {
 impl Point {
     /// True if it is one of a system of these dimensions.
     pub fn fits(&self, n: Dimensions) -> bool {
-        [&self.q, &self.v, &self.vdot, &self.lambda].map(Vec::len) == [n.q, n.v, n.v, n.lambda]
+        self.q.len() == n.q && self.v.len() == n.v && self.vdot.len() == n.v && self.lambda.len() == n.lambda
     }
 
     /// The same by reference.
@@ -56,7 +56,8 @@ impl Linearized {
         let structure = system.structure();
         let n = system.dimensions();
         let zeros = |pattern: &Pattern| vec![0.0; pattern.entries.len()];
-        let [q, v, vdot, lambda] = [n.q, n.v, n.v, n.lambda].map(|n| vec![0.0; n]);
+        let vector = |length: usize| vec![0.0; length];
+        let point = Point { t: 0.0, q: vector(n.q), v: vector(n.v), vdot: vector(n.v), lambda: vector(n.lambda) };
         let metric = Metric::new(system);
         let shifts = dae.has_shifts().then(|| SaddlePoint::new(&metric.pattern, &structure.g));
         Linearized {
@@ -69,7 +70,7 @@ impl Linearized {
             metric,
             weighed: None,
             dropped: Vec::new(),
-            point: Point { t: 0.0, q, v, vdot, lambda },
+            point,
         }
     }
 
@@ -118,7 +119,7 @@ impl Linearized {
         }
         self.weighed = None;
         let stiffening = if self.dae.eta.is_none() { s } else { 0.0 };
-        self.metric.take(stiffening, &self.mass, (&dynamics.structure.tangent, &self.tangent.k));
+        self.metric.take(stiffening, &self.mass, &dynamics.structure.tangent, &self.tangent.k);
         dynamics.statistics.factorizations += 1;
         shifts.factor(&self.metric.values, &self.g)?;
         self.weighed = Some(s);
@@ -154,7 +155,7 @@ impl Metric {
         Metric { pattern: Pattern { entries, ..**mass }, values, diagonal, moving: n.moving(), masses, stiffness }
     }
 
-    fn take(&mut self, s: f64, mass: &[f64], (tangent, k): (&Pattern, &[f64])) {
+    fn take(&mut self, s: f64, mass: &[f64], tangent: &Pattern, k: &[f64]) {
         let Metric { pattern, values, diagonal, moving, masses, stiffness } = self;
         write_diagonal(pattern, mass, masses);
         write_diagonal(tangent, k, stiffness);

@@ -71,7 +71,9 @@ impl Residual {
     pub fn evaluate(
         &mut self,
         dae: &Dae,
-        (t, q, v): (f64, &[f64], &[f64]),
+        t: f64,
+        q: &[f64],
+        v: &[f64],
         unknowns: Unknowns,
         dynamics: &mut Dynamics,
     ) -> Result<(), StepError> {

@@ -276,7 +276,8 @@ pub(super) fn round_off(
 pub fn first_step(
     problem: &mut Problem,
     tolerance: &Tolerance,
-    (t, span): (f64, f64),
+    t: f64,
+    span: f64,
     y: &[f64],
     slope: &[f64],
     order: usize,

@@ -261,7 +261,7 @@ impl Integrator for HalfExplicit {
 impl Dense for HalfExplicit {
     fn prepare(&mut self, problem: &mut Problem, step: Step) -> Result<(), StepError> {
         self.polynomial.prepare(step);
-        self.polynomial.raise(problem, step, [&mut self.stage, &mut self.error])
+        self.polynomial.raise(problem, step, &mut self.stage, &mut self.error)
     }
 
     fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {

@@ -52,7 +52,13 @@ impl Hermite {
     ///
     /// Source: Enright, Jackson, Norsett, Thomsen, ACM Trans. Math. Softw. 12 (1986) 193-218. `y` and `slope` are
     /// scratch.
-    pub fn raise(&mut self, problem: &mut Problem, step: Step, [y, slope]: [&mut [f64]; 2]) -> Result<(), StepError> {
+    pub fn raise(
+        &mut self,
+        problem: &mut Problem,
+        step: Step,
+        y: &mut [f64],
+        slope: &mut [f64],
+    ) -> Result<(), StepError> {
         let From { t, h, .. } = step.from;
         cubic(step, NODE, y);
         problem.derivative(t + NODE * h, y, slope)?;

@@ -35,10 +35,10 @@ impl TimeLoop<'_> {
 
     /// The step from the present state whose error is estimated to be a hundredth of the tolerance.
     pub fn estimated_step(&mut self) -> Result<f64, StepError> {
-        let span = (self.t, self.span.end - self.t);
+        let span = self.span.end - self.t;
         let order = self.integrator.control().order;
         let lambda = self.problem.dynamics.lambda.clone();
-        let step = first_step(&mut self.problem, &self.tolerance, span, &self.y, &self.slope, order);
+        let step = first_step(&mut self.problem, &self.tolerance, self.t, span, &self.y, &self.slope, order);
         // `first_step` evaluates ahead; lambda is that of the start.
         self.problem.dynamics.lambda = lambda;
         step

@@ -229,10 +229,11 @@ impl Adams {
         self.tried.h * self.coefficients.sigma[order] * self.constants[order] * norm
     }
 
-    /// Chooses the order of the next step, and returns the error of a step of that order: as long as it rises, each
-    /// step raises it; then it falls where a lower order would have no larger error, and rises where the next one
-    /// would have a smaller one.
-    fn choose(&mut self, [own, one, two, raised]: [f64; 4]) -> f64 {
+    /// Chooses the order of the next step by the [norms](Self::norms), and returns the error of a step of that order:
+    /// as long as it rises, each step raises it; then it falls where a lower order would have no larger error, and
+    /// rises where the next one would have a smaller one.
+    fn choose(&mut self, norms: [f64; 4]) -> f64 {
+        let [own, one, two, raised] = norms;
         let k = self.order;
         let own = self.error_of(k, own);
         let one = if k > 1 { self.error_of(k - 1, one) } else { f64::INFINITY };

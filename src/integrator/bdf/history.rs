@@ -97,7 +97,8 @@ impl History {
     pub fn derivative(
         &self,
         degree: usize,
-        (t, h): (f64, f64),
+        t: f64,
+        h: f64,
         tolerance: &Tolerance,
         to: &[f64],
         change: &mut [f64],
@@ -109,7 +110,7 @@ impl History {
     }
 
     /// Writes the polynomial through the new state `to`, at `end`, and the last `order` states.
-    pub fn interpolate(&self, order: usize, (end, to): (f64, &[f64]), t: f64, out: &mut [f64]) {
+    pub fn interpolate(&self, order: usize, end: f64, to: &[f64], t: f64, out: &mut [f64]) {
         let mut times = [end; POINTS];
         times[1..=order].copy_from_slice(&self.times[..order]);
         let weight = |i: usize| lagrange(&times[..=order], i, t);

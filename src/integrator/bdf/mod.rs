@@ -93,7 +93,7 @@ struct Memory {
 
 /// Error of a step over the distance to the prediction: of the formula or, if it is larger, of the interpolation.
 /// Source: Brenan, Campbell, Petzold, (5.2.13).
-fn error_constant(history: &History, k: usize, (t, h): (f64, f64)) -> f64 {
+fn error_constant(history: &History, k: usize, t: f64, h: f64) -> f64 {
     let ratio = |i: usize| h / history.age(i, t);
     let leading: f64 = (1..=k).map(|j| 1.0 / j as f64).sum();
     let variable: f64 = (0..k).map(ratio).sum();
@@ -127,21 +127,21 @@ impl Integrator for Bdf {
             let [a, lambda] = stage.guess();
             a.copy_from_slice(problem.split(rate).1);
             history.predict_lambda(k, t, lambda);
-            stage.factor(problem, (t, predicted), from, g)?;
+            stage.factor(problem, t, predicted, from, g)?;
             stage.solve(problem, from, t, g)
         })?;
         to.copy_from_slice(&stage.y);
         change.iter_mut().zip(to.iter().zip(&*predicted)).for_each(|(change, (to, x))| *change = to - x);
         // Extrapolation magnifies the rounding of the past states, which no shorter step reduces.
         let allowed = 1.0 + BDF_ROUND_OFF * stage.round_off;
-        let estimate = error_constant(history, k, (t, h)) * tolerance.norm_between(from.y, to, change);
+        let estimate = error_constant(history, k, t, h) * tolerance.norm_between(from.y, to, change);
         let error = estimate / allowed;
         problem.dynamics.statistics.stagnated += u64::from(estimate > 1.0 && error <= 1.0);
         let mut term = |j: usize| match j {
             _ if j == 0 || j > history.known() => f64::INFINITY,
-            _ => history.derivative(j - 1, (t, h), tolerance, to, change) / allowed,
+            _ => history.derivative(j - 1, t, h, tolerance, to, change) / allowed,
         };
-        order.tried(error, [k - 1, k, k + 1, k + 2].map(&mut term));
+        order.tried(error, [term(k - 1), term(k), term(k + 1), term(k + 2)]);
         self.step = (t, k);
         Ok(Some(error))
     }
@@ -190,7 +190,7 @@ impl Dense for Bdf {
 
     fn interpolate(&mut self, _: &mut Problem, step: Step, theta: f64, out: &mut [f64]) -> Result<(), StepError> {
         let (end, k) = self.step;
-        self.history.interpolate(k, (end, &self.end), step.from.t + theta * step.from.h, out);
+        self.history.interpolate(k, end, &self.end, step.from.t + theta * step.from.h, out);
         Ok(())
     }
 }

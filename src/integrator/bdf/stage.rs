@@ -115,13 +115,7 @@ impl Stage {
 
     /// Factors the matrix for `g`, from the present M, G, L, K and C or, if there are none, those of a state with the
     /// first guess of v' and lambda.
-    pub fn factor(
-        &mut self,
-        problem: &mut Problem,
-        (t, y): (f64, &[f64]),
-        from: From,
-        g: f64,
-    ) -> Result<(), StepError> {
+    pub fn factor(&mut self, problem: &mut Problem, t: f64, y: &[f64], from: From, g: f64) -> Result<(), StepError> {
         if !self.matrix.serves(&problem.dynamics) {
             let (q, v) = problem.split(y);
             let Change { a, lambda, .. } = &self.unknowns;
@@ -172,7 +166,7 @@ impl Stage {
         let (q, v) = problem.split(&self.y);
         let stiffness = matrix.at.stiffness();
         let guess = formulation::Unknowns { a, lambda, w, eta, u, mu, stiffness };
-        residual.evaluate(dae, (t, q, v), guess, &mut problem.dynamics)?;
+        residual.evaluate(dae, t, q, v, guess, &mut problem.dynamics)?;
         problem.dynamics.statistics.newton_iterations += 1;
         let Matrix(iteration) = &mut matrix.factors;
         iteration.load(std::iter::once((1.0, &*residual)));

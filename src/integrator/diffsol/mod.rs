@@ -105,7 +105,7 @@ impl<'s> Diffsol<'s> {
                 if self.begins {
                     frame.equations().follow(problem);
                     let x = frame.equations().start(from, lambda);
-                    frame.restart(self.scheme, (from, &x))?;
+                    frame.restart(self.scheme, from, &x)?;
                     self.counted = Counters::default();
                 } else if self.is_moved {
                     frame.with_mut(|solver| solver.go_on_from(from));
@@ -115,7 +115,7 @@ impl<'s> Diffsol<'s> {
                 let equations = self.equations(problem)?;
                 equations.follow(problem);
                 let x = equations.start(from, lambda);
-                self.frame = Some(Frame::new(self.scheme, equations, (from, &x))?);
+                self.frame = Some(Frame::new(self.scheme, equations, from, &x)?);
                 self.dropped.clone_from(&problem.dynamics.dropped);
                 self.counted = Counters::default();
             }

@@ -142,7 +142,7 @@ impl Rows {
         };
         let q = part(&places.q);
         let v = part(&places.v);
-        residual.evaluate(dae, (t, q, v), unknowns, dynamics)?;
+        residual.evaluate(dae, t, q, v, unknowns, dynamics)?;
         velocity.copy_from_slice(v);
         add(velocity, unknowns.u);
         dynamics.system.rate(q, velocity, &mut out[places.q.clone()]);

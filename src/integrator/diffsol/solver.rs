@@ -138,9 +138,9 @@ impl<'s> Frame<'s> {
     ///
     /// # Errors
     /// A state that the equations cannot be evaluated at.
-    pub fn new(scheme: Scheme, equations: Equations<'s>, (from, x): (From, &[f64])) -> Result<Self, StepError> {
+    pub fn new(scheme: Scheme, equations: Equations<'s>, from: From, x: &[f64]) -> Result<Self, StepError> {
         let problem = problem(equations, from);
-        let begun = Pair::try_new(problem, |problem| begin(scheme, problem, (from, x)));
+        let begun = Pair::try_new(problem, |problem| begin(scheme, problem, from, x));
         begun.map(Frame).map_err(|_| StepError::NotConverged)
     }
 
@@ -163,9 +163,9 @@ impl<'s> Frame<'s> {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn restart(&mut self, scheme: Scheme, start: (From, &[f64])) -> Result<(), StepError> {
+    pub fn restart(&mut self, scheme: Scheme, from: From, x: &[f64]) -> Result<(), StepError> {
         self.0.with_dependent_mut(|problem, solver| {
-            *solver = begin(scheme, problem, start).map_err(|_| StepError::NotConverged)?;
+            *solver = begin(scheme, problem, from, x).map_err(|_| StepError::NotConverged)?;
             Ok(())
         })
     }
@@ -207,23 +207,19 @@ fn problem<'s>(eqn: Equations<'s>, From { h: h0, tolerance, .. }: From) -> Owner
     }
 }
 
-fn begin<'p, 's>(
-    scheme: Scheme,
-    problem: &'p Owner<'s>,
-    (from, x): (From, &[f64]),
-) -> Result<AnySolver<'p>, DiffsolError> {
+fn begin<'p, 's>(scheme: Scheme, problem: &'p Owner<'s>, from: From, x: &[f64]) -> Result<AnySolver<'p>, DiffsolError> {
     fn boxed<'p, 's: 'p>(solver: impl OdeSolverMethod<'p, Equations<'s>> + 'p) -> AnySolver<'p> {
         Box::new(Solver(solver, PhantomData))
     }
     Ok(match scheme {
-        Scheme::Bdf => boxed(problem.bdf_solver::<SparseLu>(state(problem, (from, x)))?),
-        Scheme::Tsit45 => boxed(problem.tsit45_solver(state(problem, (from, x)))?),
-        Scheme::TrBdf2 => boxed(problem.tr_bdf2_solver::<SparseLu>(state(problem, (from, x)))?),
-        Scheme::Esdirk34 => boxed(problem.esdirk34_solver::<SparseLu>(state(problem, (from, x)))?),
+        Scheme::Bdf => boxed(problem.bdf_solver::<SparseLu>(state(problem, from, x))?),
+        Scheme::Tsit45 => boxed(problem.tsit45_solver(state(problem, from, x))?),
+        Scheme::TrBdf2 => boxed(problem.tr_bdf2_solver::<SparseLu>(state(problem, from, x))?),
+        Scheme::Esdirk34 => boxed(problem.esdirk34_solver::<SparseLu>(state(problem, from, x))?),
     })
 }
 
-fn state<S: OdeSolverState<FaerVec<f64>>>(problem: &Owner, (from, x): (From, &[f64])) -> S {
+fn state<S: OdeSolverState<FaerVec<f64>>>(problem: &Owner, from: From, x: &[f64]) -> S {
     let eqn = &problem.eqn;
     let empty = || FaerVec::from_vec(Vec::new(), Default::default());
     let motion = eqn.differential();

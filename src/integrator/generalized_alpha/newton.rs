@@ -145,7 +145,7 @@ impl Newton {
         let lambda = &motion.end.lambda;
         let dynamics = &mut problem.dynamics;
         if self.matrix.serves(dynamics) {
-            self.residual.evaluate(&self.dae, (t, q, v), motion.unknowns(), dynamics)?;
+            self.residual.evaluate(&self.dae, t, q, v, motion.unknowns(), dynamics)?;
         } else {
             if to.iter().any(|x| !x.is_finite()) {
                 return Err(StepError::NotFinite);

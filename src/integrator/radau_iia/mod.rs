@@ -311,10 +311,11 @@ impl Integrator for RadauIIA {
         let monitor = self.tried.map_or(monitor, |tried| tried.monitor);
         // Matrices of a refused attempt serve on where they hardly change.
         let matrix = matrix.filter(|_| self.keeps_matrix()).map(|saved| Saved { is_fresh: false, ..saved });
+        let used = |rows: &[Vec<f64>]| rows[..stages].to_vec();
         written(Memory {
             choice: self.order.choice,
             accepted: self.accepted,
-            stages: [a, lambda, w, u].map(|rows| rows[..stages].to_vec()),
+            stages: [used(a), used(lambda), used(w), used(u)],
             matrix: newton_matrix::Memory { monitor, matrix },
         })
     }

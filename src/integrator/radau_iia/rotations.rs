@@ -48,7 +48,7 @@ impl Rotations {
     }
 
     /// Moves the quaternions of stage `i`, with its row of A, from those in `start`.
-    pub fn advance(&mut self, (i, row): (usize, &[f64]), h: f64, start: &[f64], q: &mut [f64]) {
+    pub fn advance(&mut self, i: usize, row: &[f64], h: f64, start: &[f64], q: &mut [f64]) {
         self.vectors[i].fill(0.0);
         accumulate(&mut self.vectors[i], h, row, &self.rates);
         for (k, place) in self.places.iter().enumerate() {

@@ -140,7 +140,7 @@ impl Stages {
                 let q = &mut self.next[i][..nq];
                 q.copy_from_slice(&from.y[..nq]);
                 accumulate(q, h, row, &self.qdot);
-                self.rotations.advance((i, row), h, from.y, q);
+                self.rotations.advance(i, row, h, from.y, q);
             }
         }
         std::mem::swap(&mut self.y, &mut self.next);
@@ -198,9 +198,17 @@ impl Stages {
         for (i, residual) in self.residuals.iter_mut().enumerate().take(method.stages()) {
             let (q, v) = self.y[i].split_at(self.n.q);
             let Unknowns { a, lambda, w, eta, u, mu } = &self.unknowns;
-            let [a, lambda, w, eta, u, mu] = [a, lambda, w, eta, u, mu].map(|stages| &stages[i][..]);
-            let unknowns = formulation::Unknowns { a, lambda, w, eta, u, mu, stiffness };
-            residual.evaluate(dae, (from.t + method.nodes[i] * from.h, q, &v[..self.n.v]), unknowns, dynamics)?;
+            let unknowns = formulation::Unknowns {
+                a: &a[i],
+                lambda: &lambda[i],
+                w: &w[i],
+                eta: &eta[i],
+                u: &u[i],
+                mu: &mu[i],
+                stiffness,
+            };
+            let t = from.t + method.nodes[i] * from.h;
+            residual.evaluate(dae, t, q, &v[..self.n.v], unknowns, dynamics)?;
         }
         Ok(())
     }
