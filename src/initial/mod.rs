@@ -77,7 +77,7 @@ fn consistent(
     (q, v): (&[f64], &[f64]),
     hold: &[String],
 ) -> Result<Assembly> {
-    check_start(system, t, (q, v))?;
+    check_start(system, t, q, v)?;
     let directions = holds::directions(system, hold)?;
     let mut metric = Metric::new(system, directions.clone());
     let mut assembled = q.to_vec();

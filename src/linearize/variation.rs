@@ -47,7 +47,7 @@ impl<'a> Variation<'a> {
     /// A state that the system refuses; one without determined accelerations; a singular one; equations without
     /// derivatives.
     pub fn new(system: &'a dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<Self> {
-        check_start(system, t, (q, v))?;
+        check_start(system, t, q, v)?;
         let dynamics = Dynamics::new(system);
         let tangent = Tangent::new(&dynamics.structure.tangent);
         let gdd = vec![0.0; dynamics.structure.g.entries.len()];

@@ -84,7 +84,7 @@ impl<'a> From<&'a Checkpoint> for Start<'a> {
 
 /// (q, v, w) at the start of a run, which the system must not refuse.
 pub fn flat(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<Vec<f64>> {
-    check_start(system, t, (q, v))?;
+    check_start(system, t, q, v)?;
     Ok([q, v, &vec![0.0; 1 + system.facts().works.len()]].concat())
 }
 

@@ -59,9 +59,8 @@ where
     if let Some(lock) = lock {
         let frames = [0, 1].each(|slot| view.frame(joint.markers[slot]).map(|x| x.x));
         let both = [&frames[0], &frames[1]];
-        let own = (slot, &frames[slot].r);
         for (row, multiplier) in rows.enumerate() {
-            let gradient = row_gradient(lock, both, own, row);
+            let gradient = row_gradient(lock, both, slot, &frames[slot].r, row);
             let lambda = view.lambda(multiplier);
             let torque = &gradient.torque[if D == 2 { 2 } else { 0 }..];
             let entries = gradient.force.iter().chain(torque);

@@ -68,7 +68,7 @@ impl Couplings {
         let mut joints = Vec::new();
         for (joint, Connection { markers, .. }) in model.joints.iter().enumerate() {
             match layout.lock(joint) {
-                Some(lock) => locked.push(LockedBlocks::new(layout, (joint, lock), pattern)),
+                Some(lock) => locked.push(LockedBlocks::new(layout, joint, lock, pattern)),
                 None => joints.push((joint, ElementCoupling::new(markers, supports, pattern))),
             }
         }
@@ -78,7 +78,7 @@ impl Couplings {
 }
 
 impl LockedBlocks {
-    fn new<const D: usize>(layout: &Layout<D>, (joint, lock): (usize, &Lock<D>), pattern: &mut Pattern) -> Self {
+    fn new<const D: usize>(layout: &Layout<D>, joint: usize, lock: &Lock<D>, pattern: &mut Pattern) -> Self {
         let model = &layout.model;
         let velocities = |slot: usize| {
             let body = model.markers.bodies[model.joints[joint].markers[slot]]?;

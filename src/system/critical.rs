@@ -27,7 +27,7 @@ pub(super) struct Load(Vec<(usize, f64)>);
 
 impl Load {
     /// `factor` times strain number `strain` of the section at `s`; `first_q` is the first elastic coordinate.
-    fn new<const D: usize>(line: &dyn Line<D>, first_q: usize, s: f64, (strain, factor): (usize, f64)) -> Self {
+    fn new<const D: usize>(line: &dyn Line<D>, first_q: usize, s: f64, strain: usize, factor: f64) -> Self {
         let section = line.section(s);
         let terms =
             zip(&section.dofs, &section.strains).map(|(dof, strains)| (first_q + dof, factor * strains[strain]));
@@ -48,7 +48,10 @@ pub(super) fn loads<const D: usize>(model: &Model<D>, part: &Part<D>) -> Vec<(Th
     let stiffens = !stretches.is_empty() || !line.point(end).shortening.is_empty();
     let along = |of: &dyn Fn(&Section) -> (usize, f64)| -> Vec<Load> {
         let places = (0..=POINTS).map(|k| length * k as f64 / POINTS as f64);
-        let loads = places.map(|s| Load::new(line, part.first_q + first, s, of(&line.material(s))));
+        let loads = places.map(|s| {
+            let (strain, factor) = of(&line.material(s));
+            Load::new(line, part.first_q + first, s, strain, factor)
+        });
         loads.filter(|load| !load.0.is_empty()).collect()
     };
     let forces = if stiffens { Vec::new() } else { along(&|section| axial_force::<D>(section, free)) };

@@ -179,7 +179,7 @@ impl<const D: usize> Evaluator<'_, D> {
                 None if terms.motion.is_empty() => {}
                 None => {
                     let first = part.first_marker - portion.markers.start;
-                    place_body(part, (self.q, self.v, &[]), &mut terms.motion[first..]);
+                    place_body(part, self.q, self.v, &[], &mut terms.motion[first..]);
                 }
             }
         }
@@ -255,7 +255,7 @@ impl<const D: usize> Evaluator<'_, D> {
         let mut power = 0.0;
         for ((wrench, frame), &marker) in wrenches.iter().zip(&frames).zip(markers) {
             power += wrench.power(frame);
-            self.pull_back(marker, frame, wrench, (poses, pulled), &mut terms.f);
+            self.pull_back(marker, frame, wrench, poses, pulled, &mut terms.f);
         }
         terms.power += action.potential.d + power;
         power
@@ -267,7 +267,8 @@ impl<const D: usize> Evaluator<'_, D> {
         marker: MarkerId,
         frame: &Frame<Taylor<f64>, D>,
         wrench: &Wrench<f64, D>,
-        (poses, pulled): (&[Pose<D>], &mut Vec<f64>),
+        poses: &[Pose<D>],
+        pulled: &mut Vec<f64>,
         f: &mut [f64],
     ) {
         let Some(body) = self.layout.model.markers.bodies[marker] else { return };

@@ -39,7 +39,7 @@ impl<const D: usize> Frames<D> {
         }
         self.open(model);
         for part in &model.bodies {
-            place_body(part, (at.q, at.v, at.vdot), &mut self.motion[part.first_marker..]);
+            place_body(part, at.q, at.v, at.vdot, &mut self.motion[part.first_marker..]);
         }
         if is_unaccelerated {
             self.placed.extend(at.q.iter().chain(at.v));
@@ -50,7 +50,9 @@ impl<const D: usize> Frames<D> {
 /// Evaluates the frames of the markers of a body, the first of `motion`.
 pub(super) fn place_body<const D: usize>(
     part: &Part<D>,
-    (q, v, vdot): (&[f64], &[f64], &[f64]),
+    q: &[f64],
+    v: &[f64],
+    vdot: &[f64],
     motion: &mut [Frame<Taylor<f64>, D>],
 ) {
     let frames = &mut motion[..part.body.markers().len()];

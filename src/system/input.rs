@@ -14,7 +14,8 @@ use nalgebra::DMatrix;
 pub(super) fn write_input_forces<const D: usize>(
     layout: &Layout<D>,
     derivative: usize,
-    (time, q): (Time<f64>, &[f64]),
+    time: Time<f64>,
+    q: &[f64],
     motion: &MovingFrames<D>,
     f: &mut DMatrix<f64>,
 ) {
@@ -23,7 +24,7 @@ pub(super) fn write_input_forces<const D: usize>(
     f.fill(0.0);
     for (mut column, input) in f.column_iter_mut().zip(&model.inputs) {
         let Some((force, component)) = input.target.force() else { continue };
-        let wrenches = input_wrenches(derivative, time, (&model.forces[force], component), motion);
+        let wrenches = input_wrenches(derivative, time, &model.forces[force], component, motion);
         for (wrench, &marker) in wrenches.iter().zip(&model.forces[force].markers) {
             let Some(part) = model.carrier(marker) else { continue };
             let frame = motion[marker].map(|x| x.x);
@@ -38,7 +39,8 @@ pub(super) fn write_input_forces<const D: usize>(
 fn input_wrenches<const D: usize>(
     derivative: usize,
     time: Time<f64>,
-    (force, component): (&ModelForce<D>, usize),
+    force: &ModelForce<D>,
+    component: usize,
     motion: &MovingFrames<D>,
 ) -> [Wrench<f64, D>; MOST_MARKERS] {
     let mut unit = [Taylor::fixed(Dual6::fixed(0.0)); 3];

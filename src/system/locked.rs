@@ -22,15 +22,17 @@ use crate::math::{Scalar, Taylor};
 /// what differs is the motion as a whole, translated or turned.
 pub(super) fn row_gradient<S: Scalar, const D: usize>(
     lock: &Lock<D>,
-    [a, b]: [&Frame<S, D>; 2],
-    (slot, centre): (usize, &[S; D]),
+    frames: [&Frame<S, D>; 2],
+    slot: usize,
+    centre: &[S; D],
     row: usize,
 ) -> Wrench<S, D> {
+    let [a, b] = frames;
     let sign = if slot == 0 { -1.0 } else { 1.0 };
     let mut gradient = Wrench::zero();
     let all = lock.translation.len();
     if row < all {
-        let point = if all == D { [a, b][slot].r } else { b.r };
+        let point = if all == D { frames[slot].r } else { b.r };
         if all == D {
             gradient.force[row] = S::constant(sign)
         } else {
@@ -50,11 +52,12 @@ pub(super) fn row_gradient<S: Scalar, const D: usize>(
 pub(super) fn write_rates<const D: usize>(
     lock: &Lock<D>,
     frames: [&Frame<Taylor<f64>, D>; 2],
-    (slot, solid): (usize, &Solid<D>),
+    slot: usize,
+    solid: &Solid<D>,
     mut write: impl FnMut(usize, usize, Taylor<f64>),
 ) {
     for row in 0..lock.translation.len() + lock.rotation.len() {
-        let gradient = row_gradient(lock, frames, (slot, &solid.centre), row);
+        let gradient = row_gradient(lock, frames, slot, &solid.centre, row);
         solid.translations().for_each(|(i, velocity)| write(row, velocity, gradient.force[i]));
         solid.rotations().for_each(|(k, velocity)| write(row, velocity, solid.about(k, &gradient.torque)));
     }
@@ -96,38 +99,38 @@ impl<const D: usize> LockedStiffness<'_, D> {
         let centres = [centre(0, a.r), centre(1, b.r)];
         if pulls.len() == D {
             let force: [f64; D] = from_fn(|i| pulls[i]);
-            self.product((None, force), (B, sub(&b.r, &centres[1])));
-            self.product((None, force.each(|f| -f)), (A, sub(&a.r, &centres[0])));
+            self.product(None, force, B, sub(&b.r, &centres[1]));
+            self.product(None, force.each(|f| -f), A, sub(&a.r, &centres[0]));
         } else if !pulls.is_empty() {
             // e . (r_B - r_A) = e . a_B + e . (c_B - c_A) - e . a_A, of which the last does not change.
             let mut force = [0.0; D];
             for (&lambda, &i) in pulls.iter().zip(lock.translation) {
                 force.iter_mut().zip(lock.axis(&a, i)).for_each(|(force, e)| *force += lambda * e);
             }
-            self.product((A, force), (B, sub(&b.r, &centres[1])));
+            self.product(A, force, B, sub(&b.r, &centres[1]));
             self.shift(&force, &sub(&centres[1], &centres[0]));
         }
         if D == 3 {
             for (&lambda, &(i, j)) in turns.iter().zip(lock.rotation) {
-                self.product((A, lock.axis(&a, i).each(|e| lambda * e)), (B, lock.axis(&b, j)));
+                self.product(A, lock.axis(&a, i).each(|e| lambda * e), B, lock.axis(&b, j));
             }
         }
     }
 
     /// x . y, each of the vectors fixed in a body or in the world. With s = x . y, the blocks of (x's body, y's body) are
     /// y x^T - s, x y^T - s on the diagonal, and s - y x^T, s - x y^T beside it.
-    fn product(&mut self, (own, x): (Option<usize>, [f64; D]), (other, y): (Option<usize>, [f64; D])) {
+    fn product(&mut self, own: Option<usize>, x: [f64; D], other: Option<usize>, y: [f64; D]) {
         let s = dot(&x, &y);
         let minus = |v: &[f64; D]| v.each(|x| -x);
-        self.turn((own, own), -s, (&y, &x));
-        self.turn((other, other), -s, (&x, &y));
-        self.turn((own, other), s, (&minus(&y), &x));
-        self.turn((other, own), s, (&minus(&x), &y));
+        self.turn(own, own, -s, &y, &x);
+        self.turn(other, other, -s, &x, &y);
+        self.turn(own, other, s, &minus(&y), &x);
+        self.turn(other, own, s, &minus(&x), &y);
     }
 
     /// e . (c_B - c_A) with e fixed in A.
     fn shift(&mut self, e: &[f64; D], gap: &[f64; D]) {
-        self.turn((A, A), -dot(e, gap), (gap, e));
+        self.turn(A, A, -dot(e, gap), gap, e);
         for (slot, sign) in [(0, -1.0), (1, 1.0)] {
             let [Some(turning), Some(moving)] = [&self.solids[0], &self.solids[slot]] else { continue };
             let [Some(upper), Some(lower)] = [self.first[0][slot], self.first[slot][0]] else { continue };
@@ -144,7 +147,7 @@ impl<const D: usize> LockedStiffness<'_, D> {
     }
 
     /// Adds alpha + p q^T, in axes of the world, to a block of rotations.
-    fn turn(&mut self, (row, column): (Option<usize>, Option<usize>), alpha: f64, (p, q): (&[f64; D], &[f64; D])) {
+    fn turn(&mut self, row: Option<usize>, column: Option<usize>, alpha: f64, p: &[f64; D], q: &[f64; D]) {
         let (Some(row), Some(column)) = (row, column) else { return };
         let [Some(left), Some(right)] = [&self.solids[row], &self.solids[column]] else { return };
         let Some(first) = self.first[row][column] else { return };

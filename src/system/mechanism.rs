@@ -137,13 +137,14 @@ impl<const D: usize> Mechanism<D> {
     /// Writes d(phi, phi', phi'')/dq of all joints, by the places of G.
     fn curvature(
         &self,
-        (at, regime): (&OperatingPoint, Regime),
+        at: &OperatingPoint,
+        regime: Regime,
         memory: &mut MechanismMemory<D>,
         mut write: impl FnMut(usize, Taylor<f64>),
     ) {
         let MechanismMemory { evaluation, varied, .. } = memory;
         for joint in PlacedJoint::all(&self.layout) {
-            joint.curvature((at, regime), &evaluation.frames.motion, varied, &mut write);
+            joint.curvature(at, regime, &evaluation.frames.motion, varied, &mut write);
         }
     }
 }
@@ -185,7 +186,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
             if need.includes(Need::L) {
                 let at = unaccelerated(t, q, v);
                 memory.evaluation.frames.place(self.model(), &at);
-                self.curvature((&at, regime), memory, |place, slope| terms.l[place] = slope.d);
+                self.curvature(&at, regime, memory, |place, slope| terms.l[place] = slope.d);
             }
         });
     }
@@ -202,7 +203,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
 
     fn acceleration_gradient(&self, at: OperatingPoint, values: &mut [f64], scratch: &mut Scratch) -> bool {
         self.placed(at, scratch, |memory, regime| {
-            self.curvature((&at, regime), memory, |place, slope| values[place] = slope.dd);
+            self.curvature(&at, regime, memory, |place, slope| values[place] = slope.dd);
         });
         true
     }
@@ -268,13 +269,13 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
 
     fn input_forces(&self, t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
         self.placed(unaccelerated(t, q, v), scratch, |memory, regime| {
-            write_input_forces(&self.layout, 0, (Time { t, regime }, q), &memory.evaluation.frames.motion, f);
+            write_input_forces(&self.layout, 0, Time { t, regime }, q, &memory.evaluation.frames.motion, f);
         });
     }
 
     fn input_rate_forces(&self, t: f64, q: &[f64], v: &[f64], f: &mut DMatrix<f64>, scratch: &mut Scratch) {
         self.placed(unaccelerated(t, q, v), scratch, |memory, regime| {
-            write_input_forces(&self.layout, 1, (Time { t, regime }, q), &memory.evaluation.frames.motion, f);
+            write_input_forces(&self.layout, 1, Time { t, regime }, q, &memory.evaluation.frames.motion, f);
         });
     }
 

@@ -145,7 +145,7 @@ impl<const D: usize> OutputSlopes<'_, D> {
                 if solid.is_some() {
                     varied.vary_state(along, part, &self.at, directions);
                 }
-                varied.vary(along, part, (&self.at, solid), directions);
+                varied.vary(along, part, &self.at, solid, directions);
                 let value = self.seen(Seed::Body(part), &read);
                 let target = match along {
                     SeedDirection::Coordinates => &mut self.tangent.q,

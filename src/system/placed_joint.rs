@@ -101,7 +101,8 @@ impl<'a, const D: usize> PlacedJoint<'a, D> {
     /// differentiated with respect to one marker after the other.
     pub fn curvature(
         &self,
-        (at, regime): (&OperatingPoint, Regime),
+        at: &OperatingPoint,
+        regime: Regime,
         motion: &MovingFrames<D>,
         varied: &mut SeededBody<D>,
         mut write: impl FnMut(usize, Taylor<f64>),
@@ -114,15 +115,13 @@ impl<'a, const D: usize> PlacedJoint<'a, D> {
             if let (Some(lock), Some(solid)) = (self.lock, self.layout.solid(block.body, motion)) {
                 let frames = [0, 1].each(|slot| &motion[markers[slot]]);
                 let place = |row: usize, velocity: usize| block.first_entry + row * width + velocity;
-                write_rates(lock, frames, (block.slot, &solid), |row, velocity, rate| {
-                    write(place(row, velocity), rate)
-                });
+                write_rates(lock, frames, block.slot, &solid, |row, velocity, rate| write(place(row, velocity), rate));
                 continue;
             }
             for first in (0..width).step_by(6) {
                 let directions = &velocities[first..width.min(first + 6)];
                 let solid = self.layout.solid(block.body, motion);
-                varied.vary(SeedDirection::Coordinates, part, (at, solid), directions);
+                varied.vary(SeedDirection::Coordinates, part, at, solid, directions);
                 varied.gather(part, markers, motion, |slot| slot == block.slot);
                 let mut levels = [Taylor::fixed(Dual6::constant(0.0)); MOST_ROWS];
                 let levels = &mut levels[..self.rows.rows.len()];

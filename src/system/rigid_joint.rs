@@ -115,7 +115,11 @@ impl<const D: usize> RigidJoint<D> {
     #[inline]
     pub fn evaluate(&self, poses: &[Pose<D>], need: Need, terms: &mut JointTerms) {
         let poses = [&poses[self.sides[0].body], &poses[self.sides[1].body]];
-        if D == 2 && self.is_point { self.point_in_plane(poses, need, terms) } else { self.any(poses, need, terms) }
+        if D == 2 && self.is_point {
+            self.point_in_plane(poses[0], poses[1], need, terms)
+        } else {
+            self.any(poses, need, terms)
+        }
     }
 
     #[inline(never)]
@@ -128,8 +132,10 @@ impl<const D: usize> RigidJoint<D> {
             let (first, second) = g[self.first_entry..][..sizes[0] + sizes[1]].split_at_mut(sizes[0]);
             [first, second]
         });
-        let levels =
-            need.includes(Need::CONSTRAINTS).then(|| [phi, phi_dot, gamma].map(|level| &mut level[self.rows.clone()]));
+        let rows = self.rows.clone();
+        let levels = need
+            .includes(Need::CONSTRAINTS)
+            .then(|| [&mut phi[rows.clone()], &mut phi_dot[rows.clone()], &mut gamma[rows]]);
         let mut rows = RowWriter { sides: &self.sides, poses, levels, blocks };
         match &self.form {
             ClosedForm::Rod(length) => rows.rod(&gap, *length),
@@ -141,7 +147,7 @@ impl<const D: usize> RigidJoint<D> {
     }
 
     /// The rows of a point in the plane: G = [-I, (a_y, -a_x), I, (-b_y, b_x)] with the arms a and b.
-    fn point_in_plane(&self, [a, b]: [&Pose<D>; 2], need: Need, terms: &mut JointTerms) {
+    fn point_in_plane(&self, a: &Pose<D>, b: &Pose<D>, need: Need, terms: &mut JointTerms) {
         let arms = [a.carried(&self.sides[0].offset), b.carried(&self.sides[1].offset)];
         if need.includes(Need::CONSTRAINTS) {
             let row = self.rows.start;

@@ -121,12 +121,12 @@ impl<const D: usize> Solid<D> {
         }
         let arm = sub(&frame.r, &self.centre);
         for (k, velocity) in self.rotations() {
-            self.turn((along, k, self.first + velocity), &arm, &mut out.r);
+            self.turn(along, k, self.first + velocity, &arm, &mut out.r);
             frame
                 .axes
                 .iter()
                 .zip(&mut out.axes)
-                .for_each(|(e, out)| self.turn((along, k, self.first + velocity), e, out));
+                .for_each(|(e, out)| self.turn(along, k, self.first + velocity, e, out));
             if D == 2 {
                 along.level(&mut out.turn).eps[self.first + velocity] = 1.0;
             }
@@ -137,7 +137,9 @@ impl<const D: usize> Solid<D> {
     #[inline]
     fn turn(
         &self,
-        (along, k, direction): (SeedDirection, usize, usize),
+        along: SeedDirection,
+        k: usize,
+        direction: usize,
         a: &[Taylor<f64>; D],
         out: &mut [Taylor<Dual6>; D],
     ) {

@@ -166,7 +166,8 @@ fn rotated(turn: &[f64; 4], x: &[f64; 3]) -> [f64; 3] {
 }
 
 /// The matrix of the cross product: skew(a) x = a x x.
-pub(super) fn skew([x, y, z]: &[f64; 3]) -> [[f64; 3]; 3] {
+pub(super) fn skew(a: &[f64; 3]) -> [[f64; 3]; 3] {
+    let [x, y, z] = a;
     [[0.0, -z, *y], [*z, 0.0, -x], [-y, *x, 0.0]]
 }
 

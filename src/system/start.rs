@@ -4,7 +4,7 @@ use super::MechanicalSystem;
 use crate::error::{Error, Result};
 
 /// Refuses a start with too many or too few numbers, or one that the system itself refuses.
-pub(crate) fn check_start(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<()> {
+pub(crate) fn check_start(system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<()> {
     let n = system.dimensions();
     for (found, wanted, what) in [(q.len(), n.q, "coordinates"), (v.len(), n.v, "velocities")] {
         if found != wanted {

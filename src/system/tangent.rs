@@ -81,7 +81,8 @@ impl<const D: usize> Tangents<'_, D> {
         let motion = self.motion;
         let Some(lock) = &locks[joint] else { return };
         let &[a, b] = &model.joints[joint].markers[..] else { return };
-        let solids = [a, b].map(|marker| self.layout.solid(model.markers.bodies[marker]?, motion));
+        let solid = |marker: usize| self.layout.solid(model.markers.bodies[marker]?, motion);
+        let solids = [solid(a), solid(b)];
         let lambda = &self.at.lambda[self.layout.rows_of_joint(joint)];
         let are_rotations = lock.changes_with_rotations();
         let mut stiffness = LockedStiffness { solids, first, are_rotations, k: &mut self.tangent.k };
@@ -99,7 +100,7 @@ impl<const D: usize> Tangents<'_, D> {
     ) {
         let model = &self.layout.model;
         if let Some(pair) = self.pair(coupling) {
-            return self.both(&pair, coupling, markers, (along, sign), wrenches);
+            return self.both(&pair, coupling, markers, along, sign, wrenches);
         }
         for (column, carrier) in coupling.carriers.iter().enumerate() {
             let part = &model.bodies[carrier.body];
@@ -107,15 +108,15 @@ impl<const D: usize> Tangents<'_, D> {
                 let at = OperatingPoint { vdot: &[], ..self.at };
                 let motion = self.motion;
                 let varied = &mut *self.varied;
-                varied.vary(along, part, (&at, self.layout.solid(carrier.body, motion)), directions);
+                varied.vary(along, part, &at, self.layout.solid(carrier.body, motion), directions);
                 varied.gather(part, markers, motion, |slot| model.markers.bodies[markers[slot]] == Some(carrier.body));
                 varied.acting.clear();
                 varied.acting.resize(markers.len(), Wrench::zero());
                 wrenches(&varied.gathered, &mut varied.acting);
                 for (row, block) in coupling.carriers.iter().zip(coupling.column(column)) {
                     let is_moved = row.body == carrier.body && along == SeedDirection::Coordinates;
-                    self.pull_back(row, (row.body == carrier.body, is_moved), markers);
-                    self.add((along, sign), block, 6 * pass, 0);
+                    self.pull_back(row, row.body == carrier.body, is_moved, markers);
+                    self.add(along, sign, block, 6 * pass, 0);
                 }
             }
         }
@@ -140,7 +141,8 @@ impl<const D: usize> Tangents<'_, D> {
         pair: &[Solid<D>; 2],
         coupling: &ElementCoupling,
         markers: &[usize],
-        (along, sign): (SeedDirection, f64),
+        along: SeedDirection,
+        sign: f64,
         wrenches: impl Fn(&SeededFrames<D>, &mut [Wrench<Dual6, D>]),
     ) {
         let motion = self.motion;
@@ -165,13 +167,13 @@ impl<const D: usize> Tangents<'_, D> {
                 solid.pull_back(is_moved, &gathered[held.slot].r.each(|x| x.x), &acting[held.slot], f);
             }
             for (column, solid) in pair.iter().enumerate() {
-                self.add((along, sign), &coupling.column(column)[place], 0, solid.first());
+                self.add(along, sign, &coupling.column(column)[place], 0, solid.first());
             }
         }
     }
 
     /// Pulls the wrenches back to generalized forces on the velocities of a carrier, into `varied.f`.
-    fn pull_back(&mut self, row: &Carrier, (is_varied, is_moved): (bool, bool), markers: &[usize]) {
+    fn pull_back(&mut self, row: &Carrier, is_varied: bool, is_moved: bool, markers: &[usize]) {
         let part = &self.layout.model.bodies[row.body];
         let SeededBody { gathered, acting, moved, rest, f, pulled, .. } = &mut *self.varied;
         f.clear();
@@ -202,7 +204,7 @@ impl<const D: usize> Tangents<'_, D> {
     }
 
     /// Adds the derivatives of `varied.f` from number `from` on to columns `first..` of a block.
-    fn add(&mut self, (along, sign): (SeedDirection, f64), block: &CouplingBlock, first: usize, from: usize) {
+    fn add(&mut self, along: SeedDirection, sign: f64, block: &CouplingBlock, first: usize, from: usize) {
         let values = if along == SeedDirection::Coordinates { &mut self.tangent.k } else { &mut self.tangent.c };
         let rows = values[block.first_entry..].chunks_exact_mut(block.width);
         for (row, f) in rows.zip(&self.varied.f) {

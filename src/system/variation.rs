@@ -41,7 +41,8 @@ impl<const D: usize> SeededBody<D> {
         &mut self,
         along: SeedDirection,
         part: &Part<D>,
-        (at, solid): (&OperatingPoint, Option<Solid<D>>),
+        at: &OperatingPoint,
+        solid: Option<Solid<D>>,
         directions: &[usize],
     ) {
         (self.along, self.solid) = (Some(along), solid);

@@ -88,7 +88,7 @@ struct Found {
 /// Joints that cannot be closed at `t`, a state that cannot be evaluated, equations without K: bad input. No
 /// equilibrium found: a failure that names what moves or the largest residual force.
 pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: (&[f64], &[f64])) -> Result<Equilibrium> {
-    check_start(system, t, guess)?;
+    check_start(system, t, guess.0, guess.1)?;
     let mut q = guess.0.to_vec();
     system.normalize(&mut q);
     position::close(&mut Metric::new(system, Vec::new()), t, &mut q)?;

@@ -15,7 +15,8 @@ pub(super) fn symmetry<E: Equations>(system: &E, t: f64, q: &[f64]) -> Result<()
             let upper = mass[j * n + i];
             let diagonal = (mass[i * n + i] * mass[j * n + j]).abs().sqrt();
             if (lower - upper).abs() > tolerances::SAME * diagonal.max(lower.abs()).max(upper.abs()) {
-                let [lower, upper] = [lower, upper].map(short);
+                let lower = short(lower);
+                let upper = short(upper);
                 let message = format!(
                     "the mass matrix is not symmetric: {lower} in row {}, column {}, but {upper} in row {}, column {}",
                     i + 1,

@@ -175,7 +175,9 @@ impl<L: Lagrangian> Equations for L {
             let energy = |first| along(&mut v, first, |v| self.kinetic(Dual::fixed(t), &q, v));
             (0..n).step_by(WIDTH).map(energy).flat_map(|energy| energy.eps).take(n).collect()
         };
-        let [at_rest, once, twice] = [0.0, 1.0, 2.0].map(momenta);
+        let at_rest = momenta(0.0);
+        let once = momenta(1.0);
+        let twice = momenta(2.0);
         for i in 0..n {
             let bend = twice[i] - 2.0 * once[i] + at_rest[i];
             if bend.abs() > tolerances::ROOT_OF_ROUND_OFF * (twice[i].abs() + once[i].abs() + at_rest[i].abs()) {

@@ -125,11 +125,11 @@ impl<E: Equations> MechanicalSystem for E {
                 self.force(t, q, v, &mut terms.f);
                 terms.power = self.power(t, q, v);
                 if !inputs.is_empty() {
-                    add_inputs(self, (t, q, v), &inputs, &mut memory.driven, terms);
+                    add_inputs(self, t, q, v, &inputs, &mut memory.driven, terms);
                 }
             }
             if m > 0 && (need.includes(Need::CONSTRAINTS) || need.includes(Need::G)) {
-                constraints(self, (t, q, v), need, memory, terms);
+                constraints(self, t, q, v, need, memory, terms);
             }
             if need.includes(Need::L) {
                 let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };

@@ -84,7 +84,9 @@ impl Memory {
 /// f += (df/du) u, whose power is that of forces without a potential.
 pub(super) fn add_inputs(
     equations: &impl Equations,
-    (t, q, v): (f64, &[f64], &[f64]),
+    t: f64,
+    q: &[f64],
+    v: &[f64],
     inputs: &[f64],
     driven: &mut Vec<f64>,
     terms: &mut Terms,
@@ -122,25 +124,30 @@ pub(super) fn output_slopes(x: &[f64], outputs: impl Fn(&[Dual6], &mut [Dual6]),
 #[inline]
 pub(super) fn constraints<E: Equations>(
     system: &E,
-    state: (f64, &[f64], &[f64]),
+    t: f64,
+    q: &[f64],
+    v: &[f64],
     need: Need,
     memory: &mut Memory,
     terms: &mut Terms,
 ) {
-    if state.1.len() < FEW {
-        pass(system, state, need, &mut memory.few, terms);
+    if q.len() < FEW {
+        pass(system, t, q, v, need, &mut memory.few, terms);
     } else {
-        pass(system, state, need, &mut memory.many, terms);
+        pass(system, t, q, v, need, &mut memory.many, terms);
     }
 }
 
 fn pass<E: Equations, const W: usize>(
     system: &E,
-    (t, q, v): (f64, &[f64], &[f64]),
+    t: f64,
+    q: &[f64],
+    v: &[f64],
     need: Need,
-    Jets { q: jets, phi: rows }: &mut Jets<W>,
+    jets: &mut Jets<W>,
     terms: &mut Terms,
 ) {
+    let Jets { q: jets, phi: rows } = jets;
     let n = q.len();
     for first in (0..=n).step_by(W) {
         let columns = first..n.min(first + W);
