@@ -7,7 +7,8 @@ use crate::math::{dot, norm};
 /// The fastest modes, by power iteration of (x, v) -> (v, -Z Z^T (K x + C v)); `accelerate` returns Z Z^T f, the
 /// accelerations due to a force f alone, and `None` where these are not finite.
 pub fn fastest(
-    [k, c]: [&Sparse; 2],
+    k: &Sparse,
+    c: &Sparse,
     mut accelerate: impl FnMut(Vec<f64>) -> Option<Vec<f64>>,
 ) -> Option<Vec<SpectralMode>> {
     let n = k.pattern.rows;

@@ -9,9 +9,9 @@ use crate::math::largest;
 /// With M >= D, diagonal, a mode of velocity x has abs(s)^2 <= c abs(s) + k for the norms k and c of D^-1/2 K D^-1/2 and
 /// D^-1/2 C D^-1/2, which are at most the roots of their largest sums over rows times columns; constraints only take
 /// directions away.
-pub fn rate_bound(mass: (&Pattern, &[f64]), (places, tangent): (&Pattern, [&[f64]; 2])) -> Option<f64> {
-    let mut least = vec![0.0; mass.0.rows];
-    for (&(i, j), &mass) in mass.0.entries.iter().zip(mass.1) {
+pub fn rate_bound(mass_places: &Pattern, mass: &[f64], places: &Pattern, k: &[f64], c: &[f64]) -> Option<f64> {
+    let mut least = vec![0.0; mass_places.rows];
+    for (&(i, j), &mass) in mass_places.entries.iter().zip(mass) {
         if i == j { least[i] += mass } else { [i, j].iter().for_each(|&i| least[i] -= mass.abs()) }
     }
     let roots: Vec<f64> = least.iter().map(|mass| mass.sqrt()).collect();
@@ -25,7 +25,8 @@ pub fn rate_bound(mass: (&Pattern, &[f64]), (places, tangent): (&Pattern, [&[f64
         }
         (largest(&rows) * largest(&columns)).sqrt()
     };
-    let [k, c] = tangent.map(norm);
+    let k = norm(k);
+    let c = norm(c);
     let bound = 0.5 * (c + (c * c + 4.0 * k).sqrt());
     (least.iter().all(|mass| *mass > 0.0) && bound.is_finite()).then_some(bound)
 }
@@ -44,8 +45,9 @@ mod tests {
             (-100.0, 0.0, [5.0, 0.0]),
         ] {
             let tangent = [stiffness, damping].map(|value| vec![value, 0.0, 0.0, 0.0]);
-            let mass = (&Pattern::lower(2), &[1.0, 0.0, 3.0][..]);
-            let bound = rate_bound(mass, (&Pattern::dense(2, 2), [&tangent[0], &tangent[1]])).unwrap_or(0.0);
+            let mass = [1.0, 0.0, 3.0];
+            let bound =
+                rate_bound(&Pattern::lower(2), &mass, &Pattern::dense(2, 2), &tangent[0], &tangent[1]).unwrap_or(0.0);
             assert!(bound >= mode[0].hypot(mode[1]), "{stiffness} {damping}: {bound}");
         }
     }

@@ -123,7 +123,7 @@ impl Blocks {
         self.rows.push(left.map(|y| 2.0 * y.re));
         self.rows.push(left.map(|y| -2.0 * y.im));
         self.a.push(Matrix::from_row_slice(2, 2, &[value.re, value.im, -value.im, value.re]));
-        self.states.extend(["re", "im"].map(|part| format!("mode{number}.{part}")));
+        self.states.extend([format!("mode{number}.re"), format!("mode{number}.im")]);
     }
 
     /// Adds one block for all defective eigenvalues: the complement to which all other vectors are orthogonal.

@@ -69,11 +69,11 @@ pub fn find<'a>(equations: [&'a Quadratic; 2], count: usize, shift: C) -> Result
     };
     if sigma.im == 0.0 {
         let operator = beside(equations[0], sigma.re, rate)?;
-        let ([right, left], operator) = spaces(equations[1], operator, [count, wanted], shift, rate)?;
+        let ([right, left], operator) = spaces(equations[1], operator, count, wanted, shift, rate)?;
         return Ok(Found { right, left, operator: Operator::Real(operator) });
     }
     let operator = beside(equations[0], sigma, rate)?;
-    let ([right, left], operator) = spaces(equations[1], operator, [count, wanted], shift, rate)?;
+    let ([right, left], operator) = spaces(equations[1], operator, count, wanted, shift, rate)?;
     Ok(Found { right, left, operator: Operator::Complex(operator) })
 }
 
@@ -81,7 +81,8 @@ pub fn find<'a>(equations: [&'a Quadratic; 2], count: usize, shift: C) -> Result
 fn spaces<'a, T: Scalar + Into<C>>(
     adjoint: &Quadratic,
     mut operator: Shifted<'a, T>,
-    [count, mut wanted]: [usize; 2],
+    count: usize,
+    mut wanted: usize,
     shift: C,
     rate: f64,
 ) -> Result<([Space; 2], Shifted<'a, T>), Unsolved> {
@@ -96,7 +97,9 @@ fn spaces<'a, T: Scalar + Into<C>>(
         }
     };
     let left = run(&mut Shifted::new(adjoint, sigma, rate)?, wanted, false)?;
-    Ok(([right, left].map(|partial| real(&partial, cut, &operator.scale)), operator))
+    let right = real(&right, cut, &operator.scale);
+    let left = real(&left, cut, &operator.scale);
+    Ok(([right, left], operator))
 }
 
 /// Runs Krylov-Schur to rounding, with multiple eigenvalues; or roughly (`is_first`).

@@ -51,7 +51,7 @@ pub fn bound(system: &dyn MechanicalSystem, state: OperatingPoint) -> Option<f64
     if !system.tangent(state, &mut tangent, &mut scratch) {
         return None;
     }
-    rate_bound((&structure.mass, &terms.mass), (&structure.tangent, [&tangent.k, &tangent.c]))
+    rate_bound(&structure.mass, &terms.mass, &structure.tangent, &tangent.k, &tangent.c)
 }
 
 /// The equations of motion at a state, factored, with K and C.
@@ -77,7 +77,7 @@ impl<'a> Frozen<'a> {
     fn fastest(&mut self) -> Option<Vec<SpectralMode>> {
         let [k, c] = [&self.tangent.k, &self.tangent.c].map(|values| Sparse::without_zeros(self.places(), values));
         let mut rows = vec![0.0; self.dynamics.lambda.len()];
-        modes::fastest([&k, &c], |mut force| {
+        modes::fastest(&k, &c, |mut force| {
             rows.fill(0.0);
             self.dynamics.kkt.solve_motion(&mut force, &mut rows).ok()?;
             force.iter().all(|x| x.is_finite()).then_some(force)
