@@ -43,7 +43,7 @@ pub fn close(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> R
 pub(super) fn attempt(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -> Result<bool> {
     let (mut d, mut start) = std::mem::take(&mut metric.newton);
     d.resize(moved.len(), 0.0);
-    let is_closed = iterate(metric, t, (q, moved), (&mut d, &mut start));
+    let is_closed = iterate(metric, t, q, moved, &mut d, &mut start);
     metric.newton = (d, start);
     is_closed
 }
@@ -51,8 +51,10 @@ pub(super) fn attempt(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f
 fn iterate(
     metric: &mut Metric,
     t: f64,
-    (q, moved): (&mut [f64], &mut [f64]),
-    (d, start): (&mut [f64], &mut Vec<f64>),
+    q: &mut [f64],
+    moved: &mut [f64],
+    d: &mut [f64],
+    start: &mut Vec<f64>,
 ) -> Result<bool> {
     let mut last = f64::INFINITY;
     // Loops of random angles take 56 at most.
@@ -68,7 +70,7 @@ fn iterate(
         let factor = (tolerances::LARGEST_TURN / metric.largest_turn(q, d)).min(1.0);
         start.clear();
         start.extend_from_slice(q);
-        let Some(taken) = advance(metric, t, (start, q), (d, factor), residual) else { return Ok(is_closed) };
+        let Some(taken) = advance(metric, t, start, q, d, factor, residual) else { return Ok(is_closed) };
         moved.iter_mut().zip(&*d).for_each(|(moved, d)| *moved += taken * d);
     }
     metric.residual(t, q);
@@ -80,8 +82,10 @@ fn iterate(
 fn advance(
     metric: &mut Metric,
     t: f64,
-    (start, q): (&[f64], &mut [f64]),
-    (d, full): (&[f64], f64),
+    start: &[f64],
+    q: &mut [f64],
+    d: &[f64],
+    full: f64,
     residual: f64,
 ) -> Option<f64> {
     let mut factor = full;

@@ -6,7 +6,8 @@
 pub fn continuation(
     mut at: f64,
     target: f64,
-    (first, least): (f64, f64),
+    first: f64,
+    least: f64,
     mut reach: impl FnMut(f64) -> Option<f64>,
 ) -> (f64, f64) {
     let mut step = first;

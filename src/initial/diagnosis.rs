@@ -1,7 +1,7 @@
 //! The reason why joints cannot be closed.
 
 use super::follow::path;
-use super::nearest::halved;
+use super::nearest::{DampedStep, halved};
 use super::{Metric, closing, nearest};
 use crate::error::{Error, short, significant};
 use crate::system::{Group, Prescribed};
@@ -20,8 +20,10 @@ const OPEN: &str = "the joints cannot all be closed";
 pub fn obstacle(
     metric: &mut Metric,
     t: f64,
-    (guess, way): (&[f64], &[f64]),
-    (q, moved): (&mut Vec<f64>, &mut Vec<f64>),
+    guess: &[f64],
+    way: &[f64],
+    q: &mut Vec<f64>,
+    moved: &mut Vec<f64>,
 ) -> Option<Error> {
     if let Some(error) = unlike_lengths(metric) {
         return Some(error);
@@ -45,7 +47,7 @@ pub fn obstacle(
         }
         least_gap(metric, &rows, t, q);
         let is_free = moves(metric, &rows, t, q);
-        return Some(blocked(metric, &group, t, (is_free, has_fitting_axes)));
+        return Some(blocked(metric, &group, t, is_free, has_fitting_axes));
     }
     Some(general)
 }
@@ -110,9 +112,9 @@ fn with_less_gap(metric: &mut Metric, rows: &[usize], t: f64, q: &[f64], gap: f6
     let falls: f64 = d.iter().zip(&slopes).map(|(d, slope)| -d * slope).sum();
     let curvature = metric.squared_rates(rows, &d);
     let turn = tolerances::LARGEST_TURN / metric.largest_turn(q, &d);
-    let step = (&d[..], (falls / curvature).min(turn), 2 * tolerances::STEP_HALVINGS);
+    let step = DampedStep { d: &d, factor: (falls / curvature).min(turn), most: 2 * tolerances::STEP_HALVINGS };
     let still = metric.still.clone();
-    let (ahead, _) = halved(metric, t, (q, &still), step, |metric, _| metric.size_of(rows) < gap)?;
+    let (ahead, _) = halved(metric, t, q, &still, step, |metric, _| metric.size_of(rows) < gap)?;
     Some((ahead, metric.size_of(rows)))
 }
 
@@ -145,7 +147,7 @@ pub(super) fn is_length(row: &str) -> bool {
 }
 
 /// The error for a joint whose gap is least where the terms are.
-fn blocked(metric: &Metric, group: &Group, t: f64, (is_free, has_fitting_axes): (bool, bool)) -> Error {
+fn blocked(metric: &Metric, group: &Group, t: f64, is_free: bool, has_fitting_axes: bool) -> Error {
     let Group { name, rows, .. } = group;
     let directions = rotations(metric, group);
     let size =

@@ -80,7 +80,7 @@ pub(super) fn path(all: &mut Metric, rows: &[usize], t: f64, q: &mut [f64], move
     all.residual(t, q);
     let mut gap = vec![0.0; all.terms.phi.len()];
     rows.iter().for_each(|row| gap[*row] = all.terms.phi[*row]);
-    let (done, _) = continuation(0.0, 1.0, (1.0, tolerances::LEAST_PART), |next| {
+    let (done, _) = continuation(0.0, 1.0, 1.0, tolerances::LEAST_PART, |next| {
         let mut ahead = q.to_vec();
         let mut change = moved.to_vec();
         all.ahead = gap.iter().map(|gap| (1.0 - next) * gap).collect();

@@ -50,11 +50,14 @@ pub fn assemble_held(
     guess: (&[f64], &[f64]),
     hold: &[String],
 ) -> Result<Assembly> {
-    consistent(system, held, t, guess, hold).map_err(|error| beyond_signal(system, t, guess).unwrap_or(error))
+    let [coordinates, velocities] = held;
+    let (q, v) = guess;
+    let assembly = consistent(system, coordinates, velocities, t, q, v, hold);
+    assembly.map_err(|error| beyond_signal(system, t, q, v).unwrap_or(error))
 }
 
 /// The error for a state at which the argument of a signal is where it has no value.
-fn beyond_signal(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Option<Error> {
+fn beyond_signal(system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Option<Error> {
     let switches = system.switches().all;
     let mut arguments = vec![Rate::fixed(0.0); switches.len()];
     let vdot = vec![0.0; v.len()];
@@ -72,9 +75,11 @@ fn beyond_signal(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])
 
 fn consistent(
     system: &dyn MechanicalSystem,
-    [coordinates, velocities]: [Option<&dyn MechanicalSystem>; 2],
+    coordinates: Option<&dyn MechanicalSystem>,
+    velocities: Option<&dyn MechanicalSystem>,
     t: f64,
-    (q, v): (&[f64], &[f64]),
+    q: &[f64],
+    v: &[f64],
     hold: &[String],
 ) -> Result<Assembly> {
     check_start(system, t, q, v)?;
@@ -106,7 +111,7 @@ fn consistent(
         let infinite = forces.iter().find(|force| !force.is_finite);
         infinite.map_or_else(|| stuck(&halt), |force| stuck(&halt).element(&force.name))
     })?;
-    let moves = report::moves(system, (q, v), (&assembled, &rates));
+    let moves = report::moves(system, q, v, &assembled, &rates);
     let Dynamics { vdot, lambda, .. } = dynamics;
     Ok(Assembly { q: assembled, v: rates, vdot, lambda, before, after, moves, is_beside })
 }

@@ -30,8 +30,8 @@ pub fn approach(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -
         smallest = smallest.min(size);
         let before = metric.distance(moved);
         let factor = (tolerances::LARGEST_TURN / metric.largest_turn(q, &d)).min(1.0);
-        let step = (&d[..], factor, tolerances::STEP_HALVINGS);
-        let next = halved(metric, t, (q, moved), step, |metric, way| is_close || metric.distance(way) < before);
+        let step = DampedStep { d: &d, factor, most: tolerances::STEP_HALVINGS };
+        let next = halved(metric, t, q, moved, step, |metric, way| is_close || metric.distance(way) < before);
         let Some(next) = next else { break };
         q.copy_from_slice(&next.0);
         moved.copy_from_slice(&next.1);
@@ -39,15 +39,26 @@ pub fn approach(metric: &mut Metric, t: f64, q: &mut [f64], moved: &mut [f64]) -
     Ok(())
 }
 
-/// The closed state after `factor` of a step, with the way to it, if it `is_better` with that way; else after half, and
-/// so on, up to `most` times.
+/// A step along d that is halved where it is too long.
+pub(super) struct DampedStep<'a> {
+    pub d: &'a [f64],
+    /// The part of d that is tried first.
+    pub factor: f64,
+    /// The largest number of trials.
+    pub most: usize,
+}
+
+/// The closed state after `factor` of a step from a closed q, to which `moved` leads, with the way to it, if it
+/// `is_better` with that way; else after half, and so on.
 pub(super) fn halved(
     metric: &mut Metric,
     t: f64,
-    (q, moved): (&[f64], &[f64]),
-    (d, mut factor, most): (&[f64], f64, usize),
+    q: &[f64],
+    moved: &[f64],
+    step: DampedStep,
     is_better: impl Fn(&Metric, &[f64]) -> bool,
 ) -> Option<(Vec<f64>, Vec<f64>)> {
+    let DampedStep { d, mut factor, most } = step;
     for _ in 0..most {
         let mut ahead = q.to_vec();
         let mut way = moved.to_vec();

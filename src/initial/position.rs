@@ -20,7 +20,7 @@ pub fn close_moved(metric: &mut Metric, t: f64, q: &mut [f64], mut moved: Vec<f6
             return Err(diagnosis::refused_values(metric));
         }
         let mut closed = guess.clone();
-        if let Some(error) = diagnosis::obstacle(metric, t, (&guess, &way), (&mut closed, &mut moved)) {
+        if let Some(error) = diagnosis::obstacle(metric, t, &guess, &way, &mut closed, &mut moved) {
             return Err(error);
         }
         q.copy_from_slice(&closed);

@@ -54,7 +54,7 @@ pub struct Move {
 }
 
 /// Changes beyond round-off, without the angles that count full turns.
-pub(super) fn moves(system: &dyn MechanicalSystem, (q0, v0): (&[f64], &[f64]), (q, v): (&[f64], &[f64])) -> Vec<Move> {
+pub(super) fn moves(system: &dyn MechanicalSystem, q0: &[f64], v0: &[f64], q: &[f64], v: &[f64]) -> Vec<Move> {
     let own = system.dimensions().q_without_turns();
     let moved = |(from, to): &(&f64, &f64)| (*to - *from).abs() > 1e-9 * (1.0 + from.abs());
     let pairs = || q0.iter().zip(q).take(own).chain(v0.iter().zip(v));

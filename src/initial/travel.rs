@@ -69,7 +69,7 @@ impl<'a> Travel<'a> {
         }
         let start = self.last.0;
         let resolution = tolerances::ROUND_OFF_OF_SOLUTIONS * (until - start).abs() + f64::EPSILON * t.abs();
-        continuation(start, t, (t - start, resolution), |next| {
+        continuation(start, t, t - start, resolution, |next| {
             let is_closed = self.closes_from_last(next);
             if is_closed {
                 self.take(next);
@@ -81,7 +81,7 @@ impl<'a> Travel<'a> {
 
     /// The end of the travel if it comes within `ahead` after a state. A driver may come back soon after the end, so that
     /// the looks begin near the state, each twice as far as the one before.
-    pub fn end_within(&mut self, (t, q): (f64, &[f64]), ahead: f64, until: f64) -> Option<TravelEnd> {
+    pub fn end_within(&mut self, t: f64, q: &[f64], ahead: f64, until: f64) -> Option<TravelEnd> {
         self.end_before(t, q, until).or_else(|| {
             (0..=TRAVEL_LOOKS).find_map(|look| {
                 let from = self.last.1.clone();

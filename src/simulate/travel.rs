@@ -74,7 +74,7 @@ impl TimeLoop<'_> {
         }
         let (q, _) = self.problem.split(&self.y);
         let ahead = TRAVEL_AHEAD_OF_CRAWL * duration;
-        travelled.travel.end_within((self.t, q), ahead, self.span.end).map_or(Ok(()), |end| Err(ended(end)))
+        travelled.travel.end_within(self.t, q, ahead, self.span.end).map_or(Ok(()), |end| Err(ended(end)))
     }
 
     /// The failure of a run, whose reason may be the end of a travel near the last state.
@@ -83,7 +83,7 @@ impl TimeLoop<'_> {
         let Some(travelled) = self.travelled.as_mut().filter(|_| sink.stops().is_none()) else { return failure };
         let (q, _) = self.problem.split(&self.y);
         let ahead = part * (self.span.end - self.span.start);
-        travelled.travel.end_within((self.t, q), ahead, self.span.end).map_or(failure, ended)
+        travelled.travel.end_within(self.t, q, ahead, self.span.end).map_or(failure, ended)
     }
 }
 

@@ -114,17 +114,17 @@ impl<'a> Branch<'a> {
     pub fn go(&mut self, target: f64) -> Option<Limit> {
         let start = self.last.point.value;
         let mut problem = None;
-        let steps = (target - start, self.resolution);
-        let (reached, step) = continuation(start, target, steps, |value| match self.reach(value) {
-            Ok(Some(state)) => {
-                self.accept(state);
-                Some(2.0)
-            }
-            failed => {
-                problem = failed.err();
-                None
-            }
-        });
+        let (reached, step) =
+            continuation(start, target, target - start, self.resolution, |value| match self.reach(value) {
+                Ok(Some(state)) => {
+                    self.accept(state);
+                    Some(2.0)
+                }
+                failed => {
+                    problem = failed.err();
+                    None
+                }
+            });
         if reached == target {
             return None;
         }

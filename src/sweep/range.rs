@@ -29,7 +29,8 @@ const FORM: &str = "write NAME=A..B:N, as in travel=-0.08..0.08:81, or NAME=A..B
 impl Range {
     /// # Errors
     /// An empty or infinite range, fewer than two values or more than 100 000.
-    pub fn new(parameter: impl Into<String>, (from, to): (f64, f64), count: usize) -> Result<Range> {
+    pub fn new(parameter: impl Into<String>, ends: (f64, f64), count: usize) -> Result<Range> {
+        let (from, to) = ends;
         let length = to - from;
         if !length.is_finite() {
             return Err(Error::input(format!("the range from {from} to {to} is not finite")));

@@ -13,7 +13,7 @@ pub(super) fn homotopy(rest: &mut EquilibriumSystem, start: &Place) -> (Place, f
     let missing = rest.force(&start.lambda);
     let mut at = start.clone();
     let mut steps = 0;
-    let (s, _) = continuation(0.0, 1.0, (0.1, tolerances::LEAST_PART), |next| {
+    let (s, _) = continuation(0.0, 1.0, 0.1, tolerances::LEAST_PART, |next| {
         let goal: Vec<f64> = missing.iter().map(|force| (1.0 - next) * force).collect();
         let (place, contracts) = newton(rest, at.clone(), Some(&goal), Policy::NEAR)?;
         at = place;
