@@ -77,10 +77,10 @@ impl Range {
     /// Adds an output row.
     pub fn add_row(&mut self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) {
         self.held.add(system, state, scratch);
-        self.see_roads(system, state.t, (state.q, state.v), scratch);
+        self.see_roads(system, state.t, state.q, state.v, scratch);
     }
 
-    fn see_roads(&mut self, system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64]), scratch: &mut Scratch) {
+    fn see_roads(&mut self, system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) {
         for road in system.roads(t, q, v, scratch) {
             let deepest = self.sunk.as_ref().map_or(1.0, |(road, _)| road.compression());
             if road.compression() > deepest {
@@ -101,7 +101,7 @@ impl Range {
         let mut range = Range::new(system);
         range.see(system, t, q);
         let still = vec![0.0; system.dimensions().v];
-        range.see_roads(system, t, (q, &still), &mut Scratch::default());
+        range.see_roads(system, t, q, &still, &mut Scratch::default());
         range.warnings()
     }
 

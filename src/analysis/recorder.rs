@@ -192,7 +192,7 @@ impl Recorder<'_> {
     fn made(&mut self, state: &Observation) -> Made {
         Made {
             values: self.record.full().row(self.system, state, &mut self.scratch),
-            drift: [state.phi, state.phi_dot, state.phi_ddot].map(largest),
+            drift: [largest(state.phi), largest(state.phi_dot), largest(state.phi_ddot)],
             ledger: self.meter.ledger(self.system, state, &mut self.scratch),
             loads: largest(state.lambda).max(largest(state.vdot)),
         }
@@ -258,12 +258,12 @@ impl Recorder<'_> {
         let a = trajectory.row_outputs(&before.values);
         let b = trajectory.row_outputs(&after.values);
         let loads = before.loads.max(after.loads);
-        (0..a.len()).any(|i| (a[i] - b[i]).abs() > tolerances::SAME * self.size_of((a, b), i, loads))
+        (0..a.len()).any(|i| (a[i] - b[i]).abs() > tolerances::SAME * self.size_of(a, b, i, loads))
     }
 
     /// The largest value of the outputs in the unit of output `i`; of forces and accelerations those of the mechanism
     /// count, too, since one that is zero by symmetry is round-off of the others.
-    fn size_of(&self, (a, b): (&[f64], &[f64]), i: usize, loads: f64) -> f64 {
+    fn size_of(&self, a: &[f64], b: &[f64], i: usize, loads: f64) -> f64 {
         let unit = &self.record.extremes[i].unit;
         let size = if is_load(unit) { loads } else { 0.0 };
         self.record.extremes.iter().zip(a.iter().zip(b)).filter(|(seen, _)| seen.unit == *unit).fold(

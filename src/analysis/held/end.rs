@@ -22,7 +22,7 @@ pub struct End {
 
 impl End {
     /// The end at an argument `at` where the signal has a value, before the first row.
-    pub fn new(number: usize, signal: String, (at, sign): (f64, f64), value: f64) -> Self {
+    pub fn new(number: usize, signal: String, at: f64, sign: f64, value: f64) -> Self {
         End { number, signal, at, sign, value, beyond: 0.0, seconds: 0.0, from: f64::INFINITY }
     }
 
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn the_time_beyond_an_end_is_that_of_lines() {
         for (sign, seconds, from) in [(1.0, 1.5, 0.5), (-1.0, 0.5, 0.0)] {
-            let mut end = End::new(0, "f".to_string(), (0.0, sign), 0.0);
+            let mut end = End::new(0, "f".to_string(), 0.0, sign, 0.0);
             end.add(None, 0.0, -5.0);
             end.add(Some(0.0), 0.8, 3.0);
             end.add(Some(0.8), 2.0, 15.0);

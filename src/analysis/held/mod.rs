@@ -28,7 +28,7 @@ impl HeldSignals {
             for (is_last, at, sign) in [(false, first, -1.0), (true, last, 1.0)] {
                 let Some(value) = signal.cut_off(is_last) else { continue };
                 let signal = signal.name().to_string();
-                ends.push(End::new(number, signal, (at, sign), value));
+                ends.push(End::new(number, signal, at, sign, value));
             }
         }
         let arguments = if ends.is_empty() { Vec::new() } else { vec![Rate::fixed(0.0); switches.len()] };

@@ -20,7 +20,7 @@ const DRIFT_TURNS: f64 = 0.01;
 
 /// Returns the rank indicator below which drift of the positions and velocities, relative to their scales, can change
 /// the branch of a motion.
-pub fn reach([position, velocity]: [f64; 2]) -> f64 {
+pub fn reach(position: f64, velocity: f64) -> f64 {
     (position / DRIFT_TURNS).sqrt().max(velocity / DRIFT_TURNS)
 }
 
@@ -44,7 +44,7 @@ struct Open {
 impl Turning {
     /// Begins with a singular or nearly singular state passed at `t`. A sharp change of velocity can be due to
     /// geometry: the motion may leave its branch (`may_turn`) only at a singular state, or within reach of the drift.
-    pub fn begin(&mut self, passing: usize, (t, last): (f64, &PathPoint), rank_indicator: f64, may_turn: bool) {
+    pub fn begin(&mut self, passing: usize, t: f64, last: &PathPoint, rank_indicator: f64, may_turn: bool) {
         let aside = self
             .way
             .iter()
@@ -105,11 +105,11 @@ impl Open {
     fn judge(&self, survey: &mut Survey) -> Branch {
         let (Some(from), Some(to)) = (self.before.last(), self.after.first()) else { return Branch::Open };
         let nodes: Vec<&PathPoint> = self.before.iter().chain(&self.after).collect();
-        let change = integral(&nodes, (from.t, to.t));
-        let lower = integral(&[from, to], (from.t, to.t));
+        let change = integral(&nodes, from.t, to.t);
+        let lower = integral(&[from, to], from.t, to.t);
         let jump: Vec<f64> = (0..to.v.len()).map(|i| to.v[i] - from.v[i] - change[i]).collect();
         let doubt: Vec<f64> = change.iter().zip(&lower).map(|(change, lower)| change - lower).collect();
-        let [after, before, doubt, jump] = survey.sizes((to.t, &to.q), [&to.v, &from.v, &doubt, &jump]);
+        let [after, before, doubt, jump] = survey.sizes(to.t, &to.q, [&to.v, &from.v, &doubt, &jump]);
         let size = after.max(before);
         // No smooth motion changes its velocity by a tenth, and a half is a jump whatever the rules err by: over long
         // steps both do.
@@ -124,7 +124,7 @@ impl Open {
 
 /// Returns the integral from a to b of the polynomial through v' at up to four `nodes`, by Gauss's rule of two points,
 /// which is exact for it.
-fn integral(nodes: &[&PathPoint], (a, b): (f64, f64)) -> Vec<f64> {
+fn integral(nodes: &[&PathPoint], a: f64, b: f64) -> Vec<f64> {
     let middle = 0.5 * (a + b);
     let half = 0.5 * (b - a);
     let points = [-1.0, 1.0].each(|sign| middle + sign * half / 3f64.sqrt());

@@ -210,7 +210,7 @@ impl<'a> Watch<'a> {
         let indicators = [self.last[0].rank_indicator, self.last[2].rank_indicator];
         let drift = self.survey.drift(&self.last[1]);
         let near = tolerances::TOLD * self.largest;
-        let turned = branch::reach(drift).min(0.2 * self.largest);
+        let turned = branch::reach(drift[0], drift[1]).min(0.2 * self.largest);
         let Some((t, rank_indicator)) = self.survey.least_rank_indicator(&path, indicators, near.max(turned)) else {
             return;
         };
@@ -225,7 +225,8 @@ impl<'a> Watch<'a> {
         let (lost, joints) = self.survey.dependence(t, &q, 10.0 * rank_indicator);
         self.turning.begin(
             self.found.passed.len(),
-            (t, &self.last[1]),
+            t,
+            &self.last[1],
             rank_indicator,
             is_singular || rank_indicator < turned,
         );

@@ -179,7 +179,7 @@ impl<'a> Survey<'a> {
     }
 
     /// Returns sqrt(v^T M v) of each of these with the masses at a position.
-    pub fn sizes<const N: usize>(&mut self, (t, q): (f64, &[f64]), all: [&[f64]; N]) -> [f64; N] {
+    pub fn sizes<const N: usize>(&mut self, t: f64, q: &[f64], all: [&[f64]; N]) -> [f64; N] {
         let Dynamics { structure, terms, .. } = self.evaluate(t, q, Need::MASS);
         all.each(|v| {
             let mut momentum = vec![0.0; v.len()];
