@@ -35,11 +35,13 @@ impl<K: BodyKernel<D>, S: Scalar, const D: usize> BodyOver<S, D> for K {
 #[inline]
 pub(super) fn motion<K: BodyKernel<D>, S: Scalar, const D: usize>(
     body: &K,
-    (q, v, vdot): (&[S], &[S], Option<&[S]>),
+    q: &[S],
+    v: &[S],
+    vdot: Option<&[S]>,
 ) -> Frame<Taylor<S>, D> {
     let mut path = [Taylor::fixed(S::zero()); MOST_COORDINATES];
     let path = &mut path[..q.len()];
-    coordinate_path(|q, v, rate| BodyKernel::rate(body, q, v, rate), (q, v, vdot), path);
+    coordinate_path(|q, v, rate| BodyKernel::rate(body, q, v, rate), q, v, vdot, path);
     body.frame(path)
 }
 
@@ -71,7 +73,9 @@ pub(super) fn pull_back<K: BodyKernel<D>, S: Scalar, const D: usize>(
 #[inline]
 pub(super) fn coordinate_path<S: Scalar>(
     rate: impl Fn(&[S], &[S], &mut [S]),
-    (q, v, vdot): (&[S], &[S], Option<&[S]>),
+    q: &[S],
+    v: &[S],
+    vdot: Option<&[S]>,
     path: &mut [Taylor<S>],
 ) {
     if q.len() == v.len() {

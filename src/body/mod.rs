@@ -108,7 +108,7 @@ pub trait BodyKernel<const D: usize>: Send + Sync + 'static {
     where
         Self: Sized,
     {
-        kernel::motion(self, (q, v, vdot))
+        kernel::motion(self, q, v, vdot)
     }
 
     /// f += J^T w for a wrench at the frame of one of the markers. Default: J is the derivative of

@@ -189,7 +189,7 @@ impl BodySpec for Rigid {
     ) -> Result<Built<D>> {
         initial.refuse_elastic()?;
         let (mass, made_of) = self.mass_properties(initial, build)?;
-        let place = initial.translation(build)?;
+        let (position, velocity) = initial.translation(build)?;
         // From the centre of mass to the origin that markers and `initial` refer to.
         let mut origin: [f64; 3] = from_fn(|i| initial.origin.get(i).copied().unwrap_or(0.0));
         if let Some(made_of) = &made_of {
@@ -197,15 +197,28 @@ impl BodySpec for Rigid {
             markers.iter_mut().for_each(|marker| marker.offset = from_fn(|i| marker.offset[i] + origin[i]));
         }
         let tensor = made_of.map(|made_of| made_of.inertia);
+        let data = RigidData { mass, tensor, origin, position, velocity, markers };
         match D {
-            2 => self.planar((mass, tensor), origin, place, markers, initial, build),
-            _ => self.spatial((mass, tensor), origin, place, markers, initial, build),
+            2 => self.planar(data, initial, build),
+            _ => self.spatial(data, initial, build),
         }
     }
 }
 
-/// Position and velocity of a body's origin in the world.
-type StartVectors<const D: usize> = ([f64; D], [f64; D]);
+/// What a body is built from in the plane and in space.
+struct RigidData<const D: usize> {
+    mass: f64,
+    /// Tensor of inertia about the centre of mass, if the body is made of shapes.
+    tensor: Option<Matrix3>,
+    /// The body's origin from its centre of mass, in the body's axes, m.
+    origin: [f64; 3],
+    /// Position of the origin in the world, m.
+    position: [f64; D],
+    /// Velocity of the origin in the world, m/s.
+    velocity: [f64; D],
+    /// Markers from the centre of mass.
+    markers: Vec<Marker<D>>,
+}
 
 impl Rigid {
     /// Mass, and what follows from shapes.
@@ -238,15 +251,9 @@ impl Rigid {
         Ok((made_of.mass, Some(made_of)))
     }
 
-    fn planar<const D: usize>(
-        &self,
-        (mass, tensor): (f64, Option<Matrix3>),
-        [x, y, _]: [f64; 3],
-        (position, velocity): StartVectors<D>,
-        markers: Vec<Marker<D>>,
-        initial: &Initial,
-        build: &Build<D>,
-    ) -> Result<Built<D>> {
+    fn planar<const D: usize>(&self, data: RigidData<D>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
+        let RigidData { mass, tensor, origin, position, velocity, markers } = data;
+        let [x, y, _] = origin;
         let (angle, spin) = initial.planar(build)?;
         // From the centre of mass to the body's origin, in the world.
         let (s, c) = angle.sin_cos();
@@ -269,15 +276,8 @@ impl Rigid {
         Ok(Built { body: Box::new(body), q: pick(start), v: pick(rates) })
     }
 
-    fn spatial<const D: usize>(
-        &self,
-        (mass, tensor): (f64, Option<Matrix3>),
-        origin: [f64; 3],
-        (position, velocity): StartVectors<D>,
-        markers: Vec<Marker<D>>,
-        initial: &Initial,
-        build: &Build<D>,
-    ) -> Result<Built<D>> {
+    fn spatial<const D: usize>(&self, data: RigidData<D>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
+        let RigidData { mass, tensor, origin, position, velocity, markers } = data;
         let free = self.free_slots(&["x", "y", "z", "rx", "ry", "rz"])?;
         let axes: Vec<usize> = free.iter().filter_map(|i| i.checked_sub(3)).collect();
         let (quaternion, spin) = initial.spatial_about(axes.first().copied().filter(|_| axes.len() == 1), build)?;

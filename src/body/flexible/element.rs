@@ -31,7 +31,7 @@ pub struct MeshElement {
 
 impl MeshElement {
     /// The element between two abscissae; the line must rotate by less than half a turn between them.
-    pub fn new(line: &ReferenceLine, [from, to]: [f64; 2], section: &Section) -> Self {
+    pub fn new(line: &ReferenceLine, from: f64, to: f64, section: &Section) -> Self {
         let start = line.at(from).1;
         let end = line.at(to).1;
         let ([_, side, _], middle) = line.at(0.5 * (from + to));
@@ -58,7 +58,7 @@ impl MeshElement {
         let [x, y, z] = self.axes.each(|axis| dot(&axis, &beside));
         let mut own = self.own_shapes::<D>((x / self.length).clamp(0.0, 1.0), axial);
         self.add_arms::<D>(&mut own);
-        own.iter_mut().for_each(|shape| self.carry(shape, [y, z]));
+        own.iter_mut().for_each(|shape| self.carry(shape, y, z));
         // Displacements of a node, then its rotations.
         for group in own.chunks_exact_mut(Self::per_node::<D>()).flat_map(|node| node.chunks_exact_mut(D)) {
             let given = group.to_vec();
@@ -87,7 +87,7 @@ impl MeshElement {
 
     /// Turns a function of the axis into that of the line at [y, z] from it, with vectors in the axes of the floating
     /// frame.
-    fn carry(&self, shape: &mut Cross, [y, z]: [f64; 2]) {
+    fn carry(&self, shape: &mut Cross, y: f64, z: f64) {
         let turned = cross(&shape.rotation, &[0.0, y, z]);
         let moved: [f64; 3] = from_fn(|k| shape.displacement[k] + turned[k]);
         let in_frame = |v: &[f64; 3]| from_fn(|j| (0..3).map(|k| self.axes[k][j] * v[k]).sum());

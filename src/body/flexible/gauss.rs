@@ -31,8 +31,9 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, lower)
 }
 
-/// Points and weights of `rule` on [from, to].
-pub fn on_interval(rule: &[(f64, f64)], [from, to]: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
+/// Points and weights of `rule` between two ends.
+pub fn on_interval(rule: &[(f64, f64)], ends: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
+    let [from, to] = ends;
     let half = (to - from) / 2.0;
     rule.iter().map(move |(x, weight)| (from + half * (1.0 + x), weight * half))
 }

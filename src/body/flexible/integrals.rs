@@ -24,7 +24,7 @@ pub struct IntegrationPoint {
 }
 
 impl IntegrationPoint {
-    pub fn new(profile: &Profile, line: &ReferenceLine, (s, weight): (f64, f64), shapes: Vec<Cross>) -> Self {
+    pub fn new(profile: &Profile, line: &ReferenceLine, s: f64, weight: f64, shapes: Vec<Cross>) -> Self {
         IntegrationPoint { rest: line.at(s), weight, section: profile.at(s), rotary: profile.rotary, shapes }
     }
 

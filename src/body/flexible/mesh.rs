@@ -52,7 +52,7 @@ impl<const D: usize> Mesh<D> {
         let nodes = subdivide(&breaks(line.length, markers), elements);
         let elements = nodes
             .windows(2)
-            .map(|ends| MeshElement::new(&line, [ends[0], ends[1]], &profile.at(0.5 * (ends[0] + ends[1]))))
+            .map(|ends| MeshElement::new(&line, ends[0], ends[1], &profile.at(0.5 * (ends[0] + ends[1]))))
             .collect();
         let mut mesh = Mesh { nodes, line, elements, axial, profile, free: Vec::new() };
         mesh.free = (0..mesh.total()).map(Some).collect();
@@ -137,8 +137,8 @@ impl<const D: usize> Mesh<D> {
     /// Free coordinates of an element, and samples of its part from `start` on.
     fn samples_from(&self, start: f64, element: usize, points: usize) -> (Vec<usize>, Vec<IntegrationPoint>) {
         let rule = gauss_legendre(points);
-        let sample = |at: (f64, f64)| {
-            IntegrationPoint::new(&self.profile, &self.line, at, self.in_element(element, at.0).shapes)
+        let sample = |(s, weight): (f64, f64)| {
+            IntegrationPoint::new(&self.profile, &self.line, s, weight, self.in_element(element, s).shapes)
         };
         let ends = [start, self.nodes[element + 1]];
         (self.in_element(element, start).dofs, on_interval(&rule, ends).map(sample).collect())

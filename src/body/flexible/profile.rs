@@ -54,7 +54,8 @@ impl Profile {
     }
 
     /// Section at `s` of the element between two abscissae; at its ends, the limit from within the element.
-    pub fn within(&self, [from, to]: [f64; 2], s: f64) -> Section {
+    pub fn within(&self, ends: [f64; 2], s: f64) -> Section {
+        let [from, to] = ends;
         let gap = tolerances::SAME * (to - from);
         self.at(s.clamp(from + gap, to - gap))
     }

@@ -23,7 +23,7 @@ impl Profile {
         let (make, laws) = match (&beam.material, &beam.section, &beam.stiffness, &beam.inertia) {
             (Some(material), Some(shape), None, None) => {
                 let Material { e, nu, g, rho } = material;
-                read.shape((e, nu.as_ref(), g.as_ref()), Some(rho), shape, beam.theory)?
+                read.shape(e, nu.as_ref(), g.as_ref(), Some(rho), shape, beam.theory)?
             }
             (None, None, Some(stiffness), Some(inertia)) => read.numbers(stiffness, Some(inertia), beam.theory)?,
             (None, None, None, None) => {
@@ -56,7 +56,7 @@ impl Section {
         let read = SectionReader { build, variables: &[] };
         let (make, laws) = match (material, shape, stiffness) {
             (Some(Elasticity { e, nu, g }), Some(shape), None) => {
-                read.shape((e, nu.as_ref(), g.as_ref()), None, shape, theory)?
+                read.shape(e, nu.as_ref(), g.as_ref(), None, shape, theory)?
             }
             (None, None, Some(stiffness)) => read.numbers(stiffness, None, theory)?,
             (None, None, None) => return Err(Error::input("nothing says how stiff the beam is").hint(hint)),
@@ -78,7 +78,9 @@ impl<const D: usize> SectionReader<'_, D> {
     /// Laws of a section given by its form, (E, nu, G) and density; without density the inertia is zero.
     fn shape(
         &self,
-        (e, nu, g): (&Number, Option<&Number>, Option<&Number>),
+        e: &Number,
+        nu: Option<&Number>,
+        g: Option<&Number>,
         rho: Option<&Number>,
         shape: &SectionShape,
         theory: Theory,
@@ -92,15 +94,16 @@ impl<const D: usize> SectionReader<'_, D> {
             (Some(_), Some(_)) => {
                 return Err(Error::input("both `G` and `nu` are given").under("material").hint("keep one of them"));
             }
-            (Some(g), None) => Some(build.positive("G", g).map_err(under)?),
-            (None, Some(nu)) => Some(e / (2.0 * (1.0 + poisson(nu, build).map_err(under)?))),
-            (None, None) => None,
-        };
-        let Some(g) = g.or((D == 2 && theory == Theory::EulerBernoulli).then_some(0.0)) else {
-            let what = if D == 3 { "torsion" } else { "shear" };
-            return Err(Error::input(format!("{what} needs a shear modulus"))
-                .under("material")
-                .hint("give \"nu\" or \"G\""));
+            (Some(g), None) => build.positive("G", g).map_err(under)?,
+            (None, Some(nu)) => e / (2.0 * (1.0 + poisson(nu, build).map_err(under)?)),
+            // In the plane, a beam whose sections stay normal to it neither shears nor twists.
+            (None, None) if D == 2 && theory == Theory::EulerBernoulli => 0.0,
+            (None, None) => {
+                let what = if D == 3 { "torsion" } else { "shear" };
+                return Err(Error::input(format!("{what} needs a shear modulus"))
+                    .under("material")
+                    .hint("give \"nu\" or \"G\""));
+            }
         };
         let matter = Matter { e, g, rho };
         match shape {

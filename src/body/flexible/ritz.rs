@@ -188,7 +188,7 @@ impl Functions {
 
     fn samples(&self, ends: [f64; 2], panels: usize) -> Vec<IntegrationPoint> {
         places(ends, panels)
-            .map(|at| IntegrationPoint::new(&self.profile, &self.line, at, self.at(at.0).shapes))
+            .map(|(s, weight)| IntegrationPoint::new(&self.profile, &self.line, s, weight, self.at(s).shapes))
             .collect()
     }
 
@@ -275,7 +275,8 @@ impl Functions {
 }
 
 /// Points of integration with their weights on equal panels of an interval.
-fn places([from, to]: [f64; 2], panels: usize) -> impl Iterator<Item = (f64, f64)> {
+fn places(ends: [f64; 2], panels: usize) -> impl Iterator<Item = (f64, f64)> {
+    let [from, to] = ends;
     let rule = gauss_legendre(POINTS);
     let width = (to - from) / panels as f64;
     let panel = move |k: usize| [from + k as f64 * width, from + (k + 1) as f64 * width];
@@ -295,7 +296,8 @@ fn function<const D: usize>(kind: RitzKind, i: usize, number: &Number, build: &B
 }
 
 /// Diagonals of mass and stiffness matrix, interleaved.
-fn diagonals<const D: usize>(n: usize, (inertia, stiffness): &(Inertia<D>, Symmetric)) -> Vec<f64> {
+fn diagonals<const D: usize>(n: usize, matrices: &(Inertia<D>, Symmetric)) -> Vec<f64> {
+    let (inertia, stiffness) = matrices;
     let mass = dense(n, &mass_matrix(inertia));
     let stiffness = dense(n, stiffness);
     (0..n).flat_map(|i| [mass[(i, i)], stiffness[(i, i)]]).collect()

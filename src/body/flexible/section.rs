@@ -23,7 +23,8 @@ pub struct Section {
 
 impl Section {
     /// The section of these numbers: EA, GA along y and z, GJ, EI about y and z, rho A, rho I about y and z.
-    pub(super) fn of([ea, gy, gz, gj, ey, ez, rho_a, iy, iz]: [f64; 9]) -> Self {
+    pub(super) fn of(numbers: [f64; 9]) -> Self {
+        let [ea, gy, gz, gj, ey, ez, rho_a, iy, iz] = numbers;
         Section { ea, ga: [gy, gz], gj, ei: [ey, ez], rho_a, rho_i: [iy, iz] }
     }
 

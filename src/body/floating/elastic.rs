@@ -89,7 +89,9 @@ pub(super) fn half_square<S: Scalar>(matrix: &Symmetric, x: &[S]) -> S {
 }
 
 /// Adds an entry to both triangles of a symmetric matrix.
-fn add(&(i, j, value): &(usize, usize, f64), &[lower, upper]: &[usize; 2], matrix: &mut [f64]) {
+fn add(entry: &(usize, usize, f64), places: &[usize; 2], matrix: &mut [f64]) {
+    let (i, j, value) = *entry;
+    let [lower, upper] = *places;
     matrix[lower] += value;
     if i != j {
         matrix[upper] += value;

@@ -118,8 +118,8 @@ impl<S: Scalar, const D: usize> BodyOver<S, D> for Floating<D> {
         let nq = frame_coordinates(D);
         let nv = frame_velocities(D);
         let mut path = [Taylor::fixed(S::zero()); 8];
-        let rigid = (&q[..nq], &v[..nv], vdot.map(|vdot| &vdot[..nv]));
-        coordinate_path(frame_rate::<S, D>, rigid, &mut path[..nq]);
+        let of_frame = vdot.map(|vdot| &vdot[..nv]);
+        coordinate_path(frame_rate::<S, D>, &q[..nq], &v[..nv], of_frame, &mut path[..nq]);
         let own = frame(&path[..nq]);
         let coordinate = |i: usize| Taylor::new(q[nq + i], v[nv + i], vdot.map_or(S::zero(), |vdot| vdot[nv + i]));
         for ((out, marker), shape) in out.iter_mut().zip(&self.markers[first..]).zip(&self.shapes[first..]) {

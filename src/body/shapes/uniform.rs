@@ -38,7 +38,8 @@ impl Uniform {
     }
 
     /// Edges along x, y and z.
-    pub fn cuboid([a, b, c]: [f64; 3]) -> Self {
+    pub fn cuboid(edges: [f64; 3]) -> Self {
+        let [a, b, c] = edges;
         Self::centred(a * b * c, [a * a, b * b, c * c].each(|square| square / 12.0))
     }
 

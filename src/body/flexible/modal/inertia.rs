@@ -55,7 +55,8 @@ pub fn of_couplings<const D: usize>(data: &ModalData<Array>, mass: &Mat<f64>) ->
 }
 
 /// The matrix P without a symmetric part whose P_lm - P_ml is h_k for (k, l, m) in cyclic order.
-fn antisymmetric<const D: usize>([x, y, z]: [f64; 3]) -> [[f64; D]; D] {
+fn antisymmetric<const D: usize>(h: [f64; 3]) -> [[f64; D]; D] {
+    let [x, y, z] = h;
     let twice = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]];
     from_fn(|l| from_fn(|m| twice[l][m] / 2.0))
 }
