@@ -121,7 +121,8 @@ impl Kind {
 
 impl Joint {
     /// A joint that holds the child at a place in the parent.
-    pub fn new(name: String, at: usize, kind: Kind, [parent, child]: [usize; 2], origin: Transform) -> Self {
+    pub fn new(name: String, at: usize, kind: Kind, links: [usize; 2], origin: Transform) -> Self {
+        let [parent, child] = links;
         Joint {
             name,
             at,

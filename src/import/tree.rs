@@ -38,10 +38,12 @@ impl Tree {
         }
         let base = base.map_or(Ok(root), |name| find(robot, name).map_err(|error| error.under("--base")))?;
         let held = body[base];
-        let [frames, at_zero] = [frames, at_zero].map(|frames| {
+        let from_base = |frames: Vec<Transform>| -> Vec<Transform> {
             let back = frames[base].inverse();
             frames.iter().map(|frame| back.then(frame)).collect()
-        });
+        };
+        let frames = from_base(frames);
+        let at_zero = from_base(at_zero);
         body.iter_mut().filter(|body| **body == held).for_each(|body| *body = base);
         let mut members = vec![Vec::new(); body.len()];
         body.iter().enumerate().for_each(|(link, body)| members[*body].push(link));

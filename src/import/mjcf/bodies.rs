@@ -83,14 +83,14 @@ impl<'a, 'i> Reader<'a, 'i> {
         let geoms = parts.iter().filter(|part| part.node.has_tag_name("geom")).map(|part| part.node);
         self.robot.links.push(Link { meshes: texts(geoms, "mesh"), ..Link::new(name.clone(), node) });
         self.robot.links[link].mass = self.mass(&parts, &name).map_err(|error| error.element(&name))?;
-        self.hold(&parts, [parent, link], pose).map_err(|error| error.element(&name))?;
+        self.hold(&parts, parent, link, pose).map_err(|error| error.element(&name))?;
         self.sites(&parts, link)?;
         Ok(self.children(parts, link))
     }
 
     /// Adds the joints of a body, each between two links in a row; between the first and the last one are links without
     /// mass.
-    fn hold(&mut self, parts: &[Placed<'a, 'i>], [parent, link]: [usize; 2], pose: Transform) -> Result<()> {
+    fn hold(&mut self, parts: &[Placed<'a, 'i>], parent: usize, link: usize, pose: Transform) -> Result<()> {
         let joints: Vec<&Placed> = parts.iter().filter(|part| is_joint(part.node)).collect();
         let name = self.robot.links[link].name.clone();
         if joints.is_empty() {

@@ -25,7 +25,7 @@ impl Draft<'_> {
         let between = self.mark_joint(joint, &name)?;
         self.scene.joints.push(json!({ "name": name, "type": kind, "between": between }));
         match joint.kind {
-            Kind::Spherical => self.damp_ball(joint, &name, &between),
+            Kind::Spherical => self.damp_ball(joint, &name, &between[0], &between[1]),
             Kind::Planar => {}
             _ => self.coordinate(index, &name, &between, names),
         }
@@ -49,7 +49,8 @@ impl Draft<'_> {
     }
 
     /// The output and the start of the coordinate, and what acts along it.
-    fn coordinate(&mut self, index: usize, name: &str, [from, to]: &[String; 2], names: &mut Names) {
+    fn coordinate(&mut self, index: usize, name: &str, between: &[String; 2], names: &mut Names) {
+        let [from, to] = between;
         let joint = &self.robot.joints[index];
         let mut output = json!({ "name": name, "measure": "angle", "of": to, "relative_to": from });
         let coordinate = if joint.kind == Kind::Revolute { "angle" } else { "position" };
@@ -82,16 +83,17 @@ impl Draft<'_> {
     }
 
     /// Torque c w on the child of a ball joint, w being the angular velocity of the parent against it, in its axes.
-    fn damp_ball(&mut self, joint: &Joint, name: &str, [from, to]: &[String; 2]) {
+    fn damp_ball(&mut self, joint: &Joint, name: &str, from: &str, to: &str) {
         if joint.damping == 0.0 {
             return;
         }
-        let rates = ["x", "y", "z"].map(|axis| format!("{name}_w{axis}"));
-        for (rate, axis) in rates.iter().zip(["x", "y", "z"]) {
+        let mut torque = Vec::new();
+        for axis in ["x", "y", "z"] {
+            let rate = format!("{name}_w{axis}");
             self.scene.outputs.push(json!({ "name": rate, "measure": "angular_velocity", "of": from,
                 "relative_to": to, "component": axis }));
+            torque.push(format!("({})*{rate}", joint.damping));
         }
-        let torque = rates.map(|rate| format!("({})*{rate}", joint.damping));
         self.scene.forces.push(json!({ "name": name, "type": "applied_torque", "at": to, "axes": "marker",
             "torque": torque, "reaction_on": from }));
     }
@@ -166,7 +168,8 @@ fn hinge_force(joint: &Joint, name: &str, between: [&str; 2]) -> Option<Value> {
     Some(force)
 }
 
-fn slider_force(joint: &Joint, name: &str, [from, to]: [&str; 2]) -> Option<Value> {
+fn slider_force(joint: &Joint, name: &str, between: [&str; 2]) -> Option<Value> {
+    let [from, to] = between;
     let Joint { stiffness, damping, relaxed, .. } = joint;
     let spring = (*stiffness != 0.0).then(|| format!("-({stiffness})*({name} - ({relaxed}))"));
     let damper = (*damping != 0.0).then(|| format!("-({damping})*{name}'"));

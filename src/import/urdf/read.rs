@@ -66,8 +66,12 @@ fn inertial(node: Node) -> Result<MassProperties> {
     let of_mass = child(node, "mass").ok_or_else(|| faulty(node, "the inertial has no mass"))?;
     let inertia = child(node, "inertia").ok_or_else(|| faulty(node, "the inertial has no inertia"))?;
     let inertia = Element::plain(inertia);
-    let [xx, xy, xz, yy, yz, zz] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(|key| inertia.number_or(key, 0.0));
-    let [xx, xy, xz, yy, yz, zz] = [xx?, xy?, xz?, yy?, yz?, zz?];
+    let xx = inertia.number_or("ixx", 0.0)?;
+    let xy = inertia.number_or("ixy", 0.0)?;
+    let xz = inertia.number_or("ixz", 0.0)?;
+    let yy = inertia.number_or("iyy", 0.0)?;
+    let yz = inertia.number_or("iyz", 0.0)?;
+    let zz = inertia.number_or("izz", 0.0)?;
     let mass = Element::plain(of_mass).needed("value")?;
     if mass < 0.0 {
         return Err(faulty(of_mass, format!("the mass is {}, but cannot be negative", short(mass)))
