@@ -26,11 +26,7 @@ pub struct Added<const D: usize> {
 
 impl<const D: usize> Added<D> {
     /// Adds a value to component `component` of a force with these markers. Returns also the markers of both.
-    pub fn new(
-        inner: Box<dyn Force<D>>,
-        own: &[MarkerId],
-        (component, value): (usize, Formula),
-    ) -> (Self, Vec<MarkerId>) {
+    pub fn new(inner: Box<dyn Force<D>>, own: &[MarkerId], component: usize, value: Formula) -> (Self, Vec<MarkerId>) {
         let markers = value.markers_after(own);
         let value = match value.clone().function_of_time() {
             Ok(expression) => Value::OfTime(expression),

@@ -18,7 +18,8 @@ impl Law {
     pub fn read<const D: usize>(
         law: &Number,
         given: &[(&str, bool)],
-        (name, own): (&str, Probe),
+        name: &str,
+        own: Probe,
         ends: &[MarkerId],
         build: &Build<D>,
     ) -> Result<Self> {

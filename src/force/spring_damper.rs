@@ -63,7 +63,7 @@ impl SpringDamper {
         ];
         let ends = build.between(&self.between)?;
         let length = Probe::new(ends[1], ends[0], Quantity::Distance, 0);
-        let law = Law::read(law, &given, ("length", length), &ends, build)?;
+        let law = Law::read(law, &given, "length", length, &ends, build)?;
         let markers = law.markers().to_vec();
         Ok(Built { force: Box::new(Lawful { law }), markers })
     }

@@ -42,7 +42,7 @@ impl ForceSpec for TorsionSpring {
         let free = build.number_or("free_angle", &self.free_angle, 0.0)?;
         let turning = build.turning(vec![Turned { of: markers[1], to: markers[0], factor: 1.0, axes: None }], free);
         if let Some(law) = &self.law {
-            return self.by_law(law, (free, turning), &markers, build);
+            return self.by_law(law, free, turning, &markers, build);
         }
         let force = Torsion {
             k: optional_not_negative("stiffness", &self.stiffness, build)?,
@@ -58,7 +58,8 @@ impl TorsionSpring {
     fn by_law<const D: usize>(
         &self,
         law: &Number,
-        (start, turning): (f64, usize),
+        start: f64,
+        turning: usize,
         ends: &[MarkerId],
         build: &Build<D>,
     ) -> Result<Built<D>> {
@@ -68,7 +69,7 @@ impl TorsionSpring {
             _ => Quantity::Turn { turning, start, factor: 1.0, axes: None },
         };
         let angle = Probe::new(ends[1], ends[0], quantity, 0);
-        let law = Law::read(law, &given, ("angle", angle), ends, build)?;
+        let law = Law::read(law, &given, "angle", angle, ends, build)?;
         let markers = law.markers().to_vec();
         Ok(Built { force: Box::new(Lawful { law }), markers })
     }

@@ -120,7 +120,8 @@ impl<const D: usize> JointKernel<D> for Drive<D> {
 }
 
 /// The angle of this cosine and sine less `value`, within half a turn: no difference of two atan2, which jumps.
-pub fn angle_beyond<S: Scalar>((c, s): (S, S), value: S) -> S {
+pub fn angle_beyond<S: Scalar>(cosine_and_sine: (S, S), value: S) -> S {
+    let (c, s) = cosine_and_sine;
     let (sine, cosine) = value.sin_cos();
     S::atan2(s * cosine - c * sine, c * cosine + s * sine)
 }

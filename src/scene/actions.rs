@@ -23,7 +23,7 @@ fn component<const D: usize>(name: &str, further: Option<&'static str>) -> Resul
 }
 
 pub fn reaction<const D: usize>(spec: &OutputSpec, elements: Elements<D>, build: &Build<D>) -> Result<Measure> {
-    let joint = named(spec.subject()?, ("joint", elements.joints), ("force", elements.forces), "force")?;
+    let joint = named(spec.subject()?, "joint", elements.joints, "force", elements.forces, "force")?;
     let given = &elements.joints[joint];
     let holds = given.element.row_names();
     let axes = axes(spec, build)?;
@@ -76,7 +76,7 @@ fn second<E>(element: &Connection<E>) -> usize {
 /// Magnitude of a force, or a component of what it exerts on a body.
 pub fn force<const D: usize>(spec: &OutputSpec, elements: Elements<D>, build: &Build<D>) -> Result<Measure> {
     let of = spec.subject()?;
-    let force = named(of, ("force", elements.forces), ("joint", elements.joints), "reaction")?;
+    let force = named(of, "force", elements.forces, "joint", elements.joints, "reaction")?;
     let Some(name) = spec.component.as_deref() else { return Ok(Measure::Force(force)) };
     let component = component::<D>(name, None)?;
     let axes = axes(spec, build)?;
@@ -139,8 +139,10 @@ fn axes<const D: usize>(spec: &OutputSpec, build: &Build<D>) -> Result<MarkerId>
 /// Index of the element `of`; where there is one of the other kind, `measure` is what that has.
 fn named<E, O>(
     of: &str,
-    (wanted, all): (&str, &[Connection<E>]),
-    (found, others): (&str, &[Connection<O>]),
+    wanted: &str,
+    all: &[Connection<E>],
+    found: &str,
+    others: &[Connection<O>],
     measure: &str,
 ) -> Result<usize> {
     find(wanted, of, all.iter().map(|element| element.name.as_str())).map_err(|error| {

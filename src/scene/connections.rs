@@ -17,7 +17,7 @@ pub fn joints<const D: usize>(
 ) -> Result<Vec<ModelJoint<D>>> {
     let make = |make: &BuildJoint<D>, json| make(json, build).map(|built| (built.joint, built.markers));
     let see = |joint: &ModelJoint<D>| named.add(joint, joint.markers.len() == 2, joint.element.closed_form());
-    elements((&named.file.joints, "joints", "joint"), kinds, build, make, see)
+    elements(&named.file.joints, "joints", "joint", kinds, build, make, see)
 }
 
 type BuildJoint<const D: usize> = fn(Value, &Build<D>) -> Result<crate::joint::Built<D>>;
@@ -34,12 +34,14 @@ pub fn forces<const D: usize>(
     let see = |force: &ModelForce<D>| {
         named.add(force, is_between(force.element.as_ref(), force.markers.len()), None);
     };
-    elements((&named.file.forces, "forces", "force"), kinds, build, make, see)
+    elements(&named.file.forces, "forces", "force", kinds, build, make, see)
 }
 
 /// Reads joints or forces: `make` gets the JSON without `name` and `type`.
 fn elements<E, Make, const D: usize>(
-    (given, list, what): (&[Value], &str, &str),
+    given: &[Value],
+    list: &str,
+    what: &str,
     kinds: &[ElementKind<Make>],
     build: &Build<D>,
     make: impl Fn(&Make, Value) -> Result<(E, Vec<usize>)>,

@@ -70,7 +70,7 @@ pub fn chain(n: usize) -> Value {
     let about = format!("A chain of {n} rods, released level. {n} degrees of freedom; the motion is chaotic.");
     let parameters = json!({ "l": 1.0, "m": 1.0, "n": n });
     let simulation = json!({ "t_end": 1.0, "output_step": 0.01, "integrator": "dopri5", "rtol": 1e-8, "atol": 1e-8 });
-    hanging((format!("chain_{n}"), about), n, link, parameters, simulation)
+    hanging(format!("chain_{n}"), about, n, link, parameters, simulation)
 }
 
 /// Beam elements in one link of a [`flexible_chain`].
@@ -91,12 +91,13 @@ pub fn flexible_chain(n: usize) -> Value {
     let parameters = json!({ "l": 1.0, "m": 1.0, "n": n, "EA": 1e4, "EI": 1e-2 });
     let simulation = json!({ "t_end": 1.0, "output_step": 0.01, "formulation": "index3",
         "integrator": { "generalized_alpha": { "rho_inf": 0.7 } }, "step": 0.001 });
-    hanging((format!("flexible_chain_{n}"), about), n, link, parameters, simulation)
+    hanging(format!("flexible_chain_{n}"), about, n, link, parameters, simulation)
 }
 
 /// Links on hinges in a row, from the ground on; the place of the last end is watched.
 fn hanging(
-    (name, about): (String, String),
+    name: String,
+    about: String,
     n: usize,
     link: impl Fn(usize) -> Value,
     parameters: Value,

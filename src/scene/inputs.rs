@@ -12,7 +12,8 @@ use crate::math::expression::Number;
 /// The inputs with what they add to. Their values become part of the elements that they drive.
 pub fn inputs<const D: usize>(
     specs: &[InputSpec],
-    (joints, forces): (&mut Vec<ModelJoint<D>>, &mut Vec<ModelForce<D>>),
+    joints: &mut Vec<ModelJoint<D>>,
+    forces: &mut Vec<ModelForce<D>>,
     build: &Build<D>,
 ) -> Result<Vec<Input>> {
     let mut all: Vec<Input> = Vec::new();
@@ -23,9 +24,9 @@ pub fn inputs<const D: usize>(
             return Err(taken(&spec.name, "input").under(format!("inputs[{i}]")));
         }
         super::names::check_name(&spec.name).map_err(named)?;
-        let mut input = input::<D>(spec, (joints, forces)).map_err(place)?;
+        let mut input = input::<D>(spec, joints, forces).map_err(place)?;
         if let Some(value) = &spec.value {
-            input.value = Some(add(&input.target, value, (joints, forces), build).map_err(place)?);
+            input.value = Some(add(&input.target, value, joints, forces, build).map_err(place)?);
         }
         build.own("input", &spec.name);
         all.push(input);
@@ -35,7 +36,7 @@ pub fn inputs<const D: usize>(
 
 const ONE_OF: &str = "give one of `force`, an applied force or torque, `driver`, a joint, and `tyre`, a force";
 
-fn input<const D: usize>(spec: &InputSpec, (joints, forces): (&[ModelJoint<D>], &[ModelForce<D>])) -> Result<Input> {
+fn input<const D: usize>(spec: &InputSpec, joints: &[ModelJoint<D>], forces: &[ModelForce<D>]) -> Result<Input> {
     let (target, unit) = match (&spec.force, &spec.driver, &spec.tyre) {
         (Some(force), None, None) => component(force, spec.component.as_deref(), forces)?,
         (None, Some(joint), None) => driver(joint, joints)?,
@@ -109,7 +110,8 @@ fn driver<const D: usize>(name: &str, joints: &[ModelJoint<D>]) -> Result<(Targe
 fn add<const D: usize>(
     target: &Target,
     value: &Number,
-    (joints, forces): (&mut Vec<ModelJoint<D>>, &mut Vec<ModelForce<D>>),
+    joints: &mut Vec<ModelJoint<D>>,
+    forces: &mut Vec<ModelForce<D>>,
     build: &Build<D>,
 ) -> Result<Formula> {
     let reads_markers = matches!(target, Target::Component { .. });
@@ -129,7 +131,7 @@ fn add<const D: usize>(
             let component = target.force().map_or(0, |(_, component)| component);
             let added = value.clone();
             replace(forces, force, |known| {
-                let (element, markers) = force::Added::new(known.element, &known.markers, (component, added));
+                let (element, markers) = force::Added::new(known.element, &known.markers, component, added);
                 Connection { element: Box::new(element) as _, markers, ..known }
             });
             if forces[force].markers.len() > MOST_MARKERS {

@@ -196,14 +196,14 @@ impl<const D: usize> Reader<'_, D> {
         let none = || immeasurable(element, "angle");
         let Some([a, b]) = element.ends else { return Err(none()) };
         if element.kind == "torsion_spring" {
-            return Ok(self.between([a, b], (None, Some(&element.name)), order));
+            return Ok(self.between(a, b, None, Some(&element.name), order));
         }
         let Some(ClosedForm::Lock(lock)) = &element.form else { return Err(none()) };
         let has = |wanted| lock.coordinates().iter().any(|(_, coordinate)| *coordinate == wanted);
         if has(JointCoordinate::FirstPin) {
             let about = self.spec.component.as_deref();
             let about = about.ok_or_else(|| missing("component", "x or y: the pin on the first or second body"))?;
-            let term = universal([a, b], named_component(about, &["x", "y"])?);
+            let term = universal(a, b, named_component(about, &["x", "y"])?);
             return Ok(self.turn(term, None, order));
         }
         if !has(JointCoordinate::Angle) {
@@ -215,10 +215,10 @@ impl<const D: usize> Reader<'_, D> {
             let [x, y] = [in_space(&triad[0]), in_space(&triad[1])];
             TurnAxes { of: x, to: [x, y] }
         };
-        Ok(self.between([a, b], (lock.triad.as_ref().map(about), None), order))
+        Ok(self.between(a, b, lock.triad.as_ref().map(about), None, order))
     }
 
-    fn between(&self, [a, b]: [MarkerId; 2], (axes, spring): (Option<TurnAxes>, Option<&str>), order: usize) -> Probe {
+    fn between(&self, a: MarkerId, b: MarkerId, axes: Option<TurnAxes>, spring: Option<&str>, order: usize) -> Probe {
         match D {
             2 => Probe::new(b, a, Quantity::Angle, order),
             _ => self.turn(Turned { of: b, to: a, factor: 1.0, axes }, spring, order),
@@ -263,7 +263,7 @@ fn immeasurable<const D: usize>(element: &Placed<D>, what: &str) -> Error {
 
 /// Rotation of the cross of a universal joint about x of the first marker (`pin` 0), or of the second marker against
 /// the cross about its own y (1): the rotation from the first marker to the second is R_x R_y.
-fn universal([a, b]: [MarkerId; 2], pin: usize) -> Turned {
+fn universal(a: MarkerId, b: MarkerId, pin: usize) -> Turned {
     let [x, y, z, back] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
     match pin {
         0 => Turned { of: b, to: a, factor: 1.0, axes: Some(TurnAxes { of: y, to: [y, z] }) },

@@ -115,7 +115,7 @@ impl<const D: usize> Links<D> {
         let mut joints = connections::joints(named, &kinds.joints, build)?;
         let mut forces = connections::forces(named, &kinds.forces, build)?;
         forces.extend(parts.beams.iter().flat_map(|beam| line_elements(beam, &parts.bodies)));
-        let inputs = inputs::inputs(&file.inputs, (&mut joints, &mut forces), build)?;
+        let inputs = inputs::inputs(&file.inputs, &mut joints, &mut forces, build)?;
         forces.extend(gravity::central(&file.gravity, parts, build)?);
         forces.extend(states::rates(&file.states, build)?);
         let Parts { bodies, beams, .. } = parts;

@@ -24,7 +24,7 @@ pub fn rows<const D: usize>(
     for (name, number) in initial {
         let is_rate = name.ends_with('\'');
         let row =
-            row(name, number, (joints, &index), build).map_err(|error| error.under(excerpt(name)).under("initial"))?;
+            row(name, number, joints, &index, build).map_err(|error| error.under(excerpt(name)).under("initial"))?;
         rows[usize::from(is_rate)].push(row);
     }
     build.own("start", "initial");
@@ -34,7 +34,8 @@ pub fn rows<const D: usize>(
 fn row<const D: usize>(
     name: &str,
     number: &Number,
-    (joints, index): (&[ModelJoint<D>], &Index<D>),
+    joints: &[ModelJoint<D>],
+    index: &Index<D>,
     build: &Build<D>,
 ) -> Result<ModelJoint<D>> {
     let base = name.trim_end_matches('\'');

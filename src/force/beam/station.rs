@@ -77,7 +77,8 @@ impl Beam {
 }
 
 /// Internal forces of the end sections with the loads of the halves added.
-fn loaded<S: Scalar>([a, b]: [Carried<S>; 2], loads: &[Load<S>; 2]) -> [Carried<S>; 2] {
+fn loaded<S: Scalar>(ends: [Carried<S>; 2], loads: &[Load<S>; 2]) -> [Carried<S>; 2] {
+    let [a, b] = ends;
     let add = |v: &Vector<S>, w: &Vector<S>, sign: f64| from_fn(|i| v[i] + w[i] * sign);
     let with = |c: &Carried<S>, load: &Load<S>, sign| Carried {
         n: add(&c.n, &load.force, sign),
@@ -94,7 +95,8 @@ pub(super) fn cubic(part: f64) -> [f64; 3] {
 
 impl<S: Scalar> Line<S> {
     /// Internal forces of the section at 0 <= `part` <= 1 of the element and at `place`, by equilibrium with the ends.
-    fn between(&self, [a, b]: &[Carried<S>; 2], loads: &[Load<S>; 2], part: f64, place: &Vector<S>) -> Carried<S> {
+    fn between(&self, ends: &[Carried<S>; 2], loads: &[Load<S>; 2], part: f64, place: &Vector<S>) -> Carried<S> {
+        let [a, b] = ends;
         let [value, first, last] = cubic(part);
         let first = first * self.length;
         let last = last * self.length;

@@ -107,7 +107,8 @@ impl Beam {
     /// of its squared mean; a shear g of the sections adds phi g. Under the root this holds for small shear, and for
     /// any shear the line is at least as long as its chord: without that, tension above 12 EI/L^2 would rotate the
     /// sections away from it.
-    fn stretch<S: Scalar, const D: usize>(&self, [x, y, z]: Vector<S>) -> S {
+    fn stretch<S: Scalar, const D: usize>(&self, shift: Vector<S>) -> S {
+        let [x, y, z] = shift;
         let [long_y, long_z] = self.lengthening();
         let square = x * x + y * y * long_y;
         let square = if D == 2 { square } else { square + z * z * long_z };
