@@ -87,12 +87,14 @@ fn size(shape: &[usize]) -> [usize; 2] {
 }
 
 /// Numbers column by column; `value` takes the row-major index.
-fn doubles([rows, columns]: [usize; 2], value: impl Fn(usize) -> f64) -> Vec<u8> {
+fn doubles(size: [usize; 2], value: impl Fn(usize) -> f64) -> Vec<u8> {
+    let [rows, columns] = size;
     let places = (0..columns).flat_map(|j| (0..rows).map(move |i| i * columns + j));
     element(DOUBLE, &places.flat_map(|place| value(place).to_le_bytes()).collect::<Vec<u8>>())
 }
 
-fn matrix(name: &str, class: u32, [rows, columns]: [usize; 2], contents: &[Vec<u8>]) -> Vec<u8> {
+fn matrix(name: &str, class: u32, size: [usize; 2], contents: &[Vec<u8>]) -> Vec<u8> {
+    let [rows, columns] = size;
     let flags = [class.to_le_bytes(), [0; 4]].concat();
     let size = [(rows as i32).to_le_bytes(), (columns as i32).to_le_bytes()].concat();
     let head = [element(UINT32, &flags), element(INT32, &size), element(INT8, name.as_bytes())].concat();

@@ -6,7 +6,7 @@ use png::{ColorType, DeflateCompression, Encoder, EncodingError, Filter, PixelDi
 ///
 /// # Errors
 /// The encoder refuses the size.
-pub fn encode((width, height): (u32, u32), rgb: &[u8], per_metre: u32) -> Result<Vec<u8>, EncodingError> {
+pub fn encode(width: u32, height: u32, rgb: &[u8], per_metre: u32) -> Result<Vec<u8>, EncodingError> {
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, width, height);
     encoder.set_color(ColorType::Rgb);

@@ -22,7 +22,7 @@ pub(super) fn png(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let mut pixels = paper(drawing, density)?;
     draw(&mut pixels, density, &drawing.shapes);
     let per_metre = (640.0 * f64::from(density) / COLUMN_METRES).round() as u32;
-    files::png::encode((pixels.width(), pixels.height()), &rgb(&pixels), per_metre).map_err(|error| error.to_string())
+    files::png::encode(pixels.width(), pixels.height(), &rgb(&pixels), per_metre).map_err(|error| error.to_string())
 }
 
 /// Returns the bytes of a GIF file of `count` frames, of which `moving` gives the items.
