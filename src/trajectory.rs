@@ -33,7 +33,8 @@ pub fn recorded(system: &dyn MechanicalSystem) -> Vec<Column> {
 /// The values of the `count` columns of [`recorded`] at a state with its works; without these they are zero.
 pub fn values(
     system: &dyn MechanicalSystem,
-    (state, works): (OperatingPoint, &[f64]),
+    state: OperatingPoint,
+    works: &[f64],
     count: usize,
     scratch: &mut Scratch,
 ) -> Vec<f64> {
@@ -82,8 +83,7 @@ impl Trajectory {
     /// Returns the row of a state with its outputs.
     pub fn row(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Vec<f64> {
         let count = self.outputs.len();
-        let outputs =
-            on_pieces(state, scratch, |scratch| values(system, (state.loaded(), state.works), count, scratch));
+        let outputs = on_pieces(state, scratch, |scratch| values(system, state.loaded(), state.works, count, scratch));
         let Names { q, v, lambda } = &self.names;
         let own = [&state.q[..q.len()], &state.v[..v.len()], &state.lambda[..lambda.len()]];
         [&[state.t], own[0], own[1], own[2], &outputs].concat()

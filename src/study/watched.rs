@@ -45,7 +45,7 @@ impl Watched {
     /// Returns their values at a state with its works.
     pub fn read(&self, system: &dyn MechanicalSystem, at: (OperatingPoint, &[f64]), scratch: &mut Scratch) -> Vec<f64> {
         let Some((count, places)) = &self.outputs else { return at.0.q.to_vec() };
-        let all = values(system, at, *count, scratch);
+        let all = values(system, at.0, at.1, *count, scratch);
         places.iter().map(|place| all[*place]).collect()
     }
 }

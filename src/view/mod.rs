@@ -63,7 +63,7 @@ pub fn still(prepared: &Model, point: &LinearizationPoint) -> Trajectory {
     let mut still = Trajectory::new(system);
     let works = vec![0.0; system.facts().works.len()];
     let state = OperatingPoint { t: *t, q, v, vdot, lambda };
-    let outputs = values(system, (state, &works), still.outputs.len(), &mut Scratch::default());
+    let outputs = values(system, state, &works, still.outputs.len(), &mut Scratch::default());
     still.rows.push([&[*t], &q[..], v, lambda, &outputs].concat());
     still
 }
