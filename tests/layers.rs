@@ -401,6 +401,55 @@ fn a_statement_assigns_one_thing() {
     assert!(tuples.len() <= 100, "{} of at most 100:\n{}", tuples.len(), tuples.join("\n"));
 }
 
+/// A parameter has a name that says what it is. What travels together is a struct, or comes as two parameters.
+#[test]
+fn parameters_are_not_taken_apart() {
+    let sources = sources();
+    let apart: Vec<String> = sources.iter().flat_map(parameters_taken_apart).collect();
+    assert!(apart.len() <= 166, "{} of at most 166:\n{}", apart.len(), apart.join("\n"));
+}
+
+/// Places of parameters such as `(q, v): (&[f64], &[f64])`.
+fn parameters_taken_apart(source: &Source) -> Vec<String> {
+    let text: String = source.code.iter().map(|(_, line)| format!("{line}\n")).collect();
+    let mut found = Vec::new();
+    for (at, _) in text.match_indices("fn ").filter(|(at, _)| starts_word(&text, *at)) {
+        let place = source.place(1 + text[..at].matches('\n').count());
+        let apart =
+            parameters(&text[at..]).into_iter().filter(|own| own.trim_start_matches('&').starts_with(['(', '[']));
+        found.extend(apart.map(|own| format!("{place}: {own}")));
+    }
+    found
+}
+
+/// The parameters of the function whose declaration begins a text.
+fn parameters(text: &str) -> Vec<&str> {
+    let mut depth = 0;
+    let mut start = None;
+    let mut found = Vec::new();
+    for (i, c) in text.char_indices().filter(|(i, c)| *c != '>' || !text[..*i].ends_with('-')) {
+        match c {
+            '(' | '[' | '<' => {
+                if c == '(' && depth == 0 {
+                    start = Some(i + 1);
+                }
+                depth += 1;
+            }
+            ')' | ']' | '>' => depth -= 1,
+            _ => {}
+        }
+        let ends = c == ',' && depth == 1 || c == ')' && depth == 0;
+        if let (true, Some(from)) = (ends, start) {
+            found.push(text[from..i].trim());
+            start = Some(i + 1);
+        }
+        if c == ')' && depth == 0 {
+            break;
+        }
+    }
+    found
+}
+
 /// `autotests` is off, so that tests are linked into few programs: a file that none of them names would never run.
 #[test]
 fn every_test_is_run() {
