@@ -217,21 +217,3 @@ fn sweep_is_another_name_of_kinematics() {
     assert!(err(&output).contains("note: `sweep` is now called `kinematics`"), "{}", err(&output));
     assert!(place.path("here/kinematics.csv").is_file());
 }
-
-/// GNU parallel runs the parts as the guide says; skipped where it is not installed.
-#[test]
-fn parallel_runs_the_parts() {
-    let version = Command::new("parallel").arg("--version").output();
-    if !version.is_ok_and(|found| String::from_utf8_lossy(&found.stdout).starts_with("GNU parallel")) {
-        eprintln!("skipped: GNU parallel is not installed");
-        return;
-    }
-    let place = Place::new(OSCILLATOR);
-    place.done(&grid(&["-o", "whole"]));
-    let study = format!("'{}' {}", env!("CARGO_BIN_EXE_holonom"), GRID.map(|word| format!("'{word}'")).join(" "));
-    let line = format!("seq 3 | parallel \"RAYON_NUM_THREADS=1 {study} --shard {{}}/3 -o part-{{}}\"");
-    let output = Command::new("sh").args(["-c", &line]).current_dir(place.path("")).output().unwrap();
-    assert!(output.status.success(), "{}", err(&output));
-    place.done(&["study", "scene.json", "-o", "merged", "--figures", "none", "--merge", "part-1", "part-2", "part-3"]);
-    assert_eq!(place.text("merged/study.csv"), place.text("whole/study.csv"));
-}

@@ -27,7 +27,7 @@ pub fn commands(line: &str) -> String {
 }
 
 /// An empty folder beside the shipped scenes.
-fn place() -> TempDir {
+pub fn place() -> TempDir {
     let place = tempfile::tempdir().unwrap();
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
     copy(&models, &place.path().join("models"));
@@ -47,7 +47,7 @@ fn copy(from: &Path, to: &Path) {
 }
 
 /// Fenced blocks: the words after the fence, and the text.
-fn blocks(chapter: &str) -> Vec<(String, String)> {
+pub fn blocks(chapter: &str) -> Vec<(String, String)> {
     let mut found = Vec::new();
     let mut lines = chapter.lines();
     while let Some(line) = lines.next() {

@@ -2,6 +2,8 @@
 
 mod blocks;
 mod facts;
+#[cfg(unix)]
+mod machines;
 mod sentences;
 
 use blocks::{commands, follow};
