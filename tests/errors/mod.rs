@@ -1,13 +1,13 @@
 //! Bad input, as a user meets it: every case ends with exit code 2 and one message that says where, what and how to
 //! mend it; nothing is printed on standard output and nothing is written.
 
-/// One test a case: `name: scene => [pieces of the message, in their order];`
+/// Scenes that are refused: `name: scene;`. The messages are in `messages/MODULE.txt`, under the names.
 macro_rules! cases {
-    ($($name:ident: $scene:expr => [$($piece:expr),* $(,)?];)*) => {
-        $(#[test]
-        fn $name() {
-            $scene.refused_with(&[$($piece),*]);
-        })*
+    ($($name:ident: $scene:expr;)*) => {
+        #[test]
+        fn all_messages_are_known() {
+            crate::errors::refused_as(module_path!(), &[$((stringify!($name), || $scene)),*]);
+        }
     };
 }
 mod command;
@@ -67,6 +67,30 @@ const TOP: &str = r#"{
 const PIN: &str = r#"{ "name": "pin", "type": "revolute", "between": ["ground.O", "rod.A"] }"#;
 const SPRING: &str = r#"{ "name": "spring", "type": "spring_damper", "between": ["ground.P", "rod.B"], "stiffness": 10, "free_length": 2 }"#;
 
+/// The messages of a module, in which each has its name as a heading.
+type Cases<'c> = &'c [(&'static str, fn() -> Scene)];
+
+/// Simulates all scenes and compares the messages with the known ones. With HOLONOM_MESSAGES=write these are replaced.
+fn refused_as(module: &str, cases: Cases) {
+    let name = module.rsplit("::").next().unwrap();
+    let path = format!("{}/tests/errors/messages/{name}.txt", env!("CARGO_MANIFEST_DIR"));
+    let messages = |cases: Cases| -> Vec<String> {
+        cases.iter().map(|(name, scene)| format!("## {name}\n{}", scene().message().trim_end())).collect()
+    };
+    let found: Vec<String> = std::thread::scope(|scope| {
+        let parts = cases.chunks(cases.len().div_ceil(8)).map(|part| scope.spawn(move || messages(part)));
+        let parts: Vec<_> = parts.collect();
+        parts.into_iter().flat_map(|part| part.join().unwrap()).collect()
+    });
+    let all = found.join("\n\n") + "\n";
+    if std::env::var_os("HOLONOM_MESSAGES").is_some_and(|what| what == "write") {
+        fs::write(&path, &all).unwrap();
+    }
+    let known = fs::read_to_string(&path).unwrap();
+    found.iter().for_each(|message| assert!(known.contains(message), "{path} does not have\n{message}"));
+    assert_eq!(all, known, "{path} has a case that is gone, or another order");
+}
+
 /// A scene file and the rest of the command line.
 struct Scene {
     text: Vec<u8>,
@@ -119,18 +143,35 @@ impl Scene {
         self
     }
 
-    /// Simulates the scene and looks for all of `pieces` in the message, in their order.
     fn refused_with(self, pieces: &[&str]) {
+        has_pieces(&self.message(), pieces);
+    }
+
+    /// Simulates the scene, which is refused, and returns the message.
+    fn message(self) -> String {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("scene.json"), &self.text).unwrap();
         let args: Vec<&str> =
             ["simulate", "scene.json"].into_iter().chain(self.args.iter().map(String::as_str)).collect();
-        refused(folder.path(), &args, pieces);
+        message(folder.path(), &args)
     }
 }
 
-/// Runs `holonom` in `folder` and checks that it refuses: what it says, and that it leaves everything as it was.
+/// Runs `holonom` in `folder`, which refuses with all of `pieces` in the message, in their order.
 fn refused(folder: &Path, args: &[&str], pieces: &[&str]) {
+    has_pieces(&message(folder, args), pieces);
+}
+
+fn has_pieces(message: &str, pieces: &[&str]) {
+    let mut rest = message;
+    for piece in pieces {
+        let at = rest.find(piece).unwrap_or_else(|| panic!("no `{piece}` in\n{message}"));
+        rest = &rest[at + piece.len()..];
+    }
+}
+
+/// Runs `holonom` in `folder`, checks that it refuses and leaves everything as it was, and returns what it says.
+fn message(folder: &Path, args: &[&str]) -> String {
     let before = listing(folder);
     let Output { status, stdout, stderr } =
         Command::new(env!("CARGO_BIN_EXE_holonom")).args(args).current_dir(folder).output().unwrap();
@@ -139,11 +180,7 @@ fn refused(folder: &Path, args: &[&str], pieces: &[&str]) {
     assert!(stdout.is_empty(), "standard output: {}", String::from_utf8_lossy(&stdout));
     assert!(!stderr.contains("panicked") && stderr.starts_with("error: "), "{stderr}");
     assert_eq!(listing(folder), before, "files were written or removed");
-    let mut rest = stderr.as_str();
-    for piece in pieces {
-        let at = rest.find(piece).unwrap_or_else(|| panic!("no `{piece}` in\n{stderr}"));
-        rest = &rest[at + piece.len()..];
-    }
+    stderr
 }
 
 /// Names and contents of all files below a folder.

@@ -13,43 +13,22 @@ fn with_signal(signal: &str, stiffness: &str) -> crate::errors::Scene {
 const GAS: &str = "{ 'name': 'gas', 'points': [[0, 'l'], [1, '2*l'], ['3*l', 5]], 'beyond': 'error' }";
 
 cases! {
-    unknown_signal:
-        with_signal(GAS, "gass(1)") => ["at forces[0].stiffness (`spring`): unknown function `gass`", "did you mean `gas`?"];
-    signal_without_argument:
-        with_signal(GAS, "2*gas") => ["expected '(' after the signal `gas`", "a function of one argument, such as `gas(t)`"];
-    signal_of_two:
-        with_signal(GAS, "gas(1, 2)") => ["gas takes 1 argument, found 2,"];
-    constant_beyond:
-        with_signal(GAS, "gas(4)") => ["the signal `gas` has no value at 4", "it goes from 0 to 3"];
-    name_of_a_function:
-        with_signal(&GAS.replace("gas", "sin"), "1") => ["scene.json:5:25: at signals[0].name: `sin` cannot name a signal"];
-    name_of_a_parameter:
-        with_signal(&GAS.replace("gas", "m"), "1") => ["`m` cannot name a signal: it is the name of a parameter"];
-    name_of_an_output:
-        with_signal(&GAS.replace("gas", "theta"), "1") => ["`theta` cannot name a signal: it is the name of an output"];
-    name_taken:
-        with_signal(&format!("{GAS}, {GAS}"), "1") => ["at signals[1].name: `gas` cannot name a signal: it is the name of another"];
-    no_data:
-        with_signal("{ 'name': 'gas' }", "1") => ["at signals[0] (`gas`): expected either a file or points"];
-    one_point:
-        with_signal("{ 'name': 'gas', 'points': [[0, 1]] }", "1") =>
-            ["at signals[0].points (`gas`): a signal takes at least 2 points, found 1"];
-    points_out_of_order:
-        with_signal("{ 'name': 'gas', 'points': [[0, 1], ['l', 1], [1, 2]] }", "1") =>
-            ["at signals[0].points (`gas`): points[2]: x must increase, found 1 after 1"];
-    bad_point:
-        with_signal("{ 'name': 'gas', 'points': [[0, 1], ['k', 1]] }", "1") =>
-            ["at signals[0].points[1][0] (`gas`): unknown name `k`"];
-    open_period:
-        with_signal("{ 'name': 'gas', 'points': [[0, 1], [1, 2]], 'beyond': 'repeat' }", "1") =>
-            ["at signals[0].beyond (`gas`): a cubic signal that repeats ends as it begins, found 1 and 2", "linear"];
-    unknown_interpolation:
-        with_signal("{ 'name': 'gas', 'points': [[0, 1], [1, 2]], 'interpolation': 'cubc' }", "1") =>
-            ["at signals[0].interpolation", "cubc"];
-    a_start_beyond:
-        pendulum().with("'gravity'", &format!("'signals': [{GAS}],\n  'gravity'")).force(
-            "{ 'name': 'push', 'type': 'applied_torque', 'at': 'rod', 'torque': 'gas(rod.angle - 1)' }") =>
-            ["at signals: at the start, the force `push` leaves the range of the signal `gas`, which goes from 0 to 3"];
+    unknown_signal: with_signal(GAS, "gass(1)");
+    signal_without_argument: with_signal(GAS, "2*gas");
+    signal_of_two: with_signal(GAS, "gas(1, 2)");
+    constant_beyond: with_signal(GAS, "gas(4)");
+    name_of_a_function: with_signal(&GAS.replace("gas", "sin"), "1");
+    name_of_a_parameter: with_signal(&GAS.replace("gas", "m"), "1");
+    name_of_an_output: with_signal(&GAS.replace("gas", "theta"), "1");
+    name_taken: with_signal(&format!("{GAS}, {GAS}"), "1");
+    no_data: with_signal("{ 'name': 'gas' }", "1");
+    one_point: with_signal("{ 'name': 'gas', 'points': [[0, 1]] }", "1");
+    points_out_of_order: with_signal("{ 'name': 'gas', 'points': [[0, 1], ['l', 1], [1, 2]] }", "1");
+    bad_point: with_signal("{ 'name': 'gas', 'points': [[0, 1], ['k', 1]] }", "1");
+    open_period: with_signal("{ 'name': 'gas', 'points': [[0, 1], [1, 2]], 'beyond': 'repeat' }", "1");
+    unknown_interpolation: with_signal("{ 'name': 'gas', 'points': [[0, 1], [1, 2]], 'interpolation': 'cubc' }", "1");
+    a_start_beyond: pendulum().with("'gravity'", &format!("'signals': [{GAS}],\n  'gravity'")).force(
+        "{ 'name': 'push', 'type': 'applied_torque', 'at': 'rod', 'torque': 'gas(rod.angle - 1)' }");
 }
 
 /// One message a file: (its text, the columns, pieces).
