@@ -1,7 +1,8 @@
 //! Methods of simulation: a formulation, an integrator and a projection by name.
 //!
 //! A [`Method`] parses from text, as in `"index1 + dop853 + manifold"`; [the guide](crate::guide::methods) explains the
-//! choice. The traits of own methods are in [`research::methods`](crate::research::methods).
+//! choice. The traits of own methods are in [`research::methods`](crate::research::methods). An own method is known to
+//! scenes by [`Elements::with_method`](crate::parts::Elements::with_method).
 //!
 //! ```
 //! use holonom::methods::Method;

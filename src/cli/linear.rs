@@ -3,7 +3,7 @@
 use super::common::{MethodOptions, Output, SceneOptions, Talk, number, unprintable};
 use crate::analysis::Range;
 use crate::error::{Error, Result};
-use crate::linearize::{Chart, Linear, Operating, State, at_rest, kinks, registry, states, tighten};
+use crate::linearize::{Chart, Entry, Linear, Operating, State, at_rest, kinks, states, tighten};
 use crate::method_spec::MethodSpec;
 use crate::prepared::Model;
 use crate::report::linear::stem_at;
@@ -104,7 +104,7 @@ impl ModelOptions {
     /// Returns the requested method and chart.
     pub fn request(&self) -> Result<Linear> {
         let method = MethodSpec::parse(&self.method).and_then(|method| {
-            method.entry(registry())?;
+            method.entry::<Entry>()?;
             Ok(method)
         });
         Ok(Linear { method: method.map_err(|error| error.under("--method"))?, chart: self.chart.chart() })

@@ -130,6 +130,10 @@ impl Entry {
 impl Listed for Entry {
     const KIND: &'static str = "formulation";
 
+    fn registry() -> &'static [Self] {
+        registry()
+    }
+
     fn name(&self) -> &'static str {
         self.name
     }
@@ -166,7 +170,7 @@ pub fn named(name: &str) -> Option<&'static Entry> {
 /// The entry that `spec` names, whatever its options.
 #[doc(hidden)]
 pub fn lookup(spec: &MethodSpec) -> Option<&'static Entry> {
-    spec.lookup(registry())
+    spec.lookup()
 }
 
 /// The equations with multipliers of the formulation that `spec` names, where it has them.
@@ -182,5 +186,5 @@ pub fn dae(spec: &MethodSpec) -> Result<Option<Dae>> {
 /// themselves it serves observation only: v' and lambda are those of the equations of motion at (q, v), and so of the
 /// order of q and v.
 pub fn make(spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Box<dyn Formulation>> {
-    spec.entry(registry())?.field.unwrap_or(|_, _| Ok(Box::new(index1::Index1::default())))(spec, system)
+    spec.entry::<Entry>()?.field.unwrap_or(|_, _| Ok(Box::new(index1::Index1::default())))(spec, system)
 }

@@ -134,6 +134,10 @@ impl Entry {
 impl Listed for Entry {
     const KIND: &'static str = "integrator";
 
+    fn registry() -> &'static [Self] {
+        super::registry()
+    }
+
     fn name(&self) -> &'static str {
         self.name
     }

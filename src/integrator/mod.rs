@@ -198,7 +198,7 @@ pub fn registry() -> &'static [Entry] {
 
 /// The entry that `spec` names.
 pub fn find(spec: &MethodSpec) -> Result<&'static Entry> {
-    spec.entry(registry()).map_err(|error| match ELSEWHERE.iter().find(|(theirs, _)| *theirs == spec.name) {
+    spec.entry::<Entry>().map_err(|error| match ELSEWHERE.iter().find(|(theirs, _)| *theirs == spec.name) {
         Some((theirs, ours)) => error.changed(|input| {
             input.hint = Some(format!("did you mean `{ours}`? It is nearest to the {theirs} of other codes"))
         }),

@@ -3,7 +3,7 @@
 use super::input_states::{InputStates, primed};
 use super::{Changes, Chart, Coordinates, Cost, Frame, LinearModel, Matrix, Mode, Reduction, Reference, Variation};
 use crate::error::Result;
-use crate::method_spec::{Listed, MethodSpec, OptionDoc};
+use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::Dimensions;
 
 /// The method and the chart of a linear model. Default: `mcs`, minimal coordinates, in the preferred chart.
@@ -159,16 +159,4 @@ pub struct Entry {
     pub options: &'static [OptionDoc],
     /// Builds the matrices at the state of a variation.
     pub build: fn(&mut Variation, &Linear) -> Result<Built>,
-}
-
-impl Listed for Entry {
-    const KIND: &'static str = "method";
-
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn options(&self) -> &'static [OptionDoc] {
-        self.options
-    }
 }

@@ -8,11 +8,28 @@ use super::unconstrained::{AUGMENTED_LAGRANGIAN, BAUMGARTE, FORCE_PROJECTION, PE
 use super::variation::refuse_all_modes;
 use super::{Cost, LinearModel, Reduction, Variation, reduction, redundant};
 use crate::error::Result;
+use crate::method_spec::{Listed, OptionDoc};
 use std::time::Instant;
 
 /// Returns every method, in the order of the documentation.
 pub fn registry() -> &'static [Entry] {
     &[MCS, redundant::RCS, BAUMGARTE, PENALTY, AUGMENTED_LAGRANGIAN, FORCE_PROJECTION]
+}
+
+impl Listed for Entry {
+    const KIND: &'static str = "method";
+
+    fn registry() -> &'static [Self] {
+        registry()
+    }
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn options(&self) -> &'static [OptionDoc] {
+        self.options
+    }
 }
 
 /// Number of dense n_v x n_v matrices needed, the states being twice as many: the model, its directions, and
@@ -41,7 +58,7 @@ pub fn linearize(variation: &mut Variation, request: &Linear) -> Result<LinearMo
 /// # Errors
 /// An unknown method or option; a chart that does not exist there.
 pub(super) fn build(variation: &mut Variation, request: &Linear) -> Result<Built> {
-    let entry = request.method.entry(registry())?;
+    let entry = request.method.entry::<Entry>()?;
     if variation.has_drivers() {
         variation.prescribed()?;
     }
@@ -61,7 +78,7 @@ pub(super) struct Solved {
 /// # Errors
 /// See [`linearize`].
 pub(super) fn solve(variation: &mut Variation, request: &Linear) -> Result<Solved> {
-    request.method.entry(registry())?;
+    request.method.entry::<Entry>()?;
     refuse_large(variation.velocities())?;
     let clock = Instant::now();
     let reduction = reduction::measure(variation, request)?;

@@ -23,6 +23,7 @@ use crate::initial::{self, Assembly};
 use crate::math::array::Each;
 use crate::math::expression::Parameters;
 use crate::math::{Rate, Scalar, Thresholds};
+use crate::method_spec::OwnMethods;
 use crate::scene::Scene;
 use crate::simulate::{
     Checkpoint, Choice, Leg, Method, Outcome, Sink, Span, Start, Stiffness, advise, run_through, stiffness,
@@ -65,6 +66,8 @@ pub struct Model {
     pub doubts: Vec<Warning>,
     /// Hash of what the scene says of the mechanism.
     pub fingerprint: String,
+    /// Own methods that may be named.
+    pub(crate) own_methods: OwnMethods,
     /// Path, from the scene, of the reference table that accuracy is measured against.
     pub reference: Option<String>,
     start_time: f64,
@@ -120,7 +123,8 @@ impl Model {
     /// # Errors
     /// Bad input of any kind: see `initial::assemble`, [`Method::check`].
     pub fn new(scene: Scene, overrides: &Overrides) -> Result<Model> {
-        let settings = Settings { parameters: &scene.parameters, scene: &scene.simulation, overrides };
+        let settings =
+            Settings { parameters: &scene.parameters, scene: &scene.simulation, own: &scene.methods, overrides };
         let is_automatic = settings.is_automatic().map_err(|error| settings.place(error))?;
         let start = scene.start_time()?;
         let span = settings.span(start).map_err(|error| settings.place(error))?;
@@ -154,6 +158,7 @@ impl Model {
             chosen_because: None,
             assembly,
             fingerprint: scene.fingerprint,
+            own_methods: scene.methods,
             reference: scene.simulation.reference,
             start_time: start,
             span,

@@ -5,14 +5,14 @@ use crate::scene::Elements;
 use crate::{formulation, integrator, projection};
 use serde_json::{Map, Value, json};
 
-/// The JSON Schema of scenes of these elements, with the formulations, integrators and projections of the registries
+/// The JSON Schema of scenes of these elements, with the formulations, integrators and projections that they may name
 /// and their options.
 pub fn schema(elements: &Elements) -> Value {
     let mut root = elements.schema();
     let methods = [
-        ("formulation", methods(formulation::registry())),
-        ("integrator", methods(integrator::registry())),
-        ("projection", methods(projection::registry())),
+        ("formulation", methods::<formulation::Entry>(elements)),
+        ("integrator", methods::<integrator::Entry>(elements)),
+        ("projection", methods::<projection::Entry>(elements)),
     ];
     for (key, names) in methods {
         let place = &mut root["$defs"]["Simulation"]["properties"][key];
@@ -26,8 +26,9 @@ pub fn schema(elements: &Elements) -> Value {
 }
 
 /// A name, a name with options, or an object {name: {option: value}}; hyphens count as underscores in text.
-fn methods<E: Listed>(registry: &[E]) -> Value {
-    let names: Vec<&str> = registry.iter().map(E::name).collect();
+fn methods<E: Listed>(elements: &Elements) -> Value {
+    let entries: Vec<&E> = E::registry().iter().chain(elements.methods.entries()).collect();
+    let names: Vec<&str> = entries.iter().map(|entry| entry.name()).collect();
     let text = names.iter().map(|name| name.replace('_', "[-_]")).collect::<Vec<_>>().join("|");
     let value = json!({ "type": ["number", "string", "boolean"] });
     let options = |entry: &E| -> Map<String, Value> {
@@ -36,11 +37,11 @@ fn methods<E: Listed>(registry: &[E]) -> Value {
         };
         entry.options().iter().map(option).collect()
     };
-    let one = |entry: &E| {
+    let one = |entry: &&E| {
         let options = json!({ "type": "object", "additionalProperties": false, "properties": options(entry) });
         (entry.name().to_string(), options)
     };
-    let objects: Map<String, Value> = registry.iter().map(one).collect();
+    let objects: Map<String, Value> = entries.iter().map(one).collect();
     json!([
         { "enum": names },
         { "type": "string", "pattern": format!("^({text})(:.*)?$") },

@@ -3,14 +3,14 @@
 use crate::error::{Error, Result, Warning, clock, short};
 use crate::integrator::{self, Steps};
 use crate::math::expression::{Number, Parameters};
-use crate::method_spec::MethodSpec;
+use crate::method_spec::{MethodSpec, OwnMethods};
 use crate::scene::{Automatic, Elements, Simulation};
 use crate::simulate::{Method, Span, atol_of};
 
-/// Kinds of elements that a scene may name, and settings that replace those of the scene.
+/// Kinds of elements and methods that a scene may name, and settings that replace those of the scene.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
-    /// Kinds of bodies, joints and forces that the scene may name.
+    /// Kinds of bodies, joints and forces, and own methods, that the scene and these settings may name.
     pub elements: Elements,
     /// Values that replace those of the scene's parameters.
     pub set: Vec<(String, Number)>,
@@ -41,6 +41,8 @@ pub struct Overrides {
 pub struct Settings<'a> {
     pub parameters: &'a Parameters,
     pub scene: &'a Simulation,
+    /// Own methods that may be named.
+    pub own: &'a OwnMethods,
     pub overrides: &'a Overrides,
 }
 
@@ -99,13 +101,13 @@ impl Settings<'_> {
 
     /// The method, with default tolerances for a scene of this `length`, m.
     pub fn method(&self, is_automatic: bool, length: f64) -> Result<Method> {
-        let own = self.scene;
         let given = self.overrides;
         let default = Method::of_length(length);
-        let unnamed = Simulation { formulation: None, integrator: None, projection: None, step: None, ..own.clone() };
-        let scene = if is_automatic { &unnamed } else { own };
+        let unnamed =
+            Simulation { formulation: None, integrator: None, projection: None, step: None, ..self.scene.clone() };
+        let scene = if is_automatic { &unnamed } else { self.scene };
         let pick = |given: &Option<MethodSpec>, scene: &Option<MethodSpec>, default: MethodSpec| {
-            given.clone().or_else(|| scene.clone()).unwrap_or(default)
+            given.as_ref().or(scene.as_ref()).map_or(default, |spec| spec.clone().knowing(self.own))
         };
         let integrator = pick(&given.integrator, &scene.integrator, default.integrator);
         // A scene's fixed step goes with the scene's integrator.

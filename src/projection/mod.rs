@@ -35,6 +35,10 @@ type Make = fn(&MethodSpec, &dyn MechanicalSystem) -> Result<Option<Box<dyn Proj
 impl Listed for Entry {
     const KIND: &'static str = "projection";
 
+    fn registry() -> &'static [Self] {
+        registry()
+    }
+
     fn name(&self) -> &'static str {
         self.name
     }
@@ -61,7 +65,7 @@ const NONE: Entry =
 
 /// The projection that `spec` names, for `system`; `None` where there are no constraints.
 pub fn make(spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
-    let made = (spec.entry(registry())?.make)(spec, system)?;
+    let made = (spec.entry::<Entry>()?.make)(spec, system)?;
     Ok(made.filter(|_| system.dimensions().lambda > 0))
 }
 

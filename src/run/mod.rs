@@ -17,6 +17,7 @@
 
 mod inputs;
 mod marker;
+mod method;
 mod moment;
 mod recording;
 mod simulated;
@@ -34,6 +35,7 @@ pub use simulated::{Simulated, simulate};
 use crate::analysis::Recorder;
 use crate::error::{Error, Result, clock};
 use crate::formulation::Statistics;
+use crate::method_spec::OwnMethods;
 use crate::simulate::{Choice, Engine, Method, Span, Start, advise};
 use crate::system::MechanicalSystem;
 use inputs::Inputs;
@@ -46,6 +48,8 @@ use recording::{Observers, unsolved};
 pub struct Run<'a> {
     system: &'a dyn MechanicalSystem,
     choice: Choice,
+    /// Own methods that may be named.
+    own_methods: OwnMethods,
     start: Origin,
     /// Time of the start of the motion, s.
     began: f64,
@@ -81,8 +85,9 @@ impl Model {
         let choice = self.choice(&self.method);
         let (q, v) = self.start();
         let span = self.span().ok();
-        let run = Run::of(self.system(), choice, Origin::State(q.to_vec(), v.to_vec()), self.start_time());
+        let mut run = Run::of(self.system(), choice, Origin::State(q.to_vec(), v.to_vec()), self.start_time());
         let refused = self.check_rounding().err();
+        run.own_methods = self.own_methods.clone();
         Run { end: span.map(|span| span.end), output_step: span.map(|span| span.output_step), refused, ..run }
     }
 }
@@ -112,6 +117,7 @@ impl<'a> Run<'a> {
         Run {
             system,
             choice,
+            own_methods: OwnMethods::default(),
             start,
             began,
             end: None,

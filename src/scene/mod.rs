@@ -61,6 +61,7 @@ pub use serde_json::json;
 
 use crate::error::{Error, Result, excerpt, nearest};
 use crate::math::expression::{Number, Parameters};
+use crate::method_spec::OwnMethods;
 use format::SceneFile;
 use serde_json::Value;
 use std::path::Path;
@@ -91,6 +92,8 @@ pub struct Scene {
     /// Settings of the simulation, as they are given.
     #[doc(hidden)]
     pub simulation: Simulation,
+    /// Own methods that its settings may name.
+    pub(crate) methods: OwnMethods,
     /// Hash of what it says of the mechanism.
     pub fingerprint: String,
 }

@@ -36,6 +36,7 @@ pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)
         v,
         hold: file.assembly.hold,
         simulation: file.simulation,
+        methods: elements.methods.clone(),
         fingerprint: String::new(),
     })
 }

@@ -4,7 +4,7 @@ use crate::error::{Error, Result, Warning, short};
 use crate::formulation;
 use crate::integrator::{self, Integrator, Setup, Steps, Tolerance};
 use crate::math::array::Each;
-use crate::method_spec::MethodSpec;
+use crate::method_spec::{MethodSpec, OwnMethods};
 use crate::projection;
 use crate::system::{Dimensions, MechanicalSystem};
 use serde::{Deserialize, Serialize};
@@ -102,6 +102,14 @@ impl Method {
             "none" => format!("{formulation} + {integrator}"),
             _ => format!("{formulation} + {integrator} + {projection}"),
         }
+    }
+
+    /// The same where these own methods are known.
+    pub(crate) fn knowing(self, own: &OwnMethods) -> Self {
+        let Method { formulation, integrator, projection, .. } = &self;
+        let [formulation, integrator, projection] =
+            [formulation, integrator, projection].map(|spec| spec.clone().knowing(own));
+        Method { formulation, integrator, projection, ..self }
     }
 
     /// Warnings about the method before a run of the system.

@@ -10,7 +10,7 @@ pub mod own_formulation;
 pub mod own_integrator;
 pub mod own_joint;
 pub mod own_lagrangian;
-mod own_projection;
+pub mod own_projection;
 mod own_simplification;
 mod own_tableau;
 mod scene_in_code;

@@ -6,7 +6,7 @@ use holonom::research::methods::{Dynamics, Listed, Projection, ProjectionEntry, 
 use holonom::system::Need;
 
 /// Velocities back to G v + phi_t = 0, moving least in the mass metric; positions drift.
-static VELOCITIES: ProjectionEntry = ProjectionEntry {
+pub static VELOCITIES: ProjectionEntry = ProjectionEntry {
     name: "velocities",
     about: "G v + phi_t = 0 after each step",
     options: &[],

@@ -4,5 +4,6 @@
 mod bodies;
 mod equations;
 mod lagrangian;
+mod methods;
 mod passes;
 mod refused;

@@ -1,10 +1,13 @@
 //! A method as a user names it: `baumgarte:alpha=5,beta=5`, or `{"baumgarte": {"alpha": 5, "beta": 5}}` in a scene.
 
+mod own;
+
+pub(crate) use own::OwnMethods;
+
 use crate::error::{Error, Result, excerpt, suggest};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
-use std::any::Any;
 use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
@@ -16,24 +19,17 @@ pub struct MethodSpec {
     pub name: String,
     /// Options as (key, value) texts; the last of a key counts.
     pub options: Vec<(String, String)>,
-    own: Own,
-}
-
-/// A user's own entry, which is in no registry. It takes no part in comparison: specifications of one name and options
-/// are equal.
-#[derive(Clone, Copy, Debug, Default)]
-struct Own(Option<&'static (dyn Any + Send + Sync)>);
-
-impl PartialEq for Own {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
+    /// Entries that are known besides those of the registry.
+    own: OwnMethods,
 }
 
 /// An entry of a registry of methods.
 pub trait Listed: Send + Sync + Sized + 'static {
     /// Kind of method in messages, such as `formulation`.
     const KIND: &'static str;
+
+    /// The built-in entries.
+    fn registry() -> &'static [Self];
 
     /// Name by which scenes and the command line choose the entry.
     fn name(&self) -> &'static str;
@@ -43,7 +39,7 @@ pub trait Listed: Send + Sync + Sized + 'static {
 
     /// Specification of an entry from outside the crate, for [`Method`](crate::simulate::Method).
     fn spec(&'static self) -> MethodSpec {
-        MethodSpec { own: Own(Some(self)), ..MethodSpec::named(self.name()) }
+        MethodSpec::named(self.name()).knowing(&OwnMethods::of(self))
     }
 }
 
@@ -60,6 +56,11 @@ impl MethodSpec {
     /// A method by its name, without options.
     pub fn named(name: &str) -> Self {
         MethodSpec { name: name.to_string(), ..MethodSpec::default() }
+    }
+
+    /// The same where these own methods are known, unless it has its own entry already.
+    pub(crate) fn knowing(self, own: &OwnMethods) -> Self {
+        if self.own.is_empty() { MethodSpec { own: own.clone(), ..self } } else { self }
     }
 
     /// Adds an option.
@@ -80,13 +81,13 @@ impl MethodSpec {
                 pair.trim()
             ))),
         });
-        Ok(MethodSpec { name: canonical(name), options: options.collect::<Result<_>>()?, own: Own::default() })
+        Ok(MethodSpec { name: canonical(name), options: options.collect::<Result<_>>()?, own: OwnMethods::default() })
     }
 
     /// The entry of this name; for unknown names and options an error that lists the known ones.
-    pub fn entry<E: Listed>(&self, registry: &'static [E]) -> Result<&'static E> {
-        let Some(entry) = self.lookup(registry) else {
-            let hint = suggest(&self.name, registry.iter().map(E::name));
+    pub fn entry<E: Listed>(&self) -> Result<&'static E> {
+        let Some(entry) = self.lookup::<E>() else {
+            let hint = suggest(&self.name, self.known().map(E::name));
             return Err(Error::input(format!("there is no {} `{}`", E::KIND, excerpt(&self.name))).hint(hint));
         };
         let known = entry.options();
@@ -103,10 +104,14 @@ impl MethodSpec {
         Ok(entry)
     }
 
-    /// The user's own entry, if there is one, or the entry of this name in `registry`.
-    pub fn lookup<E: Listed>(&self, registry: &'static [E]) -> Option<&'static E> {
-        let own = self.own.0.and_then(|own| own.downcast_ref());
-        own.or_else(|| registry.iter().find(|entry| entry.name() == self.name))
+    /// The entry of this name, the user's own one if there is one.
+    pub fn lookup<E: Listed>(&self) -> Option<&'static E> {
+        self.known::<E>().find(|entry| entry.name() == self.name)
+    }
+
+    /// Own entries, then the built-in ones.
+    fn known<E: Listed>(&self) -> impl Iterator<Item = &'static E> {
+        self.own.entries::<E>().chain(E::registry())
     }
 
     /// Value of an option, the last one given.
@@ -219,7 +224,7 @@ fn from_json(value: &Value) -> Result<MethodSpec> {
                 let value = value.as_str().map_or_else(|| value.to_string(), str::to_string);
                 (canonical(key), value)
             });
-            Ok(MethodSpec { name: canonical(name), options: options.collect(), own: Own::default() })
+            Ok(MethodSpec { name: canonical(name), options: options.collect(), own: OwnMethods::default() })
         }
         _ => Err(wrong()),
     }
