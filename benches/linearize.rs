@@ -8,7 +8,7 @@ mod common;
 use equations::andrews::Andrews;
 use holonom::formulation::Dynamics;
 use holonom::linearize::{
-    Chart, Complex, Linear, LinearModel, Matrix, State, Variation, at_rest, linearize, minimal, modal, registry, states,
+    Chart, Complex, Linear, LinearModel, Matrix, State, Variation, at_rest, minimal, modal, registry,
 };
 use holonom::math::eigen::eigen;
 use holonom::method_spec::MethodSpec;
@@ -32,7 +32,7 @@ fn shipped(name: &str) -> Model {
 }
 
 fn at(prepared: &Model, t: f64) -> State {
-    states(prepared, &[t], |_| ()).unwrap_or_else(|error| panic!("{error}")).remove(0)
+    prepared.states_at(&[t]).unwrap_or_else(|error| panic!("{error}")).remove(0)
 }
 
 /// The state of a reference with 7 angles, and its eigenvalues in the chart of beta.
@@ -85,7 +85,7 @@ fn along_motions() {
         let prepared = shipped(name);
         let end = prepared.span().unwrap_or_else(|error| panic!("{error}")).end;
         let times: Vec<f64> = (1..=800).map(|i| end * f64::from(i) / 800.0).collect();
-        let all = states(&prepared, &times, |_| ()).unwrap_or_else(|error| panic!("{error}"));
+        let all = prepared.states_at(&times).unwrap_or_else(|error| panic!("{error}"));
         let mut variation = all[0].variation(&prepared).unwrap();
         let chart = Chart::preferred(&mut variation);
         let time = seconds(|| {
@@ -190,7 +190,7 @@ fn chains() {
         }
         let request = Linear { method: MethodSpec::named("mcs"), chart: Some(Chart::MassOrthogonal) };
         let clock = Instant::now();
-        let all = linearize(&mut variation, &request).unwrap();
+        let all = variation.linearize(&request).unwrap();
         let dense = 1e3 * clock.elapsed().as_secs_f64();
         let off = |value: &Complex<f64>| {
             let distances = all.modes.iter().map(|mode| (mode.value - value).norm() / value.norm());
@@ -209,8 +209,8 @@ fn methods() {
         let mut variation = at(&prepared, t).variation(&prepared).unwrap();
         for entry in registry() {
             let request = Linear { method: MethodSpec::named(entry.name), chart: None };
-            let Ok(model) = linearize(&mut variation, &request) else { continue };
-            let costs = (0..20).filter_map(|_| linearize(&mut variation, &request).ok()).map(|model| model.cost);
+            let Ok(model) = variation.linearize(&request) else { continue };
+            let costs = (0..20).filter_map(|_| variation.linearize(&request).ok()).map(|model| model.cost);
             let least = costs.fold([f64::INFINITY; 2], |[a, b], c| [a.min(c.assembly_seconds), b.min(c.eigen_seconds)]);
             let [matrices, values] = least.map(|s| 1e6 * s);
             println!("  {name:<28} {:<22} {:>4} states {matrices:>10.1} {values:>10.1}", entry.name, model.cost.size);

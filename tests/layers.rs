@@ -528,3 +528,17 @@ fn paths_are_read_as_the_compiler_does() {
     assert_eq!(paths(&["prepared"], "use super::cli;"), ["cli"]);
     assert_eq!(without_comment("let x = \"a//b\"; // crate::cli"), "let x = \"a//b\"; ");
 }
+
+/// A method that it does not pass on would be the default one.
+#[test]
+fn a_model_passes_on_every_method_of_its_equations() {
+    let read = |path: &str| fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(path)).unwrap();
+    let of_trait = read("system/mod.rs");
+    let passed = read("prepared/equations.rs");
+    let (_, methods) = of_trait.split_once("pub trait MechanicalSystem").unwrap();
+    let names: Vec<&str> = methods.lines().filter_map(|line| line.strip_prefix("    fn ")?.split('(').next()).collect();
+    assert!(names.len() > 20);
+    for name in names {
+        assert!(passed.contains(&format!(" fn {name}(")), "{name} in src/prepared/equations.rs");
+    }
+}

@@ -2,7 +2,7 @@
 
 use holonom::linearize::{
     At, Branch, Complex, Kind, Linear, LinearModel, Loci, LociPoint, LociVariable, Matrix, Mode, State, Variants,
-    at_rest, frequency_response, linearize, loci_along, loci_over, track,
+    at_rest, frequency_response, loci_along, loci_over, track,
 };
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Model, Overrides};
@@ -164,7 +164,7 @@ fn request(method: &str) -> Linear {
 }
 
 fn model(prepared: &Model, state: &State, method: &str) -> LinearModel {
-    linearize(&mut state.variation(prepared).unwrap(), &request(method)).unwrap()
+    state.variation(prepared).unwrap().linearize(&request(method)).unwrap()
 }
 
 fn over(scene: &str, range: &str, at: At) -> Loci {

@@ -1,6 +1,6 @@
 //! Linear models of the shipped scenes against perturbed simulations, and wrong models that must be refused.
 
-use holonom::linearize::{Chart, State, states};
+use holonom::linearize::{Chart, State};
 use holonom::prepared::{Model, Overrides};
 use holonom::system::{
     Dimensions, LeviCivita, MechanicalSystem, Need, OperatingPoint, OutputTangent, Scratch, Structure, SystemFacts,
@@ -33,7 +33,7 @@ fn three(prepared: &Model) -> Vec<State> {
     let (length, row) = prepared.span().map_or((0.0, 1.0), |span| (span.end - start, span.output_step));
     // At rows of output, which fixed steps meet.
     let times = [0.0, 0.17, 0.43].map(|part| start + (part * length / row).round() * row);
-    states(prepared, if length > 0.0 { &times } else { &times[..1] }, |_| {}).unwrap()
+    prepared.states_at(if length > 0.0 { &times } else { &times[..1] }).unwrap()
 }
 
 fn check(prepared: &Model, state: &State) -> Validation {
@@ -81,7 +81,7 @@ fn quick_scenes_follow_their_linear_models() {
 #[test]
 fn a_singular_state_ends_the_comparison() {
     let prepared = load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/slider_crank_singular_2.json"));
-    let found = check(&prepared, &states(&prepared, &[0.0], |_| {}).unwrap()[0]);
+    let found = check(&prepared, &prepared.states_at(&[0.0]).unwrap()[0]);
     assert!((found.singular.unwrap() - 0.3917321).abs() < 1e-6, "{:?}", found.singular);
     assert_eq!(found.followed, 0.5 * found.singular.unwrap());
 }

@@ -1,7 +1,7 @@
 //! The verdict on a linear model: right ones are blessed, and terms that are spoilt on purpose are condemned with their
 //! size, in the entry where they are.
 
-use holonom::linearize::{Built, Chart, Matrix, State, states};
+use holonom::linearize::{Built, Chart, Matrix, State};
 use holonom::prepared::{Model, Overrides};
 use holonom::validate::{Deviation, Reason, Settings, Validation, horizon, validate, validate_changed};
 use std::path::Path;
@@ -25,7 +25,7 @@ fn scene(json: &serde_json::Value) -> Model {
 }
 
 fn state(prepared: &Model, t: f64) -> State {
-    states(prepared, &[t], |_| {}).unwrap().remove(0)
+    prepared.states_at(&[t]).unwrap().remove(0)
 }
 
 /// This is about the entries: no motion is followed.

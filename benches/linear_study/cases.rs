@@ -1,7 +1,7 @@
 //! Mechanisms, states, and what their eigenvalues are.
 
 use crate::systems::{FourBar, system};
-use holonom::linearize::{Chart, Complex, Kind, Linear, LinearModel, Variation, linearize};
+use holonom::linearize::{Chart, Complex, Kind, Linear, LinearModel, Variation};
 use holonom::method_spec::MethodSpec;
 use holonom::system::MechanicalSystem;
 use serde_json::Value;
@@ -78,7 +78,7 @@ impl Case {
     /// In the intrinsic chart, where the method has one; none where it breaks down.
     pub fn model(&self, variation: &mut Variation, method: &str) -> Option<LinearModel> {
         let method = MethodSpec::parse(method).unwrap_or_else(|error| panic!("{error}"));
-        linearize(variation, &Linear { method, chart: Some(Chart::Intrinsic) }).ok()
+        variation.linearize(&Linear { method, chart: Some(Chart::Intrinsic) }).ok()
     }
 
     /// Relative error of the physical eigenvalues, each known one against the nearest that is left.

@@ -3,7 +3,7 @@
 use super::common::positive;
 use super::linear::{AtStates, ModelOptions};
 use crate::error::{Error, Result, Warning, clock, find, short};
-use crate::linearize::{self, Complex, LinearModel, Resonances, frequency_response};
+use crate::linearize::{Complex, LinearModel, Resonances, frequency_response};
 use crate::prepared::Model;
 use crate::report::linear::{FrequencyResponse, Magnitude, Response};
 use crate::system::Column;
@@ -59,7 +59,7 @@ pub fn run(args: Args) -> Result<()> {
             .map_err(in_file)?,
     };
     args.at.conclude(&prepared, |state, folder| {
-        let model = linearize::linearize(&mut state.variation().map_err(in_file)?, &request).map_err(in_file)?;
+        let model = state.variation().map_err(in_file)?.linearize(&request).map_err(in_file)?;
         args.at.talk.warn(&moving(&model));
         let frequencies = frequencies(&args, &model)?;
         let response = respond(&args, &prepared, model, &chosen, frequencies);

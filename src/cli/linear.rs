@@ -3,7 +3,7 @@
 use super::common::{MethodOptions, Output, SceneOptions, Talk, number, unprintable};
 use crate::analysis::Range;
 use crate::error::{Error, Result};
-use crate::linearize::{Chart, Entry, Linear, Operating, State, at_rest, kinks, states, tighten};
+use crate::linearize::{Chart, Entry, Linear, Operating, State, at_rest, kinks, states_of, tighten};
 use crate::method_spec::MethodSpec;
 use crate::prepared::Model;
 use crate::report::linear::stem_at;
@@ -147,7 +147,7 @@ impl StateOptions {
         let times = if self.at.is_empty() { vec![prepared.start_time()] } else { self.at.clone() };
         if !self.equilibrium {
             let bar = talk.progress(times.len() as u64, &prepared.name);
-            let found = states(prepared, &times, |_| bar.inc(1))?;
+            let found = states_of(prepared, &times, |_| bar.inc(1))?;
             return Ok(found.into_iter().map(|state| Operating::moving(prepared, state)).collect());
         }
         times.into_iter().map(|t| at_rest(prepared, &State { t, ..State::start(prepared) })).collect()

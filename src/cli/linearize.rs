@@ -6,7 +6,7 @@ use super::simplify::percentage;
 use crate::error::{Error, Result, Warning};
 use crate::linearize::{
     self, Chart, Complex, Kind, Linear, LinearModel, LinearizationPoint, Operating, State, Variation, against, compare,
-    kinks, states, within_run,
+    kinks, within_run,
 };
 use crate::method_spec::MethodSpec;
 use crate::prepared::Model;
@@ -70,7 +70,7 @@ const BEGUN: usize = 9;
 
 pub fn span(text: &str) -> Result<Times, String> {
     let range: Range = format!("t={text}").parse().map_err(|error: Error| {
-        let text = error.to_string();
+        let text = format!("{error:#}");
         text.replace("travel=-0.08..0.08:81", "0..2:41").replace("NAME=", "")
     })?;
     if range.from >= range.to || range.is_log {
@@ -106,7 +106,7 @@ pub fn run(args: Args) -> Result<()> {
 /// Returns the state of the motion at the first time of a range.
 pub fn begin(at: &AtStates, prepared: &Model, range: &Range) -> Result<State> {
     within_run(prepared, &[range.from, range.to]).map_err(|error| error.at("--along"))?;
-    let start = states(prepared, &[range.from], |_| ())?.swap_remove(0);
+    let start = prepared.states_at(&[range.from])?.swap_remove(0);
     at.talk.warn(&kinks(prepared.system(), &start)?);
     Ok(start)
 }
@@ -148,7 +148,7 @@ fn models(args: &Args, requests: &[Linear], variation: &mut Variation) -> Result
         None => {
             let mut models = Vec::new();
             for request in requests {
-                match linearize::linearize(variation, request) {
+                match variation.linearize(request) {
                     Ok(model) => models.push(model),
                     Err(error) if models.is_empty() => return Err(error),
                     Err(error) => args.at.talk.warn([&without_model(request, error)]),
@@ -161,7 +161,7 @@ fn models(args: &Args, requests: &[Linear], variation: &mut Variation) -> Result
 
 /// Warning for a method that is left out of the comparison.
 fn without_model(request: &Linear, error: Error) -> Warning {
-    let Error::Input(input) = error else { return Warning::new(error.to_string(), "take another time") };
+    let Error::Input(input) = error else { return Warning::new(format!("{error:#}"), "take another time") };
     let text = format!("no model by {}: {}", request.method, input.message);
     Warning::new(text, input.hint.unwrap_or_default())
 }

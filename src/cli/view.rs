@@ -4,7 +4,7 @@ use super::common::{Common, Output, fail, number, set_by};
 use super::interrupt;
 use crate::analysis::{Ledger, Recorder};
 use crate::error::{Error, Failure, Result, clock};
-use crate::linearize::{Linear, LinearModel, linearize, states};
+use crate::linearize::{Linear, LinearModel};
 use crate::method_spec::MethodSpec;
 use crate::prepared::{Model, Overrides};
 use crate::report::{Answer, Ending, FinishedRun, Folder, Shown};
@@ -149,11 +149,11 @@ impl Args {
     /// Returns the linear model whose modes are shown.
     fn model(&self, prepared: &Model) -> Result<LinearModel> {
         let t = self.at.unwrap_or_else(|| prepared.start_time());
-        let state = states(prepared, &[t], |_| ()).map_err(|error| error.under("--at"))?.swap_remove(0);
+        let state = prepared.states_at(&[t]).map_err(|error| error.under("--at"))?.swap_remove(0);
         let request = Linear { method: MethodSpec::named("mcs"), chart: None };
         let in_file = |error: Error| error.in_file(&self.common.scene.path);
         let mut variation = state.variation(prepared).map_err(in_file)?;
-        let model = linearize(&mut variation, &request).map_err(in_file)?;
+        let model = variation.linearize(&request).map_err(in_file)?;
         self.common.talk.warn(&model.doubt());
         Ok(model)
     }

@@ -6,9 +6,10 @@ use super::slopes::{ModelRate, Slope};
 use super::spectrum::{Spectrum, spectrum};
 use super::unconstrained::{AUGMENTED_LAGRANGIAN, BAUMGARTE, FORCE_PROJECTION, PENALTY};
 use super::variation::refuse_all_modes;
-use super::{Cost, LinearModel, Reduction, Variation, reduction, redundant};
+use super::{Cost, LinearModel, Reduction, State, Variation, reduction, redundant};
 use crate::error::Result;
 use crate::method_spec::{Listed, OptionDoc};
+use crate::system::MechanicalSystem;
 use std::time::Instant;
 
 /// Returns every method, in the order of the documentation.
@@ -45,12 +46,47 @@ pub fn refuse_large(velocities: usize) -> Result<()> {
     refuse_all_modes(velocities, COPIES)
 }
 
-/// Returns the linear model at the state of `variation`.
+/// Returns the linear model of a system at a state, which should be on the constraints.
+///
+/// ```
+/// use holonom::linear::{State, linearize};
+/// use holonom::prelude::*;
+///
+/// /// x'' = -4 x
+/// struct Oscillator;
+///
+/// impl Equations for Oscillator {
+///     fn size(&self) -> (usize, usize) {
+///         (1, 0)
+///     }
+///     fn mass<S: Scalar>(&self, _t: S, _q: &[S], mass: &mut [S]) {
+///         mass[0] = S::one();
+///     }
+///     fn force<S: Scalar>(&self, _t: S, q: &[S], _v: &[S], f: &mut [S]) {
+///         f[0] = q[0] * -4.0;
+///     }
+///     fn phi<S: Scalar>(&self, _t: S, _q: &[S], _phi: &mut [S]) {}
+/// }
+///
+/// let model = linearize(&Oscillator, &State::new(0.0, [0.0], [0.0]), &Linear::default())?;
+/// assert!((model.eigenvalues()[0].im.abs() - 2.0).abs() < 1e-14);
+/// # Ok::<(), holonom::Error>(())
+/// ```
 ///
 /// # Errors
-/// An unknown method or option; a chart that does not exist there; eigenvalues that cannot be computed.
-pub fn linearize(variation: &mut Variation, request: &Linear) -> Result<LinearModel> {
-    Ok(solve(variation, request)?.finish(variation, request))
+/// See [`Variation::new`] and [`Variation::linearize`].
+pub fn linearize(system: &dyn MechanicalSystem, state: &State, request: &Linear) -> Result<LinearModel> {
+    state.variation(system)?.linearize(request)
+}
+
+impl Variation<'_> {
+    /// Returns the linear model at the state of these equations.
+    ///
+    /// # Errors
+    /// An unknown method or option; a chart that does not exist there; eigenvalues that cannot be computed.
+    pub fn linearize(&mut self, request: &Linear) -> Result<LinearModel> {
+        Ok(solve(self, request)?.finish(self, request))
+    }
 }
 
 /// Returns the matrices of the model at the state of `variation`.
@@ -76,7 +112,7 @@ pub(super) struct Solved {
 /// Returns the model at the state of `variation`, before its matrices are named.
 ///
 /// # Errors
-/// See [`linearize`].
+/// See [`Variation::linearize`].
 pub(super) fn solve(variation: &mut Variation, request: &Linear) -> Result<Solved> {
     request.method.entry::<Entry>()?;
     refuse_large(variation.velocities())?;

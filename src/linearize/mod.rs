@@ -96,9 +96,9 @@ pub use response::Response;
 pub use slopes::Slope;
 pub use sparse::modal;
 pub(crate) use states::tighten;
-#[doc(hidden)]
-pub use states::within_run;
 pub use states::{State, states};
+#[doc(hidden)]
+pub use states::{states_of, within_run};
 pub use steady::{Operating, at_rest};
 #[doc(hidden)]
 pub use survey::{Gap, Reached};

@@ -1,6 +1,6 @@
 //! Linear models of a scene by time, and what they show.
 
-use super::{Complex, Kind, Linear, LinearModel, Matrix, linearize, states};
+use super::{Complex, Kind, Linear, LinearModel, Matrix};
 use crate::error::Result;
 use crate::prepared::Model;
 use std::fmt;
@@ -9,10 +9,10 @@ impl Model {
     /// The linear model at a time of the motion, which is simulated up to there.
     ///
     /// # Errors
-    /// A time outside of the run, a motion that ends before; see [`linearize`].
+    /// A time outside of the run, a motion that ends before; see [`linearize`](super::linearize).
     pub fn linearize_at(&self, t: f64, linear: &Linear) -> Result<LinearModel> {
-        let state = states(self, &[t], |_| ())?.swap_remove(0);
-        linearize(&mut state.variation(self)?, linear)
+        let state = self.states_at(&[t])?.swap_remove(0);
+        state.variation(self)?.linearize(linear)
     }
 }
 

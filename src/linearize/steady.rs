@@ -1,11 +1,10 @@
 //! Static equilibrium, in the inertial frame or in axes that rotate with the mechanism.
 
 use super::point::rounding;
-use super::{Changes, Matrix, State, Variation};
+use super::{Changes, Linear, LinearModel, Matrix, State, Variation};
 use crate::error::{Error, Result, Warning, short};
 use crate::initial::{assemble, equilibrium};
 use crate::math::largest;
-use crate::prepared::Model;
 use crate::system::{MechanicalSystem, Rotating};
 use crate::tolerances;
 
@@ -17,7 +16,7 @@ const ODD_ANGLE: f64 = 1.0;
 pub struct Operating<'a> {
     /// The state.
     pub state: State,
-    prepared: &'a Model,
+    inertial: &'a dyn MechanicalSystem,
     /// Rotating axes in which v is expressed; only for a steady rotation.
     axes: Option<Rotating<'a>>,
     /// Warning where the state may not be the requested one.
@@ -26,15 +25,15 @@ pub struct Operating<'a> {
 
 impl<'a> Operating<'a> {
     /// A state of the motion.
-    pub fn moving(prepared: &'a Model, state: State) -> Self {
-        Operating { state, prepared, axes: None, doubt: None }
+    pub fn moving(system: &'a dyn MechanicalSystem, state: State) -> Self {
+        Operating { state, inertial: system, axes: None, doubt: None }
     }
 
     /// Returns the system, in rotating axes for a steady rotation.
     pub fn system(&self) -> &dyn MechanicalSystem {
         match &self.axes {
             Some(axes) => axes,
-            None => self.prepared.system(),
+            None => self.inertial,
         }
     }
 
@@ -43,7 +42,15 @@ impl<'a> Operating<'a> {
     /// # Errors
     /// See [`Variation::new`].
     pub fn variation(&self) -> Result<Variation<'_>> {
-        Variation::new(self.system(), self.state.t, &self.state.q, &self.state.v)
+        self.state.variation(self.system())
+    }
+
+    /// Returns the linear model at the state.
+    ///
+    /// # Errors
+    /// See [`linearize`](super::linearize).
+    pub fn linearize(&self, request: &Linear) -> Result<LinearModel> {
+        self.variation()?.linearize(request)
     }
 }
 
@@ -52,13 +59,13 @@ impl<'a> Operating<'a> {
 ///
 /// # Errors
 /// No equilibrium is found: the state moves, or force remains. Drives that accelerate.
-pub fn at_rest<'a>(prepared: &'a Model, state: &State) -> Result<Operating<'a>> {
-    let Some(spin) = prepared.system().prescribed_spin(state.t) else { return still(prepared, state) };
-    match Rotating::new(prepared.system(), state.t, spin) {
-        Some(axes) if is_same_all_around(&axes, prepared, state)? => {
+pub fn at_rest<'a>(system: &'a dyn MechanicalSystem, state: &State) -> Result<Operating<'a>> {
+    let Some(spin) = system.prescribed_spin(state.t) else { return still(system, state) };
+    match Rotating::new(system, state.t, spin) {
+        Some(axes) if is_same_all_around(&axes, system, state)? => {
             let found = equilibrium(&axes, state.t, (&state.q, &state.v))?;
             let rest = State { t: state.t, v: found.v, q: found.q };
-            Ok(Operating { state: rest, prepared, axes: Some(axes), doubt: None })
+            Ok(Operating { state: rest, inertial: system, axes: Some(axes), doubt: None })
         }
         _ => {
             let text = format!(
@@ -69,15 +76,15 @@ pub fn at_rest<'a>(prepared: &'a Model, state: &State) -> Result<Operating<'a>> 
             );
             let hint =
                 "leave --equilibrium out to linearize the motion; `holonom transition` says whether it is stable";
-            Ok(Operating { doubt: Some(Warning::new(text, hint)), ..still(prepared, state)? })
+            Ok(Operating { doubt: Some(Warning::new(text, hint)), ..still(system, state)? })
         }
     }
 }
 
-fn still<'a>(prepared: &'a Model, state: &State) -> Result<Operating<'a>> {
-    let found = equilibrium(prepared.system(), state.t, (&state.q, &state.v))?;
+fn still<'a>(system: &'a dyn MechanicalSystem, state: &State) -> Result<Operating<'a>> {
+    let found = equilibrium(system, state.t, (&state.q, &state.v))?;
     let rest = State { t: state.t, v: found.v, q: found.q };
-    let operating = Operating::moving(prepared, rest);
+    let operating = Operating::moving(system, rest);
     if operating.variation()?.point.is_equilibrium {
         Ok(operating)
     } else {
@@ -89,9 +96,9 @@ fn still<'a>(prepared: &'a Model, state: &State) -> Result<Operating<'a>> {
 
 /// True if a rotation of everything that moves, at the time when drives have turned it so far, changes nothing: the
 /// inertia forces, the directions that constraints allow, and M, K and C along these.
-fn is_same_all_around(axes: &Rotating, prepared: &Model, state: &State) -> Result<bool> {
+fn is_same_all_around(axes: &Rotating, system: &dyn MechanicalSystem, state: &State) -> Result<bool> {
     let still = vec![0.0; state.v.len()];
-    let closed = assemble(prepared.system(), state.t, (&state.q, &state.v), &[])?;
+    let closed = assemble(system, state.t, (&state.q, &state.v), &[])?;
     let other = axes.turned(ODD_ANGLE);
     let mut turned = closed.q.clone();
     other.turn(ODD_ANGLE, &mut turned);

@@ -3,7 +3,7 @@
 use super::found::Found;
 use super::method::build;
 use super::slopes::Slope;
-use super::{Kind, Linear, LociPoint, Mode, Operating, State, at_rest, method, states, tighten};
+use super::{Kind, Linear, LociPoint, Mode, Operating, State, at_rest, method, tighten};
 use crate::error::Result;
 use crate::prepared::{Model, Overrides};
 use crate::sweep::{Family, Range};
@@ -64,7 +64,7 @@ impl Models<'_> {
         let moving = |state| Operating::moving(&prepared, state);
         then(&match self.at {
             At::Start => moving(State::start(&prepared)),
-            At::Time(t) => moving(states(&prepared, &[t], |_| ())?.swap_remove(0)),
+            At::Time(t) => moving(prepared.states_at(&[t])?.swap_remove(0)),
             At::Equilibrium => rest(&prepared, guess)?,
         })
     }

@@ -2,6 +2,7 @@
 
 mod any_mechanism;
 mod doubts;
+mod equations;
 mod family;
 mod far;
 mod rest;

@@ -1,7 +1,7 @@
 //! The modes of the start, and those that a simpler model has lost.
 
 use crate::error::{Error, Result, Warning, percent, significant};
-use crate::linearize::{Complex, Fate, Linear, LinearModel, State, against, damping, frequency, linearize};
+use crate::linearize::{Complex, Fate, Linear, LinearModel, State, against, damping, frequency};
 use crate::method_spec::MethodSpec;
 use crate::prepared::Model;
 use crate::tolerances::UNSEEN;
@@ -28,7 +28,7 @@ pub fn at_start(prepared: &Model) -> Result<LinearModel> {
         return Err(Error::input(format!("it has {velocities} velocities; of up to {MOST} all modes are computed")));
     }
     let mut variation = State::start(prepared).variation(prepared)?;
-    linearize(&mut variation, &Linear { method: MethodSpec::named("mcs"), chart: None })
+    variation.linearize(&Linear { method: MethodSpec::named("mcs"), chart: None })
 }
 
 /// Warnings where outputs see modes of the start, or damping of these, that the simpler model has not: a motion that
@@ -38,7 +38,7 @@ pub fn lost(richest: &Model, simpler: &Model) -> Vec<Warning> {
     let (found, is_at_rest) = match at_start(richest).and_then(|own| Ok((own, at_start(simpler)?))) {
         Ok((own, other)) => (against(&own, &other, time), own.point.is_equilibrium && other.point.is_equilibrium),
         Err(error) => {
-            let text = format!("whether modes are lost is not known: {error}");
+            let text = format!("whether modes are lost is not known: {error:#}");
             return vec![Warning::new(text, "compare by `holonom linearize --modes N --against`")];
         }
     };

@@ -1,6 +1,6 @@
 //! A linear model at an equilibrium: eigenvalues of a pendulum that hangs at rest.
 
-use holonom::linear::{State, at_rest, linearize};
+use holonom::linear::{State, at_rest};
 use holonom::prelude::*;
 
 #[test]
@@ -16,7 +16,7 @@ fn a_pendulum_swings_at_its_frequency() -> Result<()> {
     )?;
     // Of a state of the motion in its place: `pendulum.linearize_at(0.5, &Linear::default())`.
     let rest = at_rest(&pendulum, &State::start(&pendulum))?;
-    let model = linearize(&mut rest.variation()?, &Linear::default())?;
+    let model = rest.linearize(&Linear::default())?;
 
     // (J + m l^2) theta'' + m g l theta = torque
     let (inertia, stiffness): (f64, f64) = (0.3 + 2.0 * 0.25, 2.0 * 9.81 * 0.5);

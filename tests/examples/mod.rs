@@ -4,7 +4,7 @@ mod compared_methods;
 mod linear_model;
 mod many_runs;
 pub mod own_body;
-mod own_equations;
+pub mod own_equations;
 pub mod own_force;
 pub mod own_formulation;
 pub mod own_integrator;

@@ -1,10 +1,7 @@
 //! Own equations from energies: M, f with its Coriolis terms and all derivatives follow from T and V.
 
-use holonom::Result;
-use holonom::linear::{Linear, linearize};
-use holonom::methods::{Method, MethodSpec};
+use holonom::linear::{State, linearize};
 use holonom::prelude::*;
-use holonom::research::results::Variation;
 
 const GRAVITY: f64 = 9.81;
 
@@ -38,8 +35,7 @@ fn a_lagrangian_is_simulated_and_linearized() -> Result<()> {
     assert!(record.energy_error() < 1e-9);
 
     // Hanging at rest, omega^2 = (2 -+ sqrt 2) g/l.
-    let request = Linear { method: MethodSpec::named("mcs"), chart: None };
-    let model = linearize(&mut Variation::new(&system, 0.0, &[0.0, 0.0], &[0.0, 0.0])?, &request)?;
+    let model = linearize(&system, &State::new(0.0, [0.0; 2], [0.0; 2]), &Linear::default())?;
     let mut frequencies: Vec<f64> = model.modes.iter().map(|mode| mode.value.im.abs()).collect();
     frequencies.sort_by(f64::total_cmp);
     for (found, sign) in [(frequencies[0], -1.0), (frequencies[3], 1.0)] {

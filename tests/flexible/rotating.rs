@@ -1,7 +1,7 @@
 //! Beams in steady rotation: closed forms and published frequencies, and all frames against one another.
 
 use crate::scenes::{Ready, parse, shipped};
-use holonom::linearize::{Chart, Linear, Operating, State, at_rest, linearize};
+use holonom::linearize::{Chart, Linear, Operating, State, at_rest};
 use holonom::method_spec::MethodSpec;
 use holonom::simulate::Span;
 use holonom::system::Rotating;
@@ -20,7 +20,7 @@ pub fn frequencies(scene: &Ready) -> Vec<f64> {
 
 /// Real and imaginary parts, the upper half from the slowest.
 fn spectrum(operating: &Operating) -> Vec<(f64, f64)> {
-    let model = linearize(&mut operating.variation().unwrap(), &mcs()).unwrap();
+    let model = operating.variation().unwrap().linearize(&mcs()).unwrap();
     assert!(model.point.is_equilibrium);
     let mut upper: Vec<_> =
         model.modes.iter().map(|mode| (mode.value.re, mode.value.im)).filter(|(_, im)| *im > 0.0).collect();
@@ -139,7 +139,7 @@ fn damping_in_the_shaft_makes_it_unstable_above_the_critical_speed() {
         for (part, grows) in [(0.99, false), (1.01, true)] {
             let shaft = shipped("rotating_shaft", &[("speed", part * critical), ("r2", r2), ("damping", 1e-4)]);
             let operating = at_rest(&shaft.0, &State::start(&shaft.0)).unwrap();
-            let model = linearize(&mut operating.variation().unwrap(), &mcs()).unwrap();
+            let model = operating.variation().unwrap().linearize(&mcs()).unwrap();
             let most = model.modes.iter().map(|mode| mode.value.re).fold(f64::NEG_INFINITY, f64::max);
             assert_eq!(most > 0.0, grows, "{most:e} at {part} of {critical}");
         }
@@ -168,7 +168,7 @@ fn a_steady_rotation_has_one_spectrum() {
     let operating = at_rest(&blade.0, &State::start(&blade.0)).unwrap();
     let slowest = |method: &str, chart: Option<Chart>| {
         let request = Linear { method: MethodSpec::named(method), chart };
-        let model = linearize(&mut operating.variation().unwrap(), &request).unwrap();
+        let model = operating.variation().unwrap().linearize(&request).unwrap();
         model.modes.iter().map(|mode| mode.value.im).filter(|im| *im > 1.0).fold(f64::INFINITY, f64::min)
     };
     let first = slowest("mcs", None);

@@ -2,7 +2,7 @@
 
 use holonom::analysis::{Record, Recorder};
 use holonom::error::{Error, Result};
-use holonom::linearize::{Linear, State, linearize};
+use holonom::linearize::{Linear, State};
 use holonom::prepared::{Model, Overrides};
 use holonom::report::{cell, check, summarize, table};
 use holonom::simulate::{Stop, simulate};
@@ -66,7 +66,7 @@ fn try_all(path: &Path) -> Result<Ending, String> {
         return Ok(ending);
     }
     let model = State::start(&prepared).variation(&prepared).and_then(|mut variation| {
-        linearize(&mut variation, &Linear { method: holonom::method_spec::MethodSpec::named("mcs"), chart: None })
+        variation.linearize(&Linear { method: holonom::method_spec::MethodSpec::named("mcs"), chart: None })
     });
     match model {
         Ok(model) => sound(model.a.iter().chain(model.b.iter()).all(|x| x.is_finite()), "the model is not finite")?,

@@ -1,7 +1,7 @@
 //! A few modes by sparse methods against all modes of dense ones.
 
 use crate::linearize::reference::distance;
-use holonom::linearize::{Chart, Complex, Linear, LinearModel, Matrix, State, Variation, at_rest, linearize, modal};
+use holonom::linearize::{Chart, Complex, Linear, LinearModel, Matrix, State, Variation, at_rest, modal};
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Model, Overrides};
 use holonom::scene::{Scene, generate};
@@ -33,7 +33,7 @@ fn rest(prepared: &Model) -> State {
 }
 
 fn dense(variation: &mut Variation) -> LinearModel {
-    linearize(variation, &Linear { method: MethodSpec::named("mcs"), chart: Some(Chart::Frozen) }).unwrap()
+    variation.linearize(&Linear { method: MethodSpec::named("mcs"), chart: Some(Chart::Frozen) }).unwrap()
 }
 
 /// Those with im >= 0, the double zeros of rigid bodies left out, which are known to the root of rounding.
@@ -114,7 +114,7 @@ fn the_frozen_modes_of_moving_states() {
         "pid_arm",
     ] {
         let prepared = prepared(name, &[]);
-        let at = holonom::linearize::states(&prepared, &[prepared.start_time() + 0.003], |_| ()).unwrap().remove(0);
+        let at = prepared.states_at(&[prepared.start_time() + 0.003]).unwrap().remove(0);
         check(&prepared, &at, 3, 40.0);
         check(&prepared, &at, 200, 0.0);
     }

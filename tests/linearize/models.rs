@@ -2,7 +2,7 @@
 
 use crate::linearize::reference::Reference;
 use crate::linearize::systems::system;
-use holonom::linearize::{Chart, Complex, Kind, Linear, LinearModel, Variation, linearize};
+use holonom::linearize::{Chart, Complex, Kind, Linear, LinearModel, Variation};
 use holonom::method_spec::MethodSpec;
 
 /// A method as on the command line, in a chart.
@@ -11,7 +11,7 @@ pub fn request(method: &str, chart: Option<Chart>) -> Linear {
 }
 
 pub fn model(variation: &mut Variation, method: &str, chart: Option<Chart>) -> LinearModel {
-    linearize(variation, &request(method, chart)).unwrap_or_else(|error| panic!("{method}: {error}"))
+    variation.linearize(&request(method, chart)).unwrap_or_else(|error| panic!("{method}: {error}"))
 }
 
 /// Eigenvalues of a kind.

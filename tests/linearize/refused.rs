@@ -2,12 +2,12 @@
 
 use crate::linearize::models::{at, request};
 use crate::scenes::shipped;
-use holonom::linearize::{Chart, Variation, linearize};
+use holonom::linearize::{Chart, Variation};
 use std::f64::consts::FRAC_PI_2;
 
 fn message(label: &str, method: &str, chart: Option<&str>) -> String {
     at(label, |variation, _| {
-        let error = linearize(variation, &request(method, chart.map(Chart::parse))).unwrap_err();
+        let error = variation.linearize(&request(method, chart.map(Chart::parse))).unwrap_err();
         assert_eq!(error.exit_code(), 2, "{error}");
         error.to_string()
     })
@@ -91,7 +91,7 @@ fn beside_a_singular_state() {
         let scene = shipped("slider_crank_singular", &[("phi0", p), ("w0", rate)]);
         let (q, v) = scene.0.start();
         let mut variation = Variation::new(scene.system(), 0.0, q, v).unwrap();
-        let found = linearize(&mut variation, &request("mcs", Some(Chart::parse("crank.angle")))).unwrap();
+        let found = variation.linearize(&request("mcs", Some(Chart::parse("crank.angle")))).unwrap();
         let (sin, cos) = p.sin_cos();
         let inertia = 5.0 / 12.0 + 0.25 + 2.0 * sin * sin;
         let acceleration = -(2.0 * sin * cos * rate * rate + 9.81 * cos) / inertia;

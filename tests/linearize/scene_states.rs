@@ -3,7 +3,7 @@
 use crate::linearize::models::{model, values};
 use crate::linearize::reference::distance;
 use crate::scenes::{Ready, dop853, parse, shipped};
-use holonom::linearize::{Chart, Complex, Kind, Linear, State, Variation, at_rest, linearize, states};
+use holonom::linearize::{Chart, Complex, Kind, Linear, State, Variation, at_rest};
 use holonom::method_spec::MethodSpec;
 use holonom::simulate::{Method, Span};
 use holonom::validate::{Settings, validate};
@@ -172,7 +172,7 @@ fn every_linear_model_has_the_modes_of_the_controller() {
 #[test]
 fn a_linear_model_in_motion_is_that_of_the_angle() {
     let scene = shipped("pid_arm", &[]);
-    for state in states(&scene.0, &[0.0, 0.2], |_| {}).unwrap() {
+    for state in scene.0.states_at(&[0.0, 0.2]).unwrap() {
         let mut variation = Variation::new(scene.system(), state.t, &state.q, &state.v).unwrap();
         let found = model(&mut variation, "mcs", Some(Chart::Independent(vec!["arm.angle".to_string()])));
         assert_eq!(found.states, PID);
@@ -190,7 +190,7 @@ fn a_linear_model_in_motion_is_that_of_the_angle() {
 fn linear_models_with_states_are_those_of_small_perturbations() {
     for (name, at) in [("pid_arm", 0.2), ("hydraulic_boom", 0.45)] {
         let scene = shipped(name, &[]);
-        let state = &states(&scene.0, &[at], |_| {}).unwrap()[0];
+        let state = &scene.0.states_at(&[at]).unwrap()[0];
         let found = validate(scene.system(), state, &Settings::default()).unwrap();
         assert!(found.verdict.ltv && found.verdict.lti, "{name}: {:?} {:?}", found.verdict, found.sequences);
     }
@@ -248,7 +248,7 @@ fn a_chart_has_names_of_its_own() {
     let at = start(&scene);
     let mut variation = at.variation(&scene.0).unwrap();
     let request = Linear { method: MethodSpec::named("mcs"), chart: Some(Chart::Intrinsic) };
-    let model = linearize(&mut variation, &request).unwrap();
+    let model = variation.linearize(&request).unwrap();
     assert_eq!(model.states, ["u__1", "u__2", "u__1'", "u__2'", "u1"]);
 }
 

@@ -1,6 +1,6 @@
 //! How sure a linear model is: near singular states, among fast modes, over whole turns, at thresholds.
 
-use holonom::linearize::{Chart, Kind, Linear, LinearModel, State, floquet, linearize, states};
+use holonom::linearize::{Chart, Kind, Linear, LinearModel, State, floquet};
 use holonom::method_spec::MethodSpec;
 use holonom::prepared::{Model, Overrides};
 use holonom::scene::Scene;
@@ -19,7 +19,7 @@ fn by(prepared: &Model, method: &str, chart: Option<&str>) -> Result<LinearModel
     let request = Linear { method: MethodSpec::parse(method).unwrap(), chart: chart.map(Chart::parse) };
     let state = State::start(prepared);
     let mut variation = state.variation(prepared).map_err(|error| error.to_string())?;
-    linearize(&mut variation, &request).map_err(|error| error.to_string())
+    variation.linearize(&request).map_err(|error| error.to_string())
 }
 
 /// A bar on parallel cranks of 0.5 m, at an angle to the line of their bearings.
@@ -290,7 +290,7 @@ fn a_machine_is_back_after_a_turn() {
                 { "name": "load", "type": "applied_force", "at": "piston.S", "force": ["-400*tanh(piston.x'/0.05)", 0] }],
             "simulation": { "t_end": 5, "rtol": 1e-9, "atol": 1e-11 } }"#,
     );
-    let start = states(&prepared, &[4.7411439988], |_| ()).unwrap().remove(0);
+    let start = prepared.states_at(&[4.7411439988]).unwrap().remove(0);
     let found = floquet(prepared.system(), &start, 0.1157002336).unwrap();
     assert!((found.multipliers[0].re - 1.0).abs() < 1e-4, "{:?}", found.multipliers);
     assert!((found.multipliers[1].re - 0.0092079).abs() < 1e-5, "{:?}", found.multipliers);

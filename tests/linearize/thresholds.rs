@@ -140,7 +140,7 @@ fn curves_follow_derivatives() {
     let request = Linear { method: MethodSpec::parse("mcs").unwrap(), chart: None };
     let loci = loci_along(&pendulum, &request, &times, || ());
     assert!(loci.branches.iter().all(|branch| branch.curve().points.len() > 200));
-    let states = holonom::linearize::states(&pendulum, &times, |_| ()).unwrap();
+    let states = pendulum.states_at(&times).unwrap();
     for branch in &loci.branches {
         for (((_, value), slope), state) in branch.points.iter().zip(&branch.slopes).zip(&states) {
             let l = state.q[0].hypot(state.q[1]);

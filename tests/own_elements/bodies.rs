@@ -4,7 +4,7 @@
 use crate::common::{Run, adaptive, fixed, run};
 use holonom::body::{BodyFacts, BodyKernel, BodySpec, Build, Built, Energy, Frame, Initial, Marker, cross, dot, sub};
 use holonom::joint::{self, JointKernel, JointSpec};
-use holonom::linearize::{Linear, State, linearize};
+use holonom::linearize::{Linear, State};
 use holonom::math::expression::Number;
 use holonom::math::rotation::{axes_from_quaternion, quaternion_rate};
 use holonom::math::{Scalar, Time};
@@ -208,7 +208,7 @@ fn their_linear_models_are_those_of_the_built_in_ones() {
     for text in [PLANAR, SPATIAL] {
         let models = pair(text).map(|prepared| {
             let request = Linear { method: MethodSpec::named("mcs"), chart: None };
-            linearize(&mut State::start(&prepared).variation(&prepared).unwrap(), &request).unwrap()
+            State::start(&prepared).variation(&prepared).unwrap().linearize(&request).unwrap()
         });
         let [expected, found] = models.map(|model| (model.a, model.c));
         let off = (&expected.0 - &found.0).amax() / expected.0.amax() + (&expected.1 - &found.1).amax();

@@ -4,7 +4,7 @@ use crate::common::{Run, run};
 use crate::examples::own_force::HardeningSpring;
 use crate::examples::own_joint::PointOnParabola;
 use holonom::integrator::{self, Steps};
-use holonom::linearize::{self, Linear, LinearModel, State, Variation, at_rest, linearize};
+use holonom::linearize::{self, Linear, LinearModel, State, Variation, at_rest};
 use holonom::math::Scalar;
 use holonom::math::expression::Number;
 use holonom::method_spec::{Listed, MethodSpec};
@@ -132,7 +132,7 @@ fn outputs_and_energy_are_theirs() {
 }
 
 fn model(variation: &mut Variation, method: &str) -> LinearModel {
-    linearize(variation, &Linear { method: MethodSpec::named(method), chart: None }).unwrap()
+    variation.linearize(&Linear { method: MethodSpec::named(method), chart: None }).unwrap()
 }
 
 /// At rest at the vertex the frequency has a formula, omega^2 = g c + k/m; beside it all methods have the eigenvalues of the

@@ -7,3 +7,4 @@ mod lagrangian;
 mod methods;
 mod passes;
 mod refused;
+mod subjects;

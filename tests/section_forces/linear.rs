@@ -2,7 +2,7 @@
 
 use crate::scenes::{Ready, parse};
 use crate::section_forces::{at_rest, frame_keys, reactions, sections};
-use holonom::linearize::{Chart, Linear, LinearModel, Matrix, Variation, linearize};
+use holonom::linearize::{Chart, Linear, LinearModel, Matrix, Variation};
 use holonom::method_spec::MethodSpec;
 
 /// A clamped beam with its root as output, whose load at the tip is an input.
@@ -29,7 +29,7 @@ fn clamped(dimension: usize, frame: &str) -> Ready {
 
 fn model(variation: &mut Variation, method: &str) -> LinearModel {
     let request = Linear { method: MethodSpec::parse(method).unwrap(), chart: Some(Chart::MassOrthogonal) };
-    linearize(variation, &request).unwrap_or_else(|error| panic!("{method}: {error}"))
+    variation.linearize(&request).unwrap_or_else(|error| panic!("{method}: {error}"))
 }
 
 /// C (s E - A)^-1 B + D at a real s.

@@ -2,7 +2,7 @@
 
 use super::{attempt, pushed, signal, with};
 use crate::scenes::{dop853, parse};
-use holonom::linearize::{Chart, Linear, Variation, linearize};
+use holonom::linearize::{Chart, Linear, Variation};
 use holonom::method_spec::MethodSpec;
 
 /// Work of a force of lines over the way: the kinetic energy at the end says that each kink was met.
@@ -57,7 +57,7 @@ fn linear_models_see_the_slope() {
     let scene = pushed(&signal([0.0, 0.7, 2.0].map(|x| (x, 3.0 * x - x * x)), r#""beyond": "hold""#), 0.0, "f(m.x)");
     let mut variation = Variation::new(scene.system(), 0.0, &[0.5], &[0.0]).unwrap();
     let request = Linear { method: MethodSpec::named("mcs"), chart: Some(Chart::Frozen) };
-    let model = linearize(&mut variation, &request).unwrap();
+    let model = variation.linearize(&request).unwrap();
     let mut values: Vec<f64> = model.modes.iter().map(|mode| mode.value.re).collect();
     values.sort_by(f64::total_cmp);
     assert!((values[0] + 1.0).abs() < 1e-12 && (values[1] - 1.0).abs() < 1e-12, "{values:?}");

@@ -5,7 +5,7 @@ use super::measure::{Measure, What};
 use crate::analysis::{Record, Recorder};
 use crate::error::{Error, INTERRUPTED, Result, clock};
 use crate::integrator;
-use crate::linearize::{Kind, Linear, LinearModel, Operating, State, at_rest, linearize, states};
+use crate::linearize::{Kind, Linear, LinearModel, Operating, State, at_rest};
 use crate::method_spec::MethodSpec;
 use crate::prepared::{Family, Model, Overrides};
 use crate::simulate::{Method, Outcome, Span, Stop};
@@ -112,7 +112,7 @@ impl Study {
         match self.prepare(values).and_then(|prepared| self.record(&prepared, is_over)) {
             Ok(recorded) => Some(Ok(recorded)),
             Err(_) if is_over() => None,
-            Err(error) => Some(Err(error.to_string().lines().next().unwrap_or_default().to_string())),
+            Err(error) => Some(Err(format!("{error:#}").lines().next().unwrap_or_default().to_string())),
         }
     }
 
@@ -243,11 +243,11 @@ fn model(prepared: &Model, is_at_rest: bool) -> Result<LinearModel> {
     let operating = if is_at_rest {
         at_rest(prepared, &start)?
     } else {
-        let projected = states(prepared, &[start.t], |_| ())?.pop();
+        let projected = prepared.states_at(&[start.t])?.pop();
         Operating::moving(prepared, projected.unwrap_or(start))
     };
     let request = Linear { method: MethodSpec::named("mcs"), chart: None };
-    linearize(&mut operating.variation()?, &request)
+    operating.variation()?.linearize(&request)
 }
 
 /// Returns real and imaginary part, frequency and damping ratio of each physical eigenvalue, the slowest first.

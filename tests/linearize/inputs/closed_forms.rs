@@ -99,6 +99,6 @@ fn a_driver_that_is_held_is_refused() {
         "inputs": [ { "name": "u", "driver": "a" } ] }"#,
     );
     let request = crate::linearize::models::request("rcs", None);
-    let error = holonom::linearize::linearize(&mut variation(&scene), &request).unwrap_err().to_string();
+    let error = variation(&scene).linearize(&request).unwrap_err().to_string();
     assert!(error.contains("the input `u` moves a driver that other constraints hold"), "{error}");
 }

@@ -2,7 +2,7 @@
 
 use crate::scenes::{Ready, parse};
 use holonom::linearize::flow::{Bundle, Pulse, flow};
-use holonom::linearize::{Changes, Chart, Matrix, State, Variation, minimal, states};
+use holonom::linearize::{Changes, Chart, Matrix, State, Variation, minimal};
 use holonom::validate::{Settings, validate};
 
 /// A pendulum at the end of a crank that is turned ever faster.
@@ -49,7 +49,7 @@ fn pulse(scene: &Ready, state: &State, horizon: f64) -> (Option<f64>, f64) {
 #[test]
 fn the_model_of_a_turned_crank_follows_pulses_of_its_drive() {
     for scene in [planar(), spatial()] {
-        let state = &states(&scene.0, &[0.4], |_| {}).unwrap()[0];
+        let state = &scene.0.states_at(&[0.4]).unwrap()[0];
         let order = pulse(&scene, state, 1.0).0.unwrap();
         let [wide, narrow] = [0.1, 0.02].map(|horizon| pulse(&scene, state, horizon).1);
         println!("{}: order {order:.2}, errors {wide:.1e} and {narrow:.1e}", scene.0.name);
@@ -65,7 +65,7 @@ fn models_in_a_constant_chart_follow_a_pulse_of_the_drive() {
     let width = 0.2;
     let steps = 200;
     let times: Vec<f64> = (0..=2 * steps).map(|i| 0.4 + width * i as f64 / (2 * steps) as f64).collect();
-    let all = states(&scene.0, &times, |_| {}).unwrap();
+    let all = scene.0.states_at(&times).unwrap();
     let pulse = Pulse { input: 0, start: 0.4, width: 2.0 * width };
     let rates = |i: usize, x: &Matrix| -> Matrix {
         let mut variation = Variation::new(scene.system(), times[i], &all[i].q, &all[i].v).unwrap();

@@ -3,7 +3,7 @@
 use super::{changed, shaken};
 use crate::linearize::models::model;
 use crate::scenes::{Ready, parse};
-use holonom::linearize::{State, Variation, states};
+use holonom::linearize::{State, Variation};
 use serde_json::json;
 
 fn same(a: &Ready, b: &Ready, output: &str, end: f64) {
@@ -68,7 +68,7 @@ fn a_value_may_read_markers() {
     let split = scene("-m.x", r#", "value": "t - 4*m.x - m.x'*ground.x""#);
     let whole = scene("-m.x + t - 4*m.x", "");
     same(&split, &whole, "x", 2.0);
-    let State { t, q, v } = states(&split.0, &[0.5], |_| {}).unwrap().remove(0);
+    let State { t, q, v } = split.0.states_at(&[0.5]).unwrap().remove(0);
     let [split, whole] = [&split, &whole].map(|scene| {
         let mut variation = Variation::new(scene.system(), t, &q, &v).unwrap();
         model(&mut variation, "mcs", None)
