@@ -340,3 +340,56 @@ fn a_system_that_ignores_its_inputs_is_refused() {
     let error = run.to(1.0).unwrap_err().to_string();
     assert!(error.contains("an evaluation does not add them") && error.contains("`scratch.inputs`"), "{error}");
 }
+
+/// Two unit masses on unit rods by the angles of the rods, the second tied to the first.
+struct Tied;
+
+impl Equations for Tied {
+    fn size(&self) -> (usize, usize) {
+        (2, 1)
+    }
+    fn mass<S: Scalar>(&self, _t: S, q: &[S], mass: &mut [S]) {
+        let coupling = (q[0] - q[1]).cos();
+        mass.copy_from_slice(&[S::constant(2.0), coupling, coupling, S::one()]);
+    }
+    fn force<S: Scalar>(&self, _t: S, q: &[S], v: &[S], f: &mut [S]) {
+        let turning = (q[0] - q[1]).sin();
+        f[0] = q[0].sin() * -19.62 - turning * v[1].square();
+        f[1] = q[1].sin() * -9.81 + turning * v[0].square();
+    }
+    fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
+        phi[0] = q[1] - q[0].square();
+    }
+}
+
+#[test]
+fn a_state_gives_dense_matrices_on_request() {
+    let pendulum = Model::parse(
+        r#"{ "name": "pendulum", "dimension": 2, "gravity": [0, -9.81],
+            "bodies": [{ "name": "bob", "type": "point_mass", "mass": 2, "initial": { "position": [1.2, 1.6] } }],
+            "joints": [{ "name": "rod", "type": "distance", "between": ["ground", "bob"], "length": 2 }] }"#,
+    )
+    .unwrap();
+    let mut run = pendulum.run();
+    run.to(0.7).unwrap();
+    let state = run.state().unwrap();
+    let close = |found: Matrix, exact: Matrix| {
+        assert_eq!(found.shape(), exact.shape());
+        assert!((&found - &exact).amax() < 1e-14, "{found} and not {exact}");
+    };
+    close(state.mass(&pendulum), Matrix::from_diagonal_element(2, 2, 2.0));
+    close(state.g(&pendulum), Matrix::from_row_slice(1, 2, &[state.q[0] / 2.0, state.q[1] / 2.0]));
+
+    let mut run = Run::new(&Tied, "ggl + radau_iia", 0.0, &([0.5, 0.25], [1.0, 1.0]));
+    run.to(0.3).unwrap();
+    let state = run.state().unwrap();
+    let coupling = (state.q[0] - state.q[1]).cos();
+    close(state.mass(&Tied), Matrix::from_row_slice(2, 2, &[2.0, coupling, coupling, 1.0]));
+    close(state.g(&Tied), Matrix::from_row_slice(1, 2, &[-2.0 * state.q[0], 1.0]));
+    // M v' + G^T lambda = f
+    let (vdot, lambda) = (Matrix::from_column_slice(2, 1, &state.vdot), Matrix::from_column_slice(1, 1, &state.lambda));
+    let left = state.mass(&Tied) * vdot + state.g(&Tied).transpose() * lambda;
+    let mut f = [0.0; 2];
+    Equations::force(&Tied, state.t, &state.q, &state.v, &mut f);
+    assert!((left - Matrix::from_column_slice(2, 1, &f)).amax() < 1e-11);
+}

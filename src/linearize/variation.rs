@@ -316,22 +316,22 @@ impl<'a> Variation<'a> {
 
     /// Returns K = dr/dq, n_v x n_v.
     pub fn k(&self) -> Matrix {
-        dense(&self.dynamics.structure.tangent, &self.tangent.k)
+        self.dynamics.structure.tangent.matrix(&self.tangent.k)
     }
 
     /// Returns C = dr/dv, n_v x n_v.
     pub fn c(&self) -> Matrix {
-        dense(&self.dynamics.structure.tangent, &self.tangent.c)
+        self.dynamics.structure.tangent.matrix(&self.tangent.c)
     }
 
     /// Returns G, n_c x n_v.
     pub fn g(&self) -> Matrix {
-        dense(&self.dynamics.structure.g, &self.dynamics.terms.g)
+        self.dynamics.structure.g.matrix(&self.dynamics.terms.g)
     }
 
     /// Returns Gd = d(G v + phi_t)/dq.
     pub fn gd(&self) -> Matrix {
-        dense(&self.dynamics.structure.g, &self.dynamics.terms.l)
+        self.dynamics.structure.g.matrix(&self.dynamics.terms.l)
     }
 
     /// Returns the rows of G that do not depend on others at the state.
@@ -359,13 +359,6 @@ fn add_product(pattern: &Pattern, values: &[f64], x: &Matrix, factor: f64, sum: 
             entries.for_each(|(&(i, j), value)| sum[i] += factor * value * x[j]);
         }
     }
-}
-
-/// Returns a dense matrix from its entries.
-fn dense(pattern: &Pattern, values: &[f64]) -> Matrix {
-    let mut matrix = Matrix::zeros(pattern.rows, pattern.cols);
-    pattern.entries.iter().zip(values).for_each(|(&place, value)| matrix[place] += value);
-    matrix
 }
 
 /// Error: there is no linear model at a state.

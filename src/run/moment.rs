@@ -2,8 +2,9 @@
 
 use crate::error::{Error, Result};
 use crate::simulate::Observation;
-use crate::system::{MechanicalSystem, Names, OperatingPoint, Scratch};
+use crate::system::{MechanicalSystem, Names, Need, OperatingPoint, Scratch, Terms};
 use crate::trajectory::{on_pieces, recorded};
+use nalgebra::DMatrix;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A state of a motion with its accelerations, multipliers and outputs, which it gives by name.
@@ -77,6 +78,29 @@ impl Moment {
         let mut unknown = self.labels.unknown.lock().unwrap_or_else(PoisonError::into_inner);
         unknown.get_or_insert_with(|| name.to_string());
         f64::NAN
+    }
+
+    /// M of this system at the state, n_v x n_v.
+    pub fn mass(&self, system: &dyn MechanicalSystem) -> DMatrix<f64> {
+        let terms = self.terms(system, Need::MASS);
+        let pattern = &system.structure().mass;
+        let mut mass = pattern.matrix(&terms.mass);
+        for (&(i, j), value) in pattern.entries.iter().zip(&terms.mass).filter(|((i, j), _)| i != j) {
+            mass[(j, i)] += value;
+        }
+        mass
+    }
+
+    /// G of this system at the state, n_c x n_v: the Jacobian of the constraints along the directions of v, with the
+    /// nonholonomic rows last.
+    pub fn g(&self, system: &dyn MechanicalSystem) -> DMatrix<f64> {
+        system.structure().g.matrix(&self.terms(system, Need::G).g)
+    }
+
+    fn terms(&self, system: &dyn MechanicalSystem, need: Need) -> Terms {
+        let mut terms = Terms::new(system);
+        system.evaluate(self.t, &self.q, &self.v, need, &mut terms, &mut Scratch::default());
+        terms
     }
 
     /// An error if a name was asked for that there is not.

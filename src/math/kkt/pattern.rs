@@ -1,5 +1,7 @@
 //! Sparsity patterns, and products of matrices with vectors.
 
+use nalgebra::DMatrix;
+
 /// The places of the entries of a `rows` x `cols` matrix. Its values are a slice in the order of `entries`; values at
 /// the same place add. Every entry must lie inside the matrix.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -36,6 +38,13 @@ impl Pattern {
     /// The diagonal of an n x n matrix.
     pub fn diagonal(n: usize) -> Self {
         Pattern { rows: n, cols: n, entries: (0..n).map(|i| (i, i)).collect() }
+    }
+
+    /// The matrix with these values.
+    pub fn matrix(&self, values: &[f64]) -> DMatrix<f64> {
+        let mut matrix = DMatrix::zeros(self.rows, self.cols);
+        self.entries.iter().zip(values).for_each(|(&place, value)| matrix[place] += value);
+        matrix
     }
 
     /// y += A x. `x` has `cols` entries, `y` has `rows`.
