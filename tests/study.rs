@@ -151,7 +151,7 @@ fn wrong_measures_and_parameters_are_told() {
     ];
     for (measure, message) in table {
         let found = said(&["v"], measure);
-        assert!(found.starts_with("at --record") && found.contains(message), "{measure}: {found}");
+        assert!(found.starts_with("at record") && found.contains(message), "{measure}: {found}");
     }
     assert!(said(&["w"], "y").starts_with("unknown parameter `w`"));
 }

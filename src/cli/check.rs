@@ -35,7 +35,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     };
     check.equilibrium = found;
     let hints = hints(prepared, &args.common.scene.path, &args.common.overrides(), registry());
-    check.hints = Some(hints.unwrap_or_else(|error| Hints { skipped: error.to_string(), ..Hints::default() }));
+    check.hints = Some(hints.unwrap_or_else(|error| Hints { skipped: format!("{error:#}"), ..Hints::default() }));
     args.common.talk.warn(check.equilibrium.iter().flat_map(|rest| &rest.warnings));
     args.common.talk.print(&check, || check.text())?;
     failure.map_or(Ok(ExitCode::SUCCESS), Err)

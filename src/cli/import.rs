@@ -51,7 +51,7 @@ pub fn run(args: Args) -> Result<()> {
         Err(_) if imported.scene["bodies"].as_array().is_some_and(Vec::is_empty) => {
             tell("warning: no body moves\n  help: --free lets the base of a URDF file move freely");
         }
-        Err(error) => tell(format!("warning: the scene does not start as it is: {error}")),
+        Err(error) => tell(format!("warning: the scene does not start as it is: {error:#}")),
         Ok(_) => {}
     }
     Ok(())

@@ -80,7 +80,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     match &args.sweep {
         Some(Range { parameter, count, .. }) => {
             let gaps = loci.gaps.len();
-            fail(format!("{gaps} of {count} values have no eigenvalues; at {parameter} = {}: {error}", short(*at)))
+            fail(format!("{gaps} of {count} values have no eigenvalues; at {parameter} = {}: {error:#}", short(*at)))
         }
         None => fail(error),
     }
@@ -162,7 +162,7 @@ fn none(args: &Args, loci: &Loci) -> Result<ExitCode> {
         Error::Input(input) if input.path.starts_with('-') => Err(gap.error.clone().in_file(&args.scene.path)),
         error => {
             let name = args.sweep.as_ref().map_or("t", |range| range.parameter.as_str());
-            fail(format!("no state has eigenvalues; at {name} = {}: {error}", short(gap.at)))
+            fail(format!("no state has eigenvalues; at {name} = {}: {error:#}", short(gap.at)))
         }
     }
 }

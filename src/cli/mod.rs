@@ -232,7 +232,7 @@ fn done(result: Result<()>) -> Result<ExitCode> {
 }
 
 fn failed(error: &Error) -> ExitCode {
-    terminal::tell(format!("error: {error}"));
+    terminal::tell(format!("error: {error:#}"));
     ExitCode::from(error.exit_code())
 }
 

@@ -81,7 +81,7 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
     for path in paths {
         let begun = Stopwatch::start();
         match prepare(args, &path) {
-            Err(error) => unread.push((path.display().to_string(), error.to_string())),
+            Err(error) => unread.push((path.display().to_string(), format!("{error:#}"))),
             Ok((subject, maps)) => {
                 let maps = simulate(args, &subject, maps, begun);
                 args.talk.say(&maps.text())?;

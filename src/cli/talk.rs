@@ -100,7 +100,7 @@ impl Talk {
         for warning in warnings {
             self.said.borrow_mut().push(warning.clone());
             if !self.quiet {
-                tell(warning.to_string());
+                tell(format!("{warning:#}"));
             }
         }
     }
@@ -157,7 +157,7 @@ pub fn json_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
 
 /// Tells why the command failed, although its results are written.
 pub fn fail(text: impl std::fmt::Display) -> Result<ExitCode> {
-    tell(format!("error: {text}"));
+    tell(format!("error: {text:#}"));
     Ok(ExitCode::from(1))
 }
 

@@ -7,6 +7,7 @@ use crate::cli;
 use crate::cli::caller::set_words;
 use crate::cli::interrupt;
 use crate::cli::terminal::Captured;
+use crate::error::as_settings;
 use crate::files::with_given;
 use clap::error::ErrorKind;
 use pyo3::prelude::*;
@@ -32,7 +33,9 @@ pub fn command(py: Python<'_>, words: Vec<String>, given: Vec<(PathBuf, String)>
         Err(error) if error.kind() == ErrorKind::DisplayHelp => Ok((None, error.to_string(), Vec::new(), false)),
         Err(error) => Err(refused(&error)),
         Ok((Err(error), _)) => Err(raised(error)),
-        Ok((Ok(code), Captured { json, text, told })) => Ok((json, text, told, code != ExitCode::SUCCESS)),
+        Ok((Ok(code), Captured { json, text, told })) => {
+            Ok((json, text, told.iter().map(|told| as_settings(told)).collect(), code != ExitCode::SUCCESS))
+        }
     }
 }
 

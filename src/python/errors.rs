@@ -1,7 +1,7 @@
-//! Errors as exceptions of Python, in the words of the command line.
+//! Errors as exceptions of Python, in the words of the command line with keywords for its options.
 
 use super::force;
-use crate::error::Error;
+use crate::error::{Error, as_settings};
 use clap::error::ErrorKind;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyTypeError};
@@ -46,7 +46,7 @@ pub fn raised(error: Error) -> PyErr {
 pub fn refused(error: &clap::Error) -> PyErr {
     let text = error.to_string();
     let message = text.strip_prefix("error: ").unwrap_or(&text);
-    let message = message.split("\n\nUsage").next().unwrap_or(message).trim_end().to_string();
+    let message = as_settings(message.split("\n\nUsage").next().unwrap_or(message).trim_end());
     match error.kind() {
         ErrorKind::UnknownArgument => PyTypeError::new_err(message),
         _ => SceneError::new_err(message),

@@ -126,7 +126,7 @@ impl<'a> Movable<'a> {
 
     /// The change with a start that is `u` of the way further, and the scene of the full model with both.
     fn restarted(&self, scene: &Value, mut change: Move, u: f64) -> Result<(Move, Value), String> {
-        let start = |scene: &Value| self.source.prepare(scene).map_err(|error| error.to_string());
+        let start = |scene: &Value| self.source.prepare(scene).map_err(|error| format!("{error:#}"));
         let first = start(&self.moved(scene, &change))?;
         let before = self.places(&first);
         let (state, part) = self.ahead(u).ok_or("nothing moves")?;

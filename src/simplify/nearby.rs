@@ -206,7 +206,7 @@ impl Neighbourhood<'_> {
         };
         let prepared = self.source.prepare(&self.movable.moved(scene, change));
         match prepared.and_then(|prepared| measured(&prepared, promise, ALLOWED, self.is_stopped)) {
-            Err(error) => failed(Which::Simplified, error.to_string()),
+            Err(error) => failed(Which::Simplified, format!("{error:#}")),
             Ok(Run { failure: Some(failure), .. }) => failed(Which::Simplified, failure.reason),
             Ok(run) => NearbyMotion { worst: run.worst().cloned(), failure: None },
         }
@@ -221,7 +221,7 @@ fn promised(
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> std::result::Result<Promise, String> {
     let run = source.prepare(scene).and_then(|prepared| sampled(&prepared, &promise.names(), ALLOWED, is_stopped));
-    match run.map_err(|error| error.to_string())? {
+    match run.map_err(|error| format!("{error:#}"))? {
         RunSample { failure: Some(failure), .. } => Err(failure.reason),
         run => Ok(promise.about(run.rows, &run.sizes)),
     }

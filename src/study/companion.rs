@@ -179,7 +179,7 @@ fn rerun(
 }
 
 fn not_begun(t: f64, error: &Error) -> Failure {
-    Failure { t, reason: error.to_string(), hint: String::new() }
+    Failure { t, reason: format!("{error:#}"), hint: String::new() }
 }
 
 /// A method with other errors.

@@ -63,7 +63,7 @@ pub fn error_bars(
         show(t);
         stop().is_none()
     });
-    ErrorBars { second_opinion: opinion, amplification: amplification.map_err(|error| error.to_string()), ..bars }
+    ErrorBars { second_opinion: opinion, amplification: amplification.map_err(|error| format!("{error:#}")), ..bars }
 }
 
 impl ErrorBars {

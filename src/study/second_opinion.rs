@@ -54,7 +54,7 @@ pub(crate) fn second_opinion(motion: &Motion, rows: &[Vec<f64>], of: &Method, li
             Some(failure) => failed(failure.reason.clone()),
             None => SecondOpinion::of(name, ErrorMetric::of(&motion.watched, &run).error(rows)),
         },
-        Err(error) => failed(error.to_string()),
+        Err(error) => failed(format!("{error:#}")),
     }
 }
 

@@ -335,7 +335,7 @@ fn faults_of_the_file_are_told_with_their_place() {
     }
     let free = Options { is_free: true, ..Options::default() };
     let error = import("<mujoco/>", &free).unwrap_err().to_string();
-    assert!(error.contains("at --free: an MJCF file says itself what is free"), "{error}");
+    assert!(error.contains("at free: an MJCF file says itself what is free"), "{error}");
 }
 
 #[test]

@@ -93,7 +93,7 @@ fn joints_are_imported_at_given_positions() {
         let positions = vec![given.parse().unwrap()];
         import(ARM, &Options { positions, ..Options::default() }).unwrap_err().to_string()
     };
-    assert!(refused("sholder=1").contains("at --at: there is no joint `sholder`"));
+    assert!(refused("sholder=1").contains("at at: there is no joint `sholder`"));
     assert!(refused("flange=1").contains("`flange` has no coordinate"));
 }
 
@@ -219,10 +219,10 @@ fn faults_of_the_file_are_told_with_their_place() {
         assert!(input.place.is_some(), "{expected}");
     }
     let missing = import(ARM, &Options { base: Some("tol".into()), ..Options::default() }).unwrap_err().to_string();
-    assert!(missing.contains("at --base: there is no link `tol`\n  help: did you mean `tool`?"), "{missing}");
+    assert!(missing.contains("at base: there is no link `tol`\n  help: did you mean `tool`?"), "{missing}");
     let closures = vec!["weld:lower@0,0,0:tool@0,0,0".parse().unwrap()];
     let one = import(ARM, &Options { closures, ..Options::default() }).unwrap_err().to_string();
-    assert!(one.contains("at --close: `lower` and `tool` are one body"), "{one}");
+    assert!(one.contains("at close: `lower` and `tool` are one body"), "{one}");
 }
 
 #[test]

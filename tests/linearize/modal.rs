@@ -164,8 +164,8 @@ fn what_cannot_be_had_is_told() {
     let mut variation = start(&prepared).variation(&prepared).unwrap();
     let error =
         |count: usize, shift: C, variation: &mut Variation| modal(variation, count, shift).unwrap_err().to_string();
-    assert!(error(0, C::ZERO, &mut variation).contains("--modes"));
-    assert!(error(1, C::new(f64::NAN, 0.0), &mut variation).contains("--shift"));
+    assert!(error(0, C::ZERO, &mut variation).contains("at modes"));
+    assert!(error(1, C::new(f64::NAN, 0.0), &mut variation).contains("at shift"));
     assert_eq!(modal(&mut variation, usize::MAX / 4, C::ZERO).unwrap().modes.len(), 4);
     let shaft = self::prepared("universal_shaft", &[]);
     let mut variation = start(&shaft).variation(&shaft).unwrap();

@@ -7,4 +7,5 @@ mod lagrangian;
 mod methods;
 mod passes;
 mod refused;
+mod settings;
 mod subjects;

@@ -10,7 +10,7 @@
 mod body;
 #[path = "../../src/clock.rs"]
 mod clock;
-#[path = "../../src/error.rs"]
+#[path = "../../src/error/mod.rs"]
 mod error;
 #[path = "../../src/files/mod.rs"]
 mod files;

@@ -353,7 +353,7 @@ mod tests {
         );
         assert_eq!(
             error(&[("mass", "1")], &[("mas", 2.0)]),
-            "at --set (`mas`): unknown parameter `mas`\n  help: did you mean `mass`?"
+            "at set (`mas`): unknown parameter `mas`\n  help: did you mean `mass`?"
         );
     }
 }

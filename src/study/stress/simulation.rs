@@ -55,7 +55,7 @@ pub(super) fn run(
 
 /// Returns the first line of an error.
 fn message(error: &Error) -> String {
-    error.to_string().lines().next().unwrap_or_default().to_string()
+    format!("{error:#}").lines().next().unwrap_or_default().to_string()
 }
 
 fn with_result(blank: Cell, ended: Ended, record: Record, is_last: bool) -> Cell {

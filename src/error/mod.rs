@@ -1,5 +1,10 @@
 //! Errors and warnings with place and remedy.
 
+mod options;
+
+use options::as_setting;
+pub(crate) use options::as_settings;
+
 use std::fmt;
 use std::path::PathBuf;
 
@@ -7,7 +12,8 @@ use std::path::PathBuf;
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 /// An error of the library. [`Error::exit_code`] is the exit code of the program. `Debug` prints as `Display` does, so
-/// that a `main` that returns it says what is wrong.
+/// that a `main` that returns it says what is wrong. `{}` names settings, `output_step = 0.1`; `{:#}` names the options
+/// of the command line, `--output-step 0.1`, as the fields do.
 #[derive(Clone, PartialEq)]
 pub enum Error {
     /// The input is not valid.
@@ -64,7 +70,7 @@ pub struct Failure {
 #[doc(hidden)]
 pub const INTERRUPTED: &str = "interrupted";
 
-/// A reason to doubt a result, with a remedy.
+/// A reason to doubt a result, with a remedy. `{}` and `{:#}` print settings and options as they do of an [`Error`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Warning {
     /// What is doubtful.
@@ -82,7 +88,7 @@ impl Warning {
 
 impl fmt::Display for Warning {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "warning: {}\n  help: {}", self.text, self.hint)
+        write!(out, "warning: {}\n  help: {}", named(out, &self.text), named(out, &self.hint))
     }
 }
 
@@ -176,7 +182,7 @@ impl fmt::Display for Error {
                 write!(out, "{}: {problem}", path.display())
             }
             Error::Run(Failure { t, reason, hint }) => {
-                write!(out, "stopped at t = {t:.6e} s: {reason}\n  help: {hint}")
+                write!(out, "stopped at t = {t:.6e} s: {}\n  help: {}", named(out, reason), named(out, hint))
             }
         }
     }
@@ -198,15 +204,21 @@ impl fmt::Display for Input {
             write!(out, ": ")?;
         }
         let path = without_long_words(&self.path);
+        let path = if out.alternate() { path } else { as_setting(&path) };
         match (path.as_str(), self.element.as_deref().map(without_long_words)) {
             ("", None) => {}
             ("", Some(element)) => write!(out, "`{element}`: ")?,
             (path, None) => write!(out, "at {path}: ")?,
             (path, Some(element)) => write!(out, "at {path} (`{element}`): ")?,
         }
-        write!(out, "{}", without_long_words(&self.message))?;
-        self.hint.iter().try_for_each(|hint| write!(out, "\n  help: {}", without_long_words(hint)))
+        write!(out, "{}", named(out, &without_long_words(&self.message)))?;
+        self.hint.iter().try_for_each(|hint| write!(out, "\n  help: {}", named(out, &without_long_words(hint))))
     }
+}
+
+/// The text as it is in the alternate form, that of the command line; else with settings in the place of options.
+fn named(out: &fmt::Formatter, text: &str) -> String {
+    if out.alternate() { text.to_string() } else { as_settings(text) }
 }
 
 /// The message with words of more than 100 bytes and quotations of more than 300 cut to their beginning.
