@@ -2,6 +2,8 @@
 //!
 //! # Three programs
 //!
+//! Longer forms of these are examples of Cargo: `cargo run --example state_feedback`, `compared_methods`, `many_runs`.
+//!
 //! A scene is read, changed and linearized. It then runs under feedback from that linear model; `lqr` is the user's own.
 //!
 //! ```

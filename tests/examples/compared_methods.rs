@@ -32,8 +32,7 @@ impl Equations for Arm {
     }
 }
 
-#[test]
-fn three_methods_agree() -> holonom::Result<()> {
+fn main() -> holonom::Result<()> {
     let start = ([1.0, 0.0, 1.5, 0.0], [0.0; 4]);
     for method in ["index1 + dop853 + manifold", "ggl + radau_iia", "baumgarte + dop853"] {
         let record = simulate(&Arm::new(), method, &start, 0.0..1.0)?.record;
@@ -41,4 +40,9 @@ fn three_methods_agree() -> holonom::Result<()> {
         assert!(record.drift.position.max < 1e-7 && record.energy_error() < 1e-6, "{method}");
     }
     Ok(())
+}
+
+#[test]
+fn three_methods_agree() -> holonom::Result<()> {
+    main()
 }

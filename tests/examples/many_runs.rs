@@ -13,6 +13,18 @@ fn peaks(count: usize) -> holonom::Result<Vec<f64>> {
     Ok(peak)
 }
 
+fn main() -> holonom::Result<()> {
+    for (k, peak) in linspace(1e4, 5e4, 8).zip(peaks(8)?) {
+        println!("k = {k:.0} N/m: {peak:.0} N");
+    }
+    Ok(())
+}
+
+#[test]
+fn it_runs() -> holonom::Result<()> {
+    main()
+}
+
 #[test]
 fn peaks_are_those_of_the_oscillation_up_to_the_stop() -> holonom::Result<()> {
     // y = -(m g/k) (1 - cos(w t)): the force is k |y|, at most 2 m g, and k 0.19 m where the body meets the stop.

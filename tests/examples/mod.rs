@@ -1,4 +1,5 @@
-//! Examples to copy: each file stands alone, and ends with a test that runs it.
+//! Examples to copy: each file stands alone, and ends with a test that runs it. Those with a `main` are examples of
+//! Cargo, too.
 
 mod compared_methods;
 mod linear_model;

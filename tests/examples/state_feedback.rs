@@ -18,8 +18,7 @@ fn lqr(a: &Matrix, b: &Matrix) -> Matrix {
     gain(&p)
 }
 
-#[test]
-fn a_crane_comes_back_after_a_gust() -> holonom::Result<()> {
+fn main() -> holonom::Result<()> {
     let crane = Model::load("tests/examples/crane.json")?.set("load", 120.0)?;
     let model = crane.linearize_at(0.8, &Linear::in_coordinates(["trolley.x", "rope.angle"]))?;
     let k = lqr(&model.a, &model.b);
@@ -35,4 +34,9 @@ fn a_crane_comes_back_after_a_gust() -> holonom::Result<()> {
     free.to(10.0)?;
     assert!(free.record().output("trolley_x")?.last().abs() > 1.0);
     Ok(())
+}
+
+#[test]
+fn a_crane_comes_back_after_a_gust() -> holonom::Result<()> {
+    main()
 }
