@@ -11,8 +11,6 @@
 //! People have levels, too: [`SAME`], [`SIX_DIGITS`], [`UNSEEN`], [`TOLD`], [`WRONG_MOTION`] and [`LOST_MOTION`]. A new
 //! threshold takes one of these, or says why not.
 
-use std::f64::consts::FRAC_PI_6;
-
 /// A few operations: what they leave of a coordinate, a velocity or a projection. Unit: `[1]` of the largest number
 /// that enters. Why: sixteen ulps, four operations with a factor of four to spare. Test: `order_nine`.
 pub const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
@@ -239,13 +237,6 @@ pub const WRONG_MOTION: f64 = 0.1;
 /// A motion that is off by this has left its mechanism: what it does later means nothing. Unit: `[1]` of the scene's
 /// size, or of the energy converted. Why: half of it. Test: `joints_that_come_apart_are_a_failure`.
 pub const LOST_MOTION: f64 = 0.5;
-
-/// Costs within this factor of the least are a tie. Unit: `[1]`. Why: counted work tells times no better; a choice.
-pub const TIED_COSTS: f64 = 1.15;
-
-/// Assembly that turns a body by more may have found another configuration than the one that was meant. Unit: `[rad]`.
-/// Why: a guess by hand is nearer, and branches are farther apart. Test: `a_doubtful_start_is_said`.
-pub const ASSEMBLY_TURNED: f64 = FRAC_PI_6;
 
 /// A multiplier may be outside the unit circle by so much. Unit: `[1]`. Why: the root of what integration leaves of a
 /// double one.

@@ -74,7 +74,7 @@ fn the_explicit_method_comes_back() {
     );
     let span = Span { start: 0.0, end: 120.0, output_step: 1.0 };
     let (outcome, legs, _) = automatic(&scene, 1e-7, span);
-    assert_eq!(integrators(&legs), ["adams", "bdf", "adams"], "{legs:?}");
+    assert_eq!(integrators(&legs), ["adams", "radau_iia", "adams"], "{legs:?}");
     assert!(outcome.failure.is_none() && legs[2].from > 20.0 && legs[2].from < 60.0, "{legs:?}");
     let alone = alone(&scene, IMPLICIT, 1e-10, span);
     assert!(gap(&alone, &outcome) < 1e-5, "{:e}", gap(&alone, &outcome));
@@ -141,10 +141,8 @@ fn what_begins_badly_for_it_the_other_method_takes_over_on_the_way() {
     );
     let span = Span { start: 0.0, end: 120.0, output_step: 1.0 };
     let (outcome, legs, record) = automatic(&scene, 1e-7, span);
-    // Between them another explicit method may come farther at the limit of stability.
-    let names = integrators(&legs);
-    assert_eq!((names[0], names[names.len() - 1]), ("adams", "bdf"), "{legs:?}");
-    let last = &legs[legs.len() - 1];
+    assert_eq!(integrators(&legs), ["adams", "radau_iia"], "{legs:?}");
+    let last = &legs[1];
     assert!(last.from > 5.0 && last.from < 12.0 && !last.because.contains("began again"), "{legs:?}");
     // The work that the attempt took is counted, and is no more than that of the swing.
     assert!(legs[0].tried().rhs_evaluations < 2 * legs[0].statistics.rhs_evaluations, "{legs:?}");

@@ -9,11 +9,10 @@ use crate::math::largest;
 use crate::system::{Group, MechanicalSystem};
 use crate::tolerances;
 
-/// Samples of what a driver asks for after the end of its travel. Unit: `[samples]`.of how much a message says.
+/// Samples of a driver's value that a message is made of.
 const TRAVEL_SAMPLES: u32 = 400;
 
-/// Looks for the end of a travel ahead of a run that fails or crawls, each twice as far as the one before. Unit:
-/// `[looks]`. Why: the first is at a millionth of the time. Test: `a_driver_beyond_its_travel_is_named`.
+/// Looks ahead for the end of a travel, each twice as far as the one before, from a millionth of the time on.
 const TRAVEL_LOOKS: i32 = 20;
 
 /// The joints of a system with drivers, closed at one time after the other.

@@ -13,7 +13,7 @@ use std::ops::Range;
 /// `steps_are_never_looser_than_asked_nor_tighter_than_round_off`.
 const CONTROLLED_RTOL: f64 = 1e-11;
 
-/// How often a guess of the first step is divided by ten where y' has no value ahead. Unit: `[divisions]`.
+/// Divisions by ten of a guess of the first step at most, where y' has no value ahead.
 const FIRST_STEP_SHORTER: usize = 20;
 
 /// Tolerated local error of component y: atol + rtol |y|, with one atol for metres, radians and their rates, and y

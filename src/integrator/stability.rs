@@ -6,7 +6,7 @@ use crate::math::array::Each;
 /// little on the imaginary axis, however short the steps. Test: `limits_are_those_of_the_books`.
 const STABILITY_GROWTH: f64 = 1e-3;
 
-/// Steps of |z| in which the limits of stability are sought, and then refined. Unit: `[1]`.
+/// Steps of abs(z) in which a limit is sought, before it is refined.
 const STRIDE_TO_LIMIT: f64 = 0.01;
 
 /// Stability region of a method for a mode x' = lambda x.

@@ -9,7 +9,7 @@ use crate::simulate::{Method, Span, stiffness};
 use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances;
 
-/// Times up to which the growth of small changes is looked at. Unit: `[times]`.
+/// Times at which the growth of small changes is computed.
 const AMPLIFIED_TIMES: u32 = 20;
 
 /// Returns the largest growth of any small change of the start up to any of `times` (increasing, after the start): the

@@ -6,10 +6,6 @@ use crate::math::eigen::{Eigen, eigen, singular_values};
 use crate::system::MechanicalSystem;
 use crate::tolerances;
 
-/// Error of transition matrices over a period. Unit: `[1]` of their largest entry. Why: some ten times FLOW_RTOL, which
-/// is that of a step.
-const FLOW_ERROR: f64 = 1e-11;
-
 /// Growth of small changes over a period of a motion.
 #[derive(Clone, Debug)]
 pub struct Floquet {
@@ -121,7 +117,8 @@ pub fn floquet(system: &dyn MechanicalSystem, start: &State, period: f64) -> Res
     }
     let monodromy = Chart::MassOrthogonal.at(&mut variation)?.states_of(&found.changes);
     let Eigen { values, conditions, errors, .. } = eigen(&monodromy)?;
-    let of_flow = FLOW_ERROR * monodromy.amax().max(1.0);
+    // Errors of steps add up over a period.
+    let of_flow = 10.0 * tolerances::FLOW_RTOL * monodromy.amax().max(1.0);
     // A defective multiplier is moved by the root of the error.
     let error = |(error, condition): (f64, &f64)| error + (of_flow * condition).min(of_flow.sqrt());
     let Coordinates { name: chart, states, .. } = found.start.clone();

@@ -6,8 +6,8 @@ use crate::math::{dot, largest};
 use crate::tolerances;
 use std::f64::consts::TAU;
 
-/// Parts of a displacement after which the equations are compared. Unit: `[1]`. Why: an odd part and the whole: no
-/// symmetry of single positions passes for one of all. Test: `a_turn_is_no_gap`.
+/// Parts of a displacement after which the equations are compared: no symmetry of single positions passes for one of
+/// all.
 const ON_THE_WAY: [f64; 2] = [0.371, 1.0];
 
 /// Returns the largest difference of (q, v) between `end` and `start`, the operating point of `variation`. Whole turns and

@@ -8,8 +8,7 @@ use crate::math::largest;
 use crate::system::{MechanicalSystem, Rotating};
 use crate::tolerances;
 
-/// An angle that no usual arrangement of parts around an axis repeats after. Unit: `[rad]`. Why: it is no rational part
-/// of a turn.
+/// An angle, rad, that is no rational part of a turn: no arrangement of parts around an axis repeats after it.
 const ODD_ANGLE: f64 = 1.0;
 
 /// An operating state with the equations it satisfies.

@@ -12,8 +12,7 @@ use crate::math::array::{Each, from_fn};
 /// 1e-17 there, the closed forms beyond do not cancel much. Test: `both_forms_of_the_cotangent_agree`.
 const SERIES_OF_ROTATIONS: f64 = 0.3;
 
-/// Terms of the series of the exponential map and of the cotangent. Unit: `[terms]`. Why: those left out are below
-/// 1e-17 of the first. Test: `both_forms_of_the_cotangent_agree`.
+/// Terms of the series of the exponential map and of the cotangent; those left out are below 1e-17 of the first.
 const SERIES_TERMS: usize = 9;
 
 /// A vector of space over any scalar.

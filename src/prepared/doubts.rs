@@ -9,7 +9,7 @@ use crate::math::array::{Each, from_fn};
 use crate::scene::ModelJoint;
 use crate::system::{MechanicalSystem, Mechanism, Road, Scratch};
 use crate::tolerances;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
 /// Warnings about the scene alone.
 pub fn of_scene(mechanism: &AnyMechanism) -> &[Warning] {
@@ -30,7 +30,8 @@ pub fn explained(mut error: Error, doubts: &[Warning]) -> Error {
 /// All warnings about an initial guess and its assembly. With `has_joint_start` joint coordinates choose the
 /// configuration, and the guess may be rough.
 pub fn doubts(mechanism: &AnyMechanism, guess: &[f64], assembly: &Assembly, has_joint_start: bool) -> Vec<Warning> {
-    let allowed = if has_joint_start { FRAC_PI_2 } else { tolerances::ASSEMBLY_TURNED };
+    // A guess by hand is nearer, and branches are farther apart.
+    let allowed = if has_joint_start { FRAC_PI_2 } else { FRAC_PI_6 };
     let (over, turned) = match mechanism {
         AnyMechanism::Planar(mechanism) => (Vec::new(), turned_far(mechanism, guess, &assembly.q, allowed)),
         AnyMechanism::Spatial(mechanism) => {

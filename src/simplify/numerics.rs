@@ -29,8 +29,8 @@ pub fn cheapest(bench: &mut Bench, found: &mut Found) {
     let exact = found.run.rows.clone();
     try_method(bench, found, &exact, own.clone());
     let system = bench.mechanism(&found.scene);
-    let known = system.map(|model| known_methods(model.system(), (first(bench, &own), own.atol))).unwrap_or_default();
-    for method in known.into_iter().filter(|method| method.triple() != own.triple()) {
+    let known = system.map(|model| known_methods(model.system(), (first(bench, &own), own.atol)));
+    for method in known.into_iter().flatten().filter(|method| method.triple() != own.triple()) {
         try_method(bench, found, &exact, Method { rtol: own.rtol, atol: own.atol, ..method });
     }
     let none = MethodSpec::named("none");

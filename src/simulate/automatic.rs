@@ -1,8 +1,8 @@
 //! `--method auto`: choice between explicit and implicit methods during the run, by the time simulated per work.
 //!
-//! An explicit method begins. Whenever the work since the last comparison has doubled, and wherever a run stops, the
-//! others may try from there ([`Contest`]); the best one continues. So the total cost is at most a few times that of
-//! the best method on each part of the motion. Work is counted in evaluations: a run is repeatable bit by bit. An
+//! An explicit method begins. Whenever the work since the last comparison has doubled, and wherever a run stops, an
+//! implicit one, or the explicit one again, may try from there ([`Contest`]); the better one continues. So the total
+//! cost is at most a few times that of the better method on each part of the motion. Work is counted in evaluations: a run is repeatable bit by bit. An
 //! implicit method that takes over early begins at the start: errors of explicit steps are too small to matter, and
 //! still far from the slow motion in the norm of the stiff forces that it would have to follow.
 
@@ -12,7 +12,6 @@ use super::first_explicit::first_explicit;
 use super::{Method, Outcome, Sink, Span, TimeLoop};
 use crate::error::{Failure, Result, clock, two_digits};
 use crate::formulation::Statistics;
-use crate::integrator;
 use crate::method_spec::MethodSpec;
 use crate::system::MechanicalSystem;
 use crate::tolerances;
@@ -22,16 +21,12 @@ use serde::Serialize;
 const IMPLICIT_TRIED: f64 = 200.0;
 
 /// How much farther a method must come for the same work to take over. Unit: `[1]`. Why: an explicit method takes a few
-/// long steps before stability limits them, and bdf begins with short ones.
+/// long steps before stability limits them.
 const WORTH: f64 = 2.0;
 
 /// Up to here a motion is begun again by a method that takes over. Unit: `[1]` of the span. Why: it costs that method
 /// no more of its work. Test: `what_takes_over_early_begins_at_the_start`.
 const BEGINNING: f64 = 0.1;
-
-/// What comes so much farther takes over before others have tried. Unit: `[1]`. Why: first steps that still grow do not
-/// tell which of two methods is the better one.
-const FAR_AHEAD: f64 = 30.0;
 
 /// A part of a run with one method, and the reason for that method in one or two sentences.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -75,22 +70,17 @@ fn implicit(tolerances: (f64, f64)) -> Method {
 /// Index of the method that a run begins with among the candidates.
 const FIRST: usize = 0;
 
-/// The explicit method that a run begins with, and those that may take over: where stability limits the steps, those of
-/// `dop853` are three times as long for the same work as those of `adams`; `bdf` takes the least work a step, but
-/// oscillations that its orders 3 to 5 are not stable for shorten its steps.
-pub fn known_methods(system: &dyn MechanicalSystem, tolerances: (f64, f64)) -> Vec<Method> {
-    let first = first_explicit(system, tolerances.0);
-    let explicit = |integrator| method(["index1", integrator, "manifold"], tolerances);
-    let mut all = vec![explicit(first), method(["ggl", "bdf", "none"], tolerances), implicit(tolerances)];
-    all.extend((first != "dop853").then(|| explicit("dop853")));
-    all
+/// The explicit method that a run begins with, and the implicit one that takes over where stability limits its steps.
+pub fn known_methods(system: &dyn MechanicalSystem, tolerances: (f64, f64)) -> [Method; 2] {
+    let explicit = first_explicit(system, tolerances.0);
+    [method(["index1", explicit, "manifold"], tolerances), implicit(tolerances)]
 }
 
 /// Compares a given method with an implicit one at the beginning of a motion. `None` where stability does not limit its
 /// steps, or nothing is known.
 pub fn rival(system: &dyn MechanicalSystem, method: &Method, span: Span, start: (&[f64], &[f64])) -> Option<Contest> {
     let methods = [method.clone(), implicit((method.rtol, method.atol))];
-    let mut drive = Drive::new(system, methods.into(), unseen(span), flat(system, span.start, start).ok()?).ok()?;
+    let mut drive = Drive::new(system, methods, unseen(span), flat(system, span.start, start).ok()?).ok()?;
     drive.run.begin(&mut Quiet(None)).ok()?;
     let is_enough = |drive: &Drive, mark, changes| drive.contest.is_some() || changes || drive.is_known(mark);
     drive.go(&mut Quiet(None), is_enough).ok()?;
@@ -108,12 +98,10 @@ pub fn advise(
     span: Span,
     start: (&[f64], &[f64]),
 ) -> Result<(Method, String)> {
-    let methods = [known_methods(system, tolerances).swap_remove(FIRST), implicit(tolerances)];
-    methods[FIRST].check()?;
-    let mut drive = Drive::new(system, methods.into(), unseen(span), flat(system, span.start, start)?)?;
+    let mut drive = Drive::chosen(system, tolerances, unseen(span), flat(system, span.start, start)?)?;
     if let Err(Failure { reason, .. }) = drive.run.begin(&mut Quiet(None)) {
         // Any method fails so: the run will report it at its start.
-        return Ok((drive.methods.swap_remove(FIRST), format!("nothing was tried: {reason}")));
+        return Ok((drive.leg.method, format!("nothing was tried: {reason}")));
     }
     drive.go(&mut Quiet(None), |drive, mark, changes| !changes && drive.is_known(mark))?;
     let Leg { method, because, .. } = drive.leg;
@@ -123,9 +111,8 @@ pub fn advise(
 /// A run that may change its method.
 pub(crate) struct Drive<'a> {
     system: &'a dyn MechanicalSystem,
-    methods: Vec<Method>,
-    /// True for each explicit one.
-    are_explicit: Vec<bool>,
+    /// That of the start, explicit, and the other one.
+    methods: [Method; 2],
     pub span: Span,
     /// The flat state at the start.
     start: Vec<f64>,
@@ -136,7 +123,7 @@ pub(crate) struct Drive<'a> {
     stopped: usize,
     /// Work until the next comparison, in evaluations.
     window: f64,
-    /// Result of the best of the last trials.
+    /// Result of the last trial.
     contest: Option<Contest>,
     /// The legs before, and that of the present method.
     legs: Vec<Leg>,
@@ -161,11 +148,14 @@ impl<'a> Drive<'a> {
         &self.methods[self.current]
     }
 
-    fn new(system: &'a dyn MechanicalSystem, methods: Vec<Method>, span: Span, start: Vec<f64>) -> Result<Self> {
-        let is_explicit = |method: &Method| Ok(integrator::find(&method.integrator)?.follows_fields());
+    /// The method that may take over.
+    fn other(&self) -> &Method {
+        &self.methods[1 - self.current]
+    }
+
+    fn new(system: &'a dyn MechanicalSystem, methods: [Method; 2], span: Span, start: Vec<f64>) -> Result<Self> {
         Ok(Drive {
             system,
-            are_explicit: methods.iter().map(is_explicit).collect::<Result<_>>()?,
             span,
             run: TimeLoop::new(system, &methods[FIRST], span, start.clone())?,
             start,
@@ -203,8 +193,8 @@ impl<'a> Drive<'a> {
             }
             let wins = failure.is_none();
             failure = match next {
-                Some((next, because)) if wins && self.begins_again(next) => self.begin_again(next, because, sink)?,
-                Some((next, because)) => self.change(next, because)?,
+                Some(because) if wins && self.begins_again() => self.begin_again(because, sink)?,
+                Some(because) => self.change(because)?,
                 None => None,
             };
         }
@@ -226,90 +216,57 @@ impl<'a> Drive<'a> {
         self.window > 2e4 || self.run.mark().work > 0.1 * self.run.left(mark)
     }
 
-    /// Another method and the reason, if it should continue: after the work since `mark`, or after a failure.
-    fn look(&mut self, mark: Mark, failure: Option<&Failure>) -> Result<Option<(usize, String)>> {
+    /// The reason for the other method, if it should continue: after the work since `mark`, or after a failure.
+    fn look(&mut self, mark: Mark, failure: Option<&Failure>) -> Result<Option<String>> {
         if let Some(Failure { t, reason, .. }) = failure {
-            let own = &self.methods[self.current];
-            let because = format!("{} stopped at t = {} s: {reason}", own.triple(), clock(*t));
-            return Ok(Some(((self.current + 1) % self.methods.len(), because)));
+            return Ok(Some(format!("{} stopped at t = {} s: {reason}", self.method().triple(), clock(*t))));
         }
-        let Some((place, contest)) = self.best(mark)? else { return Ok(None) };
+        let Some((contest, work)) = self.run.contest(mark, self.other(), self.system)? else { return Ok(None) };
+        let other = self.other().clone();
+        self.leg.add(&other, work);
         self.contest = Some(contest);
-        let kinds = [self.are_explicit[self.current], self.are_explicit[place]];
         let wins = contest.gain > WORTH;
-        let own = &self.methods[self.current];
-        let because = words(&contest, [own, &self.methods[place]], kinds, wins);
+        let because = words(&contest, [self.method(), &other], self.current == FIRST, wins);
         if !wins && self.leg.because == CALM {
             self.leg.because.clone_from(&because);
         }
-        Ok(wins.then_some((place, because)))
-    }
-
-    /// The method that comes farthest in a trial from here. An explicit method tries where the length of the steps
-    /// allows for one, and any instead of one whose steps may be limited by stability; one that is far ahead is not
-    /// compared with others before it has shown more.
-    fn best(&mut self, mark: Mark) -> Result<Option<(usize, Contest)>> {
-        if !self.run.leaves_trials(mark, 1) {
-            return Ok(None);
-        }
-        let Some(view) = self.run.view(mark) else { return Ok(None) };
-        let is_rival = |&place: &usize| {
-            let are_implicit = !self.are_explicit[self.current] && !self.are_explicit[place];
-            place != self.current && (view.is_between || are_implicit)
-        };
-        let rivals: Vec<usize> = (0..self.methods.len()).filter(is_rival).collect();
-        if !self.run.leaves_trials(mark, rivals.len()) {
-            return Ok(None);
-        }
-        let mut best: Option<(usize, Contest)> = None;
-        for &place in &rivals {
-            let least = best.map_or(1.0, |(_, contest)| contest.gain.max(1.0));
-            if least > FAR_AHEAD {
-                break;
-            }
-            let method = &self.methods[place];
-            let (contest, work) = self.run.contest(mark, view, (rivals.len(), least), method, self.system)?;
-            self.leg.add(method, work);
-            if best.is_none_or(|(_, best)| contest.gain > best.gain) {
-                best = Some((place, contest));
-            }
-        }
-        Ok(best)
+        Ok(wins.then_some(because))
     }
 
     /// Continues the motion with another method.
-    fn change(&mut self, place: usize, because: String) -> Result<Option<Failure>> {
-        let next = self.run.rival(&self.methods[place], self.system, self.span)?;
-        let before = self.replace(next, place, because);
+    fn change(&mut self, because: String) -> Result<Option<Failure>> {
+        let next = self.run.rival(self.other(), self.system, self.span)?;
+        let before = self.replace(next, because);
         Ok(self.run.go_on(&before.problem.dynamics.dropped, before.h).err())
     }
 
     /// True if the motion so far costs an implicit method little: it may begin at the start, where no errors of steps
     /// of the first method excite stiff modes, which it would have to follow.
-    fn begins_again(&self, place: usize) -> bool {
+    fn begins_again(&self) -> bool {
         let is_early = self.run.t - self.span.start < BEGINNING * (self.span.end - self.span.start);
-        is_early && self.legs.is_empty() && !self.are_explicit[place]
+        is_early && self.legs.is_empty()
     }
 
     /// Continues the motion with another method, which comes to the present time from the start, unseen. From the
     /// present state where it does not come there for the work that this took.
-    fn begin_again(&mut self, place: usize, because: String, sink: &mut dyn Sink) -> Result<Option<Failure>> {
-        let mut next = TimeLoop::new(self.system, &self.methods[place], self.span, self.start.clone())?;
+    fn begin_again(&mut self, because: String, sink: &mut dyn Sink) -> Result<Option<Failure>> {
+        let other = self.other().clone();
+        let mut next = TimeLoop::new(self.system, &other, self.span, self.start.clone())?;
         let mut quiet = Quiet(Some(sink));
         if next.begin(&mut quiet).is_err() || !next.reaches(&self.run, &mut quiet) {
-            self.leg.add(&self.methods[place], next.statistics());
-            return self.change(place, because);
+            self.leg.add(&other, next.statistics());
+            return self.change(because);
         }
-        self.replace(next, place, format!("{because}; it began again at the start"));
+        self.replace(next, format!("{because}; it began again at the start"));
         Ok(None)
     }
 
     /// Replaces the run by one that is at the same time; returns the one before.
-    fn replace(&mut self, next: TimeLoop<'a>, place: usize, because: String) -> TimeLoop<'a> {
-        self.current = place;
+    fn replace(&mut self, next: TimeLoop<'a>, because: String) -> TimeLoop<'a> {
+        self.current = 1 - self.current;
         let before = std::mem::replace(&mut self.run, next);
         (self.run.until, self.run.roots) = (before.until, before.roots);
-        let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, &self.methods[place], because));
+        let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, self.method(), because));
         self.legs.push(Leg { statistics: before.statistics(), ..leg });
         before
     }
@@ -358,17 +315,16 @@ const FILTER: &str = ". Where only the slow motion is wanted, generalized_alpha 
 fn words(
     Contest { t, mode, step, gain }: &Contest,
     [own, other]: [&Method; 2],
-    are_explicit: [bool; 2],
+    is_explicit: bool,
     wins: bool,
 ) -> String {
     let own = &own.integrator.name;
     let other = &other.integrator.name;
-    let kind = match (are_explicit, wins) {
-        ([true, false], true) => "stiff",
-        ([true, _], false) if *gain < tolerances::NO_ALTERNATIVE => "not stiff",
-        ([true, _], _) => "fast, not stiff",
-        ([false, true], true) => "no longer stiff",
-        ([false, _], _) => "stiff",
+    let kind = match (is_explicit, wins) {
+        (true, true) | (false, false) => "stiff",
+        (true, false) if *gain < tolerances::NO_ALTERNATIVE => "not stiff",
+        (true, false) => "fast, not stiff",
+        (false, true) => "no longer stiff",
     };
     let verdict = if wins { "advances" } else { "advances only" };
     let filter = if kind == "fast, not stiff" { FILTER } else { "" };

@@ -22,7 +22,7 @@ const IMPLICIT_WORK: f64 = 3.0;
 const STABILITY_HOLDS: f64 = 0.1;
 
 /// Least work of a trial. Unit: `[evaluations]`. Why: the first steps of radau_iia, each up to five times the one
-/// before, and of bdf, each twice.
+/// before.
 const TRIAL_WORK: f64 = 300.0;
 
 /// Work of a trial, and what it is worth of what is left. Unit: `[1]` of the work it is compared with.
@@ -42,18 +42,6 @@ impl Mark {
     fn pace(&self, since: Mark) -> f64 {
         (self.t - since.t) / (self.work - since.work).max(1.0)
     }
-}
-
-/// What decides whether others try.
-#[derive(Clone, Copy, Debug)]
-pub struct View {
-    /// The fastest mode of the state, 1/s.
-    pub mode: SpectralMode,
-    /// Mean step, s.
-    pub step: f64,
-    /// True if steps are of a length at which both kinds of methods may be the better one: those of an explicit method
-    /// so long that stability may limit them, those of an implicit one no longer than many stable ones.
-    pub is_between: bool,
 }
 
 /// Result of a trial.
@@ -155,13 +143,9 @@ impl TimeLoop<'_> {
         (self.t - mark.t) / (self.mark().steps - mark.steps).max(1) as f64
     }
 
-    /// True if enough work remains for the trials of so many methods.
-    pub fn leaves_trials(&self, mark: Mark, rivals: usize) -> bool {
-        TRIAL_SHARE * self.left(mark) >= rivals as f64 * TRIAL_WORK
-    }
-
-    /// The fastest mode of the state and the mean step since `mark`.
-    pub fn view(&self, mark: Mark) -> Option<View> {
+    /// The fastest mode of the state and the mean step since `mark`, if both kinds of methods may be the better one: if
+    /// explicit steps are so long that stability may limit them, or implicit ones no longer than many stable ones.
+    fn view(&self, mark: Mark) -> Option<(SpectralMode, f64)> {
         let step = self.step_since(mark);
         let (system, (q, v)) = (self.problem.dynamics.system, self.problem.split(&self.y));
         let mut dynamics = Dynamics::new(system);
@@ -172,7 +156,7 @@ impl TimeLoop<'_> {
         let limit = stability.as_ref().map_or(6.1, |stability| stability.limit(mode.decay, mode.swing));
         let part = step * mode.rate() / limit;
         let is_between = if self.is_explicit { part > STABILITY_HOLDS } else { part < 20.0 };
-        Some(View { mode, step, is_between })
+        is_between.then_some((mode, step))
     }
 
     /// The factor by which the steps of a multistep method, which begins with short ones, go on growing.
@@ -181,30 +165,31 @@ impl TimeLoop<'_> {
     }
 
     /// Lets `other` try from the state of this run, whose pace since `mark` is known. While its steps grow it goes on,
-    /// up to all work so far, unless it is hopelessly behind the pace of this run times `least`. `rivals` share the
-    /// work of trials. Returns the result and the work of the trial.
+    /// up to all work so far, unless it is hopelessly behind. Returns the result and the work of the trial; `None` where
+    /// too little work remains for one, or the steps tell that it is of no use.
     pub fn contest(
         &self,
         mark: Mark,
-        View { mode, step, .. }: View,
-        (rivals, least): (usize, f64),
         other: &Method,
         system: &dyn MechanicalSystem,
-    ) -> Result<(Contest, Statistics)> {
+    ) -> Result<Option<(Contest, Statistics)>> {
+        let left = TRIAL_SHARE * self.left(mark);
+        if left.is_nan() || left < TRIAL_WORK {
+            return Ok(None);
+        }
+        let Some((mode, step)) = self.view(mark) else { return Ok(None) };
         let own = self.mark();
-        let share = |work: f64| TRIAL_SHARE * work;
-        let budget = TRIAL_WORK.max(share(own.work - mark.work) / rivals as f64);
-        let most = share(self.left(mark)).min(own.work);
+        let budget = TRIAL_WORK.max(TRIAL_SHARE * (own.work - mark.work));
         let mut rival = self.rival(other, system, unseen(self.span))?;
         let is_hopeless = |rival: &TimeLoop, since: Mark, growth: f64| {
-            growth * rival.mark().pace(since) < tolerances::NO_ALTERNATIVE * least * own.pace(mark)
+            growth * rival.mark().pace(since) < tolerances::NO_ALTERNATIVE * own.pace(mark)
         };
         let (since, failure) = match rival.go_on(&self.problem.dynamics.dropped, self.h) {
-            Ok(()) => rival.window(budget, most, &mut Quiet(None), is_hopeless),
+            Ok(()) => rival.window(budget, left.min(own.work), &mut Quiet(None), is_hopeless),
             Err(failure) => (rival.mark(), Some(failure)),
         };
         let theirs = if failure.is_some() { 0.0 } else { rival.growth(since) * rival.mark().pace(since) };
         let ours = self.growth(mark) * own.pace(mark);
-        Ok((Contest { t: self.t, mode, step, gain: theirs / ours }, rival.statistics()))
+        Ok(Some((Contest { t: self.t, mode, step, gain: theirs / ours }, rival.statistics())))
     }
 }

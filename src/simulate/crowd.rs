@@ -3,7 +3,7 @@
 use crate::tolerances;
 use serde::{Deserialize, Serialize};
 
-/// Turns at thresholds are looked at in windows of so many. Unit: `[turns]`.
+/// Turns in a window.
 const TURNS_IN_WINDOW: usize = 250;
 
 /// Windows of turns in a row that decide. Where each is shorter and slower than the one before, the motion comes to

@@ -8,8 +8,8 @@ use crate::formulation::StepError;
 use crate::integrator::{From, Step};
 use crate::tolerances;
 
-/// Parts of a step between which the sign is compared. Unit: `[steps]`. Why: steps of dop853 are a third of an
-/// oscillation, in which a function may dip below zero and return. Test: `a_short_dip_is_found`.
+/// Parts of a step between which the sign is compared: in a third of an oscillation a function may dip below zero and
+/// return.
 const PARTS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// The place at which the sign is read first. Unit: `[steps]`. Why: a run that goes on from a root is on neither side.

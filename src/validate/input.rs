@@ -8,7 +8,7 @@ use crate::linearize::{Carried, Changes, Coordinates, Matrix, Minimal, State, be
 use crate::system::MechanicalSystem;
 use serde::Serialize;
 
-/// Steps of the frozen model over a pulse. Unit: `[steps]`. Why: the error of its fourth-order method is below 1e-9.
+/// Steps of the frozen model over a pulse: the error of its fourth-order method is below 1e-9.
 const PULSE_STEPS: usize = 400;
 
 /// Check of one input.

@@ -3,7 +3,7 @@
 use crate::math::bounds;
 use serde::Serialize;
 
-/// Points that an observed order needs. Unit: `[points]`.
+/// Points that an observed order needs.
 const SLOPE_POINTS: usize = 4;
 
 /// Errors this factor above rounding are not disturbed by it. Unit: `[1]`.

@@ -15,7 +15,7 @@ use crate::math::Taylor;
 use crate::math::expression::{Expression, Number, Scope};
 use crate::tolerances;
 
-/// Panels at most. Unit: `[panels]`. Why: only functions that are not smooth, or not exact to rounding, need so many.
+/// Panels at most: only functions that are not smooth, or not exact to rounding, need so many.
 const RITZ_PANELS: usize = 64;
 
 /// Largest number of functions: their integrals are computed for all pairs.

@@ -6,7 +6,7 @@ use crate::math::newton::{Limits, Monitor};
 use crate::math::{dot, largest, norm};
 use crate::tolerances;
 
-/// Steps at most of the descent to an equilibrium in pseudo-time. Unit: `[steps]`.
+/// Steps at most.
 const DESCENT_STEPS: usize = 500;
 
 /// Limits of the return to phi = 0, in units of the scene's scale: round-off, also of nearly dependent rows.

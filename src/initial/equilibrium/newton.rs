@@ -5,8 +5,7 @@ use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
 use crate::tolerances;
 
-/// Iterations at most of Newton's method on the forces, plain or damped. Unit: `[iterations]`. Why: bent beams need
-/// steps that grow before they shrink.
+/// Iterations at most: bent beams need steps that grow before they shrink.
 const BALANCING_ITERATIONS: usize = 60;
 
 /// Safeguards of Newton's method.

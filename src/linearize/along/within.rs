@@ -5,8 +5,7 @@ use crate::error::{Error, Result, percent, short};
 use crate::linearize::{Chart, State};
 use crate::system::MechanicalSystem;
 
-/// Points along a motion at most, where interpolation needs them close. Unit: `[points]`. Why: files of more are hard
-/// to use.
+/// Points at most where interpolation needs them close: files of more are hard to use.
 const WITHIN_MOST: usize = 20_000;
 
 /// Returns models at times so close that linear interpolation between them is within the part `error` of the largest

@@ -3,8 +3,7 @@
 use super::{Matrix, dense};
 use crate::tolerances;
 
-/// Sweeps at most of the balancing of a matrix over its rows and columns. Unit: `[sweeps]`. Why: a few are usual, some
-/// tens where units are far apart; a choice beyond. Test: `scaling_of_rows_columns_and_time_does_not_matter`.
+/// Sweeps at most: a few are usual, some tens where units are far apart.
 const BALANCE_SWEEPS: usize = 100;
 
 /// D1 A D2 / time and D1 E D2, all by powers of two, so without rounding.

@@ -3,7 +3,7 @@
 use super::range::{Range, first_out};
 use crate::math::Rate;
 
-/// Places at which the dense output is looked at where a step comes near a threshold. Unit: `[places]`.
+/// Places at which the dense output is looked at where a step comes near a threshold.
 const LOOKS_AT_STEP: usize = 8;
 
 /// An argument over a step of size `h`, given by its values and rates at both ends.

@@ -6,7 +6,7 @@ use crate::math::expression::{Switch, TimeFunction};
 use crate::math::{Interval, Piece, Regime, Taylor, Thresholds};
 use crate::tolerances;
 
-/// Intervals that a search for a change of form may look at; what is left is judged by its ends. Unit: `[intervals]`.
+/// Intervals that a search for a change of form may look at; what is left is judged by its ends.
 const LOOKS_FOR_CHANGE: usize = 20_000;
 
 /// The functions of time of a run: their changes of form, and the steps that resolve them.

@@ -16,9 +16,6 @@ use crate::tolerances;
 /// Test: `a_bump_is_met_whenever_it_comes`.
 const NEVER_MISSED: f64 = 1e-4;
 
-/// What is nothing of a function of time. Unit: `[its own unit]`. Why: round-off of a function of order one.
-const NO_FUNCTION: f64 = 1e-14;
-
 /// The functions of time of a run, and the time up to which they are resolved.
 pub struct Watch<'a> {
     functions: Vec<Watched<'a>>,
@@ -145,7 +142,7 @@ impl Watched<'_> {
             let width = quarter.to - quarter.from;
             let cubic = 0.5 * (a.x + b.x) + width / 8.0 * (a.d - b.d);
             let change = (b.x - a.x).abs() + 0.25 * width * (a.d.abs() + b.d.abs());
-            let small = tolerances::SAME * a.x.abs().max(b.x.abs()) + NO_FUNCTION;
+            let small = tolerances::SAME * a.x.abs().max(b.x.abs()) + tolerances::ROUND_OFF_OF_SUMS;
             if (middle.x - cubic).abs() > beside * change + small {
                 return Some(quarter.from);
             }
@@ -212,7 +209,8 @@ fn quarters(times: &[f64; 5], nodes: &[Taylor<f64>; 5]) -> [Quarter; 4] {
     };
     std::array::from_fn(|i| {
         let allowed = from_fn(|level| {
-            let small = (tolerances::SAME * size + NO_FUNCTION) / (times[4] - times[0]).powi(level as i32);
+            let small =
+                (tolerances::SAME * size + tolerances::ROUND_OFF_OF_SUMS) / (times[4] - times[0]).powi(level as i32);
             let margin = bend(i, level).min(bend(i + 1, level)) + small;
             let hull = Interval::new(levels[i][level], levels[i + 1][level]);
             Interval { low: hull.low - margin, high: hull.high + margin }

@@ -23,7 +23,7 @@ pub struct Recommendation {
     pub digits: u32,
     /// Index of the best cell: the cheapest; of a tie the one with the least drift, then the best-known method.
     pub best: usize,
-    /// Indices of other methods that cost as little within `tolerances::TIED_COSTS`.
+    /// Indices of other methods that cost as little within 15 %: counted work tells times no better.
     pub ties: Vec<usize>,
     /// Index of the best run with another integrator.
     pub next: Option<usize>,
@@ -112,7 +112,7 @@ impl WorkPrecision {
         let cost = |place: &usize| self.cells[*place].cost.unwrap_or(f64::INFINITY);
         let mut tied: Vec<usize> = (0..self.cells.len()).filter(|place| good(&self.cells[*place])).collect();
         let least = tied.iter().map(cost).fold(f64::INFINITY, f64::min);
-        tied.retain(|place| cost(place).is_finite() && cost(place) <= tolerances::TIED_COSTS * least);
+        tied.retain(|place| cost(place).is_finite() && cost(place) <= 1.15 * least);
         tied.sort_by_key(|place| merit(&self.cells[*place]));
         tied
     }
