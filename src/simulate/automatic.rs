@@ -266,8 +266,9 @@ impl<'a> Drive<'a> {
         self.current = 1 - self.current;
         let before = std::mem::replace(&mut self.run, next);
         (self.run.until, self.run.roots) = (before.until, before.roots);
-        let leg = std::mem::replace(&mut self.leg, Leg::of(before.t, self.method(), because));
-        self.legs.push(Leg { statistics: before.statistics(), ..leg });
+        let begun = Leg::of(before.t, self.method(), because);
+        let ended = std::mem::replace(&mut self.leg, begun);
+        self.legs.push(Leg { statistics: before.statistics(), ..ended });
         before
     }
 

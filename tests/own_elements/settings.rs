@@ -1,8 +1,9 @@
 //! Errors and warnings of the library name settings; in the alternate form they name options of the command line.
 
-use holonom::linear::{Chart, Linear, State, floquet, linearize};
+use holonom::linear::{Linear, State, floquet, linearize};
 use holonom::math::expression::Number;
 use holonom::prelude::*;
+use holonom::research::results::Chart;
 use holonom::run::Overrides;
 use std::fmt::Display;
 

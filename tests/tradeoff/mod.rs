@@ -10,7 +10,6 @@ use crate::scenes::{Ready, shipped};
 use holonom::simulate::{Method, Span};
 use holonom::study::work_precision::{Cell, Filter, Outcome, Plan, Runner, WorkPrecision, cheapest_by_method, grid};
 use holonom::study::{Motion, RunSample, Watched};
-use holonom::tolerances::TIED_COSTS;
 use std::time::Duration;
 
 pub const ROWS: usize = 200;
@@ -126,7 +125,7 @@ fn recommendations_are_the_best_of_what_was_measured() {
         let good = result.cells.iter().filter(|cell| cell.digits() >= Some(digits));
         let least = good.filter_map(|cell| cell.cost).fold(f64::INFINITY, f64::min);
         for place in [&[advice.best], &advice.ties[..]].concat() {
-            assert!(cost(place) <= TIED_COSTS * least);
+            assert!(cost(place) <= 1.15 * least);
             // By decades of drift; below 1e-12 it is round-off.
             assert!(drift(advice.best) <= 10.0 * drift(place).max(1e-12), "{} {}", drift(advice.best), drift(place));
         }
