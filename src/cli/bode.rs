@@ -37,9 +37,6 @@ pub struct Args {
     model: ModelOptions,
 }
 
-/// Default number of frequencies.
-const POINTS: usize = 400;
-
 /// Indices of the chosen inputs and outputs.
 struct Chosen {
     inputs: Vec<usize>,
@@ -85,7 +82,6 @@ fn accumulated(named: &[String], works: &[Column]) -> Option<Error> {
     Some(Error::input(text).under("--output").hint("name an output of the state, such as the power of the same force"))
 }
 
-/// Returns the indices of the named columns, or of all.
 fn choose(what: &str, named: &[String], known: &[Column]) -> Result<Vec<usize>> {
     if known.is_empty() {
         let example = match what {
@@ -116,7 +112,7 @@ fn frequencies(args: &Args, model: &LinearModel) -> Result<Vec<f64>> {
     }
     Ok(match args.points {
         Some(count) => range.frequencies(count as usize),
-        None => range.with_peaks(POINTS, model),
+        None => range.with_peaks(400, model),
     })
 }
 

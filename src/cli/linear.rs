@@ -101,7 +101,6 @@ impl ChartOptions {
 }
 
 impl ModelOptions {
-    /// Returns the requested method and chart.
     pub fn request(&self) -> Result<Linear> {
         let method = MethodSpec::parse(&self.method).and_then(|method| {
             method.entry::<Entry>()?;

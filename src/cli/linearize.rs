@@ -111,7 +111,6 @@ pub fn begin(at: &AtStates, prepared: &Model, range: &Range) -> Result<State> {
     Ok(start)
 }
 
-/// Writes the models along the motion.
 fn along(args: &Args, prepared: &Model, times: &Times) -> Result<()> {
     if args.method != "mcs" {
         let error = Error::input("--along makes models in minimal coordinates, which only mcs has");
@@ -120,8 +119,7 @@ fn along(args: &Args, prepared: &Model, times: &Times) -> Result<()> {
     let Times { range, is_counted } = times;
     let Range { from, to, .. } = *range;
     let mut folder = args.at.output.folder(&prepared.name)?;
-    let bar = args.at.talk.progress(1000, &prepared.name);
-    let progress = |t: f64| bar.set_position((1000.0 * (t - from) / (to - from)) as u64);
+    let progress = args.at.talk.progress_between(from, to, &prepared.name);
     let start = &begin(&args.at, prepared, range)?;
     let chart = args.chart.chart();
     let found = match args.within {
@@ -132,7 +130,6 @@ fn along(args: &Args, prepared: &Model, times: &Times) -> Result<()> {
         }
         None => linearize::along(prepared.system(), start, chart.as_ref(), &range.values(), progress)?,
     };
-    bar.finish_and_clear();
     args.at.talk.warn(&found.doubt());
     let answer = AlongAnswer { prepared, along: &found, formats: &args.format };
     let sealed = answer.stage(&mut folder, "ltv", args.at.talk.origin(prepared))?;

@@ -52,11 +52,6 @@ pub struct Args {
     output: Output,
 }
 
-/// Default number of states of a run.
-const STATES: f64 = 60.0;
-/// More states are probably a mistake.
-const MOST: f64 = 1e5;
-
 pub fn run(args: Args) -> Result<ExitCode> {
     let in_file = |error: Error| error.in_file(&args.scene.path);
     let request = args.model.request()?;
@@ -76,29 +71,24 @@ pub fn run(args: Args) -> Result<ExitCode> {
     answer.stage(&mut folder, "loci", args.talk.origin(&prepared))?;
     let origin = Some(args.talk.origin(&prepared));
     args.talk.conclude(folder, &Sealed { origin, result: answer.summary(), files: Vec::new() }, || answer.text())?;
-    let Some(Gap { at, error }) = failed(&args, &loci) else { return Ok(ExitCode::SUCCESS) };
-    match &args.sweep {
-        Some(Range { parameter, count, .. }) => {
+    // Any value of a parameter makes the loci incomplete; of a motion only the end does.
+    match (&args.sweep, loci.gaps.first(), loci.gaps.last()) {
+        (Some(Range { parameter, count, .. }), Some(Gap { at, error }), _) => {
             let gaps = loci.gaps.len();
             fail(format!("{gaps} of {count} values have no eigenvalues; at {parameter} = {}: {error:#}", short(*at)))
         }
-        None => fail(error),
-    }
-}
-
-/// The gap that makes the loci incomplete: any value of a parameter; of a motion the end.
-fn failed<'l>(args: &Args, loci: &'l Loci) -> Option<&'l Gap> {
-    match args.sweep {
-        Some(_) => loci.gaps.first(),
-        None => loci.gaps.last().filter(|gap| matches!(gap.error, Error::Run(_))),
+        (None, _, Some(Gap { error: error @ Error::Run(_), .. })) => fail(error),
+        _ => Ok(ExitCode::SUCCESS),
     }
 }
 
 fn loci(args: &Args, scene: &SceneOptions, prepared: &Model, request: &Linear) -> Result<Loci> {
-    match &args.sweep {
-        Some(range) => over(args, scene, prepared, range, request),
-        None => along(args, prepared, request),
+    if let Some(range) = &args.sweep {
+        return over(args, scene, prepared, range, request);
     }
+    let times = times(args, prepared)?;
+    let bar = args.talk.progress(times.len() as u64, &prepared.name);
+    Ok(loci_along(prepared, request, &times, || bar.inc(1)))
 }
 
 fn other(args: &Args, own: &Model, path: &Path, request: &Linear) -> Result<(String, Loci)> {
@@ -110,12 +100,6 @@ fn other(args: &Args, own: &Model, path: &Path, request: &Linear) -> Result<(Str
     Ok((prepared.name, found))
 }
 
-fn along(args: &Args, prepared: &Model, request: &Linear) -> Result<Loci> {
-    let times = times(args, prepared)?;
-    let bar = args.talk.progress(times.len() as u64, &prepared.name);
-    Ok(loci_along(prepared, request, &times, || bar.inc(1)))
-}
-
 fn times(args: &Args, prepared: &Model) -> Result<Vec<f64>> {
     let start = prepared.start_time();
     let end = prepared.span()?.end;
@@ -125,11 +109,11 @@ fn times(args: &Args, prepared: &Model) -> Result<Vec<f64>> {
             format!("t = {} s is not within the run, from {} s to {} s", short(from), short(start), short(end));
         return Err(Error::input(message).under("--from").hint("begin earlier, or run longer with --until T"));
     }
-    let every = args.every.unwrap_or((end - from) / STATES);
+    let every = args.every.unwrap_or((end - from) / 60.0);
     let count = (end - from) / every;
     match count {
         // Rounding must not lose the end.
-        _ if (1.0 - 1e-9..MOST).contains(&count) => {
+        _ if (1.0 - 1e-9..1e5).contains(&count) => {
             let last = (count + 1e-9).floor();
             Ok(Range::new("t", (from, (from + last * every).min(end)), last as usize + 1)?.values())
         }

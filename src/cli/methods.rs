@@ -59,7 +59,6 @@ fn pairs(args: &Args) -> Result<Vec<Pair>> {
     Ok(pairs.filter(|(_, name)| is_wanted(&formulation, name)).collect())
 }
 
-/// Returns the methods by their kinds.
 fn lists(pairs: &[Pair]) -> [(&'static str, Vec<MethodItem>); 3] {
     let item = |name, about, options| MethodItem { name, about, r#for: purpose(name), options };
     let formulations = formulation::registry().iter().filter(|entry| pairs.iter().any(|pair| pair.1 == entry.name));

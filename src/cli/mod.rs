@@ -149,7 +149,6 @@ const MOST_THREADS: usize = 1024;
 /// Set to `readings` by tests, this variable of the environment lets budgets count readings of the clock.
 const CLOCK: &str = "HOLONOM_CLOCK";
 
-/// The version with the features of this build.
 fn version() -> &'static str {
     static VERSION: OnceLock<String> = OnceLock::new();
     let features = [
@@ -171,7 +170,10 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     if std::env::var_os(CLOCK).is_some_and(|clock| clock == "readings") {
         clock::count_readings();
     }
-    execute(command).unwrap_or_else(|error| failed(&error))
+    execute(command).unwrap_or_else(|error| {
+        terminal::tell(format!("error: {error:#}"));
+        ExitCode::from(error.exit_code())
+    })
 }
 
 /// Executes the command of these words, the program first, and keeps what it would print. Results go to `folder`, unless
@@ -229,11 +231,6 @@ fn execute(command: Command) -> Result<ExitCode> {
 
 fn done(result: Result<()>) -> Result<ExitCode> {
     result.map(|()| ExitCode::SUCCESS)
-}
-
-fn failed(error: &Error) -> ExitCode {
-    terminal::tell(format!("error: {error:#}"));
-    ExitCode::from(error.exit_code())
 }
 
 /// Refuses a number of threads whose memory and start alone take longer than most runs.

@@ -47,7 +47,10 @@ pub fn run(args: Args) -> Result<()> {
     }
     print_result(args.json, &scenes, || {
         let mut table = Table::left(&["scene", "tags", "about"]);
-        scenes.iter().for_each(|scene| table.row([scene.file.clone(), scene.tags.join(" "), sentence(&scene.about)]));
+        for Listed { file, about, tags, .. } in &scenes {
+            let first = about.split_inclusive(". ").next().unwrap_or_default().trim_end();
+            table.row([file.clone(), tags.join(" "), first.to_string()]);
+        }
         table.to_string()
     })
 }
@@ -62,8 +65,4 @@ const ELSEWHERE: &str = "run it where the folder `models` of holonom is, or give
 fn scene(path: &Path) -> Option<Listed> {
     let listed: Listed = serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()?;
     Some(Listed { file: path.display().to_string(), ..listed })
-}
-
-fn sentence(text: &str) -> String {
-    text.split_inclusive(". ").next().unwrap_or_default().trim_end().to_string()
 }

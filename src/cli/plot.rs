@@ -86,8 +86,6 @@ fn rate(text: &str) -> Result<f64, String> {
 
 /// Least and largest number of rows of the trajectory.
 const ROWS: (f64, f64) = (600.0, 20_000.0);
-/// Largest number of poses in a file of glTF.
-const MOST_POSES: usize = 1000;
 /// Longer animations are probably a mistake.
 const MOST_FRAMES: f64 = 1000.0;
 
@@ -238,10 +236,8 @@ impl Args {
         // Evenly chosen times are times of rows.
         let gaps = f64::from(self.frames) - 1.0;
         let output_step = length / ((wanted / gaps).ceil() * gaps);
-        let bar = self.common.talk.progress(1000, &prepared.name);
-        let fraction = |t: f64| (1000.0 * (t - span.start) / length) as u64;
         let mut recorder = Recorder::new(prepared.system())
-            .with_progress(|t| bar.set_position(fraction(t)))
+            .with_progress(self.common.talk.progress_between(span.start, span.end, &prepared.name))
             .with_stop(|| interrupt::stop(folder));
         let (outcome, _) = prepared.simulate(&prepared.method, Span { output_step, ..span }, &mut recorder)?;
         let record = recorder.finish();
@@ -276,7 +272,7 @@ impl Args {
         }
         if self.gltf {
             let run = Run::new(prepared, motion.trajectory());
-            folder.write("motion.glb", &glb(&run, MOST_POSES))?;
+            folder.write("motion.glb", &glb(&run, 1000))?;
             self.seal(folder, "motion", prepared, drawn)?;
         }
         match self.animate {

@@ -25,7 +25,6 @@ const ELEMENTS: [&str; 3] = ["bodies", "joints", "forces"];
 /// References in references that are followed: a schema may refer to itself.
 const DEEPEST: usize = 6;
 
-/// Width of a line, characters.
 const WIDTH: usize = 110;
 
 pub fn run(args: Args) -> Result<()> {
@@ -122,7 +121,6 @@ impl Reference {
         list(&self.schema["$defs"]["MeasureKind"]["oneOf"])
     }
 
-    /// Returns the description of a value, or of what it refers to.
     fn about(&self, value: &Value) -> String {
         let own = plain(value);
         if own.is_empty() { plain(self.resolved(value)) } else { own }
@@ -231,7 +229,6 @@ impl Reference {
         text
     }
 
-    /// Returns the keys of an object with what they mean.
     fn keys(&self, object: &Value) -> String {
         let required = |name: &str| list(&object["required"]).any(|one| one == name);
         let keys = properties(object).filter(|(name, _)| !name.starts_with('$'));
@@ -244,7 +241,6 @@ impl Reference {
         keys.map(line).collect()
     }
 
-    /// Returns the words that a value can be.
     fn choices(&self, value: &Value) -> String {
         let alternatives = value["anyOf"].as_array().map_or(vec![value], |all| all.iter().collect());
         let words = alternatives.into_iter().map(|one| self.resolved(one)).flat_map(|one| {
@@ -267,7 +263,6 @@ fn list(value: &Value) -> impl Iterator<Item = &Value> {
     value.as_array().into_iter().flatten()
 }
 
-/// Returns the keys that go with a measure.
 fn keys_of(kind: &Value) -> &'static [&'static str] {
     serde_json::from_value(kind["const"].clone()).map_or(&[][..], MeasureKind::keys)
 }
@@ -302,7 +297,6 @@ fn wrapped(text: &str, indentation: usize) -> String {
     wrapped
 }
 
-/// Returns grammar, functions and names of expressions.
 fn language() -> String {
     let mut text = String::new();
     let mut table: Option<Table> = None;

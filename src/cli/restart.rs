@@ -26,15 +26,12 @@ struct LastRow {
 /// Reads the state from which the run of this summary can continue, with a scene that may be `changed` since.
 pub fn read(path: &Path, prepared: &Model, changed: bool) -> Result<Checkpoint> {
     let text = crate::files::read_json(path).map_err(|error| Error::file(path, error))?;
-    let saved = parse(&text).and_then(|saved| checked(saved, prepared, changed));
-    saved.map_err(|error| error.under("--start").in_file(path))
-}
-
-fn parse(text: &str) -> Result<Saved> {
-    serde_json::from_str(text).map_err(|error| {
+    let saved = serde_json::from_str(&text).map_err(|error| {
         Error::input(format!("it is no summary of a run: {error}"))
             .hint("name the summary.json that `holonom simulate` has written")
-    })
+    });
+    let saved = saved.and_then(|saved| checked(saved, prepared, changed));
+    saved.map_err(|error| error.under("--start").in_file(path))
 }
 
 /// Refuses a run of another scene, and a state that no run has left.

@@ -58,9 +58,6 @@ pub struct Args {
     output: Output,
 }
 
-/// Interval at which the rows so far are written.
-const SAVED: Duration = Duration::from_secs(30);
-
 pub fn run(args: Args) -> Result<ExitCode> {
     let talk = &args.common.talk;
     let overrides = args.overrides();
@@ -152,7 +149,7 @@ impl Args {
         let mut saved = Instant::now();
         let done = |table: &StudyTable| {
             bar.inc(1);
-            if saved.elapsed() > SAVED {
+            if saved.elapsed() > Duration::from_secs(30) {
                 // A failure to save is reported at the end.
                 let _ = save((table, asked), origin.clone(), place);
                 saved = Instant::now();
@@ -205,7 +202,6 @@ fn options(study: &Study) -> Vec<String> {
     methods.chain(numbers).flat_map(|(name, value)| [name.to_string(), value]).chain(flags).collect()
 }
 
-/// Prints the commands that compute one variant alone.
 fn again(table: &StudyTable, row: usize, place: &Path) -> Result<ExitCode> {
     let found = table.rows.get(&row).ok_or_else(|| {
         let (count, place) = (table.count, place.display());

@@ -87,7 +87,6 @@ impl Talk {
         self.conclude(folder, &sealed, || answer.text())
     }
 
-    /// Prints the folder and the names of the files, if text is printed.
     pub fn tell_files(&self, written: &Written) -> Result<()> {
         // Who takes the output has chosen the folder.
         if is_captured() {
@@ -118,10 +117,15 @@ impl Talk {
         bar.set_draw_target(indicatif::ProgressDrawTarget::stderr_with_hz(5));
         bar
     }
+
+    /// Returns a progress bar that is told the times of a run between two.
+    pub fn progress_between(&self, from: f64, to: f64, what: &str) -> impl Fn(f64) + use<> {
+        let bar = self.progress(1000, what);
+        move |t| bar.set_position((1000.0 * (t - from) / (to - from)) as u64)
+    }
 }
 
 impl Output {
-    /// Makes the folder of the results of the scene `name`.
     pub fn folder(&self, name: &str) -> Result<Folder> {
         let path = self.output.clone().unwrap_or_else(|| Path::new("out").join(name));
         Ok(Folder::create(&path)?.drawing(self.figures))

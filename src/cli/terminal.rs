@@ -30,7 +30,6 @@ pub fn captured<R>(work: impl FnOnce() -> R) -> (R, Captured) {
     (result, CAPTURED.take().unwrap_or_default())
 }
 
-/// True if the output of this thread is kept.
 pub fn is_captured() -> bool {
     CAPTURED.with_borrow(Option::is_some)
 }

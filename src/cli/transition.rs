@@ -3,7 +3,7 @@
 use super::common::positive;
 use super::linear::AtStates;
 use crate::error::Result;
-use crate::linearize::{Lyapunov, Operating, floquet, lyapunov};
+use crate::linearize::{floquet, lyapunov};
 use crate::report::linear::Transition;
 use crate::tolerances;
 
@@ -23,9 +23,6 @@ pub struct Args {
     lyapunov: Option<f64>,
 }
 
-/// Number of times that columns are made orthonormal.
-const RENEWALS: f64 = 500.0;
-
 pub fn run(args: Args) -> Result<()> {
     let prepared = args.at.load()?;
     let in_file = args.at.in_file();
@@ -38,15 +35,13 @@ pub fn run(args: Args) -> Result<()> {
             }
             None => None,
         };
-        let lyapunov = args.lyapunov.map(|duration| exponents(&args, &prepared.name, place, duration)).transpose();
-        let lyapunov = lyapunov.map_err(in_file)?;
+        let exponents = |duration: f64| {
+            let progress = args.at.talk.progress_between(0.0, duration, &prepared.name);
+            // Columns are made orthonormal 500 times.
+            lyapunov(place.system(), &place.state, (duration, duration / 500.0), progress)
+        };
+        let lyapunov = args.lyapunov.map(exponents).transpose().map_err(in_file)?;
         let answer = Transition { scene: &prepared.name, t: place.state.t, floquet, lyapunov };
         args.at.add(folder, "transition", (&prepared, place.state.t), &answer)
     })
-}
-
-fn exponents(args: &Args, name: &str, place: &Operating, duration: f64) -> Result<Lyapunov> {
-    let bar = args.at.talk.progress(1000, name);
-    let progress = |t: f64| bar.set_position((1000.0 * t / duration) as u64);
-    lyapunov(place.system(), &place.state, (duration, duration / RENEWALS), progress)
 }

@@ -14,8 +14,6 @@ use crate::validate::{Direction, Settings, validate_along, validate_until};
 use std::process::ExitCode;
 use std::time::Duration;
 
-const MORE: &str = "give more time by --budget, or a shorter --horizon";
-
 #[derive(clap::Args)]
 #[command(after_help = "Examples:
   holonom validate models/four_bar_spring.json --at 0.3
@@ -69,7 +67,13 @@ pub fn run(args: Args) -> Result<ExitCode> {
             part > done / states || interrupt::is_asked()
         };
         let found = validate_until(place.system(), &place.state, &settings, &is_over).map_err(args.at.in_file())?;
-        args.at.talk.warn(&found.cut.iter().map(|text| Warning::new(text, MORE)).collect::<Vec<_>>());
+        args.at.talk.warn(
+            &found
+                .cut
+                .iter()
+                .map(|text| Warning::new(text, "give more time by --budget, or a shorter --horizon"))
+                .collect::<Vec<_>>(),
+        );
         let answer = ValidationAnswer { scene: &prepared.name, names: &names, found };
         complaints.extend((!answer.is_right()).then(|| answer.complaint()));
         args.at.add(folder, "validation", (&prepared, place.state.t), &answer)
@@ -80,18 +84,16 @@ pub fn run(args: Args) -> Result<ExitCode> {
     Ok(if complaints.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 
-/// Checks the models along a span of the motion.
 fn over(args: &Args, prepared: &Model, times: &Times, directions: &[Direction]) -> Result<ExitCode> {
     let range = &times.range;
     let mut folder = args.at.output.folder(&prepared.name)?;
-    let bar = args.at.talk.progress(1000, &prepared.name);
-    let progress = |t: f64| bar.set_position((1000.0 * (t - range.from) / range.length()) as u64);
+    let progress = args.at.talk.progress_between(range.from, range.to, &prepared.name);
     let start = begin(&args.at, prepared, range)?;
     let chart = args.chart.chart();
-    let found = along(prepared.system(), &start, chart.as_ref(), &range.values(), progress)?;
-    let check = |direction| validate_along(prepared.system(), &found, direction, progress);
+    let found = along(prepared.system(), &start, chart.as_ref(), &range.values(), &progress)?;
+    let check = |direction| validate_along(prepared.system(), &found, direction, &progress);
     let checks = directions.iter().map(check).collect::<Result<Vec<_>>>()?;
-    bar.finish_and_clear();
+    drop(progress);
     let answer = SpanAnswer { scene: &prepared.name, along: &found, checks: &checks };
     let sealed = answer.stage(&mut folder, "validation-along", args.at.talk.origin(prepared))?;
     args.at.talk.conclude(folder, &sealed, || answer.text())?;

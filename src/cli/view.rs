@@ -102,7 +102,6 @@ fn label(path: &Path) -> String {
 }
 
 impl Args {
-    /// Reads a finished run of the scene.
     fn finished(&self, path: &Path, option: &str) -> Result<Seen> {
         let run = FinishedRun::read(path, false).map_err(|error| error.under(option))?;
         let overrides = Overrides { set: run.parameters.clone(), ..Overrides::default() };
@@ -127,9 +126,8 @@ impl Args {
     /// Runs the scene, with as many rows as the page shows.
     fn simulate(&self, prepared: Model, span: Span, folder: &Folder) -> Result<Seen> {
         let length = span.end - span.start;
-        let bar = self.common.talk.progress(1000, &prepared.name);
         let mut recorder = Recorder::new(prepared.system())
-            .with_progress(|t| bar.set_position((1000.0 * (t - span.start) / length) as u64))
+            .with_progress(self.common.talk.progress_between(span.start, span.end, &prepared.name))
             .with_stop(|| interrupt::stop(folder));
         let output_step = length / f64::from(self.rows - 1);
         let (outcome, _) = prepared.simulate(&prepared.method, Span { output_step, ..span }, &mut recorder)?;
@@ -146,7 +144,6 @@ impl Args {
         })
     }
 
-    /// Returns the linear model whose modes are shown.
     fn model(&self, prepared: &Model) -> Result<LinearModel> {
         let t = self.at.unwrap_or_else(|| prepared.start_time());
         let state = prepared.states_at(&[t]).map_err(|error| error.under("--at"))?.swap_remove(0);

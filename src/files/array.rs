@@ -1,6 +1,7 @@
 //! A named value in a file for Python or MATLAB.
 
 use nalgebra::Complex;
+use serde::{Serialize, Serializer};
 
 /// Numbers or texts. The last index of `shape` runs fastest; no index is a single number.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +26,41 @@ pub enum Array {
     Text(String),
     /// A list of texts.
     Texts(Vec<String>),
+}
+
+/// Nested lists of numbers; null where a number is not finite, and complex numbers as pairs.
+impl Serialize for Array {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Array::Flag(flag) => flag.serialize(serializer),
+            Array::Real { shape, values } => Nested { shape, values }.serialize(serializer),
+            Array::Complex { shape, values } => {
+                let parts: Vec<f64> = values.iter().flat_map(|value| [value.re, value.im]).collect();
+                Nested { shape: &[&shape[..], &[2]].concat(), values: &parts }.serialize(serializer)
+            }
+            Array::Text(text) => text.serialize(serializer),
+            Array::Texts(texts) => texts.serialize(serializer),
+        }
+    }
+}
+
+/// The entries of an array, or of a part of it.
+struct Nested<'a> {
+    shape: &'a [usize],
+    values: &'a [f64],
+}
+
+impl Serialize for Nested<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.shape {
+            [] => self.values.first().serialize(serializer),
+            [_] => self.values.serialize(serializer),
+            [count, shape @ ..] => {
+                let size: usize = shape.iter().product();
+                serializer.collect_seq((0..*count).map(|i| Nested { shape, values: &self.values[i * size..][..size] }))
+            }
+        }
+    }
 }
 
 impl Array {

@@ -10,7 +10,8 @@ use crate::tolerances::{DEFECTIVE_MODE, EIGENVALUES_AGREE};
 
 type C = Complex<f64>;
 
-/// The derivative of an eigenvalue with respect to a parameter or to time.
+/// The derivative of an eigenvalue with respect to a parameter or to time. As JSON its parts are `d_re`, `d_im` and
+/// `error`, null without a derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slope {
     /// The eigenvalue, 1/s.
@@ -20,6 +21,16 @@ pub struct Slope {
     pub derivative: Option<Complex<f64>>,
     /// |error| of the derivative: the last change by extrapolation, and what rounding of the eigenvalue makes of it.
     pub error: f64,
+}
+
+impl serde::Serialize for Slope {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Slope { value, derivative, error } = self;
+        let known = derivative.map(|slope| (Some(slope.re), Some(slope.im), Some(*error)));
+        let (d_re, d_im, error) = known.unwrap_or_default();
+        let parts = [("re", Some(value.re)), ("im", Some(value.im)), ("d_re", d_re), ("d_im", d_im), ("error", error)];
+        serializer.collect_map(parts)
+    }
 }
 
 /// The derivative of a model, [A' E'], or A' where it has no E.

@@ -39,12 +39,13 @@ pub enum At {
 }
 
 /// The derivatives of the eigenvalues at a value of a parameter.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Sensitivity {
     /// The value of the parameter.
     pub at: f64,
     /// Those of the physical eigenvalues with im >= 0.
     #[doc(hidden)]
+    #[serde(rename = "eigenvalues")]
     pub slopes: Vec<Slope>,
 }
 

@@ -3,8 +3,6 @@
 use super::*;
 use plotters::chart::{ChartBuilder, MeshStyle};
 
-/// Distance of factors from the frame, to their middle.
-const STRIP_GAP: f64 = 11.0;
 /// Distance of the colour bar from the frame, and its width.
 const BAR_GAP: f64 = 12.0;
 const BAR_WIDTH: f64 = 16.0;
@@ -29,7 +27,6 @@ pub(super) fn grid<'a>(page: &Page, placed: &Placed) -> Done<Chart<'a>> {
     Ok(chart)
 }
 
-/// Draws marks, labels, titles and the frame of a chart.
 fn axes(page: &Page, chart: &mut Chart, [x, y]: [&Axis; 2], frame: &Rect) -> Done {
     marks(chart, 0.5 * LABEL_DISTANCE, x.label.size).x_desc(&x.label.text).draw()?;
     marks(chart, MINOR_LENGTH, y.label.size).x_labels(0).y_labels(0).y_desc(&y.label.text).draw()?;
@@ -49,7 +46,7 @@ fn marks<'a, 'b>(chart: &'b mut Chart<'a>, length: f64, size: f64) -> MeshStyle<
 pub(super) fn draw(page: &Page, chart: &mut Chart, placed: &Placed) -> Done {
     let Placed { panel, x, y, bar, frame, margins: (_, right), .. } = placed;
     axes(page, chart, [x, y], frame)?;
-    let strip = frame.top - STRIP_GAP;
+    let strip = frame.top - 11.0;
     let beside = frame.right + BAR_GAP;
     let factor = |axis: &Axis, at, align| page.draw(&words(&axis.ticks.factor, at, Font(NOTE_SIZE, INK, align)));
     factor(y, (frame.left, strip), Align::Start)?;

@@ -3,10 +3,6 @@
 use super::*;
 use crate::math::polyline;
 
-/// Largest number of points of one figure, so that its file stays small.
-const LINE_POINTS: usize = 16_000;
-const DOTS: usize = 12_000;
-const DOT_RADIUS: f64 = 2.7;
 /// A line that changes its vertical direction by more than this, in pixels, more often than once in this many pixels,
 /// is restless.
 const RESTLESS: f64 = 4.0;
@@ -56,7 +52,7 @@ fn runs(placed: &Placed, series: &Series) -> Vec<Vec<Pt>> {
 /// they would be one blot.
 fn lines(placed: &Placed, mut stroke: Stroke, runs: &[Vec<Pt>], count: usize) -> (bool, Stroke, Vec<Vec<Pt>>) {
     let full = runs.iter().map(Vec::len).sum::<usize>().max(1);
-    let most = |run: &[Pt]| ((LINE_POINTS / count).max(200) * run.len() / full).max(8);
+    let most = |run: &[Pt]| ((16_000 / count).max(200) * run.len() / full).max(8);
     let thinned = runs.iter().map(|run| polyline::clipped(&polyline::thinned(run, most(run)), placed.frame.ends()));
     let parts: Vec<Vec<Pt>> = thinned.flatten().collect();
     let is_restless = parts.iter().map(|part| turns(part)).sum::<usize>() as f64 > placed.frame.size().0 / RESTLESS;
@@ -75,9 +71,9 @@ fn markers(page: &Page, placed: &Placed, look: &Look, runs: &[Vec<Pt>], count: u
     // A single point between two gaps has no line; a dot of the line's width would be missed.
     let marked = runs.iter().filter(|run| look.marker.is_some() || run.len() == 1);
     let points: Vec<Pt> = marked.flatten().copied().filter(|point| placed.frame.contains(*point)).collect();
-    let kept = polyline::apart(&points, (DOTS / count).max(60));
+    let kept = polyline::apart(&points, (12_000 / count).max(60));
     let crowd = usize::from(kept.len() > 150) + usize::from(kept.len() > 2000);
-    let radius = if look.marker.is_some() { MARKER_RADIUS * [1.0, 0.6, 0.35][crowd] } else { DOT_RADIUS };
+    let radius = if look.marker.is_some() { MARKER_RADIUS * [1.0, 0.6, 0.35][crowd] } else { 2.7 };
     let marker = look.marker.unwrap_or(Marker::Circle);
     kept.into_iter().try_for_each(|i| marker.draw(page, points[i], radius, look.color))
 }

@@ -5,8 +5,6 @@ use super::*;
 use plotters::drawing::DrawingArea;
 use std::{cell::RefCell, rc::Rc};
 
-const PANEL_GAP: f64 = 12.0;
-
 pub(super) fn figure(figure: &Figure) -> Drawing {
     let drawing = Rc::new(RefCell::new(Drawing { title: figure.title.clone(), ..Drawing::default() }));
     // A drawing refuses nothing.
@@ -30,7 +28,7 @@ fn sheet(figure: &Figure, drawing: &Rc<RefCell<Drawing>>) -> Done<(f64, f64)> {
     let mut bottom = top;
     for (k, (placed, entries)) in panels.iter_mut().zip(&legends).enumerate() {
         if k % columns == 0 {
-            top = bottom.round() + if k > 0 { PANEL_GAP } else { 0.0 };
+            top = bottom.round() + if k > 0 { 12.0 } else { 0.0 };
         }
         let end = placed.put(part * (k % columns) as f64, part, top);
         let taken = panel(drawing, &page, placed, count)?;

@@ -7,9 +7,7 @@ use rayon::prelude::*;
 /// last one is labelled. A legend that is the same in all panels is drawn once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Title above the panels; may be empty.
     pub title: String,
-    /// Panels from top to bottom, or row by row.
     pub panels: Vec<Panel>,
     /// Number of panels side by side.
     pub columns: usize,
@@ -24,23 +22,19 @@ impl Default for Figure {
 }
 
 impl Figure {
-    /// An empty figure, one journal column wide.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Sets the title.
     pub fn title(self, title: impl Into<String>) -> Self {
         Self { title: title.into(), ..self }
     }
 
-    /// Adds a panel below the others.
     pub fn panel(mut self, panel: Panel) -> Self {
         self.panels.push(panel);
         self
     }
 
-    /// Returns the figure as SVG text.
     pub fn to_svg(&self) -> String {
         svg::render(&draw::figure(self))
     }
@@ -61,14 +55,11 @@ impl Figure {
 pub struct Animation<F: Fn(usize) -> Figure + Sync> {
     /// Returns the picture of a frame by its index.
     pub frame: F,
-    /// Number of frames.
     pub count: usize,
-    /// Frames per second.
     pub per_second: f64,
 }
 
 impl<F: Fn(usize) -> Figure + Sync> Animation<F> {
-    /// Returns the animation as SVG text.
     pub fn to_svg(&self) -> String {
         let frames: Vec<Vec<Shape>> = (0..self.count).into_par_iter().map(|k| self.parts(k).1).collect();
         svg::animate(&self.parts(0).0, &frames, 1.0 / self.per_second)

@@ -13,7 +13,6 @@ pub struct Spot {
 }
 
 impl Spot {
-    /// The point at a position in data coordinates.
     pub fn data(x: f64, y: f64) -> Self {
         Self { at: (x, y), step: (0.0, 0.0) }
     }
@@ -46,7 +45,6 @@ pub enum Tint {
     Value(f64),
 }
 
-/// Kind of an item.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Form {
     /// A line of a width in pixels through the points; true if it is dashed.
@@ -63,14 +61,11 @@ pub enum Form {
     Note(String),
 }
 
-/// An item to draw.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Item {
     /// Its points, one for discs and texts.
     pub spots: Vec<Spot>,
-    /// Its colour.
     pub tint: Tint,
-    /// Its kind.
     pub form: Form,
 }
 
@@ -95,14 +90,11 @@ impl Item {
     }
 }
 
-/// How far items may reach beyond the frame, nominal pixels.
-const BEYOND: f64 = 24.0;
-
 /// Draws the items of a panel; not those with a point that is not a number.
 pub(super) fn draw(page: &Page, placed: &Placed) -> Done {
     placed.panel.items.iter().try_for_each(|item| {
         let points: Option<Vec<Pt>> = item.spots.iter().map(|spot| spot.put(placed)).collect();
-        let draw = |points: Vec<Pt>| item.draw(page, placed.color(item.tint), &points, &placed.frame.grown(BEYOND));
+        let draw = |points: Vec<Pt>| item.draw(page, placed.color(item.tint), &points, &placed.frame.grown(24.0));
         points.map_or(Ok(()), draw)
     })
 }

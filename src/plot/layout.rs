@@ -3,11 +3,8 @@
 use super::ticks::Room;
 use super::*;
 
-const LABEL_GAP: f64 = 6.0;
 /// Height of the strip above a frame with factors, and of a title above that.
 const STRIP: f64 = 22.0;
-/// Height of the marks below a frame without labels.
-const MARKS: f64 = 6.0;
 
 /// A panel with its axes, and the room that it needs.
 pub(super) struct Placed<'a> {
@@ -69,7 +66,7 @@ impl<'a> Placed<'a> {
     pub fn below(&self) -> f64 {
         let factor = if self.x.ticks.factor.is_empty() { 0.0 } else { LINE_HEIGHT * LABEL_SIZE };
         let label = LABEL_DISTANCE + LINE_HEIGHT * TICK_SIZE + self.x.label.height().max(factor);
-        if self.shows_x { label.round() } else { MARKS }
+        if self.shows_x { label.round() } else { 6.0 }
     }
 
     /// Puts the frame into a column of the figure, and returns the lower end of the panel.
@@ -130,7 +127,7 @@ pub(super) fn place(figure: &Figure) -> (f64, Vec<Placed<'_>>) {
         let width = (total - left - right).max(60.0);
         all.iter_mut().for_each(|placed| placed.fit(width, frame_height(placed.panel, figure.panels.len(), width)));
         let largest = |part: fn(&Placed) -> f64| all.iter().map(part).fold(0.0, f64::max);
-        let distance = LABEL_GAP + largest(|placed| placed.y.ticks.widest()) + LABEL_DISTANCE;
+        let distance = 6.0 + largest(|placed| placed.y.ticks.widest()) + LABEL_DISTANCE;
         left = (EDGE + largest(|placed| placed.y.label.height()) + distance).max(40.0).min(0.45 * total).ceil();
         right = largest(|placed| placed.right()).min(0.4 * total).ceil();
         for placed in &mut all {

@@ -2,18 +2,11 @@
 
 use super::*;
 
-/// Width of the samples when some have a line, and when all are markers.
-const LINE_SAMPLE: f64 = 34.0;
-const MARKER_SAMPLE: f64 = 14.0;
 const SAMPLE_GAP: f64 = 8.0;
 const ROW: f64 = 20.5;
 const COLUMN_GAP: f64 = 18.0;
 const PADDING: f64 = 7.0;
 const SIZE: f64 = 15.5;
-/// Distance from the frame.
-const INSET: f64 = 8.0;
-/// Largest part of its panel that a legend inside covers.
-const MOST_AREA: f64 = 0.35;
 const BORDER: Stroke = Stroke { color: Color(190, 190, 190), width: 1.0, dash: &[] };
 /// Corners and middles of sides, in parts from the lower left corner.
 const SIDES: [(f64, f64); 8] =
@@ -37,7 +30,7 @@ struct Block {
 
 impl Block {
     fn new(entries: &[LegendEntry], columns: usize, room: f64) -> Self {
-        let sample = if entries.iter().any(|entry| entry.1.line.is_some()) { LINE_SAMPLE } else { MARKER_SAMPLE };
+        let sample = if entries.iter().any(|entry| entry.1.line.is_some()) { 34.0 } else { 14.0 };
         let label_room = (room - sample - SAMPLE_GAP - 2.0 * PADDING).max(20.0);
         let shortened = |(label, look): &LegendEntry| (text::shorten(label, SIZE, label_room), *look);
         let column = |part: &[LegendEntry]| {
@@ -72,12 +65,12 @@ impl Block {
 
 /// Draws a legend inside the frame where it hides nothing, in a box; false if there is no space.
 pub(super) fn inside(page: &Page, entries: &[LegendEntry], placed: &Placed, taken: &[Pt]) -> Done<bool> {
-    let room = placed.frame.grown(-INSET);
+    let room = placed.frame.grown(-8.0);
     let frame = placed.frame.size();
     let place = |columns: usize| {
         let block = Block::new(entries, columns, 0.8 * frame.0);
         let (width, height) = block.size;
-        let fits = width <= room.size().0 && height <= room.size().1 && width * height <= MOST_AREA * frame.0 * frame.1;
+        let fits = width <= room.size().0 && height <= room.size().1 && width * height <= 0.35 * frame.0 * frame.1;
         let rects = SIDES.map(|(right, up)| {
             let (x, y) = room.at(right, up);
             Rect::new((x - right * width, y - (1.0 - up) * height), block.size)

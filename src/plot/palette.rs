@@ -17,13 +17,10 @@ pub(super) const EDGE: f64 = 8.0;
 pub(super) const INK: Color = Color(26, 26, 26);
 pub(super) const NOTE_INK: Color = Color(85, 85, 85);
 pub(super) const PAPER: Color = Color(255, 255, 255);
-const GREY: Color = Color(130, 130, 130);
 
 pub(super) const FRAME: Stroke = Stroke { color: Color(51, 51, 51), width: 1.4, dash: &[] };
 pub(super) const GRID: Stroke = Stroke { color: Color(228, 228, 228), width: 1.0, dash: &[] };
 pub(super) const DASHED: &[f64] = &[5.0, 4.0];
-const LINE_WIDTH: f64 = 2.3;
-const THIN_WIDTH: f64 = 1.2;
 
 /// Okabe and Ito's colours, those with the most contrast on white first, black last. Their yellow is omitted: a thin
 /// yellow line on white cannot be seen.
@@ -63,7 +60,7 @@ pub(super) fn looks(all: &[Series]) -> Vec<Look> {
     let is_many = all.iter().filter(has_own_pattern).count() > COLORS.len();
     let look = |(index, Series { style, color, .. }): (usize, &Series)| {
         let place = color.unwrap_or(index);
-        let color = if matches!(style, Guide | Crosses) { GREY } else { COLORS[place % COLORS.len()] };
+        let color = if matches!(style, Guide | Crosses) { Color(130, 130, 130) } else { COLORS[place % COLORS.len()] };
         let pattern = if is_many { index % DASHES.len() } else { 0 };
         let dash = match style {
             Dashed => DASHES[pattern.max(1)],
@@ -71,7 +68,7 @@ pub(super) fn looks(all: &[Series]) -> Vec<Look> {
             Guide => DASHED,
             _ => DASHES[pattern],
         };
-        let width = if matches!(style, Thin | Guide) { THIN_WIDTH } else { LINE_WIDTH };
+        let width = if matches!(style, Thin | Guide) { 1.2 } else { 2.3 };
         let marker = match style {
             Crosses => Some(Marker::Cross),
             Dots | LineDots => Some(MARKERS[place % MARKERS.len()]),
@@ -83,7 +80,6 @@ pub(super) fn looks(all: &[Series]) -> Vec<Look> {
     all.iter().enumerate().map(look).collect()
 }
 
-/// Returns the colour at `share` of the way from one to another.
 pub(super) fn mix(from: Color, to: Color, share: f64) -> Color {
     let part = |from: u8, to: u8| (f64::from(from) * (1.0 - share) + f64::from(to) * share).round() as u8;
     Color(part(from.0, to.0), part(from.1, to.1), part(from.2, to.2))

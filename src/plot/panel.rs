@@ -24,34 +24,26 @@ impl<T: Into<String>> From<T> for AxisSpec {
 }
 
 impl AxisSpec {
-    /// Makes the axis logarithmic.
     pub fn log(self) -> Self {
         Self { is_log: true, ..self }
     }
 
-    /// Sets fixed limits.
     pub fn range(self, low: f64, high: f64) -> Self {
         Self { range: Some((low, high)), ..self }
     }
 }
 
-/// Style of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
     /// A line; one of eight or more lines in a panel gets dashes as well, to be told apart in grey.
     #[default]
     Line,
-    /// A dashed line.
     Dashed,
-    /// A dotted line.
     Dotted,
-    /// A thin line.
     Thin,
     /// A thin grey dashed line that helps to read the others.
     Guide,
-    /// A marker at every point.
     Dots,
-    /// A line with a marker at every point.
     LineDots,
     /// A small grey cross at every point, for data in the background.
     Crosses,
@@ -64,29 +56,24 @@ pub struct Series {
     pub label: String,
     /// (x, y), in drawing order.
     pub points: Vec<(f64, f64)>,
-    /// Line, dashes, dots.
     pub style: Style,
     /// Index in the palette (seven colours, repeated); the index in the panel if none.
     pub color: Option<usize>,
 }
 
 impl Series {
-    /// A line.
     pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self { label: label.into(), points, ..Self::default() }
     }
 
-    /// Separate points.
     pub fn dots(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self::line(label, points).style(Style::Dots)
     }
 
-    /// Sets the style.
     pub fn style(self, style: Style) -> Self {
         Self { style, ..self }
     }
 
-    /// Sets the colour by its index in the palette.
     pub fn color(self, color: usize) -> Self {
         Self { color: Some(color), ..self }
     }
@@ -95,13 +82,9 @@ impl Series {
 /// Axes and the data drawn between them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
-    /// Title above the axes; may be empty.
     pub title: String,
-    /// The horizontal axis.
     pub x: AxisSpec,
-    /// The vertical axis.
     pub y: AxisSpec,
-    /// Lines and points.
     pub series: Vec<Series>,
     /// The axis of the colour bar, of which values beyond the limits have the colour of the limit.
     pub colors: AxisSpec,
@@ -116,23 +99,19 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// An empty panel between two axes.
     pub fn new(x: impl Into<AxisSpec>, y: impl Into<AxisSpec>) -> Self {
         Self { x: x.into(), y: y.into(), ..Self::default() }
     }
 
-    /// Sets the title.
     pub fn title(self, title: impl Into<String>) -> Self {
         Self { title: title.into(), ..self }
     }
 
-    /// Adds a series.
     pub fn series(mut self, series: Series) -> Self {
         self.series.push(series);
         self
     }
 
-    /// Adds items to draw.
     pub fn items(mut self, items: impl IntoIterator<Item = Item>) -> Self {
         self.items.extend(items);
         self
@@ -144,7 +123,6 @@ impl Panel {
         self
     }
 
-    /// Sets the height between the axes, in nominal pixels.
     pub fn height(self, height: f64) -> Self {
         Self { height: Some(height), ..self }
     }

@@ -9,19 +9,16 @@ use tiny_skia::{FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, St
 
 /// Output pixels per nominal pixel: 1280 pixels in 85 mm.
 const DENSITY: u32 = 2;
-const MOST_PIXELS: f64 = 5.0e7;
-/// Printed width of 640 nominal pixels.
-const COLUMN_METRES: f64 = 0.085;
 
 /// Returns the bytes of a PNG file, or the reason why there is none. Pictures of unusual size are drawn coarser.
 pub(super) fn png(drawing: &Drawing) -> Result<Vec<u8>, String> {
     let Drawing { width, height, .. } = drawing;
-    let fits = |density: &u32| width * height * f64::from(density.pow(2)) <= MOST_PIXELS;
+    let fits = |density: &u32| width * height * f64::from(density.pow(2)) <= 5.0e7;
     let too_many = || format!("{width:.0} x {height:.0} pixels are too many; save it as SVG");
     let density = [DENSITY, 1].into_iter().find(fits).ok_or_else(too_many)?;
     let mut pixels = paper(drawing, density)?;
     draw(&mut pixels, density, &drawing.shapes);
-    let per_metre = (640.0 * f64::from(density) / COLUMN_METRES).round() as u32;
+    let per_metre = (640.0 * f64::from(density) / 0.085).round() as u32;
     files::png::encode(pixels.width(), pixels.height(), &rgb(&pixels), per_metre).map_err(|error| error.to_string())
 }
 

@@ -35,7 +35,6 @@ impl Rect {
         [(self.left, self.top), (self.right, self.top), (self.right, self.bottom), (self.left, self.bottom)]
     }
 
-    /// Returns the upper left and the lower right corner.
     pub fn ends(&self) -> [Pt; 2] {
         [(self.left, self.top), (self.right, self.bottom)]
     }
@@ -61,14 +60,10 @@ pub(super) struct Stroke {
     pub dash: &'static [f64],
 }
 
-/// Alignment of a text at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
-    /// The text starts there.
     Start,
-    /// Its middle is there.
     Middle,
-    /// The text ends there.
     End,
 }
 
@@ -79,7 +74,6 @@ impl Align {
     }
 }
 
-/// Size, colour and alignment of a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Font(pub f64, pub Color, pub Align);
 

@@ -13,8 +13,6 @@ use std::convert::Infallible;
 
 /// Units of the backend in a nominal pixel.
 const UNITS: f64 = 100.0;
-/// Sides of the paper in units: the picture ends where the drawing does.
-const SIDE: u32 = 100_000_000;
 
 /// The end of an operation; a drawing refuses nothing.
 pub(super) type Done<T = ()> = Result<T, DrawingAreaErrorKind<Infallible>>;
@@ -57,7 +55,6 @@ pub(super) fn font(Font(size, color, align): Font) -> TextStyle<'static> {
     TextStyle { font, color: color.to_backend_color(), pos: Pos::new(across, VPos::Center) }
 }
 
-/// Returns a text that is vertically centred at a position.
 pub(super) fn words(text: &str, at: Pt, style: Font) -> Words<'static, Pt, &str> {
     Words::new(text, at, font(style))
 }
@@ -66,7 +63,7 @@ impl DrawingBackend for Drawing {
     type ErrorType = Infallible;
 
     fn get_size(&self) -> (u32, u32) {
-        (SIDE, SIDE)
+        (100_000_000, 100_000_000)
     }
 
     fn ensure_prepared(&mut self) -> Recorded {

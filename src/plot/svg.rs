@@ -5,8 +5,6 @@
 
 use super::*;
 
-/// Discs are strokes of this length, in pixels, with round ends: a quarter of the bytes of circles.
-const DOT: f64 = 0.1;
 const FONTS: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, Geneva, sans-serif";
 
 pub(super) fn render(drawing: &Drawing) -> String {
@@ -47,7 +45,7 @@ fn shape(out: &mut String, shape: &Shape) {
     match shape {
         Shape::Text(line) => text(out, line),
         Shape::Drawn(paint @ Paint::Disc(..), lines) => {
-            let dots = lines.iter().flatten().map(|(x, y)| vec![(*x, *y), (x + DOT, *y)]);
+            let dots = lines.iter().flatten().map(|(x, y)| vec![(*x, *y), (x + 0.1, *y)]);
             *out += &format!("<path {} d=\"{}\"/>\n", style(paint), data(&dots.collect::<Vec<_>>()));
         }
         Shape::Drawn(paint, lines) => *out += &format!("<path {} d=\"{}\"/>\n", style(paint), data(lines)),

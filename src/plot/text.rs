@@ -31,7 +31,6 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
 
 /// Rise of superscripts and subscripts in em of the line.
 const RAISED: f64 = 0.40;
-const LOWERED: f64 = -0.16;
 
 /// Returns size and downward shift of a part with a rise.
 pub(super) fn metrics(rise: f64, size: f64) -> (f64, f64) {
@@ -80,7 +79,7 @@ impl Rich {
 fn classify(character: char) -> (f64, char) {
     let plain = |list: &str| "0123456789+−=()".chars().nth(list.chars().position(|one| one == character)?);
     let raised = plain("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾").map(|plain| (RAISED, plain));
-    raised.or_else(|| Some((LOWERED, plain("₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎")?))).unwrap_or((0.0, character))
+    raised.or_else(|| Some((-0.16, plain("₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎")?))).unwrap_or((0.0, character))
 }
 
 /// A text broken into lines, smaller if it would not fit otherwise.

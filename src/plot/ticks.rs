@@ -2,15 +2,10 @@
 
 use super::{Axis, TICK_SIZE, text};
 
-/// Largest number of significant digits; longer labels are written relative to an offset.
-const MOST_DIGITS: f64 = 6.0;
 /// Steps of angles, degrees.
 const ANGLES: [f64; 8] = [5.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720.0];
 /// Numbers of decades between labels.
 const STRIDES: [i32; 13] = [1, 2, 3, 4, 5, 10, 15, 20, 25, 50, 100, 200, 500];
-/// Least length of a decade, in pixels, for marks within it and for marks between labels.
-const ROOM_FOR_MINOR: f64 = 30.0;
-const ROOM_FOR_DECADE: f64 = 4.0;
 /// Powers of ten that numbers of the machine reach.
 const POWERS: (i32, i32) = (-307, 307);
 
@@ -82,7 +77,7 @@ fn multiples(low: f64, high: f64, step: f64) -> Ticks {
     let last = (high / step + 1e-6).floor();
     let values: Vec<f64> = (0..50).map(|k| (first + f64::from(k)) * step).take_while(|v| *v <= last * step).collect();
     let largest = |offset: f64| values.iter().map(|value| (value - offset).abs()).fold(f64::MIN_POSITIVE, f64::max);
-    let is_long = largest(0.0).log10().floor() - step.log10().floor() >= MOST_DIGITS;
+    let is_long = largest(0.0).log10().floor() - step.log10().floor() >= 6.0;
     let offset = if is_long { first * step } else { 0.0 };
     let text = if is_long { signed(offset, step) } else { String::new() };
     let exponent = (largest(offset).log10() + 1e-9).floor() as i32;
@@ -126,12 +121,12 @@ fn log((low, high): (f64, f64), room: Room) -> Ticks {
     let stride = STRIDES.into_iter().find(|stride| f64::from(*stride) * decade >= needed).unwrap_or(1000);
     let (labelled, between): (Vec<i32>, Vec<i32>) = powers.partition(|power| power.rem_euclid(stride) == 0);
     let minor = match stride {
-        1 if decade >= ROOM_FOR_MINOR => {
+        1 if decade >= 30.0 => {
             let decades = (low.floor() as i32).max(POWERS.0)..=(high.floor() as i32).min(POWERS.1);
             let within = decades.flat_map(|power| (2..10).map(move |digit| f64::from(digit) * 10f64.powi(power)));
             within.filter(|value| (low..high).contains(&value.log10())).collect()
         }
-        2.. if decade >= ROOM_FOR_DECADE => between.into_iter().map(|power| 10f64.powi(power)).collect(),
+        2.. if decade >= 4.0 => between.into_iter().map(|power| 10f64.powi(power)).collect(),
         _ => Vec::new(),
     };
     Ticks { minor, ..Ticks::labelled(labelled.into_iter().map(at)) }

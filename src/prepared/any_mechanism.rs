@@ -12,6 +12,18 @@ pub enum AnyMechanism {
     Spatial(Mechanism<3>),
 }
 
+/// Evaluates an expression for the mechanism, which has another type in the plane than in space.
+macro_rules! in_either {
+    ($mechanism:expr, $name:ident => $value:expr) => {
+        match $mechanism {
+            $crate::prepared::AnyMechanism::Planar($name) => $value,
+            $crate::prepared::AnyMechanism::Spatial($name) => $value,
+        }
+    };
+}
+
+pub(crate) use in_either;
+
 impl AnyMechanism {
     /// Mechanism of a model.
     pub fn new(model: AnyModel) -> Self {
@@ -28,18 +40,12 @@ impl AnyMechanism {
 
     /// The mechanism as the solvers see it.
     pub fn system(&self) -> &dyn MechanicalSystem {
-        match self {
-            AnyMechanism::Planar(mechanism) => mechanism,
-            AnyMechanism::Spatial(mechanism) => mechanism,
-        }
+        in_either!(self, mechanism => mechanism)
     }
 
     /// Its markers.
     pub fn markers(&self) -> &MarkerTable {
-        match self {
-            AnyMechanism::Planar(mechanism) => &mechanism.model().markers,
-            AnyMechanism::Spatial(mechanism) => &mechanism.model().markers,
-        }
+        in_either!(self, mechanism => &mechanism.model().markers)
     }
 
     /// 2 in the plane, 3 in space.

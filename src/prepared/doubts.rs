@@ -1,6 +1,6 @@
 //! Warnings about the start of a simulation.
 
-use super::AnyMechanism;
+use super::{AnyMechanism, in_either};
 use crate::body::{dot, norm};
 use crate::error::{Error, Warning, short, significant};
 use crate::initial::{Assembly, Move};
@@ -13,10 +13,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
 /// Warnings about the scene alone.
 pub fn of_scene(mechanism: &AnyMechanism) -> &[Warning] {
-    match mechanism {
-        AnyMechanism::Planar(mechanism) => &mechanism.model().switches.doubts,
-        AnyMechanism::Spatial(mechanism) => &mechanism.model().switches.doubts,
-    }
+    in_either!(mechanism, mechanism => &mechanism.model().switches.doubts)
 }
 
 /// An error of assembly, with the first warning as its remedy, since that may be its cause.

@@ -10,6 +10,7 @@ mod schema;
 mod settings;
 
 pub use any_mechanism::AnyMechanism;
+pub(crate) use any_mechanism::in_either;
 pub use family::{Family, linspace};
 pub use schema::schema;
 pub use settings::Overrides;

@@ -4,7 +4,6 @@ use super::{Folder, Origin, Sealed};
 use crate::error::Result;
 use serde::Serialize;
 
-/// The result of a command.
 pub trait Answer {
     /// Returns the contents of the JSON file.
     fn json(&self) -> impl Serialize;

@@ -9,7 +9,7 @@ use crate::error::{Failure, significant};
 use crate::initial::Assembly;
 use crate::math::kkt::has_least_norm;
 use crate::math::largest;
-use crate::prepared::{self, AnyMechanism};
+use crate::prepared::{self, in_either};
 use crate::scene::{BeamLine, Model, Part};
 use crate::simplify::Hints;
 use crate::simulate::{SpectralMode, refused};
@@ -90,10 +90,7 @@ impl Element {
 }
 
 pub fn check(prepared: &prepared::Model) -> Check {
-    match &prepared.mechanism {
-        AnyMechanism::Planar(mechanism) => inspect(prepared, mechanism.model()),
-        AnyMechanism::Spatial(mechanism) => inspect(prepared, mechanism.model()),
-    }
+    in_either!(&prepared.mechanism, mechanism => inspect(prepared, mechanism.model()))
 }
 
 fn inspect<const D: usize>(prepared: &prepared::Model, model: &Model<D>) -> Check {
@@ -101,6 +98,10 @@ fn inspect<const D: usize>(prepared: &prepared::Model, model: &Model<D>) -> Chec
     let found = Rank::at(system, OperatingPoint { t: prepared.start_time(), q, v, vdot, lambda });
     let n = system.dimensions();
     let names = system.facts().names.lambda.clone();
+    let joint = |group: &Group| {
+        let rows = names[group.rows.clone()].iter().filter_map(|name| name.rsplit('.').next());
+        Element::new(&group.name, &group.kind, rows.collect::<Vec<_>>().join(" "))
+    };
     Check {
         scene: prepared.name.clone(),
         dimension: D,
@@ -120,7 +121,7 @@ fn inspect<const D: usize>(prepared: &prepared::Model, model: &Model<D>) -> Chec
         fastest_mode: found.fastest_mode,
         length_scale: system.facts().length,
         bodies: bodies(model),
-        joints: system.facts().groups().iter().map(|group| joint_item(group, &names)).collect(),
+        joints: system.facts().groups().iter().map(joint).collect(),
         forces: model
             .given_forces()
             .iter()
@@ -168,11 +169,6 @@ fn body_item<const D: usize>(part: &Part<D>) -> Element {
         all => all.join(" "),
     };
     Element::new(&part.name, kind, detail)
-}
-
-fn joint_item(group: &Group, names: &[String]) -> Element {
-    let rows: Vec<&str> = names[group.rows.clone()].iter().filter_map(|name| name.rsplit('.').next()).collect();
-    Element::new(&group.name, &group.kind, rows.join(" "))
 }
 
 fn left_out<const D: usize>(model: &Model<D>) -> Vec<String> {

@@ -74,30 +74,24 @@ fn stabilizations_table(rows: &[StabilizedRun]) -> Result<Vec<u8>> {
     table(["t".to_string()].into_iter().chain(names), (0..longest).map(line))
 }
 
-/// Number of points of a curve, each the largest drift of its window.
-const WINDOWS: usize = 60;
-
-/// Returns the method, short enough for a legend.
 fn legend(method: &str) -> String {
     method.replace("alpha", "α").replace("beta", "β").replace("gamma", "γ").replace(':', " ").replace(',', ", ")
-}
-
-/// Returns the rows before the end that a divergence spoilt.
-fn shown(row: &StabilizedRun, length: f64) -> Shown {
-    let ending = Ending::of(row.failure.as_ref(), &row.drift, row.energy.as_ref());
-    Shown::of_run(ending, &row.record, length)
 }
 
 /// Draws the drift of positions and of velocities over time down to the round-off of `length`, that of the mechanism in
 /// m: a curve for each stabilization, up to where its run diverged.
 fn stabilizations_figure(name: &str, rows: &[StabilizedRun], length: f64) -> Option<Figure> {
-    let all: Vec<Shown> = rows.iter().map(|row| shown(row, length)).collect();
+    let shown = |row: &StabilizedRun| {
+        let ending = Ending::of(row.failure.as_ref(), &row.drift, row.energy.as_ref());
+        Shown::of_run(ending, &row.record, length)
+    };
+    let all: Vec<Shown> = rows.iter().map(shown).collect();
     let panel = |level: usize, label: &str| {
         let panel = Panel::new("time (s)", AxisSpec::from(label).log());
         let panel = rows.iter().zip(&all).fold(panel, |panel, (row, shown)| {
             let times = row.record.trajectory.times().take(shown.rows);
             let points = times.zip(&row.record.drift_rows).map(|(t, levels)| (t, levels[level]));
-            let curve = envelope(points, shown.rows, WINDOWS);
+            let curve = envelope(points, shown.rows, 60);
             panel.series(Series::line(shown.legend(&legend(&row.method)), curve))
         });
         Floor::of(length).cut(panel)

@@ -77,9 +77,10 @@ impl EquilibriumReport {
         let change = |(name, (&from, &to)): (&String, (&f64, &f64))| Move { name: name.clone(), from, to };
         let mut moves: Vec<Move> = moved.map(change).collect();
         moves.sort_by(|a, b| (b.to - b.from).abs().total_cmp(&(a.to - a.from).abs()));
+        let without_unit = |name: &String| Column { name: name.clone(), unit: String::new() };
         EquilibriumReport {
             t: found.t,
-            lambda: OutputValues::new(without_units(&names.lambda), found.lambda.clone()),
+            lambda: OutputValues::new(names.lambda.iter().map(without_unit).collect(), found.lambda.clone()),
             outputs,
             warnings: Range::warnings_at(system, found.t, &found.q),
             found: Some(found),
@@ -119,8 +120,4 @@ fn stability_text(found: &Equilibrium) -> String {
             "of unknown stability: too many coordinates, or forces or states without a potential".to_string()
         }
     }
-}
-
-fn without_units(names: &[String]) -> Vec<Column> {
-    names.iter().map(|name| Column { name: name.clone(), unit: String::new() }).collect()
 }

@@ -61,7 +61,6 @@ impl Folder {
         Ok(Folder { figures: Format::Svg, staging, sealed: 0, notes: Vec::new(), obsolete: Vec::new() })
     }
 
-    /// Chooses the format of the figures.
     pub fn drawing(self, figures: Format) -> Folder {
         Folder { figures, ..self }
     }
@@ -70,7 +69,6 @@ impl Folder {
         self.staging.target()
     }
 
-    /// Returns the paths of the files.
     pub fn paths(&self) -> Vec<String> {
         self.staging.names().iter().map(|name| self.path().join(name).display().to_string()).collect()
     }
@@ -175,7 +173,6 @@ impl Stream {
         self.error.is_some()
     }
 
-    /// Completes the file.
     pub fn finish(mut self) -> Result<()> {
         let written = match self.error.take() {
             Some(error) => Err(error),

@@ -82,6 +82,8 @@ impl Settings {
 
     /// Returns the words of the command on which results depend.
     fn telling(&self) -> Vec<&str> {
+        let is_assigned =
+            |word: &str, option: &str| word.strip_prefix(option).is_some_and(|rest| rest.starts_with('='));
         let mut words = self.command.iter().skip(1).map(String::as_str);
         let mut telling = Vec::new();
         while let Some(word) = words.next() {
@@ -114,10 +116,6 @@ impl Settings {
         let of_method = METHOD.into_iter().filter_map(|key| Some((key, method?.get(key)?)));
         self.parameters.iter().map(|(name, value)| (name.as_str(), value)).chain(of_method).collect()
     }
-}
-
-fn is_assigned(word: &str, option: &str) -> bool {
-    word.strip_prefix(option).is_some_and(|rest| rest.starts_with('='))
 }
 
 fn plain(value: &Value) -> String {

@@ -58,7 +58,6 @@ impl RowFiles {
         has_failed.then(|| Stop { reason: "its rows cannot be written".to_string(), hint: String::new() })
     }
 
-    /// Completes the files.
     pub fn finish(self) -> Result<()> {
         [self.trajectory, Some(self.drift), self.energy].into_iter().flatten().try_for_each(Stream::finish)
     }

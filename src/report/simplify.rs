@@ -17,7 +17,35 @@ impl Answer for Simplification {
     }
 
     fn text(&self) -> String {
-        simplify_text(self)
+        let Simplification { scene, within, norm, outputs, trials, robustness, .. } = self;
+        let size = match norm {
+            Norm::Range => "range",
+            Norm::Rms => "rms swing",
+        };
+        let mut text = format!("{scene}: within {} of the {size} of {}\n\n", percent(*within), short_list(outputs));
+        text += &format!("{}\n", outcome(self));
+        let mut changes = Table::new(&["tried", "estimated", "measured", "CPU", "result"]).words(4);
+        for (trial, run) in trials.iter().filter_map(|trial| Some((trial, trial.run.as_ref()?))) {
+            let measured = run.worst().map_or("-".to_string(), |worst| percent(worst.error));
+            let result = if trial.is_kept { "kept" } else { first_line(&trial.reason) };
+            let time = milliseconds(run.seconds);
+            changes.row([name(trial), percent(trial.estimated), measured, time, result.to_string()]);
+        }
+        if trials.iter().any(|trial| trial.run.is_some()) {
+            text += &format!(
+                "{changes}  estimates are of an order only, and say what is tried first: what accumulates later is not in them\n"
+            );
+        }
+        let left = trials.iter().filter(|trial| trial.run.is_none());
+        for trial in left.clone().take(LISTED) {
+            text += &format!("  not tried: {}: {}\n", name(trial), first_line(&trial.reason));
+        }
+        match left.count().saturating_sub(LISTED) {
+            0 => {}
+            more => text += &format!("  not tried: {more} more, in simplify.csv\n"),
+        }
+        robustness.iter().for_each(|robustness| text += &near(robustness, *within));
+        text
     }
 
     fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
@@ -26,37 +54,6 @@ impl Answer for Simplification {
         let scene = serde_json::to_string_pretty(&self.simplified).map_err(|error| Error::input(error.to_string()))?;
         folder.write("simplified.json", format!("{scene}\n").as_bytes())
     }
-}
-
-fn simplify_text(result: &Simplification) -> String {
-    let Simplification { scene, within, norm, outputs, trials, robustness, .. } = result;
-    let size = match norm {
-        Norm::Range => "range",
-        Norm::Rms => "rms swing",
-    };
-    let mut text = format!("{scene}: within {} of the {size} of {}\n\n", percent(*within), short_list(outputs));
-    text += &format!("{}\n", outcome(result));
-    let mut changes = Table::new(&["tried", "estimated", "measured", "CPU", "result"]).words(4);
-    for (trial, run) in trials.iter().filter_map(|trial| Some((trial, trial.run.as_ref()?))) {
-        let measured = run.worst().map_or("-".to_string(), |worst| percent(worst.error));
-        let result = if trial.is_kept { "kept" } else { first_line(&trial.reason) };
-        changes.row([name(trial), percent(trial.estimated), measured, milliseconds(run.seconds), result.to_string()]);
-    }
-    if trials.iter().any(|trial| trial.run.is_some()) {
-        text += &format!(
-            "{changes}  estimates are of an order only, and say what is tried first: what accumulates later is not in them\n"
-        );
-    }
-    let left = trials.iter().filter(|trial| trial.run.is_none());
-    for trial in left.clone().take(LISTED) {
-        text += &format!("  not tried: {}: {}\n", name(trial), first_line(&trial.reason));
-    }
-    match left.count().saturating_sub(LISTED) {
-        0 => {}
-        more => text += &format!("  not tried: {more} more, in simplify.csv\n"),
-    }
-    robustness.iter().for_each(|robustness| text += &near(robustness, *within));
-    text
 }
 
 /// Number of changes that were not tried in the text.
@@ -153,8 +150,6 @@ fn of_run(trial: &Trial, value: fn(&Run) -> String) -> String {
 
 /// Factor of the axes around the points.
 const MARGIN: f64 = 2.0;
-/// Colour of the full model, as index in the palette: black.
-const BLACK: usize = 6;
 
 /// Errors so many times below the promise are drawn there: they are as good as none.
 const NEGLIGIBLE: f64 = 1e4;
@@ -167,7 +162,8 @@ const ALIKE: f64 = 10.0;
 pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
     let exact = |run: &Run| run.worst().map(|worst| (run.seconds, worst.error)).filter(|(_, error)| *error > 0.0);
     let tried: Vec<(f64, f64)> = result.trials.iter().filter_map(|trial| trial.run.as_ref().and_then(exact)).collect();
-    let least = least_error(tried.iter().map(|point| point.1), result.within);
+    // Smaller errors are drawn at the least of the models that were tried, unless that is negligible.
+    let least = tried.iter().map(|point| point.1).fold(result.within, f64::min).max(result.within / NEGLIGIBLE);
     let point = |run: &Run| exact(run).map(|(seconds, error)| (seconds, error.max(least)));
     let of = |is_kept: bool| -> Vec<(f64, f64)> {
         let trials = result.trials.iter().filter(|trial| trial.is_kept == is_kept);
@@ -191,12 +187,8 @@ pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
         let Some(((seconds, error), exact)) = point(run).zip(exact(run)) else { continue };
         let below = if exact.1 < least { format!(", off by {}", percent(exact.1)) } else { String::new() };
         let text = format!("{name}: {}{below}", count(run.velocities, "velocity"));
-        panel = panel.series(Series::dots("", vec![(seconds, error)]).color(BLACK)).note(
-            Tint::Ink(0.0),
-            seconds,
-            error,
-            text,
-        );
+        panel =
+            panel.series(Series::dots("", vec![(seconds, error)]).color(6)).note(Tint::Ink(0.0), seconds, error, text);
     }
     let hidden = tried.iter().any(|point| point.1 < least);
     let note = if hidden { format!(" (below {} drawn there)", percent(least)) } else { String::new() };
@@ -204,13 +196,6 @@ pub fn simplify_figure(result: &Simplification) -> Option<Figure> {
     (points.len() > 1).then(|| Figure::new().title(title).panel(panel.height(360.0)))
 }
 
-/// Returns the error at which smaller ones are drawn: the least of the models that were tried, unless that is
-/// negligible beside the promise.
-fn least_error(tried: impl Iterator<Item = f64>, within: f64) -> f64 {
-    tried.fold(within, f64::min).max(within / NEGLIGIBLE)
-}
-
-/// Returns an axis of times, and its end.
 fn time_axis(times: impl Iterator<Item = f64>) -> (AxisSpec, f64) {
     let (least, most) = bounds(times);
     let axis = AxisSpec::from("CPU time (s)");

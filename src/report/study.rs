@@ -11,7 +11,6 @@ use crate::study::variants::{StudyRow, StudyTable};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// The rows of a study, of which a part may have been asked for.
 pub struct StudyAnswer<'a> {
     /// The rows that are there.
     pub table: &'a StudyTable,

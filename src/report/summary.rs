@@ -16,7 +16,6 @@ use serde_json::{Map, Value};
 
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// What it takes to repeat it, and reasons to doubt it.
     #[serde(flatten)]
     pub origin: Origin,
     scene: String,
@@ -24,7 +23,6 @@ pub struct Summary {
     /// `completed` or `failed`.
     status: &'static str,
     pub failure: Option<Failure>,
-    /// Time reached, s.
     t_end: f64,
     wall_seconds: f64,
     statistics: Statistics,
@@ -46,7 +44,6 @@ pub struct Summary {
     pub restart: Option<Checkpoint>,
 }
 
-/// The method, and the reason where the program chose it.
 #[derive(Clone, Debug, Serialize)]
 struct Chosen {
     /// Method of the longest leg.
@@ -85,7 +82,6 @@ impl Chosen {
     }
 }
 
-/// The last row, by names.
 #[derive(Clone, Debug, Default, Serialize)]
 struct FinalState {
     t: f64,
@@ -94,9 +90,6 @@ struct FinalState {
     lambda: Map<String, Value>,
     outputs: OutputValues,
 }
-
-/// Work of rows is reported where it is more than this part of that of the steps.
-const SHOWN: f64 = 0.1;
 
 /// Collects the summary of a run, with warnings from before it.
 pub fn summarize(
@@ -151,7 +144,7 @@ impl Summary {
         let accuracy = error_bar::accuracy(&self.method.method);
         let s = &self.statistics;
         let trials = self.method.trials.filter(|trials| trials.rhs_evaluations > 0);
-        let rows = Some(s.rows.rhs_evaluations).filter(|rows| *rows as f64 > SHOWN * s.rhs_evaluations as f64);
+        let rows = Some(s.rows.rhs_evaluations).filter(|rows| *rows as f64 > 0.1 * s.rhs_evaluations as f64);
         let mut text = format!("{}: {formulation} + {integrator} + {projection}, {accuracy}\n", self.scene);
         text += &self.method.text();
         if let Some(failure) = &self.failure {

@@ -10,7 +10,6 @@ use crate::tolerances;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// A sweep, with the options of its figure.
 pub struct SweepAnswer<'a> {
     pub sweep: &'a Sweep,
     pub look: SweepLook<'a>,

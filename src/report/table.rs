@@ -1,5 +1,6 @@
 //! Text tables for terminals.
 
+use super::tables;
 use crate::error::significant;
 use crate::initial::Move;
 use crate::system::{Column, MechanicalSystem, OperatingPoint, Scratch};
@@ -12,7 +13,6 @@ pub(super) fn named<'n>(names: impl IntoIterator<Item = &'n String>, values: &[f
     names.into_iter().zip(values).map(|(name, value)| (name.clone(), Value::from(*value))).collect()
 }
 
-/// Values of outputs; in files by their names.
 #[derive(Clone, Debug, Default)]
 pub struct OutputValues {
     columns: Vec<Column>,
@@ -72,6 +72,13 @@ impl Table {
             left: false,
             words: Vec::new(),
         }
+    }
+
+    /// A row for each item.
+    pub fn of<T>(columns: &[tables::Column<T>], items: &[T]) -> Self {
+        let mut table = Table::new(&columns.iter().map(|column| column.0).collect::<Vec<_>>());
+        items.iter().for_each(|item| table.row(columns.iter().map(|(_, cell)| cell(item))));
+        table
     }
 
     pub fn left(headings: &[&str]) -> Self {

@@ -62,7 +62,6 @@ pub fn heading<'a>(parameter: &str, mut others: impl Iterator<Item = &'a str>) -
     if others.any(|other| other == parameter) { format!("parameters.{parameter}") } else { parameter.to_string() }
 }
 
-/// Returns a number as tables have it.
 pub fn cell(value: f64) -> String {
     let mut text = Vec::new();
     push(&mut text, value);

@@ -16,9 +16,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// Interval at which results so far are written.
-const SAVED: Duration = Duration::from_secs(5);
-
 pub fn run(args: &Args, prepared: &Model) -> Result<ExitCode> {
     let given = args.reference(prepared).as_deref().map(Given::read).transpose()?;
     let question = args.question(prepared, args.budget, given)?;
@@ -49,7 +46,7 @@ impl Question {
         let watch = |measured: &WorkPrecision, next: &str| {
             bar.set_position((1e3 * clock.elapsed().as_secs_f64() / args.budget.as_secs_f64()) as u64);
             bar.set_message(next.to_string());
-            if saved.elapsed() > SAVED {
+            if saved.elapsed() > Duration::from_secs(5) {
                 saved = Instant::now();
                 // A failure to save is reported at the end.
                 let _ = save(place, measured);

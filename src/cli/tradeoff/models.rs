@@ -33,7 +33,6 @@ pub fn run(args: &Args, prepared: Model) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Reads a scene with parameters of its own.
 fn variant(text: &str, args: &Args, like: &Model) -> Result<Variant> {
     let (path, set) = match text.rsplit_once(':') {
         Some((path, rest)) if rest.contains('=') => (path, rest),

@@ -14,7 +14,6 @@ pub(in crate::report) struct Curve<'a> {
     pub bar: &'a [f64],
 }
 
-/// The curves of one panel.
 pub(in crate::report) struct Stack<'a> {
     pub curves: Vec<Curve<'a>>,
     /// True if the change of each curve since its beginning, x₀, is drawn.
@@ -159,12 +158,9 @@ impl Stack<'_> {
     }
 }
 
-/// Number of points of a band on each side; its file stays small.
-const BAND_POINTS: usize = 400;
-
 /// Returns the area between a curve less and plus its error bar.
 fn band(curve: &Curve, origin: f64, color: usize) -> Item {
-    let stride = curve.points.len().div_ceil(BAND_POINTS);
+    let stride = curve.points.len().div_ceil(400);
     let points = curve.points.iter().zip(curve.bar).filter(|((_, y), bar)| y.is_finite() && bar.is_finite());
     let points: Vec<_> = points.step_by(stride).map(|((x, y), bar)| (*x, y - origin, *bar)).collect();
     let upper = points.iter().map(|(x, y, bar)| Spot::data(*x, y + bar));

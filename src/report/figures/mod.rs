@@ -63,9 +63,6 @@ pub(crate) fn quantity(unit: &str) -> &'static str {
     dimension.map_or("value", Dimension::word)
 }
 
-/// Number of points of a drift curve, each the largest value of its window.
-const WINDOWS: usize = 100;
-
 /// Draws the drift of positions, velocities and accelerations over time, on a logarithmic axis down to the round-off of
 /// `length`, that of the mechanism in m. `None` without constraints.
 pub fn drift_figure(name: &str, record: &Record, shown: &Shown, length: f64) -> Option<Figure> {
@@ -77,7 +74,7 @@ pub fn drift_figure(name: &str, record: &Record, shown: &Shown, length: f64) -> 
     let labels = ["position |φ|", "velocity |φ′|", "acceleration |φ″|"];
     let series = labels.iter().enumerate().map(|(i, label)| {
         let points = times.iter().zip(&record.drift_rows).map(|(t, levels)| (*t, levels[i]));
-        Series::line(*label, envelope(points, times.len(), WINDOWS))
+        Series::line(*label, envelope(points, times.len(), 100))
     });
     let panel = series.fold(Panel::new("time (s)", AxisSpec::from("drift (m, rad; per s, s²)").log()), Panel::series);
     Some(Figure::new().title(shown.title(&format!("{name}: drift"))).panel(floor.cut(panel)))

@@ -5,7 +5,6 @@ use crate::error::{Failure, INTERRUPTED, significant};
 use crate::math::largest;
 use crate::trajectory::Trajectory;
 
-/// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
     /// At its end time, or where the user interrupted it.
@@ -39,7 +38,6 @@ impl Ending {
 /// The number of rows that are drawn, the first ones, and a note where these are not all.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shown {
-    /// Number of rows.
     pub rows: usize,
     cut: Option<Cut>,
 }
@@ -62,7 +60,6 @@ const SPOILT: f64 = 1e3;
 const GROWS: f64 = 3.0;
 
 impl Shown {
-    /// All rows of a trajectory.
     pub fn all(trajectory: &Trajectory) -> Self {
         Shown { rows: trajectory.rows.len(), cut: None }
     }
@@ -71,25 +68,29 @@ impl Shown {
     pub fn of_run(ending: Ending, record: &Record, length: f64) -> Self {
         let energy = record.ledger_rows.iter().map(|row| size([row.kinetic, row.potential, row.work])).collect();
         let drift = record.drift_rows.iter().map(|levels| levels[0]).collect();
-        Shown::of(ending, &record.trajectory, &[(energy, 0.0), (drift, length)])
+        Shown::of(ending, &record.trajectory, vec![(energy, 0.0), (drift, length)])
     }
 
     /// The rows of a trajectory of which no energies and no drift are known.
     pub fn of_trajectory(ending: Ending, trajectory: &Trajectory) -> Self {
-        Shown::of(ending, trajectory, &[])
+        Shown::of(ending, trajectory, Vec::new())
     }
 
     /// Returns the rows before those that are spoilt in the coordinates, in the outputs of any unit, or in others, each
     /// with a size that is large at the least.
-    fn of(ending: Ending, trajectory: &Trajectory, others: &[(Vec<f64>, f64)]) -> Self {
+    fn of(ending: Ending, trajectory: &Trajectory, others: Vec<(Vec<f64>, f64)>) -> Self {
         let count = trajectory.rows.len();
         if ending == Ending::Completed {
             return Shown::all(trajectory);
         }
-        let own = sizes(trajectory).into_iter().map(|sizes| (sizes, 0.0));
-        let blown_up = own
-            .chain(others.iter().cloned())
-            .filter(|(sizes, _)| sizes.len() == count && (ending == Ending::Diverged || is_growing(sizes)));
+        // Values blow up in the last tenth of the rows.
+        let is_growing = |sizes: &[f64]| {
+            let (before, end) = sizes.split_at(sizes.len() - sizes.len().div_ceil(10));
+            largest(end) > GROWS * largest(before)
+        };
+        let all = sizes(trajectory).into_iter().map(|sizes| (sizes, 0.0)).chain(others);
+        let blown_up =
+            all.filter(|(sizes, _)| sizes.len() == count && (ending == Ending::Diverged || is_growing(sizes)));
         let rows = blown_up.map(|(sizes, floor)| sound(&sizes, floor)).min().unwrap_or(count);
         match trajectory.rows.get(rows) {
             None => Shown::all(trajectory),
@@ -142,12 +143,6 @@ fn sizes(trajectory: &Trajectory) -> Vec<Vec<f64>> {
 /// Returns the largest absolute value; NaN without one.
 fn size(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().map(f64::abs).fold(f64::NAN, f64::max)
-}
-
-/// True if values blow up in the last tenth of the rows.
-fn is_growing(sizes: &[f64]) -> bool {
-    let (before, end) = sizes.split_at(sizes.len() - sizes.len().div_ceil(10));
-    largest(end) > GROWS * largest(before)
 }
 
 /// Returns the number of rows before those at the end that are [`SPOILT`]. What spoils the first half of the rows is

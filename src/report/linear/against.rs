@@ -14,7 +14,6 @@ pub struct AgainstAnswer<'a> {
     pub found: Against,
 }
 
-/// Frequency and damping of an eigenvalue.
 fn eigenvalue(value: Complex<f64>) -> Value {
     json!({ "re": value.re, "im": value.im, "frequency_hz": frequency(value), "damping_ratio": damping(value) })
 }
@@ -67,16 +66,19 @@ impl Answer for AgainstAnswer<'_> {
             more => format!("  {more} more in the file\n"),
         };
         let lost = self.found.modes.iter().filter(|mode| mode.there.is_none()).count();
-        let added =
-            if self.found.added.is_empty() { String::new() } else { format!(", {} added", self.found.added.len()) };
         format!(
-            "\nagainst {}: of {} modes {lost} lost{added}\n{table}{more}  matched by {}; seen: what outputs see of a mode, of \
-             what they see of others with the same energy\n",
-            self.other,
-            self.found.modes.len(),
+            "\n{}{table}{more}  matched by {}; seen: what outputs see of a mode, of what they see of others with the same \
+             energy\n",
+            heading(self.other, [self.found.modes.len(), lost, self.found.added.len()]),
             self.matched_by()
         )
     }
+}
+
+/// Returns the numbers of the modes, of those that are lost, and of those that only the other scene has.
+fn heading(other: &str, [modes, lost, added]: [usize; 3]) -> String {
+    let added = if added == 0 { String::new() } else { format!(", {added} added") };
+    format!("against {other}: of {modes} modes {lost} lost{added}\n")
 }
 
 /// Largest number of lines of a table.
@@ -132,12 +134,8 @@ impl LociAgainst {
             ]);
         }
         let lost = self.modes.iter().filter(|mode| mode.there.is_none()).count();
-        let added = if self.added == 0 { String::new() } else { format!(", {} added", self.added) };
-        format!(
-            "against {}: of {} modes {lost} lost{added}\n{table}  matched by eigenvalue, in the mean over all states\n",
-            self.scene,
-            self.modes.len()
-        )
+        let heading = heading(&self.scene, [self.modes.len(), lost, self.added]);
+        format!("{heading}{table}  matched by eigenvalue, in the mean over all states\n")
     }
 }
 
@@ -148,9 +146,6 @@ pub(super) fn with_others(figure: Option<Figure>, scene: &str, other: &Loci) -> 
     let points = physical.flat_map(|(_, branch)| &branch.points).filter(|(_, value)| value.im >= 0.0);
     let points: Vec<(f64, f64)> = points.map(|(_, value)| (value.re, value.im)).collect();
     let panel = figure.panels.pop()?;
-    figure.panels.push(panel.series(Series::dots(scene, points).style(Style::Crosses).color(BLUE)));
+    figure.panels.push(panel.series(Series::dots(scene, points).style(Style::Crosses).color(0)));
     Some(figure)
 }
-
-/// Colour, as index in the palette.
-const BLUE: usize = 0;

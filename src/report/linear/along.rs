@@ -1,14 +1,15 @@
 //! `ltv.npz`, `ltv.mat` and `ltv.json`: linear models along a motion.
 
 use super::NamedModel;
-use super::files::{matrix, unit_arrays, units};
+use super::files::{Arrays, matrix, unit_arrays, units};
 use super::mode_figures::motion_figure;
 use crate::error::{Error, Result, significant, two_digits};
 use crate::files::{Array, mat};
-use crate::linearize::{Along, Deviation, LinearModel, Matrix, MeasuredA};
+use crate::linearize::{Along, Deviation, LinearModel, MeasuredA};
 use crate::prepared::Model;
 use crate::report::table::count;
 use crate::report::{Answer, Folder, Table};
+use crate::system::Names;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -24,7 +25,6 @@ pub enum ArrayFormat {
     Json,
 }
 
-/// Linear models along a motion.
 pub struct AlongAnswer<'a> {
     pub prepared: &'a Model,
     pub along: &'a Along,
@@ -36,12 +36,14 @@ impl AlongAnswer<'_> {
         &self.along.models[0]
     }
 
+    fn named<'m>(&'m self, names: &'m Names, model: &'m LinearModel) -> NamedModel<'m> {
+        NamedModel { scene: &self.prepared.name, names, model }
+    }
+
     /// Returns the arrays along the motion, the time first, and the transition matrices.
-    fn arrays(&self) -> Result<Vec<(&'static str, Array)>> {
+    fn arrays(&self) -> Result<Arrays> {
         let names = self.prepared.system().facts().names.clone();
-        let scene = &self.prepared.name;
-        let moment = |model: &LinearModel| NamedModel { scene, names: &names, model }.moment();
-        let mut moments = self.along.models.iter().map(moment);
+        let mut moments = self.along.models.iter().map(|model| self.named(&names, model).moment());
         let mut stacks: Vec<(&'static str, Vec<Array>)> = Vec::new();
         for (key, array) in moments.next().into_iter().flatten() {
             stacks.push((key, vec![array]));
@@ -59,20 +61,12 @@ impl AlongAnswer<'_> {
     }
 
     /// Returns names, units and errors, for NumPy and MATLAB.
-    fn words(&self) -> Vec<(&'static str, Array)> {
+    fn words(&self) -> Arrays {
         let model = self.first();
         let names = self.prepared.system().facts().names.clone();
-        let mut words = vec![
-            ("scene", Array::Text(self.prepared.name.clone())),
-            ("method", Array::Text(model.method.clone())),
-            ("chart", Array::Text(model.chart.clone())),
-            ("states", Array::Texts(model.states.clone())),
-            ("inputs", Array::Texts(model.inputs.clone())),
-            ("outputs", Array::Texts(model.outputs.clone())),
-            ("q_names", Array::Texts(names.q)),
-            ("v_names", Array::Texts(names.v)),
-            ("lambda_names", Array::Texts(names.lambda)),
-        ];
+        let named = self.named(&names, model);
+        let mut words = named.labels();
+        words.extend(named.coordinate_names());
         words.extend(model.frame.iter().flat_map(unit_arrays));
         let Along { measured, deviations, .. } = self.along;
         let each = |value: fn(&MeasuredA) -> f64| Array::vector(&measured.iter().map(value).collect::<Vec<f64>>());
@@ -97,21 +91,15 @@ impl Answer for AlongAnswer<'_> {
         let model = self.first();
         let names = self.prepared.system().facts().names.clone();
         let Along { models, measured, deviations, .. } = self.along;
-        let mut found = Map::new();
-        let mut put = |key: &str, value: Value| _ = found.insert(key.to_string(), value);
-        put("scene", json!(self.prepared.name));
-        put("method", json!(model.method));
-        put("chart", json!(model.chart));
-        put("states", json!(model.states));
-        put("inputs", json!(model.inputs));
-        put("outputs", json!(model.outputs));
-        put("units", json!(model.frame.as_ref().map(units)));
-        put("names", json!({ "q": names.q, "v": names.v, "lambda": names.lambda }));
-        put("error", json!({ "A": measured, "interpolation": deviations }));
-        put("t", json!(models.iter().map(|model| model.point.t).collect::<Vec<f64>>()));
+        let labels = self.named(&names, model).labels().into_iter();
+        let mut found: Map<String, Value> = labels.map(|(key, label)| (key.to_string(), json!(label))).collect();
+        found.insert("units".to_string(), json!(model.frame.as_ref().map(units)));
+        found.insert("names".to_string(), json!({ "q": names.q, "v": names.v, "lambda": names.lambda }));
+        found.insert("error".to_string(), json!({ "A": measured, "interpolation": deviations }));
+        found.insert("t".to_string(), models.iter().map(|model| model.point.t).collect());
         if self.formats.contains(&ArrayFormat::Json) {
-            let arrays = self.arrays().unwrap_or_default();
-            arrays.iter().filter(|(key, _)| *key != "t").for_each(|(key, array)| put(key, value(array)));
+            let arrays = self.arrays().unwrap_or_default().into_iter().filter(|(key, _)| *key != "t");
+            found.extend(arrays.map(|(key, array)| (key.to_string(), json!(array))));
         }
         found
     }
@@ -132,7 +120,9 @@ impl Answer for AlongAnswer<'_> {
             chart(&model.chart)
         );
         if let Some(closure) = &self.along.closure {
-            text += &format!("  the motion returns; the chart has turned by {} deg meanwhile\n", turn(closure));
+            let angles = closure.complex_eigenvalues().iter().map(|value| value.arg().abs()).fold(0.0, f64::max);
+            let turn = significant(if angles < 1e-9 { 0.0 } else { angles.to_degrees() }, 6);
+            text += &format!("  the motion returns; the chart has turned by {turn} deg meanwhile\n");
         }
         if let Some(MeasuredA { t, error, uncertainty }) = self.worst() {
             text += &format!(
@@ -180,12 +170,6 @@ fn chart(name: &str) -> String {
     }
 }
 
-/// Returns the largest angle of a rotation, degrees.
-fn turn(rotation: &Matrix) -> String {
-    let angles = rotation.complex_eigenvalues().iter().map(|value| value.arg().abs()).fold(0.0, f64::max);
-    significant(if angles < 1e-9 { 0.0 } else { angles.to_degrees() }, 6)
-}
-
 /// Returns arrays of equal shape as one, with their number as its first length.
 fn stacked(key: &str, arrays: Vec<Array>) -> Result<Array> {
     let mut shape = vec![arrays.len()];
@@ -201,21 +185,4 @@ fn stacked(key: &str, arrays: Vec<Array>) -> Result<Array> {
         all.extend(values);
     }
     Ok(Array::Real { shape, values: all })
-}
-
-/// Returns an array as nested lists.
-fn value(array: &Array) -> Value {
-    let Array::Real { shape, values } = array else { return Value::Null };
-    nested(shape, values)
-}
-
-fn nested(shape: &[usize], values: &[f64]) -> Value {
-    match shape {
-        [] => json!(values.first()),
-        [_] => json!(values),
-        [count, rest @ ..] => {
-            let size: usize = rest.iter().product();
-            (0..*count).map(|i| nested(rest, &values[i * size..(i + 1) * size])).collect()
-        }
-    }
 }

@@ -5,7 +5,6 @@ use super::phase::phases;
 use crate::plot::{AxisSpec, Figure, Panel, Series};
 use crate::report::figures::{grouped, label};
 
-/// How a figure shows magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Magnitude {
     /// 20 log10 |H| of |H| in units of the output per unit of the input.
@@ -16,10 +15,6 @@ pub enum Magnitude {
 
 /// Lines in a panel at most: as many as there are colours.
 const LINES: usize = 7;
-/// Groups in a figure at most.
-const GROUPS: usize = 8;
-/// Width of a figure with two panels side by side, nominal pixels.
-const WIDE: f64 = 1100.0;
 
 /// Responses to one input in one unit.
 type Group<'a> = Vec<&'a Response>;
@@ -35,7 +30,7 @@ fn drawn(groups: &[Group]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..groups.len()).collect();
     order.sort_by_key(|&place| rank(place));
     let mut drawn = vec![false; groups.len()];
-    order.into_iter().take(GROUPS).for_each(|place| drawn[place] = true);
+    order.into_iter().take(8).for_each(|place| drawn[place] = true);
     drawn
 }
 
@@ -60,7 +55,7 @@ pub fn bode_figure(title: &str, frequencies: &[f64], responses: &[Response], mag
     let input = &first[0].input;
     let has_one_input = groups.iter().all(|group| group[0].input == *input);
     let title = if has_one_input { format!("{title}: response to {input}") } else { title.to_string() };
-    let figure = Figure { columns: 2, width: WIDE, ..Figure::new().title(title) };
+    let figure = Figure { columns: 2, width: 1100.0, ..Figure::new().title(title) };
     let shown = groups.iter().zip(drawn(&groups)).filter(|(_, drawn)| *drawn);
     Some(shown.fold(figure, |figure, (group, _)| {
         let [mut sizes, phases] = panels(group, frequencies, magnitude, |response| response.output.clone());

@@ -6,16 +6,11 @@ use crate::linearize::{Branch, Complex, Kind};
 pub(super) const MOST_DRAWN: usize = 12;
 /// Orders of excitation by a rotation: the number of times a turn.
 pub(super) const ORDERS: [f64; 2] = [1.0, 2.0];
-/// A Campbell diagram shows the modes up to this multiple of the fastest excitation ...
-const ABOVE_EXCITATION: f64 = 1.5;
-/// ... and at least this number of them.
-const LEAST_DRAWN: usize = 4;
 
 /// A physical mode that a figure shows.
 pub(super) struct DrawnMode<'a> {
     /// `mode 3` of `mode3` in the files.
     pub name: String,
-    /// Its eigenvalues.
     pub branch: &'a Branch,
 }
 
@@ -43,19 +38,16 @@ pub(super) fn count(branches: &[Branch], speeds: &[(f64, f64)]) -> usize {
         return MOST_DRAWN;
     }
     let fastest = speeds.iter().map(|(_, speed)| ORDERS[ORDERS.len() - 1] * speed.abs()).fold(0.0, f64::max);
-    let met = |mode: &&DrawnMode| slowest(mode.branch) <= ABOVE_EXCITATION * fastest;
-    physical(branches).iter().filter(met).count().clamp(LEAST_DRAWN, MOST_DRAWN)
+    let met = |mode: &&DrawnMode| slowest(mode.branch) <= 1.5 * fastest;
+    physical(branches).iter().filter(met).count().clamp(4, MOST_DRAWN)
 }
 
 /// Returns the physical modes, numbered as in the files.
 fn physical(branches: &[Branch]) -> Vec<DrawnMode<'_>> {
     let named = branches.iter().filter(|branch| branch.points.iter().any(|(_, value)| value.im >= 0.0));
     let mode = |(i, branch): (usize, _)| DrawnMode { name: format!("mode {}", i + 1), branch };
+    let is_seen = |branch: &Branch| branch.points.iter().any(|point| is_shown(point.1));
     named.enumerate().map(mode).filter(|mode| mode.branch.kind == Kind::Physical && is_seen(mode.branch)).collect()
-}
-
-fn is_seen(branch: &Branch) -> bool {
-    branch.points.iter().any(|point| is_shown(point.1))
 }
 
 /// True if finite, and not the lower one of a pair.

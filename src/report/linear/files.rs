@@ -3,15 +3,20 @@
 use super::NamedModel;
 use crate::error::Result;
 use crate::files::{Array, mat};
-use crate::linearize::{Complex, Coordinates, Frame, Kind, LinearModel, Matrix, Mode, Units, damping, frequency};
+use crate::linearize::{
+    Complex, Coordinates, Frame, Kind, LinearModel, LinearizationPoint, Matrix, Mode, Units, damping, frequency,
+};
 use crate::math::largest;
 use crate::prepared::Model;
 use crate::report::mechanism::{Look, mode_figure};
 use crate::report::table::named;
 use crate::report::{Answer, Folder, cell, object};
+use crate::system::Names;
 use crate::tolerances;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value, json};
+
+pub(super) type Arrays = Vec<(&'static str, Array)>;
 
 /// Largest components; those of phi and phi' over their scales.
 #[derive(Serialize)]
@@ -27,7 +32,6 @@ pub fn stem_at(what: &str, t: f64) -> String {
     format!("{what}-{}", cell(t))
 }
 
-/// A linear model with the figure of its modes.
 pub struct LinearAnswer<'a> {
     pub prepared: &'a Model,
     pub linear: NamedModel<'a>,
@@ -51,7 +55,7 @@ impl Answer for LinearAnswer<'_> {
 }
 
 impl NamedModel<'_> {
-    /// Writes the arrays for NumPy and for MATLAB; `stem` is the name of the files without extension.
+    /// Writes the arrays for NumPy and for MATLAB.
     pub fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
         let arrays = self.arrays();
         #[cfg(feature = "npz")]
@@ -101,6 +105,7 @@ impl NamedModel<'_> {
 impl Serialize for NamedModel<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let model = self.model;
+        let basis = model.frame.as_ref().map(|frame| &frame.coordinates);
         object!(serializer,
             "scene" => self.scene,
             "t" => model.point.t,
@@ -109,15 +114,15 @@ impl Serialize for NamedModel<'_> {
             "states" => model.states,
             "inputs" => model.inputs,
             "outputs" => model.outputs,
-            "A" => rows(&model.a),
-            "B" => rows(&model.b),
-            "C" => rows(&model.c),
-            "D" => rows(&model.d),
-            "E" if model.e.is_some() => model.e.as_ref().map(rows),
-            "R" if model.frame.is_some() => model.frame.as_ref().map(|frame| rows(&frame.coordinates.r)),
-            "T" if model.frame.is_some() => model.frame.as_ref().map(|frame| rows(&frame.coordinates.tilt)),
-            "R_left" if model.frame.is_some() => model.frame.as_ref().map(|frame| rows(&frame.coordinates.b)),
-            "units" if model.frame.is_some() => model.frame.as_ref().map(units),
+            "A" => matrix(&model.a),
+            "B" => matrix(&model.b),
+            "C" => matrix(&model.c),
+            "D" => matrix(&model.d),
+            "E" if model.e.is_some() => model.e.as_ref().map(matrix),
+            "R" if basis.is_some() => basis.map(|basis| matrix(&basis.r)),
+            "T" if basis.is_some() => basis.map(|basis| matrix(&basis.tilt)),
+            "R_left" if basis.is_some() => basis.map(|basis| matrix(&basis.b)),
+            "units" if basis.is_some() => model.frame.as_ref().map(units),
             "reduction" => model.reduction,
             "comparable" => model.is_comparable(),
             "eigenvalues" => model.modes.iter().map(|mode| eigenvalue(model, mode)).collect::<Vec<Value>>(),
@@ -133,18 +138,16 @@ pub(super) fn units(Frame { units: Units { states, inputs, outputs }, .. }: &Fra
     json!({ "states": states, "inputs": inputs, "outputs": outputs })
 }
 
-fn rows(matrix: &Matrix) -> Vec<Vec<f64>> {
-    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
-}
-
 /// Returns an eigenvalue, whose numbers are null where it is infinite, with the participation of each state, from the
 /// largest.
 fn eigenvalue(model: &LinearModel, mode: &Mode) -> Value {
     let is_finite = mode.kind != Kind::Infinite && mode.value.re.is_finite() && mode.value.im.is_finite();
     let finite = |value: f64| is_finite.then_some(value);
     let value = shown(mode);
-    let parts = largest_parts(&model.states, &mode.participation).into_iter();
-    let parts = parts.filter(|(_, part)| *part >= tolerances::UNSEEN);
+    let mut parts: Vec<(&String, f64)> = model.states.iter().zip(mode.participation.iter().copied()).collect();
+    parts.retain(|(_, part)| *part >= tolerances::UNSEEN);
+    parts.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let parts = parts.into_iter().map(|(name, part)| (name.clone(), Value::from(part)));
     json!({
         "re": finite(value.re),
         "im": finite(value.im),
@@ -153,85 +156,70 @@ fn eigenvalue(model: &LinearModel, mode: &Mode) -> Value {
         "kind": mode.kind,
         "error": finite(if mode.is_zero() { mode.rounding } else { mode.error }),
         "condition": finite(mode.condition).filter(|condition| condition.is_finite()),
-        "participation": parts.map(|(name, part)| (name.to_string(), Value::from(part))).collect::<Map<String, Value>>(),
+        "participation": parts.collect::<Map<String, Value>>(),
     })
-}
-
-/// Returns states with their participation, from the largest; equal ones in their order.
-fn largest_parts<'a>(states: &'a [String], parts: &[f64]) -> Vec<(&'a str, f64)> {
-    let mut named: Vec<(&str, f64)> = states.iter().map(String::as_str).zip(parts.iter().copied()).collect();
-    named.sort_by(|a, b| b.1.total_cmp(&a.1));
-    named
 }
 
 impl NamedModel<'_> {
     /// Returns all arrays, with names that Python and MATLAB both allow. Columns of `mode_shapes` (along `v`) and
     /// `participation` (along `states`) belong to the `eigenvalues`; they are zero where nothing is known.
-    pub fn arrays(&self) -> Vec<(&'static str, Array)> {
+    pub fn arrays(&self) -> Arrays {
         let model = self.model;
-        let point = &self.model.point;
-        let mut arrays = vec![
-            ("scene", Array::Text(self.scene.to_string())),
-            ("t", Array::number(point.t)),
-            ("method", Array::Text(model.method.clone())),
-            ("chart", Array::Text(model.chart.clone())),
-            ("states", Array::Texts(model.states.clone())),
-            ("inputs", Array::Texts(model.inputs.clone())),
-            ("outputs", Array::Texts(model.outputs.clone())),
-            ("A", matrix(&model.a)),
-            ("B", matrix(&model.b)),
-            ("C", matrix(&model.c)),
-            ("D", matrix(&model.d)),
-        ];
+        let mut arrays = self.labels();
+        arrays.insert(1, ("t", Array::number(model.point.t)));
+        arrays.extend(self.matrices());
         arrays.extend(model.e.iter().map(|e| ("E", matrix(e))));
         arrays.extend(self.mode_arrays());
-        arrays.extend([
-            ("equilibrium", Array::Flag(point.is_equilibrium)),
-            ("q", Array::vector(&point.q)),
-            ("v", Array::vector(&point.v)),
-            ("vdot", Array::vector(&point.vdot)),
-            ("lambda", Array::vector(&point.lambda)),
-            ("u", Array::vector(&point.u)),
-            ("q_names", Array::Texts(self.names.q.clone())),
-            ("v_names", Array::Texts(self.names.v.clone())),
-            ("lambda_names", Array::Texts(self.names.lambda.clone())),
-        ]);
-        let norms = self.norms();
-        arrays.extend(
-            [("norm_phi", norms.phi), ("norm_phi_dot", norms.phi_dot), ("norm_v", norms.v), ("norm_vdot", norms.vdot)]
-                .map(|(name, value)| (name, Array::number(value))),
-        );
+        arrays.push(("equilibrium", Array::Flag(model.point.is_equilibrium)));
+        arrays.extend(self.state());
+        arrays.extend(self.coordinate_names());
+        let Norms { phi, phi_dot, v, vdot } = self.norms();
+        let norms = [("norm_phi", phi), ("norm_phi_dot", phi_dot), ("norm_v", v), ("norm_vdot", vdot)];
+        arrays.extend(norms.map(|(name, value)| (name, Array::number(value))));
         arrays.extend(self.frame_arrays());
-        if let Some(frame) = &model.frame {
-            arrays.extend(unit_arrays(frame));
-        }
+        arrays.extend(model.frame.iter().flat_map(unit_arrays));
         arrays
     }
 
     /// Returns the arrays that change along a motion.
-    pub(super) fn moment(&self) -> Vec<(&'static str, Array)> {
-        let model = self.model;
-        let point = &model.point;
-        let mut arrays = vec![
-            ("t", Array::number(point.t)),
-            ("A", matrix(&model.a)),
-            ("B", matrix(&model.b)),
-            ("C", matrix(&model.c)),
-            ("D", matrix(&model.d)),
-            ("q", Array::vector(&point.q)),
-            ("v", Array::vector(&point.v)),
-            ("vdot", Array::vector(&point.vdot)),
-            ("lambda", Array::vector(&point.lambda)),
-            ("u", Array::vector(&point.u)),
-            ("condition", Array::number(model.reduction.condition)),
-            ("error_reduction", Array::number(model.reduction.error)),
-        ];
+    pub(super) fn moment(&self) -> Arrays {
+        let LinearModel { point, reduction, .. } = self.model;
+        let mut arrays = vec![("t", Array::number(point.t))];
+        arrays.extend(self.matrices());
+        arrays.extend(self.state());
+        arrays.push(("condition", Array::number(reduction.condition)));
+        arrays.push(("error_reduction", Array::number(reduction.error)));
         arrays.extend(self.frame_arrays());
         arrays
     }
 
+    /// Returns scene, method, chart and the names of states, inputs and outputs.
+    pub(super) fn labels(&self) -> Arrays {
+        let LinearModel { method, chart, states, inputs, outputs, .. } = self.model;
+        let texts = [("scene", self.scene), ("method", method), ("chart", chart)];
+        let texts = texts.map(|(name, text)| (name, Array::Text(text.to_string()))).into_iter();
+        let lists = [("states", states), ("inputs", inputs), ("outputs", outputs)];
+        texts.chain(lists.map(|(name, list)| (name, Array::Texts(list.clone())))).collect()
+    }
+
+    pub(super) fn coordinate_names(&self) -> [(&'static str, Array); 3] {
+        let Names { q, v, lambda, .. } = self.names;
+        [("q_names", q), ("v_names", v), ("lambda_names", lambda)]
+            .map(|(name, list)| (name, Array::Texts(list.clone())))
+    }
+
+    fn matrices(&self) -> [(&'static str, Array); 4] {
+        let LinearModel { a, b, c, d, .. } = self.model;
+        [("A", a), ("B", b), ("C", c), ("D", d)].map(|(name, values)| (name, matrix(values)))
+    }
+
+    fn state(&self) -> [(&'static str, Array); 5] {
+        let LinearizationPoint { q, v, vdot, lambda, u, .. } = &self.model.point;
+        [("q", q), ("v", v), ("vdot", vdot), ("lambda", lambda), ("u", u)].map(|(name, x)| (name, Array::vector(x)))
+    }
+
     /// Returns the basis, and what the outputs and rates are at the state: nothing without minimal coordinates.
-    fn frame_arrays(&self) -> Vec<(&'static str, Array)> {
+    fn frame_arrays(&self) -> Arrays {
         let Some(Frame { coordinates, qdot, outputs, .. }) = &self.model.frame else { return Vec::new() };
         let Coordinates { r, tilt, b, lift, .. } = coordinates;
         let point = &self.model.point;
@@ -267,10 +255,8 @@ impl NamedModel<'_> {
     }
 }
 
-/// Returns the units of x, u and y.
-pub(super) fn unit_arrays(
-    Frame { units: Units { states, inputs, outputs }, .. }: &Frame,
-) -> [(&'static str, Array); 3] {
+pub(super) fn unit_arrays(frame: &Frame) -> [(&'static str, Array); 3] {
+    let Units { states, inputs, outputs } = &frame.units;
     [("state_units", states), ("input_units", inputs), ("output_units", outputs)]
         .map(|(name, units)| (name, Array::Texts(units.clone())))
 }

@@ -1,7 +1,7 @@
 //! `loci.csv`, `loci.json`, and text on eigenvalues at many states.
 
 use super::against::{LociAgainst, with_others};
-use super::crossings::{SensitivityFile, sensitivity_lines, threshold_lines, with_thresholds};
+use super::crossings::{sensitivity_lines, threshold_lines, with_thresholds};
 use super::mode_figures::{frequency_figure, motion_figure};
 use super::plane::loci_figure;
 use super::turning::{speeds, unit_of_speed};
@@ -16,14 +16,12 @@ use crate::tolerances::SAME;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// Eigenvalues of a scene at many states.
 pub struct LociAnswer<'a> {
     scene: &'a str,
     loci: &'a Loci,
     /// Unit of time; of a parameter the one that is given, or that of the speed of a steady rotation; else empty.
     unit: &'a str,
     modes: Vec<ModeSummary>,
-    sensitivity: Option<SensitivityFile>,
     /// Another scene by its name.
     other: Option<(&'a str, &'a Loci)>,
     against: Option<LociAgainst>,
@@ -49,15 +47,6 @@ struct Extent {
 struct Stretch {
     from: f64,
     to: f64,
-}
-
-/// `loci.json`: the summary, the states that are equilibria, and the branches.
-#[derive(Serialize)]
-struct LociFile<'a> {
-    #[serde(flatten)]
-    summary: Value,
-    states: &'a [Reached],
-    branches: Vec<BranchFile>,
 }
 
 #[derive(Serialize)]
@@ -96,8 +85,7 @@ impl<'a> LociAnswer<'a> {
         };
         let modes = loci.named().map(|(mode, branch)| mode_summary(mode, branch, least)).collect();
         let against = other.map(|(name, other)| LociAgainst::new(loci, name, other));
-        let sensitivity = loci.sensitivity.as_ref().map(SensitivityFile::new);
-        LociAnswer { scene, loci, unit: unit.unwrap_or_default(), modes, sensitivity, other, against }
+        LociAnswer { scene, loci, unit: unit.unwrap_or_default(), modes, other, against }
     }
 
     /// Returns what is printed as JSON: all but states and branches.
@@ -128,7 +116,7 @@ impl<'a> LociAnswer<'a> {
         if !self.loci.thresholds.is_empty() {
             summary["thresholds"] = json!(self.loci.thresholds);
         }
-        if let Some(sensitivity) = &self.sensitivity {
+        if let Some(sensitivity) = &self.loci.sensitivity {
             summary["sensitivity"] = json!(sensitivity);
         }
         if let Some(against) = &self.against {
@@ -188,28 +176,23 @@ fn loci_table(loci: &Loci, along: &str) -> Result<Vec<u8>> {
     let names = modes
         .iter()
         .flat_map(|(mode, _)| ["re", "im", "frequency_hz", "damping_ratio"].map(|column| format!("{mode}.{column}")));
-    let starts: Vec<usize> = modes.iter().map(|(_, branch)| start(loci, branch)).collect();
+    // The row in which a branch begins.
+    let start = |branch: &Branch| {
+        let first = branch.points.first().map_or(f64::NAN, |point| point.0);
+        loci.places.iter().position(|place| *place == first).unwrap_or(usize::MAX)
+    };
+    let starts: Vec<usize> = modes.iter().map(|(_, branch)| start(branch)).collect();
     let rows = loci.places.iter().enumerate().map(|(row, place)| {
         let cells = modes.iter().zip(&starts).flat_map(|((_, branch), start)| {
             let point = row.checked_sub(*start).and_then(|i| branch.points.get(i));
-            cells(point.map(|point| point.1).filter(|value| value.re.is_finite()))
+            match point.filter(|point| point.1.re.is_finite()) {
+                Some((_, value)) => [value.re, value.im, frequency(*value), damping(*value)].map(cell),
+                None => Default::default(),
+            }
         });
         [cell(*place)].into_iter().chain(cells).collect()
     });
     table([along.to_string()].into_iter().chain(names), rows)
-}
-
-/// Returns the row in which a branch begins.
-fn start(loci: &Loci, branch: &Branch) -> usize {
-    let first = branch.points.first().map_or(f64::NAN, |point| point.0);
-    loci.places.iter().position(|place| *place == first).unwrap_or(usize::MAX)
-}
-
-fn cells(value: Option<Complex<f64>>) -> [String; 4] {
-    match value {
-        Some(value) => [value.re, value.im, frequency(value), damping(value)].map(cell),
-        None => Default::default(),
-    }
 }
 
 fn finite(branch: &Branch) -> impl Iterator<Item = (f64, Complex<f64>)> + Clone {
@@ -269,8 +252,16 @@ const MOST_STRETCHES: usize = 4;
 
 impl Answer for LociAnswer<'_> {
     fn json(&self) -> impl Serialize {
+        /// The summary, the states that are equilibria, and the branches.
+        #[derive(Serialize)]
+        struct Whole<'a> {
+            #[serde(flatten)]
+            summary: Value,
+            states: &'a [Reached],
+            branches: Vec<BranchFile>,
+        }
         let branches = self.loci.named().map(|(mode, branch)| branch_file(mode, branch)).collect();
-        LociFile { summary: self.summary(), states: &self.loci.reached, branches }
+        Whole { summary: self.summary(), states: &self.loci.reached, branches }
     }
 
     /// Returns method, chart and states, then the modes.
@@ -296,7 +287,7 @@ impl Answer for LociAnswer<'_> {
         text + "\n"
             + &self.table()
             + &threshold_lines(along, &self.loci.thresholds)
-            + &sensitivity_lines(along, self.sensitivity.as_ref())
+            + &sensitivity_lines(along, self.loci.sensitivity.as_ref())
             + &against
     }
 

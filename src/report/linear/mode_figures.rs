@@ -7,13 +7,6 @@ use crate::plot::{AxisSpec, Figure, Panel, Series, Style, Tint};
 use crate::tolerances;
 use std::f64::consts::TAU;
 
-/// Ratio of values above which an axis is logarithmic.
-const WIDE: f64 = 100.0;
-/// Least length of an axis of damping ratios, for values that differ by round-off only.
-const LEAST_DAMPING: f64 = 0.02;
-/// Colour of the modes of another scene, as an index in the palette.
-const BLACK: usize = 6;
-
 /// Draws |lambda| / 2 pi and -Re(lambda) / |lambda| of the physical eigenvalues over a parameter, each conjugate pair
 /// once; `along` names the parameter with its unit. `None` without physical eigenvalues.
 ///
@@ -73,7 +66,7 @@ fn others(other: Option<(&str, &[Branch])>) -> [Vec<Series>; 2] {
     let dashed = |value: fn(Complex<f64>) -> f64| {
         let mut lines = lines(&modes, value);
         lines.iter_mut().for_each(|line| {
-            (line.style, line.color) = (Style::Dashed, Some(BLACK));
+            (line.style, line.color) = (Style::Dashed, Some(6));
             line.label.clear();
         });
         if let Some(first) = lines.first_mut() {
@@ -138,7 +131,7 @@ fn values(lines: &[Series]) -> Vec<f64> {
 /// True if values above zero are of different sizes.
 fn are_wide(values: &[f64]) -> bool {
     let positive = whole(values.iter().copied().filter(|value| *value > 0.0));
-    positive.is_some_and(|(low, high)| high > WIDE * low)
+    positive.is_some_and(|(low, high)| high > 100.0 * low)
 }
 
 /// Returns the axis of frequencies and a note on values outside it. It is linear where it must be, or where the values
@@ -164,7 +157,7 @@ fn damping_axis(values: &[f64]) -> AxisSpec {
     if high - low >= tolerances::EIGENVALUES_AGREE && low > 0.0 && are_wide(values) {
         return axis.log();
     }
-    let least = if high - low < tolerances::EIGENVALUES_AGREE { LEAST_DAMPING } else { 0.0 };
+    let least = if high - low < tolerances::EIGENVALUES_AGREE { 0.02 } else { 0.0 };
     let (low, high) = padded((low, high), FREE, least);
     axis.range(low, high)
 }

@@ -25,8 +25,14 @@ pub fn notes(model: &LinearModel, listed: &[(usize, Pair)], names: &[String]) ->
         }
     }
     let others: Vec<&(usize, Pair)> = listed.iter().filter(|(_, pair)| !pair.mode.is_zero()).collect();
+    // Another eigenvalue is the same to rounding, and their vectors are dependent.
+    let is_defective = |mode: &Mode| {
+        let is_same = |other: &&Mode| (other.value - mode.value).norm() <= mode.error + other.error;
+        let same = model.modes.iter().filter(|other| other.kind == mode.kind).filter(is_same).count();
+        mode.condition > DEFECTIVE_MODE && same > 1
+    };
     let defective: Vec<usize> =
-        others.iter().filter(|(_, pair)| is_defective(model, pair.mode)).map(|(number, _)| *number).collect();
+        others.iter().filter(|(_, pair)| is_defective(pair.mode)).map(|(number, _)| *number).collect();
     if !defective.is_empty() {
         let _ = writeln!(
             text,
@@ -76,11 +82,4 @@ fn rigid_motion(mode: &Mode, names: &[String]) -> &'static str {
         }
     }
     if is_common(&of(".angle'")) { "angle" } else { "" }
-}
-
-/// True if another eigenvalue is the same to rounding and their vectors are dependent.
-fn is_defective(model: &LinearModel, mode: &Mode) -> bool {
-    let is_same = |other: &&Mode| (other.value - mode.value).norm() <= mode.error + other.error;
-    let same = model.modes.iter().filter(|other| other.kind == mode.kind).filter(is_same).count();
-    mode.condition > DEFECTIVE_MODE && same > 1
 }

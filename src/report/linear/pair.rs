@@ -47,12 +47,6 @@ impl Response {
         let phases = phases.into_iter().map(|phase| Some(phase).filter(|phase| phase.is_finite())).collect();
         [each(|x| x.re), each(|x| x.im), each(|x| x.norm()), phases]
     }
-
-    /// The columns of `bode-T.csv` with their names.
-    pub(super) fn columns(&self, frequencies: &[f64]) -> impl Iterator<Item = (String, Vec<Option<f64>>)> {
-        let names = ["re", "im", "magnitude", "phase_deg"].map(|part| format!("{}/{}.{part}", self.output, self.input));
-        names.into_iter().zip(self.parts(frequencies))
-    }
 }
 
 /// True if there is a response, not a pole.

@@ -12,11 +12,7 @@ use std::collections::BTreeMap;
 const BLACK: usize = 6;
 /// Approximate size of the plane in pixels.
 const PIXELS: (f64, f64) = (440.0, 400.0);
-/// Radius of eigenvalues, pixels, and the largest number of them, so that the file stays small.
-const DOT: f64 = 2.7;
-const MOST_DOTS: usize = 4000;
 
-/// Ranges of real and imaginary parts.
 #[derive(Clone, Copy, Debug)]
 struct Window {
     re: (f64, f64),
@@ -55,7 +51,12 @@ pub fn loci_figure(
         }
     }
     let curves: Vec<Branch> = drawn.iter().map(|branch| finite(&branch.curve(), is_upper)).collect();
-    let curves = joined(curves.iter().filter(|branch| branch.kind == Kind::Physical));
+    // One line with gaps.
+    let line = |branch: &Branch| -> Vec<(f64, f64)> {
+        let points = branch.points.iter().map(|(_, value)| (value.re, value.im));
+        points.chain([(f64::NAN, f64::NAN)]).collect()
+    };
+    let curves = curves.iter().filter(|branch| branch.kind == Kind::Physical).flat_map(line).collect();
     panel = panel.series(Series::line("", curves).style(Style::Thin).color(BLACK));
     panel.colors = along.into();
     Some(Figure::new().title(title).panel(panel.items(dots(points(of(Kind::Physical)), &window))))
@@ -69,9 +70,9 @@ fn dots(points: impl Iterator<Item = (f64, Complex<f64>)>, Window { re, im }: &W
     let dot = |(at, value): (f64, Complex<f64>)| Item {
         spots: vec![Spot::data(value.re, value.im)],
         tint: Tint::Value(at),
-        form: Form::Disc(DOT),
+        form: Form::Disc(2.7),
     };
-    let step = shown.len().div_ceil(MOST_DOTS).max(1);
+    let step = shown.len().div_ceil(4000).max(1);
     shown.into_iter().step_by(step).map(dot).collect()
 }
 
@@ -87,13 +88,6 @@ fn finite(branch: &Branch, is_upper: bool) -> Branch {
 
 fn points<'a>(branches: impl Iterator<Item = &'a Branch>) -> impl Iterator<Item = (f64, Complex<f64>)> {
     branches.flat_map(|branch| &branch.points).copied().filter(|(_, value)| value.re.is_finite())
-}
-
-/// Returns the branches as one line with gaps.
-fn joined<'a>(branches: impl Iterator<Item = &'a Branch>) -> Vec<(f64, f64)> {
-    let gap = (f64::NAN, f64::NAN);
-    let line = |branch: &'a Branch| branch.points.iter().map(|(_, value)| (value.re, value.im)).chain([gap]);
-    branches.flat_map(line).collect()
 }
 
 /// True if every eigenvalue below the real axis has its conjugate at the same value of the parameter.
@@ -140,8 +134,7 @@ fn frame_lines(panel: Panel, window: &Window, is_upper: bool, data: &[Complex<f6
     })
 }
 
-/// Usual place of a name along its ray, as a part of its length, and others with room on both sides.
-const USUAL: f64 = 0.93;
+/// Places of a name along its ray, as parts of its length, where the usual one is taken.
 const OTHERS: [f64; 3] = [0.8, 0.65, 0.5];
 /// Distance from the data that leaves room for a name, pixels.
 const ENOUGH: f64 = 100.0;
@@ -155,7 +148,7 @@ fn free_place(ray: &Ray, data: &[Complex<f64>], pixels: (f64, f64)) -> (f64, f64
         apart.fold(ENOUGH, f64::min)
     };
     let farther = |one: f64, other: f64| if distance(other) > distance(one) { other } else { one };
-    if distance(USUAL) >= ENOUGH { place(USUAL) } else { place(OTHERS.into_iter().fold(OTHERS[0], farther)) }
+    if distance(0.93) >= ENOUGH { place(0.93) } else { place(OTHERS.into_iter().fold(OTHERS[0], farther)) }
 }
 
 /// Returns a note on the number of points outside the axes, and on growth among them.

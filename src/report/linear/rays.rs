@@ -1,6 +1,5 @@
 //! Lines of constant damping in the complex plane.
 
-/// Damping ratios of the lines.
 const RATIOS: [f64; 16] = [1e-4, 2e-4, 5e-4, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9, 0.97];
 /// Angles of the lines from the imaginary axis in the figure, degrees: the first and last, and the least between two.
 const FIRST: f64 = 9.0;

@@ -4,8 +4,10 @@ use super::bode_figure::{Magnitude, bode_figure, not_drawn};
 use super::pair::{Response, is_finite};
 use crate::error::{Result, short, significant};
 use crate::linearize::LinearModel;
-use crate::report::{Answer, Folder, Table, cell, object, table};
-use serde::{Serialize, Serializer};
+use crate::report::tables::optional;
+use crate::report::{Answer, Folder, Table, cell, table};
+use serde::Serialize;
+use serde_json::{Value, json};
 
 pub struct FrequencyResponse<'a> {
     pub scene: &'a str,
@@ -13,54 +15,18 @@ pub struct FrequencyResponse<'a> {
     pub frequencies: Vec<f64>,
     /// Responses of each output to each input; NaN at a pole.
     pub responses: Vec<Response>,
-    /// Magnitude in the figure.
     pub magnitude: Magnitude,
-}
-
-impl Serialize for FrequencyResponse<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let LinearModel { method, chart, point, .. } = &self.model;
-        object!(serializer,
-            "scene" => self.scene,
-            "t" => point.t,
-            "equilibrium" => point.is_equilibrium,
-            "method" => method,
-            "chart" => chart,
-            "frequency_hz" => self.frequencies,
-            "poles_hz" => self.poles(),
-            "responses" => self.responses.iter().map(|response| Pair(response, &self.frequencies)).collect::<Vec<_>>(),
-        )
-    }
-}
-
-/// A response at these frequencies; null at a pole.
-struct Pair<'a>(&'a Response, &'a [f64]);
-
-impl Serialize for Pair<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Response { input, output, input_unit, output_unit, .. } = self.0;
-        let [re, im, magnitude, phase] = self.0.parts(self.1);
-        object!(serializer,
-            "input" => input,
-            "output" => output,
-            "input_unit" => input_unit,
-            "output_unit" => output_unit,
-            "re" => re,
-            "im" => im,
-            "magnitude" => magnitude,
-            "phase_deg" => phase,
-        )
-    }
 }
 
 impl FrequencyResponse<'_> {
     /// Returns `frequency_hz`, then real and imaginary part, magnitude and phase from each input to each output.
     fn table(&self) -> Result<Vec<u8>> {
-        let columns: Vec<(String, Vec<Option<f64>>)> =
-            self.responses.iter().flat_map(|response| response.columns(&self.frequencies)).collect();
-        let names = columns.iter().map(|(name, _)| name.clone());
+        let parts = ["re", "im", "magnitude", "phase_deg"];
+        let name = |response: &Response| parts.map(|part| format!("{}/{}.{part}", response.output, response.input));
+        let names = self.responses.iter().flat_map(name);
+        let columns: Vec<_> = self.responses.iter().flat_map(|response| response.parts(&self.frequencies)).collect();
         let rows = self.frequencies.iter().enumerate().map(|(i, frequency)| {
-            let cells = columns.iter().map(|(_, values)| values[i].map_or(String::new(), cell));
+            let cells = columns.iter().map(|values| optional(values[i]));
             [cell(*frequency)].into_iter().chain(cells).collect()
         });
         table(["frequency_hz".to_string()].into_iter().chain(names), rows)
@@ -97,7 +63,31 @@ impl FrequencyResponse<'_> {
 
 impl Answer for FrequencyResponse<'_> {
     fn json(&self) -> impl Serialize {
-        self
+        let LinearModel { method, chart, point, .. } = &self.model;
+        let pair = |response: &Response| {
+            let Response { input, output, input_unit, output_unit, .. } = response;
+            let [re, im, magnitude, phase_deg] = response.parts(&self.frequencies);
+            json!({
+                "input": input,
+                "output": output,
+                "input_unit": input_unit,
+                "output_unit": output_unit,
+                "re": re,
+                "im": im,
+                "magnitude": magnitude,
+                "phase_deg": phase_deg,
+            })
+        };
+        json!({
+            "scene": self.scene,
+            "t": point.t,
+            "equilibrium": point.is_equilibrium,
+            "method": method,
+            "chart": chart,
+            "frequency_hz": self.frequencies,
+            "poles_hz": self.poles(),
+            "responses": self.responses.iter().map(pair).collect::<Vec<Value>>(),
+        })
     }
 
     /// Returns each pair with its response at the lowest frequency and at its largest.

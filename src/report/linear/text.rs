@@ -5,15 +5,12 @@ use super::notes::notes;
 use crate::error::{short, significant};
 use crate::linearize::{Comparison, Kind, LinearModel, LinearizationPoint, Pair, pairs};
 use crate::report::table::count;
+use crate::report::tables::Column;
 use crate::report::{Answer, Table};
 use serde::Serialize;
 use serde_json::json;
 
-/// Largest number of lines of physical eigenvalues, and of spurious ones; the files have all.
-const MOST_LINES: usize = 30;
-const MOST_SPURIOUS: usize = 10;
-/// Bodies with at least this part of a mode's energy are named, at most MOST_NAMED.
-const PART: f64 = 0.05;
+/// Bodies with at least a twentieth of a mode's energy are named, at most so many.
 const MOST_NAMED: usize = 3;
 
 /// Names the states of inputs, where there are some.
@@ -125,7 +122,7 @@ fn modes_text(model: &LinearModel, bodies: &[&str], names: &[String]) -> String 
     let mut number = 0;
     let mut left_out = Vec::new();
     let mut listed = Vec::new();
-    for (kind, most) in [(Kind::Physical, MOST_LINES), (Kind::Uncertain, MOST_LINES), (Kind::Spurious, MOST_SPURIOUS)] {
+    for (kind, most) in [(Kind::Physical, 30), (Kind::Uncertain, 30), (Kind::Spurious, 10)] {
         let found = pairs(model, kind);
         for pair in &found[..found.len().min(most)] {
             number += 1;
@@ -177,14 +174,13 @@ fn movers(bodies: &[&str], energy: &[f64]) -> String {
         }
     }
     sums.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let large = sums.iter().filter(|(_, sum)| *sum >= PART);
+    let large = sums.iter().filter(|(_, sum)| *sum >= 0.05);
     let words: Vec<String> =
         large.clone().take(MOST_NAMED).map(|(name, sum)| format!("{name} {:.0}", 100.0 * sum)).collect();
     let more = if large.count() > MOST_NAMED { ", ..." } else { "" };
     words.join(", ") + more
 }
 
-/// Models at a state by all methods.
 pub struct MethodsAnswer {
     pub t: f64,
     pub is_equilibrium: bool,
@@ -203,36 +199,20 @@ impl Answer for MethodsAnswer {
 
 /// Returns one line for each method, the reference first.
 pub fn comparison_text(rows: &[Comparison], is_equilibrium: bool) -> String {
-    let headings = [
-        "method",
-        "chart",
-        "against first",
-        "physical",
-        "spurious",
-        "infinite",
-        "off constraints",
-        "conditioning",
-        "size",
-        "matrices (us)",
-        "eigenvalues (us)",
+    let columns: [Column<Comparison>; 11] = [
+        ("method", |row| row.method.clone()),
+        ("chart", |row| row.chart.clone()),
+        ("against first", |row| row.error.map_or("-".to_string(), |error| format!("{error:.1e}"))),
+        ("physical", |row| row.physical.to_string()),
+        ("spurious", |row| row.spurious.to_string()),
+        ("infinite", |row| row.infinite.to_string()),
+        ("off constraints", |row| row.off_constraints.map_or("-".to_string(), |[a, b]| format!("{a:.0e} / {b:.0e}"))),
+        ("conditioning", |row| row.conditioning.map_or("-".to_string(), |condition| significant(condition, 2))),
+        ("size", |row| row.size.to_string()),
+        ("matrices (us)", |row| significant(row.assembly_microseconds, 3)),
+        ("eigenvalues (us)", |row| significant(row.eigen_microseconds, 3)),
     ];
-    let mut table = Table::new(&headings).words(1);
-    for row in rows {
-        table.row([
-            row.method.clone(),
-            row.chart.clone(),
-            row.error.map_or("-".to_string(), |error| format!("{error:.1e}")),
-            row.physical.to_string(),
-            row.spurious.to_string(),
-            row.infinite.to_string(),
-            row.off_constraints
-                .map_or("-".to_string(), |[physical, spurious]| format!("{physical:.0e} / {spurious:.0e}")),
-            row.conditioning.map_or("-".to_string(), |condition| significant(condition, 2)),
-            row.size.to_string(),
-            significant(row.assembly_microseconds, 3),
-            significant(row.eigen_microseconds, 3),
-        ]);
-    }
+    let table = Table::of(&columns, rows).words(1);
     let note = if is_equilibrium {
         ""
     } else {

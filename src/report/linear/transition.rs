@@ -1,5 +1,6 @@
 //! `transition-T.json`: growth of small changes along the motion, its text and its figure.
 
+use super::files::matrix;
 use crate::error::{Result, significant, two_digits};
 use crate::linearize::{Complex, Defect, Floquet, Lyapunov};
 use crate::plot::{Figure, Panel, Series};
@@ -48,7 +49,7 @@ fn floquet_json(found: &Floquet, defects: &[Defect]) -> Value {
         "gap": found.gap,
         "chart": found.chart,
         "states": found.states,
-        "monodromy": found.monodromy.row_iter().map(|row| row.iter().copied().collect()).collect::<Vec<Vec<f64>>>(),
+        "monodromy": matrix(&found.monodromy),
         "multipliers": pairs(&found.multipliers),
         "exponents": pairs(&found.exponents()),
         "multiplier_errors": found.errors,

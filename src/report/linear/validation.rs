@@ -9,17 +9,13 @@ use crate::system::Names;
 use crate::tolerances;
 use crate::validate::{Curve, Decay, Passage, PerturbationSequence, Reason, Validation};
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-/// The validation of a linear model of a scene.
 pub struct ValidationAnswer<'a> {
     pub scene: &'a str,
     pub names: &'a Names,
     pub found: Validation,
 }
-
-/// Names of the shares of [`PerturbationSequence::horizons`].
-const SHARES: [&str; 2] = ["1%", "10%"];
 
 impl ValidationAnswer<'_> {
     /// True if perturbed motions agree with the model.
@@ -57,7 +53,7 @@ impl Answer for ValidationAnswer<'_> {
             "errors_ltv": first.map_or(&[][..], |sequence| &sequence.errors_ltv),
             "order_ltv": first.and_then(|sequence| sequence.order_ltv.order),
             "errors_lti": first.map_or(&[][..], |sequence| &sequence.errors_lti),
-            "horizons": first.map_or(Map::new(), horizons),
+            "horizons": first.map_or(json!({}), horizons),
             "verdict": self.found.verdict,
             "a": measured.a,
             "b": measured.b,
@@ -71,7 +67,6 @@ impl Answer for ValidationAnswer<'_> {
         })
     }
 
-    /// Returns orders, horizons and the verdict.
     fn text(&self) -> String {
         let found = &self.found;
         let mut table = Table::new(&["perturbation", "order in eps", "decades", "1 % after (s)", "10 % after (s)"]);
@@ -146,8 +141,9 @@ fn decades(decay: &Decay) -> String {
     if decay.order.is_some() { format!("{:.1}", decay.decades) } else { "-".to_string() }
 }
 
-fn horizons(sequence: &PerturbationSequence) -> Map<String, Value> {
-    SHARES.iter().zip(sequence.horizons).map(|(share, time)| (share.to_string(), json!(time))).collect()
+fn horizons(sequence: &PerturbationSequence) -> Value {
+    let [one, ten] = sequence.horizons;
+    json!({ "1%": one, "10%": ten })
 }
 
 fn direction(names: &Names, sequence: &PerturbationSequence) -> Value {
@@ -218,10 +214,6 @@ fn order_panel(sequence: &PerturbationSequence) -> Option<Panel> {
 /// The change along one direction: its name, its unit and its curves.
 type Member<'a> = (&'a str, &'static str, &'a Curve);
 
-/// Largest difference of two lines, as a part of their size, at which one hides the other: the width of a line is about
-/// a hundredth of the height of its panel.
-const HIDES: f64 = 0.01;
-
 /// Draws the changes of one unit over time, and below how far the predictions are off.
 fn deviation_panels(members: &[Member], times: &[f64]) -> [Panel; 2] {
     let (name, unit, _) = members[0];
@@ -259,7 +251,8 @@ fn deviation_panels(members: &[Member], times: &[f64]) -> [Panel; 2] {
 fn drawn<'m>(members: &'m [Member<'m>]) -> Vec<(&'m Member<'m>, Vec<&'m Member<'m>>)> {
     let mut drawn: Vec<(&Member, Vec<&Member>)> = Vec::new();
     for member in members {
-        match drawn.iter_mut().find(|(first, _)| are_within(HIDES, first.2, member.2)) {
+        // The width of a line is about a hundredth of the height of its panel.
+        match drawn.iter_mut().find(|(first, _)| are_within(0.01, first.2, member.2)) {
             Some((_, hidden)) => hidden.push(member),
             None => drawn.push((member, Vec::new())),
         }

@@ -7,16 +7,9 @@ use super::view::{along, straight};
 use crate::body::{dot, norm, sub};
 use crate::plot::{Spot, Tint};
 
-/// Distance of the outline of a body from its markers, pixels.
-const RADIUS: f64 = 6.5;
-/// Radius of a point mass, half the side of a body without extent, radius of the ring that shows rotation, pixels.
+/// Radius of a point mass, and half the side of a body without extent, pixels.
 const MASS: f64 = 7.5;
 const BLOCK: f64 = 11.0;
-const SPIN: f64 = 13.0;
-const OPACITY: f64 = 0.25;
-/// Opacity of earlier pictures, which must not add up to a blot.
-const FAINT: f64 = 0.05;
-const PAPER: f64 = 0.55;
 /// Radius of the symbol of a centre of mass, pixels.
 const CENTRE: f64 = 4.6;
 
@@ -34,7 +27,10 @@ pub fn draw(pen: &mut Canvas, limb: &Limb, color: usize) {
         [point] if !limb.oriented => point_mass(pen, *point, color),
         [point] => block(pen, &Pose { r: *point, axes: limb.centre.axes }, color),
         points => {
-            outline(pen, points, color);
+            let flat: Vec<(f64, f64)> = points.iter().map(|point| pen.view.flat(*point)).collect();
+            let around = rounded(&hull(&flat)).into_iter();
+            let spots = around.map(|(at, way)| Spot::data(at.0, at.1).moved(6.5 * way.0, 6.5 * way.1)).collect();
+            fill(pen, spots, color);
             if !limb.oriented {
                 point_mass(pen, limb.centre.r, color);
             } else if limb.may_spin {
@@ -42,13 +38,6 @@ pub fn draw(pen: &mut Canvas, limb: &Limb, color: usize) {
             }
         }
     }
-}
-
-fn outline(pen: &mut Canvas, points: &[[f64; 3]], color: usize) {
-    let flat: Vec<(f64, f64)> = points.iter().map(|point| pen.view.flat(*point)).collect();
-    let around = rounded(&hull(&flat)).into_iter();
-    let spots = around.map(|(at, way)| Spot::data(at.0, at.1).moved(RADIUS * way.0, RADIUS * way.1)).collect();
-    fill(pen, spots, color);
 }
 
 /// Half the width of a beam, pixels.
@@ -78,12 +67,12 @@ fn fill(pen: &mut Canvas, spots: Vec<Spot>, color: usize) {
     let edge = pen.color(color, 0.0);
     let inner = Tint::Body(color, 0.0);
     if pen.paleness > 0.0 {
-        pen.shape(spots, edge, THIN, (inner, FAINT));
+        pen.shape(spots, edge, THIN, (inner, 0.05));
         return;
     }
     // A layer of paper colour below, so that this picture stands out from earlier ones.
-    pen.area(spots.clone(), Tint::Ink(1.0), PAPER);
-    pen.shape(spots, edge, BOLD, (inner, OPACITY));
+    pen.area(spots.clone(), Tint::Ink(1.0), 0.55);
+    pen.shape(spots, edge, BOLD, (inner, 0.25));
 }
 
 fn point_mass(pen: &mut Canvas, r: [f64; 3], color: usize) {
@@ -116,7 +105,7 @@ fn spin(pen: &mut Canvas, limb: &Limb, color: usize) {
     let Some(axis) = straight(&limb.points) else { return };
     let hint = limb.centre.axes.iter().copied().min_by(|a, b| dot(a, &axis).abs().total_cmp(&dot(b, &axis).abs()));
     let plane = [axis, hint.unwrap_or(axis)];
-    let ring = pen.arc(limb.centre.r, plane, (0.0, std::f64::consts::TAU), (0.0, SPIN));
+    let ring = pen.arc(limb.centre.r, plane, (0.0, std::f64::consts::TAU), (0.0, 13.0));
     let tint = pen.color(color, 0.0);
     let spoke = vec![pen.spot(limb.centre.r), ring[0]];
     pen.line(ring, tint, THIN);

@@ -46,7 +46,6 @@ impl<'a> Canvas<'a> {
         Tint::Ink(paleness + (1.0 - paleness) * self.paleness)
     }
 
-    /// Returns the colour of a body.
     pub fn color(&self, body: usize, paleness: f64) -> Tint {
         Tint::Body(body, paleness + (1.0 - paleness) * self.paleness)
     }

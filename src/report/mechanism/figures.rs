@@ -15,10 +15,8 @@ use crate::math::bounds;
 use crate::plot::{Align, Animation, AxisSpec, Figure, Form, Item, Panel, Series, Spot, Tint};
 use crate::prepared::{AnyMechanism, Model};
 
-/// Options of a figure of the mechanism.
 #[derive(Clone, Debug)]
 pub struct Look {
-    /// View.
     pub view: View,
     /// True if bodies are labelled with their names.
     pub labels: bool,
@@ -73,12 +71,9 @@ pub fn stroboscope_figure(motion: &Motion, look: &Look, times: &[f64]) -> Figure
     Figure::new().title(motion.title.clone()).panel(labelled(look, full, panel))
 }
 
-/// Largest number of times in the legend.
-const MOST_KEYS: usize = 12;
-
 /// Returns the times in the shades of their pictures.
 fn keys(times: &[f64], paleness: impl Fn(usize) -> f64) -> Vec<(String, Tint)> {
-    let stride = times.len().div_ceil(MOST_KEYS).max(1);
+    let stride = times.len().div_ceil(12).max(1);
     let last = times.len().saturating_sub(1);
     let shown = (0..times.len()).filter(|k| (last - k).is_multiple_of(stride));
     shown.map(|k| (format!("t = {} s", significant(times[k], 3)), Tint::Ink(paleness(k)))).collect()
@@ -154,7 +149,6 @@ pub(super) fn supports(look: &Look, scenes: &[Snapshot]) -> Vec<Item> {
     pen.finish().collect()
 }
 
-/// Draws bodies, joints and forces.
 pub(super) fn picture(
     look: &Look,
     scene: &Snapshot,
@@ -185,13 +179,13 @@ pub(super) fn panel<'a>(
     let (left, right) = bounds(places.iter().map(|place| place.0));
     let (bottom, top) = bounds(places.iter().map(|place| place.1));
     let span = (right - left).max(top - bottom);
-    let room = if span > 0.0 { ROOM * span } else { 0.5 };
+    let room = if span > 0.0 { 0.085 * span } else { 0.5 };
     let [x, y] = look.view.labels();
     let x = AxisSpec::from(x).range(left - room, right + room);
     let y = AxisSpec::from(y).range(bottom - room, top + room);
     // The axes of space are in the corner where they hide least.
     let hides = |(x, y): &(f64, f64)| {
-        let is_near = |place: &&(f64, f64)| (place.0 - x).abs().max((place.1 - y).abs()) < CORNER * span;
+        let is_near = |place: &&(f64, f64)| (place.0 - x).abs().max((place.1 - y).abs()) < 0.09 * span;
         places.iter().filter(is_near).count()
     };
     let corners = [(left, bottom), (right, bottom), (left, top), (right, top)];
@@ -200,21 +194,15 @@ pub(super) fn panel<'a>(
     Panel { equal_aspect: true, ..Panel::new(x, y) }.items(triad.into_iter().flatten())
 }
 
-/// Side of a corner for the axes of space, beside the margin, as a part of the longer side.
-const CORNER: f64 = 0.09;
-/// Margin at both ends, as a part of the longer side.
-const ROOM: f64 = 0.085;
-
-/// Length of the arrows that show the axes of space, and their distance from the sides of the frame, pixels.
+/// Length of the arrows that show the axes of space, pixels.
 const TRIAD: f64 = 27.0;
-const FOOT: f64 = 42.0;
 
 fn triad(view: &View, is_right: bool, is_top: bool) -> Vec<Item> {
     let mut pen = Canvas::new(view, 0.0);
     let side = |is_far: bool| if is_far { 1.0 } else { -1.0 };
     let x = side(is_right);
     let y = side(is_top);
-    let foot = Spot::data(x * f64::INFINITY, y * f64::INFINITY).moved(-FOOT * x, -FOOT * y);
+    let foot = Spot::data(x * f64::INFINITY, y * f64::INFINITY).moved(-42.0 * x, -42.0 * y);
     for (i, name) in ["x", "y", "z"].into_iter().enumerate() {
         let (right, up) = view.flat(unit(i));
         pen.depth = view.depth(unit(i));
@@ -241,9 +229,6 @@ pub(super) fn labelled(look: &Look, scene: &Snapshot, mut panel: Panel) -> Panel
     panel
 }
 
-/// Number of states from which the travel of slides is taken.
-const SAMPLES: usize = 300;
-
 fn course(motion: &Motion) -> Course {
     let mechanism = &motion.prepared.mechanism;
     let slides = |link: &Link| ["prismatic", "cylindrical", "point_on_line"].contains(&link.kind);
@@ -253,7 +238,7 @@ fn course(motion: &Motion) -> Course {
     };
     let first = snapshot(mechanism, &motion.state(motion.reach().0));
     let mut course = Course { travels: vec![None; first.joints.len()], lengths: lengths(&first) };
-    let times = if first.joints.iter().any(slides) { motion.times(SAMPLES) } else { Vec::new() };
+    let times = if first.joints.iter().any(slides) { motion.times(300) } else { Vec::new() };
     for t in times {
         let scene = snapshot(mechanism, &motion.state(t));
         for (way, place) in course.travels.iter_mut().zip(scene.joints.iter().map(place)) {

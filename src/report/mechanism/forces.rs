@@ -8,26 +8,21 @@ use crate::body::{cross, dot, sub, unit};
 use crate::plot::{Spot, Tint};
 use std::f64::consts::TAU;
 
-/// Length of the arrow of a force, pixels.
-const ARROW: f64 = 44.0;
-
-/// Draws a zigzag between its ends.
-pub fn spring_damper(pen: &mut Canvas, link: &Link, sight: &Sight) {
-    zigzag(pen, [link.ends[0].r, link.ends[1].r], sight.length);
-}
-
 const COILS: usize = 16;
 /// Half the width of a spring: pixels, and part of its length at the start.
 const WIDTH: (f64, f64) = (3.0, 0.018);
 
-fn zigzag(pen: &mut Canvas, [a, b]: [[f64; 3]; 2], start: f64) {
+/// Draws a zigzag between its ends.
+pub fn spring_damper(pen: &mut Canvas, link: &Link, sight: &Sight) {
+    let a = link.ends[0].r;
+    let b = link.ends[1].r;
     let (x, y) = pen.view.flat(sub(&b, &a));
     let size = x.hypot(y);
     let (nx, ny) = if size > 1e-12 { (-y / size, x / size) } else { (0.0, 1.0) };
     // A fifth of the length at both ends is straight.
     let at = |part: f64, out: f64| {
         let (x, y) = pen.view.flat(along(a, sub(&b, &a), part));
-        let wide = out * WIDTH.1 * start;
+        let wide = out * WIDTH.1 * sight.length;
         Spot::data(x + wide * nx, y + wide * ny).moved(out * WIDTH.0 * nx, out * WIDTH.0 * ny)
     };
     let mut spots: Vec<Spot> = vec![at(0.0, 0.0), at(0.2, 0.0)];
@@ -80,7 +75,7 @@ pub fn applied_force(pen: &mut Canvas, link: &Link, _: &Sight) {
     let Some(way) = direction(link.force) else { return };
     let at = link.ends[0].r;
     pen.layer = Layer::Arrow;
-    let spots = vec![pen.spot(at), pen.beside((at, way.map(|x| x * ARROW)))];
+    let spots = vec![pen.spot(at), pen.beside((at, way.map(|x| x * 44.0)))];
     pen.arrow(spots, pen.ink(0.0), BOLD);
 }
 

@@ -13,61 +13,46 @@ pub struct Course {
     pub lengths: Vec<f64>,
 }
 
-struct Glyph {
-    kind: &'static str,
-    draw: fn(&mut Canvas, &Link, &Sight),
-    /// True if earlier pictures of a stroboscope show it too.
-    in_all: bool,
+/// Returns the symbol of a kind, and true if it is long, so that earlier pictures of a stroboscope show it too.
+fn glyph(kind: &str) -> (fn(&mut Canvas, &Link, &Sight), bool) {
+    match kind {
+        "revolute" => (joints::revolute, false),
+        "prismatic" => (joints::slot, false),
+        "cylindrical" => (joints::cylindrical, false),
+        "universal" => (joints::universal, false),
+        "spherical" => (joints::spherical, false),
+        "planar" => (joints::planar, false),
+        "weld" => (joints::weld, false),
+        "distance" => (joints::distance, true),
+        "point_on_line" => (joints::point_on_line, false),
+        "gear" => (joints::gear, true),
+        "driver" => (joints::driver, false),
+        "equation" => (joints::equation, false),
+        "spring_damper" => (forces::spring_damper, true),
+        "torsion_spring" => (forces::torsion_spring, false),
+        "bushing" => (forces::bushing, false),
+        "beam" => (forces::beam, true),
+        "applied_force" => (forces::applied_force, false),
+        "applied_torque" => (forces::applied_torque, false),
+        "tyre" => (forces::tyre, true),
+        _ => (joints::equation, false),
+    }
 }
 
-const fn glyph(kind: &'static str, draw: fn(&mut Canvas, &Link, &Sight), in_all: bool) -> Glyph {
-    Glyph { kind, draw, in_all }
-}
-
-const JOINTS: &[Glyph] = &[
-    glyph("revolute", joints::revolute, false),
-    glyph("prismatic", joints::prismatic, false),
-    glyph("cylindrical", joints::cylindrical, false),
-    glyph("universal", joints::universal, false),
-    glyph("spherical", joints::spherical, false),
-    glyph("planar", joints::planar, false),
-    glyph("weld", joints::weld, false),
-    glyph("distance", joints::distance, true),
-    glyph("point_on_line", joints::point_on_line, false),
-    glyph("gear", joints::gear, true),
-    glyph("driver", joints::driver, false),
-    glyph("equation", joints::equation, false),
-];
-
-const FORCES: &[Glyph] = &[
-    glyph("spring_damper", forces::spring_damper, true),
-    glyph("torsion_spring", forces::torsion_spring, false),
-    glyph("bushing", forces::bushing, false),
-    glyph("beam", forces::beam, true),
-    glyph("applied_force", forces::applied_force, false),
-    glyph("applied_torque", forces::applied_torque, false),
-    glyph("tyre", forces::tyre, true),
-];
-
-/// Symbol of kinds from outside the crate.
-const OWN: Glyph = glyph("", joints::equation, false);
-
-/// Draws all joints and forces of a scene.
 pub fn draw(pen: &mut Canvas, scene: &Snapshot, course: &Course) {
     let depths: Vec<f64> = scene.limbs.iter().map(|limb| bodies::depth(pen, limb)).collect();
     let sight = |travel, length| Sight { is_planar: scene.is_planar, travel, length };
     let travel = |i: usize| course.travels.get(i).copied().flatten();
-    let joints = scene.joints.iter().enumerate().map(|(i, link)| (link, JOINTS, sight(travel(i), 0.0)));
+    let joints = scene.joints.iter().enumerate().map(|(i, link)| (link, sight(travel(i), 0.0)));
     let length = |i: usize| course.lengths.get(i).copied().unwrap_or(0.0);
-    let forces = scene.forces.iter().enumerate().map(|(i, link)| (link, FORCES, sight(None, length(i))));
-    for (link, table, sight) in joints.chain(forces) {
-        let glyph = table.iter().find(|glyph| glyph.kind == link.kind).unwrap_or(&OWN);
-        if !glyph.in_all && pen.paleness > 0.0 {
-            continue;
+    let forces = scene.forces.iter().enumerate().map(|(i, link)| (link, sight(None, length(i))));
+    for (link, sight) in joints.chain(forces) {
+        let (draw, is_long) = glyph(link.kind);
+        if is_long || pen.paleness == 0.0 {
+            pen.layer = Layer::Joint;
+            pen.depth = depth(pen, link, &depths, is_long);
+            draw(pen, link, &sight);
         }
-        pen.layer = Layer::Joint;
-        pen.depth = depth(pen, link, &depths, glyph.in_all);
-        (glyph.draw)(pen, link, &sight);
     }
 }
 

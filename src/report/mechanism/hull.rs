@@ -55,15 +55,12 @@ pub fn rounded(corners: &[Point]) -> Vec<(Point, Point)> {
                 (before - std::f64::consts::FRAC_PI_2, (after - before).rem_euclid(std::f64::consts::TAU))
             }
         };
-        let steps = (turn / STEP).ceil().max(1.0) as usize;
+        let steps = (turn / 0.45).ceil().max(1.0) as usize;
         let directions = (0..=steps).map(|i| from + turn * i as f64 / steps as f64);
         outline.extend(directions.map(|angle| (*corner, (angle.cos(), angle.sin()))));
     }
     outline
 }
-
-/// Angle between two points of an arc, rad.
-const STEP: f64 = 0.45;
 
 #[cfg(test)]
 mod tests {

@@ -1,7 +1,7 @@
 //! Symbols of joints.
 
 use super::canvas::{BOLD, Canvas, Layer, THIN};
-use super::snapshot::{Link, Pose, Sight};
+use super::snapshot::{Link, Sight};
 use super::view::{along, direction};
 use crate::body::{cross, dot, norm, sub};
 use crate::joint::Axis;
@@ -32,7 +32,7 @@ pub fn revolute(pen: &mut Canvas, link: &Link, _: &Sight) {
 }
 
 /// Draws two rails along the travel of the slide, hatched where they belong to the ground.
-fn slot(pen: &mut Canvas, link: &Link, sight: &Sight) {
+pub fn slot(pen: &mut Canvas, link: &Link, sight: &Sight) {
     let Some(axis) = axis(link) else { return };
     let foot = link.ends[0].r;
     let point = link.ends[1].r;
@@ -59,10 +59,6 @@ fn slot(pen: &mut Canvas, link: &Link, sight: &Sight) {
         }
     }
     pen.layer = Layer::Joint;
-}
-
-pub fn prismatic(pen: &mut Canvas, link: &Link, sight: &Sight) {
-    slot(pen, link, sight);
 }
 
 /// Draws rails and a hinge's circle.
@@ -112,10 +108,8 @@ pub fn planar(pen: &mut Canvas, link: &Link, _: &Sight) {
 /// Draws a square.
 pub fn weld(pen: &mut Canvas, link: &Link, _: &Sight) {
     let spot = pen.spot(link.ends[1].r);
-    let ink = pen.ink(0.0);
-    let side = 4.4;
-    let corners = [(-side, -side), (side, -side), (side, side), (-side, side)];
-    pen.area(corners.iter().map(|(right, up)| spot.moved(*right, *up)).collect(), ink, 1.0);
+    let corners = [(-4.4, -4.4), (4.4, -4.4), (4.4, 4.4), (-4.4, 4.4)].map(|(right, up)| spot.moved(right, up));
+    pen.area(corners.to_vec(), pen.ink(0.0), 1.0);
 }
 
 /// Draws a thin rod between two balls.
@@ -177,18 +171,14 @@ pub fn pitch_radii(link: &Link) -> Option<[f64; 2]> {
 pub fn gear(pen: &mut Canvas, link: &Link, _: &Sight) {
     let Some(radii) = pitch_radii(link) else { return };
     pen.layer = Layer::Rod;
-    for (k, radius) in radii.into_iter().enumerate() {
-        pitch_circle(pen, &link.ends[k], radius, link.carriers[k]);
+    for ((radius, wheel), body) in radii.into_iter().zip(&link.ends).zip(&link.carriers) {
+        let tint = body.map_or(pen.ink(0.2), |body| pen.color(body, 0.0));
+        let circle = pen.arc(wheel.r, [wheel.axes[2], wheel.axes[0]], (0.0, TAU), (radius, 0.0));
+        let spoke = vec![pen.spot(wheel.r), circle[0]];
+        pen.area(circle.clone(), tint, 0.07);
+        pen.line(circle, tint, THIN);
+        pen.line(spoke, tint, THIN);
     }
-}
-
-fn pitch_circle(pen: &mut Canvas, wheel: &Pose, radius: f64, body: Option<usize>) {
-    let tint = body.map_or(pen.ink(0.2), |body| pen.color(body, 0.0));
-    let circle = pen.arc(wheel.r, [wheel.axes[2], wheel.axes[0]], (0.0, TAU), (radius, 0.0));
-    let spoke = vec![pen.spot(wheel.r), circle[0]];
-    pen.area(circle.clone(), tint, 0.07);
-    pen.line(circle, tint, THIN);
-    pen.line(spoke, tint, THIN);
 }
 
 /// Draws a small rhombus at the bodies whose coordinates an equation constrains.
@@ -196,7 +186,7 @@ pub fn equation(pen: &mut Canvas, link: &Link, _: &Sight) {
     let ink = pen.ink(0.0);
     for (end, _) in link.ends.iter().zip(&link.carriers).filter(|(_, body)| body.is_some()) {
         let spot = pen.spot(end.r);
-        let corners = [(4.0, 0.0), (0.0, 4.0), (-4.0, 0.0), (0.0, -4.0)];
-        pen.area(corners.iter().map(|(right, up)| spot.moved(*right, *up)).collect(), ink, 1.0);
+        let corners = [(4.0, 0.0), (0.0, 4.0), (-4.0, 0.0), (0.0, -4.0)].map(|(right, up)| spot.moved(right, up));
+        pen.area(corners.to_vec(), ink, 1.0);
     }
 }

@@ -13,10 +13,6 @@ use crate::plot::{Figure, Item, Tint};
 use crate::prepared::Model;
 use std::f64::consts::TAU;
 
-/// Largest number of modes in one figure.
-const MOST: usize = 6;
-/// Width with two columns, nominal pixels.
-const WIDE: f64 = 1000.0;
 /// Amplitude of the point that moves most, as a part of the mechanism's size.
 const TRAVEL: f64 = 0.08;
 /// A mode that moves no point by more than STILL of the size per unit, such as the rotation of a wheel, has the
@@ -27,9 +23,6 @@ const SPIN: f64 = 0.35;
 /// its length: large rotations would open the joints, since shapes satisfy the constraints to first order only.
 const BEND: f64 = 0.3;
 const HALVINGS: usize = 12;
-/// Paleness of the operating point and of the far end of a motion.
-const REST: f64 = 0.6;
-const FAR: f64 = 0.5;
 
 /// A mode shape with an amplitude that can be seen.
 pub struct Swing<'a> {
@@ -45,7 +38,7 @@ pub struct Swing<'a> {
 /// motion. `None` where no mode has a shape.
 pub fn mode_figure(prepared: &Model, look: &Look, model: &LinearModel) -> Option<Figure> {
     let found = shaped(model);
-    let drawn = &found[..found.len().min(MOST)];
+    let drawn = &found[..found.len().min(6)];
     let rest = at_rest(prepared, model);
     let ground = supports(look, std::slice::from_ref(&rest));
     let pictures: Vec<Vec<Item>> =
@@ -61,7 +54,7 @@ pub fn mode_figure(prepared: &Model, look: &Look, model: &LinearModel) -> Option
     match figure.panels.len() {
         0 => None,
         1 => Some(figure),
-        _ => Some(Figure { columns: 2, width: WIDE, ..figure }),
+        _ => Some(Figure { columns: 2, width: 1000.0, ..figure }),
     }
 }
 
@@ -84,29 +77,22 @@ pub fn mode_title(pair: &Pair) -> String {
     text.replace('-', "−")
 }
 
-/// Returns the mechanism at the operating point.
 pub fn at_rest(prepared: &Model, model: &LinearModel) -> Snapshot {
     let point = &model.point;
     snapshot(&prepared.mechanism, &State { t: point.t, q: point.q.clone(), v: point.v.clone() })
 }
 
-fn course(rest: &Snapshot) -> Course {
-    Course { travels: Vec::new(), lengths: lengths(rest) }
-}
-
 fn picture_of(prepared: &Model, look: &Look, model: &LinearModel, mode: &Mode, rest: &Snapshot) -> Vec<Item> {
     let swing = Swing::new(prepared, model, mode, rest);
-    let course = course(rest);
-    let still = picture(look, rest, &course, REST).map(grey);
-    let ends = [(0.5 * TAU, FAR), (0.0, 0.0)];
+    let course = Course { travels: Vec::new(), lengths: lengths(rest) };
+    let grey = |item: Item| match item.tint {
+        Tint::Body(_, paleness) => Item { tint: Tint::Ink(paleness), ..item },
+        _ => item,
+    };
+    let still = picture(look, rest, &course, 0.6).map(grey);
+    let ends = [(0.5 * TAU, 0.5), (0.0, 0.0)];
     let ends = ends.iter().flat_map(|(angle, paleness)| picture(look, &swing.snapshot(*angle), &course, *paleness));
     still.chain(ends).collect()
-}
-
-/// Returns an item without the colours of bodies.
-fn grey(item: Item) -> Item {
-    let tint = if let Tint::Body(_, paleness) = item.tint { Tint::Ink(paleness) } else { item.tint };
-    Item { tint, ..item }
 }
 
 impl<'a> Swing<'a> {

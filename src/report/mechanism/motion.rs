@@ -7,11 +7,8 @@ use crate::system::MechanicalSystem;
 use crate::tolerances;
 use crate::trajectory::Trajectory;
 
-/// A computed motion.
 pub struct Motion<'a> {
-    /// The scene.
     pub prepared: &'a Model,
-    /// Title of its figures.
     pub title: String,
     trajectory: &'a Trajectory,
 }
@@ -22,12 +19,10 @@ impl<'a> Motion<'a> {
         Motion { prepared, title: prepared.name.clone(), trajectory }
     }
 
-    /// Sets the title of its figures, by default the name of the scene.
     pub fn titled(self, title: String) -> Self {
         Motion { title, ..self }
     }
 
-    /// The rows.
     pub fn trajectory(&self) -> &'a Trajectory {
         self.trajectory
     }

@@ -6,7 +6,7 @@ use crate::force::Wheel;
 use crate::joint::{Axis, Joint, JointOver, MOST_ROWS, markers_per_pass};
 use crate::linearize::State;
 use crate::math::{Regime, Taylor, Time};
-use crate::prepared::AnyMechanism;
+use crate::prepared::{AnyMechanism, in_either};
 use crate::scene::{BeamLine, Connection, Model, ModelJoint, Part};
 use crate::system::{Mechanism, Scratch};
 
@@ -19,7 +19,6 @@ pub struct Pose {
     pub axes: [[f64; 3]; 3],
 }
 
-/// A body.
 #[derive(Clone, Debug)]
 pub struct Limb {
     pub name: String,
@@ -37,19 +36,15 @@ pub struct Limb {
     pub may_spin: bool,
 }
 
-/// A joint or force.
 #[derive(Clone, Debug)]
 pub struct Link {
     pub name: String,
     pub kind: &'static str,
-    /// Its markers.
     pub ends: Vec<Pose>,
     pub carriers: Vec<Option<usize>>,
-    /// Axis of a joint.
     pub axis: Option<Axis>,
     /// Derivative of the first row of a joint with respect to a rotation of each marker about its z axis.
     pub turns: Vec<f64>,
-    /// Wheel of a tyre.
     pub wheel: Option<Wheel>,
     /// Force at its first marker, N.
     pub force: [f64; 3],
@@ -65,14 +60,12 @@ pub struct Sight {
     pub length: f64,
 }
 
-/// A scene at one time.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
     pub is_planar: bool,
     pub limbs: Vec<Limb>,
     pub joints: Vec<Link>,
     pub forces: Vec<Link>,
-    /// All markers.
     pub markers: Vec<Pose>,
 }
 
@@ -88,20 +81,13 @@ pub fn up(mechanism: &AnyMechanism) -> usize {
     }
 }
 
-/// Returns the scene at a state.
 pub fn snapshot(mechanism: &AnyMechanism, state: &State) -> Snapshot {
-    match mechanism {
-        AnyMechanism::Planar(mechanism) => of(mechanism, state),
-        AnyMechanism::Spatial(mechanism) => of(mechanism, state),
-    }
+    in_either!(mechanism, mechanism => of(mechanism, state))
 }
 
 /// Returns the shapes of each body, placed from its centre of mass.
 pub fn solids(mechanism: &AnyMechanism) -> Vec<Vec<Solid>> {
-    match mechanism {
-        AnyMechanism::Planar(mechanism) => mechanism.model().given_bodies().iter().map(centred).collect(),
-        AnyMechanism::Spatial(mechanism) => mechanism.model().given_bodies().iter().map(centred).collect(),
-    }
+    in_either!(mechanism, mechanism => mechanism.model().given_bodies().iter().map(centred).collect())
 }
 
 fn centred<const D: usize>(part: &Part<D>) -> Vec<Solid> {
@@ -113,10 +99,7 @@ fn centred<const D: usize>(part: &Part<D>) -> Vec<Solid> {
 
 /// Returns the size of the force in each joint, N: of -G^T lambda at its second marker, or at its only one.
 pub fn reactions(mechanism: &AnyMechanism, state: &State, lambda: &[f64]) -> Vec<f64> {
-    match mechanism {
-        AnyMechanism::Planar(mechanism) => reactions_of(mechanism, state, lambda),
-        AnyMechanism::Spatial(mechanism) => reactions_of(mechanism, state, lambda),
-    }
+    in_either!(mechanism, mechanism => reactions_of(mechanism, state, lambda))
 }
 
 fn reactions_of<const D: usize>(mechanism: &Mechanism<D>, state: &State, lambda: &[f64]) -> Vec<f64> {
@@ -138,10 +121,7 @@ fn reactions_of<const D: usize>(mechanism: &Mechanism<D>, state: &State, lambda:
 
 /// Returns the positions of all markers.
 pub fn markers(mechanism: &AnyMechanism, state: &State) -> Vec<Pose> {
-    match mechanism {
-        AnyMechanism::Planar(mechanism) => frames(mechanism, state).iter().map(pose).collect(),
-        AnyMechanism::Spatial(mechanism) => frames(mechanism, state).iter().map(pose).collect(),
-    }
+    in_either!(mechanism, mechanism => frames(mechanism, state).iter().map(pose).collect())
 }
 
 fn frames<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Vec<Frame<Taylor<f64>, D>> {
@@ -182,7 +162,6 @@ fn of<const D: usize>(mechanism: &Mechanism<D>, state: &State) -> Snapshot {
     Snapshot { is_planar: D == 2, limbs, joints, forces: forces.collect(), markers: poses }
 }
 
-/// Returns [`Link::turns`].
 fn turns<const D: usize>(joint: &dyn Joint<D>, frames: &[Frame<Taylor<f64>, D>], time: Time<f64>) -> Vec<f64> {
     let mut rows = [[0.0; 6]; MOST_ROWS];
     let rows = &mut rows[..joint.row_names().len()];
@@ -235,9 +214,6 @@ fn may_spin(limb: &Limb, body: usize, joints: &[Link]) -> bool {
     })
 }
 
-/// A centre of mass at this distance from the markers, relative to theirs, belongs to the outline of a body.
-const FAR: f64 = 0.25;
-
 fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
     let own = poses[part.first_marker];
     let offset = in_space(&part.body.markers()[0].offset);
@@ -252,7 +228,8 @@ fn limb<const D: usize>(part: &Part<D>, poses: &[Pose], used: &[bool]) -> Limb {
         }
     }
     let size = points.iter().map(|point| norm(&sub(point, &points[0]))).fold(0.0, f64::max);
-    if points.len() < 2 || distance(&points, r) > FAR * size {
+    // A centre of mass far from the markers belongs to the outline of the body.
+    if points.len() < 2 || distance(&points, r) > 0.25 * size {
         add(&mut points, r);
     }
     Limb {

@@ -6,15 +6,14 @@ use super::view::View;
 use crate::body::{MarkerId, MarkerTable, Probe, Quantity};
 use crate::error::Result;
 use crate::plot::{Series, Style};
-use crate::prepared::AnyMechanism;
-use crate::scene::{Measure, Watched};
+use crate::prepared::{AnyMechanism, in_either};
+use crate::scene::Measure;
 
 /// A marker whose path is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trace {
     /// Name, such as `crank.tip`.
     pub name: String,
-    /// The marker.
     pub marker: MarkerId,
     /// The body that carries it; `None` is the ground.
     pub body: Option<usize>,
@@ -23,13 +22,6 @@ pub struct Trace {
 impl Trace {
     fn new(table: &MarkerTable, marker: MarkerId) -> Self {
         Trace { name: table.names[marker].clone(), marker, body: table.bodies[marker] }
-    }
-}
-
-fn outputs(mechanism: &AnyMechanism) -> &[Watched] {
-    match mechanism {
-        AnyMechanism::Planar(mechanism) => &mechanism.model().outputs,
-        AnyMechanism::Spatial(mechanism) => &mechanism.model().outputs,
     }
 }
 
@@ -46,7 +38,7 @@ pub fn find_trace(mechanism: &AnyMechanism, name: &str) -> Result<Trace> {
 pub fn output_traces(mechanism: &AnyMechanism) -> Vec<Trace> {
     let table = mechanism.markers();
     let mut traces = Vec::<Trace>::new();
-    for output in outputs(mechanism) {
+    for output in in_either!(mechanism, mechanism => &mechanism.model().outputs) {
         if let Measure::Probe(Probe { of, to, quantity: Quantity::Position(_), order: 0 }) = output.measure
             && to.is_none_or(|to| table.bodies[to].is_none())
             && table.bodies[of].is_some()
@@ -58,26 +50,21 @@ pub fn output_traces(mechanism: &AnyMechanism) -> Vec<Trace> {
     traces
 }
 
-/// Largest number of points of a path.
-const MOST: usize = 4000;
-
 /// Draws the paths in the colours of their bodies.
 pub fn curves(motion: &Motion, view: &View, traces: &[Trace]) -> Vec<Series> {
-    let mut curves: Vec<Series> = traces.iter().map(curve).collect();
+    let path = |trace: &Trace| Series {
+        color: trace.body,
+        ..Series::line(format!("path of {}", trace.name), Vec::new()).style(Style::Thin)
+    };
+    let mut curves: Vec<Series> = traces.iter().map(path).collect();
     if traces.is_empty() {
         return curves;
     }
-    for t in motion.times(MOST) {
+    for t in motion.times(4000) {
         let poses = markers(&motion.prepared.mechanism, &motion.state(t));
         for (curve, trace) in curves.iter_mut().zip(traces) {
             curve.points.push(view.flat(poses[trace.marker].r));
         }
     }
     curves
-}
-
-fn curve(trace: &Trace) -> Series {
-    let mut series = Series::line(format!("path of {}", trace.name), Vec::new()).style(Style::Thin);
-    series.color = trace.body;
-    series
 }

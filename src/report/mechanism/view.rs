@@ -12,13 +12,11 @@ pub struct View {
     names: Option<[&'static str; 2]>,
 }
 
-/// Names of views.
 const NAMES: [&str; 7] = ["iso", "xy", "xz", "yz", "front", "side", "top"];
 /// Elevation of the isometric view, degrees: all three axes appear equally long.
 const ISOMETRIC: f64 = 35.264_389_682_754_654;
 
 impl View {
-    /// The view of a planar scene.
     pub fn planar() -> Self {
         View { axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], names: Some(["x", "y"]) }
     }
@@ -92,7 +90,6 @@ impl View {
         dot(&self.axes[2], &vector)
     }
 
-    /// Returns the labels of the figure's axes.
     pub fn labels(&self) -> [String; 2] {
         match self.names {
             Some(names) => names.map(|name| format!("{name} (m)")),

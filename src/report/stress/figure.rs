@@ -4,12 +4,6 @@ use crate::plot::{Align, AxisSpec, Figure, Form, Item, Panel, Spot, Tint};
 use crate::study::stress::{Axis, Cell, Status, Stressed};
 use crate::tolerances::WRONG_MOTION;
 
-/// Height of a row of cells, in nominal pixels.
-const ROW: f64 = 21.0;
-/// Widths of a letter, of the gap between two labels, and of all beside the cells, in nominal pixels.
-const LETTER: f64 = 10.0;
-const GAP: f64 = 16.0;
-const BESIDE: f64 = 270.0;
 /// Smaller values have the colour of this one: they are round-off.
 const ROUND_OFF: f64 = 1e-16;
 
@@ -37,8 +31,8 @@ pub fn stress_figure(scene: &str, stressed: &Stressed) -> Option<Figure> {
 /// Returns a width in nominal pixels at which every column has room for its label, and for a word of four letters.
 fn width(axis: &Axis) -> f64 {
     let longest = axis.entries.iter().map(|entry| entry.label.chars().count()).max().unwrap_or(0).max(3);
-    let columns = axis.entries.len() as f64 * (LETTER * longest as f64 + GAP);
-    (BESIDE + columns).max(Figure::default().width)
+    let columns = axis.entries.len() as f64 * (10.0 * longest as f64 + 16.0);
+    (270.0 + columns).max(Figure::default().width)
 }
 
 fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
@@ -47,7 +41,7 @@ fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
     let rows = order(&map.y);
     let mut panel = Panel::new(axis(&map.x, &columns), axis(&map.y, &rows))
         .title(map.methods[method].label.clone())
-        .height(ROW * rows.len().max(4) as f64);
+        .height(21.0 * rows.len().max(4) as f64);
     panel.colors = AxisSpec::from(map.quantity.label()).log().range(low, high);
     let mut words = Vec::new();
     for (row, from_row) in rows.iter().enumerate() {
@@ -57,7 +51,7 @@ fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
             let spots = vec![at(-0.5, -0.5), at(0.5, -0.5), at(0.5, 0.5), at(-0.5, 0.5)];
             panel.items.push(Item { spots, tint, form: Form::Cell });
             if !word.is_empty() {
-                let spots = vec![at(0.0, 0.0).moved(0.0, -BASELINE)];
+                let spots = vec![at(0.0, 0.0).moved(0.0, -5.3)];
                 words.push(Item { spots, tint: ink, form: Form::Text(word.to_string(), Align::Middle) });
             }
         }
@@ -70,9 +64,9 @@ fn panel(stressed: &Stressed, method: usize, (low, high): (f64, f64)) -> Panel {
 /// Returns the text on a cell, the colour of the cell, and one that is seen on it.
 fn shown(stressed: &Stressed, cell: Option<&Cell>, (low, high): (f64, f64)) -> (&'static str, Tint, Tint) {
     let mark = if cell.is_some_and(is_wrong) { WRONG } else { "" };
-    let (word, tint) = cell.and_then(|cell| look(cell.status)).unwrap_or((mark, NO_VALUE));
+    let (word, tint) = cell.and_then(|cell| look(cell.status)).unwrap_or((mark, Tint::Ink(0.82)));
     let Some(value) = cell.and_then(|cell| stressed.map.quantity.of(cell)) else { return (word, tint, Tint::Ink(0.0)) };
-    let is_bright = (value / low).ln() > BRIGHT * (high / low).ln();
+    let is_bright = (value / low).ln() > 0.56 * (high / low).ln();
     (word, Tint::Value(value), Tint::Ink(if is_bright { 0.0 } else { 1.0 }))
 }
 
@@ -85,13 +79,6 @@ fn order_of(tint: Tint) -> f64 {
     }
 }
 
-/// Part of the colour scale from which on a black mark is seen better than a white one.
-const BRIGHT: f64 = 0.56;
-/// Distance of the middle of a mark from its baseline, nominal pixels.
-const BASELINE: f64 = 5.3;
-
-/// Colour of cells of which nothing is known.
-const NO_VALUE: Tint = Tint::Ink(0.82);
 /// Mark of cells that completed with a wrong motion.
 const WRONG: &str = "!";
 
@@ -130,7 +117,6 @@ fn order(axis: &Axis) -> Vec<usize> {
     order
 }
 
-/// Returns the axis with the label of each entry.
 fn axis(axis: &Axis, order: &[usize]) -> AxisSpec {
     let label = axis.label();
     let has_others = !axis.unit.is_empty() && axis.values().is_none();

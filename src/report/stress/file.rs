@@ -4,12 +4,11 @@ use super::figure::stress_figure;
 use super::words::{gain_table, sentences};
 use crate::error::Result;
 use crate::report::tables::{Column, by_columns, optional};
-use crate::report::{Answer, Folder, cell as full, object};
+use crate::report::{Answer, Folder, cell as full};
 use crate::simulate::Method;
 use crate::study::stress::{Axis, AxisPlace, Cell, Map, Stressed, Verdict};
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
 
 pub struct SceneMaps {
     pub scene: String,
@@ -31,7 +30,14 @@ pub struct FolderMaps {
 
 impl Answer for SceneMaps {
     fn json(&self) -> impl Serialize {
-        self
+        json!({
+            "scene": self.scene,
+            "method": self.method,
+            "typical_step": self.typical_step,
+            "typical_period": self.typical_period,
+            "wall_seconds": self.wall_seconds,
+            "maps": self.maps.iter().map(map_json).collect::<Vec<Value>>(),
+        })
     }
 
     /// Returns the verdicts, and the table of the gains.
@@ -56,7 +62,7 @@ impl Answer for SceneMaps {
 
 impl Answer for FolderMaps {
     fn json(&self) -> impl Serialize {
-        BTreeMap::from([("scenes", &self.scenes)])
+        json!({ "scenes": self.scenes.iter().map(|scene| json!(scene.json())).collect::<Vec<Value>>() })
     }
 
     /// Nothing: the texts of the scenes are printed as they come.
@@ -82,7 +88,10 @@ fn write(
     }
     let page = stress_page(scenes, unread, |scene, map| folder.drawn(&name(scene, map)));
     folder.write(&format!("{stem}.md"), page.as_bytes())?;
-    folder.table(stem, &stress_table(scenes)?)
+    let cells = each(scenes).flat_map(|(scene, stressed)| {
+        stressed.cells.iter().map(move |cell| MapCell { scene, map: &stressed.map, cell })
+    });
+    folder.table(stem, &by_columns(&columns(), cells)?)
 }
 
 /// Returns all maps with the names of their scenes.
@@ -90,40 +99,22 @@ fn each(scenes: &[SceneMaps]) -> impl Iterator<Item = (&str, &Stressed)> {
     scenes.iter().flat_map(|scene| scene.maps.iter().map(|map| (scene.scene.as_str(), map)))
 }
 
-impl Serialize for SceneMaps {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        object!(serializer,
-            "scene" => self.scene,
-            "method" => self.method,
-            "typical_step" => self.typical_step,
-            "typical_period" => self.typical_period,
-            "wall_seconds" => self.wall_seconds,
-            "maps" => self.maps.iter().map(MapFile).collect::<Vec<_>>(),
-        )
-    }
-}
-
-struct MapFile<'a>(&'a Stressed);
-
-impl Serialize for MapFile<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let stressed = self.0;
-        let map = &stressed.map;
-        object!(serializer,
-            "name" => map.name,
-            "about" => map.about,
-            "quantity" => map.quantity,
-            "x" => axis(&map.x),
-            "y" => axis(&map.y),
-            "methods" => map.methods.iter().map(|method| &method.label).collect::<Vec<_>>(),
-            "is_empty" => stressed.is_empty(),
-            "words" => sentences(stressed),
-            "second_opinion" => stressed.second_opinion,
-            "verdicts" => stressed.verdicts(),
-            "gains" => stressed.gains(),
-            "cells" => stressed.cells,
-        )
-    }
+fn map_json(stressed: &Stressed) -> Value {
+    let map = &stressed.map;
+    json!({
+        "name": map.name,
+        "about": map.about,
+        "quantity": map.quantity,
+        "x": axis(&map.x),
+        "y": axis(&map.y),
+        "methods": map.methods.iter().map(|method| &method.label).collect::<Vec<_>>(),
+        "is_empty": stressed.is_empty(),
+        "words": sentences(stressed),
+        "second_opinion": stressed.second_opinion,
+        "verdicts": stressed.verdicts(),
+        "gains": stressed.gains(),
+        "cells": stressed.cells,
+    })
 }
 
 /// Returns an axis with null for an entry that is not a number, such as another method.
@@ -181,13 +172,6 @@ fn columns<'a>() -> [Column<MapCell<'a>>; 26] {
         ("steps", |at| at.cell.steps.to_string()),
         ("seconds", |at| full(at.cell.seconds)),
     ]
-}
-
-/// Returns one row for each cell, over all scenes; empty where a value is not known.
-fn stress_table(scenes: &[SceneMaps]) -> Result<Vec<u8>> {
-    let cells =
-        each(scenes).flat_map(|(scene, stressed)| stressed.cells.iter().map(move |cell| (scene, stressed, cell)));
-    by_columns(&columns(), cells.map(|(scene, stressed, cell)| MapCell { scene, map: &stressed.map, cell }))
 }
 
 const LEGEND: &str = "Cells of the figures: ∞ diverged (joints open by a tenth of the scene's size, or infinite numbers), \

@@ -75,9 +75,6 @@ impl Answer for ModelsAndMethods {
     }
 }
 
-/// Errors for which a run is recommended.
-const WITHIN: [f64; 5] = [0.1, 0.01, 1e-3, 1e-4, 1e-6];
-
 impl ModelsAndMethods {
     fn models_text(&self) -> String {
         let text = format!("{}: models and methods, errors together\n\n", self.scene);
@@ -100,7 +97,7 @@ impl ModelsAndMethods {
     fn runs_text(&self) -> String {
         let headings = ["error below", "model", "method", "accuracy", "CPU", "of the model", "of the method"];
         let mut best = Table::new(&headings).words(1).words(2);
-        for within in WITHIN {
+        for within in [0.1, 0.01, 1e-3, 1e-4, 1e-6] {
             if let Some((model, cell, cost)) = self.cheapest(within) {
                 best.row([
                     percent(within),
@@ -141,10 +138,6 @@ fn auto_table(summary: &ModelsAndMethods) -> Result<Vec<u8>> {
     table(headings.map(String::from).into_iter(), runs.map(row))
 }
 
-const HEIGHT: f64 = 400.0;
-/// A run that lessens the error of its model by less has the same.
-const SAME: f64 = 0.02;
-
 /// Draws the front of the methods of each model against cost: errors of model and method together, which fall with the
 /// tolerance down to the error of the model, and each alone. `None` where no run was completed.
 fn auto_figure(summary: &ModelsAndMethods) -> Option<Figure> {
@@ -155,7 +148,7 @@ fn auto_figure(summary: &ModelsAndMethods) -> Option<Figure> {
         let mut line = points(model, |(_, _, both)| Some(both));
         let mut last = f64::INFINITY;
         line.retain(|(_, error)| {
-            let is_less = *error < (1.0 - SAME) * last;
+            let is_less = *error < (1.0 - 0.02) * last;
             last = if is_less { *error } else { last };
             is_less
         });
@@ -182,7 +175,7 @@ fn auto_figure(summary: &ModelsAndMethods) -> Option<Figure> {
         panel = panel.series(Series::line(names[1], alone).style(Style::Dotted).color(color));
     }
     let title = format!("{}: errors of models and methods", summary.scene);
-    (most > 0.0).then(|| Figure::new().title(title).panel(panel.height(HEIGHT)))
+    (most > 0.0).then(|| Figure::new().title(title).panel(panel.height(400.0)))
 }
 
 const MARGIN: f64 = 1.2;

@@ -4,9 +4,6 @@ use crate::plot::{AxisSpec, Figure, Panel, Series, Style};
 use crate::report::figures::Floor;
 use crate::study::work_precision::{Cell, Held, WorkPrecision, cheapest_by_method, front};
 
-/// Number of methods in colour; the others are crosses.
-const NAMED: usize = 6;
-
 /// Draws work-precision diagrams, each with its Pareto front: errors over CPU time, evaluations and factorizations, and
 /// drift over CPU time. `None` where no run was completed.
 pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> {
@@ -22,7 +19,7 @@ pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> 
     let error = || Quantity("error (relative)", &Cell::error);
     let drifts = panel(Quantity("CPU time (s)", &cost), Quantity("drift of φ, φ′ (relative)", &drift));
     let figure =
-        Figure { columns: 2, width: WIDTH, ..Figure::new().title(format!("{}: speed for accuracy", measured.scene)) };
+        Figure { columns: 2, width: 1280.0, ..Figure::new().title(format!("{}: speed for accuracy", measured.scene)) };
     Some(
         figure
             .panel(panel(Quantity("CPU time (s)", &cost), error()))
@@ -31,9 +28,6 @@ pub fn tradeoff_figure(measured: &WorkPrecision, digits: u32) -> Option<Figure> 
             .panel(panel(Quantity("factorizations", &factorizations), error())),
     )
 }
-
-/// Width of the figure, nominal pixels.
-const WIDTH: f64 = 1280.0;
 
 /// The label of an axis, and its value for a run.
 #[derive(Clone, Copy)]
@@ -46,7 +40,7 @@ fn named(measured: &WorkPrecision, digits: u32) -> Vec<usize> {
     for place in reached.into_iter().chain(others) {
         let cell = &measured.cells[place];
         let is_new = named.iter().all(|known| measured.cells[*known].method.integrator != cell.method.integrator);
-        if is_new && cell.error().is_some() && named.len() < NAMED {
+        if is_new && cell.error().is_some() && named.len() < 6 {
             named.push(place);
         }
     }

@@ -10,14 +10,13 @@ pub use auto::{MeasuredModel, ModelsAndMethods};
 pub use models::ModelsAnswer;
 
 use crate::error::Result;
+use crate::report::tables::by_columns;
 use crate::report::{Answer, Folder};
 use crate::simulate::Method;
 use crate::study::work_precision::{Cell, Held, Recommendation, WorkPrecision};
 use figure::tradeoff_figure;
 use serde::Serialize;
-use table::tradeoff_table;
 
-/// A measurement with its recommendations.
 #[derive(Serialize)]
 pub struct MethodsAnswer<'a> {
     #[serde(flatten)]
@@ -59,7 +58,7 @@ impl Answer for MethodsAnswer<'_> {
     }
 
     fn write(&self, folder: &mut Folder, stem: &str) -> Result<()> {
-        folder.table(stem, &tradeoff_table(self.measured)?)?;
+        folder.table(stem, &by_columns(&table::COLUMNS, self.measured.cells.iter())?)?;
         folder.figure(stem, tradeoff_figure(self.measured, self.digits))
     }
 }

@@ -26,17 +26,15 @@ struct ModelAdvice {
     sentence: String,
 }
 
-/// A model counts as converged if a finer one changes it by less than this.
-const CONVERGED: f64 = 0.01;
-/// Tolerances of the recommendations, as parts of the size of an output.
-const WITHIN: [f64; 4] = [0.1, 0.01, 1e-3, 1e-4];
-
 impl<'a> ModelsAnswer<'a> {
     pub fn new(scene: &str, costs: &'a ModelCosts) -> ModelsAnswer<'a> {
         // Differences below the error of the full model itself mean nothing.
         let told = costs.uncertainty().map_or(0.0, |(error, _)| error);
-        let mut recommendations: Vec<ModelAdvice> =
-            WITHIN.iter().filter(|within| **within >= told).filter_map(|within| advice(costs, *within)).collect();
+        let mut recommendations: Vec<ModelAdvice> = [0.1, 0.01, 1e-3, 1e-4]
+            .iter()
+            .filter(|within| **within >= told)
+            .filter_map(|within| advice(costs, *within))
+            .collect();
         // Only the first recommendation of the full model is kept.
         recommendations.dedup_by(|a, b| a.model == b.model && b.model == costs.models[costs.richest].name);
         ModelsAnswer { costs, recommendations, title: format!("{scene}: what models cost") }
@@ -90,7 +88,7 @@ fn convergence(costs: &ModelCosts) -> String {
         None => "without a mesh to refine, with a hundredth of its tolerance",
     };
     let text = match (costs.uncertainty(), failure) {
-        (Some((error, output)), _) if error > CONVERGED => {
+        (Some((error, output)), _) if error > 0.01 => {
             let error = percent(error);
             format!(
                 "the full model is NOT converged: {mesh} {output} changes by {error}; what is nearer cannot be told"
@@ -156,8 +154,6 @@ fn models_table(costs: &ModelCosts) -> Result<Vec<u8>> {
     table(headings.into_iter(), costs.models.iter().map(row))
 }
 
-const MARGIN: f64 = 1.5;
-
 /// Draws a dot for each output of each model, whose name stands at the largest. `None` where nothing differs.
 fn models_figure(title: &str, costs: &ModelCosts) -> Option<Figure> {
     let mut poorer: Vec<&ModelCost> = costs.models.iter().filter(|model| model.seconds().is_some()).collect();
@@ -171,7 +167,7 @@ fn models_figure(title: &str, costs: &ModelCosts) -> Option<Figure> {
     };
     let times: Vec<f64> = poorer.iter().filter_map(|model| model.seconds()).collect();
     let (least, most) = times.iter().fold((f64::INFINITY, 0.0f64), |(a, b), time| (a.min(*time), b.max(*time)));
-    let x = AxisSpec::from("CPU time (s)").log().range(MARGIN.recip() * least, MARGIN * most);
+    let x = AxisSpec::from("CPU time (s)").log().range(least / 1.5, 1.5 * most);
     let mut panel = Panel::new(x, AxisSpec::from("largest difference (relative)").log());
     for column in &costs.columns {
         let points = points(&column.name);

@@ -1,12 +1,12 @@
 //! Table of all runs.
 
-use crate::error::Result;
 use crate::formulation::Statistics;
 use crate::report::cell as number;
-use crate::report::tables::{Column, by_columns, optional};
-use crate::study::work_precision::{Cell, Outcome, WorkPrecision};
+use crate::report::tables::{Column, optional};
+use crate::study::work_precision::{Cell, Outcome};
 
-const COLUMNS: [Column<Cell>; 26] = [
+/// A row for each run; empty cells where it has no value.
+pub const COLUMNS: [Column<Cell>; 26] = [
     ("formulation", |cell| cell.method.formulation.to_string()),
     ("integrator", |cell| cell.method.integrator.to_string()),
     ("projection", |cell| cell.method.projection.to_string()),
@@ -35,11 +35,6 @@ const COLUMNS: [Column<Cell>; 26] = [
     ("reason", |cell| cell.reason().unwrap_or_default().to_string()),
 ];
 
-/// Returns one row for each run; empty cells where a run has no value.
-pub fn tradeoff_table(measured: &WorkPrecision) -> Result<Vec<u8>> {
-    by_columns(&COLUMNS, measured.cells.iter())
-}
-
 fn status(cell: &Cell) -> &'static str {
     match cell.outcome {
         Outcome::Completed { .. } => "completed",
@@ -53,7 +48,6 @@ fn worst(cell: &Cell) -> &str {
     if let Outcome::Completed { worst, .. } = &cell.outcome { worst } else { "" }
 }
 
-/// CPU time of each repetition.
 fn seconds(cell: &Cell) -> &[f64] {
     match &cell.outcome {
         Outcome::Completed { cpu_seconds, .. } => cpu_seconds,
