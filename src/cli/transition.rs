@@ -38,7 +38,7 @@ pub fn run(args: Args) -> Result<()> {
         let exponents = |duration: f64| {
             let progress = args.at.talk.progress_between(0.0, duration, &prepared.name);
             // Columns are made orthonormal 500 times.
-            lyapunov(place.system(), &place.state, (duration, duration / 500.0), progress)
+            lyapunov(place.system(), &place.state, duration, duration / 500.0, progress)
         };
         let lyapunov = args.lyapunov.map(exponents).transpose().map_err(in_file)?;
         let answer = Transition { scene: &prepared.name, t: place.state.t, floquet, lyapunov };

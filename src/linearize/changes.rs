@@ -23,12 +23,12 @@ impl Changes {
         let unit = Matrix::identity(n, n);
         let none = Matrix::zeros(n, n);
         let first = |matrix: &Matrix| matrix.columns(0, moving).clone_owned();
-        Changes { q: beside([&first(&unit), &none]), v: beside([&first(&none), &unit]) }
+        Changes { q: beside(&first(&unit), &none), v: beside(&first(&none), &unit) }
     }
 }
 
 /// Returns [left right].
-pub fn beside([left, right]: [&Matrix; 2]) -> Matrix {
+pub fn beside(left: &Matrix, right: &Matrix) -> Matrix {
     let mut both = left.clone().resize_horizontally(left.ncols() + right.ncols(), 0.0);
     both.columns_mut(left.ncols(), right.ncols()).copy_from(right);
     both

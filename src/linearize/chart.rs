@@ -50,7 +50,7 @@ impl Chart {
             Chart::MassOrthogonal => {
                 let b = variation.mass_times(&z).transpose();
                 let names = numbered(variation, z.ncols());
-                constant(variation, "mass_orthogonal", names, (z, b))
+                constant(variation, "mass_orthogonal", names, z, b)
             }
             Chart::Independent(names) => independent::coordinates(variation, &z, names),
             Chart::Frozen => frozen(variation, z),

@@ -71,9 +71,9 @@ impl Coordinates {
 
     /// Returns (dq, dv) of a unit of each state.
     pub fn changes(&self) -> Changes {
-        let (z, none) =
-            (self.r.columns(0, self.freedom()).clone_owned(), Matrix::zeros(self.r.nrows(), self.r.ncols()));
-        Changes { q: beside([&z, &none]), v: beside([&self.tilt, &self.r]) }
+        let z = self.r.columns(0, self.freedom()).clone_owned();
+        let none = Matrix::zeros(self.r.nrows(), self.r.ncols());
+        Changes { q: beside(&z, &none), v: beside(&self.tilt, &self.r) }
     }
 
     /// Returns (dq, dv) of states, a column each.
@@ -101,14 +101,15 @@ pub(super) fn constant(
     variation: &mut Variation,
     name: &str,
     names: (Vec<String>, Vec<String>),
-    (r, b): (Matrix, Matrix),
+    r: Matrix,
+    b: Matrix,
 ) -> Result<Coordinates> {
     let correction = variation.correct(&variation.gd_times(&r))?;
     // The component of the least correction in the mass metric that B does not measure.
     let tilt = &r * (&b * &correction) - correction;
     let turn = -&b * variation.bracket_of(&variation.point.v, &r);
     let none = Matrix::zeros(r.ncols(), r.ncols());
-    let lift = Lift::constant(variation, (&r, &b))?;
+    let lift = Lift::constant(variation, &r, &b)?;
     Ok(Terms { r, b, tilt, turn, drift: [none.clone(), none], lift }.named(variation, name, names))
 }
 
@@ -133,7 +134,7 @@ pub(super) fn least_moved(variation: &mut Variation, r: Matrix) -> Result<Coordi
     let turned = variation.bracket_of(&v, &r);
     let r_dot = -variation.correct(&(variation.gd_times(&r) + variation.g_times(&turned)))?;
     let names = numbered(variation, r.ncols());
-    let mut chart = constant(variation, "mass_orthogonal", names, (r.clone(), b))?;
+    let mut chart = constant(variation, "mass_orthogonal", names, r.clone(), b)?;
     let mut b_dot = |x: &Matrix| -> Result<Matrix> {
         let rate = variation.mass_rate_times(x)?;
         Ok(square.solve(&(r_dot.tr_mul(&variation.mass_times(x)) + r.tr_mul(&rate))))
@@ -141,7 +142,8 @@ pub(super) fn least_moved(variation: &mut Variation, r: Matrix) -> Result<Coordi
     chart.drift[0] = -b_dot(&chart.tilt)?;
     let Lift { p, s, .. } = &chart.lift;
     if p.iter().any(|x| *x != 0.0) {
-        let [of_p, of_s] = [b_dot(p)?, b_dot(s)?];
+        let of_p = b_dot(p)?;
+        let of_s = b_dot(s)?;
         chart.lift.turn += &of_p;
         chart.lift.drift = [-of_s, -of_p];
     }
@@ -153,7 +155,7 @@ pub(super) fn frozen(variation: &mut Variation, z: Matrix) -> Result<Coordinates
     let turned = variation.bracket_of(&variation.point.v, &z);
     let b = variation.mass_times(&z).transpose();
     let none = Matrix::zeros(z.ncols(), z.ncols());
-    let lift = Lift::frozen(variation, (&z, &b))?;
+    let lift = Lift::frozen(variation, &z, &b)?;
     let drift = [none.clone(), &b * &turned];
     let names = numbered(variation, z.ncols());
     Ok(Terms { r: z, b, tilt: turned, turn: none, drift, lift }.named(variation, "frozen", names))
@@ -195,7 +197,7 @@ pub fn parallel(variation: &mut Variation, n: Matrix) -> Result<Coordinates> {
     let turned_rate = -variation.bracket_of(&variation.point.v, &n_dot);
     let drift = [-bent - dense(&b, &(turned_later + turned_rate)), dense(&b, &(&n_dot * 2.0 - &turned))];
     let none = Matrix::zeros(n.ncols(), n.ncols());
-    let lift = Lift::parallel(variation, (&n, &b), (&n_dot, &connection))?;
+    let lift = Lift::parallel(variation, &n, &b, &n_dot, &connection)?;
     let names = numbered(variation, n.ncols());
     let terms = Terms { r: n, b, tilt: n_dot - turned, turn: none, drift, lift };
     Ok(terms.named(variation, "intrinsic", names))

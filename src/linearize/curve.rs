@@ -4,8 +4,16 @@ use super::{Branch, Complex};
 use crate::tolerances::EIGENVALUES_AGREE;
 
 type C = Complex<f64>;
-/// Time or parameter, the eigenvalue there and its derivative.
-type Knot = (f64, C, Option<C>);
+
+/// A point of a branch.
+#[derive(Clone, Copy)]
+struct Knot {
+    /// Time or parameter.
+    at: f64,
+    value: C,
+    /// Derivative of the eigenvalue, where it is known.
+    slope: Option<C>,
+}
 
 /// Largest difference of the mean of both derivatives from the slope of the chord where a cubic is drawn. Unit: `[1]` of the
 /// larger derivative. Why: 0 for a parabola, 1/2 for a root at its end: there eigenvalues meet, and no cubic follows.
@@ -22,10 +30,10 @@ impl Branch {
         let parts = (800 / self.points.len().max(1)).clamp(1, 12);
         let slopes = self.slopes.iter().copied().chain(std::iter::repeat(None));
         let knots: Vec<Knot> =
-            self.points.iter().zip(slopes).map(|((at, value), slope)| (*at, *value, slope)).collect();
+            self.points.iter().zip(slopes).map(|(&(at, value), slope)| Knot { at, value, slope }).collect();
         let mut points = Vec::new();
         for pair in knots.windows(2) {
-            points.push((pair[0].0, pair[0].1));
+            points.push((pair[0].at, pair[0].value));
             points.extend(between(pair[0], pair[1], parts));
         }
         points.extend(self.points.last());
@@ -36,8 +44,8 @@ impl Branch {
 /// Returns points between two knots, in their order.
 fn between(from: Knot, to: Knot, parts: usize) -> Vec<(f64, C)> {
     let inner = (1..parts).map(|i| i as f64 / parts as f64);
-    let is_real = |knot: Knot| knot.1.im == 0.0;
-    let is_known = from.1.im.is_finite() && to.1.im.is_finite();
+    let is_real = |knot: Knot| knot.value.im == 0.0;
+    let is_known = from.value.im.is_finite() && to.value.im.is_finite();
     if !is_known {
         Vec::new()
     } else if is_real(from) == is_real(to) {
@@ -61,10 +69,11 @@ fn squared_rate(value: C, slope: C, length: f64) -> [f64; 2] {
 }
 
 /// The cubic between two knots that are both real or both of a pair; none where it is not smooth.
-fn smooth((a, from, start): Knot, (b, to, end): Knot, inner: impl Iterator<Item = f64>) -> Option<Vec<(f64, C)>> {
-    let rates = [squared_rate(from, start?, b - a), squared_rate(to, end?, b - a)];
-    let ends = [squared(from), squared(to)];
-    let size = from.norm().max(to.norm());
+fn smooth(from: Knot, to: Knot, inner: impl Iterator<Item = f64>) -> Option<Vec<(f64, C)>> {
+    let length = to.at - from.at;
+    let rates = [squared_rate(from.value, from.slope?, length), squared_rate(to.value, to.slope?, length)];
+    let ends = [squared(from.value), squared(to.value)];
+    let size = from.value.norm().max(to.value.norm());
     for (k, size) in [size, size * size].into_iter().enumerate() {
         let off = 0.5 * (rates[0][k] + rates[1][k]) - (ends[1][k] - ends[0][k]);
         let largest = rates[0][k].abs().max(rates[1][k].abs());
@@ -74,19 +83,26 @@ fn smooth((a, from, start): Knot, (b, to, end): Knot, inner: impl Iterator<Item 
         }
     }
     let cubic = |k: usize, s: f64| hermite([ends[0][k], ends[1][k]], [rates[0][k], rates[1][k]], s);
-    let point = |s: f64| (a + s * (b - a), C::new(cubic(0, s), cubic(1, s).max(0.0).sqrt().copysign(from.im)));
+    let point = |s: f64| {
+        let im = cubic(1, s).max(0.0).sqrt().copysign(from.value.im);
+        (from.at + s * length, C::new(cubic(0, s), im))
+    };
     Some(inner.map(point).collect())
 }
 
 /// The curve from an eigenvalue of a pair over the value at which the pair becomes real to a real one, m -+ sqrt(d): the mean
 /// m of the pair goes straight on, and d is the cubic with the values and derivatives that both ends have. Half-way on the
 /// axis where derivatives do not tell.
-fn meeting((a, from, start): Knot, (b, to, end): Knot, parts: usize) -> Vec<(f64, C)> {
-    let Some((start, end)) = start.zip(end) else { return vec![(0.5 * (a + b), C::new(from.re, 0.0))] };
-    let mean = |s: f64| from.re + start.re * (b - a) * s;
-    let gap = to.re - mean(1.0);
-    let ends = [-from.im * from.im, gap * gap];
-    let rates = [-2.0 * from.im * start.im, 2.0 * gap * (end.re - start.re)].map(|rate| rate * (b - a));
+fn meeting(from: Knot, to: Knot, parts: usize) -> Vec<(f64, C)> {
+    let pair = from.value;
+    let Some((start, end)) = from.slope.zip(to.slope) else {
+        return vec![(0.5 * (from.at + to.at), C::new(pair.re, 0.0))];
+    };
+    let length = to.at - from.at;
+    let mean = |s: f64| pair.re + start.re * length * s;
+    let gap = to.value.re - mean(1.0);
+    let ends = [-pair.im * pair.im, gap * gap];
+    let rates = [-2.0 * pair.im * start.im * length, 2.0 * gap * (end.re - start.re) * length];
     let square = |s: f64| hermite(ends, rates, s);
     let mut meets = [0.0, 1.0];
     for _ in 0..f64::MANTISSA_DIGITS {
@@ -96,18 +112,20 @@ fn meeting((a, from, start): Knot, (b, to, end): Knot, parts: usize) -> Vec<(f64
     let meets = meets[1];
     // Closer together where the roots are steep.
     let near = |i: usize| (i as f64 / parts as f64).powi(2);
-    let pair = (0..parts).rev().map(|i| {
+    let before = (0..parts).rev().map(|i| {
         let s = meets * (1.0 - near(i));
-        (s, C::new(mean(s), (-square(s)).max(0.0).sqrt().copysign(from.im)))
+        (s, C::new(mean(s), (-square(s)).max(0.0).sqrt().copysign(pair.im)))
     });
-    let real = (1..parts).map(|i| {
+    let after = (1..parts).map(|i| {
         let s = meets + (1.0 - meets) * near(i);
         (s, C::new(mean(s) + square(s).max(0.0).sqrt().copysign(gap), 0.0))
     });
-    pair.chain(real).map(|(s, value)| (a + s * (b - a), value)).collect()
+    before.chain(after).map(|(s, value)| (from.at + s * length, value)).collect()
 }
 
 /// The cubic with these values and derivatives at s = 0 and s = 1.
-fn hermite([p, q]: [f64; 2], [u, v]: [f64; 2], s: f64) -> f64 {
+fn hermite(values: [f64; 2], rates: [f64; 2], s: f64) -> f64 {
+    let [p, q] = values;
+    let [u, v] = rates;
     p + s * (u + s * (3.0 * (q - p) - 2.0 * u - v + s * (2.0 * (p - q) + u + v)))
 }

@@ -33,12 +33,12 @@ pub(super) fn coordinates(variation: &mut Variation, z: &Matrix, names: &[String
         let message = format!("{} are not independent at t = {} s", names.join(", "), clock(variation.point.t));
         return Err(Error::input(message).under("--chart").hint(format!("independent here are: {}", best())));
     }
-    let all: Vec<usize> = chosen.iter().map(|chosen| chosen.direction).chain(n - states..n).collect();
-    let b = Matrix::from_fn(all.len(), n, |i, j| f64::from(u8::from(all[i] == j)));
-    let solved = (&b * z).lu().solve(&Matrix::identity(all.len(), all.len()));
+    let directions: Vec<usize> = chosen.iter().map(|chosen| chosen.direction).chain(n - states..n).collect();
+    let b = Matrix::from_fn(directions.len(), n, |i, j| f64::from(u8::from(directions[i] == j)));
+    let solved = (&b * z).lu().solve(&Matrix::identity(directions.len(), directions.len()));
     let inverse = solved.ok_or_else(|| Error::input("the coordinates are not independent").under("--chart"))?;
-    let own = chosen.iter().map(|c| (c.name.clone(), c.rate.clone())).unzip();
-    constant(variation, &names.join(","), own, (z * inverse, b))
+    let names_and_rates = chosen.iter().map(|c| (c.name.clone(), c.rate.clone())).unzip();
+    constant(variation, &names.join(","), names_and_rates, z * inverse, b)
 }
 
 /// Returns every direction of v that moves q with the name of its coordinate, or of its rotation.

@@ -41,12 +41,14 @@ impl Lift {
     pub fn terms(&self, orders: &[usize]) -> [Matrix; 2] {
         let k = self.turn.nrows();
         let states = orders.iter().enumerate().flat_map(|(j, &order)| (0..order).map(move |i| (i, j)));
-        let mut all = [Matrix::zeros(k, 0), Matrix::zeros(k, 0)];
+        let mut turns = Matrix::zeros(k, 0);
+        let mut drifts = Matrix::zeros(k, 0);
         for (i, j) in states {
             let turn = if i == 0 { self.turn.columns(j, 1).clone_owned() } else { Matrix::zeros(k, 1) };
-            all = [beside([&all[0], &turn]), beside([&all[1], &self.drift[i].columns(j, 1).clone_owned()])];
+            turns = beside(&turns, &turn);
+            drifts = beside(&drifts, &self.drift[i].columns(j, 1).clone_owned());
         }
-        all
+        [turns, drifts]
     }
 
     /// No input moves a driver.
@@ -59,7 +61,7 @@ impl Lift {
     ///
     /// # Errors
     /// A driver that redundant constraints do not let move.
-    pub(super) fn constant(variation: &mut Variation, (r, b): (&Matrix, &Matrix)) -> Result<Self> {
+    pub(super) fn constant(variation: &mut Variation, r: &Matrix, b: &Matrix) -> Result<Self> {
         let none = Lift::none(r.nrows(), r.ncols(), variation.input_count());
         if !variation.has_drivers() {
             return Ok(none);
@@ -76,7 +78,7 @@ impl Lift {
     ///
     /// # Errors
     /// See [`Lift::constant`].
-    pub(super) fn frozen(variation: &mut Variation, (r, b): (&Matrix, &Matrix)) -> Result<Self> {
+    pub(super) fn frozen(variation: &mut Variation, r: &Matrix, b: &Matrix) -> Result<Self> {
         let none = Lift::none(r.nrows(), r.ncols(), variation.input_count());
         if !variation.has_drivers() {
             return Ok(none);
@@ -98,8 +100,10 @@ impl Lift {
     /// See [`Lift::constant`].
     pub(super) fn parallel(
         variation: &mut Variation,
-        (n, b): (&Matrix, &Matrix),
-        (n_dot, connection): (&Matrix, &LeviCivita),
+        n: &Matrix,
+        b: &Matrix,
+        n_dot: &Matrix,
+        connection: &LeviCivita,
     ) -> Result<Self> {
         let none = Lift::none(n.nrows(), n.ncols(), variation.input_count());
         if !variation.has_drivers() {

@@ -30,7 +30,8 @@ impl Lyapunov {
 pub fn lyapunov(
     system: &dyn MechanicalSystem,
     start: &State,
-    (duration, renewal): (f64, f64),
+    duration: f64,
+    renewal: f64,
     mut progress: impl FnMut(f64),
 ) -> Result<Lyapunov> {
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;

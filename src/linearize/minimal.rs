@@ -55,7 +55,7 @@ pub(super) fn restrict(
     let mut a = Matrix::zeros(k + n, k + n);
     a.view_mut((0, 0), (k, k)).copy_from(turn);
     a.view_mut((0, k), (k, k)).fill_with_identity();
-    a.view_mut((k, 0), (n, k + n)).copy_from(&(state - beside([&drift[0], &drift[1]])));
+    a.view_mut((k, 0), (n, k + n)).copy_from(&(state - beside(&drift[0], &drift[1])));
     let orders = variation.orders();
     let [upper, bent] = lift.terms(&orders);
     let mut driven = (input_states - bent).insert_rows(0, k, 0.0);
@@ -66,7 +66,8 @@ pub(super) fn restrict(
     let c = outputs.state;
     let d = outputs.inputs;
     let Coordinates { name: chart, states, .. } = coordinates.clone();
-    let own = Some(coordinates.clone());
-    let built = Built { chart, states, a, b, c, d, e: None, input_states, changes, coordinates: own, infinite: 0 };
+    let chart_of_model = Some(coordinates.clone());
+    let built =
+        Built { chart, states, a, b, c, d, e: None, input_states, changes, coordinates: chart_of_model, infinite: 0 };
     Ok(Minimal { coordinates, built })
 }

@@ -126,17 +126,16 @@ impl LinearModel {
     /// Warning of a state so near to a singular one that rounding changes the model.
     pub fn doubt(&self) -> Option<Warning> {
         let Reduction { condition, error } = self.reduction;
-        let text = || {
-            format!(
-                "at t = {} s the constraints are nearly dependent (condition {condition:.1e}), so rounding changes the linear \
-                 model by {} of its size",
-                clock(self.point.t),
-                two_digits(error)
-            )
-        };
-        (error > tolerances::SIX_DIGITS).then(|| {
-            Warning::new(text(), "choose another time, or state the start in coordinates that are farther off")
-        })
+        if error.is_nan() || error <= tolerances::SIX_DIGITS {
+            return None;
+        }
+        let text = format!(
+            "at t = {} s the constraints are nearly dependent (condition {condition:.1e}), so rounding changes the linear \
+             model by {} of its size",
+            clock(self.point.t),
+            two_digits(error)
+        );
+        Some(Warning::new(text, "choose another time, or state the start in coordinates that are farther off"))
     }
 
     /// True if some eigenvalues are [`Kind::Uncertain`].

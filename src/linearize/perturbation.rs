@@ -2,6 +2,7 @@
 
 use super::excited::Excited;
 use super::{Changes, Matrix, Variation};
+use crate::formulation::Row;
 
 /// Changes of the state, of u and of its derivatives, one column each: first those of the state alone, then a unit of
 /// each state of the inputs, then a unit of each input of the model. The states of an input whose derivative u^(r) is
@@ -36,25 +37,30 @@ impl Perturbation {
     ) -> Self {
         let Excited { orders, forces, rows } = variation.excited();
         let n_u = orders.len();
-        let own = state.q.ncols();
+        let state_count = state.q.ncols();
         let states: Vec<(usize, usize)> =
             orders.iter().enumerate().flat_map(|(j, &order)| (0..order).map(move |i| (i, j))).collect();
         let added = states.len() + n_u;
-        let mut u = [0; 3].map(|_| Matrix::zeros(n_u, own + added));
+        let columns = state_count + added;
+        let zeros = Matrix::zeros(n_u, columns);
+        let mut u = [zeros.clone(), zeros.clone(), zeros];
         let mut changes = state.clone();
-        changes.q = changes.q.resize_horizontally(own + added, 0.0);
-        changes.v = changes.v.resize_horizontally(own + added, 0.0);
-        for (column, &(i, j)) in states.iter().enumerate() {
-            u[i][(j, own + column)] = 1.0;
+        changes.q = changes.q.resize_horizontally(columns, 0.0);
+        changes.v = changes.v.resize_horizontally(columns, 0.0);
+        for (k, &(i, j)) in states.iter().enumerate() {
+            let column = state_count + k;
+            u[i][(j, column)] = 1.0;
             if let Some([dq, dv]) = along(i, j) {
-                changes.q.column_mut(own + column).copy_from(&dq);
-                changes.v.column_mut(own + column).copy_from(&dv);
+                changes.q.column_mut(column).copy_from(&dq);
+                changes.v.column_mut(column).copy_from(&dv);
             }
         }
-        orders.iter().enumerate().for_each(|(j, &order)| u[order][(j, own + states.len() + j)] = 1.0);
+        for (j, &order) in orders.iter().enumerate() {
+            u[order][(j, state_count + states.len() + j)] = 1.0;
+        }
         let force = &forces[0] * &u[0] + &forces[1] * &u[1];
-        let rows = [0, 1, 2].map(|i: usize| &rows * &u[i]);
-        Perturbation { changes, u, force, rows, counts: [own, states.len()] }
+        let rows = [&rows * &u[0], &rows * &u[1], &rows * &u[2]];
+        Perturbation { changes, u, force, rows, counts: [state_count, states.len()] }
     }
 
     /// -K dq - C dv and the forces of the inputs, a column each.
@@ -63,9 +69,10 @@ impl Perturbation {
     }
 
     /// G dv' for phi'' + c1 phi' + c0 phi = 0, where the inputs are part of phi, a column each.
-    pub fn rows(&self, variation: &Variation, [c1, c0]: [f64; 2]) -> Matrix {
+    pub fn rows(&self, variation: &Variation, c: [f64; 2]) -> Matrix {
+        let [c1, c0] = c;
         let [u, rate, acceleration] = &self.rows;
-        variation.rows(&self.changes, [c1, c0]) + acceleration + rate * c1 + u * c0
+        variation.rows(&self.changes, c) + acceleration + rate * c1 + u * c0
     }
 
     /// dphi and dphi' of the changes, a column each.
@@ -81,22 +88,22 @@ impl Perturbation {
         [input_states, inputs]
     }
 
-    /// `position` u + `velocity` u' + `acceleration` u'' of the prescribed rows, of each state of the inputs and of each
-    /// input.
-    pub fn input_rows(&self, [position, velocity, acceleration]: [f64; 3]) -> [Matrix; 2] {
+    /// c_0 u + c_1 u' + c_2 u'' of the prescribed rows, of each state of the inputs and of each input.
+    pub fn input_rows(&self, row: Row) -> [Matrix; 2] {
         let [u, rate, second] = &self.rows;
-        let Parts { input_states, inputs, .. } = self.split(&(u * position + rate * velocity + second * acceleration));
+        let rows = u * row.position + rate * row.velocity + second * row.acceleration;
+        let Parts { input_states, inputs, .. } = self.split(&rows);
         [input_states, inputs]
     }
 
     /// The columns of a matrix by what they belong to.
-    pub fn split(&self, all: &Matrix) -> Parts {
-        let [own, states] = self.counts;
-        let part = |first: usize, count: usize| all.columns(first, count).clone_owned();
+    pub fn split(&self, matrix: &Matrix) -> Parts {
+        let [states, input_states] = self.counts;
+        let first_input = states + input_states;
         Parts {
-            state: part(0, own),
-            input_states: part(own, states),
-            inputs: part(own + states, all.ncols() - own - states),
+            state: matrix.columns(0, states).clone_owned(),
+            input_states: matrix.columns(states, input_states).clone_owned(),
+            inputs: matrix.columns(first_input, matrix.ncols() - first_input).clone_owned(),
         }
     }
 }

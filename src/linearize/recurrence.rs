@@ -21,9 +21,9 @@ pub(super) fn gap(variation: &mut Variation, start: &State, end: &State) -> Resu
     let system = variation.system();
     let mut last = end.q.clone();
     for rotation in system.facts().rotations.clone() {
-        let own = rotation.q..rotation.q + 4;
-        if dot(&last[own.clone()], &start.q[own.clone()]) < 0.0 {
-            last[own].iter_mut().for_each(|x| *x = -*x);
+        let quaternion = rotation.q..rotation.q + 4;
+        if dot(&last[quaternion.clone()], &start.q[quaternion.clone()]) < 0.0 {
+            last[quaternion].iter_mut().for_each(|x| *x = -*x);
         }
     }
     let velocities: Vec<f64> = end.v.iter().zip(&start.v).map(|(a, b)| a - b).collect();
@@ -36,7 +36,7 @@ pub(super) fn gap(variation: &mut Variation, start: &State, end: &State) -> Resu
     let turns: Vec<f64> = shift.iter().map(|x| whole_turns(*x, tolerance)).collect();
     let rest: Vec<f64> = shift.iter().zip(&turns).map(|(shift, turn)| shift - turn).collect();
     let displacement: Vec<f64> = rest.iter().map(|x| if x.abs() > tolerance { *x } else { 0.0 }).collect();
-    let is_same = is_same(variation, start, end.t, [&turns, &displacement])?;
+    let is_same = is_same(variation, start, end.t, &turns, &displacement)?;
     let left: Vec<f64> = rest.iter().zip(&displacement).map(|(rest, moved)| rest - moved).collect();
     Ok(if is_same { largest(&left).max(largest(&velocities)) } else { plain })
 }
@@ -49,12 +49,12 @@ fn whole_turns(shift: f64, tolerance: f64) -> f64 {
 
 /// True if the equations are the same at the start and at the states that are shifted by whole turns and by parts of the
 /// displacement.
-fn is_same(variation: &mut Variation, start: &State, end: f64, [turns, displacement]: [&[f64]; 2]) -> Result<bool> {
+fn is_same(variation: &mut Variation, start: &State, end: f64, turns: &[f64], displacement: &[f64]) -> Result<bool> {
     let here = terms(variation);
-    let parts: &[f64] = if largest(displacement) > 0.0 { &ON_THE_WAY } else { &[1.0] };
+    let fractions: &[f64] = if largest(displacement) > 0.0 { &ON_THE_WAY } else { &[1.0] };
     let mut is_same = true;
-    for part in parts {
-        let shifts = turns.iter().zip(displacement).map(|(turn, moved)| turn + part * moved);
+    for fraction in fractions {
+        let shifts = turns.iter().zip(displacement).map(|(turn, moved)| turn + fraction * moved);
         let q: Vec<f64> = start.q.iter().zip(shifts).map(|(q, shift)| q + shift).collect();
         variation.operate_at(end, &q, &start.v)?;
         let there = terms(variation);
@@ -68,7 +68,8 @@ fn is_same(variation: &mut Variation, start: &State, end: f64, [turns, displacem
 fn terms(variation: &Variation) -> [Vec<f64>; 6] {
     let terms = &variation.dynamics.terms;
     let tangent = &variation.tangent;
-    [&terms.mass, &terms.g, &terms.l, &variation.point.vdot, &tangent.k, &tangent.c].map(Vec::clone)
+    let vdot = variation.point.vdot.clone();
+    [terms.mass.clone(), terms.g.clone(), terms.l.clone(), vdot, tangent.k.clone(), tangent.c.clone()]
 }
 
 fn agree(a: &[f64], b: &[f64]) -> bool {

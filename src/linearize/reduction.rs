@@ -85,10 +85,11 @@ fn difference(here: &Minimal, there: &Minimal) -> f64 {
     if there.built.a.nrows() != n {
         return f64::INFINITY;
     }
-    let all = |changes: &Changes| beside([&changes.q.transpose(), &changes.v.transpose()]).transpose();
-    let [own, other] = [all(&here.built.changes), all(&there.built.changes)];
-    let Some(inverse) = other.tr_mul(&other).try_inverse() else { return f64::INFINITY };
-    let to = inverse * other.tr_mul(&own);
+    let stacked = |changes: &Changes| beside(&changes.q.transpose(), &changes.v.transpose()).transpose();
+    let changes_here = stacked(&here.built.changes);
+    let changes_there = stacked(&there.built.changes);
+    let Some(inverse) = changes_there.tr_mul(&changes_there).try_inverse() else { return f64::INFINITY };
+    let to = inverse * changes_there.tr_mul(&changes_here);
     let Some(from) = to.clone().try_inverse() else { return f64::INFINITY };
     let k = here.coordinates.freedom();
     let rate = here.built.a.view((k, 0), (n - k, k)).amax().sqrt();

@@ -74,8 +74,8 @@ impl ModelRate {
     /// and of equal eigenvalues with vectors of their own the eigenvalues of the matrix of such products.
     pub fn slopes(&self, vectors: &Vectors, modes: &[Mode]) -> Vec<Slope> {
         let modes = &modes[..vectors.right.ncols()];
-        let pushed = push(&self.best, vectors, modes);
-        let changes = push(&self.change, vectors, modes);
+        let pushed = push(&self.best, &vectors.right, modes);
+        let changes = push(&self.change, &vectors.right, modes);
         let is_simple = |mode: &Mode| mode.condition < DEFECTIVE_MODE && !mode.is_zero();
         let is_equal = |a: &Mode, b: &Mode| (a.value - b.value).norm() <= EIGENVALUES_AGREE * a.value.norm();
         let slope = |(i, mode): (usize, &Mode)| {
@@ -90,12 +90,11 @@ impl ModelRate {
 }
 
 /// (A' - lambda E') x, a column for each mode.
-fn push(rate: &Matrix, Vectors { right, .. }: &Vectors, modes: &[Mode]) -> ComplexMatrix {
+fn push(rate: &Matrix, right: &ComplexMatrix, modes: &[Mode]) -> ComplexMatrix {
     let n = rate.nrows();
-    let part = |first: usize| times(&rate.columns(first, n).clone_owned(), right);
-    let mut pushed = part(0);
+    let mut pushed = times(&rate.columns(0, n).clone_owned(), right);
     if rate.ncols() > n {
-        let moved = part(n);
+        let moved = times(&rate.columns(n, n).clone_owned(), right);
         let columns = pushed.column_iter_mut().zip(moved.column_iter()).zip(modes);
         columns.for_each(|((mut to, moved), mode)| to -= moved * mode.value);
     }
@@ -109,8 +108,8 @@ fn among_equal(left: &ComplexMatrix, pushed: &ComplexMatrix, equal: &[usize], i:
         return Some(product(i, i));
     }
     let block = ComplexMatrix::from_fn(equal.len(), equal.len(), |row, column| product(equal[row], equal[column]));
-    let place = equal.iter().position(|&j| j == i)?;
-    block.try_schur(f64::EPSILON, 0)?.eigenvalues()?.get(place).copied()
+    let index = equal.iter().position(|&j| j == i)?;
+    block.try_schur(f64::EPSILON, 0)?.eigenvalues()?.get(index).copied()
 }
 
 /// Returns [A E], or A, of another model in the states of a chart `here`: changes of q and v that the other state allows
@@ -124,6 +123,6 @@ fn in_states_of(here: &Built, other: &Built) -> Option<Matrix> {
         }
         None => other.a.clone(),
     };
-    let both = other.e.as_ref().map_or_else(|| a.clone(), |e| beside([&a, e]));
+    let both = other.e.as_ref().map_or_else(|| a.clone(), |e| beside(&a, e));
     (a.shape() == here.a.shape()).then_some(both)
 }

@@ -58,14 +58,14 @@ pub(super) fn spectrum(variation: &mut Variation, built: &Built, request: &Linea
     } else {
         kinds(variation, &solved.values, &shapes, &weighed)?
     };
-    let modes = modes(variation, built, &solved, (&shapes, &weighed), &kinds);
+    let modes = modes(variation, built, &solved, &shapes, &weighed, &kinds);
     let mut numbered: Vec<(usize, Mode)> = modes.into_iter().enumerate().collect();
     numbered.sort_by_key(|(_, mode)| mode.kind);
     let (order, mut modes): (Vec<usize>, Vec<Mode>) = numbered.into_iter().unzip();
     let sorted = |matrix: &ComplexMatrix| matrix.select_columns(&order);
     let vectors = solved.left.as_ref().map(|left| Vectors { right: sorted(&solved.right), left: sorted(left) });
-    let value = (Complex::new(f64::INFINITY, 0.0), Kind::Infinite);
-    let infinite = mode(value, Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let value = Complex::new(f64::INFINITY, 0.0);
+    let infinite = mode(value, Kind::Infinite, Vec::new(), Vec::new(), Vec::new(), Vec::new());
     modes.extend(std::iter::repeat_n(infinite, built.infinite));
     Ok(Spectrum { modes, vectors, conditioning: solved.conditioning, off_constraints })
 }
@@ -76,7 +76,8 @@ pub(super) fn modes_of(variation: &Variation, built: &Built) -> Result<(Vec<Mode
     let solved = solve_plain(built)?;
     let shapes = times(&built.shapes(variation.system().dimensions()), &solved.right);
     let weighed = weighed(variation, &shapes);
-    let modes = modes(variation, built, &solved, (&shapes, &weighed), &vec![Kind::Physical; solved.values.len()]);
+    let kinds = vec![Kind::Physical; solved.values.len()];
+    let modes = modes(variation, built, &solved, &shapes, &weighed, &kinds);
     Ok((modes, solved.right, solved.conditioning))
 }
 
@@ -92,27 +93,30 @@ fn modes(
     variation: &Variation,
     built: &Built,
     solved: &Solved,
-    (shapes, weighed): (&ComplexMatrix, &ComplexMatrix),
+    shapes: &ComplexMatrix,
+    weighed: &ComplexMatrix,
     kinds: &[Kind],
 ) -> Vec<Mode> {
     let moving = variation.system().dimensions().moving();
     let outputs = times(&built.c, &solved.right);
     let column = |matrix: &ComplexMatrix, i: usize| matrix.column(i).iter().copied().collect();
-    let of = |(i, value): (usize, &Complex<f64>)| {
-        let parts = solved.participation.as_ref();
-        let parts = parts.map_or(Vec::new(), |all| all.column(i).iter().copied().collect());
+    let mut modes = Vec::with_capacity(solved.values.len());
+    for (i, &value) in solved.values.iter().enumerate() {
+        let participation = solved.participation.as_ref();
+        let participation = participation.map_or(Vec::new(), |matrix| matrix.column(i).iter().copied().collect());
         // States xi have no energy.
         let energy = shapes.column(i).into_iter().zip(weighed.column(i)).take(moving);
         let energy = energy.map(|(x, mx)| (x.conj() * mx).re).collect();
-        let mode = mode((*value, kinds[i]), column(shapes, i), column(&outputs, i), parts, energy);
-        rounded(variation, Mode { condition: solved.conditions[i], ..mode }, solved.errors[i])
-    };
-    solved.values.iter().enumerate().map(of).collect()
+        let mode = mode(value, kinds[i], column(shapes, i), column(&outputs, i), participation, energy);
+        modes.push(rounded(variation, Mode { condition: solved.conditions[i], ..mode }, solved.errors[i]));
+    }
+    modes
 }
 
 /// The mode with its shape scaled to a largest component of 1.
 fn mode(
-    (value, kind): (Complex<f64>, Kind),
+    value: Complex<f64>,
+    kind: Kind,
     mut shape: Vec<Complex<f64>>,
     mut outputs: Vec<Complex<f64>>,
     participation: Vec<f64>,
@@ -141,9 +145,9 @@ fn rounded(variation: &Variation, mode: Mode, error: f64) -> Mode {
     let damping = entries.iter().zip(&variation.tangent.c).map(|(&(i, j), c)| shape(i).conj() * shape(j) * *c);
     let slope = (damping.sum::<Complex<f64>>() + mode.value * 2.0 * mode.mass).norm();
     let rounding = ROUND_OFF_OF_K * terms;
-    let most = if mode.mass > 0.0 { (rounding / mode.mass).sqrt() } else { 0.0 };
-    let first_order = if slope > 0.0 { (rounding / slope).min(most) } else { most };
-    Mode { rounding: most.max(error), error: first_order.max(error), ..mode }
+    let largest = if mode.mass > 0.0 { (rounding / mode.mass).sqrt() } else { 0.0 };
+    let first_order = if slope > 0.0 { (rounding / slope).min(largest) } else { largest };
+    Mode { rounding: largest.max(error), error: first_order.max(error), ..mode }
 }
 
 /// Solves a model without E.

@@ -94,29 +94,44 @@ pub fn loci_along<'a>(prepared: &'a Model, request: &Linear, times: &[f64], prog
     };
     let states: Vec<(f64, Result<State>)> = times.iter().map(|&t| (t, go_to(t))).inspect(|_| progress()).collect();
     let steps: Vec<f64> = times.get(1).map(|second| SLOPE_STEP * (second - times[0])).into_iter().collect();
-    let next = |kept: &mut Option<Variation<'a>>, state: State, t: f64| {
-        let mut variation = match kept.take() {
-            Some(mut variation) => variation.operate_at(state.t, &state.q, &state.v).map(|()| variation),
-            None => state.variation(prepared),
-        }?;
-        let outcome = found(&mut variation, (prepared, state), t, request, &steps);
-        *kept = Some(variation);
-        outcome
+    let outcome = |previous: &mut Option<Variation<'a>>, (t, state): (f64, Result<State>)| {
+        (t, state.and_then(|state| eigenvalues_after(previous, prepared, state, t, request, &steps)))
     };
-    let outcome = |kept: &mut Option<_>, (t, state): (f64, Result<State>)| (t, state.and_then(|s| next(kept, s, t)));
     let outcomes: Vec<Outcome> = states.into_par_iter().map_init(|| None, outcome).collect();
     let between = |before: &Found, t: f64| {
         let state = follow(prepared, &before.state, t)?;
-        found(&mut state.variation(prepared)?, (prepared, state), t, request, &[])
+        eigenvalues_at(&mut state.variation(prepared)?, prepared, state, t, request, &[])
     };
     collect(LociVariable::Time, outcomes, between)
 }
 
+/// Returns the eigenvalues at the next state, with the variation of the previous one where there is one. Leaves its own
+/// variation there.
+fn eigenvalues_after<'a>(
+    previous: &mut Option<Variation<'a>>,
+    prepared: &'a Model,
+    state: State,
+    t: f64,
+    request: &Linear,
+    steps: &[f64],
+) -> Result<Found> {
+    let mut variation = if let Some(mut variation) = previous.take() {
+        variation.operate_at(state.t, &state.q, &state.v)?;
+        variation
+    } else {
+        state.variation(prepared)?
+    };
+    let eigenvalues = eigenvalues_at(&mut variation, prepared, state, t, request, steps);
+    *previous = Some(variation);
+    eigenvalues
+}
+
 /// Returns the eigenvalues at a state of the motion, with their derivatives by differences of the model over these
 /// steps.
-fn found(
+fn eigenvalues_at(
     variation: &mut Variation,
-    (prepared, state): (&Model, State),
+    prepared: &Model,
+    state: State,
     t: f64,
     request: &Linear,
     steps: &[f64],

@@ -100,13 +100,15 @@ fn locate(below: &Found, above: &Found, model: &impl Fn(&Found, f64) -> Result<F
     let (at, value) = root(below, above, value, model)?;
     let kind = if is_crossing { ThresholdKind::Crossing } else { ThresholdKind::Coalescence };
     let clean = |x: f64| if x.abs() <= tolerances::EIGENVALUES_AGREE * value.norm() { 0.0 } else { x };
-    // A mode is a pair or a real eigenvalue.
-    let growing = [below, above].map(|found| {
-        let upper = moving(found).filter(|mode| mode.value.im >= 0.0);
-        upper.filter(|mode| grows(mode)).count()
-    });
+    let growing = [growing_modes(below), growing_modes(above)];
     let re = if is_crossing { 0.0 } else { clean(value.re) };
     Some(Threshold { at, kind, re, im: clean(value.im).abs(), growing })
+}
+
+/// Returns the number of growing modes. A mode is a pair or a real eigenvalue.
+fn growing_modes(found: &Found) -> usize {
+    let upper = moving(found).filter(|mode| mode.value.im >= 0.0);
+    upper.filter(|mode| grows(mode)).count()
 }
 
 /// The root of a value between two states by the Illinois variant of the regula falsi (Dowell, Jarratt, BIT 11 (1971)

@@ -164,14 +164,15 @@ impl Thread {
         let along = at - self.at;
         let [re, square] = match (self.last.slope, self.before) {
             (Some(slope), _) => [slope.re, 2.0 * value.im * slope.im],
-            (None, Some((place, before))) => {
-                [value.re - before.re, value.im * value.im - before.im * before.im].map(|x| x / (self.at - place))
+            (None, Some((at_before, before))) => {
+                let step = self.at - at_before;
+                [(value.re - before.re) / step, (value.im * value.im - before.im * before.im) / step]
             }
             (None, None) => return value,
         };
         let im = (value.im * value.im + square * along).max(0.0).sqrt().copysign(value.im);
-        let next = Complex::new(value.re + re * along, im);
-        if next.re.is_finite() && next.im.is_finite() { next } else { value }
+        let predicted = Complex::new(value.re + re * along, im);
+        if predicted.re.is_finite() && predicted.im.is_finite() { predicted } else { value }
     }
 
     fn moved(&self, at: f64, end: Node) -> Thread {

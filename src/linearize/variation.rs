@@ -161,9 +161,10 @@ impl<'a> Variation<'a> {
         self.rows_times(&self.dynamics.terms.g, x)
     }
 
-    /// Returns G dv' for phi'' + c1 phi' + c0 phi = 0, a column each: -(Gdd + c1 Gd + c0 G) dq - (G1 + c1 G) dv.
+    /// Returns G dv' for phi'' + c1 phi' + c0 phi = 0, c = [c1, c0], a column each: -(Gdd + c1 Gd + c0 G) dq - (G1 + c1 G) dv.
     #[doc(hidden)]
-    pub fn rows(&self, changes: &Changes, [c1, c0]: [f64; 2]) -> Matrix {
+    pub fn rows(&self, changes: &Changes, c: [f64; 2]) -> Matrix {
+        let [c1, c0] = c;
         let Dynamics { structure, terms, .. } = &self.dynamics;
         let mut rows = Matrix::zeros(structure.g.rows, changes.q.ncols());
         let mut add = |values: &[f64], x: &Matrix, factor: f64| add_product(&structure.g, values, x, factor, &mut rows);

@@ -98,7 +98,7 @@ impl TimeLoop<'_> {
     /// cannot begin. The next step is small where y' jumps.
     pub fn change_form(&mut self, at_start: Option<usize>) -> Result<(), Failure> {
         let before = self.slope.clone();
-        let roads = self.roads();
+        let (roads, potential) = self.roads();
         let pieces = self.events.pieces.clone();
         let turns = self.events.turn(at_start);
         if let Some(&turn) = turns.first() {
@@ -115,7 +115,7 @@ impl TimeLoop<'_> {
                 return Err(self.sliding(turn));
             }
         }
-        self.meet_roads(roads, &pieces)?;
+        self.meet_roads(roads, potential, &pieces)?;
         self.meet_jump(&before)
     }
 
@@ -167,16 +167,17 @@ impl TimeLoop<'_> {
         if let Some((number, signal)) = self.events.undefined() {
             return Err(self.failure(signal.left_by(self.events.owner(number)), Some(BEYOND)));
         }
-        let old = self.constraints();
+        let before = self.constraints();
         self.share_pieces();
-        self.meet_constraints(old)?;
+        self.meet_constraints(before)?;
         self.evaluate_start()
     }
 
     /// Evaluates y' and the switching functions at the start of the next step.
     pub fn evaluate_start(&mut self) -> Result<(), Failure> {
         self.problem.derivative(self.t, &self.y, &mut self.slope).map_err(|halt| self.halted(&halt))?;
-        let ((q, v), (_, vdot)) = (self.problem.split(&self.y), self.problem.split(&self.slope));
+        let (q, v) = self.problem.split(&self.y);
+        let (_, vdot) = self.problem.split(&self.slope);
         self.events.start_at(OperatingPoint { t: self.t, q, v, vdot, lambda: &[] });
         Ok(())
     }
@@ -199,7 +200,8 @@ impl TimeLoop<'_> {
     /// Where a prescribed motion has a kink, the velocities jump with it: M (v_1 - v_0) + G^T p = 0 with G v_1 + phi_t
     /// as before, p the impulses of the joints, whose work is that of the drive. A prescribed motion itself must not
     /// jump.
-    fn meet_constraints(&mut self, [phi, phi_dot]: [Vec<f64>; 2]) -> Result<(), Failure> {
+    fn meet_constraints(&mut self, before: [Vec<f64>; 2]) -> Result<(), Failure> {
+        let [phi, phi_dot] = before;
         let [now, rate] = self.constraints();
         let jumps = |new: &[f64], old: &[f64]| new.iter().zip(old).map(|(new, old)| new - old).collect::<Vec<f64>>();
         let jump = jumps(&now, &phi);
@@ -250,7 +252,7 @@ impl TimeLoop<'_> {
 
     /// A road that jumps does the work by which it loads the spring of a tyre. The damper of one would give the wheel
     /// the impulse c times the jump, for which it takes energy without bound.
-    fn meet_roads(&mut self, (roads, potential): (Vec<Road>, f64), pieces: &[Piece]) -> Result<(), Failure> {
+    fn meet_roads(&mut self, roads: Vec<Road>, potential: f64, pieces: &[Piece]) -> Result<(), Failure> {
         let (now, loaded) = self.roads();
         let moving = self.tolerance.motion();
         self.y[moving] += loaded - potential;

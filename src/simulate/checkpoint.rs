@@ -65,14 +65,14 @@ pub enum Start<'a> {
 }
 
 impl<'a> From<(&'a [f64], &'a [f64])> for Start<'a> {
-    fn from((q, v): (&'a [f64], &'a [f64])) -> Self {
-        Start::State(q, v)
+    fn from(state: (&'a [f64], &'a [f64])) -> Self {
+        Start::State(state.0, state.1)
     }
 }
 
 impl<'a, Q: AsRef<[f64]>, V: AsRef<[f64]>> From<&'a (Q, V)> for Start<'a> {
-    fn from((q, v): &'a (Q, V)) -> Self {
-        Start::State(q.as_ref(), v.as_ref())
+    fn from(state: &'a (Q, V)) -> Self {
+        Start::State(state.0.as_ref(), state.1.as_ref())
     }
 }
 
@@ -82,8 +82,9 @@ impl<'a> From<&'a Checkpoint> for Start<'a> {
     }
 }
 
-/// (q, v, w) at the start of a run, which the system must not refuse.
-pub fn flat(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<Vec<f64>> {
+/// (q, v, w) at the `start` (q, v) of a run, which the system must not refuse.
+pub fn flat(system: &dyn MechanicalSystem, t: f64, start: (&[f64], &[f64])) -> Result<Vec<f64>> {
+    let (q, v) = start;
     check_start(system, t, q, v)?;
     Ok([q, v, &vec![0.0; 1 + system.facts().works.len()]].concat())
 }
@@ -144,8 +145,8 @@ impl Checkpoint {
         let are_pieces = self.pieces.iter().zip(switches).all(|(&piece, switch)| exists(piece as usize, switch));
         let lengths = [self.y.len(), self.turned_at.len(), self.pieces.len(), self.turned.len()];
         let facts = system.facts();
-        let all = n.q + n.v + 1 + facts.works.len();
-        lengths == [all, all, switches.len(), switches.len()]
+        let length = n.q + n.v + 1 + facts.works.len();
+        lengths == [length, length, switches.len(), switches.len()]
             && (self.inputs.is_empty() || self.inputs.len() == facts.inputs.len())
             && self.statistics.is_possible()
             && are_pieces
@@ -241,9 +242,14 @@ impl TimeLoop<'_> {
         if let Some(memory) = &saved.memory {
             self.integrator.recall(memory);
         }
-        (self.approach, self.crowd, self.divided) = (saved.approach, saved.crowd, saved.divided);
-        (self.h, self.growing, self.cut) = (saved.h, saved.growing, saved.cut);
-        (self.progress, self.factored) = (saved.progress, saved.factored);
+        self.approach = saved.approach;
+        self.crowd = saved.crowd;
+        self.divided = saved.divided;
+        self.h = saved.h;
+        self.growing = saved.growing;
+        self.cut = saved.cut;
+        self.progress = saved.progress;
+        self.factored = saved.factored;
         self.turned_at.clone_from(&saved.turned_at);
         self.drop_rows(&saved.dropped);
         self.refer_to(saved.dense_reference);

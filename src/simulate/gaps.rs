@@ -108,19 +108,14 @@ impl TimeLoop<'_> {
                 self.take_pieces();
                 return Ok(Some(1.0));
             }
-            return self.closing_time(i, side, (h, end), [start, at_end]).map(Some);
+            return self.closing_time(i, side, h, end, [start, at_end]).map(Some);
         }
         Ok(None)
     }
 
-    /// The fraction of the step at which gap `i` is zero, by the regula falsi with halved weights (Illinois).
-    fn closing_time(
-        &mut self,
-        i: usize,
-        side: Side,
-        (h, end): (f64, f64),
-        [mut low_value, mut high_value]: [f64; 2],
-    ) -> Result<f64, StepError> {
+    /// The fraction of the step at which gap `i`, of these values at both ends, is zero, by the regula falsi with halved weights (Illinois).
+    fn closing_time(&mut self, i: usize, side: Side, h: f64, end: f64, values: [f64; 2]) -> Result<f64, StepError> {
+        let [mut low_value, mut high_value] = values;
         let TimeLoop { gaps, rows, integrator, problem, .. } = self;
         let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
         rows.problem.begin_step(from.t, from.y)?;

@@ -18,7 +18,7 @@ impl TimeLoop<'_> {
     /// Moves the end of the span to a later time.
     pub fn extend(&mut self, end: f64) {
         let old = std::mem::replace(&mut self.span.end, end);
-        self.events.timetable.extend(self.t, (old, end), &self.events.pieces);
+        self.events.timetable.extend(self.t, old, end, &self.events.pieces);
         self.rows.next = self.next_row();
     }
 

@@ -77,7 +77,7 @@ pub struct Outcome {
     pub failure: Option<Failure>,
 }
 
-/// Integrates `system` from (q, v), which should be consistent, over `span`. A run that fails is no error: its
+/// Integrates `system` from the `start` (q, v), which should be consistent, over `span`. A run that fails is no error: its
 /// outcome says where and why, and the sink has what came before.
 ///
 /// # Errors
@@ -86,10 +86,10 @@ pub fn simulate(
     system: &dyn MechanicalSystem,
     method: &Method,
     span: Span,
-    (q, v): (&[f64], &[f64]),
+    start: (&[f64], &[f64]),
     sink: &mut dyn Sink,
 ) -> Result<Outcome> {
-    Ok(simulate_from(system, method, span, Start::State(q, v), sink)?.0)
+    Ok(simulate_from(system, method, span, start.into(), sink)?.0)
 }
 
 /// The only time loop: a run from step to step.
@@ -191,11 +191,11 @@ impl<'a> TimeLoop<'a> {
             Ok(Problem::new(Dynamics::new(system), formulation::make(&method.formulation, system)?))
         };
         let entry = integrator::find(&method.integrator)?;
-        let mut own = problem()?;
+        let mut of_steps = problem()?;
         // Output rows show reactions; steps need the motion alone.
-        own.dynamics.wants_least = false;
+        of_steps.dynamics.wants_least = false;
         let parts = Parts {
-            problem: own,
+            problem: of_steps,
             entry,
             integrator: method.make_integrator(system)?,
             projection: projection::make(&method.projection, system)?,
@@ -204,10 +204,10 @@ impl<'a> TimeLoop<'a> {
             limits_projection: true,
         };
         let tolerance = entry.tightening.of_steps(&Tolerance::new(method.rtol, method.atol, system));
-        Ok(TimeLoop::of(parts, (tolerance, method.step), span, y))
+        Ok(TimeLoop::of(parts, tolerance, method.step, span, y))
     }
 
-    fn of(parts: Parts<'a>, (tolerance, fixed): (Tolerance, Option<f64>), span: Span, y: Vec<f64>) -> Self {
+    fn of(parts: Parts<'a>, tolerance: Tolerance, fixed: Option<f64>, span: Span, y: Vec<f64>) -> Self {
         let zeros = || vec![0.0; y.len()];
         let system = parts.problem.dynamics.system;
         TimeLoop {
@@ -218,7 +218,7 @@ impl<'a> TimeLoop<'a> {
             projection: parts.projection,
             rows: OutputRows::new(parts.rows.0, parts.rows.1),
             approach: SingularPassage::default(),
-            events: Events::new(system, (span.start, span.end)),
+            events: Events::new(system, span.start, span.end),
             gaps: Gaps::new(system),
             crowd: Crowd::default(),
             turned_at: zeros(),
@@ -270,7 +270,8 @@ impl<'a> TimeLoop<'a> {
     /// Begins at the present state, which another run has reached and shown, with the rows that it dropped, and no
     /// smaller a step than its last, `h`: a far smaller first one would take many to grow.
     fn go_on(&mut self, dropped: &[usize], h: f64) -> Result<(), Failure> {
-        (self.progress, self.divided) = ((self.t, 0), self.t);
+        self.progress = (self.t, 0);
+        self.divided = self.t;
         self.begin_form()?;
         self.settle();
         self.start_gaps();

@@ -23,7 +23,8 @@ const ROWS: f64 = 500.0;
 
 /// `0.0..10.0`, with 500 rows.
 impl From<Range<f64>> for Span {
-    fn from(Range { start, end }: Range<f64>) -> Self {
+    fn from(range: Range<f64>) -> Self {
+        let Range { start, end } = range;
         Span { start, end, output_step: (end - start) / ROWS }
     }
 }

@@ -162,7 +162,7 @@ impl SingularPassage {
     /// the rank indicator is s, about a tenth of the step over `scale`, the time in which the motion changes: this
     /// bounds the accuracy of a short step across a singular state. So that step is as long as possible for a method of
     /// this `order`: its local error, (step/scale)^(order + 1), is still round-off.
-    pub fn place_fixed(&self, h: f64, (left, end): (f64, f64), (gap, order): (f64, usize)) -> f64 {
+    pub fn place_fixed(&self, h: f64, left: f64, end: f64, gap: f64, order: usize) -> f64 {
         let ahead = self.ahead();
         if !(self.rate < 0.0 && ahead < end) {
             return left;

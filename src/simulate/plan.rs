@@ -51,8 +51,8 @@ impl TimeLoop<'_> {
             (None, gap) => self.approach.place(h, gap.unwrap_or(0.5)),
             (Some(_), None) => self.to_grid(h),
             (Some(_), Some(gap)) => {
-                let times = (self.to_grid(h), self.span.end - self.t);
-                self.approach.place_fixed(h, times, (gap, order))
+                let left = self.to_grid(h);
+                self.approach.place_fixed(h, left, self.span.end - self.t, gap, order)
             }
         }
     }

@@ -113,10 +113,8 @@ fn first_change(
 }
 
 /// The place of the change of sign, by the regula falsi with halved weights (Illinois).
-fn located(
-    [mut low, mut high]: [Look; 2],
-    look: &mut impl FnMut(f64) -> Result<f64, StepError>,
-) -> Result<f64, StepError> {
+fn located(bracket: [Look; 2], look: &mut impl FnMut(f64) -> Result<f64, StepError>) -> Result<f64, StepError> {
+    let [mut low, mut high] = bracket;
     let sign = low.1.signum();
     // The Illinois rule takes about ten.
     for _ in 0..100 {

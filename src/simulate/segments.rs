@@ -12,9 +12,9 @@ pub(crate) struct Segments<'a> {
 
 impl<'a> Segments<'a> {
     /// Starts from the flat state `y` at `start`; `end` is the last time.
-    pub fn new(parts: Parts<'a>, tolerance: Tolerance, (start, end): (f64, f64), y: Vec<f64>) -> Self {
+    pub fn new(parts: Parts<'a>, tolerance: Tolerance, start: f64, end: f64, y: Vec<f64>) -> Self {
         let span = Span { start, end, output_step: f64::INFINITY };
-        Segments { run: TimeLoop::of(parts, (tolerance, None), span, y), is_begun: false }
+        Segments { run: TimeLoop::of(parts, tolerance, None, span, y), is_begun: false }
     }
 
     /// Continues to `end`.

@@ -30,7 +30,8 @@ impl Spectrum {
             return Some(Spectrum { modes: frozen.fastest()?, is_estimate: true });
         }
         let z = free_directions(&mut frozen.dynamics)?;
-        let [k, c] = [&frozen.tangent.k, &frozen.tangent.c].map(|values| reduce(frozen.places(), values, &z));
+        let k = reduce(frozen.places(), &frozen.tangent.k, &z);
+        let c = reduce(frozen.places(), &frozen.tangent.c, &z);
         Some(Spectrum { modes: modes::all(&k, &c)?, is_estimate: false })
     }
 }
@@ -75,7 +76,8 @@ impl<'a> Frozen<'a> {
     }
 
     fn fastest(&mut self) -> Option<Vec<SpectralMode>> {
-        let [k, c] = [&self.tangent.k, &self.tangent.c].map(|values| Sparse::without_zeros(self.places(), values));
+        let k = Sparse::without_zeros(self.places(), &self.tangent.k);
+        let c = Sparse::without_zeros(self.places(), &self.tangent.c);
         let mut rows = vec![0.0; self.dynamics.lambda.len()];
         modes::fastest(&k, &c, |mut force| {
             rows.fill(0.0);

@@ -29,17 +29,17 @@ impl TimeLoop<'_> {
         let (q, v) = self.problem.split(&self.y);
         let dynamics = &mut self.rows.problem.dynamics;
         let moving = ..dynamics.system.dimensions().moving();
-        let (dependent, contradiction) = dynamics.dependent_rows(self.t, q, v);
+        let (dependent, (difference, usual)) = dynamics.dependent_rows(self.t, q, v);
         let duration = self.span.end - self.span.start;
         let mut is_undetermined = false;
         let is_at_rest =
             largest(&v[moving]) <= tolerances::ROUND_OFF_OF_SOLUTIONS * largest(&dynamics.vdot[moving]) * duration;
         if !dependent.is_empty() && is_at_rest {
             let vdot = dynamics.vdot.clone();
-            let (_, contradiction) = dynamics.dependent_rows(self.t, q, &vdot);
-            is_undetermined = self.is_contradiction(contradiction);
+            let (_, (difference, usual)) = dynamics.dependent_rows(self.t, q, &vdot);
+            is_undetermined = self.is_contradiction(difference, usual);
         }
-        if self.is_contradiction(contradiction) {
+        if self.is_contradiction(difference, usual) {
             return Err(self.failure(NO_BRANCH.to_string(), Some(BRANCHES)));
         }
         if is_undetermined {
@@ -51,8 +51,8 @@ impl TimeLoop<'_> {
 
     /// True if dependent rows prescribe accelerations that differ by more than round-off of the `usual` terms there,
     /// and that would open joints during the run.
-    fn is_contradiction(&self, (contradiction, usual): (f64, f64)) -> bool {
-        let opened = contradiction * (self.span.end - self.span.start).powi(2);
-        contradiction > tolerances::SIX_DIGITS * usual && opened > tolerances::SIX_DIGITS * largest(&self.scales)
+    fn is_contradiction(&self, difference: f64, usual: f64) -> bool {
+        let opened = difference * (self.span.end - self.span.start).powi(2);
+        difference > tolerances::SIX_DIGITS * usual && opened > tolerances::SIX_DIGITS * largest(&self.scales)
     }
 }

@@ -46,7 +46,7 @@ impl TimeLoop<'_> {
             return Ok(error);
         }
         let t = self.end_of(h, end);
-        let mut error = self.project_step((h, end), error, is_singular)?;
+        let mut error = self.project_step(h, end, error, is_singular)?;
         self.lost = None;
         if is_singular && error.is_some_and(|error| !is_too_large(error)) {
             error = error.map(|error| error.max(self.error_by_energy(t)));
@@ -98,7 +98,8 @@ impl TimeLoop<'_> {
     /// Projects the new state, and refuses it if that moves it too far.
     fn project_step(
         &mut self,
-        (h, end): (f64, Option<f64>),
+        h: f64,
+        end: Option<f64>,
         error: Option<f64>,
         is_singular: bool,
     ) -> Result<Option<f64>, StepError> {

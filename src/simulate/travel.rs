@@ -87,6 +87,6 @@ impl TimeLoop<'_> {
     }
 }
 
-fn ended(TravelEnd { t, reason }: TravelEnd) -> Failure {
-    Failure { t, reason, hint: HINT.to_string() }
+fn ended(end: TravelEnd) -> Failure {
+    Failure { t: end.t, reason: end.reason, hint: HINT.to_string() }
 }

@@ -82,9 +82,9 @@ impl Limits {
     }
 
     /// Sets an entry.
-    pub fn set(&mut self, place: (usize, usize), found: Limit) {
-        self.values[place] = found.value;
-        self.uncertainties[place] = found.uncertainty;
+    pub fn set(&mut self, entry: (usize, usize), limit: Limit) {
+        self.values[entry] = limit.value;
+        self.uncertainties[entry] = limit.uncertainty;
     }
 }
 
@@ -100,12 +100,11 @@ pub struct Comparison {
 
 impl Comparison {
     /// The comparison of a model with `k` displacements among its `n` states, and the `rate` of its velocities, 1/s.
-    pub fn new(model: Matrix, measured: Limits, (k, n): (usize, usize), rate: f64) -> Self {
+    pub fn new(model: Matrix, measured: Limits, k: usize, n: usize, rate: f64) -> Self {
         let state = |i: usize| if i < k { 1.0 } else { rate };
-        let largest = |found: &mut dyn Iterator<Item = f64>| found.filter(|x| x.is_finite()).fold(0.0, f64::max);
-        let scaled = |i: usize, j: usize| (model[(i, j)] * state(j) / state(i)).abs();
-        let fastest = largest(&mut (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| scaled(i, j)));
-        let fastest = fastest.max(rate);
+        let largest = |sizes: &mut dyn Iterator<Item = f64>| sizes.filter(|x| x.is_finite()).fold(0.0, f64::max);
+        let entries = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+        let fastest = largest(&mut entries.map(|(i, j)| (model[(i, j)] * state(j) / state(i)).abs())).max(rate);
         let input = |j: usize| {
             let size = largest(&mut (0..n).map(|i| (model[(i, j)] / state(i)).abs()));
             if size > 0.0 { fastest / size } else { 1.0 }
@@ -130,14 +129,15 @@ impl Comparison {
         let mut worst: Option<Deviation> = None;
         let mut largest_uncertainty = 0.0f64;
         for (i, j) in rows.flat_map(|i| columns.clone().map(move |j| (i, j))) {
-            let Ok(found) = self.deviation((i, j), names) else { continue };
-            largest_uncertainty = largest_uncertainty.max(found.relative_uncertainty);
-            let is_worse = |other: &Deviation| (!found.is_right, found.relative) > (!other.is_right, other.relative);
+            let Ok(deviation) = self.deviation(i, j, names) else { continue };
+            largest_uncertainty = largest_uncertainty.max(deviation.relative_uncertainty);
+            let is_worse =
+                |other: &Deviation| (!deviation.is_right, deviation.relative) > (!other.is_right, other.relative);
             if worst.as_ref().is_none_or(is_worse) {
-                worst = Some(found);
+                worst = Some(deviation);
             }
         }
-        worst.map(|found| Deviation { relative_uncertainty: largest_uncertainty, ..found })
+        worst.map(|worst| Deviation { relative_uncertainty: largest_uncertainty, ..worst })
     }
 
     /// Returns the rows of which an entry is not judged, with the first one of each. `names` are as above.
@@ -145,14 +145,14 @@ impl Comparison {
         let [rows, columns] = names;
         let first = |i: usize| {
             let mut entries = columns.iter().enumerate();
-            let (column, reason) = entries.find_map(|(j, name)| Some((name, self.deviation((i, j), names).err()?)))?;
+            let (column, reason) = entries.find_map(|(j, name)| Some((name, self.deviation(i, j, names).err()?)))?;
             Some(Unjudged { row: rows[i].clone(), column: column.clone(), reason })
         };
         (0..rows.len()).filter_map(first).collect()
     }
 
     /// Returns the deviation of an entry with its own uncertainty, or why it is not judged.
-    fn deviation(&self, (i, j): (usize, usize), names: [&[String]; 2]) -> Result<Deviation, Reason> {
+    fn deviation(&self, i: usize, j: usize, names: [&[String]; 2]) -> Result<Deviation, Reason> {
         let scale = self.scales[1][j] / self.scales[0][i];
         let model = self.model[(i, j)];
         let measured = self.measured.values[(i, j)];
@@ -188,7 +188,7 @@ mod tests {
         let uncertainties = Matrix::from_fn(3, 2, |i, _| if i == 2 { uncertainty } else { 1e-12 });
         let limits = Limits { values: whole(measured), uncertainties };
         let rows = ["x", "x'", "y"].map(str::to_string);
-        let comparison = Comparison::new(whole(model), limits, (1, 2), 2.0);
+        let comparison = Comparison::new(whole(model), limits, 1, 2, 2.0);
         let names: [&[String]; 2] = [&rows, &rows[..2]];
         (comparison.worst(2..3, 0..2, names), comparison.unjudged(names))
     }

@@ -2,11 +2,11 @@
 
 use super::deviation::{Comparison, Deviation, Limits};
 use super::limit::limit;
-use super::perturb::Speed;
+use super::subject::Subject;
 use super::{Decay, decay};
 use crate::error::Result;
 use crate::linearize::flow::Bundle;
-use crate::linearize::{Carried, Coordinates, Matrix, State};
+use crate::linearize::{Coordinates, Matrix};
 use crate::math::eigen::expm;
 use crate::tolerances;
 use serde::Serialize;
@@ -30,12 +30,9 @@ pub struct Frozen {
 ///
 /// # Errors
 /// A motion that cannot go on.
-pub fn frozen(
-    start: &State,
-    carried: &Carried,
-    (a, speed): (&Matrix, &Speed),
-    longest: f64,
-) -> Result<(Frozen, Vec<Coordinates>)> {
+pub fn frozen(subject: &Subject, longest: f64) -> Result<(Frozen, Vec<Coordinates>)> {
+    let Subject { start, model, carried, speed, .. } = subject;
+    let a = &model.built.a;
     let rate = speed.usual;
     let steps: Vec<f64> = (0..14).rev().map(|i| longest / f64::from(1 << i)).collect();
     let times: Vec<f64> = steps.iter().map(|h| start.t + h).collect();
@@ -60,10 +57,10 @@ pub fn frozen(
     let steps = steps[..errors.len()].to_vec();
     // Up to here the lowest power of h rules.
     let decay = decay(&steps, &errors, |_| 3e-3, floor);
-    let limit = transition_limit(&carried.start, &steps, &transitions).and_then(|found| {
+    let limit = transition_limit(&carried.start, &steps, &transitions).and_then(|measured| {
         let names = &carried.start.states;
         let n = names.len();
-        let comparison = Comparison::new(a.clone(), found, (carried.start.freedom(), n), rate);
+        let comparison = Comparison::new(a.clone(), measured, carried.start.freedom(), n, rate);
         comparison.worst(0..n, 0..n, [names, names])
     });
     Ok((Frozen { steps, errors, decay, limit }, charts))
@@ -75,10 +72,10 @@ fn transition_limit(start: &Coordinates, steps: &[f64], transitions: &[Matrix]) 
     let first = start.states_of(&start.changes());
     let n = first.nrows();
     let mut limits = Limits::new(n, n);
-    for place in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-        let slopes = transitions.iter().rev().zip(&sizes).map(|(x, h)| (x[place] - first[place]) / h);
-        let rounding = tolerances::TIGHTEST * first[(place.1, place.1)].abs().max(1.0);
-        limits.set(place, limit(&sizes, &slopes.collect::<Vec<f64>>(), 1, rounding));
+    for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+        let slopes = transitions.iter().rev().zip(&sizes).map(|(x, h)| (x[(i, j)] - first[(i, j)]) / h);
+        let rounding = tolerances::TIGHTEST * first[(j, j)].abs().max(1.0);
+        limits.set((i, j), limit(&sizes, &slopes.collect::<Vec<f64>>(), 1, rounding));
     }
     (transitions.len() >= tolerances::FEWEST_CHARTS).then_some(limits)
 }

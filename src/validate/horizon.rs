@@ -1,9 +1,9 @@
 //! For how long a frozen model can be trusted.
 
-use super::perturb::{Norm, Speed};
+use super::subject::Subject;
 use crate::error::Result;
+use crate::linearize::Matrix;
 use crate::linearize::flow::Bundle;
-use crate::linearize::{Carried, Matrix, Minimal, State};
 use crate::math::array::Each;
 use crate::math::eigen::expm;
 use crate::tolerances;
@@ -17,12 +17,8 @@ pub const SHARES: [f64; 2] = [0.01, 0.1];
 ///
 /// # Errors
 /// A motion that cannot go on.
-pub fn horizons(
-    start: &State,
-    (model, carried, norm): (&Minimal, &Carried, &Norm),
-    (x0, speed): (&Matrix, &Speed),
-    end: f64,
-) -> Result<Option<[Option<f64>; 2]>> {
+pub fn horizons(subject: &Subject, x0: &Matrix, end: f64) -> Result<Option<[Option<f64>; 2]>> {
+    let Subject { start, model, carried, norm, speed, .. } = subject;
     let times = times(end, speed.fastest);
     let bundle = Bundle { columns: model.coordinates.changes_of(x0), ..Bundle::of(start) };
     let absolute: Vec<f64> = times.iter().map(|t| start.t + t).collect();
@@ -74,6 +70,6 @@ pub fn horizon(times: &[f64], errors: &[f64], share: f64) -> Option<f64> {
     if low <= 0.0 {
         return Some(times[before] + length * (share - low) / (high - low));
     }
-    let part = (share / low).ln() / (high / low).ln();
-    Some(times[before] * (times[first] / times[before]).powf(part))
+    let fraction = (share / low).ln() / (high / low).ln();
+    Some(times[before] * (times[first] / times[before]).powf(fraction))
 }

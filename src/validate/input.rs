@@ -1,11 +1,11 @@
 //! The response to a small pulse of an input.
 
 use super::Decay;
-use super::perturb::{EPSILONS, Norm};
+use super::perturb::EPSILONS;
+use super::subject::Subject;
 use crate::error::Result;
 use crate::linearize::flow::{Bundle, Pulse};
-use crate::linearize::{Carried, Changes, Coordinates, Matrix, Minimal, State, beside};
-use crate::system::MechanicalSystem;
+use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, beside};
 use serde::Serialize;
 
 /// Steps of the frozen model over a pulse: the error of its fourth-order method is below 1e-9.
@@ -39,13 +39,8 @@ pub(super) enum Pulsed {
 }
 
 /// Compares a smooth pulse of each size with the model and its B.
-pub(super) fn check(
-    system: &dyn MechanicalSystem,
-    start: &State,
-    (model, carried, norm): (&Minimal, &Carried, &Norm),
-    (input, name): (usize, String),
-    width: f64,
-) -> Result<Pulsed> {
+pub(super) fn check(subject: &Subject, input: usize, name: String, width: f64) -> Result<Pulsed> {
+    let Subject { system, start, model, carried, norm, .. } = subject;
     let pulse = Pulse { input, start: start.t, width };
     let lti = response(model, &pulse, width);
     // A unit pulse may move the mechanism by very much or little: sizes are chosen by its effect.
@@ -62,7 +57,7 @@ pub(super) fn check(
     let bundle = Bundle {
         columns: Changes { q: none.clone(), v: none },
         driven: vec![1.0 / size],
-        members: vec![start.clone(); EPSILONS.len()],
+        members: vec![State::clone(start); EPSILONS.len()],
         pushes: amplitudes.clone(),
         pulse: Some(pulse),
         ..Bundle::of(start)
@@ -71,19 +66,21 @@ pub(super) fn check(
     let snapshots = carried.flow(&bundle, &[half, start.t + width])?;
     let charts = carried.charts(&snapshots)?;
     let ([middle, end], [chart, last]) = (&snapshots[..], &charts[..]) else { return Ok(Pulsed::TooSlow) };
-    let errors_ltv = norm.errors(system, end, &end.columns, &EPSILONS);
-    let order_ltv = norm.order(system, end, &EPSILONS, &errors_ltv);
-    let (lti, reached) = match model.built.input_states.orders[input] {
-        2 => (response(model, &pulse, 0.5 * width), lifted(chart, &middle.columns, (input, pulse.jet(half)[0] / size))),
-        _ => (lti, last.states_of(&end.columns)),
+    let errors_ltv = norm.errors(*system, end, &end.columns, &EPSILONS);
+    let order_ltv = norm.order(*system, end, &EPSILONS, &errors_ltv);
+    let (lti, reached) = if model.built.input_states.orders[input] == 2 {
+        let displacement = pulse.jet(half)[0] / size;
+        (response(model, &pulse, 0.5 * width), lifted(chart, &middle.columns, input, displacement))
+    } else {
+        (lti, last.states_of(&end.columns))
     };
     let freedom = chart.freedom();
     let error_lti = norm.states(freedom, &(&lti / size - &reached)) / norm.states(freedom, &reached);
     Ok(Pulsed::Checked(InputCheck { input: name, width, amplitudes, errors_ltv, order_ltv, error_lti }))
 }
 
-/// Returns the states (z, y) of changes while a displacement `u` of a driver is in them.
-fn lifted(chart: &Coordinates, changes: &Changes, (input, u): (usize, f64)) -> Matrix {
+/// Returns the states (z, y) of changes while a displacement `u` of the driver `input` is in them.
+fn lifted(chart: &Coordinates, changes: &Changes, input: usize, u: f64) -> Matrix {
     let shift = chart.lift.s.columns(input, 1) * u;
     chart.states_of(&Changes { q: changes.q.clone(), v: &changes.v - shift })
 }
@@ -94,12 +91,13 @@ fn response(model: &Minimal, pulse: &Pulse, until: f64) -> Matrix {
     let states = &model.built.input_states;
     let order = states.orders[pulse.input];
     let first = states.orders[..pulse.input].iter().sum();
-    let b =
-        beside([&states.a.columns(first, order).clone_owned(), &model.built.b.columns(pulse.input, 1).clone_owned()]);
-    let push = |t: f64| &b * Matrix::from_column_slice(order + 1, 1, &pulse.jet(t)[..=order]);
+    let b = beside(&states.a.columns(first, order).clone_owned(), &model.built.b.columns(pulse.input, 1).clone_owned());
     let mut x = Matrix::zeros(model.built.a.nrows(), 1);
     let h = until / PULSE_STEPS as f64;
-    let slope = |x: &Matrix, s: f64| -> Matrix { &model.built.a * x + push(pulse.start + s) };
+    let slope = |x: &Matrix, s: f64| -> Matrix {
+        let inputs = Matrix::from_column_slice(order + 1, 1, &pulse.jet(pulse.start + s)[..=order]);
+        &model.built.a * x + &b * inputs
+    };
     for i in 0..PULSE_STEPS {
         let s = i as f64 * h;
         let k1 = slope(&x, s);

@@ -12,6 +12,7 @@
 use super::deviation::{Comparison, Deviation, Limits, Unjudged};
 use super::limit::{Limit, limit};
 use super::probe::{Probe, Shift};
+use super::subject::Subject;
 use crate::error::Result;
 use crate::linearize::{Changes, Coordinates, Matrix, Minimal, State, Variation, beside};
 use crate::math::bounds;
@@ -86,17 +87,17 @@ struct Bench<'m, 'a> {
 /// # Errors
 /// Outputs without derivatives.
 pub fn measure(
-    (system, start): (&dyn MechanicalSystem, &State),
-    (variation, model): (&mut Variation, &Minimal),
+    subject: &Subject,
+    variation: &mut Variation,
     along: &Along,
-    (rate, has_inputs): (f64, bool),
-    is_over: &dyn Fn() -> bool,
+    has_inputs: bool,
 ) -> Result<Option<Measured>> {
+    let Subject { system, start, model, norm, is_over, .. } = subject;
     if along.charts.len() < tolerances::FEWEST_CHARTS {
         return Ok(None);
     }
-    let mut bench = Bench::new(variation, model, rate, has_inputs);
-    let Some(responses) = bench.responses(system, start, is_over) else { return Ok(None) };
+    let mut bench = Bench::new(variation, model, norm.rate, has_inputs);
+    let Some(responses) = bench.responses(*system, start, *is_over) else { return Ok(None) };
     let motion = bench.motion(along);
     Ok(Some(bench.compare(responses, motion)?))
 }
@@ -116,14 +117,14 @@ impl<'m, 'a> Bench<'m, 'a> {
         columns.extend(inputs().flat_map(|(j, (name, &order))| (0..order).map(move |i| column(name, j, i, false))));
         columns.extend(inputs().map(|(j, (name, &order))| column(name, j, order, true)));
         let mut changes = coordinates.changes();
-        let own = changes.q.ncols();
+        let states = changes.q.ncols();
         changes.q = changes.q.resize_horizontally(columns.len(), 0.0);
         changes.v = changes.v.resize_horizontally(columns.len(), 0.0);
-        for (place, column) in columns.iter().enumerate().skip(own).filter(|(_, column)| !column.is_input) {
+        for (index, column) in columns.iter().enumerate().skip(states).filter(|(_, column)| !column.is_input) {
             let lifted = column.input.and_then(|(j, i)| coordinates.lift.along(i, j));
             if let Some([dq, dv]) = lifted {
-                changes.q.column_mut(place).copy_from(&dq);
-                changes.v.column_mut(place).copy_from(&dv);
+                changes.q.column_mut(index).copy_from(&dq);
+                changes.v.column_mut(index).copy_from(&dv);
             }
         }
         Bench { variation, model, rate, columns, changes }
@@ -143,15 +144,16 @@ impl<'m, 'a> Bench<'m, 'a> {
         // Extrapolation needs the first powers only.
         let reach = 0.1 * system.facts().length.min(1.0);
         let mut tables = Vec::new();
-        for place in 0..self.columns.len() {
+        for index in 0..self.columns.len() {
             if is_over() {
                 return None;
             }
-            let shift = self.shift(place);
-            let unit = self.size(place);
+            let shift = self.shift(index);
+            let unit = self.size(index);
             let middle = value(&shift, 0.0)?;
             let mut slope = |eps: f64| {
-                let [above, below] = [value(&shift, eps)?, value(&shift, -eps)?];
+                let above = value(&shift, eps)?;
+                let below = value(&shift, -eps)?;
                 let even = (&above + &below - &middle * 2.0) / (2.0 * eps);
                 Some((eps, (above - below) / (2.0 * eps), even))
             };
@@ -163,20 +165,20 @@ impl<'m, 'a> Bench<'m, 'a> {
         }
         let mut limits = Limits::new(rows, self.columns.len());
         for row in 0..rows {
-            let found = |slopes: &[(f64, Matrix, Matrix)], rounding: f64| {
+            let extrapolated = |slopes: &[(f64, Matrix, Matrix)], rounding: f64| {
                 let (sizes, values): (Vec<f64>, Vec<f64>) =
                     slopes.iter().map(|(eps, slope, _)| (*eps, slope[row])).unzip();
                 limit(&sizes, &values, 2, rounding)
             };
             // The round-off of the scene, from differences so small that they are nothing else.
             let noise = tables.iter().flat_map(|(slopes, tiny)| {
-                let rough = found(slopes, 0.0).value;
+                let rough = extrapolated(slopes, 0.0).value;
                 tiny.iter().map(move |(eps, slope, _)| (slope[row] - rough).abs() * eps)
             });
             // A few differences do not show the largest one.
             let rounding = 10.0 * bounds(noise.filter(|x| x.is_finite())).1.max(0.0);
             for (column, (slopes, _)) in tables.iter().enumerate() {
-                let limit = found(slopes, rounding);
+                let limit = extrapolated(slopes, rounding);
                 // A change that is mostly even, as of a kinetic energy near rest, rounds by its even part.
                 let even = slopes.iter().map(|(_, _, even)| even[row].abs()).fold(0.0, f64::max);
                 let rounded = limit.uncertainty + f64::EPSILON * even;
@@ -187,26 +189,26 @@ impl<'m, 'a> Bench<'m, 'a> {
         Some(limits)
     }
 
-    fn shift(&self, place: usize) -> Shift<'_> {
+    fn shift(&self, index: usize) -> Shift<'_> {
         let n = self.changes.q.nrows();
-        let own = place * n..(place + 1) * n;
+        let range = index * n..(index + 1) * n;
         let jet = |i: usize| std::array::from_fn(|derivative| f64::from(u8::from(derivative == i)));
         Shift {
-            q: &self.changes.q.as_slice()[own.clone()],
-            v: &self.changes.v.as_slice()[own],
-            input: self.columns[place].input.map(|(j, i)| (j, jet(i))),
+            q: &self.changes.q.as_slice()[range.clone()],
+            v: &self.changes.v.as_slice()[range],
+            input: self.columns[index].input.map(|(j, i)| (j, jet(i))),
         }
     }
 
     /// Returns the size of a column: its largest change of q, of v in a unit of time, or of v' in the square of it.
-    fn size(&self, place: usize) -> f64 {
+    fn size(&self, index: usize) -> f64 {
         let Minimal { coordinates, built } = self.model;
         let largest = |matrix: &Matrix, column: usize| matrix.column(column).amax();
-        let moved = largest(&self.changes.q, place).max(largest(&self.changes.v, place) / self.rate);
-        let pushed = self.columns[place].input.map_or(0.0, |(j, i)| {
+        let moved = largest(&self.changes.q, index).max(largest(&self.changes.v, index) / self.rate);
+        let pushed = self.columns[index].input.map_or(0.0, |(j, i)| {
             let first = built.input_states.orders[..j].iter().sum::<usize>();
             let rates =
-                if self.columns[place].is_input { built.b.column(j) } else { built.input_states.a.column(first + i) };
+                if self.columns[index].is_input { built.b.column(j) } else { built.input_states.a.column(first + i) };
             (&coordinates.r * rates.rows(coordinates.freedom(), coordinates.r.ncols())).amax() / self.rate.powi(2)
         });
         Some(moved.max(pushed)).filter(|size| *size > 0.0 && size.is_finite()).unwrap_or(1.0)
@@ -233,10 +235,9 @@ impl<'m, 'a> Bench<'m, 'a> {
         let speeds = &absolute * (v.abs() + tilt.abs() * &sizes);
         for row in 0..start.nrows() {
             for column in 0..start.ncols() {
-                let place = (row, column);
-                let size = if row < k { sizes[place] } else { speeds[(row - k, column)] };
-                let values: Vec<f64> = slopes.iter().map(|slope| slope[place]).collect();
-                limits.set(place, limit(along.steps, &values, 1, tolerances::FLOW_RTOL * size));
+                let size = if row < k { sizes[(row, column)] } else { speeds[(row - k, column)] };
+                let values: Vec<f64> = slopes.iter().map(|slope| slope[(row, column)]).collect();
+                limits.set((row, column), limit(along.steps, &values, 1, tolerances::FLOW_RTOL * size));
             }
         }
         limits
@@ -245,10 +246,10 @@ impl<'m, 'a> Bench<'m, 'a> {
     /// Returns u at h after the start for each column, n_u rows.
     fn inputs(&self, h: f64) -> Matrix {
         let mut u = Matrix::zeros(self.model.coordinates.lift.s.ncols(), self.columns.len());
-        for (place, column) in self.columns.iter().enumerate() {
+        for (index, column) in self.columns.iter().enumerate() {
             match column.input {
-                Some((j, 0)) => u[(j, place)] = 1.0,
-                Some((j, 1)) => u[(j, place)] = h,
+                Some((j, 0)) => u[(j, index)] = 1.0,
+                Some((j, 1)) => u[(j, index)] = h,
                 _ => {}
             }
         }
@@ -258,14 +259,14 @@ impl<'m, 'a> Bench<'m, 'a> {
     /// Adds what outputs have of the inputs directly, which is given and not measured.
     fn add_direct(&mut self, measured: &mut Matrix, first: usize) -> Result<()> {
         let direct = self.variation.outputs()?;
-        for (place, column) in self.columns.iter().enumerate() {
-            let own = match column.input {
+        for (index, column) in self.columns.iter().enumerate() {
+            let slopes = match column.input {
                 Some((j, 0)) => direct.u.column(j),
                 Some((j, 1)) => direct.udot.column(j),
                 _ => continue,
             };
-            let mut sum = measured.view_mut((first, place), (own.nrows(), 1));
-            sum += own;
+            let mut sum = measured.view_mut((first, index), (slopes.nrows(), 1));
+            sum += slopes;
         }
         Ok(())
     }
@@ -290,24 +291,24 @@ impl<'m, 'a> Bench<'m, 'a> {
         let mut values = join(motion.values, &responses.values);
         self.add_direct(&mut values, n)?;
         let measured = Limits { values, uncertainties: join(motion.uncertainties, &responses.uncertainties) };
-        let wide = |own: &Matrix, states: &Matrix, inputs: &Matrix| {
-            let all = beside([own, &beside([states, inputs])]);
-            all.columns(0, self.columns.len()).clone_owned()
+        let wide = |states: &Matrix, input_states: &Matrix, inputs: &Matrix| {
+            let whole = beside(states, &beside(input_states, inputs));
+            whole.columns(0, self.columns.len()).clone_owned()
         };
         let states = &built.input_states;
         let model = stack(wide(&built.a, &states.a, &built.b), &wide(&built.c, &states.c, &built.d));
-        let comparison = Comparison::new(model, measured, (k, n), self.rate);
+        let comparison = Comparison::new(model, measured, k, n, self.rate);
         let rows = [built.states.clone(), self.variation.names().1].concat();
         let columns: Vec<String> = self.columns.iter().map(|column| column.name.clone()).collect();
-        let own = self.columns.iter().filter(|column| !column.is_input).count();
+        let state_count = self.columns.iter().filter(|column| !column.is_input).count();
         let block =
             |rows_of: Range<usize>, columns_of: Range<usize>| comparison.worst(rows_of, columns_of, [&rows, &columns]);
-        let all = n + outputs;
+        let row_count = n + outputs;
         Ok(Measured {
-            a: block(0..n, 0..own),
-            b: block(0..n, own..columns.len()),
-            c: block(n..all, 0..own),
-            d: block(n..all, own..columns.len()),
+            a: block(0..n, 0..state_count),
+            b: block(0..n, state_count..columns.len()),
+            c: block(n..row_count, 0..state_count),
+            d: block(n..row_count, state_count..columns.len()),
             unjudged: comparison.unjudged([&rows, &columns]),
         })
     }

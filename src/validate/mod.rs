@@ -21,6 +21,7 @@ mod regular;
 mod run;
 mod sequence;
 mod span;
+mod subject;
 
 pub use deviation::{Deviation, Entry, Reason, Unjudged};
 pub use direction::Direction;

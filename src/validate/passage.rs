@@ -1,9 +1,10 @@
 //! Perturbed motions through changes of form of the equations, against the variational equations with their jumps there.
 
 use super::Decay;
-use super::perturb::{Norm, are_alike, moved};
+use super::perturb::{are_alike, moved};
+use super::subject::Subject;
 use crate::linearize::flow::{Bundle, flow_through};
-use crate::linearize::{Matrix, Minimal, State};
+use crate::linearize::{Matrix, State};
 use crate::simulate::{Method, Sink, Span, Stop, simulate};
 use crate::system::MechanicalSystem;
 use crate::tolerances;
@@ -26,33 +27,30 @@ pub struct Passage {
     pub order: Decay,
 }
 
-/// Perturbs `start` along x0 and compares at the time `t`; none where the motion does not come through, or stays on a
+/// Perturbs the start along x0 and compares at the time `t`; none where the motion does not come through, or stays on a
 /// threshold.
-pub(super) fn passage(
-    system: &dyn MechanicalSystem,
-    start: &State,
-    (model, norm): (&Minimal, &Norm),
-    (x0, t): (&Matrix, f64),
-    is_over: &dyn Fn() -> bool,
-) -> Option<Passage> {
+pub(super) fn passage(subject: &Subject, x0: &Matrix, t: f64) -> Option<Passage> {
+    let Subject { system, start, model, norm, is_over, .. } = subject;
     let bundle = Bundle { columns: model.coordinates.changes_of(x0), ..Bundle::of(start) };
     let mut predicted = None;
-    flow_through(system, &bundle, &[t], |snapshot| {
+    flow_through(*system, &bundle, &[t], |snapshot| {
         predicted = Some(snapshot.clone());
         true
     })
     .ok()?;
     let mut end = predicted?;
-    end.motion = reached(system, start, t, is_over)?;
+    end.motion = reached(*system, start, t, *is_over)?;
     let perturbed = |&eps: &f64| {
-        let member = moved(system, start, &model.coordinates, x0, eps)?;
-        let own = are_alike(system, start, &member).then(|| reached(system, &member, t, is_over))?;
-        own.map(|state| (eps, state))
+        let member = moved(*system, start, &model.coordinates, x0, eps)?;
+        if !are_alike(*system, start, &member) {
+            return None;
+        }
+        Some((eps, reached(*system, &member, t, *is_over)?))
     };
     let (epsilons, members): (Vec<f64>, Vec<State>) = EPSILONS.iter().filter_map(perturbed).unzip();
     end.members = members;
-    let errors = norm.errors(system, &end, &end.columns, &epsilons);
-    let order = norm.order(system, &end, &epsilons, &errors);
+    let errors = norm.errors(*system, &end, &end.columns, &epsilons);
+    let order = norm.order(*system, &end, &epsilons, &errors);
     Some(Passage { t, epsilons, errors, order })
 }
 

@@ -79,20 +79,21 @@ pub struct Norm {
 }
 
 impl Norm {
-    pub fn size(&self, (dq, dv): (&[f64], &[f64])) -> f64 {
+    pub fn size(&self, dq: &[f64], dv: &[f64]) -> f64 {
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
         (square(dq) + square(dv) / self.rate.powi(2)).sqrt()
     }
 
-    /// Returns |change - eps column|.
-    fn off(&self, (dq, dv): (&[f64], &[f64]), (cq, cv): (&[f64], &[f64]), eps: f64) -> f64 {
-        let rest = |x: &[f64], c: &[f64]| x.iter().zip(c).map(|(x, c)| x - eps * c).collect::<Vec<f64>>();
-        self.size((&rest(dq, cq), &rest(dv, cv)))
+    /// Returns |(dq, dv) - eps column|.
+    fn off(&self, dq: &[f64], dv: &[f64], column: &Changes, eps: f64) -> f64 {
+        let rest = |x: &[f64], c: &Matrix| x.iter().zip(c).map(|(x, c)| x - eps * c).collect::<Vec<f64>>();
+        self.size(&rest(dq, &column.q), &rest(dv, &column.v))
     }
 
     /// Returns the norm of states (z, y), of which the first are displacements.
     pub fn states(&self, freedom: usize, x: &Matrix) -> f64 {
-        self.size(x.as_slice().split_at(freedom))
+        let (z, y) = x.as_slice().split_at(freedom);
+        self.size(z, y)
     }
 
     /// Returns |difference of the motions - eps changes| of each perturbed motion.
@@ -105,7 +106,7 @@ impl Norm {
     ) -> Vec<f64> {
         let error = |(member, eps): (&State, &f64)| {
             let [dq, dv] = difference(system, &end.motion, member);
-            self.off((&dq, &dv), (changes.q.as_slice(), changes.v.as_slice()), *eps)
+            self.off(&dq, &dv, changes, *eps)
         };
         end.members.iter().zip(epsilons).map(error).collect()
     }
@@ -113,11 +114,11 @@ impl Norm {
     /// Returns the order of such errors in eps, without those of motions that ended on other pieces of the equations.
     /// The largest of those below the square root of round-off is taken for rounding.
     pub fn order(&self, system: &dyn MechanicalSystem, end: &Snapshot, epsilons: &[f64], errors: &[f64]) -> Decay {
-        let own = |(error, member): (&f64, &State)| {
+        let comparable = |(error, member): (&f64, &State)| {
             if are_alike(system, &end.motion, member) { *error } else { f64::NAN }
         };
-        let errors: &[f64] = &errors.iter().zip(&end.members).map(own).collect::<Vec<f64>>();
-        let size = self.size((end.columns.q.as_slice(), end.columns.v.as_slice()));
+        let errors: &[f64] = &errors.iter().zip(&end.members).map(comparable).collect::<Vec<f64>>();
+        let size = self.size(end.columns.q.as_slice(), end.columns.v.as_slice());
         let rounding =
             errors.iter().zip(epsilons).filter(|(error, eps)| error.is_finite() && **eps < ROOT_OF_ROUND_OFF);
         let floor = rounding.map(|(error, _)| *error).fold(ROUNDED_ZERO, f64::max);

@@ -68,7 +68,7 @@ impl<'a> Probe<'a> {
         let mut v: Vec<f64> = self.start.v.iter().zip(scaled(shift.v)).map(|(v, dv)| v + dv).collect();
         // A velocity or a force leaves the constraints of position as they are.
         let is_displaced = shift.q.iter().any(|dq| *dq != 0.0) || self.driven(input, 0).is_some();
-        self.close(&mut q, &mut v, (input, is_displaced))?;
+        self.close(&mut q, &mut v, input, is_displaced)?;
         self.solve(&q, &v, input)?;
         let Dynamics { system, vdot, lambda, scratch, .. } = &mut self.dynamics;
         let mut outputs = vec![0.0; self.outputs];
@@ -108,7 +108,8 @@ impl<'a> Probe<'a> {
         &mut self,
         q: &mut [f64],
         v: &mut [f64],
-        (input, is_displaced): (Option<(usize, [f64; 3])>, bool),
+        input: Option<(usize, [f64; 3])>,
+        is_displaced: bool,
     ) -> Result<(), StepError> {
         if self.residuals[0].is_empty() {
             return Ok(());

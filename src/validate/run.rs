@@ -4,13 +4,13 @@ use super::frozen::frozen;
 use super::input::{self, Pulsed};
 use super::measured::{Along, Measured, measure};
 use super::passage::passage;
-use super::perturb::{Norm, Speed};
 pub use super::regular::Event;
 use super::regular::{End, end};
 use super::sequence::sequence;
-use super::{Decay, Deviation, Entry, Frozen, InputCheck, PerturbationSequence, Settings};
+use super::subject::Subject;
+use super::{Decay, Deviation, Direction, Entry, Frozen, InputCheck, PerturbationSequence, Settings};
 use crate::error::{Result, percent, short_list, significant};
-use crate::linearize::{Built, Carried, Chart, State, Variation, minimal, refuse_large};
+use crate::linearize::{Built, Coordinates, State, Variation, refuse_large};
 use crate::system::{Column, MechanicalSystem};
 use crate::tolerances;
 use serde::Serialize;
@@ -95,73 +95,30 @@ pub fn validate_changed(
 ) -> Result<Validation> {
     refuse_large(system.dimensions().v)?;
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
-    let chart = settings.chart.clone().unwrap_or_else(|| Chart::preferred(&mut variation));
-    let mut model = minimal(&mut variation, &chart)?;
-    let name = model.coordinates.name.clone();
-    // The plain projection has no chart that follows the motion; its states are those of the mass-orthogonal one.
-    let is_projected = chart == Chart::Frozen;
-    let chart = if is_projected { Chart::MassOrthogonal } else { chart };
-    let carried = Carried::new(&mut variation, &chart, is_over)?;
-    model.coordinates = carried.start.clone();
-    let speed = Speed::of(&model)?;
-    change(&mut model.built);
-    let norm = Norm { rate: speed.usual };
-    let wished = settings.horizon.unwrap_or(speed.period());
-    let End { singular, event } = end(system, start, wished)?;
-    let before = |t: f64, part: f64| part * (t - start.t);
-    // Nearer, terms of second order grow with the inverse of the distance.
-    let regular = singular.map_or(wished, |t| before(t, 0.5));
-    let event = event.filter(|event| event.t - start.t < regular);
-    // Small perturbations are then still before it.
-    let smooth = event.as_ref().map_or(regular, |event| before(event.t, 0.9));
-    let followed = regular.min(smooth);
-    let through = event.as_ref().map(|_| start.t + regular);
-    let mut sequences = Vec::new();
+    let subject = Subject::new(&mut variation, start, settings, is_over, change)?;
+    let reach = Reach::new(&subject, settings)?;
     let mut cut = Vec::new();
-    for direction in &settings.directions {
-        if is_over() && !sequences.is_empty() {
-            cut.push(format!("no motion was followed along {}", direction.name()));
-            continue;
-        }
-        let x0 = direction.state(&model.coordinates, norm.rate)?;
-        if model.built.a.nrows() > 0 {
-            let own = (direction.name(), followed);
-            let found = sequence(system, start, (&model, &carried, &norm), (&x0, &speed), own)?;
-            let passage = through.and_then(|t| passage(system, start, (&model, &norm), (&x0, t), is_over));
-            sequences.push(PerturbationSequence { passage, ..found });
-        }
-    }
-    cut.extend(sequences.iter().filter_map(|sequence| shortened(sequence, followed)));
-    let longest = followed.min(1.0 / speed.fastest.max(f64::MIN_POSITIVE));
-    let (frozen, mut charts) = frozen(start, &carried, (&model.built.a, &speed), longest)?;
-    charts.reverse();
-    let steps: Vec<f64> = frozen.steps.iter().rev().copied().collect();
-    let along = Along { steps: &steps, charts: &charts };
-    let scale = (norm.rate, settings.inputs);
-    let found = measure((system, start), (&mut variation, &model), &along, scale, is_over)?;
-    cut.extend(found.is_none().then(|| "A, B, C and D were not compared".to_string()));
-    let measured = found.unwrap_or_default();
-    let mut inputs = Vec::new();
+    let sequences = sequences(&subject, &settings.directions, &reach, &mut cut)?;
+    let longest = reach.followed.min(1.0 / subject.speed.fastest.max(f64::MIN_POSITIVE));
+    let (frozen, charts) = frozen(&subject, longest)?;
+    let measured = measured(&subject, &mut variation, &frozen.steps, charts, settings.inputs)?;
+    cut.extend(measured.is_none().then(|| "A, B, C and D were not compared".to_string()));
+    let measured = measured.unwrap_or_default();
     let mut unchecked = Vec::new();
-    for (index, Column { name, .. }) in
-        system.facts().inputs.clone().into_iter().enumerate().filter(|_| settings.inputs)
-    {
-        let pulse = (index, name.clone());
-        match input::check(system, start, (&model, &carried, &norm), pulse, 0.1 * followed)? {
-            Pulsed::Checked(found) => inputs.push(found),
-            Pulsed::Nothing => unchecked.push(name),
-            Pulsed::TooSlow => cut.push(format!("the input `{name}` was not checked")),
-        }
-    }
-    let found = Evidence { sequences: &sequences, inputs: &inputs, measured: &measured, event: &event, is_projected };
-    let verdict = judge(&found);
+    let inputs =
+        if settings.inputs { inputs(&subject, 0.1 * reach.followed, &mut unchecked, &mut cut)? } else { Vec::new() };
+    let Reach { followed, singular, event, .. } = reach;
+    let is_projected = subject.is_projected;
+    let evidence =
+        Evidence { sequences: &sequences, inputs: &inputs, measured: &measured, event: &event, is_projected };
+    let verdict = judge(&evidence);
     Ok(Validation {
         t: start.t,
-        chart: name,
+        chart: subject.chart,
         followed: sequences.iter().map(|sequence| reached(sequence, followed)).reduce(f64::max).unwrap_or(followed),
         singular,
         event,
-        rate: norm.rate,
+        rate: subject.norm.rate,
         sequences,
         frozen,
         measured,
@@ -170,6 +127,89 @@ pub fn validate_changed(
         cut,
         verdict,
     })
+}
+
+/// How far motions are followed.
+struct Reach {
+    /// Time over which they are followed, s.
+    followed: f64,
+    /// Time of the first singular state, s.
+    singular: Option<f64>,
+    /// The first change of form before it.
+    event: Option<Event>,
+    /// Time at which motions that passed the event are compared, s.
+    through: Option<f64>,
+}
+
+impl Reach {
+    fn new(subject: &Subject, settings: &Settings) -> Result<Self> {
+        let start = subject.start;
+        let wished = settings.horizon.unwrap_or(subject.speed.period());
+        let End { singular, event } = end(subject.system, start, wished)?;
+        // Nearer, terms of second order grow with the inverse of the distance.
+        let regular = singular.map_or(wished, |t| 0.5 * (t - start.t));
+        let event = event.filter(|event| event.t - start.t < regular);
+        // Small perturbations are then still before it.
+        let smooth = event.as_ref().map_or(regular, |event| 0.9 * (event.t - start.t));
+        let through = event.as_ref().map(|_| start.t + regular);
+        Ok(Reach { followed: regular.min(smooth), singular, event, through })
+    }
+}
+
+/// Returns the perturbed motions along each direction. Adds to `cut` what was not followed for want of time.
+fn sequences(
+    subject: &Subject,
+    directions: &[Direction],
+    reach: &Reach,
+    cut: &mut Vec<String>,
+) -> Result<Vec<PerturbationSequence>> {
+    let mut sequences = Vec::new();
+    for direction in directions {
+        if (subject.is_over)() && !sequences.is_empty() {
+            cut.push(format!("no motion was followed along {}", direction.name()));
+            continue;
+        }
+        let x0 = direction.state(&subject.model.coordinates, subject.norm.rate)?;
+        if subject.model.built.a.nrows() > 0 {
+            let sequence = sequence(subject, &x0, direction.name(), reach.followed)?;
+            let passage = reach.through.and_then(|t| passage(subject, &x0, t));
+            sequences.push(PerturbationSequence { passage, ..sequence });
+        }
+    }
+    cut.extend(sequences.iter().filter_map(|sequence| shortened(sequence, reach.followed)));
+    Ok(sequences)
+}
+
+/// Measures A, B, C and D with the `charts` at increasing steps; none if the time is over before.
+fn measured(
+    subject: &Subject,
+    variation: &mut Variation,
+    steps: &[f64],
+    mut charts: Vec<Coordinates>,
+    has_inputs: bool,
+) -> Result<Option<Measured>> {
+    charts.reverse();
+    let steps: Vec<f64> = steps.iter().rev().copied().collect();
+    measure(subject, variation, &Along { steps: &steps, charts: &charts }, has_inputs)
+}
+
+/// Returns the check of each input by a pulse of this width. Adds to `unchecked` the names of inputs that move nothing,
+/// and to `cut` those for which the time was over.
+fn inputs(
+    subject: &Subject,
+    width: f64,
+    unchecked: &mut Vec<String>,
+    cut: &mut Vec<String>,
+) -> Result<Vec<InputCheck>> {
+    let mut inputs = Vec::new();
+    for (index, Column { name, .. }) in subject.system.facts().inputs.iter().enumerate() {
+        match input::check(subject, index, name.clone(), width)? {
+            Pulsed::Checked(check) => inputs.push(check),
+            Pulsed::Nothing => unchecked.push(name.clone()),
+            Pulsed::TooSlow => cut.push(format!("the input `{name}` was not checked")),
+        }
+    }
+    Ok(inputs)
 }
 
 /// The time over which a motion was followed: all that was asked for, unless the budget ended it.

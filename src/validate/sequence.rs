@@ -1,14 +1,14 @@
 //! Perturbations of many sizes along one direction, simulated and predicted.
 
 use super::horizon::{SHARES, horizon, horizons};
-use super::perturb::{EPSILONS, Norm, Speed, are_alike, difference, moved};
+use super::perturb::{EPSILONS, are_alike, difference, moved};
+use super::subject::Subject;
 use super::{Decay, Passage};
 use crate::error::{Error, Result};
 use crate::linearize::flow::{Bundle, Snapshot};
-use crate::linearize::{Carried, Matrix, Minimal, State};
+use crate::linearize::{Matrix, State};
 use crate::math::array::Each;
 use crate::math::eigen::expm;
-use crate::system::MechanicalSystem;
 use serde::Serialize;
 
 /// Perturbations along one direction.
@@ -63,15 +63,13 @@ const SHOWN: f64 = 1.1e-2;
 
 /// The perturbed motions and their predictions.
 struct Followed<'a> {
-    system: &'a dyn MechanicalSystem,
-    norm: &'a Norm,
+    subject: &'a Subject<'a>,
     epsilons: Vec<f64>,
     /// True for each perturbed start that is on the same pieces of the equations.
     alike: Vec<bool>,
     /// The first time asked for, s.
     first: f64,
     times: Vec<f64>,
-    carried: &'a Carried<'a>,
     snapshots: Vec<Snapshot>,
     /// The states of the perturbation at each time, by the variational equations.
     states: Vec<Matrix>,
@@ -79,30 +77,30 @@ struct Followed<'a> {
     predicted: Vec<Matrix>,
 }
 
-/// Perturbs `start` along x0 and follows perturbations of all sizes for a time.
+/// Perturbs the start along x0, the state of `direction`, and follows perturbations of all sizes for a time.
 pub(super) fn sequence(
-    system: &dyn MechanicalSystem,
-    start: &State,
-    (model, carried, norm): (&Minimal, &Carried, &Norm),
-    (x0, speed): (&Matrix, &Speed),
-    (direction, duration): (String, f64),
+    subject: &Subject,
+    x0: &Matrix,
+    direction: String,
+    duration: f64,
 ) -> Result<PerturbationSequence> {
-    let followed = follow(system, start, (model, carried, norm), x0, duration)?;
+    let Subject { system, carried, norm, .. } = subject;
+    let followed = follow(subject, x0, duration)?;
     let Some(end) = followed.snapshots.last() else {
         return Err(Error::input(format!("no perturbed motion came to {:.1e} s in the time", followed.first))
             .hint("give more time by --budget, or a shorter --horizon"));
     };
     let last = &followed.predicted[followed.snapshots.len() - 1];
-    let errors_ltv = norm.errors(system, end, &end.columns, &followed.epsilons);
+    let errors_ltv = norm.errors(*system, end, &end.columns, &followed.epsilons);
     let chart = carried.charts(std::slice::from_ref(end))?.remove(0);
-    let errors_lti = norm.errors(system, end, &chart.changes_of(last), &followed.epsilons);
+    let errors_lti = norm.errors(*system, end, &chart.changes_of(last), &followed.epsilons);
     let smooth = errors_ltv.iter().zip(&followed.alike).map(|(error, alike)| if *alike { *error } else { f64::NAN });
-    let order_ltv = norm.order(system, end, &followed.epsilons, &smooth.collect::<Vec<f64>>());
+    let order_ltv = norm.order(*system, end, &followed.epsilons, &smooth.collect::<Vec<f64>>());
     let drift_lti = followed.drift();
     let coarse = SHARES.each(|share| horizon(&followed.times, &drift_lti, share));
     let passed = followed.times.iter().zip(&drift_lti).find(|(_, error)| **error > SHARES[1]);
     let until = passed.map_or(duration, |(t, _)| *t).min(*followed.times.last().unwrap_or(&duration));
-    let horizons = horizons(start, (model, carried, norm), (x0, speed), until)?.unwrap_or(coarse);
+    let horizons = horizons(subject, x0, until)?.unwrap_or(coarse);
     let (curves, curve_epsilon) = followed.curves();
     let Followed { epsilons, times, .. } = followed;
     Ok(PerturbationSequence {
@@ -120,17 +118,12 @@ pub(super) fn sequence(
     })
 }
 
-fn follow<'a>(
-    system: &'a dyn MechanicalSystem,
-    start: &State,
-    (model, carried, norm): (&Minimal, &'a Carried, &'a Norm),
-    x0: &Matrix,
-    duration: f64,
-) -> Result<Followed<'a>> {
+fn follow<'a>(subject: &'a Subject<'a>, x0: &Matrix, duration: f64) -> Result<Followed<'a>> {
+    let Subject { system, start, model, carried, .. } = subject;
     let coordinates = &model.coordinates;
-    let perturbed = |&eps: &f64| moved(system, start, coordinates, x0, eps).map(|state| (eps, state));
+    let perturbed = |&eps: &f64| moved(*system, start, coordinates, x0, eps).map(|state| (eps, state));
     let (epsilons, members): (Vec<f64>, Vec<State>) = EPSILONS.iter().filter_map(perturbed).unzip();
-    let alike = members.iter().map(|member| are_alike(system, start, member)).collect();
+    let alike = members.iter().map(|member| are_alike(*system, start, member)).collect();
     let columns = coordinates.changes_of(x0);
     let bundle = Bundle { columns, members, ..Bundle::of(start) };
     let mut times: Vec<f64> = (1..=ROWS).map(|i| duration * i as f64 / ROWS as f64).collect();
@@ -141,30 +134,32 @@ fn follow<'a>(
     let mut predicted = vec![&step * x0];
     (1..ROWS).for_each(|i| predicted.push(&step * &predicted[i - 1]));
     times.truncate(snapshots.len());
-    Ok(Followed { system, norm, epsilons, alike, first, times, carried, snapshots, states, predicted })
+    Ok(Followed { subject, epsilons, alike, first, times, snapshots, states, predicted })
 }
 
 impl Followed<'_> {
     /// Returns the relative error of the frozen model at each time.
     fn drift(&self) -> Vec<f64> {
-        let size = |x: &Matrix| self.norm.states(self.carried.start.freedom(), x);
+        let Subject { carried, norm, .. } = self.subject;
+        let size = |x: &Matrix| norm.states(carried.start.freedom(), x);
         self.states.iter().zip(&self.predicted).map(|(ltv, lti)| size(&(ltv - lti)) / size(ltv)).collect()
     }
 
     /// Returns the curves that move most, and the size of their perturbation.
     fn curves(&self) -> (Vec<Curve>, f64) {
+        let Subject { system, carried, .. } = self.subject;
         let member = self.epsilons.iter().position(|eps| *eps <= SHOWN).unwrap_or(0);
         let Some(&eps) = self.epsilons.get(member) else { return (Vec::new(), 0.0) };
         let column = |i: usize| self.snapshots.iter().map(move |snapshot| snapshot.columns.q[(i, 0)]);
-        let largest = |i: usize| column(i).fold(0.0f64, |most, x| most.max(x.abs()));
-        let mut order: Vec<usize> = (0..self.carried.start.r.nrows()).collect();
+        let largest = |i: usize| column(i).fold(0.0f64, |largest, x| largest.max(x.abs()));
+        let mut order: Vec<usize> = (0..carried.start.r.nrows()).collect();
         order.sort_by(|&i, &j| largest(j).total_cmp(&largest(i)));
         let pairs = self.snapshots.iter().map(|snapshot| (&snapshot.motion, &snapshot.members[member]));
         let simulated: Vec<Vec<f64>> =
-            pairs.map(|(motion, member)| difference(self.system, motion, member)).map(|[dq, _]| dq).collect();
-        let freedom = self.carried.start.freedom();
+            pairs.map(|(motion, member)| difference(*system, motion, member)).map(|[dq, _]| dq).collect();
+        let freedom = carried.start.freedom();
         let frozen = |direction: usize, snapshot: &Snapshot, x: &Matrix| {
-            let row = self.carried.basis(snapshot).view((direction, 0), (1, freedom));
+            let row = carried.basis(snapshot).view((direction, 0), (1, freedom));
             eps * (row * x.rows(0, freedom))[0]
         };
         let predicted = || self.snapshots.iter().zip(&self.predicted);

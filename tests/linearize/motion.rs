@@ -54,7 +54,7 @@ fn frozen_exponential_is_of_second_order_in_constant_charts() {
 #[test]
 fn volumes_shrink_with_the_damping() {
     let start = state("double_pendulum_N1");
-    let found = lyapunov(&DoublePendulum, &start, (20.0, 0.25), |_| {}).unwrap();
+    let found = lyapunov(&DoublePendulum, &start, 20.0, 0.25, |_| {}).unwrap();
     let sum: f64 = found.last().iter().sum();
     // Bounded by the change of the volume of the basis over 20 s.
     assert!((sum + 0.2).abs() < 0.2, "{:?}", found.last());
@@ -82,7 +82,7 @@ impl Equations for Undamped {
 #[test]
 fn a_double_pendulum_is_chaotic() {
     let start = State { t: 0.0, q: vec![1.0, 0.0, 2.0, 0.0], v: vec![0.0; 4] };
-    let found = lyapunov(&Undamped, &start, (100.0, 0.2), |_| {}).unwrap();
+    let found = lyapunov(&Undamped, &start, 100.0, 0.2, |_| {}).unwrap();
     let e = found.last();
     assert!(e[0] > 0.5, "{e:?}");
     // Finite-time exponents of a Hamiltonian system pair up to the turning of the basis, some units over the time.

@@ -58,8 +58,7 @@ impl Course {
             Chart::MassOrthogonal | Chart::Frozen => return least_moved(variation, basis.clone()),
             Chart::Independent(_) => self.chart.at(variation)?,
         };
-        let own = |r: &Matrix| r.columns(0, chart.freedom()).clone_owned();
-        let r = own(&chart.r);
+        let r = chart.r.columns(0, chart.freedom()).clone_owned();
         let t = variation.point.t;
         if let Some((before, last)) = &self.last
             && last.tr_mul(&variation.mass_times(&r)).determinant() <= 0.0
@@ -75,13 +74,14 @@ impl Course {
     /// Returns B(start) R(end) of a transported basis where the last state is the first one again.
     pub fn closure(&self, models: &[LinearModel]) -> Option<Matrix> {
         let [first, .., last] = models else { return None };
-        let gap = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+        let gap = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0f64, |largest, (a, b)| largest.max((a - b).abs()));
         let off = gap(&first.point.q, &last.point.q).max(gap(&first.point.v, &last.point.v));
         let scale = largest(&first.point.q).max(largest(&first.point.v)).max(1.0);
         let returns = !matches!(self.chart, Chart::Independent(_)) && off <= tolerances::PERIODIC * scale;
-        let [start, end] = [first, last].map(|model| model.frame.as_ref().map(|frame| &frame.coordinates));
+        let start = &first.frame.as_ref()?.coordinates;
+        let end = &last.frame.as_ref()?.coordinates;
         let k = self.start.freedom();
-        let turned = start?.b.rows(0, k) * end?.r.columns(0, k);
+        let turned = start.b.rows(0, k) * end.r.columns(0, k);
         returns.then_some(turned)
     }
 }

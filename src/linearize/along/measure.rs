@@ -47,11 +47,12 @@ impl Middle {
     }
 }
 
-fn matrices(LinearModel { a, b, c, d, frame, .. }: &LinearModel) -> [Matrix; 6] {
-    let frame = frame.as_ref().map(|frame| &frame.coordinates);
-    let [r, tilt] =
-        frame.map_or_else(|| [0; 2].map(|_| Matrix::zeros(0, 0)), |frame| [frame.r.clone(), frame.tilt.clone()]);
-    [a.clone(), b.clone(), c.clone(), d.clone(), r, tilt]
+/// A, B, C and D of a model, and R and T of its chart; none of these without a chart.
+fn matrices(model: &LinearModel) -> [Matrix; 6] {
+    let chart = model.frame.as_ref().map(|frame| &frame.coordinates);
+    let r = chart.map_or_else(|| Matrix::zeros(0, 0), |chart| chart.r.clone());
+    let tilt = chart.map_or_else(|| Matrix::zeros(0, 0), |chart| chart.tilt.clone());
+    [model.a.clone(), model.b.clone(), model.c.clone(), model.d.clone(), r, tilt]
 }
 
 /// Returns the deviations of each kind of matrix, and the largest in each interval of so many that has a model half-way.

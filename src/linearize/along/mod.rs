@@ -82,7 +82,7 @@ pub fn along(
     progress: impl FnMut(f64),
 ) -> Result<Along> {
     let stride = times.len().saturating_sub(1).div_ceil(MEASURED_INTERVALS).max(1);
-    along_by(system, start, chart, (times, stride), progress)
+    along_by(system, start, chart, times, stride, progress)
 }
 
 /// As [`along`], interpolation being measured in every interval of so many.
@@ -90,7 +90,8 @@ fn along_by(
     system: &dyn MechanicalSystem,
     start: &State,
     chart: Option<&Chart>,
-    (times, stride): (&[f64], usize),
+    times: &[f64],
+    stride: usize,
     mut progress: impl FnMut(f64),
 ) -> Result<Along> {
     refuse_large(system.dimensions().v)?;

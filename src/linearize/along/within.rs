@@ -23,19 +23,19 @@ pub fn within(
 ) -> Result<Along> {
     let mut times = times.to_vec();
     loop {
-        let found = along_by(system, start, chart, (&times, 1), &mut progress)?;
+        let along = along_by(system, start, chart, &times, 1, &mut progress)?;
         let before = times.len();
-        times = finer(&times, &found.intervals, error);
+        times = finer(&times, &along.intervals, error);
         if times.len() == before {
-            return Ok(found);
+            return Ok(along);
         }
         if times.len() > WITHIN_MOST {
-            let at = found.intervals.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(i, _)| i);
+            let at = along.intervals.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(i, _)| i);
             let text = format!(
                 "interpolation within {} needs more than {} points; it is worst near t = {} s",
                 percent(error),
                 WITHIN_MOST,
-                short(found.models[at].point.t)
+                short(along.models[at].point.t)
             );
             return Err(Error::input(text).under("--within").hint("give more percent, or a shorter time"));
         }

@@ -27,15 +27,16 @@ impl<'a> VariationalField<'a> {
     pub fn new(
         system: &'a dyn MechanicalSystem,
         members: &[&'a dyn MechanicalSystem],
-        (shape, bundle): (&Shape, &Bundle),
+        shape: &Shape,
+        bundle: &Bundle,
         dependent: &[usize],
     ) -> Result<Self> {
         let start = &bundle.start;
         let zeros = Matrix::zeros(shape.v, shape.columns);
         let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
         let mut plain: Vec<Dynamics> = members.iter().map(|member| Dynamics::new(*member)).collect();
-        let all = plain.iter_mut().chain([&mut variation.dynamics]);
-        all.for_each(|dynamics| dynamics.drop_rows(dependent));
+        let bundled = plain.iter_mut().chain([&mut variation.dynamics]);
+        bundled.for_each(|dynamics| dynamics.drop_rows(dependent));
         variation.dynamics.scratch.pieces.clone_from(&bundle.pieces);
         Ok(VariationalField {
             shape: *shape,
@@ -51,7 +52,7 @@ impl<'a> VariationalField<'a> {
     }
 
     /// Adds the pulse to the forces and rows of the columns.
-    fn push(&mut self, (t, q, v): (f64, &[f64], &[f64]), force: &mut Matrix, rows: &mut Matrix) {
+    fn push(&mut self, t: f64, q: &[f64], v: &[f64], force: &mut Matrix, rows: &mut Matrix) {
         let Some(pulse) = self.pulse.filter(|_| !self.driven.is_empty()) else { return };
         let [u, rate, second] = pulse.jet(t);
         if u == 0.0 {
@@ -75,13 +76,7 @@ impl<'a> VariationalField<'a> {
         }
     }
 
-    fn motion(
-        &mut self,
-        t: f64,
-        (q, v): (&[f64], &[f64]),
-        qdot: &mut [f64],
-        vdot: &mut [f64],
-    ) -> Result<(), StepError> {
+    fn motion(&mut self, t: f64, q: &[f64], v: &[f64], qdot: &mut [f64], vdot: &mut [f64]) -> Result<(), StepError> {
         if self.shape.columns + self.shape.basis > 0 {
             self.variation.move_to(t, q, v)?;
         } else {
@@ -92,31 +87,30 @@ impl<'a> VariationalField<'a> {
         Ok(())
     }
 
-    /// Rates of the columns, at the state of the last `motion`.
+    /// Rates of the columns `changes`, at the state of the last `motion`.
     fn columns(
         &mut self,
-        at: (f64, &[f64], &[f64]),
-        (dq, dv): (&[f64], &[f64]),
+        t: f64,
+        q: &[f64],
+        v: &[f64],
         dq_dot: &mut [f64],
         dv_dot: &mut [f64],
     ) -> Result<(), StepError> {
-        self.changes.q.copy_from_slice(dq);
-        self.changes.v.copy_from_slice(dv);
         let turned = self.variation.bracket_with(&self.changes.q);
-        dq_dot.iter_mut().zip(dv.iter().zip(&turned)).for_each(|(rate, (dv, turned))| *rate = dv - turned);
+        dq_dot.iter_mut().zip(self.changes.v.iter().zip(&turned)).for_each(|(rate, (dv, turned))| *rate = dv - turned);
         let n = self.shape.v.max(1);
         let moving = self.variation.system().dimensions().moving();
         dq_dot.chunks_exact_mut(n).for_each(|rates| rates[moving..].fill(0.0));
         let mut force = self.variation.force(&self.changes);
         let mut rows = self.variation.rows(&self.changes, [0.0; 2]);
-        self.push(at, &mut force, &mut rows);
+        self.push(t, q, v, &mut force, &mut rows);
         self.variation.push_all(&mut force, &mut rows)?;
         dv_dot.copy_from_slice(force.as_slice());
         Ok(())
     }
 
     /// Rates of the basis, at the state of the last `motion`: M N' + G^T l = -W N, G N' = -(Gd N + G [v, N]).
-    fn basis(&mut self, (t, q, v): (f64, &[f64], &[f64]), n: &[f64], rate: &mut [f64]) -> Result<(), StepError> {
+    fn basis(&mut self, t: f64, q: &[f64], v: &[f64], n: &[f64], rate: &mut [f64]) -> Result<(), StepError> {
         let n = Matrix::from_column_slice(self.shape.v, self.shape.basis, n);
         let mut force = Matrix::zeros(n.nrows(), n.ncols());
         if let Some(connection) = &mut self.connection {
@@ -135,7 +129,9 @@ impl<'a> VariationalField<'a> {
     fn member(
         &mut self,
         i: usize,
-        (t, q, v): (f64, &[f64], &[f64]),
+        t: f64,
+        q: &[f64],
+        v: &[f64],
         qdot: &mut [f64],
         vdot: &mut [f64],
     ) -> Result<f64, StepError> {
@@ -172,23 +168,26 @@ impl Formulation for VariationalField<'_> {
         let [v0, dv, vs] = self.shape.rates(v);
         let (qdot0, qdot) = qdot.split_at_mut(nq);
         let (vdot0, vdot) = vdot.split_at_mut(nv);
-        self.motion(t, (q0, v0), qdot0, vdot0)?;
+        self.motion(t, q0, v0, qdot0, vdot0)?;
         let mut rank_indicator = self.variation.dynamics.kkt.rank_indicator();
         let (dq_dot, qdot) = qdot.split_at_mut(nv * columns);
         let (n_dot, qdot) = qdot.split_at_mut(nv * basis);
         let (dv_dot, vdot) = vdot.split_at_mut(nv * columns);
         if columns > 0 {
-            self.columns((t, q0, v0), (dq, dv), dq_dot, dv_dot)?;
+            self.changes.q.copy_from_slice(dq);
+            self.changes.v.copy_from_slice(dv);
+            self.columns(t, q0, v0, dq_dot, dv_dot)?;
         }
         if basis > 0 {
-            self.basis((t, q0, v0), n, n_dot)?;
+            self.basis(t, q0, v0, n, n_dot)?;
         }
         for i in 0..members {
-            let own_q = i * nq..(i + 1) * nq;
-            let own_v = i * nv..(i + 1) * nv;
-            let state = (t, &qs[own_q.clone()], &vs[own_v.clone()]);
-            let own = self.member(i, state, &mut qdot[own_q], &mut vdot[own_v])?;
-            rank_indicator = rank_indicator.min(own);
+            let at_q = i * nq..(i + 1) * nq;
+            let at_v = i * nv..(i + 1) * nv;
+            let q = &qs[at_q.clone()];
+            let v = &vs[at_v.clone()];
+            let member_indicator = self.member(i, t, q, v, &mut qdot[at_q], &mut vdot[at_v])?;
+            rank_indicator = rank_indicator.min(member_indicator);
         }
         carrier.rank_indicator = (!self.variation.dynamics.lambda.is_empty()).then_some(rank_indicator);
         Ok(())

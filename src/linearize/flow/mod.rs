@@ -67,11 +67,11 @@ pub fn flow_until(
     // Rows that depend on others everywhere need not be found again at each state.
     let (dependent, _) = Dynamics::new(system).dependent_rows(start.t, &start.q, &start.v);
     let problem = || -> Result<Problem> {
-        let field = VariationalField::new(system, &members, (&shape, bundle), &dependent)?;
+        let field = VariationalField::new(system, &members, &shape, bundle, &dependent)?;
         Ok(Problem::new(Dynamics::new(&carrier), Box::new(field)))
     };
     let projection = || -> Result<Option<Box<dyn Projection>>> {
-        Ok(Some(Box::new(Straightening::new(system, &members, (&shape, bundle), &dependent)?)))
+        Ok(Some(Box::new(Straightening::new(system, &members, &shape, bundle, &dependent)?)))
     };
     let integrator = MethodSpec::named("dop853");
     let formulation = MethodSpec::named("index1");
@@ -89,7 +89,7 @@ pub fn flow_until(
     };
     let horizon = times.last().map_or(start.t, |last| last.max(start.t));
     let tolerance = Tolerance::new(tolerances::FLOW_RTOL, tolerances::TIGHTEST, &carrier);
-    let mut run = Segments::new(parts, tolerance, (start.t, horizon), shape.pack(bundle));
+    let mut run = Segments::new(parts, tolerance, start.t, horizon, shape.pack(bundle));
     let mut counter = Counter { steps: 0, is_over };
     for &end in times {
         match run.advance(end, &mut counter) {

@@ -44,12 +44,13 @@ impl<'a> Straightening<'a> {
     pub fn new(
         system: &'a dyn MechanicalSystem,
         members: &[&'a dyn MechanicalSystem],
-        (shape, bundle): (&Shape, &Bundle),
+        shape: &Shape,
+        bundle: &Bundle,
         dependent: &[usize],
     ) -> Result<Self> {
         let n = system.dimensions();
-        let all = std::iter::once(&system).chain(members);
-        let closers = all.map(|system| Closer::new(*system, dependent)).collect::<Result<_>>()?;
+        let systems = std::iter::once(&system).chain(members);
+        let closers = systems.map(|system| Closer::new(*system, dependent)).collect::<Result<_>>()?;
         let pulse = bundle.pulse.and_then(|pulse| match system.facts().excitations().get(pulse.input)? {
             Excitation::Constraint(row) if !bundle.driven.is_empty() => Some((pulse, *row, bundle.driven.clone())),
             _ => None,
@@ -62,8 +63,10 @@ impl<'a> Straightening<'a> {
     fn straighten(
         &mut self,
         t: f64,
-        (q, v): (&[f64], &[f64]),
-        (dq, dv): (&mut [f64], &mut [f64]),
+        q: &[f64],
+        v: &[f64],
+        dq: &mut [f64],
+        dv: &mut [f64],
         basis: &mut [f64],
     ) -> Result<(), StepError> {
         let Straightening { shape, closers, pulse, correction, rows } = self;
@@ -111,12 +114,13 @@ impl Projection for Straightening<'_> {
         let (n, qs) = q.split_at_mut(nv * basis);
         let (dv, vs) = v.split_at_mut(nv * columns);
         if columns + basis > 0 {
-            self.straighten(t, (q0, v0), (dq, dv), n)?;
+            self.straighten(t, q0, v0, dq, dv, n)?;
         }
         let last = self.closers.len() - 1;
         (0..members).try_for_each(|i| {
-            let own = (&mut qs[i * nq..(i + 1) * nq], &mut vs[i * nv..(i + 1) * nv]);
-            self.closers[(i + 1).min(last)].close(t, own.0, own.1)
+            let q = &mut qs[i * nq..(i + 1) * nq];
+            let v = &mut vs[i * nv..(i + 1) * nv];
+            self.closers[(i + 1).min(last)].close(t, q, v)
         })
     }
 }

@@ -32,7 +32,8 @@ impl<'a> Pushed<'a> {
     }
 
     /// Adds df/du u + df/du' u' to f.
-    fn push(&self, (t, q, v): (f64, &[f64], &[f64]), [u, rate]: [f64; 2], f: &mut [f64], scratch: &mut Scratch) {
+    fn push(&self, t: f64, q: &[f64], v: &[f64], input: [f64; 2], f: &mut [f64], scratch: &mut Scratch) {
+        let [u, rate] = input;
         let mut forces = DMatrix::zeros(self.sizes.0, self.sizes.1);
         self.system.input_forces(t, q, v, &mut forces, scratch);
         f.iter_mut().zip(&forces.column(self.pulse.input)).for_each(|(f, slope)| *f += u * slope);
@@ -67,7 +68,7 @@ impl MechanicalSystem for Pushed<'_> {
                 terms.gamma[row] += second;
             }
             Excitation::Force | Excitation::Displacement if need.includes(Need::FORCE) => {
-                self.push((t, q, v), [u, rate], &mut terms.f, scratch);
+                self.push(t, q, v, [u, rate], &mut terms.f, scratch);
             }
             _ => {}
         }

@@ -29,11 +29,11 @@ impl Sink for Events {
         true
     }
 
-    fn before_event(&mut self, &Observation { t, q, v, vdot, pieces, .. }: &Observation) {
-        let state = State { t, q: q.to_vec(), v: v.to_vec() };
-        let own = || (vdot.to_vec(), pieces.to_vec());
-        let [(before, from), (after, to)] = [own(), own()];
-        self.0.push(Event { state, vdot: [before, after], pieces: [from, to] });
+    fn before_event(&mut self, at: &Observation) {
+        let state = State { t: at.t, q: at.q.to_vec(), v: at.v.to_vec() };
+        let vdot = at.vdot.to_vec();
+        let pieces = at.pieces.to_vec();
+        self.0.push(Event { state, vdot: [vdot.clone(), vdot], pieces: [pieces.clone(), pieces] });
     }
 
     fn after_event(&mut self, state: &Observation) {

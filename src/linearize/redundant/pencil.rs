@@ -24,28 +24,36 @@ struct Kind {
     at: usize,
 }
 
+/// E x' = A x + `driven` s + B u with the states s of the inputs.
+struct Pencil {
+    e: Matrix,
+    a: Matrix,
+    driven: Matrix,
+    b: Matrix,
+}
+
 /// Returns (E, A), B, C and D in x = (dq, dv, dlambda), followed by deta and dmu where the equations have them.
 pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
-    let kept = variation.independent_rows();
+    let independent = variation.independent_rows();
     let n = variation.velocities();
-    let m = kept.len();
-    let kept_rows = |rows: Matrix| rows.select_rows(&kept);
+    let m = independent.len();
+    let select = |rows: Matrix| rows.select_rows(&independent);
     let mut parts = Parts {
         k: variation.k(),
         c: variation.c(),
-        g: kept_rows(variation.g()),
-        gd: kept_rows(variation.gd()),
-        rows: kept_rows(variation.rows(&Changes::all(n, n), [0.0; 2])),
+        g: select(variation.g()),
+        gd: select(variation.gd()),
+        rows: select(variation.rows(&Changes::all(n, n), [0.0; 2])),
     };
     parts.clean(variation);
     let mut end = 2 * n;
-    let mut place = |row: Row| {
+    let mut append = |row: Row| {
         end += m;
         Kind { row, at: end - m }
     };
-    let lambda = place(dae.lambda);
-    let eta = dae.eta.map(&mut place);
-    let mu = dae.mu.map(&mut place);
+    let lambda = append(dae.lambda);
+    let eta = dae.eta.map(&mut append);
+    let mu = dae.mu.map(&mut append);
     let mut e = Matrix::zeros(end, end);
     let mut a = Matrix::zeros(end, end);
     let Parts { k, c, g, .. } = &parts;
@@ -74,27 +82,29 @@ pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
     driven = driven.insert_rows(0, n, 0.0).resize_vertically(end, 0.0);
     b = b.insert_rows(0, n, 0.0).resize_vertically(end, 0.0);
     for Kind { row, at } in [Some(lambda), eta, mu].into_iter().flatten() {
-        let [states, inputs] = perturbation.input_rows([row.position, row.velocity, row.acceleration]);
-        put(&mut driven, (at, 0), &kept_rows(states));
-        put(&mut b, (at, 0), &kept_rows(inputs));
+        let [states, inputs] = perturbation.input_rows(row);
+        put(&mut driven, (at, 0), &select(states));
+        put(&mut b, (at, 0), &select(inputs));
     }
-    observe(dae, variation, (&kept, &perturbation), (e, a, driven, b))
+    observe(dae, variation, &independent, &perturbation, Pencil { e, a, driven, b })
 }
 
 /// Adds the outputs.
 fn observe(
     dae: &Dae,
     variation: &mut Variation,
-    (kept, perturbation): (&[usize], &Perturbation),
-    (e, a, driven, b): (Matrix, Matrix, Matrix, Matrix),
+    independent: &[usize],
+    perturbation: &Perturbation,
+    pencil: Pencil,
 ) -> Result<Built> {
+    let Pencil { e, a, driven, b } = pencil;
     let n = variation.velocities();
     let size = a.nrows();
     let outputs = variation.outputs()?;
     let mut c = Matrix::zeros(outputs.q.nrows(), size);
     put(&mut c, (0, 0), &outputs.q);
     put(&mut c, (0, n), &outputs.v);
-    put(&mut c, (0, 2 * n), &outputs.lambda.select_columns(kept));
+    put(&mut c, (0, 2 * n), &outputs.lambda.select_columns(independent));
     let unit = Matrix::identity(size, size);
     let changes = Changes { q: unit.rows(0, n).clone_owned(), v: unit.rows(n, n).clone_owned() };
     let Columns { input_states, inputs, .. } =
@@ -108,15 +118,15 @@ fn observe(
         seen += &of_force * driven.rows(n, n);
         d += &of_force * b.rows(n, n);
     }
-    let states = states(dae, variation, kept);
+    let states = states(dae, variation, independent);
     let chart = REDUNDANT.to_string();
-    let infinite = infinite(dae, kept.len());
+    let infinite = infinite(dae, independent.len());
     let input_states = InputStates { orders: variation.orders(), a: driven, c: seen };
     let built = Built { chart, states, a, b, c, d, e: Some(e), input_states, changes, coordinates: None, infinite };
     Ok(built.without_integrals(variation.system().dimensions()))
 }
 
-fn states(dae: &Dae, variation: &Variation, kept: &[usize]) -> Vec<String> {
+fn states(dae: &Dae, variation: &Variation, independent: &[usize]) -> Vec<String> {
     let system = variation.system();
     let Directions { mut q, v } = directions(system, &variation.point.q);
     q.resize(v.len(), String::new());
@@ -125,7 +135,7 @@ fn states(dae: &Dae, variation: &Variation, kept: &[usize]) -> Vec<String> {
     for (_, suffix) in
         [(Some(dae.lambda), ""), (dae.eta, " eta"), (dae.mu, " mu")].iter().filter(|kind| kind.0.is_some())
     {
-        states.extend(kept.iter().map(|&row| format!("{}{suffix}", multipliers[row])));
+        states.extend(independent.iter().map(|&row| format!("{}{suffix}", multipliers[row])));
     }
     states
 }

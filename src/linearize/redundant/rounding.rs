@@ -18,7 +18,7 @@ impl Parts {
     pub fn row(&self, row: Row) -> Matrix {
         let Parts { g, gd, rows, .. } = self;
         let still = Matrix::zeros(g.nrows(), g.ncols());
-        rows * row.acceleration - beside([gd, g]) * row.velocity - beside([g, &still]) * row.position
+        rows * row.acceleration - beside(gd, g) * row.velocity - beside(g, &still) * row.position
     }
 
     /// Sets entries to zero that are smaller than rounding of the largest. Scaling a pencil by the size of its entries

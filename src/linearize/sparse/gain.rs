@@ -17,9 +17,11 @@ use crate::tolerances;
 /// are those of a unit of each state of the inputs and of each input.
 pub fn add_residual<'a>(
     variation: &mut Variation,
-    (equations, turn): (&'a Quadratic, &Sparse),
+    equations: &'a Quadratic,
+    turn: &Sparse,
     found: &mut Found<'a>,
-    (built, forces): (&mut Built, &Matrix),
+    built: &mut Built,
+    forces: &Matrix,
 ) -> Result<()> {
     if forces.ncols() == 0 || built.c.nrows() == 0 {
         return Ok(());
@@ -42,9 +44,9 @@ pub fn add_residual<'a>(
     let response = Response::exact(variation, &perturbation)?;
     let gain = observe(&variation.outputs()?, &perturbation, &response).state;
     let size = built.a.nrows();
-    let columns = beside([&built.input_states.a, &built.b]);
-    if let Some(own) = (Matrix::identity(size, size) * s - &built.a).lu().solve(&columns) {
-        let rest = gain - &built.c * own;
+    let columns = beside(&built.input_states.a, &built.b);
+    if let Some(states_of_columns) = (Matrix::identity(size, size) * s - &built.a).lu().solve(&columns) {
+        let rest = gain - &built.c * states_of_columns;
         let states = built.input_states.a.ncols();
         built.input_states.c += rest.columns(0, states);
         built.d += rest.columns(states, rest.ncols() - states);

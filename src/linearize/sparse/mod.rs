@@ -66,10 +66,10 @@ pub fn modal(variation: &mut Variation, count: usize, shift: Complex<f64>) -> Re
     let modal = reduce::reduce(&equations, &found, count, shift).map_err(unsolved)?;
     let eigen = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let (mut built, forces) = build(variation, (&equations, &turn), modal)?;
-    gain::add_residual(variation, (&equations, &turn), &mut found, (&mut built, &forces))?;
+    let (mut built, forces) = build(variation, &equations, &turn, modal)?;
+    gain::add_residual(variation, &equations, &turn, &mut found, &mut built, &forces)?;
     let assembly = assembly + clock.elapsed().as_secs_f64();
-    finish(variation, &mut found, built, [assembly, eigen])
+    finish(variation, &mut found, built, assembly, eigen)
 }
 
 fn check(equations: &Quadratic, count: usize, shift: C) -> Result<()> {
@@ -106,23 +106,24 @@ fn changes(variation: &Variation, turn: &Sparse, space: &Space) -> Changes {
 
 /// Adds inputs and outputs. Returns also the forces of a unit of each state of the inputs and of each input: with
 /// dq = p + P u for what drivers prescribe, -(M P u'' + C P u' + K P u) is one.
-fn build(variation: &mut Variation, (equations, turn): (&Quadratic, &Sparse), modal: Modal) -> Result<(Built, Matrix)> {
+fn build(variation: &mut Variation, equations: &Quadratic, turn: &Sparse, modal: Modal) -> Result<(Built, Matrix)> {
     let n = equations.len();
     let changes = changes(variation, turn, &modal.space);
-    let lift = Lift::frozen(variation, (&Matrix::zeros(n, 0), &Matrix::zeros(0, n)))?;
+    let lift = Lift::frozen(variation, &Matrix::zeros(n, 0), &Matrix::zeros(0, n))?;
     let perturbation = Perturbation::new(variation, &changes, |i, j| lift.along(i, j));
     let response = Response::exact(variation, &perturbation)?;
     let outputs = observe(&variation.outputs()?, &perturbation, &response);
     let [states, inputs] = perturbation.input_forces();
-    let mut forces = beside([&states, &inputs]);
+    let mut forces = beside(&states, &inputs);
     if variation.has_drivers() {
-        let parts = [&equations.stiffness, &equations.damping, &equations.mass].into_iter().zip(&perturbation.u);
-        for (part, u) in parts {
-            forces -= part.product(&lift.p) * u.columns_range(changes.q.ncols()..);
+        let terms = [&equations.stiffness, &equations.damping, &equations.mass];
+        for (term, u) in terms.into_iter().zip(&perturbation.u) {
+            forces -= term.product(&lift.p) * u.columns_range(changes.q.ncols()..);
         }
     }
     let columns = modal.inputs * &forces;
-    let [driven, b] = [columns.columns(0, states.ncols()), columns.columns_range(states.ncols()..)];
+    let driven = columns.columns(0, states.ncols());
+    let b = columns.columns_range(states.ncols()..);
     let input_states = InputStates { orders: variation.orders(), a: driven.clone_owned(), c: outputs.input_states };
     let chart = "modal".to_string();
     let states = modal.states;
@@ -140,7 +141,8 @@ fn finish(
     variation: &mut Variation,
     found: &mut Found,
     built: Built,
-    [assembly_seconds, eigen_seconds]: [f64; 2],
+    assembly_seconds: f64,
+    eigen_seconds: f64,
 ) -> Result<LinearModel> {
     let t = variation.point.t;
     let (modes, vectors, conditioning) = modes_of(variation, &built).map_err(|unsolved| refused(t, &unsolved))?;

@@ -76,7 +76,7 @@ pub struct Events<'a> {
 }
 
 impl<'a> Events<'a> {
-    pub fn new(system: &'a dyn MechanicalSystem, (start, end): (f64, f64)) -> Self {
+    pub fn new(system: &'a dyn MechanicalSystem, start: f64, end: f64) -> Self {
         let switches = system.switches().all;
         let functions = system.switches().time_functions;
         let zeros = || vec![Rate::fixed(0.0); switches.len()];
@@ -123,7 +123,7 @@ impl<'a> Events<'a> {
         let resolved = timetable.resolved(t, h, stop, pieces);
         let of_state = signals.iter().filter(|(number, _)| switches[*number].of_time.is_none());
         of_state.fold(resolved, |h, &(number, signal)| {
-            timetable.watch.resolved_along((t, h), (signal, pieces[number], start[number]))
+            timetable.watch.resolved_along(t, h, signal, pieces[number], start[number])
         })
     }
 
@@ -252,21 +252,23 @@ impl<'a> Events<'a> {
             Some(number) => self.turned[number] += 1,
             None => self.turned.fill(0),
         }
-        let turn = |number: usize| {
-            let from = self.pieces[number];
-            let thresholds = &self.switches[number].thresholds;
-            let x = if at_start.is_some() { self.start[number] } else { self.end[number] };
-            let (to, rate) = match Range::of(from, thresholds) {
-                Some(range) if range.nearest(x.re) == range.low => (from.saturating_sub(2), range.outward(x)),
-                Some(range) => (from + 2, range.outward(x)),
-                // From a threshold to the side on which the step found it.
-                None if self.end[number].re < x.re => (from - 1, 0.0),
-                None => (from + 1, 0.0),
-            };
-            self.pieces[number] = to;
-            Turn { number, from, rate }
+        numbers.into_iter().map(|number| self.turn_function(number, at_start.is_some())).collect()
+    }
+
+    /// Moves a function that is at a threshold at the start or the end of the step to its next piece.
+    fn turn_function(&mut self, number: usize, is_at_start: bool) -> Turn {
+        let from = self.pieces[number];
+        let thresholds = &self.switches[number].thresholds;
+        let x = if is_at_start { self.start[number] } else { self.end[number] };
+        let (to, rate) = match Range::of(from, thresholds) {
+            Some(range) if range.nearest(x.re) == range.low => (from.saturating_sub(2), range.outward(x)),
+            Some(range) => (from + 2, range.outward(x)),
+            // From a threshold to the side on which the step found it.
+            None if self.end[number].re < x.re => (from - 1, 0.0),
+            None => (from + 1, 0.0),
         };
-        numbers.into_iter().map(turn).collect()
+        self.pieces[number] = to;
+        Turn { number, from, rate }
     }
 
     /// True if a function has changed its piece more than once at the start of this step; resets its counter.

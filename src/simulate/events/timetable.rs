@@ -30,7 +30,8 @@ impl<'a> Timetable<'a> {
     pub fn place(&mut self, t: f64, pieces: &mut [Piece]) {
         for (number, switch) in self.switches.iter().enumerate() {
             if let Some(argument) = &switch.of_time {
-                pieces[number] = self.piece_from(t, (argument, self.round_off[number]), &switch.thresholds, pieces);
+                let round_off = self.round_off[number];
+                pieces[number] = self.piece_from(t, argument, round_off, &switch.thresholds, pieces);
             }
         }
         self.next = self.find_next(t, pieces);
@@ -44,7 +45,7 @@ impl<'a> Timetable<'a> {
     }
 
     /// Moves the end, up to which changes are known, from `old` to `end`.
-    pub fn extend(&mut self, t: f64, (old, end): (f64, f64), pieces: &[Piece]) {
+    pub fn extend(&mut self, t: f64, old: f64, end: f64, pieces: &[Piece]) {
         self.end = end;
         self.recall(t, self.next, old, pieces);
     }
@@ -57,21 +58,22 @@ impl<'a> Timetable<'a> {
     /// The step from `t`, at most `h`, that resolves the functions of time. They are fixed on these pieces up to
     /// `stop`.
     pub fn resolved(&mut self, t: f64, h: f64, stop: f64, pieces: &[Piece]) -> f64 {
-        self.watch.resolved((t, h, stop), tolerances::RESOLVED_ROUGHLY, Regime::held(pieces))
+        self.watch.resolved(t, h, stop, tolerances::RESOLVED_ROUGHLY, Regime::held(pieces))
     }
 
     /// The step, at most `h`, on which the functions of time are almost cubics.
     pub fn finely_resolved(&mut self, t: f64, h: f64, pieces: &[Piece]) -> f64 {
         self.watch.forget();
         // A pulse of a tenth of the step is met to 1e-7 by rk4.
-        self.watch.resolved((t, h, f64::INFINITY), 1e-4, Regime::held(pieces))
+        self.watch.resolved(t, h, f64::INFINITY, 1e-4, Regime::held(pieces))
     }
 
     /// The piece of an argument right after `t`: within round-off of a threshold, the side to which it leaves that.
     fn piece_from(
         &self,
         t: f64,
-        (argument, round_off): (&TimeFunction, f64),
+        argument: &TimeFunction,
+        round_off: f64,
         thresholds: &Thresholds,
         pieces: &[Piece],
     ) -> Piece {

@@ -79,35 +79,30 @@ impl<'a> Watch<'a> {
 
     /// The step from `t`, at most `h`, that resolves the functions with cubics whose relative error is at most
     /// `beside`; the functions are those of the regime up to `stop`.
-    pub fn resolved(&mut self, (t, h, stop): (f64, f64, f64), beside: f64, regime: Regime) -> f64 {
+    pub fn resolved(&mut self, t: f64, h: f64, stop: f64, beside: f64, regime: Regime) -> f64 {
         if self.functions.is_empty() || t + h <= self.seen {
             return h;
         }
         // A window is looked at whole for eight steps of this size.
         let whole = (8.0 * h).min(stop - t);
-        let window = seen_window(&mut self.functions, (t, whole), (self.shortest, beside), regime);
+        let window = seen_window(&mut self.functions, t, whole, self.shortest, beside, regime);
         self.seen = t + window;
         // A step that differs by rounding from one that ends at the stop keeps its size.
         if window == whole { h } else { h.min(window) }
     }
 
     /// The step from `t`, at most `h`, that resolves a signal on a piece whose argument is `x` at `t`.
-    pub fn resolved_along(&self, (t, h): (f64, f64), (signal, piece, x): (&Signal, Piece, Rate)) -> f64 {
+    pub fn resolved_along(&self, t: f64, h: f64, signal: &Signal, piece: Piece, x: Rate) -> f64 {
         let mut watched = [Watched { function: Function::Along(signal, piece, x, t), is_loose: false }];
-        seen_window(&mut watched, (t, h), (self.shortest, tolerances::RESOLVED_ROUGHLY), Regime::FREE)
+        seen_window(&mut watched, t, h, self.shortest, tolerances::RESOLVED_ROUGHLY, Regime::FREE)
     }
 }
 
 /// The part of a window from `t` on that resolves the functions.
-fn seen_window(
-    functions: &mut [Watched],
-    (t, whole): (f64, f64),
-    (shortest, beside): (f64, f64),
-    regime: Regime,
-) -> f64 {
+fn seen_window(functions: &mut [Watched], t: f64, whole: f64, shortest: f64, beside: f64, regime: Regime) -> f64 {
     let mut window = whole;
     while window > shortest {
-        let unseen = functions.iter_mut().filter_map(|it| it.unseen(regime, (t, window), (shortest, beside)));
+        let unseen = functions.iter_mut().filter_map(|it| it.unseen(t, window, shortest, beside, regime));
         match unseen.reduce(f64::min) {
             None => break,
             // Before the first feature that the nodes do not resolve all may be resolved.
@@ -120,15 +115,15 @@ fn seen_window(
 impl Watched<'_> {
     /// The function and its rates; zero rates where an overflow makes them not finite, as in 1/cosh(t).
     fn at(&self, t: f64, regime: Regime) -> Taylor<f64> {
-        let found = self.function.at(Taylor::time(t), regime);
+        let value = self.function.at(Taylor::time(t), regime);
         let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
-        Taylor { x: found.x, d: finite(found.d), dd: finite(found.dd) }
+        Taylor { x: value.x, d: finite(value.d), dd: finite(value.dd) }
     }
 
     /// The time from which on the window that starts at `t` does not resolve the function; `None` where it does, or
     /// where the function is not finite.
-    fn unseen(&mut self, regime: Regime, (t, window): (f64, f64), (shortest, beside): (f64, f64)) -> Option<f64> {
-        let times = [0.0, 0.25, 0.5, 0.75, 1.0].each(|part| t + part * window);
+    fn unseen(&mut self, t: f64, window: f64, shortest: f64, beside: f64, regime: Regime) -> Option<f64> {
+        let times = [0.0, 0.25, 0.5, 0.75, 1.0].each(|fraction| t + fraction * window);
         let nodes = times.each(|t| self.at(t, regime));
         if nodes.iter().any(|node| !node.x.is_finite()) {
             return None;
@@ -156,10 +151,10 @@ impl Watched<'_> {
     /// The first time in a quarter at which the function or its rate exceeds the bounds.
     fn first_beyond(&mut self, quarter: &Quarter, regime: Regime, shortest: f64, looks: &mut usize) -> Option<f64> {
         if !self.is_loose {
-            let found = self.enclosed(quarter, (quarter.from, quarter.to), regime, looks);
+            let beyond = self.enclosed(quarter, quarter.from, quarter.to, regime, looks);
             self.is_loose = *looks == 0;
             if !self.is_loose {
-                return found;
+                return beyond;
             }
         }
         let count = ((quarter.to - quarter.from) / shortest).ceil().max(1.0);
@@ -170,14 +165,15 @@ impl Watched<'_> {
     }
 
     /// The same by enclosures over intervals, which are halved until they are narrow enough.
-    fn enclosed(&self, quarter: &Quarter, (from, to): (f64, f64), regime: Regime, looks: &mut usize) -> Option<f64> {
+    fn enclosed(&self, quarter: &Quarter, from: f64, to: f64, regime: Regime, looks: &mut usize) -> Option<f64> {
         if *looks == 0 {
             return None;
         }
         *looks -= 1;
         let x = self.function.at(Taylor::running(Interval::new(from, to)), regime);
-        let fits =
-            |x: [Interval; 2]| x.iter().zip(&quarter.allowed).all(|(x, all)| all.low <= x.low && x.high <= all.high);
+        let fits = |x: [Interval; 2]| {
+            x.iter().zip(&quarter.allowed).all(|(x, allowed)| allowed.low <= x.low && x.high <= allowed.high)
+        };
         if fits([x.x, x.d]) {
             return None;
         }
@@ -188,14 +184,14 @@ impl Watched<'_> {
         if fits([half * x.d + there.x, half * x.dd + there.d]) {
             return None;
         }
-        if !fits([there.x, there.d].map(Interval::constant)) {
+        if !fits([Interval::constant(there.x), Interval::constant(there.d)]) {
             return Some(from);
         }
         if middle <= from || middle >= to {
             return None;
         }
-        let first = self.enclosed(quarter, (from, middle), regime, looks);
-        first.or_else(|| self.enclosed(quarter, (middle, to), regime, looks))
+        let first = self.enclosed(quarter, from, middle, regime, looks);
+        first.or_else(|| self.enclosed(quarter, middle, to, regime, looks))
     }
 }
 
