@@ -96,13 +96,12 @@ fn measure(path: &Path) -> Result<Measured> {
     }
     let span = prepared.span()?;
     let rows = 200;
-    let between = (span.start, span.end);
     let watched = Watched::new(prepared.system(), &[])?;
     let within = |budget: Duration| -> Result<WorkPrecision> {
         let motion = Motion::of(&prepared, span, watched.clone(), &|| false);
         let triples = triples.clone();
         let plan = Plan { triples, budget, repeats: 3, rows, digits: DIGITS[1], is_exhaustive: false, given: None };
-        let mut result = WorkPrecision::fresh(&prepared.name, between, rows);
+        let mut result = WorkPrecision::fresh(&prepared.name, span.start, span.end, rows);
         Runner::new(motion, &plan, |_, _| ()).run(&mut result)?;
         Ok(result)
     };
@@ -235,7 +234,7 @@ impl Sink for Seen<'_> {
 
 impl Measured {
     fn of<'m>(&'m self, triple: &Triple) -> impl Iterator<Item = &'m Cell> {
-        let method = triple.at((1.0, 1.0), None);
+        let method = triple.at(1.0, 1.0, None);
         self.result.cells.iter().filter(move |cell| cell.is_of(&method))
     }
 

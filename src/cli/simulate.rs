@@ -100,9 +100,10 @@ pub fn run(args: Args) -> Result<ExitCode> {
     summary.restart = saved;
     let summary = if args.check_error && summary.failure.is_none() {
         let bar = args.common.talk.progress(1000, &format!("{}: the error", prepared.name));
-        let watch = (|t: f64| bar.set_position(fraction(t)), || interrupt::stop(&folder));
+        let show = |t: f64| bar.set_position(fraction(t));
+        let stop = || interrupt::stop(&folder);
         let run = Completed { span, trajectory: &record.trajectory, legs: &legs, statistics: outcome.statistics };
-        summary.checked(on_all_threads(|| error_bars(&prepared, run, watch)))
+        summary.checked(on_all_threads(|| error_bars(&prepared, run, show, stop)))
     } else {
         summary
     };

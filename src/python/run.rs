@@ -126,7 +126,7 @@ fn finished(options: Options, words: Vec<String>, is_asked: &AtomicBool) -> Resu
     summary.origin.command = ["holonom", "simulate"].map(String::from).into_iter().chain(words).collect();
     if options.check_error && summary.failure.is_none() {
         let run = Completed { span, trajectory: &record.trajectory, legs: &legs, statistics: outcome.statistics };
-        summary = summary.checked(spread(|| error_bars(&prepared, run, (|_| {}, || stop(is_asked)))));
+        summary = summary.checked(spread(|| error_bars(&prepared, run, |_| {}, || stop(is_asked))));
     }
     let mut rows = rows.into_inner();
     if options.check_error {

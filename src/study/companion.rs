@@ -137,14 +137,10 @@ fn has_diverged(trajectory: &Trajectory, companion: &[(f64, Vec<f64>)]) -> bool 
 }
 
 /// Runs the parts one after the other, each by its changed method.
-fn rerun(
-    prepared: &Model,
-    span: Span,
-    parts: &[Part],
-    change: &dyn Fn(&Method) -> Changed,
-    (show, stop): Watch,
-) -> Companion {
-    let (system, (q, v)) = (prepared.system(), prepared.start());
+fn rerun(prepared: &Model, span: Span, parts: &[Part], change: &dyn Fn(&Method) -> Changed, watch: Watch) -> Companion {
+    let (show, stop) = watch;
+    let system = prepared.system();
+    let (q, v) = prepared.start();
     let methods: Vec<Changed> = parts.iter().map(|part| change(&part.method)).collect();
     let method = methods.first().map_or(prepared.method.clone(), |changed| changed.method.clone());
     let part = methods.iter().map(|changed| changed.part).fold(0.0, f64::max);
@@ -166,13 +162,13 @@ fn rerun(
         // A run that goes on by the same method counts the work before it.
         let counts_before = saved.as_ref().is_some_and(|saved| saved.method() == method);
         let before = if counts_before { Statistics::default() } else { companion.statistics };
-        let (Outcome { statistics, failure, .. }, next) = ended;
+        let (Outcome { statistics, failure, .. }, checkpoint) = ended;
         companion.statistics = before + statistics;
         companion.failure = failure;
         if companion.failure.is_some() {
             break;
         }
-        saved = next;
+        saved = checkpoint;
     }
     companion.rows = sink.rows;
     companion

@@ -55,7 +55,8 @@ pub struct ErrorBar {
 pub fn error_bars(
     prepared: &Model,
     run: Completed,
-    (show, stop): (impl Fn(f64), impl Fn() -> Option<Stop> + Sync),
+    show: impl Fn(f64),
+    stop: impl Fn() -> Option<Stop> + Sync,
 ) -> ErrorBars {
     let bars = ErrorBars::of(prepared, run, (&show, &stop));
     let opinion = bars.failure.is_none().then(|| confirm(prepared, &run, &|| stop().is_some())).flatten();

@@ -96,13 +96,15 @@ impl<What: Copy + Ord> Queues<What> {
         Some((index, job))
     }
 
-    /// Records the time of a job, and the part of its motion completed; none where it needs no more attempts. Its
-    /// neighbours are expected to cost up to twice as much.
+    /// Records the time `took` of a job of the queue `index`, and the part of its motion completed where it was `cut`;
+    /// none where it needs no more attempts. Its neighbours are expected to cost up to twice as much.
     pub fn give_back(
         &mut self,
-        (index, job): (usize, Job<What>),
+        index: usize,
+        job: Job<What>,
         limit: Duration,
-        (took, cut): (Duration, Option<f64>),
+        took: Duration,
+        cut: Option<f64>,
         neighbours: impl IntoIterator<Item = What>,
     ) {
         let queue = &mut self.0[index];
@@ -132,7 +134,7 @@ mod tests {
         while begun[1] < 100 {
             let (queue, job) = queues.take(LIMIT).unwrap();
             begun[queue] += 1;
-            queues.give_back((queue, job), LIMIT, (Duration::from_millis([100, 10][queue]), None), []);
+            queues.give_back(queue, job, LIMIT, Duration::from_millis([100, 10][queue]), None, []);
         }
         assert!((9..=11).contains(&begun[0]), "{begun:?}");
     }
@@ -162,7 +164,7 @@ mod tests {
             through.extend(cut.is_none().then_some(k));
             spent += took;
             let neighbours = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
-            queues.give_back((queue, job), LIMIT, (took, cut), neighbours);
+            queues.give_back(queue, job, LIMIT, took, cut, neighbours);
         }
         assert!(through.windows(2).all(|pair| pair[0] < pair[1] + 3), "{through:?}");
         let least: Duration = (0..9).map(needs).sum();

@@ -33,9 +33,10 @@ pub struct SecondOpinion {
 }
 
 impl SecondOpinion {
-    /// The difference of a completed run.
-    pub(super) fn of(method: String, (difference, worst): (f64, String)) -> Self {
-        SecondOpinion { method, difference: Some(difference), about: worst }
+    /// The difference between the rows of a completed run and the values of `metric`, of which one is from `method`.
+    pub(super) fn of(method: String, metric: &ErrorMetric, rows: &[Vec<f64>]) -> Self {
+        let (difference, about) = metric.error(rows);
+        SecondOpinion { method, difference: Some(difference), about }
     }
 }
 
@@ -52,7 +53,7 @@ pub(crate) fn second_opinion(motion: &Motion, rows: &[Vec<f64>], of: &Method, li
     match motion.run(&method, limit) {
         Ok(run) => match &run.failure {
             Some(failure) => failed(failure.reason.clone()),
-            None => SecondOpinion::of(name, ErrorMetric::of(&motion.watched, &run).error(rows)),
+            None => SecondOpinion::of(name, &ErrorMetric::of(&motion.watched, &run), rows),
         },
         Err(error) => failed(format!("{error:#}")),
     }

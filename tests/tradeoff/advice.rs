@@ -34,7 +34,7 @@ fn what_is_left_out_has_its_reason() {
     let plan = plan(&filter(&["index1", "ggl"], &["rk4", "dop853", "radau_iia", "bdf"], &["none"]), 20_000);
     let result = measured(motion(&scene, 0.1), &plan, &[]);
     for triple in &plan.triples {
-        let key = triple.at((1.0, 1.0), None);
+        let key = triple.at(1.0, 1.0, None);
         let mut decades: Vec<u32> =
             result.cells.iter().filter(|cell| cell.is_of(&key)).map(|cell| cell.decades).collect();
         decades.dedup();

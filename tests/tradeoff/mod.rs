@@ -60,7 +60,7 @@ pub fn plan(filter: &Filter, budget: u32) -> Plan {
 }
 
 pub fn fresh(motion: &Motion) -> WorkPrecision {
-    WorkPrecision::fresh("test", (motion.span.start, motion.span.end), ROWS)
+    WorkPrecision::fresh("test", motion.span.start, motion.span.end, ROWS)
 }
 
 pub fn measured(motion: Motion, plan: &Plan, outputs: &[&str]) -> WorkPrecision {
@@ -217,11 +217,11 @@ fn grids_are_of_what_goes_together() {
     let all = grid(&Filter::default()).unwrap();
     assert!(all.len() > 50);
     for triple in &all {
-        let step = (triple.at((1e-6, 1e-6), None).check().is_err()).then_some(1e-3);
-        assert_eq!(triple.at((1e-6, 1e-6), step).check(), Ok(()), "{triple:?}");
+        let step = (triple.at(1e-6, 1e-6, None).check().is_err()).then_some(1e-3);
+        assert_eq!(triple.at(1e-6, 1e-6, step).check(), Ok(()), "{triple:?}");
     }
     let own = grid(&filter(&["baumgarte:alpha=3,beta=3"], &["rk4"], &["manifold", "full"])).unwrap();
-    let names: Vec<String> = own.iter().map(|triple| triple.at((1.0, 1.0), None).triple()).collect();
+    let names: Vec<String> = own.iter().map(|triple| triple.at(1.0, 1.0, None).triple()).collect();
     assert_eq!(names, ["baumgarte:alpha=3,beta=3 + rk4 + manifold", "baumgarte:alpha=3,beta=3 + rk4 + full"]);
     let error = grid(&filter(&["index3"], &["dop853"], &[])).unwrap_err().to_string();
     assert!(error.contains("dop853 cannot integrate index3"), "{error}");

@@ -17,7 +17,7 @@ fn variant(name: &str, set: &[(&str, f64)], until: f64) -> Variant {
 
 fn costs(variants: &[Variant], outputs: &[&str]) -> ModelCosts {
     let outputs: Vec<String> = outputs.iter().map(|name| name.to_string()).collect();
-    compare(variants, &outputs, (1, readings(600_000)), |_, _| ()).unwrap()
+    compare(variants, &outputs, 1, readings(600_000), |_, _| ()).unwrap()
 }
 
 /// Rods without mass against rods as bodies: the wheel moves alike to a per cent, the rods' forces to a few.
@@ -68,8 +68,8 @@ fn a_richest_model_that_is_poor_is_found_out() {
 fn models_without_common_outputs_are_refused() {
     let variants = ["five_link_suspension", "two_mass"].map(|name| variant(name, &[], 0.1));
     let camber = ["camber".to_string()];
-    let error = compare(&variants, &camber, (1, readings(1)), |_, _| ()).err().unwrap().to_string();
+    let error = compare(&variants, &camber, 1, readings(1), |_, _| ()).err().unwrap().to_string();
     assert!(error.contains("none of the outputs to compare"), "{error}");
-    let error = compare(&variants[..1], &[], (1, readings(1)), |_, _| ()).err().unwrap().to_string();
+    let error = compare(&variants[..1], &[], 1, readings(1), |_, _| ()).err().unwrap().to_string();
     assert!(error.contains("only one model"), "{error}");
 }

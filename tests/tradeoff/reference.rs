@@ -57,7 +57,7 @@ fn a_table_of_values_is_compared_with() {
     let exact = 0.1 * 25f64.cos();
     let table = |x1: f64| Given::parse("table", &format!("t, x1, other\n0, 0.1, 0\n5, {x1:.17}, 1\n")).unwrap();
     let measure = |given: Given| {
-        let rows = given.parts((0.0, 5.0), ROWS).unwrap();
+        let rows = given.parts(0.0, 5.0, ROWS).unwrap();
         assert_eq!(rows, 1);
         let plan = Plan { given: Some(given), rows, ..plan(&filter(&["index1"], &["dop853"], &["manifold"]), 20_000) };
         let mut result = fresh(&motion);
@@ -83,10 +83,10 @@ fn tables_that_are_none_are_refused() {
     assert!(problem("t,x1\n0,nan\n").contains("no number"));
     assert!(problem("t,x1\n0,1,2\n").contains("no table"));
     let early = Given::parse("table", "t,x1\n0,1\n1,2\n").unwrap();
-    assert!(early.parts((0.0, 5.0), ROWS).unwrap_err().to_string().contains("no values at the end"));
+    assert!(early.parts(0.0, 5.0, ROWS).unwrap_err().to_string().contains("no values at the end"));
     assert_eq!(early.names().collect::<Vec<_>>(), ["x1"]);
     let fine = Given::parse("table", "t,x1\n0,1\n0.25,1\n0.5,1\n0.75,1\n1,2\n").unwrap();
-    assert_eq!([1, 2, 3, 4, 9].map(|most| fine.parts((0.0, 1.0), most).unwrap()), [1, 2, 2, 4, 4]);
+    assert_eq!([1, 2, 3, 4, 9].map(|most| fine.parts(0.0, 1.0, most).unwrap()), [1, 2, 2, 4, 4]);
 }
 
 #[test]

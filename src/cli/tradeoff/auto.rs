@@ -80,7 +80,7 @@ fn measure(args: &Args, prepared: &Model, budget: Duration) -> Result<WorkPrecis
     let span = prepared.span()?;
     let Question { watched, plan } = args.question(prepared, budget, None)?;
     let motion = Motion::of(prepared, span, watched, &interrupt::is_asked);
-    let mut measured = WorkPrecision::fresh(&prepared.name, (span.start, span.end), plan.rows);
+    let mut measured = WorkPrecision::fresh(&prepared.name, span.start, span.end, plan.rows);
     Runner::new(motion, &plan, |_: &WorkPrecision, _: &str| ()).run(&mut measured)?;
     Ok(measured)
 }

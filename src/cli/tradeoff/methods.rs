@@ -33,7 +33,7 @@ impl Question {
         let rows = self.plan.rows;
         let fresh = WorkPrecision {
             fingerprint: fingerprint(args, rows)?,
-            ..WorkPrecision::fresh(&prepared.name, (span.start, span.end), rows)
+            ..WorkPrecision::fresh(&prepared.name, span.start, span.end, rows)
         };
         if args.resume { resumed(place, fresh) } else { Ok(fresh) }
     }

@@ -104,7 +104,7 @@ impl Args {
         let rows = usize::from(self.rows);
         let outputs = self.outputs(prepared, given.as_ref());
         let watched = Watched::new(system, &outputs).map_err(|error| error.under("--outputs"))?;
-        let rows = given.as_ref().map_or(Ok(rows), |given| given.parts((span.start, span.end), rows))?;
+        let rows = given.as_ref().map_or(Ok(rows), |given| given.parts(span.start, span.end, rows))?;
         self.check_choices(system)?;
         let filter = Filter {
             formulations: self.formulation.clone(),

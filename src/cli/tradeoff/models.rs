@@ -27,7 +27,7 @@ pub fn run(args: &Args, prepared: Model) -> Result<ExitCode> {
         bar.set_message(name.to_string());
         bar.set_position(done as u64);
     };
-    let costs = compare(&variants, &args.outputs, (repeats, args.budget), watch);
+    let costs = compare(&variants, &args.outputs, repeats, args.budget, watch);
     bar.finish_and_clear();
     args.talk.publish(folder, "models", args.talk.origin(&variants[0].prepared), &ModelsAnswer::new(&name, &costs?))?;
     Ok(ExitCode::SUCCESS)

@@ -3,7 +3,7 @@
 /// Returns 1, 2, 5, 10, 20 ... from `low` to `high`.
 pub fn sequence(low: f64, high: f64) -> Vec<f64> {
     let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
-    let rungs = decades.flat_map(|exponent| [1, 2, 5].map(|digit| decimal(digit, exponent)));
+    let rungs = decades.flat_map(|exponent| [1, 2, 5].into_iter().map(move |digit| decimal(digit, exponent)));
     rungs.filter(|rung| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(rung)).collect()
 }
 

@@ -153,19 +153,22 @@ impl AxisPlace {
 
 impl Map {
     /// Returns the changes of the cell of a method, row and column, in this order: method, x, y.
-    pub(super) fn changes(&self, [panel, row, column]: [usize; 3]) -> impl Iterator<Item = &Change> {
+    pub(super) fn changes(&self, cell: [usize; 3]) -> impl Iterator<Item = &Change> {
+        let [panel, row, column] = cell;
         let entries = [&self.methods[panel], &self.x.entries[column], &self.y.entries[row]];
         entries.into_iter().flat_map(|entry| &entry.changes)
     }
 
     /// Returns the indices of the entries that change the motion; cells where these are equal have the same motion.
-    pub(super) fn motion(&self, [panel, row, column]: [usize; 3]) -> [Option<usize>; 3] {
-        let entries = [(&self.methods, panel), (&self.y.entries, row), (&self.x.entries, column)];
-        entries.map(|(entries, at)| (!entries[at].keeps_motion()).then_some(at))
+    pub(super) fn motion(&self, cell: [usize; 3]) -> [Option<usize>; 3] {
+        let [panel, row, column] = cell;
+        let moved = |entries: &[AxisPlace], i: usize| (!entries[i].keeps_motion()).then_some(i);
+        [moved(&self.methods, panel), moved(&self.y.entries, row), moved(&self.x.entries, column)]
     }
 
     /// Returns the distance of a cell from the middle of the map, where parameters are closest to those of the scene.
-    pub(super) fn eccentricity(&self, [_, row, column]: [usize; 3]) -> f64 {
+    pub(super) fn eccentricity(&self, cell: [usize; 3]) -> f64 {
+        let [_, row, column] = cell;
         AxisPlace::eccentricity(&self.x.entries, column).hypot(AxisPlace::eccentricity(&self.y.entries, row))
     }
 
@@ -177,7 +180,8 @@ impl Map {
     }
 
     /// Returns the numbers of the neighbouring cells with the same method.
-    pub(super) fn beside(&self, [panel, row, column]: [usize; 3]) -> impl Iterator<Item = usize> {
+    pub(super) fn beside(&self, cell: [usize; 3]) -> impl Iterator<Item = usize> {
+        let [panel, row, column] = cell;
         let columns = self.x.entries.len();
         let rows = self.y.entries.len();
         let beside = |at: usize, count: usize| [at.checked_sub(1), Some(at + 1).filter(|at| *at < count)];

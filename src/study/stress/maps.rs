@@ -31,8 +31,10 @@ pub fn known() -> &'static [MapEntry] {
             methods: fixed,
             adapt: beside_gains,
             ..drifting(
-                ["gain", "step x Baumgarte's gain, beside no stabilization and post-stabilization on the same steps"],
-                ["step", "gain"],
+                "gain",
+                "step x Baumgarte's gain, beside no stabilization and post-stabilization on the same steps",
+                "step",
+                "gain",
             )
         },
         MapEntry {
@@ -42,43 +44,45 @@ pub fn known() -> &'static [MapEntry] {
                 vec![method("index1", "dopri5", "none"), method("baumgarte", "dopri5", "none"), projected]
             },
             ..usual(
-                ["start", "tolerance x error of the start: which methods pull an inconsistent start back"],
-                ["tolerance", "start_error"],
+                "start",
+                "tolerance x error of the start: which methods pull an inconsistent start back",
+                "tolerance",
+                "start_error",
             )
         },
         MapEntry {
             suits: |subject| !has("stiffness", subject),
-            ..usual(["mass", "tolerance x mass of the last body"], ["tolerance", "mass_ratio"])
+            ..usual("mass", "tolerance x mass of the last body", "tolerance", "mass_ratio")
         },
-        usual(["stiffness", "stiffness of the springs x mass of the last body"], ["stiffness", "mass_ratio"]),
-        usual(["damping", "stiffness of the springs x their damping"], ["stiffness", "damping"]),
+        usual("stiffness", "stiffness of the springs x mass of the last body", "stiffness", "mass_ratio"),
+        usual("damping", "stiffness of the springs x their damping", "stiffness", "damping"),
         MapEntry {
             methods: || vec![method("index1", "rk4", "none"), method("index1", "rk4", "manifold")],
-            ..drifting(["speed", "step x speed of the motion"], ["step", "speed"])
+            ..drifting("speed", "step x speed of the motion", "step", "speed")
         },
-        usual(["geometry", "tolerance x link lengths towards a singular geometry"], ["tolerance", "link_ratio"]),
+        usual("geometry", "tolerance x link lengths towards a singular geometry", "tolerance", "link_ratio"),
         MapEntry {
             methods: || vec![method("index1", "rk4", "manifold"), method("index3", "generalized_alpha", "none")],
-            ..drifting(["links", "step x number of links"], ["step", "links"])
+            ..drifting("links", "step x number of links", "step", "links")
         },
         MapEntry {
             methods: || vec![AxisPlace::named("", Vec::new())],
             adapt: by_method,
-            ..usual(["time", "simulated time x method"], ["time", "time"])
+            ..usual("time", "simulated time x method", "time", "time")
         },
     ];
     &KNOWN
 }
 
 /// A map of energy errors of adaptive methods.
-const fn usual([name, about]: [&'static str; 2], [x, y]: [&'static str; 2]) -> MapEntry {
+const fn usual(name: &'static str, about: &'static str, x: &'static str, y: &'static str) -> MapEntry {
     let quantity = Quantity::Energy;
     MapEntry { name, about, x, y, quantity, methods: adaptive, adapt: |_| {}, suits: |_| true }
 }
 
 /// A map of velocity drift.
-const fn drifting(texts: [&'static str; 2], axes: [&'static str; 2]) -> MapEntry {
-    MapEntry { quantity: Quantity::Velocity, ..usual(texts, axes) }
+const fn drifting(name: &'static str, about: &'static str, x: &'static str, y: &'static str) -> MapEntry {
+    MapEntry { quantity: Quantity::Velocity, ..usual(name, about, x, y) }
 }
 
 /// Returns the maps of these names, or all that make sense for the subject.
@@ -172,7 +176,8 @@ fn by_method(map: &mut Map) {
 }
 
 fn fixed() -> Vec<AxisPlace> {
-    ["rk4", "heun"].map(|name| AxisPlace::named(name, vec![Change::Integrator(MethodSpec::named(name))])).to_vec()
+    let integrator = |name: &str| AxisPlace::named(name, vec![Change::Integrator(MethodSpec::named(name))]);
+    vec![integrator("rk4"), integrator("heun")]
 }
 
 fn adaptive() -> Vec<AxisPlace> {

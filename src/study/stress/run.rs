@@ -133,8 +133,8 @@ impl<'a> Work<'a> {
             if cut.is_none() && matches!(job.what, What::Cell(_)) {
                 progress();
             }
-            let came = (watch.cpu(), cut);
-            locked(&self.queues).give_back((queue, job), self.limit, came, self.neighbours(job.what));
+            let took = watch.cpu();
+            locked(&self.queues).give_back(queue, job, self.limit, took, cut, self.neighbours(job.what));
         }
     }
 
@@ -159,7 +159,7 @@ impl<'a> Work<'a> {
             What::Cell(index) => {
                 let slot = &self.cells[index];
                 let limit = Limit { cpu: share, wall: budget.left() };
-                let (cell, rows, part) = run(self.subject, self.map, slot.at, (limit, is_last));
+                let (cell, rows, part) = run(self.subject, self.map, slot.at, limit, is_last);
                 let cut = (cell.status == Status::LeftOut).then_some(part);
                 *locked(&slot.came) = (cell, rows);
                 cut

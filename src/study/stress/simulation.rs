@@ -13,13 +13,14 @@ use serde_json::Value;
 use std::sync::Arc;
 
 /// Returns the cell without a result. Its scene is not copied, since there would be many.
-pub(super) fn blank(subject: &Subject, map: &Map, [panel, row, column]: [usize; 3]) -> Cell {
+pub(super) fn blank(subject: &Subject, map: &Map, at: [usize; 3]) -> Cell {
     let mut case = Case { scene: Arc::new(Value::Null), ..subject.base.clone() };
-    for change in map.changes([panel, row, column]) {
+    for change in map.changes(at) {
         // Changes of the scene do not affect the method.
         let _ = change.apply(&mut case);
     }
     let reason = Some("not begun: the budget was over".to_string());
+    let [panel, row, column] = at;
     Cell { panel, column, row, method: case.method, reason, ..Cell::default() }
 }
 
@@ -29,7 +30,8 @@ pub(super) fn run(
     subject: &Subject,
     map: &Map,
     at: [usize; 3],
-    (limit, is_last): (Limit, bool),
+    limit: Limit,
+    is_last: bool,
 ) -> (Cell, Vec<Vec<f64>>, f64) {
     let watch = Stopwatch::start();
     let mut case = subject.base.clone();
@@ -38,17 +40,17 @@ pub(super) fn run(
         subject.with(&case, |motion| {
             let mut recorder = Recorder::new(motion.system);
             let ended = motion.simulate(&case.method, Some(limit), &mut recorder)?;
-            let part = (ended.outcome.t - motion.span.start) / case.duration;
-            Ok((ended, recorder.finish(), part))
+            let fraction = (ended.outcome.t - motion.span.start) / case.duration;
+            Ok((ended, recorder.finish(), fraction))
         })
     });
     let seconds = watch.wall().as_secs_f64();
     let blank = Cell { seconds, reason: None, method: case.method, ..blank(subject, map, at) };
     match run {
         Err(error) => (Cell { status: Status::Refused, reason: Some(message(&error)), ..blank }, Vec::new(), 1.0),
-        Ok((ended, record, part)) => {
+        Ok((ended, record, fraction)) => {
             let rows = record.trajectory.watched().collect();
-            (with_result(blank, ended, record, is_last), rows, part)
+            (with_result(blank, ended, record, is_last), rows, fraction)
         }
     }
 }

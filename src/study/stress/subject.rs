@@ -113,7 +113,7 @@ impl Subject<'static> {
 }
 
 impl<'a> Subject<'a> {
-    /// A subject of own equations from a consistent (q, v). Stress parameters of scenes do not apply.
+    /// A subject of own equations from a consistent start (q, v). Stress parameters of scenes do not apply.
     ///
     /// # Errors
     /// As `simulate`.
@@ -122,8 +122,9 @@ impl<'a> Subject<'a> {
         system: &'a dyn MechanicalSystem,
         method: Method,
         span: Span,
-        (q, v): (&[f64], &[f64]),
+        start: (&[f64], &[f64]),
     ) -> Result<Self> {
+        let (q, v) = start;
         Ok(Subject {
             doubts: Vec::new(),
             name: name.to_string(),
@@ -133,7 +134,7 @@ impl<'a> Subject<'a> {
                 scene: Arc::new(Value::Null),
                 set: Vec::new(),
                 duration: span.end - span.start,
-                typical: Typical::of(system, &method, span, (q, v))?,
+                typical: Typical::of(system, &method, span, start)?,
                 method,
                 start_error: [0.0; 2],
             },
@@ -195,12 +196,13 @@ impl<'a> Subject<'a> {
 /// between -1 and 1.
 fn perturbed(
     system: &dyn MechanicalSystem,
-    (q, v): (&[f64], &[f64]),
-    [position, velocity]: [f64; 2],
+    start: (&[f64], &[f64]),
+    start_error: [f64; 2],
     period: f64,
 ) -> (Vec<f64>, Vec<f64>) {
-    let mut q = q.to_vec();
-    let mut v = v.to_vec();
+    let [position, velocity] = start_error;
+    let mut q = start.0.to_vec();
+    let mut v = start.1.to_vec();
     if position == 0.0 && velocity == 0.0 {
         return (q, v);
     }

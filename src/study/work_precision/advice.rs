@@ -148,12 +148,11 @@ pub fn front<T>(items: impl Iterator<Item = T>, of: impl Fn(&T) -> (f64, f64)) -
 fn merit(cell: &Cell) -> (i32, [usize; 3], u32) {
     let drift = cell.drift().map_or(1.0, Held::largest).max(tolerances::ROUND_OFF_OF_SOLUTIONS);
     let Method { integrator, formulation, projection, .. } = &cell.method;
-    let names = [integrator, formulation, projection].map(|spec| spec.name.as_str());
-    let mut known = [0; 3];
-    for ((place, list), name) in known.iter_mut().zip(KNOWN).zip(names) {
-        *place = list.iter().position(|known| *known == name).unwrap_or(list.len());
+    let mut ranks = [0; 3];
+    for ((rank, list), spec) in ranks.iter_mut().zip(KNOWN).zip([integrator, formulation, projection]) {
+        *rank = list.iter().position(|known| *known == spec.name).unwrap_or(list.len());
     }
-    (drift.log10().round() as i32, known, cell.decades)
+    (drift.log10().round() as i32, ranks, cell.decades)
 }
 
 fn cost(cell: &Cell) -> f64 {

@@ -79,7 +79,8 @@ impl Line {
     }
 
     /// Makes the next runs that can be expected to fit into a limit for all of them.
-    fn climb(&mut self, motion: &Motion, Limit { mut cpu, wall }: Limit) -> Result<()> {
+    fn climb(&mut self, motion: &Motion, limit: Limit) -> Result<()> {
+        let Limit { mut cpu, wall } = limit;
         // Minimal coordinates of large systems do not fit into memory.
         if formulation::make(&self.triple.formulation, motion.system).is_err() {
             return Ok(());
@@ -91,7 +92,7 @@ impl Line {
             if is_over || (motion.is_stopped)() {
                 break;
             }
-            let method = self.triple.at((rtol, atol_of(rtol, motion.ratio)), None);
+            let method = self.triple.at(rtol, atol_of(rtol, motion.ratio), None);
             let run = motion.run(&method, Limit { cpu, wall })?;
             cpu = cpu.saturating_sub(Duration::from_secs_f64(run.seconds));
             if run.is_too_slow {
@@ -152,7 +153,7 @@ pub fn confirmed(lines: &[Line], checked: &Checked) -> Option<SecondOpinion> {
         return None;
     }
     let theirs = lines.iter().filter_map(|line| line.runs.last()).filter(|run| is_confirming(run));
-    let compared = theirs.map(|run| SecondOpinion::of(run.name(), checked.values.error(&run.rows)));
+    let compared = theirs.map(|run| SecondOpinion::of(run.name(), &checked.values, &run.rows));
     compared.min_by(|a, b| a.difference.unwrap_or(f64::INFINITY).total_cmp(&b.difference.unwrap_or(f64::INFINITY)))
 }
 

@@ -45,16 +45,16 @@ impl Given {
         self.headings.iter().map(String::as_str).filter(|heading| *heading != "t")
     }
 
-    /// Returns the largest number of equal parts of the time, at most `most`, for which the file has a row at the end
+    /// Returns the largest number of equal parts of the time, at most `limit`, for which the file has a row at the end
     /// of each part.
     ///
     /// # Errors
     /// A file without a row at the end.
-    pub fn parts(&self, (start, end): (f64, f64), most: usize) -> Result<usize> {
+    pub fn parts(&self, start: f64, end: f64, limit: usize) -> Result<usize> {
         let has = |parts: usize| {
             (1..=parts).all(|k| self.row(start + (end - start) * k as f64 / parts as f64, end - start).is_some())
         };
-        (1..=most).rev().find(|parts| has(*parts)).ok_or_else(|| {
+        (1..=limit).rev().find(|parts| has(*parts)).ok_or_else(|| {
             Error::input(format!("`{}` has no values at the end, t = {end} s", self.name))
                 .under("--reference")
                 .hint("give a file with a row at the end time, or --until a time that it has")
@@ -69,7 +69,7 @@ impl Given {
 
     /// Returns the watched quantities at the output times of `span` after its start.
     pub(super) fn rows_at(&self, watched: &Watched, span: Span) -> Result<Vec<Vec<f64>>> {
-        let place = |name: &String| {
+        let index = |name: &String| {
             self.headings.iter().position(|heading| heading == name).ok_or_else(|| {
                 let known = self.headings.iter().map(String::as_str);
                 Error::input(format!("`{}` has no column `{name}`", self.name))
@@ -78,11 +78,11 @@ impl Given {
             })
         };
         let names = watched.columns.iter().map(|column| &column.name);
-        let places: Vec<usize> = names.map(place).collect::<Result<_>>()?;
+        let indices: Vec<usize> = names.map(index).collect::<Result<_>>()?;
         let parts = ((span.end - span.start) / span.output_step).round() as usize;
         let duration = span.end - span.start;
         let at = |k: usize| self.row(span.start + duration * k as f64 / parts as f64, duration);
-        let values = |row: &[f64]| places.iter().map(|place| row[*place]).collect();
+        let values = |row: &[f64]| indices.iter().map(|index| row[*index]).collect();
         Ok((1..=parts).filter_map(at).map(values).collect())
     }
 }

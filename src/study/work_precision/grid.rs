@@ -31,7 +31,7 @@ pub struct Filter {
 
 impl Triple {
     /// Returns the method at an accuracy: `step` for integrators without an error estimate.
-    pub fn at(&self, (rtol, atol): (f64, f64), step: Option<f64>) -> Method {
+    pub fn at(&self, rtol: f64, atol: f64, step: Option<f64>) -> Method {
         let Triple { formulation, integrator, projection } = self.clone();
         Method { formulation, integrator, projection, rtol, atol, step }
     }
@@ -77,7 +77,7 @@ fn refused(integrators: &[MethodSpec], formulations: &[MethodSpec], filter: &Fil
         let integrator = integrator.clone();
         let triple = Triple { formulation, integrator, projection: projection.clone() };
         // A step that any method may have where it needs one.
-        triple.at((1e-6, 1e-6), None).check()?;
+        triple.at(1e-6, 1e-6, None).check()?;
     }
     Ok(Vec::new())
 }

@@ -65,7 +65,7 @@ pub struct WorkPrecision {
 
 impl WorkPrecision {
     /// A measurement without results.
-    pub fn fresh(scene: &str, (t_start, t_end): (f64, f64), rows: usize) -> WorkPrecision {
+    pub fn fresh(scene: &str, t_start: f64, t_end: f64, rows: usize) -> WorkPrecision {
         WorkPrecision { scene: scene.to_string(), t_start, t_end, rows, ..WorkPrecision::default() }
     }
 }

@@ -137,11 +137,12 @@ const ROWS: usize = 200;
 pub fn compare(
     variants: &[Variant],
     outputs: &[String],
-    (repeats, allowed): (usize, Duration),
+    repeats: usize,
+    allowed: Duration,
     mut watch: impl FnMut(&str, usize),
 ) -> Result<ModelCosts> {
     let velocities = |variant: &Variant| variant.prepared.system().dimensions().v;
-    let richest = (0..variants.len()).max_by_key(|place| (velocities(&variants[*place]), variants.len() - place));
+    let richest = (0..variants.len()).max_by_key(|i| (velocities(&variants[*i]), variants.len() - i));
     let (Some(richest), [first, _, ..]) = (richest, variants) else {
         return Err(Error::input("there is only one model").under("--variants").hint("name others to compare it with"));
     };
@@ -151,8 +152,8 @@ pub fn compare(
     let mut runs: Vec<Measurement> =
         variants.iter().map(|variant| Measurement::new(variant, &columns, span)).collect::<Result<_>>()?;
     for round in 0..=repeats {
-        for (place, run) in runs.iter_mut().enumerate() {
-            watch(&run.cost.name, round * variants.len() + place);
+        for (i, run) in runs.iter_mut().enumerate() {
+            watch(&run.cost.name, round * variants.len() + i);
             run.repeat(round, allowed)?;
         }
     }

@@ -52,7 +52,8 @@ impl Reference {
     pub(super) fn find(
         motion: &Motion,
         given: Option<&Given>,
-        (digits, budget): (u32, Duration),
+        digits: u32,
+        budget: Duration,
     ) -> Result<(Reference, Vec<RunSample>)> {
         let Motion { span, watched, .. } = motion;
         // One digit better than what is asked for.
@@ -61,9 +62,9 @@ impl Reference {
         let pace = pace(&lines, *span);
         let mut checked = check(&lines, watched).ok_or_else(|| nothing(&lines, *span, budget))?;
         if let Some(given) = given {
-            let own = checked.best;
-            let values = ErrorMetric::new(&watched.columns, given.rows_at(watched, *span)?, &own.sizes);
-            checked = Checked { by: Some(own), error: values.error(&own.rows), values, ..checked };
+            let best = checked.best;
+            let values = ErrorMetric::new(&watched.columns, given.rows_at(watched, *span)?, &best.sizes);
+            checked = Checked { by: Some(best), error: values.error(&best.rows), values, ..checked };
         }
         let from = given.map_or_else(|| checked.best.name(), |given| given.name.clone());
         let checked_by = checked.by.map_or("nothing".to_string(), RunSample::name);

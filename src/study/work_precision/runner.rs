@@ -70,8 +70,8 @@ impl<'a> Runner<'a> {
         self.motion.span.output_step = self.motion.duration() / result.rows as f64;
         if result.reference.is_none() {
             (self.watch)(result, "reference");
-            let plan = (self.plan.digits, self.plan.budget);
-            let reference = Reference::find(&self.motion, self.plan.given.as_ref(), plan);
+            let Plan { digits, budget, .. } = self.plan;
+            let reference = Reference::find(&self.motion, self.plan.given.as_ref(), *digits, *budget);
             // An interrupted search gives no reference.
             if (self.motion.is_stopped)() {
                 result.left_out = Some("all: the measurement was interrupted".to_string());
@@ -85,8 +85,8 @@ impl<'a> Runner<'a> {
         let paused = self.climb(result)?;
         let left_out = self.leave_out(result, paused.as_ref());
         result.seconds = before + self.budget.spent().as_secs_f64();
-        let place = |cell: &Cell| self.plan.triples.iter().position(|triple| triple.is_of(&cell.method));
-        result.cells.sort_by_key(|cell| (place(cell), cell.decades));
+        let rank = |cell: &Cell| self.plan.triples.iter().position(|triple| triple.is_of(&cell.method));
+        result.cells.sort_by_key(|cell| (rank(cell), cell.decades));
         result.left_out = paused.map(|pause| match pause {
             Pause::Budget => format!(
                 "{left_out} runs that did not fit into the budget of {} s; --resume goes on",

@@ -185,7 +185,7 @@ impl<'a> Runner<'a> {
     }
 
     fn is_explicit(&self, triple: &Triple) -> bool {
-        explicit(&triple.at((1e-6, 1e-6), None)).is_some()
+        explicit(&triple.at(1e-6, 1e-6, None)).is_some()
     }
 
     fn method(&self, result: &WorkPrecision, triple: &Triple, decades: u32) -> Method {
@@ -198,7 +198,7 @@ impl<'a> Runner<'a> {
             self.motion.duration() / (self.motion.duration() / step).ceil().max(1.0)
         });
         let rtol = rtol(decades);
-        triple.at((rtol, atol_of(rtol, self.motion.ratio)), step)
+        triple.at(rtol, atol_of(rtol, self.motion.ratio), step)
     }
 
     /// Returns the reason why a run is not worth making; none if it is.
