@@ -77,8 +77,8 @@ impl Accurate {
                 .under("outputs")
                 .hint("name the others by --outputs"));
         }
-        let terms = (settings.within, settings.norm);
-        let promise = Promise::new(terms, &watched.columns, recorded.rows.clone(), &recorded.sizes);
+        let Settings { within, norm, .. } = *settings;
+        let promise = Promise::new(within, norm, &watched.columns, recorded.rows.clone(), &recorded.sizes);
         let is_shorter = shorter.is_some();
         Ok(Accurate { source: shorter.unwrap_or_else(|| source.clone()), prepared, recorded, promise, is_shorter })
     }
@@ -129,26 +129,27 @@ impl Base {
             let Some(method) = base.sufficient().filter(|_| !is_stopped()) else { break };
             watch("the full model by a tighter method", base.runs);
             // Where that does not complete it stays as it is, and its error is told.
-            let Ok(next) = base.tightened(&method, settings, [is_long, is_stopped]) else { break };
-            base = next;
+            let Ok(tightened) = base.tightened(&method, settings, is_long, is_stopped) else { break };
+            base = tightened;
         }
         Ok(base)
     }
 
     /// The method of which an error within the allowed one is expected; none where that of the run is.
     fn sufficient(&self) -> Option<Method> {
-        let (Run { method, .. }, error) = (&self.richest, self.richest.error());
+        let method = &self.richest.method;
+        let error = self.richest.error();
         let allowed = NUMERICAL * self.accurate.promise.within;
         if error <= allowed {
             return None;
         }
-        let part = AIM * allowed / error;
+        let factor = AIM * allowed / error;
         Some(match method.step {
             Some(step) => {
                 let order = integrator::find(&method.integrator).map_or(1, |entry| entry.order);
-                Method { step: Some(rounded(step * part.powf(1.0 / order as f64), 0)), ..method.clone() }
+                Method { step: Some(rounded(step * factor.powf(1.0 / order as f64), 0)), ..method.clone() }
             }
-            None => at(method, (part * method.rtol).max(10.0 * tolerances::TIGHTEST)),
+            None => at(method, (factor * method.rtol).max(10.0 * tolerances::TIGHTEST)),
         })
         .filter(|finer| finer.step < method.step || finer.rtol < method.rtol)
     }
@@ -158,7 +159,8 @@ impl Base {
         &self,
         method: &Method,
         settings: &Settings,
-        [is_long, is_stopped]: [&(dyn Fn() -> bool + Sync); 2],
+        is_long: &(dyn Fn() -> bool + Sync),
+        is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Base> {
         let known = tighter(&self.richest.method);
         let mut source = self.accurate.source.clone();

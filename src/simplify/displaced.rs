@@ -71,12 +71,14 @@ fn rotation(first: &Placed, now: &Placed) -> [f64; 3] {
 }
 
 /// Angle of the second of two markers against the first, about its z axis.
-pub fn angle([one, other]: &[Placed; 2]) -> f64 {
+pub fn angle(markers: &[Placed; 2]) -> f64 {
+    let [one, other] = markers;
     dot(&one.axes[1], &other.axes[0]).atan2(dot(&one.axes[0], &other.axes[0]))
 }
 
 /// Displacement of the second of two markers along an axis of the first.
-pub fn slide([one, other]: &[Placed; 2], axis: usize) -> f64 {
+pub fn slide(markers: &[Placed; 2], axis: usize) -> f64 {
+    let [one, other] = markers;
     dot(&one.axes[axis], &sub(&other.r, &one.r))
 }
 

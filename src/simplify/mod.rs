@@ -61,6 +61,7 @@ use crate::study::{Budget, SecondOpinion};
 use base::{Accurate, Base, METHOD, contradicted, doubts};
 use bench::Bench;
 use nearby::Neighbourhood;
+use search::Found;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::time::Duration;
@@ -165,69 +166,121 @@ pub fn simplify(
 ) -> Result<Simplification> {
     let budget = settings.budget.map(Budget::begin);
     let is_late = |part: u32| budget.is_some_and(|budget| budget.spent() >= budget.all / part);
-    let [is_over, is_long, is_near_long] = [1, RICHEST, NEARBY].map(|part| move || is_stopped() || is_late(part));
-    let Base { accurate, richest, trials, runs, work } = Base::new(source, settings, &is_long, &is_over, watch)?;
-    let mut warnings = doubts(&accurate, &richest);
-    watch("the full model by diffsol", runs);
-    let opinion = accurate.confirmed(settings, &is_over);
-    warnings.extend(opinion.as_ref().and_then(|opinion| contradicted(opinion, settings.within)));
-    let Accurate { source: base, prepared, recorded, promise, .. } = accurate;
-    let scene = prepared.name.clone();
-    let names = promise.names();
-    let facts = Facts::new(base.clone(), prepared, names.clone(), recorded);
-    if settings.nearby.is_some() {
-        watch("the full model on motions nearby", runs);
-    }
-    let near = |nearby| Neighbourhood::new((&base, &facts), &promise, nearby, richest.work, [&is_near_long, &is_over]);
-    let neighbourhood = settings.nearby.map(near).transpose()?;
+    let is_over = || is_stopped() || is_late(1);
+    let is_long = || is_stopped() || is_late(RICHEST);
+    let is_near_long = || is_stopped() || is_late(NEARBY);
+    let (full, mut warnings) = FullModel::new(source, settings, &is_long, &is_over, watch)?;
+    let neighbourhood = full.neighbourhood(settings, &is_near_long, &is_over, watch)?;
     warnings.extend(neighbourhood.as_ref().and_then(Neighbourhood::doubt));
-    let neighbours = neighbourhood.as_ref().filter(|near| !near.is_empty());
     let mut bench = Bench {
-        source: &base,
-        promise: &promise,
+        source: &full.facts.source,
+        promise: &full.promise,
         is_stopped: &is_over,
         watch,
-        runs,
-        cost: work / richest.work,
-        richest: &richest,
+        runs: full.runs,
+        cost: full.work / full.richest.work,
+        richest: &full.richest,
         at_most: settings.at_most,
-        neighbourhood: neighbours,
+        neighbourhood: neighbourhood.as_ref().filter(|near| !near.is_empty()),
         prices: Prices::new(),
     };
-    bench.enter(&richest);
-    let reserved = RESERVED.min((settings.at_most - LEAST) / 2);
-    let mut found = search::search(&mut bench, &facts, candidates, trials, reserved);
-    numerics::cheapest(&mut bench, &mut found);
-    let runs = bench.runs;
-    let cost = bench.cost;
-    // Where nothing was changed it has not been tried.
-    let untried = neighbours.filter(|_| found.robustness.is_none() && !is_over());
-    let robustness = untried.map(|near| near.robustness(&found.scene)).or(found.robustness);
+    let least = least_model(&mut bench, &full, candidates);
     let mut result = Simplification {
-        scene,
+        scene: full.facts.prepared.name.clone(),
         within: settings.within,
         norm: settings.norm,
-        outputs: names,
-        richest: richest.clone(),
-        second_opinion: opinion,
-        trials: found.trials,
-        chosen: found.run,
-        runs,
-        cost,
-        robustness,
+        outputs: full.promise.names(),
+        richest: full.richest.clone(),
+        second_opinion: full.second_opinion.clone(),
+        trials: least.trials,
+        chosen: least.run,
+        runs: bench.runs,
+        cost: bench.cost,
+        robustness: least.robustness,
         warnings,
         simplified: Value::Null,
     };
-    found.scene["simulation"]["t_end"] = source.scene["simulation"]["t_end"].clone();
-    result.simplified = described(source.anywhere(&found.scene), &result);
-    if is_late(1) {
+    complete(&mut result, least.scene, source, &full.facts, is_late(1))?;
+    Ok(result)
+}
+
+/// The full model with what its runs say.
+struct FullModel {
+    facts: Facts,
+    promise: Promise,
+    richest: Run,
+    /// The change of its method, if there was one.
+    trials: Vec<Trial>,
+    runs: usize,
+    /// Their counted work.
+    work: f64,
+    second_opinion: Option<SecondOpinion>,
+}
+
+impl FullModel {
+    /// Runs the full model, its accurate run until `is_long`. Returns also what is doubtful about it.
+    fn new(
+        source: &Source,
+        settings: &Settings,
+        is_long: &(dyn Fn() -> bool + Sync),
+        is_over: &(dyn Fn() -> bool + Sync),
+        watch: &mut dyn FnMut(&str, usize),
+    ) -> Result<(FullModel, Vec<Warning>)> {
+        let Base { accurate, richest, trials, runs, work } = Base::new(source, settings, is_long, is_over, watch)?;
+        let mut warnings = doubts(&accurate, &richest);
+        watch("the full model by diffsol", runs);
+        let second_opinion = accurate.confirmed(settings, is_over);
+        warnings.extend(second_opinion.as_ref().and_then(|opinion| contradicted(opinion, settings.within)));
+        let Accurate { source, prepared, recorded, promise, .. } = accurate;
+        let facts = Facts::new(source, prepared, promise.names(), recorded);
+        Ok((FullModel { facts, promise, richest, trials, runs, work, second_opinion }, warnings))
+    }
+
+    /// Runs it on the motions nearby that the settings ask for, until `is_long`.
+    fn neighbourhood<'a>(
+        &'a self,
+        settings: &Settings,
+        is_long: &'a (dyn Fn() -> bool + Sync),
+        is_over: &'a (dyn Fn() -> bool + Sync),
+        watch: &mut dyn FnMut(&str, usize),
+    ) -> Result<Option<Neighbourhood<'a>>> {
+        let Some(nearby) = settings.nearby else { return Ok(None) };
+        watch("the full model on motions nearby", self.runs);
+        Neighbourhood::new(&self.facts, &self.promise, nearby, self.richest.work, is_long, is_over).map(Some)
+    }
+}
+
+/// Returns the least model, and the cheapest method for it.
+fn least_model(bench: &mut Bench, full: &FullModel, candidates: &[&dyn Candidate]) -> Found {
+    bench.enter(&full.richest);
+    let reserved = RESERVED.min((bench.at_most - LEAST) / 2);
+    let mut least = search::search(bench, &full.facts, candidates, full.trials.clone(), reserved);
+    numerics::cheapest(bench, &mut least);
+    // Where nothing was changed it has not been tried.
+    if least.robustness.is_none() && !(bench.is_stopped)() {
+        least.robustness = bench.neighbourhood.map(|near| near.robustness(&least.scene));
+    }
+    least
+}
+
+/// Adds the chosen scene over the whole time of the `source`, and warnings about the search and the modes that are lost.
+fn complete(
+    result: &mut Simplification,
+    mut scene: Value,
+    source: &Source,
+    facts: &Facts,
+    is_late: bool,
+) -> Result<()> {
+    scene["simulation"]["t_end"] = source.scene["simulation"]["t_end"].clone();
+    result.simplified = described(source.anywhere(&scene), result);
+    if is_late {
         let text = "the time was over before all changes and methods were tried".to_string();
         result.warnings.push(Warning::new(text, "give more time by --budget"));
     }
     if result.is_simpler() {
-        result.warnings.extend(modes::lost(&facts.prepared, &base.prepare(&found.scene)?));
+        result.warnings.extend(modes::lost(&facts.prepared, &facts.source.prepare(&scene)?));
     }
-    Ok(result)
+    Ok(())
 }
 
 /// The scene with what was left out, and why, in its words.

@@ -169,27 +169,31 @@ impl<'a> Movable<'a> {
         Some((state, u / self.progress[state]))
     }
 
-    /// Change of the joint coordinates that the scene gives at the start, by a part of that until a state; `None` where
-    /// it is not known.
-    fn joints(&self, state: usize, part: f64) -> Option<Vec<(String, f64)>> {
+    /// Change of the joint coordinates that the scene gives at the start, by a `fraction` of that until a state; `None`
+    /// where it is not known.
+    fn joints(&self, state: usize, fraction: f64) -> Option<Vec<(String, f64)>> {
         let given = self.source.scene["initial"].as_object().into_iter().flatten().map(|(key, _)| key);
-        let change = |key: &String| {
-            let (joint, coordinate) = key.split_once('.')?;
-            let joint = self.facts.element("joints", joint).filter(|joint| joint.get("axis").is_none())?;
-            let [one, other] = pair(joint)?.map(|marker| self.facts.path(marker));
-            let one = one?;
-            let other = other?;
-            let first = [one[0], other[0]];
-            let now = [*one.get(state)?, *other.get(state)?];
-            let along = if self.facts.dimension() == 2 && coordinate == "position" { 0 } else { 2 };
-            let change = match coordinate {
-                "angle" => wrapped(angle(&now) - angle(&first)),
-                "position" => slide(&now, along) - slide(&first, along),
-                _ => return None,
-            };
-            Some((key.clone(), part * change))
-        };
+        let change = |key: &String| Some((key.clone(), fraction * self.joint_change(key, state)?));
         given.filter(|key| !key.ends_with('\'')).map(change).collect()
+    }
+
+    /// Change of the joint coordinate `key` from the start to a state; `None` where it is not known.
+    fn joint_change(&self, key: &str, state: usize) -> Option<f64> {
+        let (joint, coordinate) = key.split_once('.')?;
+        let joint = self.facts.element("joints", joint).filter(|joint| joint.get("axis").is_none())?;
+        let [one, other] = pair(joint)?;
+        let one = self.facts.path(one)?;
+        let other = self.facts.path(other)?;
+        let first = [one[0], other[0]];
+        let now = [*one.get(state)?, *other.get(state)?];
+        match coordinate {
+            "angle" => Some(wrapped(angle(&now) - angle(&first))),
+            "position" => {
+                let along = if self.facts.dimension() == 2 { 0 } else { 2 };
+                Some(slide(&now, along) - slide(&first, along))
+            }
+            _ => None,
+        }
     }
 
     /// A scene, the richest or a simpler one, so moved.

@@ -120,12 +120,15 @@ impl<'a> Neighbourhood<'a> {
     /// # Errors
     /// Nothing can be moved; the full model completes none of the motions, though there is time.
     pub fn new(
-        (source, facts): (&'a Source, &'a Facts),
+        facts: &'a Facts,
         promise: &Promise,
-        Nearby { by, samples }: Nearby,
+        nearby: Nearby,
         work: f64,
-        [is_long, is_stopped]: [&'a (dyn Fn() -> bool + Sync); 2],
+        is_long: &'a (dyn Fn() -> bool + Sync),
+        is_stopped: &'a (dyn Fn() -> bool + Sync),
     ) -> Result<Neighbourhood<'a>> {
+        let Nearby { by, samples } = nearby;
+        let source = &facts.source;
         let movable = Movable::new(source, facts, by);
         if movable.is_empty() {
             return Err(Error::input("the scene has no parameter, input or motion at the start that could be moved")

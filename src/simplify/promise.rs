@@ -17,13 +17,13 @@ pub struct Promise {
 
 impl Promise {
     /// Promise about outputs with these values over the motion of the full model.
-    pub fn new((within, norm): (f64, Norm), columns: &[Column], rows: Vec<Vec<f64>>, sizes: &Sizes) -> Promise {
+    pub fn new(within: f64, norm: Norm, columns: &[Column], rows: Vec<Vec<f64>>, sizes: &Sizes) -> Promise {
         Promise { columns: columns.to_vec(), within, norm, metric: ErrorMetric::by(norm, columns, rows, sizes) }
     }
 
     /// The same promise about another motion of the full model.
     pub fn about(&self, rows: Vec<Vec<f64>>, sizes: &Sizes) -> Promise {
-        Promise::new((self.within, self.norm), &self.columns, rows, sizes)
+        Promise::new(self.within, self.norm, &self.columns, rows, sizes)
     }
 
     /// Names of the watched outputs.

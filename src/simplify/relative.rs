@@ -20,14 +20,14 @@ pub struct Relative {
 impl Relative {
     /// The larger of displacement and rotation, each relative to that of `all`.
     pub fn part(&self, all: &Relative) -> f64 {
-        let part = |own: f64, all: f64| if own > 0.0 { own / all } else { 0.0 };
+        let part = |motion: f64, all: f64| if motion > 0.0 { motion / all } else { 0.0 };
         part(self.shift, all.shift).max(part(self.turn, all.turn))
     }
 }
 
 impl Facts {
-    /// Relative motion of two markers.
-    pub fn relative(&self, [a, b]: [&str; 2]) -> Option<Relative> {
+    /// Relative motion of the markers `a` and `b`.
+    pub fn relative(&self, a: &str, b: &str) -> Option<Relative> {
         let pairs: Vec<(Placed, Placed)> = self.path(a)?.into_iter().zip(self.path(b)?).collect();
         let local = |(a, b): &(Placed, Placed)| {
             let gap = sub(&b.r, &a.r);
@@ -35,35 +35,35 @@ impl Facts {
             (a.axes.each(|axis| dot(&axis, &gap)), rotation)
         };
         let start = local(pairs.first()?);
-        let mut most = Relative::default();
+        let mut largest = Relative::default();
         for now in pairs.iter().map(local) {
             let shift = sub(&now.0, &start.0);
             let cosines: [f64; 3] = from_fn(|i| dot(&now.1[i], &start.1[i]));
             let trace: f64 = cosines.iter().sum();
-            most.shift = most.shift.max(norm(&shift));
-            most.tilt = most.tilt.max(cosines[2].clamp(-1.0, 1.0).acos());
-            most.turn = most.turn.max((0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos());
+            largest.shift = largest.shift.max(norm(&shift));
+            largest.tilt = largest.tilt.max(cosines[2].clamp(-1.0, 1.0).acos());
+            largest.turn = largest.turn.max((0.5 * (trace - 1.0)).clamp(-1.0, 1.0).acos());
         }
-        Some(most)
+        Some(largest)
     }
 
-    /// Length between two markers along the motion: least, mean and largest, m.
-    pub fn lengths(&self, [a, b]: [&str; 2]) -> Option<[f64; 3]> {
+    /// Length between the markers `a` and `b` along the motion: least, mean and largest, m.
+    pub fn lengths(&self, a: &str, b: &str) -> Option<[f64; 3]> {
         let pairs = self.path(a)?.into_iter().zip(self.path(b)?);
         let length = |(a, b): (Placed, Placed)| norm(&sub(&b.r, &a.r));
-        let all: Vec<f64> = pairs.map(length).collect();
-        let least = all.iter().copied().fold(f64::INFINITY, f64::min);
-        Some([least, all.iter().sum::<f64>() / all.len().max(1) as f64, largest(&all)])
+        let lengths: Vec<f64> = pairs.map(length).collect();
+        let least = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+        Some([least, lengths.iter().sum::<f64>() / lengths.len().max(1) as f64, largest(&lengths)])
     }
 
     /// Largest displacement, m, and largest rotation, rad, of the bodies of the scene against the start.
     pub fn travel(&self) -> Relative {
         let bodies = elements(self.scene(), "bodies").iter();
-        let motions = bodies.filter_map(|body| self.relative(["ground", text(body, "name")]));
-        motions.fold(Relative::default(), |most, next| Relative {
-            shift: most.shift.max(next.shift),
-            tilt: most.tilt.max(next.tilt),
-            turn: most.turn.max(next.turn),
+        let motions = bodies.filter_map(|body| self.relative("ground", text(body, "name")));
+        motions.fold(Relative::default(), |largest, body| Relative {
+            shift: largest.shift.max(body.shift),
+            tilt: largest.tilt.max(body.tilt),
+            turn: largest.turn.max(body.turn),
         })
     }
 }

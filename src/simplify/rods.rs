@@ -81,17 +81,25 @@ fn forces(facts: &Facts, sources: &[AxialForce]) -> Option<Vec<Rod>> {
     outputs.iter_mut().zip(&names).for_each(|(output, name)| output["name"] = json!(name));
     scene["outputs"] = json!([elements(&scene, "outputs"), &outputs].concat());
     let rows = facts.read(&mechanism(&facts.source, &names, &scene).ok()?, &names, facts.states().iter())?;
+    if names.is_empty() {
+        return None;
+    }
+    let mut rods = Vec::new();
     let mut first = 0;
-    let rod = |source: &AxialForce| {
-        let own = first..first + source.outputs.len();
-        first = own.end;
+    for source in sources {
+        let columns = first..first + source.outputs.len();
+        first = columns.end;
         let sum = |(row, weights): (&Vec<f64>, &Vec<f64>)| -> f64 {
-            row[own.clone()].iter().zip(weights).map(|(value, weight)| value * weight).sum()
+            row[columns.clone()].iter().zip(weights).map(|(value, weight)| value * weight).sum()
         };
-        let forces: Vec<f64> = rows.iter().zip(&source.weights).map(sum).collect();
-        let least = forces.iter().copied().reduce(f64::min)?;
-        let most = forces.iter().copied().reduce(f64::max)?;
-        Some(Rod { name: source.name.clone(), at_start: *forces.first()?, least, most })
-    };
-    (!names.is_empty()).then(|| sources.iter().filter_map(rod).collect())
+        rods.extend(rod(&source.name, rows.iter().zip(&source.weights).map(sum).collect()));
+    }
+    Some(rods)
+}
+
+/// Returns the rod with these forces over the states; none without states.
+fn rod(name: &str, forces: Vec<f64>) -> Option<Rod> {
+    let least = forces.iter().copied().reduce(f64::min)?;
+    let largest = forces.iter().copied().reduce(f64::max)?;
+    Some(Rod { name: name.to_string(), at_start: *forces.first()?, least, most: largest })
 }

@@ -11,7 +11,7 @@ use crate::body::{cross, dot, norm, sub};
 use crate::error::Result;
 use crate::formulation::{Dynamics, ExponentialMap};
 use crate::initial::{Assembly, assemble};
-use crate::linearize::{Complex, Kind, Mode, State, amplitude, pairs, seen};
+use crate::linearize::{Kind, Mode, State, amplitude, pairs, seen};
 use crate::math::largest;
 use crate::prepared::{Model, Overrides};
 use crate::system::{Dimensions, Need};
@@ -85,14 +85,14 @@ pub fn hints(prepared: Model, path: &Path, overrides: &Overrides, candidates: &[
     let watched: Vec<String> = prepared.system().facts().outputs.iter().map(|column| column.name.clone()).collect();
     let time = span.end - span.start;
     // Without outputs nothing is known of what counts.
-    let parts = if watched.is_empty() { vec![1.0; modes.len()] } else { seen(&modes, time) };
+    let shares = if watched.is_empty() { vec![1.0; modes.len()] } else { seen(&modes, time) };
     let is_seen: Vec<&Mode> =
-        modes.iter().zip(&parts).filter(|(_, part)| **part >= tolerances::UNSEEN).map(|(mode, _)| *mode).collect();
+        modes.iter().zip(&shares).filter(|(_, share)| **share >= tolerances::UNSEEN).map(|(mode, _)| *mode).collect();
     let slowest_seen = is_seen.iter().map(|mode| mode.value.norm()).reduce(f64::min);
-    let states = small_motions((&prepared, &lines(&source, &prepared)), &is_seen, time);
-    let unseen = modes.iter().zip(&parts).filter(|(_, part)| **part < tolerances::UNSEEN);
+    let states = small_motions(&prepared, &lines(&source, &prepared), &is_seen, time);
+    let unseen = modes.iter().zip(&shares).filter(|(_, share)| **share < tolerances::UNSEEN);
     let names = prepared.system().facts().names.v.clone();
-    let unseen = unseen.map(|(mode, part)| unseen_mode(mode, *part, &names)).collect();
+    let unseen = unseen.map(|(mode, share)| unseen_mode(mode, *share, &names)).collect();
     let mut dynamics = Dynamics::new(prepared.system());
     dynamics.evaluate(span.start, start.0, start.1, Need::DYNAMICS);
     let (redundant, _) = dynamics.dependent_rows(span.start, start.0, start.1);
@@ -140,7 +140,7 @@ fn unseen_mode(mode: &Mode, seen: f64, names: &[String]) -> Unseen {
 }
 
 /// The start, the state to which it goes on, and that at an end of each mode.
-fn small_motions((prepared, lines): (&Model, &[Line]), modes: &[&Mode], time: f64) -> Vec<State> {
+fn small_motions(prepared: &Model, lines: &[Line], modes: &[&Mode], time: f64) -> Vec<State> {
     let start = State::start(prepared);
     let reach = |change: &[f64]| largest_speed(prepared, lines, change) / REACH;
     let on = way_on(prepared, reach, time);
@@ -150,12 +150,15 @@ fn small_motions((prepared, lines): (&Model, &[Line]), modes: &[&Mode], time: f6
     let farthest = ends.iter().map(|[change, _]| reach(change)).fold(0.0, f64::max);
     // Where nothing moves the modes have the energy with which the slowest goes as far as it may.
     let speed = if kinetic > 0.0 { (2.0 * kinetic).sqrt() } else { 1.0 / farthest };
-    let moved = ends.iter().filter_map(|[change, rate]| {
-        let times = |all: &[f64], factor: f64| all.iter().map(|x| factor * x).collect::<Vec<_>>();
-        beside(prepared, start.t, &times(change, 1.0 / farthest), &times(rate, speed))
-    });
-    let moved: Vec<State> = moved.collect();
-    [start].into_iter().chain(on).chain(moved).collect()
+    let ends = ends
+        .iter()
+        .filter_map(|[change, rate]| beside(prepared, start.t, &scaled(change, 1.0 / farthest), &scaled(rate, speed)));
+    let ends: Vec<State> = ends.collect();
+    [start].into_iter().chain(on).chain(ends).collect()
+}
+
+fn scaled(x: &[f64], factor: f64) -> Vec<f64> {
+    x.iter().map(|x| factor * x).collect()
 }
 
 /// The state to which the velocities and accelerations of the start lead within `reach` and the time of the motion;
@@ -194,18 +197,23 @@ fn largest_speed(prepared: &Model, lines: &[Line], v: &[f64]) -> f64 {
 /// Displacement and velocity of each phase of a mode at a unit of twice the kinetic energy.
 fn end(mode: &Mode, time: f64) -> Vec<[Vec<f64>; 2]> {
     let size = amplitude(mode, time);
-    let phases: [fn(&Complex<f64>) -> f64; 2] = [|x| x.re, |x| x.im];
-    let parts = phases.map(|part| mode.shape.iter().map(part).collect::<Vec<f64>>());
     let speed = 1.0 / mode.mass.sqrt();
-    // The square of what rounding leaves of double eigenvalues.
-    let is_there = |part: &Vec<f64>| size.is_finite() && largest(part).powi(2) > 1e-6;
-    let motion = |part: Vec<f64>| [size, speed].map(|factor| part.iter().map(|x| factor * x).collect());
-    parts.into_iter().filter(is_there).map(motion).collect()
+    let real: Vec<f64> = mode.shape.iter().map(|x| x.re).collect();
+    let imaginary: Vec<f64> = mode.shape.iter().map(|x| x.im).collect();
+    let mut ends = Vec::new();
+    for phase in [real, imaginary] {
+        // The square of what rounding leaves of double eigenvalues.
+        if size.is_finite() && largest(&phase).powi(2) > 1e-6 {
+            ends.push([scaled(&phase, size), scaled(&phase, speed)]);
+        }
+    }
+    ends
 }
 
 /// The state at a displacement from the start, on the constraints; none where they do not close.
 fn beside(prepared: &Model, t: f64, change: &[f64], v: &[f64]) -> Option<State> {
-    let (system, (start, before)) = (prepared.system(), prepared.start());
+    let system = prepared.system();
+    let (start, before) = prepared.start();
     let mut q = start.to_vec();
     ExponentialMap::new(system).apply(system, start, change, &mut q);
     // States xi stay as they are.

@@ -15,7 +15,7 @@ impl Candidate for MathematicalPendulum {
     fn propose(&self, facts: &Facts) -> Vec<Proposal> {
         let body = &facts.scene()["bodies"][0];
         let number = |key: &str| facts.number(&body[key]);
-        let length = facts.lengths(["ground.O", "bob"]).map(|[_, mean, _]| mean);
+        let length = facts.lengths("ground.O", "bob").map(|[_, mean, _]| mean);
         let (Some(mass), Some(inertia), Some(length)) = (number("mass"), number("inertia"), length) else {
             return Vec::new();
         };

@@ -107,8 +107,9 @@ fn alternatives(facts: &Facts, beam: &Value) -> Vec<Proposal> {
 fn bend(facts: &Facts, beam: &Value) -> Option<f64> {
     let name = text(beam, "name");
     let markers = beam["markers"].as_object()?;
-    let [first, last] = [markers.keys().next()?, markers.keys().next_back()?].map(|marker| format!("{name}.{marker}"));
-    let shift = facts.relative([&first, &last])?.shift;
+    let first = format!("{name}.{}", markers.keys().next()?);
+    let last = format!("{name}.{}", markers.keys().next_back()?);
+    let shift = facts.relative(&first, &last)?.shift;
     Some(shift / facts.number(&beam["length"])?).filter(|_| first != last)
 }
 
@@ -124,8 +125,8 @@ fn between_pins(facts: &Facts, name: &str) -> Option<f64> {
             || facts.dimension() == 2 && text(joint, "type") == "revolute"
     };
     let is_link = is_pin(first) && is_pin(second) && acts("forces").next().is_none() && !elastic;
-    let [least, mean, most] = facts.lengths([&Tie::new(first, name)?.own, &Tie::new(second, name)?.own])?;
-    is_link.then(|| (most - least) / mean)
+    let [least, mean, largest] = facts.lengths(&Tie::new(first, name)?.own, &Tie::new(second, name)?.own)?;
+    is_link.then(|| (largest - least) / mean)
 }
 
 /// The beam as a rigid body of the same mass and moments of inertia, in the numbers of the scene.

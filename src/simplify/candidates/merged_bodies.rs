@@ -32,7 +32,7 @@ fn proposal(facts: &Facts, names: [&str; 2], travel: &Relative) -> Option<Propos
     let mass = |name: &str| facts.number(&facts.element("bodies", name)?["mass"]);
     let [first, second] = if mass(names[0])? < mass(names[1])? { [names[1], names[0]] } else { names };
     let merged = Merged::new(facts, [first, second])?;
-    let effect = facts.relative([first, second])?.part(travel);
+    let effect = facts.relative(first, second)?.part(travel);
     Some(Proposal {
         subject: format!("{first}, {second}"),
         what: format!("{first} and {second} become one body"),
@@ -95,42 +95,42 @@ impl Merged {
 }
 
 impl Merged {
-    /// Adds the second body to `own`, in the numbers of the scene, by the theorem of parallel axes; the parameter
+    /// Adds the second body to `body`, in the numbers of the scene, by the theorem of parallel axes; the parameter
     /// `total` is to be the mass that is returned.
-    fn add(&self, own: &mut Value, total: &str) -> Option<Value> {
+    fn add(&self, body: &mut Value, total: &str) -> Option<Value> {
         let number = |number: &Value| value(number, &self.parameters);
         let origin = |body: &Value| -> [f64; 3] { from_fn(|i| number(&body["origin"][i]).unwrap_or(0.0)) };
-        let masses = [own["mass"].clone(), self.second["mass"].clone()];
+        let masses = [body["mass"].clone(), self.second["mass"].clone()];
         let axes = &self.place.axes;
-        let [m, other] = [number(&masses[0])?, number(&masses[1])?];
+        let total_mass = number(&masses[0])? + number(&masses[1])?;
         let arm = origin(&self.second);
         let centres = [
-            origin(own).each(|x| 0.0 - x),
+            origin(body).each(|x| 0.0 - x),
             from_fn(|i| self.place.r[i] - (0..3).map(|k| arm[k] * axes[k][i]).sum::<f64>()),
         ];
         let gap = sub(&centres[1], &centres[0]);
         let [own_mass, other_mass] = masses.each_ref().map(written);
         // Of no mass at all there is no centre.
-        let reduced = if m + other > 0.0 { format!("({own_mass})*({other_mass})/{total}") } else { "0".to_string() };
+        let reduced = if total_mass > 0.0 { format!("({own_mass})*({other_mass})/{total}") } else { "0".to_string() };
         let centre = |i: usize| format!("-({}) - {}*({other_mass})/{total}", centres[0][i], gap[i]);
-        let inertias = [packed(&own["inertia"])?, packed(&self.second["inertia"])?];
-        let moment = |(place, (i, j)): (usize, (usize, usize))| {
+        let inertias = [packed(&body["inertia"])?, packed(&self.second["inertia"])?];
+        let mut moments = Vec::new();
+        for (index, (i, j)) in PLACES.into_iter().enumerate() {
             // axes[k] is the k-th axis of the second body: a vector x of it is sum x_k axes[k].
             let turned = PLACES.each(|(k, l)| {
-                let part = axes[k][i] * axes[l][j];
-                if k == l { part } else { part + axes[l][i] * axes[k][j] }
+                let product = axes[k][i] * axes[l][j];
+                if k == l { product } else { product + axes[l][i] * axes[k][j] }
             });
             let square = if i == j { dot(&gap, &gap) } else { 0.0 };
-            let parts = [&[1.0][..], &turned, &[square - gap[i] * gap[j]]].concat();
-            let values = [&[inertias[0][place].clone()][..], &inertias[1], &[json!(reduced)]].concat();
-            combined(&parts, &json!(values))
-        };
-        let all = PLACES.into_iter().enumerate().map(moment).collect::<Option<Vec<_>>>()?;
-        own["inertia"] = if self.dimension == 2 { all[2].clone() } else { json!(all) };
-        own["origin"] = (0..self.dimension).map(centre).collect();
-        own["mass"] = json!(total);
-        own["initial"] = self.initial.clone();
-        self.markers.iter().for_each(|marker| own["markers"][&marker.name] = marker.place.clone());
+            let factors = [&[1.0][..], &turned, &[square - gap[i] * gap[j]]].concat();
+            let values = [&[inertias[0][index].clone()][..], &inertias[1], &[json!(reduced)]].concat();
+            moments.push(combined(&factors, &json!(values))?);
+        }
+        body["inertia"] = if self.dimension == 2 { moments[2].clone() } else { json!(moments) };
+        body["origin"] = (0..self.dimension).map(centre).collect();
+        body["mass"] = json!(total);
+        body["initial"] = self.initial.clone();
+        self.markers.iter().for_each(|marker| body["markers"][&marker.name] = marker.place.clone());
         Some(json!(format!("{own_mass} + {other_mass}")))
     }
 }

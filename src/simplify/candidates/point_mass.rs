@@ -31,7 +31,8 @@ fn proposal(facts: &Facts, body: &Value) -> Option<Proposal> {
         ["joints", "forces"].iter().any(|list| elements(facts.scene(), list).iter().any(|e| mentions_marker(e, marker)))
     };
     let reach = SAME * facts.travel().shift;
-    let is_off = |marker: &String| acts(marker) && facts.lengths([&name, marker]).is_none_or(|[.., most]| most > reach);
+    let is_off =
+        |marker: &String| acts(marker) && facts.lengths(&name, marker).is_none_or(|[.., largest]| largest > reach);
     if text(body, "type") != "rigid" || is_shaped || markers.iter().any(is_off) {
         return None;
     }

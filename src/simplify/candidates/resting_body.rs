@@ -24,7 +24,7 @@ impl Candidate for RestingBody {
 
 fn proposal(facts: &Facts, body: &Value, travel: &Relative) -> Option<Proposal> {
     let name = text(body, "name").to_string();
-    let effect = facts.relative(["ground", &name])?.part(travel);
+    let effect = facts.relative("ground", &name)?.part(travel);
     let markers = markers(body, |marker| Some(facts.place(marker)?.marker(facts.dimension())))?;
     Some(Proposal {
         subject: name.clone(),

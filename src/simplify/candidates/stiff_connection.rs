@@ -27,14 +27,16 @@ impl Candidate for StiffConnection {
 }
 
 fn spring(facts: &Facts, force: &Value) -> Option<Proposal> {
-    let [least, mean, most] = facts.lengths(pair(force)?)?;
-    let effect = (most - least) / facts.travel().shift;
+    let [a, b] = pair(force)?;
+    let [least, mean, largest] = facts.lengths(a, b)?;
+    let effect = (largest - least) / facts.travel().shift;
     let joint = json!({ "type": "distance", "length": mean });
     (least > 0.0).then(|| proposal(force, "distance", joint, "axial", effect))
 }
 
 fn bushing(facts: &Facts, force: &Value) -> Option<Vec<Proposal>> {
-    let motion = facts.relative(pair(force)?)?;
+    let [a, b] = pair(force)?;
+    let motion = facts.relative(a, b)?;
     let travel = facts.travel();
     let hinges: &[(&str, f64)] = match facts.dimension() {
         2 => &[("weld", motion.turn), ("revolute", 0.0)],
