@@ -40,7 +40,7 @@ pub fn doubts(mechanism: &AnyMechanism, guess: &[f64], assembly: &Assembly, has_
 }
 
 /// Tyres that pull their wheels down at the start.
-pub fn pulling(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Vec<Warning> {
+pub fn pulling(system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Vec<Warning> {
     let roads = system.roads(t, q, v, &mut Scratch::default());
     let pulls = |road: &&Road| !road.lifts && road.load < 0.0 && road.compression() < -tolerances::TOLD;
     let warning = |road: &Road| {
@@ -60,26 +60,26 @@ const OTHER_CONFIGURATION: &str = "see with `plot` whether this configuration is
 fn turned_far<const D: usize>(mechanism: &Mechanism<D>, guess: &[f64], q: &[f64], allowed: f64) -> Option<Warning> {
     let model = mechanism.model();
     let is_node = |index: usize| model.beams.iter().any(|beam| beam.bodies().contains(&index));
-    let mut most: Option<(f64, &str)> = None;
+    let mut largest: Option<(f64, &str)> = None;
     for (index, part) in model.given_bodies().iter().enumerate() {
         let angle = turn(&part.facts.coordinate_names, part.coordinates(guess), part.coordinates(q));
         let allowed = if is_node(index) { FRAC_PI_2 } else { allowed };
-        if angle > most.map_or(allowed, |(angle, _)| angle.max(allowed)) {
-            most = Some((angle, &part.name));
+        if angle > largest.map_or(allowed, |(angle, _)| angle.max(allowed)) {
+            largest = Some((angle, &part.name));
         }
     }
-    let (angle, name) = most?;
+    let (angle, name) = largest?;
     let text = format!("assembly turned `{name}` by {} degrees", significant(angle.to_degrees(), 3));
     Some(Warning::new(text, OTHER_CONFIGURATION))
 }
 
 /// Rotation of a body with these coordinates from one state to another, rad.
 fn turn(names: &[String], from: &[f64], to: &[f64]) -> f64 {
-    let place = |coordinate: &str| names.iter().position(|name| name == coordinate);
-    if let Some(angle) = place("angle") {
+    let index_of = |coordinate: &str| names.iter().position(|name| name == coordinate);
+    if let Some(angle) = index_of("angle") {
         return (to[angle] - from[angle]).abs();
     }
-    let Some(first) = place("qw") else { return 0.0 };
+    let Some(first) = index_of("qw") else { return 0.0 };
     let [a, b]: [[f64; 4]; 2] = [from, to].each(|q| from_fn(|k| q[first + k]));
     // The real part of a* b is the cosine of half the angle, the rest its sine; -b is the same rotation as b.
     let cosine = dot(&a, &b).abs();
@@ -113,30 +113,32 @@ fn moved_far(moves: &[Move], length: f64) -> Option<Warning> {
 
 /// Joints whose axes point against each other at the assembled start, and not in the guess: phi = 0 in both directions.
 fn turned_over(mechanism: &Mechanism<3>, guess: &[f64], q: &[f64]) -> Vec<Warning> {
+    let guessed = cosines(mechanism, guess);
+    let assembled = cosines(mechanism, q);
+    let mut warnings = Vec::new();
+    for (i, joint) in mechanism.model().joints.iter().enumerate() {
+        // Guesses within 26 degrees of opposite had them so.
+        if guessed[i] > -0.9 && assembled[i] < 0.0 {
+            let name = &joint.name;
+            let text =
+                format!("the axes of the joint `{name}` point against each other after assembly, and not in the guess");
+            warnings.push(Warning::new(text, "give its bodies a \"rotation\" nearer to the one that is meant"));
+        }
+    }
+    warnings
+}
+
+/// Returns the cosine of the angle between the two axes of each joint; 1 for a joint that does not align two axes.
+fn cosines(mechanism: &Mechanism<3>, q: &[f64]) -> Vec<f64> {
     let still = vec![0.0; mechanism.dimensions().v];
-    let cosines = |q: &[f64]| {
-        let frames = mechanism.frames(q, &still, &mut Scratch::default());
-        let cosine = |joint: &ModelJoint<3>| {
-            let axis = |k: usize| joint.element.joint_axis(&frames[joint.markers[k]].map(|x| x.x));
-            let rows = joint.element.row_names();
-            match ["rx", "ry"].iter().all(|row| rows.contains(row)).then(|| [axis(0), axis(1)]) {
-                Some([Some(Axis::Along(a)), Some(Axis::Along(b))]) => dot(&a, &b),
-                _ => 1.0,
-            }
-        };
-        mechanism.model().joints.iter().map(cosine).collect::<Vec<f64>>()
+    let frames = mechanism.frames(q, &still, &mut Scratch::default());
+    let cosine = |joint: &ModelJoint<3>| {
+        let axis = |k: usize| joint.element.joint_axis(&frames[joint.markers[k]].map(|x| x.x));
+        let rows = joint.element.row_names();
+        match ["rx", "ry"].iter().all(|row| rows.contains(row)).then(|| [axis(0), axis(1)]) {
+            Some([Some(Axis::Along(a)), Some(Axis::Along(b))]) => dot(&a, &b),
+            _ => 1.0,
+        }
     };
-    let joints = mechanism.model().joints.iter().zip(cosines(guess).into_iter().zip(cosines(q)));
-    // Guesses within 26 degrees of opposite had them so.
-    let over = joints.filter(|(_, (guess, found))| *guess > -0.9 && *found < 0.0);
-    let warning = |(joint, _): (&ModelJoint<3>, _)| {
-        Warning::new(
-            format!(
-                "the axes of the joint `{}` point against each other after assembly, and not in the guess",
-                joint.name
-            ),
-            "give its bodies a \"rotation\" nearer to the one that is meant",
-        )
-    };
-    over.map(warning).collect()
+    mechanism.model().joints.iter().map(cosine).collect()
 }

@@ -28,9 +28,11 @@ pub fn refuse_rounding(mechanism: &AnyMechanism, q: &[f64], method: &Method) -> 
     if method.step.is_some() || lever == 0.0 || !is_far {
         return Ok(());
     }
-    let [far, lever, part] = [far, lever, rounding].map(two_digits);
     let reason = format!(
-        "coordinates of {far} are rounded by {part} of the longest lever of the joints, {lever} m: no step keeps rtol {}",
+        "coordinates of {} are rounded by {} of the longest lever of the joints, {} m: no step keeps rtol {}",
+        two_digits(far),
+        two_digits(rounding),
+        two_digits(lever),
         short(method.rtol)
     );
     Err(Error::input(reason)

@@ -139,7 +139,7 @@ impl Model {
         let held = held.each_ref().each(|held| held.as_ref().map(AnyMechanism::system));
         let assembly = initial::assemble_held(mechanism.system(), held, start, (&scene.q, &scene.v), &scene.hold);
         let mut assembly = assembly.map_err(|error| explained(error, of_scene(&mechanism)))?;
-        check_switches(mechanism.system(), start, (&assembly.q, &assembly.v))?;
+        check_switches(mechanism.system(), start, &assembly.q, &assembly.v)?;
         let mut doubts = doubts(&mechanism, &scene.q, &assembly, has_joint_start);
         doubts.extend(settings.unused_tolerance(&method));
         if overrides.equilibrium {
@@ -147,7 +147,7 @@ impl Model {
             assembly = rest;
             doubts.extend(warnings);
         }
-        doubts.extend(pulling(mechanism.system(), start, (&assembly.q, &assembly.v)));
+        doubts.extend(pulling(mechanism.system(), start, &assembly.q, &assembly.v));
         Ok(Model {
             doubts,
             name: scene.name,
@@ -262,17 +262,20 @@ impl Model {
 }
 
 /// Refuses an element with a switching function whose argument it never writes: its law would never switch.
-fn check_switches(system: &dyn MechanicalSystem, t: f64, (q, v): (&[f64], &[f64])) -> Result<()> {
+fn check_switches(system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<()> {
     let vdot = vec![0.0; v.len()];
     let count = system.switches().all.len();
     if count == 0 {
         return Ok(());
     }
-    let [zeros, ones] = [0.0, 1.0].map(|x| {
-        let mut out = vec![Rate::constant(x); count];
-        system.switching(OperatingPoint { t, q, v, vdot: &vdot, lambda: &[] }, &mut out, &mut Scratch::default());
-        out
-    });
+    let written_over = |x: f64| {
+        let mut arguments = vec![Rate::constant(x); count];
+        let at = OperatingPoint { t, q, v, vdot: &vdot, lambda: &[] };
+        system.switching(at, &mut arguments, &mut Scratch::default());
+        arguments
+    };
+    let zeros = written_over(0.0);
+    let ones = written_over(1.0);
     let is_read = |switch: usize| system.switches().all[switch].thresholds != Thresholds::Held;
     let is_unwritten = |switch: &usize| zeros[*switch].value() == 0.0 && ones[*switch].value() == 1.0;
     match (0..count).find(|switch| is_read(*switch) && is_unwritten(switch)) {

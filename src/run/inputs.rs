@@ -93,7 +93,7 @@ impl<'a> Inputs<'a> {
     ///
     /// # Errors
     /// Such a system.
-    pub fn check_added(&self, system: &dyn MechanicalSystem, (t, q, v): (f64, &[f64], &[f64])) -> Result<()> {
+    pub fn check_added(&self, system: &dyn MechanicalSystem, t: f64, q: &[f64], v: &[f64]) -> Result<()> {
         let mut slopes = DMatrix::zeros(v.len(), self.count);
         system.input_forces(t, q, v, &mut slopes, &mut Scratch::default());
         let f = |inputs: Vec<f64>| {
@@ -134,8 +134,8 @@ impl<'a> Inputs<'a> {
         self.samplers.iter().any(|sampler| sampler.is_due(t, start))
     }
 
-    /// Takes the samples that are due at `t`.
-    pub fn sample(&mut self, (t, start): (f64, f64), moment: &Moment, u: &mut [f64]) {
+    /// Takes the samples that are due at `t` in a run that began at `start`.
+    pub fn sample(&mut self, t: f64, start: f64, moment: &Moment, u: &mut [f64]) {
         for sampler in &mut self.samplers {
             if sampler.is_due(t, start) {
                 sampler.next += 1;

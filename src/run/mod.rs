@@ -317,7 +317,7 @@ impl<'a> Run<'a> {
         self.inputs = Inputs::new(self.system, std::mem::take(&mut self.named), &self.observers.reader.moment)?;
         let has_inputs = !self.inputs.is_empty();
         if let (Start::State(q, v), true) = (self.start.start(), has_inputs) {
-            self.inputs.check_added(self.system, (self.began, q, v))?;
+            self.inputs.check_added(self.system, self.began, q, v)?;
         }
         if let (&Choice::Automatic(rtol, atol), Start::State(q, v), true) =
             (&self.choice, self.start.start(), has_inputs)
@@ -335,7 +335,7 @@ impl<'a> Run<'a> {
                     let read = self.observers.reader.read_present(&mut engine);
                     self.observers.reader.moment.check_names()?;
                     read?;
-                    self.inputs.sample((self.began, self.began), &self.observers.reader.moment, &mut u);
+                    self.inputs.sample(self.began, self.began, &self.observers.reader.moment, &mut u);
                     engine.time_loop().set_inputs(&u, self.inputs.law.as_ref());
                 }
             }
@@ -355,7 +355,7 @@ impl<'a> Run<'a> {
         let Some(engine) = &mut self.engine else { return Ok(()) };
         self.observers.reader.read_present(engine)?;
         let mut u = engine.time_loop().inputs().to_vec();
-        self.inputs.sample((t, self.began), &self.observers.reader.moment, &mut u);
+        self.inputs.sample(t, self.began, &self.observers.reader.moment, &mut u);
         self.observers.reader.moment.check_names()?;
         let mut sink = self.observers.looking(None);
         Ok(engine.time_loop().hold(&u, &mut sink)?)

@@ -119,26 +119,27 @@ impl Moment {
         self.v.copy_from_slice(state.v);
         self.vdot.copy_from_slice(state.vdot);
         self.lambda.copy_from_slice(state.lambda);
-        let own = self.outputs.len() - state.works.len();
-        self.outputs[own..].copy_from_slice(state.works);
-        on_pieces(state, scratch, |scratch| system.outputs(state.loaded(), &mut self.outputs[..own], scratch));
+        let first_work = self.outputs.len() - state.works.len();
+        self.outputs[first_work..].copy_from_slice(state.works);
+        on_pieces(state, scratch, |scratch| system.outputs(state.loaded(), &mut self.outputs[..first_work], scratch));
     }
 
     /// Reads a state whose accelerations are not known.
     pub(super) fn read_unloaded(
         &mut self,
         system: &dyn MechanicalSystem,
-        (t, q, v): (f64, &[f64], &[f64]),
+        at: (f64, &[f64], &[f64]),
         scratch: &mut Scratch,
     ) {
+        let (t, q, v) = at;
         self.t = t;
         self.q.copy_from_slice(q);
         self.v.copy_from_slice(v);
         self.vdot.fill(f64::NAN);
         self.lambda.fill(f64::NAN);
         self.outputs.fill(f64::NAN);
-        let own = self.outputs.len() - self.labels.works;
+        let first_work = self.outputs.len() - self.labels.works;
         let at = OperatingPoint { t, q, v, vdot: &self.vdot, lambda: &self.lambda };
-        system.outputs(at, &mut self.outputs[..own], scratch);
+        system.outputs(at, &mut self.outputs[..first_work], scratch);
     }
 }

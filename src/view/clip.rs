@@ -57,10 +57,8 @@ impl Clip {
 
     /// Number of values.
     pub fn len(&self) -> usize {
-        [&self.t, &self.poses, &self.lines, &self.reactions, &self.roads, &self.arrows]
-            .map(|list| list.0.len())
-            .iter()
-            .sum()
+        let lists = [&self.t, &self.poses, &self.lines, &self.reactions, &self.roads, &self.arrows];
+        lists.iter().map(|list| list.0.len()).sum()
     }
 }
 

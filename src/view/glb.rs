@@ -3,6 +3,8 @@
 //! Reference: Khronos Group, glTF 2.0 Specification, sections 3.6 (buffers), 3.11 (animations) and 4 (GLB).
 
 use super::primitives::{ALL, Placement, Primitive};
+use crate::body::cross;
+use crate::math::array::from_fn;
 use serde_json::{Value, json};
 
 /// Colours of bodies, then that of all else, as linear RGB.
@@ -34,12 +36,12 @@ pub struct Glb {
 }
 
 /// Returns a vector turned by a quaternion [x, y, z, w]: v + 2 u x (u x v + w v).
-pub fn turned([x, y, z, w]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
+pub fn turned(quaternion: [f64; 4], v: [f64; 3]) -> [f64; 3] {
+    let [x, y, z, w] = quaternion;
     let u = [x, y, z];
-    let cross = |a: [f64; 3], b: [f64; 3]| crate::body::cross(&a, &b);
-    let inner = cross(u, v);
-    let twice = cross(u, [0, 1, 2].map(|i| inner[i] + w * v[i]));
-    [0, 1, 2].map(|i| v[i] + 2.0 * twice[i])
+    let inner = cross(&u, &v);
+    let twice = cross(&u, &from_fn(|i| inner[i] + w * v[i]));
+    from_fn(|i| v[i] + 2.0 * twice[i])
 }
 
 impl Glb {
@@ -167,7 +169,7 @@ impl Glb {
         let at = at.map(f64::from);
         let Some((r, rotation, _)) = self.motions[node].get(k) else { return at };
         let way = turned(*rotation, at);
-        [0, 1, 2].map(|i| r[i] + way[i])
+        from_fn(|i| r[i] + way[i])
     }
 
     /// Returns the bytes of the file.

@@ -55,7 +55,9 @@ fn upright(up: usize) -> [f64; 4] {
     }
 }
 
-fn xyzw([w, x, y, z]: [f64; 4]) -> [f64; 4] {
+/// Returns a quaternion [w, x, y, z] in the order of glTF.
+fn xyzw(quaternion: [f64; 4]) -> [f64; 4] {
+    let [w, x, y, z] = quaternion;
     [x, y, z, w]
 }
 
@@ -129,7 +131,8 @@ impl Figure<'_> {
 
     fn force(&mut self, force: &LinkPart) {
         if let ("tyre", [hub, ..], [radius, ..]) = (force.kind, &force.ends[..], &force.radii[..]) {
-            let (radius, width) = (f64::from(*radius), 0.3 * f64::from(*radius));
+            let radius = f64::from(*radius);
+            let width = 0.3 * radius;
             // About y in space, about z in the plane.
             let is_planar = self.scenes[0].is_planar;
             let turned = if is_planar { [FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2] } else { STILL };
@@ -159,18 +162,12 @@ impl Figure<'_> {
     }
 
     /// Something at a place, in its axes.
-    fn fixed(
-        &mut self,
-        place: &Place,
-        (at, rotation, scale): Placement,
-        mesh: Primitive,
-        color: Option<usize>,
-        name: &str,
-    ) {
-        let own = place.rotation.map_or([1.0, 0.0, 0.0, 0.0], |rotation| rotation.map(f64::from));
+    fn fixed(&mut self, place: &Place, placement: Placement, mesh: Primitive, color: Option<usize>, name: &str) {
+        let (at, rotation, scale) = placement;
+        let axes = place.rotation.map_or([1.0, 0.0, 0.0, 0.0], |rotation| rotation.map(f64::from));
         let [x, y, z, w] = rotation;
-        let both = xyzw(quaternion_product(&own, &[w, x, y, z]));
-        let offset = turned(xyzw(own), at);
+        let both = xyzw(quaternion_product(&axes, &[w, x, y, z]));
+        let offset = turned(xyzw(axes), at);
         let at = std::array::from_fn(|i| f64::from(place.at[i]) + offset[i]);
         self.glb.fixed_node(self.frames[place.frame], name, (at, both, scale), (mesh, color));
     }
