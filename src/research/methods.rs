@@ -1,7 +1,8 @@
 //! Own methods: the traits of integrators, formulations and projections, and what their functions take and return.
 //!
 //! An entry of one's own is a `static`, whose [`spec`](Listed::spec) a [`Method`](crate::methods::Method) takes like a
-//! built-in one. [The guide](crate::guide::rust) has a complete example of each.
+//! built-in one. [`Elements::with_method`](crate::parts::Elements::with_method) makes it known to scenes.
+//! [The guide](crate::guide::rust) has a complete example of each.
 
 pub use crate::formulation::{
     Dae, Dynamics, Entry as FormulationEntry, Formulation, MakeField as MakeFormulation, Row as DaeRow, StepError,
