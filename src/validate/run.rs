@@ -97,13 +97,13 @@ pub fn validate_changed(
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
     let subject = Subject::new(&mut variation, start, settings, is_over, change)?;
     let reach = Reach::new(&subject, settings)?;
-    let mut cut = Vec::new();
-    let sequences = sequences(&subject, &settings.directions, &reach, &mut cut)?;
     let longest = reach.followed.min(1.0 / subject.speed.fastest.max(f64::MIN_POSITIVE));
     let (frozen, charts) = frozen(&subject, longest)?;
     let measured = measured(&subject, &mut variation, &frozen.steps, charts, settings.inputs)?;
-    cut.extend(measured.is_none().then(|| "A, B, C and D were not compared".to_string()));
+    let mut cut = Vec::from_iter(measured.is_none().then(|| "A, B, C and D were not compared".to_string()));
     let measured = measured.unwrap_or_default();
+    // What costs most comes last: the budget ends it, and the verdict on the model stands.
+    let sequences = sequences(&subject, &settings.directions, &reach, &mut cut)?;
     let mut unchecked = Vec::new();
     let inputs =
         if settings.inputs { inputs(&subject, 0.1 * reach.followed, &mut unchecked, &mut cut)? } else { Vec::new() };
