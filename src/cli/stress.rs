@@ -156,7 +156,7 @@ fn simulate(args: &Args, subject: &Subject, maps: Vec<Map>, begun: Stopwatch) ->
 fn list() -> String {
     let mut maps = Table::left(&["map", ""]);
     let mut extremes = Table::left(&["extreme", ""]);
-    known().iter().for_each(|map| maps.row([map.name, map.about].map(String::from)));
-    registry().iter().for_each(|extreme| extremes.row([extreme.name, extreme.about].map(String::from)));
+    known().iter().for_each(|map| maps.row([map.name.to_string(), map.about.to_string()]));
+    registry().iter().for_each(|extreme| extremes.row([extreme.name.to_string(), extreme.about.to_string()]));
     format!("{maps}\n{extremes}")
 }

@@ -37,8 +37,8 @@ fn axes(page: &Page, chart: &mut Chart, [x, y]: [&Axis; 2], frame: &Rect) -> Don
 fn marks<'a, 'b>(chart: &'b mut Chart<'a>, length: f64, size: f64) -> MeshStyle<'a, 'b, Axis, Axis, Drawing> {
     let mut mesh = chart.configure_mesh();
     mesh.disable_mesh().axis_style(line(FRAME)).set_all_tick_mark_size(units(length));
-    let [label, title] = [TICK_SIZE, size].map(|size| font(Font(size, INK, Align::Middle)));
-    mesh.label_style(label).axis_desc_style(title);
+    let text = |size| font(Font(size, INK, Align::Middle));
+    mesh.label_style(text(TICK_SIZE)).axis_desc_style(text(size));
     mesh
 }
 

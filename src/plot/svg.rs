@@ -28,7 +28,8 @@ pub(super) fn animate(still: &Drawing, frames: &[Vec<Shape>], delay: f64) -> Str
     let count = frames.len() as f64;
     let whole = delay * count;
     for (k, frame) in frames.iter().enumerate() {
-        let [from, to] = [k, k + 1].map(|k| k as f64 / count);
+        let from = k as f64 / count;
+        let to = (k + 1) as f64 / count;
         // Viewers without animation show the first frame.
         let first = if k == 0 { "inline" } else { "none" };
         out += &format!(
@@ -71,7 +72,8 @@ fn style(paint: &Paint) -> String {
 fn text(out: &mut String, text: &Text) {
     let Font(size, color, align) = text.font;
     let anchor = ["start", "middle", "end"][align as usize];
-    let [x, y] = [text.at.0, text.at.1].map(number);
+    let x = number(text.at.0);
+    let y = number(text.at.1);
     let upright = format!("x=\"{x}\" y=\"{y}\"");
     let place = if text.turned { format!("transform=\"translate({x} {y}) rotate(-90)\"") } else { upright };
     let color = hex(&color);

@@ -213,7 +213,7 @@ impl Check {
         for (heading, detail, items) in elements {
             if !items.is_empty() {
                 let mut table = Table::left(&[heading, "type", detail]);
-                items.iter().for_each(|item| table.row([&item.name, &item.kind, &item.detail].map(String::clone)));
+                items.iter().for_each(|item| table.row([item.name.clone(), item.kind.clone(), item.detail.clone()]));
                 text += &format!("{table}\n");
             }
         }

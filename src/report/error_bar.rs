@@ -33,8 +33,7 @@ pub fn text(method: &Method, bars: Option<&ErrorBars>) -> String {
 fn table(bars: &ErrorBars) -> String {
     let mut table = Table::new(&["error bar", "max", "final", ""]).words(3);
     for (name, bar) in &bars.outputs {
-        let [max, last] = [bar.max, bar.last].map(|value| format!("±{value:.1e}"));
-        table.row([name.clone(), max, last, bar.unit.clone()]);
+        table.row([name.clone(), format!("±{:.1e}", bar.max), format!("±{:.1e}", bar.last), bar.unit.clone()]);
     }
     let amplified = match &bars.amplification {
         Ok(factor) => {

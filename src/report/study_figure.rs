@@ -125,11 +125,12 @@ fn curve(table: &StudyTable, column: usize) -> Panel {
 
 /// Colours a recorded column over both parameters: cells of a grid, else discs.
 fn map(table: &StudyTable, column: usize) -> Panel {
-    let [columns, rows] = [0, 1].map(|parameter| edges(table, parameter));
+    let columns = edges(table, 0);
+    let rows = edges(table, 1);
     // A list may have one value of a parameter in all rows.
     let is_grid = columns.len().min(rows.len()) > 2 && (columns.len() - 1) * (rows.len() - 1) == table.count;
     let of_cells = |parameter: usize, edges: &[f64]| axis(table, parameter).range(edges[0], edges[edges.len() - 1]);
-    let axes = if is_grid { [of_cells(0, &columns), of_cells(1, &rows)] } else { [0, 1].map(|i| axis(table, i)) };
+    let axes = if is_grid { [of_cells(0, &columns), of_cells(1, &rows)] } else { [axis(table, 0), axis(table, 1)] };
     let [x, y] = axes;
     let mut panel = Panel::new(x, y).title(name(table, column)).height(MAP);
     panel.colors = name(table, column).into();

@@ -109,8 +109,9 @@ impl SweepAnswer<'_> {
 
     fn hint(&self) -> String {
         let curve = self.sweep.curve();
-        let [first, last] =
-            [curve.first(), curve.last()].map(|point| point.map_or(String::new(), |point| significant(point.value, 6)));
+        let place = |point: Option<&&Point>| point.map_or(String::new(), |point| significant(point.value, 6));
+        let first = place(curve.first());
+        let last = place(curve.last());
         format!("the mechanism moves from {first} to {last}: stay within, or change the lengths that limit it")
     }
 

@@ -71,7 +71,7 @@ fn cut(sweep: &Sweep, points: &[&Point], values: &mut [f64]) {
 
 /// Adds a dashed vertical line with a text.
 pub fn marked(panel: Panel, x: f64, text: &str) -> Panel {
-    let spots = [f64::NEG_INFINITY, f64::INFINITY].map(|y| Spot::data(x, y)).to_vec();
+    let spots = vec![Spot::data(x, f64::NEG_INFINITY), Spot::data(x, f64::INFINITY)];
     let line = Item { spots, tint: Tint::Ink(0.3), form: Form::Line(1.5, true) };
     panel.items([line]).note(Tint::Ink(0.25), x, f64::INFINITY, text)
 }

@@ -166,7 +166,7 @@ impl<'a> LociAnswer<'a> {
 }
 
 fn ends(loci: &Loci) -> [f64; 2] {
-    [loci.places.first(), loci.places.last()].map(|place| place.copied().unwrap_or(0.0))
+    [loci.places.first().copied().unwrap_or(0.0), loci.places.last().copied().unwrap_or(0.0)]
 }
 
 /// Returns time or parameter, then real and imaginary part, frequency and damping ratio of each mode; empty cells where

@@ -49,8 +49,7 @@ impl NamedModel<'_> {
 
     fn state_text(&self) -> String {
         let norms = self.norms();
-        let [phi, phi_dot] = [norms.phi, norms.phi_dot].map(|norm| format!("{norm:.1e}"));
-        let residual = format!("|phi| {phi}, |phi'| {phi_dot}");
+        let residual = format!("|phi| {:.1e}, |phi'| {:.1e}", norms.phi, norms.phi_dot);
         let point = &self.model.point;
         match (point.is_equilibrium, &point.axes, &point.driven) {
             (true, Some(spin), _) => format!(

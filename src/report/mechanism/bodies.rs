@@ -95,7 +95,7 @@ fn block(pen: &mut Canvas, pose: &Pose, color: usize) {
     {
         let mut other = nearest;
         other[i] = -nearest[i];
-        let edge = [nearest, other].map(|signs| pen.beside((pose.r, corner(signs)))).to_vec();
+        let edge = vec![pen.beside((pose.r, corner(nearest))), pen.beside((pose.r, corner(other)))];
         pen.line(edge, pen.color(color, 0.0), THIN);
     }
 }

@@ -164,7 +164,7 @@ pub fn pitch_radii(link: &Link) -> Option<[f64; 2]> {
     let inner = if turn_a * turn_b < 0.0 { -1.0 } else { 1.0 };
     let towards = sub(&out(a.axes[2], gap).map(|x| za * x), &out(b.axes[2], gap.map(|x| -x)).map(|x| inner * zb * x));
     let module = dot(&gap, &towards) / dot(&towards, &towards);
-    (module.is_finite() && norm(&gap) > 0.0).then(|| [za, zb].map(|count| (module * count).abs()))
+    (module.is_finite() && norm(&gap) > 0.0).then(|| [(module * za).abs(), (module * zb).abs()])
 }
 
 /// Draws the pitch circles of two wheels, each with a spoke that rotates with it.

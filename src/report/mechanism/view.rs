@@ -93,7 +93,7 @@ impl View {
     pub fn labels(&self) -> [String; 2] {
         match self.names {
             Some(names) => names.map(|name| format!("{name} (m)")),
-            None => ["across the view (m)", "up the view (m)"].map(str::to_string),
+            None => ["across the view (m)".to_string(), "up the view (m)".to_string()],
         }
     }
 }

@@ -232,8 +232,10 @@ fn with_unit(axis: &Axis, value: &str) -> String {
 fn because(stressed: &Stressed, reason: &Reason) -> String {
     let x = &stressed.map.x;
     let y = &stressed.map.y;
-    let at = [(x, &reason.x), (y, &reason.y)].map(|(axis, label)| format!("{} {}", axis.name, with_unit(axis, label)));
-    format!(". {} of them say, as at {}: {}.", reason.count, at.join(", "), reason.reason)
+    let place = |axis: &Axis, label: &str| format!("{} {}", axis.name, with_unit(axis, label));
+    let at_x = place(x, &reason.x);
+    let at_y = place(y, &reason.y);
+    format!(". {} of them say, as at {at_x}, {at_y}: {}.", reason.count, reason.reason)
 }
 
 /// Returns the drift at each step, by gain and by projection.
