@@ -98,13 +98,14 @@ impl Floquet {
 /// but for a change of basis, so its multipliers are a property of the motion.
 ///
 /// # Errors
-/// A motion that is not back after the period, or that cannot go on.
+/// A period that is not above zero; a motion that is not back after it, or that cannot go on.
 pub fn floquet(system: &dyn MechanicalSystem, start: &State, period: f64) -> Result<Floquet> {
-    let end = start.t + period;
-    let found = transition(system, start, &Chart::MassOrthogonal, &[end])?;
-    let Some(found) = found.into_iter().next() else {
-        return Err(Error::input("a period must be above zero").under("--period"));
-    };
+    let refused = || Error::input("a period must be above zero").under("--period");
+    if !(period > 0.0 && period.is_finite()) {
+        return Err(refused());
+    }
+    let found = transition(system, start, &Chart::MassOrthogonal, &[start.t + period])?;
+    let found = found.into_iter().next().ok_or_else(refused)?;
     let mut variation = Variation::new(system, start.t, &start.q, &start.v)?;
     let gap = recurrence::gap(&mut variation, start, &found.state)?;
     let size = |x: &[f64]| x.iter().fold(1.0f64, |most, x| most.max(x.abs()));
