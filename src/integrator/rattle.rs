@@ -136,7 +136,8 @@ impl Rattle {
     /// Stagnation tolerance of the relative change of v_h: in tiny steps the round-off of phi over h dominates.
     fn still(&self, h: f64) -> f64 {
         let of_phi = 16.0 * f64::EPSILON * largest(&self.q) / h;
-        tolerances::ROOT_OF_ROUND_OFF.max(of_phi / largest(&self.half))
+        // With ROUND_OFF_OF_STAGNATION this is 1e-16 of v.
+        f64::max(1e-9, of_phi / largest(&self.half))
     }
 
     /// One correction of v_h for the forces and for phi(q_1). Returns its size relative to v_h.
