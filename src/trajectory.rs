@@ -82,11 +82,17 @@ impl Trajectory {
 
     /// Returns the row of a state with its outputs.
     pub fn row(&self, system: &dyn MechanicalSystem, state: &Observation, scratch: &mut Scratch) -> Vec<f64> {
-        let count = self.outputs.len();
-        let outputs = on_pieces(state, scratch, |scratch| values(system, state.loaded(), state.works, count, scratch));
         let Names { q, v, lambda } = &self.names;
-        let own = [&state.q[..q.len()], &state.v[..v.len()], &state.lambda[..lambda.len()]];
-        [&[state.t], own[0], own[1], own[2], &outputs].concat()
+        let first = 1 + q.len() + v.len() + lambda.len();
+        let mut row = Vec::with_capacity(first + self.outputs.len());
+        row.push(state.t);
+        row.extend_from_slice(&state.q[..q.len()]);
+        row.extend_from_slice(&state.v[..v.len()]);
+        row.extend_from_slice(&state.lambda[..lambda.len()]);
+        row.resize(first + self.outputs.len() - state.works.len(), 0.0);
+        on_pieces(state, scratch, |scratch| system.outputs(state.loaded(), &mut row[first..], scratch));
+        row.extend_from_slice(state.works);
+        row
     }
 
     /// Appends the last row of a trajectory that has more columns.

@@ -87,6 +87,8 @@ pub struct Recorder<'a> {
     stop: Box<dyn Fn() -> Option<Stop> + 'a>,
     pass: Option<Pass<'a>>,
     outputs_only: bool,
+    /// True if rows are passed on, and no curves are made of them.
+    passes_only: bool,
     shows_jumps: bool,
     /// The state before the present change of form.
     before: Option<Made>,
@@ -125,6 +127,7 @@ impl<'a> Recorder<'a> {
             stop: Box::new(|| None),
             pass: None,
             outputs_only: false,
+            passes_only: false,
             shows_jumps: false,
             before: None,
         }
@@ -149,6 +152,20 @@ impl<'a> Recorder<'a> {
     pub fn with_rows(mut self, coordinates: usize, pass: impl FnMut(Row) + 'a) -> Self {
         self.pass = Some(Box::new(pass));
         self.keep(coordinates)
+    }
+
+    /// Passes each row on as it comes, without its energies, and keeps the first and the last alone. Columns of outputs
+    /// that `reads` is false of may be zero. Ranges of validity are not watched.
+    pub(crate) fn with_passed_rows(mut self, reads: impl Fn(usize) -> bool, pass: impl FnMut(Row) + 'a) -> Self {
+        self.pass = Some(Box::new(pass));
+        self.passes_only = true;
+        // A jump is seen in any output.
+        if self.system.switches().all.is_empty() {
+            let trajectory = &self.record.trajectory;
+            let count = trajectory.headings().len();
+            self.scratch.unread = (count - trajectory.outputs.len()..count).map(|column| !reads(column)).collect();
+        }
+        self
     }
 
     fn keep(mut self, coordinates: usize) -> Self {
@@ -193,7 +210,7 @@ impl Recorder<'_> {
         Made {
             values: self.record.full().row(self.system, state, &mut self.scratch),
             drift: [largest(state.phi), largest(state.phi_dot), largest(state.phi_ddot)],
-            ledger: self.meter.ledger(self.system, state, &mut self.scratch),
+            ledger: if self.passes_only { None } else { self.meter.ledger(self.system, state, &mut self.scratch) },
             loads: largest(state.lambda).max(largest(state.vdot)),
         }
     }
@@ -203,6 +220,12 @@ impl Recorder<'_> {
         let t = values[0];
         record.note_extremes(&values);
         record.rows += 1;
+        if let (true, Some(pass)) = (self.passes_only, &mut self.pass) {
+            pass(Row { values: &values, drift, ledger });
+            record.trajectory.rows.truncate(1);
+            record.trajectory.rows.push(values);
+            return;
+        }
         record.drift_rows.push(drift);
         record.ledger_rows.extend(ledger);
         ledger.iter().for_each(|ledger| record.worst_row.add(t, ledger));
@@ -290,13 +313,17 @@ impl Sink for Recorder<'_> {
             self.diverged = self.diverged.take().or(diverged);
         }
         self.watch.add(state);
-        self.record.range.add(self.system, state);
+        if !self.passes_only {
+            self.record.range.add(self.system, state);
+        }
         (self.progress)(state.t);
     }
 
     fn row(&mut self, state: &Observation) {
         self.record.drift.add(state, &self.scales);
-        self.record.range.add_row(self.system, state, &mut self.scratch);
+        if !self.passes_only {
+            self.record.range.add_row(self.system, state, &mut self.scratch);
+        }
         let made = self.made(state);
         self.keep_row(made);
     }

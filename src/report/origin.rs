@@ -72,7 +72,8 @@ impl Settings {
     /// Returns what became of earlier results with other settings; `None` if these are the same.
     pub fn replaced_by(&self, new: &Settings) -> Option<String> {
         let changes = self.changes(new);
-        let is_same = changes.is_empty() && self.telling() == new.telling();
+        let goes_on = new.command.iter().any(|word| word == "--resume");
+        let is_same = changes.is_empty() && (goes_on || self.telling() == new.telling());
         (!is_same).then(|| {
             let command = ["holonom"].into_iter().chain(self.telling()).collect::<Vec<_>>().join(" ");
             let changes = if changes.is_empty() { String::new() } else { format!(" ({})", changes.join(", ")) };

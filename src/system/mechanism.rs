@@ -243,7 +243,9 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
     }
 
     fn outputs(&self, at: OperatingPoint, out: &mut [f64], scratch: &mut Scratch) {
-        self.viewed(felt(self.model(), at), scratch, |view| write_outputs(&self.layout, view, out));
+        let unread = std::mem::take(&mut scratch.unread);
+        self.viewed(felt(self.model(), at), scratch, |view| write_outputs(&self.layout, view, &unread, out));
+        scratch.unread = unread;
     }
 
     fn output_tangent(&self, at: OperatingPoint, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {

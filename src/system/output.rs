@@ -17,12 +17,15 @@ pub(super) fn felt<'a, const D: usize>(model: &Model<D>, at: OperatingPoint<'a>)
     OperatingPoint { vdot: if is_accelerated { at.vdot } else { &[] }, ..at }
 }
 
-/// All outputs in the order of the scene.
-pub(super) fn write_outputs<const D: usize>(layout: &Layout<D>, view: &Plain<D>, out: &mut [f64]) {
+/// The outputs in the order of the scene; those that are not read stay as they are.
+pub(super) fn write_outputs<const D: usize>(layout: &Layout<D>, view: &Plain<D>, unread: &[bool], out: &mut [f64]) {
     let model = &layout.model;
     let mut totals = None;
     let mut last = None;
-    for (out, output) in out.iter_mut().zip(&model.outputs) {
+    for (i, (out, output)) in out.iter_mut().zip(&model.outputs).enumerate() {
+        if unread.get(i).is_some_and(|unread| *unread) {
+            continue;
+        }
         let value = match output.measure {
             Measure::Energy(part) => part.of(*totals.get_or_insert_with(|| energies(model, view))),
             // Outputs of one section are mostly consecutive.

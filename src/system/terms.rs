@@ -149,6 +149,8 @@ pub struct Scratch {
     /// Values of the inputs u, which add to the equations: a system reads them in each evaluation. Empty where all are
     /// zero.
     pub inputs: Vec<f64>,
+    /// True for outputs that nobody reads, which a system need not evaluate; empty where all are read.
+    pub unread: Vec<bool>,
 }
 
 impl Scratch {

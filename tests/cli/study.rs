@@ -91,7 +91,9 @@ fn shell(place: &Place, line: &str) -> Output {
 fn again_prints_the_command_with_the_same_numbers() {
     let place = Place::new(OSCILLATOR);
     let recorded = "max(x),min(pull),rms(pull),x,pull,steps,error(x)";
-    let own: [&[&str]; 3] = [&["--record", recorded], &["--record", "x,pull,steps"], &["--method", "auto"]];
+    // Of outputs that are not recorded nothing is computed, which must not change the others.
+    let own: [&[&str]; 4] =
+        [&["--record", recorded], &["--record", "x,pull,steps"], &["--record", "rms(pull)"], &["--method", "auto"]];
     for more in own {
         let sample = ["--vary", "m=1..3", "--vary", "k=20..80:log", "--sample", "latin:4"];
         place.done(
@@ -115,6 +117,38 @@ fn again_prints_the_command_with_the_same_numbers() {
     }
     let output = place.run(&["study", "scene.json", "-o", "here", "--again", "4"]);
     assert!(err(&output).contains("row 4 is not in here; there are rows from 0 to 3"), "{}", err(&output));
+}
+
+/// A ball that falls on a tyre with a damper, whose load jumps where it meets the road.
+const BOUNCE: &str = r#"{
+  "name": "bounce", "dimension": 2, "parameters": { "c": 20 }, "gravity": [0, -9.81],
+  "bodies": [{ "name": "ball", "type": "point_mass", "mass": 1, "initial": { "position": [0, 0.5] } }],
+  "forces": [{ "name": "tyre", "type": "tyre", "at": "ball", "stiffness": 1000, "damping": "c", "radius": 0.3,
+               "lift_off": true }],
+  "outputs": [{ "name": "y", "measure": "position", "of": "ball", "component": "y" },
+              { "name": "load", "measure": "force", "of": "tyre" }],
+  "simulation": { "t_end": 1, "output_step": 0.1 }
+}"#;
+
+#[test]
+fn rows_at_jumps_are_those_of_simulate() {
+    let place = Place::new(BOUNCE);
+    for (output, recorded) in [("load", "min(load),max(load),rms(load)"), ("y", "min(y),max(y),rms(y)")] {
+        let vary = ["--vary", "c=10..30:3", "--record", recorded, "-o", "here", "--quiet", "--figures", "none"];
+        place.done(&[&["study", "scene.json"], &vary[..]].concat());
+        let table = cells(&place.text("here/study.csv"));
+        for row in &table[1..] {
+            let set = format!("c={}", row[1]);
+            place.done(&["simulate", "scene.json", "--set", &set, "-o", "alone", "--quiet", "--figures", "none"]);
+            let alone = place.json("alone/summary.json");
+            let rows = cells(&place.text("alone/trajectory.csv")).len() - 1;
+            assert!(rows > 11, "there is no jump");
+            for (extreme, cell) in ["min", "max", "rms"].into_iter().zip(&row[2..]) {
+                let known = alone["outputs"][output][extreme].as_f64().unwrap();
+                assert_eq!(known.to_bits(), cell.parse::<f64>().unwrap().to_bits(), "{extreme} of {output} at {set}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -186,7 +220,11 @@ fn parts_of_other_studies_are_not_merged() {
     run(&["--shard", "2/2", "-o", "b", "--rtol", "1e-5"]);
     let output = place.run(&["study", "scene.json", "-o", "merged", "--merge", "a", "b"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(err(&output).contains("b: this is another study: its `method` is"), "{}", err(&output));
+    assert!(
+        err(&output).contains("b: this is another study: its `method.rtol` is 0.00001, not 1e-8"),
+        "{}",
+        err(&output)
+    );
     fs::write(place.path("other.json"), OSCILLATOR.replace("0.3", "0.4")).unwrap();
     let output = place.run(&["study", "other.json", "-o", "merged", "--merge", "a"]);
     assert!(err(&output).contains("a: this is a study of another scene"), "{}", err(&output));
@@ -207,6 +245,23 @@ fn figures_are_drawn_for_one_two_and_more_parameters() {
     assert_eq!(files(&["--vary", "k=20..80:3", "--vary", "m=1..2:3"]), ["study-scatter.svg", "study.svg"]);
     let three = ["--vary", "k=20..80", "--vary", "m=1..2", "--vary", "c=1..2", "--sample", "sobol:8"];
     assert_eq!(files(&three), ["study-parallel.svg", "study-scatter.svg"]);
+}
+
+/// Lines whose colour is that of a number that is not there would be white, over all others.
+#[test]
+fn variants_without_a_number_are_drawn_in_grey() {
+    let place = Place::new(OSCILLATOR);
+    let vary = ["--vary", "k=20..80:log", "--vary", "m=1..2", "--vary", "c=1..2", "--sample", "sobol:8"];
+    for (level, is_mixed) in [("0.2", true), ("9", false)] {
+        let recorded = format!("x,time_of(x, {level})");
+        let more = ["--record", recorded.as_str(), "--quiet", "-o", "here"];
+        place.done(&[&["study", "scene.json"], &vary[..], &more].concat());
+        let table = cells(&place.text("here/study.csv"));
+        let missing = table[1..].iter().filter(|row| row[5].is_empty()).count();
+        assert!(if is_mixed { (1..8).contains(&missing) } else { missing == 8 }, "{table:?}");
+        let drawn = place.text("here/study-parallel.svg");
+        assert!(!drawn.contains("stroke=\"#ffffff\" stroke-width=\"1\"") && !drawn.contains("inf"), "{level}");
+    }
 }
 
 #[test]

@@ -69,6 +69,14 @@ impl Course {
         matches!(self.reduction, Reduction::At(_)).then_some(self.argument)
     }
 
+    /// True if it reads the column at this index.
+    pub fn reads(&self, column: usize) -> bool {
+        match &self.quantity {
+            Quantity::Column(own) => *own == column,
+            Quantity::Expression(expression) => expression.depends_on(column),
+        }
+    }
+
     /// Adds a row, whose first column is time.
     pub fn add(&mut self, row: &[f64]) {
         let t = row[0];

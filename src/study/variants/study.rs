@@ -137,10 +137,13 @@ impl Study {
         let span = prepared.span()?;
         let mut courses = self.courses(prepared)?;
         let stop = || is_over().then(|| Stop { reason: INTERRUPTED.to_string(), hint: String::new() });
+        let width = Trajectory::new(system).headings().len();
+        let is_read: Vec<bool> =
+            (0..width).map(|column| courses.iter().flatten().any(|course| course.reads(column))).collect();
         let mut add = |row: &[f64]| courses.iter_mut().flatten().for_each(|course| course.add(row));
         let mut recorder = Recorder::new(system).with_jumps().with_stop(stop);
         if !self.needs_error() {
-            recorder = recorder.with_rows(0, |row| add(row.values));
+            recorder = recorder.with_passed_rows(|column| is_read[column], |row| add(row.values));
         }
         let (outcome, legs) = prepared.simulate(&prepared.method, span, &mut recorder)?;
         let record = recorder.finish();

@@ -94,11 +94,11 @@ impl StudyTable {
             "parameters": nominal,
             "method": prepared.method,
             "span": prepared.span().ok(),
-            "commands": again.iter().map(|words| words.get(3..)).collect::<Vec<_>>(),
             "plan": plan.words,
             "variants": plan.rows.len(),
             "varied": plan.names.len(),
             "columns": columns.iter().map(|Column { name, unit }| json!({ "name": name, "unit": unit })).collect::<Vec<_>>(),
+            "commands": again.iter().map(|words| words.get(3..)).collect::<Vec<_>>(),
         });
         let identity = identity.as_object().cloned().unwrap_or_default();
         let count = plan.rows.len();
@@ -213,16 +213,11 @@ impl StudyTable {
     /// Another study; a row that is there with other numbers.
     pub fn add(&mut self, other: StudyTable, folder: &Path) -> Result<()> {
         let refused = |problem: String| Error::input(problem).in_file(folder);
-        let keys = self.identity.keys().chain(other.identity.keys());
-        let differs = keys.into_iter().find(|key| self.identity.get(*key) != other.identity.get(*key));
-        if let Some(key) = differs {
-            let value = |table: &StudyTable| excerpt(&table.identity.get(key).unwrap_or(&Value::Null).to_string());
-            return Err(refused(format!(
-                "this is another study: its `{key}` is {}, not {}",
-                value(&other),
-                value(self)
-            ))
-            .hint("all rows need the same scene, options and version of holonom; name another folder with -o"));
+        if let Some(Difference { name, own, found }) = difference(&self.identity, &other.identity) {
+            let found = excerpt(&found.to_string());
+            let own = excerpt(&own.to_string());
+            return Err(refused(format!("this is another study: its `{name}` is {found}, not {own}"))
+                .hint("all rows need the same scene, options and version of holonom; name another folder with -o"));
         }
         for (place, row) in other.rows {
             match self.rows.get(&place) {
@@ -237,4 +232,22 @@ impl StudyTable {
         }
         Ok(())
     }
+}
+
+/// An entry that two identities do not have in common.
+struct Difference<'v> {
+    name: String,
+    own: &'v Value,
+    found: &'v Value,
+}
+
+/// Returns the first difference, within objects such as that of the method, too.
+fn difference<'v>(a: &'v Map<String, Value>, b: &'v Map<String, Value>) -> Option<Difference<'v>> {
+    let key = a.keys().chain(b.keys()).find(|key| a.get(*key) != b.get(*key))?;
+    let own = a.get(key).unwrap_or(&Value::Null);
+    let found = b.get(key).unwrap_or(&Value::Null);
+    if let (Value::Object(a), Value::Object(b)) = (own, found) {
+        return difference(a, b).map(|inner| Difference { name: format!("{key}.{}", inner.name), ..inner });
+    }
+    Some(Difference { name: key.clone(), own, found })
 }
