@@ -118,6 +118,8 @@
 #![allow(clippy::suspicious_arithmetic_impl)]
 
 // Hidden modules are no part of the stable interface; `research` lists them. The program and the tests use them by these paths.
+#[cfg(feature = "python")]
+mod abandoned;
 #[doc(hidden)]
 pub mod analysis;
 #[doc(hidden)]

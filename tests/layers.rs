@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// From the lowest to the highest; a module uses those of its own layer and of lower ones. The same order as DESIGN.md, section 3.
 const LAYERS: &[&[&str]] = &[
-    &["clock", "forward", "tolerances"],
+    &["abandoned", "clock", "forward", "tolerances"],
     &["error", "files", "method_spec", "math"],
     &["modes"],
     &["body"],

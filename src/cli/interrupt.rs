@@ -1,6 +1,8 @@
 //! Interruption by Ctrl-C and similar signals.
 
 use super::terminal::tell;
+#[cfg(feature = "python")]
+use crate::abandoned;
 use crate::error::INTERRUPTED;
 use crate::files::abandon;
 use crate::report::Folder;
@@ -69,10 +71,22 @@ pub fn stop(folder: &Folder) -> Option<Stop> {
     })
 }
 
-/// Asks the running commands to end, or no longer asks the next ones, on behalf of a program that called them.
+/// Asks the running commands to end, on behalf of a program that called them: by themselves if they poll, else, or if
+/// they were asked before, at their next evaluation of the equations.
 #[cfg(feature = "python")]
-pub fn ask(is_asked: bool) {
-    IS_ASKED_FOR.store(is_asked, Ordering::Relaxed);
+pub fn ask() {
+    let is_heard = IS_HEARD.load(Ordering::Relaxed);
+    if IS_ASKED_FOR.swap(true, Ordering::Relaxed) || !is_heard {
+        abandoned::abandon(true);
+    }
+}
+
+/// Lets the next command run to its end.
+#[cfg(feature = "python")]
+pub fn forget() {
+    IS_HEARD.store(false, Ordering::Relaxed);
+    IS_ASKED_FOR.store(false, Ordering::Relaxed);
+    abandoned::abandon(false);
 }
 
 /// True if the command should end, after writing its results so far.

@@ -1,6 +1,7 @@
 //! `holonom stress SCENE`
 
-use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, duration, json_files, pick, print};
+use super::common::{MethodOptions, Output, SceneOptions, Talk, assignment, duration, fail, json_files, pick, print};
+use super::interrupt;
 use crate::clock::Stopwatch;
 use crate::error::{Error, Result};
 use crate::math::expression::{Number, Parameters};
@@ -70,7 +71,7 @@ fn run_one(args: &Args, path: &Path) -> Result<ExitCode> {
     let folder = args.output.folder(&subject.name)?;
     let answer = simulate(args, &subject, maps, begun);
     args.talk.publish(folder, "stress", args.talk.origin_of(&subject.values), &answer)?;
-    Ok(ExitCode::SUCCESS)
+    if interrupt::is_asked() { fail("interrupted") } else { Ok(ExitCode::SUCCESS) }
 }
 
 fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
@@ -79,6 +80,9 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
     let mut scenes = Vec::new();
     let mut unread = Vec::new();
     for path in paths {
+        if interrupt::is_asked() {
+            break;
+        }
         let begun = Stopwatch::start();
         match prepare(args, &path) {
             Err(error) => unread.push((path.display().to_string(), format!("{error:#}"))),
@@ -91,7 +95,7 @@ fn run_all(args: &Args, path: &Path) -> Result<ExitCode> {
     }
     let is_empty = scenes.is_empty();
     args.talk.publish(folder, "stress", args.talk.origin_of(&Parameters::default()), &FolderMaps { scenes, unread })?;
-    Ok(ExitCode::from(u8::from(is_empty)))
+    if interrupt::is_asked() { fail("interrupted") } else { Ok(ExitCode::from(u8::from(is_empty))) }
 }
 
 fn scenes(path: &Path) -> Result<Vec<PathBuf>> {
@@ -102,7 +106,8 @@ fn scenes(path: &Path) -> Result<Vec<PathBuf>> {
 
 fn prepare(args: &Args, path: &Path) -> Result<(Subject<'static>, Vec<Map>)> {
     let scene = SceneOptions { path: path.to_path_buf(), set: args.set.clone() };
-    let subject = Subject::load(path, &args.method.overrides(&scene, None))?;
+    let mut subject = Subject::load(path, &args.method.overrides(&scene, None))?;
+    subject.is_stopped = &interrupt::is_asked;
     args.talk.warn(&subject.doubts);
     let quantity = args.show.as_ref().map(|name| quantity(name)).transpose()?;
     let axis = |text: &str, option: &str| Axis::parse(text, &subject).map_err(|error| error.under(option));

@@ -15,26 +15,29 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// The result as JSON and as text, the warnings and errors, and true if the command failed.
-type Answer = (Option<String>, String, Vec<String>, bool);
+/// The result as JSON and as text, the warnings and errors, true if the command failed, and the exception of a signal.
+type Answer = (Option<String>, String, Vec<String>, bool, Option<PyErr>);
 
 /// Calls a command with the texts `given` in the place of files; its own files go to `folder`.
 ///
-/// Returns the result as JSON and as text, the warnings and errors, and true if the command failed.
+/// Returns the result as JSON and as text, the warnings and errors, true if the command failed, and the exception of a
+/// signal after which the command ended by itself.
 #[pyfunction]
 pub fn command(py: Python<'_>, words: Vec<String>, given: Vec<(PathBuf, String)>, folder: PathBuf) -> PyResult<Answer> {
-    interrupt::ask(false);
-    let called = on_thread(py, || interrupt::ask(true), move || with_given(given, || cli::call(&words, &folder)))?;
-    let called = called.or_raise()?;
+    interrupt::forget();
+    let (called, signal) = on_thread(py, interrupt::ask, move || with_given(given, || cli::call(&words, &folder)))?;
     if let Some(error) = force::failure() {
         return Err(error);
     }
     match called {
-        Err(error) if error.kind() == ErrorKind::DisplayHelp => Ok((None, error.to_string(), Vec::new(), false)),
+        Err(error) if error.kind() == ErrorKind::DisplayHelp => {
+            Ok((None, error.to_string(), Vec::new(), false, signal))
+        }
         Err(error) => Err(refused(&error)),
-        Ok((Err(error), _)) => Err(raised(error)),
+        Ok((Err(error), _)) => Err(signal.unwrap_or_else(|| raised(error))),
         Ok((Ok(code), Captured { json, text, told })) => {
-            Ok((json, text, told.iter().map(|told| as_settings(told)).collect(), code != ExitCode::SUCCESS))
+            let told = told.iter().map(|told| as_settings(told)).collect();
+            Ok((json, text, told, code != ExitCode::SUCCESS, signal))
         }
     }
 }

@@ -3,16 +3,14 @@
 use super::errors::{raised, refused};
 use super::force;
 use super::rows::Rows;
-use super::signals::{Ended, ended_early, on_thread};
-use crate::analysis::Recorder;
-use crate::cli::common::{Common, to_json};
-use crate::cli::restart;
+use super::signals::on_thread;
+use crate::abandoned;
+use crate::cli::common::to_json;
+use crate::cli::run::RunOptions;
 use crate::error::{Error, INTERRUPTED, Result, Warning};
 use crate::files::with_given;
-use crate::prepared::Model;
-use crate::report::{MOST_COORDINATES, Summary, summarize};
-use crate::simulate::{Start, Stop, spread};
-use crate::study::{Completed, error_bars};
+use crate::report::Summary;
+use crate::simulate::Stop;
 use crate::system::{Column, Names};
 use crate::trajectory::{Trajectory, recorded};
 use clap::Parser;
@@ -23,22 +21,13 @@ use std::cell::RefCell;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 /// The options of `simulate` but those of files.
 #[derive(Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
 struct Options {
     #[command(flatten)]
-    common: Common,
-    #[arg(long)]
-    outputs_only: bool,
-    #[arg(long)]
-    check_error: bool,
-    #[arg(long, conflicts_with_all = ["check_error", "equilibrium"])]
-    start: Option<PathBuf>,
-    #[arg(long, requires = "start")]
-    changed: bool,
+    options: RunOptions,
 }
 
 /// A run with its rows.
@@ -55,9 +44,11 @@ pub fn simulate(py: Python<'_>, words: Vec<String>, given: Vec<(PathBuf, String)
     let options = parsed(&words)?;
     let is_asked = Arc::new(AtomicBool::new(false));
     let flag = is_asked.clone();
-    let work = move || with_given(given, || finished(options, words, &flag));
-    let Ended { result, signal } = on_thread(py, || is_asked.store(true, Ordering::Relaxed), work)?;
-    let Some(result) = result else { return Err(ended_early(signal)) };
+    let work = move || {
+        abandoned::keep();
+        with_given(given, || finished(&options, words, &flag))
+    };
+    let (result, signal) = on_thread(py, || is_asked.store(true, Ordering::Relaxed), work)?;
     let Finished { rows, columns, summary } = result.map_err(raised)?;
     let names = &columns.names;
     let units: Vec<(&str, &str)> = columns.named_outputs().collect();
@@ -98,64 +89,36 @@ fn units(columns: Vec<Column>) -> Map<String, Value> {
     columns.into_iter().map(|column| (column.name, column.unit.into())).collect()
 }
 
-fn parsed(words: &[String]) -> PyResult<Options> {
+fn parsed(words: &[String]) -> PyResult<RunOptions> {
     // Warnings are returned, not printed.
     let quiet = [String::from("--quiet")];
-    Options::try_parse_from(words.iter().chain(&quiet)).map_err(|error| refused(&error))
+    let parsed = Options::try_parse_from(words.iter().chain(&quiet)).map_err(|error| refused(&error))?;
+    Ok(parsed.options)
 }
 
-fn finished(options: Options, words: Vec<String>, is_asked: &AtomicBool) -> Result<Finished> {
-    let prepared = options.common.load()?;
-    let system = prepared.system();
-    let span = options.common.span(&prepared)?;
-    let saved = options.start.as_ref().map(|path| restart::read(path, &prepared, options.changed)).transpose()?;
-    let stiffness = prepared.stiffness(span);
-    let doubt = saved.as_ref().and_then(|saved| restart::doubt(saved, &prepared));
-    let of_method = stiffness.as_ref().map(Warning::from).into_iter().chain(prepared.method.doubts(system));
-    let early: Vec<Warning> = prepared.doubts.iter().cloned().chain(of_method).chain(doubt).collect();
+fn finished(options: &RunOptions, words: Vec<String>, is_asked: &AtomicBool) -> Result<Finished> {
+    let ready = options.ready(true)?;
     let rows = RefCell::new(Rows::default());
-    let mut recorder = recorder(&options, &prepared, &rows).with_stop(|| force::stop().or_else(|| stop(is_asked)));
-    let clock = Instant::now();
-    let (q, v) = prepared.start();
-    let start = saved.as_ref().map_or(Start::State(q, v), Start::Saved);
-    let (outcome, legs, restart) = spread(|| prepared.simulate_from(&prepared.method, span, start, &mut recorder))?;
-    let seconds = clock.elapsed().as_secs_f64();
-    let record = recorder.finish();
-    let mut summary = summarize((&prepared, stiffness, &early), (&outcome, &legs), &record, seconds);
-    summary.restart = restart;
-    summary.origin.command = ["holonom", "simulate"].map(String::from).into_iter().chain(words).collect();
-    if options.check_error && summary.failure.is_none() {
-        let run = Completed { span, trajectory: &record.trajectory, legs: &legs, statistics: outcome.statistics };
-        summary = summary.checked(spread(|| error_bars(&prepared, run, |_| {}, || stop(is_asked))));
+    let mut recorder = ready.recorder().with_stop(|| force::stop().or_else(|| stop(is_asked)));
+    // A comparison of two runs needs all rows.
+    if !options.check_error {
+        recorder = recorder.with_rows(ready.curves(), |row| rows.borrow_mut().add(&row));
     }
+    let mut done = ready.run(recorder)?;
     let mut rows = rows.into_inner();
     if options.check_error {
-        rows.add_all(&record);
+        rows.add_all(&done.record);
+        if done.summary.failure.is_none() {
+            done = done.checked(&ready, (|_| {}, || stop(is_asked)));
+        }
     }
-    let columns = columns(&options, &prepared);
-    Ok(Finished { rows, columns, summary })
+    let mut summary = done.summary;
+    summary.origin.command = ["holonom", "simulate"].map(String::from).into_iter().chain(words).collect();
+    Ok(Finished { rows, columns: ready.columns(), summary })
 }
 
 /// Returns a reason to end the run if that is asked for.
 fn stop(is_asked: &AtomicBool) -> Option<Stop> {
     let hint = "the rows until then are in `partial`";
     is_asked.load(Ordering::Relaxed).then(|| Stop { reason: INTERRUPTED.to_string(), hint: hint.to_string() })
-}
-
-/// Returns a recorder that passes the rows on, unless a comparison of two runs needs all of them.
-fn recorder<'a>(options: &Options, prepared: &'a Model, rows: &'a RefCell<Rows>) -> Recorder<'a> {
-    let mut recorder = Recorder::new(prepared.system()).with_jumps();
-    if options.outputs_only {
-        recorder = recorder.with_outputs_only();
-    }
-    if options.check_error {
-        return recorder;
-    }
-    let coordinates = if recorded(prepared.system()).is_empty() { MOST_COORDINATES } else { 0 };
-    recorder.with_rows(coordinates, |row| rows.borrow_mut().add(&row))
-}
-
-fn columns(options: &Options, prepared: &Model) -> Trajectory {
-    let system = prepared.system();
-    if options.outputs_only { Trajectory::of_outputs(system, 0) } else { Trajectory::new(system) }
 }

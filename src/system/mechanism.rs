@@ -100,6 +100,8 @@ impl<const D: usize> Mechanism<D> {
         scratch: &mut Scratch,
         see: impl FnOnce(&mut MechanismMemory<D>, Regime) -> R,
     ) -> R {
+        #[cfg(feature = "python")]
+        crate::abandoned::leave();
         let make = || MechanismMemory {
             evaluation: EvaluationMemory::new(self.model()),
             varied: SeededBody::default(),

@@ -334,6 +334,21 @@ fn an_interrupted_study_keeps_whole_rows() {
     assert_whole_study(&place);
 }
 
+/// The cells of short steps would take hours.
+#[test]
+fn interrupted_maps_keep_their_cells() {
+    let place = Place::new(PENDULUM);
+    let axes = ["--x", "step=1e-9..1e-3:2:log", "--y", "tolerance=1e-8..1e-6:2", "--limit", "1h", "--budget", "9h"];
+    let args = [&["stress", "scene.json", "--until", "1", "--figures", "none", "-o", "here"], &axes[..]].concat();
+    let output = interrupted(|_| start(&place, &args), "INT", has_ended_itself);
+    assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+    assert!(err(&output).ends_with("error: interrupted\n"), "{}", err(&output));
+    let map = place.json("here/stress.json")["maps"][0].clone();
+    let cells = map["cells"].as_array().unwrap();
+    assert!(cells.len() >= 4, "{map}");
+    assert!(cells.iter().any(|cell| cell["status"] == "left_out"), "{map}");
+}
+
 fn assert_whole_study(place: &Place) {
     let table = place.text("here/study.csv");
     let rows: Vec<csv::StringRecord> =

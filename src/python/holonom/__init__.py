@@ -17,18 +17,21 @@ The guide is printed by ``python -m holonom guide python``.
 """
 
 from ._answer import Answer, HolonomWarning, command
+from ._builder import Builder
 from ._core import HolonomError, RunError, SceneError, __version__
 from ._linear import LinearModel, LinearMotion
 from ._run import Columns, Run
-from ._scene import Scene
+from ._scene import Objective, Scene
 
 __all__ = [
     "Answer",
+    "Builder",
     "Columns",
     "HolonomError",
     "HolonomWarning",
     "LinearModel",
     "LinearMotion",
+    "Objective",
     "Run",
     "RunError",
     "Scene",

@@ -128,7 +128,7 @@ def call(
     """As `command`, with texts in the place of files."""
     all_words = ["holonom", name, *arguments, *words(options)]
     with tempfile.TemporaryDirectory(prefix="holonom-") as folder:
-        data, text, told, failed = _core.command(all_words, given, folder)
+        data, text, told, failed, raised = _core.command(all_words, given, folder)
         files = _files(Path(folder))
         whole = Path(word(options.get("o", folder)), f"{name}.json")
         if data is not None and whole.is_file():
@@ -137,10 +137,11 @@ def call(
     errors = [line.removeprefix("error: ") for line in told if line.startswith("error: ")]
     warn([line for line in told if line.startswith("warning: ")], stacklevel + 1)
     found = _answer(data, text, files)
-    if failed:
-        error = _core.RunError("\n".join(errors))
-        error.partial = found
-        raise error
+    if failed and raised is None:
+        raised = _core.RunError("\n".join(errors))
+    if raised is not None:
+        vars(raised)["partial"] = found
+        raise raised
     return found
 
 

@@ -18,10 +18,11 @@ class RunError(HolonomError):
 
 def command(
     words: Sequence[str], given: Sequence[tuple[str, str]], folder: str
-) -> tuple[str | None, str, list[str], bool]:
+) -> tuple[str | None, str, list[str], bool, BaseException | None]:
     """Calls a command with the texts `given` in the place of files; its own files go to `folder`.
 
-    Returns the result as JSON and as text, the warnings and errors, and true if the command failed.
+    Returns the result as JSON and as text, the warnings and errors, true if the command failed, and the exception of a
+    signal after which the command ended by itself.
     """
 
 def main(words: Sequence[str]) -> int:

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import functools
+import io
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, overload
 
+import numpy as np
+from numpy.typing import NDArray
+
 from . import _core
 from ._answer import Answer, call, warn, word, words
-from ._functions import keep
+from ._functions import address, keep, with_laws
 from ._linear import LinearModel, LinearMotion, model
 from ._run import Run, finished
 
-#: The names under which commands read a scene that is no file, and the summary of a run.
+#: The names under which commands read a scene that is no file, the summary of a run, and the variants of a study.
 _SCENE = "<scene>"
 _RUN = "<run>"
+_VARIANTS = "<variants>"
 
 
 class Scene:
@@ -32,7 +37,8 @@ class Scene:
 
     It returns the force on the second marker, N, from the time and from the position and velocity of the second marker
     relative to the first, in world axes. The first marker gets the opposite force. Each call costs a microsecond or two,
-    so an expression in the scene is faster.
+    so an expression in the scene is faster. A list has a function for each component, of Python or compiled:
+    ``double f(double t, const double *r, const double *v)``, by ctypes or as a ``cfunc`` of Numba.
 
     >>> import holonom
     >>> scene = holonom.Scene(holonom.command("generate", "chain", n=2))
@@ -48,9 +54,8 @@ class Scene:
         **more: float | str,
     ) -> None:
         self._functions: list[Callable[..., Any]] = []
-        is_dict = isinstance(scene, Mapping)
         self._path = _SCENE if isinstance(scene, Mapping) else os.fspath(scene)
-        self._text = json.dumps(scene, default=self._plain) if is_dict else None
+        self._text = json.dumps(with_laws(scene), default=self._plain) if isinstance(scene, Mapping) else None
         self._given = {**(parameters or {}), **more}
         self._source: Any = scene
         warn(self._described["warnings"], stacklevel=2)
@@ -191,6 +196,12 @@ class Scene:
         """Runs variants and records numbers of each, such as ``vary="l=1..2:5"``. See ``holonom study --help``."""
         return self._call("study", options)
 
+    def objective(
+        self, record: str | Sequence[str], names: str | Sequence[str], **options: object
+    ) -> Objective:
+        """Returns a function of values of the parameters `names`, for an optimizer. See `Objective`."""
+        return Objective(self, _listed(record), _listed(names), options)
+
     def plot(self, **options: object) -> Any:
         """Draws the mechanism; the figures are in `files`. See ``holonom plot --help``."""
         return self._call("plot", options)
@@ -199,8 +210,10 @@ class Scene:
         """Calls any command of the command line on the scene, as `holonom.command` does."""
         return self._call(name, options, *map(str, arguments))
 
-    def _call(self, name: str, options: Mapping[str, object], *arguments: str) -> Any:
-        return call(name, [*self._words({}), *arguments], options, self._texts(), stacklevel=4)
+    def _call(
+        self, name: str, options: Mapping[str, object], *arguments: str, texts: Sequence[tuple[str, str]] = ()
+    ) -> Any:
+        return call(name, [*self._words({}), *arguments], options, [*self._texts(), *texts], stacklevel=4)
 
     def _words(self, options: Mapping[str, object]) -> list[str]:
         """The scene, its parameters and options as words of the command line."""
@@ -212,6 +225,8 @@ class Scene:
 
     def _plain(self, value: Any) -> Any:
         """A value that JSON does not know: arrays and numbers of NumPy, functions."""
+        if address(value) is not None:
+            raise TypeError("a compiled function gives one component of a force: write a list with one for each axis")
         if callable(value):
             self._functions.append(value)
             return keep(value)
@@ -225,6 +240,47 @@ class Scene:
     def __repr__(self) -> str:
         given = "".join(f", {name}={value!r}" for name, value in self._given.items())
         return f"<holonom.Scene {self.name}{given}>"
+
+
+class Objective:
+    """A function of values of parameters that gives the numbers of ``scene.study(record=...)``.
+
+    One set of values gives an array of the numbers. A table with a row for each variant gives a row for each, computed
+    on all cores. A variant that fails has numbers that are not a number.
+
+    >>> import holonom
+    >>> scene = holonom.Scene({"name": "m", "dimension": 2, "parameters": {"x0": 1, "v0": 1},
+    ...     "bodies": [{"name": "b", "type": "point_mass", "mass": 1,
+    ...                 "initial": {"position": ["x0", 0], "velocity": ["v0", 0]}}]})
+    >>> position = scene.objective("b.x", "x0,v0", until=1)
+    >>> position([2, 3]).round(6)
+    array([5.])
+    >>> position([[2, 3], [4, 5]]).round(6).tolist()
+    [[5.0], [9.0]]
+    """
+
+    def __init__(self, scene: Scene, record: list[str], names: list[str], options: Mapping[str, object]) -> None:
+        self.scene = scene
+        self.record = record
+        self.names = names
+        self._options = {**options, "record": record, "list": _VARIANTS, "quiet": True, "figures": "none"}
+
+    def __call__(self, values: Any) -> NDArray[np.float64]:
+        table = np.asarray(values, dtype=float)
+        rows = [",".join(map(repr, row)) for row in np.atleast_2d(table).tolist()]
+        variants = "\n".join([",".join(self.names), *rows])
+        try:
+            found = self.scene._call("study", self._options, texts=[(_VARIANTS, variants)])
+        except _core.RunError as error:
+            # All failed.
+            found = error.partial
+        with np.load(io.BytesIO(found.files["study.npz"])) as arrays:
+            numbers: NDArray[np.float64] = arrays["values"][:, len(self.names) :]
+        return numbers[0] if table.ndim == 1 else numbers
+
+
+def _listed(names: str | Sequence[str]) -> list[str]:
+    return names.split(",") if isinstance(names, str) else list(names)
 
 
 def _restored(scene: Any, parameters: Mapping[str, float | str]) -> Scene:

@@ -123,11 +123,12 @@ impl<'a> Work<'a> {
         Work { subject, map, limit, cells, motions, queues: Mutex::new(queues) }
     }
 
-    /// Runs jobs until all are done or the time is over.
+    /// Runs jobs until all are done, the time is over or the subject is stopped.
     fn run(&self, budget: &Budget, progress: &(impl Fn() + Sync)) {
+        let is_over = || budget.left().is_zero() || (self.subject.is_stopped)();
         loop {
             let next = locked(&self.queues).take(self.limit);
-            let Some((queue, job)) = next.filter(|_| !budget.left().is_zero()) else { return };
+            let Some((queue, job)) = next.filter(|_| !is_over()) else { return };
             let watch = Stopwatch::start();
             let cut = self.attempt(job, budget);
             if cut.is_none() && matches!(job.what, What::Cell(_)) {
@@ -149,6 +150,9 @@ impl<'a> Work<'a> {
                     let cpu = if is_last { share.saturating_mul(REFERENCE) } else { share };
                     Search::run(self.subject, &case, cpu, budget)
                 });
+                if (self.subject.is_stopped)() {
+                    return None;
+                }
                 let cut = match search {
                     Search::Pending(part) if !is_last => Some(part),
                     _ => None,
@@ -160,6 +164,9 @@ impl<'a> Work<'a> {
                 let slot = &self.cells[index];
                 let limit = Limit { cpu: share, wall: budget.left() };
                 let (cell, rows, part) = run(self.subject, self.map, slot.at, limit, is_last);
+                if (self.subject.is_stopped)() {
+                    return Some(part);
+                }
                 let cut = (cell.status == Status::LeftOut).then_some(part);
                 *locked(&slot.came) = (cell, rows);
                 cut

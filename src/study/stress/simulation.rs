@@ -19,7 +19,7 @@ pub(super) fn blank(subject: &Subject, map: &Map, at: [usize; 3]) -> Cell {
         // Changes of the scene do not affect the method.
         let _ = change.apply(&mut case);
     }
-    let reason = Some("not begun: the budget was over".to_string());
+    let reason = Some("not begun: the time was over".to_string());
     let [panel, row, column] = at;
     Cell { panel, column, row, method: case.method, reason, ..Cell::default() }
 }

@@ -59,6 +59,8 @@ pub struct Subject<'a> {
     pub base: Case,
     /// Numbers of coordinates, velocities and constraints.
     pub dimensions: Dimensions,
+    /// Returns true to end all runs; cells without a result are then left out.
+    pub is_stopped: &'a (dyn Fn() -> bool + Sync),
     folder: PathBuf,
     elements: Elements,
     own: Option<Own<'a>>,
@@ -105,6 +107,7 @@ impl Subject<'static> {
             values: prepared.parameters.clone(),
             base,
             dimensions: prepared.system().dimensions(),
+            is_stopped: &|| false,
             folder: scene::folder(Some(path)).to_path_buf(),
             elements: overrides.elements.clone(),
             own: None,
@@ -130,6 +133,7 @@ impl<'a> Subject<'a> {
             name: name.to_string(),
             values: Parameters::default(),
             dimensions: system.dimensions(),
+            is_stopped: &|| false,
             base: Case {
                 scene: Arc::new(Value::Null),
                 set: Vec::new(),
@@ -160,7 +164,6 @@ impl<'a> Subject<'a> {
         let perturbed = |system: &dyn MechanicalSystem, start: f64, state: (&[f64], &[f64])| {
             let (q, v) = perturbed(system, state, case.start_error, case.typical.period);
             let watched = Watched::new(system, &[])?;
-            let is_stopped = &|| false;
             run(&Motion {
                 system,
                 start: (&q, &v),
@@ -168,7 +171,7 @@ impl<'a> Subject<'a> {
                 watched,
                 ratio: 1.0,
                 counts_start: true,
-                is_stopped,
+                is_stopped: self.is_stopped,
             })
         };
         if let Some(own) = &self.own {
