@@ -159,6 +159,7 @@ impl<'a> Dynamics<'a> {
     }
 
     /// Evaluates the terms `need` at a state.
+    #[inline]
     pub fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64], need: Need) {
         self.is_factored = false;
         if let Some(law) = &self.law {
@@ -176,6 +177,7 @@ impl<'a> Dynamics<'a> {
     }
 
     /// Factors the matrix truncated near singular states: see `SaddlePoint::factor_truncated`.
+    #[inline]
     pub fn factor_truncated(&mut self) -> Result<(), StepError> {
         self.statistics.factorizations += 1;
         let factored = self.kkt.factor_truncated(&self.terms.mass, &self.terms.g, self.rank_tolerance);
@@ -271,6 +273,7 @@ impl<'a> Dynamics<'a> {
         self.solve_factored()
     }
 
+    #[inline]
     fn solve_factored(&mut self) -> Result<(), StepError> {
         self.is_rank_deficient = self.kkt.is_rank_deficient();
         let solved = if self.wants_least {

@@ -78,7 +78,8 @@ fn accumulate_from(first: usize, y: &mut [f64], h: f64, weights: &[f64], k: &[Ve
     }
 }
 
-#[inline(always)]
+/// Not in line: as an argument y is known to be apart from the k, which else is checked in each call.
+#[inline(never)]
 fn add_products<const N: usize>(y: &mut [f64], terms: [(f64, &[f64]); N]) {
     let terms = terms.each(|(factor, k)| (factor, &k[..y.len()]));
     for (i, y) in y.iter_mut().enumerate() {

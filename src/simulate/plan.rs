@@ -97,7 +97,10 @@ impl TimeLoop<'_> {
         };
         let (size, end) = match self.fixed {
             _ if stretched >= left => (left, Some(stop.t)),
-            Some(step) => (placed, (placed == self.to_grid(step)).then(|| self.next_of_grid(step))),
+            Some(step) => {
+                let next = self.next_of_grid(step);
+                (placed, (placed == self.step_to(next, step)).then_some(next))
+            }
             None => (placed, None),
         };
         let resolved = self.resolved(size, stop.t);
@@ -136,7 +139,11 @@ impl TimeLoop<'_> {
 
     /// Time to the next point of the grid of steps `h`: `h` itself from a point of the grid.
     fn to_grid(&self, h: f64) -> f64 {
-        let left = self.next_of_grid(h) - self.t;
+        self.step_to(self.next_of_grid(h), h)
+    }
+
+    fn step_to(&self, next: f64, h: f64) -> f64 {
+        let left = next - self.t;
         if (left - h).abs() < tolerances::SAME * h + 4.0 * f64::EPSILON * self.t.abs() { h } else { left }
     }
 }

@@ -42,9 +42,9 @@ impl TimeLoop<'_> {
     /// takes some factorizations: only where the constraints are open or nearly lose rank, or now and then where their
     /// rank is not known.
     pub fn check_travel(&mut self, t: f64) -> Result<(), Failure> {
+        let Some(travelled) = &mut self.travelled else { return Ok(()) };
         let open = largest_in(&self.scales, &self.problem.dynamics.terms.phi);
         let is_doubtful = open > tolerances::SIX_DIGITS || self.approach.may_be_singular();
-        let Some(travelled) = &mut self.travelled else { return Ok(()) };
         travelled.steps += 1;
         let is_unknown = self.approach.is_unknown() && travelled.steps >= TRAVEL_STEPS;
         if !(is_doubtful || is_unknown) {

@@ -39,6 +39,7 @@ impl Ldlt {
     }
 
     /// Factors; `skipped` receives the multipliers that are dropped. The error is the node whose pivot collapsed.
+    #[inline]
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         skipped.clear();
         match self {
@@ -50,6 +51,7 @@ impl Ldlt {
     }
 
     /// Solves in place; dropped multipliers are zero.
+    #[inline]
     pub fn solve(&mut self, top: &mut [f64], bottom: &mut [f64]) {
         match self {
             Ldlt::Small(f) => f.solve(top, bottom),
@@ -69,6 +71,7 @@ impl Ldlt {
 
     /// The smallest ratio above `collapsed` of a pivot to its size, and the number of multipliers whose ratio is not
     /// above it.
+    #[inline]
     pub fn smallest_ratio(&self, collapsed: f64) -> (f64, usize) {
         match self {
             Ldlt::Small(f) => f.smallest_ratio(collapsed),

@@ -16,7 +16,7 @@ use crate::error::Result;
 use crate::math::{Dual, Regime, Scalar};
 use christoffel::christoffel;
 use nalgebra::DMatrix;
-use passes::{Memory, SeededEquations, add_inputs, constraints, curvature, fixed, output_slopes, tangent_of};
+use passes::{Memory, SeededEquations, curvature, fixed, output_slopes, tangent_of, write_terms};
 use std::borrow::Cow;
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
@@ -111,49 +111,26 @@ impl<E: Equations> MechanicalSystem for E {
     }
 
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
-        let (n, m) = self.size();
         let inputs = std::mem::take(&mut scratch.inputs);
-        let fill = |memory: &mut Memory, _: Regime| {
-            if need.includes(Need::MASS) {
-                self.mass(t, q, &mut memory.mass);
-                let mut lower = terms.mass.iter_mut();
-                for (i, row) in memory.mass.chunks_exact(n.max(1)).enumerate() {
-                    row[..=i].iter().zip(&mut lower).for_each(|(value, entry)| *entry = *value);
-                }
-            }
-            if need.includes(Need::FORCE) {
-                self.force(t, q, v, &mut terms.f);
-                terms.power = self.power(t, q, v);
-                if !inputs.is_empty() {
-                    add_inputs(self, t, q, v, &inputs, &mut memory.driven, terms);
-                }
-            }
-            if m > 0 && (need.includes(Need::CONSTRAINTS) || need.includes(Need::G)) {
-                constraints(self, t, q, v, need, memory, terms);
-            }
-            if need.includes(Need::L) {
-                let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
-                curvature(self, at, memory, |place, slope| terms.l[place] = slope.d);
-            }
-        };
-        scratch.with(|| Memory::new(n, m), fill);
+        let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
+        let fill = |memory: &mut Memory, _: Regime| write_terms(self, at, need, &inputs, memory, terms);
+        scratch.with(|| Memory::of(self), fill);
         scratch.inputs = inputs;
     }
 
     fn tangent(&self, at: OperatingPoint, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
         let (n, m) = self.size();
         scratch.with(
-            || Memory::new(n, m),
+            || Memory::of(self),
             |memory, _| tangent_of(self, at, memory.varied.get_or_insert_with(|| SeededEquations::new(n, m)), tangent),
         );
         true
     }
 
     fn acceleration_gradient(&self, at: OperatingPoint, values: &mut [f64], scratch: &mut Scratch) -> bool {
-        let (n, m) = self.size();
         let write =
             |memory: &mut Memory, _: Regime| curvature(self, at, memory, |place, slope| values[place] = slope.dd);
-        scratch.with(|| Memory::new(n, m), write);
+        scratch.with(|| Memory::of(self), write);
         true
     }
 
@@ -164,13 +141,13 @@ impl<E: Equations> MechanicalSystem for E {
 
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
         let potential = self.potential(t, q)?;
-        let (n, m) = self.size();
+        let (n, _) = self.size();
         let kinetic = |memory: &mut Memory, _: Regime| {
             self.mass(t, q, &mut memory.mass);
             let row = |i: usize| memory.mass[i * n..(i + 1) * n].iter().zip(v).map(|(m, v)| m * v).sum::<f64>();
             0.5 * (0..n).map(|i| v[i] * row(i)).sum::<f64>()
         };
-        Some(Energy { kinetic: scratch.with(|| Memory::new(n, m), kinetic), potential })
+        Some(Energy { kinetic: scratch.with(|| Memory::of(self), kinetic), potential })
     }
 
     fn outputs(&self, at: OperatingPoint, out: &mut [f64], _scratch: &mut Scratch) {

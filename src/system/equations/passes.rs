@@ -67,7 +67,8 @@ impl SeededEquations {
 }
 
 impl Memory {
-    pub fn new(n: usize, m: usize) -> Self {
+    pub fn of(equations: &impl Equations) -> Self {
+        let (n, m) = equations.size();
         let zero = Taylor::fixed(0.0);
         Memory {
             mass: vec![0.0; n * n],
@@ -81,8 +82,47 @@ impl Memory {
     }
 }
 
+/// Writes the terms `need`. Slices have the lengths of [`Equations::size`], which the compiler knows where these are
+/// constants.
+#[inline]
+pub(super) fn write_terms<E: Equations>(
+    system: &E,
+    at: OperatingPoint,
+    need: Need,
+    inputs: &[f64],
+    memory: &mut Memory,
+    terms: &mut Terms,
+) {
+    let (n, m) = system.size();
+    let t = at.t;
+    let q = &at.q[..n];
+    let v = &at.v[..n];
+    if need.includes(Need::MASS) {
+        let mass = &mut memory.mass[..n * n];
+        system.mass(t, q, mass);
+        let lower = &mut terms.mass[..n * (n + 1) / 2];
+        for i in 0..n {
+            let first = i * (i + 1) / 2;
+            lower[first..=first + i].copy_from_slice(&mass[i * n..=i * n + i]);
+        }
+    }
+    if need.includes(Need::FORCE) {
+        system.force(t, q, v, &mut terms.f[..n]);
+        terms.power = system.power(t, q, v);
+        if !inputs.is_empty() {
+            add_inputs(system, t, q, v, inputs, &mut memory.driven, terms);
+        }
+    }
+    if m > 0 && (need.includes(Need::CONSTRAINTS) || need.includes(Need::G)) {
+        constraints(system, t, q, v, need, memory, terms);
+    }
+    if need.includes(Need::L) {
+        curvature(system, at, memory, |place, slope| terms.l[place] = slope.d);
+    }
+}
+
 /// f += (df/du) u, whose power is that of forces without a potential.
-pub(super) fn add_inputs(
+fn add_inputs(
     equations: &impl Equations,
     t: f64,
     q: &[f64],
@@ -122,7 +162,7 @@ pub(super) fn output_slopes(x: &[f64], outputs: impl Fn(&[Dual6], &mut [Dual6]),
 /// phi, phi', gamma and phi_t, and G, of which those that are needed: along q + v s with t + s, and along each
 /// coordinate and, last, time alone, as many per pass as a number has directions.
 #[inline]
-pub(super) fn constraints<E: Equations>(
+fn constraints<E: Equations>(
     system: &E,
     t: f64,
     q: &[f64],
@@ -131,7 +171,7 @@ pub(super) fn constraints<E: Equations>(
     memory: &mut Memory,
     terms: &mut Terms,
 ) {
-    if q.len() < FEW {
+    if system.size().0 < FEW {
         pass(system, t, q, v, need, &mut memory.few, terms);
     } else {
         pass(system, t, q, v, need, &mut memory.many, terms);
@@ -148,10 +188,13 @@ fn pass<E: Equations, const W: usize>(
     terms: &mut Terms,
 ) {
     let Jets { q: jets, phi: rows } = jets;
-    let n = q.len();
-    for first in (0..=n).step_by(W) {
+    let (n, m) = system.size();
+    let jets = &mut jets[..n];
+    let rows = &mut rows[..m];
+    for pass in 0..=n / W {
+        let first = pass * W;
         let columns = first..n.min(first + W);
-        for ((jet, &q), &v) in jets.iter_mut().zip(q).zip(v) {
+        for ((jet, &q), &v) in jets.iter_mut().zip(&q[..n]).zip(&v[..n]) {
             *jet = Jet::fixed(Taylor::new(q, v, 0.0));
         }
         jets[columns.clone()].iter_mut().enumerate().for_each(|(k, jet)| jet.slope[k] = 1.0);
@@ -166,8 +209,9 @@ fn pass<E: Equations, const W: usize>(
             }
         }
         if need.includes(Need::G) {
-            for (g, row) in terms.g.chunks_exact_mut(n.max(1)).zip(&*rows) {
-                g[columns.clone()].iter_mut().zip(&row.slope).for_each(|(g, slope)| *g = *slope);
+            for (i, row) in rows.iter().enumerate() {
+                let g = &mut terms.g[i * n..][columns.clone()];
+                g.iter_mut().zip(&row.slope).for_each(|(g, slope)| *g = *slope);
             }
         }
     }

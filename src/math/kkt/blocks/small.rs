@@ -48,16 +48,18 @@ impl Small {
     pub fn factor(&mut self, mass: &[f64], g: &[f64], rule: Rule, skipped: &mut Vec<usize>) -> Result<Quality, usize> {
         let mut judge = Judge { n: self.n, rule, skipped, quality: Quality::GOOD };
         by_width!(self.n, self.factor_coordinates(mass, g, &mut judge))?;
-        self.factor_multipliers(&mut judge)?;
+        if self.m > 0 {
+            self.factor_multipliers(&mut judge)?;
+        }
         Ok(judge.quality)
     }
 
     /// L and D of M, G L^-T and -G M^-1 G^T.
     fn factor_coordinates<const N: usize>(&mut self, mass: &[f64], g: &[f64], judge: &mut Judge) -> Result<(), usize> {
         let mut l = [[0.0; N]; N];
-        let mut entries = mass.iter();
-        for (i, row) in l.iter_mut().enumerate() {
-            row[..=i].iter_mut().zip(&mut entries).for_each(|(l, entry)| *l = *entry);
+        let mass = &mass[..N * (N + 1) / 2];
+        for i in 0..N {
+            (0..=i).for_each(|j| l[i][j] = mass[i * (i + 1) / 2 + j]);
         }
         let sizes: [f64; N] = from_fn(|p| l[p][p]);
         let mut inverse = [0.0; N];
@@ -74,9 +76,9 @@ impl Small {
             *row = *g;
             (0..N).for_each(|p| (p + 1..N).for_each(|q| row[q] -= row[p] * l[q][p]));
         }
-        for (k, (row, schur)) in rows.iter().zip(self.schur.chunks_exact_mut(self.m.max(1))).enumerate() {
+        for (k, row) in rows.iter().enumerate() {
             let scaled: [f64; N] = from_fn(|p| row[p] * inverse[p]);
-            for (row, entry) in rows[k..].iter().zip(&mut schur[k..]) {
+            for (row, entry) in rows[k..].iter().zip(&mut self.schur[k * self.m + k..]) {
                 *entry = (0..N).fold(0.0, |sum, p| sum - row[p] * scaled[p]);
             }
         }
@@ -93,6 +95,9 @@ impl Small {
             let row = &mut above[p * *m + p..];
             let own = judge.inverse(row[0], sizes[p], -1.0, || *n + p)?;
             inverse[*n + p] = own;
+            if below.is_empty() {
+                break;
+            }
             let scaled = &mut scaled[p + 1..];
             scaled.iter_mut().zip(&row[1..]).for_each(|(scaled, x)| *scaled = x * own);
             for (r, target) in below.chunks_exact_mut(*m).enumerate() {
@@ -115,27 +120,31 @@ impl Small {
         let Some(top) = top.first_chunk_mut::<N>() else { return };
         (0..N).for_each(|p| (p + 1..N).for_each(|q| top[q] -= top[p] * l[q][p]));
         (0..N).for_each(|p| top[p] *= inverse[p]);
-        for (x, row) in bottom.iter_mut().zip(rows) {
-            *x = (0..N).fold(*x, |x, p| x - top[p] * row[p]);
+        if self.m > 0 {
+            for (x, row) in bottom.iter_mut().zip(rows) {
+                *x = (0..N).fold(*x, |x, p| x - top[p] * row[p]);
+            }
+            self.solve_multipliers(bottom);
+            let mut sum = [0.0; N];
+            for (x, row) in bottom.iter().zip(rows) {
+                (0..N).for_each(|p| sum[p] += x * row[p]);
+            }
+            (0..N).for_each(|p| top[p] -= sum[p] * inverse[p]);
         }
-        self.solve_multipliers(bottom);
-        let mut sum = [0.0; N];
-        for (x, row) in bottom.iter().zip(rows) {
-            (0..N).for_each(|p| sum[p] += x * row[p]);
-        }
-        (0..N).for_each(|p| top[p] -= sum[p] * inverse[p]);
         (0..N).rev().for_each(|p| (p + 1..N).rev().for_each(|q| top[p] -= top[q] * l[q][p]));
     }
 
     fn solve_multipliers(&self, bottom: &mut [f64]) {
         let Small { n, m, schur, inverse, .. } = self;
         let upper = |p: usize| &schur[p * *m + p + 1..(p + 1) * *m];
-        for p in 0..*m {
+        // The last row has nothing beside its diagonal.
+        let others = m.saturating_sub(1);
+        for p in 0..others {
             let x = bottom[p];
             subtract(&mut bottom[p + 1..], upper(p), x);
         }
         bottom.iter_mut().zip(&inverse[*n..]).for_each(|(x, inverse)| *x *= inverse);
-        for p in (0..*m).rev() {
+        for p in (0..others).rev() {
             bottom[p] = bottom[p + 1..].iter().zip(upper(p)).fold(bottom[p], |sum, (x, l)| sum - x * l);
         }
     }

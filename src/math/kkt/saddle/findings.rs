@@ -32,11 +32,13 @@ impl SaddlePoint {
     }
 
     /// True if the last factorization needed no rank-revealing one.
+    #[inline]
     pub fn is_fast(&self) -> bool {
         matches!(self.way, Way::Ldlt { .. })
     }
 
     /// True if a factorization truncated below `part` of the reference value would give the same factors.
+    #[inline]
     pub fn is_regular(&self, part: f64) -> bool {
         match (self.way, &self.kept) {
             (Way::Ldlt { refine }, _) => !refine || self.rank_indicator() >= part * self.rank_reference,
@@ -46,8 +48,9 @@ impl SaddlePoint {
     }
 
     /// True if rows are dependent, to round-off.
+    #[inline]
     pub fn is_rank_deficient(&self) -> bool {
-        self.drops_rows || !self.is_truncated && self.rank() < self.m
+        !self.is_fast() && (self.drops_rows || !self.is_truncated && self.rank() < self.m)
     }
 
     /// Norm of the inconsistent part of the last right side r2, for which no a exists; zero unless rows are dependent.

@@ -101,6 +101,7 @@ impl SaddlePoint {
     }
 
     /// True if the fast path succeeds; the values are stored if not, or if solutions need a refinement.
+    #[inline]
     fn goes_fast(&mut self, mass: &[f64], g: &[f64]) -> Result<bool, Singular> {
         (self.way, self.is_truncated) = (Way::None, false);
         let System { mass: m, g: j, .. } = &self.system;
@@ -110,23 +111,36 @@ impl SaddlePoint {
         if !self.drops_rows && self.factor_fast(mass, g) {
             return Ok(true);
         }
+        self.store_finite(mass, g)?;
+        Ok(false)
+    }
+
+    #[cold]
+    fn store_finite(&mut self, mass: &[f64], g: &[f64]) -> Result<(), Singular> {
         if !mass.iter().chain(g).all(|v| v.is_finite()) {
             return Err(Singular::NotFinite);
         }
         self.system.store(mass, g);
-        Ok(false)
+        Ok(())
     }
 
     /// Factors; rows also count as dependent below this fraction of the reference value, such as 1e-4. Nearer to a
     /// singular state, accelerations have a larger error by round-off with these rows than without them, and so have
     /// velocities after a projection; the next projection farther away corrects the motion along them.
+    #[inline]
     pub fn factor_truncated(&mut self, mass: &[f64], g: &[f64], part: f64) -> Result<(), Singular> {
         let is_fast = self.goes_fast(mass, g)?;
+        if is_fast && self.is_regular(part) { Ok(()) } else { self.truncate(is_fast, part) }
+    }
+
+    /// Factors the stored values without rows that count as dependent.
+    #[inline(never)]
+    fn truncate(&mut self, is_fast: bool, part: f64) -> Result<(), Singular> {
         if !is_fast && self.factor_kept(Some(part))? {
             return Ok(());
         }
         let least = part * self.rank_reference;
-        if is_fast && self.is_regular(part) || least * least <= tolerances::ROUND_OFF_OF_SOLUTIONS {
+        if least * least <= tolerances::ROUND_OFF_OF_SOLUTIONS {
             return if is_fast { Ok(()) } else { self.factor_rank_revealing() };
         }
         let skipping = self.skipping.get_or_insert_with(|| Box::new(RedundantRowSolve::new(&self.system)));
@@ -166,6 +180,7 @@ impl SaddlePoint {
         self.way = Way::None;
     }
 
+    #[inline]
     fn factor_fast(&mut self, mass: &[f64], g: &[f64]) -> bool {
         let Some(orders) = &mut self.fast else { return false };
         let Some(quality) = orders.factor(&self.system, mass, g) else { return false };
@@ -218,11 +233,13 @@ impl SaddlePoint {
     }
 
     /// Solves for a; multipliers of dependent rows are any that are consistent with it.
+    #[inline]
     pub fn solve_motion(&mut self, top: &mut [f64], bottom: &mut [f64]) -> Result<(), Singular> {
         self.solve_for(top, bottom, false)
     }
 
     /// Solves in place; if `is_least` is false, multipliers of dependent rows need not be those of least norm.
+    #[inline]
     fn solve_for(&mut self, top: &mut [f64], bottom: &mut [f64], is_least: bool) -> Result<(), Singular> {
         if top.len() != self.n || bottom.len() != self.m {
             return Err(Singular::Shape);

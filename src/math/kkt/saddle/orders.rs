@@ -38,29 +38,35 @@ impl Orders {
     }
 
     /// Factors; `None` if a pivot collapses in each order.
+    #[inline]
     pub fn factor(&mut self, system: &System, mass: &[f64], g: &[f64]) -> Option<Quality> {
-        let System { mass: m, g: j, .. } = system;
         self.meet(mass);
-        for (order, factors) in self.factors.iter_mut().enumerate() {
-            let late = |(massless, hub): (&bool, &bool)| *massless || *hub && order == 0;
-            let fast = factors.get_or_insert_with(|| {
-                let late: Vec<bool> = self.massless.iter().zip(&self.hubs).map(late).collect();
-                Ldlt::of(&self.analysis.plan(m, j, &late), m, j, &late)
-            });
+        for order in 0..self.factors.len() {
+            if self.factors[order].is_none() {
+                self.prepare(order, system);
+            }
             // This rule drops no rows.
-            match fast.factor(mass, g, Rule::STRICT, &mut Vec::new()) {
+            match self.factors[order].as_mut()?.factor(mass, g, Rule::STRICT, &mut Vec::new()) {
                 Ok(quality) => {
                     self.taken = order;
                     return Some(quality);
                 }
-                Err(node) if node < m.rows || !self.hubs.contains(&true) => return None,
+                Err(node) if node < system.mass.rows || !self.hubs.contains(&true) => return None,
                 Err(_) => {}
             }
         }
         None
     }
 
+    #[cold]
+    fn prepare(&mut self, order: usize, System { mass, g, .. }: &System) {
+        let late = |(massless, hub): (&bool, &bool)| *massless || *hub && order == 0;
+        let late: Vec<bool> = self.massless.iter().zip(&self.hubs).map(late).collect();
+        self.factors[order] = Some(Ldlt::of(&self.analysis.plan(mass, g, &late), mass, g, &late));
+    }
+
     /// Forgets the factors if other masses vanish.
+    #[inline]
     fn meet(&mut self, mass: &[f64]) {
         if self.diagonal.iter().all(|&(entry, i)| (mass[entry] == 0.0) == self.massless[i]) {
             return;
@@ -74,6 +80,7 @@ impl Orders {
     }
 
     /// The factors of the last success.
+    #[inline]
     pub fn taken(&mut self) -> Option<&mut Ldlt> {
         self.factors[self.taken].as_mut()
     }
