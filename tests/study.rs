@@ -169,7 +169,7 @@ fn table(place: &Place) -> (StudyTable, Study, Plan) {
 fn rows_of_another_study_are_refused() {
     let place = Place::new(THROW);
     let (blank, study, plan) = table(&place);
-    let filled = |rows: &[usize]| blank.clone().filled((&study, &plan), rows.to_vec(), &|| false, |_| ());
+    let filled = |rows: &[usize]| blank.clone().filled(&study, &plan, rows.to_vec(), &|| false, |_| ());
     let mut whole = filled(&[0, 2]);
     whole.add(filled(&[1, 2]), &place.path()).unwrap();
     assert_eq!(whole.rows.keys().copied().collect::<Vec<_>>(), [0, 1, 2]);

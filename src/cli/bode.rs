@@ -60,7 +60,7 @@ pub fn run(args: Args) -> Result<()> {
         args.at.talk.warn(&moving(&model));
         let frequencies = frequencies(&args, &model)?;
         let response = respond(&args, &prepared, model, &chosen, frequencies);
-        args.at.add(folder, "bode", (&prepared, response.model.point.t), &response)
+        args.at.add(folder, "bode", &prepared, response.model.point.t, &response)
     })
 }
 

@@ -85,7 +85,8 @@ impl AtStates {
         &self,
         folder: &mut Folder,
         what: &str,
-        (prepared, t): (&Model, f64),
+        prepared: &Model,
+        t: f64,
         answer: &impl Answer,
     ) -> Result<Value> {
         let sealed = answer.stage(folder, &stem_at(what, t), self.talk.origin(prepared))?;

@@ -98,8 +98,8 @@ pub fn run(args: Args) -> Result<()> {
         args.at.talk.warn(&uncertain_kinds(new.iter().map(String::as_str)));
         told.extend(new);
         args.at.talk.warn(&models.first().and_then(LinearModel::doubt));
-        let compared = other.as_ref().map(|scene| compared(&args, &prepared, scene, (state, &models[0]), &requests));
-        add(&args, &prepared, (&models, compared.transpose()?), folder)
+        let compared = other.as_ref().map(|scene| compared(&args, &prepared, scene, state, &models[0], &requests));
+        add(&args, &prepared, &models, compared.transpose()?, folder)
     })
 }
 
@@ -226,20 +226,22 @@ fn compared<'s>(
     args: &Args,
     prepared: &Model,
     scene: &'s Model,
-    (own, model): (&Operating, &LinearModel),
+    place: &Operating,
+    model: &LinearModel,
     requests: &[Linear],
 ) -> Result<AgainstAnswer<'s>> {
-    let places = args.at.states.at(scene, &args.at.talk, own.state.t)?;
-    let other = models(args, &requests[..1], &mut places.variation()?)?;
+    let other_place = args.at.states.at(scene, &args.at.talk, place.state.t)?;
+    let other = models(args, &requests[..1], &mut other_place.variation()?)?;
     let time = prepared.span().map_or(1.0, |span| span.end - span.start);
-    Ok(AgainstAnswer { t: own.state.t, other: &scene.name, found: against(model, &other[0], time) })
+    Ok(AgainstAnswer { t: place.state.t, other: &scene.name, found: against(model, &other[0], time) })
 }
 
 /// Writes the first model, and what it is compared with; returns the JSON to print.
 fn add(
     args: &Args,
     prepared: &Model,
-    (models, against): (&[LinearModel], Option<AgainstAnswer>),
+    models: &[LinearModel],
+    against: Option<AgainstAnswer>,
     folder: &mut Folder,
 ) -> Result<Value> {
     let first = &models[0];
@@ -250,9 +252,9 @@ fn add(
         folder.write(&format!("{}.html", stem_at("view", t)), page.as_bytes())?;
     }
     let linear = NamedModel { scene: &prepared.name, names: &prepared.system().facts().names, model: first };
-    let mut json = args.at.add(folder, "linear", (prepared, t), &LinearAnswer { prepared, linear })?;
+    let mut json = args.at.add(folder, "linear", prepared, t, &LinearAnswer { prepared, linear })?;
     if let Some(against) = against {
-        json["against"] = args.at.add(folder, "against", (prepared, t), &against)?;
+        json["against"] = args.at.add(folder, "against", prepared, t, &against)?;
         return Ok(json);
     }
     if models.len() == 1 {
@@ -260,5 +262,5 @@ fn add(
     }
     let exact = first.modes.iter().filter(|mode| mode.kind == Kind::Physical).map(|mode| mode.value);
     let methods = compare(models, &exact.collect::<Vec<_>>());
-    args.at.add(folder, "methods", (prepared, t), &MethodsAnswer { t, is_equilibrium, methods })
+    args.at.add(folder, "methods", prepared, t, &MethodsAnswer { t, is_equilibrium, methods })
 }

@@ -141,7 +141,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     };
     let motion = Motion::new(&prepared, &trajectory).titled(shown.title(&prepared.name));
     args.common.talk.warn(&motion.sparse().filter(|_| args.from.is_some() && args.is_in_motion()));
-    args.draw((&motion, &shown), &look, &mut folder, &mut drawn)?;
+    args.draw(&motion, &shown, &look, &mut folder, &mut drawn)?;
     drawn.files = folder.paths();
     args.common.talk.conclude(folder, &drawn, || drawn.text())?;
     failure.map_or(Ok(ExitCode::SUCCESS), |failure| fail(Error::from(failure)))
@@ -245,13 +245,7 @@ impl Args {
         Ok((record.trajectory, ending, outcome.failure))
     }
 
-    fn draw(
-        &self,
-        (motion, shown): (&Motion, &Shown),
-        look: &Look,
-        folder: &mut Folder,
-        drawn: &mut Drawn,
-    ) -> Result<()> {
+    fn draw(&self, motion: &Motion, shown: &Shown, look: &Look, folder: &mut Folder, drawn: &mut Drawn) -> Result<()> {
         let prepared = motion.prepared;
         if self.stroboscope {
             drawn.times = self.times(motion);
@@ -266,7 +260,7 @@ impl Args {
             self.seal(folder, "mechanism", prepared, drawn)?;
         }
         if self.outputs {
-            let figure = outputs_figure(&prepared.name, (motion.trajectory(), None), shown, self.separate);
+            let figure = outputs_figure(&prepared.name, motion.trajectory(), None, shown, self.separate);
             folder.figure("plot-outputs", figure)?;
             self.seal(folder, "plot-outputs", prepared, drawn)?;
         }

@@ -106,7 +106,7 @@ impl Ready<'_> {
             on_all_threads(|| model.simulate_from(&model.method, *span, start, &mut recorder))?;
         let seconds = clock.elapsed().as_secs_f64();
         let record = recorder.finish();
-        let mut summary = summarize((model, stiffness.clone(), early), (&outcome, &legs), &record, seconds);
+        let mut summary = summarize(model, stiffness.clone(), early, &outcome, &legs, &record, seconds);
         summary.restart = restart;
         Ok(Done { record, summary, legs, statistics: outcome.statistics })
     }
@@ -115,7 +115,7 @@ impl Ready<'_> {
 impl Done {
     /// Gives the outputs error bars by a second run; `show` gets its times, and `stop` ends it.
     #[must_use]
-    pub fn checked(self, ready: &Ready, (show, stop): (impl Fn(f64), impl Fn() -> Option<Stop> + Sync)) -> Done {
+    pub fn checked(self, ready: &Ready, show: impl Fn(f64), stop: impl Fn() -> Option<Stop> + Sync) -> Done {
         let Done { record, summary, legs, statistics } = self;
         let run = Completed { span: ready.span, trajectory: &record.trajectory, legs: &legs, statistics };
         let bars = on_all_threads(|| error_bars(&ready.model, run, show, stop));

@@ -67,7 +67,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
     rows.finish()?;
     if args.options.check_error && done.summary.failure.is_none() {
         let bar = talk.progress(1000, &format!("{}: the error", model.name));
-        done = done.checked(&ready, (|t| bar.set_position(fraction(t)), || interrupt::stop(&folder)));
+        done = done.checked(&ready, |t| bar.set_position(fraction(t)), || interrupt::stop(&folder));
     }
     let Done { record, mut summary, .. } = done;
     summary.origin.command = command_line();
@@ -128,7 +128,7 @@ impl Answer for Simulated<'_> {
         let length = prepared.system().facts().length;
         let ending = Ending::of(summary.failure.as_ref(), &record.drift, record.energy.as_ref());
         let shown = Shown::of_run(ending, record, length);
-        let outputs = report::outputs_figure(name, (&record.trajectory, summary.error.as_ref()), &shown, args.separate);
+        let outputs = report::outputs_figure(name, &record.trajectory, summary.error.as_ref(), &shown, args.separate);
         folder.figure("outputs", outputs)?;
         folder.figure("drift", report::drift_figure(name, record, &shown, length))?;
         folder.figure("energy", report::energy_figure(name, record, &shown))?;

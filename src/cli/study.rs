@@ -128,7 +128,7 @@ impl Args {
         if self.resume && place.join("study.json").exists() {
             table.add(StudyTable::read(place)?, place)?;
         }
-        let (table, asked) = self.filled(table, (&study, &plan), self.common.talk.origin(&prepared), place);
+        let (table, asked) = self.filled(table, &study, &plan, self.common.talk.origin(&prepared), place);
         Ok((prepared, table, asked))
     }
 
@@ -136,7 +136,8 @@ impl Args {
     fn filled(
         &self,
         table: StudyTable,
-        (study, plan): (&Study, &Plan),
+        study: &Study,
+        plan: &Plan,
         origin: Origin,
         place: &Path,
     ) -> (StudyTable, usize) {
@@ -151,11 +152,11 @@ impl Args {
             bar.inc(1);
             if saved.elapsed() > Duration::from_secs(30) {
                 // A failure to save is reported at the end.
-                let _ = save((table, asked), origin.clone(), place);
+                let _ = save(table, asked, origin.clone(), place);
                 saved = Instant::now();
             }
         };
-        let table = table.filled((study, plan), missing, &is_over, done);
+        let table = table.filled(study, plan, missing, &is_over, done);
         bar.finish_and_clear();
         (table, asked)
     }
@@ -183,7 +184,7 @@ impl Args {
 }
 
 /// Writes the rows so far, for --resume after a process that is killed.
-fn save((table, asked): (&StudyTable, usize), origin: Origin, place: &Path) -> Result<()> {
+fn save(table: &StudyTable, asked: usize, origin: Origin, place: &Path) -> Result<()> {
     let mut folder = Folder::create(place)?;
     StudyAnswer { table, asked, has_figures: false }.stage(&mut folder, "study", origin)?;
     folder.finish().map(drop)

@@ -42,6 +42,6 @@ pub fn run(args: Args) -> Result<()> {
         };
         let lyapunov = args.lyapunov.map(exponents).transpose().map_err(in_file)?;
         let answer = Transition { scene: &prepared.name, t: place.state.t, floquet, lyapunov };
-        args.at.add(folder, "transition", (&prepared, place.state.t), &answer)
+        args.at.add(folder, "transition", &prepared, place.state.t, &answer)
     })
 }

@@ -76,7 +76,7 @@ pub fn run(args: Args) -> Result<ExitCode> {
         );
         let answer = ValidationAnswer { scene: &prepared.name, names: &names, found };
         complaints.extend((!answer.is_right()).then(|| answer.complaint()));
-        args.at.add(folder, "validation", (&prepared, place.state.t), &answer)
+        args.at.add(folder, "validation", &prepared, place.state.t, &answer)
     })?;
     for complaint in &complaints {
         tell(format!("error: {complaint}"));

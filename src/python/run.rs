@@ -109,7 +109,7 @@ fn finished(options: &RunOptions, words: Vec<String>, is_asked: &AtomicBool) -> 
     if options.check_error {
         rows.add_all(&done.record);
         if done.summary.failure.is_none() {
-            done = done.checked(&ready, (|_| {}, || stop(is_asked)));
+            done = done.checked(&ready, |_| {}, || stop(is_asked));
         }
     }
     let mut summary = done.summary;

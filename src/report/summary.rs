@@ -93,8 +93,11 @@ struct FinalState {
 
 /// Collects the summary of a run, with warnings from before it.
 pub fn summarize(
-    (prepared, stiffness, early): (&Model, Option<Stiffness>, &[Warning]),
-    (outcome, legs): (&Outcome, &[Leg]),
+    prepared: &Model,
+    stiffness: Option<Stiffness>,
+    early: &[Warning],
+    outcome: &Outcome,
+    legs: &[Leg],
     record: &Record,
     wall_seconds: f64,
 ) -> Summary {

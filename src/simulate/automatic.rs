@@ -55,7 +55,8 @@ pub struct Trial {
 
 const CALM: &str = "not stiff: accuracy, not stability, limits explicit steps";
 
-fn method([formulation, integrator, projection]: [&str; 3], (rtol, atol): (f64, f64)) -> Method {
+fn method(formulation: &str, integrator: &str, projection: &str, tolerances: (f64, f64)) -> Method {
+    let (rtol, atol) = tolerances;
     let formulation = MethodSpec::named(formulation);
     let integrator = MethodSpec::named(integrator);
     let projection = MethodSpec::named(projection);
@@ -64,7 +65,7 @@ fn method([formulation, integrator, projection]: [&str; 3], (rtol, atol): (f64, 
 
 /// The implicit method that solves whatever is given to it: L-stable, of high order.
 fn implicit(tolerances: (f64, f64)) -> Method {
-    method(["ggl", "radau_iia", "none"], tolerances)
+    method("ggl", "radau_iia", "none", tolerances)
 }
 
 /// Index of the method that a run begins with among the candidates.
@@ -73,7 +74,7 @@ const FIRST: usize = 0;
 /// The explicit method that a run begins with, and the implicit one that takes over where stability limits its steps.
 pub fn known_methods(system: &dyn MechanicalSystem, tolerances: (f64, f64)) -> [Method; 2] {
     let explicit = first_explicit(system, tolerances.0);
-    [method(["index1", explicit, "manifold"], tolerances), implicit(tolerances)]
+    [method("index1", explicit, "manifold", tolerances), implicit(tolerances)]
 }
 
 /// Compares a given method with an implicit one at the beginning of a motion. `None` where stability does not limit its
@@ -226,7 +227,7 @@ impl<'a> Drive<'a> {
         self.leg.add(&other, work);
         self.contest = Some(contest);
         let wins = contest.gain > WORTH;
-        let because = words(&contest, [self.method(), &other], self.current == FIRST, wins);
+        let because = words(&contest, self.method(), &other, self.current == FIRST, wins);
         if !wins && self.leg.because == CALM {
             self.leg.because.clone_from(&because);
         }
@@ -313,13 +314,9 @@ impl Leg {
 
 const FILTER: &str = ". Where only the slow motion is wanted, generalized_alpha on ggl damps the oscillation away";
 
-fn words(
-    Contest { t, mode, step, gain }: &Contest,
-    [own, other]: [&Method; 2],
-    is_explicit: bool,
-    wins: bool,
-) -> String {
-    let own = &own.integrator.name;
+fn words(contest: &Contest, method: &Method, other: &Method, is_explicit: bool, wins: bool) -> String {
+    let Contest { t, mode, step, gain } = contest;
+    let own = &method.integrator.name;
     let other = &other.integrator.name;
     let kind = match (is_explicit, wins) {
         (true, true) | (false, false) => "stiff",

@@ -62,7 +62,7 @@ pub fn stiffness(
         return None;
     }
     let (mode, implicit_gain) = match method.step {
-        Some(step) => (too_long(system, state, (step, duration), &stability)?, None),
+        Some(step) => (too_long(system, state, step, duration, &stability)?, None),
         None => {
             let contest = rival(system, method, span, (state.q, state.v))?;
             let gain = Some(contest.gain).filter(|gain| *gain > 3.0)?;
@@ -88,7 +88,8 @@ pub fn stiffness(
 fn too_long(
     system: &dyn MechanicalSystem,
     state: OperatingPoint,
-    (step, duration): (f64, f64),
+    step: f64,
+    duration: f64,
     stability: &Stability,
 ) -> Option<SpectralMode> {
     let stable = |mode: &SpectralMode| stability.limit(mode.decay, mode.swing) / mode.rate().max(f64::MIN_POSITIVE);

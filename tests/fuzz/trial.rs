@@ -91,7 +91,7 @@ fn run(prepared: &Model) -> Result<Ending, String> {
     };
     let record = recorder.finish();
     rows_are_sound(&record)?;
-    let summary = summarize((prepared, None, &[]), (&outcome, &[]), &record, 0.0);
+    let summary = summarize(prepared, None, &[], &outcome, &[], &record, 0.0);
     sound(serde_json::to_string(&summary).is_ok(), "the summary is no JSON")?;
     match &outcome.failure {
         None => Ok(Ending::Completed),

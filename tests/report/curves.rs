@@ -34,7 +34,7 @@ fn drawn(curves: &[Curve], bar: Option<f64>, separate: bool) -> Figure {
             failure: None,
         }
     };
-    outputs_figure("run", (&run, bar.map(of).as_ref()), &Shown::all(&run), separate).unwrap()
+    outputs_figure("run", &run, bar.map(of).as_ref(), &Shown::all(&run), separate).unwrap()
 }
 
 fn panel(curves: &[Curve]) -> Panel {

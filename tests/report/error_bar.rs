@@ -31,7 +31,7 @@ fn the_hint_is_that_of_the_failure() {
             amplification: Err(String::new()),
             failure: Some(failure),
         };
-        let summary = summarize((prepared, None, &[]), (&outcome, &[]), &record, 0.0).checked(bars);
+        let summary = summarize(prepared, None, &[], &outcome, &[], &record, 0.0).checked(bars);
         let mut warnings = summary.origin.warnings.into_iter();
         warnings.find(|warning| warning.text.starts_with("the companion of the run")).map(|warning| warning.hint)
     };

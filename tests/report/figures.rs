@@ -39,10 +39,10 @@ fn axes_have_units() {
     let outputs = vec![column("a", "m/s^2"), column("b", "m/s^2"), column("alpha", "rad/s^2")];
     let rows = vec![vec![0.0, 1.0, 2.0, 3.0], vec![1.0, 2.0, 3.0, 4.0]];
     let run = Trajectory { names: Names::default(), outputs, rows };
-    let figure = outputs_figure("run", (&run, None), &Shown::all(&run), false).unwrap();
+    let figure = outputs_figure("run", &run, None, &Shown::all(&run), false).unwrap();
     let labels: Vec<&str> = figure.panels.iter().map(|panel| panel.y.label.as_str()).collect();
     assert_eq!(labels, ["acceleration (m/s^2)", "alpha (rad/s^2)"]);
-    let apart = outputs_figure("run", (&run, None), &Shown::all(&run), true).unwrap();
+    let apart = outputs_figure("run", &run, None, &Shown::all(&run), true).unwrap();
     let labels: Vec<&str> = apart.panels.iter().map(|panel| panel.y.label.as_str()).collect();
     assert_eq!(labels, ["a (m/s^2)", "b (m/s^2)", "alpha (rad/s^2)"]);
 }

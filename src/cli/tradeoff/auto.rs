@@ -37,7 +37,7 @@ pub fn run(args: &Args, prepared: Model) -> Result<ExitCode> {
         let measured = measure(args, scene, budget)?;
         bar.inc(1);
         let Dimensions { v, lambda, .. } = scene.system().dimensions();
-        models.push(MeasuredModel::new(model, left_out, [v, lambda], measured, models.first()));
+        models.push(MeasuredModel::new(model, left_out, v, lambda, measured, models.first()));
     }
     bar.finish_and_clear();
     args.talk.publish(

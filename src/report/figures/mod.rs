@@ -17,7 +17,8 @@ use crate::trajectory::Trajectory;
 /// scene names no outputs; with error bars as bands. `None` without rows.
 pub fn outputs_figure(
     name: &str,
-    (trajectory, bars): (&Trajectory, Option<&ErrorBars>),
+    trajectory: &Trajectory,
+    bars: Option<&ErrorBars>,
     shown: &Shown,
     separate: bool,
 ) -> Option<Figure> {

@@ -69,14 +69,14 @@ impl Answer for AgainstAnswer<'_> {
         format!(
             "\n{}{table}{more}  matched by {}; seen: what outputs see of a mode, of what they see of others with the same \
              energy\n",
-            heading(self.other, [self.found.modes.len(), lost, self.found.added.len()]),
+            heading(self.other, self.found.modes.len(), lost, self.found.added.len()),
             self.matched_by()
         )
     }
 }
 
 /// Returns the numbers of the modes, of those that are lost, and of those that only the other scene has.
-fn heading(other: &str, [modes, lost, added]: [usize; 3]) -> String {
+fn heading(other: &str, modes: usize, lost: usize, added: usize) -> String {
     let added = if added == 0 { String::new() } else { format!(", {added} added") };
     format!("against {other}: of {modes} modes {lost} lost{added}\n")
 }
@@ -134,7 +134,7 @@ impl LociAgainst {
             ]);
         }
         let lost = self.modes.iter().filter(|mode| mode.there.is_none()).count();
-        let heading = heading(&self.scene, [self.modes.len(), lost, self.added]);
+        let heading = heading(&self.scene, self.modes.len(), lost, self.added);
         format!("{heading}{table}  matched by eigenvalue, in the mean over all states\n")
     }
 }

@@ -138,7 +138,8 @@ impl<'a> Canvas<'a> {
     /// Draws a pair of lines on both sides of a line in space, at a distance of `gap` pixels, extended at the ends.
     pub fn rails(
         &mut self,
-        [a, b]: [[f64; 3]; 2],
+        a: [f64; 3],
+        b: [f64; 3],
         way: [f64; 3],
         gap: f64,
         reach: f64,

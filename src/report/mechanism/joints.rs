@@ -42,7 +42,7 @@ pub fn slot(pen: &mut Canvas, link: &Link, sight: &Sight) {
     let at = |s: f64| along(point, axis, s - place);
     let ink = pen.ink(0.25);
     pen.layer = Layer::Rod;
-    let Some((x, y)) = pen.rails([at(low), at(high)], axis, RAIL, REACH, ink) else { return };
+    let Some((x, y)) = pen.rails(at(low), at(high), axis, RAIL, REACH, ink) else { return };
     if link.carriers[0].is_none() {
         let ends = [pen.spot(at(low)).moved(-REACH * x, -REACH * y), pen.spot(at(high)).moved(REACH * x, REACH * y)];
         for (end, sign) in ends.into_iter().zip([1.0, -1.0]) {

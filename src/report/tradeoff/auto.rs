@@ -38,7 +38,8 @@ impl MeasuredModel {
     pub fn new(
         name: String,
         left_out: Vec<String>,
-        [velocities, constraints]: [usize; 2],
+        velocities: usize,
+        constraints: usize,
         measured: WorkPrecision,
         richest: Option<&MeasuredModel>,
     ) -> Self {

@@ -89,7 +89,7 @@ impl Course {
             let h = t - before;
             self.integral.0 += 0.5 * h * (from + x);
             self.integral.1 += h;
-            self.pass_level((before, from - self.argument), (h, x - self.argument));
+            self.pass_level(before, h, from - self.argument, x - self.argument);
         }
         if self.at.is_none() && (t - self.argument).abs() <= tolerances::SIX_DIGITS * self.output_step {
             self.at = Some(x);
@@ -97,9 +97,9 @@ impl Course {
         self.last = Some((t, x));
     }
 
-    /// Adds an interval from a time on, of duration h, with what the quantity exceeds the level by at both ends: it is
-    /// linear between rows.
-    fn pass_level(&mut self, (t, from): (f64, f64), (h, to): (f64, f64)) {
+    /// Adds an interval from `t` on, of duration `h`, where the quantity exceeds the level by `from` and `to` at the
+    /// ends. It is linear between rows.
+    fn pass_level(&mut self, t: f64, h: f64, from: f64, to: f64) {
         let passage = if from == to { 0.0 } else { h * from / (from - to) };
         if self.reached.is_none() && from * to <= 0.0 {
             self.reached = Some(t + passage);

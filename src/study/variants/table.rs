@@ -109,7 +109,8 @@ impl StudyTable {
     #[must_use]
     pub fn filled(
         self,
-        (study, plan): (&Study, &Plan),
+        study: &Study,
+        plan: &Plan,
         rows: Vec<usize>,
         is_over: &(dyn Fn() -> bool + Sync),
         done: impl FnMut(&StudyTable) + Send,
