@@ -6,26 +6,11 @@ use crate::math::bounds;
 use crate::plot::{Align, AxisSpec, Figure, Form, Item, Panel, Series, Spot, Style, Tint};
 use crate::study::variants::{StudyRow, StudyTable};
 
-/// Largest numbers of recorded quantities and of parameters that are drawn.
-const MOST_RECORDED: usize = 6;
+/// Largest number of parameters that are drawn.
 const MOST_PARAMETERS: usize = 6;
-/// Largest number of lines in parallel coordinates.
-const MOST_LINES: usize = 1000;
-/// Points up to which a curve has marks.
-const MARKED: usize = 40;
-/// Height of a panel of a map and of a scatter plot, nominal pixels, and width of a column of the latter.
+/// Height of a panel of a map and of a scatter plot, nominal pixels.
 const MAP: f64 = 220.0;
 const SCATTER: f64 = 130.0;
-const COLUMN: f64 = 300.0;
-/// Widths of a letter, of the gap between two names, and of all beside the axes, nominal pixels.
-const LETTER: f64 = 9.5;
-const GAP: f64 = 16.0;
-const BESIDE: f64 = 200.0;
-/// Part of the range of a parameter that its axis is longer by at each end.
-const MARGIN: f64 = 0.05;
-/// Part of the range of a recorded number that its axis is longer by below where variants failed.
-const MARKED_ROOM: f64 = 0.2;
-/// Colour of variants that failed, and their mark.
 const FAILED: Tint = Tint::Body(1, 0.0);
 const MARK: &str = "×";
 
@@ -47,13 +32,14 @@ pub fn scatter_figure(table: &StudyTable) -> Option<Figure> {
         return None;
     }
     let panel = |(y, x): (usize, usize)| {
-        let points = table.rows.values().map(|row| (row.values[x], row.values[y])).collect();
-        let plain = Panel::new(axis(table, x), recorded(table, y)).height(SCATTER);
-        let plain = with_key(table, plain);
-        plain.items(discs(points)).items(failures(table, |row| Spot::data(row.values[x], f64::NEG_INFINITY)))
+        let points = table.rows.values().map(|row| (row.values[x], row.values[y]));
+        let disc = |(x, y)| Item { spots: vec![Spot::data(x, y)], tint: Tint::Body(0, 0.0), form: Form::Disc(2.5) };
+        let discs = points.filter(|(_, y)| y.is_finite()).map(disc);
+        let plain = with_key(table, Panel::new(axis(table, x), recorded(table, y)).height(SCATTER));
+        plain.items(discs).items(failures(table, |row| Spot::data(row.values[x], f64::NEG_INFINITY)))
     };
     let panels = drawn(table).flat_map(|y| (0..columns).map(move |x| (y, x))).map(panel);
-    let figure = Figure { columns, width: (COLUMN * columns as f64).max(640.0), ..titled(table, ": scatter") };
+    let figure = Figure { columns, width: (300.0 * columns as f64).max(640.0), ..titled(table, ": scatter") };
     Some(panels.fold(figure, Figure::panel))
 }
 
@@ -79,7 +65,7 @@ pub fn coordinates_figure(table: &StudyTable) -> Option<Figure> {
         };
         Item { spots, tint, form: Form::Line(1.0, !is_whole) }
     };
-    let stride = table.rows.len().div_ceil(MOST_LINES);
+    let stride = table.rows.len().div_ceil(1000);
     let names: Vec<String> = columns.iter().map(|column| name(table, *column)).collect();
     let end = columns.len() as f64 - 0.7;
     let x = AxisSpec { names, ..AxisSpec::from("").range(-0.3, end) };
@@ -97,7 +83,7 @@ pub fn coordinates_figure(table: &StudyTable) -> Option<Figure> {
         ]);
     }
     let longest = columns.iter().map(|column| name(table, *column).chars().count()).max().unwrap_or(0) as f64;
-    let width = (BESIDE + (LETTER * longest + GAP) * columns.len() as f64).max(640.0);
+    let width = (200.0 + (9.5 * longest + 16.0) * columns.len() as f64).max(640.0);
     Some(Figure { width, ..titled(table, ": parallel coordinates") }.panel(with_key(table, panel)))
 }
 
@@ -114,7 +100,7 @@ fn titled(table: &StudyTable, what: &str) -> Figure {
 
 /// Returns the indices of the recorded columns that are drawn.
 fn drawn(table: &StudyTable) -> impl Iterator<Item = usize> + use<> {
-    (table.parameters..table.columns.len()).take(MOST_RECORDED)
+    (table.parameters..table.columns.len()).take(6)
 }
 
 fn name(table: &StudyTable, column: usize) -> String {
@@ -139,16 +125,11 @@ fn failures(table: &StudyTable, place: impl Fn(&StudyRow) -> Spot) -> Vec<Item> 
     failed.map(mark).collect()
 }
 
-fn discs(points: Vec<(f64, f64)>) -> Vec<Item> {
-    let disc = |(x, y)| Item { spots: vec![Spot::data(x, y)], tint: Tint::Body(0, 0.0), form: Form::Disc(2.5) };
-    points.into_iter().filter(|(_, y): &(f64, f64)| y.is_finite()).map(disc).collect()
-}
-
 /// Draws a recorded column over the only parameter.
 fn curve(table: &StudyTable, column: usize) -> Panel {
     let mut points: Vec<(f64, f64)> = table.rows.values().map(|row| (row.values[0], row.values[column])).collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let style = if points.len() > MARKED { Style::Line } else { Style::LineDots };
+    let style = if points.len() > 40 { Style::Line } else { Style::LineDots };
     let panel =
         Panel::new(axis(table, 0), recorded(table, column)).series(Series::line("", points).style(style).color(0));
     panel.items(failures(table, |row| Spot::data(row.values[0], f64::NEG_INFINITY).moved(0.0, 3.0)))
@@ -156,11 +137,12 @@ fn curve(table: &StudyTable, column: usize) -> Panel {
 
 /// Colours a recorded column over both parameters: cells of a grid, else discs.
 fn map(table: &StudyTable, column: usize) -> Panel {
-    let [columns, rows] = [0, 1].map(|parameter| edges(table, parameter));
+    let columns = edges(table, 0);
+    let rows = edges(table, 1);
     // A list may have one value of a parameter in all rows.
     let is_grid = columns.len().min(rows.len()) > 2 && (columns.len() - 1) * (rows.len() - 1) == table.count;
     let of_cells = |parameter: usize, edges: &[f64]| axis(table, parameter).range(edges[0], edges[edges.len() - 1]);
-    let axes = if is_grid { [of_cells(0, &columns), of_cells(1, &rows)] } else { [0, 1].map(|i| axis(table, i)) };
+    let axes = if is_grid { [of_cells(0, &columns), of_cells(1, &rows)] } else { [axis(table, 0), axis(table, 1)] };
     let [x, y] = axes;
     let mut panel = Panel::new(x, y).height(MAP);
     panel.colors = name(table, column).into();
@@ -185,7 +167,7 @@ fn recorded(table: &StudyTable, column: usize) -> AxisSpec {
     let (low, high) = range(table, column);
     let height = high - low;
     let has_marks = table.failed() > 0 && height > 0.0;
-    if has_marks { spec.range(low - MARKED_ROOM * height, high + MARGIN * height) } else { spec }
+    if has_marks { spec.range(low - 0.2 * height, high + 0.05 * height) } else { spec }
 }
 
 /// Returns the axis of a parameter, logarithmic where that is how it was varied, with room at its ends.
@@ -194,7 +176,7 @@ fn axis(table: &StudyTable, parameter: usize) -> AxisSpec {
     let (low, high) = range(table, parameter);
     let more = |at: f64| if is_log { low * (high / low).powf(at) } else { low + at * (high - low) };
     let spec = AxisSpec { is_log, ..name(table, parameter).into() };
-    if low < high { spec.range(more(-MARGIN), more(1.0 + MARGIN)) } else { spec }
+    if low < high { spec.range(more(-0.05), more(1.0 + 0.05)) } else { spec }
 }
 
 /// True if the values of a parameter were chosen with a constant factor.
@@ -219,7 +201,6 @@ fn edges(table: &StudyTable, parameter: usize) -> Vec<f64> {
     [ends[0]].into_iter().chain(inner).chain([ends[1]]).collect()
 }
 
-/// Returns the borders around a value.
 fn cell(edges: &[f64], value: f64) -> (f64, f64) {
     let i = edges.partition_point(|edge| *edge <= value).clamp(1, edges.len() - 1);
     (edges[i - 1], edges[i])

@@ -338,7 +338,7 @@ fn an_interrupted_study_keeps_whole_rows() {
 #[test]
 fn interrupted_maps_keep_their_cells() {
     let place = Place::new(PENDULUM);
-    let axes = ["--x", "step=1e-9..1e-3:2:log", "--y", "tolerance=1e-8..1e-6:2", "--limit", "1h", "--budget", "9h"];
+    let axes = ["--x", "step=1e-9..1e-3:2:log", "--y", "mass_ratio=1..2:2", "--limit", "1h", "--budget", "9h"];
     let args = [&["stress", "scene.json", "--until", "1", "--figures", "none", "-o", "here"], &axes[..]].concat();
     let output = interrupted(|_| start(&place, &args), "INT", has_ended_itself);
     assert_eq!(output.status.code(), Some(1), "{}", err(&output));
