@@ -78,7 +78,7 @@ fn accumulate_from(first: usize, y: &mut [f64], h: f64, weights: &[f64], k: &[Ve
     }
 }
 
-/// Not in line: as an argument y is known to be apart from the k, which else is checked in each call.
+/// Not inlined: the compiler then knows that y does not overlap the stages, and does not check it in each call.
 #[inline(never)]
 fn add_products<const N: usize>(y: &mut [f64], terms: [(f64, &[f64]); N]) {
     let terms = terms.each(|(factor, k)| (factor, &k[..y.len()]));

@@ -187,10 +187,9 @@ fn pass<E: Equations, const W: usize>(
     jets: &mut Jets<W>,
     terms: &mut Terms,
 ) {
-    let Jets { q: jets, phi: rows } = jets;
     let (n, m) = system.size();
-    let jets = &mut jets[..n];
-    let rows = &mut rows[..m];
+    let rows = &mut jets.phi[..m];
+    let jets = &mut jets.q[..n];
     for pass in 0..=n / W {
         let first = pass * W;
         let columns = first..n.min(first + W);
