@@ -23,7 +23,7 @@ pub fn obstacle(
     guess: &[f64],
     way: &[f64],
     q: &mut Vec<f64>,
-    moved: &mut Vec<f64>,
+    moved: &mut [f64],
 ) -> Option<Error> {
     if let Some(error) = unlike_lengths(metric) {
         return Some(error);
