@@ -19,7 +19,7 @@ pub(super) fn blank(subject: &Subject, map: &Map, at: [usize; 3]) -> Cell {
         // Changes of the scene do not affect the method.
         let _ = change.apply(&mut case);
     }
-    let reason = Some("not begun: the time was over".to_string());
+    let reason = Some("not begun: the budget was over, or the command was stopped".to_string());
     let [panel, row, column] = at;
     Cell { panel, column, row, method: case.method, reason, ..Cell::default() }
 }
@@ -64,7 +64,9 @@ fn with_result(blank: Cell, ended: Ended, record: Record, is_last: bool) -> Cell
     let status = status(&ended, &record, is_last);
     let outcome = ended.outcome;
     let reason = match (&outcome.failure, status) {
-        (_, Status::LeftOut) => Some(format!("its share of the budget was over at t = {} s", short(outcome.t))),
+        (_, Status::LeftOut) => {
+            Some(format!("its share of the budget was over, or the command was stopped, at t = {} s", short(outcome.t)))
+        }
         (Some(failure), _) => Some(failure.reason.clone()),
         (None, Status::Diverged) => {
             Some(format!("the joints are open by {:.1e} of the scene's size", record.drift.position.relative_max))
