@@ -192,7 +192,7 @@ pub mod view;
 
 pub use error::{Error, Result};
 
-pub use {nalgebra, schemars, serde};
+pub use {nalgebra, rayon, schemars, serde};
 
 /// Names that most programs need: `use holonom::prelude::*`.
 pub mod prelude {

@@ -259,7 +259,7 @@ impl<const D: usize> Built<D> {
     }
 }
 
-/// The keys of a kind of body in a scene, without `SHARED_KEYS`, and the body they make.
+/// The keys of a kind of body in a scene, without `name`, `type`, `markers`, `initial`, `origin` and `repeat`, and the body they make.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no body of a scene",
     note = "implement `holonom::parts::BodySpec`: its `TYPE` and `build`; derive `serde::Deserialize` and `schemars::JsonSchema`"

@@ -217,7 +217,7 @@ pub struct Built<const D: usize> {
     /// The kernel, boxed.
     #[doc(hidden)]
     pub force: Box<dyn Force<D>>,
-    /// 1 to `MOST_MARKERS`, as [`Build::between`] or [`Build::marker`] find them.
+    /// 1 to 8, as [`Build::between`] or [`Build::marker`] find them.
     pub markers: Vec<MarkerId>,
 }
 

@@ -53,7 +53,12 @@ use crate::error::Result;
 use crate::method_spec::Listed;
 use crate::system::MechanicalSystem;
 
-/// A vector field (q', v') = F(t, q, v) whose solutions are the motions of the mechanism.
+/// A vector field (q', v') = F(t, q, v) whose solutions are the motions of the mechanism, such as this one of
+/// `tests/examples/own_formulation.rs`:
+///
+/// ```ignore
+#[doc = include_str!("../../tests/examples/own_formulation.rs")]
+/// ```
 pub trait Formulation: Send {
     /// Writes q' and v', and v' and lambda of the equations of motion to `dynamics`.
     fn derivative(

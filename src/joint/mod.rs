@@ -62,7 +62,7 @@ pub enum ClosedForm<const D: usize> {
 
 /// A joint's equations, written once over any scalar.
 pub trait JointKernel<const D: usize>: Send + Sync + 'static {
-    /// A name for each row, 1 to `MOST_ROWS`: the direction it constrains. Rows named `x`, `y`, `z` and `length` are
+    /// A name for each row, 1 to 6: the direction it constrains. Rows named `x`, `y`, `z` and `length` are
     /// in metres, all others in radians: drift is measured in these units. A single row `length` is that of a rod,
     /// whose tension outputs can read; that of a single row `angle` is a torque.
     fn row_names(&self) -> Vec<&'static str>;
@@ -193,7 +193,7 @@ pub struct Built<const D: usize> {
     /// The kernel, boxed.
     #[doc(hidden)]
     pub joint: Box<dyn Joint<D>>,
-    /// 1 to `MOST_MARKERS`, as [`Build::between`] or [`Build::marker`] find them.
+    /// 1 to 8, as [`Build::between`] or [`Build::marker`] find them.
     pub markers: Vec<MarkerId>,
 }
 

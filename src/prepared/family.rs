@@ -48,6 +48,14 @@ impl Family {
         Family::read(path, overrides)?.checked()
     }
 
+    /// Reads a scene from text.
+    ///
+    /// # Errors
+    /// As [`Scene::parse`].
+    pub fn parse(text: &str) -> Result<Family> {
+        Family::parse_with(text, &Overrides::default())
+    }
+
     /// Reads a scene from text, with the settings, parameters and kinds of elements of `overrides`.
     ///
     /// # Errors
@@ -111,6 +119,19 @@ impl Family {
     /// Calls `work` with the model at each value of a parameter, over all threads of the pool of rayon that it is
     /// called in, else of the global one. Results are in the order of the values, and do not depend on the number of
     /// threads.
+    ///
+    /// The variable `RAYON_NUM_THREADS=2` in the environment of the program gives two threads. A pool does so, too:
+    ///
+    /// ```
+    /// use holonom::prelude::*;
+    /// use holonom::rayon::ThreadPoolBuilder;
+    ///
+    /// let family = Family::load("models/pendulum.json")?;
+    /// let pool = ThreadPoolBuilder::new().num_threads(2).build().unwrap();
+    /// let rows = pool.install(|| family.each("l", linspace(1.0, 2.0, 4), |model| Ok(model.start().0[0])))?;
+    /// assert_eq!(rows.len(), 4);
+    /// # Ok::<(), holonom::Error>(())
+    /// ```
     ///
     /// # Errors
     /// The first error in the order of the values, with the value.

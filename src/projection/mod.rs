@@ -12,9 +12,19 @@ use crate::method_spec::Listed;
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::system::MechanicalSystem;
 
-/// A correction of the state after an accepted step.
+/// A correction of the state after a step, such as this one of `tests/examples/own_projection.rs`:
+///
+/// ```ignore
+#[doc = include_str!("../../tests/examples/own_projection.rs")]
+/// ```
 pub trait Projection: Send {
     /// Corrects q and v in place.
+    ///
+    /// It may evaluate and factor `dynamics` at any state: what follows evaluates anew. Changes of q are N(q) times a
+    /// direction in v, as [`MechanicalSystem::rate`] makes them, and [`MechanicalSystem::normalize`] follows.
+    ///
+    /// # Errors
+    /// A state that cannot be corrected: the step is tried smaller.
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64], dynamics: &mut Dynamics) -> Result<(), StepError>;
 }
 

@@ -2,7 +2,7 @@
 //!
 //! An entry of one's own is a `static`, whose [`spec`](Listed::spec) a [`Method`](crate::methods::Method) takes like a
 //! built-in one. [`Elements::with_method`](crate::parts::Elements::with_method) makes it known to scenes.
-//! [The guide](crate::guide::rust) has a complete example of each.
+//! [The guide](crate::guide::rust) has a complete integrator, the pages of [`Projection`] and [`Formulation`] one each.
 
 pub use crate::formulation::{
     Dae, Dynamics, Entry as FormulationEntry, Formulation, MakeField as MakeFormulation, Row as DaeRow, StepError,

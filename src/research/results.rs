@@ -15,7 +15,7 @@ pub use crate::linearize::{
 pub use crate::math::eigen::ComplexMatrix;
 pub use crate::math::expression::Parameters;
 pub use crate::run::MarkerFrame;
-pub use crate::simulate::{Observation, Span, Start, Stop};
+pub use crate::simulate::{Span, Start, Stop};
 pub use crate::study::{
     Axis, Filling, Filter, Measure, Motion, Recommendation, Recorded, Sample, StabilizedRun, StressCell, StressLimits,
     StressStatus, Stressed, StudyRow, Subject, TradeoffCell, TradeoffDrift, TradeoffOutcome, TradeoffPlan, Triple,

@@ -25,7 +25,7 @@ mod simulated;
 pub use crate::analysis::Record;
 pub use crate::prepared::{Family, Model, Overrides, linspace};
 pub use crate::scene::Scene;
-pub use crate::simulate::{Checkpoint, End, Sink};
+pub use crate::simulate::{Checkpoint, End, Observation, Sink};
 pub use inputs::{Input, every};
 #[doc(hidden)]
 pub use marker::MarkerFrame;
@@ -94,6 +94,37 @@ impl Model {
 
 impl<'a> Run<'a> {
     /// A run of `system` by `method` from a consistent state at `t`, or on from where another was saved.
+    ///
+    /// ```
+    /// use holonom::prelude::*;
+    /// use holonom::run::Run;
+    ///
+    /// struct Cart;
+    ///
+    /// impl Equations for Cart {
+    ///     fn size(&self) -> (usize, usize) {
+    ///         (1, 0)
+    ///     }
+    ///     fn mass<S: Scalar>(&self, _t: S, _q: &[S], mass: &mut [S]) {
+    ///         mass[0] = S::constant(2.0);
+    ///     }
+    ///     fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], f: &mut [S]) {
+    ///         f[0] = S::zero();
+    ///     }
+    ///     fn input_names(&self) -> Vec<String> {
+    ///         vec!["motor".to_string()]
+    ///     }
+    ///     fn input_forces<S: Scalar>(&self, _t: S, _q: &[S], forces: &mut [S]) {
+    ///         forces[0] = S::one();
+    ///     }
+    /// }
+    ///
+    /// let start = ([0.0], [0.0]);
+    /// let mut run = Run::new(&Cart, "index1 + dop853", 0.0, &start).input("motor", every(0.01, |x| 4.0 - x.v[0]));
+    /// run.to(10.0)?;
+    /// assert!((run.state()?.v[0] - 4.0).abs() < 0.1);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn new<'s, M: TryInto<Method>>(
         system: &'a dyn MechanicalSystem,
         method: M,
@@ -198,7 +229,7 @@ impl<'a> Run<'a> {
         self.checked(end)
     }
 
-    /// Runs to the time `t`, where a step ends.
+    /// Runs to the time `t`, where a step ends. The record has a row there, too.
     ///
     /// # Errors
     /// Bad input; a motion that cannot go on.
@@ -210,6 +241,7 @@ impl<'a> Run<'a> {
     /// step ends there. A function that is zero at the start has to become positive or negative first.
     ///
     /// The sign is compared at the quarters of each step: a function that is on the other side for less is not seen.
+    /// The record has a row where the run ends, too.
     ///
     /// # Errors
     /// Bad input, among it a name in the function that does not exist; a motion that cannot go on.

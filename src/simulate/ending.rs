@@ -1,9 +1,10 @@
 //! Failures that end a run early.
 
 use super::{Sink, TimeLoop};
-use crate::error::Failure;
+use crate::error::{Failure, short};
 use crate::formulation::StepError;
-use crate::math::largest_in;
+use crate::math::{index_of_largest, largest_in};
+use crate::system::Need;
 use crate::tolerances;
 
 /// Steps that together come no farther than 1e-8 of the span end the run. Unit: `[steps]`.
@@ -11,6 +12,8 @@ const CRAWLING_STEPS: usize = 50_000;
 
 const SINGULAR: &str = "this tolerance is too near to round-off there: try a looser one, or a fixed --step with `rk4`, which \
      goes over it";
+
+const OPEN_START: &str = "begin at a state that closes the constraints; `research::initial::assemble` finds one nearby";
 
 const PASSES: &str = "`index1` with `dop853` and `manifold` goes over it";
 
@@ -56,8 +59,27 @@ impl TimeLoop<'_> {
         if smaller > self.smallest() && !is_stuck {
             Ok(smaller)
         } else {
-            Err(self.too_small(format!("{reason}, down to a step of {h:.1e} s"), hint))
+            let reason = format!("{reason}, down to a step of {h:.1e} s");
+            match self.open_at_start() {
+                Some(open) => Err(self.failure(format!("{open}, and {reason}"), Some(OPEN_START))),
+                None => Err(self.too_small(reason, hint)),
+            }
         }
+    }
+
+    /// Names the constraint that is farthest from zero where a run has to begin at an inconsistent state.
+    fn open_at_start(&mut self) -> Option<String> {
+        if self.problem.dynamics.statistics.steps > 0 {
+            return None;
+        }
+        let (q, v) = self.problem.split(&self.y);
+        self.problem.dynamics.evaluate(self.t, q, v, Need::CONSTRAINTS);
+        let phi = &self.problem.dynamics.terms.phi;
+        let relative: Vec<f64> = phi.iter().zip(&self.scales).map(|(phi, scale)| phi / scale).collect();
+        let row = index_of_largest(&relative);
+        let is_open = relative.get(row).is_some_and(|gap| gap.abs() > tolerances::UNSEEN);
+        let name = &self.problem.dynamics.system.facts().names.lambda;
+        is_open.then(|| format!("the constraint of `{}` is open by {} at the start", name[row], short(phi[row])))
     }
 
     /// Failure of steps that have become too small, whose reason may be a singular state nearby.

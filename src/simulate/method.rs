@@ -31,6 +31,22 @@ pub struct Method {
     pub step: Option<f64>,
 }
 
+impl Method {
+    /// The same with a fixed step, s, which methods such as `rattle` and `rk4` need.
+    ///
+    /// ```
+    /// use holonom::methods::Method;
+    ///
+    /// let method = "index3 + rattle".parse::<Method>()?.with_step(1e-3);
+    /// assert_eq!(method.step, Some(1e-3));
+    /// # Ok::<(), holonom::Error>(())
+    /// ```
+    #[must_use]
+    pub fn with_step(self, step: f64) -> Self {
+        Method { step: Some(step), ..self }
+    }
+}
+
 /// The method of least cost in most cases: at equal errors dop853 takes fewer evaluations than dopri5 on 18 of 29
 /// shipped scenes at three digits, on 23 of 28 at six and on 19 of 23 at eight, where it is 2.3 times as fast in the
 /// median.

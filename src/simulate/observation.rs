@@ -117,8 +117,8 @@ pub trait Sink {
     fn stops(&self) -> Option<Stop> {
         None
     }
-    /// Called before every step and after every row: true if the run has shown what was wanted and ends here, which is
-    /// no failure.
+    /// Called before every step and after every row: true if the run has shown what was wanted, which is no failure. It
+    /// ends with the step it is in, of which one more row may be shown.
     fn is_done(&self) -> bool {
         false
     }

@@ -44,7 +44,7 @@ pub struct StabilizedRun {
     /// Record of the run; of its trajectory the times only.
     #[serde(skip)]
     pub record: Record,
-    /// Rows of the motion, at most `MOST_ROWS`.
+    /// Rows of the motion, at most 300.
     #[serde(skip)]
     pub motion: Trajectory,
 }

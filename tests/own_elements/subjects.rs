@@ -59,3 +59,12 @@ fn states_begin_at_the_start() {
     let error = states(&system, Method::default(), &start, &[0.5, 1.0]).unwrap_err().to_string();
     assert!(error.contains("cannot go to 0.5 s"), "{error}");
 }
+
+#[test]
+fn a_start_off_the_constraints_is_named() {
+    let system = Pendulum { mass: MASS, length: LENGTH };
+    let open = ([1.1 * LENGTH, 0.0], [0.0, 0.0]);
+    let error = simulate(&system, "index1 + dop853 + manifold", &open, 0.0..1.0).map(|_| ()).unwrap_err().to_string();
+    assert!(error.contains("the constraint of `lambda1` is open by 0.05 at the start"), "{error}");
+    assert!(error.contains("begin at a state that closes the constraints"), "{error}");
+}

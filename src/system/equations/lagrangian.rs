@@ -29,8 +29,7 @@ type Mixed<S> = Dual<Dual<S, 1>, WIDTH>;
 /// [`Equations`] with M and f written by hand are faster.
 ///
 /// ```
-/// use holonom::math::Scalar;
-/// use holonom::system::Lagrangian;
+/// use holonom::system::{Lagrangian, Scalar};
 ///
 /// /// Two unit masses on unit rods, by the angles of the rods to the vertical.
 /// struct DoublePendulum;

@@ -24,9 +24,10 @@ use std::borrow::Cow;
 /// three), and again for each eight columns more. Where both are needed, [`Scalar::sin_cos`] is cheaper than sine and
 /// cosine.
 ///
+/// Coordinates are called `q1, q2, ..`, velocities `v1, v2, ..` and multipliers `lambda1, lambda2, ..`.
+///
 /// ```
-/// use holonom::math::Scalar;
-/// use holonom::system::Equations;
+/// use holonom::system::{Equations, Scalar};
 ///
 /// /// Pendulum of unit mass and length in Cartesian coordinates.
 /// struct Pendulum;
@@ -50,7 +51,7 @@ use std::borrow::Cow;
     message = "`{Self}` has no equations of motion",
     label = "no equations of motion",
     note = "implement `holonom::system::Equations` (M, f and phi), `holonom::system::Lagrangian` (T, V and phi) or \
-            `holonom::system::MechanicalSystem` (all terms)"
+            `holonom::research::systems::MechanicalSystem` (all terms)"
 )]
 pub trait Equations: Send + Sync + 'static {
     /// (n, n_c): coordinates, which are also the velocities, and constraints.
