@@ -18,11 +18,10 @@
 //! ```
 
 pub use crate::body::{
-    BodyFacts, BodyKernel, BodySpec, Build, Built as BuiltBody, Frame, Initial, Marker, Wrench, cross, dot, norm,
-    scale, sub,
+    BodyFacts, BodyKernel, BodySpec, Build, BuiltBody, Frame, Initial, Marker, Wrench, cross, dot, norm, scale, sub,
 };
-pub use crate::force::{Action, Built as BuiltForce, ForceKernel, ForceSpec, Instant, Motion};
-pub use crate::joint::{Built as BuiltJoint, JointKernel, JointSpec};
+pub use crate::force::{Action, BuiltForce, ForceKernel, ForceSpec, Instant, Motion};
+pub use crate::joint::{BuiltJoint, JointKernel, JointSpec};
 pub use crate::math::expression::Number;
 pub use crate::math::{Taylor, Time};
 #[doc(no_inline)]

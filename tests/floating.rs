@@ -1,6 +1,6 @@
 //! The equations of motion of flexible bodies in floating frames, against sums over the points that carry their mass.
 
-use holonom::body::flexible::{Disc, Elastic, Inertia, Piece, PointShape, Second, Stretch};
+use holonom::body::flexible::{Disc, Elastic, MassIntegrals, Piece, PointShape, Second, Stretch};
 use holonom::body::floating::{Floating, frame_coordinates, frame_velocities};
 use holonom::body::{Body, BodyOver, BodyState, Frame, Marker, Wrench, dot};
 use holonom::math::Taylor;
@@ -85,7 +85,7 @@ fn cloud<const D: usize>(is_curved: bool) -> Cloud<D> {
     };
     let elastic = Elastic {
         names: (1..=ELASTIC).map(|i| format!("e{i}")).collect(),
-        inertia: Inertia { pieces, discs: if is_curved { discs(&mut stir) } else { vec![] } },
+        inertia: MassIntegrals { pieces, discs: if is_curved { discs(&mut stir) } else { vec![] } },
         stiffness: matrix(&mut stir),
         damping: matrix(&mut stir),
         stretches: vec![stretch(&mut stir, &[0, 3]), stretch(&mut stir, &[1, 2, 5])],

@@ -13,7 +13,7 @@ use holonom::projection;
 use holonom::simulate::{Method, Span, simulate};
 
 /// phi = 0 and phi'' = 0 together, q' = N (v + u): Gear, Gupta and Leimkuhler on the level of the accelerations.
-static ROWS: formulation::Entry = formulation::Entry {
+static ROWS: formulation::FormulationEntry = formulation::FormulationEntry {
     name: "ggl_of_accelerations",
     about: "phi = 0 and phi'' = 0 together",
     options: &[],
@@ -22,7 +22,7 @@ static ROWS: formulation::Entry = formulation::Entry {
 };
 
 /// The one of the crate under another name.
-static PROJECTION: projection::Entry = projection::Entry {
+static PROJECTION: projection::ProjectionEntry = projection::ProjectionEntry {
     name: "closed",
     about: "positions and velocities to round-off",
     options: &[],

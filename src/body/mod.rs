@@ -220,7 +220,7 @@ pub trait Body<const D: usize>: BodyOver<f64, D> + BodyOver<Dual6, D> + Send + S
 }
 
 /// A body ready for the model, with the initial q and v that its scene gives.
-pub struct Built<const D: usize> {
+pub struct BuiltBody<const D: usize> {
     /// The body with its markers.
     #[doc(hidden)]
     pub body: Box<dyn Body<D>>,
@@ -230,15 +230,15 @@ pub struct Built<const D: usize> {
     pub v: Vec<f64>,
 }
 
-impl<const D: usize> Built<D> {
+impl<const D: usize> BuiltBody<D> {
     /// The body of a kernel, with its coordinates and velocities at the start.
     pub fn new(kernel: impl BodyKernel<D>, q: Vec<f64>, v: Vec<f64>) -> Self {
-        Built { body: Box::new(kernel), q, v }
+        BuiltBody { body: Box::new(kernel), q, v }
     }
 
     /// Refuses a body of inconsistent sizes: a mistake in the code of its type, not in a scene.
     fn checked(self, markers: usize) -> Result<Self> {
-        let Built { body, q, v } = &self;
+        let BuiltBody { body, q, v } = &self;
         let facts = body.facts();
         let sizes = [
             ("coordinates", q.len(), facts.coordinate_names.len()),
@@ -271,12 +271,17 @@ pub trait BodySpec: DeserializeOwned + JsonSchema {
     ///
     /// # Errors
     /// Keys with values that are not valid; [`Build`] has the checks.
-    fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>>;
+    fn build<const D: usize>(
+        &self,
+        markers: Vec<Marker<D>>,
+        initial: &Initial,
+        build: &Build<D>,
+    ) -> Result<BuiltBody<D>>;
 }
 
 /// A kind of body.
 pub type BodyKind<const D: usize> =
-    ElementKind<fn(serde_json::Value, Vec<Marker<D>>, &Initial, &Build<D>) -> Result<Built<D>>>;
+    ElementKind<fn(serde_json::Value, Vec<Marker<D>>, &Initial, &Build<D>) -> Result<BuiltBody<D>>>;
 
 /// The kind of body that `T` describes.
 #[doc(hidden)]

@@ -1,7 +1,7 @@
 //! Point mass: position only, no orientation.
 
 use super::rigid::{Initial, start_vector};
-use super::{BodyFacts, BodyKernel, BodySpec, Build, Built, Energy, Frame, Freedom, Marker, Wrench};
+use super::{BodyFacts, BodyKernel, BodySpec, Build, BuiltBody, Energy, Frame, Freedom, Marker, Wrench};
 use crate::error::{Error, Result};
 use crate::math::Scalar;
 use crate::math::array::from_fn;
@@ -21,7 +21,12 @@ pub struct PointMass {
 impl BodySpec for PointMass {
     const TYPE: &'static str = "point_mass";
 
-    fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(
+        &self,
+        markers: Vec<Marker<D>>,
+        initial: &Initial,
+        build: &Build<D>,
+    ) -> Result<BuiltBody<D>> {
         if markers.iter().any(|marker| marker.offset.iter().any(|&x| x != 0.0)) {
             return Err(Error::input("a marker of a point mass lies at the mass itself")
                 .under("markers")
@@ -32,7 +37,7 @@ impl BodySpec for PointMass {
         let mass = build.not_negative("mass", &self.mass)?;
         let q = start_vector::<D>("initial.position", &initial.position, build)?.to_vec();
         let v = start_vector::<D>("initial.velocity", &initial.velocity, build)?.to_vec();
-        Ok(Built { body: Box::new(Particle { mass, markers }), q, v })
+        Ok(BuiltBody { body: Box::new(Particle { mass, markers }), q, v })
     }
 }
 

@@ -6,7 +6,7 @@ use super::orientation::{Orientation, quaternion};
 use super::rigid_planar::RigidPlanar;
 use super::rigid_spatial::RigidSpatial;
 use super::shapes::{MassProperties, Shape};
-use super::{BodySpec, Build, Built, Marker, cross};
+use super::{BodySpec, Build, BuiltBody, Marker, cross};
 use crate::error::{Error, Result};
 use crate::math::array::{Each, from_fn};
 use crate::math::expression::Number;
@@ -186,7 +186,7 @@ impl BodySpec for Rigid {
         mut markers: Vec<Marker<D>>,
         initial: &Initial,
         build: &Build<D>,
-    ) -> Result<Built<D>> {
+    ) -> Result<BuiltBody<D>> {
         initial.refuse_elastic()?;
         let (mass, made_of) = self.mass_properties(initial, build)?;
         let (position, velocity) = initial.translation(build)?;
@@ -251,7 +251,7 @@ impl Rigid {
         Ok((made_of.mass, Some(made_of)))
     }
 
-    fn planar<const D: usize>(&self, data: RigidData<D>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
+    fn planar<const D: usize>(&self, data: RigidData<D>, initial: &Initial, build: &Build<D>) -> Result<BuiltBody<D>> {
         let RigidData { mass, tensor, origin, position, velocity, markers } = data;
         let [x, y, _] = origin;
         let (angle, spin) = initial.planar(build)?;
@@ -273,10 +273,10 @@ impl Rigid {
         refuse_locked("angular_velocity", &[spin], &[kept(2)])?;
         let body = RigidPlanar::new(mass, inertia, start, &free, markers);
         let pick = |all: [f64; 3]| free.iter().map(|&i| all[i]).collect();
-        Ok(Built { body: Box::new(body), q: pick(start), v: pick(rates) })
+        Ok(BuiltBody { body: Box::new(body), q: pick(start), v: pick(rates) })
     }
 
-    fn spatial<const D: usize>(&self, data: RigidData<D>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
+    fn spatial<const D: usize>(&self, data: RigidData<D>, initial: &Initial, build: &Build<D>) -> Result<BuiltBody<D>> {
         let RigidData { mass, tensor, origin, position, velocity, markers } = data;
         let free = self.free_slots(&["x", "y", "z", "rx", "ry", "rz"])?;
         let axes: Vec<usize> = free.iter().filter_map(|i| i.checked_sub(3)).collect();
@@ -294,7 +294,7 @@ impl Rigid {
             let inertia = tensor.map_or_else(|| inertia::tensor(&self.inertia, build), Ok)?;
             let q = [&start[..], &quaternion].concat();
             let v = [&velocity[..], &spin].concat();
-            return Ok(Built { body: Box::new(RigidSpatial { mass, inertia, markers }), q, v });
+            return Ok(BuiltBody { body: Box::new(RigidSpatial { mass, inertia, markers }), q, v });
         }
         let turns: [f64; 3] = from_fn(|i| if free.contains(&(i + 3)) { world_spin[i] } else { 0.0 });
         let swept = cross(&turns, &arm);
@@ -309,7 +309,7 @@ impl Rigid {
         refuse_locked("angular_velocity", &world_spin, &turns)?;
         let q = free.iter().map(|&i| if i < 3 { start[i] } else { 0.0 }).collect();
         let v = free.iter().map(|&i| if i < 3 { velocity[i] } else { world_spin[i - 3] }).collect();
-        Ok(Built { body: Box::new(body), q, v })
+        Ok(BuiltBody { body: Box::new(body), q, v })
     }
 
     /// Indices of the free coordinates among `names`, in their order.

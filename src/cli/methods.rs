@@ -47,7 +47,7 @@ fn pairs(args: &Args) -> Result<Vec<Pair>> {
     let formulation = wanted(&args.formulation)?;
     let integrator = wanted(&args.integrator)?;
     if let Some(spec) = &formulation {
-        spec.entry::<formulation::Entry>().map_err(|error| error.under("--formulation"))?;
+        spec.entry::<formulation::FormulationEntry>().map_err(|error| error.under("--formulation"))?;
     }
     if let Some(spec) = &integrator {
         let entry = integrator::find(spec).map_err(|error| error.under("--integrator"))?;

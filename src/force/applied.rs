@@ -1,6 +1,6 @@
 //! Applied force and torque: expressions of time, of marker quantities and of named outputs.
 
-use super::{Action, Built, ForceKernel, ForceSpec, InputKind, Instant, Motion};
+use super::{Action, BuiltForce, ForceKernel, ForceSpec, InputKind, Instant, Motion};
 use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Wrench, cross, norm};
 use crate::error::{Error, Result};
 use crate::math::array::{Each, from_fn};
@@ -58,7 +58,7 @@ pub enum OneOrMany {
 impl ForceSpec for AppliedForce {
     const TYPE: &'static str = "applied_force";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltForce<D>> {
         if self.force.len() != D {
             return Err(Error::input(format!("expected {D} numbers, found {}", self.force.len()))
                 .under("force")
@@ -66,14 +66,14 @@ impl ForceSpec for AppliedForce {
         }
         let formulas = formulas("force", &self.force, build)?;
         let markers = targets(&self.at, &self.reaction_on, build)?;
-        assemble(Kind::Force, formulas, self.axes, markers)
+        assemble(AppliedKind::Force, formulas, self.axes, markers)
     }
 }
 
 impl ForceSpec for AppliedTorque {
     const TYPE: &'static str = "applied_torque";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltForce<D>> {
         let formulas = match &self.torque {
             OneOrMany::One(torque) if D == 2 => vec![build.acting("torque", torque, true)?],
             OneOrMany::Many(torque) if D == 3 && torque.len() == 3 => formulas("torque", torque, build)?,
@@ -86,7 +86,7 @@ impl ForceSpec for AppliedTorque {
         };
         let markers = targets(&self.at, &self.reaction_on, build)?;
         build.oriented("at", &markers)?;
-        assemble(Kind::Torque, formulas, self.axes, markers)
+        assemble(AppliedKind::Torque, formulas, self.axes, markers)
     }
 }
 
@@ -108,27 +108,27 @@ fn targets<const D: usize>(at: &str, reaction: &Option<String>, build: &Build<D>
 
 /// A force whose first markers are the acting and the reacting one, followed by those that the expressions read.
 fn assemble<const D: usize>(
-    kind: Kind,
+    kind: AppliedKind,
     formulas: Vec<Formula>,
     axes: Axes,
     targets: Vec<MarkerId>,
-) -> Result<Built<D>> {
+) -> Result<BuiltForce<D>> {
     let markers = formulas.iter().fold(targets.clone(), |own, formula| formula.markers_after(&own));
     if markers.len() > MOST_MARKERS {
         return Err(Error::input(format!("uses {} markers", markers.len()))
             .hint(format!("use at most {MOST_MARKERS} in one force")));
     }
     let force = Applied { kind, formulas, axes, reacts: targets.len() > 1, markers: markers.clone() };
-    Ok(Built { force: Box::new(force), markers })
+    Ok(BuiltForce { force: Box::new(force), markers })
 }
 
-enum Kind {
+enum AppliedKind {
     Force,
     Torque,
 }
 
 struct Applied {
-    kind: Kind,
+    kind: AppliedKind,
     /// One expression for each component; a planar torque has the third only.
     formulas: Vec<Formula>,
     axes: Axes,
@@ -156,7 +156,7 @@ impl<const D: usize> ForceKernel<D> for Applied {
     }
 
     fn is_torque(&self) -> bool {
-        matches!(self.kind, Kind::Torque)
+        matches!(self.kind, AppliedKind::Torque)
     }
 
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
@@ -179,15 +179,15 @@ impl<const D: usize> ForceKernel<D> for Applied {
         let own = self.components(frames, time.map(|t| t.x));
         let local: [S; 3] = from_fn(|i| own[i] + input[i].x);
         let mut vector = local;
-        if self.axes == Axes::Marker && !(D == 2 && matches!(self.kind, Kind::Torque)) {
+        if self.axes == Axes::Marker && !(D == 2 && matches!(self.kind, AppliedKind::Torque)) {
             vector = [S::zero(); 3];
             for (axis, component) in frames[0].axes.iter().zip(local) {
                 axis.iter().zip(&mut vector).for_each(|(a, sum)| *sum += a.x * component);
             }
         }
         match self.kind {
-            Kind::Force => out[0].force.copy_from_slice(&vector[..D]),
-            Kind::Torque => out[0].torque = vector,
+            AppliedKind::Force => out[0].force.copy_from_slice(&vector[..D]),
+            AppliedKind::Torque => out[0].torque = vector,
         }
         if self.reacts {
             // The reaction acts along the same line, so at the other marker it has the moment of the gap.

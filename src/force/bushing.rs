@@ -1,6 +1,6 @@
 //! Bushing: springs and dampers along and about all axes.
 
-use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
+use super::{Action, BuiltForce, ForceKernel, ForceSpec, Instant, Motion};
 use crate::body::{Build, Wrench, cross, dot, norm, scale, small_rotation, small_rotation_torque, sub, twist_len};
 use crate::error::{Error, Result};
 use crate::math::array::{Each, from_fn};
@@ -27,12 +27,12 @@ pub struct Bushing {
 impl ForceSpec for Bushing {
     const TYPE: &'static str = "bushing";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltForce<D>> {
         let markers = build.between(&self.between)?;
         build.oriented("between", &markers)?;
         let k = coefficients("stiffness", &self.stiffness, build)?;
         let c = self.damping.as_ref().map_or(Ok([0.0; 6]), |damping| coefficients("damping", damping, build))?;
-        Ok(Built { force: Box::new(Cushion { k, c }), markers })
+        Ok(BuiltForce { force: Box::new(Cushion { k, c }), markers })
     }
 }
 

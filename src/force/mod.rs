@@ -213,7 +213,7 @@ impl<K: ForceKernel<D>, const D: usize> Force<D> for K {
 }
 
 /// A force ready for the model, with its markers.
-pub struct Built<const D: usize> {
+pub struct BuiltForce<const D: usize> {
     /// The kernel, boxed.
     #[doc(hidden)]
     pub force: Box<dyn Force<D>>,
@@ -221,10 +221,10 @@ pub struct Built<const D: usize> {
     pub markers: Vec<MarkerId>,
 }
 
-impl<const D: usize> Built<D> {
+impl<const D: usize> BuiltForce<D> {
     /// The force of a kernel at its markers.
     pub fn new(kernel: impl ForceKernel<D>, markers: Vec<MarkerId>) -> Self {
-        Built { force: Box::new(kernel), markers }
+        BuiltForce { force: Box::new(kernel), markers }
     }
 
     /// Refuses too few or too many markers: a mistake in the code of the type, not in a scene.
@@ -250,11 +250,11 @@ pub trait ForceSpec: DeserializeOwned + JsonSchema {
     ///
     /// # Errors
     /// Keys with values that are not valid; [`Build`] has the checks.
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>>;
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltForce<D>>;
 }
 
 /// A kind of force.
-pub type ForceKind<const D: usize> = ElementKind<fn(serde_json::Value, &Build<D>) -> Result<Built<D>>>;
+pub type ForceKind<const D: usize> = ElementKind<fn(serde_json::Value, &Build<D>) -> Result<BuiltForce<D>>>;
 
 /// The kind of force that `T` describes.
 #[doc(hidden)]

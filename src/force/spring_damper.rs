@@ -1,7 +1,7 @@
 //! Spring and damper along the line between two points.
 
 use super::law::Law;
-use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
+use super::{Action, BuiltForce, ForceKernel, ForceSpec, Instant, Motion};
 use crate::body::{Build, Probe, Quantity, Wrench, dot, norm, sub};
 use crate::error::Result;
 use crate::math::array::Each;
@@ -35,7 +35,7 @@ pub struct SpringDamper {
 impl ForceSpec for SpringDamper {
     const TYPE: &'static str = "spring_damper";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltForce<D>> {
         if let Some(law) = &self.law {
             return self.by_law(law, build);
         }
@@ -49,12 +49,12 @@ impl ForceSpec for SpringDamper {
         if force.k * force.free + force.preload != 0.0 {
             force.line = Some(build.held());
         }
-        Ok(Built { force: Box::new(force), markers: build.between(&self.between)? })
+        Ok(BuiltForce { force: Box::new(force), markers: build.between(&self.between)? })
     }
 }
 
 impl SpringDamper {
-    fn by_law<const D: usize>(&self, law: &Number, build: &Build<D>) -> Result<Built<D>> {
+    fn by_law<const D: usize>(&self, law: &Number, build: &Build<D>) -> Result<BuiltForce<D>> {
         let given = [
             ("stiffness", self.stiffness.is_some()),
             ("damping", self.damping.is_some()),
@@ -65,7 +65,7 @@ impl SpringDamper {
         let length = Probe::new(ends[1], ends[0], Quantity::Distance, 0);
         let law = Law::read(law, &given, "length", length, &ends, build)?;
         let markers = law.markers().to_vec();
-        Ok(Built { force: Box::new(Lawful { law }), markers })
+        Ok(BuiltForce { force: Box::new(Lawful { law }), markers })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::law::Law;
 use super::spring_damper::optional_not_negative;
-use super::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
+use super::{Action, BuiltForce, ForceKernel, ForceSpec, Instant, Motion};
 use crate::body::{Build, Frame, MarkerId, Probe, Quantity, Turned, Wrench, cross, dot};
 use crate::error::Result;
 use crate::math::array::{Each, from_fn};
@@ -36,7 +36,7 @@ pub struct TorsionSpring {
 impl ForceSpec for TorsionSpring {
     const TYPE: &'static str = "torsion_spring";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltForce<D>> {
         let markers = build.between(&self.between)?;
         build.oriented("between", &markers)?;
         let free = build.number_or("free_angle", &self.free_angle, 0.0)?;
@@ -50,7 +50,7 @@ impl ForceSpec for TorsionSpring {
             free,
             turning,
         };
-        Ok(Built { force: Box::new(force), markers })
+        Ok(BuiltForce { force: Box::new(force), markers })
     }
 }
 
@@ -62,7 +62,7 @@ impl TorsionSpring {
         turning: usize,
         ends: &[MarkerId],
         build: &Build<D>,
-    ) -> Result<Built<D>> {
+    ) -> Result<BuiltForce<D>> {
         let given = [("stiffness", self.stiffness.is_some()), ("damping", self.damping.is_some())];
         let quantity = match D {
             2 => Quantity::Angle,
@@ -71,7 +71,7 @@ impl TorsionSpring {
         let angle = Probe::new(ends[1], ends[0], quantity, 0);
         let law = Law::read(law, &given, "angle", angle, ends, build)?;
         let markers = law.markers().to_vec();
-        Ok(Built { force: Box::new(Lawful { law }), markers })
+        Ok(BuiltForce { force: Box::new(Lawful { law }), markers })
     }
 }
 

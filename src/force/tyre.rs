@@ -1,6 +1,6 @@
 //! Vertical tyre on a road profile.
 
-use super::{Action, Built, ForceKernel, ForceSpec, InputKind, Instant, Motion, Wheel};
+use super::{Action, BuiltForce, ForceKernel, ForceSpec, InputKind, Instant, Motion, Wheel};
 use crate::body::{Build, Formula, MOST_MARKERS, MarkerId, Wrench};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
@@ -33,7 +33,7 @@ pub struct Tyre {
 impl ForceSpec for Tyre {
     const TYPE: &'static str = "tyre";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltForce<D>> {
         let road = self.road.clone().unwrap_or(Number::Value(0.0));
         let road = build.acting("road", &road, false)?;
         let markers = road.markers_after(&[build.marker("at", &self.at)?]);
@@ -50,7 +50,7 @@ impl ForceSpec for Tyre {
             markers: markers.clone(),
             lift_off: self.lift_off.then(|| [build.switch(), build.switch()]),
         };
-        Ok(Built { force: Box::new(force), markers })
+        Ok(BuiltForce { force: Box::new(force), markers })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Index-1 augmented Lagrangian.
 
-use super::Entry;
+use super::FormulationEntry;
 use super::penalty::{OMEGA, PENALTY, Penalty, XI};
 use crate::method_spec::OptionDoc;
 
@@ -13,7 +13,7 @@ use crate::method_spec::OptionDoc;
 /// O(penalty^-N). G may be rank deficient, by redundant rows or at a singular position; what the redundant rows
 /// contradict each other by is multiplied by N a in lambda. Order in q, v, lambda: that of the integrator, down to that
 /// difference. Cost of index 1 and N back-substitutions: one factorization serves all. The rank of G is not reported.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "augmented_lagrangian",
     about: "penalty with updates of lambda: error O(penalty^-iterations), redundant and singular G allowed",
     options: &[

@@ -1,7 +1,7 @@
 //! Baumgarte stabilization.
 
 use super::index1::{Index1, RANK, rank_tolerance};
-use super::{Dae, Entry, Row};
+use super::{Dae, FormulationEntry, Row};
 use crate::error::Result;
 use crate::method_spec::{MethodSpec, OptionDoc};
 
@@ -13,7 +13,7 @@ use crate::method_spec::{MethodSpec, OptionDoc};
 /// do not bound the drift, large ones make the equations stiff (explicit methods need 2 alpha h and beta h of order
 /// one), and the best gains depend on the step and the method. Order in q, v, lambda: that of the integrator; cost as
 /// index 1.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "baumgarte",
     about: "phi'' + 2 alpha phi' + beta^2 phi = 0; the best gains depend on the step",
     options: &[

@@ -1,7 +1,7 @@
 //! Force projection.
 
 use super::invariant_manifold::InvariantManifold;
-use super::{Entry, Stabilizer, StabilizingField};
+use super::{FormulationEntry, Stabilizer, StabilizingField};
 use crate::method_spec::OptionDoc;
 
 /// ```text
@@ -15,7 +15,7 @@ use crate::method_spec::OptionDoc;
 /// Masarati, Proc. Inst. Mech. Eng. K 225 (2011) 12-33. Order in q, v, lambda: that of the integrator; an explicit one
 /// needs p h and r h of order one. lambda is that of index 1. Cost: that of index 1 and two back-substitutions per
 /// stage.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "force_projection",
     about: "forces projected by P, phi and phi' pulled back at rates of their own",
     options: &[

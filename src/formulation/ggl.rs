@@ -1,6 +1,6 @@
 //! Gear, Gupta, Leimkuhler: position and velocity constraints together.
 
-use super::{Dae, Entry, Row};
+use super::{Dae, FormulationEntry, Row};
 
 /// ```text
 /// q' = N (v + u),   M u + G^T mu = 0,   M v' + G^T lambda = f,   phi = 0,   G v + phi_t = 0
@@ -10,7 +10,7 @@ use super::{Dae, Entry, Row};
 /// units are not added; radau_iia uses M + S there, with S = h^2 K_ii for stiff coordinates. mu = 0 for the exact
 /// motion. Index 2, for integrators that solve it: both constraints are satisfied at every step to the tolerance of the
 /// iteration, and in output rows between steps to round-off, by a projection.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "ggl",
     about: "phi = 0 and G v + phi_t = 0 together, stabilized index 2, for integrators that solve both",
     options: &[],

@@ -1,6 +1,6 @@
 //! Index 1: the constraints differentiated twice, lambda eliminated.
 
-use super::{Dae, Dynamics, Entry, Formulation, Row, StepError};
+use super::{Dae, Dynamics, Formulation, FormulationEntry, Row, StepError};
 use crate::error::Result;
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::tolerances::TRUNCATED_RANK;
@@ -11,7 +11,7 @@ use crate::tolerances::TRUNCATED_RANK;
 ///
 /// The underlying ODE. It preserves phi'' = 0 only, so an error eps of phi grows like eps (1 + t): use it with a
 /// projection. Order in q, v and lambda: that of the integrator. One evaluation, factorization and solution per stage.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "index1",
     about: "phi'' = 0, lambda eliminated; drifts unless projected",
     options: &[RANK],

@@ -1,13 +1,13 @@
 //! Index 3: the position constraint itself.
 
-use super::{Dae, Entry, Row};
+use super::{Dae, FormulationEntry, Row};
 
 /// ```text
 /// q' = N v,   M v' + G^T lambda = f,   phi = 0
 /// ```
 ///
 /// For integrators that discretize the constraint itself: it is satisfied at every step to round-off.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "index3",
     about: "phi = 0 itself, for integrators that solve it",
     options: &[],

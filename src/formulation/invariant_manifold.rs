@@ -1,6 +1,6 @@
 //! Vector fields with a stabilized invariant manifold.
 
-use super::{Dynamics, Entry, Formulation, Stabilizer, StabilizingField, StepError};
+use super::{Dynamics, Formulation, FormulationEntry, Stabilizer, StabilizingField, StepError};
 use crate::error::Result;
 use crate::method_spec::OptionDoc;
 use crate::system::{MechanicalSystem, Need};
@@ -12,7 +12,7 @@ use crate::system::{MechanicalSystem, Need};
 /// with fhat of index 1. Where H F is positive definite with least eigenvalue l0, |h| decays monotonically for
 /// gamma > 1/l0. Source: Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149. Order in q, v, lambda: that of the
 /// integrator; an explicit one needs gamma h of order one. Cost of index 1 and the back-substitutions of F a stage.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "invariant_manifold",
     about: "z' = fhat - gamma F h: the constraint manifold attracts",
     options: &[

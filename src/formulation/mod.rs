@@ -1,7 +1,7 @@
 //! Formulations: forms of the constrained equations that an integrator can step.
 //!
-//! To add one: a file with an [`Entry`], and a line in [`registry`]; from outside the crate, an [`Entry`] and its
-//! [`spec`](Listed::spec), as in `tests/examples/own_formulation.rs`.
+//! To add one: a file with a [`FormulationEntry`], and a line in [`registry`]; from outside the crate, a
+//! [`FormulationEntry`] and its [`spec`](Listed::spec), as in `tests/examples/own_formulation.rs`.
 
 mod augmented_lagrangian;
 mod baumgarte;
@@ -109,7 +109,7 @@ pub trait Formulation: Send {
 pub(crate) const SPARSE: &str = "choose a sparse formulation, such as index1 with the projection manifold";
 
 /// One formulation as the command line, the scene format and the table of methods know it.
-pub struct Entry {
+pub struct FormulationEntry {
     /// Name in the scene format and on the command line.
     pub name: &'static str,
     /// One line for the table of methods.
@@ -125,14 +125,14 @@ pub struct Entry {
 /// Makes a vector field for a system.
 pub type MakeField = fn(&MethodSpec, &dyn MechanicalSystem) -> Result<Box<dyn Formulation>>;
 
-impl Entry {
+impl FormulationEntry {
     /// The equations with the default options.
     pub fn default_dae(&self) -> Option<Dae> {
         self.dae.and_then(|dae| dae(&MethodSpec::named(self.name)).ok())
     }
 }
 
-impl Listed for Entry {
+impl Listed for FormulationEntry {
     const KIND: &'static str = "formulation";
 
     fn registry() -> &'static [Self] {
@@ -149,7 +149,7 @@ impl Listed for Entry {
 }
 
 /// Every formulation, in the order of the documentation.
-pub fn registry() -> &'static [Entry] {
+pub fn registry() -> &'static [FormulationEntry] {
     &[
         index1::ENTRY,
         index2::ENTRY,
@@ -168,13 +168,13 @@ pub fn registry() -> &'static [Entry] {
 
 /// The entry of this name.
 #[doc(hidden)]
-pub fn named(name: &str) -> Option<&'static Entry> {
+pub fn named(name: &str) -> Option<&'static FormulationEntry> {
     registry().iter().find(|entry| entry.name == name)
 }
 
 /// The entry that `spec` names, whatever its options.
 #[doc(hidden)]
-pub fn lookup(spec: &MethodSpec) -> Option<&'static Entry> {
+pub fn lookup(spec: &MethodSpec) -> Option<&'static FormulationEntry> {
     spec.lookup()
 }
 
@@ -191,5 +191,5 @@ pub fn dae(spec: &MethodSpec) -> Result<Option<Dae>> {
 /// themselves it serves observation only: v' and lambda are those of the equations of motion at (q, v), and so of the
 /// order of q and v.
 pub fn make(spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Box<dyn Formulation>> {
-    spec.entry::<Entry>()?.field.unwrap_or(|_, _| Ok(Box::new(index1::Index1::default())))(spec, system)
+    spec.entry::<FormulationEntry>()?.field.unwrap_or(|_, _| Ok(Box::new(index1::Index1::default())))(spec, system)
 }

@@ -1,10 +1,10 @@
 //! Minimal coordinates: the equations on the tangent space of the constraints.
 
 use super::dense::Dense;
-use super::{Dynamics, Entry, Formulation, SPARSE, StepError};
+use super::{Dynamics, Formulation, FormulationEntry, SPARSE, StepError};
 use crate::error::Error;
 use crate::math::Piece;
-use crate::math::kkt::{Chart, Reduced};
+use crate::math::kkt::{CorrectionChart, Reduced};
 use crate::math::memory::refuse_dense;
 use crate::math::newton::{Limits, Monitor, relative};
 use crate::system::{MechanicalSystem, Need};
@@ -34,7 +34,7 @@ use crate::tolerances::RANK;
 /// G may be rank deficient: lambda is then the one of least norm. Order in q, v, lambda: that of the integrator. Dense,
 /// about 3 n m^2 + 4 n^2 (n - m) + 3 m^3 operations per stage, and about three evaluations of phi and G: for small
 /// systems.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "null_space",
     about: "minimal coordinates in the tangent space, with a new base each step: no drift; dense",
     options: &[],
@@ -52,7 +52,7 @@ const COPIES: f64 = 10.0;
 
 struct TangentSpace {
     field: Dense,
-    chart: Chart,
+    chart: CorrectionChart,
     /// True while states belong to a step, and so to the chart; other states are used as they are.
     is_within: bool,
     /// t, q and the pieces of functions at the base.
@@ -82,7 +82,7 @@ impl TangentSpace {
         let zeros = |n: usize| vec![0.0; n];
         Some(TangentSpace {
             field: Dense(Reduced::new(&structure.mass, &structure.g, RANK)?),
-            chart: Chart::new(&structure.mass, &structure.g),
+            chart: CorrectionChart::new(&structure.mass, &structure.g),
             is_within: false,
             base: (f64::NAN, zeros(n.q), Vec::new()),
             q: zeros(n.q),

@@ -1,7 +1,7 @@
 //! Penalty on the constraints, with or without updates of the multipliers.
 
 use super::linearized::write_diagonal;
-use super::{Dynamics, Entry, Formulation, StepError};
+use super::{Dynamics, Formulation, FormulationEntry, StepError};
 use crate::error::Result;
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::method_spec::{MethodSpec, OptionDoc};
@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// as a saddle-point system with a slack for each row, which contains no ill-conditioned M + G^T a G; about that of
 /// index 1. The rank of G is not reported. An adaptive integrator with a projection takes very small steps where the
 /// tolerance is below the error of the penalty, since each step leaves the manifold by that: raise the penalty.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "penalty",
     about: "(M + G^T a G) v' = f + G^T a c: error O(1/penalty), redundant rows and singular positions allowed",
     options: &[PENALTY, OMEGA, XI],

@@ -1,7 +1,7 @@
 //! The equations of Udwadia and Kalaba.
 
 use super::dense::Dense;
-use super::{Entry, SPARSE};
+use super::{FormulationEntry, SPARSE};
 use crate::error::Error;
 use crate::math::kkt::Reduced;
 use crate::math::memory::refuse_dense;
@@ -21,7 +21,7 @@ use crate::method_spec::OptionDoc;
 /// Soc. A 462 (2006) 2097-2117). Pivots up to `tolerance` times the largest, of rows of unit length, are dropped, and
 /// near a singular position those below 1e-4 of the largest value that the smallest one has had. Order in q, v, lambda:
 /// that of the integrator. Dense, 3 n m^2 + 4 n^2 (n - m) operations per stage: meant for small systems.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "udwadia_kalaba",
     about: "v' by the pseudo-inverse of G M^-1/2, dense; drifts as index1 does",
     options: &[OptionDoc {

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 /// Names of letters, digits and underscores, each once.
 #[derive(Default)]
-pub struct Names {
+pub struct UniqueNames {
     taken: HashSet<String>,
     /// The number that was tried last behind each name.
     numbers: HashMap<String, usize>,
@@ -12,7 +12,7 @@ pub struct Names {
     pub changed: Vec<(String, String)>,
 }
 
-impl Names {
+impl UniqueNames {
     /// The name, or one like it where it cannot stand in a scene or is taken.
     pub fn unique(&mut self, given: &str) -> String {
         let fits = |c: char| if c.is_alphabetic() || c.is_ascii_digit() { c } else { '_' };
@@ -35,11 +35,11 @@ impl Names {
 
 #[cfg(test)]
 mod tests {
-    use super::Names;
+    use super::UniqueNames;
 
     #[test]
     fn names_fit_and_are_unique() {
-        let mut names = Names::default();
+        let mut names = UniqueNames::default();
         let found = ["arm", "left-arm", "left_arm", "2nd", "", "ground", "ü1"].map(|name| names.unique(name));
         assert_eq!(found, ["arm", "left_arm", "left_arm_2", "_2nd", "_", "ground_2", "ü1"]);
         assert_eq!(names.changed.len(), 5);

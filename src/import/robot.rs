@@ -73,7 +73,7 @@ impl Link {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kind {
+pub enum JointType {
     Revolute,
     Prismatic,
     Planar,
@@ -86,7 +86,7 @@ pub struct Joint {
     pub name: String,
     /// Byte of the text at which it begins.
     pub at: usize,
-    pub kind: Kind,
+    pub kind: JointType,
     /// Index of a link.
     pub parent: usize,
     /// Index of a link.
@@ -109,9 +109,9 @@ pub struct Joint {
     pub armature: f64,
 }
 
-impl Kind {
+impl JointType {
     /// The kind that a file of these kinds calls `found`.
-    pub fn find(node: Node, found: &str, known: &[(&str, Kind)]) -> Result<Kind> {
+    pub fn find(node: Node, found: &str, known: &[(&str, JointType)]) -> Result<JointType> {
         known.iter().find(|(name, _)| *name == found).map(|(_, kind)| *kind).ok_or_else(|| {
             faulty(node, format!("there is no joint of type `{}`", excerpt(found)))
                 .hint(suggest(found, known.iter().map(|(name, _)| *name)))
@@ -121,7 +121,7 @@ impl Kind {
 
 impl Joint {
     /// A joint that holds the child at a place in the parent.
-    pub fn new(name: String, at: usize, kind: Kind, links: [usize; 2], origin: Transform) -> Self {
+    pub fn new(name: String, at: usize, kind: JointType, links: [usize; 2], origin: Transform) -> Self {
         let [parent, child] = links;
         Joint {
             name,
@@ -142,7 +142,7 @@ impl Joint {
 
     /// True if its position is one number.
     pub fn has_coordinate(&self) -> bool {
-        matches!(self.kind, Kind::Revolute | Kind::Prismatic)
+        matches!(self.kind, JointType::Revolute | JointType::Prismatic)
     }
 
     /// The frame of the child at a position in that at the position of the file.
@@ -154,9 +154,9 @@ impl Joint {
         }
         let along = self.axis.each(|x| travel * x / size);
         match self.kind {
-            Kind::Revolute => Transform { r: [0.0; 3], turn: quaternion_from_vector(&along) }.about(&self.anchor),
-            Kind::Prismatic => Transform { r: along, ..Transform::default() },
-            Kind::Planar | Kind::Spherical | Kind::Floating | Kind::Fixed => Transform::default(),
+            JointType::Revolute => Transform { r: [0.0; 3], turn: quaternion_from_vector(&along) }.about(&self.anchor),
+            JointType::Prismatic => Transform { r: along, ..Transform::default() },
+            JointType::Planar | JointType::Spherical | JointType::Floating | JointType::Fixed => Transform::default(),
         }
     }
 }

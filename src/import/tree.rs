@@ -1,6 +1,6 @@
 //! The tree of links and joints.
 
-use super::robot::{Joint, Kind, Robot};
+use super::robot::{Joint, JointType, Robot};
 use super::transform::Transform;
 use crate::error::{Error, Result, short_list};
 
@@ -32,7 +32,7 @@ impl Tree {
             let joint = &robot.joints[index];
             frames[link] = frames[joint.parent].then(&joint.origin).then(&joint.moved(positions[index]));
             at_zero[link] = at_zero[joint.parent].then(&joint.origin);
-            if joint.kind == Kind::Fixed {
+            if joint.kind == JointType::Fixed {
                 body[link] = body[joint.parent];
             }
         }

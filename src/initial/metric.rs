@@ -1,6 +1,6 @@
 //! The mass metric with the constraints of a system, for Newton's method on phi.
 
-use super::report::Level;
+use super::report::LevelResiduals;
 use crate::error::{Error, Result, short};
 use crate::math::kkt::{Pattern, SaddlePoint};
 use crate::math::{largest, largest_in};
@@ -161,9 +161,9 @@ impl<'a> Metric<'a> {
     }
 
     /// Residuals at a state, in units of the scene's scale.
-    pub fn level(&mut self, t: f64, q: &[f64], v: &[f64]) -> Level {
+    pub fn level(&mut self, t: f64, q: &[f64], v: &[f64]) -> LevelResiduals {
         self.evaluate(t, q, v, Need::CONSTRAINTS);
-        Level { phi: self.worst(&self.terms.phi), phi_dot: self.worst(&self.terms.phi_dot) }
+        LevelResiduals { phi: self.worst(&self.terms.phi), phi_dot: self.worst(&self.terms.phi_dot) }
     }
 
     /// Evaluates the terms and factors the matrix at q, without velocities.

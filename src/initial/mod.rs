@@ -18,7 +18,7 @@ pub(crate) use continuation::continuation;
 pub use equilibrium::{Equilibrium, Stability, Way, equilibrium};
 #[doc(hidden)]
 pub use follow::{Followed, follow};
-pub use report::{Assembly, Level, Move};
+pub use report::{Assembly, LevelResiduals, Move};
 pub(crate) use travel::{Travel, TravelEnd};
 
 use crate::error::{Error, Result};

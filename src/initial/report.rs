@@ -20,10 +20,10 @@ pub struct Assembly {
     pub lambda: Vec<f64>,
     /// Residuals of the guess.
     #[doc(hidden)]
-    pub before: Level,
+    pub before: LevelResiduals,
     /// Residuals of the start.
     #[doc(hidden)]
-    pub after: Level,
+    pub after: LevelResiduals,
     /// Coordinates and velocities that changed, largest first.
     #[doc(hidden)]
     pub moves: Vec<Move>,
@@ -35,7 +35,7 @@ pub struct Assembly {
 
 /// Largest residuals, in units of the scene's scale.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Level {
+pub struct LevelResiduals {
     /// max |phi|
     pub phi: f64,
     /// max |phi'|, per second.

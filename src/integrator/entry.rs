@@ -67,9 +67,9 @@ pub struct Entry {
     pub tightening: Tightening,
     /// True if it integrates a formulation: for a method that integrates vector fields `|formulation|
     /// formulation.field.is_some()`.
-    pub solves: fn(&formulation::Entry) -> bool,
+    pub solves: fn(&formulation::FormulationEntry) -> bool,
     /// True if a projection would cost it an order with a formulation.
-    pub refuses: fn(&formulation::Entry, projection: &str) -> bool,
+    pub refuses: fn(&formulation::FormulationEntry, projection: &str) -> bool,
     /// The options of its specification.
     pub options: &'static [OptionDoc],
     /// Stability limit of the steps; `None` for a method without a limit.

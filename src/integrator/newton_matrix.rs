@@ -48,19 +48,19 @@ pub struct NewtonMatrix<F> {
     factored: Option<Size>,
     dropped: Vec<usize>,
     /// The matrix of a saved run.
-    recalled: Option<Saved>,
+    recalled: Option<SavedMatrix>,
 }
 
 /// What steps pass on: the contraction of the iterations, and the matrix if there is one.
 #[derive(Serialize, Deserialize)]
 pub struct Memory {
     pub monitor: [f64; 2],
-    pub matrix: Option<Saved>,
+    pub matrix: Option<SavedMatrix>,
 }
 
 /// A matrix as it is saved: it is evaluated and factored again.
 #[derive(Serialize, Deserialize)]
-pub struct Saved {
+pub struct SavedMatrix {
     pub size: Size,
     pub is_fresh: bool,
     pub point: Point,
@@ -131,7 +131,7 @@ impl<F: Factors> NewtonMatrix<F> {
     /// The values for [`Self::recall`].
     pub fn memory(&self) -> Memory {
         let size = self.factored.filter(|_| self.is_linearized);
-        let saved = |size| Saved { size, is_fresh: self.is_fresh, point: self.at.point.clone() };
+        let saved = |size| SavedMatrix { size, is_fresh: self.is_fresh, point: self.at.point.clone() };
         Memory { monitor: self.monitor.memory(), matrix: size.map(saved) }
     }
 
@@ -147,7 +147,8 @@ impl<F: Factors> NewtonMatrix<F> {
     /// Those of the first time.
     pub fn renew(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
         let n = problem.dynamics.system.dimensions();
-        let Some(Saved { size, is_fresh, point }) = self.recalled.take().filter(|saved| saved.point.fits(n)) else {
+        let Some(SavedMatrix { size, is_fresh, point }) = self.recalled.take().filter(|saved| saved.point.fits(n))
+        else {
             return Ok(());
         };
         let counted = problem.dynamics.statistics;

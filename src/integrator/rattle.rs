@@ -55,7 +55,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
 /// What steps pass on, as it is saved: the problem is evaluated at the state from which a run continues, as at the end
 /// of a step.
 #[derive(Serialize, Deserialize)]
-struct Memory {
+struct RattleMemory {
     is_ready: bool,
     mass: Option<Vec<f64>>,
 }
@@ -223,11 +223,11 @@ impl Integrator for Rattle {
     }
 
     fn memory(&self) -> Option<Value> {
-        written(Memory { is_ready: self.is_ready, mass: self.mass.clone() })
+        written(RattleMemory { is_ready: self.is_ready, mass: self.mass.clone() })
     }
 
     fn recall(&mut self, memory: &Value) {
-        if let Some(Memory { is_ready, mass }) = read(memory) {
+        if let Some(RattleMemory { is_ready, mass }) = read(memory) {
             self.is_ready = is_ready;
             self.mass = mass;
         }

@@ -42,17 +42,17 @@ impl<const D: usize> Lock<D> {
 
 /// The row coordinate - value - rate t of a joint that locks what `lock` does.
 pub fn given<const D: usize>(lock: Lock<D>, coordinate: JointCoordinate, value: f64, rate: f64) -> Box<dyn Joint<D>> {
-    Box::new(Given { lock, coordinate, value, rate })
+    Box::new(GivenCoordinate { lock, coordinate, value, rate })
 }
 
-struct Given<const D: usize> {
+struct GivenCoordinate<const D: usize> {
     lock: Lock<D>,
     coordinate: JointCoordinate,
     value: f64,
     rate: f64,
 }
 
-impl<const D: usize> JointKernel<D> for Given<D> {
+impl<const D: usize> JointKernel<D> for GivenCoordinate<D> {
     fn row_names(&self) -> Vec<&'static str> {
         vec![match self.coordinate {
             JointCoordinate::Translation(_) => "x",

@@ -1,7 +1,7 @@
 //! Cylindrical joint.
 
 use super::lock::{ALL_BUT_Z, Lock, direction};
-use super::{Built, JointSpec};
+use super::{BuiltJoint, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
 use crate::math::expression::Number;
@@ -21,7 +21,7 @@ pub struct Cylindrical {
 impl JointSpec for Cylindrical {
     const TYPE: &'static str = "cylindrical";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         build.needs_dimension(3, "a cylindrical joint", "\"point_on_line\"")?;
         Lock::new(&[0, 1], ALL_BUT_Z).along(2, direction(build, &self.axis)?).between(&self.between, build)
     }

@@ -1,6 +1,6 @@
 //! Massless rod: a fixed distance between two points.
 
-use super::{Built, ClosedForm, JointKernel, JointSpec};
+use super::{BuiltJoint, ClosedForm, JointKernel, JointSpec};
 use crate::body::{Build, Frame, dot, sub};
 use crate::error::Result;
 use crate::math::expression::Number;
@@ -22,17 +22,17 @@ pub struct Distance {
 impl JointSpec for Distance {
     const TYPE: &'static str = "distance";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         let length = build.positive("length", &self.length)?;
-        Ok(Built { joint: Box::new(Rod { length }), markers: build.between(&self.between)? })
+        Ok(BuiltJoint { joint: Box::new(MasslessRod { length }), markers: build.between(&self.between)? })
     }
 }
 
-struct Rod {
+struct MasslessRod {
     length: f64,
 }
 
-impl<const D: usize> JointKernel<D> for Rod {
+impl<const D: usize> JointKernel<D> for MasslessRod {
     fn row_names(&self) -> Vec<&'static str> {
         vec!["length"]
     }

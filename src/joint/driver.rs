@@ -1,7 +1,7 @@
 //! Driver: a relative coordinate prescribed as a function of time.
 
 use super::lock::{Lock, NONE, direction};
-use super::{Axis, Built, JointKernel, JointSpec};
+use super::{Axis, BuiltJoint, JointKernel, JointSpec};
 use crate::body::{Build, Frame, dot, in_space, sub};
 use crate::error::{Error, Result};
 use crate::math::expression::{Expression, Number};
@@ -38,7 +38,7 @@ pub enum Coordinate {
 impl JointSpec for Driver {
     const TYPE: &'static str = "driver";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         if D == 2 && self.coordinate == Coordinate::Z {
             return Err(Error::input("a planar scene has no z").under("coordinate").hint("use x, y or angle"));
         }
@@ -51,7 +51,7 @@ impl JointSpec for Driver {
             2 => Lock::new(&[], NONE),
             _ => Lock::new(&[], NONE).along(2, direction(build, &self.axis)?),
         };
-        Ok(Built { joint: Box::new(Drive { coordinate: self.coordinate, value, axes }), markers })
+        Ok(BuiltJoint { joint: Box::new(Drive { coordinate: self.coordinate, value, axes }), markers })
     }
 }
 

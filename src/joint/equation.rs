@@ -1,6 +1,6 @@
 //! A constraint given by an expression.
 
-use super::{Built, JointKernel, JointSpec};
+use super::{BuiltJoint, JointKernel, JointSpec};
 use crate::body::{Build, Formula, Frame, MOST_MARKERS};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
@@ -21,7 +21,7 @@ pub struct Equation {
 impl JointSpec for Equation {
     const TYPE: &'static str = "equation";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         let formula = build.acting("expression", &self.expression, false)?;
         let markers = formula.markers();
         if markers.iter().all(|&marker| build.markers.bodies[marker].is_none()) {
@@ -34,16 +34,16 @@ impl JointSpec for Equation {
                 .under("expression")
                 .hint(format!("use at most {MOST_MARKERS}")));
         }
-        Ok(Built { joint: Box::new(Given { formula, markers: markers.clone() }), markers })
+        Ok(BuiltJoint { joint: Box::new(GivenEquation { formula, markers: markers.clone() }), markers })
     }
 }
 
-struct Given {
+struct GivenEquation {
     formula: Formula,
     markers: Vec<usize>,
 }
 
-impl<const D: usize> JointKernel<D> for Given {
+impl<const D: usize> JointKernel<D> for GivenEquation {
     fn row_names(&self) -> Vec<&'static str> {
         vec!["value"]
     }

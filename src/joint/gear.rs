@@ -2,7 +2,7 @@
 
 use super::driver::relative_turn;
 use super::lock::{Lock, NONE};
-use super::{Built, JointKernel, JointSpec};
+use super::{BuiltJoint, JointKernel, JointSpec};
 use crate::body::{Build, Frame, Turned};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
@@ -28,7 +28,7 @@ pub struct Gear {
 impl JointSpec for Gear {
     const TYPE: &'static str = "gear";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         let teeth = [self.count(0, build)?, self.count(1, build)?];
         let mut markers = build.between(&self.between)?;
         match &self.carrier {
@@ -47,7 +47,7 @@ impl JointSpec for Gear {
         let offset = build.number_or("offset", &self.offset, 0.0)?;
         let wheel = |i: usize| Some(Turned { of: markers[i], to: *markers.get(i + 2)?, factor: teeth[i], axes: None });
         let turning = build.turning((0..2).filter_map(wheel).collect(), offset);
-        Ok(Built { joint: Box::new(Pair { teeth, offset, turning }), markers })
+        Ok(BuiltJoint { joint: Box::new(GearPair { teeth, offset, turning }), markers })
     }
 }
 
@@ -78,14 +78,14 @@ impl Gear {
 /// More would be a mistake.
 const MOST_TEETH: f64 = 1e6;
 
-struct Pair {
+struct GearPair {
     teeth: [f64; 2],
     offset: f64,
     /// Index of the counted angle z1 angle1 + z2 angle2, in space.
     turning: usize,
 }
 
-impl<const D: usize> JointKernel<D> for Pair {
+impl<const D: usize> JointKernel<D> for GearPair {
     fn row_names(&self) -> Vec<&'static str> {
         vec!["angle"]
     }

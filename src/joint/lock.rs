@@ -1,6 +1,6 @@
 //! The kernel behind most joints: some relative translations and rotations of two frames are locked.
 
-use super::{Axis, Built, ClosedForm, JointKernel};
+use super::{Axis, BuiltJoint, ClosedForm, JointKernel};
 use crate::body::{Build, Frame, dot, in_space, sub, unit_axes};
 use crate::error::{Error, Result};
 use crate::math::array::{Each, from_fn};
@@ -47,12 +47,12 @@ impl<const D: usize> Lock<D> {
 
     /// The joint between two markers, which must be on different bodies and have an orientation if a rotation is
     /// locked.
-    pub fn between(self, names: &[String; 2], build: &Build<D>) -> Result<Built<D>> {
+    pub fn between(self, names: &[String; 2], build: &Build<D>) -> Result<BuiltJoint<D>> {
         let markers = build.between(names)?;
         if !self.rotation.is_empty() {
             build.oriented("between", &markers)?;
         }
-        Ok(Built { joint: Box::new(self), markers })
+        Ok(BuiltJoint { joint: Box::new(self), markers })
     }
 
     /// Axis `i` of the joint in the world, at the frame of one of its markers.

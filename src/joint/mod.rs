@@ -73,7 +73,7 @@ pub trait JointKernel<const D: usize>: Send + Sync + 'static {
     fn joint_axis(&self, _first: &Frame<f64, D>) -> Option<Axis> {
         None
     }
-    /// Writes phi, one value a row, at the frames of the joint's markers, in the order of [`Built::markers`]; zero
+    /// Writes phi, one value a row, at the frames of the joint's markers, in the order of [`BuiltJoint::markers`]; zero
     /// where the joint is closed. Derivatives follow from the scalars that are put in.
     fn phi<S: Scalar>(&self, frames: &[Frame<S, D>], time: Time<S>, out: &mut [S]);
     /// True if its row, the only one, is a coordinate minus a value that it prescribes, m or rad: an input of a scene
@@ -189,7 +189,7 @@ impl<K: JointKernel<D>, const D: usize> Joint<D> for K {
 }
 
 /// A joint ready for the model, with its markers.
-pub struct Built<const D: usize> {
+pub struct BuiltJoint<const D: usize> {
     /// The kernel, boxed.
     #[doc(hidden)]
     pub joint: Box<dyn Joint<D>>,
@@ -197,10 +197,10 @@ pub struct Built<const D: usize> {
     pub markers: Vec<MarkerId>,
 }
 
-impl<const D: usize> Built<D> {
+impl<const D: usize> BuiltJoint<D> {
     /// The joint of a kernel at its markers.
     pub fn new(kernel: impl JointKernel<D>, markers: Vec<MarkerId>) -> Self {
-        Built { joint: Box::new(kernel), markers }
+        BuiltJoint { joint: Box::new(kernel), markers }
     }
 
     /// Refuses too few or too many rows or markers: a mistake in the code of the type, not in a scene.
@@ -229,11 +229,11 @@ pub trait JointSpec: DeserializeOwned + JsonSchema {
     ///
     /// # Errors
     /// Keys with values that are not valid; [`Build`] has the checks.
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>>;
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>>;
 }
 
 /// A kind of joint.
-pub type JointKind<const D: usize> = ElementKind<fn(serde_json::Value, &Build<D>) -> Result<Built<D>>>;
+pub type JointKind<const D: usize> = ElementKind<fn(serde_json::Value, &Build<D>) -> Result<BuiltJoint<D>>>;
 
 /// The kind of joint that `T` describes.
 #[doc(hidden)]

@@ -1,7 +1,7 @@
 //! Planar joint.
 
 use super::lock::{ALL_BUT_Z, Lock, direction};
-use super::{Built, JointSpec};
+use super::{BuiltJoint, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
 use crate::math::expression::Number;
@@ -21,7 +21,7 @@ pub struct Planar {
 impl JointSpec for Planar {
     const TYPE: &'static str = "planar";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         build.needs_dimension(3, "a planar joint", "no joint: every body moves in the plane")?;
         Lock::new(&[2], ALL_BUT_Z).along(2, direction(build, &self.axis)?).between(&self.between, build)
     }

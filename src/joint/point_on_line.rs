@@ -1,7 +1,7 @@
 //! Point on a line.
 
 use super::lock::{Lock, NONE, direction};
-use super::{Built, JointSpec};
+use super::{BuiltJoint, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
 use crate::math::expression::Number;
@@ -22,7 +22,7 @@ pub struct PointOnLine {
 impl JointSpec for PointOnLine {
     const TYPE: &'static str = "point_on_line";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         let axis = direction(build, &self.axis)?;
         match D {
             2 => Lock::new(&[1], NONE).along(0, axis).between(&self.between, build),

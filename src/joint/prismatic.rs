@@ -1,7 +1,7 @@
 //! Prismatic joint (slider).
 
 use super::lock::{ALL, Lock, direction};
-use super::{Built, JointSpec};
+use super::{BuiltJoint, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
 use crate::math::expression::Number;
@@ -22,7 +22,7 @@ pub struct Prismatic {
 impl JointSpec for Prismatic {
     const TYPE: &'static str = "prismatic";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         let axis = direction(build, &self.axis)?;
         match D {
             2 => Lock::new(&[1], ALL_IN_PLANE).along(0, axis).between(&self.between, build),

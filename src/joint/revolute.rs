@@ -1,7 +1,7 @@
 //! Revolute joint (hinge).
 
 use super::lock::{ALL_BUT_Z, Lock, NONE, direction};
-use super::{Built, JointSpec};
+use super::{BuiltJoint, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
 use crate::math::expression::Number;
@@ -22,7 +22,7 @@ pub struct Revolute {
 impl JointSpec for Revolute {
     const TYPE: &'static str = "revolute";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         match D {
             2 => Lock::new(&[0, 1], NONE).between(&self.between, build),
             _ => Lock::new(&[0, 1, 2], ALL_BUT_Z).along(2, direction(build, &self.axis)?).between(&self.between, build),

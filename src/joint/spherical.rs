@@ -1,7 +1,7 @@
 //! Spherical joint (ball).
 
 use super::lock::{Lock, NONE};
-use super::{Built, JointSpec};
+use super::{BuiltJoint, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
 use schemars::JsonSchema;
@@ -18,7 +18,7 @@ pub struct Spherical {
 impl JointSpec for Spherical {
     const TYPE: &'static str = "spherical";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         build.needs_dimension(3, "a spherical joint", "\"revolute\"")?;
         Lock::new(&[0, 1, 2], NONE).between(&self.between, build)
     }

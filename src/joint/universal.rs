@@ -1,7 +1,7 @@
 //! Universal joint (Hooke, Cardan).
 
 use super::lock::Lock;
-use super::{Built, JointSpec};
+use super::{BuiltJoint, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
 use schemars::JsonSchema;
@@ -19,7 +19,7 @@ pub struct Universal {
 impl JointSpec for Universal {
     const TYPE: &'static str = "universal";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         build.needs_dimension(3, "a universal joint", "\"revolute\"")?;
         Lock::new(&[0, 1, 2], &[(0, 1)]).between(&self.between, build)
     }

@@ -2,7 +2,7 @@
 
 use super::lock::{ALL, Lock};
 use super::prismatic::ALL_IN_PLANE;
-use super::{Built, JointSpec};
+use super::{BuiltJoint, JointSpec};
 use crate::body::Build;
 use crate::error::Result;
 use schemars::JsonSchema;
@@ -19,7 +19,7 @@ pub struct Weld {
 impl JointSpec for Weld {
     const TYPE: &'static str = "weld";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltJoint<D>> {
         match D {
             2 => Lock::new(&[0, 1], ALL_IN_PLANE).between(&self.between, build),
             _ => Lock::new(&[0, 1, 2], ALL).between(&self.between, build),

@@ -2,10 +2,8 @@
 
 use super::Quadratic;
 use super::search::{Found, Space};
-use crate::math::eigen::{Complex, ComplexMatrix, Eigen, Matrix, Unsolved, eigen};
+use crate::math::eigen::{Complex64, ComplexMatrix, Eigen, Matrix, Unsolved, eigen};
 use crate::tolerances;
-
-type C = Complex<f64>;
 
 /// x' = A x + `inputs` f, (dq, s dq) = (P, U) x.
 pub struct Modal {
@@ -24,7 +22,7 @@ pub struct Modal {
 ///
 /// Of its modes the `count` nearest to `shift`, a pair as one, each with its own coordinates. Eigenvalues without
 /// independent vectors, such as the double zeros of rigid bodies, have a block of A together; all come where one does.
-pub fn reduce(equations: &Quadratic, found: &Found, count: usize, shift: C) -> Result<Modal, Unsolved> {
+pub fn reduce(equations: &Quadratic, found: &Found, count: usize, shift: Complex64) -> Result<Modal, Unsolved> {
     let (Space { p, u }, Space { p: b, u: w }) = (&found.right, &found.left);
     let not_found = Unsolved::NotConverged { converged: p.ncols().min(b.ncols()), wanted: p.ncols().max(b.ncols()) };
     if p.ncols() != b.ncols() {
@@ -60,23 +58,23 @@ pub fn reduce(equations: &Quadratic, found: &Found, count: usize, shift: C) -> R
 
 /// A real eigenvalue, or the one of a pair with im > 0.
 #[derive(Clone, Copy)]
-struct Unit {
+struct ModeEigenvalue {
     column: usize,
-    value: C,
+    value: Complex64,
     is_defective: bool,
 }
 
-fn units(solved: &Eigen) -> Vec<Unit> {
+fn units(solved: &Eigen) -> Vec<ModeEigenvalue> {
     let all = solved.values.iter().enumerate().filter(|(_, value)| value.im >= 0.0);
-    let unit = |(column, value): (usize, &C)| {
+    let unit = |(column, value): (usize, &Complex64)| {
         let left = solved.left.column(column).norm();
-        Unit { column, value: *value, is_defective: !(left > 0.0 && left < tolerances::DEFECTIVE_MODE) }
+        ModeEigenvalue { column, value: *value, is_defective: !(left > 0.0 && left < tolerances::DEFECTIVE_MODE) }
     };
     all.map(unit).collect()
 }
 
 /// Returns the nearest ones, from the slowest. Defective real ones come from pairs, and two are one mode.
-fn chosen(units: &[Unit], count: usize, shift: C) -> Vec<Unit> {
+fn chosen(units: &[ModeEigenvalue], count: usize, shift: Complex64) -> Vec<ModeEigenvalue> {
     let mut order: Vec<usize> = (0..units.len()).collect();
     let far = |k: usize| (units[k].value - shift).norm();
     order.sort_by(|&i, &j| far(i).total_cmp(&far(j)));
@@ -90,13 +88,13 @@ fn chosen(units: &[Unit], count: usize, shift: C) -> Vec<Unit> {
     order.into_iter().map(|k| units[k]).collect()
 }
 
-type Column = nalgebra::DVector<f64>;
-type Row = nalgebra::RowDVector<f64>;
+type ColumnVector = nalgebra::DVector<f64>;
+type RowVector = nalgebra::RowDVector<f64>;
 
 /// Coordinates: x = columns z, z = rows x.
 struct Blocks {
-    columns: Vec<Column>,
-    rows: Vec<Row>,
+    columns: Vec<ColumnVector>,
+    rows: Vec<RowVector>,
     /// Diagonal blocks of A.
     a: Vec<Matrix>,
     states: Vec<String>,
@@ -105,10 +103,10 @@ struct Blocks {
 impl Blocks {
     /// Adds a mode whose largest change of a coordinate is 1: x = 2 Re(c v) has the coordinates 2 Re(c), -2 Im(c) along
     /// Re(v) and Im(v).
-    fn add(&mut self, number: usize, unit: &Unit, solved: &Eigen, p: &Matrix) {
-        let shape = p.map(C::from) * solved.right.column(unit.column);
-        let largest = shape.iter().copied().fold(C::ZERO, |a, b| if b.norm() > a.norm() { b } else { a });
-        let size = if largest.norm() > 0.0 { largest } else { C::from(1.0) };
+    fn add(&mut self, number: usize, unit: &ModeEigenvalue, solved: &Eigen, p: &Matrix) {
+        let shape = p.map(Complex64::from) * solved.right.column(unit.column);
+        let largest = shape.iter().copied().fold(Complex64::ZERO, |a, b| if b.norm() > a.norm() { b } else { a });
+        let size = if largest.norm() > 0.0 { largest } else { Complex64::from(1.0) };
         let right = solved.right.column(unit.column) / size;
         let left = solved.left.column(unit.column).map(|y| y.conj() * size).transpose();
         let value = unit.value;
@@ -127,10 +125,10 @@ impl Blocks {
     }
 
     /// Adds one block for all defective eigenvalues: the complement to which all other vectors are orthogonal.
-    fn share(&mut self, units: &[Unit], solved: &Eigen, a: &Matrix) -> Result<(), Unsolved> {
-        let rest: Vec<&Unit> = units.iter().filter(|unit| !unit.is_defective).collect();
-        let real = |vectors: &ComplexMatrix| -> Vec<Column> {
-            let parts = |unit: &&Unit| {
+    fn share(&mut self, units: &[ModeEigenvalue], solved: &Eigen, a: &Matrix) -> Result<(), Unsolved> {
+        let rest: Vec<&ModeEigenvalue> = units.iter().filter(|unit| !unit.is_defective).collect();
+        let real = |vectors: &ComplexMatrix| -> Vec<ColumnVector> {
+            let parts = |unit: &&ModeEigenvalue| {
                 let vector = vectors.column(unit.column);
                 let both = [vector.map(|x| x.re), vector.map(|x| x.im)];
                 both.into_iter().take(if unit.value.im == 0.0 { 1 } else { 2 })
@@ -160,7 +158,7 @@ impl Blocks {
 }
 
 /// Returns an orthonormal basis of the orthogonal complement of independent columns.
-fn complement(columns: &[Column], n: usize) -> Matrix {
+fn complement(columns: &[ColumnVector], n: usize) -> Matrix {
     let mut all = Matrix::zeros(n, n);
     all.column_iter_mut().zip(columns).for_each(|(mut to, from)| to.copy_from(&from.normalize()));
     let basis = all.qr().q();

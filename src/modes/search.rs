@@ -2,14 +2,12 @@
 
 use super::Quadratic;
 use super::shifted::Shifted;
-use crate::math::eigen::{Complex, Matrix, Options, Partial, Scalar, Unsolved, nearest};
+use crate::math::eigen::{Complex64, Matrix, Options, Partial, Scalar, Unsolved, nearest};
 use crate::math::kkt::Singular;
 use crate::tolerances;
 
 /// The shift for the slowest modes, off the eigenvalues 0 of rigid bodies. Unit: `[1]` of the last of them.
 const SHIFT_OF_SLOWEST: f64 = 0.02;
-
-type C = Complex<f64>;
 
 /// A real basis of an invariant space of the pencil in (p, s p).
 pub struct Space {
@@ -27,24 +25,24 @@ pub struct Found<'a> {
 /// (A - sigma E)^-1 E of a real or a complex shift sigma.
 pub enum Operator<'a> {
     Real(Shifted<'a, f64>),
-    Complex(Shifted<'a, C>),
+    Complex(Shifted<'a, Complex64>),
 }
 
 impl Operator<'_> {
     /// Returns |op x - theta x| / |theta x| of x in the coordinates of the equations and theta = 1 / (value - sigma).
-    pub fn residual(&mut self, value: C, x: impl Iterator<Item = C>) -> Result<f64, Unsolved> {
+    pub fn residual(&mut self, value: Complex64, x: impl Iterator<Item = Complex64>) -> Result<f64, Unsolved> {
         let (sigma, scale) = match self {
-            Operator::Real(operator) => (C::from(operator.sigma), &operator.scale),
+            Operator::Real(operator) => (Complex64::from(operator.sigma), &operator.scale),
             Operator::Complex(operator) => (operator.sigma, &operator.scale),
         };
-        let x: Vec<C> = x.zip(scale).map(|(x, scale)| x * *scale).collect();
-        let mut image = vec![C::ZERO; x.len()];
+        let x: Vec<Complex64> = x.zip(scale).map(|(x, scale)| x * *scale).collect();
+        let mut image = vec![Complex64::ZERO; x.len()];
         match self {
             Operator::Complex(operator) => operator.apply(&x, &mut image)?,
             Operator::Real(operator) => {
                 let mut part = vec![0.0; x.len()];
                 let mut of_part = vec![0.0; x.len()];
-                for unit in [C::ONE, C::I] {
+                for unit in [Complex64::ONE, Complex64::I] {
                     part.iter_mut().zip(&x).for_each(|(part, x)| *part = (unit.conj() * x).re);
                     operator.apply(&part, &mut of_part)?;
                     image.iter_mut().zip(&of_part).for_each(|(image, of_part)| *image += unit * *of_part);
@@ -52,14 +50,14 @@ impl Operator<'_> {
             }
         }
         let theta = (value - sigma).inv();
-        let norm = |all: &mut dyn Iterator<Item = C>| all.map(|x| x.norm_sqr()).sum::<f64>().sqrt();
+        let norm = |all: &mut dyn Iterator<Item = Complex64>| all.map(|x| x.norm_sqr()).sum::<f64>().sqrt();
         let off = norm(&mut image.iter().zip(&x).map(|(image, x)| image - theta * x));
         Ok(off / (theta.norm() * norm(&mut x.iter().copied())).max(f64::MIN_POSITIVE))
     }
 }
 
 /// Finds eigenvalues that include the `count` modes nearest to `shift` (im >= 0).
-pub fn find<'a>(equations: [&'a Quadratic; 2], count: usize, shift: C) -> Result<Found<'a>, Unsolved> {
+pub fn find<'a>(equations: [&'a Quadratic; 2], count: usize, shift: Complex64) -> Result<Found<'a>, Unsolved> {
     let each = if shift.im > 0.0 { 1 } else { 2 };
     let mut wanted = (each * count + count / 8 + 6).min(equations[0].finite);
     let (sigma, rate) = if shift.norm() > 0.0 {
@@ -78,12 +76,12 @@ pub fn find<'a>(equations: [&'a Quadratic; 2], count: usize, shift: C) -> Result
 }
 
 /// Returns the right and the left space of `count` modes; `wanted` eigenvalues are tried first.
-fn spaces<'a, T: Scalar + Into<C>>(
+fn spaces<'a, T: Scalar + Into<Complex64>>(
     adjoint: &Quadratic,
     mut operator: Shifted<'a, T>,
     count: usize,
     mut wanted: usize,
-    shift: C,
+    shift: Complex64,
     rate: f64,
 ) -> Result<([Space; 2], Shifted<'a, T>), Unsolved> {
     let total = adjoint.finite;
@@ -124,7 +122,7 @@ fn beside<T: Scalar>(equations: &Quadratic, mut sigma: T, rate: f64) -> Result<S
 
 /// A shift a little above zero and the rate of the last of the `count` slowest eigenvalues, from a search that starts
 /// far below the fastest. `count` grows until they are not all zero.
-fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolved> {
+fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(Complex64, f64), Unsolved> {
     let fastest = equations.fastest();
     let mut sigma = 1e-5 * fastest;
     for _ in 0..10 {
@@ -145,11 +143,11 @@ fn slowest(equations: &Quadratic, count: &mut usize) -> Result<(C, f64), Unsolve
         }
         let next = (SHIFT_OF_SLOWEST * last).max(tolerances::HALF_OF_THE_DIGITS * fastest);
         if used <= last && used >= 1e-4 * last || next >= used && sigma < used {
-            return Ok((C::from(next), last.max(next)));
+            return Ok((Complex64::from(next), last.max(next)));
         }
         sigma = next;
     }
-    Ok((C::from(sigma), sigma / SHIFT_OF_SLOWEST))
+    Ok((Complex64::from(sigma), sigma / SHIFT_OF_SLOWEST))
 }
 
 /// Returns the number of values to keep: up to the widest gap among the last ones, so that no pair is parted and both
@@ -167,7 +165,7 @@ fn cut<T: Scalar>(partial: &Partial<T>, is_all: bool) -> Option<usize> {
 
 /// Returns the number of modes that are certainly nearest to `shift` when all within the radius of the first `cut`
 /// values about sigma are known. A pair is one; so are two real eigenvalues, which may be a double zero.
-fn modes<T: Scalar>(partial: &Partial<T>, cut: usize, sigma: C, shift: C) -> usize {
+fn modes<T: Scalar>(partial: &Partial<T>, cut: usize, sigma: Complex64, shift: Complex64) -> usize {
     let radius = (1.0 + tolerances::EIGENVALUES_AGREE) / partial.values[cut - 1].norm() - (sigma - shift).norm();
     let values = partial.values.iter().take(cut).map(|theta| (sigma + theta.inv(), theta.norm().recip()));
     let inside = values.filter(|(value, _)| (value - shift).norm() <= radius);

@@ -10,9 +10,9 @@ use serde_json::{Map, Value, json};
 pub fn schema(elements: &Elements) -> Value {
     let mut root = elements.schema();
     let methods = [
-        ("formulation", methods::<formulation::Entry>(elements)),
+        ("formulation", methods::<formulation::FormulationEntry>(elements)),
         ("integrator", methods::<integrator::Entry>(elements)),
-        ("projection", methods::<projection::Entry>(elements)),
+        ("projection", methods::<projection::ProjectionEntry>(elements)),
     ];
     for (key, names) in methods {
         let place = &mut root["$defs"]["Simulation"]["properties"][key];

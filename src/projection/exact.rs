@@ -1,6 +1,6 @@
 //! Coordinate projection, iterated to round-off.
 
-use super::{Entry, Projection, move_back};
+use super::{Projection, ProjectionEntry, move_back};
 use crate::error::Result;
 use crate::formulation::{Dynamics, StepError};
 use crate::math::newton::{Limits, Monitor};
@@ -17,7 +17,7 @@ use crate::tolerances;
 /// residual no longer falls. Order of the integrator kept; a residual that stagnates above its tolerance is an error.
 /// One evaluation and factorization per iteration, and one more, which the velocities share with the test of the
 /// residual.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: ProjectionEntry = ProjectionEntry {
     name: "exact",
     about: "positions by Newton's method to round-off, then velocities",
     options: &[OptionDoc { name: "iterations", about: "most Newton iterations (default 10)" }],

@@ -1,7 +1,7 @@
 //! Projections: corrections after a step that move the state back to the constraints.
 //!
-//! To add one: a line in [`registry`], with a file where it is more than a choice of F; from outside the crate, an
-//! [`Entry`] and its [`spec`](Listed::spec), as in `tests/examples/own_projection.rs`.
+//! To add one: a line in [`registry`], with a file where it is more than a choice of F; from outside the crate, a
+//! [`ProjectionEntry`] and its [`spec`](Listed::spec), as in `tests/examples/own_projection.rs`.
 
 mod exact;
 mod post_stabilization;
@@ -29,7 +29,7 @@ pub trait Projection: Send {
 }
 
 /// One projection as the command line, the scene format and the table of methods know it.
-pub struct Entry {
+pub struct ProjectionEntry {
     /// Name in the scene format and on the command line.
     pub name: &'static str,
     /// One line for the table of methods.
@@ -42,7 +42,7 @@ pub struct Entry {
 
 type Make = fn(&MethodSpec, &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>>;
 
-impl Listed for Entry {
+impl Listed for ProjectionEntry {
     const KIND: &'static str = "projection";
 
     fn registry() -> &'static [Self] {
@@ -59,7 +59,7 @@ impl Listed for Entry {
 }
 
 /// Every projection, in the order of the documentation.
-pub fn registry() -> &'static [Entry] {
+pub fn registry() -> &'static [ProjectionEntry] {
     &[
         NONE,
         post_stabilization::POSITION,
@@ -70,12 +70,12 @@ pub fn registry() -> &'static [Entry] {
     ]
 }
 
-const NONE: Entry =
-    Entry { name: "none", about: "the state as the integrator left it", options: &[], make: |_, _| Ok(None) };
+const NONE: ProjectionEntry =
+    ProjectionEntry { name: "none", about: "the state as the integrator left it", options: &[], make: |_, _| Ok(None) };
 
 /// The projection that `spec` names, for `system`; `None` where there are no constraints.
 pub fn make(spec: &MethodSpec, system: &dyn MechanicalSystem) -> Result<Option<Box<dyn Projection>>> {
-    let made = (spec.entry::<Entry>()?.make)(spec, system)?;
+    let made = (spec.entry::<ProjectionEntry>()?.make)(spec, system)?;
     Ok(made.filter(|_| system.dimensions().lambda > 0))
 }
 

@@ -1,6 +1,6 @@
 //! Post-stabilization: z -= F(z) h(z) after each step.
 
-use super::{Entry, Projection, move_back};
+use super::{Projection, ProjectionEntry, move_back};
 use crate::error::Result;
 use crate::formulation::{Dynamics, Stabilizer, StabilizingField, StepError};
 use crate::method_spec::{MethodSpec, OptionDoc};
@@ -9,7 +9,7 @@ use crate::system::{MechanicalSystem, Need};
 const SWEEPS: OptionDoc = OptionDoc { name: "sweeps", about: "how often F h is evaluated and taken off (default 1)" };
 
 /// S-pos: corrects phi only; G v + phi_t drifts, faster than without.
-pub const POSITION: Entry = Entry {
+pub const POSITION: ProjectionEntry = ProjectionEntry {
     name: "position",
     about: "S-pos: only phi is held, drift of the velocities remains",
     options: &[SWEEPS],
@@ -17,7 +17,7 @@ pub const POSITION: Entry = Entry {
 };
 
 /// S-vel: corrects G v + phi_t only; phi drifts slowly.
-pub const VELOCITY: Entry = Entry {
+pub const VELOCITY: ProjectionEntry = ProjectionEntry {
     name: "velocity",
     about: "S-vel: only G v + phi_t is held, drift of the positions remains",
     options: &[SWEEPS],
@@ -27,7 +27,7 @@ pub const VELOCITY: Entry = Entry {
 /// S-both, the method of choice: one factorization and two back-substitutions. Drift of phi O(h^{2(p+1)}), of
 /// G v + phi_t O(h^{p+1}); with two sweeps O(h^{2(p+1)}) and round-off. Order p of the integrator is kept in q, v and
 /// lambda.
-pub const MANIFOLD: Entry = Entry {
+pub const MANIFOLD: ProjectionEntry = ProjectionEntry {
     name: "manifold",
     about: "S-both: one factorization, two back-substitutions; drift O(h^2(p+1)), O(h^(p+1))",
     options: &[OptionDoc { name: "sweeps", about: "1 (default) or 2: with 2 both levels reach O(h^2(p+1))" }],
@@ -35,7 +35,7 @@ pub const MANIFOLD: Entry = Entry {
 };
 
 /// S-full: least change of (q, v) onto both levels, with L = d(G v)/dq; drift O(h^{2(p+1)}) on both.
-pub const FULL: Entry = Entry {
+pub const FULL: ProjectionEntry = ProjectionEntry {
     name: "full",
     about: "S-full: F = H^T (H H^T)^-1 with second derivatives; drift O(h^2(p+1)) on both levels",
     options: &[SWEEPS, OptionDoc { name: "metric", about: "identity (default) or mass" }],

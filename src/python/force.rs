@@ -3,7 +3,7 @@
 use crate::Result;
 use crate::body::{Build, Wrench, sub};
 use crate::error::Error;
-use crate::force::{Action, Built, ForceKernel, ForceSpec, Instant, Motion};
+use crate::force::{Action, BuiltForce, ForceKernel, ForceSpec, Instant, Motion};
 use crate::math::Scalar;
 use crate::math::array::from_fn;
 use crate::simulate::Stop;
@@ -41,7 +41,7 @@ pub struct PythonForce {
 impl ForceSpec for PythonForce {
     const TYPE: &'static str = "python";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltForce<D>> {
         let function = Python::attach(|py| {
             let kept = py.import("holonom._functions")?.getattr("kept")?;
             kept.get_item(self.function).map(Bound::unbind)
@@ -51,15 +51,15 @@ impl ForceSpec for PythonForce {
                 .under("function")
                 .hint("make the scene again, from a dict with the function in it")
         })?;
-        Ok(Built { force: Box::new(Law { function }), markers: build.between(&self.between)? })
+        Ok(BuiltForce { force: Box::new(PythonLaw { function }), markers: build.between(&self.between)? })
     }
 }
 
-struct Law {
+struct PythonLaw {
     function: Py<PyAny>,
 }
 
-impl Law {
+impl PythonLaw {
     /// Calls the function. An exception is noted, and ends the run by a force that is no number.
     fn call<const D: usize>(&self, t: f64, r: &[f64; D], v: &[f64; D]) -> [f64; D] {
         let called = Python::attach(|py| {
@@ -114,7 +114,7 @@ fn beside<const D: usize>(x: &[f64; D], k: usize, step: f64) -> [f64; D] {
     from_fn(|i| if i == k { x[i] + step } else { x[i] })
 }
 
-impl<const D: usize> ForceKernel<D> for Law {
+impl<const D: usize> ForceKernel<D> for PythonLaw {
     fn act<S: Scalar>(&self, frames: &Motion<S, D>, time: Instant<S>, out: &mut [Wrench<S, D>]) -> Action<S> {
         let gap = sub(&frames[1].r, &frames[0].r);
         let force = self.force(time.t.x, gap.map(|r| r.x), gap.map(|r| r.d));

@@ -9,12 +9,12 @@ use pyo3::types::PyDict;
 
 /// Rows, one after the other.
 #[derive(Default)]
-struct Table {
+struct RowTable {
     columns: usize,
     values: Vec<f64>,
 }
 
-impl Table {
+impl RowTable {
     fn add(&mut self, row: &[f64]) {
         self.columns = row.len();
         self.values.extend_from_slice(row);
@@ -32,13 +32,13 @@ impl Table {
 
 /// The rows of a run, with the drift and the energies at each.
 #[derive(Default)]
-pub struct Rows {
-    values: Table,
-    drift: Table,
-    energy: Table,
+pub struct RunRows {
+    values: RowTable,
+    drift: RowTable,
+    energy: RowTable,
 }
 
-impl Rows {
+impl RunRows {
     pub fn add(&mut self, row: &Row) {
         self.values.add(row.values);
         self.drift.add(&row.drift);

@@ -2,7 +2,7 @@
 
 use super::errors::{raised, refused};
 use super::force;
-use super::rows::Rows;
+use super::rows::RunRows;
 use super::signals::on_thread;
 use crate::abandoned;
 use crate::cli::common::to_json;
@@ -25,14 +25,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// The options of `simulate` but those of files.
 #[derive(Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
-struct Options {
+struct SimulateOptions {
     #[command(flatten)]
     options: RunOptions,
 }
 
 /// A run with its rows.
 struct Finished {
-    rows: Rows,
+    rows: RunRows,
     /// Columns of the rows; it has no rows itself.
     columns: Trajectory,
     summary: Summary,
@@ -92,13 +92,13 @@ fn units(columns: Vec<Column>) -> Map<String, Value> {
 fn parsed(words: &[String]) -> PyResult<RunOptions> {
     // Warnings are returned, not printed.
     let quiet = [String::from("--quiet")];
-    let parsed = Options::try_parse_from(words.iter().chain(&quiet)).map_err(|error| refused(&error))?;
+    let parsed = SimulateOptions::try_parse_from(words.iter().chain(&quiet)).map_err(|error| refused(&error))?;
     Ok(parsed.options)
 }
 
 fn finished(options: &RunOptions, words: Vec<String>, is_asked: &AtomicBool) -> Result<Finished> {
     let ready = options.ready(true)?;
-    let rows = RefCell::new(Rows::default());
+    let rows = RefCell::new(RunRows::default());
     let mut recorder = ready.recorder().with_stop(|| force::stop().or_else(|| stop(is_asked)));
     // A comparison of two runs needs all rows.
     if !options.check_error {

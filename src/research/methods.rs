@@ -5,11 +5,11 @@
 //! [The guide](crate::guide::rust) has a complete integrator, the pages of [`Projection`] and [`Formulation`] one each.
 
 pub use crate::formulation::{
-    Dae, Dynamics, Entry as FormulationEntry, Formulation, MakeField as MakeFormulation, Row as DaeRow, StepError,
+    Dae, Dynamics, Formulation, FormulationEntry, MakeField as MakeFormulation, Row as DaeRow, StepError,
 };
 pub use crate::integrator::{
     Accepted, Control, Dense, Entry as IntegratorEntry, ErrorEstimate, Explicit, From as StepStart, Integrator,
     Problem, Setup, Stability, Step, Steps, Tableau, Tightening, Tolerance,
 };
 pub use crate::method_spec::{Listed, OptionDoc};
-pub use crate::projection::{Entry as ProjectionEntry, Projection};
+pub use crate::projection::{Projection, ProjectionEntry};

@@ -14,7 +14,7 @@ use super::beam_mass::NodeMass;
 use super::keys::start_and_markers;
 use super::markers;
 use crate::body::flexible::{Damping, FlexibleBeam, MOST_ELEMENTS, Profile, ReferenceLine, Section, curvature};
-use crate::body::{Body, Build, Built, Frame, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
+use crate::body::{Body, Build, BuiltBody, Frame, Marker, RigidPlanar, RigidSpatial, SHARED_KEYS, cross, parse_among};
 use crate::error::{Error, Result, short};
 use crate::force::{Beam, Half, Station};
 use crate::math::array::{Each, from_fn};
@@ -105,7 +105,7 @@ pub struct AbsoluteBeam<const D: usize> {
     abscissae: Vec<f64>,
     /// Index of the node, name, and the marker in the node's axes.
     markers: Vec<(usize, String, Marker<D>)>,
-    start: Start<D>,
+    start: BeamStart<D>,
 }
 
 /// Keys of a beam in a floating frame, refused here.
@@ -134,13 +134,13 @@ impl<const D: usize> AbsoluteBeam<D> {
             damping: damping(spec.damping.as_ref(), build).map_err(|error| error.under("damping"))?,
             markers: named.into_iter().map(at_node).collect::<Result<_>>()?,
             abscissae,
-            start: initial.motion(build).map(|(q, v)| Start { q, v })?,
+            start: initial.motion(build).map(|(q, v)| BeamStart { q, v })?,
         })
     }
 
     /// The nodes from left to right: names of their markers, and bodies that start at rest in the relaxed beam, which
     /// moves like a rigid body.
-    pub fn nodes(&self) -> Vec<(Vec<String>, Built<D>)> {
+    pub fn nodes(&self) -> Vec<(Vec<String>, BuiltBody<D>)> {
         let node = |node: usize| {
             let here = || self.markers.iter().filter(move |(at, ..)| *at == node);
             let mass = NodeMass::of(&self.profile, &self.abscissae, node);
@@ -154,7 +154,7 @@ impl<const D: usize> AbsoluteBeam<D> {
             let markers = frames.chain(here().map(|(_, _, marker)| *marker)).map(from_centre).collect();
             let names = here().map(|(_, name, _)| name.clone()).collect();
             let (q, v) = self.start.at(self.abscissae[node], mass.shift(), &self.line);
-            (names, Built { body: body(&mass, &q, markers), q, v })
+            (names, BuiltBody { body: body(&mass, &q, markers), q, v })
         };
         (0..self.abscissae.len()).map(node).collect()
     }
@@ -266,12 +266,12 @@ fn check_marker(name: &str, s: f64, abscissae: &[f64]) -> Result<usize> {
 }
 
 /// Coordinates and velocities of the beam at the start, as of a rigid body with its origin at the left end.
-struct Start<const D: usize> {
+struct BeamStart<const D: usize> {
     q: Vec<f64>,
     v: Vec<f64>,
 }
 
-impl<const D: usize> Start<D> {
+impl<const D: usize> BeamStart<D> {
     /// Coordinates and velocities of the node at `s`, with its centre of mass `ahead` of it.
     fn at(&self, s: f64, ahead: f64, line: &ReferenceLine) -> (Vec<f64>, Vec<f64>) {
         let (axes, node) = line.at(s);

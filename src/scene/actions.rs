@@ -2,7 +2,7 @@
 
 use super::keys::{find, wrong_component};
 use super::kinematics::Elements;
-use super::measures::{On, OutputSpec, Side};
+use super::measures::{BodySide, On, OutputSpec};
 use super::model::{Connection, FORCE_SIZE, Measure, ModelJoint, TORQUE_SIZE};
 use crate::body::{Build, MarkerId};
 use crate::error::{Error, Result};
@@ -48,8 +48,8 @@ pub fn reaction<const D: usize>(spec: &OutputSpec, elements: Elements<D>, build:
 /// Place, among the markers of a joint, of that on whose body a reaction acts.
 fn slot<const D: usize>(spec: &OutputSpec, given: &ModelJoint<D>, build: &Build<D>) -> Result<usize> {
     let name = match &spec.on {
-        Some(On::Side(Side::First)) => return Ok(0),
-        Some(On::Side(Side::Second)) => return Ok(second(given)),
+        Some(On::Side(BodySide::First)) => return Ok(0),
+        Some(On::Side(BodySide::Second)) => return Ok(second(given)),
         // The order of the terms of an expression says nothing.
         None if given.kind == "equation" && given.markers.len() > 1 => {
             let error = Error::input(format!("`{}` acts on {} markers", given.name, given.markers.len()));
@@ -88,11 +88,11 @@ pub fn force<const D: usize>(spec: &OutputSpec, elements: Elements<D>, build: &B
                 .under("on")
                 .hint("write first or second"));
         }
-        Some(On::Side(Side::Second)) if acted < 2 => {
+        Some(On::Side(BodySide::Second)) if acted < 2 => {
             return Err(Error::input(format!("`{of}` acts on one marker alone")).under("on").hint("remove it"));
         }
-        Some(On::Side(Side::Second)) => 1,
-        Some(On::Side(Side::First)) => 0,
+        Some(On::Side(BodySide::Second)) => 1,
+        Some(On::Side(BodySide::First)) => 0,
         // An applied force is given as it acts at its own marker.
         None if given.element.input() == InputKind::Component => 0,
         None => 1.min(acted - 1),

@@ -20,8 +20,8 @@ pub fn joints<const D: usize>(
     elements(&named.file.joints, "joints", "joint", kinds, build, make, see)
 }
 
-type BuildJoint<const D: usize> = fn(Value, &Build<D>) -> Result<crate::joint::Built<D>>;
-type BuildForce<const D: usize> = fn(Value, &Build<D>) -> Result<crate::force::Built<D>>;
+type BuildJoint<const D: usize> = fn(Value, &Build<D>) -> Result<crate::joint::BuiltJoint<D>>;
+type BuildForce<const D: usize> = fn(Value, &Build<D>) -> Result<crate::force::BuiltForce<D>>;
 
 pub fn forces<const D: usize>(
     named: &Named<D>,

@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 
-type Make = fn(usize) -> Value;
+type MakeScene = fn(usize) -> Value;
 
 /// Every scalable scene: its name, and the scene for n loops or links.
-pub fn registry() -> &'static [(&'static str, Make)] {
+pub fn registry() -> &'static [(&'static str, MakeScene)] {
     &[("n_four_bar", n_four_bar), ("chain", chain), ("flexible_chain", flexible_chain)]
 }
 

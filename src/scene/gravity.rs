@@ -2,7 +2,7 @@
 
 use super::format::CentralGravity as Spec;
 use super::model::{Connection, ModelForce, Part};
-use super::parts::Parts;
+use super::parts::SceneParts;
 use crate::body::{Build, parse};
 use crate::error::{Error, Result};
 use crate::force::CentralGravity;
@@ -23,7 +23,7 @@ pub fn uniform<const D: usize>(given: &Option<Value>, build: &Build<D>) -> Resul
 /// The forces of gravity towards a point, one on each body that has a mass and may move along an axis.
 pub fn central<const D: usize>(
     given: &Option<Value>,
-    Parts { bodies, beams, ground, .. }: &Parts<D>,
+    SceneParts { bodies, beams, ground, .. }: &SceneParts<D>,
     build: &Build<D>,
 ) -> Result<Vec<ModelForce<D>>> {
     let Some(given @ Value::Object(_)) = given else { return Ok(Vec::new()) };

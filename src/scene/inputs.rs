@@ -2,7 +2,7 @@
 
 use super::format::InputSpec;
 use super::keys::{find, missing, named_component, taken};
-use super::model::{Connection, Input, ModelForce, ModelJoint, Target};
+use super::model::{Connection, ModelForce, ModelInput, ModelJoint, Target};
 use crate::body::{Build, Formula, MOST_MARKERS};
 use crate::error::{Error, Result};
 use crate::force::{self, InputKind};
@@ -15,8 +15,8 @@ pub fn inputs<const D: usize>(
     joints: &mut Vec<ModelJoint<D>>,
     forces: &mut Vec<ModelForce<D>>,
     build: &Build<D>,
-) -> Result<Vec<Input>> {
-    let mut all: Vec<Input> = Vec::new();
+) -> Result<Vec<ModelInput>> {
+    let mut all: Vec<ModelInput> = Vec::new();
     for (i, spec) in specs.iter().enumerate() {
         let place = |error: Error| error.element(&spec.name).under(format!("inputs[{i}]"));
         let named = |error: Error| error.under("name").under(format!("inputs[{i}]"));
@@ -36,7 +36,7 @@ pub fn inputs<const D: usize>(
 
 const ONE_OF: &str = "give one of `force`, an applied force or torque, `driver`, a joint, and `tyre`, a force";
 
-fn input<const D: usize>(spec: &InputSpec, joints: &[ModelJoint<D>], forces: &[ModelForce<D>]) -> Result<Input> {
+fn input<const D: usize>(spec: &InputSpec, joints: &[ModelJoint<D>], forces: &[ModelForce<D>]) -> Result<ModelInput> {
     let (target, unit) = match (&spec.force, &spec.driver, &spec.tyre) {
         (Some(force), None, None) => component(force, spec.component.as_deref(), forces)?,
         (None, Some(joint), None) => driver(joint, joints)?,
@@ -51,7 +51,7 @@ fn input<const D: usize>(spec: &InputSpec, joints: &[ModelJoint<D>], forces: &[M
         let error = Error::input(format!("there is no component `{name}`: this input is a displacement"));
         return Err(error.under("component").hint("remove it"));
     }
-    Ok(Input { name: spec.name.clone(), target, unit, value: None })
+    Ok(ModelInput { name: spec.name.clone(), target, unit, value: None })
 }
 
 /// Index of the element of this name.

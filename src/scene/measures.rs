@@ -104,7 +104,7 @@ pub enum MeasureKind {
 #[serde(untagged)]
 pub enum On {
     /// By the order of the markers.
-    Side(Side),
+    Side(BodySide),
     /// By its name.
     Body(String),
 }
@@ -112,7 +112,8 @@ pub enum On {
 /// One of the two bodies that a joint or force is between.
 #[derive(Deserialize, JsonSchema, Clone, Copy, PartialEq, Eq, Debug)]
 #[serde(rename_all = "snake_case")]
-pub enum Side {
+#[schemars(rename = "Side")]
+pub enum BodySide {
     /// That of the first marker.
     First,
     /// That of the second marker.

@@ -48,7 +48,9 @@ pub use format::{Automatic, Simulation};
 pub use measures::MeasureKind;
 pub use model::Model;
 #[doc(hidden)]
-pub use model::{Combination, Connection, EnergyPart, Input, Measure, ModelForce, ModelJoint, Part, Target, Watched};
+pub use model::{
+    Combination, Connection, EnergyPart, Measure, ModelForce, ModelInput, ModelJoint, ModelOutput, Part, Target,
+};
 #[doc(hidden)]
 pub use model::{FORCE_SIZE, TORQUE_SIZE};
 #[doc(hidden)]

@@ -28,13 +28,13 @@ pub struct Model<const D: usize> {
     /// Flexible beams in absolute coordinates.
     pub beams: Vec<BeamLine>,
     /// Outputs in the order of the scene.
-    pub outputs: Vec<Watched>,
+    pub outputs: Vec<ModelOutput>,
     /// Powers whose integrals over a run are watched, with the names and units of these works.
-    pub works: Vec<Watched>,
+    pub works: Vec<ModelOutput>,
     /// Sections of beams in floating frames that outputs watch.
     pub cuts: Vec<Cut<D>>,
     /// Inputs u in the order of the scene.
-    pub inputs: Vec<Input>,
+    pub inputs: Vec<ModelInput>,
     /// Number of the states xi: the last bodies, and their rates the last forces.
     pub states: usize,
     /// Events at which elements change their form.
@@ -110,7 +110,7 @@ pub type ModelJoint<const D: usize> = Connection<Box<dyn Joint<D>>>;
 pub type ModelForce<const D: usize> = Connection<Box<dyn Force<D>>>;
 
 /// A named output.
-pub struct Watched {
+pub struct ModelOutput {
     /// Name of the output: a column of the trajectory and a row of C.
     pub name: String,
     /// The unit that its values are in.
@@ -265,7 +265,7 @@ impl EnergyPart {
 }
 
 /// A named input.
-pub struct Input {
+pub struct ModelInput {
     /// Name of the input in the scene.
     pub name: String,
     /// What it adds to.

@@ -3,7 +3,7 @@
 use super::keys::{missing, taken};
 use super::kinematics::Elements;
 use super::measures::{MeasureKind, On, OutputSpec};
-use super::model::{EnergyPart, Measure, TORQUE_SIZE, Watched};
+use super::model::{EnergyPart, Measure, ModelOutput, TORQUE_SIZE};
 use super::names::check_name;
 use super::place::Cut;
 use super::units::{Dimension, Unit, dimension_of};
@@ -60,7 +60,7 @@ pub fn outputs<const D: usize>(
     specs: &[OutputSpec],
     elements: Elements<D>,
     build: &Build<D>,
-) -> Result<(Vec<Watched>, Vec<Watched>, Vec<Cut<D>>)> {
+) -> Result<(Vec<ModelOutput>, Vec<ModelOutput>, Vec<Cut<D>>)> {
     let mut all = Vec::new();
     let mut works = Vec::new();
     let mut cuts = Vec::new();
@@ -71,7 +71,7 @@ pub fn outputs<const D: usize>(
         build.own("output", &spec.name);
         let unit = unit(spec, dimension(spec.measure, &measure, elements)).map_err(place)?;
         let kind = if spec.measure == MeasureKind::Work { &mut works } else { &mut all };
-        kind.push(Watched { name: spec.name.clone(), unit, measure });
+        kind.push(ModelOutput { name: spec.name.clone(), unit, measure });
     }
     Ok((all, works, cuts))
 }

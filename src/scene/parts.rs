@@ -5,13 +5,13 @@ use super::format::SceneFile;
 use super::keys::{object, start_and_markers, take_kind, take_name, taken};
 use super::markers;
 use super::model::Part;
-use crate::body::{BodyFacts, BodyKind, Build, Built, Marker, MarkerId, MarkerTable, parse, solids};
+use crate::body::{BodyFacts, BodyKind, Build, BuiltBody, Marker, MarkerId, MarkerTable, parse, solids};
 use crate::error::{Error, Result};
 use crate::math::expression::Number;
 use serde_json::{Map, Value};
 
 /// Bodies read so far, with their initial q and v.
-pub struct Parts<const D: usize> {
+pub struct SceneParts<const D: usize> {
     pub table: MarkerTable,
     pub ground: Vec<Marker<D>>,
     pub bodies: Vec<Part<D>>,
@@ -22,7 +22,7 @@ pub struct Parts<const D: usize> {
     next_force: usize,
 }
 
-impl<const D: usize> Parts<D> {
+impl<const D: usize> SceneParts<D> {
     pub fn collect(file: &SceneFile, kinds: &[BodyKind<D>], build: &Build<D>) -> Result<Self> {
         if file.bodies.is_empty() {
             return Err(Error::input("the scene has no body")
@@ -31,7 +31,7 @@ impl<const D: usize> Parts<D> {
         }
         let ground = markers::markers(&file.ground.markers, &[0.0; D], build).map_err(|error| error.under("ground"))?;
         build.switches.borrow_mut().own("the ground");
-        let mut parts = Parts::new(ground, file.forces.len());
+        let mut parts = SceneParts::new(ground, file.forces.len());
         // Copies, here and of joints and forces: a file freed piece by piece, among what stays, scatters the memory of
         // all that follows, which then takes twice as long in scenes of 10 000 loops.
         for (i, json) in file.bodies.iter().enumerate() {
@@ -41,7 +41,7 @@ impl<const D: usize> Parts<D> {
     }
 
     fn new(ground: Vec<(String, Marker<D>)>, next_force: usize) -> Self {
-        let mut parts = Parts {
+        let mut parts = SceneParts {
             table: MarkerTable::default(),
             ground: Vec::new(),
             bodies: Vec::new(),
@@ -111,7 +111,7 @@ impl<const D: usize> Parts<D> {
     }
 
     /// Adds a body; `markers` are the full names of its markers after its own frame.
-    fn place(&mut self, name: String, markers: impl Iterator<Item = String>, built: Built<D>) {
+    fn place(&mut self, name: String, markers: impl Iterator<Item = String>, built: BuiltBody<D>) {
         let index = self.bodies.len();
         let first_marker = self.table.names.len();
         let facts = built.body.facts();
@@ -122,13 +122,13 @@ impl<const D: usize> Parts<D> {
     }
 
     /// Adds a state: a body whose marker no reference can name.
-    pub fn place_state(&mut self, name: &str, built: Built<D>) {
+    pub fn place_state(&mut self, name: &str, built: BuiltBody<D>) {
         let first_marker = self.table.names.len();
         self.table.add_state(name.to_string(), self.bodies.len());
         self.add_part(name.to_string(), first_marker, built.body.facts(), built);
     }
 
-    fn add_part(&mut self, name: String, first_marker: MarkerId, facts: BodyFacts, built: Built<D>) {
+    fn add_part(&mut self, name: String, first_marker: MarkerId, facts: BodyFacts, built: BuiltBody<D>) {
         let first_q = self.q.len();
         let first_v = self.v.len();
         let nq = built.q.len();

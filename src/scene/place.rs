@@ -1,6 +1,6 @@
 //! Places on beams that outputs watch.
 
-use crate::body::flexible::{Inertia, PointShape};
+use crate::body::flexible::{MassIntegrals, PointShape};
 use crate::body::{Frame, Marker, MarkerId, dot, sub};
 use crate::force::{Beam, Half, Load, Station};
 use crate::math::array::from_fn;
@@ -82,7 +82,7 @@ pub struct Cut<const D: usize> {
     /// Axes of the undeformed section in the body's frame.
     pub axes: Marker<D>,
     /// The body's mass beyond the section.
-    pub beyond: Inertia<D>,
+    pub beyond: MassIntegrals<D>,
     /// Pairs (joint, slot): `slot` is the place, among the joint's markers, of one that is beyond the section.
     pub joints: Vec<(usize, usize)>,
     /// Pairs (force, slot) of the markers beyond, likewise.

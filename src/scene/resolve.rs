@@ -4,10 +4,10 @@ use super::absolute_beam::BeamLine;
 use super::elements::{Elements, Kinds};
 use super::format::{Dimension, SceneFile};
 use super::kinematics::{self, Named};
-use super::model::{Connection, Input, Model, ModelForce, ModelJoint, Part, Watched};
+use super::model::{Connection, Model, ModelForce, ModelInput, ModelJoint, ModelOutput, Part};
 use super::names::check_scene_name;
 use super::outputs;
-use super::parts::Parts;
+use super::parts::SceneParts;
 use super::place::Cut;
 use super::{AnyModel, Scene, connections, gravity, inputs, markers, signals, start, states};
 use crate::body::{Build, Switches, Turning};
@@ -42,7 +42,7 @@ pub fn build(file: SceneFile, elements: &Elements, overrides: &[(String, Number)
 }
 
 /// The model, what [`Scene::held`] is, and the initial q and v.
-type Models = (AnyModel, [Option<Box<AnyModel>>; 2], Vec<f64>, Vec<f64>);
+type ResolvedModels = (AnyModel, [Option<Box<AnyModel>>; 2], Vec<f64>, Vec<f64>);
 
 fn models<const D: usize>(
     file: &SceneFile,
@@ -50,7 +50,7 @@ fn models<const D: usize>(
     parameters: &Parameters,
     folder: &Path,
     any: fn(Model<D>) -> AnyModel,
-) -> Result<Models> {
+) -> Result<ResolvedModels> {
     let (own, q, v, rows) = model(file, kinds, parameters, folder)?;
     let with = |rows: Vec<_>| {
         let more = (!rows.is_empty()).then(|| model(file, kinds, parameters, folder));
@@ -89,7 +89,7 @@ fn model<const D: usize>(
     };
     build.gravity = gravity::uniform(&file.gravity, &build)?;
     let gravity = build.gravity;
-    let mut parts = Parts::collect(file, &kinds.bodies, &build)?;
+    let mut parts = SceneParts::collect(file, &kinds.bodies, &build)?;
     outputs::check_names(&file.outputs)?;
     states::place(&file.states, &file.outputs, &mut parts, &build)?;
     let named = Named { file, elements: Default::default() };
@@ -104,14 +104,14 @@ fn model<const D: usize>(
 struct Links<const D: usize> {
     joints: Vec<ModelJoint<D>>,
     forces: Vec<ModelForce<D>>,
-    outputs: Vec<Watched>,
-    works: Vec<Watched>,
+    outputs: Vec<ModelOutput>,
+    works: Vec<ModelOutput>,
     cuts: Vec<Cut<D>>,
-    inputs: Vec<Input>,
+    inputs: Vec<ModelInput>,
 }
 
 impl<const D: usize> Links<D> {
-    fn read(named: &Named<D>, kinds: &Kinds<D>, parts: &Parts<D>, build: &Build<D>) -> Result<Self> {
+    fn read(named: &Named<D>, kinds: &Kinds<D>, parts: &SceneParts<D>, build: &Build<D>) -> Result<Self> {
         let file = named.file;
         let mut joints = connections::joints(named, &kinds.joints, build)?;
         let mut forces = connections::forces(named, &kinds.forces, build)?;
@@ -119,7 +119,7 @@ impl<const D: usize> Links<D> {
         let inputs = inputs::inputs(&file.inputs, &mut joints, &mut forces, build)?;
         forces.extend(gravity::central(&file.gravity, parts, build)?);
         forces.extend(states::rates(&file.states, build)?);
-        let Parts { bodies, beams, .. } = parts;
+        let SceneParts { bodies, beams, .. } = parts;
         let placed = &named.elements.borrow();
         let elements = kinematics::Elements { bodies, beams, joints: &joints, forces: &forces, placed };
         let (outputs, works, cuts) = outputs::outputs(&file.outputs, elements, build)?;
@@ -139,13 +139,13 @@ fn line_elements<const D: usize>(beam: &BeamLine, bodies: &[Part<D>]) -> impl It
 
 /// The model, with the initial q and v.
 fn joined<const D: usize>(
-    parts: Parts<D>,
+    parts: SceneParts<D>,
     links: Links<D>,
     gravity: [f64; D],
     switches: Switches,
     turnings: Vec<Turning>,
 ) -> (Model<D>, Vec<f64>, Vec<f64>) {
-    let Parts { table: markers, ground, bodies, beams, mut q, v, .. } = parts;
+    let SceneParts { table: markers, ground, bodies, beams, mut q, v, .. } = parts;
     let Links { joints, forces, outputs, works, cuts, inputs } = links;
     let states = markers.states.len();
     let extent = extent(&bodies, &q);

@@ -87,7 +87,7 @@ fn given(points: &[[Number; 2]], parameters: &Parameters) -> Result<Vec<[f64; 2]
 }
 
 /// Two columns of a table.
-struct Table {
+struct SignalTable {
     points: Vec<[f64; 2]>,
     /// Line of each point.
     lines: Vec<u64>,
@@ -95,7 +95,7 @@ struct Table {
 
 /// Two columns of a table with headings: CSV with commas, semicolons, tabs or blanks. Lines that begin with # are
 /// comments; a first line without numbers has the units.
-fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Table> {
+fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<SignalTable> {
     let path = folder.join(file);
     let text = crate::files::read_text(&path).map_err(|problem| {
         let problem = super::explain(&path, &problem);
@@ -115,11 +115,11 @@ fn table(folder: &Path, file: &str, columns: Option<&[String; 2]>) -> Result<Tab
     let broken = |error: csv::Error| Error::input(format!("{file}: this is no table: {error}"));
     let headings: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_string).collect();
     let chosen = choose(file, &headings, columns)?;
-    let mut table = Table { points: Vec::new(), lines: Vec::new() };
+    let mut table = SignalTable { points: Vec::new(), lines: Vec::new() };
     let mut record = csv::StringRecord::new();
     while reader.read_record(&mut record).map_err(broken)? {
         let line = record.position().map_or(0, |at| line(&text, at));
-        let row = Row { file, line, headings: &headings, record: &record };
+        let row = TableRow { file, line, headings: &headings, record: &record };
         if table.points.is_empty() && row.has_units() {
             row.check_units(chosen)?;
             continue;
@@ -139,14 +139,14 @@ fn with_commas(text: &str) -> String {
 }
 
 /// A line of a table.
-struct Row<'a> {
+struct TableRow<'a> {
     file: &'a str,
     line: u64,
     headings: &'a [String],
     record: &'a csv::StringRecord,
 }
 
-impl Row<'_> {
+impl TableRow<'_> {
     /// True if it has a word in every column.
     fn has_units(&self) -> bool {
         self.record.iter().all(|cell| !cell.is_empty() && cell.parse::<f64>().is_err())
@@ -167,7 +167,7 @@ impl Row<'_> {
     }
 
     fn values(&self, chosen: [usize; 2]) -> Result<[f64; 2]> {
-        let Row { headings, record, .. } = self;
+        let TableRow { headings, record, .. } = self;
         if record.iter().skip(headings.len()).any(|cell| !cell.is_empty()) {
             let message = format!("{}: {} values under {} names", self.place(), record.len(), headings.len());
             return Err(Error::input(message).hint("decimals are written with a point; or name all columns"));

@@ -4,8 +4,8 @@ use super::format::StateSpec;
 use super::measures::OutputSpec;
 use super::model::{Connection, ModelForce};
 use super::names::check_name;
-use super::parts::Parts;
-use crate::body::{Build, Built, StateBody};
+use super::parts::SceneParts;
+use crate::body::{Build, BuiltBody, StateBody};
 use crate::error::{Error, Result};
 use crate::force::{Force, StateRate};
 
@@ -13,7 +13,7 @@ use crate::force::{Force, StateRate};
 pub fn place<const D: usize>(
     specs: &[StateSpec],
     outputs: &[OutputSpec],
-    parts: &mut Parts<D>,
+    parts: &mut SceneParts<D>,
     build: &Build<D>,
 ) -> Result<()> {
     for (i, spec) in specs.iter().enumerate() {
@@ -35,7 +35,7 @@ pub fn place<const D: usize>(
         free.map_err(|error| place(error.under("name")))?;
         let initial = spec.initial.as_ref().map_or(Ok(0.0), |initial| build.number("initial", initial));
         let v = vec![initial.map_err(|error| place(error.element(name)))?];
-        parts.place_state(name, Built { body: Box::new(StateBody::new()), q: Vec::new(), v });
+        parts.place_state(name, BuiltBody { body: Box::new(StateBody::new()), q: Vec::new(), v });
     }
     Ok(())
 }

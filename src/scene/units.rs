@@ -33,9 +33,9 @@ const INCH: f64 = 0.0254;
 const MILE: f64 = 1609.344;
 
 /// Names of units with their size in SI units; the first is the SI unit.
-type Sizes = &'static [(&'static str, f64)];
+type UnitSizes = &'static [(&'static str, f64)];
 
-const DIMENSIONS: [(Dimension, &str, Sizes); 11] = [
+const DIMENSIONS: [(Dimension, &str, UnitSizes); 11] = [
     (
         Dimension::Angle,
         "angle",
@@ -143,7 +143,7 @@ impl Dimension {
             .hint(format!("{meant}choose one of {}", names.collect::<Vec<_>>().join(", "))))
     }
 
-    fn entry(self) -> &'static (Dimension, &'static str, Sizes) {
+    fn entry(self) -> &'static (Dimension, &'static str, UnitSizes) {
         // The table is in the order of the enumeration, which a test compares.
         &DIMENSIONS[self as usize]
     }
@@ -151,7 +151,7 @@ impl Dimension {
 
 /// Physical dimension that the unit of this name belongs to.
 pub fn dimension_of(unit: &str) -> Option<Dimension> {
-    let has = |sizes: Sizes| sizes.iter().any(|(known, _)| !known.is_empty() && plain(known) == plain(unit));
+    let has = |sizes: UnitSizes| sizes.iter().any(|(known, _)| !known.is_empty() && plain(known) == plain(unit));
     DIMENSIONS.iter().find(|(_, _, sizes)| has(sizes)).map(|(dimension, ..)| *dimension)
 }
 

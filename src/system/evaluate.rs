@@ -14,7 +14,7 @@ use crate::math::array::Each;
 use crate::math::kkt::{Analysis, Lever};
 use crate::math::threads::each;
 use crate::math::{Taylor, Time};
-use crate::scene::{Connection, Measure, Model, ModelForce, Part, Watched};
+use crate::scene::{Connection, Measure, Model, ModelForce, ModelOutput, Part};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -224,7 +224,7 @@ impl<const D: usize> Evaluator<'_, D> {
                 2 => self.force::<2>(i, force, memory, terms),
                 _ => self.force::<MOST_MARKERS>(i, force, memory, terms),
             };
-            for (rate, Watched { measure, unit, .. }) in terms.powers.iter_mut().zip(&self.layout.model.works) {
+            for (rate, ModelOutput { measure, unit, .. }) in terms.powers.iter_mut().zip(&self.layout.model.works) {
                 if matches!(measure, Measure::Power { force } if *force == i) {
                     *rate = power * unit.per_si;
                 }

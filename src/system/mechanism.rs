@@ -252,7 +252,7 @@ impl<const D: usize> MechanicalSystem for Mechanism<D> {
 
     fn output_tangent(&self, at: OperatingPoint, tangent: &mut OutputTangent, scratch: &mut Scratch) -> bool {
         let at = felt(self.model(), at);
-        let read = |output: &crate::scene::Watched| carriers(&self.layout, &output.measure);
+        let read = |output: &crate::scene::ModelOutput| carriers(&self.layout, &output.measure);
         let carriers = self.carriers.get_or_init(|| self.model().outputs.iter().map(read).collect());
         self.placed(at, scratch, |MechanismMemory { evaluation, varied, .. }, regime| {
             let Mechanism { layout, couplings, .. } = self;

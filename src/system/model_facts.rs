@@ -7,13 +7,13 @@ use super::spin::{Placement, Rotation};
 use super::theory::Limited;
 use crate::body::norm;
 use crate::joint::{ClosedForm, Joint};
-use crate::scene::{Connection, Input, Model, Part, Target, Watched};
+use crate::scene::{Connection, Model, ModelInput, ModelOutput, Part, Target};
 
 /// Facts of a model with the parts that have a limit.
 pub(super) fn facts_of<const D: usize>(layout: &Layout<D>, limited: Vec<Limited>) -> SystemFacts {
     let Layout { model, joints, masses, .. } = layout;
-    let column = |output: &Watched| Column { name: output.name.clone(), unit: output.unit.name.clone() };
-    let input = |input: &Input| Column { name: input.name.clone(), unit: input.unit.to_string() };
+    let column = |output: &ModelOutput| Column { name: output.name.clone(), unit: output.unit.name.clone() };
+    let input = |input: &ModelInput| Column { name: input.name.clone(), unit: input.unit.to_string() };
     let length = length_scale(model);
     let stiffness = model.bodies.iter().zip(masses).flat_map(|(part, places)| {
         let values = part.facts.stiffness.iter();

@@ -2,7 +2,9 @@
 //! distance and a spring.
 
 use crate::common::{Run, adaptive, fixed, run};
-use holonom::body::{BodyFacts, BodyKernel, BodySpec, Build, Built, Energy, Frame, Initial, Marker, cross, dot, sub};
+use holonom::body::{
+    BodyFacts, BodyKernel, BodySpec, Build, BuiltBody, Energy, Frame, Initial, Marker, cross, dot, sub,
+};
 use holonom::joint::{self, JointKernel, JointSpec};
 use holonom::linearize::{Linear, State};
 use holonom::math::expression::Number;
@@ -32,19 +34,19 @@ impl BodySpec for OwnRigid {
         markers: Vec<Marker<D>>,
         initial: &Initial,
         build: &Build<D>,
-    ) -> holonom::Result<Built<D>> {
+    ) -> holonom::Result<BuiltBody<D>> {
         let mass = build.positive("mass", &self.mass)?;
         let (position, velocity) = initial.translation(build)?;
         if D == 2 {
             let inertia = build.vector::<1>("inertia", &self.inertia)?.to_vec();
             let (angle, spin) = initial.planar(build)?;
             let body = Box::new(OwnBody { mass, inertia, markers });
-            return Ok(Built { body, q: [&position[..], &[angle]].concat(), v: [&velocity[..], &[spin]].concat() });
+            return Ok(BuiltBody { body, q: [&position[..], &[angle]].concat(), v: [&velocity[..], &[spin]].concat() });
         }
         let inertia = build.vector::<3>("inertia", &self.inertia)?.to_vec();
         let (quaternion, spin) = initial.spatial(build)?;
         let body = Box::new(OwnBody { mass, inertia, markers });
-        Ok(Built { body, q: [&position[..], &quaternion].concat(), v: [&velocity[..], &spin].concat() })
+        Ok(BuiltBody { body, q: [&position[..], &quaternion].concat(), v: [&velocity[..], &spin].concat() })
     }
 }
 
@@ -119,9 +121,9 @@ struct OwnDistance {
 impl JointSpec for OwnDistance {
     const TYPE: &'static str = "own_distance";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> holonom::Result<joint::Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> holonom::Result<joint::BuiltJoint<D>> {
         let length = build.positive("length", &self.length)?;
-        Ok(joint::Built { joint: Box::new(OwnRod { length }), markers: build.between(&self.between)? })
+        Ok(joint::BuiltJoint { joint: Box::new(OwnRod { length }), markers: build.between(&self.between)? })
     }
 }
 

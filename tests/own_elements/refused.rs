@@ -5,7 +5,7 @@ use crate::examples::own_force::HardeningSpring;
 use crate::examples::own_joint::PointOnParabola;
 use holonom::body::{Build, Frame, Wrench};
 use holonom::force::{self, Action, ForceKernel, ForceSpec, Instant, Motion};
-use holonom::joint::{Built, JointKernel, JointSpec};
+use holonom::joint::{BuiltJoint, JointKernel, JointSpec};
 use holonom::math::{Scalar, Time};
 use holonom::prepared::Model;
 use holonom::scene::{Elements, SceneBuilder, json};
@@ -80,8 +80,8 @@ struct Overdone {}
 impl JointSpec for Overdone {
     const TYPE: &'static str = "overdone";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> holonom::Result<Built<D>> {
-        Ok(Built { joint: Box::new(Seven), markers: vec![build.marker("at", "bead")?] })
+    fn build<const D: usize>(&self, build: &Build<D>) -> holonom::Result<BuiltJoint<D>> {
+        Ok(BuiltJoint { joint: Box::new(Seven), markers: vec![build.marker("at", "bead")?] })
     }
 }
 
@@ -113,10 +113,10 @@ struct Forgetful {}
 impl ForceSpec for Forgetful {
     const TYPE: &'static str = "forgetful";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> holonom::Result<force::Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> holonom::Result<force::BuiltForce<D>> {
         build.needs_dimension(2, "a forgetful force", "\"spring_damper\"")?;
         build.switch();
-        Ok(force::Built { force: Box::new(Still), markers: vec![build.marker("at", "bead")?] })
+        Ok(force::BuiltForce { force: Box::new(Still), markers: vec![build.marker("at", "bead")?] })
     }
 }
 

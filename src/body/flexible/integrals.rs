@@ -4,7 +4,7 @@ use super::line::Cross;
 use super::profile::Profile;
 use super::reference::ReferenceLine;
 use super::section::Section;
-use super::shape::{Disc, Inertia, Piece, Stretch, Symmetric};
+use super::shape::{Disc, MassIntegrals, Piece, Stretch, Symmetric};
 use crate::body::{dot, scale};
 use crate::math::array::{Each, from_fn};
 use std::collections::BTreeMap;
@@ -127,7 +127,7 @@ pub fn stretch(quartic: f64, start: f64, dofs: &[usize], samples: &[IntegrationP
 }
 
 /// The elastic mass matrix of the undeformed body: M_ij = tr P_ij + sum r_i.J r_j of the discs.
-pub fn mass_matrix<const D: usize>(inertia: &Inertia<D>) -> Symmetric {
+pub fn mass_matrix<const D: usize>(inertia: &MassIntegrals<D>) -> Symmetric {
     let mut sum = EntrySum::default();
     for piece in &inertia.pieces {
         let n = 1 + piece.dofs.len();

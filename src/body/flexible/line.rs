@@ -12,7 +12,7 @@
 
 use super::profile::Profile;
 use super::reference::ReferenceLine;
-use super::shape::Inertia;
+use super::shape::MassIntegrals;
 
 /// Displacement, rotation and strain of one section per unit of one coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -105,5 +105,5 @@ pub trait Shapes: Send + Sync {
     }
     /// The mass from `s` on, without second-order terms of shortening; one piece of all coordinates if the line
     /// shortens.
-    fn inertia<const D: usize>(&self, s: f64) -> Inertia<D>;
+    fn inertia<const D: usize>(&self, s: f64) -> MassIntegrals<D>;
 }

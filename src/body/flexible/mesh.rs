@@ -6,7 +6,7 @@ use super::integrals::{IntegrationPoint, discs, piece};
 use super::line::{Shapes, Station};
 use super::profile::Profile;
 use super::reference::ReferenceLine;
-use super::shape::Inertia;
+use super::shape::MassIntegrals;
 use super::spec::{Axial, FrameConditions};
 use crate::body::{cross, dot, sub};
 use crate::math::array::from_fn;
@@ -195,8 +195,8 @@ impl<const D: usize> Shapes for Mesh<D> {
     }
 
     /// One piece for each element.
-    fn inertia<const E: usize>(&self, s: f64) -> Inertia<E> {
-        let mut inertia = Inertia::default();
+    fn inertia<const E: usize>(&self, s: f64) -> MassIntegrals<E> {
+        let mut inertia = MassIntegrals::default();
         for element in (0..self.count()).filter(|element| self.nodes[element + 1] > s) {
             let start = s.max(self.nodes[element]);
             let (dofs, samples) = self.samples_from(start, element, self.points());

@@ -27,7 +27,7 @@ pub use gauss::{gauss_legendre, on_interval};
 pub use profile::Profile;
 pub use reference::{ReferenceLine, curvature};
 pub use section::Section;
-pub use shape::{Disc, Elastic, Inertia, Line, Piece, PointShape, Second, SectionShape, Stretch, Symmetric};
+pub use shape::{Disc, Elastic, Line, MassIntegrals, Piece, PointShape, Second, SectionShape, Stretch, Symmetric};
 pub use spec::{
     Axial, Damping, Elasticity, FlexibleBeam, FrameConditions, FrameKind, OneOrMany, Ritz,
     SectionShape as SectionGeometry, Stiffness, Theory,

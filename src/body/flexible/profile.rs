@@ -78,15 +78,15 @@ impl Profile {
 /// Functions of s, and the form of the section that they describe.
 #[derive(Clone, Debug)]
 pub(super) struct Laws {
-    pub make: Make,
-    pub laws: Vec<Law>,
+    pub make: SectionKind,
+    pub laws: Vec<ProfileLaw>,
     pub theory: Theory,
     /// Dimension of the scene.
     pub dimension: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Make {
+pub(super) enum SectionKind {
     /// Height and width.
     Rectangle(Matter),
     /// Radius and inner radius.
@@ -99,15 +99,17 @@ impl Laws {
     pub fn at(&self, s: f64) -> Section {
         let value = |i: usize| self.laws[i].at(s);
         let section = match self.make {
-            Make::Rectangle(matter) => matter.fill(&SectionOutline::rectangle(value(0), value(1)), self.dimension),
-            Make::Circle(matter) => matter.fill(&SectionOutline::circle(value(0), value(1)), self.dimension),
-            Make::Numbers => Section::of(from_fn(value)),
+            SectionKind::Rectangle(matter) => {
+                matter.fill(&SectionOutline::rectangle(value(0), value(1)), self.dimension)
+            }
+            SectionKind::Circle(matter) => matter.fill(&SectionOutline::circle(value(0), value(1)), self.dimension),
+            SectionKind::Numbers => Section::of(from_fn(value)),
         };
         section.of_theory(self.theory)
     }
 
     fn vary(&self) -> bool {
-        self.laws.iter().any(Law::varies)
+        self.laws.iter().any(ProfileLaw::varies)
     }
 
     fn check(&self, length: f64) -> Result<()> {
@@ -115,7 +117,7 @@ impl Laws {
         for part in 0..=parts {
             let s = length * f64::from(part) / f64::from(LOOKED_AT);
             self.laws.iter().try_for_each(|law| law.check(s))?;
-            if matches!(self.make, Make::Circle(_)) && self.laws[1].at(s) >= self.laws[0].at(s) {
+            if matches!(self.make, SectionKind::Circle(_)) && self.laws[1].at(s) >= self.laws[0].at(s) {
                 let place = if self.vary() { format!(" at s = {}", short(s)) } else { String::new() };
                 return Err(Error::input(format!("the inner radius is not smaller than the outer one{place}"))
                     .under("section.circle.inner_radius"));
@@ -127,7 +129,7 @@ impl Laws {
 
 /// A number along the beam, as an expression of s.
 #[derive(Clone, Debug)]
-pub(super) struct Law {
+pub(super) struct ProfileLaw {
     /// JSON path from the body on.
     pub path: String,
     pub value: Expression,
@@ -135,9 +137,9 @@ pub(super) struct Law {
     pub may_vanish: bool,
 }
 
-impl Law {
+impl ProfileLaw {
     pub fn constant(value: f64) -> Self {
-        Law { path: String::new(), value: Expression::from(value), may_vanish: true }
+        ProfileLaw { path: String::new(), value: Expression::from(value), may_vanish: true }
     }
 
     fn at(&self, s: f64) -> f64 {

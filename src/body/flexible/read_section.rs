@@ -1,6 +1,6 @@
 //! Reads a beam's section from a scene.
 
-use super::profile::{Law, Laws, Make, Profile};
+use super::profile::{Laws, Profile, ProfileLaw, SectionKind};
 use super::section::{Matter, Section};
 use super::spec::{Elasticity, FlexibleBeam, Material, OneOrMany, SectionInertia, SectionShape, Stiffness, Theory};
 use crate::body::Build;
@@ -84,7 +84,7 @@ impl<const D: usize> SectionReader<'_, D> {
         rho: Option<&Number>,
         shape: &SectionShape,
         theory: Theory,
-    ) -> Result<(Make, Vec<Law>)> {
+    ) -> Result<(SectionKind, Vec<ProfileLaw>)> {
         let build = self.build;
         let under = |error: Error| error.under("material");
         let e = build.positive("E", e).map_err(under)?;
@@ -109,12 +109,12 @@ impl<const D: usize> SectionReader<'_, D> {
         match shape {
             SectionShape::Rectangle { height, width } => {
                 let height = self.positive("section.rectangle.height", height)?;
-                Ok((Make::Rectangle(matter), vec![height, self.positive("section.rectangle.width", width)?]))
+                Ok((SectionKind::Rectangle(matter), vec![height, self.positive("section.rectangle.width", width)?]))
             }
             SectionShape::Circle { radius, inner_radius } => {
                 let outer = self.positive("section.circle.radius", radius)?;
                 let inner = inner_radius.as_ref().map(|r| self.law("section.circle.inner_radius", r, true));
-                Ok((Make::Circle(matter), vec![outer, inner.unwrap_or(Ok(Law::constant(0.0)))?]))
+                Ok((SectionKind::Circle(matter), vec![outer, inner.unwrap_or(Ok(ProfileLaw::constant(0.0)))?]))
             }
         }
     }
@@ -129,13 +129,13 @@ impl<const D: usize> SectionReader<'_, D> {
         }
     }
 
-    /// Laws of a section given by its stiffness and inertia, in the order of [`Make::Numbers`].
+    /// Laws of a section given by its stiffness and inertia, in the order of [`SectionKind::Numbers`].
     fn numbers(
         &self,
         stiffness: &Stiffness,
         inertia: Option<&SectionInertia>,
         theory: Theory,
-    ) -> Result<(Make, Vec<Law>)> {
+    ) -> Result<(SectionKind, Vec<ProfileLaw>)> {
         let missing = |key: &str, what: &str| {
             Error::input(format!("{what} needs `{key}`")).under("stiffness").hint(format!("give \"{key}\""))
         };
@@ -144,18 +144,18 @@ impl<const D: usize> SectionReader<'_, D> {
         let ga = match &stiffness.ga {
             Some(ga) => self.pair("stiffness.GA", ga)?,
             None if theory == Theory::Timoshenko => return Err(missing("GA", "a Timoshenko beam")),
-            None => [f64::INFINITY; 2].map(Law::constant),
+            None => [f64::INFINITY; 2].map(ProfileLaw::constant),
         };
         let gj = match &stiffness.gj {
             Some(gj) => self.positive("stiffness.GJ", gj)?,
             None if D == 3 => return Err(missing("GJ", "a beam in space")),
-            None => Law::constant(0.0),
+            None => ProfileLaw::constant(0.0),
         };
-        let mass = inertia.map_or(Ok([0.0; 3].map(Law::constant)), |inertia| self.inertia(inertia))?;
-        Ok((Make::Numbers, [ea].into_iter().chain(ga).chain([gj]).chain(ei).chain(mass).collect()))
+        let mass = inertia.map_or(Ok([0.0; 3].map(ProfileLaw::constant)), |inertia| self.inertia(inertia))?;
+        Ok((SectionKind::Numbers, [ea].into_iter().chain(ga).chain([gj]).chain(ei).chain(mass).collect()))
     }
 
-    fn inertia(&self, inertia: &SectionInertia) -> Result<[Law; 3]> {
+    fn inertia(&self, inertia: &SectionInertia) -> Result<[ProfileLaw; 3]> {
         let rho_a = self.positive("inertia.rhoA", &inertia.rho_a)?;
         let [y, z] = match &inertia.rho_i {
             Some(rho_i) => self.pair("inertia.rhoI", rho_i)?,
@@ -164,13 +164,13 @@ impl<const D: usize> SectionReader<'_, D> {
                     .under("inertia")
                     .hint("give \"rhoI\", kg m"));
             }
-            None => [0.0; 2].map(Law::constant),
+            None => [0.0; 2].map(ProfileLaw::constant),
         };
         Ok([rho_a, y, z])
     }
 
     /// Laws for two directions, [about y, about z] or [along y, along z].
-    fn pair(&self, path: &str, numbers: &OneOrMany) -> Result<[Law; 2]> {
+    fn pair(&self, path: &str, numbers: &OneOrMany) -> Result<[ProfileLaw; 2]> {
         match numbers {
             OneOrMany::One(number) => self.positive(path, number).map(|law| [law.clone(), law]),
             OneOrMany::Many(numbers) if D == 3 && numbers.len() == 2 => {
@@ -184,14 +184,14 @@ impl<const D: usize> SectionReader<'_, D> {
         }
     }
 
-    fn positive(&self, path: &str, number: &Number) -> Result<Law> {
+    fn positive(&self, path: &str, number: &Number) -> Result<ProfileLaw> {
         self.law(path, number, false)
     }
 
-    fn law(&self, path: &str, number: &Number, may_vanish: bool) -> Result<Law> {
+    fn law(&self, path: &str, number: &Number, may_vanish: bool) -> Result<ProfileLaw> {
         let names = Scope { parameters: self.build.parameters, variables: self.variables };
         let value = number.expression(&names).map_err(|error| Error::from(error).under(path))?;
-        let law = Law { path: path.to_string(), value, may_vanish };
+        let law = ProfileLaw { path: path.to_string(), value, may_vanish };
         if law.value.is_constant() {
             let check = if may_vanish { Build::not_negative } else { Build::positive };
             check(self.build, law.field(), number).map_err(|error| error.at(path))?;

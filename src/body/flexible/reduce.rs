@@ -19,7 +19,7 @@ use super::line::{Cross, Shapes, Station};
 use super::mesh::Mesh;
 use super::profile::Profile;
 use super::reference::ReferenceLine;
-use super::shape::{Disc, Elastic, Inertia, Piece, Stretch};
+use super::shape::{Disc, Elastic, MassIntegrals, Piece, Stretch};
 use super::spec::FrameConditions;
 use crate::error::{Error, Result};
 use crate::math::array::from_fn;
@@ -290,9 +290,9 @@ impl<const D: usize> Shapes for ReducedLine<D> {
         self.shortens
     }
 
-    fn inertia<const E: usize>(&self, s: f64) -> Inertia<E> {
-        let Inertia { pieces, discs } = self.mesh.inertia(s);
+    fn inertia<const E: usize>(&self, s: f64) -> MassIntegrals<E> {
+        let MassIntegrals { pieces, discs } = self.mesh.inertia(s);
         let discs = discs.iter().map(|disc| project_disc(disc, &self.basis)).collect();
-        Inertia { pieces: vec![project_pieces(&pieces, &self.basis)], discs }
+        MassIntegrals { pieces: vec![project_pieces(&pieces, &self.basis)], discs }
     }
 }

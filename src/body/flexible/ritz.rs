@@ -6,7 +6,7 @@ use super::integrals::{EntrySum, IntegrationPoint, add_stiffness, discs, mass_ma
 use super::line::{Bending, Cross, Shapes, Station};
 use super::profile::Profile;
 use super::reference::ReferenceLine;
-use super::shape::{Elastic, Inertia, Piece, Symmetric};
+use super::shape::{Elastic, MassIntegrals, Piece, Symmetric};
 use super::shorten::shorten;
 use super::spec::Ritz;
 use crate::body::Build;
@@ -98,7 +98,7 @@ impl Shapes for Functions {
     fn shortens(&self) -> bool {
         self.shortens
     }
-    fn inertia<const D: usize>(&self, s: f64) -> Inertia<D> {
+    fn inertia<const D: usize>(&self, s: f64) -> MassIntegrals<D> {
         self.sum(&self.samples([s, self.line.length], self.panels))
     }
 }
@@ -180,10 +180,10 @@ impl Functions {
         (0..self.functions.len()).collect()
     }
 
-    fn sum<const D: usize>(&self, samples: &[IntegrationPoint]) -> Inertia<D> {
+    fn sum<const D: usize>(&self, samples: &[IntegrationPoint]) -> MassIntegrals<D> {
         let mut piece = piece(self.dofs(), samples);
         self.scale_axial(&mut piece);
-        Inertia { pieces: vec![piece], discs: discs::<D>(&self.dofs(), samples) }
+        MassIntegrals { pieces: vec![piece], discs: discs::<D>(&self.dofs(), samples) }
     }
 
     fn samples(&self, ends: [f64; 2], panels: usize) -> Vec<IntegrationPoint> {
@@ -255,7 +255,7 @@ impl Functions {
         }
     }
 
-    fn check_independent<const D: usize>(&self, inertia: &Inertia<D>, stiffness: &Symmetric) -> Result<()> {
+    fn check_independent<const D: usize>(&self, inertia: &MassIntegrals<D>, stiffness: &Symmetric) -> Result<()> {
         let n = self.functions.len();
         let mass = dense(n, &mass_matrix(inertia));
         if let Some(i) = first_dependent(mass.as_ref(), tolerances::ROUND_OFF_OF_FACTORS) {
@@ -296,7 +296,7 @@ fn function<const D: usize>(kind: RitzKind, i: usize, number: &Number, build: &B
 }
 
 /// Diagonals of mass and stiffness matrix, interleaved.
-fn diagonals<const D: usize>(n: usize, matrices: &(Inertia<D>, Symmetric)) -> Vec<f64> {
+fn diagonals<const D: usize>(n: usize, matrices: &(MassIntegrals<D>, Symmetric)) -> Vec<f64> {
     let (inertia, stiffness) = matrices;
     let mass = dense(n, &mass_matrix(inertia));
     let stiffness = dense(n, stiffness);

@@ -20,7 +20,7 @@ pub use crate::modes::natural::Symmetric;
 
 /// Mass integrals of a body or of a part of it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Inertia<const D: usize> {
+pub struct MassIntegrals<const D: usize> {
     /// Integrals of the distributed mass, one piece for each finite element or one for all.
     pub pieces: Vec<Piece<D>>,
     /// Rotary inertia of the sections of a beam, whose mass is on its line.
@@ -186,7 +186,7 @@ pub trait Line<const D: usize>: Send + Sync {
     /// Stiffness and mass of the section at `s`.
     fn material(&self, s: f64) -> Section;
     /// Mass integrals from `s` to the right end.
-    fn beyond(&self, s: f64) -> Inertia<D>;
+    fn beyond(&self, s: f64) -> MassIntegrals<D>;
 }
 
 /// Inertia, stiffness and damping of a flexible body in a floating frame.
@@ -194,7 +194,7 @@ pub struct Elastic<const D: usize> {
     /// Names of the elastic coordinates, such as `n3_y` or `mode2`.
     pub names: Vec<String>,
     /// Distributed mass with its displacement functions.
-    pub inertia: Inertia<D>,
+    pub inertia: MassIntegrals<D>,
     /// Stiffness matrix K of the elastic coordinates.
     pub stiffness: Symmetric,
     /// Damping matrix of the elastic coordinates.

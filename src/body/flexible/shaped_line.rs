@@ -2,7 +2,7 @@
 
 use super::line::{Cross, Shapes, Station};
 use super::section::Section;
-use super::shape::{Inertia, Line, PointShape, SectionShape};
+use super::shape::{Line, MassIntegrals, PointShape, SectionShape};
 use super::shorten::{shorten, shortening};
 use crate::body::{Frame, Marker, cross, in_space};
 use crate::math::array::from_fn;
@@ -45,7 +45,7 @@ impl<F: Shapes, const D: usize> Line<D> for F {
         self.profile().at(s)
     }
 
-    fn beyond(&self, s: f64) -> Inertia<D> {
+    fn beyond(&self, s: f64) -> MassIntegrals<D> {
         let mut inertia = self.inertia(s);
         inertia.pieces.iter_mut().filter(|_| self.shortens()).for_each(|piece| shorten(self, s, piece));
         inertia

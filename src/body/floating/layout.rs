@@ -1,6 +1,6 @@
 //! Places of the values of M, K and C of a flexible body: the pattern is fixed when the body is made.
 
-use crate::body::flexible::{Elastic, Inertia};
+use crate::body::flexible::{Elastic, MassIntegrals};
 use std::collections::BTreeMap;
 
 /// Patterns of M, K and C, and the entry of each contribution.
@@ -41,7 +41,7 @@ impl FloatingLayout {
             (0..nv).for_each(|j| tangent.add(i, j));
             (0..nv).filter(|_| i >= nv).for_each(|j| tangent.add(j, i));
         }
-        let Inertia { pieces, discs } = &elastic.inertia;
+        let MassIntegrals { pieces, discs } = &elastic.inertia;
         for dofs in pieces.iter().map(|piece| &piece.dofs).chain(discs.iter().map(|disc| &disc.dofs)) {
             each_pair(dofs, |i, j| {
                 tangent.add(nv + i, nv + j);

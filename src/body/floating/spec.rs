@@ -3,7 +3,7 @@
 use super::Floating;
 use crate::body::flexible::modal::{ModalBody, ModalShapes};
 use crate::body::flexible::{FlexibleBeam, PointShape, elastic_beam};
-use crate::body::{BodySpec, Build, Built, Initial, Marker};
+use crate::body::{BodySpec, Build, BuiltBody, Initial, Marker};
 use crate::error::{Error, Result, find, short};
 use crate::math::expression::Number;
 use std::collections::BTreeMap;
@@ -11,7 +11,12 @@ use std::collections::BTreeMap;
 impl BodySpec for FlexibleBeam {
     const TYPE: &'static str = "flexible_beam";
 
-    fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(
+        &self,
+        markers: Vec<Marker<D>>,
+        initial: &Initial,
+        build: &Build<D>,
+    ) -> Result<BuiltBody<D>> {
         refuse_origin(&markers, "a beam is its left end")?;
         // The first marker is the frame itself.
         let places: Vec<f64> = markers.iter().skip(1).map(|marker| marker.offset[0]).collect();
@@ -25,14 +30,19 @@ impl BodySpec for FlexibleBeam {
         };
         let (shapes, markers) = markers.into_iter().enumerate().map(on_line).unzip();
         let (q, v) = start(initial, &elastic.names, build)?;
-        Ok(Built { body: Box::new(Floating::new(elastic, markers, shapes)), q, v })
+        Ok(BuiltBody { body: Box::new(Floating::new(elastic, markers, shapes)), q, v })
     }
 }
 
 impl BodySpec for ModalBody {
     const TYPE: &'static str = "modal_body";
 
-    fn build<const D: usize>(&self, markers: Vec<Marker<D>>, initial: &Initial, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(
+        &self,
+        markers: Vec<Marker<D>>,
+        initial: &Initial,
+        build: &Build<D>,
+    ) -> Result<BuiltBody<D>> {
         refuse_origin(&markers, "a modal_body is that of its data")?;
         let ModalShapes { elastic, nodes } = self.shapes(build)?;
         let size = nodes.iter().flat_map(|(_, node)| node.rest).fold(0.0f64, |size, x| size.max(x.abs()));
@@ -43,7 +53,7 @@ impl BodySpec for ModalBody {
         };
         let shapes = markers.iter().enumerate().map(shape).collect::<Result<_>>()?;
         let (q, v) = start(initial, &elastic.names, build)?;
-        Ok(Built { body: Box::new(Floating::new(elastic, markers, shapes)), q, v })
+        Ok(BuiltBody { body: Box::new(Floating::new(elastic, markers, shapes)), q, v })
     }
 }
 

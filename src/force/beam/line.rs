@@ -1,7 +1,7 @@
 //! The line of a beam element between its ends.
 
 use super::Beam;
-use super::station::{Carried, cubic};
+use super::station::{SectionForces, cubic};
 use super::strain::Strains;
 use crate::math::Scalar;
 use crate::math::array::{Each, from_fn};
@@ -10,7 +10,7 @@ use crate::math::screw::{Vector, dot3, exponential};
 /// The line of an element: the helix between its ends, corrected for curvature and shear that change along it by a
 /// rotation and a displacement that are zero at the ends, cubics with the slopes that the strains there require. All in
 /// the axes of the first end.
-pub(super) struct Line<S> {
+pub(super) struct ElementLine<S> {
     /// Length of the relaxed element, m.
     pub length: f64,
     /// Position of the second end, m.
@@ -27,9 +27,9 @@ pub(super) struct Line<S> {
 
 type Axes<S> = [Vector<S>; 3];
 
-impl<S: Scalar> Line<S> {
+impl<S: Scalar> ElementLine<S> {
     /// The line for the internal forces of the sections at both ends.
-    pub fn new(beam: &Beam, strains: &Strains<S>, ends: &[Carried<S>; 2]) -> Self {
+    pub fn new(beam: &Beam, strains: &Strains<S>, ends: &[SectionForces<S>; 2]) -> Self {
         let shift = strains.shift.each(|x| x.re);
         let turn = strains.turn.each(|x| x.re);
         let gap = strains.gap.each(|x| x.re);
@@ -45,7 +45,7 @@ impl<S: Scalar> Line<S> {
         let lean = both(0, &shift);
         let bend = both(3, &turn);
         let tangent = compose(&axes[1], &from_fn(|i| strain(1, i)));
-        Line { length: beam.length, gap, tangent, shift, turn, bend, lean }
+        ElementLine { length: beam.length, gap, tangent, shift, turn, bend, lean }
     }
 
     /// Axes and position of the section at 0 <= `part` <= 1 of the element.

@@ -21,7 +21,7 @@ use crate::body::{Frame, Wrench, dot};
 use crate::math::array::{Each, from_fn};
 use crate::math::screw::{Vector, cross3, dot3, planar_pull_back, pull_back};
 use crate::math::{Dual, Scalar, Taylor};
-use station::Carried;
+use station::SectionForces;
 use strain::{Strains, components};
 
 /// A value with its rate.
@@ -64,7 +64,7 @@ impl<const D: usize> ForceKernel<D> for Beam {
 
 impl Beam {
     /// Internal forces of the sections at both ends for these stresses, with no load on the element between them.
-    fn carried<S: Scalar, const D: usize>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [Carried<S>; 2] {
+    fn carried<S: Scalar, const D: usize>(&self, strains: &Strains<S>, stress: &[S; 6]) -> [SectionForces<S>; 2] {
         let [n, m] = self.conjugate::<_, D>(strains, stress);
         let turn = strains.turn.each(|x| x.re);
         let gap = strains.gap.each(|x| x.re);
@@ -72,11 +72,11 @@ impl Beam {
             let ([nx, ny], torque) = planar_pull_back(turn[2], [gap[0], gap[1]], [n[0], n[1]], m[2]);
             let n = [nx, ny, n[2]];
             let lever = gap[0] * ny - gap[1] * nx;
-            return [torque + lever, torque].each(|torque| Carried { n, m: [m[0], m[1], torque] });
+            return [torque + lever, torque].each(|torque| SectionForces { n, m: [m[0], m[1], torque] });
         }
         let [n, m] = pull_back(&turn, &gap, &n, &m);
         let lever = cross3(&gap, &n);
-        [Carried { n, m: from_fn(|i| m[i] + lever[i]) }, Carried { n, m }]
+        [SectionForces { n, m: from_fn(|i| m[i] + lever[i]) }, SectionForces { n, m }]
     }
 }
 

@@ -4,7 +4,7 @@ use super::Beam;
 use crate::body::Build;
 use crate::body::flexible::{Elasticity, OneOrMany, Section, SectionGeometry, Stiffness, Theory, curvature};
 use crate::error::Result;
-use crate::force::{Built, ForceSpec};
+use crate::force::{BuiltForce, ForceSpec};
 use crate::math::expression::Number;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -46,7 +46,7 @@ pub struct BeamDamping {
 impl ForceSpec for BeamForce {
     const TYPE: &'static str = "beam";
 
-    fn build<const D: usize>(&self, build: &Build<D>) -> Result<Built<D>> {
+    fn build<const D: usize>(&self, build: &Build<D>) -> Result<BuiltForce<D>> {
         let markers = build.between(&self.between)?;
         build.oriented("between", &markers)?;
         let length = build.positive("length", &self.length)?;
@@ -60,6 +60,6 @@ impl ForceSpec for BeamForce {
         let damping = self.damping.as_ref();
         let damping = damping.map_or(Ok(0.0), |given| build.not_negative("damping.stiffness", &given.stiffness))?;
         let beam = Beam::new::<D>(&section, length, curvature(self.curvature.as_ref(), build)?, damping);
-        Ok(Built { force: Box::new(beam), markers })
+        Ok(BuiltForce { force: Box::new(beam), markers })
     }
 }

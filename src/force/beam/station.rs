@@ -1,7 +1,7 @@
 //! Position and internal forces of a section between the ends of a beam element.
 
 use super::half::Load;
-use super::line::Line;
+use super::line::ElementLine;
 use super::strain::Strains;
 use super::{Beam, Moving, in_axes};
 use crate::body::Frame;
@@ -26,7 +26,7 @@ pub struct Station<S, const D: usize> {
 
 /// Internal force, N, and moment, N m, of a section, in the axes of the element's first end.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Carried<S> {
+pub(super) struct SectionForces<S> {
     pub n: Vector<S>,
     pub m: Vector<S>,
 }
@@ -59,10 +59,10 @@ impl Beam {
         let viscous: [S; 6] = from_fn(|i| middle[i].eps[0] * (self.damping * self.stiffness[i]));
         let elastic = loaded(self.carried::<_, D>(&strains, &elastic), &loads);
         let viscous = self.carried::<_, D>(&strains, &viscous);
-        let line = Line::new(self, &strains, &elastic);
+        let line = ElementLine::new(self, &strains, &elastic);
         let part = x / self.length;
         let (axes, place) = line.at(part);
-        let in_section = |carried: Carried<S>| -> [S; 6] {
+        let in_section = |carried: SectionForces<S>| -> [S; 6] {
             from_fn(|i| dot3(&axes[i % 3], if i < 3 { &carried.n } else { &carried.m }))
         };
         let elastic = in_section(line.between(&elastic, &loads, part, &place));
@@ -77,10 +77,10 @@ impl Beam {
 }
 
 /// Internal forces of the end sections with the loads of the halves added.
-fn loaded<S: Scalar>(ends: [Carried<S>; 2], loads: &[Load<S>; 2]) -> [Carried<S>; 2] {
+fn loaded<S: Scalar>(ends: [SectionForces<S>; 2], loads: &[Load<S>; 2]) -> [SectionForces<S>; 2] {
     let [a, b] = ends;
     let add = |v: &Vector<S>, w: &Vector<S>, sign: f64| from_fn(|i| v[i] + w[i] * sign);
-    let with = |c: &Carried<S>, load: &Load<S>, sign| Carried {
+    let with = |c: &SectionForces<S>, load: &Load<S>, sign| SectionForces {
         n: add(&c.n, &load.force, sign),
         m: add(&c.m, &load.torque, sign),
     };
@@ -93,9 +93,15 @@ pub(super) fn cubic(part: f64) -> [f64; 3] {
     [part * part * (3.0 - 2.0 * part), part * rest * rest, -part * part * rest]
 }
 
-impl<S: Scalar> Line<S> {
+impl<S: Scalar> ElementLine<S> {
     /// Internal forces of the section at 0 <= `part` <= 1 of the element and at `place`, by equilibrium with the ends.
-    fn between(&self, ends: &[Carried<S>; 2], loads: &[Load<S>; 2], part: f64, place: &Vector<S>) -> Carried<S> {
+    fn between(
+        &self,
+        ends: &[SectionForces<S>; 2],
+        loads: &[Load<S>; 2],
+        part: f64,
+        place: &Vector<S>,
+    ) -> SectionForces<S> {
         let [a, b] = ends;
         let [value, first, last] = cubic(part);
         let first = first * self.length;
@@ -105,7 +111,7 @@ impl<S: Scalar> Line<S> {
         let arm = cross3(&self.gap, &a.n);
         let moved = cross3(place, &a.n);
         let [f, l] = [loads.each_ref().each(|x| x.force_per_length), loads.each_ref().each(|x| x.torque_per_length)];
-        Carried {
+        SectionForces {
             n: from_fn(|i| a.n[i] + growth[i] * value - f[0][i] * first - f[1][i] * last),
             m: from_fn(|i| {
                 let rest = b.m[i] - a.m[i] + arm[i];

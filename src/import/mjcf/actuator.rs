@@ -1,12 +1,12 @@
 //! Actuators: motors become inputs; inertia and damping of any are those of its joint.
 
-use super::{Reader, named};
+use super::{MjcfReader, named};
 use crate::error::Result;
 use crate::import::robot::Motor;
 use crate::import::xml::Element;
 use std::collections::HashMap;
 
-impl<'a, 'i> Reader<'a, 'i> {
+impl<'a, 'i> MjcfReader<'a, 'i> {
     pub fn actuators(&mut self, joints: &HashMap<String, usize>) -> Result<()> {
         for (node, name) in named(self.root, "actuator") {
             let tag = node.tag_name().name();

@@ -1,14 +1,14 @@
 //! The tree of bodies.
 
-use super::Reader;
+use super::MjcfReader;
 use crate::error::{Error, Result};
-use crate::import::robot::{Joint, Kind, Link};
+use crate::import::robot::{Joint, JointType, Link};
 use crate::import::transform::Transform;
 use crate::import::xml::{Element, all, place, texts};
 use roxmltree::Node;
 
 /// An element of a body, in a frame of it.
-pub struct Placed<'a, 'i> {
+pub struct PlacedElement<'a, 'i> {
     pub node: Node<'a, 'i>,
     /// That of the `<frame>`s around it.
     pub frame: Transform,
@@ -19,7 +19,7 @@ pub struct Placed<'a, 'i> {
 /// Elements of a body that are read, or that have no mechanics.
 const KNOWN: [&str; 9] = ["body", "inertial", "joint", "freejoint", "geom", "site", "frame", "camera", "light"];
 
-impl<'a, 'i> Reader<'a, 'i> {
+impl<'a, 'i> MjcfReader<'a, 'i> {
     pub fn worldbody(&mut self) -> Result<()> {
         self.bodies.insert("world".to_string(), 0);
         let mut pending = Vec::new();
@@ -43,21 +43,26 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// The elements of a body, with those of the `<frame>`s in it.
-    fn contents(&self, owner: Node<'a, 'i>, frame: Transform, class: Option<&'a str>) -> Result<Vec<Placed<'a, 'i>>> {
+    fn contents(
+        &self,
+        owner: Node<'a, 'i>,
+        frame: Transform,
+        class: Option<&'a str>,
+    ) -> Result<Vec<PlacedElement<'a, 'i>>> {
         let mut parts = Vec::new();
         for node in owner.children().filter(Node::is_element) {
             if node.has_tag_name("frame") {
                 let inner = frame.then(&self.settings.place(&Element::plain(node))?);
                 parts.extend(self.contents(node, inner, node.attribute("childclass").or(class))?);
             } else {
-                parts.push(Placed { node, frame, class });
+                parts.push(PlacedElement { node, frame, class });
             }
         }
         Ok(parts)
     }
 
     /// The bodies among the elements of a body; what is not read is told.
-    fn children(&mut self, parts: Vec<Placed<'a, 'i>>, owner: usize) -> Vec<(Placed<'a, 'i>, usize)> {
+    fn children(&mut self, parts: Vec<PlacedElement<'a, 'i>>, owner: usize) -> Vec<(PlacedElement<'a, 'i>, usize)> {
         for part in &parts {
             let tag = part.node.tag_name().name();
             let is_known = KNOWN.contains(&tag);
@@ -67,7 +72,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// Adds a body with its joints; returns the bodies in it.
-    fn body(&mut self, body: &Placed<'a, 'i>, parent: usize) -> Result<Vec<(Placed<'a, 'i>, usize)>> {
+    fn body(&mut self, body: &PlacedElement<'a, 'i>, parent: usize) -> Result<Vec<(PlacedElement<'a, 'i>, usize)>> {
         let node = body.node;
         let link = self.robot.links.len();
         let name = node.attribute("name").map_or_else(|| format!("body_{link}"), str::to_string);
@@ -90,12 +95,12 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     /// Adds the joints of a body, each between two links in a row; between the first and the last one are links without
     /// mass.
-    fn hold(&mut self, parts: &[Placed<'a, 'i>], parent: usize, link: usize, pose: Transform) -> Result<()> {
-        let joints: Vec<&Placed> = parts.iter().filter(|part| is_joint(part.node)).collect();
+    fn hold(&mut self, parts: &[PlacedElement<'a, 'i>], parent: usize, link: usize, pose: Transform) -> Result<()> {
+        let joints: Vec<&PlacedElement> = parts.iter().filter(|part| is_joint(part.node)).collect();
         let name = self.robot.links[link].name.clone();
         if joints.is_empty() {
             let at = self.robot.links[link].at;
-            let weld = Joint::new(format!("{name}_weld"), at, Kind::Fixed, [parent, link], pose);
+            let weld = Joint::new(format!("{name}_weld"), at, JointType::Fixed, [parent, link], pose);
             self.robot.joints.push(weld);
             return Ok(());
         }
@@ -116,7 +121,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// Adds the sites of a body as markers.
-    fn sites(&mut self, parts: &[Placed<'a, 'i>], link: usize) -> Result<()> {
+    fn sites(&mut self, parts: &[PlacedElement<'a, 'i>], link: usize) -> Result<()> {
         for part in parts.iter().filter(|part| part.node.has_tag_name("site")) {
             let element = self.classes.element(part.node, &["site"], part.class)?;
             let frame = part.frame.then(&self.settings.place(&element)?);

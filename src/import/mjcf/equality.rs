@@ -1,6 +1,6 @@
 //! Equalities: constraints that close loops and couple joints.
 
-use super::{Reader, named};
+use super::{MjcfReader, named};
 use crate::error::{Error, Result, suggest};
 use crate::import::robot::{Coupling, Loop};
 use crate::import::transform::Transform;
@@ -9,7 +9,7 @@ use crate::math::array::Each;
 use roxmltree::Node;
 use std::collections::HashMap;
 
-impl<'a, 'i> Reader<'a, 'i> {
+impl<'a, 'i> MjcfReader<'a, 'i> {
     pub fn equalities(&mut self, joints: &HashMap<String, usize>) -> Result<()> {
         for (node, name) in named(self.root, "equality") {
             let tag = node.tag_name().name();

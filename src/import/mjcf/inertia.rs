@@ -1,17 +1,17 @@
 //! Mass properties of bodies: given, or those of their geoms.
 
-use super::Reader;
-use super::bodies::Placed;
+use super::MjcfReader;
+use super::bodies::PlacedElement;
 use super::geom;
 use crate::body::MassProperties;
 use crate::error::{Result, short};
 use crate::import::xml::{Element, faulty};
 
-impl<'a, 'i> Reader<'a, 'i> {
+impl<'a, 'i> MjcfReader<'a, 'i> {
     /// Mass properties of a body from its origin, in its axes.
-    pub fn mass(&mut self, parts: &[Placed<'a, 'i>], name: &str) -> Result<Option<MassProperties>> {
+    pub fn mass(&mut self, parts: &[PlacedElement<'a, 'i>], name: &str) -> Result<Option<MassProperties>> {
         let inertial = parts.iter().find(|part| part.node.has_tag_name("inertial"));
-        let geoms: Vec<&Placed> = parts.iter().filter(|part| part.node.has_tag_name("geom")).collect();
+        let geoms: Vec<&PlacedElement> = parts.iter().filter(|part| part.node.has_tag_name("geom")).collect();
         self.told.add_if(!geoms.is_empty(), "contacts of the bodies", name);
         match (inertial, self.settings.from_geoms) {
             (Some(inertial), None | Some(false)) => self.inertial(inertial).map(Some),
@@ -21,7 +21,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
     }
 
-    fn inertial(&self, part: &Placed<'a, 'i>) -> Result<MassProperties> {
+    fn inertial(&self, part: &PlacedElement<'a, 'i>) -> Result<MassProperties> {
         let element = Element::plain(part.node);
         let mass = element.needed("mass")?;
         if mass < 0.0 {
@@ -37,7 +37,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(frame.mass(&MassProperties { mass, centre: [0.0; 3], inertia }))
     }
 
-    fn of_geoms(&mut self, geoms: &[&Placed<'a, 'i>], name: &str) -> Result<Option<MassProperties>> {
+    fn of_geoms(&mut self, geoms: &[&PlacedElement<'a, 'i>], name: &str) -> Result<Option<MassProperties>> {
         let mut parts = Vec::new();
         for part in geoms {
             let element = self.classes.element(part.node, &["geom"], part.class)?;

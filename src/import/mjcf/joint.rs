@@ -1,31 +1,41 @@
 //! Joints of bodies.
 
-use super::Reader;
-use super::bodies::Placed;
+use super::MjcfReader;
+use super::bodies::PlacedElement;
 use crate::error::{Error, Result, excerpt};
-use crate::import::robot::{Joint, Kind};
+use crate::import::robot::{Joint, JointType};
 use crate::import::transform::Transform;
 use crate::import::xml::{Element, place};
 
-const KINDS: [(&str, Kind); 4] =
-    [("hinge", Kind::Revolute), ("slide", Kind::Prismatic), ("ball", Kind::Spherical), ("free", Kind::Floating)];
+const KINDS: [(&str, JointType); 4] = [
+    ("hinge", JointType::Revolute),
+    ("slide", JointType::Prismatic),
+    ("ball", JointType::Spherical),
+    ("free", JointType::Floating),
+];
 
-impl<'a, 'i> Reader<'a, 'i> {
+impl<'a, 'i> MjcfReader<'a, 'i> {
     /// A joint of a body; the frame of the child stands at `origin` in that of the parent.
-    pub fn joint(&mut self, part: &Placed<'a, 'i>, body: &str, ends: [usize; 2], origin: Transform) -> Result<Joint> {
+    pub fn joint(
+        &mut self,
+        part: &PlacedElement<'a, 'i>,
+        body: &str,
+        ends: [usize; 2],
+        origin: Transform,
+    ) -> Result<Joint> {
         let node = part.node;
         let is_free = node.has_tag_name("freejoint");
         let element =
             if is_free { Element::plain(node) } else { self.classes.element(node, &["joint"], part.class)? };
         let found = if is_free { "free" } else { element.text("type").unwrap_or("hinge") };
-        let kind = Kind::find(node, found, &KINDS)?;
+        let kind = JointType::find(node, found, &KINDS)?;
         let name = node.attribute("name").map_or_else(|| format!("{body}_joint"), str::to_string);
-        if kind == Kind::Floating && ends[0] != 0 {
+        if kind == JointType::Floating && ends[0] != 0 {
             return Err(Error::input(format!("the free joint `{}` is not in a body of the world", excerpt(&name)))
                 .placed(place(node)));
         }
         self.tell_unused(&element, &name)?;
-        let unit = if kind == Kind::Revolute { self.settings.unit } else { 1.0 };
+        let unit = if kind == JointType::Revolute { self.settings.unit } else { 1.0 };
         let mut joint = Joint::new(name.clone(), node.range().start, kind, ends, origin);
         let point = Transform { r: element.numbers("pos")?.unwrap_or_default(), ..Transform::default() };
         joint.anchor = part.frame.then(&point).r;

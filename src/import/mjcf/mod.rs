@@ -22,7 +22,7 @@ use super::xml::{all, faulty, unused};
 use crate::error::{Error, Result, short_list};
 use classes::Classes;
 use roxmltree::Node;
-use settings::Settings;
+use settings::MjcfSettings;
 use std::collections::HashMap;
 
 /// The scene of an MJCF text.
@@ -35,10 +35,10 @@ pub fn import(text: &str, options: &Options) -> Result<Imported> {
 }
 
 /// What is read so far.
-struct Reader<'a, 'i> {
+struct MjcfReader<'a, 'i> {
     root: Node<'a, 'i>,
     classes: Classes<'a, 'i>,
-    settings: Settings,
+    settings: MjcfSettings,
     robot: Robot<'i>,
     /// Indices of bodies by name.
     bodies: HashMap<String, usize>,
@@ -50,20 +50,20 @@ struct Reader<'a, 'i> {
 pub(super) fn read<'i>(root: Node<'_, 'i>, options: &Options) -> Result<Robot<'i>> {
     refuse(root, options)?;
     let mut told = Told::default();
-    let settings = Settings::read(root, &mut told)?;
+    let settings = MjcfSettings::read(root, &mut told)?;
     let mut robot = Robot::new(root, "MJCF", root.attribute("model").unwrap_or("model"));
     robot.gravity = settings.gravity;
     robot.links.push(Link::new("world".to_string(), root));
     let bodies = HashMap::new();
     let sites = HashMap::new();
-    let mut reader = Reader { root, classes: Classes::read(root), settings, robot, bodies, sites, told };
+    let mut reader = MjcfReader { root, classes: Classes::read(root), settings, robot, bodies, sites, told };
     reader.worldbody()?;
     reader.scale_masses();
     let joints = reader.robot.joints.iter().enumerate();
     let joints: HashMap<String, usize> = joints.map(|(index, joint)| (joint.name.clone(), index)).collect();
     reader.equalities(&joints)?;
     reader.actuators(&joints)?;
-    let Reader { mut robot, told, .. } = reader;
+    let MjcfReader { mut robot, told, .. } = reader;
     let elements = unused(root, &["compiler", "option", "worldbody", "default", "equality", "actuator"]);
     robot.left_out.extend((!elements.is_empty()).then(|| format!("elements {}", short_list(&elements))));
     robot.left_out.extend(told.sentences());

@@ -1,6 +1,6 @@
 //! Places of frames: `pos` with one of `quat`, `axisangle`, `xyaxes`, `zaxis` and `euler`.
 
-use super::settings::Settings;
+use super::settings::MjcfSettings;
 use crate::body::{aim, cross, norm};
 use crate::error::Result;
 use crate::import::transform::{Transform, UNTURNED, about};
@@ -8,7 +8,7 @@ use crate::import::xml::{Element, faulty, place as place_of_node};
 use crate::math::array::Each;
 use crate::math::rotation::{quaternion_from_axes, quaternion_from_vector, quaternion_product};
 
-impl Settings {
+impl MjcfSettings {
     /// The frame of an element.
     pub fn place(&self, element: &Element) -> Result<Transform> {
         let r = element.numbers("pos")?.unwrap_or_default();

@@ -5,7 +5,7 @@ use crate::import::told::Told;
 use crate::import::xml::{Element, all, faulty, list};
 use roxmltree::Node;
 
-pub struct Settings {
+pub struct MjcfSettings {
     /// Radians of a unit of the file's angles.
     pub unit: f64,
     /// The axes of Euler angles in their order; true for those that do not turn with the frame.
@@ -23,8 +23,8 @@ pub struct Settings {
 /// What scenes have no place for.
 const OPTIONS: [&str; 4] = ["density", "viscosity", "wind", "magnetic"];
 
-impl Settings {
-    pub fn read(root: Node, told: &mut Told) -> Result<Settings> {
+impl MjcfSettings {
+    pub fn read(root: Node, told: &mut Told) -> Result<MjcfSettings> {
         let compiler = Element::merged(root, "compiler");
         if let Some((node, "global")) = compiler.found("coordinate") {
             return Err(faulty(node, "global coordinates are no part of the format any more")
@@ -34,7 +34,7 @@ impl Settings {
         tell_options(root, told)?;
         let total_mass = compiler.number("settotalmass")?;
         let groups = compiler.numbers_or("inertiagrouprange", [0.0, 5.0])?;
-        Ok(Settings {
+        Ok(MjcfSettings {
             unit: if compiler.is("angle", "radian") { 1.0 } else { 1f64.to_radians() },
             euler: euler(&compiler)?,
             from_geoms: compiler.text("inertiafromgeom").and_then(|text| text.parse().ok()),

@@ -2,31 +2,31 @@
 
 use super::{Draft, aimed, whole};
 use crate::error::Result;
-use crate::import::names::Names;
-use crate::import::robot::{Coupling, Joint, Kind, Motor};
+use crate::import::names::UniqueNames;
+use crate::import::robot::{Coupling, Joint, JointType, Motor};
 use crate::import::transform::{Transform, about};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 
 impl Draft<'_> {
-    pub fn joint(&mut self, index: usize, names: &mut Names) -> Result<()> {
+    pub fn joint(&mut self, index: usize, names: &mut UniqueNames) -> Result<()> {
         let joint = &self.robot.joints[index];
         let kind = match joint.kind {
-            Kind::Fixed | Kind::Floating => {
+            JointType::Fixed | JointType::Floating => {
                 self.joints.between.push(Default::default());
                 return Ok(());
             }
-            Kind::Revolute => "revolute",
-            Kind::Prismatic => "prismatic",
-            Kind::Planar => "planar",
-            Kind::Spherical => "spherical",
+            JointType::Revolute => "revolute",
+            JointType::Prismatic => "prismatic",
+            JointType::Planar => "planar",
+            JointType::Spherical => "spherical",
         };
         let name = self.joints.names[index].clone();
         let between = self.mark_joint(joint, &name)?;
         self.scene.joints.push(json!({ "name": name, "type": kind, "between": between }));
         match joint.kind {
-            Kind::Spherical => self.damp_ball(joint, &name, &between[0], &between[1]),
-            Kind::Planar => {}
+            JointType::Spherical => self.damp_ball(joint, &name, &between[0], &between[1]),
+            JointType::Planar => {}
             _ => self.coordinate(index, &name, &between, names),
         }
         self.joints.between.push(between);
@@ -37,7 +37,7 @@ impl Draft<'_> {
     /// the file.
     fn mark_joint(&mut self, joint: &Joint, name: &str) -> Result<[String; 2]> {
         let axes = match joint.kind {
-            Kind::Spherical => Transform::default(),
+            JointType::Spherical => Transform::default(),
             _ => aimed(joint.axis).map_err(|error| self.robot.blame(error, &joint.name, joint.at))?,
         };
         let of_child = Transform { r: joint.anchor, ..axes };
@@ -49,15 +49,15 @@ impl Draft<'_> {
     }
 
     /// The output and the start of the coordinate, and what acts along it.
-    fn coordinate(&mut self, index: usize, name: &str, between: &[String; 2], names: &mut Names) {
+    fn coordinate(&mut self, index: usize, name: &str, between: &[String; 2], names: &mut UniqueNames) {
         let [from, to] = between;
         let joint = &self.robot.joints[index];
         let mut output = json!({ "name": name, "measure": "angle", "of": to, "relative_to": from });
-        let coordinate = if joint.kind == Kind::Revolute { "angle" } else { "position" };
-        if joint.kind == Kind::Prismatic {
+        let coordinate = if joint.kind == JointType::Revolute { "angle" } else { "position" };
+        if joint.kind == JointType::Prismatic {
             (output["measure"], output["component"]) = (json!("position"), json!("z"));
         }
-        let force = if joint.kind == Kind::Revolute { hinge_force } else { slider_force };
+        let force = if joint.kind == JointType::Revolute { hinge_force } else { slider_force };
         self.scene.forces.extend(force(joint, name, [from, to]));
         self.scene.outputs.push(output);
         if !self.joints.follows[index] {
@@ -70,7 +70,7 @@ impl Draft<'_> {
 
     /// Adds a wheel that turns with the coordinate q of a joint, about an axis of the ground: its energy J q'^2/2 is that
     /// of the joint's own inertia J, and it has no weight and no gyroscopic torque.
-    fn rotor(&mut self, index: usize, name: &str, names: &mut Names) {
+    fn rotor(&mut self, index: usize, name: &str, names: &mut UniqueNames) {
         let rotor = names.unique(&format!("{name}_rotor"));
         let inertia = self.robot.joints[index].armature;
         let position = self.tree.positions[index];
@@ -99,7 +99,7 @@ impl Draft<'_> {
     }
 
     /// Adds the equation of a joint whose coordinate follows that of another.
-    pub fn coupling(&mut self, coupling: &Coupling, names: &mut Names) {
+    pub fn coupling(&mut self, coupling: &Coupling, names: &mut UniqueNames) {
         let of = |joint: usize| {
             let reference = self.robot.joints[joint].reference;
             let name = &self.joints.names[joint];
@@ -124,11 +124,11 @@ impl Draft<'_> {
     }
 
     /// Adds an input that is the force or torque of a motor along the coordinate of a joint.
-    pub fn motor(&mut self, motor: &Motor, names: &mut Names) {
+    pub fn motor(&mut self, motor: &Motor, names: &mut UniqueNames) {
         let name = names.unique(&motor.name);
         let [from, to] = &self.joints.between[motor.joint];
         let (kind, key) = match self.robot.joints[motor.joint].kind {
-            Kind::Revolute => ("applied_torque", "torque"),
+            JointType::Revolute => ("applied_torque", "torque"),
             _ => ("applied_force", "force"),
         };
         self.scene.forces.push(json!({ "name": name, "type": kind, "at": to, "axes": "marker", key: [0, 0, 0],
@@ -140,7 +140,7 @@ impl Draft<'_> {
 /// From position zero of a joint to that of the file, in the axes of its marker.
 fn back(joint: &Joint) -> Transform {
     match joint.kind {
-        Kind::Revolute => Transform { r: [0.0; 3], turn: about(2, -joint.reference) },
+        JointType::Revolute => Transform { r: [0.0; 3], turn: about(2, -joint.reference) },
         _ => Transform { r: [0.0, 0.0, -joint.reference], ..Transform::default() },
     }
 }

@@ -3,7 +3,7 @@
 use super::Draft;
 use crate::error::short_list;
 use crate::import::Options;
-use crate::import::robot::{Joint, Kind, Robot};
+use crate::import::robot::{Joint, JointType, Robot};
 use crate::import::tree::Tree;
 
 /// The text about the scene.
@@ -23,8 +23,8 @@ pub fn left_out(robot: &Robot, tree: &Tree, draft: &Draft) -> Vec<String> {
     let joints = |test: &dyn Fn(&Joint) -> bool| -> Vec<String> {
         robot.joints.iter().filter(|joint| test(joint)).map(|joint| joint.name.clone()).collect()
     };
-    let is_damped = |joint: &Joint| joint.has_coordinate() || joint.kind == Kind::Spherical;
-    let fixed = robot.joints.iter().filter(|joint| joint.kind == Kind::Fixed);
+    let is_damped = |joint: &Joint| joint.has_coordinate() || joint.kind == JointType::Spherical;
+    let fixed = robot.joints.iter().filter(|joint| joint.kind == JointType::Fixed);
     let fixed: Vec<String> = fixed.map(|joint| robot.links[joint.child].name.clone()).collect();
     let mut told = [
         told(joints(&|joint| joint.damping != 0.0 && !is_damped(joint)), "damping of the joints"),

@@ -3,7 +3,7 @@
 use super::{Draft, aimed};
 use crate::error::{Error, Result};
 use crate::import::close::Closure;
-use crate::import::names::Names;
+use crate::import::names::UniqueNames;
 use crate::import::robot::Loop;
 use crate::import::transform::Transform;
 use crate::import::tree::find;
@@ -11,7 +11,7 @@ use serde_json::json;
 
 impl Draft<'_> {
     /// Adds a joint that the command line names.
-    pub fn close_by(&mut self, closure: &Closure, names: &mut Names) -> Result<()> {
+    pub fn close_by(&mut self, closure: &Closure, names: &mut UniqueNames) -> Result<()> {
         let [(a, at_a), (b, at_b)] = &closure.ends;
         let links = [find(self.robot, a)?, find(self.robot, b)?];
         self.refuse_one_body(links[0], links[1])?;
@@ -24,7 +24,7 @@ impl Draft<'_> {
     }
 
     /// Adds a joint of the file.
-    pub fn close(&mut self, given: &Loop, names: &mut Names) -> Result<()> {
+    pub fn close(&mut self, given: &Loop, names: &mut UniqueNames) -> Result<()> {
         let [a, b] = given.links;
         self.refuse_one_body(a, b).map_err(|error| error.element(&given.name))?;
         let own = given.frames[0].unwrap_or_default();

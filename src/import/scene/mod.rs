@@ -6,7 +6,7 @@ mod left_out;
 mod loops;
 mod valid;
 
-use super::names::Names;
+use super::names::UniqueNames;
 use super::robot::Robot;
 use super::transform::Transform;
 use super::tree::Tree;
@@ -19,7 +19,7 @@ use serde_json::{Map, Value, json};
 
 /// The scene at the positions of the joints, with what was left out.
 pub fn build(robot: &Robot, tree: &Tree, options: &Options) -> Result<Imported> {
-    let mut names = Names::default();
+    let mut names = UniqueNames::default();
     let mut draft = Draft::new(robot, tree, options, &mut names);
     draft.mark_links(&mut names);
     draft.joints.names = robot.joints.iter().map(|joint| names.unique(&joint.name)).collect();
@@ -82,7 +82,7 @@ struct Draft<'a> {
 }
 
 impl<'a> Draft<'a> {
-    fn new(robot: &'a Robot, tree: &'a Tree, options: &Options, names: &mut Names) -> Self {
+    fn new(robot: &'a Robot, tree: &'a Tree, options: &Options, names: &mut UniqueNames) -> Self {
         let mut follows = vec![false; robot.joints.len()];
         robot.couplings.iter().for_each(|coupling| follows[coupling.follower] = true);
         Draft {
@@ -108,7 +108,7 @@ impl<'a> Draft<'a> {
     }
 
     /// Links that are held together with another have a marker of their name; points of interest have one each.
-    fn mark_links(&mut self, names: &mut Names) {
+    fn mark_links(&mut self, names: &mut UniqueNames) {
         for (link, given) in self.robot.links.iter().enumerate() {
             if self.tree.body[link] != link {
                 let name = self.links[link].clone();
@@ -132,7 +132,7 @@ impl<'a> Draft<'a> {
     fn scene(&mut self, options: &Options) -> Value {
         let lists = std::mem::take(&mut self.scene);
         let mut scene = json!({
-            "name": Names::default().unique(&self.robot.name),
+            "name": UniqueNames::default().unique(&self.robot.name),
             "about": about(self.robot, options),
             "dimension": 3,
             "gravity": self.robot.gravity.map(whole),

@@ -1,7 +1,7 @@
 //! Joints that follow others.
 
 use crate::error::{Error, Result, excerpt, short_list, suggest};
-use crate::import::robot::{Coupling, Joint, Kind, Robot};
+use crate::import::robot::{Coupling, Joint, JointType, Robot};
 use crate::import::xml::{Element, all, attribute, child};
 use roxmltree::Node;
 use std::collections::HashMap;
@@ -15,7 +15,7 @@ pub fn couplings(root: Node, robot: &Robot, left_out: &mut Vec<String>) -> Resul
     for (own, node) in all(root, "joint").enumerate() {
         let Some(mimic) = child(node, "mimic") else { continue };
         let joint = &robot.joints[own];
-        if joint.kind == Kind::Fixed {
+        if joint.kind == JointType::Fixed {
             fixed.push(joint.name.clone());
         } else {
             let coupling = coupling(mimic, own, robot, &index);
@@ -43,9 +43,11 @@ fn coupling(mimic: Node, own: usize, robot: &Robot, index: &HashMap<&str, usize>
     if leader == own {
         return Err(Error::input("it mimics itself").hint("name another joint, or remove <mimic>"));
     }
-    let is_fixed = robot.joints[leader].kind == Kind::Fixed;
+    let is_fixed = robot.joints[leader].kind == JointType::Fixed;
     let ends = [&robot.joints[own], &robot.joints[leader]];
-    if let Some(other) = ends.into_iter().find(|joint: &&Joint| !joint.has_coordinate() && joint.kind != Kind::Fixed) {
+    if let Some(other) =
+        ends.into_iter().find(|joint: &&Joint| !joint.has_coordinate() && joint.kind != JointType::Fixed)
+    {
         let message = format!("it mimics another joint, and `{}` has no coordinate", other.name);
         return Err(Error::input(message).hint("joints that turn or slide mimic others of these"));
     }

@@ -3,20 +3,20 @@
 use super::mimic::couplings;
 use crate::body::MassProperties;
 use crate::error::{Error, Result, short, short_list};
-use crate::import::robot::{Joint, Kind, Link, Robot};
+use crate::import::robot::{Joint, JointType, Link, Robot};
 use crate::import::told::Told;
 use crate::import::transform::Transform;
 use crate::import::xml::{Element, all, attribute, child, faulty, place, texts, unused};
 use roxmltree::Node;
 use std::collections::HashMap;
 
-const KINDS: [(&str, Kind); 6] = [
-    ("revolute", Kind::Revolute),
-    ("continuous", Kind::Revolute),
-    ("prismatic", Kind::Prismatic),
-    ("planar", Kind::Planar),
-    ("floating", Kind::Floating),
-    ("fixed", Kind::Fixed),
+const KINDS: [(&str, JointType); 6] = [
+    ("revolute", JointType::Revolute),
+    ("continuous", JointType::Revolute),
+    ("prismatic", JointType::Prismatic),
+    ("planar", JointType::Planar),
+    ("floating", JointType::Floating),
+    ("fixed", JointType::Fixed),
 ];
 
 pub fn read<'i>(root: Node<'_, 'i>) -> Result<Robot<'i>> {
@@ -82,7 +82,7 @@ fn inertial(node: Node) -> Result<MassProperties> {
 }
 
 fn joint(node: Node, name: &str, links: &HashMap<&str, usize>, told: &mut Told) -> Result<Joint> {
-    let kind = Kind::find(node, attribute(node, "type")?, &KINDS)?;
+    let kind = JointType::find(node, attribute(node, "type")?, &KINDS)?;
     let ends = [end(node, "parent", links)?, end(node, "child", links)?];
     let dynamics = child(node, "dynamics").map(Element::plain);
     let of = |key| dynamics.as_ref().map_or(Ok(0.0), |dynamics| dynamics.number_or(key, 0.0));

@@ -1,7 +1,7 @@
 //! Descent along the forces to an equilibrium.
 
 use super::newton::{Policy, newton};
-use super::system::{Balance, Change, EquilibriumSystem, Place};
+use super::system::{Balance, EquilibriumChange, EquilibriumPoint, EquilibriumSystem};
 use crate::math::newton::{Limits, Monitor};
 use crate::math::{dot, largest, norm};
 use crate::tolerances;
@@ -19,12 +19,12 @@ const CLOSING: Limits = Limits {
 };
 
 /// Result of a descent.
-pub(super) enum End {
-    Equilibrium(Place),
+pub(super) enum DescentEnd {
+    Equilibrium(EquilibriumPoint),
     /// The coordinate moves without bound.
     Away(usize),
     /// The steps are used up, none goes down, or constraints become dependent there, as in a folded arm.
-    Stuck(Place),
+    Stuck(EquilibriumPoint),
 }
 
 /// Pseudo-transient continuation: dq/dtau = f - G^T lambda on phi = 0, by implicit Euler steps of one iteration each
@@ -38,8 +38,10 @@ pub(super) enum End {
 /// and back to phi = 0. A step is judged as in trust-region methods, by the work of the forces over it against what K
 /// predicts; so no potential is needed. Source: Kelley, Keyes, SIAM J. Numer. Anal. 35 (1998) 508-523; Conn, Gould,
 /// Toint, Trust-Region Methods, 2000, chapter 6. Returns the result and the number of steps.
-pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
-    let Some(mut at) = rest.balance(q) else { return (End::Stuck(Place { q: q.to_vec(), lambda: Vec::new() }), 0) };
+pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (DescentEnd, usize) {
+    let Some(mut at) = rest.balance(q) else {
+        return (DescentEnd::Stuck(EquilibriumPoint { q: q.to_vec(), lambda: Vec::new() }), 0);
+    };
     // The first step is a tenth of a metre or radian long: rotations must stay small.
     let mut shift = largest(&at.force) / 0.1;
     // Steps of 1e-13 m or rad move nothing.
@@ -50,13 +52,13 @@ pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
         if norm(&at.force) <= 0.03 * tried {
             tried = norm(&at.force);
             if let Some((place, true)) = newton(rest, at.place.clone(), None, Policy::NEAR) {
-                return (End::Equilibrium(place), step);
+                return (DescentEnd::Equilibrium(place), step);
             }
         }
         rest.evaluate(&at.place.q);
         let factored = rest.factor(&at.place, shift);
         if rest.is_round_off(&at.place, &at.force) {
-            return (End::Equilibrium(at.place), step);
+            return (DescentEnd::Equilibrium(at.place), step);
         }
         match if factored { advance(rest, &at, shift) } else { None } {
             Some((next, gain)) => {
@@ -71,13 +73,13 @@ pub(super) fn descend(rest: &mut EquilibriumSystem, q: &[f64]) -> (End, usize) {
             None => shift *= 4.0,
         }
         if let Some(coordinate) = gone(&at.place.q, q) {
-            return (End::Away(coordinate), step);
+            return (DescentEnd::Away(coordinate), step);
         }
         if shift > most {
             break;
         }
     }
-    (End::Stuck(at.place), DESCENT_STEPS)
+    (DescentEnd::Stuck(at.place), DESCENT_STEPS)
 }
 
 /// The coordinate farthest from the start, if its distance is beyond the limit.
@@ -105,7 +107,12 @@ fn advance(rest: &mut EquilibriumSystem, at: &Balance, shift: f64) -> Option<(Ba
 }
 
 /// The place after a change, returned to phi = 0 and balanced.
-fn onward(rest: &mut EquilibriumSystem, from: &Place, change: &Change, size: f64) -> Option<Balance> {
+fn onward(
+    rest: &mut EquilibriumSystem,
+    from: &EquilibriumPoint,
+    change: &EquilibriumChange,
+    size: f64,
+) -> Option<Balance> {
     let there = rest.moved(from, change, 1.0);
     let q = close(rest, there, size)?;
     rest.balance(&q)
@@ -135,7 +142,7 @@ fn relax(rest: &mut EquilibriumSystem, at: &mut Balance, way: &mut [f64], shift:
 }
 
 /// Returns to phi = 0 by least changes; `None` where these together exceed half the step.
-fn close(rest: &mut EquilibriumSystem, place: Place, size: f64) -> Option<Vec<f64>> {
+fn close(rest: &mut EquilibriumSystem, place: EquilibriumPoint, size: f64) -> Option<Vec<f64>> {
     let mut at = place;
     let mut way = 0.0;
     let mut is_evaluated = false;

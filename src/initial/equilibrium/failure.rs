@@ -1,7 +1,7 @@
 //! Messages for a search without an equilibrium.
 
 use super::stability::{named, soft};
-use super::system::{EquilibriumSystem, Place};
+use super::system::{EquilibriumPoint, EquilibriumSystem};
 use crate::error::{Error, Failure, short};
 use crate::math::largest;
 use crate::system::{Limited, MechanicalSystem};
@@ -50,7 +50,7 @@ fn name_of(system: &dyn MechanicalSystem, entry: usize) -> Option<String> {
 }
 
 /// Error that names what keeps the mechanism moving from the start; `away` is the coordinate of an unbounded descent.
-pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &Place, away: Option<usize>) -> Error {
+pub(super) fn none_found(rest: &mut EquilibriumSystem, start: &EquilibriumPoint, away: Option<usize>) -> Error {
     let t = rest.t;
     let failure = |reason: String, hint: &str| Failure { t, reason, hint: hint.to_string() }.into();
     let Some(balance) = rest.balance(&start.q) else { return not_finite() };

@@ -1,14 +1,14 @@
 //! Load stepping from the start to an equilibrium.
 
 use super::newton::{Policy, newton};
-use super::system::{EquilibriumSystem, Place};
+use super::system::{EquilibriumPoint, EquilibriumSystem};
 use crate::initial::continuation;
 use crate::tolerances;
 
 /// f - G^T lambda = (1 - s) (f - G^T lambda)(start), s from 0 to 1: the residual force of the start is removed in
 /// parts, each solved by Newton's method from the solution before. Where the start is an unloaded equilibrium this is
 /// load stepping. Returns the place reached, its s, and the number of steps.
-pub(super) fn homotopy(rest: &mut EquilibriumSystem, start: &Place) -> (Place, f64, usize) {
+pub(super) fn homotopy(rest: &mut EquilibriumSystem, start: &EquilibriumPoint) -> (EquilibriumPoint, f64, usize) {
     rest.evaluate(&start.q);
     let missing = rest.force(&start.lambda);
     let mut at = start.clone();

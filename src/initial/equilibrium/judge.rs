@@ -1,7 +1,7 @@
 //! Acceptance of a result of Newton's method as an equilibrium.
 
 use super::descent::gone;
-use super::system::{EquilibriumSystem, Place};
+use super::system::{EquilibriumPoint, EquilibriumSystem};
 use crate::math::largest;
 use crate::system::{Limited, Theory};
 use crate::tolerances;
@@ -15,14 +15,14 @@ pub(super) struct Judge {
 
 impl Judge {
     /// Evaluates and factors at the start.
-    pub fn at(rest: &mut EquilibriumSystem, start: &Place) -> Self {
+    pub fn at(rest: &mut EquilibriumSystem, start: &EquilibriumPoint) -> Self {
         rest.evaluate(&start.q);
         rest.factor(start, 0.0);
         Judge { q: start.q.clone(), loads: largest(&rest.sizes(start)), stiffness: rest.stiffness() }
     }
 
     /// True if the forces balance there: an unbounded matrix makes any step small, and any force round-off.
-    pub fn accepts(&self, rest: &mut EquilibriumSystem, place: &Place) -> bool {
+    pub fn accepts(&self, rest: &mut EquilibriumSystem, place: &EquilibriumPoint) -> bool {
         if gone(&place.q, &self.q).is_some() {
             return false;
         }

@@ -21,11 +21,11 @@ use crate::error::Result;
 use crate::math::largest;
 use crate::system::{Limited, MechanicalSystem, check_start};
 use crate::tolerances;
-use descent::End;
+use descent::DescentEnd;
 use judge::Judge;
 use newton::{Policy, newton};
 use serde::Serialize;
-use system::{EquilibriumSystem, Place};
+use system::{EquilibriumPoint, EquilibriumSystem};
 
 /// A static equilibrium.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,8 +69,8 @@ pub enum Way {
 }
 
 /// An equilibrium found by one of the methods.
-struct Found {
-    place: Place,
+struct FoundEquilibrium {
+    place: EquilibriumPoint,
     way: Way,
     stability: Stability,
     free: Vec<String>,
@@ -95,7 +95,8 @@ pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: (&[f64], &[f64]
     q.extend(&guess.1[system.dimensions().moving()..]);
     let mut rest = EquilibriumSystem::new(system, t, &q)?;
     let start = rest.balance(&q).ok_or_else(failure::not_finite)?.place;
-    let mut search = Search { best: None, steps: 0, away: None, bent: None, judge: Judge::at(&mut rest, &start) };
+    let mut search =
+        EquilibriumSearch { best: None, steps: 0, away: None, bent: None, judge: Judge::at(&mut rest, &start) };
     if !search.contracts(&mut rest, &start) && !search.grows(&mut rest, &start) {
         search.descends(&mut rest, &start);
     }
@@ -108,8 +109,8 @@ pub fn equilibrium(system: &dyn MechanicalSystem, t: f64, guess: (&[f64], &[f64]
     }
 }
 
-struct Search {
-    best: Option<Found>,
+struct EquilibriumSearch {
+    best: Option<FoundEquilibrium>,
     steps: usize,
     /// The coordinate that moves without bound in a descent.
     away: Option<usize>,
@@ -118,9 +119,9 @@ struct Search {
     judge: Judge,
 }
 
-impl Search {
+impl EquilibriumSearch {
     /// Newton's method from the start; true if its result is final.
-    fn contracts(&mut self, rest: &mut EquilibriumSystem, start: &Place) -> bool {
+    fn contracts(&mut self, rest: &mut EquilibriumSystem, start: &EquilibriumPoint) -> bool {
         match newton(rest, start.clone(), None, Policy::FULL) {
             Some((place, contracts)) => self.offer(rest, Some(place), Way::Newton) || contracts,
             None => false,
@@ -128,7 +129,7 @@ impl Search {
     }
 
     /// Damped steps, then load stepping; true if one of their results is good enough.
-    fn grows(&mut self, rest: &mut EquilibriumSystem, start: &Place) -> bool {
+    fn grows(&mut self, rest: &mut EquilibriumSystem, start: &EquilibriumPoint) -> bool {
         let damped = newton(rest, start.clone(), None, Policy::DAMPED).map(|(place, _)| place);
         if self.offer(rest, damped, Way::DampedNewton) {
             return true;
@@ -144,17 +145,19 @@ impl Search {
         self.offer(rest, Some(reached), Way::Homotopy)
     }
 
-    fn descends(&mut self, rest: &mut EquilibriumSystem, start: &Place) {
+    fn descends(&mut self, rest: &mut EquilibriumSystem, start: &EquilibriumPoint) {
         let (end, steps) = descent::descend(rest, &start.q);
         self.steps += steps;
         match end {
-            End::Equilibrium(place) | End::Stuck(place) => _ = self.offer(rest, Some(place), Way::Descent),
-            End::Away(coordinate) => self.away = Some(coordinate),
+            DescentEnd::Equilibrium(place) | DescentEnd::Stuck(place) => {
+                _ = self.offer(rest, Some(place), Way::Descent)
+            }
+            DescentEnd::Away(coordinate) => self.away = Some(coordinate),
         }
     }
 
     /// Records a place if it is better than the present one; true if it is good enough to stop.
-    fn offer(&mut self, rest: &mut EquilibriumSystem, place: Option<Place>, way: Way) -> bool {
+    fn offer(&mut self, rest: &mut EquilibriumSystem, place: Option<EquilibriumPoint>, way: Way) -> bool {
         let Some(place) = place else { return false };
         if let Some(bent) = Judge::bent(rest, &place.q) {
             self.bent = Some(bent);
@@ -165,15 +168,15 @@ impl Search {
         }
         let (stability, free) = stability::judge(rest, &place);
         if self.best.as_ref().is_none_or(|best| stability > best.stability) {
-            self.best = Some(Found { place, way, stability, free });
+            self.best = Some(FoundEquilibrium { place, way, stability, free });
         }
         stability >= Stability::Neutral
     }
 }
 
 /// The equilibrium with multipliers of least norm, and the residuals of its equations.
-fn finish(mut rest: EquilibriumSystem, found: Found, steps: usize) -> Result<Equilibrium> {
-    let Found { mut place, way, stability, free } = found;
+fn finish(mut rest: EquilibriumSystem, found: FoundEquilibrium, steps: usize) -> Result<Equilibrium> {
+    let FoundEquilibrium { mut place, way, stability, free } = found;
     rest.release();
     if let Some(balance) = rest.balance(&place.q) {
         place.lambda = balance.place.lambda;

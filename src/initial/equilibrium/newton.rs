@@ -1,6 +1,6 @@
 //! Newton's method on the equations of equilibrium.
 
-use super::system::{Change, EquilibriumSystem, Place};
+use super::system::{EquilibriumChange, EquilibriumPoint, EquilibriumSystem};
 use crate::math::largest;
 use crate::math::newton::{Limits, Monitor};
 use crate::tolerances;
@@ -31,10 +31,10 @@ impl Policy {
 /// `None` where Newton's method fails.
 pub(super) fn newton(
     rest: &mut EquilibriumSystem,
-    start: Place,
+    start: EquilibriumPoint,
     goal: Option<&[f64]>,
     policy: Policy,
-) -> Option<(Place, bool)> {
+) -> Option<(EquilibriumPoint, bool)> {
     let mut at = start;
     let mut newton = Monitor::default();
     let mut was_still = false;
@@ -65,7 +65,7 @@ pub(super) fn newton(
 }
 
 /// Residual f - G^T lambda - goal of the present terms.
-fn residual(rest: &EquilibriumSystem, at: &Place, goal: Option<&[f64]>) -> Vec<f64> {
+fn residual(rest: &EquilibriumSystem, at: &EquilibriumPoint, goal: Option<&[f64]>) -> Vec<f64> {
     let mut force = rest.force(&at.lambda);
     force.iter_mut().zip(goal.unwrap_or_default()).for_each(|(force, goal)| *force -= goal);
     force
@@ -73,7 +73,12 @@ fn residual(rest: &EquilibriumSystem, at: &Place, goal: Option<&[f64]>) -> Vec<f
 
 /// The longest step, by halving, after which the same matrix gives a shorter next one: the natural monotonicity test,
 /// which does not depend on the units of forces and constraints (Deuflhard, section 3.3).
-fn damped(rest: &mut EquilibriumSystem, at: &Place, change: &Change, size: f64) -> Option<Place> {
+fn damped(
+    rest: &mut EquilibriumSystem,
+    at: &EquilibriumPoint,
+    change: &EquilibriumChange,
+    size: f64,
+) -> Option<EquilibriumPoint> {
     let mut part = 1.0;
     while part > tolerances::UNSEEN {
         let next = rest.moved(at, change, part);

@@ -1,6 +1,6 @@
 //! Stability of an equilibrium.
 
-use super::system::{EquilibriumSystem, Place};
+use super::system::{EquilibriumPoint, EquilibriumSystem};
 use crate::formulation::{free_directions, reduce};
 use crate::modes::eigenvalues;
 use crate::tolerances;
@@ -36,7 +36,7 @@ pub(super) struct Soft {
 }
 
 /// Zero and smallest eigenvalues of Z^T K Z at a place; `None` where it is too large or cannot be evaluated.
-pub(super) fn soft(rest: &mut EquilibriumSystem, place: &Place) -> Option<Soft> {
+pub(super) fn soft(rest: &mut EquilibriumSystem, place: &EquilibriumPoint) -> Option<Soft> {
     if rest.dynamics.vdot.len() > tolerances::DENSE_EIGENVALUES {
         return None;
     }
@@ -63,7 +63,7 @@ pub(super) fn soft(rest: &mut EquilibriumSystem, place: &Place) -> Option<Soft> 
 }
 
 /// Stability of an equilibrium, and the names of the coordinates without stiffness.
-pub(super) fn judge(rest: &mut EquilibriumSystem, place: &Place) -> (Stability, Vec<String>) {
+pub(super) fn judge(rest: &mut EquilibriumSystem, place: &EquilibriumPoint) -> (Stability, Vec<String>) {
     let Some(soft) = soft(rest, place) else { return (Stability::Unknown, Vec::new()) };
     let free = named(rest, &soft.directions);
     let stability = if !soft.is_symmetric {

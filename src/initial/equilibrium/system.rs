@@ -10,7 +10,7 @@ use crate::tolerances;
 
 /// Coordinates and multipliers.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct EquilibriumPoint {
     /// Coordinates, then the states xi.
     pub q: Vec<f64>,
     pub lambda: Vec<f64>,
@@ -18,12 +18,12 @@ pub(super) struct Place {
 
 /// A place with the multipliers that balance it best, and the residual force.
 pub(super) struct Balance {
-    pub place: Place,
+    pub place: EquilibriumPoint,
     pub force: Vec<f64>,
 }
 
 /// A change of q along the directions of v, of xi in its own, and of lambda.
-pub(super) struct Change {
+pub(super) struct EquilibriumChange {
     pub q: Vec<f64>,
     pub lambda: Vec<f64>,
 }
@@ -131,17 +131,20 @@ impl<'a> EquilibriumSystem<'a> {
         let mut lambda = vec![0.0; self.scales.len()];
         self.level.solve(&mut top, &mut lambda).ok()?;
         let force = self.force(&lambda);
-        force.iter().all(|x| x.is_finite()).then_some(Balance { place: Place { q: q.to_vec(), lambda }, force })
+        force
+            .iter()
+            .all(|x| x.is_finite())
+            .then_some(Balance { place: EquilibriumPoint { q: q.to_vec(), lambda }, force })
     }
 
     /// The least change of q that closes the joints, to first order, from the present terms.
-    pub fn closing(&mut self) -> Option<Change> {
+    pub fn closing(&mut self) -> Option<EquilibriumChange> {
         let terms = &self.dynamics.terms;
         self.level.factor(&self.ones, &terms.g).ok()?;
         let phi: Vec<f64> = terms.phi.iter().map(|phi| -phi).collect();
         let mut q = vec![0.0; self.still.len()];
         self.level.solve_projection(&phi, &mut q).ok()?;
-        Some(Change { q, lambda: Vec::new() })
+        Some(EquilibriumChange { q, lambda: Vec::new() })
     }
 
     /// Keeps all rows from now on, so that multipliers are those of least norm.
@@ -151,7 +154,7 @@ impl<'a> EquilibriumSystem<'a> {
     }
 
     /// Factors the matrix at a place whose terms are evaluated; false where it is singular.
-    pub fn factor(&mut self, place: &Place, shift: f64) -> bool {
+    pub fn factor(&mut self, place: &EquilibriumPoint, shift: f64) -> bool {
         let q = &place.q[..self.coordinates];
         let vdot = &vec![0.0; self.still.len()];
         let at = OperatingPoint { t: self.t, q, v: &self.still, vdot, lambda: &place.lambda };
@@ -169,25 +172,25 @@ impl<'a> EquilibriumSystem<'a> {
     }
 
     /// Solves with `force` and the phi of the present terms.
-    pub fn solve(&mut self, force: &[f64]) -> Option<Change> {
+    pub fn solve(&mut self, force: &[f64]) -> Option<EquilibriumChange> {
         self.iterations += 1;
         let mut q = force.to_vec();
         let mut rows: Vec<f64> = self.rows.iter().map(|&row| -self.dynamics.terms.phi[row]).collect();
         self.matrix.solve(&mut q, &mut rows).ok()?;
         let mut lambda = vec![0.0; self.scales.len()];
         self.rows.iter().zip(rows).for_each(|(&row, value)| lambda[row] = value);
-        Some(Change { q, lambda })
+        Some(EquilibriumChange { q, lambda })
     }
 
     /// The place after `part` of a change.
-    pub fn moved(&mut self, from: &Place, change: &Change, part: f64) -> Place {
+    pub fn moved(&mut self, from: &EquilibriumPoint, change: &EquilibriumChange, part: f64) -> EquilibriumPoint {
         let dq: Vec<f64> = change.q.iter().map(|dq| part * dq).collect();
         let mut q = from.q.clone();
         let ((own, xi), moving) = (q.split_at_mut(self.coordinates), self.dynamics.system.dimensions().moving());
         self.retraction.apply(self.dynamics.system, &from.q[..own.len()], &dq, own);
         xi.iter_mut().zip(&dq[moving..]).for_each(|(xi, d)| *xi += d);
         let lambda = from.lambda.iter().zip(&change.lambda).map(|(lambda, d)| lambda + part * d).collect();
-        Place { q, lambda }
+        EquilibriumPoint { q, lambda }
     }
 
     /// |dq| in the metric of the present M: one unit for all coordinates.
@@ -198,7 +201,7 @@ impl<'a> EquilibriumSystem<'a> {
     }
 
     /// Sum of the magnitudes of the forces and reactions on each velocity, from the present terms.
-    pub fn sizes(&self, place: &Place) -> Vec<f64> {
+    pub fn sizes(&self, place: &EquilibriumPoint) -> Vec<f64> {
         let terms = &self.dynamics.terms;
         let structure = &self.dynamics.structure;
         let mut sizes: Vec<f64> = terms.f.iter().map(|f| f.abs()).collect();
@@ -219,7 +222,7 @@ impl<'a> EquilibriumSystem<'a> {
 
     /// True if a force is within round-off: of the forces and reactions that it is the sum of, and of coordinates
     /// rounded by an ulp where K is that of the last factorization.
-    pub fn is_round_off(&self, place: &Place, force: &[f64]) -> bool {
+    pub fn is_round_off(&self, place: &EquilibriumPoint, force: &[f64]) -> bool {
         let reach = 1.0f64.max(largest(&place.q));
         let sizes = self.sizes(place).into_iter().zip(self.stiffness());
         let size: Vec<f64> = sizes.map(|(force, stiffness)| force + stiffness * reach).collect();

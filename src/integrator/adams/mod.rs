@@ -90,7 +90,7 @@ struct Adams {
 
 /// What steps pass on, as it is saved.
 #[derive(Serialize, Deserialize)]
-struct Memory {
+struct AdamsMemory {
     order: usize,
     known: usize,
     past: [f64; ROOM],
@@ -313,11 +313,13 @@ impl Integrator for Adams {
         let Adams { order, known, past, tried, is_accepted, is_rising, .. } = *self;
         let (rows, count) = if is_accepted { (&self.predicted, tried.order + 1) } else { (&self.differences, known) };
         let rows = (0..count).map(|i| rows.row(i).collect()).collect();
-        written(Memory { order, known, past, tried, is_accepted, is_rising, rows })
+        written(AdamsMemory { order, known, past, tried, is_accepted, is_rising, rows })
     }
 
     fn recall(&mut self, memory: &Value) {
-        let Some(Memory { order, known, past, tried, is_accepted, is_rising, rows }) = read(memory) else { return };
+        let Some(AdamsMemory { order, known, past, tried, is_accepted, is_rising, rows }) = read(memory) else {
+            return;
+        };
         self.order = order.clamp(1, self.most);
         self.known = known.min(ROOM);
         self.past = past;

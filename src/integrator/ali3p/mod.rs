@@ -76,7 +76,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
 
 /// What steps pass on, as it is saved: a and lambda* of the last one, if there was one.
 #[derive(Serialize, Deserialize)]
-struct Memory {
+struct Ali3pMemory {
     is_started: bool,
     a: Vec<f64>,
     lambda: Vec<f64>,
@@ -271,11 +271,11 @@ impl Integrator for Ali3p {
 
     fn memory(&self) -> Option<Value> {
         let Ali3p { is_started, a, lambda_start, .. } = self;
-        written(Memory { is_started: *is_started, a: a.clone(), lambda: lambda_start.clone() })
+        written(Ali3pMemory { is_started: *is_started, a: a.clone(), lambda: lambda_start.clone() })
     }
 
     fn recall(&mut self, memory: &Value) {
-        if let Some(Memory { is_started, a, lambda }) = read(memory) {
+        if let Some(Ali3pMemory { is_started, a, lambda }) = read(memory) {
             self.is_started = is_started;
             fill(&mut self.a, &a);
             fill(&mut self.lambda_start, &lambda);

@@ -23,7 +23,7 @@ pub struct History {
 
 /// The known states.
 #[derive(Serialize, Deserialize)]
-pub struct Memory {
+pub struct HistoryMemory {
     times: Vec<f64>,
     y: Vec<Vec<f64>>,
     lambda: Vec<Vec<f64>>,
@@ -120,13 +120,17 @@ impl History {
     }
 
     /// The states for [`Self::recall`].
-    pub fn memory(&self) -> Memory {
+    pub fn memory(&self) -> HistoryMemory {
         let known = ..self.known;
-        Memory { times: self.times[known].to_vec(), y: self.y[known].to_vec(), lambda: self.lambda[known].to_vec() }
+        HistoryMemory {
+            times: self.times[known].to_vec(),
+            y: self.y[known].to_vec(),
+            lambda: self.lambda[known].to_vec(),
+        }
     }
 
     /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, Memory { times, y, lambda }: Memory) {
+    pub fn recall(&mut self, HistoryMemory { times, y, lambda }: HistoryMemory) {
         self.known = times.len().min(POINTS);
         fill(&mut self.times, &times);
         self.y.iter_mut().zip(&y).for_each(|(own, y)| fill(own, y));

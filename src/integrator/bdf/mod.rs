@@ -84,10 +84,10 @@ struct Bdf {
 
 /// What steps pass on, as it is saved.
 #[derive(Serialize, Deserialize)]
-struct Memory {
+struct BdfMemory {
     is_begun: bool,
     order: Order,
-    history: history::Memory,
+    history: history::HistoryMemory,
     stage: newton_matrix::Memory,
 }
 
@@ -163,11 +163,11 @@ impl Integrator for Bdf {
     fn memory(&self) -> Option<Value> {
         let Bdf { is_begun, order, history, stage, .. } = self;
         let order = order.clone();
-        written(Memory { is_begun: *is_begun, order, history: history.memory(), stage: stage.matrix.memory() })
+        written(BdfMemory { is_begun: *is_begun, order, history: history.memory(), stage: stage.matrix.memory() })
     }
 
     fn recall(&mut self, memory: &Value) {
-        if let Some(Memory { is_begun, order, history, stage }) = read(memory) {
+        if let Some(BdfMemory { is_begun, order, history, stage }) = read(memory) {
             self.is_begun = is_begun;
             self.order = order.bounded();
             self.history.recall(history);

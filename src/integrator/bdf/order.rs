@@ -22,7 +22,7 @@ pub struct Order {
     failures: usize,
     /// Those of the last attempt, which a choice follows at once.
     #[serde(skip)]
-    terms: Terms,
+    terms: DerivativeNorms,
 }
 
 /// Highest order that is stable on steps each twice as long as the last: up to a factor of 1 + sqrt 2. Source: Hairer,
@@ -30,7 +30,7 @@ pub struct Order {
 const STABLE: usize = 2;
 
 /// Norms of h^(j+1) y^(j+1) for j = k - 2 ... k + 1 after the last attempt; infinite where unknown.
-pub type Terms = [f64; 4];
+pub type DerivativeNorms = [f64; 4];
 
 impl Order {
     pub fn new() -> Self {
@@ -71,7 +71,7 @@ impl Order {
     }
 
     /// Notes the terms of an attempt with this error, and lowers the order after one that is refused.
-    pub fn tried(&mut self, error: f64, terms: Terms) {
+    pub fn tried(&mut self, error: f64, terms: DerivativeNorms) {
         self.terms = terms;
         if error <= 1.0 {
             return;

@@ -28,7 +28,7 @@ pub struct Stage {
     /// The unknowns; on entry of a solution their first guess.
     pub unknowns: Change<f64>,
     residual: Residual,
-    pub matrix: NewtonMatrix<Matrix>,
+    pub matrix: NewtonMatrix<StageMatrix>,
     /// Round-off of y in the last solution, over the tolerated errors.
     pub round_off: f64,
     change: Vec<f64>,
@@ -37,9 +37,9 @@ pub struct Stage {
 }
 
 /// The matrix for v = v* + g (a + w), q = q* + g N (v + u).
-pub struct Matrix(Iteration<f64>);
+pub struct StageMatrix(Iteration<f64>);
 
-impl Factors for Matrix {
+impl Factors for StageMatrix {
     const BAND: f64 = 1.1;
 
     fn metric(&self, Size { h: g, .. }: Size) -> f64 {
@@ -77,7 +77,7 @@ impl Stage {
                 mu: zeros(n.lambda),
             },
             residual: Residual::new(n),
-            matrix: NewtonMatrix::new(dae, setup.system, Matrix(matrix)),
+            matrix: NewtonMatrix::new(dae, setup.system, StageMatrix(matrix)),
             round_off: 0.0,
             change: zeros(setup.len()),
             velocity: zeros(n.v),
@@ -168,7 +168,7 @@ impl Stage {
         let guess = formulation::Unknowns { a, lambda, w, eta, u, mu, stiffness };
         residual.evaluate(dae, t, q, v, guess, &mut problem.dynamics)?;
         problem.dynamics.statistics.newton_iterations += 1;
-        let Matrix(iteration) = &mut matrix.factors;
+        let StageMatrix(iteration) = &mut matrix.factors;
         iteration.load(std::iter::once((1.0, &*residual)));
         iteration.solve(&mut matrix.at, &problem.dynamics.structure)?;
         let by = &iteration.change;

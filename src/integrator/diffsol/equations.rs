@@ -1,6 +1,6 @@
 //! The equations of a run as diffsol takes them.
 
-use super::rows::Rows;
+use super::rows::EquationRows;
 use crate::formulation::{Statistics, StepError};
 use crate::integrator::{From, Problem};
 use diffsol::{
@@ -30,13 +30,13 @@ pub struct Equations<'s> {
     /// Pattern of dF/dx, and the place of each entry among its values; empty for a vector field.
     pattern: Sparsity,
     places: Vec<usize>,
-    state: RefCell<State<'s>>,
+    state: RefCell<EvaluationState<'s>>,
 }
 
 /// What an evaluation changes.
-struct State<'s> {
+struct EvaluationState<'s> {
     problem: Problem<'s>,
-    rows: Option<Rows>,
+    rows: Option<EquationRows>,
     /// The reason why the last evaluation failed.
     failure: Option<StepError>,
 }
@@ -55,13 +55,13 @@ fn pattern(len: usize, entries: &[(usize, usize)]) -> Option<(Sparsity, Vec<usiz
 impl<'s> Equations<'s> {
     /// The rows `rows` of a formulation, or without them its vector field; `None` if there is not enough memory for the
     /// matrix.
-    pub fn new(problem: Problem<'s>, rows: Option<Rows>) -> Option<Self> {
+    pub fn new(problem: Problem<'s>, rows: Option<EquationRows>) -> Option<Self> {
         let all = problem.len();
-        let len = rows.as_ref().map_or(all, Rows::len);
-        let differential = rows.as_ref().map_or(all, Rows::differential);
+        let len = rows.as_ref().map_or(all, EquationRows::len);
+        let differential = rows.as_ref().map_or(all, EquationRows::differential);
         let entries = rows.as_ref().map_or_else(Vec::new, |rows| rows.pattern(&problem.dynamics));
         let (pattern, places) = pattern(len, &entries)?;
-        let state = RefCell::new(State { problem, rows, failure: None });
+        let state = RefCell::new(EvaluationState { problem, rows, failure: None });
         Some(Equations {
             context: FaerContext::new(),
             len,
@@ -126,7 +126,7 @@ impl<'s> Equations<'s> {
     }
 
     fn evaluate(&self, t: f64, x: &[f64], out: &mut [f64]) {
-        let State { problem, rows, failure } = &mut *self.state.borrow_mut();
+        let EvaluationState { problem, rows, failure } = &mut *self.state.borrow_mut();
         let evaluated = match rows {
             Some(rows) => rows.evaluate(&mut problem.dynamics, t, x, out),
             None => problem.derivative(t, x, out),
@@ -140,7 +140,7 @@ impl<'s> Equations<'s> {
     }
 
     fn powers(&self, t: f64, x: &[f64], out: &mut [f64]) {
-        let State { problem, rows, .. } = &mut *self.state.borrow_mut();
+        let EvaluationState { problem, rows, .. } = &mut *self.state.borrow_mut();
         if let Some(rows) = rows {
             rows.powers(&mut problem.dynamics, t, x, out);
         }
@@ -151,7 +151,7 @@ impl<'s> Equations<'s> {
     }
 
     fn jacobian(&self, t: f64, x: &[f64], values: &mut [f64]) {
-        let State { problem, rows, failure } = &mut *self.state.borrow_mut();
+        let EvaluationState { problem, rows, failure } = &mut *self.state.borrow_mut();
         values.fill(0.0);
         let mut places = self.places.iter();
         let add = |value: f64| {

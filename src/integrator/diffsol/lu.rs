@@ -15,9 +15,9 @@ use std::cell::RefCell;
 /// `diffsol::FaerSparseLU` panics on a matrix that has no factors. Here a solution by such factors is an error, after
 /// which diffsol takes a smaller step.
 #[derive(Default)]
-pub struct SparseLu(Option<Factors>);
+pub struct SparseLu(Option<LuFactors>);
 
-struct Factors {
+struct LuFactors {
     matrix: FaerSparseMat<f64>,
     symbolic: SymbolicLu<usize>,
     numeric: NumericLu<usize, f64>,
@@ -26,12 +26,12 @@ struct Factors {
     is_factored: bool,
 }
 
-impl Factors {
+impl LuFactors {
     fn new(matrix: FaerSparseMat<f64>) -> Option<Self> {
         let symbolic = factorize_symbolic_lu(matrix.inner()[0].symbolic(), Default::default()).ok()?;
         let factor_memory = symbolic.factorize_numeric_lu_scratch::<f64>(Par::Seq, Default::default());
         let solve_memory = symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
-        Some(Factors {
+        Some(LuFactors {
             matrix,
             symbolic,
             numeric: NumericLu::new(),
@@ -60,7 +60,7 @@ impl LinearSolver<FaerSparseMat<f64>> for SparseLu {
         Op: LinearOp<T = f64, V = FaerVec<f64>, M = FaerSparseMat<f64>, C = FaerContext>,
     {
         let matrix = FaerSparseMat::new_from_sparsity(op.nrows(), op.ncols(), op.sparsity(), *op.context());
-        self.0 = Factors::new(matrix);
+        self.0 = LuFactors::new(matrix);
     }
 
     fn set_linearisation<Op>(&mut self, op: &Op)

@@ -22,8 +22,8 @@ use crate::system::MechanicalSystem;
 use crate::tolerances;
 use ::diffsol::Tableau;
 use equations::Equations;
-use rows::Rows;
-use solver::{Counters, Frame, Scheme};
+use rows::EquationRows;
+use solver::{Counters, DiffsolSolver, Scheme};
 
 /// A method of diffsol on the equations of a run.
 struct Diffsol<'s> {
@@ -31,7 +31,7 @@ struct Diffsol<'s> {
     system: &'s dyn MechanicalSystem,
     formulation: MethodSpec,
     dae: Option<Dae>,
-    frame: Option<Frame<'s>>,
+    frame: Option<DiffsolSolver<'s>>,
     /// Rows that the equations of the frame do not contain.
     dropped: Vec<usize>,
     /// True if the solver begins again at the next step.
@@ -89,7 +89,7 @@ impl<'s> Diffsol<'s> {
         let mut own = Problem::new(Dynamics::new(self.system), formulation);
         own.dynamics.drop_rows(&problem.dynamics.dropped);
         own.dynamics.wants_least = false;
-        let rows = self.dae.map(|dae| Rows::new(dae, &own.dynamics));
+        let rows = self.dae.map(|dae| EquationRows::new(dae, &own.dynamics));
         Equations::new(own, rows).ok_or(TOO_LARGE)
     }
 
@@ -115,7 +115,7 @@ impl<'s> Diffsol<'s> {
                 let equations = self.equations(problem)?;
                 equations.follow(problem);
                 let x = equations.start(from, lambda);
-                self.frame = Some(Frame::new(self.scheme, equations, from, &x)?);
+                self.frame = Some(DiffsolSolver::new(self.scheme, equations, from, &x)?);
                 self.dropped.clone_from(&problem.dynamics.dropped);
                 self.counted = Counters::default();
             }

@@ -16,10 +16,10 @@ use std::ops::Range;
 ///
 /// the equations of [`Dae`] in x = (q, v, a, lambda, w, eta, u, mu), without the shifts that they do not have. Rows that
 /// are dropped, and rows of mu for nonholonomic constraints, set their multiplier to zero.
-pub struct Rows {
+pub struct EquationRows {
     dae: Dae,
     n: Dimensions,
-    places: Places,
+    places: UnknownRanges,
     dropped: Vec<usize>,
     residual: Residual,
     directions: Directions,
@@ -33,7 +33,7 @@ pub struct Rows {
 }
 
 /// Ranges of the parts of x; those of shifts that the equations do not have are empty.
-struct Places {
+struct UnknownRanges {
     q: Range<usize>,
     v: Range<usize>,
     a: Range<usize>,
@@ -44,7 +44,7 @@ struct Places {
     mu: Range<usize>,
 }
 
-impl Places {
+impl UnknownRanges {
     fn new(dae: Dae, n: Dimensions) -> Self {
         let mut end = 0;
         let mut next = |len: usize| {
@@ -54,7 +54,7 @@ impl Places {
         let of = |is_there: bool, len: usize| if is_there { len } else { 0 };
         let has_w = dae.eta.is_some();
         let has_u = dae.mu.is_some();
-        Places {
+        UnknownRanges {
             q: next(n.q),
             v: next(n.v),
             a: next(n.v),
@@ -81,7 +81,7 @@ struct Matrices<'m> {
     velocity: &'m [f64],
 }
 
-impl Rows {
+impl EquationRows {
     /// Memory for `dae` on the system of `dynamics`, with the rows that are dropped there.
     pub fn new(dae: Dae, dynamics: &Dynamics) -> Self {
         let system = dynamics.system;
@@ -89,10 +89,10 @@ impl Rows {
         let n = system.dimensions();
         let mut by_constraint = vec![Vec::new(); n.lambda];
         structure.g.entries.iter().enumerate().for_each(|(entry, (row, _))| by_constraint[*row].push(entry));
-        Rows {
+        EquationRows {
             dae,
             n,
-            places: Places::new(dae, n),
+            places: UnknownRanges::new(dae, n),
             dropped: dynamics.dropped.clone(),
             residual: Residual::new(n),
             directions: Directions::new(system),
@@ -129,7 +129,7 @@ impl Rows {
     /// # Errors
     /// A state or a term that is not finite.
     pub fn evaluate(&mut self, dynamics: &mut Dynamics, t: f64, x: &[f64], out: &mut [f64]) -> Result<(), StepError> {
-        let Rows { dae, places, residual, velocity, .. } = self;
+        let EquationRows { dae, places, residual, velocity, .. } = self;
         let part = |range: &Range<usize>| &x[range.clone()];
         let unknowns = Unknowns {
             a: part(&places.a),
@@ -171,7 +171,7 @@ impl Rows {
 
     /// Writes the powers whose integrals are the works. One evaluation of forces and constraints.
     pub fn powers(&self, dynamics: &mut Dynamics, t: f64, x: &[f64], out: &mut [f64]) {
-        let Places { q, v, lambda, .. } = &self.places;
+        let UnknownRanges { q, v, lambda, .. } = &self.places;
         dynamics.statistics.rhs_evaluations += 1;
         dynamics.evaluate(t, &x[q.clone()], &x[v.clone()], Need::FORCE | Need::CONSTRAINTS);
         out.iter_mut().zip(dynamics.powers(&x[lambda.clone()])).for_each(|(out, power)| *out = power);
@@ -228,7 +228,7 @@ impl Rows {
         mut add_value: impl FnMut(f64),
     ) -> Result<(), StepError> {
         let part = |range: &Range<usize>| &x[range.clone()];
-        let Places { q, v, a, lambda, u, .. } = &self.places;
+        let UnknownRanges { q, v, a, lambda, u, .. } = &self.places;
         let at = OperatingPoint { t, q: part(q), v: part(v), vdot: part(a), lambda: part(lambda) };
         dynamics.evaluate(t, at.q, at.v, Need::DYNAMICS | Need::L);
         if !dynamics.system.tangent(at, &mut self.tangent, &mut dynamics.scratch) {
@@ -260,7 +260,7 @@ impl Rows {
     /// Passes all entries of dF/dx to `put`: row, column, value. M u + G^T mu and M w + G^T eta are differentiated at
     /// u = w = 0.
     fn visit(&self, structure: &Structure, at: &Matrices, mut put: impl FnMut(usize, usize, f64)) {
-        let Places { q, v, a, lambda, w, eta, u, mu, .. } = &self.places;
+        let UnknownRanges { q, v, a, lambda, w, eta, u, mu, .. } = &self.places;
         for shift in [v, u].into_iter().filter(|part| !part.is_empty()) {
             self.directions.rate(at.q, |row, direction, value| put(q.start + row, shift.start + direction, value));
         }
@@ -292,7 +292,7 @@ impl Rows {
     /// d/dq = c_0 G + c_1 L + c_2 d(phi'')/dq,   d/dv = c_1 G + 2 c_2 L,   d/da = c_2 G
     /// ```
     fn visit_rows(&self, structure: &Structure, at: &Matrices, mut put: impl FnMut(usize, usize, f64)) {
-        let Places { q, v, a, .. } = &self.places;
+        let UnknownRanges { q, v, a, .. } = &self.places;
         self.each_row(|row, place, constraint| {
             let Some(Row { position, velocity, acceleration }) = row else { return put(place, place, -1.0) };
             for &entry in &self.by_constraint[constraint] {

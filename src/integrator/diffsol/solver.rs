@@ -122,7 +122,7 @@ self_cell!(
 );
 
 /// A solver of diffsol on the equations of a run.
-pub struct Frame<'s>(Pair<'s>);
+pub struct DiffsolSolver<'s>(Pair<'s>);
 
 /// Newton's iteration ends at this part of the tolerated error: what it leaves of the constraints is drift.
 const NEWTON: f64 = 0.01;
@@ -133,7 +133,7 @@ const JACOBIAN: usize = 10;
 /// Tolerance of variables that take no part in the error test.
 const UNTESTED: f64 = 1e20;
 
-impl<'s> Frame<'s> {
+impl<'s> DiffsolSolver<'s> {
     /// A solver that begins at `from` with x there, and steps of its size at first.
     ///
     /// # Errors
@@ -141,7 +141,7 @@ impl<'s> Frame<'s> {
     pub fn new(scheme: Scheme, equations: Equations<'s>, from: From, x: &[f64]) -> Result<Self, StepError> {
         let problem = problem(equations, from);
         let begun = Pair::try_new(problem, |problem| begin(scheme, problem, from, x));
-        begun.map(Frame).map_err(|_| StepError::NotConverged)
+        begun.map(DiffsolSolver).map_err(|_| StepError::NotConverged)
     }
 
     /// The equations.

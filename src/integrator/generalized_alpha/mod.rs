@@ -11,7 +11,7 @@ use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Steps, T
 use crate::error::{Error, Result};
 use crate::formulation::StepError;
 use crate::method_spec::OptionDoc;
-use motion::{Motion, Scheme};
+use motion::{Scheme, StepMotion};
 use newton::Newton;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -83,7 +83,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
     let mut control = Control::proportional(3.0, 0.13, 0.2, 2.0);
     control.order = 2;
     Ok(Box::new(GeneralizedAlpha {
-        motion: Motion::new(scheme, setup.system, &dae),
+        motion: StepMotion::new(scheme, setup.system, &dae),
         newton,
         error: vec![0.0; n.q],
         control,
@@ -92,14 +92,14 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
 
 /// What steps pass on, as it is saved.
 #[derive(Serialize, Deserialize)]
-struct Memory {
+struct GeneralizedAlphaMemory {
     control: Control,
-    motion: motion::Memory,
+    motion: motion::MotionMemory,
     newton: newton_matrix::Memory,
 }
 
 struct GeneralizedAlpha {
-    motion: Motion,
+    motion: StepMotion,
     newton: Newton,
     /// n_q
     error: Vec<f64>,
@@ -150,11 +150,11 @@ impl Integrator for GeneralizedAlpha {
 
     fn memory(&self) -> Option<Value> {
         let GeneralizedAlpha { control, motion, newton, .. } = self;
-        written(Memory { control: *control, motion: motion.memory(), newton: newton.matrix.memory() })
+        written(GeneralizedAlphaMemory { control: *control, motion: motion.memory(), newton: newton.matrix.memory() })
     }
 
     fn recall(&mut self, memory: &Value) {
-        if let Some(Memory { control, motion, newton }) = read(memory) {
+        if let Some(GeneralizedAlphaMemory { control, motion, newton }) = read(memory) {
             self.control = control;
             self.motion.recall(&motion);
             self.newton.matrix.recall(newton);

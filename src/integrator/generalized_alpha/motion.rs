@@ -2,7 +2,7 @@
 
 use super::super::sums::add;
 use super::super::{From, Problem};
-use super::prediction::{Carried, Prediction};
+use super::prediction::{Prediction, StepState};
 use crate::formulation::{Change, Dae, ExponentialMap, Slopes, StepError, Unknowns};
 use crate::math::largest;
 use crate::system::MechanicalSystem;
@@ -52,20 +52,20 @@ impl Scheme {
     }
 }
 
-/// What steps pass on, for [`Motion::recall`].
+/// What steps pass on, for [`StepMotion::recall`].
 #[derive(Serialize, Deserialize)]
-pub(super) struct Memory {
+pub(super) struct MotionMemory {
     is_started: bool,
-    start: Carried,
+    start: StepState,
     prediction: Prediction,
 }
 
-pub(super) struct Motion {
+pub(super) struct StepMotion {
     pub scheme: Scheme,
     /// True if `start` is known.
     is_started: bool,
-    start: Carried,
-    pub end: Carried,
+    start: StepState,
+    pub end: StepState,
     prediction: Prediction,
     /// a at the start, adapted to the present step size.
     a: Vec<f64>,
@@ -81,15 +81,15 @@ pub(super) struct Motion {
     retraction: ExponentialMap,
 }
 
-impl Motion {
+impl StepMotion {
     pub fn new(scheme: Scheme, system: &dyn MechanicalSystem, dae: &Dae) -> Self {
         let n = system.dimensions();
         let zeros = |n: usize| vec![0.0; n];
-        Motion {
+        StepMotion {
             scheme,
             is_started: false,
-            start: Carried::new(n),
-            end: Carried::new(n),
+            start: StepState::new(n),
+            end: StepState::new(n),
             prediction: Prediction::new(n),
             a: zeros(n.v),
             w: zeros(n.v),
@@ -110,7 +110,7 @@ impl Motion {
             self.start(problem, from, ahead)?;
         }
         self.end.h = h;
-        let Carried { a, vdot, h: own, .. } = &self.start;
+        let StepState { a, vdot, h: own, .. } = &self.start;
         for (i, next) in self.a.iter_mut().enumerate() {
             *next = vdot[i] + h / own * (a[i] - vdot[i]);
         }
@@ -157,12 +157,12 @@ impl Motion {
     }
 
     /// `start` and what predicts the end.
-    pub fn memory(&self) -> Memory {
-        Memory { is_started: self.is_started, start: self.start.clone(), prediction: self.prediction.clone() }
+    pub fn memory(&self) -> MotionMemory {
+        MotionMemory { is_started: self.is_started, start: self.start.clone(), prediction: self.prediction.clone() }
     }
 
     /// Restores a [`memory`](Self::memory).
-    pub fn recall(&mut self, Memory { is_started, start, prediction }: &Memory) {
+    pub fn recall(&mut self, MotionMemory { is_started, start, prediction }: &MotionMemory) {
         self.is_started = *is_started;
         self.start.recall(start);
         self.prediction.recall(prediction);
@@ -229,7 +229,7 @@ impl Motion {
 
     /// Sets a_1 for the present v'_1.
     fn set_end(&mut self) {
-        let (Scheme { alpha_m, alpha_f, .. }, Carried { a: ends, vdot, .. }) = (&self.scheme, &mut self.end);
+        let (Scheme { alpha_m, alpha_f, .. }, StepState { a: ends, vdot, .. }) = (&self.scheme, &mut self.end);
         let known = vdot.iter().zip(&self.start.vdot).zip(&self.a);
         for (end, ((vdot, before), a)) in ends.iter_mut().zip(known) {
             *end = ((1.0 - alpha_f) * vdot + alpha_f * before - alpha_m * a) / (1.0 - alpha_m);

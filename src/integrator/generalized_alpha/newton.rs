@@ -2,7 +2,7 @@
 
 use super::super::newton_matrix::{Factors, NewtonMatrix, Size};
 use super::super::{From, Problem};
-use super::motion::{Motion, Scheme};
+use super::motion::{Scheme, StepMotion};
 use crate::formulation::{Dae, Dynamics, Iteration, Linearized, Residual, Slopes, StepError};
 use crate::math::kkt::Singular;
 use crate::math::largest;
@@ -11,12 +11,12 @@ use crate::system::{MechanicalSystem, OperatingPoint};
 use crate::tolerances;
 
 /// The matrix for v'_1.
-pub(super) struct Matrix {
+pub(super) struct AccelerationMatrix {
     scheme: Scheme,
     iteration: Iteration<f64>,
 }
 
-impl Factors for Matrix {
+impl Factors for AccelerationMatrix {
     const BAND: f64 = 1.3;
 
     /// Shifts have the metric of M alone, since sums of corrections in the metrics of several states would depend on
@@ -53,7 +53,7 @@ fn limits(is_fixed: bool) -> Limits {
 pub(super) struct Newton {
     dae: Dae,
     limits: Limits,
-    pub matrix: NewtonMatrix<Matrix>,
+    pub matrix: NewtonMatrix<AccelerationMatrix>,
     residual: Residual,
     /// True if the last iteration began with the matrix of one before.
     pub is_stale: bool,
@@ -64,7 +64,7 @@ pub(super) struct Newton {
 impl Newton {
     /// Memory for `dae` on a system; `None` if there is not enough.
     pub fn new(dae: Dae, scheme: Scheme, is_fixed: bool, system: &dyn MechanicalSystem) -> Option<Self> {
-        let matrix = Matrix { scheme, iteration: Iteration::new(dae, system)? };
+        let matrix = AccelerationMatrix { scheme, iteration: Iteration::new(dae, system)? };
         Some(Newton {
             dae,
             limits: limits(is_fixed),
@@ -97,7 +97,7 @@ impl Newton {
     pub fn converge(
         &mut self,
         problem: &mut Problem,
-        motion: &mut Motion,
+        motion: &mut StepMotion,
         from: From,
         to: &mut [f64],
     ) -> Result<(), StepError> {
@@ -115,7 +115,7 @@ impl Newton {
                 self.matrix.forget();
             }
             self.evaluate(problem, motion, from, to)?;
-            let NewtonMatrix { at, factors: Matrix { iteration, .. }, .. } = &mut self.matrix;
+            let NewtonMatrix { at, factors: AccelerationMatrix { iteration, .. }, .. } = &mut self.matrix;
             iteration.load(std::iter::once((1.0, &self.residual)));
             iteration.solve(at, &problem.dynamics.structure)?;
             problem.dynamics.statistics.newton_iterations += 1;
@@ -138,7 +138,13 @@ impl Newton {
     }
 
     /// The residual at q_1, v_1, and the matrix if there is none for this step.
-    fn evaluate(&mut self, problem: &mut Problem, motion: &Motion, from: From, to: &[f64]) -> Result<(), StepError> {
+    fn evaluate(
+        &mut self,
+        problem: &mut Problem,
+        motion: &StepMotion,
+        from: From,
+        to: &[f64],
+    ) -> Result<(), StepError> {
         let h = from.h;
         let ((q, v), t) = (problem.split(to), from.t + h);
         let vdot = &motion.end.vdot;
@@ -159,7 +165,7 @@ impl Newton {
 
     /// Size up to which changes of v'_1 count as zero where phi = 0 alone is solved: they move q by less than the
     /// rounding of the largest coordinate, and v by less than its error of a step.
-    fn negligible(&self, problem: &Problem, motion: &Motion, h: f64, to: &[f64]) -> f64 {
+    fn negligible(&self, problem: &Problem, motion: &StepMotion, h: f64, to: &[f64]) -> f64 {
         if self.dae.velocity_index() < 2 {
             return 0.0;
         }
@@ -168,7 +174,7 @@ impl Newton {
     }
 
     /// Stagnation tolerances of the changes of v'_1 and of xi'_1, from the largest a_1 and v_1/h of each.
-    fn small(&self, problem: &Problem, motion: &Motion, h: f64, to: &[f64]) -> [f64; 2] {
+    fn small(&self, problem: &Problem, motion: &StepMotion, h: f64, to: &[f64]) -> [f64; 2] {
         let (q, v) = problem.split(to);
         let moving = problem.dynamics.system.dimensions().moving();
         let size = largest(&motion.end.a[..moving]).max(largest(&v[..moving]) / h);

@@ -10,7 +10,7 @@ const POINTS: usize = 3;
 
 /// The quantities that one step passes on to the next.
 #[derive(Clone, Serialize, Deserialize)]
-pub(super) struct Carried {
+pub(super) struct StepState {
     /// Step size for which `a` is valid.
     pub h: f64,
     pub a: Vec<f64>,
@@ -18,13 +18,13 @@ pub(super) struct Carried {
     pub lambda: Vec<f64>,
 }
 
-impl Carried {
+impl StepState {
     pub fn new(n: Dimensions) -> Self {
-        Carried { h: 1.0, a: vec![0.0; n.v], vdot: vec![0.0; n.v], lambda: vec![0.0; n.lambda] }
+        StepState { h: 1.0, a: vec![0.0; n.v], vdot: vec![0.0; n.v], lambda: vec![0.0; n.lambda] }
     }
 
     /// Takes over saved quantities.
-    pub fn recall(&mut self, saved: &Carried) {
+    pub fn recall(&mut self, saved: &StepState) {
         self.h = saved.h;
         fill(&mut self.a, &saved.a);
         fill(&mut self.vdot, &saved.vdot);
@@ -84,7 +84,7 @@ impl Prediction {
     }
 
     /// Writes v' and lambda after a step `h` to `end`.
-    pub fn predict(&self, start: &Carried, h: f64, end: &mut Carried) {
+    pub fn predict(&self, start: &StepState, h: f64, end: &mut StepState) {
         let weights = self.weights(self.degree, h);
         let [first, second] = &self.past;
         extrapolate(weights, [&start.vdot, &first.vdot, &second.vdot], |i, x| end.vdot[i] = x);
@@ -92,7 +92,7 @@ impl Prediction {
     }
 
     /// Chooses the degree by the step from `start` to `end`, which is accepted, and keeps `start`.
-    pub fn accepted(&mut self, start: &Carried, end: &Carried) {
+    pub fn accepted(&mut self, start: &StepState, end: &StepState) {
         let error = |degree: usize| {
             let mut error = 0.0_f64;
             let points = [&start.vdot, &self.past[0].vdot, &self.past[1].vdot];

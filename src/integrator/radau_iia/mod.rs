@@ -9,7 +9,7 @@ mod system;
 mod velocity;
 
 use super::memory::{fill, read, written};
-use super::newton_matrix::{self, Factors, NewtonMatrix, Saved, Size};
+use super::newton_matrix::{self, Factors, NewtonMatrix, SavedMatrix, Size};
 use super::sums::accumulate;
 use super::{
     Accepted, Control, Dense, Entry, From, Integrator, Problem, Setup, Step, Steps, Tightening, Tolerance, refuses,
@@ -22,7 +22,7 @@ use crate::system::OperatingPoint;
 use crate::tolerances;
 use collocation::Collocation;
 use matrices::Matrices;
-use order::{Choice, Order, Seen, internal};
+use order::{Choice, Order, StepMeasures, internal};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use stages::{Stages, Unknowns};
@@ -89,7 +89,7 @@ fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
         error_v: vec![0.0; n.v],
         error: vec![0.0; setup.len()],
         slope: vec![0.0; setup.len()],
-        seen: Seen { error: 1.0, lower: 1.0, theta: 1.0 },
+        seen: StepMeasures { error: 1.0, lower: 1.0, theta: 1.0 },
         order,
         is_fixed: setup.is_fixed,
     }))
@@ -119,12 +119,12 @@ struct RadauIIA {
     /// y' at the end of the last attempt, if v was projected there.
     slope: Vec<f64>,
     /// Measures of the last attempt.
-    seen: Seen,
+    seen: StepMeasures,
 }
 
 /// What steps pass on, as it is saved.
 #[derive(Serialize, Deserialize)]
-struct Memory {
+struct RadauMemory {
     choice: Choice,
     /// The last accepted step, with a, lambda, w and u of its stages.
     accepted: Option<Size>,
@@ -275,7 +275,7 @@ impl Integrator for RadauIIA {
         };
         let is_round_off = error <= 1.0 && error * allowed > 1.0 && !self.matrix.monitor.has_stagnated;
         problem.dynamics.statistics.stagnated += u64::from(is_round_off);
-        self.seen = Seen { error, lower, theta: self.matrix.monitor.rate };
+        self.seen = StepMeasures { error, lower, theta: self.matrix.monitor.rate };
         if self.dae.velocity_index() == 2 && (self.is_fixed || error <= 1.0) {
             velocity::project(problem, from.t + from.h, to)?;
             problem.derivative_at_velocity(from.t + from.h, to, &mut self.slope)?;
@@ -310,9 +310,9 @@ impl Integrator for RadauIIA {
         let newton_matrix::Memory { monitor, matrix } = self.matrix.memory();
         let monitor = self.tried.map_or(monitor, |tried| tried.monitor);
         // Matrices of a refused attempt serve on where they hardly change.
-        let matrix = matrix.filter(|_| self.keeps_matrix()).map(|saved| Saved { is_fresh: false, ..saved });
+        let matrix = matrix.filter(|_| self.keeps_matrix()).map(|saved| SavedMatrix { is_fresh: false, ..saved });
         let used = |rows: &[Vec<f64>]| rows[..stages].to_vec();
-        written(Memory {
+        written(RadauMemory {
             choice: self.order.choice,
             accepted: self.accepted,
             stages: [used(a), used(lambda), used(w), used(u)],
@@ -321,7 +321,7 @@ impl Integrator for RadauIIA {
     }
 
     fn recall(&mut self, memory: &Value) {
-        let Some(Memory { choice, accepted, stages, matrix }) = read(memory) else { return };
+        let Some(RadauMemory { choice, accepted, stages, matrix }) = read(memory) else { return };
         let newton_matrix::Memory { monitor, matrix } = matrix;
         let exists = |step: &Size| step.method < self.order.methods.len();
         self.accepted = accepted.filter(exists);

@@ -33,7 +33,7 @@ pub struct Choice {
 }
 
 /// Measures of an accepted step.
-pub struct Seen {
+pub struct StepMeasures {
     /// Error in units of the internal tolerance.
     pub error: f64,
     /// What the error of two stages less would be with the same real eigenvalue; 0 where the number is fixed.
@@ -88,7 +88,7 @@ impl Order {
     }
 
     /// Chooses the method of the next step, for the user's tolerance.
-    pub fn accepted(&mut self, tolerance: &Tolerance, seen: &Seen) {
+    pub fn accepted(&mut self, tolerance: &Tolerance, seen: &StepMeasures) {
         self.choice.steady += 1;
         let own = if seen.lower > 0.0 { seen.error / seen.lower } else { 0.0 };
         let fall = (own * self.choice.last_fall.unwrap_or(own)).sqrt();
@@ -114,7 +114,7 @@ impl Order {
 
     /// Time stepped over per unit of work, relative to the method in use, where two stages more make the error `fall`
     /// times as large.
-    fn gain(&self, index: usize, tolerance: &Tolerance, seen: &Seen, fall: f64) -> f64 {
+    fn gain(&self, index: usize, tolerance: &Tolerance, seen: &StepMeasures, fall: f64) -> f64 {
         let [before, after] = [self.method(), &self.methods[index]];
         let old = before.stages();
         let new = after.stages();

@@ -4,7 +4,8 @@ use super::{Complex, ComplexMatrix, Unsolved, dense};
 use faer::Par;
 use faer::prelude::Solve;
 
-type Vector = Vec<Complex<f64>>;
+/// Dense complex vector.
+pub type ComplexVector = Vec<Complex<f64>>;
 
 /// |A x - lambda x| / (|A| |x|); NaN if x has one.
 pub fn residual(a: &ComplexMatrix, value: Complex<f64>, x: &[Complex<f64>]) -> f64 {
@@ -16,7 +17,12 @@ pub fn residual(a: &ComplexMatrix, value: Complex<f64>, x: &[Complex<f64>]) -> f
 /// Right and left vectors by a step of inverse iteration, from different starts for different seeds, so that equal
 /// eigenvalues get different vectors. If it overflows, along the long chains of defective eigenvalues, by the smallest
 /// singular value.
-pub fn vectors(a: &ComplexMatrix, value: Complex<f64>, seed: u64, accuracy: f64) -> Result<(Vector, Vector), Unsolved> {
+pub fn vectors(
+    a: &ComplexMatrix,
+    value: Complex<f64>,
+    seed: u64,
+    accuracy: f64,
+) -> Result<(ComplexVector, ComplexVector), Unsolved> {
     let n = a.nrows();
     faer::set_global_parallelism(Par::Seq);
     // Shifted from the eigenvalue by round-off, so that there is an inverse.

@@ -34,6 +34,8 @@ pub use unsolved::Unsolved;
 pub use nalgebra::Complex;
 use nalgebra::DMatrix;
 
+/// Complex number.
+pub type Complex64 = Complex<f64>;
 /// Dense real matrix.
 pub type Matrix = DMatrix<f64>;
 /// Dense complex matrix.

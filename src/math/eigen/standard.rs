@@ -1,7 +1,7 @@
 //! The eigenvalue problem A x = lambda x.
 
 use super::conjugates::{self, Unit};
-use super::inverse::{self, residual};
+use super::inverse::{self, ComplexVector, residual};
 use super::second_order::second_order;
 use super::{Complex, ComplexMatrix, Eigen, Matrix, Unsolved, dense};
 use crate::tolerances;
@@ -91,14 +91,17 @@ fn decompose(a: &Matrix) -> Result<Decomposed, Unsolved> {
     Ok((conjugates::units(|j| re[j], |j| im[j], n), right, left))
 }
 
-type Vector = Vec<Complex<f64>>;
-
 /// Right and left vectors of each unit. faer does not report failure to converge, and its back substitution loses the
 /// vectors of defective eigenvalues.
-fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Result<Vec<(Vector, Vector)>, Unsolved> {
+fn vectors(
+    a: &Matrix,
+    units: &[Unit],
+    right: &Mat<f64>,
+    left: &Mat<f64>,
+) -> Result<Vec<(ComplexVector, ComplexVector)>, Unsolved> {
     let mut converged = 0;
     let mut found = Vec::new();
-    let all: Vec<Vector> = units.iter().map(|unit| unit.vector(right.as_ref())).collect();
+    let all: Vec<ComplexVector> = units.iter().map(|unit| unit.vector(right.as_ref())).collect();
     let before = residuals(a, units, &all, false);
     for ((unit, mut x), mut off) in units.iter().zip(all).zip(before) {
         let mut y = unit.vector(left.as_ref());
@@ -115,11 +118,11 @@ fn vectors(a: &Matrix, units: &[Unit], right: &Mat<f64>, left: &Mat<f64>) -> Res
 }
 
 /// See [`Eigen::conditions`].
-fn conditions(units: &[Unit], vectors: &[(Vector, Vector)]) -> Vec<f64> {
+fn conditions(units: &[Unit], vectors: &[(ComplexVector, ComplexVector)]) -> Vec<f64> {
     let mut conditions = Vec::new();
     for (unit, (x, y)) in units.iter().zip(vectors) {
         let product: Complex<f64> = x.iter().zip(y).map(|(x, y)| y.conj() * x).sum();
-        let norm = |x: &Vector| x.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
+        let norm = |x: &ComplexVector| x.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
         let condition = norm(x) * norm(y) / product.norm();
         conditions.extend(std::iter::repeat_n(condition, 1 + usize::from(unit.is_pair())));
     }
@@ -133,14 +136,14 @@ fn errors(conditions: &[f64], size: f64) -> Vec<f64> {
 }
 
 /// |A x - lambda x| / (|A| |x|) of each unit, or that of the adjoint and of left vectors, by one product of real matrices.
-fn residuals(a: &Matrix, units: &[Unit], vectors: &[Vector], is_adjoint: bool) -> Vec<f64> {
+fn residuals(a: &Matrix, units: &[Unit], vectors: &[ComplexVector], is_adjoint: bool) -> Vec<f64> {
     let n = a.nrows();
     let part = |i: usize, j: usize| if j.is_multiple_of(2) { vectors[j / 2][i].re } else { vectors[j / 2][i].im };
     let parts = Matrix::from_fn(n, 2 * vectors.len(), part);
     let matrix = if is_adjoint { dense::view(a).transpose() } else { dense::view(a) };
     let product = dense::product(matrix, dense::view(&parts));
     let size = a.norm();
-    let of = |(j, (unit, x)): (usize, (&Unit, &Vector))| {
+    let of = |(j, (unit, x)): (usize, (&Unit, &ComplexVector))| {
         let value = if is_adjoint { unit.value.conj() } else { unit.value };
         let rows = product.column(2 * j).into_iter().zip(product.column(2 * j + 1)).zip(x);
         let off = rows.map(|((re, im), x)| (Complex::new(*re, *im) - x * value).norm_sqr()).sum::<f64>().sqrt();
@@ -152,7 +155,7 @@ fn residuals(a: &Matrix, units: &[Unit], vectors: &[Vector], is_adjoint: bool) -
 
 /// Recomputes poor vectors in the unbalanced matrix: round-off in place of zeros, such as 1e-30, makes balancing choose
 /// scales that magnify the round-off in a vector.
-fn mend(a: &Matrix, units: &[Unit], right: &mut [Vector], left: &mut [Vector]) -> Result<(), Unsolved> {
+fn mend(a: &Matrix, units: &[Unit], right: &mut [ComplexVector], left: &mut [ComplexVector]) -> Result<(), Unsolved> {
     let of_right = residuals(a, units, right, false);
     let of_left = residuals(a, units, left, true);
     for (j, unit) in units.iter().enumerate() {

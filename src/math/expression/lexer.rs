@@ -5,7 +5,7 @@ use super::operation::Two;
 
 /// Kind of a token; the text of names and numbers is found by position.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Kind {
+pub(super) enum TokenKind {
     Number(f64),
     Name,
     /// The sign of an operation on two numbers; those of sum and difference stand before one number too.
@@ -23,33 +23,33 @@ pub(super) enum Kind {
 /// A token and the bytes of the text it stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Token {
-    pub kind: Kind,
+    pub kind: TokenKind,
     pub start: usize,
     pub end: usize,
 }
 
 /// Signs of two characters, looked for before any that they begin with.
-const DOUBLE: [(&str, Kind); 6] = [
-    ("<=", Kind::Infix(Two::AtMost)),
-    (">=", Kind::Infix(Two::AtLeast)),
-    ("==", Kind::Infix(Two::Equal)),
-    ("!=", Kind::Infix(Two::Unequal)),
-    ("&&", Kind::Infix(Two::And)),
-    ("||", Kind::Infix(Two::Or)),
+const DOUBLE: [(&str, TokenKind); 6] = [
+    ("<=", TokenKind::Infix(Two::AtMost)),
+    (">=", TokenKind::Infix(Two::AtLeast)),
+    ("==", TokenKind::Infix(Two::Equal)),
+    ("!=", TokenKind::Infix(Two::Unequal)),
+    ("&&", TokenKind::Infix(Two::And)),
+    ("||", TokenKind::Infix(Two::Or)),
 ];
 
-const SINGLE: [(&str, Kind); 11] = [
-    ("<", Kind::Infix(Two::Less)),
-    (">", Kind::Infix(Two::Greater)),
-    ("!", Kind::Bang),
-    ("+", Kind::Infix(Two::Add)),
-    ("-", Kind::Infix(Two::Sub)),
-    ("*", Kind::Infix(Two::Mul)),
-    ("/", Kind::Infix(Two::Div)),
-    ("^", Kind::Infix(Two::Pow)),
-    ("(", Kind::Open),
-    (")", Kind::Close),
-    (",", Kind::Comma),
+const SINGLE: [(&str, TokenKind); 11] = [
+    ("<", TokenKind::Infix(Two::Less)),
+    (">", TokenKind::Infix(Two::Greater)),
+    ("!", TokenKind::Bang),
+    ("+", TokenKind::Infix(Two::Add)),
+    ("-", TokenKind::Infix(Two::Sub)),
+    ("*", TokenKind::Infix(Two::Mul)),
+    ("/", TokenKind::Infix(Two::Div)),
+    ("^", TokenKind::Infix(Two::Pow)),
+    ("(", TokenKind::Open),
+    (")", TokenKind::Close),
+    (",", TokenKind::Comma),
 ];
 
 /// Signs of other languages, with those of this language in their place.
@@ -75,7 +75,7 @@ const FOREIGN: [(&str, &str); 19] = [
     ("{", "write `(`"),
 ];
 
-/// The tokens of `text`, the last one [`Kind::End`].
+/// The tokens of `text`, the last one [`TokenKind::End`].
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, ExpressionError> {
     let mut tokens = Vec::with_capacity(text.len() + 1);
     let mut start = 0;
@@ -84,7 +84,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, ExpressionError> {
         start += rest.len() - rest.trim_start().len();
         let token = next(text, start)?;
         tokens.push(token);
-        if token.kind == Kind::End {
+        if token.kind == TokenKind::End {
             return Ok(tokens);
         }
         start = token.end;
@@ -93,7 +93,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, ExpressionError> {
 
 /// The names that `text` mentions, functions among them, in the order of their mention.
 pub(super) fn names(text: &str) -> Result<Vec<&str>, ExpressionError> {
-    let named = tokens(text)?.into_iter().filter(|token| token.kind == Kind::Name);
+    let named = tokens(text)?.into_iter().filter(|token| token.kind == TokenKind::Name);
     Ok(named.filter_map(|token| text.get(token.start..token.end)).collect())
 }
 
@@ -138,7 +138,7 @@ fn next(text: &str, start: usize) -> Result<Token, ExpressionError> {
     let rest = text.get(start..).unwrap_or("");
     let token = |kind, length| Ok(Token { kind, start, end: start + length });
     if rest.is_empty() {
-        return token(Kind::End, 0);
+        return token(TokenKind::End, 0);
     }
     if rest.starts_with(begins_name) {
         let length = name_length(rest);
@@ -146,13 +146,13 @@ fn next(text: &str, start: usize) -> Result<Token, ExpressionError> {
     }
     if let Some(length) = number_length(rest) {
         let value = number(text, start, &rest[..length])?;
-        return token(Kind::Number(value), length);
+        return token(TokenKind::Number(value), length);
     }
     sign(text, start, rest)
 }
 
 fn sign(text: &str, start: usize, rest: &str) -> Result<Token, ExpressionError> {
-    let find = |signs: &[(&'static str, Kind)]| signs.iter().find(|(sign, _)| rest.starts_with(sign)).copied();
+    let find = |signs: &[(&'static str, TokenKind)]| signs.iter().find(|(sign, _)| rest.starts_with(sign)).copied();
     let foreign = FOREIGN.iter().find(|(sign, _)| rest.starts_with(sign));
     match (find(&DOUBLE), foreign, find(&SINGLE)) {
         (Some((sign, kind)), ..) | (None, None, Some((sign, kind))) => {
@@ -174,12 +174,12 @@ fn number(text: &str, start: usize, digits: &str) -> Result<f64, ExpressionError
     }
 }
 
-fn word(name: &str) -> Kind {
+fn word(name: &str) -> TokenKind {
     match name {
-        "and" => Kind::Infix(Two::And),
-        "or" => Kind::Infix(Two::Or),
-        "not" => Kind::Not,
-        _ => Kind::Name,
+        "and" => TokenKind::Infix(Two::And),
+        "or" => TokenKind::Infix(Two::Or),
+        "not" => TokenKind::Not,
+        _ => TokenKind::Name,
     }
 }
 
@@ -252,7 +252,7 @@ mod tests {
     #[test]
     fn numbers_take_a_point_and_an_exponent() {
         let value = |text: &str| match tokens(text).unwrap()[..] {
-            [Token { kind: Kind::Number(value), .. }, Token { kind: Kind::End, .. }] => value,
+            [Token { kind: TokenKind::Number(value), .. }, Token { kind: TokenKind::End, .. }] => value,
             _ => f64::NAN,
         };
         let table = [("1", 1.0), (".5", 0.5), ("3.", 3.0), ("1e-3", 1e-3), ("2.5E+4", 2.5e4), ("1.e2", 100.0)];

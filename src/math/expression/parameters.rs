@@ -36,7 +36,7 @@ pub struct ParameterError {
     pub problem: ExpressionError,
 }
 
-type Result<T> = std::result::Result<T, ParameterError>;
+type ParameterResult<T> = std::result::Result<T, ParameterError>;
 
 impl Parameters {
     /// Evaluates the parameters `given`, with `overrides`, numbers or expressions over the other parameters, in place
@@ -47,7 +47,7 @@ impl Parameters {
     /// For names that are no plain names (a letter, then letters, digits and `_`), that are reserved
     /// (functions, `pi`, `t`, `and`, `or`, `not`) or come twice; for overrides of unknown parameters; for parameters
     /// that depend on themselves, with the cycle; for expressions that cannot be parsed and values that are not finite.
-    pub fn resolve(given: &[(String, Number)], overrides: &[(String, Number)]) -> Result<Self> {
+    pub fn resolve(given: &[(String, Number)], overrides: &[(String, Number)]) -> ParameterResult<Self> {
         let mut parameters = Parameters::named(given)?;
         let mut numbers: Vec<Number> = given.iter().map(|(_, number)| number.clone()).collect();
         let mut sources = vec![ParameterSource::Scene; given.len()];
@@ -99,7 +99,7 @@ impl Parameters {
     }
 
     /// The names, with no values yet.
-    fn named(given: &[(String, Number)]) -> Result<Self> {
+    fn named(given: &[(String, Number)]) -> ParameterResult<Self> {
         let mut parameters = Parameters::default();
         for (i, (name, _)) in given.iter().enumerate() {
             check_name(name)?;
@@ -116,8 +116,9 @@ impl Parameters {
     }
 
     /// Indices of the parameters such that each comes after those it depends on; otherwise in the order of the scene.
-    fn order(&self, numbers: &[Number], sources: &[ParameterSource]) -> Result<Vec<usize>> {
-        let needs = (0..numbers.len()).map(|i| self.needs(i, &numbers[i], sources[i])).collect::<Result<Vec<_>>>()?;
+    fn order(&self, numbers: &[Number], sources: &[ParameterSource]) -> ParameterResult<Vec<usize>> {
+        let needs =
+            (0..numbers.len()).map(|i| self.needs(i, &numbers[i], sources[i])).collect::<ParameterResult<Vec<_>>>()?;
         let mut users = vec![Vec::new(); numbers.len()];
         needs.iter().enumerate().for_each(|(i, needed)| needed.iter().for_each(|n| users[*n].push(i)));
         let mut open: Vec<usize> = needs.iter().map(Vec::len).collect();
@@ -136,7 +137,7 @@ impl Parameters {
     }
 
     /// Indices of the parameters that number `i` depends on.
-    fn needs(&self, i: usize, number: &Number, source: ParameterSource) -> Result<Vec<usize>> {
+    fn needs(&self, i: usize, number: &Number, source: ParameterSource) -> ParameterResult<Vec<usize>> {
         let Number::Text(text) = number else { return Ok(Vec::new()) };
         let names = lexer::names(text).map_err(|problem| fault(&self.values[i].0, source, problem))?;
         let mut needs: Vec<usize> = names.iter().filter_map(|name| self.index.get(*name).copied()).collect();
@@ -192,7 +193,7 @@ fn chain(names: &[&str]) -> String {
     }
 }
 
-fn check_name(name: &str) -> Result<()> {
+fn check_name(name: &str) -> ParameterResult<()> {
     let shown = excerpt(name);
     if !lexer::is_plain_name(name) {
         let hint = "expected a letter, then letters, digits and `_`";
@@ -250,7 +251,7 @@ mod tests {
     type Given<'a> = &'a [(&'a str, &'a str)];
     type Set<'a> = &'a [(&'a str, f64)];
 
-    fn resolve(given: Given, overrides: Set) -> Result<Parameters> {
+    fn resolve(given: Given, overrides: Set) -> ParameterResult<Parameters> {
         let number = |text: &str| text.parse::<f64>().map_or_else(|_| Number::from(text), Number::Value);
         let given: Vec<_> = given.iter().map(|(name, text)| (name.to_string(), number(text))).collect();
         let overrides: Vec<_> =

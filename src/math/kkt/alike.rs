@@ -8,19 +8,19 @@ use std::collections::HashMap;
 /// Groups of rows over the same coordinates. Finding dependent rows in a group costs rows x coordinates^2 without fill,
 /// while a sparse factorization would couple all rows of a group.
 pub struct Alike {
-    groups: Vec<Group>,
+    groups: Vec<RowGroup>,
     /// Scratch: orthonormal rows, one after the other, and a row.
     basis: Vec<f64>,
     row: Vec<f64>,
     dependent: Vec<usize>,
 }
 
-struct Group {
+struct RowGroup {
     columns: usize,
-    rows: Vec<Row>,
+    rows: Vec<GroupRow>,
 }
 
-struct Row {
+struct GroupRow {
     number: usize,
     /// Entries of G, each with its column within the group.
     entries: Vec<(usize, usize)>,
@@ -31,7 +31,7 @@ impl Alike {
         let mut rows = vec![Vec::new(); g.rows];
         g.entries.iter().enumerate().for_each(|(entry, (row, column))| rows[*row].push((entry, *column)));
         let mut places = HashMap::new();
-        let mut groups: Vec<Group> = Vec::new();
+        let mut groups: Vec<RowGroup> = Vec::new();
         for (number, mut entries) in rows.into_iter().enumerate() {
             let mut columns: Vec<usize> = entries.iter().map(|(_, column)| *column).collect();
             columns.sort_unstable();
@@ -40,12 +40,12 @@ impl Alike {
             let width = columns.len();
             let place = *places.entry(columns).or_insert(groups.len());
             if place == groups.len() {
-                groups.push(Group { columns: width, rows: Vec::new() });
+                groups.push(RowGroup { columns: width, rows: Vec::new() });
             }
-            groups[place].rows.push(Row { number, entries });
+            groups[place].rows.push(GroupRow { number, entries });
         }
         groups.retain(|group| group.rows.len() > 1);
-        let most = |size: fn(&Group) -> usize| groups.iter().map(size).max().unwrap_or(0);
+        let most = |size: fn(&RowGroup) -> usize| groups.iter().map(size).max().unwrap_or(0);
         Alike {
             basis: Vec::with_capacity(most(|group| group.columns * group.columns.min(group.rows.len()))),
             row: Vec::with_capacity(most(|group| group.columns)),

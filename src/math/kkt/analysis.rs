@@ -1,7 +1,7 @@
 //! The symbolic analysis of a saddle-point matrix, shared by all who factor it.
 
 use super::alike::Alike;
-use super::parts::Plan;
+use super::parts::FactorPlan;
 use super::{Lever, Pattern};
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -14,7 +14,7 @@ pub struct Analysis {
     /// Blocks of G that are levers.
     levers: Vec<Lever>,
     is_crowded: OnceLock<bool>,
-    found: Mutex<Vec<(Vec<bool>, Arc<Plan>)>>,
+    found: Mutex<Vec<(Vec<bool>, Arc<FactorPlan>)>>,
     /// The analysis of G without the rows that were dropped last.
     without: Mutex<Option<(Vec<usize>, Arc<Analysis>)>>,
 }
@@ -31,12 +31,12 @@ impl Analysis {
     }
 
     /// The structure with the coordinates for which `late` is true behind their multipliers.
-    pub(super) fn plan(&self, mass: &Pattern, g: &Pattern, late: &[bool]) -> Arc<Plan> {
+    pub(super) fn plan(&self, mass: &Pattern, g: &Pattern, late: &[bool]) -> Arc<FactorPlan> {
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, plan)) = found.iter().find(|(of, _)| of == late) {
             return plan.clone();
         }
-        let plan = Arc::new(Plan::new(mass, g, late, &self.levers));
+        let plan = Arc::new(FactorPlan::new(mass, g, late, &self.levers));
         found.push((late.to_vec(), plan.clone()));
         plan
     }

@@ -2,7 +2,7 @@
 
 use super::Pattern;
 use super::blocks::{Blocks, Small};
-use super::parts::{Parts, Plan};
+use super::parts::{FactorPlan, Parts};
 use super::pivot::{Quality, Rule};
 use super::supernodal::Supernodal;
 
@@ -20,11 +20,11 @@ pub(super) enum Ldlt {
 
 impl Ldlt {
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
-        Self::of(&Plan::new(mass, g, late, &[]), mass, g, late)
+        Self::of(&FactorPlan::new(mass, g, late, &[]), mass, g, late)
     }
 
     /// With a structure that is known.
-    pub fn of(plan: &Plan, mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
+    pub fn of(plan: &FactorPlan, mass: &Pattern, g: &Pattern, late: &[bool]) -> Self {
         if let Some(small) = Small::new(mass, g).filter(|_| !late.contains(&true)) {
             return Ldlt::Small(Box::new(small));
         }
@@ -33,8 +33,8 @@ impl Ldlt {
         let faer = if is_filled { Supernodal::new(mass, g, late) } else { None };
         match (faer, plan) {
             (Some(supernodal), _) => Ldlt::Supernodal(Box::new(supernodal)),
-            (None, Plan::Whole(layout)) => Ldlt::Blocks(Box::new(Blocks::new(layout.clone(), mass.rows))),
-            (None, Plan::Parts(division)) => Ldlt::Parts(Box::new(Parts::new(division.clone()))),
+            (None, FactorPlan::Whole(layout)) => Ldlt::Blocks(Box::new(Blocks::new(layout.clone(), mass.rows))),
+            (None, FactorPlan::Parts(division)) => Ldlt::Parts(Box::new(Parts::new(division.clone()))),
         }
     }
 

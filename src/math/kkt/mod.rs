@@ -13,8 +13,8 @@
 //! 2. When a pivot collapses: the same with dependent rows dropped, those that are named or copies of others before the
 //!    factorization (`saddle::kept`), others in it (`redundant_rows`), if it is clear which these are. Multipliers are
 //!    then those of least norm, and contradicting right sides get a least-squares solution, unless very many are dropped.
-//! 3. Else, and not too large: a dense pivoted QR (`rank_revealing`). [`Reduced`] is this alone; [`Chart`] moves states
-//!    to the constraints along the directions that it finds.
+//! 3. Else, and not too large: a dense pivoted QR (`rank_revealing`). [`Reduced`] is this alone; [`CorrectionChart`]
+//!    moves states to the constraints along the directions that it finds.
 //!
 //! [`Unsymmetric`] solves the systems of implicit methods, which add stiffness and damping to M, and of half-explicit
 //! ones, whose two G differ.
@@ -41,7 +41,7 @@ mod unsymmetric;
 pub use analysis::Analysis;
 pub use dependence::{Dependence, DependentRow, dependent_rows};
 pub use pattern::{Lever, Pattern};
-pub use rank_revealing::{Chart, Reduced};
+pub use rank_revealing::{CorrectionChart, Reduced};
 pub use redundant_rows::has_least_norm;
 pub use saddle::SaddlePoint;
 pub use unsymmetric::{Field, Places, Unsymmetric};

@@ -5,7 +5,7 @@
 //! Boor, A Practical Guide to Splines, IV.
 
 /// A row of a tridiagonal system: left, diagonal and right entry, right side.
-type Row = [f64; 4];
+type SplineRow = [f64; 4];
 
 fn widths_and_secants(points: &[[f64; 2]]) -> (Vec<f64>, Vec<f64>) {
     let pairs = || points.windows(2).map(|pair| (pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]));
@@ -13,13 +13,13 @@ fn widths_and_secants(points: &[[f64; 2]]) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// The condition at a point between the intervals `a` and `b`.
-fn inner(h: &[f64], m: &[f64], a: usize, b: usize) -> Row {
+fn inner(h: &[f64], m: &[f64], a: usize, b: usize) -> SplineRow {
     [h[b], 2.0 * (h[a] + h[b]), h[a], 3.0 * (h[b] * m[a] + h[a] * m[b])]
 }
 
 /// The first condition of not-a-knot from the two intervals at an end, and the last one mirrored: the third derivative
 /// is continuous at the point between them.
-fn end(h0: f64, h1: f64, m0: f64, m1: f64) -> Row {
+fn end(h0: f64, h1: f64, m0: f64, m1: f64) -> SplineRow {
     let sum = h0 + h1;
     [0.0, h1, sum, ((h0 + 2.0 * sum) * h1 * m0 + h0 * h0 * m1) / sum]
 }
@@ -55,7 +55,7 @@ pub fn periodic(points: &[[f64; 2]]) -> Vec<f64> {
         return vec![slope; n + 1];
     }
     // The slope at the last point of the period, which the first and the last of the other rows use, is found last.
-    let mut rows: Vec<Row> = (0..n - 1).map(|i| inner(&h, &m, (i + n - 1) % n, i)).collect();
+    let mut rows: Vec<SplineRow> = (0..n - 1).map(|i| inner(&h, &m, (i + n - 1) % n, i)).collect();
     let first = std::mem::take(&mut rows[0][0]);
     let last = std::mem::take(&mut rows[n - 2][2]);
     let own = solve(&rows);
@@ -75,7 +75,7 @@ pub fn periodic(points: &[[f64; 2]]) -> Vec<f64> {
 
 /// Thomas' algorithm. The rows of a spline need no pivots: the second row of not-a-knot is diagonally dominant after
 /// the first is eliminated, all others are at once.
-fn solve(rows: &[Row]) -> Vec<f64> {
+fn solve(rows: &[SplineRow]) -> Vec<f64> {
     let mut upper: Vec<[f64; 2]> = Vec::with_capacity(rows.len());
     for &[left, diagonal, right, value] in rows {
         let [above, sum] = upper.last().copied().unwrap_or_default();

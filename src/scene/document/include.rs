@@ -81,7 +81,13 @@ impl Around<'_> {
         markers::resolve(given, &own)
     }
 
-    fn add(&self, scene: &mut Value, include: &Include, outer: &Parameters, budget: &mut Budget) -> Result<Origin> {
+    fn add(
+        &self,
+        scene: &mut Value,
+        include: &Include,
+        outer: &Parameters,
+        budget: &mut Budget,
+    ) -> Result<IncludedScene> {
         check_name(&include.prefix).map_err(|error| error.under("as"))?;
         let path = self.folder.join(&include.file);
         let real = path.canonicalize().unwrap_or_else(|_| path.clone());
@@ -106,10 +112,10 @@ impl Around<'_> {
         let files: Vec<PathBuf> = self.files.iter().cloned().chain([real]).collect();
         let inside = Around { folder: folder(Some(&path)), files: &files, overrides: &overrides };
         let origins = inside.complete(&mut inner, budget).map_err(within)?;
-        let names = Names::of(&inner, prefix.clone(), folder(Some(Path::new(&include.file))));
+        let names = IncludedNames::of(&inner, prefix.clone(), folder(Some(Path::new(&include.file))));
         let ranges = LISTS.each(|list| append(scene, list, &mut inner, &names));
         names.add_entries(scene, inner, &include.parameters)?;
-        Ok(Origin { path, text, prefix, ranges, inner: origins })
+        Ok(IncludedScene { path, text, prefix, ranges, inner: origins })
     }
 }
 
@@ -117,11 +123,11 @@ impl Around<'_> {
 #[derive(Default)]
 pub struct Origins {
     written: Written,
-    included: Vec<Origin>,
+    included: Vec<IncludedScene>,
 }
 
 /// An included scene.
-struct Origin {
+struct IncludedScene {
     path: PathBuf,
     text: String,
     prefix: String,
@@ -145,7 +151,7 @@ impl Origins {
     }
 }
 
-impl Origin {
+impl IncludedScene {
     /// The path within the included scene, before its own repetitions and includes.
     fn own(&self, path: &str) -> Option<String> {
         for key in ["parameters.", "ground.markers."] {
@@ -208,7 +214,7 @@ fn check_parameters(inner: &Value, include: &Include) -> Result<()> {
 }
 
 /// Appends the elements of a list; returns the index of the first and their number.
-fn append(scene: &mut Value, list: &str, inner: &mut Value, names: &Names) -> (usize, usize) {
+fn append(scene: &mut Value, list: &str, inner: &mut Value, names: &IncludedNames) -> (usize, usize) {
     let added = inner.get_mut(list).and_then(Value::as_array_mut).map(std::mem::take).unwrap_or_default();
     let Some(keys) = scene.as_object_mut() else { return (0, 0) };
     match keys.entry(list).or_insert_with(|| Value::Array(Vec::new())) {
@@ -222,7 +228,7 @@ fn append(scene: &mut Value, list: &str, inner: &mut Value, names: &Names) -> (u
 }
 
 /// The names of an included scene, which get a prefix.
-struct Names<'a> {
+struct IncludedNames<'a> {
     prefix: String,
     /// Folder of the included scene from that of the including one.
     folder: &'a Path,
@@ -232,7 +238,7 @@ struct Names<'a> {
     ground: HashSet<String>,
 }
 
-impl<'a> Names<'a> {
+impl<'a> IncludedNames<'a> {
     fn of(inner: &Value, prefix: String, folder: &'a Path) -> Self {
         let of = |list: &str| -> Vec<String> {
             elements(inner, list)
@@ -245,7 +251,7 @@ impl<'a> Names<'a> {
         };
         let known = LISTS.iter().flat_map(|list| of(list)).chain(keys("/parameters")).collect();
         let signals = of("signals").into_iter().collect();
-        Names { prefix, folder, known, signals, ground: keys("/ground/markers").into_iter().collect() }
+        IncludedNames { prefix, folder, known, signals, ground: keys("/ground/markers").into_iter().collect() }
     }
 
     /// Adds parameters, markers of the ground and the start; `given` are parameters in terms of the including scene.

@@ -31,7 +31,7 @@ pub fn expand(scene: &mut Value, parameters: &Parameters, budget: &mut Budget) -
     let mut expansion = Expansion { parameters, budget, written: Written::default() };
     for key in KEYS {
         if let Some(value) = scene.get_mut(key) {
-            *value = expansion.value(value.take(), &Vec::new(), &Place::default().entry(key, key))?;
+            *value = expansion.value(value.take(), &Vec::new(), &WrittenPath::default().entry(key, key))?;
         }
     }
     Ok(expansion.written)
@@ -63,19 +63,19 @@ impl Written {
 
 /// Path of a value after the expansion, and as it is written.
 #[derive(Default)]
-struct Place {
+struct WrittenPath {
     path: String,
     written: String,
 }
 
-impl Place {
-    fn entry(&self, key: &str, written: &str) -> Place {
+impl WrittenPath {
+    fn entry(&self, key: &str, written: &str) -> WrittenPath {
         let join = |path: &str, key: &str| if path.is_empty() { key.to_string() } else { format!("{path}.{key}") };
-        Place { path: join(&self.path, key), written: join(&self.written, written) }
+        WrittenPath { path: join(&self.path, key), written: join(&self.written, written) }
     }
 
-    fn item(&self, index: usize, written: usize) -> Place {
-        Place { path: format!("{}[{index}]", self.path), written: format!("{}[{written}]", self.written) }
+    fn item(&self, index: usize, written: usize) -> WrittenPath {
+        WrittenPath { path: format!("{}[{index}]", self.path), written: format!("{}[{written}]", self.written) }
     }
 }
 
@@ -104,7 +104,7 @@ struct Expansion<'a> {
 }
 
 impl Expansion<'_> {
-    fn value(&mut self, value: Value, variables: &Variables, place: &Place) -> Result<Value> {
+    fn value(&mut self, value: Value, variables: &Variables, place: &WrittenPath) -> Result<Value> {
         match value {
             Value::String(text) if !variables.is_empty() => {
                 self.text(&text, variables).map(Value::String).map_err(|error| error.under(&place.written))
@@ -115,7 +115,7 @@ impl Expansion<'_> {
         }
     }
 
-    fn items(&mut self, items: Vec<Value>, variables: &Variables, place: &Place) -> Result<Vec<Value>> {
+    fn items(&mut self, items: Vec<Value>, variables: &Variables, place: &WrittenPath) -> Result<Vec<Value>> {
         let mut all = Vec::with_capacity(items.len());
         let mut is_shifted = false;
         for (i, item) in items.into_iter().enumerate() {
@@ -132,7 +132,12 @@ impl Expansion<'_> {
         Ok(all)
     }
 
-    fn entries(&mut self, map: Map<String, Value>, variables: &Variables, place: &Place) -> Result<Map<String, Value>> {
+    fn entries(
+        &mut self,
+        map: Map<String, Value>,
+        variables: &Variables,
+        place: &WrittenPath,
+    ) -> Result<Map<String, Value>> {
         let mut all = Map::new();
         for (key, value) in map {
             let written = place.entry(&key, &key);
@@ -158,7 +163,7 @@ impl Expansion<'_> {
     }
 
     /// One copy for each value of the variables of `repeat`; the value itself without it.
-    fn copies(&mut self, mut value: Value, outer: &Variables, place: &Place) -> Result<Vec<(Value, Variables)>> {
+    fn copies(&mut self, mut value: Value, outer: &Variables, place: &WrittenPath) -> Result<Vec<(Value, Variables)>> {
         let Some(repeat) = value.as_object_mut().and_then(|map| map.shift_remove("repeat")) else {
             return Ok(vec![(value, outer.clone())]);
         };

@@ -16,7 +16,7 @@ use crate::error::Result;
 use crate::math::{Dual, Regime, Scalar};
 use christoffel::christoffel;
 use nalgebra::DMatrix;
-use passes::{Memory, SeededEquations, curvature, fixed, output_slopes, tangent_of, write_terms};
+use passes::{EquationsMemory, SeededEquations, curvature, fixed, output_slopes, tangent_of, write_terms};
 use std::borrow::Cow;
 
 /// A mechanism by its M, f and phi. G, phi', gamma and L follow by dual and Taylor numbers, so nothing is derived by
@@ -114,24 +114,25 @@ impl<E: Equations> MechanicalSystem for E {
     fn evaluate(&self, t: f64, q: &[f64], v: &[f64], need: Need, terms: &mut Terms, scratch: &mut Scratch) {
         let inputs = std::mem::take(&mut scratch.inputs);
         let at = OperatingPoint { t, q, v, vdot: &[], lambda: &[] };
-        let fill = |memory: &mut Memory, _: Regime| write_terms(self, at, need, &inputs, memory, terms);
-        scratch.with(|| Memory::of(self), fill);
+        let fill = |memory: &mut EquationsMemory, _: Regime| write_terms(self, at, need, &inputs, memory, terms);
+        scratch.with(|| EquationsMemory::of(self), fill);
         scratch.inputs = inputs;
     }
 
     fn tangent(&self, at: OperatingPoint, tangent: &mut Tangent, scratch: &mut Scratch) -> bool {
         let (n, m) = self.size();
         scratch.with(
-            || Memory::of(self),
+            || EquationsMemory::of(self),
             |memory, _| tangent_of(self, at, memory.varied.get_or_insert_with(|| SeededEquations::new(n, m)), tangent),
         );
         true
     }
 
     fn acceleration_gradient(&self, at: OperatingPoint, values: &mut [f64], scratch: &mut Scratch) -> bool {
-        let write =
-            |memory: &mut Memory, _: Regime| curvature(self, at, memory, |place, slope| values[place] = slope.dd);
-        scratch.with(|| Memory::of(self), write);
+        let write = |memory: &mut EquationsMemory, _: Regime| {
+            curvature(self, at, memory, |place, slope| values[place] = slope.dd)
+        };
+        scratch.with(|| EquationsMemory::of(self), write);
         true
     }
 
@@ -143,12 +144,12 @@ impl<E: Equations> MechanicalSystem for E {
     fn energy(&self, t: f64, q: &[f64], v: &[f64], scratch: &mut Scratch) -> Option<Energy> {
         let potential = self.potential(t, q)?;
         let (n, _) = self.size();
-        let kinetic = |memory: &mut Memory, _: Regime| {
+        let kinetic = |memory: &mut EquationsMemory, _: Regime| {
             self.mass(t, q, &mut memory.mass);
             let row = |i: usize| memory.mass[i * n..(i + 1) * n].iter().zip(v).map(|(m, v)| m * v).sum::<f64>();
             0.5 * (0..n).map(|i| v[i] * row(i)).sum::<f64>()
         };
-        Some(Energy { kinetic: scratch.with(|| Memory::of(self), kinetic), potential })
+        Some(Energy { kinetic: scratch.with(|| EquationsMemory::of(self), kinetic), potential })
     }
 
     fn outputs(&self, at: OperatingPoint, out: &mut [f64], _scratch: &mut Scratch) {

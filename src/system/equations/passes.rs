@@ -14,7 +14,7 @@ type Twice = Dual<Dual6, 6>;
 const FEW: usize = 4;
 const MANY: usize = 8;
 
-pub(super) struct Memory {
+pub(super) struct EquationsMemory {
     pub mass: Vec<f64>,
     /// df/du; empty until needed.
     pub driven: Vec<f64>,
@@ -66,11 +66,11 @@ impl SeededEquations {
     }
 }
 
-impl Memory {
+impl EquationsMemory {
     pub fn of(equations: &impl Equations) -> Self {
         let (n, m) = equations.size();
         let zero = Taylor::fixed(0.0);
-        Memory {
+        EquationsMemory {
             mass: vec![0.0; n * n],
             driven: Vec::new(),
             few: Jets::new(n, m),
@@ -90,7 +90,7 @@ pub(super) fn write_terms<E: Equations>(
     at: OperatingPoint,
     need: Need,
     inputs: &[f64],
-    memory: &mut Memory,
+    memory: &mut EquationsMemory,
     terms: &mut Terms,
 ) {
     let (n, m) = system.size();
@@ -168,7 +168,7 @@ fn constraints<E: Equations>(
     q: &[f64],
     v: &[f64],
     need: Need,
-    memory: &mut Memory,
+    memory: &mut EquationsMemory,
     terms: &mut Terms,
 ) {
     if system.size().0 < FEW {
@@ -220,7 +220,7 @@ fn pass<E: Equations, const W: usize>(
 pub(super) fn curvature<E: Equations>(
     system: &E,
     at: OperatingPoint,
-    memory: &mut Memory,
+    memory: &mut EquationsMemory,
     mut write: impl FnMut(usize, Taylor<f64>),
 ) {
     let n = at.q.len();

@@ -10,7 +10,7 @@ pub use array::{Array, Table};
 pub use spec::{Lumped, ModalBody, ModalData, Node, Nodes};
 
 use super::eigen::entries;
-use super::shape::{Elastic, Inertia, Piece, PointShape};
+use super::shape::{Elastic, MassIntegrals, Piece, PointShape};
 use crate::body::{Build, parse};
 use crate::error::{Error, Result, short};
 use crate::math::array::from_fn;
@@ -119,7 +119,7 @@ fn shapes<const D: usize>(data: &ModalData<Array>) -> Result<ModalShapes<D>> {
     inertia::check(&piece)?;
     let elastic = Elastic {
         names: (1..=n).map(|i| format!("mode{i}")).collect(),
-        inertia: Inertia { pieces: vec![piece], discs: Vec::new() },
+        inertia: MassIntegrals { pieces: vec![piece], discs: Vec::new() },
         stiffness: entries(stiffness.as_ref()),
         damping: entries(damping.as_ref()),
         stretches: Vec::new(),

@@ -4,15 +4,13 @@ mod ritz;
 mod schur;
 mod space;
 
-use super::{Complex, Unsolved};
+use super::{Complex64, Unsolved};
 use crate::math::kkt::Field;
 use crate::tolerances;
 use nalgebra::{DMatrix, DVector};
 use ritz::Ritz;
 use schur::Ordered;
 use space::Krylov;
-
-type C = Complex<f64>;
 
 /// `f64` or `c64`, the numbers of an operator.
 pub trait Scalar: Field + faer::traits::ComplexField<Real = f64> + nalgebra::ComplexField<RealField = f64> {
@@ -22,8 +20,8 @@ pub trait Scalar: Field + faer::traits::ComplexField<Real = f64> + nalgebra::Com
     fn columns(ritz: &Ritz) -> (Vec<DVector<Self>>, Vec<usize>);
 }
 
-impl Scalar for C {
-    fn columns(ritz: &Ritz) -> (Vec<DVector<C>>, Vec<usize>) {
+impl Scalar for Complex64 {
+    fn columns(ritz: &Ritz) -> (Vec<DVector<Complex64>>, Vec<usize>) {
         let columns: Vec<_> = ritz.vectors.column_iter().map(|column| column.clone_owned()).collect();
         let sizes = vec![1; columns.len()];
         (columns, sizes)
@@ -70,7 +68,7 @@ impl Default for Options {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Partial<T: Scalar> {
     /// Eigenvalues theta of largest magnitude, largest first; of a real operator both of a pair.
-    pub values: Vec<C>,
+    pub values: Vec<Complex64>,
     /// Orthonormal Schur vectors: the leading k span the space of the first k values, for defective ones too, unless
     /// that parts a pair of a real operator.
     pub basis: DMatrix<T>,

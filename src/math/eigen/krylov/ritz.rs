@@ -1,12 +1,12 @@
 //! Ritz values and vectors of a Krylov space.
 
 use super::super::{ComplexMatrix, Unsolved, conjugates, dense};
-use super::{C, Scalar};
+use super::{Complex64, Scalar};
 use nalgebra::DMatrix;
 
 /// Eigenvalues and unit vectors of H, largest first.
 pub struct Ritz {
-    pub values: Vec<C>,
+    pub values: Vec<Complex64>,
     pub vectors: ComplexMatrix,
 }
 
@@ -15,7 +15,7 @@ impl Ritz {
         let m = h.nrows();
         faer::set_global_parallelism(faer::Par::Seq);
         let eigen = dense::view(h).eigen().map_err(|_| Unsolved::NotConverged { converged: 0, wanted: m })?;
-        let all: Vec<C> = eigen.S().column_vector().iter().copied().collect();
+        let all: Vec<Complex64> = eigen.S().column_vector().iter().copied().collect();
         let mut order: Vec<usize> = (0..m).collect();
         order.sort_by(|&i, &j| conjugates::compare(&all[j], &all[i]));
         let mut vectors = ComplexMatrix::from_fn(m, m, |i, j| eigen.U()[(i, order[j])]);

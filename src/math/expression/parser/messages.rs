@@ -3,8 +3,8 @@
 use super::Parser;
 use crate::error::suggest;
 use crate::math::expression::error::{ExpressionError, excerpt};
-use crate::math::expression::function::{self, FUNCTIONS, Form};
-use crate::math::expression::lexer::{Kind, Token};
+use crate::math::expression::function::{self, ArgumentForm, FUNCTIONS};
+use crate::math::expression::lexer::{Token, TokenKind};
 use std::fmt::Display;
 
 impl Parser<'_> {
@@ -18,7 +18,7 @@ impl Parser<'_> {
 
     pub(super) fn show(&self, token: Token) -> String {
         match token.kind {
-            Kind::End => "the end".to_string(),
+            TokenKind::End => "the end".to_string(),
             _ => format!("`{}`", excerpt(self.slice(token))),
         }
     }
@@ -35,12 +35,12 @@ impl Parser<'_> {
     pub(super) fn missing_operator(&self, token: Token) -> ExpressionError {
         let error = self.error(token, "expected an operator", format!(", found {}", self.show(token)));
         match token.kind {
-            Kind::Number(_) | Kind::Name | Kind::Open => error.hint("a product is written `*`"),
+            TokenKind::Number(_) | TokenKind::Name | TokenKind::Open => error.hint("a product is written `*`"),
             _ => error,
         }
     }
 
-    pub(super) fn wrong_arity(&self, token: Token, form: &Form, found: usize) -> ExpressionError {
+    pub(super) fn wrong_arity(&self, token: Token, form: &ArgumentForm, found: usize) -> ExpressionError {
         let error = self.error(token, format!("{} takes {}, found {found},", self.slice(token), form.arity()), "");
         match form.usage() {
             Some(usage) => error.hint(usage),

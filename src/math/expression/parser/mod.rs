@@ -4,8 +4,8 @@ mod messages;
 
 use super::builder::Builder;
 use super::error::ExpressionError;
-use super::function::{self, Form};
-use super::lexer::{Kind, Token, tokens};
+use super::function::{self, ArgumentForm};
+use super::lexer::{Token, TokenKind, tokens};
 use super::operation::{One, Two};
 use super::program::{MAX_STACK, Op, Program};
 use super::{Name, Names};
@@ -74,16 +74,18 @@ impl<'a> Parser<'a> {
     }
 
     fn everything(&mut self) -> Result<()> {
-        if self.peek().kind == Kind::End {
+        if self.peek().kind == TokenKind::End {
             let error = ExpressionError::whole(self.text, "empty expression");
             return Err(error.hint("expected a number or a formula such as `2*l`"));
         }
         self.operation(level::LOWEST)?;
         let rest = self.peek();
         match rest.kind {
-            Kind::End => Ok(()),
-            Kind::Close => Err(self.error(rest, "unmatched ')'", "")),
-            Kind::Comma => Err(self.error(rest, "unexpected ','", "").hint("decimals are written with a point: `0.5`")),
+            TokenKind::End => Ok(()),
+            TokenKind::Close => Err(self.error(rest, "unmatched ')'", "")),
+            TokenKind::Comma => {
+                Err(self.error(rest, "unexpected ','", "").hint("decimals are written with a point: `0.5`"))
+            }
             _ => Err(self.missing_operator(rest)),
         }
     }
@@ -121,14 +123,14 @@ impl<'a> Parser<'a> {
     fn operand(&mut self) -> Result<()> {
         let token = self.take();
         match token.kind {
-            Kind::Number(value) => self.builder.push(Op::Constant(value)),
-            Kind::Name if self.peek().kind == Kind::Open => return self.call(token),
-            Kind::Name => return self.name(token),
-            Kind::Infix(Two::Add) => return self.operation(level::SIGN),
-            Kind::Infix(Two::Sub) => return self.prefix(One::Neg, level::SIGN),
-            Kind::Bang => return self.prefix(One::Not, level::SIGN),
-            Kind::Not => return self.prefix(One::Not, level::NOT),
-            Kind::Open => {
+            TokenKind::Number(value) => self.builder.push(Op::Constant(value)),
+            TokenKind::Name if self.peek().kind == TokenKind::Open => return self.call(token),
+            TokenKind::Name => return self.name(token),
+            TokenKind::Infix(Two::Add) => return self.operation(level::SIGN),
+            TokenKind::Infix(Two::Sub) => return self.prefix(One::Neg, level::SIGN),
+            TokenKind::Bang => return self.prefix(One::Not, level::SIGN),
+            TokenKind::Not => return self.prefix(One::Not, level::NOT),
+            TokenKind::Open => {
                 self.operation(level::LOWEST)?;
                 return self.close();
             }
@@ -168,7 +170,7 @@ impl<'a> Parser<'a> {
     fn call(&mut self, token: Token) -> Result<()> {
         let name = self.slice(token);
         let signal = self.names.signals().iter().find(|signal| signal.name() == name).cloned();
-        let form = signal.map(Form::Signal).or_else(|| function::function(name));
+        let form = signal.map(ArgumentForm::Signal).or_else(|| function::function(name));
         let form = form.ok_or_else(|| self.unknown_function(token))?;
         self.take();
         let arguments = self.arguments()?;
@@ -182,30 +184,30 @@ impl<'a> Parser<'a> {
     /// Parses all arguments, up to the closing parenthesis.
     fn arguments(&mut self) -> Result<Vec<Argument>> {
         let mut arguments = Vec::new();
-        if self.peek().kind == Kind::Close {
+        if self.peek().kind == TokenKind::Close {
             return Ok(arguments);
         }
         loop {
             arguments.push(Argument { operand: self.builder.here(), start: self.peek().start });
             self.operation(level::LOWEST)?;
             match self.peek().kind {
-                Kind::Comma => self.take(),
-                Kind::Close => return Ok(arguments),
+                TokenKind::Comma => self.take(),
+                TokenKind::Close => return Ok(arguments),
                 _ => return self.close().map(|()| arguments),
             };
         }
     }
 
-    fn apply(&mut self, form: Form, arguments: &[Argument]) -> Result<()> {
+    fn apply(&mut self, form: ArgumentForm, arguments: &[Argument]) -> Result<()> {
         match (form, arguments) {
-            (Form::One(function), [x]) => self.builder.one(function, x.operand),
-            (Form::Two(function) | Form::Many(function), _) => {
+            (ArgumentForm::One(function), [x]) => self.builder.one(function, x.operand),
+            (ArgumentForm::Two(function) | ArgumentForm::Many(function), _) => {
                 let pairs = arguments.windows(2).rev();
                 pairs.for_each(|pair| self.builder.two(function, pair[0].operand, pair[1].operand));
             }
-            (Form::If, [condition, yes, no]) => self.builder.select(condition.operand, yes.operand, no.operand),
-            (Form::Signal(signal), [x]) => return self.signal(signal, *x, self.builder.here()),
-            (Form::Table, [x, points @ ..]) => return self.table(*x, points),
+            (ArgumentForm::If, [condition, yes, no]) => self.builder.select(condition.operand, yes.operand, no.operand),
+            (ArgumentForm::Signal(signal), [x]) => return self.signal(signal, *x, self.builder.here()),
+            (ArgumentForm::Table, [x, points @ ..]) => return self.table(*x, points),
             // `call` has counted the arguments.
             _ => {}
         }
@@ -248,17 +250,19 @@ impl<'a> Parser<'a> {
     fn close(&mut self) -> Result<()> {
         let token = self.peek();
         match token.kind {
-            Kind::Close => {
+            TokenKind::Close => {
                 self.take();
                 Ok(())
             }
-            Kind::End | Kind::Comma => Err(self.error(token, "expected ')'", format!(", found {}", self.show(token)))),
+            TokenKind::End | TokenKind::Comma => {
+                Err(self.error(token, "expected ')'", format!(", found {}", self.show(token))))
+            }
             _ => Err(self.missing_operator(token)),
         }
     }
 
     fn peek(&self) -> Token {
-        let end = Token { kind: Kind::End, start: self.text.len(), end: self.text.len() };
+        let end = Token { kind: TokenKind::End, start: self.text.len(), end: self.text.len() };
         self.tokens.get(self.next).copied().unwrap_or(end)
     }
 
@@ -274,8 +278,8 @@ impl<'a> Parser<'a> {
 }
 
 /// Operation and binding level of an infix operator.
-fn binary(kind: Kind) -> Option<(Two, u8)> {
-    let Kind::Infix(two) = kind else { return None };
+fn binary(kind: TokenKind) -> Option<(Two, u8)> {
+    let TokenKind::Infix(two) = kind else { return None };
     let level = match two {
         Two::Or => level::OR,
         Two::And => level::AND,

@@ -2,7 +2,7 @@
 //! are read where they stand.
 
 use super::super::Pattern;
-use super::dense::Dense;
+use super::dense::DenseBody;
 use super::groups::Groups;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -16,7 +16,7 @@ pub struct Body {
 }
 
 /// A block of G, row by row.
-pub struct Side {
+pub struct BlockSide {
     /// Place of its first entry among the values of G.
     pub entries: u32,
     /// Position of its first row among the unknowns that are left, and the number of its rows.
@@ -27,7 +27,7 @@ pub struct Side {
 }
 
 /// Bodies in sequence that are alike.
-pub struct Run {
+pub struct BodyRun {
     pub bodies: Range<usize>,
     /// Their blocks in [`Bodies::sides`], those of a body in the order of elimination of their rows.
     pub sides: Range<usize>,
@@ -43,12 +43,12 @@ pub struct Run {
 #[derive(Default)]
 pub struct Bodies {
     pub all: Vec<Body>,
-    pub sides: Vec<Side>,
+    pub sides: Vec<BlockSide>,
     pub targets: Vec<u32>,
-    pub runs: Vec<Run>,
+    pub runs: Vec<BodyRun>,
     /// Entries of M of bodies where it is diagonal, with their coordinates, and the bodies where it is not.
     pub masses: Vec<(usize, usize)>,
-    pub dense: Vec<Dense>,
+    pub dense: Vec<DenseBody>,
 }
 
 /// The entries of a body.
@@ -107,7 +107,7 @@ impl Bodies {
         first: usize,
         width: usize,
         mass: &[(usize, (usize, usize))],
-        sides: Vec<Side>,
+        sides: Vec<BlockSide>,
         target: impl Fn(u32, u32) -> usize,
     ) {
         let starts = (self.all.len(), self.sides.len(), self.targets.len());
@@ -115,7 +115,7 @@ impl Bodies {
             self.targets.extend((l..sides.len()).map(|k| target(sides[k].position, sides[l].position) as u32));
         }
         let blocks = sides.iter().map(|side| side.entries as usize..(side.entries + side.rows * width as u32) as usize);
-        let dense = Dense::new(first, width, mass, blocks.collect(), self.dense.last().map_or(0, Dense::end));
+        let dense = DenseBody::new(first, width, mass, blocks.collect(), self.dense.last().map_or(0, DenseBody::end));
         // A point's rows, one for each translation: 2 of 3 coordinates in the plane, 3 of 6 in space.
         let translations = match width {
             3 => 2,
@@ -135,7 +135,7 @@ impl Bodies {
             let bodies = starts.0..0;
             let sides = starts.1..0;
             let targets = starts.2..0;
-            self.runs.push(Run { bodies, sides, targets, width, are_levers });
+            self.runs.push(BodyRun { bodies, sides, targets, width, are_levers });
         }
         if let Some(run) = self.runs.last_mut() {
             (run.bodies.end, run.sides.end, run.targets.end) = (self.all.len(), self.sides.len(), self.targets.len());
@@ -145,7 +145,7 @@ impl Bodies {
     /// Multiplications of the elimination.
     pub fn operations(&self) -> usize {
         let mut first = 0;
-        let products = |run: &Run| {
+        let products = |run: &BodyRun| {
             let bodies = self.all[run.bodies.clone()].iter();
             let rows = |body: &Body| {
                 let sides = &self.sides[first..first + body.sides as usize];

@@ -14,7 +14,7 @@ use crate::math::array::from_fn;
 use std::ops::Range;
 
 /// A body with its entries of M.
-pub struct Dense {
+pub struct DenseBody {
     first: usize,
     width: usize,
     /// Entries of M in its lower triangle, with the row and the column there.
@@ -26,7 +26,7 @@ pub struct Dense {
     blocks: Vec<Range<usize>>,
 }
 
-impl Dense {
+impl DenseBody {
     /// Of `width` coordinates from `first` on with these entries of M and blocks; L stands from `place` on. `None` if M
     /// is diagonal.
     pub fn new(
@@ -46,7 +46,7 @@ impl Dense {
         let places = (0..width).flat_map(|q| (q + 1..width).map(move |p| (p, q)));
         let lower: Vec<_> = places.filter(|&(p, q)| is_filled[p][q]).collect();
         let places = place..place + lower.len();
-        (!lower.is_empty()).then_some(Dense { first, width, entries, lower, places, blocks })
+        (!lower.is_empty()).then_some(DenseBody { first, width, entries, lower, places, blocks })
     }
 
     /// Where the next body's entries of L begin.

@@ -2,7 +2,7 @@
 
 use super::super::pivot::Judge;
 use super::lanes::Lanes;
-use super::layout::{Layout, Run};
+use super::layout::{ColumnRun, Layout};
 use crate::math::array::from_fn;
 
 /// The first N numbers from `place` on.
@@ -39,7 +39,7 @@ pub(super) struct Elimination<'a, 'j> {
 
 impl Elimination<'_, '_> {
     /// Eliminates columns whose partners are all R wide; WR = W R.
-    pub fn alike<const W: usize, const R: usize, const WR: usize>(&mut self, run: &Run) -> Result<(), usize> {
+    pub fn alike<const W: usize, const R: usize, const WR: usize>(&mut self, run: &ColumnRun) -> Result<(), usize> {
         let layout = self.layout;
         let mut targets = layout.targets[run.targets.clone()].iter();
         self.columns::<W>(run, |xs, inverse, later| {
@@ -58,7 +58,7 @@ impl Elimination<'_, '_> {
     }
 
     /// Eliminates columns with partners of any width.
-    pub fn mixed<const W: usize>(&mut self, run: &Run) -> Result<(), usize> {
+    pub fn mixed<const W: usize>(&mut self, run: &ColumnRun) -> Result<(), usize> {
         let layout = self.layout;
         let mut targets = &layout.targets[run.targets.clone()];
         let mut widths = &layout.widths[run.partners.clone()];
@@ -77,7 +77,7 @@ impl Elimination<'_, '_> {
     #[inline(always)]
     fn columns<const W: usize>(
         &mut self,
-        run: &Run,
+        run: &ColumnRun,
         mut update: impl FnMut(&[f64], &[f64; W], &mut [f64]),
     ) -> Result<(), usize> {
         let Elimination { layout, work, inverse, sizes, judge } = self;
@@ -153,7 +153,7 @@ pub(super) struct Solution<'a, T> {
 
 impl<T: Lanes> Solution<'_, T> {
     /// x := L^-1 x
-    pub fn forward<const W: usize>(&mut self, run: &Run) {
+    pub fn forward<const W: usize>(&mut self, run: &ColumnRun) {
         let Solution { layout, work, inverse, x } = self;
         let mut work = &work[run.place..];
         let mut below = &layout.below[run.rows.clone()];
@@ -172,7 +172,7 @@ impl<T: Lanes> Solution<'_, T> {
     }
 
     /// x := L^-T D^-1 x, the last column first.
-    pub fn backward<const W: usize>(&mut self, run: &Run) {
+    pub fn backward<const W: usize>(&mut self, run: &ColumnRun) {
         let Solution { layout, work, inverse, x } = self;
         let mut work = &work[..run.end];
         let mut below = &layout.below[run.rows.clone()];
@@ -195,7 +195,7 @@ impl<T: Lanes> Solution<'_, T> {
 /// x := L_jj^-1 x for a column with its diagonal block ahead; returns D^-1 x.
 #[inline(always)]
 fn solved_forward<T: Lanes, const W: usize>(
-    run: &Run,
+    run: &ColumnRun,
     block: &[f64],
     inverse: &[f64; W],
     first: usize,
@@ -212,7 +212,7 @@ fn solved_forward<T: Lanes, const W: usize>(
 /// x := L_jj^-T D^-1 (x - sum) for a column with its diagonal block ahead.
 #[inline(always)]
 fn solve_backward<T: Lanes, const W: usize>(
-    run: &Run,
+    run: &ColumnRun,
     block: &[f64],
     inverse: &[f64; W],
     sum: &[T; W],

@@ -2,14 +2,14 @@
 
 use super::super::order::{columns, lower_adjacency, order};
 use super::super::{Lever, Pattern};
-use super::bodies::{Bodies, Entries, Side, find};
+use super::bodies::{BlockSide, Bodies, Entries, find};
 use super::groups::Groups;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// One group: its diagonal block, then the blocks below it, row by row.
 #[derive(Default)]
-struct Column {
+struct BlockColumn {
     /// Number of its unknowns, and the first of them in the order of elimination.
     width: usize,
     first: usize,
@@ -26,7 +26,7 @@ struct Column {
 }
 
 /// Columns in sequence that are alike; all that belongs to them stands in their order.
-pub struct Run {
+pub struct ColumnRun {
     pub columns: Range<usize>,
     pub partners: Range<usize>,
     pub rows: Range<usize>,
@@ -49,8 +49,8 @@ pub struct Run {
 #[derive(Default)]
 pub struct Layout {
     pub bodies: Bodies,
-    columns: Vec<Column>,
-    pub runs: Vec<Run>,
+    columns: Vec<BlockColumn>,
+    pub runs: Vec<ColumnRun>,
     /// Number of unknowns below each column, and their positions.
     pub heights: Vec<u32>,
     pub below: Vec<u32>,
@@ -159,10 +159,10 @@ impl Layout {
             let entries = entries[group].take().unwrap_or_default();
             let masses: Vec<_> = entries.mass.iter().map(|&entry| (entry, mass.entries[entry])).collect();
             let blocks = entries.sides.into_iter();
-            let mut blocks: Vec<Side> = blocks
+            let mut blocks: Vec<BlockSide> = blocks
                 .map(|(rows, entries)| {
                     let rows = &groups.rows[rows];
-                    Side {
+                    BlockSide {
                         entries: entries as u32,
                         position: self.g_rows[rows[0]],
                         rows: rows.len() as u32,
@@ -184,7 +184,7 @@ impl Layout {
 
     fn push(&mut self, first: usize, is_coordinate: bool, is_diagonal: bool) {
         let width = self.nodes.len() - first;
-        self.columns.push(Column { width, first, is_diagonal, is_coordinate, ..Column::default() });
+        self.columns.push(BlockColumn { width, first, is_diagonal, is_coordinate, ..BlockColumn::default() });
     }
 
     /// Gives every block its place.
@@ -193,7 +193,7 @@ impl Layout {
             let partners = self.widths.len();
             let rows = self.below.len();
             for &k in below {
-                let Column { width, first, .. } = self.columns[k as usize];
+                let BlockColumn { width, first, .. } = self.columns[k as usize];
                 self.widths.push(width as u8);
                 self.below.extend((first..first + width).map(|position| position as u32));
             }
@@ -262,12 +262,12 @@ impl Layout {
     }
 
     /// Splits the columns where their kinds change, and behind the first `own`.
-    fn runs(&self, own: usize) -> Vec<Run> {
-        let mut runs: Vec<Run> = Vec::new();
+    fn runs(&self, own: usize) -> Vec<ColumnRun> {
+        let mut runs: Vec<ColumnRun> = Vec::new();
         for (k, column) in self.columns.iter().enumerate() {
             let widths = &self.widths[column.partners.clone()];
             let alike = widths.first().filter(|first| widths.iter().all(|width| width == *first));
-            let run = Run {
+            let run = ColumnRun {
                 columns: k..k + 1,
                 partners: column.partners.clone(),
                 rows: column.rows.clone(),
@@ -301,21 +301,21 @@ impl Layout {
 
     /// Multiplications of a factorization.
     pub fn operations(&self) -> usize {
-        let products = |column: &Column| column.width * column.rows.len() * (column.rows.len() + 1) / 2;
+        let products = |column: &BlockColumn| column.width * column.rows.len() * (column.rows.len() + 1) / 2;
         self.columns.iter().map(products).sum::<usize>() + self.bodies.operations()
     }
 }
 
-impl Column {
+impl BlockColumn {
     fn end(&self) -> usize {
         self.diagonal + self.width * (self.width + self.rows.len())
     }
 }
 
-impl Run {
+impl ColumnRun {
     /// True if the next columns are alike; any partners suit where there are none.
-    fn takes(&self, next: &Run) -> bool {
-        let kind = |run: &Run| (run.width, run.is_early, run.is_diagonal, run.sign > 0.0);
+    fn takes(&self, next: &ColumnRun) -> bool {
+        let kind = |run: &ColumnRun| (run.width, run.is_early, run.is_diagonal, run.sign > 0.0);
         let own = self.partner_width;
         let other = next.partner_width;
         kind(self) == kind(next) && (own == other || self.partners.is_empty() || next.partners.is_empty())
@@ -328,7 +328,7 @@ impl Run {
         (0..self.columns.len()).map(move |j| first + j * width)
     }
 
-    fn extend(&mut self, next: Run) {
+    fn extend(&mut self, next: ColumnRun) {
         if self.partners.is_empty() {
             self.partner_width = next.partner_width;
         }

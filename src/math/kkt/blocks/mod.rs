@@ -27,13 +27,13 @@ mod small;
 use super::pivot::{Judge, Quality, Rule, farthest_first};
 use crate::math::add;
 use crate::math::array::from_fn;
-use dense::Dense;
-use factors::Factors;
+use dense::DenseBody;
+use factors::BlockFactors;
 pub(super) use groups::Groups;
 use kernels::{Elimination, at};
 use lanes::Pair;
+use layout::ColumnRun;
 pub(super) use layout::Layout;
-use layout::Run;
 use schur::Schur;
 pub(super) use small::Small;
 use std::ops::Range;
@@ -72,7 +72,7 @@ impl Blocks {
             x: zeros(),
             g: Vec::new(),
             inverse_masses: vec![0.0; n],
-            lower: vec![0.0; layout.bodies.dense.last().map_or(0, Dense::end)],
+            lower: vec![0.0; layout.bodies.dense.last().map_or(0, DenseBody::end)],
             mass: Vec::new(),
             pairs: [Vec::new(), Vec::new()],
             layout,
@@ -225,9 +225,9 @@ impl Blocks {
         d.iter_mut().zip(e).zip(top).for_each(|((d, e), Pair(top))| [*d, *e] = *top);
     }
 
-    fn factors(&mut self) -> (Factors<'_>, &mut [f64], &mut [Vec<Pair>; 2]) {
+    fn factors(&mut self) -> (BlockFactors<'_>, &mut [f64], &mut [Vec<Pair>; 2]) {
         let Blocks { layout, work, inverse, x, g, inverse_masses, lower, pairs, .. } = self;
-        (Factors { layout, work, inverse, g, inverse_masses, lower }, x, pairs)
+        (BlockFactors { layout, work, inverse, g, inverse_masses, lower }, x, pairs)
     }
 
     /// The smallest ratio above `collapsed` of a pivot to its size before elimination, and the number of multipliers
@@ -241,12 +241,12 @@ impl Blocks {
         self.smaller_ratio(found, &self.layout.runs[..self.layout.own_runs], collapsed)
     }
 
-    fn smaller_ratio(&self, found: (f64, usize), runs: &[Run], collapsed: f64) -> (f64, usize) {
+    fn smaller_ratio(&self, found: (f64, usize), runs: &[ColumnRun], collapsed: f64) -> (f64, usize) {
         // The last joints first: their ratios are the smallest, as a rule.
         runs.iter().rev().fold(found, |found, run| by_width!(run.width, self.smaller_of(run, found, collapsed)))
     }
 
-    fn smaller_of<const W: usize>(&self, run: &Run, mut found: (f64, usize), collapsed: f64) -> (f64, usize) {
+    fn smaller_of<const W: usize>(&self, run: &ColumnRun, mut found: (f64, usize), collapsed: f64) -> (f64, usize) {
         let is_row = run.sign < 0.0;
         for first in run.firsts().rev() {
             let place = self.layout.diagonal(first as u32);

@@ -1,6 +1,6 @@
 //! The arithmetic of bodies, W coordinates wide: S -= G M^-1 G^T, and both ways through G.
 
-use super::bodies::{Bodies, Run, Side};
+use super::bodies::{BlockSide, Bodies, BodyRun};
 use super::kernels::{at, at_mut, subtract};
 use super::lanes::Lanes;
 use crate::math::array::from_fn;
@@ -21,8 +21,8 @@ impl Schur<'_> {
     #[inline(always)]
     fn by_bodies<const W: usize>(
         &mut self,
-        run: &Run,
-        reduce: impl Fn(&[f64; W], &[Side], &mut Iter<u32>, &[f64], &mut [f64]),
+        run: &BodyRun,
+        reduce: impl Fn(&[f64; W], &[BlockSide], &mut Iter<u32>, &[f64], &mut [f64]),
     ) {
         let Schur { bodies, g, inverse, work } = self;
         let mut rest = &bodies.sides[run.sides.clone()];
@@ -44,7 +44,7 @@ impl Schur<'_> {
     /// W = T + K, TW = T W, TT = T T.
     pub fn levers<const T: usize, const K: usize, const W: usize, const TW: usize, const TT: usize>(
         &mut self,
-        run: &Run,
+        run: &BodyRun,
     ) {
         self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
             for (l, side) in sides.iter().enumerate() {
@@ -68,7 +68,7 @@ impl Schur<'_> {
     }
 
     /// Subtracts the products of other blocks.
-    pub fn blocks<const W: usize>(&mut self, run: &Run) {
+    pub fn blocks<const W: usize>(&mut self, run: &BodyRun) {
         self.by_bodies::<W>(run, |inverse, sides, targets, g, work| {
             for (l, side) in sides.iter().enumerate() {
                 let part = Products { inverse, sides: &sides[l..], targets: &mut *targets };
@@ -81,7 +81,7 @@ impl Schur<'_> {
 /// The products of a body that are still to be subtracted: from some block on.
 struct Products<'a, 'b, const W: usize> {
     inverse: &'a [f64; W],
-    sides: &'a [Side],
+    sides: &'a [BlockSide],
     targets: &'a mut Iter<'b, u32>,
 }
 
@@ -100,12 +100,12 @@ impl<const W: usize> Products<'_, '_, W> {
 
 /// A block of G, row by row.
 #[inline]
-fn block<'a, const W: usize>(g: &'a [f64], side: &Side) -> &'a [[f64; W]] {
+fn block<'a, const W: usize>(g: &'a [f64], side: &BlockSide) -> &'a [[f64; W]] {
     g[side.entries as usize..][..side.rows as usize * W].as_chunks::<W>().0
 }
 
 /// A right side as it is solved for.
-pub(super) struct Passage<'a, N> {
+pub(super) struct RightSide<'a, N> {
     pub bodies: &'a Bodies,
     pub g: &'a [f64],
     pub inverse: &'a [f64],
@@ -115,11 +115,11 @@ pub(super) struct Passage<'a, N> {
     pub x: &'a mut [N],
 }
 
-impl<N: Lanes> Passage<'_, N> {
+impl<N: Lanes> RightSide<'_, N> {
     /// top := M^-1 top and x -= G top. `subtract` does the second for a block and the part of top of its body.
     #[inline(always)]
-    fn forward_by<const W: usize>(&mut self, run: &Run, subtract: impl Fn(&Side, &[f64], &[N; W], &mut [N])) {
-        let Passage { bodies, g, inverse, top, x } = self;
+    fn forward_by<const W: usize>(&mut self, run: &BodyRun, subtract: impl Fn(&BlockSide, &[f64], &[N; W], &mut [N])) {
+        let RightSide { bodies, g, inverse, top, x } = self;
         let mut rest = &bodies.sides[run.sides.clone()];
         for body in &bodies.all[run.bodies.clone()] {
             let first = body.first as usize;
@@ -133,8 +133,8 @@ impl<N: Lanes> Passage<'_, N> {
 
     /// top -= M^-1 G^T x. `add` adds the part of G^T x of a block.
     #[inline(always)]
-    fn backward_by<const W: usize>(&mut self, run: &Run, add: impl Fn(&Side, &[f64], &mut [N; W], &[N])) {
-        let Passage { bodies, g, inverse, top, x } = self;
+    fn backward_by<const W: usize>(&mut self, run: &BodyRun, add: impl Fn(&BlockSide, &[f64], &mut [N; W], &[N])) {
+        let RightSide { bodies, g, inverse, top, x } = self;
         let mut rest = &bodies.sides[run.sides.clone()];
         for body in &bodies.all[run.bodies.clone()] {
             let first = body.first as usize;
@@ -148,7 +148,7 @@ impl<N: Lanes> Passage<'_, N> {
     }
 
     /// Forwards through blocks [s I | a].
-    pub fn forward_levers<const T: usize, const K: usize, const W: usize, const TW: usize>(&mut self, run: &Run) {
+    pub fn forward_levers<const T: usize, const K: usize, const W: usize, const TW: usize>(&mut self, run: &BodyRun) {
         self.forward_by::<W>(run, |side, g, mine, x| {
             let block = at::<_, TW>(g, side.entries as usize);
             let (Some(block), Some(x)) = (block, at_mut::<_, T>(x, side.position as usize)) else { return };
@@ -160,7 +160,7 @@ impl<N: Lanes> Passage<'_, N> {
     }
 
     /// Backwards through blocks [s I | a].
-    pub fn backward_levers<const T: usize, const K: usize, const W: usize, const TW: usize>(&mut self, run: &Run) {
+    pub fn backward_levers<const T: usize, const K: usize, const W: usize, const TW: usize>(&mut self, run: &BodyRun) {
         self.backward_by::<W>(run, |side, g, sum, x| {
             let block = at::<_, TW>(g, side.entries as usize);
             let (Some(block), Some(x)) = (block, at::<_, T>(x, side.position as usize)) else { return };
@@ -172,7 +172,7 @@ impl<N: Lanes> Passage<'_, N> {
     }
 
     /// Forwards through other blocks.
-    pub fn forward<const W: usize>(&mut self, run: &Run) {
+    pub fn forward<const W: usize>(&mut self, run: &BodyRun) {
         self.forward_by::<W>(run, |side, g, mine, x| {
             for (row, x) in block::<W>(g, side).iter().zip(&mut x[side.position as usize..]) {
                 *x = (0..W).fold(*x, |x, p| x - mine[p] * row[p]);
@@ -181,7 +181,7 @@ impl<N: Lanes> Passage<'_, N> {
     }
 
     /// Backwards through other blocks.
-    pub fn backward<const W: usize>(&mut self, run: &Run) {
+    pub fn backward<const W: usize>(&mut self, run: &BodyRun) {
         self.backward_by::<W>(run, |side, g, sum, x| {
             for (row, x) in block::<W>(g, side).iter().zip(&x[side.position as usize..]) {
                 (0..W).for_each(|p| sum[p] = sum[p] + *x * row[p]);

@@ -17,23 +17,23 @@ mod division;
 mod plan;
 
 pub use division::{SEPARATOR, divide};
-pub use plan::{Division, Plan};
+pub use plan::{Division, FactorPlan};
 
 use super::blocks::Blocks;
 use super::pivot::{Quality, Rule};
 use crate::math::add;
 use crate::math::threads::{Divisible, each, each_of};
 use crate::tolerances::NUMBERS_OF_A_PORTION;
-use plan::{PartPlan, Piece};
+use plan::{PartPlan, PartRange};
 use std::sync::Arc;
 
 /// The factors of all parts, with the memory to make them and to solve.
 pub struct Parts {
     division: Arc<Division>,
-    all: Vec<Part>,
+    all: Vec<MatrixPart>,
 }
 
-struct Part {
+struct MatrixPart {
     number: usize,
     blocks: Blocks,
     /// Values and right sides of this part; those of the separator are zero in all parts but the first.
@@ -47,7 +47,7 @@ struct Part {
 
 /// Pieces of a solution that are put together.
 struct Collection<'a> {
-    pieces: &'a [Piece],
+    pieces: &'a [PartRange],
     to: &'a mut [f64],
 }
 
@@ -64,7 +64,7 @@ impl Divisible for Collection<'_> {
 }
 
 /// Puts a list together from the lists of the parts.
-fn collect<'p>(pieces: &[Piece], of: impl Fn(usize) -> &'p [f64] + Sync, to: &mut [f64]) {
+fn collect<'p>(pieces: &[PartRange], of: impl Fn(usize) -> &'p [f64] + Sync, to: &mut [f64]) {
     each(Collection { pieces, to }, &|Collection { pieces, mut to }| {
         for piece in pieces {
             let Some((own, rest)) = to.split_at_mut_checked(piece.len) else { return };
@@ -76,7 +76,7 @@ fn collect<'p>(pieces: &[Piece], of: impl Fn(usize) -> &'p [f64] + Sync, to: &mu
 
 impl Parts {
     pub fn new(division: Arc<Division>) -> Self {
-        let all = division.parts.iter().enumerate().map(|(number, plan)| Part::new(number, plan)).collect();
+        let all = division.parts.iter().enumerate().map(|(number, plan)| MatrixPart::new(number, plan)).collect();
         Parts { all, division }
     }
 
@@ -125,14 +125,14 @@ impl Parts {
     }
 }
 
-impl Part {
+impl MatrixPart {
     fn new(number: usize, plan: &PartPlan) -> Self {
         let zeros = |len: usize| vec![0.0; len];
         let n = plan.coordinates.of.len();
         let m = plan.rows.of.len();
         let mut blocks = Blocks::new(plan.layout.clone(), n);
         blocks.reserve(plan.mass.of.len(), plan.g.of.len());
-        Part {
+        MatrixPart {
             number,
             blocks,
             mass: zeros(plan.mass.of.len()),

@@ -8,7 +8,7 @@ use crate::tolerances;
 use std::sync::Arc;
 
 /// The structure of the factors of a saddle-point matrix.
-pub enum Plan {
+pub enum FactorPlan {
     Whole(Arc<Layout>),
     Parts(Arc<Division>),
 }
@@ -19,8 +19,8 @@ pub struct Division {
     pub n: usize,
     pub parts: Vec<PartPlan>,
     /// Coordinates and rows, as the solution is put together from those of the parts.
-    pub coordinates: Vec<Piece>,
-    pub rows: Vec<Piece>,
+    pub coordinates: Vec<PartRange>,
+    pub rows: Vec<PartRange>,
 }
 
 /// One part: a saddle-point matrix of its own unknowns and, behind them, of those of the separator.
@@ -65,7 +65,7 @@ impl Places {
 }
 
 /// Numbers in sequence that one part has.
-pub struct Piece {
+pub struct PartRange {
     /// First place in the whole list, and number.
     pub first: usize,
     pub len: usize,
@@ -75,16 +75,16 @@ pub struct Piece {
 }
 
 /// The pieces of a list that the parts have copies of.
-fn pieces<'a>(parts: impl Iterator<Item = &'a Places>) -> Vec<Piece> {
+fn pieces<'a>(parts: impl Iterator<Item = &'a Places>) -> Vec<PartRange> {
     let of_part = |(part, places): (usize, &'a Places)| {
-        places.pieces.iter().map(move |&(first, place, len)| Piece { first, len, part, place })
+        places.pieces.iter().map(move |&(first, place, len)| PartRange { first, len, part, place })
     };
-    let mut pieces: Vec<Piece> = parts.enumerate().flat_map(of_part).collect();
+    let mut pieces: Vec<PartRange> = parts.enumerate().flat_map(of_part).collect();
     pieces.sort_unstable_by_key(|piece| piece.first);
     pieces
 }
 
-impl Plan {
+impl FactorPlan {
     /// For M and G with these late coordinates; `levers` are blocks of G. Large systems are divided where that pays, by
     /// their structure alone.
     pub fn new(mass: &Pattern, g: &Pattern, late: &[bool], levers: &[Lever]) -> Self {
@@ -92,16 +92,16 @@ impl Plan {
         let count = parts.min(tolerances::MOST_PARTS);
         let division = if count > 1 { Division::new(mass, g, late, levers, count) } else { None };
         match division {
-            Some(division) => Plan::Parts(Arc::new(division)),
-            None => Plan::Whole(Arc::new(Layout::new(mass, g, late, levers))),
+            Some(division) => FactorPlan::Parts(Arc::new(division)),
+            None => FactorPlan::Whole(Arc::new(Layout::new(mass, g, late, levers))),
         }
     }
 
     /// Number of entries of L, of multiplications of a factorization, and of products of blocks.
     pub fn sizes(&self) -> [usize; 3] {
         let layouts: Vec<&Layout> = match self {
-            Plan::Whole(layout) => vec![layout],
-            Plan::Parts(division) => division.parts.iter().map(|part| &*part.layout).collect(),
+            FactorPlan::Whole(layout) => vec![layout],
+            FactorPlan::Parts(division) => division.parts.iter().map(|part| &*part.layout).collect(),
         };
         let sum = |size: fn(&Layout) -> usize| layouts.iter().map(|layout| size(layout)).sum();
         [sum(|layout| layout.len), sum(Layout::operations), sum(|layout| layout.targets.len())]

@@ -10,7 +10,7 @@ use crate::tolerances;
 /// S)^T at the base state: G Y c = r, by a pivoted QR of (G Y)^T. Such a d has no part along the base's null space in
 /// the metric of diag(M). Rows that are dependent at the base are dropped. Costs 3 n m^2 for a base, 3 m^3 for a state
 /// and 2 (n + m) m for a solution.
-pub struct Chart {
+pub struct CorrectionChart {
     mass: Pattern,
     g: Pattern,
     scale: Vec<f64>,
@@ -26,13 +26,13 @@ pub struct Chart {
     c: Vec<f64>,
 }
 
-impl Chart {
+impl CorrectionChart {
     /// The patterns must fit each other.
     pub fn new(mass: &Pattern, g: &Pattern) -> Self {
         let n = g.cols;
         let m = g.rows;
         let most = n.min(m);
-        Chart {
+        CorrectionChart {
             mass: mass.clone(),
             g: g.clone(),
             scale: vec![1.0; n],

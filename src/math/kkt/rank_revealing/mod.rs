@@ -4,7 +4,7 @@ mod chart;
 mod pivoted;
 mod reduced;
 
-pub use chart::Chart;
+pub use chart::CorrectionChart;
 pub use reduced::Reduced;
 
 use super::orthonormal::{normalize, orthonormalize, project_out};

@@ -6,7 +6,7 @@ use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::perm::PermRef;
 use faer::{MatMut, MatRef, Par, Spec};
 
-pub(super) struct Dense<T> {
+pub(super) struct DenseFactors<T> {
     size: usize,
     /// L and U, column by column.
     factors: Vec<T>,
@@ -15,14 +15,14 @@ pub(super) struct Dense<T> {
     memory: MemBuffer,
 }
 
-impl<T: Field> Dense<T> {
+impl<T: Field> DenseFactors<T> {
     /// `None` if there is not enough memory.
     pub fn new(size: usize) -> Option<Self> {
         let request = StackReq::or(
             factor::lu_in_place_scratch::<usize, T>(size, size, Par::Seq, Spec::default()),
             solve::solve_in_place_scratch::<usize, T>(size, 1, Par::Seq),
         );
-        Some(Dense {
+        Some(DenseFactors {
             size,
             factors: vec![T::ZERO; size * size],
             rows: vec![0; size],

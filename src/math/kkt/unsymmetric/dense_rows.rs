@@ -1,7 +1,7 @@
 //! Rows and columns that are nearly full, such as those of a frame with many elastic coordinates.
 
 use super::Field;
-use super::matrix::Matrix;
+use super::matrix::SparseMatrix;
 
 /// Entries of long rows are pivots only where all others are below this part. Unit: `[1]`. Why: they grow before their
 /// turn comes, by an estimate to some tens for beams of 10,000 elements.
@@ -18,7 +18,7 @@ pub(super) struct DenseRows {
 impl DenseRows {
     /// `None` if there is no dense row, or so many that they would fill more than they save. Columns from `n` on are
     /// those of multipliers.
-    pub fn of<T: Field>(matrix: &Matrix<T>, n: usize) -> Option<DenseRows> {
+    pub fn of<T: Field>(matrix: &SparseMatrix<T>, n: usize) -> Option<DenseRows> {
         let size = matrix.size();
         let mut counts = vec![0_usize; size];
         matrix.entries().for_each(|(row, _)| counts[row] += 1);

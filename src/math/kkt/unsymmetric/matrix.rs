@@ -5,7 +5,7 @@ use super::Field;
 use faer::sparse::{Pair, SymbolicSparseColMat};
 
 /// Values at frozen places, column by column.
-pub(super) struct Matrix<T> {
+pub(super) struct SparseMatrix<T> {
     pub places: SymbolicSparseColMat<usize>,
     pub values: Vec<T>,
     is_full: bool,
@@ -30,11 +30,11 @@ fn full(size: usize) -> Option<SymbolicSparseColMat<usize>> {
     Some(SymbolicSparseColMat::try_new_from_indices(size, size, &pairs).ok()?.0)
 }
 
-impl<T: Field> Matrix<T> {
+impl<T: Field> SparseMatrix<T> {
     /// A zero matrix; `None` if there is not enough memory.
     pub fn new(places: SymbolicSparseColMat<usize>, is_full: bool) -> Option<Self> {
         let places = if is_full { full(places.nrows())? } else { places };
-        Some(Matrix { values: vec![T::ZERO; places.compute_nnz()], places, is_full })
+        Some(SparseMatrix { values: vec![T::ZERO; places.compute_nnz()], places, is_full })
     }
 
     pub fn size(&self) -> usize {

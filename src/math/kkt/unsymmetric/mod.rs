@@ -33,10 +33,10 @@ pub use field::Field;
 use super::ldlt::Ldlt;
 use super::pivot::Rule;
 use super::{Pattern, Singular};
-use dense::Dense;
+use dense::DenseFactors;
 use dense_rows::DenseRows;
 use faer::sparse::SymbolicSparseColMat;
-use matrix::Matrix;
+use matrix::SparseMatrix;
 use sparse::Sparse;
 use unpivoted::Unpivoted;
 
@@ -58,7 +58,7 @@ use unpivoted::Unpivoted;
 /// consistent redundant constraints.
 pub struct Unsymmetric<T> {
     n: usize,
-    matrix: Matrix<T>,
+    matrix: SparseMatrix<T>,
     /// Values of the whole matrix, with rows and columns scaled and G included.
     scaled: Vec<T>,
     scale: Vec<f64>,
@@ -91,7 +91,7 @@ pub struct Unsymmetric<T> {
 pub type Places = Vec<(u32, u32)>;
 
 enum Factors<T> {
-    Dense(Dense<T>),
+    Dense(DenseFactors<T>),
     Sparse(Sparse<T>),
 }
 
@@ -105,7 +105,7 @@ impl<T: Field> Unsymmetric<T> {
     }
 
     fn at(places: SymbolicSparseColMat<usize>, g: &Pattern, is_dense: bool) -> Option<Self> {
-        let matrix = Matrix::new(places, is_dense)?;
+        let matrix = SparseMatrix::new(places, is_dense)?;
         let size = matrix.size();
         let border = if is_dense { None } else { DenseRows::of(&matrix, g.cols) };
         let place = |row: usize, col: usize| matrix.place(row, col).and_then(|place| u32::try_from(place).ok());
@@ -120,7 +120,7 @@ impl<T: Field> Unsymmetric<T> {
             weight: vec![1.0; g.cols],
             is_massless: vec![false; g.cols],
             factors: if is_dense {
-                Factors::Dense(Dense::new(size)?)
+                Factors::Dense(DenseFactors::new(size)?)
             } else {
                 Factors::Sparse(Sparse::new(&matrix.places, border.as_ref().map(|b| b.columns.as_slice()))?)
             },

@@ -13,13 +13,13 @@ use faer::sparse::SymbolicSparseColMat;
 /// h^2 K and h C change that little. Where a pivot is small beside the numbers whose difference it is, the matrix is not
 /// factored. Large matrices are divided as in [`parts`](super::super::parts), by their structure alone.
 pub(super) struct Unpivoted<T> {
-    pub parts: Vec<Part<T>>,
+    pub parts: Vec<UnpivotedPart<T>>,
     /// The separator, with what the elimination of all parts leaves of it.
-    last: Part<T>,
+    last: UnpivotedPart<T>,
 }
 
 /// Unknowns that are eliminated together, and behind them those of the separator.
-pub(super) struct Part<T> {
+pub(super) struct UnpivotedPart<T> {
     /// Node (coordinate, or n + row of G) of each unknown that is eliminated.
     nodes: Vec<usize>,
     /// Values of the matrix that it has, with their slots.
@@ -35,9 +35,9 @@ impl<T: Field> Unpivoted<T> {
         let (of_node, count) = division(places, n);
         let nodes = |part: u32| order(places, n, (0..of_node.len()).filter(|&node| of_node[node] == part).collect());
         let separator = nodes(SEPARATOR);
-        let part = |part: u32| Part::new(places, &of_node, part, nodes(part), &separator);
+        let part = |part: u32| UnpivotedPart::new(places, &of_node, part, nodes(part), &separator);
         let parts = (0..count as u32).map(part).collect::<Option<_>>()?;
-        Some(Unpivoted { parts, last: Part::new(places, &of_node, SEPARATOR, separator, &[])? })
+        Some(Unpivoted { parts, last: UnpivotedPart::new(places, &of_node, SEPARATOR, separator, &[])? })
     }
 
     /// Factors the matrix with these values at its places; returns false where a pivot is too small.
@@ -63,13 +63,13 @@ impl<T: Field> Unpivoted<T> {
         last.columns.backward();
         let of_separator = &last.columns.x;
         each_of(parts, |part| part.backward(of_separator));
-        for Part { nodes, columns, .. } in parts.iter().chain([&*last]) {
+        for UnpivotedPart { nodes, columns, .. } in parts.iter().chain([&*last]) {
             nodes.iter().zip(&columns.x).for_each(|(&node, solution)| x[node] = *solution);
         }
     }
 }
 
-impl<T: Field> Part<T> {
+impl<T: Field> UnpivotedPart<T> {
     fn new(
         places: &SymbolicSparseColMat<usize>,
         of_node: &[u32],
@@ -89,7 +89,7 @@ impl<T: Field> Part<T> {
         let columns =
             Columns::new(size, own, coupled.chain((full..size).flat_map(|j| (j..size).map(move |i| (i, j)))))?;
         let slots = values.iter().map(|&(value, (row, col))| (value as u32, columns.slot(place[row], place[col])));
-        Some(Part { slots: slots.collect(), nodes, columns, is_stable: true })
+        Some(UnpivotedPart { slots: slots.collect(), nodes, columns, is_stable: true })
     }
 
     fn load(&mut self, values: &[T]) {
