@@ -4,7 +4,7 @@ use crate::common::driven_pendulum::{self, DrivenPendulum};
 use crate::common::unconstrained::{Arenstorf, Exponential, Power};
 use crate::common::{Run, adaptive, distance, fixed, run, stepwise, until};
 use holonom::error::Failure;
-use holonom::integrator::{Entry, Steps, registry};
+use holonom::integrator::{IntegratorEntry, Steps, registry};
 use holonom::simulate::Span;
 
 /// Rows of the exponential problem from 0.3 in `steps` equal steps.
@@ -36,7 +36,7 @@ fn orders_on_a_nonlinear_equation() {
 /// sum_i b_i c_i^k = 1/(k + 1) for k < p, and for no k beyond the method's quadrature order.
 #[test]
 fn quadrature_conditions() {
-    let is_explicit = |entry: &&Entry| entry.takes("index1") && entry.steps != Steps::Own;
+    let is_explicit = |entry: &&IntegratorEntry| entry.takes("index1") && entry.steps != Steps::Own;
     for entry in registry().iter().filter(is_explicit) {
         let error = |k: usize| {
             let method = fixed("index1", entry.name, "none", 1.0);

@@ -4,7 +4,7 @@
 use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::orders::{self, END, Rows, integrators, steps};
 use crate::common::{fixed, run, until};
-use holonom::integrator::Entry;
+use holonom::integrator::IntegratorEntry;
 use holonom::simulate::{Method, Span};
 
 const LEVELS: [(&str, std::ops::Range<usize>); 3] = [("q", 1..5), ("v", 5..9), ("lambda", 9..11)];
@@ -36,7 +36,7 @@ fn rows_between_steps_have_the_order_of_the_steps() {
 }
 
 /// In these two numbers of steps, to so much.
-fn check_orders(of: impl Fn(&Entry) -> ([usize; 2], f64) + Sync) {
+fn check_orders(of: impl Fn(&IntegratorEntry) -> ([usize; 2], f64) + Sync) {
     let reference = solution(&fixed("index1", "dop853", "exact", END / 160.0));
     orders::check(&LEVELS, &reference, of, solution);
 }

@@ -7,7 +7,7 @@ use crate::common::{fixed, run, until};
 use crate::examples::own_formulation::BRAKED;
 use crate::examples::own_integrator::MIDPOINT;
 use holonom::analysis::Recorder;
-use holonom::formulation::{self, Dae, Row};
+use holonom::formulation::{self, Dae, DaeRow};
 use holonom::method_spec::{Listed, MethodSpec};
 use holonom::projection;
 use holonom::simulate::{Method, Span, simulate};
@@ -17,7 +17,7 @@ static ROWS: formulation::FormulationEntry = formulation::FormulationEntry {
     name: "ggl_of_accelerations",
     about: "phi = 0 and phi'' = 0 together",
     options: &[],
-    dae: Some(|_| Ok(Dae { mu: Some(Row::POSITION), ..Dae::with(Row::ACCELERATION) })),
+    dae: Some(|_| Ok(Dae { mu: Some(DaeRow::POSITION), ..Dae::with(DaeRow::ACCELERATION) })),
     field: None,
 };
 

@@ -22,7 +22,8 @@ fn oscillator(k: f64, c: f64) -> Ready {
 
 /// Limits of all integrators of fixed steps that have one, with a formulation each.
 fn limits() -> Vec<(&'static str, &'static str, Stability)> {
-    let of = |entry: &'static integrator::Entry| Some((entry.name, entry.accepts().next()?, entry.stability?()));
+    let of =
+        |entry: &'static integrator::IntegratorEntry| Some((entry.name, entry.accepts().next()?, entry.stability?()));
     integrator::registry().iter().filter(|entry| entry.steps != Steps::Own).filter_map(of).collect()
 }
 

@@ -6,7 +6,7 @@ use crate::common::orders::{self, END, Rows, steps};
 use crate::common::{adaptive, fixed, run, until};
 use holonom::analysis::Recorder;
 use holonom::initial::{assemble, equilibrium};
-use holonom::integrator::{Entry, Steps, registry};
+use holonom::integrator::{IntegratorEntry, Steps, registry};
 use holonom::simulate::{Method, Span, simulate};
 use holonom::system::{Dimensions, MechanicalSystem, Need, OperatingPoint, Scratch, Tangent, Terms};
 use std::ops::Range;
@@ -28,7 +28,7 @@ fn reference() -> Rows {
 /// 8.20, all of 7.8 and less in lambda.
 #[test]
 fn every_triple_has_the_order_of_its_integrator() {
-    let of = |entry: &Entry| match entry.order {
+    let of = |entry: &IntegratorEntry| match entry.order {
         8 => ([32, 40], 0.5),
         _ => (steps(entry), 0.3),
     };
@@ -38,7 +38,7 @@ fn every_triple_has_the_order_of_its_integrator() {
 /// As in tests/orders.rs.
 #[test]
 fn rows_between_steps_have_the_order_of_the_steps() {
-    let of = |entry: &Entry| match entry.order {
+    let of = |entry: &IntegratorEntry| match entry.order {
         8 => ([41, 49], 0.55),
         _ => (steps(entry).map(|n| n + 1), 0.3),
     };

@@ -3,13 +3,13 @@
 
 use crate::common::{adaptive, until};
 use crate::scenes::{Ready, parse};
-use holonom::integrator::{Entry, Steps, registry};
+use holonom::integrator::{IntegratorEntry, Steps, registry};
 use rayon::prelude::*;
 
 /// Each adaptive integrator with each formulation that solves rows, or with index 1.
 fn methods() -> Vec<(&'static str, &'static str)> {
     let adaptive = registry().iter().filter(|entry| entry.steps != Steps::Fixed);
-    let pairs = |entry: &'static Entry| {
+    let pairs = |entry: &'static IntegratorEntry| {
         let solved = ["index1", "index2", "index3", "ggl"];
         entry.accepts().filter(move |formulation| solved.contains(formulation)).map(move |name| (name, entry.name))
     };

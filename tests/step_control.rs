@@ -3,14 +3,14 @@
 
 use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::{Run, adaptive, distance, fixed, run, until};
-use holonom::integrator::{Control, Entry, Steps, Tightening, Tolerance, registry};
+use holonom::integrator::{Control, IntegratorEntry, Steps, Tightening, Tolerance, registry};
 use holonom::math::Scalar;
 use holonom::simulate::Span;
 use holonom::system::Equations;
 use rayon::prelude::*;
 
 /// Each integrator with each formulation that solves rows, or with index 1; without projections.
-fn methods(wanted: impl Fn(&Entry) -> bool) -> Vec<(&'static str, &'static str)> {
+fn methods(wanted: impl Fn(&IntegratorEntry) -> bool) -> Vec<(&'static str, &'static str)> {
     let solved = ["index1", "index2", "index3", "ggl"];
     let pairs = registry().iter().filter(|entry| wanted(entry)).flat_map(|entry| {
         let accepted = entry.accepts().filter(|formulation| solved.contains(formulation));
@@ -28,7 +28,7 @@ fn sound(run: &Run, what: &str) {
 }
 
 /// Methods of order 2 to 3 would take a million steps at 1e-14.
-fn is_accurate(entry: &Entry) -> bool {
+fn is_accurate(entry: &IntegratorEntry) -> bool {
     entry.steps != Steps::Fixed && entry.order >= 5
 }
 

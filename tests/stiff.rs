@@ -4,7 +4,7 @@ use crate::common::driven_pendulum::{DrivenPendulum, start};
 use crate::common::stiff::{STIFF, slow_position};
 use crate::common::{adaptive, distance, fixed, run, stepwise, until};
 use crate::scenes::{Ready, parse, shipped};
-use holonom::integrator::{Entry, registry};
+use holonom::integrator::{IntegratorEntry, registry};
 use holonom::prepared::Model;
 use holonom::projection::registry as projections;
 use holonom::scene::Scene;
@@ -14,14 +14,14 @@ use std::time::Instant;
 
 const END: f64 = 1.5;
 
-fn implicit() -> impl Iterator<Item = &'static Entry> {
+fn implicit() -> impl Iterator<Item = &'static IntegratorEntry> {
     registry().iter().filter(|entry| ["bdf", "tr_bdf2", "esdirk34", "diffsol"].contains(&entry.name))
 }
 
 /// Every accepted triple.
-fn triples() -> Vec<(&'static Entry, &'static str, &'static str)> {
+fn triples() -> Vec<(&'static IntegratorEntry, &'static str, &'static str)> {
     let pairs = implicit().flat_map(|entry| entry.accepts().map(move |formulation| (entry, formulation)));
-    let with = |(entry, formulation): (&'static Entry, &'static str)| {
+    let with = |(entry, formulation): (&'static IntegratorEntry, &'static str)| {
         let accepted = projections().iter().filter(|projection| !entry.refuses("index1", projection.name));
         accepted.map(move |projection| (entry, formulation, projection.name))
     };

@@ -2,7 +2,7 @@
 
 use super::common::print_result;
 use crate::error::Result;
-use crate::integrator::{self, Entry};
+use crate::integrator::{self, IntegratorEntry};
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::report::Table;
 use crate::simulate::check_pair;
@@ -39,7 +39,7 @@ pub fn run(args: Args) -> Result<()> {
     print_result(args.json, &json(&pairs), || text(&pairs))
 }
 
-type Pair = (&'static Entry, &'static str);
+type Pair = (&'static IntegratorEntry, &'static str);
 
 /// Returns integrators with the formulations that they accept, of the requested ones.
 fn pairs(args: &Args) -> Result<Vec<Pair>> {
@@ -134,7 +134,7 @@ fn orders(pairs: &[Pair]) -> String {
     table.to_string()
 }
 
-fn cells(entry: &Entry, formulation: &str) -> Vec<String> {
+fn cells(entry: &IntegratorEntry, formulation: &str) -> Vec<String> {
     let cell = |projection: &str| {
         if entry.refuses(formulation, projection) { "-".to_string() } else { entry.order.to_string() }
     };

@@ -1,7 +1,7 @@
 //! Baumgarte stabilization.
 
 use super::index1::{Index1, RANK, rank_tolerance};
-use super::{Dae, FormulationEntry, Row};
+use super::{Dae, DaeRow, FormulationEntry};
 use crate::error::Result;
 use crate::method_spec::{MethodSpec, OptionDoc};
 
@@ -25,8 +25,8 @@ pub const ENTRY: FormulationEntry = FormulationEntry {
     field: Some(|spec, _| Ok(Box::new(Index1 { row: row(spec)?, rank_tolerance: rank_tolerance(spec)? }))),
 };
 
-fn row(spec: &MethodSpec) -> Result<Row> {
+fn row(spec: &MethodSpec) -> Result<DaeRow> {
     let alpha = spec.not_negative("alpha", 5.0)?;
     let beta = spec.not_negative("beta", alpha)?;
-    Ok(Row { position: beta * beta, velocity: 2.0 * alpha, acceleration: 1.0 })
+    Ok(DaeRow { position: beta * beta, velocity: 2.0 * alpha, acceleration: 1.0 })
 }

@@ -2,7 +2,7 @@
 
 /// The constraint that a multiplier enforces: 0 = c_0 phi + c_1 phi' + c_2 phi''.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct DaeRow {
     /// c_0: 1/s^2 if `acceleration` is nonzero, else 1/s if `velocity` is.
     pub position: f64,
     /// c_1: 1/s if `acceleration` is nonzero.
@@ -11,26 +11,26 @@ pub struct Row {
     pub acceleration: f64,
 }
 
-impl Row {
+impl DaeRow {
     /// phi
-    pub const POSITION: Row = Row { position: 1.0, velocity: 0.0, acceleration: 0.0 };
+    pub const POSITION: DaeRow = DaeRow { position: 1.0, velocity: 0.0, acceleration: 0.0 };
     /// phi' = G v + phi_t
-    pub const VELOCITY: Row = Row { position: 0.0, velocity: 1.0, acceleration: 0.0 };
+    pub const VELOCITY: DaeRow = DaeRow { position: 0.0, velocity: 1.0, acceleration: 0.0 };
     /// phi'' = G v' - gamma
-    pub const ACCELERATION: Row = Row { position: 0.0, velocity: 0.0, acceleration: 1.0 };
+    pub const ACCELERATION: DaeRow = DaeRow { position: 0.0, velocity: 0.0, acceleration: 1.0 };
 
     /// Highest derivative of phi in the row: 0, 1 or 2.
     pub fn level(self) -> usize {
         match self {
-            Row { acceleration, .. } if acceleration != 0.0 => 2,
-            Row { velocity, .. } if velocity != 0.0 => 1,
+            DaeRow { acceleration, .. } if acceleration != 0.0 => 2,
+            DaeRow { velocity, .. } if velocity != 0.0 => 1,
             _ => 0,
         }
     }
 
     /// The row for a constraint without a position, A v + a = 0.
-    fn without_position(self) -> Row {
-        if self.level() == 0 { Row::VELOCITY } else { Row { position: 0.0, ..self } }
+    fn without_position(self) -> DaeRow {
+        if self.level() == 0 { DaeRow::VELOCITY } else { DaeRow { position: 0.0, ..self } }
     }
 
     /// Value of the row for one constraint.
@@ -51,21 +51,21 @@ impl Row {
 /// [`Iteration`](super::Iteration) and the [`velocity_index`](Self::velocity_index).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dae {
-    /// Row that lambda enforces.
-    pub lambda: Row,
-    /// Row that eta enforces by the velocity shift w; usually phi'.
-    pub eta: Option<Row>,
-    /// Row that mu enforces by the position shift u; usually phi.
-    pub mu: Option<Row>,
+    /// DaeRow that lambda enforces.
+    pub lambda: DaeRow,
+    /// DaeRow that eta enforces by the velocity shift w; usually phi'.
+    pub eta: Option<DaeRow>,
+    /// DaeRow that mu enforces by the position shift u; usually phi.
+    pub mu: Option<DaeRow>,
 }
 
 impl Dae {
     /// Equations without shifts: lambda enforces `lambda`.
-    pub const fn with(lambda: Row) -> Self {
+    pub const fn with(lambda: DaeRow) -> Self {
         Dae { lambda, eta: None, mu: None }
     }
 
-    fn rows(&self) -> impl Iterator<Item = Row> {
+    fn rows(&self) -> impl Iterator<Item = DaeRow> {
         [Some(self.lambda), self.eta, self.mu].into_iter().flatten()
     }
 
@@ -76,7 +76,7 @@ impl Dae {
 
     /// The rows of the nonholonomic constraints.
     pub fn nonholonomic(&self) -> Dae {
-        let eta = self.eta.filter(|row| row.level() > 0).map(Row::without_position);
+        let eta = self.eta.filter(|row| row.level() > 0).map(DaeRow::without_position);
         Dae { lambda: self.lambda.without_position(), eta, mu: None }
     }
 
@@ -88,7 +88,7 @@ impl Dae {
 
     /// Rate by which phi returns to zero, 1/s; `None` where no row contains phi together with its second derivative.
     pub fn gain(&self) -> Option<f64> {
-        let Row { position, acceleration, .. } = self.lambda;
+        let DaeRow { position, acceleration, .. } = self.lambda;
         (position > 0.0 && acceleration > 0.0).then(|| (position / acceleration).sqrt())
     }
 

@@ -1,6 +1,6 @@
 //! Gear, Gupta, Leimkuhler: position and velocity constraints together.
 
-use super::{Dae, FormulationEntry, Row};
+use super::{Dae, DaeRow, FormulationEntry};
 
 /// ```text
 /// q' = N (v + u),   M u + G^T mu = 0,   M v' + G^T lambda = f,   phi = 0,   G v + phi_t = 0
@@ -14,6 +14,6 @@ pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "ggl",
     about: "phi = 0 and G v + phi_t = 0 together, stabilized index 2, for integrators that solve both",
     options: &[],
-    dae: Some(|_| Ok(Dae { mu: Some(Row::POSITION), ..Dae::with(Row::VELOCITY) })),
+    dae: Some(|_| Ok(Dae { mu: Some(DaeRow::POSITION), ..Dae::with(DaeRow::VELOCITY) })),
     field: None,
 };

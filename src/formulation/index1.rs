@@ -1,6 +1,6 @@
 //! Index 1: the constraints differentiated twice, lambda eliminated.
 
-use super::{Dae, Dynamics, Formulation, FormulationEntry, Row, StepError};
+use super::{Dae, DaeRow, Dynamics, Formulation, FormulationEntry, StepError};
 use crate::error::Result;
 use crate::method_spec::{MethodSpec, OptionDoc};
 use crate::tolerances::TRUNCATED_RANK;
@@ -15,8 +15,8 @@ pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "index1",
     about: "phi'' = 0, lambda eliminated; drifts unless projected",
     options: &[RANK],
-    dae: Some(|_| Ok(Dae::with(Row::ACCELERATION))),
-    field: Some(|spec, _| Ok(Box::new(Index1 { row: Row::ACCELERATION, rank_tolerance: rank_tolerance(spec)? }))),
+    dae: Some(|_| Ok(Dae::with(DaeRow::ACCELERATION))),
+    field: Some(|spec, _| Ok(Box::new(Index1 { row: DaeRow::ACCELERATION, rank_tolerance: rank_tolerance(spec)? }))),
 };
 
 /// Option of the rank indicator below which constraints are dropped as dependent when v' and lambda are solved for.
@@ -31,13 +31,13 @@ pub(super) fn rank_tolerance(spec: &MethodSpec) -> Result<f64> {
 
 /// The vector field of a row of phi'', with or without feedback of phi and phi'.
 pub(super) struct Index1 {
-    pub row: Row,
+    pub row: DaeRow,
     pub rank_tolerance: f64,
 }
 
 impl Default for Index1 {
     fn default() -> Self {
-        Index1 { row: Row::ACCELERATION, rank_tolerance: TRUNCATED_RANK }
+        Index1 { row: DaeRow::ACCELERATION, rank_tolerance: TRUNCATED_RANK }
     }
 }
 
@@ -52,7 +52,7 @@ impl Formulation for Index1 {
         vdot: &mut [f64],
     ) -> Result<(), StepError> {
         dynamics.rank_tolerance = self.rank_tolerance;
-        let Row { position, velocity, .. } = self.row;
+        let DaeRow { position, velocity, .. } = self.row;
         dynamics.solve(t, q, v, |phi, phi_dot| -velocity * phi_dot - position * phi)?;
         dynamics.system.rate(q, v, qdot);
         vdot.copy_from_slice(&dynamics.vdot);

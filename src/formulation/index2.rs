@@ -1,6 +1,6 @@
 //! Index 2: the velocity constraint itself.
 
-use super::{Dae, FormulationEntry, Row};
+use super::{Dae, DaeRow, FormulationEntry};
 
 /// ```text
 /// q' = N v,   M v' + G^T lambda = f,   G v + phi_t = 0
@@ -12,6 +12,6 @@ pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "index2",
     about: "G v + phi_t = 0 itself, for integrators that solve it; phi drifts as h^p",
     options: &[],
-    dae: Some(|_| Ok(Dae::with(Row::VELOCITY))),
+    dae: Some(|_| Ok(Dae::with(DaeRow::VELOCITY))),
     field: None,
 };

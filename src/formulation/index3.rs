@@ -1,6 +1,6 @@
 //! Index 3: the position constraint itself.
 
-use super::{Dae, FormulationEntry, Row};
+use super::{Dae, DaeRow, FormulationEntry};
 
 /// ```text
 /// q' = N v,   M v' + G^T lambda = f,   phi = 0
@@ -11,6 +11,6 @@ pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "index3",
     about: "phi = 0 itself, for integrators that solve it",
     options: &[],
-    dae: Some(|_| Ok(Dae::with(Row::POSITION))),
+    dae: Some(|_| Ok(Dae::with(DaeRow::POSITION))),
     field: None,
 };

@@ -1,7 +1,7 @@
 //! The Newton matrices of implicit methods.
 
 use super::linearized::Linearized;
-use super::{Dae, Dynamics, Residual, Row, StepError};
+use super::{Dae, DaeRow, Dynamics, Residual, StepError};
 use crate::math::array::Each;
 use crate::math::kkt::{Field, Pattern, Places, SaddlePoint, Singular, Unsymmetric};
 use crate::system::{MechanicalSystem, Structure};
@@ -145,7 +145,7 @@ struct RowSlope<T> {
 }
 
 impl<T: Number> RowSlope<T> {
-    fn of(row: Row, s: &Slopes<T>) -> Self {
+    fn of(row: DaeRow, s: &Slopes<T>) -> Self {
         let by = |q: T, v: T, a: T| {
             let g = q * row.position + v * row.velocity + a * row.acceleration;
             [g, q * row.velocity + v * (2.0 * row.acceleration)]

@@ -27,7 +27,7 @@ mod statistics;
 mod udwadia_kalaba;
 
 use crate::method_spec::{MethodSpec, OptionDoc};
-pub use dae::{Dae, Row};
+pub use dae::{Dae, DaeRow};
 #[doc(hidden)]
 pub use directions::{degrees_of_freedom, free_directions, reduce};
 pub use dynamics::{Dynamics, Law, StepError};
@@ -119,11 +119,11 @@ pub struct FormulationEntry {
     /// The equations with multipliers, for methods that solve them; none where lambda is no unknown.
     pub dae: Option<fn(&MethodSpec) -> Result<Dae>>,
     /// The vector field, for methods that follow one; none where the constraints themselves are solved.
-    pub field: Option<MakeField>,
+    pub field: Option<MakeFormulation>,
 }
 
 /// Makes a vector field for a system.
-pub type MakeField = fn(&MethodSpec, &dyn MechanicalSystem) -> Result<Box<dyn Formulation>>;
+pub type MakeFormulation = fn(&MethodSpec, &dyn MechanicalSystem) -> Result<Box<dyn Formulation>>;
 
 impl FormulationEntry {
     /// The equations with the default options.

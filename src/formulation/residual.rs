@@ -1,6 +1,6 @@
 //! Residual of the equations at a state.
 
-use super::{Dae, Dynamics, Row, StepError};
+use super::{Dae, DaeRow, Dynamics, StepError};
 use crate::math::threads::each;
 use crate::system::{Dimensions, Need};
 use crate::tolerances::NUMBERS_OF_A_PORTION;
@@ -34,11 +34,11 @@ pub struct Residual {
     pub w: Vec<f64>,
     /// -(M + S) u - G^T mu, n_v, where there is a position shift.
     pub u: Vec<f64>,
-    /// Row of lambda, n_c.
+    /// DaeRow of lambda, n_c.
     pub lambda: Vec<f64>,
-    /// Row of eta, n_c.
+    /// DaeRow of eta, n_c.
     pub eta: Vec<f64>,
-    /// Row of mu, n_c.
+    /// DaeRow of mu, n_c.
     pub mu: Vec<f64>,
     phi_ddot: Vec<f64>,
     /// Those of [`Dynamics::powers`].
@@ -118,7 +118,7 @@ impl Residual {
         }
         let holonomic = dynamics.system.dimensions().holonomic();
         for (dae, rows) in [(*dae, 0..holonomic), (dae.nonholonomic(), holonomic..lambda.len())] {
-            let value = |row: Option<Row>, i: usize, phi_ddot: &[f64]| {
+            let value = |row: Option<DaeRow>, i: usize, phi_ddot: &[f64]| {
                 row.map_or(0.0, |row| -row.value(terms.phi[i], terms.phi_dot[i], phi_ddot[i]))
             };
             for i in rows {

@@ -1,6 +1,6 @@
 //! Stabilized index 1: constraints of all three levels together.
 
-use super::{Dae, FormulationEntry, Row};
+use super::{Dae, DaeRow, FormulationEntry};
 
 /// ```text
 /// q' = N (v + u),   M u + G^T mu = 0,    v' = a + w,   M w + G^T eta = 0,    M a + G^T lambda = f
@@ -15,6 +15,6 @@ pub const ENTRY: FormulationEntry = FormulationEntry {
     name: "stabilized_index1",
     about: "phi = 0, G v + phi_t = 0 and phi'' = 0 together, for integrators that solve all three",
     options: &[],
-    dae: Some(|_| Ok(Dae { lambda: Row::ACCELERATION, eta: Some(Row::VELOCITY), mu: Some(Row::POSITION) })),
+    dae: Some(|_| Ok(Dae { lambda: DaeRow::ACCELERATION, eta: Some(DaeRow::VELOCITY), mu: Some(DaeRow::POSITION) })),
     field: None,
 };

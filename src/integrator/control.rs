@@ -245,7 +245,7 @@ impl Control {
 
 /// Growth by half the gain where that of the whole one, err^-expo, is near 1, and by all of it beyond.
 fn damped(whole: f64, exponent: f64) -> f64 {
-    // From there steps double and more, as at a start. With 1e-3 evaluations are as many, with 0.1 a tenth more.
+    // StepStart there steps double and more, as at a start. With 1e-3 evaluations are as many, with 0.1 a tenth more.
     whole.sqrt().max(whole * 0.01f64.powf(0.5 * exponent))
 }
 

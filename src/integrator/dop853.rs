@@ -2,16 +2,16 @@
 
 use super::dop853_tableau::{A, B, C, D, E3, E5};
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry, Steps, Tightening};
+use super::{Control, IntegratorEntry, Steps, Tightening};
 
 /// Source: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.5 (code DOP853); interpolation of
 /// order 7. Order 8 in q and v (and lambda); twelve evaluations a step, three more where output rows are in the step.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: IntegratorEntry = IntegratorEntry {
     steps: Steps::Either,
     // Errors over a motion were 3 times rtol, and 10 to 20 in long ones.
     tightening: Tightening::new(0.2, 1.0),
     stability: Some(|| TABLEAU.stability()),
-    ..Entry::new(
+    ..IntegratorEntry::new(
         "dop853",
         "Dormand-Prince 8(5,3), 12 evaluations a step, adaptive; the choice for high accuracy",
         8,

@@ -1,19 +1,22 @@
 //! Dormand and Prince's method of order 5(4).
 
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry, Steps, Tightening};
+use super::{Control, IntegratorEntry, Steps, Tightening};
 
 /// Source: Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19-26; interpolation of order 4 as in Hairer's
 /// DOPRI5. Order 5 in q and v (and lambda); six evaluations a step, and one more after a projection, which
 /// moves the state at which the last stage was evaluated.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: IntegratorEntry = IntegratorEntry {
     steps: Steps::Either,
     // Errors over a motion were 5 to 20 times rtol, and 40 in long ones.
     tightening: Tightening::new(0.1, 1.0),
     stability: Some(|| TABLEAU.stability()),
-    ..Entry::new("dopri5", "Dormand-Prince 5(4), 6 or (projected) 7 evaluations a step, adaptive", 5, |setup| {
-        Ok(Box::new(Explicit::new(&TABLEAU, setup.len())))
-    })
+    ..IntegratorEntry::new(
+        "dopri5",
+        "Dormand-Prince 5(4), 6 or (projected) 7 evaluations a step, adaptive",
+        5,
+        |setup| Ok(Box::new(Explicit::new(&TABLEAU, setup.len()))),
+    )
 };
 
 #[rustfmt::skip]

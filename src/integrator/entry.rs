@@ -54,7 +54,7 @@ pub enum Steps {
 }
 
 /// One integrator as the command line, the scene format and the table of methods know it.
-pub struct Entry {
+pub struct IntegratorEntry {
     /// Name in the scene format and on the command line.
     pub name: &'static str,
     /// One line for the table of methods.
@@ -88,10 +88,10 @@ pub struct Entry {
 /// Makes an integrator for a system, with memory for states of [`Setup::len`].
 pub type Make = for<'s> fn(&Setup<'_, 's>) -> Result<Box<dyn Integrator + 's>>;
 
-impl Entry {
+impl IntegratorEntry {
     /// A method of this order with fixed steps for vector fields, which goes with all projections; for struct update.
     pub const fn new(name: &'static str, about: &'static str, order: usize, make: Make) -> Self {
-        Entry {
+        IntegratorEntry {
             name,
             about,
             order,
@@ -131,7 +131,7 @@ impl Entry {
     }
 }
 
-impl Listed for Entry {
+impl Listed for IntegratorEntry {
     const KIND: &'static str = "integrator";
 
     fn registry() -> &'static [Self] {

@@ -2,7 +2,7 @@
 
 use super::hermite::Hermite;
 use super::sums::{accumulate, combine};
-use super::{Control, Dense, From, Integrator, Problem, Stability, Step};
+use super::{Control, Dense, Integrator, Problem, Stability, Step, StepStart};
 use crate::formulation::StepError;
 use serde_json::Value;
 use std::ops::Range;
@@ -97,7 +97,7 @@ impl Explicit {
     }
 
     /// k_i at the nodes `range`.
-    fn evaluate(&mut self, problem: &mut Problem, range: Range<usize>, from: From) -> Result<(), StepError> {
+    fn evaluate(&mut self, problem: &mut Problem, range: Range<usize>, from: StepStart) -> Result<(), StepError> {
         let h = from.h;
         for i in range {
             combine(&mut self.stage, from.y, h, self.tableau.a[i], &self.k);
@@ -107,8 +107,8 @@ impl Explicit {
         Ok(())
     }
 
-    fn error(&mut self, from: From, to: &[f64]) -> Option<f64> {
-        let From { y, h, tolerance, .. } = from;
+    fn error(&mut self, from: StepStart, to: &[f64]) -> Option<f64> {
+        let StepStart { y, h, tolerance, .. } = from;
         let last = tolerance.motion();
         let mut square = |weights: &[f64]| {
             self.stage.fill(0.0);
@@ -147,7 +147,7 @@ impl Integrator for Explicit {
         Some(Value::Array(Vec::new()))
     }
 
-    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.k[0].copy_from_slice(from.slope);
         self.evaluate(problem, 1..self.stages(), from)?;
         combine(to, from.y, from.h, self.tableau.b, &self.k);
@@ -161,7 +161,7 @@ impl Integrator for Explicit {
         self.end_stage().map(|end| &self.k[end][..])
     }
 
-    fn lower_order(&self, from: From, out: &mut [f64]) -> bool {
+    fn lower_order(&self, from: StepStart, out: &mut [f64]) -> bool {
         let (ErrorEstimate::Embedded(error) | ErrorEstimate::Pair { fifth: error, .. }) = self.tableau.error else {
             return false;
         };

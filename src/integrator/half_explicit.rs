@@ -3,7 +3,7 @@
 use super::explicit::Tableau as Explicit;
 use super::hermite::Hermite;
 use super::sums::{add, combine};
-use super::{Control, Dense, From, Integrator, Problem, Setup, Stability, Step, no_memory};
+use super::{Control, Dense, Integrator, Problem, Setup, Stability, Step, StepStart, no_memory};
 use crate::error::Result;
 use crate::formulation::{Dynamics, StepError};
 use crate::math::kkt::{Pattern, Singular, Unsymmetric};
@@ -119,7 +119,7 @@ impl HalfExplicit {
     }
 
     /// k_i = (N V, V', power) of stage `i`.
-    fn evaluate(&mut self, problem: &mut Problem, i: usize, from: From) -> Result<(), StepError> {
+    fn evaluate(&mut self, problem: &mut Problem, i: usize, from: StepStart) -> Result<(), StepError> {
         let h = from.h;
         let (row, node) = self.tableau.stage(i);
         combine(&mut self.stage, from.y, h, row, &self.k);
@@ -147,7 +147,7 @@ impl HalfExplicit {
 
     /// Solves for V'_i and lambda_i; on entry k_i is N V and zeros, `force` f, `lambda` the guess gamma, and M and
     /// G(Q_i) are factored.
-    fn solve(&mut self, problem: &mut Problem, i: usize, from: From) -> Result<(), StepError> {
+    fn solve(&mut self, problem: &mut Problem, i: usize, from: StepStart) -> Result<(), StepError> {
         let h = from.h;
         let row = self.tableau.constraint[i];
         let n = problem.dynamics.system.dimensions();
@@ -235,7 +235,7 @@ impl Integrator for HalfExplicit {
         Some(Value::Array(Vec::new()))
     }
 
-    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.k[0].copy_from_slice(from.slope);
         let first = usize::from(self.tableau.explicit.is_some());
         for i in first..self.tableau.constraint.len() {

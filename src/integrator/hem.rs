@@ -1,33 +1,33 @@
 //! Brasey and Hairer's half-explicit methods.
 
 use super::half_explicit::{HalfExplicit, Tableau};
-use super::{Control, Entry, takes};
+use super::{Control, IntegratorEntry, takes};
 
 /// Source: Brasey, Hairer, SIAM J. Numer. Anal. 30 (1993) 538-552. Order 3 in q, v and lambda; three solutions a step
 /// and one for v' and lambda of the output; fixed steps; interpolation of order 3.
-pub const HEM3: Entry = Entry {
+pub const HEM3: IntegratorEntry = IntegratorEntry {
     solves: takes::velocity_rows,
     stability: Some(|| THIRD.stability()),
-    ..Entry::new("hem3", "half-explicit, 3 stages, fixed steps", 3, |setup| {
+    ..IntegratorEntry::new("hem3", "half-explicit, 3 stages, fixed steps", 3, |setup| {
         Ok(Box::new(HalfExplicit::new(&THIRD, setup)?))
     })
 };
 
 /// Source: as [`HEM3`]. Order 4 in q, v and lambda; five solutions a step and one for the output; fixed steps.
-pub const HEM4: Entry = Entry {
+pub const HEM4: IntegratorEntry = IntegratorEntry {
     solves: takes::velocity_rows,
     stability: Some(|| FOURTH.stability()),
-    ..Entry::new("hem4", "half-explicit, 5 stages, fixed steps", 4, |setup| {
+    ..IntegratorEntry::new("hem4", "half-explicit, 5 stages, fixed steps", 4, |setup| {
         Ok(Box::new(HalfExplicit::new(&FOURTH, setup)?))
     })
 };
 
 /// Source: Brasey, Computing 48 (1992) 191-201 (HEM5). Order 5 in q, v and lambda; eight solutions a step and one
 /// for the output; fixed steps; interpolation of order 4 with an evaluation of its own.
-pub const HEM5: Entry = Entry {
+pub const HEM5: IntegratorEntry = IntegratorEntry {
     solves: takes::velocity_rows,
     stability: Some(|| FIFTH.stability()),
-    ..Entry::new("hem5", "half-explicit, 8 stages, fixed steps", 5, |setup| {
+    ..IntegratorEntry::new("hem5", "half-explicit, 8 stages, fixed steps", 5, |setup| {
         Ok(Box::new(HalfExplicit::new(&FIFTH, setup)?))
     })
 };

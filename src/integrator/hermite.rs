@@ -1,6 +1,6 @@
 //! Interpolation over a step.
 
-use super::{From, Problem, Step};
+use super::{Problem, Step, StepStart};
 use crate::formulation::StepError;
 
 /// (1 - 1/sqrt 5)/2, a node of Lobatto's rule: the largest error of the quartic, of theta^2 (1 - theta)^2 (theta -
@@ -59,7 +59,7 @@ impl Hermite {
         y: &mut [f64],
         slope: &mut [f64],
     ) -> Result<(), StepError> {
-        let From { t, h, .. } = step.from;
+        let StepStart { t, h, .. } = step.from;
         cubic(step, NODE, y);
         problem.derivative(t + NODE * h, y, slope)?;
         let [f0, f1, f2, f3] = &mut self.rows[..] else { return Ok(()) };

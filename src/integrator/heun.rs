@@ -1,13 +1,13 @@
 //! Heun's method of order 2.
 
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry};
+use super::{Control, IntegratorEntry};
 
 /// Explicit trapezoidal rule: k2 = F(t + h, y + h k1), y_1 = y + h (k1 + k2)/2. Order 2 in q, v (and lambda, which is
 /// computed from them); two evaluations a step; fixed steps.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: IntegratorEntry = IntegratorEntry {
     stability: Some(|| TABLEAU.stability()),
-    ..Entry::new("heun", "explicit trapezoidal rule, 2 evaluations a step, fixed steps", 2, |setup| {
+    ..IntegratorEntry::new("heun", "explicit trapezoidal rule, 2 evaluations a step, fixed steps", 2, |setup| {
         Ok(Box::new(Explicit::new(&TABLEAU, setup.len())))
     })
 };

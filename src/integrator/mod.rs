@@ -1,7 +1,7 @@
 //! Integrators: one step of a vector field.
 //!
-//! To add one: a file with its tableau (or a step of its own) and an [`Entry`], and a line in [`registry`]; from
-//! outside the crate, an [`Entry`] and its [`spec`](crate::method_spec::Listed::spec), as in `tests/examples/own_integrator.rs` and
+//! To add one: a file with its tableau (or a step of its own) and an [`IntegratorEntry`], and a line in [`registry`]; from
+//! outside the crate, an [`IntegratorEntry`] and its [`spec`](crate::method_spec::Listed::spec), as in `tests/examples/own_integrator.rs` and
 //! `own_tableau.rs`.
 
 mod adams;
@@ -34,7 +34,7 @@ mod takes;
 use control::round_off;
 pub use control::{Control, Tightening, Tolerance, first_step};
 use entry::no_memory;
-pub use entry::{Entry, Make, Setup, Steps};
+pub use entry::{IntegratorEntry, Make, Setup, Steps};
 pub use explicit::{ErrorEstimate, Explicit, Tableau};
 pub use problem::Problem;
 pub use stability::Stability;
@@ -49,7 +49,7 @@ use serde_json::Value;
 pub trait Integrator {
     /// Tries a step and writes the new state. Returns the error estimate in units of the tolerance (accept at or below
     /// one), or `None` for a method that has none.
-    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError>;
+    fn attempt(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<Option<f64>, StepError>;
 
     /// The step control of the method, which may change its constants with its order.
     fn control(&mut self) -> &mut Control;
@@ -62,9 +62,9 @@ pub trait Integrator {
     /// Discards the history of the steps: the equations change their form here.
     fn restart(&mut self) {}
 
-    /// Makes the next step of a method that [`leads`](Entry::leads), not beyond `from.end`, and returns its size, s;
+    /// Makes the next step of a method that [`leads`](IntegratorEntry::leads), not beyond `from.end`, and returns its size, s;
     /// `from.h` is that of the first one. Attempts are then parts of this step.
-    fn lead(&mut self, _: &mut Problem, from: From) -> Result<f64, StepError> {
+    fn lead(&mut self, _: &mut Problem, from: StepStart) -> Result<f64, StepError> {
         Ok(from.h)
     }
 
@@ -75,7 +75,7 @@ pub trait Integrator {
     }
 
     /// Writes the solution of lower order to which the last attempt was compared; false where there is none.
-    fn lower_order(&self, _from: From, _out: &mut [f64]) -> bool {
+    fn lower_order(&self, _from: StepStart, _out: &mut [f64]) -> bool {
         false
     }
 
@@ -131,7 +131,7 @@ pub trait Dense {
 
 /// The start of a step to be tried.
 #[derive(Clone, Copy, Debug)]
-pub struct From<'a> {
+pub struct StepStart<'a> {
     /// Time, s.
     pub t: f64,
     /// State y = (q, v, w).
@@ -150,7 +150,7 @@ pub struct From<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct Step<'a> {
     /// Its start and size.
-    pub from: From<'a>,
+    pub from: StepStart<'a>,
     /// State at its end, where it may have been projected, or cut, since the attempt.
     pub to: &'a [f64],
     /// y' there.
@@ -173,7 +173,7 @@ pub struct Accepted<'a> {
 }
 
 /// Every integrator, in the order of the documentation.
-pub fn registry() -> &'static [Entry] {
+pub fn registry() -> &'static [IntegratorEntry] {
     &[
         heun::ENTRY,
         rk4::ENTRY,
@@ -197,8 +197,8 @@ pub fn registry() -> &'static [Entry] {
 }
 
 /// The entry that `spec` names.
-pub fn find(spec: &MethodSpec) -> Result<&'static Entry> {
-    spec.entry::<Entry>().map_err(|error| match ELSEWHERE.iter().find(|(theirs, _)| *theirs == spec.name) {
+pub fn find(spec: &MethodSpec) -> Result<&'static IntegratorEntry> {
+    spec.entry::<IntegratorEntry>().map_err(|error| match ELSEWHERE.iter().find(|(theirs, _)| *theirs == spec.name) {
         Some((theirs, ours)) => error.changed(|input| {
             input.hint = Some(format!("did you mean `{ours}`? It is nearest to the {theirs} of other codes"))
         }),

@@ -1,6 +1,6 @@
 //! The matrix of Newton's method, kept from step to step.
 
-use super::{From, Problem};
+use super::{Problem, StepStart};
 use crate::formulation::{Dae, Dynamics, Linearized, Point, StepError};
 use crate::math::kkt::Singular;
 use crate::math::newton::Monitor;
@@ -103,7 +103,7 @@ impl<F: Factors> NewtonMatrix<F> {
     ///
     /// # Errors
     /// A singular matrix.
-    pub fn factor(&mut self, problem: &mut Problem, from: From, size: Size) -> Result<(), StepError> {
+    pub fn factor(&mut self, problem: &mut Problem, from: StepStart, size: Size) -> Result<(), StepError> {
         let is_near = |own: Size| own.method == size.method && own.h.max(size.h) <= F::BAND * own.h.min(size.h);
         if self.factored.is_some_and(is_near) {
             self.factors.rescale(size);
@@ -145,7 +145,7 @@ impl<F: Factors> NewtonMatrix<F> {
     ///
     /// # Errors
     /// Those of the first time.
-    pub fn renew(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
+    pub fn renew(&mut self, problem: &mut Problem, from: StepStart) -> Result<(), StepError> {
         let n = problem.dynamics.system.dimensions();
         let Some(SavedMatrix { size, is_fresh, point }) = self.recalled.take().filter(|saved| saved.point.fits(n))
         else {
@@ -162,7 +162,7 @@ impl<F: Factors> NewtonMatrix<F> {
 
 /// The cause of a singular matrix. If all rows are in it, some depend on others at the start of the step and ahead, and
 /// they prescribe different positions there, the rows contradict each other.
-fn collapsed(singular: Singular, problem: &mut Problem, from: From) -> StepError {
+fn collapsed(singular: Singular, problem: &mut Problem, from: StepStart) -> StepError {
     if singular != Singular::Collapsed || !problem.dynamics.dropped.is_empty() {
         return singular.into();
     }

@@ -2,20 +2,20 @@
 
 use super::dopri5;
 use super::half_explicit::{HalfExplicit, Tableau};
-use super::{Control, Entry, Steps, Tightening, takes};
+use super::{Control, IntegratorEntry, Steps, Tightening, takes};
 
 /// Source: Murua, BIT 37 (1997) 641-662 (PHEM56): the stages of DOPRI5, each with a constraint of its own. Order 5 in
 /// q, v and lambda; six solutions a step: the first stage, which is also the end of the step before, uses the
 /// accelerations of the equations of motion where Murua's seventh row approximates them (lambda is evaluated there
 /// anyway). One more evaluation after a projection that moves the state. Interpolation of order 4, with an evaluation
 /// of its own.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: IntegratorEntry = IntegratorEntry {
     steps: Steps::Either,
     // Errors over a motion were 3 rtol^0.9, and 30 in long ones.
     tightening: Tightening::new(0.06, 1.1),
     solves: takes::velocity_rows,
     stability: Some(|| TABLEAU.stability()),
-    ..Entry::new("phem56", "half-explicit, 6 or (projected) 7 solutions a step, adaptive", 5, |setup| {
+    ..IntegratorEntry::new("phem56", "half-explicit, 6 or (projected) 7 solutions a step, adaptive", 5, |setup| {
         Ok(Box::new(HalfExplicit::new(&TABLEAU, setup)?))
     })
 };

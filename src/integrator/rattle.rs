@@ -2,7 +2,7 @@
 
 use super::memory::{read, written};
 use super::sums::{add, trapezoid};
-use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Stability, takes};
+use super::{Accepted, Control, Integrator, IntegratorEntry, Problem, Setup, Stability, StepStart, takes};
 use crate::error::{Error, Result};
 use crate::formulation::StepError;
 use crate::math::kkt::Singular;
@@ -23,10 +23,10 @@ use serde_json::Value;
 /// Order 2 in q, v and lambda; symmetric, and symplectic without such forces. For constant M and q' = v. One
 /// factorization a step; the first half is iterated to round-off, one evaluation of f and one of phi an iteration. The
 /// work is integrated by the trapezoidal rule. Fixed steps; cubic Hermite interpolation.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: IntegratorEntry = IntegratorEntry {
     solves: takes::position_rows,
     stability: Some(|| Stability::Leapfrog),
-    ..Entry::new("rattle", "symmetric, symplectic, for constant M; holds phi and phi', fixed steps", 2, make)
+    ..IntegratorEntry::new("rattle", "symmetric, symplectic, for constant M; holds phi and phi', fixed steps", 2, make)
 };
 
 fn make(setup: &Setup) -> Result<Box<dyn Integrator>> {
@@ -91,7 +91,7 @@ const LIMITS: Limits = Limits {
 
 impl Rattle {
     /// Evaluates and factors M, G and f at the start, unless that was done at the end of the step before.
-    fn start(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
+    fn start(&mut self, problem: &mut Problem, from: StepStart) -> Result<(), StepError> {
         let (q, v) = problem.split(from.y);
         let dynamics = &mut problem.dynamics;
         self.is_ahead = false;
@@ -116,7 +116,7 @@ impl Rattle {
 
     /// v_h and q_1, starting with v + h/2 v' of the equations of motion: v_h differs from it by reactions, and by the
     /// dependence of f on v.
-    fn first_half(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
+    fn first_half(&mut self, problem: &mut Problem, from: StepStart) -> Result<(), StepError> {
         let h = from.h;
         let (_, v) = problem.split(from.y);
         let (_, vdot) = problem.split(from.slope);
@@ -141,7 +141,7 @@ impl Rattle {
     }
 
     /// One correction of v_h for the forces and for phi(q_1). Returns its size relative to v_h.
-    fn iterate(&mut self, problem: &mut Problem, from: From) -> Result<f64, StepError> {
+    fn iterate(&mut self, problem: &mut Problem, from: StepStart) -> Result<f64, StepError> {
         let (q, _) = problem.split(from.y);
         let h = from.h;
         let dynamics = &mut problem.dynamics;
@@ -169,8 +169,8 @@ impl Rattle {
     }
 
     /// v_1, and y' there, with the factors at q_1.
-    fn second_half(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<(), StepError> {
-        let From { h, end: t, .. } = from;
+    fn second_half(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<(), StepError> {
+        let StepStart { h, end: t, .. } = from;
         let (q, v) = problem.split_mut(to);
         q.copy_from_slice(&self.q);
         let dynamics = &mut problem.dynamics;
@@ -200,7 +200,7 @@ impl Integrator for Rattle {
         &mut self.control
     }
 
-    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.start(problem, from)?;
         self.first_half(problem, from)?;
         self.second_half(problem, from, to)?;

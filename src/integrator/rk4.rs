@@ -1,12 +1,12 @@
 //! The classical Runge-Kutta method of order 4.
 
 use super::explicit::{ErrorEstimate, Explicit, Tableau};
-use super::{Control, Entry};
+use super::{Control, IntegratorEntry};
 
 /// Kutta (1901). Order 4 in q and v (and lambda, which is computed from them); four evaluations a step; fixed steps.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: IntegratorEntry = IntegratorEntry {
     stability: Some(|| TABLEAU.stability()),
-    ..Entry::new("rk4", "the classical method, 4 evaluations a step, fixed steps", 4, |setup| {
+    ..IntegratorEntry::new("rk4", "the classical method, 4 evaluations a step, fixed steps", 4, |setup| {
         Ok(Box::new(Explicit::new(&TABLEAU, setup.len())))
     })
 };

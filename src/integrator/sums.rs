@@ -1,6 +1,6 @@
 //! Weighted sums of stages.
 
-use super::From;
+use super::StepStart;
 use crate::math::array::Each;
 use crate::math::threads::{Divisible, each};
 use crate::tolerances::NUMBERS_OF_A_PORTION;
@@ -43,7 +43,7 @@ pub(super) fn combine(out: &mut [f64], y: &[f64], h: f64, weights: &[f64], k: &[
 
 /// The works at the end of a step of order 2, the last components of `to`, by the trapezoidal rule from the powers
 /// there.
-pub(super) fn trapezoid(from: From, powers: &[f64], to: &mut [f64]) {
+pub(super) fn trapezoid(from: StepStart, powers: &[f64], to: &mut [f64]) {
     for i in to.len() - powers.len()..to.len() {
         to[i] = from.y[i] + 0.5 * from.h * (from.slope[i] + powers[i + powers.len() - to.len()]);
     }

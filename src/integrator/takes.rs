@@ -1,6 +1,6 @@
 //! The formulations that a family of methods integrates.
 
-use crate::formulation::{Dae, FormulationEntry, Row};
+use crate::formulation::{Dae, DaeRow, FormulationEntry};
 
 /// Vector fields, for explicit methods.
 pub(super) fn vector_fields(formulation: &FormulationEntry) -> bool {
@@ -9,12 +9,12 @@ pub(super) fn vector_fields(formulation: &FormulationEntry) -> bool {
 
 /// phi = 0 alone.
 pub(super) fn position_rows(formulation: &FormulationEntry) -> bool {
-    formulation.default_dae() == Some(Dae::with(Row::POSITION))
+    formulation.default_dae() == Some(Dae::with(DaeRow::POSITION))
 }
 
 /// phi' = 0 alone, for half-explicit methods.
 pub(super) fn velocity_rows(formulation: &FormulationEntry) -> bool {
-    formulation.default_dae() == Some(Dae::with(Row::VELOCITY))
+    formulation.default_dae() == Some(Dae::with(DaeRow::VELOCITY))
 }
 
 /// All formulations that enforce phi = 0.

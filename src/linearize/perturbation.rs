@@ -2,7 +2,7 @@
 
 use super::excited::Excited;
 use super::{Changes, Matrix, Variation};
-use crate::formulation::Row;
+use crate::formulation::DaeRow;
 
 /// Changes of the state, of u and of its derivatives, one column each: first those of the state alone, then a unit of
 /// each state of the inputs, then a unit of each input of the model. The states of an input whose derivative u^(r) is
@@ -89,7 +89,7 @@ impl Perturbation {
     }
 
     /// c_0 u + c_1 u' + c_2 u'' of the prescribed rows, of each state of the inputs and of each input.
-    pub fn input_rows(&self, row: Row) -> [Matrix; 2] {
+    pub fn input_rows(&self, row: DaeRow) -> [Matrix; 2] {
         let [u, rate, second] = &self.rows;
         let rows = u * row.position + rate * row.velocity + second * row.acceleration;
         let Parts { input_states, inputs, .. } = self.split(&rows);

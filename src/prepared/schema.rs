@@ -11,7 +11,7 @@ pub fn schema(elements: &Elements) -> Value {
     let mut root = elements.schema();
     let methods = [
         ("formulation", methods::<formulation::FormulationEntry>(elements)),
-        ("integrator", methods::<integrator::Entry>(elements)),
+        ("integrator", methods::<integrator::IntegratorEntry>(elements)),
         ("projection", methods::<projection::ProjectionEntry>(elements)),
     ];
     for (key, names) in methods {

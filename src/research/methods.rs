@@ -4,12 +4,10 @@
 //! built-in one. [`Elements::with_method`](crate::parts::Elements::with_method) makes it known to scenes.
 //! [The guide](crate::guide::rust) has a complete integrator, the pages of [`Projection`] and [`Formulation`] one each.
 
-pub use crate::formulation::{
-    Dae, Dynamics, Formulation, FormulationEntry, MakeField as MakeFormulation, Row as DaeRow, StepError,
-};
+pub use crate::formulation::{Dae, DaeRow, Dynamics, Formulation, FormulationEntry, MakeFormulation, StepError};
 pub use crate::integrator::{
-    Accepted, Control, Dense, Entry as IntegratorEntry, ErrorEstimate, Explicit, From as StepStart, Integrator,
-    Problem, Setup, Stability, Step, Steps, Tableau, Tightening, Tolerance,
+    Accepted, Control, Dense, ErrorEstimate, Explicit, Integrator, IntegratorEntry, Problem, Setup, Stability, Step,
+    StepStart, Steps, Tableau, Tightening, Tolerance,
 };
 pub use crate::method_spec::{Listed, OptionDoc};
 pub use crate::projection::{Projection, ProjectionEntry};

@@ -6,7 +6,7 @@ use super::rows::project;
 use super::{Sink, TimeLoop};
 use crate::error::{Failure, two_digits};
 use crate::formulation::{Dynamics, StepError};
-use crate::integrator::{From, Step};
+use crate::integrator::{Step, StepStart};
 use crate::math::{Piece, largest};
 use crate::system::{Need, OperatingPoint, Road, Scratch};
 use crate::tolerances;
@@ -32,8 +32,14 @@ impl TimeLoop<'_> {
             let own = passage.filter(|_| self.entry.begins_anew);
             let Some(Passage::Within(theta)) = own else { break };
             let step_end = self.end_of(*h, *end);
-            let from =
-                From { t: self.t, y: &self.y, slope: &self.slope, h: *h, end: step_end, tolerance: &self.tolerance };
+            let from = StepStart {
+                t: self.t,
+                y: &self.y,
+                slope: &self.slope,
+                h: *h,
+                end: step_end,
+                tolerance: &self.tolerance,
+            };
             let step = Step { from, to: &self.next, slope: &self.next_slope };
             self.integrator.interpolate(&mut self.rows.problem, step, theta, &mut self.change)?;
             self.next.copy_from_slice(&self.change);
@@ -68,7 +74,7 @@ impl TimeLoop<'_> {
         }
         let mut prepared = false;
         let TimeLoop { events, rows, integrator, problem, .. } = self;
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
+        let from = StepStart { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
         let step = Step { from, to: &self.next, slope: &self.next_slope };
         let (q, v) = problem.split(step.to);
         let (_, vdot) = problem.split(step.slope);

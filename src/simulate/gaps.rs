@@ -6,7 +6,7 @@
 
 use super::TimeLoop;
 use crate::formulation::StepError;
-use crate::integrator::{From, Step};
+use crate::integrator::{Step, StepStart};
 use crate::math::{Piece, Side};
 use crate::system::MechanicalSystem;
 use crate::tolerances;
@@ -117,7 +117,7 @@ impl TimeLoop<'_> {
     fn closing_time(&mut self, i: usize, side: Side, h: f64, end: f64, values: [f64; 2]) -> Result<f64, StepError> {
         let [mut low_value, mut high_value] = values;
         let TimeLoop { gaps, rows, integrator, problem, .. } = self;
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
+        let from = StepStart { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
         rows.problem.begin_step(from.t, from.y)?;
         let step = Step { from, to: &self.next, slope: &self.next_slope };
         integrator.prepare(&mut rows.problem, step)?;

@@ -214,7 +214,7 @@ impl Method {
 }
 
 /// Refuses a formulation that the integrator does not take, and names the valid pairs.
-pub fn check_pair(entry: &integrator::Entry, formulation: &MethodSpec) -> Result<()> {
+pub fn check_pair(entry: &integrator::IntegratorEntry, formulation: &MethodSpec) -> Result<()> {
     let name = formulation.name.as_str();
     // An unknown formulation is refused by its own registry, with names to choose from.
     let Some(solved) = formulation::lookup(formulation).filter(|known| !(entry.solves)(known)) else { return Ok(()) };

@@ -57,7 +57,7 @@ use travel::Travelled;
 use crate::error::{Failure, Result};
 use crate::formulation::{self, Dynamics, Statistics};
 use crate::initial::Travel;
-use crate::integrator::{self, Entry, Integrator, Problem, Tolerance};
+use crate::integrator::{self, Integrator, IntegratorEntry, Problem, Tolerance};
 use crate::method_spec::MethodSpec;
 use crate::projection::{self, Projection};
 use crate::system::MechanicalSystem;
@@ -95,7 +95,7 @@ pub fn simulate(
 /// The only time loop: a run from step to step.
 pub(crate) struct TimeLoop<'a> {
     problem: Problem<'a>,
-    entry: &'static Entry,
+    entry: &'static IntegratorEntry,
     integrator: Box<dyn Integrator + 'a>,
     projection: Option<Box<dyn Projection + 'a>>,
     rows: OutputRows<'a>,
@@ -175,7 +175,7 @@ fn within(method: &Method, system: &dyn MechanicalSystem) -> Result<Option<Box<d
 pub(crate) struct Parts<'a> {
     pub problem: Problem<'a>,
     /// The entry of the integrator.
-    pub entry: &'static Entry,
+    pub entry: &'static IntegratorEntry,
     pub integrator: Box<dyn Integrator + 'a>,
     pub projection: Option<Box<dyn Projection + 'a>>,
     /// A second problem and projection for output rows, whose work is counted separately from that of the steps.

@@ -4,7 +4,7 @@ use super::rows::{OutputRows, project};
 use super::{LastStep, Sink, TimeLoop};
 use crate::error::Failure;
 use crate::formulation::StepError;
-use crate::integrator::{From, Step};
+use crate::integrator::{Step, StepStart};
 use crate::tolerances;
 
 /// Sweeps of the projection of a row between steps near a singular state. Unit: `[sweeps]`. Why: a row may lie far
@@ -65,7 +65,7 @@ impl TimeLoop<'_> {
     }
 
     fn prepare(&mut self, h: f64, end: f64) -> Result<(), StepError> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
+        let from = StepStart { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
         let step = Step { from, to: &self.next, slope: &self.next_slope };
         self.rows.problem.begin_step(self.t, &self.y)?;
         self.integrator.prepare(&mut self.rows.problem, step)
@@ -76,7 +76,7 @@ impl TimeLoop<'_> {
     fn row_within(&mut self, t: f64, h: f64, end: f64) -> Result<Option<f64>, StepError> {
         let theta = (t - self.t) / h;
         let rows = &mut self.rows;
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
+        let from = StepStart { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
         let step = Step { from, to: &self.next, slope: &self.next_slope };
         rows.problem.begin_step(self.t, &self.y)?;
         self.integrator.interpolate(&mut rows.problem, step, theta, &mut rows.y)?;
@@ -97,8 +97,14 @@ impl TimeLoop<'_> {
     /// Writes the state at a time within the last step to the row, projected.
     pub fn interpolate(&mut self, t: f64, last: LastStep) -> Result<(), StepError> {
         let LastStep { start, size, .. } = last;
-        let from =
-            From { t: start, y: &self.next, slope: &self.next_slope, h: size, end: self.t, tolerance: &self.tolerance };
+        let from = StepStart {
+            t: start,
+            y: &self.next,
+            slope: &self.next_slope,
+            h: size,
+            end: self.t,
+            tolerance: &self.tolerance,
+        };
         let step = Step { from, to: &self.y, slope: &self.slope };
         let rows = &mut self.rows;
         rows.problem.begin_step(start, &self.next)?;

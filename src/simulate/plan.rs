@@ -5,7 +5,7 @@ use super::TimeLoop;
 use super::events::Events;
 use crate::error::Failure;
 use crate::formulation::StepError;
-use crate::integrator::{Control, From, first_step};
+use crate::integrator::{Control, StepStart, first_step};
 use crate::tolerances;
 
 /// The parts of a fixed step that misses what acts by the clock. Unit: `[1]` of steps on which that is almost cubic.
@@ -69,7 +69,7 @@ impl TimeLoop<'_> {
     pub fn lead(&mut self, stop: NextStop) -> Result<(), Failure> {
         let limit = self.events.resolved(self.t, self.h.min(stop.t - self.t), stop.t);
         let TimeLoop { h, tolerance, .. } = self;
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, h: *h, end: self.t + limit, tolerance };
+        let from = StepStart { t: self.t, y: &self.y, slope: &self.slope, h: *h, end: self.t + limit, tolerance };
         let size = match self.integrator.lead(&mut self.problem, from) {
             Ok(size) => size,
             Err(halt) if halt.is_fatal() => return Err(self.halted(&halt)),

@@ -5,7 +5,7 @@
 
 use super::{Sink, TimeLoop};
 use crate::formulation::StepError;
-use crate::integrator::{From, Step};
+use crate::integrator::{Step, StepStart};
 use crate::tolerances;
 
 /// Parts of a step between which the sign is compared: in a third of an oscillation a function may dip below zero and
@@ -60,7 +60,7 @@ impl TimeLoop<'_> {
         }
         self.rows.problem.begin_step(self.t, &self.y)?;
         let step = Step {
-            from: From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance },
+            from: StepStart { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance },
             to: &self.next,
             slope: &self.next_slope,
         };

@@ -3,7 +3,7 @@
 use super::TimeLoop;
 use super::rows::project;
 use crate::formulation::StepError;
-use crate::integrator::From;
+use crate::integrator::StepStart;
 use crate::math::largest;
 use crate::system::{Dimensions, Energy};
 use crate::tolerances;
@@ -89,7 +89,7 @@ impl TimeLoop<'_> {
 
     fn attempt(&mut self, h: f64, end: Option<f64>) -> Result<Option<f64>, StepError> {
         let end = self.end_of(h, end);
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
+        let from = StepStart { t: self.t, y: &self.y, slope: &self.slope, h, end, tolerance: &self.tolerance };
         self.problem.begin_step(self.t, &self.y)?;
         let error = self.integrator.attempt(&mut self.problem, from, &mut self.next)?;
         Ok(if self.fixed.is_some() { None } else { error })
@@ -173,7 +173,7 @@ impl TimeLoop<'_> {
     /// Near a singular state the stages are far off along the nearly dependent rows, and the projection removes that
     /// from both, so that the error before it is no measure.
     fn error_within_constraints(&mut self, t: f64, h: f64) -> Result<Option<f64>, StepError> {
-        let from = From { t: self.t, y: &self.y, slope: &self.slope, h, end: t, tolerance: &self.tolerance };
+        let from = StepStart { t: self.t, y: &self.y, slope: &self.slope, h, end: t, tolerance: &self.tolerance };
         if !self.integrator.lower_order(from, &mut self.change) {
             return Ok(Some(f64::NAN));
         }

@@ -1,7 +1,7 @@
 //! Convergence orders of every accepted triple formulation x integrator x projection, from errors at two numbers of steps.
 
 use super::fixed;
-use holonom::integrator::{Entry, Steps, registry};
+use holonom::integrator::{IntegratorEntry, Steps, registry};
 use holonom::projection::registry as projections;
 use holonom::simulate::Method;
 use rayon::prelude::*;
@@ -14,13 +14,13 @@ pub const END: f64 = 1.5;
 pub type Rows = Vec<Vec<f64>>;
 
 /// Those that take fixed steps; the others have their orders proven by tolerances.
-pub fn integrators() -> impl Iterator<Item = &'static Entry> {
+pub fn integrators() -> impl Iterator<Item = &'static IntegratorEntry> {
     registry().iter().filter(|entry| entry.steps != Steps::Own)
 }
 
 /// Numbers of steps at which the leading term of the error rules while the error is above 1e-12, four digits over
 /// round-off. That range is narrow for order 8, whose leading term is small, as are all those of collocation.
-pub fn steps(entry: &Entry) -> [usize; 2] {
+pub fn steps(entry: &IntegratorEntry) -> [usize; 2] {
     match (entry.name, entry.order) {
         ("radau_iia", _) => [64, 128],
         (_, ..=4) => [128, 256],
@@ -54,7 +54,7 @@ pub fn error(rows: &Rows, reference: &Rows, columns: &Range<usize>) -> f64 {
 pub fn check(
     levels: &[(&str, Range<usize>)],
     reference: &Rows,
-    of: impl Fn(&Entry) -> ([usize; 2], f64) + Sync,
+    of: impl Fn(&IntegratorEntry) -> ([usize; 2], f64) + Sync,
     solution: impl Fn(&Method) -> Rows + Sync,
 ) {
     let triples: Vec<_> = integrators()

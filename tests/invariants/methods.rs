@@ -1,6 +1,6 @@
 //! Every method that goes together, and what it promises.
 
-use holonom::integrator::{self, Entry, Steps};
+use holonom::integrator::{self, IntegratorEntry, Steps};
 use holonom::method_spec::MethodSpec;
 use holonom::projection;
 use holonom::simulate::Method;
@@ -12,7 +12,7 @@ const STEP: f64 = 5e-4;
 
 /// A method with its entry in the registry.
 pub struct Tried {
-    pub entry: &'static Entry,
+    pub entry: &'static IntegratorEntry,
     pub method: Method,
 }
 
@@ -27,7 +27,7 @@ pub fn all() -> Vec<Tried> {
     triples.collect()
 }
 
-fn tried(entry: &'static Entry, formulation: &str, projection: &str) -> Tried {
+fn tried(entry: &'static IntegratorEntry, formulation: &str, projection: &str) -> Tried {
     let [formulation, projection] = [formulation, projection].map(MethodSpec::named);
     let step = (entry.steps == Steps::Fixed).then_some(STEP);
     let integrator = MethodSpec::named(entry.name);

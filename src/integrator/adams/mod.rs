@@ -5,7 +5,8 @@ mod rows;
 
 use super::memory::{read, written};
 use super::{
-    Accepted, Control, Dense, Entry, From, Integrator, Problem, Stability, Step, Steps, Tightening, Tolerance,
+    Accepted, Control, Dense, Integrator, IntegratorEntry, Problem, Stability, Step, StepStart, Steps, Tightening,
+    Tolerance,
 };
 use crate::formulation::StepError;
 use crate::math::array::{Each, from_fn};
@@ -36,7 +37,7 @@ const ADAMS_AIM: f64 = 0.25;
 /// error of the step. A start, and every change of the form of the equations, begins at order 1. Stiff modes limit the
 /// step to |h lambda| of two, the limit of Heun's method, at order 1 and to less at higher orders. Interpolation by the
 /// polynomial of the step, of order k + 1, which meets both ends.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: IntegratorEntry = IntegratorEntry {
     steps: Steps::Own,
     // At the order of least error that of the corrected solution is as large as that of the prediction, which is
     // tested, and errors of steps add up. Over motions that amplify none they were 50 times those of dop853.
@@ -46,7 +47,7 @@ pub const ENTRY: Entry = Entry {
     stability: Some(|| Stability::Polynomial(vec![1.0, 1.0, 0.5])),
     ends_near: true,
     begins_anew: true,
-    ..Entry::new(
+    ..IntegratorEntry::new(
         "adams",
         "Adams-Bashforth-Moulton, order up to 13 by itself, 2 evaluations a step; smooth motions, few events",
         MOST + 1,
@@ -161,7 +162,7 @@ impl Adams {
     }
 
     /// y~, and the sums of the differences.
-    fn predict(&mut self, from: From, to: &mut [f64]) {
+    fn predict(&mut self, from: StepStart, to: &mut [f64]) {
         let Adams { order, differences, known, predicted, coefficients, .. } = self;
         let k = *order;
         let beta = &coefficients.beta;
@@ -282,7 +283,7 @@ impl Integrator for Adams {
         &mut self.control
     }
 
-    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         let h = from.h;
         self.extend(from.slope);
         let k = self.order;
@@ -329,7 +330,7 @@ impl Integrator for Adams {
         rows.iter().take(ROOM).enumerate().for_each(|(i, row)| own.set(i, row));
     }
 
-    fn lower_order(&self, from: From, out: &mut [f64]) -> bool {
+    fn lower_order(&self, from: StepStart, out: &mut [f64]) -> bool {
         let h = from.h;
         // Of order k: y~ with g_k in the place of g_{k+1}.
         let k = self.tried.order;

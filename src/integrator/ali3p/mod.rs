@@ -4,7 +4,7 @@ mod matrix;
 
 use super::memory::{fill, read, written};
 use super::sums::{add, trapezoid};
-use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, no_memory, takes};
+use super::{Accepted, Control, Integrator, IntegratorEntry, Problem, Setup, StepStart, no_memory, takes};
 use crate::error::Result;
 use crate::formulation::{ExponentialMap, StepError};
 use crate::math::largest;
@@ -39,13 +39,13 @@ use serde_json::Value;
 /// few more back-substitutions, and the evaluation of lambda. W is symmetric only where K and C are: an LU, dense or
 /// sparse by its pattern, in which bodies that share an element are coupled. The work is integrated by the trapezoidal
 /// rule. Fixed steps; cubic Hermite interpolation.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: IntegratorEntry = IntegratorEntry {
     solves: takes::position_rows,
     options: &[OptionDoc {
         name: "penalty",
         about: "h^2/4 alpha over the mass on a constraint, of which an iteration leaves 1/penalty (default 1e7)",
     }],
-    ..Entry::new(
+    ..IntegratorEntry::new(
         "ali3p",
         "index-3 augmented Lagrangian, projected: holds phi, phi'; redundant and singular G allowed; fixed steps",
         2,
@@ -117,7 +117,7 @@ const PROJECTED: Limits =
 
 impl Ali3p {
     /// Starts from a and lambda* of the step before, or else from those of the state.
-    fn begin(&mut self, problem: &Problem, from: From) {
+    fn begin(&mut self, problem: &Problem, from: StepStart) {
         if self.is_started {
             self.a_new.copy_from_slice(&self.a);
             self.lambda.copy_from_slice(&self.lambda_start);
@@ -129,7 +129,7 @@ impl Ali3p {
     }
 
     /// q_1 for constant a.
-    fn predict(&mut self, problem: &Problem, from: From) {
+    fn predict(&mut self, problem: &Problem, from: StepStart) {
         let h = from.h;
         let (q0, v0) = problem.split(from.y);
         for (i, v0) in v0.iter().enumerate() {
@@ -139,7 +139,7 @@ impl Ali3p {
     }
 
     /// v_1 and q_1 for the present a_1.
-    fn advance(&mut self, problem: &Problem, from: From, to: &mut [f64]) {
+    fn advance(&mut self, problem: &Problem, from: StepStart, to: &mut [f64]) {
         let h = from.h;
         let (_, v0) = problem.split(from.y);
         let (q, v) = problem.split_mut(to);
@@ -150,7 +150,7 @@ impl Ali3p {
         self.retraction.apply(problem.dynamics.system, &self.predicted, &self.step, q);
     }
 
-    fn converge(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<(), StepError> {
+    fn converge(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<(), StepError> {
         let h = from.h;
         let t = from.t + h;
         self.predict(problem, from);
@@ -241,7 +241,7 @@ impl Integrator for Ali3p {
         &mut self.control
     }
 
-    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         let n = problem.dynamics.system.dimensions();
         let t = from.t + from.h;
         let work = n.q + n.v..;

@@ -2,7 +2,7 @@
 
 use crate::integrator::memory::fill;
 use crate::integrator::sums::accumulate;
-use crate::integrator::{From, Tolerance};
+use crate::integrator::{StepStart, Tolerance};
 use crate::math::array::from_fn;
 use crate::math::{lagrange, lagrange_rate};
 use serde::{Deserialize, Serialize};
@@ -38,7 +38,7 @@ impl History {
     }
 
     /// Adds the start of a step. Before the first one, a step earlier, a state on its tangent is taken for known.
-    pub fn add(&mut self, from: From, lambda: &[f64]) {
+    pub fn add(&mut self, from: StepStart, lambda: &[f64]) {
         self.y.rotate_right(1);
         self.lambda.rotate_right(1);
         self.times.rotate_right(1);
@@ -56,7 +56,7 @@ impl History {
     }
 
     /// Replaces the newest state.
-    pub fn replace(&mut self, from: From) {
+    pub fn replace(&mut self, from: StepStart) {
         self.y[0].copy_from_slice(from.y);
     }
 

@@ -7,7 +7,8 @@ mod stage;
 use super::memory::{read, written};
 use super::newton_matrix;
 use super::{
-    Accepted, Control, Dense, Entry, From, Integrator, Problem, Setup, Step, Steps, Tightening, refuses, takes,
+    Accepted, Control, Dense, Integrator, IntegratorEntry, Problem, Setup, Step, StepStart, Steps, Tightening, refuses,
+    takes,
 };
 use crate::error;
 use crate::formulation::StepError;
@@ -37,14 +38,14 @@ const BDF_ROUND_OFF: f64 = 30.0;
 /// oscillations, which are then followed in tiny steps: use `esdirk34` or `generalized_alpha` there. Projections are
 /// refused: after a projection the past states do not fit, and the order would fall to 1 at every step. Interpolation
 /// by the polynomial of the step.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: IntegratorEntry = IntegratorEntry {
     steps: Steps::Own,
     // At order 5, which tight tolerances select; errors over a motion were 9 rtol^(5/6) on long ones.
     tightening: Tightening::new(0.07, 1.2),
     solves: takes::accelerations_or_positions,
     refuses: refuses::all,
     begins_anew: true,
-    ..Entry::new(
+    ..IntegratorEntry::new(
         "bdf",
         "implicit, order 1 to 5 by itself, for stiff motions that are smooth; chooses its steps",
         5,
@@ -105,8 +106,8 @@ impl Integrator for Bdf {
         &mut self.order.control
     }
 
-    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
-        let From { h, tolerance, .. } = from;
+    fn attempt(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+        let StepStart { h, tolerance, .. } = from;
         let Bdf { stage, history, order, predicted, rate, change, .. } = self;
         if std::mem::replace(&mut self.is_begun, true) {
             // The time loop may have moved the start.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// Order k and step size, from the norms of h^(j+1) y^(j+1) for j = k - 2 to k + 1: the order falls where these no
 /// longer decrease with j, as they do not where the formula of order k is unstable, and rises where they do. A run
-/// begins with order 1, then 2, and doubles every step as long as that goes well. From order 3 on, whose formulas are
+/// begins with order 1, then 2, and doubles every step as long as that goes well. StepStart order 3 on, whose formulas are
 /// not stable on ever longer steps, a step grows after k + 1 equal ones. Source: Brenan, Campbell, Petzold, Numerical
 /// Solution of Initial-Value Problems in DAEs, 5.2, and the codes IDA and VODE.
 #[derive(Clone, Serialize, Deserialize)]

@@ -4,7 +4,7 @@ use crate::error;
 use crate::formulation::{self, Change, Dae, Dynamics, Iteration, Linearized, Residual, Slopes, StepError};
 use crate::integrator::newton_matrix::{Factors, NewtonMatrix, Size};
 use crate::integrator::sums::add;
-use crate::integrator::{From, Problem, Setup, no_memory, round_off};
+use crate::integrator::{Problem, Setup, StepStart, no_memory, round_off};
 use crate::math::kkt::Singular;
 use crate::math::newton::Limits;
 use crate::system::{Dimensions, OperatingPoint};
@@ -89,7 +89,7 @@ impl Stage {
     pub fn attempt(
         &mut self,
         problem: &mut Problem,
-        from: From,
+        from: StepStart,
         mut solve: impl FnMut(&mut Self, &mut Problem) -> Result<(), StepError>,
     ) -> Result<(), StepError> {
         self.matrix.renew(problem, from)?;
@@ -115,7 +115,14 @@ impl Stage {
 
     /// Factors the matrix for `g`, from the present M, G, L, K and C or, if there are none, those of a state with the
     /// first guess of v' and lambda.
-    pub fn factor(&mut self, problem: &mut Problem, t: f64, y: &[f64], from: From, g: f64) -> Result<(), StepError> {
+    pub fn factor(
+        &mut self,
+        problem: &mut Problem,
+        t: f64,
+        y: &[f64],
+        from: StepStart,
+        g: f64,
+    ) -> Result<(), StepError> {
         if !self.matrix.serves(&problem.dynamics) {
             let (q, v) = problem.split(y);
             let Change { a, lambda, .. } = &self.unknowns;
@@ -125,7 +132,7 @@ impl Stage {
     }
 
     /// Solves the stage at `t` by Newton's method, whose matrix is factored.
-    pub fn solve(&mut self, problem: &mut Problem, from: From, t: f64, g: f64) -> Result<(), StepError> {
+    pub fn solve(&mut self, problem: &mut Problem, from: StepStart, t: f64, g: f64) -> Result<(), StepError> {
         let tolerance = from.tolerance;
         self.leave_out();
         self.y.copy_from_slice(&self.known);

@@ -2,7 +2,7 @@
 
 use super::rows::EquationRows;
 use crate::formulation::{Statistics, StepError};
-use crate::integrator::{From, Problem};
+use crate::integrator::{Problem, StepStart};
 use diffsol::{
     ConstantOp, FaerContext, FaerSparseMat, FaerVec, LinearOp, Matrix, NonLinearOp, NonLinearOpJacobian, OdeEquations,
     OdeEquationsRef, Op, UnitCallable, Vector, VectorCommon,
@@ -93,7 +93,7 @@ impl<'s> Equations<'s> {
     }
 
     /// x at the start of a step.
-    pub fn start(&self, from: From, lambda: &[f64]) -> Vec<f64> {
+    pub fn start(&self, from: StepStart, lambda: &[f64]) -> Vec<f64> {
         let state = self.state.borrow();
         state.rows.as_ref().map_or_else(|| from.y.to_vec(), |rows| rows.start(from.y, from.slope, lambda))
     }
@@ -108,7 +108,7 @@ impl<'s> Equations<'s> {
     }
 
     /// Announces a step, with the reference values of a run.
-    pub fn begin_step(&self, run: &Problem, from: From) -> Result<(), StepError> {
+    pub fn begin_step(&self, run: &Problem, from: StepStart) -> Result<(), StepError> {
         let problem = &mut self.state.borrow_mut().problem;
         problem.dynamics.refer_to(run.dynamics.kkt.rank_reference, run.dynamics.dense_reference);
         problem.begin_step(from.t, from.y)

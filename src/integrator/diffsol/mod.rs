@@ -12,8 +12,8 @@ mod rows;
 mod solver;
 
 use super::{
-    Accepted, Control, Dense, Entry, From, Integrator, Make, Problem, Setup, Stability, Step, Steps, Tightening,
-    refuses, takes,
+    Accepted, Control, Dense, Integrator, IntegratorEntry, Make, Problem, Setup, Stability, Step, StepStart, Steps,
+    Tightening, refuses, takes,
 };
 use crate::error;
 use crate::formulation::{self, Dae, Dynamics, StepError};
@@ -94,7 +94,7 @@ impl<'s> Diffsol<'s> {
     }
 
     /// Lets the solver begin again, or continue from a state that was moved, where that is needed.
-    fn meet(&mut self, problem: &Problem, from: From) -> Result<(), StepError> {
+    fn meet(&mut self, problem: &Problem, from: StepStart) -> Result<(), StepError> {
         let lambda = &problem.dynamics.lambda;
         if self.is_moved && self.scheme == Scheme::Bdf {
             self.begins = self.begins || self.frame.is_none() || self.is_apart(from)?;
@@ -126,7 +126,7 @@ impl<'s> Diffsol<'s> {
 
     /// True if a moved state is so far from the polynomial of the steps that BDF must begin again at order 1, as where
     /// coordinates are brought back to unit length again and again.
-    fn is_apart(&self, from: From) -> Result<bool, StepError> {
+    fn is_apart(&self, from: StepStart) -> Result<bool, StepError> {
         let mut change = vec![0.0; from.y.len()];
         self.write(from.t, &mut change)?;
         change.iter_mut().zip(from.y).for_each(|(change, y)| *change -= y);
@@ -135,7 +135,7 @@ impl<'s> Diffsol<'s> {
     }
 
     /// Makes steps up to `t`, none of which ends after `from.end`.
-    fn advance(&mut self, problem: &mut Problem, from: From, t: f64) -> Result<(), StepError> {
+    fn advance(&mut self, problem: &mut Problem, from: StepStart, t: f64) -> Result<(), StepError> {
         let frame = self.frame.as_mut().ok_or(NOT_BEGUN)?;
         while frame.with(|solver| solver.t()) < t {
             frame.equations().begin_step(problem, from)?;
@@ -167,13 +167,13 @@ impl Integrator for Diffsol<'_> {
         &mut self.control
     }
 
-    fn lead(&mut self, problem: &mut Problem, from: From) -> Result<f64, StepError> {
+    fn lead(&mut self, problem: &mut Problem, from: StepStart) -> Result<f64, StepError> {
         self.meet(problem, from)?;
         self.advance(problem, from, (from.t + ROUND_OFF * from.t.abs()).next_up())?;
         Ok(self.frame.as_ref().map_or(from.h, |frame| frame.with(|solver| solver.t()) - from.t))
     }
 
-    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.meet(problem, from)?;
         self.advance(problem, from, from.end)?;
         self.write(from.end, to)?;
@@ -201,8 +201,8 @@ impl Dense for Diffsol<'_> {
 }
 
 /// A method of diffsol, which chooses its steps.
-const fn entry(name: &'static str, about: &'static str, order: usize, make: Make) -> Entry {
-    Entry { steps: Steps::Own, leads: true, ..Entry::new(name, about, order, make) }
+const fn entry(name: &'static str, about: &'static str, order: usize, make: Make) -> IntegratorEntry {
+    IntegratorEntry { steps: Steps::Own, leads: true, ..IntegratorEntry::new(name, about, order, make) }
 }
 
 /// Region of an explicit method of diffsol.
@@ -221,7 +221,7 @@ fn stability(tableau: &Tableau<f64>) -> Stability {
 /// vanish after one step. Two stages a step with one sparse matrix of all variables. For low accuracy in stiff or kinked
 /// motions: a digit more costs three times the steps. Projections cost it nothing. It takes no fixed steps, and a
 /// continued run agrees within the tolerance only. Cubic Hermite interpolation.
-pub const TR_BDF2: Entry = Entry {
+pub const TR_BDF2: IntegratorEntry = IntegratorEntry {
     // Errors of steady rotations were 60 rtol over 30 revolutions with a factor of 0.25.
     tightening: Tightening::new(0.06, 1.5),
     solves: takes::accelerations_or_positions,
@@ -242,7 +242,7 @@ pub const TR_BDF2: Entry = Entry {
 /// constraints at every step to the tolerance of the iteration. Three stages a step with one sparse matrix of all
 /// variables. Projections cost it nothing. It takes no fixed steps, and a continued run agrees within the tolerance
 /// only. Cubic Hermite interpolation.
-pub const ESDIRK34: Entry = Entry {
+pub const ESDIRK34: IntegratorEntry = IntegratorEntry {
     tightening: Tightening::new(0.1, 4.0 / 3.0),
     solves: takes::accelerations_or_positions,
     ..entry(
@@ -257,7 +257,7 @@ pub const ESDIRK34: Entry = Entry {
 /// next step. Source: Tsitouras, Comput. Math. Appl. 62 (2011) 770-775. Order 5 in q, v and lambda; six evaluations a
 /// step. It shares no code with the other explicit methods, and so confirms them. It takes no fixed steps.
 /// Interpolation of order 4.
-pub const TSIT45: Entry = Entry {
+pub const TSIT45: IntegratorEntry = IntegratorEntry {
     // As of `dopri5`, which has the same orders.
     tightening: Tightening::new(0.1, 1.0),
     stability: Some(|| stability(&Tableau::tsit45())),
@@ -275,7 +275,7 @@ pub const TSIT45: Entry = Entry {
 /// (`cargo bench --bench implicit`), with which it shares no code: it confirms the other implicit methods. Projections
 /// are refused: after one the differences do not fit. It takes no fixed steps, and a continued run agrees within the
 /// tolerance only.
-pub const DIFFSOL: Entry = Entry {
+pub const DIFFSOL: IntegratorEntry = IntegratorEntry {
     tightening: Tightening::new(0.07, 1.2),
     solves: takes::accelerations_or_positions,
     refuses: refuses::all,

@@ -1,7 +1,7 @@
 //! The rows of a formulation with their exact Jacobian.
 
 use super::directions::Directions;
-use crate::formulation::{Dae, Dynamics, NO_TANGENT, Residual, Row, StepError, Unknowns};
+use crate::formulation::{Dae, DaeRow, Dynamics, NO_TANGENT, Residual, StepError, Unknowns};
 use crate::integrator::sums::add;
 use crate::math::all_finite;
 use crate::math::kkt::{Pattern, Singular};
@@ -68,7 +68,7 @@ impl UnknownRanges {
 }
 
 /// The row of one kind of multipliers; none where the equations do not have it.
-type RowOf = fn(Dae) -> Option<Row>;
+type RowOf = fn(Dae) -> Option<DaeRow>;
 
 /// Values of the matrices of the Jacobian at one state.
 struct Matrices<'m> {
@@ -179,7 +179,7 @@ impl EquationRows {
 
     /// Calls `see` with each row of multipliers, its place, and its constraint; without a row where the multiplier is
     /// zero.
-    fn each_row(&self, mut see: impl FnMut(Option<Row>, usize, usize)) {
+    fn each_row(&self, mut see: impl FnMut(Option<DaeRow>, usize, usize)) {
         let both = [self.dae, self.dae.nonholonomic()];
         let of: [(&Range<usize>, RowOf); 3] = [
             (&self.places.lambda, |dae| Some(dae.lambda)),
@@ -294,7 +294,7 @@ impl EquationRows {
     fn visit_rows(&self, structure: &Structure, at: &Matrices, mut put: impl FnMut(usize, usize, f64)) {
         let UnknownRanges { q, v, a, .. } = &self.places;
         self.each_row(|row, place, constraint| {
-            let Some(Row { position, velocity, acceleration }) = row else { return put(place, place, -1.0) };
+            let Some(DaeRow { position, velocity, acceleration }) = row else { return put(place, place, -1.0) };
             for &entry in &self.by_constraint[constraint] {
                 let j = structure.g.entries[entry].1;
                 let g = at.g[entry];

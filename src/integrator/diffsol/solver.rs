@@ -3,7 +3,7 @@
 use super::equations::Equations;
 use super::lu::SparseLu;
 use crate::formulation::{Statistics, StepError};
-use crate::integrator::From;
+use crate::integrator::StepStart;
 use diffsol::error::DiffsolError;
 use diffsol::ode_solver::OdeSolverStatistics;
 use diffsol::ode_solver::state::StateCommon;
@@ -48,7 +48,7 @@ pub trait Steps {
     /// Writes y = (q, v, works) within the last step, or at its end.
     fn write(&self, t: f64, y: &mut [f64]) -> Result<(), DiffsolError>;
     /// Continues from the differential variables `from.y` at `from.t`, with steps of size `from.h` at first.
-    fn go_on_from(&mut self, from: From);
+    fn go_on_from(&mut self, from: StepStart);
     fn counters(&self) -> Counters;
 }
 
@@ -82,7 +82,7 @@ impl<'p, 's, S: OdeSolverMethod<'p, Equations<'s>>> Steps for Solver<'p, 's, S> 
         Ok(())
     }
 
-    fn go_on_from(&mut self, from: From) {
+    fn go_on_from(&mut self, from: StepStart) {
         let differential = self.0.problem().eqn.differential();
         let state = self.0.state_mut();
         for (vector, works, values) in [(state.y, state.g, from.y), (state.dy, state.dg, from.slope)] {
@@ -138,7 +138,7 @@ impl<'s> DiffsolSolver<'s> {
     ///
     /// # Errors
     /// A state that the equations cannot be evaluated at.
-    pub fn new(scheme: Scheme, equations: Equations<'s>, from: From, x: &[f64]) -> Result<Self, StepError> {
+    pub fn new(scheme: Scheme, equations: Equations<'s>, from: StepStart, x: &[f64]) -> Result<Self, StepError> {
         let problem = problem(equations, from);
         let begun = Pair::try_new(problem, |problem| begin(scheme, problem, from, x));
         begun.map(DiffsolSolver).map_err(|_| StepError::NotConverged)
@@ -163,7 +163,7 @@ impl<'s> DiffsolSolver<'s> {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn restart(&mut self, scheme: Scheme, from: From, x: &[f64]) -> Result<(), StepError> {
+    pub fn restart(&mut self, scheme: Scheme, from: StepStart, x: &[f64]) -> Result<(), StepError> {
         self.0.with_dependent_mut(|problem, solver| {
             *solver = begin(scheme, problem, from, x).map_err(|_| StepError::NotConverged)?;
             Ok(())
@@ -173,7 +173,7 @@ impl<'s> DiffsolSolver<'s> {
 
 /// Tolerances of the norm of diffsol, the root mean square over all variables: those of the time loop's norm, which is
 /// over the tested ones.
-fn problem<'s>(eqn: Equations<'s>, From { h: h0, tolerance, .. }: From) -> Owner<'s> {
+fn problem<'s>(eqn: Equations<'s>, StepStart { h: h0, tolerance, .. }: StepStart) -> Owner<'s> {
     let len = diffsol::Op::nstates(&eqn);
     let integrate_out = diffsol::OdeEquations::out(&eqn).is_some();
     let motion = tolerance.motion();
@@ -207,7 +207,12 @@ fn problem<'s>(eqn: Equations<'s>, From { h: h0, tolerance, .. }: From) -> Owner
     }
 }
 
-fn begin<'p, 's>(scheme: Scheme, problem: &'p Owner<'s>, from: From, x: &[f64]) -> Result<AnySolver<'p>, DiffsolError> {
+fn begin<'p, 's>(
+    scheme: Scheme,
+    problem: &'p Owner<'s>,
+    from: StepStart,
+    x: &[f64],
+) -> Result<AnySolver<'p>, DiffsolError> {
     fn boxed<'p, 's: 'p>(solver: impl OdeSolverMethod<'p, Equations<'s>> + 'p) -> AnySolver<'p> {
         Box::new(Solver(solver, PhantomData))
     }
@@ -219,7 +224,7 @@ fn begin<'p, 's>(scheme: Scheme, problem: &'p Owner<'s>, from: From, x: &[f64]) 
     })
 }
 
-fn state<S: OdeSolverState<FaerVec<f64>>>(problem: &Owner, from: From, x: &[f64]) -> S {
+fn state<S: OdeSolverState<FaerVec<f64>>>(problem: &Owner, from: StepStart, x: &[f64]) -> S {
     let eqn = &problem.eqn;
     let empty = || FaerVec::from_vec(Vec::new(), Default::default());
     let motion = eqn.differential();

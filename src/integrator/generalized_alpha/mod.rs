@@ -7,7 +7,10 @@ mod prediction;
 use super::memory::{read, written};
 use super::newton_matrix;
 use super::sums::trapezoid;
-use super::{Accepted, Control, Entry, From, Integrator, Problem, Setup, Steps, Tightening, no_memory, refuses, takes};
+use super::{
+    Accepted, Control, Integrator, IntegratorEntry, Problem, Setup, StepStart, Steps, Tightening, no_memory, refuses,
+    takes,
+};
 use crate::error::{Error, Result};
 use crate::formulation::StepError;
 use crate::method_spec::OptionDoc;
@@ -47,7 +50,7 @@ const GENERALIZED_ALPHA_TURN: f64 = 1.0;
 /// Dynamics (2009) 143-158. One matrix, from exact K and C, is kept while Newton's method converges with it; an
 /// evaluation and a back-substitution (with ggl two) per iteration. The work is integrated by the trapezoidal rule.
 /// Cubic Hermite interpolation.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: IntegratorEntry = IntegratorEntry {
     steps: Steps::Either,
     // Errors over a motion were 10 rtol^(2/3), 70 for lasting oscillations, whose v is not in the estimate.
     tightening: Tightening::new(0.01, 1.5),
@@ -57,7 +60,7 @@ pub const ENTRY: Entry = Entry {
         name: "rho_inf",
         about: "what is left of infinitely fast oscillations a step, 0 to 1 (default 0.8)",
     }],
-    ..Entry::new(
+    ..IntegratorEntry::new(
         "generalized_alpha",
         "implicit, damped at high frequencies by rho_inf, for stiff motions; holds phi, with ggl phi' too",
         2,
@@ -108,8 +111,8 @@ struct GeneralizedAlpha {
 
 impl GeneralizedAlpha {
     /// Root mean square of the errors of q and xi in units of the tolerance; above one where a rotation is too large.
-    fn error(&mut self, problem: &Problem, from: From, to: &[f64]) -> f64 {
-        let From { h, tolerance, .. } = from;
+    fn error(&mut self, problem: &Problem, from: StepStart, to: &[f64]) -> f64 {
+        let StepStart { h, tolerance, .. } = from;
         let (q, v) = problem.split(to);
         let n = problem.dynamics.system.dimensions();
         problem.dynamics.system.rate(q, self.motion.local_error(problem, from), &mut self.error);
@@ -126,7 +129,7 @@ impl Integrator for GeneralizedAlpha {
         &mut self.control
     }
 
-    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.motion.begin(problem, from, to)?;
         let mut found = self.newton.converge(problem, &mut self.motion, from, to);
         let is_first_guess = self.newton.is_stale || self.motion.is_extrapolated();

@@ -1,7 +1,7 @@
 //! The accelerations carried from step to step, and q and v that follow from them.
 
 use super::super::sums::add;
-use super::super::{From, Problem};
+use super::super::{Problem, StepStart};
 use super::prediction::{Prediction, StepState};
 use crate::formulation::{Change, Dae, ExponentialMap, Slopes, StepError, Unknowns};
 use crate::math::largest;
@@ -104,7 +104,7 @@ impl StepMotion {
 
     /// Prepares a step of size `h` from the step before (or from the start), predicts its end, and discards one tried
     /// before from here. `ahead` is scratch.
-    pub fn begin(&mut self, problem: &mut Problem, from: From, ahead: &mut [f64]) -> Result<(), StepError> {
+    pub fn begin(&mut self, problem: &mut Problem, from: StepStart, ahead: &mut [f64]) -> Result<(), StepError> {
         let h = from.h;
         if !self.is_started {
             self.start(problem, from, ahead)?;
@@ -121,7 +121,7 @@ impl StepMotion {
     }
 
     /// Sets a = v'(t + (alpha_m - alpha_f) h) + O(h^2), which avoids transients of first order in lambda.
-    fn start(&mut self, problem: &mut Problem, from: From, ahead: &mut [f64]) -> Result<(), StepError> {
+    fn start(&mut self, problem: &mut Problem, from: StepStart, ahead: &mut [f64]) -> Result<(), StepError> {
         let h = from.h;
         let (_, vdot) = problem.split(from.slope);
         self.start.vdot.copy_from_slice(vdot);
@@ -196,7 +196,7 @@ impl StepMotion {
     /// The leading term of the error of q along the directions of v: `Scheme::error` h^3 v'', and h^3/12 \[v, v'\], by
     /// which rotations about a moving axis differ from that by the integral of v. Source: Magnus, Comm. Pure Appl.
     /// Math. 7 (1954) 649-673.
-    pub fn local_error(&mut self, problem: &Problem, from: From) -> &[f64] {
+    pub fn local_error(&mut self, problem: &Problem, from: StepStart) -> &[f64] {
         let h = from.h;
         let factor = self.scheme.error() * h * h;
         problem.dynamics.system.bracket(problem.split(from.y).1, &self.start.vdot, &mut self.change);
@@ -236,7 +236,7 @@ impl StepMotion {
         }
     }
 
-    fn predict(&mut self, problem: &Problem, from: From) {
+    fn predict(&mut self, problem: &Problem, from: StepStart) {
         let h = from.h;
         self.set_end();
         self.a_predicted.copy_from_slice(&self.end.a);
@@ -251,7 +251,7 @@ impl StepMotion {
     }
 
     /// a_1, v_1 and q_1 for the present v'_1 and shifts.
-    pub fn advance(&mut self, problem: &Problem, from: From, to: &mut [f64]) {
+    pub fn advance(&mut self, problem: &Problem, from: StepStart, to: &mut [f64]) {
         let h = from.h;
         self.set_end();
         let (q0, v0) = problem.split(from.y);

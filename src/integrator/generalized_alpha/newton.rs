@@ -1,7 +1,7 @@
 //! Newton's method for the state at the end of a step.
 
 use super::super::newton_matrix::{Factors, NewtonMatrix, Size};
-use super::super::{From, Problem};
+use super::super::{Problem, StepStart};
 use super::motion::{Scheme, StepMotion};
 use crate::formulation::{Dae, Dynamics, Iteration, Linearized, Residual, Slopes, StepError};
 use crate::math::kkt::Singular;
@@ -98,7 +98,7 @@ impl Newton {
         &mut self,
         problem: &mut Problem,
         motion: &mut StepMotion,
-        from: From,
+        from: StepStart,
         to: &mut [f64],
     ) -> Result<(), StepError> {
         let h = from.h;
@@ -142,7 +142,7 @@ impl Newton {
         &mut self,
         problem: &mut Problem,
         motion: &StepMotion,
-        from: From,
+        from: StepStart,
         to: &[f64],
     ) -> Result<(), StepError> {
         let h = from.h;

@@ -12,7 +12,8 @@ use super::memory::{fill, read, written};
 use super::newton_matrix::{self, Factors, NewtonMatrix, SavedMatrix, Size};
 use super::sums::accumulate;
 use super::{
-    Accepted, Control, Dense, Entry, From, Integrator, Problem, Setup, Step, Steps, Tightening, Tolerance, refuses,
+    Accepted, Control, Dense, Integrator, IntegratorEntry, Problem, Setup, Step, StepStart, Steps, Tightening,
+    Tolerance, refuses,
 };
 use crate::error::Result;
 use crate::formulation::{Dae, StepError};
@@ -52,14 +53,14 @@ use system::{System, most};
 /// Limits: with index3 round-off of phi over h is an error of v, and with index3 and ggl round-off along nearly
 /// dependent rows is divided by their rank indicator (1e-4 between masses 1 : 1e8 in line), so that steps below 1e-7 s
 /// may end a run there; index2 continues.
-pub const ENTRY: Entry = Entry {
+pub const ENTRY: IntegratorEntry = IntegratorEntry {
     steps: Steps::Either,
     // Errors over a motion were 0.1 rtol^0.8, with the rtol of `internal`: index 3 and fast modes lose order.
     tightening: Tightening::new(10.0, 1.25),
     solves: |formulation| formulation.dae.is_some(),
     refuses: refuses::shared_error,
     options: &[OptionDoc { name: "order", about: "5, 9 or 13 (default: chosen as it goes; 5 with a fixed step)" }],
-    ..Entry::new(
+    ..IntegratorEntry::new(
         "radau_iia",
         "implicit collocation of variable order 5, 9, 13, L-stable: stiff motions, and high accuracy",
         5,
@@ -143,7 +144,7 @@ impl RadauIIA {
     /// M, G, K and C at the middle stage as it is predicted: stiff directions that turn with the motion, as those of
     /// beams do, are off by half as much at the other stages as they would be from the start. At the start where there
     /// is no prediction, or where a cut step before makes it a far one.
-    fn linearize(&mut self, problem: &mut Problem, from: From) -> Result<(), StepError> {
+    fn linearize(&mut self, problem: &mut Problem, from: StepStart) -> Result<(), StepError> {
         let h = from.h;
         let is_near = |step: Size| h <= tolerances::RADAU_GROWTH * step.h;
         if self.accepted.is_some_and(is_near) {
@@ -170,7 +171,7 @@ impl RadauIIA {
     }
 
     /// First guess of the accelerations and lambda: constant at the first step, else extrapolated from the step before.
-    fn predict(&mut self, problem: &Problem, from: From) {
+    fn predict(&mut self, problem: &Problem, from: StepStart) {
         let unknowns = &mut self.stages.unknowns;
         match self.accepted {
             Some(step) => {
@@ -188,7 +189,7 @@ impl RadauIIA {
     }
 
     /// Solves the equations of all stages, with the present matrices or new ones.
-    fn solve(&mut self, problem: &mut Problem, from: From) -> Result<bool, StepError> {
+    fn solve(&mut self, problem: &mut Problem, from: StepStart) -> Result<bool, StepError> {
         self.matrix.factor(problem, from, self.size(from.h))?;
         self.predict(problem, from);
         let RadauIIA { dae, order, matrix, stages, is_fixed, .. } = self;
@@ -201,7 +202,7 @@ impl RadauIIA {
     fn estimate(
         &mut self,
         problem: &Problem,
-        from: From,
+        from: StepStart,
         to: &[f64],
         weights: impl Fn(&Collocation) -> &[f64],
     ) -> Result<f64, StepError> {
@@ -232,7 +233,7 @@ impl Integrator for RadauIIA {
         &mut self.order.choice.control
     }
 
-    fn attempt(&mut self, problem: &mut Problem, from: From, to: &mut [f64]) -> Result<Option<f64>, StepError> {
+    fn attempt(&mut self, problem: &mut Problem, from: StepStart, to: &mut [f64]) -> Result<Option<f64>, StepError> {
         self.tried = Some(Tried { size: self.size(from.h), monitor: self.matrix.monitor.memory() });
         self.tolerance = if self.is_fixed {
             Tolerance::exact(problem.split(from.y).0, problem.dynamics.system)
@@ -240,7 +241,7 @@ impl Integrator for RadauIIA {
             internal(from.tolerance, self.order.method().stages())
         };
         let tolerance = self.tolerance;
-        let from = From { tolerance: &tolerance, ..from };
+        let from = StepStart { tolerance: &tolerance, ..from };
         if !std::mem::replace(&mut self.is_begun, true) {
             self.lambda.copy_from_slice(&problem.dynamics.lambda);
         }
@@ -353,7 +354,7 @@ impl Dense for RadauIIA {
         let RadauIIA { dae, order, matrix, row_matrices, stages, row, tolerance, is_fixed, .. } = self;
         let at = &mut matrix.at;
         let method = order.method();
-        let from = From { h: size.h, tolerance, ..from };
+        let from = StepStart { h: size.h, tolerance, ..from };
         row_matrices.factor(size, at, &mut problem.dynamics)?;
         row.unknowns.predict(&stages.unknowns, method, method.nodes.iter().map(|node| theta * node));
         row_matrices.leave_out(&mut row.unknowns);

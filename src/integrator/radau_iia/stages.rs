@@ -4,7 +4,7 @@ use super::collocation::Collocation;
 use super::rotations::Rotations;
 use crate::formulation::{self, Dae, Dynamics, Residual, StepError};
 use crate::integrator::sums::accumulate;
-use crate::integrator::{From, Problem, round_off};
+use crate::integrator::{Problem, StepStart, round_off};
 use crate::system::{Dimensions, MechanicalSystem};
 use crate::tolerances;
 
@@ -104,14 +104,14 @@ impl Stages {
     }
 
     /// Sets all stages to the start, from which Q_i is iterated.
-    pub fn reset(&mut self, from: From) {
+    pub fn reset(&mut self, from: StepStart) {
         self.y.iter_mut().for_each(|y| y.copy_from_slice(from.y));
         self.rotations.reset();
     }
 
     /// Q_i and V_i for the present unknowns. Where N depends on q, Q_i is found by sweeps from its last value, each of
     /// which reduces its error by about h |omega|/8.
-    pub fn advance(&mut self, problem: &Problem, method: &Collocation, from: From) {
+    pub fn advance(&mut self, problem: &Problem, method: &Collocation, from: StepStart) {
         let h = from.h;
         let nq = self.n.q;
         let nv = self.n.v;
@@ -152,7 +152,7 @@ impl Stages {
     }
 
     /// Root mean square over the stages of the last change, over the tolerated errors at the start.
-    pub fn change(&mut self, from: From, s: usize) -> f64 {
+    pub fn change(&mut self, from: StepStart, s: usize) -> f64 {
         let mut sum = 0.0;
         for (y, before) in self.y.iter().zip(&mut self.next).take(s) {
             before.iter_mut().zip(y).for_each(|(before, y)| *before = y - *before);
@@ -162,7 +162,7 @@ impl Stages {
     }
 
     /// The collocation polynomial at the fraction `theta` of the step.
-    pub fn interpolate(&self, method: &Collocation, from: From, theta: f64, out: &mut [f64]) {
+    pub fn interpolate(&self, method: &Collocation, from: StepStart, theta: f64, out: &mut [f64]) {
         out.fill(0.0);
         let points = std::iter::once(from.y).chain(self.y.iter().map(Vec::as_slice));
         for (i, y) in points.enumerate().take(method.stages() + 1) {
@@ -173,13 +173,13 @@ impl Stages {
     }
 
     /// Round-off of the changes of a stage, over the tolerated errors: see [`round_off`].
-    pub fn round_off(&mut self, problem: &Problem, from: From, divisor: Option<f64>) -> f64 {
+    pub fn round_off(&mut self, problem: &Problem, from: StepStart, divisor: Option<f64>) -> f64 {
         round_off(problem, from.tolerance, from.y, divisor, &mut self.next[0])
     }
 
     /// The error to be accepted in units of the tolerance: where phi returns to zero at a large rate, it returns from
     /// its rounding, and no shorter step has less of that in its velocities.
-    pub fn allowed(&mut self, dae: &Dae, problem: &Problem, from: From) -> f64 {
+    pub fn allowed(&mut self, dae: &Dae, problem: &Problem, from: StepStart) -> f64 {
         if dae.gain().is_none() {
             return 1.0;
         }
@@ -191,7 +191,7 @@ impl Stages {
         &mut self,
         dae: &Dae,
         method: &Collocation,
-        from: From,
+        from: StepStart,
         stiffness: &[f64],
         dynamics: &mut Dynamics,
     ) -> Result<(), StepError> {
@@ -214,7 +214,7 @@ impl Stages {
     }
 
     /// The work at each stage, from the powers of the last evaluations.
-    pub fn work(&mut self, method: &Collocation, from: From) {
+    pub fn work(&mut self, method: &Collocation, from: StepStart) {
         let first = self.n.q + self.n.v;
         for (y, a) in self.y.iter_mut().zip(&method.a) {
             for (i, (y, start)) in y[first..].iter_mut().zip(&from.y[first..]).enumerate() {

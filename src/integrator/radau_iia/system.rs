@@ -4,7 +4,7 @@ use super::collocation::Collocation;
 use super::matrices::Matrices;
 use super::stages::Stages;
 use crate::formulation::{Dae, Linearized, StepError};
-use crate::integrator::{From, Problem};
+use crate::integrator::{Problem, StepStart};
 use crate::math::newton::{Limits, Monitor};
 use crate::tolerances;
 
@@ -25,8 +25,8 @@ pub fn most(s: usize, is_fixed: bool) -> usize {
 
 impl System<'_> {
     /// Solves the equations by Newton's method from the first guess in `stages`.
-    pub fn solve(&mut self, newton: &mut Monitor, problem: &mut Problem, from: From) -> Result<bool, StepError> {
-        let From { h, tolerance, .. } = from;
+    pub fn solve(&mut self, newton: &mut Monitor, problem: &mut Problem, from: StepStart) -> Result<bool, StepError> {
+        let StepStart { h, tolerance, .. } = from;
         let System { dae, method, at, matrices, stages, is_fixed } = self;
         stages.reset(from);
         stages.advance(problem, method, from);

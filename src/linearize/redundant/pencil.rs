@@ -3,7 +3,7 @@
 use super::Built;
 use super::rounding::Parts;
 use crate::error::Result;
-use crate::formulation::{Dae, Row};
+use crate::formulation::{Dae, DaeRow};
 use crate::linearize::changes::{Directions, directions};
 use crate::linearize::input_states::InputStates;
 use crate::linearize::model::REDUNDANT;
@@ -13,14 +13,14 @@ use crate::linearize::{Changes, Matrix, Variation};
 /// Returns the number of infinite eigenvalues with `m` independent constraints: m for a row of phi'' whose multiplier
 /// acts in M v', m more for each time that the row is differentiated less; m less for mu, which acts in q'.
 fn infinite(dae: &Dae, m: usize) -> usize {
-    let of = |row: Option<Row>, most: usize| row.map_or(0, |row| m * (most - row.level()));
+    let of = |row: Option<DaeRow>, most: usize| row.map_or(0, |row| m * (most - row.level()));
     of(Some(dae.lambda), 3) + of(dae.eta, 3) + of(dae.mu, 2)
 }
 
 /// The multipliers of one kind: their rows and the index of the first.
 #[derive(Clone, Copy)]
 struct Kind {
-    row: Row,
+    row: DaeRow,
     at: usize,
 }
 
@@ -47,7 +47,7 @@ pub fn build(dae: &Dae, variation: &mut Variation) -> Result<Built> {
     };
     parts.clean(variation);
     let mut end = 2 * n;
-    let mut append = |row: Row| {
+    let mut append = |row: DaeRow| {
         end += m;
         Kind { row, at: end - m }
     };

@@ -1,6 +1,6 @@
 //! Matrices of a pencil with entries below rounding set to zero.
 
-use crate::formulation::Row;
+use crate::formulation::DaeRow;
 use crate::linearize::changes::beside;
 use crate::linearize::{Matrix, Variation};
 
@@ -15,7 +15,7 @@ pub struct Parts {
 
 impl Parts {
     /// Returns the coefficients of (dq, dv) in the row 0 = c_2 (G dv' + ...) + c_1 (Gd dq + G dv) + c_0 G dq.
-    pub fn row(&self, row: Row) -> Matrix {
+    pub fn row(&self, row: DaeRow) -> Matrix {
         let Parts { g, gd, rows, .. } = self;
         let still = Matrix::zeros(g.nrows(), g.ncols());
         rows * row.acceleration - beside(gd, g) * row.velocity - beside(g, &still) * row.position

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::formulation;
-use crate::integrator::{self, Entry};
+use crate::integrator::{self, IntegratorEntry};
 use crate::method_spec::MethodSpec;
 use crate::projection;
 use crate::simulate::Method;
@@ -86,7 +86,7 @@ fn named<'n>(given: &[MethodSpec], known: impl Iterator<Item = &'n str>) -> Vec<
     if given.is_empty() { known.map(MethodSpec::named).collect() } else { given.to_vec() }
 }
 
-fn projections(entry: &Entry, formulation: &MethodSpec, filter: &Filter) -> Vec<MethodSpec> {
+fn projections(entry: &IntegratorEntry, formulation: &MethodSpec, filter: &Filter) -> Vec<MethodSpec> {
     let usual: &[&str] = match formulation.name.as_str() {
         "index1" => &["none", "manifold", "exact"],
         "index2" if entry.accepts().eq(["index2"]) => &["none", "manifold"],
